@@ -1,0 +1,38 @@
+# Compiler settings that hold for every target of Tern.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+# A fused multiply-add would make results depend on the compiler's mood; replays promise bytes.
+add_compile_options(-ffp-contract=off)
+
+find_program(TERN_CCACHE ccache)
+if(TERN_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${TERN_CCACHE})
+endif()
+
+# -Wno-restrict: false alarms of g++ 12 in std::string.
+set(TERN_WARNINGS -Wall -Wextra -Wconversion -Wshadow -Wno-restrict)
+if(TERN_WARNINGS_AS_ERRORS)
+  list(APPEND TERN_WARNINGS -Werror)
+endif()
+
+# tern_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): a static library with headers found from the project's root.
+function(tern_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/tern>)
+  target_compile_options(${name} PRIVATE ${TERN_WARNINGS})
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()
+
+# tern_executable(NAME SOURCES ... LIBS ...)
+function(tern_executable name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_compile_options(${name} PRIVATE ${TERN_WARNINGS})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS})
+endfunction()

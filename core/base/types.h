@@ -1,0 +1,21 @@
+// Eigen's shapes by the names that Tern uses.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace tern {
+
+using Vec3 = Eigen::Vector3d;
+/// 3×n, a point per column.
+using Points = Eigen::Matrix3Xd;
+/// Axis-aligned box in W, metres. Default-constructed: empty.
+using Box = Eigen::AlignedBox3d;
+
+/// The box of centre c and half-extents h.
+inline Box box_around(const Vec3& c, const Vec3& h) { return {c - h, c + h}; }
+
+/// The box grown by g (per axis, metres, each ≥ 0) on every side.
+inline Box grown(const Box& b, const Vec3& g) { return {b.min() - g, b.max() + g}; }
+
+}  // namespace tern

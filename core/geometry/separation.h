@@ -1,0 +1,39 @@
+// Fast separation of two convex hulls: the distance between them, and the plane of widest margin.
+#pragma once
+
+#include <optional>
+
+#include "core/base/types.h"
+#include "core/geometry/plane.h"
+
+namespace tern {
+
+/// Within this distance of touching, "not separated" is always a right answer; beyond it the answer is exact. Metres.
+/// Derived from double rounding of coordinates up to 1e4 m (1e4 · 2⁻⁵² · some dozens of operations), rounded up.
+inline constexpr double kTouchingTolerance = 1e-6;
+/// A published plane holds the vehicle's points at n·q + d ≤ −kPlaneMargin. Metres.
+inline constexpr double kPlaneMargin = 1e-9;
+
+/// A plane and the gap that it proves.
+struct Separation {
+  Plane plane;           ///< n·x + d ≥ 0 on A's points, ≤ −kPlaneMargin (and ≤ −clearance) on B's
+  double gap = 0.0;      ///< signed width of the slab between A and B that the plane's normal proves, m
+};
+
+/// The plane of widest margin between conv(a) and conv(b), if they are more than `clearance` + kTouchingTolerance apart.
+///
+/// @param a  obstacle's points, 3×n, n ≥ 1; @param b  vehicle's points, 3×m, m ≥ 1.
+/// @param clearance  m, ≥ 0: the radius of a spherical vehicle (0: a point or the shape is already in the hull).
+/// @return The plane touches A (min n·a + d = 0) and holds every b at n·b + d ≤ −max(clearance, kPlaneMargin); it is verified
+///   against all points before it is returned. Nothing when not separated, or when in doubt (GLPK has been asked, `lp_calls`).
+/// Always computed anew from (a, b): no caller state, so that a replay gives the same bits.
+std::optional<Separation> separate(const Points& a, const Points& b, double clearance);
+
+/// Counters of a thread, for PLAN_TIMING: how often the linear programme was asked.
+struct SeparationCounts {
+  long fast = 0;  ///< settled by the distance algorithm
+  long lp = 0;    ///< handed to the linear programme
+};
+SeparationCounts& separation_counts();
+
+}  // namespace tern

@@ -1,0 +1,21 @@
+// Separation by linear programming (GLPK): the paper's Eq. 1 as it is written. The only GLPK in Tern.
+#pragma once
+
+#include <optional>
+
+#include "core/base/types.h"
+#include "core/geometry/plane.h"
+
+namespace tern {
+
+/// A plane with n·a + d ≥ 1 (scaled) on A and ≤ −1 on B if GLPK finds one, normalised to |n| = 1 and verified.
+///
+/// @param a, b  3×n and 3×m points, n, m ≥ 1, finite.
+/// @return nothing if the hulls touch or overlap, or if the numbers leave it in doubt. Thread-safe per thread (glp environment
+///   is thread-local in Debian's build). About 40 µs.
+std::optional<Plane> separate_by_lp(const Points& a, const Points& b);
+
+/// Frees GLPK's thread-local environment: before leak checks and at thread exit.
+void free_lp_environment();
+
+}  // namespace tern
