@@ -1,0 +1,101 @@
+// A scenario: the world, the vehicle, what its regions mean. Plain values; runtime/ reads them from YAML, strictly.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/base/types.h"
+#include "core/world/region.h"
+#include "core/world/vehicle.h"
+
+namespace tern {
+
+/// Motions of BENCHMARKS; t is world time in seconds.
+struct StaticMotion {};
+/// c + (k_x (sin(w+φ) + 2 sin(2w+φ)), k_y (cos(w+φ) − 2 cos(2w+φ)), −k_z sin(3w+φ)), w = t/s.
+struct TrefoilMotion {
+  Vec3 scale = Vec3::Ones();  ///< k, m
+  double slowness = 1.0;      ///< s, > 0
+  double phase = 0.0;         ///< φ, rad
+};
+/// c + amplitude · sin(t/s + φ).
+struct WaveMotion {
+  Vec3 amplitude = Vec3::Zero();  ///< m
+  double slowness = 1.0;          ///< s, > 0
+  double phase = 0.0;             ///< φ, rad
+};
+/// c + velocity · (t − from_s) from from_s on; before it rests at c.
+struct LinearMotion {
+  Vec3 velocity = Vec3::Zero();  ///< m/s
+  double from_s = 0.0;           ///< world time, s
+};
+/// Straight lines between timed points (c is not used); rests at the ends, or repeats.
+struct WaypointMotion {
+  std::vector<std::pair<double, Vec3>> points;  ///< (world time s, position m), times strictly ascending, ≥ 1
+  bool repeat = false;
+};
+
+struct ObstacleSpec {
+  std::string name;                  ///< may be empty
+  Vec3 centre = Vec3::Zero();        ///< c, W, m
+  Vec3 half_extents = Vec3::Constant(0.4);  ///< m, > 0
+  std::variant<StaticMotion, TrefoilMotion, WaveMotion, LinearMotion, WaypointMotion> motion;
+};
+
+/// Tracks of people or things from a text file of white-space separated numbers.
+struct RecordedTracksSpec {
+  std::string file;                    ///< relative to the scenario's folder, or to TERN_DATA, or absolute
+  int columns = 5;                     ///< numbers per line
+  int id_column = 0, frame_column = 1, x_column = 2, y_column = 3;
+  std::optional<int> z_column;         ///< none: z is not recorded
+  double metres_per_unit = 1.0;
+  double frames_per_second = 25.0;
+  double start_s = 0.0;                ///< world time 0 is this time of the file (frame / frames_per_second)
+  Vec3 half_extents = Vec3(0.25, 0.25, 1.0);  ///< of every person, m
+  double centre_z = 1.0;               ///< boxes stand here, m
+  bool wait_for_clear_start = true;    ///< start at the first frame ≥ start_s when none comes within 1 m of the start for 1 s
+};
+
+struct WorldSpec {
+  std::string generator = "none";  ///< none, paper_corridor, paper_attract, paper_repel, corridor_demo, mader_corridor, sando_forest
+  int count = 0;                   ///< N of the generator, 0 … 100000
+  std::vector<ObstacleSpec> obstacles;       ///< besides the generator's
+  std::vector<RecordedTracksSpec> recorded;  ///< besides these
+};
+
+struct SemanticsSpec {
+  bool enabled = true;
+  std::vector<Region> regions;
+  double lambda_attractive = 2.0;  ///< λ_att ≥ 0
+  double lambda_repulsive = 2.0;   ///< λ_rep ≥ 0
+  std::string cost = "exposure";   ///< exposure, mean_distance
+  /// class → label name (unknown, free, occupied, attractive, repulsive)
+  std::vector<std::pair<std::string, std::string>> classes = {{"texture", "attractive"}, {"water", "repulsive"}};
+};
+
+struct UavSpec {
+  Vec3 start = Vec3(0.0, 0.0, 1.0);  ///< at rest, W, m
+  Vec3 goal = Vec3(75.0, -1.0, 1.0);
+  Limits limits;
+  Body body;
+  Box flight_box{Vec3::Constant(-1e4), Vec3::Constant(1e4)};  ///< the body stays inside
+};
+
+struct Scenario {
+  std::string name;
+  std::string file;            ///< where it was read
+  std::uint64_t seed = 1;
+  WorldSpec world;
+  UavSpec uav;
+  SemanticsSpec semantics;
+  std::optional<double> timeout_s;  ///< default 3 × bound + 10 s
+};
+
+/// BENCHMARKS' bound: the per-axis time-optimal rest-to-rest time from start to goal, jerk included where it is limited, s.
+double rest_to_rest_bound_s(const Vec3& from, const Vec3& to, const Limits& limits);
+
+}  // namespace tern

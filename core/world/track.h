@@ -1,0 +1,44 @@
+// Tracks: what is believed or promised of obstacles' motion. One type serves DECLARED_MOTIONS and PREDICTIONS.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/types.h"
+#include "core/splines/piecewise_cubic.h"
+#include "core/world/header.h"
+
+namespace tern {
+
+enum class TrackKind : std::uint8_t {
+  Static = 0,     ///< never moves: one piece, valid for ever
+  Declared = 1,   ///< its owner promises the motion
+  Estimated = 2,  ///< a model's belief, with `confidence` per piece
+};
+
+/// One obstacle: an axis-aligned box (it contains the shape's rotations) that moves along piecewise cubics.
+/// The promise: at each time t of piece k the true box lies within box_around(p(t), half_extents + alpha[k]).
+struct Track {
+  std::int64_t id = 0;
+  TrackKind kind = TrackKind::Declared;
+  Vec3 half_extents = Vec3::Zero();  ///< m, each ≥ 0
+  PiecewiseCubic motion;             ///< centre, W
+  std::vector<Vec3> alpha;           ///< per piece: half-extents of the error box, m, each ≥ 0; size = pieces
+  double top_speed = 0.0;            ///< m/s per axis, ≥ 0: beyond the last piece the box grows at this speed
+
+  /// A box that surely holds the obstacle during [t0, t1] (any times; before the start the first piece's rule applies backwards).
+  [[nodiscard]] Box bounds(UTime t0, UTime t1) const;
+};
+
+/// A complete set of tracks, or one batch of it.
+struct TrackSet {
+  Header header;
+  BatchHeader batch;
+  UTime made_at;             ///< the newest input that it rests on, s: stale when older than 0.3 s
+  double confidence = 1.0;   ///< in (0, 1]: probability that a track keeps its α over its pieces (1: declared)
+  std::int32_t left_out = 0; ///< tracks that did not fit in the batches, farthest first
+  std::vector<Track> tracks; ///< by id ascending in a complete set
+};
+
+}  // namespace tern

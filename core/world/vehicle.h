@@ -1,0 +1,54 @@
+// The vehicle: its limits, its body, its state.
+#pragma once
+
+#include <limits>
+
+#include "core/base/time.h"
+#include "core/base/types.h"
+#include "core/splines/clamped_spline.h"
+#include "core/world/header.h"
+
+namespace tern {
+
+/// Largest magnitude per axis of W; every entry > 0. Jerk may be infinite (no limit).
+struct Limits {
+  Vec3 v_max = Vec3::Constant(6.0);   ///< m/s
+  Vec3 a_max = Vec3(20.0, 20.0, 10.0);  ///< m/s²
+  Vec3 j_max = Vec3::Constant(std::numeric_limits<double>::infinity());  ///< m/s³
+};
+/// A limit L is obeyed by x when |x| ≤ L·(1 + kLimitTolerance): the same in planner, checker, executor and referee.
+inline constexpr double kLimitTolerance = 1e-6;
+/// A plan joins its start when position (m), velocity (m/s) and acceleration (m/s²) agree to this per axis.
+inline constexpr double kJoinTolerance = 1e-6;
+
+/// The vehicle's shape: conv(vertices) ⊕ ball(radius) about its position; it does not turn (the shape contains its rotations).
+/// A sphere has the single vertex 0; a polytope has radius 0.
+struct Body {
+  Points vertices = Points::Zero(3, 1);  ///< 3×m, m ≥ 1, metres
+  double radius = 0.1;                   ///< m, ≥ 0
+
+  /// Half-extents of the smallest box around the position that holds the body, symmetric in each axis.
+  [[nodiscard]] Vec3 half_extents() const { return vertices.cwiseAbs().rowwise().maxCoeff().array() + radius; }
+};
+
+/// UAV_STATE and SETPOINT: as measured, as commanded.
+struct UavState {
+  Header header;
+  UTime at;             ///< the time of this state, vehicle's clock
+  MotionSample motion;  ///< p, v, a, j in W
+  double yaw = 0.0;     ///< rad, (−π, π], about W's z from W's x
+};
+
+/// A trajectory in time: a clamped spline that starts at `start`, interval in integer µs. Rests at its last point after its end.
+struct TimedSpline {
+  UTime start;
+  Duration interval{250'000};                ///< Δt, > 0
+  Points control_points = Points::Zero(3, 7);  ///< 3×(J+3), J ≥ 4
+
+  [[nodiscard]] ClampedSpline spline() const { return {control_points, interval.seconds()}; }
+  [[nodiscard]] UTime end() const { return start + interval * (control_points.cols() - 3); }
+  /// The motion at t ≥ start. @throws std::invalid_argument before the start.
+  [[nodiscard]] MotionSample sample(UTime t) const { return spline().sample((t - start).seconds()); }
+};
+
+}  // namespace tern

@@ -1,0 +1,36 @@
+// The only clocks in Tern. Libraries get times as arguments.
+#pragma once
+
+#include "core/base/time.h"
+
+namespace tern {
+
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  [[nodiscard]] virtual UTime now() const = 0;
+};
+
+/// The system's real-time clock plus a fixed offset (`--clock-offset-us`, so that skew can be tested).
+class WallClock final : public Clock {
+ public:
+  explicit WallClock(Duration offset = {}) : offset_(offset) {}
+  [[nodiscard]] UTime now() const override;
+
+ private:
+  Duration offset_;
+};
+
+/// Time that moves only when told to: tests and campaigns.
+class VirtualClock final : public Clock {
+ public:
+  explicit VirtualClock(UTime start) : now_(start) {}
+  [[nodiscard]] UTime now() const override { return now_; }
+  /// @pre t ≥ now()
+  void advance_to(UTime t);
+
+ private:
+  UTime now_;
+};
+
+}  // namespace tern

@@ -1,0 +1,8 @@
+// The build id, "0.1.0+<commit>", written by the build (cmake/TernVersion.cmake).
+#pragma once
+
+namespace tern {
+
+const char* build_id();
+
+}  // namespace tern
