@@ -1,0 +1,130 @@
+#include "core/geometry/convex_hull.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/convex_hull_3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+namespace tern {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Triangle = std::array<std::size_t, 3>;
+
+void check(const Points& points) {
+  if (points.cols() == 0) throw std::invalid_argument("hull_vertices: no points");
+  if (!points.allFinite()) {
+    throw std::invalid_argument(fmt::format("hull_vertices: a coordinate of {} points is not finite", points.cols()));
+  }
+}
+
+// Sorted by (x, y, z): order and multiplicity of the input no longer matter.
+std::vector<Point> sorted_distinct(const Points& points) {
+  std::vector<Point> distinct;
+  distinct.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index k = 0; k < points.cols(); ++k) distinct.emplace_back(points(0, k), points(1, k), points(2, k));
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  return distinct;
+}
+
+// Axes (i, j) onto which the plane of a triangle projects one to one.
+std::array<int, 2> projection_axes(const Point& p, const Point& q, const Point& r) {
+  constexpr std::array<std::array<int, 2>, 3> kChoices{{{0, 1}, {1, 2}, {0, 2}}};
+  for (const auto& [i, j] : kChoices) {
+    if (!CGAL::collinear(Kernel::Point_2(p[i], p[j]), Kernel::Point_2(q[i], q[j]), Kernel::Point_2(r[i], r[j]))) {
+      return {i, j};
+    }
+  }
+  throw std::logic_error("hull_vertices: a triangle that is not flat in space is flat in every projection");
+}
+
+// Andrew's monotone chain, strict turns only, so that points inside an edge are left out.
+std::vector<Point> flat_hull(std::vector<Point> points, const std::array<int, 2>& axes) {
+  const auto flat = [&axes](const Point& p) { return Kernel::Point_2(p[axes[0]], p[axes[1]]); };
+  std::sort(points.begin(), points.end(), [&](const Point& p, const Point& q) { return flat(p) < flat(q); });
+  std::vector<Point> chain;
+  const auto extend = [&](const Point& p, std::size_t least) {
+    while (chain.size() > least && !CGAL::left_turn(flat(chain[chain.size() - 2]), flat(chain.back()), flat(p))) {
+      chain.pop_back();
+    }
+    chain.push_back(p);
+  };
+  for (const Point& p : points) extend(p, 1);
+  const std::size_t least = chain.size();
+  for (auto p = points.rbegin() + 1; p != points.rend(); ++p) extend(*p, least);
+  chain.pop_back();
+  return chain;
+}
+
+// CGAL's surface is triangulated and may hold vertices inside its flat faces and straight edges. A corner is where at least
+// three edges meet across which the surface bends.
+std::vector<Point> corners(const std::vector<Point>& vertices, const std::vector<Triangle>& faces) {
+  struct HalfEdge {
+    std::size_t from, to, opposite;
+  };
+  std::vector<HalfEdge> edges;
+  edges.reserve(3 * faces.size());
+  for (const auto& [p, q, r] : faces) {
+    for (const HalfEdge& e : {HalfEdge{p, q, r}, HalfEdge{q, r, p}, HalfEdge{r, p, q}}) {
+      edges.push_back({std::min(e.from, e.to), std::max(e.from, e.to), e.opposite});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return a.from != b.from ? a.from < b.from : a.to < b.to;
+  });
+  std::vector<int> bends(vertices.size(), 0);
+  for (std::size_t k = 0; k + 1 < edges.size(); k += 2) {
+    const HalfEdge& e = edges[k];
+    if (CGAL::coplanar(vertices[e.from], vertices[e.to], vertices[e.opposite], vertices[edges[k + 1].opposite])) continue;
+    ++bends[e.from];
+    ++bends[e.to];
+  }
+  std::vector<Point> result;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    if (bends[k] >= 3) result.push_back(vertices[k]);
+  }
+  return result;
+}
+
+std::vector<Point> solid_hull(const std::vector<Point>& points) {
+  std::vector<Point> vertices;
+  std::vector<Triangle> faces;
+  CGAL::convex_hull_3(points.begin(), points.end(), vertices, faces);
+  return corners(vertices, faces);
+}
+
+std::vector<Point> hull(const std::vector<Point>& points) {
+  const Point& first = points.front();
+  const Point& last = points.back();
+  const auto off_line =
+      std::find_if(points.begin(), points.end(), [&](const Point& p) { return !CGAL::collinear(first, last, p); });
+  if (first == last) return {first};
+  if (off_line == points.end()) return {first, last};
+  const auto off_plane = std::find_if(points.begin(), points.end(),
+                                      [&](const Point& p) { return !CGAL::coplanar(first, last, *off_line, p); });
+  if (off_plane == points.end()) return flat_hull(points, projection_axes(first, last, *off_line));
+  return solid_hull(points);
+}
+
+}  // namespace
+
+Points hull_vertices(const Points& points) {
+  check(points);
+  std::vector<Point> vertices = hull(sorted_distinct(points));
+  std::sort(vertices.begin(), vertices.end());
+  Points result(3, static_cast<Eigen::Index>(vertices.size()));
+  for (Eigen::Index k = 0; k < result.cols(); ++k) {
+    const Point& p = vertices[static_cast<std::size_t>(k)];
+    result.col(k) << p.x(), p.y(), p.z();
+  }
+  return result;
+}
+
+}  // namespace tern
