@@ -15,6 +15,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
+using ExactTraits = CGAL::Convex_hull_traits_3<Kernel, CGAL::Default, CGAL::Tag_true>;
 using Triangle = std::array<std::size_t, 3>;
 
 void check(const Points& points) {
@@ -96,7 +97,9 @@ std::vector<Point> corners(const std::vector<Point>& vertices, const std::vector
 std::vector<Point> solid_hull(const std::vector<Point>& points) {
   std::vector<Point> vertices;
   std::vector<Triangle> faces;
-  CGAL::convex_hull_3(points.begin(), points.end(), vertices, faces);
+  // The traits are named because this overload's default, the bare kernel, builds planes inexactly and crashes on flat sets.
+  CGAL::Convex_hull_3::internal::Indexed_triangle_set surface(vertices, faces);
+  CGAL::convex_hull_3(points.begin(), points.end(), surface, ExactTraits());
   return corners(vertices, faces);
 }
 
