@@ -33,10 +33,11 @@ struct LinearMotion {
   Vec3 velocity = Vec3::Zero();  ///< m/s
   double from_s = 0.0;           ///< world time, s
 };
-/// Straight lines between timed points (c is not used); rests at the ends, or repeats.
+/// Straight lines between timed points (c is not used); rests at the ends, or repeats, or exists between them only.
 struct WaypointMotion {
   std::vector<std::pair<double, Vec3>> points;  ///< (world time s, position m), times strictly ascending, ≥ 1
-  bool repeat = false;
+  bool repeat = false;  ///< the last point is the first one; the motion goes round for ever, also before the first time
+  bool vanish = false;  ///< absent before the first time and after the last (recorded people); not with repeat
 };
 
 struct ObstacleSpec {
