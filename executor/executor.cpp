@@ -1,0 +1,113 @@
+#include "executor/executor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace tern {
+namespace {
+
+/// Closed requests that are remembered: three seconds of them at 20 Hz; an answer later than that is unknown.
+constexpr std::size_t kRemembered = 64;
+
+Duration checked_period(double rate_hz) {
+  if (!(rate_hz > 0.0 && rate_hz <= 1000.0)) {
+    throw std::invalid_argument("rate_hz " + std::to_string(rate_hz) + " is not in (0, 1000]");
+  }
+  return {static_cast<std::int64_t>(std::ceil(1e6 / rate_hz))};
+}
+
+Duration checked_lead(Duration lead) {
+  if (lead <= kDeadlineGap || lead > Duration{5'000'000}) {
+    throw std::invalid_argument("lead " + std::to_string(lead.us) + " us is not in (5000, 5000000]");
+  }
+  return lead;
+}
+
+}  // namespace
+
+std::int64_t ExecutorCounters::refused() const {
+  std::int64_t sum = 0;
+  for (int k = 0; k < kVerdicts; ++k) {
+    if (is_refusal(static_cast<Verdict>(k))) sum += verdicts[static_cast<std::size_t>(k)];
+  }
+  return sum;
+}
+
+Executor::Executor(const UavSpec& uav, UTime now, const ExecutorConfig& config)
+    : limits_(uav.limits),
+      body_(uav.body),
+      flight_box_(uav.flight_box),
+      period_(checked_period(config.rate_hz)),
+      lead_(checked_lead(config.lead)),
+      committed_(uav.start, now) {}
+
+void Executor::close(bool answered) {
+  closed_.push_back({outstanding_->id, outstanding_->t_s, answered});
+  if (closed_.size() > kRemembered) closed_.pop_front();
+  outstanding_.reset();
+}
+
+void Executor::close_expired(UTime now) {
+  if (!outstanding_ || now <= outstanding_->deadline) return;
+  ++counters_.unanswered;
+  close(false);
+}
+
+std::optional<UTime> Executor::next_wakeup() const {
+  if (!asking()) return std::nullopt;
+  UTime due = last_request_ ? std::max(*go_, *last_request_ + period_) : *go_;
+  if (outstanding_) due = std::max(due, outstanding_->deadline + Duration{1});
+  return due;
+}
+
+std::optional<HorizonRequest> Executor::next_request(UTime now) {
+  close_expired(now);
+  const std::optional<UTime> due = next_wakeup();
+  if (!due || now < *due) return std::nullopt;
+  HorizonRequest request;
+  request.id = ++counters_.requests;
+  request.t_s = now + lead_;
+  request.deadline = request.t_s - kDeadlineGap;
+  request.committed = committed_.in_force_at(request.t_s);
+  request.start = committed_.sample(request.t_s);
+  request.limits = limits_;
+  request.body = body_;
+  request.flight_box = flight_box_;
+  last_request_ = now;
+  outstanding_ = request;
+  return request;
+}
+
+Verdict Executor::judge_closed(std::int64_t id, UTime now) {
+  const auto found = std::find_if(closed_.begin(), closed_.end(), [id](const Closed& c) { return c.id == id; });
+  if (found == closed_.end()) return Verdict::UnknownRequest;
+  if (std::exchange(found->answered, true)) return Verdict::AnsweredTwice;
+  return now < found->t_s ? Verdict::Late : Verdict::TooLate;
+}
+
+Adoption Executor::judge(const Plan& plan, UTime now) {
+  if (!outstanding_ || plan.request_id != outstanding_->id) {
+    return {judge_closed(plan.request_id, now), "request " + std::to_string(plan.request_id)};
+  }
+  ++counters_.answered_in_time;
+  const HorizonRequest request = *outstanding_;
+  close(true);
+  if (plan.outcome == PlanOutcome::KeepCommitted) return {Verdict::Kept, {}};
+  if (plan.outcome == PlanOutcome::NoPlan) return {Verdict::NoPlan, {}};
+  if (!asking()) return {Verdict::Stopped, "told to stop"};
+  Adoption result = check_trajectory(plan.trajectory, request);
+  if (result.verdict == Verdict::Adopted) committed_.splice(plan.trajectory);
+  return result;
+}
+
+Adoption Executor::consider(const Plan& plan, UTime now) {
+  close_expired(now);
+  Adoption result = judge(plan, now);
+  ++counters_.verdicts[static_cast<std::size_t>(result.verdict)];
+  return result;
+}
+
+}  // namespace tern

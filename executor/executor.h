@@ -1,0 +1,95 @@
+// What flies plans: asks for a horizon, adopts the answer or says why not, and always has a way to rest.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "core/world/goal.h"
+#include "core/world/scenario.h"
+#include "executor/adoption.h"
+#include "executor/committed_trajectory.h"
+
+namespace tern {
+
+/// deadline = t_s − this: what an answer needs to be received, checked and spliced.
+inline constexpr Duration kDeadlineGap{5'000};
+
+struct ExecutorConfig {
+  double rate_hz = 20.0;  ///< requests per second at most, (0, 1000]
+  Duration lead{75'000};  ///< t_s of a request − now, > kDeadlineGap, ≤ 5 s
+};
+
+/// Everything is counted; nothing is counted twice: requests = answered_in_time + unanswered + (0 or 1 outstanding).
+struct ExecutorCounters {
+  std::int64_t requests = 0;
+  std::int64_t answered_in_time = 0;  ///< whatever the answer's verdict
+  std::int64_t unanswered = 0;        ///< closed by their deadline
+  std::array<std::int64_t, kVerdicts> verdicts = {};  ///< plans by Verdict; late, twice, unknown ones among them
+
+  [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
+  [[nodiscard]] std::int64_t late() const { return of(Verdict::Late) + of(Verdict::TooLate); }
+  [[nodiscard]] std::int64_t answered_twice() const { return of(Verdict::AnsweredTwice); }
+  [[nodiscard]] std::int64_t refused() const;
+};
+
+/// Holds the committed trajectory, makes requests, adopts plans. Pure: times are arguments and never go back.
+///
+/// One request is outstanding at most; the next one goes out after its answer or its deadline, at no more than rate_hz.
+/// An answer is in time when now ≤ deadline; from then on the request is closed. Nothing is asked before begin()'s time,
+/// without a mode, or in mode Stop. At rest it goes on asking: a vehicle at rest must be able to evade.
+class Executor {
+ public:
+  /// At rest at uav.start from `now` on. @throws std::invalid_argument when config is out of its ranges.
+  Executor(const UavSpec& uav, UTime now, const ExecutorConfig& config = {});
+
+  /// The mission may ask from `go` on.
+  void begin(UTime go) { go_ = go; }
+  /// What the newest goal wants; nothing: no goal yet.
+  void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
+
+  /// The request that is due at `now`, if one is (header empty).
+  std::optional<HorizonRequest> next_request(UTime now);
+  /// When next_request wants to be called; nothing while there is nothing to ask.
+  [[nodiscard]] std::optional<UTime> next_wakeup() const;
+  /// Judges a plan that came at `now`, and flies it from its t_s on if it may be flown. Counted, whatever it is.
+  Adoption consider(const Plan& plan, UTime now);
+
+  [[nodiscard]] MotionSample sample(UTime t) const { return committed_.sample(t); }
+  [[nodiscard]] const CommittedTrajectory& committed() const { return committed_; }
+  /// The committed curve between two times, for the referee (see CommittedTrajectory::pieces).
+  [[nodiscard]] PiecewiseCubic pieces(UTime from, UTime to) const { return committed_.pieces(from, to); }
+  /// No one will ask for times before t any more.
+  void forget_before(UTime t) { committed_.forget_before(t); }
+  [[nodiscard]] bool at_rest(UTime t) const { return t >= committed_.end(); }
+  [[nodiscard]] bool request_open() const { return outstanding_.has_value(); }
+  [[nodiscard]] const ExecutorCounters& counters() const { return counters_; }
+
+ private:
+  /// A request that is closed, so that a late or second answer is known for what it is.
+  struct Closed {
+    std::int64_t id = 0;
+    UTime t_s;
+    bool answered = false;
+  };
+  [[nodiscard]] bool asking() const { return go_ && mode_ && *mode_ != GoalMode::Stop; }
+  [[nodiscard]] Adoption judge(const Plan& plan, UTime now);
+  [[nodiscard]] Verdict judge_closed(std::int64_t id, UTime now);
+  void close_expired(UTime now);
+  void close(bool answered);
+
+  Limits limits_;
+  Body body_;
+  Box flight_box_;
+  Duration period_, lead_;
+  CommittedTrajectory committed_;
+  std::optional<UTime> go_;
+  std::optional<GoalMode> mode_;
+  std::optional<HorizonRequest> outstanding_;
+  std::optional<UTime> last_request_;
+  std::deque<Closed> closed_;
+  ExecutorCounters counters_;
+};
+
+}  // namespace tern
