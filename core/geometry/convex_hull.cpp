@@ -1,6 +1,5 @@
 #include "core/geometry/convex_hull.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_3.h>
 #include <fmt/format.h>
 
@@ -10,13 +9,34 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/geometry/oriented_plane.h"
+
 namespace tern {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using ExactTraits = CGAL::Convex_hull_traits_3<Kernel, CGAL::Default, CGAL::Tag_true>;
+using Kernel = HullKernel;
+using Point = HullPoint;
 using Triangle = std::array<std::size_t, 3>;
+
+// CGAL's traits with our planes. (The default of the overload that writes vectors is worse than slow: its planes are inexact, and
+// it crashes on flat sets.)
+struct Traits : CGAL::Convex_hull_traits_3<Kernel, CGAL::Default, CGAL::Tag_true> {
+  using Plane_3 = OrientedPlane;
+  struct Construct_plane_3 {
+    OrientedPlane operator()(const Point& p, const Point& q, const Point& r) const { return {p, q, r}; }
+  };
+  struct Has_on_positive_side_3 {
+    using result_type = bool;
+    bool operator()(const OrientedPlane& plane, const Point& p) const { return plane.side(p) == CGAL::POSITIVE; }
+  };
+  struct Less_signed_distance_to_plane_3 {
+    using result_type = bool;
+    bool operator()(const OrientedPlane& plane, const Point& p, const Point& q) const { return plane.is_lower(p, q); }
+  };
+  [[nodiscard]] Construct_plane_3 construct_plane_3_object() const { return {}; }
+  [[nodiscard]] Has_on_positive_side_3 has_on_positive_side_3_object() const { return {}; }
+  [[nodiscard]] Less_signed_distance_to_plane_3 less_signed_distance_to_plane_3_object() const { return {}; }
+};
 
 void check(const Points& points) {
   if (points.cols() == 0) throw std::invalid_argument("hull_vertices: no points");
@@ -83,7 +103,8 @@ std::vector<Point> corners(const std::vector<Point>& vertices, const std::vector
   std::vector<int> bends(vertices.size(), 0);
   for (std::size_t k = 0; k + 1 < edges.size(); k += 2) {
     const HalfEdge& e = edges[k];
-    if (CGAL::coplanar(vertices[e.from], vertices[e.to], vertices[e.opposite], vertices[edges[k + 1].opposite])) continue;
+    const OrientedPlane plane(vertices[e.from], vertices[e.to], vertices[e.opposite]);
+    if (plane.side(vertices[edges[k + 1].opposite]) == CGAL::ZERO) continue;
     ++bends[e.from];
     ++bends[e.to];
   }
@@ -97,9 +118,8 @@ std::vector<Point> corners(const std::vector<Point>& vertices, const std::vector
 std::vector<Point> solid_hull(const std::vector<Point>& points) {
   std::vector<Point> vertices;
   std::vector<Triangle> faces;
-  // The traits are named because this overload's default, the bare kernel, builds planes inexactly and crashes on flat sets.
   CGAL::Convex_hull_3::internal::Indexed_triangle_set surface(vertices, faces);
-  CGAL::convex_hull_3(points.begin(), points.end(), surface, ExactTraits());
+  CGAL::convex_hull_3(points.begin(), points.end(), surface, Traits());
   return corners(vertices, faces);
 }
 

@@ -1,0 +1,72 @@
+// On which side of a plane through three points a fourth lies, exactly and fast. A part of convex_hull.cpp: it brings in CGAL.
+#pragma once
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cmath>
+
+namespace tern {
+
+using HullKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using HullPoint = HullKernel::Point_3;
+
+/// The plane through p, q, r; positive is the side that sees them turn counter-clockwise. Exact for |coordinates| < 1e90.
+///
+/// CGAL's orientation() takes 10 ns where rounding cannot matter, and microseconds of GMP where it might. The sides of a swept box
+/// are parallelograms but for the rounding of their corners, so half of its questions are of the second kind. Between
+/// the two, numbers of 106 bits (double-double) settle all but the truly coplanar.
+class OrientedPlane {
+ public:
+  OrientedPlane() = default;
+  OrientedPlane(const HullPoint& p, const HullPoint& q, const HullPoint& r)
+      : p_(p), q_(q), r_(r) {
+    const double ux = q.x() - p.x(), uy = q.y() - p.y(), uz = q.z() - p.z();
+    const double vx = r.x() - p.x(), vy = r.y() - p.y(), vz = r.z() - p.z();
+    nx_ = uy * vz - uz * vy;
+    ny_ = uz * vx - ux * vz;
+    nz_ = ux * vy - uy * vx;
+    wx_ = std::fmax(std::abs(ux), std::abs(vx));
+    wy_ = std::fmax(std::abs(uy), std::abs(vy));
+    wz_ = std::fmax(std::abs(uz), std::abs(vz));
+  }
+
+  /// The sign of det(q − p, r − p, s − p).
+  [[nodiscard]] CGAL::Sign side(const HullPoint& s) const {
+    const Height height = height_of(s);
+    if (height.value > height.doubt) return CGAL::POSITIVE;
+    if (height.value < -height.doubt) return CGAL::NEGATIVE;
+    return side_in_doubt(s);
+  }
+
+  /// Whether s is lower than t: exact when both are within rounding of the plane, elsewhere up to rounding.
+  [[nodiscard]] bool is_lower(const HullPoint& s, const HullPoint& t) const {
+    const Height a = height_of(s);
+    const Height b = height_of(t);
+    if (std::abs(a.value) > a.doubt || std::abs(b.value) > b.doubt) return a.value < b.value;
+    return HullKernel().less_signed_distance_to_plane_3_object()(p_, q_, r_, s, t);
+  }
+
+ private:
+  struct Height {
+    double value, doubt;
+  };
+
+  [[nodiscard]] Height height_of(const HullPoint& s) const {
+    const double x = s.x() - p_.x(), y = s.y() - p_.y(), z = s.z() - p_.z();
+    const double largest = larger(wx_, x) * larger(wy_, y) * larger(wz_, z);
+    return {nx_ * x + ny_ * y + nz_ * z, kRounding * largest + kUnderflow};
+  }
+  static double larger(double w, double x) { return std::abs(x) > w ? std::abs(x) : w; }
+  [[nodiscard]] CGAL::Sign side_in_doubt(const HullPoint& s) const;
+
+  // Six products of three differences with eight roundings each, doubled.
+  static constexpr double kRounding = 96 * 0x1.0p-53;
+  // Products this small may have lost bits to underflow.
+  static constexpr double kUnderflow = 1e-250;
+
+  HullPoint p_, q_, r_;
+  double nx_ = 0.0, ny_ = 0.0, nz_ = 0.0;  // (q − p) × (r − p)
+  double wx_ = 0.0, wy_ = 0.0, wz_ = 0.0;  // the greatest |difference| on each axis
+};
+
+}  // namespace tern
