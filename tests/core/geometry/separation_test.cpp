@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <stdexcept>
 
@@ -66,8 +67,7 @@ TEST(Separation, AgreesWithExactArithmeticAndItsPlanesHoldExactly) {
     }
     if (separation) expect_holds(*separation, pair, 0.0, truth.distance);
   });
-  RecordProperty("settled_fast", static_cast<int>(separation_counts().fast));
-  RecordProperty("asked_lp", static_cast<int>(separation_counts().lp));
+  std::cout << separation_counts().fast << " settled fast, " << separation_counts().lp << " by the linear programme\n";
 }
 
 TEST(Separation, KeepsAClearanceExactly) {
@@ -108,6 +108,19 @@ TEST(Distance, IsTheExactOneAndWithinItsBounds) {
     EXPECT_LE(shortest.lower, truth.distance + kGapRounding);
     EXPECT_GE(shortest.upper, truth.distance - kGapRounding);
   });
+}
+
+TEST(Separation, IsTestedOnEveryKindOfPair) {
+  int overlapping = 0, in_tolerance = 0, just_beyond = 0, apart = 0;
+  for_random_pairs([&](const PointSets&, const ExactSeparation& truth, Rng&) {
+    overlapping += truth.disjoint ? 0 : 1;
+    in_tolerance += truth.disjoint && truth.distance <= kTouchingTolerance ? 1 : 0;
+    just_beyond += truth.distance > kTouchingTolerance && truth.distance < 1e-5 ? 1 : 0;
+    apart += truth.distance >= 1e-5 ? 1 : 0;
+  });
+  for (const int count : {overlapping, in_tolerance, just_beyond, apart}) EXPECT_GT(count, kPairs / 50);
+  std::cout << overlapping << " overlap, " << in_tolerance << " within tolerance, " << just_beyond << " just beyond, " << apart
+            << " apart\n";
 }
 
 TEST(Separation, IsAFunctionOfItsInputs) {
