@@ -1,0 +1,104 @@
+#include "simulator/worlds/world.h"
+
+#include <utility>
+
+#include "core/base/digest.h"
+#include "simulator/worlds/generators.h"
+#include "simulator/worlds/recorded_tracks.h"
+
+namespace tern {
+namespace {
+
+/// Collects numbers into one digest, as their bytes.
+struct Digester {
+  std::uint64_t value = kDigestSeed;
+
+  void operator()(double x) {
+    const double canonical = x == 0.0 ? 0.0 : x;  // −0 and 0 are equal values
+    value = digest({reinterpret_cast<const char*>(&canonical), sizeof canonical}, value);
+  }
+  void operator()(const Vec3& v) {
+    for (int i = 0; i < 3; ++i) (*this)(v[i]);
+  }
+  void operator()(const StaticMotion&) {}
+  void operator()(const TrefoilMotion& m) { (*this)(m.scale), (*this)(m.slowness), (*this)(m.phase); }
+  void operator()(const WaveMotion& m) { (*this)(m.amplitude), (*this)(m.slowness), (*this)(m.phase); }
+  void operator()(const LinearMotion& m) { (*this)(m.velocity), (*this)(m.from_s); }
+  void operator()(const WaypointMotion& m) {
+    for (const auto& [t, p] : m.points) (*this)(t), (*this)(p);
+    (*this)(m.repeat ? 1.0 : 0.0), (*this)(m.vanish ? 1.0 : 0.0);
+  }
+  void operator()(const ObstacleSpec& o) {
+    value = digest(o.name, value);
+    (*this)(o.centre), (*this)(o.half_extents), (*this)(static_cast<double>(o.motion.index()));
+    std::visit(*this, o.motion);
+  }
+};
+
+Result<void> add(World& world, std::vector<ObstacleSpec> specs) {
+  for (ObstacleSpec& spec : specs) {
+    auto made = WorldObstacle::make(static_cast<std::int64_t>(world.obstacles.size()), std::move(spec));
+    if (!made) return tl::unexpected(made.error());
+    world.obstacles.push_back(std::move(*made));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<World> make_world(const Scenario& scenario, const std::string& data_dir) {
+  World world;
+  const WorldSpec& spec = scenario.world;
+  if (spec.generator != "none") {
+    auto made = generate(spec.generator, spec.count, scenario.seed, scenario.uav.start, scenario.uav.goal);
+    if (!made) return tl::unexpected(made.error());
+    world.redrawn = made->redrawn;
+    if (auto done = add(world, std::move(made->obstacles)); !done) return tl::unexpected(done.error());
+  }
+  if (auto done = add(world, spec.obstacles); !done) return tl::unexpected(done.error());
+  for (const RecordedTracksSpec& recorded : spec.recorded) {
+    const auto file = find_track_file(recorded.file, scenario.file, data_dir);
+    if (!file) return tl::unexpected(file.error());
+    const auto tracks = load_recorded_tracks(*file, recorded);
+    if (!tracks) return tl::unexpected(tracks.error());
+    const auto start = recorded_start(*tracks, recorded, scenario.uav.start);
+    if (!start) return tl::unexpected(start.error());
+    world.recorded_start_s.push_back(*start);
+    if (auto done = add(world, recorded_obstacles(*tracks, recorded, *start)); !done) return tl::unexpected(done.error());
+  }
+  return world;
+}
+
+Scenario list_obstacles(const Scenario& scenario, const World& world) {
+  Scenario listed = scenario;
+  listed.world = WorldSpec{};
+  for (const WorldObstacle& o : world.obstacles) listed.world.obstacles.push_back(o.spec());
+  return listed;
+}
+
+std::uint64_t world_digest(const World& world) {
+  Digester digester;
+  for (const WorldObstacle& o : world.obstacles) digester(o.spec());
+  return digester.value;
+}
+
+std::vector<TrueObstacle> true_obstacles(const World& world, double t_s) {
+  std::vector<TrueObstacle> present;
+  present.reserve(world.obstacles.size());
+  for (const WorldObstacle& o : world.obstacles) {
+    if (!o.present(t_s)) continue;
+    const ObstacleState state = o.at(t_s);
+    present.push_back({o.id(), state.p, state.v, o.half_extents(), o.moves()});
+  }
+  return present;
+}
+
+std::vector<Box> static_boxes(const World& world) {
+  std::vector<Box> boxes;
+  for (const WorldObstacle& o : world.obstacles) {
+    if (!o.moves()) boxes.push_back(o.box(0.0));
+  }
+  return boxes;
+}
+
+}  // namespace tern
