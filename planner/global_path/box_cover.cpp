@@ -1,0 +1,87 @@
+#include "planner/global_path/box_cover.h"
+
+#include <array>
+#include <cstdint>
+
+namespace tern {
+namespace {
+
+using Cell = Eigen::Vector3i;
+
+/// Voxels still to be covered.
+class Remaining {
+ public:
+  Remaining(const VoxelMap& map, bool unknown_is_obstacle) : grid_(map.grid), open_(map.labels.size()) {
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      open_[i] = map.labels[i] == VoxelLabel::Occupied || (unknown_is_obstacle && map.labels[i] == VoxelLabel::Unknown);
+    }
+  }
+
+  [[nodiscard]] bool has(std::size_t i) const { return open_[i]; }
+
+  /// Are all voxels of the box low … high (inclusive) still open?
+  [[nodiscard]] bool full(const Cell& low, const Cell& high) const {
+    for (int z = low.z(); z <= high.z(); ++z) {
+      for (int y = low.y(); y <= high.y(); ++y) {
+        const auto row = static_cast<std::size_t>(grid_.index({low.x(), y, z}));
+        for (std::size_t i = row; i <= row + static_cast<std::size_t>(high.x() - low.x()); ++i) {
+          if (!open_[i]) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  void close(const Cell& low, const Cell& high) {
+    for (int z = low.z(); z <= high.z(); ++z) {
+      for (int y = low.y(); y <= high.y(); ++y) {
+        for (int x = low.x(); x <= high.x(); ++x) open_[static_cast<std::size_t>(grid_.index({x, y, z}))] = false;
+      }
+    }
+  }
+
+  /// The far corner of the box that grows from `low` upwards, one axis after the other.
+  [[nodiscard]] Cell grow(const Cell& low, const std::array<int, 3>& axes) const {
+    Cell high = low;
+    for (const int axis : axes) {
+      Cell from = low;
+      Cell to = high;
+      while (to[axis] + 1 < grid_.size[axis]) {
+        from[axis] = to[axis] = to[axis] + 1;
+        if (!full(from, to)) break;
+        high[axis] = to[axis];
+      }
+    }
+    return high;
+  }
+
+ private:
+  const VoxelGrid& grid_;
+  std::vector<bool> open_;
+};
+
+}  // namespace
+
+std::vector<Box> cover_with_boxes(const VoxelMap& map, bool unknown_is_obstacle) {
+  constexpr std::array<std::array<int, 3>, 3> kOrders{{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}};
+  std::vector<Box> boxes;
+  Remaining remaining(map, unknown_is_obstacle);
+  for (std::size_t i = 0; i < map.labels.size(); ++i) {
+    if (!remaining.has(i)) continue;
+    const Cell low = map.grid.cell(static_cast<std::int64_t>(i));
+    Cell best = low;
+    std::int64_t best_volume = 0;
+    for (const auto& axes : kOrders) {
+      const Cell high = remaining.grow(low, axes);
+      const std::int64_t volume = (high - low + Cell::Ones()).cast<std::int64_t>().prod();
+      if (volume <= best_volume) continue;
+      best = high;
+      best_volume = volume;
+    }
+    remaining.close(low, best);
+    boxes.emplace_back(map.grid.box(low).min(), map.grid.box(best).max());
+  }
+  return boxes;
+}
+
+}  // namespace tern

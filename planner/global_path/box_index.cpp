@@ -1,0 +1,112 @@
+#include "planner/global_path/box_index.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace tern {
+namespace {
+
+/// A segment made ready for the slab test against many boxes.
+class Slabs {
+ public:
+  Slabs(const Vec3& a, const Vec3& b) : a_(a) {
+    const Vec3 d = b - a;
+    for (int i = 0; i < 3; ++i) {
+      flat_[i] = d[i] == 0.0;
+      inverse_[i] = flat_[i] ? 0.0 : 1.0 / d[i];
+    }
+  }
+
+  /// Does it meet the closed box grown by `growth`?
+  [[nodiscard]] bool meets(const Box& box, double growth) const {
+    double enter = 0.0;
+    double leave = 1.0;
+    for (int i = 0; i < 3; ++i) {
+      const double low = box.min()[i] - growth - a_[i];
+      const double high = box.max()[i] + growth - a_[i];
+      if (flat_[i]) {
+        if (low > 0.0 || high < 0.0) return false;
+        continue;
+      }
+      const double t0 = low * inverse_[i];
+      const double t1 = high * inverse_[i];
+      enter = std::max(enter, std::min(t0, t1));
+      leave = std::min(leave, std::max(t0, t1));
+    }
+    return enter <= leave;
+  }
+
+ private:
+  Vec3 a_;
+  Vec3 inverse_;
+  bool flat_[3];
+};
+
+}  // namespace
+
+bool segment_meets_box(const Vec3& a, const Vec3& b, const Box& box) { return Slabs(a, b).meets(box, 0.0); }
+
+BoxIndex::BoxIndex(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
+  order_.reserve(boxes_.size());
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    if (!boxes_[i].isEmpty()) order_.push_back(static_cast<std::int32_t>(i));
+  }
+  if (!order_.empty()) build(0, static_cast<std::int32_t>(order_.size()));
+}
+
+void BoxIndex::build(std::int32_t begin, std::int32_t end) {
+  const std::size_t at = nodes_.size();
+  nodes_.emplace_back();
+  Box bounds;
+  Box centres;
+  for (std::int32_t k = begin; k < end; ++k) {
+    const Box& box = boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])];
+    bounds.extend(box);
+    centres.extend(box.center());
+  }
+  nodes_[at].box = bounds;
+  if (end - begin <= kLeafSize) {
+    nodes_[at].first = begin;
+    nodes_[at].count = end - begin;
+    return;
+  }
+  int axis = 0;
+  centres.sizes().maxCoeff(&axis);
+  const std::int32_t middle = begin + (end - begin) / 2;
+  const auto key = [&](std::int32_t i) {
+    const Box& box = boxes_[static_cast<std::size_t>(i)];
+    return std::pair(box.min()[axis] + box.max()[axis], i);
+  };
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                   [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+  build(begin, middle);
+  nodes_[at].first = static_cast<std::int32_t>(nodes_.size());
+  build(middle, end);
+}
+
+std::vector<std::int32_t> BoxIndex::query(const Box& region) const {
+  std::vector<std::int32_t> found;
+  visit(region, [&](std::int32_t i) {
+    found.push_back(i);
+    return false;
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool BoxIndex::blocks(const Vec3& a, const Vec3& b) const {
+  const Slabs slabs(a, b);
+  return walk([&](const Box& box) { return slabs.meets(box, kPathClearance); }, [](std::int32_t) { return true; });
+}
+
+bool BoxIndex::blocks(const Vec3& a, const Vec3& b, const Vec3& exempt) const {
+  const Slabs slabs(a, b);
+  return walk([&](const Box& box) { return slabs.meets(box, kPathClearance); },
+              [&](std::int32_t i) {
+                const Box& box = boxes_[static_cast<std::size_t>(i)];
+                return !grown(box, Vec3::Constant(kPathClearance)).contains(exempt);
+              });
+}
+
+}  // namespace tern

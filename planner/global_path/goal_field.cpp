@@ -1,0 +1,180 @@
+#include "planner/global_path/goal_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "planner/global_path/goal_search.h"
+
+namespace tern {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Spacing, at least options.resolution, at which the region takes no more than max_nodes.
+double affordable_step(const Box& region, const GoalFieldOptions& options) {
+  double step = options.resolution;
+  const auto nodes = [&] { return ((region.sizes() / step).array() + 2.0).prod(); };
+  while (nodes() > static_cast<double>(options.max_nodes)) step *= 1.02;
+  return step;
+}
+
+}  // namespace
+
+GoalField GoalField::build(std::vector<Box> inflated_statics, const Box& flight_box, const Vec3& goal,
+                           const GoalFieldOptions& options) {
+  GoalField field;
+  field.goal_ = goal;
+  field.flight_box_ = flight_box;
+  std::erase_if(inflated_statics, [&](const Box& box) { return box.isEmpty() || !box.intersects(flight_box); });
+  field.obstacles_ = BoxIndex(std::move(inflated_statics));
+  field.goal_free_ = flight_box.contains(goal) && !field.obstacles_.covers(goal);
+  if (!field.goal_free_) return field;
+  field.lay_grid(options);
+  GoalSearch search(field.grid_, field.obstacles_, goal);
+  search.run();
+  field.to_go_ = std::move(search.to_go);
+  field.next_ = std::move(search.next);
+  return field;
+}
+
+void GoalField::lay_grid(const GoalFieldOptions& options) {
+  Box region(goal_);
+  if (options.start) region.extend(*options.start);
+  for (const Box& box : obstacles_.boxes()) region.extend(box.intersection(flight_box_));
+  region = grown(region, Vec3::Constant(options.margin)).intersection(flight_box_);
+  const double step = affordable_step(region, options);
+  for (int i = 0; i < 3; ++i) {
+    grid_.axis[i] = GridAxis(region.min()[i], region.max()[i], step, options.anchor[i]);
+  }
+  open_gaps(step);
+}
+
+void GoalField::open_gaps(double step) {
+  for (int i = 0; i < 3; ++i) {
+    const GridAxis& axis = grid_.axis[i];
+    std::vector<std::pair<double, double>> gaps;  // (−width, middle)
+    const auto note = [&](double from, double to) {
+      const double width = to - from;
+      if (width <= 4.0 * kPathClearance || width >= 2.0 * step) return;
+      if (!axis.has_line_between(from + 0.2 * width, to - 0.2 * width)) gaps.emplace_back(-width, 0.5 * (from + to));
+    };
+    for (const Box& box : obstacles_.boxes()) {
+      Box above = box;
+      above.min()[i] = box.max()[i];
+      above.max()[i] = box.max()[i] + 2.0 * step;
+      obstacles_.visit(above, [&](std::int32_t k) {
+        note(box.max()[i], obstacles_.boxes()[static_cast<std::size_t>(k)].min()[i]);
+        return false;
+      });
+      note(axis.low(), box.min()[i]);
+      note(box.max()[i], axis.high());
+    }
+    // The widest first, and no more than a quarter of the lines that are there: gaps must not make the grid explode.
+    std::sort(gaps.begin(), gaps.end());
+    gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
+    gaps.resize(std::min(gaps.size(), static_cast<std::size_t>(8 + axis.size() / 4)));
+    std::vector<double> lines;
+    for (const auto& gap : gaps) lines.push_back(gap.second);
+    grid_.axis[i].add(lines);
+  }
+}
+
+Vec3 GoalField::position(std::int32_t node) const { return node == kGoalNode ? goal_ : grid_.position(node); }
+
+double GoalField::to_go(std::int32_t node) const {
+  return node == kGoalNode ? 0.0 : to_go_[static_cast<std::size_t>(node)];
+}
+
+/// The best point to fly to first: a node near the start, or better what such a node sees.
+std::int32_t GoalField::first_turn(const Vec3& start) const {
+  std::int32_t best = kNoNode;
+  double shortest = kInfinity;
+  const auto consider = [&](std::int32_t turn) {
+    const Vec3 p = position(turn);
+    const double length = (p - start).norm() + to_go(turn);
+    if (length >= shortest || obstacles_.blocks(start, p, start)) return;
+    best = turn;
+    shortest = length;
+  };
+  // A narrow place may hide the nearest nodes: then the next ring of them is asked.
+  for (int ring = 0; ring <= 2 && best == kNoNode; ++ring) {
+    grid_.for_neighbours(grid_.cell(start), ring, ring + 1, [&](std::int32_t node) {
+      if (!(to_go(node) < kInfinity)) return;
+      consider(next_[static_cast<std::size_t>(node)]);
+      consider(node);
+    });
+  }
+  return best;
+}
+
+std::optional<std::vector<Vec3>> GoalField::path_from(const Vec3& start) const {
+  if (!goal_free_) return std::nullopt;
+  if (!obstacles_.blocks(start, goal_, start)) return std::vector<Vec3>{start, goal_};
+  std::int32_t turn = first_turn(start);
+  if (turn == kNoNode) return std::nullopt;
+  std::vector<Vec3> path{start, position(turn)};
+  while (turn != kGoalNode) {
+    turn = next_[static_cast<std::size_t>(turn)];
+    path.push_back(position(turn));
+  }
+  tighten(path);
+  return path;
+}
+
+void GoalField::tighten(std::vector<Vec3>& path) const {
+  constexpr int kPasses = 3;
+  constexpr int kHalvings = 8;
+  const Vec3 start = path.front();
+  const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (std::size_t i = 1; i + 1 < path.size();) {
+      const Vec3 a = path[i - 1];
+      const Vec3 b = path[i + 1];
+      if (is_free(a, b)) {
+        path.erase(path.begin() + static_cast<std::ptrdiff_t>(i));
+        continue;
+      }
+      // Pull the vertex towards the chord as far as both its segments stay free.
+      const Vec3 v = path[i];
+      const double along = std::clamp((v - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+      const Vec3 pull = a + along * (b - a) - v;
+      double free = 0.0;
+      for (int k = 1; k <= kHalvings; ++k) {
+        const double s = free + std::ldexp(1.0, -k);
+        if (is_free(a, v + s * pull) && is_free(v + s * pull, b)) free = s;
+      }
+      path[i] = v + free * pull;
+      ++i;
+    }
+  }
+}
+
+double GoalField::distance(const Vec3& p) const {
+  if (!goal_free_) return kInfinity;
+  const Vec3 inside = p.cwiseMax(grid_.low()).cwiseMin(grid_.high());
+  const Cell cell = grid_.cell(inside);
+  const Cell last = grid_.size() - Cell::Ones();
+  const Vec3 low = grid_.position(cell);
+  const Vec3 sides = grid_.position((cell + Cell::Ones()).cwiseMin(last)) - low;
+  double interpolated = 0.0;
+  double nearest = kInfinity;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Cell up(corner & 1, (corner >> 1) & 1, corner >> 2);
+    double weight = 1.0;
+    double offset2 = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const double t = sides[i] > 0.0 ? (inside[i] - low[i]) / sides[i] : 0.0;
+      const double away = up[i] == 1 ? 1.0 - t : t;
+      weight *= 1.0 - away;
+      offset2 += away * sides[i] * away * sides[i];
+    }
+    const double d = to_go_[static_cast<std::size_t>(grid_.index((cell + up).cwiseMin(last)))];
+    nearest = std::min(nearest, d + std::sqrt(offset2));
+    interpolated += weight * d;
+  }
+  return (p - inside).norm() + (interpolated < kInfinity ? interpolated : nearest);
+}
+
+}  // namespace tern

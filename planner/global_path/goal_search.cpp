@@ -1,0 +1,96 @@
+#include "planner/global_path/goal_search.h"
+
+#include <limits>
+
+namespace tern {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A way must be shorter by this to replace another, m: rounding must not decide.
+constexpr double kGain = 1e-9;
+
+}  // namespace
+
+GoalSearch::GoalSearch(const RectilinearGrid& grid, const BoxIndex& obstacles, const Vec3& goal)
+    : to_go(static_cast<std::size_t>(grid.nodes()), kInfinity),
+      next(to_go.size(), kNoNode),
+      grid_(grid),
+      obstacles_(obstacles),
+      goal_(goal),
+      state_(to_go.size(), State::Open) {}
+
+void GoalSearch::run() {
+  block_covered_nodes();
+  queue_around_goal();
+  while (!queue_.empty()) {
+    const auto [length, node] = queue_.top();
+    queue_.pop();
+    const auto n = static_cast<std::size_t>(node);
+    if (state_[n] == State::Closed || length != to_go[n]) continue;
+    if (state_[n] == State::Open && !sight(node)) continue;
+    state_[n] = State::Closed;
+    expand(node);
+  }
+}
+
+void GoalSearch::block_covered_nodes() {
+  for (const Box& box : obstacles_.boxes()) {
+    const auto [low, high] = grid_.nodes_within(grown(box, Vec3::Constant(kPathClearance)));
+    for (int z = low.z(); z < high.z(); ++z) {
+      for (int y = low.y(); y < high.y(); ++y) {
+        for (int x = low.x(); x < high.x(); ++x) state_[static_cast<std::size_t>(grid_.index({x, y, z}))] = State::Blocked;
+      }
+    }
+  }
+}
+
+void GoalSearch::queue_around_goal() {
+  grid_.for_neighbours(grid_.cell(goal_), 1, 2, [&](std::int32_t node) {
+    const auto n = static_cast<std::size_t>(node);
+    if (state_[n] == State::Blocked) return;
+    to_go[n] = (grid_.position(node) - goal_).norm();
+    next[n] = kGoalNode;
+    queue_.emplace(to_go[n], node);
+  });
+}
+
+/// Makes the node see its turning point. @return false when it must wait: its way is longer than thought, or gone.
+bool GoalSearch::sight(std::int32_t node) {
+  const auto n = static_cast<std::size_t>(node);
+  const Vec3 p = grid_.position(node);
+  if (!obstacles_.blocks(p, position(next[n]))) return true;
+  to_go[n] = kInfinity;
+  next[n] = kNoNode;
+  grid_.for_neighbours(grid_.cell_of(node), 1, 1, [&](std::int32_t other) {
+    const auto o = static_cast<std::size_t>(other);
+    if (state_[o] != State::Closed) return;
+    const Vec3 q = grid_.position(other);
+    const double length = to_go[o] + (p - q).norm();
+    if (length >= to_go[n] - kGain || obstacles_.blocks(p, q)) return;
+    to_go[n] = length;
+    next[n] = other;
+  });
+  if (next[n] == kNoNode) return false;
+  if (queue_.empty() || Entry(to_go[n], node) < queue_.top()) return true;
+  state_[n] = State::Sighted;
+  queue_.emplace(to_go[n], node);
+  return false;
+}
+
+void GoalSearch::expand(std::int32_t node) {
+  const std::int32_t turn = next[static_cast<std::size_t>(node)];
+  const Vec3 p = position(turn);
+  const double rest = to_go_of(turn);
+  grid_.for_neighbours(grid_.cell_of(node), 1, 1, [&](std::int32_t other) {
+    const auto o = static_cast<std::size_t>(other);
+    if (state_[o] == State::Closed || state_[o] == State::Blocked) return;
+    const double length = rest + (grid_.position(other) - p).norm();
+    if (length >= to_go[o] - kGain) return;
+    to_go[o] = length;
+    next[o] = turn;
+    state_[o] = State::Open;
+    queue_.emplace(length, other);
+  });
+}
+
+}  // namespace tern
