@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,70 +24,95 @@ namespace tern {
 /// Batches of a set leave at least this far apart: LCM drops what does not fit the socket buffer.
 inline constexpr Duration kPacing{2'000};
 
-/// One process's end of the LCM network. Not thread-safe but for publish() (a planner's worker publishes its answer).
+/// What LCM may hold of one subscription until the process comes to read it; then it drops the newest. Ten seconds at 100 Hz:
+/// a process that was stopped for a moment finds no gap in a state's sequence, only old messages.
+inline constexpr int kQueueCapacity = 1'000;
+
+/// One process's end of the LCM network. Not thread-safe but for publish() and counters() (a planner's worker publishes its answer).
 ///
 /// publish() fills in header.name and header.utime. subscribe() hands over only messages that decode exactly and pass
-/// validation; the others are counted by reason and logged at most once a second, and change nothing. Gaps in a sender's
-/// sequence numbers are counted as lost. Messages of this bus's own epoch are delivered too (LCM loops back).
+/// validation; the others are counted by reason and logged at most once a second per channel, and change nothing. Gaps in a
+/// sender's sequence numbers are counted as lost; the first message heard of a sender epoch begins its count, so neither a
+/// late joiner nor a sender's restart is loss. Messages of this bus's own epoch are delivered too (LCM loops back).
 class Bus {
  public:
   /// @param lcm  shared by all nodes of a process (memq:// delivers only within one instance)
-  /// @param epoch_us  when the process started: the first half of every name it gives
-  /// @param suffix  appended to every channel name ("" by default)
+  /// @param epoch_us  when the process started, > 0: the first half of every name it gives; no two buses may share it
+  /// @param suffix  appended to every channel name ("" by default); letters, digits, '_' and '-'
+  /// @throws std::invalid_argument for another suffix.
   Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix = "");
+  /// Unsubscribes. @pre not called from a handler
   ~Bus();
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// Sends now. Returns the name that the message got.
+  /// Sends now. Returns the name that the message got. Thread-safe: sequence numbers leave in order.
+  /// @throws std::invalid_argument when the message breaks its contract (see encode); nothing was sent, no number used.
   template <class T>
   MessageName publish(std::string_view channel, T message) {
-    message.header = next_header(channel);
-    send(channel, encode(message));
-    return message.header.name;
-  }
-
-  /// Sends the first now and the others kPacing apart (by send_due, which the runner calls). Replaces what is still
-  /// unsent of an earlier set on this channel, counted as dropped.
-  template <class T>
-  void publish_paced(std::string_view channel, std::vector<T> batches) {
-    std::vector<Bytes> encoded;
-    for (T& batch : batches) {
-      batch.header = next_header(channel);
-      encoded.push_back(encode(batch));
-    }
-    send_paced(channel, std::move(encoded));
-  }
-
-  template <class T>
-  void subscribe(std::string_view channel, std::function<void(const T&)> handler) {
-    subscribe_raw(channel, [this, handler = std::move(handler), name = std::string(channel)](std::span<const std::uint8_t> bytes) {
-      auto message = decode<T>(bytes);
-      if (!message) return reject(name, message.error());
-      accept(name, message->header.name);
-      handler(*message);
+    return send(channel, [&message](const Header& header) {
+      message.header = header;
+      return encode(message);
     });
   }
 
+  /// Sends the first now and the others kPacing apart (by send_due, which the runner calls). Replaces what is still
+  /// unsent of an earlier set on this channel, counted in unsent(). Names and times are given when a batch leaves.
+  template <class T>
+  void publish_paced(std::string_view channel, std::vector<T> batches) {
+    std::vector<Encoder> encoders;
+    for (T& batch : batches) {
+      encoders.push_back([message = std::move(batch)](const Header& header) mutable {
+        message.header = header;
+        return encode(message);
+      });
+    }
+    send_paced(channel, std::move(encoders));
+  }
+
+  /// Calls `handler` with every accepted message of the channel. Several handlers of one channel are called in the order
+  /// of their subscription, and the message is counted once. What a handler throws is kept for rethrow(): nothing may
+  /// unwind through LCM.
+  template <class T>
+  void subscribe(std::string_view channel, std::function<void(const T&)> handler) {
+    subscribe_raw(channel,
+                  [this, handler = std::move(handler), name = std::string(channel)](std::span<const std::uint8_t> bytes) {
+                    auto message = decode<T>(bytes);
+                    if (!message) return reject(name, message.error());
+                    accept(name, message->header.name);
+                    handler(*message);
+                  });
+  }
+
   [[nodiscard]] UTime next_due() const;  ///< when a paced message is due; kNever if none waits
-  void send_due(UTime now);
-  [[nodiscard]] const std::map<std::string, ChannelCounters>& counters() const;
+  void send_due(UTime now);              ///< sends what is due, at most one message per channel
+  /// A copy, by channel name without suffix. Thread-safe.
+  [[nodiscard]] std::map<std::string, ChannelCounters> counters() const;
   void count_late(std::string_view channel);  ///< a node found an accepted message too old to be used
+  [[nodiscard]] std::int64_t unsent() const;  ///< paced messages that a newer set replaced before they left
+  [[nodiscard]] std::int64_t deliveries() const;  ///< messages that came in, accepted or not
+  /// Throws what a handler threw, if one did since the last call. Deliveries stop until then. Runners call it after a drain.
+  void rethrow();
   [[nodiscard]] const Clock& clock() const { return clock_; }
   [[nodiscard]] std::int64_t epoch_us() const { return epoch_us_; }
 
  private:
-  Header next_header(std::string_view channel);
-  void send(std::string_view channel, const Bytes& bytes);
-  void send_paced(std::string_view channel, std::vector<Bytes> batches);
-  void subscribe_raw(std::string_view channel, std::function<void(std::span<const std::uint8_t>)> handler);
+  using Encoder = std::function<Bytes(const Header&)>;
+  using RawHandler = std::function<void(std::span<const std::uint8_t>)>;
+  MessageName send(std::string_view channel, const Encoder& encoder);
+  void send_paced(std::string_view channel, std::vector<Encoder> batches);
+  void subscribe_raw(std::string_view channel, RawHandler handler);
   void reject(const std::string& channel, Rejection reason);
   void accept(const std::string& channel, MessageName name);
 
   const Clock& clock_;
   std::int64_t epoch_us_;
+  struct Channel;
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// "length", "fingerprint", "count", "number", "enumeration", "time", "inconsistent".
+const char* to_string(Rejection reason);
 
 }  // namespace tern

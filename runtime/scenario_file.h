@@ -11,10 +11,18 @@ namespace tern {
 /// The sections of a scenario file that belong to processes, not to the scenario itself.
 inline constexpr const char* kProcessSections[] = {"simulator", "executor", "predictor", "mapper", "planner", "logger"};
 
-/// Reads name, seed, world, uav, semantics, timeout_s; process sections are left to their processes. @throws ConfigError.
+/// The worlds that a seed can make (WorldSpec::generator).
+inline constexpr const char* kGenerators[] = {"none",          "paper_corridor", "paper_attract", "paper_repel",
+                                              "corridor_demo", "mader_corridor", "sando_forest"};
+
+/// Reads name, seed, world, uav, semantics, timeout_s (scenarios/README.md lists every key); process sections are left to their
+/// processes. A missing name is the file's name without folder and extension.
+/// @throws ConfigError for what a key may not be, and for what keys together may not be: start or goal (with the body) outside
+/// the flight box, names given twice, a polygon that crosses itself, a region's class that semantics.classes does not list …
 Scenario read_scenario(ConfigDocument& document);
 
 /// The scenario as YAML with every obstacle listed; read_scenario gives the same values back (doubles round-trip).
+/// @pre what read_scenario promises of its result; `file` is not written.
 std::string write_scenario(const Scenario& scenario);
 
 }  // namespace tern

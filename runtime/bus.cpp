@@ -1,0 +1,241 @@
+#include "runtime/bus.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cctype>
+#include <deque>
+#include <exception>
+#include <lcm/lcm-cpp.hpp>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+
+#include "runtime/node.h"
+
+namespace tern {
+namespace {
+
+constexpr Duration kLogInterval{1'000'000};
+/// Senders whose sequence a channel remembers; the one not heard longest is forgotten first, so that forged epochs cost no memory.
+constexpr std::size_t kMaxSenders = 64;
+/// A forged sequence number shall not overflow the sum: no honest gap is as long.
+constexpr std::int64_t kMaxGap = 1'000'000'000;
+/// LCM_MAX_CHANNEL_NAME_LENGTH.
+constexpr std::size_t kMaxChannelName = 63;
+
+/// LCM takes a subscription's channel as a regular expression: only characters that mean themselves are allowed.
+void check_name(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  if (!std::all_of(name.begin(), name.end(), plain) || name.size() > kMaxChannelName) {
+    throw std::invalid_argument(
+        fmt::format("channel name \"{}\": only letters, digits, '_' and '-', at most {} of them", name, kMaxChannelName));
+  }
+}
+
+/// Says yes at most once per kLogInterval and counts the times between.
+class LogLimiter {
+ public:
+  /// @return how many events this line stands for, or nothing if it is too soon.
+  std::optional<std::int64_t> admit(UTime now) {
+    ++pending_;
+    if (last_ && now - *last_ < kLogInterval && now >= *last_) return std::nullopt;
+    last_ = now;
+    return std::exchange(pending_, 0);
+  }
+
+ private:
+  std::optional<UTime> last_;
+  std::int64_t pending_ = 0;
+};
+
+struct Sender {
+  std::int64_t last_sequence = 0;
+  std::int64_t heard = 0;  ///< the channel's count of deliveries when it was heard last
+};
+
+}  // namespace
+
+struct Bus::Channel {
+  State* state = nullptr;
+  std::string wire_name;
+  ChannelCounters counters;
+  std::map<std::int64_t, Sender> senders;  ///< by epoch
+  std::deque<RawHandler> handlers;
+  lcm::Subscription* subscription = nullptr;
+  bool counted = false;  ///< the message being delivered has been accepted or rejected by an earlier handler
+  LogLimiter reject_log, send_log;
+  std::deque<Encoder> unsent;
+  UTime due = kNever;
+};
+
+struct Bus::State {
+  std::shared_ptr<lcm::LCM> lcm;
+  std::string suffix;
+  mutable std::mutex mutex;  ///< guards `channels` (the map) and counters; held while a message is numbered and sent
+  std::map<std::string, Channel, std::less<>> channels;
+  std::int64_t unsent = 0;
+  std::int64_t deliveries = 0;
+  std::exception_ptr error;
+
+  /// @pre the mutex is held
+  Channel& channel(std::string_view name) {
+    const auto found = channels.find(name);
+    if (found != channels.end()) return found->second;
+    const std::string wire_name = std::string(name) + suffix;
+    check_name(wire_name);
+    Channel& made = channels[std::string(name)];
+    made.state = this;
+    made.wire_name = wire_name;
+    return made;
+  }
+
+  static void on_message(const lcm::ReceiveBuffer* buffer, const std::string&, Channel* channel) {
+    State& state = *channel->state;
+    if (state.error) return;
+    ++state.deliveries;
+    channel->counted = false;
+    const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
+    try {
+      for (const RawHandler& handler : channel->handlers) handler(bytes);
+    } catch (...) {
+      state.error = std::current_exception();
+    }
+  }
+};
+
+Bus::Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix)
+    : clock_(clock), epoch_us_(epoch_us), state_(std::make_unique<State>()) {
+  check_name(suffix);
+  state_->lcm = std::move(lcm);
+  state_->suffix = std::move(suffix);
+}
+
+Bus::~Bus() {
+  for (auto& [name, channel] : state_->channels) {
+    if (channel.subscription != nullptr) state_->lcm->unsubscribe(channel.subscription);
+  }
+}
+
+MessageName Bus::send(std::string_view name, const Encoder& encoder) {
+  const std::scoped_lock lock(state_->mutex);
+  Channel& channel = state_->channel(name);
+  const UTime now = clock_.now();
+  const Header header{{epoch_us_, channel.counters.sent + 1}, now};
+  const Bytes bytes = encoder(header);
+  ++channel.counters.sent;
+  const int status = state_->lcm->publish(channel.wire_name, bytes.data(), static_cast<unsigned>(bytes.size()));
+  if (status != 0) {
+    if (const auto times = channel.send_log.admit(now)) {
+      spdlog::warn("{}: LCM could not send ({} times since the last report)", channel.wire_name, *times);
+    }
+  }
+  return header.name;
+}
+
+void Bus::send_paced(std::string_view name, std::vector<Encoder> batches) {
+  Channel* channel = nullptr;
+  {
+    const std::scoped_lock lock(state_->mutex);
+    channel = &state_->channel(name);
+  }
+  state_->unsent += static_cast<std::int64_t>(channel->unsent.size());
+  channel->unsent.assign(std::make_move_iterator(batches.begin()), std::make_move_iterator(batches.end()));
+  channel->due = batches.empty() ? kNever : clock_.now();
+  if (!batches.empty()) send_due(channel->due);
+}
+
+UTime Bus::next_due() const {
+  const std::scoped_lock lock(state_->mutex);
+  UTime due = kNever;
+  for (const auto& [name, channel] : state_->channels) due = std::min(due, channel.due);
+  return due;
+}
+
+void Bus::send_due(UTime now) {
+  std::vector<std::pair<std::string, Encoder>> due;
+  {
+    const std::scoped_lock lock(state_->mutex);
+    for (auto& [name, channel] : state_->channels) {
+      if (channel.due > now || channel.unsent.empty()) continue;
+      due.emplace_back(name, std::move(channel.unsent.front()));
+      channel.unsent.pop_front();
+      channel.due = channel.unsent.empty() ? kNever : now + kPacing;
+    }
+  }
+  for (const auto& [name, encoder] : due) send(name, encoder);
+}
+
+void Bus::subscribe_raw(std::string_view name, RawHandler handler) {
+  const std::scoped_lock lock(state_->mutex);
+  Channel& channel = state_->channel(name);
+  channel.handlers.push_back(std::move(handler));
+  if (channel.subscription != nullptr) return;
+  channel.subscription = state_->lcm->subscribeFunction(channel.wire_name, &State::on_message, &channel);
+  if (channel.subscription == nullptr) throw std::runtime_error("LCM cannot subscribe to " + channel.wire_name);
+  channel.subscription->setQueueCapacity(kQueueCapacity);
+}
+
+void Bus::reject(const std::string& name, Rejection reason) {
+  const std::scoped_lock lock(state_->mutex);
+  Channel& channel = state_->channel(name);
+  if (std::exchange(channel.counted, true)) return;
+  ++channel.counters.rejected[static_cast<int>(reason)];
+  if (const auto times = channel.reject_log.admit(clock_.now())) {
+    spdlog::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, to_string(reason), *times);
+  }
+}
+
+void Bus::accept(const std::string& name, MessageName message) {
+  const std::scoped_lock lock(state_->mutex);
+  Channel& channel = state_->channel(name);
+  if (std::exchange(channel.counted, true)) return;
+  ++channel.counters.received;
+  const auto [found, is_new] = channel.senders.try_emplace(message.sender_epoch_us);
+  Sender& sender = found->second;
+  if (!is_new && message.sequence > sender.last_sequence) {
+    channel.counters.lost += std::min(message.sequence - sender.last_sequence - 1, kMaxGap);
+  }
+  sender.last_sequence = std::max(sender.last_sequence, message.sequence);
+  sender.heard = channel.counters.received;
+  if (channel.senders.size() > kMaxSenders) {
+    const auto longest_ago = [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; };
+    channel.senders.erase(std::min_element(channel.senders.begin(), channel.senders.end(), longest_ago));
+  }
+}
+
+std::map<std::string, ChannelCounters> Bus::counters() const {
+  const std::scoped_lock lock(state_->mutex);
+  std::map<std::string, ChannelCounters> counters;
+  for (const auto& [name, channel] : state_->channels) counters[name] = channel.counters;
+  return counters;
+}
+
+void Bus::count_late(std::string_view name) {
+  const std::scoped_lock lock(state_->mutex);
+  ++state_->channel(name).counters.late;
+}
+
+std::int64_t Bus::unsent() const { return state_->unsent; }
+
+std::int64_t Bus::deliveries() const { return state_->deliveries; }
+
+void Bus::rethrow() {
+  if (state_->error) std::rethrow_exception(std::exchange(state_->error, nullptr));
+}
+
+const char* to_string(Rejection reason) {
+  switch (reason) {
+    case Rejection::Length: return "length";
+    case Rejection::Fingerprint: return "fingerprint";
+    case Rejection::Count: return "count";
+    case Rejection::Number: return "number";
+    case Rejection::Enumeration: return "enumeration";
+    case Rejection::Time: return "time";
+    case Rejection::Inconsistent: return "inconsistent";
+  }
+  return "unknown";
+}
+
+}  // namespace tern

@@ -1,0 +1,20 @@
+#include "runtime/clock.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <stdexcept>
+
+namespace tern {
+
+UTime WallClock::now() const {
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  return UTime{std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count()} + offset_;
+}
+
+void VirtualClock::advance_to(UTime t) {
+  if (t < now_) throw std::invalid_argument(fmt::format("VirtualClock: {} us is before now, {} us", t.us, now_.us));
+  now_ = t;
+}
+
+}  // namespace tern

@@ -1,0 +1,266 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "runtime/polygon.h"
+#include "runtime/scenario_file.h"
+
+namespace tern {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// No scene is larger, m: a micrometre is still exact to 1e-10 there.
+const Range kPosition = Range::within(1e5);
+const Range kHalfExtent = Range::positive(1e4);
+const Range kSeconds = Range::within(1e6);
+const Range kPhase = Range::within(1e4);
+
+/// A name that no other entry of the same list has.
+std::string unique_name(ConfigSection& section, std::string name, std::set<std::string>& taken) {
+  if (!name.empty() && !taken.insert(name).second) throw section.error("name", name + " is the name of another entry too");
+  return name;
+}
+
+Box read_box(ConfigSection section) {
+  const Box box(section.required_vec3("min", kPosition), section.required_vec3("max", kPosition));
+  section.finish();
+  if (!(box.min().array() < box.max().array()).all()) throw section.error("max", "is not greater than min on every axis");
+  return box;
+}
+
+WaypointMotion read_waypoints(ConfigSection& section) {
+  WaypointMotion motion;
+  motion.repeat = section.flag("repeat", false);
+  for (const std::vector<double>& row : section.rows("points", 4, kSeconds)) {
+    const Vec3 p(row[1], row[2], row[3]);
+    const std::size_t index = motion.points.size();
+    if (p.cwiseAbs().maxCoeff() > kPosition.high) {
+      throw section.error("points", fmt::format("point {} lies farther out than {} m", index, kPosition.high));
+    }
+    if (index > 0 && row[0] <= motion.points.back().first) {
+      throw section.error("points", fmt::format("time {} of point {} is not after {}", row[0], index, motion.points.back().first));
+    }
+    motion.points.emplace_back(row[0], p);
+  }
+  if (motion.points.empty()) throw section.error("points", "has no point (at least 1)");
+  if (motion.repeat && motion.points.size() < 2) throw section.error("repeat", "true needs at least 2 points");
+  return motion;
+}
+
+/// Each motion reads its own keys only, so that finish() refuses those of the others.
+void read_motion(ConfigSection& section, ObstacleSpec& obstacle) {
+  const std::string motion =
+      section.choice("motion", "static", {"static", "trefoil", "wave", "linear", "waypoints"});
+  if (motion == "waypoints") {
+    obstacle.motion = read_waypoints(section);
+    if (section.has("centre")) throw section.error("centre", "is not used by motion waypoints");
+    return;
+  }
+  obstacle.centre = section.required_vec3("centre", kPosition);
+  if (motion == "trefoil") {
+    const TrefoilMotion defaults;
+    obstacle.motion = TrefoilMotion{section.vec3_or_number("scale", defaults.scale, kPosition),
+                                    section.number("slowness", defaults.slowness, Range::positive(1e4)),
+                                    section.number("phase", defaults.phase, kPhase)};
+  } else if (motion == "wave") {
+    const WaveMotion defaults;
+    obstacle.motion = WaveMotion{section.required_vec3("amplitude", kPosition),
+                                 section.number("slowness", defaults.slowness, Range::positive(1e4)),
+                                 section.number("phase", defaults.phase, kPhase)};
+  } else if (motion == "linear") {
+    obstacle.motion =
+        LinearMotion{section.required_vec3("velocity", Range::within(1e3)), section.number("from_s", 0.0, kSeconds)};
+  }
+}
+
+ObstacleSpec read_obstacle(ConfigSection section, std::set<std::string>& names) {
+  ObstacleSpec obstacle;
+  obstacle.name = unique_name(section, section.text("name", ""), names);
+  obstacle.half_extents = section.vec3_or_number("half_extents", obstacle.half_extents, kHalfExtent);
+  read_motion(section, obstacle);
+  section.finish();
+  return obstacle;
+}
+
+RecordedTracksSpec read_recorded(ConfigSection section) {
+  RecordedTracksSpec spec;
+  spec.file = section.required_text("file");
+  if (spec.file.empty()) throw section.error("file", "is empty");
+  spec.columns = static_cast<int>(section.integer("columns", spec.columns, 4, 100));
+  std::set<int> used;
+  const auto column = [&](const char* key, int fallback) {
+    const int c = static_cast<int>(section.integer(key, fallback, 0, spec.columns - 1));
+    if (!used.insert(c).second) throw section.error(key, fmt::format("column {} is another key's column too", c));
+    return c;
+  };
+  spec.id_column = column("id_column", spec.id_column);
+  spec.frame_column = column("frame_column", spec.frame_column);
+  spec.x_column = column("x_column", spec.x_column);
+  spec.y_column = column("y_column", spec.y_column);
+  if (section.has("z_column")) spec.z_column = column("z_column", 0);
+  spec.metres_per_unit = section.number("metres_per_unit", spec.metres_per_unit, Range::positive(1e6));
+  spec.frames_per_second = section.number("frames_per_second", spec.frames_per_second, Range::positive(1e6));
+  spec.start_s = section.number("start_s", spec.start_s, Range::at_least(0.0));
+  spec.half_extents = section.vec3_or_number("half_extents", spec.half_extents, kHalfExtent);
+  spec.centre_z = section.number("centre_z", spec.centre_z, kPosition);
+  spec.wait_for_clear_start = section.flag("wait_for_clear_start", spec.wait_for_clear_start);
+  section.finish();
+  return spec;
+}
+
+WorldSpec read_world(ConfigSection section) {
+  WorldSpec world;
+  world.generator = section.choice("generator", world.generator, {std::begin(kGenerators), std::end(kGenerators)});
+  world.count = static_cast<int>(section.integer("count", world.count, 0, 100'000));
+  if (world.generator == "none" && world.count > 0) {
+    throw section.error("count", fmt::format("{} needs a generator, which is none", world.count));
+  }
+  std::set<std::string> names;
+  for (const ConfigSection& entry : section.list("obstacles")) world.obstacles.push_back(read_obstacle(entry, names));
+  for (const ConfigSection& entry : section.list("recorded")) world.recorded.push_back(read_recorded(entry));
+  section.finish();
+  return world;
+}
+
+/// The corners of the box of half-extents h about 0.
+Points box_corners(const Vec3& h) {
+  Points corners(3, 8);
+  for (int k = 0; k < 8; ++k) {
+    corners.col(k) = Vec3((k & 1) != 0 ? h.x() : -h.x(), (k & 2) != 0 ? h.y() : -h.y(), (k & 4) != 0 ? h.z() : -h.z());
+  }
+  return corners;
+}
+
+Body read_body(ConfigSection section) {
+  constexpr std::size_t kMaxVertices = 64;
+  Body body;
+  const int shapes = (section.has("radius") ? 1 : 0) + (section.has("half_extents") ? 1 : 0) + (section.has("vertices") ? 1 : 0);
+  if (shapes > 1) throw section.error("radius", "give one of radius, half_extents, vertices");
+  if (section.has("half_extents")) {
+    body.vertices = box_corners(section.required_vec3("half_extents", Range::positive(100.0)));
+    body.radius = 0.0;
+  } else if (section.has("vertices")) {
+    const auto rows = section.rows("vertices", 3, Range::within(100.0));
+    if (rows.empty() || rows.size() > kMaxVertices) {
+      throw section.error("vertices", fmt::format("{} of them (limit 1 to {})", rows.size(), kMaxVertices));
+    }
+    body.vertices.resize(3, static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      body.vertices.col(static_cast<Eigen::Index>(k)) = Vec3(rows[k][0], rows[k][1], rows[k][2]);
+    }
+    body.radius = 0.0;
+  } else {
+    body.radius = section.number("radius", body.radius, Range::at_least(0.0, 100.0));
+  }
+  section.finish();
+  return body;
+}
+
+UavSpec read_uav(ConfigSection section) {
+  UavSpec uav;
+  uav.start = section.vec3("start", uav.start, kPosition);
+  uav.goal = section.vec3("goal", uav.goal, kPosition);
+  ConfigSection limits = section.section("limits");
+  uav.limits.v_max = limits.vec3_or_number("v_max", uav.limits.v_max, Range::positive(1e3));
+  uav.limits.a_max = limits.vec3_or_number("a_max", uav.limits.a_max, Range::positive(1e4));
+  uav.limits.j_max = limits.vec3_or_number("j_max", uav.limits.j_max, Range::positive(kInfinity));
+  limits.finish();
+  uav.body = read_body(section.section("body"));
+  if (section.has("flight_box")) uav.flight_box = read_box(section.section("flight_box"));
+  const Vec3 h = uav.body.half_extents();
+  const auto check = [&](const char* key, const Vec3& p) {
+    if (uav.flight_box.contains(box_around(p, h))) return;
+    const Vec3 low = uav.flight_box.min() + h;
+    const Vec3 high = uav.flight_box.max() - h;
+    throw section.error(key, fmt::format("[{}, {}, {}] is outside the flight box, body included (limits [{}, {}, {}] to "
+                                         "[{}, {}, {}])",
+                                         p.x(), p.y(), p.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
+  };
+  check("start", uav.start);
+  check("goal", uav.goal);
+  section.finish();
+  return uav;
+}
+
+PrismRegion read_prism(ConfigSection section) {
+  PrismRegion prism;
+  for (const std::vector<double>& row : section.rows("corners", 2, kPosition)) prism.corners.emplace_back(row[0], row[1]);
+  prism.z_min = section.required_number("z_min", kPosition);
+  prism.z_max = section.required_number("z_max", kPosition);
+  section.finish();
+  if (prism.corners.size() < 3) throw section.error("corners", fmt::format("{} of them (at least 3)", prism.corners.size()));
+  if (!is_simple_polygon(prism.corners)) throw section.error("corners", "the polygon touches or crosses itself");
+  if (prism.z_min >= prism.z_max) throw section.error("z_max", "is not greater than z_min");
+  return prism;
+}
+
+BallRegion read_ball(ConfigSection section) {
+  const BallRegion ball{section.required_vec3("centre", kPosition), section.required_number("radius", kHalfExtent)};
+  section.finish();
+  return ball;
+}
+
+Region read_region(ConfigSection section, std::set<std::string>& names) {
+  Region region;
+  region.name = unique_name(section, section.required_text("name"), names);
+  if (region.name.empty()) throw section.error("name", "is empty");
+  region.class_name = section.required_text("class");
+  const int shapes = (section.has("box") ? 1 : 0) + (section.has("ball") ? 1 : 0) + (section.has("prism") ? 1 : 0);
+  if (shapes != 1) throw section.error("name", fmt::format("{} shapes (give one of box, ball, prism)", shapes));
+  if (section.has("box")) {
+    region.shape = read_box(section.section("box"));
+  } else if (section.has("ball")) {
+    region.shape = read_ball(section.section("ball"));
+  } else {
+    region.shape = read_prism(section.section("prism"));
+  }
+  section.finish();
+  return region;
+}
+
+SemanticsSpec read_semantics(ConfigSection section) {
+  SemanticsSpec semantics;
+  semantics.enabled = section.flag("enabled", semantics.enabled);
+  semantics.lambda_attractive = section.number("lambda_attractive", semantics.lambda_attractive, Range::at_least(0.0, 1e6));
+  semantics.lambda_repulsive = section.number("lambda_repulsive", semantics.lambda_repulsive, Range::at_least(0.0, 1e6));
+  semantics.cost = section.choice("cost", semantics.cost, {"exposure", "mean_distance"});
+  ConfigSection classes = section.section("classes");
+  const std::vector<std::string> labels = {"unknown", "free", "occupied", "attractive", "repulsive"};
+  const auto defaults = section.has("classes") ? decltype(semantics.classes){} : semantics.classes;
+  semantics.classes.clear();
+  for (const auto& [name, label] : defaults) semantics.classes.emplace_back(name, classes.choice(name, label, labels));
+  for (const std::string& name : classes.keys()) semantics.classes.emplace_back(name, classes.choice(name, "", labels));
+  std::set<std::string> names;
+  for (ConfigSection& entry : section.list("regions")) {
+    semantics.regions.push_back(read_region(entry, names));
+    const std::string& name = semantics.regions.back().class_name;
+    const auto has_name = [&](const auto& c) { return c.first == name; };
+    if (std::none_of(semantics.classes.begin(), semantics.classes.end(), has_name)) {
+      throw entry.error("class", fmt::format("{} is not one of semantics.classes", name));
+    }
+  }
+  section.finish();
+  return semantics;
+}
+
+}  // namespace
+
+Scenario read_scenario(ConfigDocument& document) {
+  ConfigSection root = document.root();
+  Scenario scenario;
+  scenario.file = document.file();
+  scenario.name = root.text("name", std::filesystem::path(document.file()).stem().string());
+  scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
+  if (root.has("timeout_s")) scenario.timeout_s = root.required_number("timeout_s", Range::positive(1e6));
+  scenario.world = read_world(root.section("world"));
+  scenario.uav = read_uav(root.section("uav"));
+  scenario.semantics = read_semantics(root.section("semantics"));
+  for (const char* section : kProcessSections) root.ignore(section);
+  root.finish();
+  return scenario;
+}
+
+}  // namespace tern

@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <type_traits>
+
+#include "runtime/scenario_file.h"
+#include "runtime/yaml_tree.h"
+
+namespace tern {
+namespace {
+
+std::string to_yaml(const Vec3& v) {
+  return fmt::format("[{}, {}, {}]", yaml_number(v.x()), yaml_number(v.y()), yaml_number(v.z()));
+}
+
+std::string to_yaml(const Box& box) { return fmt::format("{{min: {}, max: {}}}", to_yaml(box.min()), to_yaml(box.max())); }
+
+/// The keys of a motion, each on a line of its own; static has none but its centre.
+std::string motion_yaml(const ObstacleSpec& obstacle) {
+  const auto line = [](const char* key, const std::string& value) { return fmt::format("      {}: {}\n", key, value); };
+  const auto visitor = [&](const auto& motion) -> std::string {
+    using Motion = std::decay_t<decltype(motion)>;
+    const std::string centre = line("centre", to_yaml(obstacle.centre));
+    if constexpr (std::is_same_v<Motion, TrefoilMotion>) {
+      return centre + line("motion", "trefoil") + line("scale", to_yaml(motion.scale)) +
+             line("slowness", yaml_number(motion.slowness)) + line("phase", yaml_number(motion.phase));
+    } else if constexpr (std::is_same_v<Motion, WaveMotion>) {
+      return centre + line("motion", "wave") + line("amplitude", to_yaml(motion.amplitude)) +
+             line("slowness", yaml_number(motion.slowness)) + line("phase", yaml_number(motion.phase));
+    } else if constexpr (std::is_same_v<Motion, LinearMotion>) {
+      return centre + line("motion", "linear") + line("velocity", to_yaml(motion.velocity)) +
+             line("from_s", yaml_number(motion.from_s));
+    } else if constexpr (std::is_same_v<Motion, WaypointMotion>) {
+      std::string points;
+      for (const auto& [t, p] : motion.points) {
+        points += fmt::format("{}[{}, {}, {}, {}]", points.empty() ? "" : ", ", yaml_number(t), yaml_number(p.x()),
+                              yaml_number(p.y()), yaml_number(p.z()));
+      }
+      return line("motion", "waypoints") + line("points", "[" + points + "]") +
+             line("repeat", motion.repeat ? "true" : "false");
+    } else {
+      return centre;
+    }
+  };
+  return std::visit(visitor, obstacle.motion);
+}
+
+std::string recorded_yaml(const RecordedTracksSpec& spec) {
+  std::string out = fmt::format("    - file: {}\n      columns: {}\n", yaml_text(spec.file), spec.columns);
+  out += fmt::format("      id_column: {}\n      frame_column: {}\n", spec.id_column, spec.frame_column);
+  out += fmt::format("      x_column: {}\n      y_column: {}\n", spec.x_column, spec.y_column);
+  if (spec.z_column) out += fmt::format("      z_column: {}\n", *spec.z_column);
+  out += fmt::format("      metres_per_unit: {}\n", yaml_number(spec.metres_per_unit));
+  out += fmt::format("      frames_per_second: {}\n", yaml_number(spec.frames_per_second));
+  out += fmt::format("      start_s: {}\n", yaml_number(spec.start_s));
+  out += fmt::format("      half_extents: {}\n", to_yaml(spec.half_extents));
+  out += fmt::format("      centre_z: {}\n", yaml_number(spec.centre_z));
+  out += fmt::format("      wait_for_clear_start: {}\n", spec.wait_for_clear_start);
+  return out;
+}
+
+std::string world_yaml(const WorldSpec& world) {
+  std::string out = fmt::format("world:\n  generator: {}\n  count: {}\n", world.generator, world.count);
+  out += world.obstacles.empty() ? "" : "  obstacles:\n";
+  for (const ObstacleSpec& obstacle : world.obstacles) {
+    out += fmt::format("    - half_extents: {}\n", to_yaml(obstacle.half_extents));
+    if (!obstacle.name.empty()) out += fmt::format("      name: {}\n", yaml_text(obstacle.name));
+    out += motion_yaml(obstacle);
+  }
+  out += world.recorded.empty() ? "" : "  recorded:\n";
+  for (const RecordedTracksSpec& spec : world.recorded) out += recorded_yaml(spec);
+  return out;
+}
+
+std::string body_yaml(const Body& body) {
+  const bool sphere = body.vertices.cols() == 1 && body.vertices.isZero(0.0);
+  if (sphere) return fmt::format("{{radius: {}}}", yaml_number(body.radius));
+  std::string vertices;
+  for (Eigen::Index k = 0; k < body.vertices.cols(); ++k) {
+    vertices += (k == 0 ? "" : ", ") + to_yaml(Vec3(body.vertices.col(k)));
+  }
+  return fmt::format("{{vertices: [{}]}}", vertices);
+}
+
+std::string uav_yaml(const UavSpec& uav) {
+  return fmt::format("uav:\n  start: {}\n  goal: {}\n", to_yaml(uav.start), to_yaml(uav.goal)) +
+         fmt::format("  limits:\n    v_max: {}\n    a_max: {}\n    j_max: {}\n", to_yaml(uav.limits.v_max),
+                     to_yaml(uav.limits.a_max), to_yaml(uav.limits.j_max)) +
+         fmt::format("  body: {}\n  flight_box: {}\n", body_yaml(uav.body), to_yaml(uav.flight_box));
+}
+
+std::string shape_yaml(const Box& box) { return "box: " + to_yaml(box); }
+
+std::string shape_yaml(const BallRegion& ball) {
+  return fmt::format("ball: {{centre: {}, radius: {}}}", to_yaml(ball.centre), yaml_number(ball.radius));
+}
+
+std::string shape_yaml(const PrismRegion& prism) {
+  std::string corners;
+  for (const Eigen::Vector2d& c : prism.corners) {
+    corners += fmt::format("{}[{}, {}]", corners.empty() ? "" : ", ", yaml_number(c.x()), yaml_number(c.y()));
+  }
+  return fmt::format("prism: {{corners: [{}], z_min: {}, z_max: {}}}", corners, yaml_number(prism.z_min),
+                     yaml_number(prism.z_max));
+}
+
+std::string semantics_yaml(const SemanticsSpec& semantics) {
+  std::string out = fmt::format("semantics:\n  enabled: {}\n  lambda_attractive: {}\n  lambda_repulsive: {}\n  cost: {}\n",
+                                semantics.enabled, yaml_number(semantics.lambda_attractive),
+                                yaml_number(semantics.lambda_repulsive), semantics.cost);
+  out += semantics.classes.empty() ? "  classes: {}\n" : "  classes:\n";
+  for (const auto& [name, label] : semantics.classes) out += fmt::format("    {}: {}\n", yaml_text(name), label);
+  out += semantics.regions.empty() ? "" : "  regions:\n";
+  for (const Region& region : semantics.regions) {
+    const std::string shape = std::visit([](const auto& s) { return shape_yaml(s); }, region.shape);
+    out += fmt::format("    - name: {}\n      class: {}\n      {}\n", yaml_text(region.name), yaml_text(region.class_name), shape);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string write_scenario(const Scenario& scenario) {
+  std::string out = fmt::format("name: {}\nseed: {}\n", yaml_text(scenario.name), scenario.seed);
+  if (scenario.timeout_s) out += fmt::format("timeout_s: {}\n", yaml_number(*scenario.timeout_s));
+  return out + world_yaml(scenario.world) + uav_yaml(scenario.uav) + semantics_yaml(scenario.semantics);
+}
+
+}  // namespace tern

@@ -1,0 +1,41 @@
+// A YAML document as plain values that know where they stand; the only place that knows yaml-cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace tern {
+
+/// One value of a document.
+struct YamlValue {
+  enum class Kind { Null, Scalar, Sequence, Mapping };
+  Kind kind = Kind::Null;
+  std::string where;   ///< "scenarios/x.yaml:12" or "--set key=value"
+  std::string scalar;  ///< of a Scalar
+  bool quoted = false; ///< a quoted scalar is text only
+  std::vector<YamlValue> items;                              ///< of a Sequence
+  std::vector<std::pair<std::string, YamlValue>> entries;  ///< of a Mapping, in file order, no key twice
+
+  /// The entry, or nullptr.
+  [[nodiscard]] const YamlValue* find(std::string_view key) const;
+  [[nodiscard]] YamlValue* find(std::string_view key);
+  /// For messages: the scalar itself, "a list", "a mapping", "nothing".
+  [[nodiscard]] std::string describe() const;
+};
+
+/// Parses a document whose top is a mapping (or nothing, which is an empty one).
+/// @throws ConfigError for what is not YAML, a key given twice, a key that is not a scalar.
+YamlValue parse_yaml(const std::string& text, const std::string& name);
+
+/// Applies "key.path=value" (the text after --set) to a document. @throws ConfigError naming the override.
+void apply_override(YamlValue& document, const std::string& override_text);
+
+/// The scalar as it must be written to be read back as the same text: plain where that is safe, else quoted.
+std::string yaml_text(std::string_view text);
+
+/// The number in the shortest form that reads back as the same double; ".inf" for infinity.
+std::string yaml_number(double value);
+
+}  // namespace tern
