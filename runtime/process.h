@@ -17,8 +17,9 @@ class App;
 
 namespace tern {
 
-inline constexpr int kExitBadConfiguration = 2;   ///< nothing was published
-inline constexpr int kExitStuck = 70;             ///< the planner's worker missed two deadlines: restart me
+inline constexpr int kExitBadConfiguration = 2;   ///< bad command line, configuration or scenario; nothing was published
+inline constexpr int kExitNoNetwork = 3;          ///< LCM cannot be used
+inline constexpr int kExitStuck = 70;             ///< stuck, or an internal error (in the log): restart me
 
 /// What a process is given to build its node.
 struct ProcessContext {
@@ -37,23 +38,36 @@ struct ProcessDescription {
 using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 
 /// Parses --help, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL, --clock-offset-us N, --channel-suffix S, --log-level L;
-/// loads the scenario, makes the node, publishes CONFIGURATION (at start, then every 5 s) and HEARTBEAT (2 Hz), and runs until the node
-/// has finished, or SIGINT/SIGTERM (exit 0). ConfigError: the message on stderr, exit 2. LCM not usable: exit 3.
+/// loads the scenario (without --config: all defaults), makes the node, publishes CONFIGURATION (at start, then every 5 s) and
+/// HEARTBEAT (2 Hz), and runs until the node has finished, or SIGINT/SIGTERM (exit 0). Logs to stderr. The epoch is the wall
+/// clock's time at the start, without the offset.
+/// @return the exit code: the node's own, 0 after a signal, or kExit…. ConfigError and bad options: the message on stderr, exit 2.
 int run_process(int argc, char** argv, const ProcessDescription& description, const NodeFactory& make_node);
 
 /// Hosts one node: its heartbeat and configuration reports, its pacing. The same in a process and in virtual time.
 class NodeHost {
  public:
+  /// @param effective_yaml  reported on CONFIGURATION; what is too long for a message is cut there (the hash is of the whole)
   NodeHost(Bus& bus, Node& node, std::string process, std::string effective_yaml);
+  /// The earliest of the node's wakeup, the reports, and paced messages.
   [[nodiscard]] UTime next_wakeup() const;
+  /// Whether step(now) has something to do: a wakeup has come, or messages were delivered since the last step.
+  [[nodiscard]] bool is_due(UTime now) const;
+  /// Steps the node if is_due for its sake, then sends what is due. A node that has just finished says so on HEARTBEAT at once.
   void step(UTime now);
+  [[nodiscard]] const Node& node() const { return node_; }
+  [[nodiscard]] const std::string& process() const { return process_; }
+  [[nodiscard]] Bus& bus() const { return bus_; }
 
  private:
   void publish_heartbeat();
+  void publish_configuration();
   Bus& bus_;
   Node& node_;
   std::string process_, yaml_;
   UTime next_heartbeat_{}, next_configuration_{};
+  std::int64_t stepped_deliveries_ = 0;
+  bool said_finished_ = false;
 };
 
 }  // namespace tern

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -33,7 +34,8 @@ Box read_box(ConfigSection section) {
 
 WaypointMotion read_waypoints(ConfigSection& section) {
   WaypointMotion motion;
-  motion.repeat = section.flag("repeat", false);
+  motion.repeat = section.flag("repeat", motion.repeat);
+  motion.vanish = section.flag("vanish", motion.vanish);
   for (const std::vector<double>& row : section.rows("points", 4, kSeconds)) {
     const Vec3 p(row[1], row[2], row[3]);
     const std::size_t index = motion.points.size();
@@ -47,6 +49,10 @@ WaypointMotion read_waypoints(ConfigSection& section) {
   }
   if (motion.points.empty()) throw section.error("points", "has no point (at least 1)");
   if (motion.repeat && motion.points.size() < 2) throw section.error("repeat", "true needs at least 2 points");
+  if (motion.repeat && motion.points.front().second != motion.points.back().second) {
+    throw section.error("repeat", "true needs a last point that is the first one");
+  }
+  if (motion.repeat && motion.vanish) throw section.error("vanish", "true does not go with repeat");
   return motion;
 }
 

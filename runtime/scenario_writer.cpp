@@ -36,7 +36,7 @@ std::string motion_yaml(const ObstacleSpec& obstacle) {
                               yaml_number(p.y()), yaml_number(p.z()));
       }
       return line("motion", "waypoints") + line("points", "[" + points + "]") +
-             line("repeat", motion.repeat ? "true" : "false");
+             line("repeat", motion.repeat ? "true" : "false") + line("vanish", motion.vanish ? "true" : "false");
     } else {
       return centre;
     }

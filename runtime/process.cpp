@@ -1,0 +1,134 @@
+#include "runtime/process.h"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+
+#include "runtime/lcm_network.h"
+#include "runtime/scenario_file.h"
+#include "runtime/version.h"
+#include "runtime/wall_runner.h"
+
+namespace tern {
+namespace {
+
+/// SIGINT and SIGTERM as a readable descriptor. Made before LCM starts its thread, so that every thread inherits the mask and no
+/// signal can arrive between a check and a wait.
+class StopSignals {
+ public:
+  StopSignals() {
+    // A shell starts background jobs of a script with SIGINT ignored.
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    fd_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+    if (fd_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
+  }
+  ~StopSignals() { close(fd_); }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+  [[nodiscard]] int fd() const { return fd_; }
+
+ private:
+  int fd_ = -1;
+};
+
+struct Options {
+  std::string config;
+  std::vector<std::string> overrides;
+  std::string lcm_url;
+  std::int64_t clock_offset_us = 0;
+  std::string channel_suffix;
+  std::string log_level = "info";
+};
+
+void declare(CLI::App& app, Options& options, const ProcessDescription& description) {
+  app.set_version_flag("--version", fmt::format("{} {}", description.name, build_id()));
+  app.add_option("--config", options.config, "Scenario file (YAML); without it, all defaults")->type_name("FILE");
+  app.add_option("--set", options.overrides, "Override a value of the scenario file, as uav.limits.v_max=3 (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--lcm-url", options.lcm_url, fmt::format("LCM network; else LCM_DEFAULT_URL, else {}", kDefaultLcmUrl))
+      ->type_name("URL");
+  app.add_option("--clock-offset-us", options.clock_offset_us, "Added to the system clock, to test skew")->type_name("N");
+  app.add_option("--channel-suffix", options.channel_suffix, "Appended to every channel name, one per vehicle")
+      ->type_name("S");
+  app.add_option("--log-level", options.log_level, "How much to say on stderr")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
+      ->capture_default_str();
+  if (description.add_options) description.add_options(app);
+}
+
+/// Parses; @return the exit code when the process shall end now (help, version, a mistake).
+std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : kExitBadConfiguration;
+  }
+}
+
+void start_log(const ProcessDescription& description, const std::string& level) {
+  // A process may be hosted several times in one test binary: the name is then taken already.
+  spdlog::drop(description.name);
+  spdlog::set_default_logger(spdlog::stderr_color_mt(description.name));
+  spdlog::set_pattern("%H:%M:%S.%e %n %^%l%$: %v");
+  spdlog::set_level(spdlog::level::from_str(level));
+}
+
+int run(const Options& options, const ProcessDescription& description, const NodeFactory& make_node) {
+  const std::int64_t epoch_us = WallClock().now().us;
+  const WallClock clock(Duration{options.clock_offset_us});
+  ConfigDocument document = ConfigDocument::load(options.config, options.overrides);
+  const Scenario scenario = read_scenario(document);
+  const ConfigSection section = document.root().section(description.section.empty() ? "process" : description.section);
+
+  const StopSignals stop;
+  const auto lcm = open_lcm(choose_lcm_url(options.lcm_url, std::getenv("LCM_DEFAULT_URL")));
+  if (!lcm) {
+    spdlog::error("{}", lcm.error().message);
+    return kExitNoNetwork;
+  }
+  Bus bus(*lcm, clock, epoch_us, options.channel_suffix);
+  ProcessContext context{scenario, section, bus};
+  const std::unique_ptr<Node> node = make_node(context);
+  NodeHost host(bus, *node, description.name, document.effective());
+  spdlog::info("{} runs", build_id());
+  const int code = run_on_wall_clock(**lcm, host, stop.fd());
+  spdlog::info("ends with exit code {}", code);
+  return code;
+}
+
+}  // namespace
+
+int run_process(int argc, char** argv, const ProcessDescription& description, const NodeFactory& make_node) {
+  Options options;
+  CLI::App app(description.summary, description.name);
+  declare(app, options, description);
+  if (const auto code = parse(app, argc, argv)) return *code;
+  start_log(description, options.log_level);
+  try {
+    return run(options, description, make_node);
+  } catch (const ConfigError& e) {
+    fmt::print(stderr, "{}: {}\n", description.name, e.what());
+    return kExitBadConfiguration;
+  } catch (const std::exception& e) {
+    spdlog::critical("internal error: {}", e.what());
+    return kExitStuck;
+  }
+}
+
+}  // namespace tern

@@ -1,0 +1,52 @@
+#include "runtime/wall_runner.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <lcm/lcm-cpp.hpp>
+#include <stdexcept>
+
+#include "runtime/lcm_network.h"
+
+namespace tern {
+namespace {
+
+/// A flood of messages shall not keep the node from its deadlines.
+constexpr int kMaxMessagesPerStep = 1'000;
+/// No longer sleep, so that a stepped system clock is noticed.
+constexpr Duration kLongestSleep{1'000'000};
+
+/// Blocks until a descriptor is readable or the time has come. @return whether fds[1], the stop, is readable.
+bool wait(pollfd (&fds)[2], Duration sleep) {
+  const std::int64_t us = std::clamp(sleep, Duration{0}, kLongestSleep).us;
+  const timespec timeout{us / 1'000'000, (us % 1'000'000) * 1'000};
+  if (ppoll(fds, 2, &timeout, nullptr) < 0) {
+    if (errno == EINTR) return false;
+    throw std::runtime_error(fmt::format("ppoll: {}", std::strerror(errno)));
+  }
+  if ((fds[0].revents & (POLLERR | POLLHUP | POLLNVAL)) != 0) throw std::runtime_error("LCM's descriptor broke");
+  return fds[1].revents != 0;
+}
+
+}  // namespace
+
+int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
+  const Clock& clock = host.bus().clock();
+  pollfd fds[2] = {{lcm.getFileno(), POLLIN, 0}, {stop_fd, POLLIN, 0}};
+  UTime now = clock.now();
+  while (true) {
+    drain(lcm, kMaxMessagesPerStep);
+    host.bus().rethrow();
+    now = std::max(now, clock.now());
+    if (host.is_due(now)) host.step(now);
+    if (const auto code = host.node().finished()) return *code;
+    const UTime wakeup = host.next_wakeup();
+    const Duration sleep = wakeup == kNever ? kLongestSleep : wakeup - clock.now();
+    if (wait(fds, sleep)) return 0;
+  }
+}
+
+}  // namespace tern
