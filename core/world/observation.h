@@ -43,6 +43,7 @@ struct ObstacleTruth {
   BatchHeader batch;
   UTime at;
   std::vector<TrueObstacle> obstacles;
+  std::int32_t left_out = 0;  ///< obstacles that did not fit in the batches
 };
 
 }  // namespace tern

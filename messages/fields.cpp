@@ -1,0 +1,160 @@
+#include "messages/fields.h"
+
+#include <cmath>
+
+namespace tern::wire {
+namespace {
+
+static_assert(tern_msgs::batch_t::MAX_BATCHES == kMaxBatches);
+
+/// Bytes of the UTF-8 sequence that starts with `lead`; 0 when none does.
+std::size_t sequence_length(unsigned char lead) {
+  if (lead < 0x80) return 1;
+  if (lead >= 0xC2 && lead < 0xE0) return 2;
+  if (lead >= 0xE0 && lead < 0xF0) return 3;
+  if (lead >= 0xF0 && lead < 0xF5) return 4;
+  return 0;
+}
+
+/// The second byte rules out overlong forms, surrogates and code points beyond U+10FFFF.
+bool second_byte_legal(unsigned char lead, unsigned char second) {
+  switch (lead) {
+    case 0xE0: return second >= 0xA0;
+    case 0xED: return second < 0xA0;
+    case 0xF0: return second >= 0x90;
+    case 0xF4: return second < 0x90;
+    default: return true;
+  }
+}
+
+bool is_control(unsigned char c) { return (c < 0x20 && c != '\t' && c != '\n') || c == 0x7F; }
+
+}  // namespace
+
+tern_msgs::vec3_t to_lcm(const Vec3& v) {
+  tern_msgs::vec3_t m{};
+  m.x = v.x();
+  m.y = v.y();
+  m.z = v.z();
+  return m;
+}
+
+tern_msgs::message_name_t to_lcm(const MessageName& name) {
+  tern_msgs::message_name_t m{};
+  m.sender_epoch_us = name.sender_epoch_us;
+  m.sequence = name.sequence;
+  return m;
+}
+
+tern_msgs::header_t to_lcm(const Header& header) {
+  tern_msgs::header_t m{};
+  m.name = to_lcm(header.name);
+  m.utime_us = header.utime.us;
+  return m;
+}
+
+tern_msgs::batch_t to_lcm(const BatchHeader& batch) {
+  tern_msgs::batch_t m{};
+  m.set = batch.set;
+  m.index = batch.index;
+  m.count = batch.count;
+  return m;
+}
+
+tern_msgs::motion_t to_lcm(const MotionSample& motion) {
+  tern_msgs::motion_t m{};
+  m.position = to_lcm(motion.p);
+  m.velocity = to_lcm(motion.v);
+  m.acceleration = to_lcm(motion.a);
+  m.jerk = to_lcm(motion.j);
+  return m;
+}
+
+std::vector<tern_msgs::vec3_t> to_lcm(const Points& points) {
+  std::vector<tern_msgs::vec3_t> list;
+  list.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) list.push_back(to_lcm(Vec3(points.col(i))));
+  return list;
+}
+
+void append(std::vector<std::uint8_t>& bytes, std::string_view text) {
+  bytes.insert(bytes.end(), text.begin(), text.end());
+}
+
+std::vector<std::uint8_t> to_lcm(std::string_view text) { return {text.begin(), text.end()}; }
+
+bool is_plain_text(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = sequence_length(lead);
+    if (length == 0 || i + length > text.size() || is_control(lead)) return false;
+    for (std::size_t k = 1; k < length; ++k) {
+      if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80U) return false;
+    }
+    if (length > 1 && !second_byte_legal(lead, static_cast<unsigned char>(text[i + 1]))) return false;
+    i += length;
+  }
+  return true;
+}
+
+double FieldReader::number(double x, double low, double high) {
+  return note(low <= x && x <= high, Rejection::Number) ? x : low;
+}
+
+Vec3 FieldReader::vec3(const tern_msgs::vec3_t& v, double low, double high) {
+  return {number(v.x, low, high), number(v.y, low, high), number(v.z, low, high)};
+}
+
+Vec3 FieldReader::limit_or_none(const tern_msgs::vec3_t& v, double high) {
+  const auto limit = [&](double x) { return x == kInfinity ? x : number(x, kAboveZero, high); };
+  return {limit(v.x), limit(v.y), limit(v.z)};
+}
+
+Points FieldReader::points(const std::vector<tern_msgs::vec3_t>& list, double limit) {
+  Points result(3, static_cast<Eigen::Index>(list.size()));
+  for (std::size_t i = 0; i < list.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = vec3(list[i], -limit, limit);
+  return result;
+}
+
+MotionSample FieldReader::motion(const tern_msgs::motion_t& m) {
+  return {position(m.position), vec3(m.velocity, -kMaxSpeed, kMaxSpeed),
+          vec3(m.acceleration, -kMaxAcceleration, kMaxAcceleration), vec3(m.jerk, -kMaxJerk, kMaxJerk)};
+}
+
+UTime FieldReader::time(std::int64_t us) {
+  return note(-kMaxTimeUs <= us && us <= kMaxTimeUs, Rejection::Time) ? UTime{us} : UTime{};
+}
+
+Duration FieldReader::duration(std::int64_t us, Duration low, Duration high) {
+  return note(low.us <= us && us <= high.us, Rejection::Time) ? Duration{us} : low;
+}
+
+std::string FieldReader::text(std::span<const std::uint8_t> bytes) {
+  std::string result(bytes.begin(), bytes.end());
+  note(is_plain_text(result), Rejection::Number);
+  return result;
+}
+
+MessageName FieldReader::name(const tern_msgs::message_name_t& n) {
+  note(0 <= n.sender_epoch_us && n.sender_epoch_us <= kMaxTimeUs, Rejection::Time);
+  return {n.sender_epoch_us, counter(n.sequence)};
+}
+
+Header FieldReader::header(const tern_msgs::header_t& h) {
+  integer<std::int64_t>(h.name.sequence, 1, kMaxCounter);
+  return {name(h.name), time(h.utime_us)};
+}
+
+BatchHeader FieldReader::batch(const tern_msgs::batch_t& b) {
+  const BatchHeader batch{integer<std::int64_t>(b.set, 1, kMaxCounter), integer<std::int32_t>(b.index, 0, kMaxBatches - 1),
+                          integer<std::int32_t>(b.count, 1, kMaxBatches)};
+  consistent(batch.index < batch.count);
+  return batch;
+}
+
+bool all_different(std::vector<std::int64_t> values) {
+  std::sort(values.begin(), values.end());
+  return std::adjacent_find(values.begin(), values.end()) == values.end();
+}
+
+}  // namespace tern::wire

@@ -1,0 +1,15 @@
+// HEARTBEAT on the wire: lcmtypes/heartbeat_t.lcm.
+#pragma once
+
+#include "core/world/health.h"
+#include "messages/codec.h"
+
+namespace tern {
+
+template <>
+Bytes encode(const Heartbeat& value);
+/// Inconsistent: name lengths that do not sum to the names' bytes, channels that are not in ascending order of their names.
+template <>
+tl::expected<Heartbeat, Rejection> decode(std::span<const std::uint8_t> bytes);
+
+}  // namespace tern
