@@ -1,5 +1,8 @@
 #include "messages/plan.h"
 
+#include <cmath>
+
+#include "core/world/voxel_map.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/plan_t.hpp"
