@@ -1,0 +1,231 @@
+#include "planner/global_path/goal_field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "core/base/random.h"
+#include "planner/global_path/box_cover.h"
+#include "planner/global_path/local_goal.h"
+#include "tests/support/voxel_maps.h"
+
+namespace tern {
+namespace {
+
+const Box kOpenWorld(Vec3::Constant(-1e4), Vec3::Constant(1e4));
+
+/// Every sample of the path, 2 mm apart, lies outside every box and inside the flight box.
+void expect_clear(const std::vector<Vec3>& path, const std::vector<Box>& boxes, const Box& flight_box) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const int n = 1 + static_cast<int>((path[i] - path[i - 1]).norm() / 0.002);
+    for (int k = 0; k <= n; ++k) {
+      const Vec3 p = path[i - 1] + (path[i] - path[i - 1]) * (static_cast<double>(k) / n);
+      ASSERT_TRUE(grown(flight_box, Vec3::Constant(1e-9)).contains(p)) << p.transpose();
+      for (const Box& box : boxes) ASSERT_FALSE(box.contains(p)) << p.transpose();
+    }
+  }
+}
+
+/// Shortest way among boxes so tall that nothing passes over them: a visibility graph on their corners, by Dijkstra.
+double visibility_graph_length(const std::vector<Box>& boxes, const Vec3& from, const Vec3& to) {
+  std::vector<Vec3> points{from, to};
+  for (const Box& box : boxes) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const double x = (corner & 1) != 0 ? box.max().x() + 1e-5 : box.min().x() - 1e-5;
+      const double y = (corner & 2) != 0 ? box.max().y() + 1e-5 : box.min().y() - 1e-5;
+      points.emplace_back(x, y, from.z());
+    }
+  }
+  const BoxIndex index(boxes);
+  std::vector<double> best(points.size(), INFINITY);
+  std::priority_queue<std::pair<double, std::size_t>, std::vector<std::pair<double, std::size_t>>, std::greater<>> queue;
+  queue.emplace(best[0] = 0.0, 0);
+  while (!queue.empty()) {
+    const auto [length, i] = queue.top();
+    queue.pop();
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const double d = length + (points[i] - points[j]).norm();
+      if (d >= best[j] || index.blocks(points[i], points[j])) continue;
+      queue.emplace(best[j] = d, j);
+    }
+  }
+  return best[1];
+}
+
+/// A wall across y ∈ [−4, 4], z ∈ [0, 4] at x ∈ [5, 5.4] with a square window.
+std::vector<Box> wall_with_window(double y0, double z0, double side) {
+  return {Box(Vec3(5, -4, 0), Vec3(5.4, y0, 4)), Box(Vec3(5, y0 + side, 0), Vec3(5.4, 4, 4)),
+          Box(Vec3(5, y0, 0), Vec3(5.4, y0 + side, z0)), Box(Vec3(5, y0, z0 + side), Vec3(5.4, y0 + side, 4))};
+}
+
+std::vector<Box> inflated(std::vector<Box> boxes, double by) {
+  for (Box& box : boxes) box = grown(box, Vec3::Constant(by));
+  return boxes;
+}
+
+TEST(GoalField, IsTheStraightLineInTheOpen) {
+  const GoalField field = GoalField::build({}, kOpenWorld, Vec3(75, -1, 1));
+  const auto path = field.path_from(Vec3(0, 0, 1));
+  ASSERT_TRUE(path);
+  EXPECT_EQ(*path, (std::vector<Vec3>{Vec3(0, 0, 1), Vec3(75, -1, 1)}));
+  EXPECT_NEAR(field.distance(Vec3(0, 0, 1)), std::sqrt(75.0 * 75.0 + 1.0), 2.0) << "far outside the region searched";
+  EXPECT_NEAR(field.distance(Vec3(74, -1, 1)), 1.0, 0.05);
+}
+
+TEST(GoalField, PathsAreClearAndNearlyShortestAmongPillars) {
+  const Box flight_box(Vec3(-1, -3, 0.1), Vec3(21, 3, 3.9));
+  double worst = 1.0;
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    SCOPED_TRACE(seed);
+    Rng rng(seed);
+    std::vector<Box> boxes;
+    for (int i = 0; i < 15; ++i) {
+      const double x = rng.uniform(2, 18);
+      boxes.push_back(box_around(Vec3(x, rng.uniform(-2.5, 2.5), 2.0), Vec3(0.35, 0.35, 8.0)));
+    }
+    const Vec3 start(0, 0, 1);
+    const GoalField field = GoalField::build(boxes, flight_box, Vec3(20, -1, 1));
+    const auto path = field.path_from(start);
+    const double shortest = visibility_graph_length(boxes, start, Vec3(20, -1, 1));
+    ASSERT_EQ(path.has_value(), std::isfinite(shortest));
+    if (!path) continue;
+    expect_clear(*path, boxes, flight_box);
+    worst = std::max(worst, path_length(*path) / shortest);
+    EXPECT_NEAR(field.distance(start), shortest, 0.03 * shortest);
+  }
+  EXPECT_LT(worst, 1.01);
+}
+
+TEST(GoalField, FliesOverAWallThatIsWiderThanHigh) {
+  const std::vector<Box> boxes{Box(Vec3(5, -20, -5), Vec3(6, 20, 3))};
+  const Box flight_box(Vec3(-1, -21, 0), Vec3(12, 21, 8));
+  const GoalField field = GoalField::build(boxes, flight_box, Vec3(11, 0, 1));
+  const auto path = field.path_from(Vec3(0, 0, 1));
+  ASSERT_TRUE(path);
+  expect_clear(*path, boxes, flight_box);
+  const double shortest = std::hypot(5.0, 2.0) + 1.0 + std::hypot(5.0, 2.0);
+  EXPECT_LT(path_length(*path), 1.01 * shortest);
+  EXPECT_GE(path_length(*path), shortest);
+}
+
+TEST(GoalField, AWindowOfSixtyCentimetresStaysOpenWhereverItLies) {
+  const Box flight_box(Vec3(-1, -3.9, 0.1), Vec3(11, 3.9, 3.9));
+  for (int i = 0; i < 30; ++i) {
+    SCOPED_TRACE(i);
+    const double at = 0.01 * i;
+    const std::vector<Box> boxes = inflated(wall_with_window(1.0 + at, 2.0 - 1.3 * at, 0.6), 0.1);
+    const GoalField field = GoalField::build(boxes, flight_box, Vec3(10, 0, 1));
+    const auto path = field.path_from(Vec3(0, 0, 1));
+    ASSERT_TRUE(path);
+    expect_clear(*path, boxes, flight_box);
+  }
+}
+
+TEST(GoalField, AWindowNarrowerThanTheGridStaysOpenUntilItIsShut) {
+  const Box flight_box(Vec3(-1, -3.9, 0.1), Vec3(11, 3.9, 3.9));
+  GoalFieldOptions coarse;
+  coarse.resolution = 0.7;
+  for (const double side : {0.201, 0.21, 0.3, 0.45}) {
+    const std::vector<Box> boxes = inflated(wall_with_window(1.03, 1.97, side), 0.1);
+    EXPECT_TRUE(GoalField::build(boxes, flight_box, Vec3(10, 0, 1), coarse).path_from(Vec3(0, 0, 1))) << side;
+  }
+  const std::vector<Box> shut = inflated(wall_with_window(1.03, 1.97, 0.2), 0.1);
+  EXPECT_FALSE(GoalField::build(shut, flight_box, Vec3(10, 0, 1)).path_from(Vec3(0, 0, 1)));
+}
+
+TEST(GoalField, AWindowOfSixtyCentimetresStaysOpenInAMapOfQuarterMetres) {
+  const Box flight_box(Vec3(-0.9, -3.9, 0.1), Vec3(10.9, 3.9, 3.9));
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    // The wall's boxes as a mapper voxelizes them: every voxel that they touch is occupied.
+    VoxelMap map = test_support::free_map({48, 32, 16}, 0.25, Vec3(-1, -4, 0));
+    const std::vector<Box> wall = wall_with_window(0.025 * i, 2.0 + 0.0125 * i, 0.6);
+    for (std::size_t v = 0; v < map.labels.size(); ++v) {
+      const Box voxel = grown(map.grid.box(map.grid.cell(static_cast<std::int64_t>(v))), Vec3::Constant(-1e-9));
+      for (const Box& box : wall) {
+        if (box.intersects(voxel)) map.labels[v] = VoxelLabel::Occupied;
+      }
+    }
+    const std::vector<Box> boxes = inflated(cover_with_boxes(map, true), 0.1);
+    const GoalField field = GoalField::build(boxes, flight_box, Vec3(10, 0, 1));
+    const auto path = field.path_from(Vec3(0, 0, 1));
+    ASSERT_TRUE(path);
+    expect_clear(*path, boxes, flight_box);
+  }
+}
+
+TEST(GoalField, LeavesAUTrap) {
+  const std::vector<Box> boxes{Box(Vec3(6, -3, -10), Vec3(6.5, 3, 10)), Box(Vec3(1, -3, -10), Vec3(6.5, -2.5, 10)),
+                               Box(Vec3(1, 2.5, -10), Vec3(6.5, 3, 10))};
+  const Box flight_box(Vec3(-3, -6, 0), Vec3(12, 6, 3));
+  const Vec3 start(5, 0.3, 1);
+  const GoalField field = GoalField::build(boxes, flight_box, Vec3(10, 0, 1));
+  const auto path = field.path_from(start);
+  ASSERT_TRUE(path);
+  expect_clear(*path, boxes, flight_box);
+  EXPECT_LT(path_length(*path), 1.01 * visibility_graph_length(boxes, start, Vec3(10, 0, 1)));
+  EXPECT_GT(field.distance(start), 10.0) << "not the 5 m through the wall";
+}
+
+TEST(GoalField, SaysNothingWhenTheGoalIsBlocked) {
+  const std::vector<Box> boxes{Box(Vec3(9, -1, 0), Vec3(11, 1, 2))};
+  const Box flight_box(Vec3(-1, -3, 0), Vec3(12, 3, 3));
+  const GoalField inside = GoalField::build(boxes, flight_box, Vec3(10, 0, 1));
+  EXPECT_FALSE(inside.path_from(Vec3(0, 0, 1)));
+  EXPECT_TRUE(std::isinf(inside.distance(Vec3(0, 0, 1))));
+  EXPECT_FALSE(GoalField::build(boxes, flight_box, Vec3(10, 4, 1)).path_from(Vec3(0, 0, 1))) << "outside the flight box";
+
+  const std::vector<Box> wall{Box(Vec3(5, -4, -1), Vec3(6, 4, 4))};
+  const GoalField behind = GoalField::build(wall, flight_box, Vec3(10, 0, 1));
+  EXPECT_FALSE(behind.path_from(Vec3(0, 0, 1)));
+  EXPECT_TRUE(std::isinf(behind.distance(Vec3(0, 0, 1))));
+  EXPECT_TRUE(behind.path_from(Vec3(7, 0, 1)));
+}
+
+TEST(GoalField, LetsAStartInsideABoxLeaveIt) {
+  const std::vector<Box> boxes{Box(Vec3(-1, -1, -1), Vec3(1, 1, 3)), Box(Vec3(4, -2, -1), Vec3(5, 2, 5))};
+  const Box flight_box(Vec3(-2, -4, 0), Vec3(12, 4, 4));
+  const GoalField field = GoalField::build(boxes, flight_box, Vec3(10, 0, 1));
+  const auto path = field.path_from(Vec3(0.8, 0, 1));
+  ASSERT_TRUE(path);
+  expect_clear(*path, {boxes[1]}, flight_box);
+}
+
+TEST(GoalField, WorksFromOutsideTheRegionSearched) {
+  const std::vector<Box> boxes{Box(Vec3(5, -3, -3), Vec3(6, 3, 6))};
+  const GoalField field = GoalField::build(boxes, kOpenWorld, Vec3(10, 0, 1));
+  EXPECT_LT(field.nodes(), 200'000);
+  const Vec3 start(-300, 40, 20);
+  const auto path = field.path_from(start);
+  ASSERT_TRUE(path);
+  expect_clear(*path, boxes, kOpenWorld);
+  EXPECT_LT(path_length(*path), 1.05 * (Vec3(10, 0, 1) - start).norm());
+}
+
+TEST(GoalField, DistanceNeverGrowsFasterThanOneMetrePerMetreInTheOpen) {
+  const std::vector<Box> boxes{Box(Vec3(5, -2, -1), Vec3(6, 2, 5))};
+  const Box flight_box(Vec3(-1, -4, 0), Vec3(12, 4, 4));
+  const GoalField field = GoalField::build(boxes, flight_box, Vec3(10, 0, 1));
+  Rng rng(5);
+  for (int i = 0; i < 2000; ++i) {
+    const double y = rng.uniform(-4, 4);
+    const Vec3 p(rng.uniform(-1, 4.5), y, rng.uniform(0, 4));
+    const auto path = field.path_from(p);
+    ASSERT_TRUE(path);
+    EXPECT_NEAR(field.distance(p), path_length(*path), 0.1 + 0.03 * path_length(*path));
+  }
+}
+
+TEST(GoalField, IsTheSameWhateverTheOrderOfTheBoxes) {
+  std::vector<Box> boxes = inflated(wall_with_window(1.0, 2.0, 0.6), 0.1);
+  const Box flight_box(Vec3(-1, -3.9, 0.1), Vec3(11, 3.9, 3.9));
+  const auto first = GoalField::build(boxes, flight_box, Vec3(10, 0, 1)).path_from(Vec3(0, 0, 1));
+  std::reverse(boxes.begin(), boxes.end());
+  const auto second = GoalField::build(boxes, flight_box, Vec3(10, 0, 1)).path_from(Vec3(0, 0, 1));
+  EXPECT_EQ(*first, *second);
+}
+
+}  // namespace
+}  // namespace tern

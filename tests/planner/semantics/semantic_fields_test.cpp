@@ -1,0 +1,109 @@
+#include "planner/semantics/semantic_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/voxel_maps.h"
+
+namespace tern {
+namespace {
+
+/// [2, 5] × [1, 3] × [1, 2] attractive; [6, 7] × [0, 4] × [0, 4] repulsive.
+VoxelMap two_regions() {
+  VoxelMap map = test_support::free_map({40, 16, 16});
+  test_support::paint(map, {8, 4, 4}, {19, 11, 7}, VoxelLabel::Attractive);
+  test_support::paint(map, {24, 0, 0}, {27, 15, 15}, VoxelLabel::Repulsive);
+  return map;
+}
+
+double distance_to_voxels(const VoxelMap& map, VoxelLabel label, const Vec3& p) {
+  double nearest = INFINITY;
+  for (std::size_t i = 0; i < map.labels.size(); ++i) {
+    if (map.labels[i] != label) continue;
+    nearest = std::min(nearest, map.grid.box(map.grid.cell(static_cast<std::int64_t>(i))).exteriorDistance(p));
+  }
+  return nearest;
+}
+
+TEST(SemanticFields, ExposureRampsFromTheFaceOverTheMargin) {
+  const SemanticFields fields(two_regions());
+  EXPECT_EQ(fields.exposure_repulsive(Vec3(6.5, 2, 2)), 1.0);
+  EXPECT_EQ(fields.exposure_attractive(Vec3(3, 2, 1.5)), 0.0);
+  for (const double d : {0.1, 0.25, 0.5, 0.77}) {
+    EXPECT_NEAR(fields.exposure_repulsive(Vec3(6 - d, 2, 2)), 1 - d, 1e-6);
+    EXPECT_NEAR(fields.exposure_attractive(Vec3(3, 3 + d, 1.5)), d, 1e-6);
+  }
+  EXPECT_EQ(fields.exposure_repulsive(Vec3(4.9, 2, 2)), 0.0);
+  EXPECT_EQ(fields.exposure_attractive(Vec3(3, 4.1, 1.5)), 1.0);
+  EXPECT_EQ(fields.exposure_repulsive(Vec3(1000, 2, 2)), 0.0);
+  EXPECT_EQ(fields.exposure_attractive(Vec3(1000, 2, 2)), 1.0);
+}
+
+TEST(SemanticFields, ExposureIsTheDistanceToTheVoxelsWithinTheStatedError) {
+  VoxelMap map = test_support::free_map({24, 20, 12}, 0.25, Vec3(-1, 2, 0));
+  Rng rng(3);
+  test_support::sprinkle(map, rng, 0.01, VoxelLabel::Repulsive);
+  test_support::sprinkle(map, rng, 0.01, VoxelLabel::Attractive);
+  const SemanticFields fields(map);
+  const double error = DistanceBand::kBandError * map.grid.resolution;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 u(rng.uniform(), rng.uniform(), rng.uniform());
+    const Vec3 p = map.grid.bounds().min() - Vec3::Ones() + u.cwiseProduct(map.grid.bounds().sizes() + 2 * Vec3::Ones());
+    const double repulsive = std::clamp(1.0 - distance_to_voxels(map, VoxelLabel::Repulsive, p), 0.0, 1.0);
+    const double attractive = std::clamp(distance_to_voxels(map, VoxelLabel::Attractive, p), 0.0, 1.0);
+    EXPECT_NEAR(fields.exposure_repulsive(p), repulsive, error);
+    EXPECT_NEAR(fields.exposure_attractive(p), attractive, error);
+  }
+}
+
+TEST(SemanticFields, LineIntegralsCountMetres) {
+  const SemanticFields fields(two_regions());
+  // Through the repulsive slab and both of its ramps: 1 m + 2 · ½ m.
+  EXPECT_NEAR(fields.exposure_repulsive(Vec3(4, 2, 2), Vec3(9, 2, 2)), 2.0, 0.1);
+  // Past the attractive region: all of it outside.
+  EXPECT_DOUBLE_EQ(fields.exposure_attractive(Vec3(20, 0, 0), Vec3(23, 4, 0)), 5.0);
+  // Within it: nothing, however long.
+  EXPECT_EQ(fields.exposure_attractive(Vec3(2.5, 2, 1.5), Vec3(4.5, 2, 1.5)), 0.0);
+  EXPECT_EQ(fields.exposure_repulsive(Vec3(6.5, 2, 2), Vec3(6.5, 2, 2)), 0.0) << "no metres, no cost";
+}
+
+TEST(SemanticFields, MeanDistanceStaysWithinItsBound) {
+  const VoxelMap map = two_regions();
+  const SemanticFields fields(map);
+  Rng rng(9);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p(rng.uniform(0, 10), rng.uniform(0, 4), rng.uniform(0, 4));
+    double sum = 0.0;
+    int n = 0;
+    for (std::size_t v = 0; v < map.labels.size(); ++v) {
+      if (map.labels[v] != VoxelLabel::Repulsive) continue;
+      sum += (p - map.grid.centre(map.grid.cell(static_cast<std::int64_t>(v)))).norm();
+      ++n;
+    }
+    EXPECT_NEAR(fields.mean_distance(VoxelLabel::Repulsive, p), sum / n, fields.mean_distance_error(VoxelLabel::Repulsive));
+  }
+}
+
+TEST(SemanticFields, AnswersNothingWithoutVoxels) {
+  for (const SemanticFields& fields : {SemanticFields(), SemanticFields(test_support::free_map({4, 4, 4}))}) {
+    for (const VoxelLabel label : {VoxelLabel::Attractive, VoxelLabel::Repulsive, VoxelLabel::Occupied}) {
+      EXPECT_FALSE(fields.has(label));
+      EXPECT_EQ(fields.mean_distance(label, Vec3::Zero()), 0.0);
+    }
+    EXPECT_EQ(fields.exposure_attractive(Vec3::Zero()), 0.0);
+    EXPECT_EQ(fields.exposure_repulsive(Vec3::Zero(), Vec3::Ones()), 0.0);
+  }
+}
+
+TEST(SemanticFields, NameTheirMap) {
+  const VoxelMap map = two_regions();
+  const SemanticFields fields(map);
+  EXPECT_EQ(fields.map_version(), map.version);
+  EXPECT_TRUE(fields.has(VoxelLabel::Attractive));
+  EXPECT_TRUE(fields.has(VoxelLabel::Repulsive));
+  EXPECT_FALSE(fields.has(VoxelLabel::Occupied));
+}
+
+}  // namespace
+}  // namespace tern
