@@ -29,9 +29,9 @@ SensorConfig perception_only(std::uint64_t seed);
 UTime frame_taken(const SensorConfig& config, UTime world_zero, std::int64_t frame);
 UTime frame_arrives(const SensorConfig& config, UTime world_zero, std::int64_t frame);
 
-/// Frame k: the obstacles present at that instant, seen from sensor_position (W). There is no occlusion. Noise and dropout come
-/// from (seed, k) alone, so that frames may be asked for in any order. Detections are by id ascending when the sensor knows
-/// ids, else by position (x, then y, then z, as measured). variance = sigma². The header is empty.
+/// Frame k: the obstacles present at that instant, seen from sensor_position (W). There is no occlusion. Noise and
+/// dropout come from (seed, k) alone, so that frames may be asked for in any order. Detections are by id ascending when
+/// the sensor knows ids, else by position (x, then y, then z, as measured). variance = sigma². The header is empty.
 /// @throws std::invalid_argument when the configuration is out of range or frame < 0.
 ObservationSet observe(const World& world, const SensorConfig& config, UTime world_zero, std::int64_t frame,
                        const Vec3& sensor_position);

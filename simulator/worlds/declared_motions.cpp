@@ -118,7 +118,8 @@ class TrackMaker {
       return MotionSample{s.p, s.v, Vec3::Zero(), Vec3::Zero()};
     });
     Vec3 alpha;
-    for (int i = 0; i < 3; ++i) alpha[i] = hermite_error_bound(h.seconds(), obstacle_.bounds().fourth[i]) + kFitRounding;
+    for (int i = 0; i < 3; ++i)
+      alpha[i] = hermite_error_bound(h.seconds(), obstacle_.bounds().fourth[i]) + kFitRounding;
     track_.motion.pieces.insert(track_.motion.pieces.end(), fit.pieces.begin(), fit.pieces.end());
     track_.alpha.insert(track_.alpha.end(), fit.pieces.size(), alpha);
   }

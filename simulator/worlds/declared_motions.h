@@ -18,11 +18,11 @@ Duration fit_piece(const ObstacleBounds& bounds);
 
 /// What is promised of the world over [from, to], by id ascending; nothing of those who are absent all that time.
 ///
-/// Static obstacles: one piece, kind Static, α = 0. Oscillations: cubic Hermite pieces on the fixed grid k·fit_piece of world
-/// time (so that successive sets agree piece by piece), covering [from, to], α = hermite_error_bound per axis + kFitRounding.
-/// Linear and waypoint motions: their own straight pieces, α = kFitRounding. Before world_zero everything rests. A track of
-/// an obstacle that appears or vanishes covers only the time of its presence. top_speed is the largest axis' true bound.
-/// made_at = from, confidence 1, header and batch are empty. Pure; O(pieces).
+/// Static obstacles: one piece, kind Static, α = 0. Oscillations: cubic Hermite pieces on the fixed grid k·fit_piece of
+/// world time (so that successive sets agree piece by piece), covering [from, to], α = hermite_error_bound per axis +
+/// kFitRounding. Linear and waypoint motions: their own straight pieces, α = kFitRounding. Before world_zero everything
+/// rests. A track of an obstacle that appears or vanishes covers only the time of its presence. top_speed is the
+/// largest axis' true bound. made_at = from, confidence 1, header and batch are empty. Pure; O(pieces).
 /// @throws std::invalid_argument unless from < to.
 TrackSet declare_motions(const World& world, UTime world_zero, UTime from, UTime to);
 

@@ -108,7 +108,9 @@ double period_of(const ObstacleSpec& o) {
 }
 
 bool refused(const ObstacleSpec& o, const Vec3& start, const Vec3& goal) {
-  const auto distance = [&](const Vec3& p, double t) { return distance_to_box(p, motion_state(o, t).p, o.half_extents); };
+  const auto distance = [&](const Vec3& p, double t) {
+    return distance_to_box(p, motion_state(o, t).p, o.half_extents);
+  };
   const double period = period_of(o);
   if (period == 0.0) return distance(start, 0.0) < kStartClearance || distance(goal, 0.0) < kEndClearance;
   for (int i = 0; i * kStartSample <= kStartQuiet; ++i) {
@@ -126,8 +128,10 @@ Result<GeneratedObstacles> generate(const std::string& generator, int count, std
                                     const Vec3& goal) {
   const Draw draw = find_generator(generator);
   if (draw == nullptr) {
-    return fail(fmt::format("unknown generator '{}': paper_corridor, paper_attract, paper_repel, corridor_demo, "
-                            "mader_corridor, sando_forest or none", generator));
+    return fail(
+        fmt::format("unknown generator '{}': paper_corridor, paper_attract, paper_repel, corridor_demo, "
+                    "mader_corridor, sando_forest or none",
+                    generator));
   }
   if (count < 0 || count > kMaxCount) return fail(fmt::format("count {}, not in [0, {}]", count, kMaxCount));
   GeneratedObstacles made;

@@ -83,7 +83,8 @@ double corner_after(const WaypointMotion& m, double t) {
   const double at = m.repeat ? wrapped(m, t) : t;
   const auto next = std::upper_bound(m.points.begin(), m.points.end(), at,
                                      [](double value, const auto& point) { return value < point.first; });
-  return next == m.points.end() ? kInfinity : t + (next->first - at);
+  if (next == m.points.end()) return kInfinity;
+  return std::max(t + (next->first - at), std::nextafter(t, kInfinity));
 }
 double corner_after(const LinearMotion& m, double t) { return m.from_s > t ? m.from_s : kInfinity; }
 template <class Smooth>
@@ -99,7 +100,8 @@ std::string text(const Vec3& v) { return fmt::format("({}, {}, {})", v.x(), v.y(
 std::string settle(StaticMotion&) { return {}; }
 
 std::string settle_oscillation(double slowness, double phase) {
-  if (!(slowness >= 1e-3 && slowness <= kLimit)) return fmt::format("slowness {}, not in [0.001, {}]", slowness, kLimit);
+  if (!(slowness >= 1e-3 && slowness <= kLimit))
+    return fmt::format("slowness {}, not in [0.001, {}]", slowness, kLimit);
   if (!(std::abs(phase) <= kLimit)) return fmt::format("phase {}, not in ±{}", phase, kLimit);
   return {};
 }

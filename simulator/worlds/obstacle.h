@@ -25,7 +25,8 @@ struct ObstacleBounds {
 
 /// An obstacle of the world: the spec of its motion, checked, with times rounded to whole µs (the world's clock).
 ///
-/// Time t is world time in seconds. Before t = 0 everything rests where it is at t = 0. For w = t/s and c, k, φ of the spec:
+/// Time t is world time in seconds. Before t = 0 everything rests where it is at t = 0. For w = t/s and c, k, φ of the
+/// spec:
 ///   trefoil  c + (k_x (sin(w+φ) + 2 sin(2w+φ)), k_y (cos(w+φ) − 2 cos(2w+φ)), −k_z sin(3w+φ)), so that
 ///            |v| ≤ (5, 5, 3)·k/s, |a| ≤ (9, 9, 9)·k/s², |p⁗| ≤ (33, 33, 81)·k/s⁴ per axis;
 ///   wave     c + A sin(w+φ): |v| ≤ |A|/s, |a| ≤ |A|/s², |p⁗| ≤ |A|/s⁴;
@@ -36,8 +37,9 @@ class WorldObstacle {
   /// Largest |coordinate|, |half-extent|, |scale| of a world, m; times reach this many seconds.
   static constexpr double kMaxCoordinate = 1e5;
 
-  /// @return an Error that names field, value and limit when a number is not finite or out of range, waypoint times do not
-  /// ascend by ≥ 1 µs, a repeating motion does not end where it began or lasts no time, or the obstacle never exists.
+  /// @return an Error that names field, value and limit when a number is not finite or out of range, waypoint times do
+  /// not ascend by ≥ 1 µs, a repeating motion does not end where it began or lasts no time, or the obstacle never
+  /// exists.
   static Result<WorldObstacle> make(std::int64_t id, ObstacleSpec spec);
 
   [[nodiscard]] std::int64_t id() const { return id_; }  ///< ≥ 0: its place in World::obstacles
@@ -50,7 +52,8 @@ class WorldObstacle {
   [[nodiscard]] double last_s() const { return last_s_; }    ///< present until here (∞ where it always will be)
   [[nodiscard]] bool present(double t_s) const { return t_s >= first_s_ && t_s <= last_s_; }
 
-  /// Position and velocity at t_s; while absent: where it appears next or was last, at rest. O(1), O(log n) for waypoints.
+  /// Position and velocity at t_s; while absent: where it appears next or was last, at rest. O(1), O(log n) for
+  /// waypoints.
   [[nodiscard]] ObstacleState at(double t_s) const;
   /// The first time after t_s at which the velocity jumps; ∞ where there is none.
   [[nodiscard]] double next_corner(double t_s) const;
@@ -68,7 +71,8 @@ class WorldObstacle {
   double last_s_ = 0.0;
 };
 
-/// The state of a motion at t_s ≥ 0 (the formulas above), whatever the presence. @pre the spec passed WorldObstacle::make.
+/// The state of a motion at t_s ≥ 0 (the formulas above), whatever the presence. @pre the spec passed
+/// WorldObstacle::make.
 ObstacleState motion_state(const ObstacleSpec& spec, double t_s);
 
 /// Distance from point p to the box of centre c and half-extents h, m; 0 inside.

@@ -77,7 +77,8 @@ std::string add_row(const std::vector<double>& row, const RecordedTracksSpec& sp
   if (id != std::floor(id) || std::abs(id) > kMaxWholeId) return fmt::format("id {} is not a whole number", id);
   const double time = number(spec.frame_column) / spec.frames_per_second;
   if (std::abs(time) > WorldObstacle::kMaxCoordinate) {
-    return fmt::format("frame {} is at {} s, beyond {} s", number(spec.frame_column), time, WorldObstacle::kMaxCoordinate);
+    return fmt::format("frame {} is at {} s, beyond {} s", number(spec.frame_column), time,
+                       WorldObstacle::kMaxCoordinate);
   }
   const double unit = spec.metres_per_unit;
   const Vec3 p(number(spec.x_column) * unit, number(spec.y_column) * unit,
@@ -96,7 +97,8 @@ std::string add_row(const std::vector<double>& row, const RecordedTracksSpec& sp
 }
 
 /// Instants at which someone's box is near the start, ascending.
-std::vector<double> crowded_instants(const std::vector<RecordedTrack>& tracks, const Vec3& half_extents, const Vec3& start) {
+std::vector<double> crowded_instants(const std::vector<RecordedTrack>& tracks, const Vec3& half_extents,
+                                     const Vec3& start) {
   std::vector<double> instants;
   const auto look = [&](double t, const Vec3& p) {
     if (distance_to_box(start, p, half_extents) < kStartClearance) instants.push_back(t);
@@ -191,8 +193,8 @@ Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const Re
     if (next == crowded.end() || *next > *frame + kStartQuiet) return *frame;
     frame = std::upper_bound(frame, frames.end(), *next);
   }
-  return fail(fmt::format("{}: no frame from {} s to the last at {} s leaves the start clear by {} m for {} s", spec.file,
-                          spec.start_s, frames.empty() ? 0.0 : frames.back(), kStartClearance, kStartQuiet));
+  return fail(fmt::format("{}: no frame from {} s to the last at {} s leaves the start clear by {} m for {} s",
+                          spec.file, spec.start_s, frames.empty() ? 0.0 : frames.back(), kStartClearance, kStartQuiet));
 }
 
 std::vector<ObstacleSpec> recorded_obstacles(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,

@@ -19,32 +19,38 @@ inline constexpr int kMaxTrackColumns = 64;
 
 /// One person's path as recorded: straight lines between frames; absent before the first and after the last.
 struct RecordedTrack {
-  std::int64_t id = 0;                           ///< as in the file
-  std::vector<std::pair<double, Vec3>> points;   ///< (frame / frames_per_second, box centre in W, m), times ascending, ≥ 1
+  std::int64_t id = 0;  ///< as in the file
+  std::vector<std::pair<double, Vec3>>
+      points;  ///< (frame / frames_per_second, box centre in W, m), times ascending, ≥ 1
 };
 
 /// The tracks of a file's text, by id ascending.
 ///
-/// A line holds exactly spec.columns numbers; blank lines and lines that begin with '#' are passed over. z is read where
-/// spec.z_column is set, else spec.centre_z. Rows of one id have ascending frames; rows of several ids may be mixed.
+/// A line holds exactly spec.columns numbers; blank lines and lines that begin with '#' are passed over. z is read
+/// where spec.z_column is set, else spec.centre_z. Rows of one id have ascending frames; rows of several ids may be
+/// mixed.
 /// @param name how errors call the file.
-/// @return an Error "name:line: …" with value and limit for a wrong number of columns, what is not a finite number, an id
-///   that is not whole, frames out of order, coordinates beyond WorldObstacle::kMaxCoordinate, too many rows; an Error also
-///   for column indices, unit or rate of the spec that make no sense.
+/// @return an Error "name:line: …" with value and limit for a wrong number of columns, what is not a finite number, an
+/// id
+///   that is not whole, frames out of order, coordinates beyond WorldObstacle::kMaxCoordinate, too many rows; an Error
+///   also for column indices, unit or rate of the spec that make no sense.
 Result<std::vector<RecordedTrack>> parse_recorded_tracks(std::string_view text, const std::string& name,
                                                          const RecordedTracksSpec& spec);
 
-/// Where `file` is: itself if absolute, else in the folder of `scenario_file`, else in `data_dir` ("": none); the first that
-/// exists. @return an Error that lists the places tried.
-Result<std::string> find_track_file(const std::string& file, const std::string& scenario_file, const std::string& data_dir);
+/// Where `file` is: itself if absolute, else in the folder of `scenario_file`, else in `data_dir` ("": none); the first
+/// that exists. @return an Error that lists the places tried.
+Result<std::string> find_track_file(const std::string& file, const std::string& scenario_file,
+                                    const std::string& data_dir);
 
-/// parse_recorded_tracks of a file of at most kMaxTrackFileBytes. The only reading of files in the simulator's libraries.
+/// parse_recorded_tracks of a file of at most kMaxTrackFileBytes. The only reading of files in the simulator's
+/// libraries.
 Result<std::vector<RecordedTrack>> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec);
 
-/// The time of the file at which world time is 0: spec.start_s itself, or with spec.wait_for_clear_start the first recorded
-/// frame from there on after which no one's box comes within kStartClearance of `start` for kStartQuiet (sampled at most
-/// 10 ms apart). @return an Error when no recorded frame is clear or start_s is beyond the last one.
-Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec, const Vec3& start);
+/// The time of the file at which world time is 0: spec.start_s itself, or with spec.wait_for_clear_start the first
+/// recorded frame from there on after which no one's box comes within kStartClearance of `start` for kStartQuiet
+/// (sampled at most 10 ms apart). @return an Error when no recorded frame is clear or start_s is beyond the last one.
+Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
+                              const Vec3& start);
 
 /// The tracks as obstacles of a world whose time 0 is `start_s` of the file: vanishing waypoint motions named
 /// "<file's stem>#<id>". Whoever left by then, or was seen in one frame only, is left out.

@@ -64,7 +64,8 @@ Result<World> make_world(const Scenario& scenario, const std::string& data_dir) 
     const auto start = recorded_start(*tracks, recorded, scenario.uav.start);
     if (!start) return tl::unexpected(start.error());
     world.recorded_start_s.push_back(*start);
-    if (auto done = add(world, recorded_obstacles(*tracks, recorded, *start)); !done) return tl::unexpected(done.error());
+    if (auto done = add(world, recorded_obstacles(*tracks, recorded, *start)); !done)
+      return tl::unexpected(done.error());
   }
   return world;
 }

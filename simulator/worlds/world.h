@@ -1,4 +1,5 @@
-// The world of a flight: every true obstacle, a pure function of the scenario (and of the recorded files that it names).
+// The world of a flight: every true obstacle, a pure function of the scenario (and of the recorded files that it
+// names).
 #pragma once
 
 #include <cstdint>
@@ -18,13 +19,14 @@ struct World {
   std::vector<double> recorded_start_s;  ///< per recorded file: its time at world time 0, s
 };
 
-/// The world of scenario.world with scenario.seed; start and goal of scenario.uav enter the redraw rule (generators.h) and the
-/// recorded start (recorded_tracks.h). @param data_dir where recorded files are sought besides the scenario's folder.
+/// The world of scenario.world with scenario.seed; start and goal of scenario.uav enter the redraw rule (generators.h)
+/// and the recorded start (recorded_tracks.h). @param data_dir where recorded files are sought besides the scenario's
+/// folder.
 /// @return an Error for the person who wrote the scenario.
 Result<World> make_world(const Scenario& scenario, const std::string& data_dir);
 
-/// The scenario with every obstacle of its world listed: generator none, nothing recorded. make_world of it gives obstacles
-/// that are equal to the last bit, with the same ids.
+/// The scenario with every obstacle of its world listed: generator none, nothing recorded. make_world of it gives
+/// obstacles that are equal to the last bit, with the same ids.
 Scenario list_obstacles(const Scenario& scenario, const World& world);
 
 /// Digest over names, shapes and motions of all obstacles, in order: equal worlds have equal digests.

@@ -1,0 +1,73 @@
+// Clearance in continuous time: the least distance between the flown body and every true obstacle, with no gap between
+// samples.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "simulator/referee/body_distance.h"
+#include "simulator/referee/flown_piece.h"
+#include "simulator/worlds/world.h"
+
+namespace tern {
+
+/// The reported minimum is attained at some instant, and no instant is lower by more than this, m.
+inline constexpr double kClearanceTolerance = 1e-3;
+/// The sign of the minimum is right unless its magnitude is below this, m.
+inline constexpr double kContactTolerance = 1e-6;
+/// The first contact is found to this, s.
+inline constexpr double kContactTimeResolution = 1e-6;
+
+/// A body's first overlap with an obstacle.
+struct Contact {
+  double time_s = 0.0;  ///< world time
+  std::int64_t id = 0;  ///< of the obstacle
+};
+
+/// Follows the clearance along a flight, step by step.
+///
+/// Over [t0, t1] without a corner, the position relative to an obstacle leaves its chord by at most a (t1 − t0)²/8, a
+/// being the sum of both bounds on acceleration. Along the chord the signed distance is convex, so its minimum is found
+/// by golden section to a known error; the sum of the three is a proven lower bound. Intervals are halved until lower
+/// and upper bound agree to kClearanceTolerance, and further while they disagree about the sign. Prefilter: an obstacle
+/// seen at distance d cannot come nearer than d − (metres flown since) − (its speed bound)·(time since), so most steps
+/// look at few obstacles: 300 obstacles at 100 Hz cost microseconds a step.
+class ClearanceWatch {
+ public:
+  /// The world must outlive the watch.
+  ClearanceWatch(const World& world, const Body& body);
+
+  /// Takes the flight over [t0, t1] (t0 = the last t1; world time ≥ 0, s; the piece holds throughout).
+  /// @return the first contact in it, if there is one (of equal times the least id).
+  std::optional<Contact> advance(const FlownPiece& piece, double t0_s, double t1_s);
+
+  /// Least clearance so far, m; ∞ while no obstacle was present.
+  [[nodiscard]] double min_clearance() const { return min_; }
+  [[nodiscard]] double min_clearance_time_s() const { return min_time_s_; }
+
+  /// Clearance to one obstacle at an instant, m: no presence, no bounds.
+  [[nodiscard]] double clearance_at(const WorldObstacle& obstacle, const Vec3& p, double t_s) const;
+
+ private:
+  struct Sighting {
+    double distance = -std::numeric_limits<double>::infinity();  ///< m; −∞: never seen
+    double odometer = 0.0;                                       ///< m flown then
+    double time_s = 0.0;
+  };
+  struct Pair;
+  std::optional<double> meet(const Pair& pair, double t0_s, double t1_s);
+  double search(const Pair& pair, double t0_s, double t1_s);
+
+  const World& world_;
+  BodyDistance distance_;
+  std::vector<Sighting> sightings_;
+  std::vector<double> speeds_;         ///< per obstacle, bound of ‖v‖, m/s
+  std::vector<double> accelerations_;  ///< per obstacle, bound of ‖a‖ between corners, m/s²
+  double odometer_ = 0.0;              ///< bound on the metres flown
+  double min_ = std::numeric_limits<double>::infinity();
+  double min_time_s_ = 0.0;
+};
+
+}  // namespace tern

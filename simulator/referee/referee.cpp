@@ -1,0 +1,106 @@
+#include "simulator/referee/referee.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace tern {
+namespace {
+
+constexpr std::int64_t kStepUs = 10'000;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double default_timeout_s(const UavSpec& uav) {
+  return 3.0 * rest_to_rest_bound_s(uav.start, uav.goal, uav.limits) + 10.0;
+}
+
+}  // namespace
+
+Referee::Referee(const Scenario& scenario, World world)
+    : uav_(scenario.uav),
+      world_(std::move(world)),
+      timeout_s_(scenario.timeout_s ? *scenario.timeout_s : default_timeout_s(scenario.uav)),
+      clearance_(world_, uav_.body),
+      limits_(uav_, BodyDistance(uav_.body).bounds()),
+      measures_(scenario.semantics.regions) {}
+
+void Referee::advance(Duration start, const CubicPiece& piece) {
+  if (start != now_ || piece.duration <= Duration{}) {
+    throw std::invalid_argument(
+        fmt::format("referee: a piece from {} us for {} us, expected from {} us for more than 0", start.us,
+                    piece.duration.us, now_.us));
+  }
+  if (!piece.coefficients.allFinite()) throw std::invalid_argument("referee: a piece that is not finite");
+  if (outcome_) return;
+  const FlownPiece flown{piece.coefficients, start.seconds()};
+  if (last_) limits_.join(*last_, sample_cubic(piece.coefficients, 0.0), start.seconds());
+  for (std::int64_t at = 0; at < piece.duration.us && !outcome_; at += kStepUs) {
+    const Duration to = start + Duration{std::min(at + kStepUs, piece.duration.us)};
+    step(flown, (start + Duration{at}).seconds(), to.seconds());
+  }
+  now_ = start + piece.duration;
+  last_ = sample_cubic(piece.coefficients, piece.duration.seconds());
+}
+
+void Referee::step(const FlownPiece& piece, double t0_s, double t1_s) {
+  const double last = std::min(t1_s, std::max(timeout_s_, t0_s));
+  const auto arrival = first_arrival(piece, t0_s, last, uav_.goal);
+  double end_s = arrival.value_or(last);
+  const auto contact = clearance_.advance(piece, t0_s, end_s);
+  if (contact) end_s = contact->time_s;
+  limits_.advance(piece, t0_s, end_s);
+  if (!first_entry_s_) first_entry_s_ = first_entry(piece, t0_s, end_s, uav_.goal);
+  measures_.advance(piece, t0_s, end_s, arrival && !contact);
+  if (contact) return end(FlightOutcome::Collision, end_s, describe(*contact, piece.at(end_s).p));
+  if (arrival && limits_.violations() == 0) return end(FlightOutcome::Reached, end_s, {});
+  if (arrival) {
+    return end(FlightOutcome::Failed, end_s,
+               fmt::format("arrived, but left its limits {} times, first: {}", limits_.violations(), limits_.first()));
+  }
+  if (last >= timeout_s_) {
+    end(FlightOutcome::Timeout, end_s,
+        fmt::format("{:.2f} m from the goal after {:.2f} s", (piece.at(end_s).p - uav_.goal).norm(), timeout_s_));
+  }
+}
+
+void Referee::end(FlightOutcome outcome, double t_s, std::string detail) {
+  outcome_ = outcome;
+  end_s_ = t_s;
+  detail_ = std::move(detail);
+}
+
+std::string Referee::describe(const Contact& contact, const Vec3& p) const {
+  const std::string& name = world_.obstacles[static_cast<std::size_t>(contact.id)].spec().name;
+  return fmt::format("touched obstacle {}{} at {:.3f} s, position ({:.3f}, {:.3f}, {:.3f}) m", contact.id,
+                     name.empty() ? std::string() : fmt::format(" '{}'", name), contact.time_s, p.x(), p.y(), p.z());
+}
+
+std::optional<FlightResult> Referee::verdict() const {
+  if (!outcome_) return std::nullopt;
+  return result_so_far();
+}
+
+FlightResult Referee::result_so_far() const {
+  FlightResult result;
+  result.outcome = outcome_.value_or(FlightOutcome::Failed);
+  result.detail = outcome_ ? detail_ : "the flight has not ended";
+  result.flight_time_s = outcome_ ? end_s_ : now_.seconds();
+  result.first_entry_s = first_entry_s_.value_or(kNaN);
+  result.path_length_m = measures_.path_length_m();
+  result.mean_speed_mps = kNaN;
+  if (outcome_ == FlightOutcome::Reached && end_s_ > 0.0) {
+    result.mean_speed_mps = (uav_.goal - uav_.start).norm() / end_s_;
+  }
+  result.top_speed_mps = measures_.top_speed_mps();
+  result.min_clearance_m = std::isfinite(clearance_.min_clearance()) ? clearance_.min_clearance() : kNaN;
+  result.jerk_integral = measures_.jerk_integral();
+  result.stops = measures_.stops();
+  result.limit_violations = limits_.violations();
+  result.exposure = measures_.exposure();
+  return result;
+}
+
+}  // namespace tern

@@ -1,0 +1,63 @@
+// The referee: watches what the vehicle truly flies against what is truly there, and judges (BENCHMARKS: measures).
+#pragma once
+
+#include <optional>
+
+#include "core/base/time.h"
+#include "core/world/flight_result.h"
+#include "core/world/scenario.h"
+#include "simulator/referee/clearance.h"
+#include "simulator/referee/flight_measures.h"
+#include "simulator/worlds/world.h"
+
+namespace tern {
+
+/// Judges one flight, fed as consecutive cubic pieces of the vehicle's true motion from world time 0 on.
+///
+/// The flight ends, and the verdict stands, at the first of
+///   arrival    within 0.2 m of the goal at under 0.1 m/s: Reached, or Failed if a limit or the flight box was ever
+///   left; collision  clearance below 0 in continuous time: Collision; timeout    scenario.timeout_s, or 3 ×
+///   rest_to_rest_bound_s + 10 s: Timeout.
+/// min_clearance_m is attained and at most kClearanceTolerance above the true minimum; with a collision it is taken
+/// until the end of that step (≤ 10 ms), so that it says how deep. Pieces are cut to steps of at most 10 ms; a step
+/// costs microseconds.
+class Referee {
+ public:
+  Referee(const Scenario& scenario, World world);
+  Referee(const Referee&) = delete;
+  Referee& operator=(const Referee&) = delete;
+
+  /// The vehicle flew `piece` from world time `start` on. After the verdict nothing is taken any more.
+  /// @throws std::invalid_argument unless start is where the last piece ended (0 at first), duration > 0, coefficients
+  /// finite.
+  void advance(Duration start, const CubicPiece& piece);
+
+  [[nodiscard]] Duration now() const { return now_; }  ///< how far the flight was told
+  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] double timeout_s() const { return timeout_s_; }
+
+  [[nodiscard]] std::optional<FlightResult> verdict() const;
+  /// The measures until now; before the verdict outcome is Failed and detail says that the flight has not ended.
+  /// NaN: min_clearance_m where no obstacle was ever present, first_entry_s and mean_speed_mps where there is none.
+  [[nodiscard]] FlightResult result_so_far() const;
+
+ private:
+  void step(const FlownPiece& piece, double t0_s, double t1_s);
+  void end(FlightOutcome outcome, double t_s, std::string detail);
+  [[nodiscard]] std::string describe(const Contact& contact, const Vec3& p) const;
+
+  UavSpec uav_;
+  World world_;
+  double timeout_s_;
+  ClearanceWatch clearance_;
+  LimitWatch limits_;
+  FlightMeasures measures_;
+  Duration now_;
+  std::optional<MotionSample> last_;  ///< at the end of the last piece
+  std::optional<double> first_entry_s_;
+  std::optional<FlightOutcome> outcome_;
+  double end_s_ = 0.0;
+  std::string detail_;
+};
+
+}  // namespace tern
