@@ -103,7 +103,7 @@ int run(const Options& options, const ProcessDescription& description, const Nod
     return kExitNoNetwork;
   }
   Bus bus(*lcm, clock, epoch_us, options.channel_suffix);
-  ProcessContext context{scenario, section, bus};
+  ProcessContext context{scenario, section, bus, document};
   const std::unique_ptr<Node> node = make_node(context);
   NodeHost host(bus, *node, description.name, document.effective());
   spdlog::info("{} runs", build_id());

@@ -26,6 +26,7 @@ struct ProcessContext {
   const Scenario& scenario;
   ConfigSection section;    ///< this process's own section of the scenario file; the node calls finish()
   Bus& bus;
+  ConfigDocument& document;  ///< for a process that hosts another's part: the simulator reads `executor` too
 };
 
 struct ProcessDescription {
