@@ -13,8 +13,8 @@ using HullPoint = HullKernel::Point_3;
 /// The plane through p, q, r; positive is the side that sees them turn counter-clockwise. Exact for |coordinates| < 1e90.
 ///
 /// CGAL's orientation() takes 10 ns where rounding cannot matter, and microseconds of GMP where it might. The sides of a swept box
-/// are parallelograms but for the rounding of their corners, so half of its questions are of the second kind. Between
-/// the two, numbers of 106 bits (double-double) settle all but the truly coplanar.
+/// are parallelograms but for the rounding of their corners, so many of its questions are of the second kind. Between
+/// the two, integers of 192 bits settle all sets of four points whose nonzero coordinates are within a factor 2⁸ of each other.
 class OrientedPlane {
  public:
   OrientedPlane() = default;
