@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -84,30 +85,49 @@ std::vector<Point> flat_hull(std::vector<Point> points, const std::array<int, 2>
   return chain;
 }
 
+struct HalfEdge {
+  std::size_t from, to, opposite;
+};
+
+// The edges of a triangulated surface, each once: the lesser of its two vertices in `from`, the other in `to`, and the two
+// vertices opposite to it.
+template <class Visit>
+void for_each_edge(const std::vector<Triangle>& faces, std::size_t vertices, const Visit& visit) {
+  std::vector<std::size_t> begin(vertices + 1, 0);
+  for (const auto& [p, q, r] : faces) {
+    ++begin[std::min(p, q) + 1];
+    ++begin[std::min(q, r) + 1];
+    ++begin[std::min(r, p) + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<HalfEdge> waiting(3 * faces.size());
+  std::vector<std::size_t> count(vertices, 0);
+  for (const auto& [p, q, r] : faces) {
+    for (const HalfEdge& side : {HalfEdge{p, q, r}, HalfEdge{q, r, p}, HalfEdge{r, p, q}}) {
+      const HalfEdge edge{std::min(side.from, side.to), std::max(side.from, side.to), side.opposite};
+      HalfEdge* const first = &waiting[begin[edge.from]];
+      HalfEdge* const last = first + count[edge.from];
+      HalfEdge* const other = std::find_if(first, last, [&edge](const HalfEdge& e) { return e.to == edge.to; });
+      if (other == last) {
+        *last = edge;
+        ++count[edge.from];
+      } else {
+        visit(edge, other->opposite);
+      }
+    }
+  }
+}
+
 // CGAL's surface is triangulated and may hold vertices inside its flat faces and straight edges. A corner is where at least
 // three edges meet across which the surface bends.
 std::vector<Point> corners(const std::vector<Point>& vertices, const std::vector<Triangle>& faces) {
-  struct HalfEdge {
-    std::size_t from, to, opposite;
-  };
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * faces.size());
-  for (const auto& [p, q, r] : faces) {
-    for (const HalfEdge& e : {HalfEdge{p, q, r}, HalfEdge{q, r, p}, HalfEdge{r, p, q}}) {
-      edges.push_back({std::min(e.from, e.to), std::max(e.from, e.to), e.opposite});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return a.from != b.from ? a.from < b.from : a.to < b.to;
-  });
   std::vector<int> bends(vertices.size(), 0);
-  for (std::size_t k = 0; k + 1 < edges.size(); k += 2) {
-    const HalfEdge& e = edges[k];
-    const OrientedPlane plane(vertices[e.from], vertices[e.to], vertices[e.opposite]);
-    if (plane.side(vertices[edges[k + 1].opposite]) == CGAL::ZERO) continue;
-    ++bends[e.from];
-    ++bends[e.to];
-  }
+  for_each_edge(faces, vertices.size(), [&](const HalfEdge& edge, std::size_t other) {
+    const OrientedPlane plane(vertices[edge.from], vertices[edge.to], vertices[edge.opposite]);
+    if (plane.side(vertices[other]) == CGAL::ZERO) return;
+    ++bends[edge.from];
+    ++bends[edge.to];
+  });
   std::vector<Point> result;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     if (bends[k] >= 3) result.push_back(vertices[k]);
@@ -115,7 +135,19 @@ std::vector<Point> corners(const std::vector<Point>& vertices, const std::vector
   return result;
 }
 
-std::vector<Point> solid_hull(const std::vector<Point>& points) {
+// CGAL starts from the first three points that span a triangle. Three far apart leave it fewer points outside.
+void spread_first_three(std::vector<Point>& points) {
+  const auto squared = [](const Kernel::Vector_3& v) { return v.squared_length(); };
+  std::swap(points[1], points.back());
+  const Kernel::Vector_3 axis = points[1] - points[0];
+  const auto farthest = std::max_element(points.begin() + 2, points.end(), [&](const Point& p, const Point& q) {
+    return squared(CGAL::cross_product(axis, p - points[0])) < squared(CGAL::cross_product(axis, q - points[0]));
+  });
+  std::swap(points[2], *farthest);
+}
+
+std::vector<Point> solid_hull(std::vector<Point> points) {
+  spread_first_three(points);
   std::vector<Point> vertices;
   std::vector<Triangle> faces;
   CGAL::Convex_hull_3::internal::Indexed_triangle_set surface(vertices, faces);

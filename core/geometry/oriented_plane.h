@@ -25,9 +25,9 @@ class OrientedPlane {
     nx_ = uy * vz - uz * vy;
     ny_ = uz * vx - ux * vz;
     nz_ = ux * vy - uy * vx;
-    wx_ = std::fmax(std::abs(ux), std::abs(vx));
-    wy_ = std::fmax(std::abs(uy), std::abs(vy));
-    wz_ = std::fmax(std::abs(uz), std::abs(vz));
+    wx_ = larger(std::abs(ux), vx);
+    wy_ = larger(std::abs(uy), vy);
+    wz_ = larger(std::abs(uz), vz);
   }
 
   /// The sign of det(q − p, r − p, s − p).
@@ -43,6 +43,9 @@ class OrientedPlane {
     const Height a = height_of(s);
     const Height b = height_of(t);
     if (std::abs(a.value) > a.doubt || std::abs(b.value) > b.doubt) return a.value < b.value;
+    const CGAL::Sign side_s = side_in_doubt(s);
+    const CGAL::Sign side_t = side_in_doubt(t);
+    if (side_s != side_t || side_s == CGAL::ZERO) return side_s < side_t;
     return HullKernel().less_signed_distance_to_plane_3_object()(p_, q_, r_, s, t);
   }
 
