@@ -26,6 +26,14 @@ Points lattice(Rng& rng, int count) {
   return points;
 }
 
+// A cloud of 1 m by 1 mm or less by 0.1 µm or less, turned at random.
+Points sliver(Rng& rng, int count) {
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), 1e-3).normalized();
+  const Vec3 sizes(1.0, rng.uniform() < 0.5 ? 1.0 : 1e-3 * rng.uniform(), 1e-7 * rng.uniform());
+  return turn.toRotationMatrix() * sizes.asDiagonal() * cloud(rng, count, Vec3::Zero(), 1.0);
+}
+
 // The plane or line through integer directions; coefficients are halves, so that everything stays on the grid.
 Points in_subspace(Rng& rng, int count, const Eigen::Matrix<double, 3, 2>& directions, const Vec3& origin) {
   Points points(3, count);
@@ -98,9 +106,14 @@ PointSets random_pair(PairKind kind, Rng& rng) {
       const Points a = rng.uniform() < 0.5 ? lattice(rng, n) : on_exact_grid(cloud(rng, n, Vec3::Zero(), 1.0));
       return {a, a.rowwise().reverse()};
     }
+    case PairKind::Sliver: {
+      const Points b = sliver(rng, m).colwise() + random_vector(rng, rng.uniform() < 0.5 ? 1e-6 : 1.0);
+      return {on_exact_grid(sliver(rng, n)), on_exact_grid(b)};
+    }
     case PairKind::NearTouching: {
-      constexpr PairKind kSeeds[]{PairKind::Generic, PairKind::Generic, PairKind::Lattice, PairKind::Flat, PairKind::Line};
-      return brought_near(random_pair(kSeeds[random_int(rng, 0, 4)], rng), rng.uniform(0.0, 4e-6), rng);
+      constexpr PairKind kSeeds[]{PairKind::Generic, PairKind::Generic, PairKind::Lattice, PairKind::Flat, PairKind::Line,
+                                    PairKind::Sliver, PairKind::Sliver, PairKind::Single};
+      return brought_near(random_pair(kSeeds[random_int(rng, 0, 7)], rng), rng.uniform(0.0, 4e-6), rng);
     }
     case PairKind::FarAway: {
       PointSets pair = random_pair(PairKind::NearTouching, rng);

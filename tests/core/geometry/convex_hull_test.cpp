@@ -49,11 +49,11 @@ Points shuffled(const Points& points, Rng& rng) {
 }
 
 // All corners of a box that moves on a parabola, as obstacles are swept.
-Points swept_box(Rng& rng, int samples, bool turning) {
+Points swept_box(Rng& rng, int samples, double away, bool turning) {
   const auto random_vector = [&rng](double size) {
     return Vec3(rng.uniform(-size, size), rng.uniform(-size, size), rng.uniform(-size, size));
   };
-  const Vec3 start = random_vector(20.0), velocity = random_vector(3.0), acceleration = random_vector(4.0);
+  const Vec3 start = random_vector(away), velocity = random_vector(3.0), acceleration = random_vector(4.0);
   const Eigen::AngleAxisd turn(turning ? 0.7 : 0.0, Vec3(1.0, 2.0, 3.0).normalized());
   Points points(3, 8 * samples);
   for (int k = 0; k < samples; ++k) {
@@ -75,8 +75,8 @@ TEST(ConvexHull, HoldsAllPointsAndNothingSuperfluous) {
 
 TEST(ConvexHull, OfASweptBoxIsExactInSpiteOfRounding) {
   Rng rng(4);
-  for (int k = 0; k < 12; ++k) {
-    const Points points = swept_box(rng, 5, k % 2 == 1);
+  for (int k = 0; k < 120; ++k) {
+    const Points points = swept_box(rng, 2 + k % 5, k % 3 == 0 ? 0.01 : 20.0, k % 2 == 1);
     expect_is_hull(hull_vertices(points), points);
     if (HasFatalFailure()) FAIL() << "case " << k << "\n" << points;
   }
@@ -85,7 +85,7 @@ TEST(ConvexHull, OfASweptBoxIsExactInSpiteOfRounding) {
 TEST(ConvexHull, DoesNotDependOnTheOrderOfItsInput) {
   Rng rng(5);
   for (int k = 0; k < 300; ++k) {
-    const Points points = k % 2 == 0 ? swept_box(rng, 5, false) : random_pair(PairKind::Lattice, rng).a;
+    const Points points = k % 2 == 0 ? swept_box(rng, 5, 20.0, false) : random_pair(PairKind::Lattice, rng).a;
     const Points hull = hull_vertices(points);
     ASSERT_EQ(hull, hull_vertices(shuffled(points, rng)));
     ASSERT_EQ(hull, hull_vertices(hull));

@@ -85,6 +85,29 @@ TEST(Separation, KeepsAClearanceExactly) {
   });
 }
 
+// Sizes of a city, full doubles: the oracle needs 2048 bits for these.
+TEST(Separation, AgreesWithExactArithmeticOffTheGridAndOnLargeSets) {
+  Rng rng(2);
+  for (int k = 0; k < 3000; ++k) {
+    PointSets pair = random_pair(k % 2 == 0 ? PairKind::NearTouching : PairKind::Sliver, rng);
+    const double scale = rng.uniform(0.3, 100.0);
+    pair.a *= scale;
+    pair.b *= scale;
+    const ExactSeparation truth = exact_separation(pair.a, pair.b);
+    const auto separation = separate(pair.a, pair.b, 0.0);
+    if (!truth.disjoint) {
+      EXPECT_FALSE(separation);
+    }
+    if (surely_apart(truth, 0.0)) {
+      EXPECT_TRUE(separation);
+    }
+    if (separation) {
+      expect_holds(*separation, pair, 0.0, truth.distance);
+    }
+    ASSERT_FALSE(HasFailure()) << "pair " << k << ", exact distance " << truth.distance;
+  }
+}
+
 TEST(SeparationLp, AgreesWithExactArithmetic) {
   for_random_pairs([](const PointSets& pair, const ExactSeparation& truth, Rng&) {
     const auto plane = separate_by_lp(pair.a, pair.b);
