@@ -1,4 +1,5 @@
-// separate() as in flight (a hull of some 20 vertices against the 4 MINVO points of an interval), hull_vertices() of swept boxes.
+// separate() as in flight (a hull of some 20 vertices against the 4 MINVO points of an interval), hull_vertices() of
+// swept boxes.
 #include <benchmark/benchmark.h>
 
 #include <vector>

@@ -19,8 +19,8 @@ using Kernel = HullKernel;
 using Point = HullPoint;
 using Triangle = std::array<std::size_t, 3>;
 
-// CGAL's traits with our planes. (The default of the overload that writes vectors is worse than slow: its planes are inexact, and
-// it crashes on flat sets.)
+// CGAL's traits with our planes. (The default of the overload that writes vectors is worse than slow: its planes are
+// inexact, and it crashes on flat sets.)
 struct Traits : CGAL::Convex_hull_traits_3<Kernel, CGAL::Default, CGAL::Tag_true> {
   using Plane_3 = OrientedPlane;
   struct Construct_plane_3 {
@@ -89,8 +89,8 @@ struct HalfEdge {
   std::size_t from, to, opposite;
 };
 
-// The edges of a triangulated surface, each once: the lesser of its two vertices in `from`, the other in `to`, and the two
-// vertices opposite to it.
+// The edges of a triangulated surface, each once: the lesser of its two vertices in `from`, the other in `to`, and the
+// two vertices opposite to it.
 template <class Visit>
 void for_each_edge(const std::vector<Triangle>& faces, std::size_t vertices, const Visit& visit) {
   std::vector<std::size_t> begin(vertices + 1, 0);
@@ -118,8 +118,8 @@ void for_each_edge(const std::vector<Triangle>& faces, std::size_t vertices, con
   }
 }
 
-// CGAL's surface is triangulated and may hold vertices inside its flat faces and straight edges. A corner is where at least
-// three edges meet across which the surface bends.
+// CGAL's surface is triangulated and may hold vertices inside its flat faces and straight edges. A corner is where at
+// least three edges meet across which the surface bends.
 std::vector<Point> corners(const std::vector<Point>& vertices, const std::vector<Triangle>& faces) {
   std::vector<int> bends(vertices.size(), 0);
   for_each_edge(faces, vertices.size(), [&](const HalfEdge& edge, std::size_t other) {

@@ -76,7 +76,8 @@ bool surely_inside(const Vec3& n, const Vec3& p, const Vec3& opposite) {
   return origin_side > 0.0 ? origin_side > doubt && inner_side > doubt : origin_side < -doubt && inner_side < -doubt;
 }
 
-// Size 0: the origin is inside the tetrahedron. A face in doubt counts as outside, so that a flat tetrahedron holds nothing.
+// Size 0: the origin is inside the tetrahedron. A face in doubt counts as outside, so that a flat tetrahedron holds
+// nothing.
 Nearest nearest_of_tetrahedron(const Simplex& s) {
   constexpr std::array<std::array<int, 4>, 4> kFaces{{{3, 0, 1, 2}, {3, 1, 2, 0}, {3, 2, 0, 1}, {0, 1, 2, 3}}};
   Nearest best;

@@ -14,7 +14,8 @@ using Coordinates = std::array<double, 12>;
 
 constexpr int kMantissaBits = 52;
 constexpr std::int64_t kInfiniteExponent = 0x7ff;
-// 53 bits shifted by this stay below 2⁶¹, their differences below 2⁶², 2×2 minors below 2¹²⁵ and the determinant below 2¹⁸⁹.
+// 53 bits shifted by this stay below 2⁶¹, their differences below 2⁶², 2×2 minors below 2¹²⁵ and the determinant below
+// 2¹⁸⁹.
 constexpr std::int64_t kMaxShift = 8;
 
 std::int64_t exponent_of(double x) {
@@ -68,7 +69,8 @@ class Sum192 {
 }  // namespace
 
 CGAL::Sign OrientedPlane::side_in_doubt(const HullPoint& s) const {
-  const auto x = integers({p_.x(), p_.y(), p_.z(), q_.x(), q_.y(), q_.z(), r_.x(), r_.y(), r_.z(), s.x(), s.y(), s.z()});
+  const auto x =
+      integers({p_.x(), p_.y(), p_.z(), q_.x(), q_.y(), q_.z(), r_.x(), r_.y(), r_.z(), s.x(), s.y(), s.z()});
   if (!x) return CGAL::orientation(p_, q_, r_, s);
   const auto difference = [&x](std::size_t point, std::size_t axis) { return (*x)[3 * point + axis] - (*x)[axis]; };
   const std::int64_t ux = difference(1, 0), uy = difference(1, 1), uz = difference(1, 2);

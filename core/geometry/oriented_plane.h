@@ -1,4 +1,5 @@
-// On which side of a plane through three points a fourth lies, exactly and fast. A part of convex_hull.cpp: it brings in CGAL.
+// On which side of a plane through three points a fourth lies, exactly and fast. A part of convex_hull.cpp: it brings
+// in CGAL.
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -10,16 +11,17 @@ namespace tern {
 using HullKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using HullPoint = HullKernel::Point_3;
 
-/// The plane through p, q, r; positive is the side that sees them turn counter-clockwise. Exact for |coordinates| < 1e90.
+/// The plane through p, q, r; positive is the side that sees them turn counter-clockwise. Exact for |coordinates| <
+/// 1e90.
 ///
-/// CGAL's orientation() takes 10 ns where rounding cannot matter, and microseconds of GMP where it might. The sides of a swept box
-/// are parallelograms but for the rounding of their corners, so many of its questions are of the second kind. Between
-/// the two, integers of 192 bits settle all sets of four points whose nonzero coordinates are within a factor 2⁸ of each other.
+/// CGAL's orientation() takes 10 ns where rounding cannot matter, and microseconds of GMP where it might. The sides of
+/// a swept box are parallelograms but for the rounding of their corners, so many of its questions are of the second
+/// kind. Between the two, integers of 192 bits settle all sets of four points whose nonzero coordinates are within a
+/// factor 2⁸ of each other.
 class OrientedPlane {
  public:
   OrientedPlane() = default;
-  OrientedPlane(const HullPoint& p, const HullPoint& q, const HullPoint& r)
-      : p_(p), q_(q), r_(r) {
+  OrientedPlane(const HullPoint& p, const HullPoint& q, const HullPoint& r) : p_(p), q_(q), r_(r) {
     const double ux = q.x() - p.x(), uy = q.y() - p.y(), uz = q.z() - p.z();
     const double vx = r.x() - p.x(), vy = r.y() - p.y(), vz = r.z() - p.z();
     nx_ = uy * vz - uz * vy;

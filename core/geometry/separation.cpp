@@ -1,8 +1,9 @@
 #include "core/geometry/separation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
 
@@ -12,7 +13,8 @@
 namespace tern {
 namespace {
 
-// Twice the rounding error of n·p + d in units of |p|₁ + |d|, so that the claims hold in exact arithmetic and in the reader's.
+// Twice the rounding error of n·p + d in units of |p|₁ + |d|, so that the claims hold in exact arithmetic and in the
+// reader's.
 constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
 
 // The plane across v that touches A from below, if every point of A and B confirms the gap that is demanded.
@@ -44,7 +46,8 @@ std::optional<Separation> verified(const Vec3& v, const Points& a, const Points&
 
 std::optional<Separation> separate(const Points& a, const Points& b, double clearance) {
   if (a.cols() == 0 || b.cols() == 0 || !(clearance >= 0.0)) {
-    throw std::invalid_argument(fmt::format("separate: {} and {} points, clearance {} m", a.cols(), b.cols(), clearance));
+    throw std::invalid_argument(
+        fmt::format("separate: {} and {} points, clearance {} m", a.cols(), b.cols(), clearance));
   }
   const double limit = clearance + kTouchingTolerance - kPlaneMargin;
   const ShortestVector shortest = shortest_vector(a, b, limit);

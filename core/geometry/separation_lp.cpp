@@ -1,9 +1,9 @@
 #include "core/geometry/separation_lp.h"
 
+#include <fmt/format.h>
 #include <glpk.h>
 
 #include <array>
-#include <fmt/format.h>
 #include <memory>
 #include <stdexcept>
 
@@ -16,7 +16,8 @@ struct DeleteProblem {
 using Problem = std::unique_ptr<glp_prob, DeleteProblem>;
 
 // Coordinates are moved to `origin` and divided by `size`, so that the simplex method sees numbers near 1.
-void add_rows(glp_prob* problem, const Points& points, const Vec3& origin, double size, int first, int bound, double value) {
+void add_rows(glp_prob* problem, const Points& points, const Vec3& origin, double size, int first, int bound,
+              double value) {
   for (int i = 0; i < static_cast<int>(points.cols()); ++i) {
     const Vec3 p = (points.col(i) - origin) / size;
     const std::array<int, 5> columns{0, 1, 2, 3, 4};
@@ -54,8 +55,16 @@ std::optional<Plane> separate_by_lp(const Points& a, const Points& b) {
   glp_smcp parameters;
   glp_init_smcp(&parameters);
   parameters.msg_lev = GLP_MSG_OFF;
-  if (glp_simplex(problem.get(), &parameters) != 0) return std::nullopt;
-  if (glp_get_prim_stat(problem.get()) != GLP_FEAS) return std::nullopt;
+  parameters.tol_bnd = 1e-9;
+  parameters.tol_piv = 1e-12;
+  const auto feasible = [&] {
+    return glp_simplex(problem.get(), &parameters) == 0 && glp_get_prim_stat(problem.get()) == GLP_FEAS;
+  };
+  if (!feasible()) {
+    glp_scale_prob(problem.get(), GLP_SF_GM | GLP_SF_EQ);
+    glp_std_basis(problem.get());
+    if (!feasible()) return std::nullopt;
+  }
 
   const Vec3 direction(glp_get_col_prim(problem.get(), 1), glp_get_col_prim(problem.get(), 2),
                        glp_get_col_prim(problem.get(), 3));

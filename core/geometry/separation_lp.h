@@ -11,8 +11,10 @@ namespace tern {
 /// A plane with n·a + d ≥ 1 (scaled) on A and ≤ −1 on B if GLPK finds one, normalised to |n| = 1 and verified.
 ///
 /// @param a, b  3×n and 3×m points, n, m ≥ 1, finite.
-/// @return nothing if the hulls touch or overlap, or if the numbers leave it in doubt. Thread-safe per thread (glp environment
-///   is thread-local in Debian's build). About 40 µs.
+/// @throws std::invalid_argument for an empty set or a coordinate that is not finite.
+/// @return the plane half way between the hulls for its normal, which is not the one of widest margin; nothing if the
+/// hulls touch or overlap, or if the numbers leave it in doubt. Thread-safe per thread (glp environment
+///   is thread-local in Debian's build). About 25 µs; infeasible problems are tried twice.
 std::optional<Plane> separate_by_lp(const Points& a, const Points& b);
 
 /// Frees GLPK's thread-local environment: before leak checks and at thread exit.

@@ -16,8 +16,9 @@ namespace {
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
     2048, 2048, boost::multiprecision::signed_magnitude, boost::multiprecision::checked, void>>;
 // Products of doubles from 2⁻¹⁰⁷⁴ to 2⁵⁰ add up without rounding.
-using WideFloat = boost::multiprecision::number<
-    boost::multiprecision::cpp_bin_float<2304, boost::multiprecision::digit_base_2>, boost::multiprecision::et_off>;
+using WideFloat =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<2304, boost::multiprecision::digit_base_2>,
+                                  boost::multiprecision::et_off>;
 using Narrow = __int128;
 
 // Four times the bits of a difference, and 8 more, must fit.
@@ -49,8 +50,8 @@ Vec<Int> cross(const Vec<Int>& a, const Vec<Int>& b) {
 template <class Int>
 using Set = std::vector<Vec<Int>>;
 
-// A vector along the shortest one from the origin to the affine hull of a face, if its foot is strictly inside the face; zero if
-// the origin is in the face.
+// A vector along the shortest one from the origin to the affine hull of a face, if its foot is strictly inside the
+// face; zero if the origin is in the face.
 template <class Int>
 std::optional<Vec<Int>> foot(const Set<Int>& face) {
   const Vec<Int>& p = face[0];
@@ -71,11 +72,12 @@ std::optional<Vec<Int>> foot(const Set<Int>& face) {
     return n * Int(height > 0 ? 1 : (height < 0 ? -1 : 0));
   }
   const Vec<Int>& s = face[3];
-  const std::array<Int, 4> volumes{dot(q, cross(r, s)), -dot(p, cross(r, s)), dot(p, cross(q, s)), -dot(p, cross(q, r))};
+  const std::array<Int, 4> volumes{dot(q, cross(r, s)), -dot(p, cross(r, s)), dot(p, cross(q, s)),
+                                   -dot(p, cross(q, r))};
   const auto positive = [](const Int& v) { return v > 0; };
   const auto negative = [](const Int& v) { return v < 0; };
-  const bool inside = std::all_of(volumes.begin(), volumes.end(), positive) ||
-                      std::all_of(volumes.begin(), volumes.end(), negative);
+  const bool inside =
+      std::all_of(volumes.begin(), volumes.end(), positive) || std::all_of(volumes.begin(), volumes.end(), negative);
   return inside ? std::optional<Vec<Int>>(Vec<Int>{}) : std::nullopt;
 }
 
@@ -163,7 +165,8 @@ ExactSeparation exact_separation(const Points& a, const Points& b) {
     return decide(integers<Narrow>(a, 24), integers<Narrow>(b, 24), kExactGrid);
   }
   const auto [last, first] = bit_range(a, b);
-  if (first - last > 150 || last < -900) throw std::invalid_argument("exact_separation: coordinates span too many bits");
+  if (first - last > 150 || last < -900)
+    throw std::invalid_argument("exact_separation: coordinates span too many bits");
   return decide(integers<Wide>(a, -last), integers<Wide>(b, -last), std::ldexp(1.0, last));
 }
 
@@ -174,7 +177,7 @@ bool exactly_separates(const Plane& plane, const Points& a, const Points& b, dou
     const double doubt = 0x1.0p-48 * (p.lpNorm<1>() + std::abs(plane.d) + offset);
     if (std::abs(rounded) > doubt) return rounded > 0.0 ? 1 : -1;
     const WideFloat height = WideFloat(plane.n.x()) * WideFloat(p.x()) + WideFloat(plane.n.y()) * WideFloat(p.y()) +
-           WideFloat(plane.n.z()) * WideFloat(p.z()) + WideFloat(plane.d) + WideFloat(offset);
+                             WideFloat(plane.n.z()) * WideFloat(p.z()) + WideFloat(plane.d) + WideFloat(offset);
     return height.sign();
   };
   for (const auto& p : a.colwise()) {

@@ -111,8 +111,8 @@ PointSets random_pair(PairKind kind, Rng& rng) {
       return {on_exact_grid(sliver(rng, n)), on_exact_grid(b)};
     }
     case PairKind::NearTouching: {
-      constexpr PairKind kSeeds[]{PairKind::Generic, PairKind::Generic, PairKind::Lattice, PairKind::Flat, PairKind::Line,
-                                    PairKind::Sliver, PairKind::Sliver, PairKind::Single};
+      constexpr PairKind kSeeds[]{PairKind::Generic, PairKind::Generic, PairKind::Lattice, PairKind::Flat,
+                                  PairKind::Line,    PairKind::Sliver,  PairKind::Sliver,  PairKind::Single};
       return brought_near(random_pair(kSeeds[random_int(rng, 0, 7)], rng), rng.uniform(0.0, 4e-6), rng);
     }
     case PairKind::FarAway: {

@@ -59,7 +59,8 @@ Points swept_box(Rng& rng, int samples, double away, bool turning) {
   for (int k = 0; k < samples; ++k) {
     const double t = 0.1 * k;
     const Vec3 centre = start + velocity * t + 0.5 * acceleration * t * t;
-    points.middleCols<8>(8 * k) = (turn.toRotationMatrix() * box_corners(box_around(Vec3::Zero(), Vec3(0.4, 0.3, 0.2)))).colwise() + centre;
+    points.middleCols<8>(8 * k) =
+        (turn.toRotationMatrix() * box_corners(box_around(Vec3::Zero(), Vec3(0.4, 0.3, 0.2)))).colwise() + centre;
   }
   return points;
 }

@@ -34,8 +34,8 @@ void for_random_pairs(const Claim& claim) {
     claim(pair, truth, rng);
     if (::testing::Test::HasFailure()) {
       const Eigen::IOFormat exact(Eigen::FullPrecision);
-      FAIL() << "seed " << kSeed << ", pair " << k << ", kind " << k % kPairKinds << ", exact distance " << truth.distance
-             << "\na =\n"
+      FAIL() << "seed " << kSeed << ", pair " << k << ", kind " << k % kPairKinds << ", exact distance "
+             << truth.distance << "\na =\n"
              << pair.a.format(exact) << "\nb =\n"
              << pair.b.format(exact);
     }
@@ -142,8 +142,8 @@ TEST(Separation, IsTestedOnEveryKindOfPair) {
     apart += truth.distance >= 1e-5 ? 1 : 0;
   });
   for (const int count : {overlapping, in_tolerance, just_beyond, apart}) EXPECT_GT(count, kPairs / 50);
-  std::cout << overlapping << " overlap, " << in_tolerance << " within tolerance, " << just_beyond << " just beyond, " << apart
-            << " apart\n";
+  std::cout << overlapping << " overlap, " << in_tolerance << " within tolerance, " << just_beyond << " just beyond, "
+            << apart << " apart\n";
 }
 
 TEST(Separation, IsAFunctionOfItsInputs) {
@@ -169,6 +169,16 @@ TEST(Separation, OfTwoBoxesIsTheFaceBetweenThem) {
   EXPECT_LT((separation->plane.n - Vec3::UnitX()).norm(), 1e-12);
   EXPECT_NEAR(separation->plane.d, -2.0, 1e-12);
   EXPECT_NEAR(separation->gap, 1.5, 1e-12);
+}
+
+TEST(Separation, AsksTheLinearProgrammeWhereRoundingHidesTheGap) {
+  const Points a = Vec3(1e9, 0.0, 0.0);
+  const Points b = Vec3(1e9 - 0x1.0p-18, 0.0, 0.0);
+  const SeparationCounts before = separation_counts();
+  EXPECT_FALSE(separate(a, b, 0.0));
+  EXPECT_EQ(separation_counts().fast, before.fast);
+  EXPECT_EQ(separation_counts().lp, before.lp + 1);
+  free_lp_environment();
 }
 
 TEST(Separation, RefusesWhatIsNoPointSet) {
