@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/world/message_limits.h"
 #include "runtime/node.h"
 
 namespace tern {
@@ -22,13 +23,11 @@ constexpr Duration kLogInterval{1'000'000};
 constexpr std::size_t kMaxSenders = 64;
 /// A forged sequence number shall not overflow the sum: no honest gap is as long.
 constexpr std::int64_t kMaxGap = 1'000'000'000;
-/// LCM_MAX_CHANNEL_NAME_LENGTH.
-constexpr std::size_t kMaxChannelName = 63;
 
 /// LCM takes a subscription's channel as a regular expression: only characters that mean themselves are allowed.
 void check_name(const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-  if (!std::all_of(name.begin(), name.end(), plain) || name.size() > kMaxChannelName) {
+  if (!std::all_of(name.begin(), name.end(), plain) || name.size() > static_cast<std::size_t>(kMaxChannelName)) {
     throw std::invalid_argument(
         fmt::format("channel name \"{}\": only letters, digits, '_' and '-', at most {} of them", name, kMaxChannelName));
   }

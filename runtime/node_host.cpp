@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "core/base/digest.h"
+#include "core/world/message_limits.h"
+#include "messages/configuration_report.h"
+#include "messages/heartbeat.h"
 #include "runtime/channels.h"
 #include "runtime/process.h"
 #include "runtime/version.h"
@@ -12,20 +15,23 @@ namespace {
 
 constexpr Duration kHeartbeatPeriod{500'000};
 constexpr Duration kConfigurationPeriod{5'000'000};
-/// What of kMaxMessageBytes a CONFIGURATION's text may take; the rest is for its other fields.
-constexpr std::size_t kMaxYamlBytes = kMaxMessageBytes - 2'000;
-
-std::string cut_to_fit(const std::string& yaml) {
-  if (yaml.size() <= kMaxYamlBytes) return yaml;
-  std::size_t end = yaml.rfind('\n', kMaxYamlBytes - 100);
-  end = end == std::string::npos ? 0 : end + 1;
-  return yaml.substr(0, end) + fmt::format("# cut here: {} of {} bytes are shown\n", end, yaml.size());
-}
+/// Room for the last line of a text that is cut.
+constexpr std::size_t kCutLineBytes = 120;
 
 }  // namespace
 
-NodeHost::NodeHost(Bus& bus, Node& node, std::string process, std::string effective_yaml)
-    : bus_(bus), node_(node), process_(std::move(process)), yaml_(std::move(effective_yaml)) {
+std::string reported_yaml(const std::string& effective_yaml) {
+  if (effective_yaml.size() <= kMaxYamlText) return effective_yaml;
+  const std::size_t line_end = effective_yaml.rfind('\n', kMaxYamlText - kCutLineBytes);
+  const std::size_t kept = line_end == std::string::npos ? 0 : line_end + 1;
+  return effective_yaml.substr(0, kept) + fmt::format("# cut here: {} of {} bytes; digest of the whole {:016x}\n", kept,
+                                                      effective_yaml.size(), digest(effective_yaml));
+}
+
+std::uint64_t configuration_hash(const std::string& effective_yaml) { return digest(reported_yaml(effective_yaml)); }
+
+NodeHost::NodeHost(Bus& bus, Node& node, std::string process, const std::string& effective_yaml)
+    : bus_(bus), node_(node), process_(std::move(process)), yaml_(reported_yaml(effective_yaml)) {
   next_heartbeat_ = next_configuration_ = bus.clock().now();
 }
 
@@ -70,7 +76,7 @@ void NodeHost::publish_configuration() {
   ConfigurationReport message;
   message.process = process_;
   message.build_id = build_id();
-  message.yaml = cut_to_fit(yaml_);
+  message.yaml = yaml_;
   message.hash = digest(yaml_);
   bus_.publish(channels::kConfiguration, message);
 }

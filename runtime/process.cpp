@@ -94,7 +94,8 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   const WallClock clock(Duration{options.clock_offset_us});
   ConfigDocument document = ConfigDocument::load(options.config, options.overrides);
   const Scenario scenario = read_scenario(document);
-  const ConfigSection section = document.root().section(description.section.empty() ? "process" : description.section);
+  const ConfigSection section = description.section.empty() ? ConfigDocument::parse("", options.config).root()
+                                                            : document.root().section(description.section);
 
   const StopSignals stop;
   const auto lcm = open_lcm(choose_lcm_url(options.lcm_url, std::getenv("LCM_DEFAULT_URL")));

@@ -1,6 +1,7 @@
 // What every Tern process has in common: command line, scenario, bus, heartbeat, signals, exit codes.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -26,8 +27,17 @@ struct ProcessContext {
   const Scenario& scenario;
   ConfigSection section;    ///< this process's own section of the scenario file; the node calls finish()
   Bus& bus;
-  ConfigDocument& document;  ///< for a process that hosts another's part: the simulator reads `executor` too
+  /// The document of both: for a process that hosts another's part (the simulator reads `executor` too). When all sections have
+  /// been read, configuration_hash(document.effective()) names the configuration.
+  ConfigDocument& document;
 };
+
+/// The text that CONFIGURATION carries: the effective configuration, or its head with a last line that says how much was cut and the
+/// digest of the whole, so that texts differ when configurations do.
+std::string reported_yaml(const std::string& effective_yaml);
+
+/// The hash that CONFIGURATION carries, and PLAN as its configuration_hash: digest(reported_yaml(effective_yaml)).
+std::uint64_t configuration_hash(const std::string& effective_yaml);
 
 struct ProcessDescription {
   std::string name;         ///< "tern-planner"
@@ -48,8 +58,8 @@ int run_process(int argc, char** argv, const ProcessDescription& description, co
 /// Hosts one node: its heartbeat and configuration reports, its pacing. The same in a process and in virtual time.
 class NodeHost {
  public:
-  /// @param effective_yaml  reported on CONFIGURATION; what is too long for a message is cut there (the hash is of the whole)
-  NodeHost(Bus& bus, Node& node, std::string process, std::string effective_yaml);
+  /// @param effective_yaml  reported on CONFIGURATION, by reported_yaml
+  NodeHost(Bus& bus, Node& node, std::string process, const std::string& effective_yaml);
   /// The earliest of the node's wakeup, the reports, and paced messages.
   [[nodiscard]] UTime next_wakeup() const;
   /// Whether step(now) has something to do: a wakeup has come, or messages were delivered since the last step.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "core/world/message_limits.h"
 #include "runtime/polygon.h"
 #include "runtime/scenario_file.h"
 
@@ -19,8 +20,20 @@ const Range kHalfExtent = Range::positive(1e4);
 const Range kSeconds = Range::within(1e6);
 const Range kPhase = Range::within(1e4);
 
+/// Names travel in messages, which carry so many bytes of them.
+constexpr std::size_t kMaxNameBytes = 64;
+constexpr std::size_t kMaxClassBytes = 32;
+static_assert(kMaxExposures * kMaxNameBytes <= kMaxRegionText && kMaxMapClasses * kMaxClassBytes <= kMaxMapClassText);
+
+void check_name(const ConfigSection& section, std::string_view key, const std::string& name, std::size_t most) {
+  if (name.size() > most) throw section.error(key, fmt::format("has {} bytes (limit {})", name.size(), most));
+  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (std::any_of(name.begin(), name.end(), control)) throw section.error(key, "has a control character");
+}
+
 /// A name that no other entry of the same list has.
-std::string unique_name(ConfigSection& section, std::string name, std::set<std::string>& taken) {
+std::string unique_name(const ConfigSection& section, std::string name, std::set<std::string>& taken) {
+  check_name(section, "name", name, kMaxNameBytes);
   if (!name.empty() && !taken.insert(name).second) throw section.error("name", name + " is the name of another entry too");
   return name;
 }
@@ -141,7 +154,6 @@ Points box_corners(const Vec3& h) {
 }
 
 Body read_body(ConfigSection section) {
-  constexpr std::size_t kMaxVertices = 64;
   Body body;
   const int shapes = (section.has("radius") ? 1 : 0) + (section.has("half_extents") ? 1 : 0) + (section.has("vertices") ? 1 : 0);
   if (shapes > 1) throw section.error("radius", "give one of radius, half_extents, vertices");
@@ -150,8 +162,8 @@ Body read_body(ConfigSection section) {
     body.radius = 0.0;
   } else if (section.has("vertices")) {
     const auto rows = section.rows("vertices", 3, Range::within(100.0));
-    if (rows.empty() || rows.size() > kMaxVertices) {
-      throw section.error("vertices", fmt::format("{} of them (limit 1 to {})", rows.size(), kMaxVertices));
+    if (rows.empty() || rows.size() > kMaxBodyVertices) {
+      throw section.error("vertices", fmt::format("{} of them (limit 1 to {})", rows.size(), kMaxBodyVertices));
     }
     body.vertices.resize(3, static_cast<Eigen::Index>(rows.size()));
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -227,26 +239,42 @@ Region read_region(ConfigSection section, std::set<std::string>& names) {
   return region;
 }
 
+/// Class → label; without the key, the default table (whose labels are then noted as the effective ones).
+decltype(SemanticsSpec::classes) read_classes(ConfigSection classes, bool is_given) {
+  const std::vector<std::string> labels = {"unknown", "free", "occupied", "attractive", "repulsive"};
+  decltype(SemanticsSpec::classes) result;
+  if (!is_given) {
+    for (const auto& [name, label] : SemanticsSpec{}.classes) result.emplace_back(name, classes.choice(name, label, labels));
+  }
+  for (const std::string& name : classes.keys()) {
+    check_name(classes, name, name, kMaxClassBytes);
+    result.emplace_back(name, classes.choice(name, "", labels));
+  }
+  return result;
+}
+
 SemanticsSpec read_semantics(ConfigSection section) {
   SemanticsSpec semantics;
   semantics.enabled = section.flag("enabled", semantics.enabled);
   semantics.lambda_attractive = section.number("lambda_attractive", semantics.lambda_attractive, Range::at_least(0.0, 1e6));
   semantics.lambda_repulsive = section.number("lambda_repulsive", semantics.lambda_repulsive, Range::at_least(0.0, 1e6));
   semantics.cost = section.choice("cost", semantics.cost, {"exposure", "mean_distance"});
-  ConfigSection classes = section.section("classes");
-  const std::vector<std::string> labels = {"unknown", "free", "occupied", "attractive", "repulsive"};
-  const auto defaults = section.has("classes") ? decltype(semantics.classes){} : semantics.classes;
-  semantics.classes.clear();
-  for (const auto& [name, label] : defaults) semantics.classes.emplace_back(name, classes.choice(name, label, labels));
-  for (const std::string& name : classes.keys()) semantics.classes.emplace_back(name, classes.choice(name, "", labels));
+  semantics.classes = read_classes(section.section("classes"), section.has("classes"));
+  // The map's class 0 is "none".
+  if (semantics.classes.size() >= kMaxMapClasses) {
+    throw section.error("classes", fmt::format("{} of them (limit {})", semantics.classes.size(), kMaxMapClasses - 1));
+  }
   std::set<std::string> names;
-  for (ConfigSection& entry : section.list("regions")) {
+  for (const ConfigSection& entry : section.list("regions")) {
     semantics.regions.push_back(read_region(entry, names));
     const std::string& name = semantics.regions.back().class_name;
     const auto has_name = [&](const auto& c) { return c.first == name; };
     if (std::none_of(semantics.classes.begin(), semantics.classes.end(), has_name)) {
       throw entry.error("class", fmt::format("{} is not one of semantics.classes", name));
     }
+  }
+  if (semantics.regions.size() > kMaxExposures) {
+    throw section.error("regions", fmt::format("{} of them (limit {})", semantics.regions.size(), kMaxExposures));
   }
   section.finish();
   return semantics;
@@ -259,6 +287,7 @@ Scenario read_scenario(ConfigDocument& document) {
   Scenario scenario;
   scenario.file = document.file();
   scenario.name = root.text("name", std::filesystem::path(document.file()).stem().string());
+  check_name(root, "name", scenario.name, kMaxNameBytes);
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
   if (root.has("timeout_s")) scenario.timeout_s = root.required_number("timeout_s", Range::positive(1e6));
   scenario.world = read_world(root.section("world"));

@@ -34,12 +34,12 @@ VirtualRunner::~VirtualRunner() = default;
 std::int64_t VirtualRunner::next_epoch() { return last_epoch_ = std::max(last_epoch_ + 1, clock_.now().us); }
 
 Node& VirtualRunner::start(std::string process, const std::function<std::unique_ptr<Node>(Bus&)>& make,
-                           std::string effective_yaml) {
+                           const std::string& effective_yaml) {
   auto made = std::make_unique<Process>();
   made->name = std::move(process);
   made->bus = std::make_unique<Bus>(lcm_, clock_, next_epoch());
   made->node = make(*made->bus);
-  made->host = std::make_unique<NodeHost>(*made->bus, *made->node, made->name, std::move(effective_yaml));
+  made->host = std::make_unique<NodeHost>(*made->bus, *made->node, made->name, effective_yaml);
   processes_.push_back(std::move(made));
   return *processes_.back()->node;
 }

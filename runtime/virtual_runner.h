@@ -40,7 +40,8 @@ class VirtualRunner {
 
   /// Starts a process: a bus of its own (its epoch is the time now, made unique by counting up), the node that `make` builds on it,
   /// their host. @return the node, which lives until stop() or the runner's end.
-  Node& start(std::string process, const std::function<std::unique_ptr<Node>(Bus&)>& make, std::string effective_yaml = "");
+  Node& start(std::string process, const std::function<std::unique_ptr<Node>(Bus&)>& make,
+              const std::string& effective_yaml = "");
   /// Kills the process as SIGKILL would: node, unsent messages and subscriptions are gone. @pre not called from a handler or step().
   /// @throws std::invalid_argument when no process has this name.
   void stop(std::string_view process);
