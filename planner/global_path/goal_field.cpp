@@ -125,7 +125,7 @@ std::optional<std::vector<Vec3>> GoalField::path_from(const Vec3& start) const {
 
 void GoalField::tighten(std::vector<Vec3>& path) const {
   constexpr int kPasses = 3;
-  constexpr int kHalvings = 8;
+  constexpr double kLeastPull = 1.0 / 64.0;
   const Vec3 start = path.front();
   const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -136,16 +136,24 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
         path.erase(path.begin() + static_cast<std::ptrdiff_t>(i));
         continue;
       }
-      // Pull the vertex towards the chord as far as both its segments stay free.
-      const Vec3 v = path[i];
-      const double along = std::clamp((v - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-      const Vec3 pull = a + along * (b - a) - v;
-      double free = 0.0;
-      for (int k = 1; k <= kHalvings; ++k) {
-        const double s = free + std::ldexp(1.0, -k);
-        if (is_free(a, v + s * pull) && is_free(v + s * pull, b)) free = s;
-      }
-      path[i] = v + free * pull;
+      // Pull the vertex towards the chord, then along either of its segments, as far as both stay free: each step shortens.
+      const auto pull_to = [&](const Vec3& target) {
+        const Vec3 v = path[i];
+        const auto reaches = [&](double s) {
+          const Vec3 w = v + s * (target - v);
+          return is_free(a, w) && is_free(w, b);
+        };
+        if (!reaches(kLeastPull)) return;
+        double free = kLeastPull;
+        for (double step = 0.5; step >= kLeastPull; step *= 0.5) {
+          if (free + step < 1.0 && reaches(free + step)) free += step;
+        }
+        path[i] = v + free * (target - v);
+      };
+      const double along = std::clamp((path[i] - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+      pull_to(a + along * (b - a));
+      pull_to(a);
+      pull_to(b);
       ++i;
     }
   }
@@ -155,26 +163,36 @@ double GoalField::distance(const Vec3& p) const {
   if (!goal_free_) return kInfinity;
   const Vec3 inside = p.cwiseMax(grid_.low()).cwiseMin(grid_.high());
   const Cell cell = grid_.cell(inside);
-  const Cell last = grid_.size() - Cell::Ones();
-  const Vec3 low = grid_.position(cell);
-  const Vec3 sides = grid_.position((cell + Cell::Ones()).cwiseMin(last)) - low;
-  double interpolated = 0.0;
-  double nearest = kInfinity;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Cell up(corner & 1, (corner >> 1) & 1, corner >> 2);
-    double weight = 1.0;
-    double offset2 = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      const double t = sides[i] > 0.0 ? (inside[i] - low[i]) / sides[i] : 0.0;
-      const double away = up[i] == 1 ? 1.0 - t : t;
-      weight *= 1.0 - away;
-      offset2 += away * sides[i] * away * sides[i];
-    }
-    const double d = to_go_[static_cast<std::size_t>(grid_.index((cell + up).cwiseMin(last)))];
-    nearest = std::min(nearest, d + std::sqrt(offset2));
-    interpolated += weight * d;
+  // Weight and node offset of the lower and upper line of the cell, per axis.
+  double weight[3][2];
+  std::size_t offset[3][2];
+  std::size_t stride = 1;
+  for (int i = 0; i < 3; ++i) {
+    const GridAxis& axis = grid_.axis[i];
+    const int upper = std::min(cell[i] + 1, axis.size() - 1);
+    const double side = axis[upper] - axis[cell[i]];
+    weight[i][1] = side > 0.0 ? (inside[i] - axis[cell[i]]) / side : 0.0;
+    weight[i][0] = 1.0 - weight[i][1];
+    offset[i][0] = stride * static_cast<std::size_t>(cell[i]);
+    offset[i][1] = stride * static_cast<std::size_t>(upper);
+    stride *= static_cast<std::size_t>(axis.size());
   }
-  return (p - inside).norm() + (interpolated < kInfinity ? interpolated : nearest);
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const int x = corner & 1;
+    const int y = (corner >> 1) & 1;
+    const int z = corner >> 2;
+    sum += weight[0][x] * weight[1][y] * weight[2][z] * to_go_[offset[0][x] + offset[1][y] + offset[2][z]];
+  }
+  return (p - inside).norm() + (sum < kInfinity ? sum : distance_by_nearest(inside, cell));
+}
+
+/// Where a corner of the cell is not reached: by way of the best one that is.
+double GoalField::distance_by_nearest(const Vec3& p, const Cell& cell) const {
+  double best = kInfinity;
+  grid_.for_neighbours(cell, 0, 1,
+                       [&](std::int32_t node) { best = std::min(best, to_go(node) + (grid_.position(node) - p).norm()); });
+  return best;
 }
 
 }  // namespace tern

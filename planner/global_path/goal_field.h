@@ -65,6 +65,7 @@ class GoalField {
   [[nodiscard]] double to_go(std::int32_t node) const;
   [[nodiscard]] std::int32_t first_turn(const Vec3& start) const;
   void tighten(std::vector<Vec3>& path) const;
+  [[nodiscard]] double distance_by_nearest(const Vec3& p, const Cell& cell) const;
 
   Vec3 goal_ = Vec3::Zero();
   Box flight_box_;

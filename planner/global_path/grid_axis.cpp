@@ -5,7 +5,7 @@
 
 namespace tern {
 
-GridAxis::GridAxis(double low, double high, double step, double anchor) : step_(step) {
+GridAxis::GridAxis(double low, double high, double step, double anchor) : step_(step), inverse_step_(1.0 / step) {
   lines_.push_back(low);
   for (double k = std::ceil((low - anchor) / step);; k += 1.0) {
     const double x = anchor + k * step;
@@ -40,7 +40,7 @@ void GridAxis::index() {
 int GridAxis::cell(double x) const {
   if (!(x > low())) return 0;
   if (x >= high()) return std::max(0, size() - 2);
-  const auto k = std::min(static_cast<std::size_t>((x - low()) / step_), bucket_.size() - 1);
+  const auto k = std::min(static_cast<std::size_t>((x - low()) * inverse_step_), bucket_.size() - 1);
   int i = bucket_[k];
   while (i > 0 && (*this)[i] > x) --i;
   while (i + 2 < size() && (*this)[i + 1] <= x) ++i;

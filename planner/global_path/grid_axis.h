@@ -33,6 +33,7 @@ class GridAxis {
   void index();
 
   double step_ = 1.0;
+  double inverse_step_ = 1.0;
   std::vector<double> lines_;
   std::vector<std::int32_t> bucket_;  ///< bucket_[k]: cell of low + k·step
 };

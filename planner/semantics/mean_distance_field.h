@@ -11,8 +11,8 @@ namespace tern {
 
 struct MeanDistanceOptions {
   double spacing = 0.5;             ///< of the grid, m; enlarged where the domain needs more than max_nodes
-  std::int64_t max_nodes = 60'000;  ///< bounds build time (about 1–3 µs a node) and memory (4 bytes a node)
-  double node_error = 0.005;        ///< bound of the clusters' error at a node, m
+  std::int64_t max_nodes = 60'000;  ///< bounds build time (about 2–10 µs a node) and memory (4 bytes a node)
+  double node_error = 0.02;         ///< bound of the clusters' error at a node, m
   double far_error = 0.05;          ///< bound of the answer outside the grid, where the tree is asked directly, m
 };
 

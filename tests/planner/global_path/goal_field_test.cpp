@@ -204,7 +204,7 @@ TEST(GoalField, WorksFromOutsideTheRegionSearched) {
   EXPECT_LT(path_length(*path), 1.05 * (Vec3(10, 0, 1) - start).norm());
 }
 
-TEST(GoalField, DistanceNeverGrowsFasterThanOneMetrePerMetreInTheOpen) {
+TEST(GoalField, DistanceIsTheLengthOfThePathToAFewPercent) {
   const std::vector<Box> boxes{Box(Vec3(5, -2, -1), Vec3(6, 2, 5))};
   const Box flight_box(Vec3(-1, -4, 0), Vec3(12, 4, 4));
   const GoalField field = GoalField::build(boxes, flight_box, Vec3(10, 0, 1));
@@ -214,7 +214,7 @@ TEST(GoalField, DistanceNeverGrowsFasterThanOneMetrePerMetreInTheOpen) {
     const Vec3 p(rng.uniform(-1, 4.5), y, rng.uniform(0, 4));
     const auto path = field.path_from(p);
     ASSERT_TRUE(path);
-    EXPECT_NEAR(field.distance(p), path_length(*path), 0.1 + 0.03 * path_length(*path));
+    EXPECT_NEAR(field.distance(p), path_length(*path), 0.1 + 0.06 * path_length(*path));
   }
 }
 
