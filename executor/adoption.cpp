@@ -58,7 +58,7 @@ Adoption check_flight_box(const ClampedSpline& spline, const Body& body, const B
   for (int j = 0; j < spline.intervals(); ++j) swept.extend(spline.position_bounds(j));
   const Vec3 low = body.vertices.rowwise().minCoeff().array() - body.radius;
   const Vec3 high = body.vertices.rowwise().maxCoeff().array() + body.radius;
-  const Vec3 tolerance = Vec3::Constant(kFlightBoxTolerance);
+  const Vec3 tolerance = Vec3::Constant(kBoxTolerance);
   const Adoption result =
       within(Verdict::FlightBox, "above the box by", swept.max() + high - flight_box.max(), tolerance);
   if (is_refusal(result.verdict)) return result;

@@ -40,12 +40,9 @@ struct Adoption {
   std::string detail;
 };
 
-/// The body may leave the flight box by this much, m: where a splice may put it (kJoinTolerance).
-inline constexpr double kFlightBoxTolerance = kJoinTolerance;
-
 /// Whether `trajectory` may be flown after `request`: form (J ≥ 4), start at t_s, joining request.start within kJoinTolerance,
 /// ending at rest, |v|, |a|, |j| within limits·(1 + kLimitTolerance) at their true extrema, the body within the flight box
-/// (true extrema too). The first rule broken is named, in that order. Verdict::Adopted when all hold. O(J).
+/// to kBoxTolerance (true extrema too). The first rule broken is named, in that order. Verdict::Adopted when all hold. O(J).
 Adoption check_trajectory(const TimedSpline& trajectory, const HorizonRequest& request);
 
 }  // namespace tern

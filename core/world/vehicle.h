@@ -20,6 +20,8 @@ struct Limits {
 inline constexpr double kLimitTolerance = 1e-6;
 /// A plan joins its start when position (m), velocity (m/s) and acceleration (m/s²) agree to this per axis.
 inline constexpr double kJoinTolerance = 1e-6;
+/// The body may stand out of the flight box by this, m: as far as a join may shift it, and rounding.
+inline constexpr double kBoxTolerance = 1e-6;
 
 /// The vehicle's shape: conv(vertices) ⊕ ball(radius) about its position; it does not turn (the shape contains its rotations).
 /// A sphere has the single vertex 0; a polytope has radius 0.

@@ -57,8 +57,8 @@ std::optional<double> first_arrival(const FlownPiece& piece, double t0_s, double
 
 LimitWatch::LimitWatch(const UavSpec& uav, const Box& body_bounds)
     : limits_(uav.limits),
-      centre_box_(uav.flight_box.min() - body_bounds.min() - Vec3::Constant(kFlightBoxTolerance),
-                  uav.flight_box.max() - body_bounds.max() + Vec3::Constant(kFlightBoxTolerance)) {}
+      centre_box_(uav.flight_box.min() - body_bounds.min() - Vec3::Constant(kBoxTolerance),
+                  uav.flight_box.max() - body_bounds.max() + Vec3::Constant(kBoxTolerance)) {}
 
 void LimitWatch::advance(const FlownPiece& piece, double t0_s, double t1_s) {
   const double from = t0_s - piece.start_s;

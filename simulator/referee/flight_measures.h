@@ -9,6 +9,7 @@
 
 #include "core/world/flight_result.h"
 #include "core/world/scenario.h"
+#include "core/world/vehicle.h"
 #include "simulator/referee/flown_piece.h"
 
 namespace tern {
@@ -17,7 +18,6 @@ inline constexpr double kGoalRadius = 0.2;           ///< reached and first entr
 inline constexpr double kRestSpeed = 0.1;            ///< reached and stopped: under this speed, m/s
 inline constexpr double kStopsCountFrom = 1.0;       ///< stops count after this world time, s
 inline constexpr double kNearRegion = 1.0;           ///< "near" a region: within this distance of it, m
-inline constexpr double kFlightBoxTolerance = 1e-6;  ///< the body may stand out of the flight box by this (rounding), m
 /// First entry, arrival, stops and crossings of regions are found to this, s.
 inline constexpr double kMeasureTimeResolution = 1e-5;
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -21,6 +22,7 @@ double default_timeout_s(const UavSpec& uav) {
 
 Referee::Referee(const Scenario& scenario, World world)
     : uav_(scenario.uav),
+      goal_(scenario.uav.goal),
       world_(std::move(world)),
       timeout_s_(scenario.timeout_s ? *scenario.timeout_s : default_timeout_s(scenario.uav)),
       clearance_(world_, uav_.body),
@@ -47,23 +49,32 @@ void Referee::advance(Duration start, const CubicPiece& piece) {
 
 void Referee::step(const FlownPiece& piece, double t0_s, double t1_s) {
   const double last = std::min(t1_s, std::max(timeout_s_, t0_s));
-  const auto arrival = first_arrival(piece, t0_s, last, uav_.goal);
-  double end_s = arrival.value_or(last);
+  const auto arrived_s = arrival(piece, t0_s, last);
+  double end_s = arrived_s.value_or(last);
   const auto contact = clearance_.advance(piece, t0_s, end_s);
   if (contact) end_s = contact->time_s;
   limits_.advance(piece, t0_s, end_s);
-  if (!first_entry_s_) first_entry_s_ = first_entry(piece, t0_s, end_s, uav_.goal);
-  measures_.advance(piece, t0_s, end_s, arrival && !contact);
+  if (goal_ && !first_entry_s_) first_entry_s_ = first_entry(piece, t0_s, end_s, *goal_);
+  measures_.advance(piece, t0_s, end_s, arrived_s && !contact);
   if (contact) return end(FlightOutcome::Collision, end_s, describe(*contact, piece.at(end_s).p));
-  if (arrival && limits_.violations() == 0) return end(FlightOutcome::Reached, end_s, {});
-  if (arrival) {
+  if (arrived_s && limits_.violations() == 0) return end(FlightOutcome::Reached, end_s, {});
+  if (arrived_s) {
     return end(FlightOutcome::Failed, end_s,
                fmt::format("arrived, but left its limits {} times, first: {}", limits_.violations(), limits_.first()));
   }
-  if (last >= timeout_s_) {
-    end(FlightOutcome::Timeout, end_s,
-        fmt::format("{:.2f} m from the goal after {:.2f} s", (piece.at(end_s).p - uav_.goal).norm(), timeout_s_));
-  }
+  if (last >= timeout_s_) end(FlightOutcome::Timeout, end_s, describe_timeout(piece.at(end_s).p));
+}
+
+std::optional<double> Referee::arrival(const FlownPiece& piece, double t0_s, double t1_s) const {
+  const double from_s = std::max(t0_s, earliest_arrival_s_);
+  if (!goal_ || from_s > t1_s) return std::nullopt;
+  return first_arrival(piece, from_s, t1_s, *goal_);
+}
+
+void Referee::set_goal(const std::optional<Vec3>& goal) {
+  if (goal == goal_) return;
+  goal_ = goal;
+  first_entry_s_.reset();
 }
 
 void Referee::end(FlightOutcome outcome, double t_s, std::string detail) {
@@ -76,6 +87,11 @@ std::string Referee::describe(const Contact& contact, const Vec3& p) const {
   const std::string& name = world_.obstacles[static_cast<std::size_t>(contact.id)].spec().name;
   return fmt::format("touched obstacle {}{} at {:.3f} s, position ({:.3f}, {:.3f}, {:.3f}) m", contact.id,
                      name.empty() ? std::string() : fmt::format(" '{}'", name), contact.time_s, p.x(), p.y(), p.z());
+}
+
+std::string Referee::describe_timeout(const Vec3& p) const {
+  if (!goal_) return fmt::format("without a goal after {:.2f} s", timeout_s_);
+  return fmt::format("{:.2f} m from the goal after {:.2f} s", (p - *goal_).norm(), timeout_s_);
 }
 
 std::optional<FlightResult> Referee::verdict() const {
@@ -92,7 +108,7 @@ FlightResult Referee::result_so_far() const {
   result.path_length_m = measures_.path_length_m();
   result.mean_speed_mps = kNaN;
   if (outcome_ == FlightOutcome::Reached && end_s_ > 0.0) {
-    result.mean_speed_mps = (uav_.goal - uav_.start).norm() / end_s_;
+    result.mean_speed_mps = (*goal_ - uav_.start).norm() / end_s_;
   }
   result.top_speed_mps = measures_.top_speed_mps();
   result.min_clearance_m = std::isfinite(clearance_.min_clearance()) ? clearance_.min_clearance() : kNaN;

@@ -27,6 +27,11 @@ class Referee {
   Referee(const Referee&) = delete;
   Referee& operator=(const Referee&) = delete;
 
+  /// From here on the flight shall end at `goal` (W, m; the scenario's at first); nothing: nowhere, as while it holds.
+  void set_goal(const std::optional<Vec3>& goal);
+  /// An arrival counts only from this world time on, s: for a vehicle that guards the place where it is.
+  void set_earliest_arrival(double t_s) { earliest_arrival_s_ = t_s; }
+
   /// The vehicle flew `piece` from world time `start` on. After the verdict nothing is taken any more.
   /// @throws std::invalid_argument unless start is where the last piece ended (0 at first), duration > 0, coefficients
   /// finite.
@@ -44,9 +49,14 @@ class Referee {
  private:
   void step(const FlownPiece& piece, double t0_s, double t1_s);
   void end(FlightOutcome outcome, double t_s, std::string detail);
+  [[nodiscard]] std::string describe_timeout(const Vec3& p) const;
   [[nodiscard]] std::string describe(const Contact& contact, const Vec3& p) const;
 
+  [[nodiscard]] std::optional<double> arrival(const FlownPiece& piece, double t0_s, double t1_s) const;
+
   UavSpec uav_;
+  std::optional<Vec3> goal_;
+  double earliest_arrival_s_ = 0.0;
   World world_;
   double timeout_s_;
   ClearanceWatch clearance_;
