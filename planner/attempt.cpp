@@ -1,0 +1,184 @@
+#include "planner/attempt.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/optimization/convex_problem.h"
+#include "planner/optimization/ipopt_solver.h"
+
+namespace tern {
+namespace {
+
+/// Semantics enter Eq. 2 either summed along the path (exposure) or at the node (the paper's mean distance, Eq. 3).
+void add_semantics(const AttemptContext& context, SearchProblem& problem) {
+  if (context.fields == nullptr) return;
+  const SemanticFields* fields = context.fields;
+  const double attract = context.config.lambda_attractive;
+  const double repel = context.config.lambda_repulsive;
+  if (context.config.semantic_cost == SemanticCost::Exposure) {
+    problem.accumulated = [=](const Vec3& a, const Vec3& b) {
+      return attract * fields->exposure_attractive(a, b) + repel * fields->exposure_repulsive(a, b);
+    };
+  } else {
+    problem.pointwise = [=](const Vec3& q) {
+      return attract * fields->mean_distance(VoxelLabel::Attractive, q) -
+             repel * fields->mean_distance(VoxelLabel::Repulsive, q);
+    };
+  }
+}
+
+CheckDemands demands_of(const AttemptContext& context) {
+  return {context.request.start, context.request.limits, context.request.flight_box, context.config.sphere_radius_m};
+}
+
+PlanCost cost_of(const AttemptContext& context, const TimedSpline& trajectory) {
+  PlanCost cost;
+  const Points& q = trajectory.control_points;
+  const Vec3 end = q.col(q.cols() - 1);
+  cost.distance_to_goal = (end - context.local_goal).norm();
+  cost.jerk = jerk_cost(q, trajectory.interval.seconds());
+  if (context.fields != nullptr) {
+    const bool exposure = context.config.semantic_cost == SemanticCost::Exposure;
+    for (Eigen::Index l = 1; exposure && l < q.cols(); ++l) {
+      cost.attraction += context.fields->exposure_attractive(q.col(l - 1), q.col(l));
+      cost.repulsion += context.fields->exposure_repulsive(q.col(l - 1), q.col(l));
+    }
+    if (!exposure) {
+      cost.attraction = context.fields->mean_distance(VoxelLabel::Attractive, end);
+      cost.repulsion = context.fields->mean_distance(VoxelLabel::Repulsive, end);
+    }
+    cost.attraction *= context.config.lambda_attractive;
+    cost.repulsion *= context.config.lambda_repulsive;
+  }
+  const OptimizationConfig& w = context.config.optimization;
+  cost.total = w.weight_jerk * cost.jerk + w.weight_goal * cost.distance_to_goal * cost.distance_to_goal;
+  return cost;
+}
+
+/// A candidate if the checker passes the control points.
+std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& obstacles, Duration interval,
+                                 const Points& control_points, PlanOutcome outcome, double hold_required_s) {
+  Candidate c;
+  c.outcome = outcome;
+  c.trajectory = {context.request.t_s, interval, control_points};
+  if (context.observer != nullptr) context.observer->enter(Stage::Check);
+  CheckReport report = check_plan(c.trajectory, demands_of(context), obstacles);
+  context.statistics.pairs_by_box += report.pairs.by_box;
+  context.statistics.pairs_by_plane += report.pairs.by_plane;
+  if (!report.ok()) return std::nullopt;
+  c.certificate = std::move(report.certificate);
+  const int intervals = static_cast<int>(control_points.cols()) - 3;
+  const Vec3 end = control_points.col(control_points.cols() - 1);
+  PairCounts pairs;
+  c.hold_s = clear_time_at(obstacles, intervals, end, pairs);
+  c.holds = c.hold_s >= hold_required_s;
+  const double duration_s = interval.seconds() * intervals;
+  c.clear_s = duration_s + c.hold_s;
+  c.arrival_s = duration_s + seconds_to_go(context.way, end, context.plan_limits);
+  c.cost = cost_of(context, c.trajectory);
+  return c;
+}
+
+/// Planes for every pair near the trajectory, each of widest margin: they leave the optimizer the most room.
+std::vector<PlaneConstraint> gather_planes(const AttemptContext& context, SweptObstacles& obstacles,
+                                           const TimedSpline& trajectory) {
+  const ClampedSpline spline = trajectory.spline();
+  std::vector<CertificatePlane> found;
+  PairCounts pairs;
+  for (int j = 0; j < spline.intervals(); ++j) {
+    separate_interval(obstacles, j, spline.power(j), pairs, &found, context.config.optimization.plane_reach_m);
+  }
+  context.statistics.pairs_by_box += pairs.by_box;
+  context.statistics.pairs_by_plane += pairs.by_plane;
+  std::vector<PlaneConstraint> planes;
+  for (const CertificatePlane& c : found) {
+    planes.push_back({c.interval, static_cast<double>(c.part) / c.parts, static_cast<double>(c.part + 1) / c.parts, c.plane});
+  }
+  return planes;
+}
+
+}  // namespace
+
+double seconds_to_go(const WayToGo& way, const Vec3& p, const Limits& limits) {
+  const Vec3 d = way.point - p;
+  double first = 0.0;
+  for (int axis = 0; axis < 3; ++axis) first = std::max(first, std::abs(d[axis]) / limits.v_max[axis]);
+  return first + way.rest / limits.v_max.minCoeff();
+}
+
+SweptObstacles sweep_horizon(const AttemptContext& context, Duration interval) {
+  constexpr double kHoldStep = 0.1;  // s: coarser than Δt where Δt is short, so that a hold costs few hulls
+  const double dt = interval.seconds();
+  std::vector<double> times;
+  for (int k = 0; k <= context.config.intervals; ++k) times.push_back(k * dt);
+  const double step = std::max(dt, kHoldStep);
+  const double end = times.back();
+  for (int k = 1; (k - 1) * step < context.config.hold_cap_s; ++k) {
+    times.push_back(end + std::min(k * step, context.config.hold_cap_s));
+  }
+  const Box region = box_around(context.request.start.p, Vec3::Constant(context.config.sphere_radius_m));
+  return {context.obstacles, context.request.body, context.request.t_s, std::move(times), region};
+}
+
+std::optional<Candidate> search_candidate(const AttemptContext& context, SweptObstacles& obstacles, Duration interval,
+                                          double hold_required_s, const SearchConfig& config) {
+  if (context.observer != nullptr) context.observer->enter(Stage::Search);
+  SearchProblem problem;
+  problem.start = context.request.start;
+  problem.intervals = context.config.intervals;
+  problem.interval_s = interval.seconds();
+  problem.limits = context.plan_limits;
+  problem.true_v_max = context.request.limits.v_max;
+  problem.sphere_centre = context.request.start.p;
+  problem.sphere_radius = context.config.sphere_radius_m;
+  problem.centre_box = centre_box(context.request.flight_box, context.request.body);
+  problem.way = context.way;
+  problem.hold_required_s = hold_required_s;
+  add_semantics(context, problem);
+  const SearchResult found = semantic_a_star(problem, config, obstacles, context.budget);
+  context.statistics.expansions += found.expansions;
+  context.statistics.pairs_by_box += found.pairs.by_box;
+  context.statistics.pairs_by_plane += found.pairs.by_plane;
+  if (!found.found) return std::nullopt;
+  return certify(context, obstacles, interval, found.control_points, PlanOutcome::SearchOnly, hold_required_s);
+}
+
+std::optional<Candidate> optimize_candidate(const AttemptContext& context, SweptObstacles& obstacles,
+                                            const Candidate& searched) {
+  const OptimizationConfig& config = context.config.optimization;
+  TrajectoryProblem problem;
+  problem.start = context.request.start;
+  problem.intervals = context.config.intervals;
+  problem.interval_s = searched.trajectory.interval.seconds();
+  problem.limits = context.plan_limits;
+  problem.sphere_radius = context.config.sphere_radius_m;
+  problem.centre_box = centre_box(context.request.flight_box, context.request.body);
+  problem.clearance = context.request.body.radius;
+  problem.weight_jerk = config.weight_jerk;
+  problem.weight_goal = config.weight_goal;
+  // With semantics the leaf stands where it does on purpose: the optimizer smooths the way there.
+  const Points& leaf = searched.trajectory.control_points;
+  problem.goal = context.fields != nullptr ? Vec3(leaf.col(leaf.cols() - 1)) : context.local_goal;
+
+  std::optional<Candidate> best;
+  TimedSpline current = searched.trajectory;
+  const double hold_required = std::min(context.config.hold_required_s, searched.hold_s);
+  for (int round = 0; round < config.rounds; ++round) {
+    if (context.observer != nullptr) context.observer->enter(Stage::Optimization);
+    if (context.budget.expired(Stage::Optimization)) break;
+    const ConvexProblem convex = make_convex_problem(problem, gather_planes(context, obstacles, current), current.control_points);
+    const ConvexSolution solution = solve_by_ipopt(convex, free_variables(current.control_points), config.max_iterations,
+                                                   [&] { return context.budget.expired(Stage::Optimization); });
+    context.statistics.solver_iterations += solution.iterations;
+    if (!solution.found) break;
+    auto candidate = certify(context, obstacles, current.interval, control_points_of(solution.x, problem),
+                             PlanOutcome::Optimized, hold_required);
+    if (!candidate || candidate->hold_s < hold_required) break;
+    candidate->holds = candidate->hold_s >= context.config.hold_required_s;
+    current = candidate->trajectory;
+    best = std::move(candidate);
+  }
+  return best;
+}
+
+}  // namespace tern

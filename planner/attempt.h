@@ -1,0 +1,62 @@
+// One attempt: a duration and a way to go, searched, optimized and certified.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/world/budget.h"
+#include "core/world/horizon.h"
+#include "planner/planner.h"
+#include "planner/safety/checker.h"
+#include "planner/search/semantic_a_star.h"
+
+namespace tern {
+
+/// A certified trajectory and what it is worth.
+struct Candidate {
+  PlanOutcome outcome = PlanOutcome::NoPlan;
+  TimedSpline trajectory;
+  double clear_s = 0.0;      ///< from t_s until the end point is no longer clear, or as far as was looked
+  double hold_s = 0.0;       ///< of that, after the end
+  bool holds = false;        ///< hold_s reaches the requirement
+  double arrival_s = 0.0;    ///< estimate from t_s to the goal: duration + way to go at v_max
+  PlanCost cost;
+  std::vector<CertificatePlane> certificate;
+
+  /// Holding comes first, then the arrival.
+  [[nodiscard]] bool better_than(const Candidate& other) const {
+    if (holds != other.holds) return holds;
+    return arrival_s < other.arrival_s;
+  }
+};
+
+/// What all attempts of one request share.
+struct AttemptContext {
+  const HorizonRequest& request;
+  const PlannerConfig& config;
+  const std::vector<PlanningObstacle>& obstacles;
+  const SemanticFields* fields = nullptr;  ///< null: no semantics
+  Limits plan_limits;      ///< v_max reduced to velocity_share
+  WayToGo way;             ///< to the goal, for ranking
+  Vec3 local_goal;         ///< s_g^temp
+  Budget& budget;
+  PlanObserver* observer;
+  PlanStatistics& statistics;
+};
+
+/// The obstacles of the horizon t_s … t_s + J Δt and of the hold after it.
+SweptObstacles sweep_horizon(const AttemptContext& context, Duration interval);
+
+/// Searches at this Δt. Nothing: no leaf that the checker passes.
+/// @param hold_required_s  what the leaf's end should hold
+std::optional<Candidate> search_candidate(const AttemptContext& context, SweptObstacles& obstacles, Duration interval,
+                                          double hold_required_s, const SearchConfig& config);
+
+/// Optimizes a search result with Eq. 4 (`alternating`). Nothing: no iterate that the checker passes and that holds as long.
+std::optional<Candidate> optimize_candidate(const AttemptContext& context, SweptObstacles& obstacles,
+                                            const Candidate& searched);
+
+/// Seconds from p to the goal along the way, at v_max of the direction.
+double seconds_to_go(const WayToGo& way, const Vec3& p, const Limits& limits);
+
+}  // namespace tern

@@ -1,0 +1,35 @@
+#include "planner/duration.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tern {
+
+double least_time_to_rest(double d, double v0, double v_max, double a_max) {
+  const double stop = v0 * std::abs(v0) / (2.0 * a_max);
+  const double sign = d >= stop ? 1.0 : -1.0;
+  const double way = sign * d;
+  const double v = sign * v0;
+  const double peak = std::sqrt(std::max(0.0, a_max * way + 0.5 * v * v));
+  if (peak <= v_max) return (2.0 * peak - v) / a_max;
+  const double ramps = std::abs(v_max - v) / a_max + v_max / a_max;
+  const double ramp_way = 0.5 * (v_max + v) * std::abs(v_max - v) / a_max + 0.5 * v_max * v_max / a_max;
+  return ramps + std::max(0.0, way - ramp_way) / v_max;
+}
+
+double least_duration(const MotionSample& start, const Vec3& to, const Limits& limits) {
+  double least = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = limits.a_max[axis];
+    const double d = to[axis] - start.p[axis];
+    double time = least_time_to_rest(d, start.v[axis], limits.v_max[axis], a);
+    if (std::isfinite(limits.j_max[axis])) {
+      const double peak = std::min(limits.v_max[axis], std::sqrt(a * std::abs(d) + 0.5 * start.v[axis] * start.v[axis]));
+      time += std::min(a / limits.j_max[axis], std::sqrt(peak / limits.j_max[axis]));
+    }
+    least = std::max(least, time);
+  }
+  return least;
+}
+
+}  // namespace tern

@@ -1,0 +1,63 @@
+#include "planner/evasion.h"
+
+#include <array>
+#include <cmath>
+
+#include "planner/duration.h"
+
+namespace tern {
+namespace {
+
+/// Attempts are numbered from here in the budget's counts: after the durations.
+constexpr int kFirstAttempt = 100;
+constexpr int kMaxExpansions = 150;
+constexpr double kDurationScale = 1.5;
+
+std::array<Vec3, 14> directions() {
+  std::array<Vec3, 14> d;
+  std::size_t n = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    d[n++] = Vec3::Unit(axis);
+    d[n++] = -Vec3::Unit(axis);
+  }
+  const double c = 1.0 / std::sqrt(3.0);
+  for (int k = 0; k < 8; ++k) {
+    d[n++] = Vec3((k & 1) != 0 ? c : -c, (k & 2) != 0 ? c : -c, (k & 4) != 0 ? c : -c);
+  }
+  return d;
+}
+
+}  // namespace
+
+std::optional<Candidate> find_evasion(const AttemptContext& base) {
+  SearchConfig search = base.config.search;
+  search.max_expansions = kMaxExpansions;
+  std::optional<Candidate> best;
+  int attempt = kFirstAttempt;
+  for (const double share : {0.35, 0.8}) {
+    for (const Vec3& direction : directions()) {
+      base.budget.begin_attempt(attempt++);
+      if (base.budget.expired(Stage::Search)) return best;
+      AttemptContext context = base;
+      context.fields = nullptr;
+      context.local_goal = base.request.start.p + direction * (share * base.config.sphere_radius_m);
+      context.way = {context.local_goal, 0.0};
+      const double duration = kDurationScale * least_duration(base.request.start, context.local_goal, base.plan_limits);
+      const Duration interval{static_cast<std::int64_t>(std::ceil(duration / base.config.intervals * 1e6))};
+      SweptObstacles swept = sweep_horizon(context, interval);
+      auto found = search_candidate(context, swept, interval, base.config.hold_cap_s, search);
+      base.statistics.hulls += swept.hulls_made();
+      if (!found) continue;
+      found->outcome = PlanOutcome::Evade;
+      const double arrival = interval.seconds() * base.config.intervals;
+      found->arrival_s = arrival + seconds_to_go(base.way, context.local_goal, base.plan_limits);
+      if (best && found->clear_s <= best->clear_s) continue;
+      best = std::move(found);
+      best->holds = best->hold_s >= base.config.hold_required_s;
+      if (best->hold_s >= base.config.hold_cap_s) return best;
+    }
+  }
+  return best;
+}
+
+}  // namespace tern

@@ -1,0 +1,282 @@
+#include "planner/planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/splines/piecewise_cubic.h"
+#include "planner/attempt.h"
+#include "planner/duration.h"
+#include "planner/evasion.h"
+#include "planner/global_path/local_goal.h"
+#include "planner/start_clearance.h"
+
+namespace tern {
+namespace {
+
+/// The sphere's border is left to rounding and to MINVO points that bulge: local goals lie this far inside, as a share of r.
+constexpr double kLocalGoalShare = 0.985;
+/// A path's first corner nearer than this to the start is passed: the next one is headed for, m.
+constexpr double kCornerReached = 0.15;
+
+class Planning {
+ public:
+  Planning(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
+           PlanObserver* observer)
+      : request_(request), world_(world), config_(config), budget_(budget), observer_(observer) {
+    name_inputs();
+  }
+
+  PlanAnswer run() {
+    enter(Stage::Fallback);
+    if (!world_.predictions || !world_.map || !world_.goal || stale()) return finish_without(PlanReason::StaleWorld);
+    choose_obstacles();
+    committed_ = check_committed();
+    offer(committed_ ? &*committed_ : nullptr, reason_of_fallback());
+    if (idle() && committed_ && committed_->holds) return finish(&*committed_, PlanReason::AtGoal);
+    AttemptContext context = make_context();
+    if (!head_for_goal(context)) reason_ = PlanReason::GoalBlocked;
+    else try_durations(context);
+    if (needs_evasion()) evade(context);
+    return choose();
+  }
+
+ private:
+  void enter(Stage stage) {
+    if (observer_ != nullptr) observer_->enter(stage);
+  }
+
+  void name_inputs() {
+    Plan& p = answer_.plan;
+    p.request_id = request_.id;
+    p.sphere_radius = config_.sphere_radius_m;
+    p.local_goal = request_.start.p;
+    p.trajectory = request_.committed;
+    p.inputs.request = request_.header.name;
+    if (world_.goal) p.inputs.goal = world_.goal->goal.header.name;
+    if (world_.map) p.inputs.map_version = world_.map->version;
+    if (world_.predictions) {
+      p.inputs.predictions = world_.predictions->set.header.name;
+      p.inputs.prediction_set = world_.predictions->set.batch.set;
+    }
+  }
+
+  [[nodiscard]] bool stale() const {
+    return (request_.header.utime - world_.predictions->set.made_at).seconds() > config_.stale_after_s;
+  }
+
+  /// Tracks and map boxes that can matter; α of those around the start scaled down where it must be.
+  void choose_obstacles() {
+    obstacles_ = world_.predictions->obstacles;
+    const double reach = config_.sphere_radius_m + request_.body.half_extents().maxCoeff() + kBetaMax;
+    const Box region = box_around(request_.start.p, Vec3::Constant(reach));
+    for (const std::int32_t k : world_.map->occupied.query(region)) {
+      obstacles_.push_back({-1 - static_cast<std::int64_t>(k), nullptr, world_.map->occupied.boxes()[static_cast<std::size_t>(k)], 1.0});
+    }
+    const StartClearance start = clear_start(obstacles_, request_.body, request_.start.p, request_.t_s);
+    answer_.plan.relaxed = start.relaxed;
+    start_collides_ = start.collides;
+  }
+
+  /// The committed trajectory from t_s on and its end's hold, against this world.
+  std::optional<Candidate> check_committed() {
+    const TimedSpline& committed = request_.committed;
+    const Vec3 end = committed.control_points.col(committed.control_points.cols() - 1);
+    std::vector<double> times{0.0};
+    std::vector<PowerCubic> pieces;
+    if (request_.t_s < committed.end()) {
+      const PiecewiseCubic motion = remaining_motion(committed.spline(), committed.start, request_.t_s);
+      UTime t = request_.t_s;
+      for (const CubicPiece& piece : motion.pieces) {
+        pieces.push_back(reparametrized(piece.coefficients, 0.0, piece.duration.seconds()));
+        t = t + piece.duration;
+        times.push_back((t - request_.t_s).seconds());
+      }
+    }
+    const double moving_s = times.back();
+    for (double hold = 0.0; hold < config_.hold_cap_s - 1e-9; hold += kHoldStep) times.push_back(moving_s + hold + kHoldStep);
+    const Box region = box_around(request_.start.p, Vec3::Constant(config_.sphere_radius_m + 1.0));
+    SweptObstacles swept(obstacles_, request_.body, request_.t_s, std::move(times), region);
+    CheckReport report = check_separation(pieces, swept);
+    count(report.pairs, swept);
+    if (!report.ok()) return std::nullopt;
+    Candidate c;
+    c.outcome = PlanOutcome::KeepCommitted;
+    c.trajectory = committed;
+    c.certificate = std::move(report.certificate);
+    c.hold_s = clear_time_at(swept, static_cast<int>(pieces.size()), end, report.pairs);
+    if (pieces.empty() && c.hold_s <= 0.0) return std::nullopt;
+    c.holds = c.hold_s >= config_.hold_required_s;
+    c.clear_s = moving_s + c.hold_s;
+    c.arrival_s = moving_s;
+    return c;
+  }
+
+  void count(const PairCounts& pairs, const SweptObstacles& swept) {
+    answer_.statistics.pairs_by_box += pairs.by_box;
+    answer_.statistics.pairs_by_plane += pairs.by_plane;
+    answer_.statistics.hulls += swept.hulls_made();
+  }
+
+  /// At rest where it shall be: nothing to do but to stay clear.
+  [[nodiscard]] bool idle() const {
+    if (request_.t_s < request_.committed.end()) return false;
+    if (world_.goal->goal.mode != GoalMode::Go) return true;
+    return (request_.start.p - world_.goal->goal.position).norm() <= config_.goal_tolerance_m;
+  }
+
+  AttemptContext make_context() {
+    Limits reduced = request_.limits;
+    reduced.v_max *= config_.velocity_share;
+    const SemanticFields& fields = world_.map->fields;
+    const bool semantic = config_.semantics && (fields.has(VoxelLabel::Attractive) || fields.has(VoxelLabel::Repulsive));
+    return {request_, config_, obstacles_, semantic ? &fields : nullptr, reduced, {}, request_.start.p,
+            budget_, observer_, answer_.statistics};
+  }
+
+  /// The path around static obstacles gives the way to go and the local goal. False: there is no path.
+  bool head_for_goal(AttemptContext& context) {
+    enter(Stage::LocalGoal);
+    const Vec3 at = request_.start.p;
+    if (world_.goal->goal.mode != GoalMode::Go) {
+      context.way = {at, 0.0};
+      return true;
+    }
+    const auto path = world_.goal->field.path_from(at);
+    if (!path) return false;
+    std::size_t corner = 1;
+    while (corner + 1 < path->size() && ((*path)[corner] - at).norm() < kCornerReached) ++corner;
+    context.way.point = (*path)[corner];
+    for (std::size_t k = corner + 1; k < path->size(); ++k) context.way.rest += ((*path)[k] - (*path)[k - 1]).norm();
+    context.local_goal = local_goal(*path, at, kLocalGoalShare * config_.sphere_radius_m);
+    answer_.plan.local_goal = context.local_goal;
+    if (committed_) {
+      const Points& q = committed_->trajectory.control_points;
+      committed_->arrival_s += seconds_to_go(context.way, q.col(q.cols() - 1), context.plan_limits);
+    }
+    return true;
+  }
+
+  /// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, the best kept.
+  void try_durations(AttemptContext& context) {
+    const double least = least_duration(request_.start, context.local_goal, context.plan_limits);
+    std::optional<SweptObstacles> best_swept;
+    int attempt = 0;
+    for (const double scale : config_.duration_scales) {
+      budget_.begin_attempt(attempt++);
+      if (best_ && budget_.expired(Stage::LocalGoal)) break;
+      const Duration interval = interval_of(scale * least);
+      enter(Stage::Hulls);
+      SweptObstacles swept = sweep_horizon(context, interval);
+      auto found = search_candidate(context, swept, interval, config_.hold_required_s, config_.search);
+      if (found && (!best_ || found->better_than(*best_))) {
+        best_ = std::move(found);
+        best_swept.emplace(std::move(swept));
+        offer(&*best_, PlanReason::None);
+        if (best_->holds && best_->cost.distance_to_goal <= config_.search.band_m) break;
+      } else {
+        answer_.statistics.hulls += swept.hulls_made();
+      }
+    }
+    if (best_ && config_.optimization.enabled) optimize(context, *best_swept);
+    if (best_swept) answer_.statistics.hulls += best_swept->hulls_made();
+    if (!best_) reason_ = start_collides_ ? PlanReason::StartInCollision : PlanReason::Infeasible;
+  }
+
+  void optimize(AttemptContext& context, SweptObstacles& swept) {
+    auto optimized = optimize_candidate(context, swept, *best_);
+    if (!optimized) return;
+    if (best_->holds && !optimized->holds) return;
+    best_ = std::move(optimized);
+    offer(&*best_, PlanReason::None);
+  }
+
+  [[nodiscard]] Duration interval_of(double duration_s) const {
+    const double dt = std::max(duration_s / config_.intervals, kLeastInterval);
+    return {static_cast<std::int64_t>(std::ceil(dt * 1e6))};
+  }
+
+  [[nodiscard]] bool needs_evasion() const {
+    if (best_ && best_->holds) return false;
+    return !(committed_ && committed_->holds);
+  }
+
+  /// The reachable stop that stays clear longest, sought all around the vehicle.
+  void evade(AttemptContext& context) {
+    auto found = find_evasion(context);
+    if (!found) return;
+    const double standing = std::max(best_ ? best_->clear_s : 0.0, committed_ ? committed_->clear_s : 0.0);
+    if (found->clear_s <= standing) return;
+    best_ = std::move(found);
+    offer(&*best_, PlanReason::None);
+  }
+
+  [[nodiscard]] PlanReason reason_of_fallback() const {
+    return start_collides_ ? PlanReason::StartInCollision : PlanReason::OutOfTime;
+  }
+
+  /// Tells the observer of the answer that stands so far.
+  void offer(const Candidate* candidate, PlanReason reason) {
+    if (observer_ == nullptr) return;
+    if (candidate != nullptr && committed_ && candidate != &*committed_ && !candidate->better_than(*committed_)) return;
+    observer_->answer(fill(candidate, reason));
+  }
+
+  PlanAnswer choose() {
+    if (!best_) {
+      if (committed_) return finish(&*committed_, reason_);
+      return finish_without(reason_ == PlanReason::None ? PlanReason::Infeasible : reason_);
+    }
+    if (committed_ && best_->outcome != PlanOutcome::Evade && !best_->better_than(*committed_)) {
+      return finish(&*committed_, PlanReason::WorsePlan);
+    }
+    return finish(&*best_, PlanReason::None);
+  }
+
+  Plan fill(const Candidate* candidate, PlanReason reason) {
+    Plan plan = answer_.plan;
+    plan.reason = reason;
+    plan.cuts = budget_.cuts();
+    if (candidate == nullptr) {
+      plan.outcome = PlanOutcome::NoPlan;
+      return plan;
+    }
+    plan.outcome = candidate->outcome;
+    plan.trajectory = candidate->trajectory;
+    plan.hold = Duration::from_seconds(candidate->hold_s);
+    plan.cost = candidate->cost;
+    plan.certificate = candidate->certificate;
+    return plan;
+  }
+
+  PlanAnswer finish(const Candidate* candidate, PlanReason reason) {
+    answer_.plan = fill(candidate, reason);
+    return std::move(answer_);
+  }
+  PlanAnswer finish_without(PlanReason reason) { return finish(nullptr, reason); }
+
+  static constexpr double kHoldStep = 0.1;         // s
+  static constexpr double kLeastInterval = 0.02;   // s: below this Δt, rounding of accelerations q/Δt² eats the tolerances
+
+  const HorizonRequest& request_;
+  const PlanningWorld& world_;
+  const PlannerConfig& config_;
+  Budget& budget_;
+  PlanObserver* observer_;
+  std::vector<PlanningObstacle> obstacles_;
+  bool start_collides_ = false;
+  std::optional<Candidate> committed_;
+  std::optional<Candidate> best_;
+  PlanReason reason_ = PlanReason::None;
+  PlanAnswer answer_;
+};
+
+}  // namespace
+
+PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
+                PlanObserver* observer) {
+  return Planning(request, world, config, budget, observer).run();
+}
+
+}  // namespace tern

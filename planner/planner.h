@@ -1,0 +1,38 @@
+// plan(): one request, one certified answer. Pure: no clock, no log, no state; time enters only through the Budget.
+#pragma once
+
+#include "core/world/budget.h"
+#include "core/world/horizon.h"
+#include "planner/planner_config.h"
+#include "planner/planning_world.h"
+
+namespace tern {
+
+/// Is told what plan() does while it does it: for timing, and so that a watchdog always has an answer.
+class PlanObserver {
+ public:
+  virtual ~PlanObserver() = default;
+  virtual void enter(Stage stage) = 0;               ///< work of this stage begins
+  virtual void answer(const Plan& best_so_far) = 0;  ///< a (better) answer stands; the first is the fallback
+};
+
+/// What the answer cost in things that can be counted (times are the observer's).
+struct PlanStatistics {
+  std::int64_t expansions = 0, hulls = 0, pairs_by_box = 0, pairs_by_plane = 0, solver_iterations = 0;
+};
+
+struct PlanAnswer {
+  Plan plan;  ///< header empty
+  PlanStatistics statistics;
+};
+
+/// Plans from request.start within the sphere of radius r around it (paper §2), in this order:
+///  1. the committed trajectory is checked against these predictions, and if it does not stay clear an evasion is sought;
+///  2. the path around static obstacles gives the local goal; for a few durations the semantic A* looks for a leaf;
+///  3. the best leaf is optimized with its planes fixed, the planes are recentred, and again (Eq. 4, `alternating`);
+///  4. the best certified trajectory is chosen: separated, hold long enough, least time to the goal, in that order.
+/// Every trajectory in an answer has passed check_plan() or check_separation(). Deterministic in its arguments.
+PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
+                PlanObserver* observer = nullptr);
+
+}  // namespace tern

@@ -1,0 +1,118 @@
+#include "planner/search/axis_reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tern {
+namespace {
+
+using Point = Eigen::Vector2d;
+using Polygon = std::vector<Point>;
+
+double cross(const Point& o, const Point& a, const Point& b) {
+  return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
+}
+
+/// Counter-clockwise convex hull (Andrew's monotone chain).
+Polygon convex(Polygon points) {
+  std::sort(points.begin(), points.end(),
+            [](const Point& a, const Point& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  Polygon hull(2 * points.size());
+  std::size_t k = 0;
+  for (const Point& p : points) {
+    while (k >= 2 && cross(hull[k - 2], hull[k - 1], p) <= 0.0) --k;
+    hull[k++] = p;
+  }
+  const std::size_t lower = k + 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) {
+    while (k >= lower && cross(hull[k - 2], hull[k - 1], points[i]) <= 0.0) --k;
+    hull[k++] = points[i];
+  }
+  hull.resize(k - 1);
+  return hull;
+}
+
+/// The part of a convex polygon with sign·coordinate ≤ limit (Sutherland–Hodgman).
+Polygon clip(const Polygon& polygon, int coordinate, double sign, double limit) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& a = polygon[i];
+    const Point& b = polygon[(i + 1) % polygon.size()];
+    const double da = sign * a[coordinate] - limit;
+    const double db = sign * b[coordinate] - limit;
+    if (da <= 0.0) kept.push_back(a);
+    if ((da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0)) kept.push_back(a + (b - a) * (da / (da - db)));
+  }
+  return kept;
+}
+
+Polygon clip_box(Polygon polygon, double v_max, double a_max) {
+  for (const double sign : {1.0, -1.0}) {
+    polygon = clip(polygon, 0, sign, v_max);
+    polygon = clip(polygon, 1, sign, a_max);
+  }
+  return convex(std::move(polygon));
+}
+
+/// The a for which (v + a Δt, a) lies in the polygon.
+AxisReach::Interval line_in_polygon(const Polygon& polygon, double v, double dt) {
+  // In sheared coordinates (v' − a Δt, a) the line is vertical: the polygon's a-range at first coordinate v.
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  constexpr double kOnBoundary = 1e-9;  // m/s: a velocity taken from the end of its range must not fall out by rounding
+  AxisReach::Interval range{kInf, -kInf};
+  const auto take = [&](double a) {
+    range.low = std::min(range.low, a);
+    range.high = std::max(range.high, a);
+  };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& p = polygon[i];
+    const Point& q = polygon[(i + 1) % polygon.size()];
+    const double sp = p.x() - p.y() * dt - v;
+    const double sq = q.x() - q.y() * dt - v;
+    if (std::abs(sp) <= kOnBoundary) take(p.y());
+    if ((sp < 0.0 && sq > 0.0) || (sp > 0.0 && sq < 0.0)) take(p.y() + (q.y() - p.y()) * (sp / (sp - sq)));
+  }
+  return range;
+}
+
+}  // namespace
+
+AxisReach::AxisReach(int intervals, double interval_s, double v_max, double a_max, double j_max)
+    : intervals_(intervals), dt_(interval_s), v_max_(v_max), a_max_(a_max), j_step_(std::min(j_max * interval_s, 2.0 * a_max)) {
+  const double last = std::min(a_max_, j_step_);
+  finishable_.resize(static_cast<std::size_t>(intervals_) + 1);
+  finishable_[static_cast<std::size_t>(intervals_)] = {Point(0.0, -last), Point(0.0, last)};
+  for (int l = intervals_ - 1; l >= 2; --l) {
+    Polygon grown_points;
+    for (const Point& p : finishable_[static_cast<std::size_t>(l) + 1]) {
+      for (const double sign : {1.0, -1.0}) grown_points.emplace_back(p.x() - p.y() * dt_, p.y() + sign * j_step_);
+    }
+    finishable_[static_cast<std::size_t>(l)] = clip_box(convex(std::move(grown_points)), v_max_, a_max_);
+  }
+}
+
+AxisReach::Interval AxisReach::next_velocity(int l, double v, double a_previous) const {
+  Interval a = line_in_polygon(finishable_[static_cast<std::size_t>(l) + 1], v, dt_);
+  a.low = std::max({a.low, -a_max_, a_previous - j_step_});
+  a.high = std::min({a.high, a_max_, a_previous + j_step_});
+  return {v + a.low * dt_, v + a.high * dt_};
+}
+
+double AxisReach::farthest(int l, double v_previous) const {
+  double sum = 0.0;
+  double v = v_previous;
+  for (int k = l; k < intervals_; ++k) {
+    v = std::min({v_max_, v + a_max_ * dt_, a_max_ * dt_ * (intervals_ - k)});
+    sum += v;
+  }
+  return sum * dt_;
+}
+
+AxisReach::Interval AxisReach::displacement(int l, double v_previous) const {
+  return {-farthest(l, -v_previous), farthest(l, v_previous)};
+}
+
+}  // namespace tern

@@ -1,0 +1,40 @@
+// Which velocities can still be braked to rest: one axis of the clamped spline as a chain of accelerations.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace tern {
+
+/// The limits of one axis for one Δt and J: the exact set of (velocity, acceleration) from which the spline can end at rest.
+///
+/// With v_l the velocity control points and a_l the accelerations at the knots, v_{l+1} = v_l + a_l Δt for l = 1 … n−3, and the
+/// end at rest asks v_{n-2} = 0, a_{n-2} = 0. Limits: |v_l| ≤ v_max, |a_l| ≤ a_max, |a_l − a_{l-1}| ≤ j_max Δt (the jerk of an interval).
+/// The sets K_l of (v_l, a_{l-1}) that can be finished are convex polygons, computed backwards from K_{n-2}.
+class AxisReach {
+ public:
+  /// @param intervals J ≥ 4; @param interval_s Δt, s; limits > 0, j_max may be infinite.
+  AxisReach(int intervals, double interval_s, double v_max, double a_max, double j_max);
+
+  struct Interval {
+    double low, high;  ///< empty when low > high
+    [[nodiscard]] bool empty() const { return low > high; }
+  };
+  /// Every v_{l+1} that obeys the limits and can still end at rest, given v_l and a_{l-1}; 1 ≤ l ≤ n − 3 = J − 1.
+  [[nodiscard]] Interval next_velocity(int l, double v, double a_previous) const;
+
+  /// How far q_{n-2} − q_l can lie, given v_{l-1}: bounds that ignore the jerk limit, m; 2 ≤ l ≤ n − 2 = J.
+  [[nodiscard]] Interval displacement(int l, double v_previous) const;
+
+ private:
+  using Polygon = std::vector<Eigen::Vector2d>;  ///< (v, a) counter-clockwise
+  [[nodiscard]] double farthest(int l, double v_previous) const;
+
+  int intervals_;
+  double dt_, v_max_, a_max_, j_step_;
+  std::vector<Polygon> finishable_;  ///< [l] = K_l, l = 2 … J
+};
+
+}  // namespace tern

@@ -1,0 +1,265 @@
+#include "planner/search/semantic_a_star.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <tuple>
+#include <unordered_set>
+
+#include "core/splines/piecewise_cubic.h"
+#include "planner/search/axis_reach.h"
+
+namespace tern {
+namespace {
+
+struct Node {
+  Vec3 q = Vec3::Zero();
+  Vec3 v = Vec3::Zero();  ///< v_{l-1}, the velocity control point that led here
+  Vec3 a = Vec3::Zero();  ///< a_{l-2}, the acceleration at the knot before it
+  int parent = -1;
+  int l = 0;
+  double g = 0.0;         ///< λ_g · length + accumulated semantics
+};
+
+struct Entry {
+  int band;
+  double f;
+  int node;
+  bool operator>(const Entry& o) const { return std::tie(band, f, node) > std::tie(o.band, o.f, o.node); }
+};
+
+struct Leaf {
+  int node = -1;
+  bool holds = false;
+  int band = 0;
+  double f = 0.0;
+  double hold_s = 0.0;
+  [[nodiscard]] bool better_than(const Leaf& o) const {
+    if (o.node < 0) return true;
+    if (holds != o.holds) return holds;
+    return std::tie(band, f, node) < std::tie(o.band, o.f, o.node);
+  }
+};
+
+class Search {
+ public:
+  Search(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles, Budget& budget)
+      : problem_(problem), config_(config), obstacles_(obstacles), budget_(budget), basis_(spline_basis(problem.intervals)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      reach_.emplace_back(problem.intervals, problem.interval_s, problem.limits.v_max[axis], problem.limits.a_max[axis],
+                          problem.limits.j_max[axis]);
+    }
+  }
+
+  SearchResult run() {
+    push_root();
+    while (!open_.empty()) {
+      if (result_.expansions >= config_.max_expansions || budget_.expired(Stage::Search)) break;
+      const Entry top = open_.top();
+      if (best_.holds && std::tie(top.band, top.f) >= std::tie(best_.band, best_.f)) break;
+      open_.pop();
+      visit(top);
+    }
+    if (best_.node >= 0) report();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] int leaf_index() const { return problem_.intervals; }  // n − 2 = J
+  [[nodiscard]] Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
+
+  void push_root() {
+    const Points3 q = start_control_points(problem_.start, problem_.interval_s);
+    start_ = q;
+    Node root;
+    root.q = q.col(2);
+    root.v = problem_.start.v + problem_.start.a * (0.5 * problem_.interval_s);  // v_1
+    root.a = problem_.start.a;
+    root.l = 2;
+    root.g = config_.lambda_g * ((q.col(1) - q.col(0)).norm() + (q.col(2) - q.col(1)).norm());
+    add(root);
+  }
+
+  void add(const Node& n) {
+    Box reachable;
+    Vec3 low;
+    Vec3 high;
+    for (int axis = 0; axis < 3; ++axis) {
+      const AxisReach::Interval d = reach_[static_cast<std::size_t>(axis)].displacement(n.l, n.v[axis]);
+      low[axis] = n.q[axis] + d.low;
+      high[axis] = n.q[axis] + d.high;
+    }
+    reachable = Box(low, high);
+    double f = n.g + config_.lambda_h * problem_.way.from(n.q);
+    if (problem_.pointwise) f += problem_.pointwise(n.q);
+    open_.push({static_cast<int>(problem_.way.from(reachable) / config_.band_m), f, static_cast<int>(nodes_.size())});
+    nodes_.push_back(n);
+  }
+
+  void visit(const Entry& entry) {
+    const Node n = node(entry.node);
+    if (closed(n) || !interval_clear(entry.node, n)) return;
+    if (n.l == leaf_index()) return consider_leaf(entry, n);
+    if (n.l > 2) close(n);
+    expand(entry.node, n);
+    ++result_.expansions;
+  }
+
+  /// q_{l-3} … q_l as powers of u on interval l − 3.
+  [[nodiscard]] Points4 window(int index) {
+    Points4 q;
+    int i = index;
+    for (int k = 3; k >= 0; --k) {
+      const Node& n = node(i);
+      if (n.l <= 2) {
+        q.leftCols(k + 1) = start_.middleCols(2 - k, k + 1);
+        break;
+      }
+      q.col(k) = n.q;
+      i = n.parent;
+    }
+    return q;
+  }
+
+  bool interval_clear(int index, const Node& n) {
+    if (n.l < 3) return true;
+    Points4 q = window(index);
+    if (!curve_clear(n.l - 3, q)) return false;
+    if (n.l < leaf_index()) return true;
+    for (int closing = 1; closing <= 2; ++closing) {
+      q.leftCols<3>() = Points3(q.rightCols<3>());
+      q.col(3) = n.q;
+      if (!curve_clear(n.l - 3 + closing, q)) return false;
+    }
+    return true;
+  }
+
+  bool curve_clear(int j, const Points4& q) {
+    const Points4 minvo = q * basis_.position_minvo(j);
+    const double r2 = problem_.sphere_radius * problem_.sphere_radius;
+    if ((minvo.colwise() - problem_.sphere_centre).colwise().squaredNorm().maxCoeff() > r2) return false;
+    const PowerCubic power = q * basis_.power(j);
+    if (!problem_.centre_box.contains(cubic_bounds(power, 0.0, 1.0))) return false;
+    return separate_interval(obstacles_, j, power, result_.pairs, nullptr).ok;
+  }
+
+  void consider_leaf(const Entry& entry, const Node& n) {
+    Leaf leaf{entry.node, false, entry.band, entry.f, 0.0};
+    leaf.hold_s = clear_time_at(obstacles_, problem_.intervals, n.q, result_.pairs);
+    leaf.holds = leaf.hold_s >= problem_.hold_required_s;
+    if (leaf.better_than(best_)) best_ = leaf;
+  }
+
+  void expand(int index, const Node& n) {
+    std::array<AxisReach::Interval, 3> range{};
+    for (int axis = 0; axis < 3; ++axis) {
+      range[static_cast<std::size_t>(axis)] = reach_[static_cast<std::size_t>(axis)].next_velocity(n.l - 1, n.v[axis], n.a[axis]);
+      if (n.l == 2) bound_first_peak(axis, range[static_cast<std::size_t>(axis)]);
+      if (range[static_cast<std::size_t>(axis)].empty()) return;
+    }
+    add_child(index, n, aimed_velocity(n, range));
+    const auto sample = [](const AxisReach::Interval& r, int k, int count) {
+      return r.low + (r.high - r.low) * k / (count - 1);
+    };
+    for (int ix = 0; ix < config_.samples_xy; ++ix) {
+      for (int iy = 0; iy < config_.samples_xy; ++iy) {
+        for (int iz = 0; iz < config_.samples_z; ++iz) {
+          add_child(index, n, {sample(range[0], ix, config_.samples_xy), sample(range[1], iy, config_.samples_xy),
+                               sample(range[2], iz, config_.samples_z)});
+        }
+      }
+    }
+  }
+
+  /// Where the start drives v_1 beyond the limit, the velocity's peak inside interval 0 hangs on v_2: with Bézier velocities
+  /// v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it stays within v_max exactly if b_2 ≥ b_1²/b_0.
+  void bound_first_peak(int axis, AxisReach::Interval& v2) const {
+    const double limit = problem_.true_v_max[axis];
+    for (const double sign : {1.0, -1.0}) {
+      const double v1 = sign * (problem_.start.v[axis] + 0.5 * problem_.interval_s * problem_.start.a[axis]);
+      if (v1 <= limit) continue;
+      const double b0 = std::max(limit - sign * problem_.start.v[axis], 1e-12);
+      const double most = 2.0 * (limit - (v1 - limit) * (v1 - limit) / b0) - v1;
+      if (sign > 0.0) v2.high = std::min(v2.high, most);
+      if (sign < 0.0) v2.low = std::max(v2.low, -most);
+    }
+  }
+
+  /// The velocity that, braking in time, comes to the goal: what is left of the way over what is left of the steps.
+  [[nodiscard]] Vec3 aimed_velocity(const Node& n, const std::array<AxisReach::Interval, 3>& range) const {
+    const int steps = leaf_index() - n.l;
+    const double share = steps == 1 ? 1.0 : steps - 0.5;
+    Vec3 v = (problem_.way.point - n.q) / (problem_.interval_s * share);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto& r = range[static_cast<std::size_t>(axis)];
+      v[axis] = std::clamp(v[axis], r.low, r.high);
+    }
+    return v;
+  }
+
+  void add_child(int index, const Node& n, const Vec3& v) {
+    Node child;
+    child.q = n.q + v * problem_.interval_s;
+    if ((child.q - problem_.sphere_centre).squaredNorm() > problem_.sphere_radius * problem_.sphere_radius) return;
+    if (!problem_.centre_box.contains(child.q)) return;
+    child.v = v;
+    child.a = (v - n.v) / problem_.interval_s;
+    child.parent = index;
+    child.l = n.l + 1;
+    child.g = n.g + config_.lambda_g * (child.q - n.q).norm();
+    if (problem_.accumulated) child.g += problem_.accumulated(n.q, child.q);
+    add(child);
+  }
+
+  /// Position, index and coarse velocity in one key. Marked only once a node has passed its collision test, so that a
+  /// blocked node never closes the only way.
+  [[nodiscard]] std::uint64_t key(const Node& n) const {
+    const Vec3 p = (n.q - problem_.sphere_centre) / config_.prune_position_m;
+    const Vec3 v = n.v / config_.prune_velocity_mps;
+    std::uint64_t k = static_cast<std::uint64_t>(n.l);
+    for (int axis = 0; axis < 3; ++axis) {
+      k = (k << 12) | (static_cast<std::uint64_t>(std::lround(p[axis]) + 2048) & 0xfffU);
+      k = (k << 7) | (static_cast<std::uint64_t>(std::lround(v[axis]) + 64) & 0x7fU);
+    }
+    return k;
+  }
+  [[nodiscard]] bool closed(const Node& n) const { return n.l > 2 && closed_.count(key(n)) > 0; }
+  void close(const Node& n) { closed_.insert(key(n)); }
+
+  void report() {
+    result_.found = true;
+    const Node& leaf = node(best_.node);
+    Points q(3, problem_.intervals + 3);
+    q.leftCols<3>() = start_;
+    for (int i = best_.node; node(i).l > 2; i = node(i).parent) q.col(node(i).l) = node(i).q;
+    q.col(problem_.intervals + 1) = leaf.q;
+    q.col(problem_.intervals + 2) = leaf.q;
+    result_.control_points = q;
+    result_.way_to_go = problem_.way.from(leaf.q);
+    result_.hold_s = best_.hold_s;
+    result_.cost = best_.f;
+  }
+
+  const SearchProblem& problem_;
+  const SearchConfig& config_;
+  SweptObstacles& obstacles_;
+  Budget& budget_;
+  const SplineBasis& basis_;
+  std::vector<AxisReach> reach_;
+  Points3 start_;
+  std::vector<Node> nodes_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
+  std::unordered_set<std::uint64_t> closed_;
+  Leaf best_;
+  SearchResult result_;
+};
+
+}  // namespace
+
+SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
+                             Budget& budget) {
+  return Search(problem, config, obstacles, budget).run();
+}
+
+}  // namespace tern

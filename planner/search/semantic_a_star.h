@@ -1,0 +1,64 @@
+// Semantic A* over control points (paper §4, Algorithm 1, its slips mended: docs/planner.md).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/world/budget.h"
+#include "core/world/vehicle.h"
+#include "planner/planner_config.h"
+#include "planner/safety/separation_test.h"
+#include "planner/safety/swept_obstacles.h"
+
+namespace tern {
+
+/// The way to go from p: |p − point| + rest, m. `point` is the next corner of the path around static obstacles.
+struct WayToGo {
+  Vec3 point = Vec3::Zero();
+  double rest = 0.0;
+  [[nodiscard]] double from(const Vec3& p) const { return (p - point).norm() + rest; }
+  /// The least way to go from anywhere in a box.
+  [[nodiscard]] double from(const Box& box) const { return box.exteriorDistance(point) + rest; }
+};
+
+/// The semantic share of a step between two control points, ≥ 0 or signed; added to f (Eq. 2). Empty: no semantics.
+using StepCost = std::function<double(const Vec3& from, const Vec3& to)>;
+
+struct SearchProblem {
+  MotionSample start;
+  int intervals = 6;             ///< J
+  double interval_s = 0.2;       ///< Δt
+  Limits limits;                 ///< v_max already reduced to the share that plans may use
+  Vec3 true_v_max = Vec3::Zero();  ///< the whole of it: where the start moves faster than the share allows, m/s
+  Vec3 sphere_centre = Vec3::Zero();
+  double sphere_radius = 4.0;    ///< S
+  Box centre_box;                ///< the flight box for the vehicle's centre
+  WayToGo way;
+  StepCost accumulated;          ///< summed along the path (exposure)
+  std::function<double(const Vec3&)> pointwise;  ///< of a node alone: λ_att C_att − λ_rep C_rep (mean_distance)
+  double hold_required_s = 0.5;
+};
+
+struct SearchResult {
+  bool found = false;
+  Points control_points;       ///< 3×(J+3), ends at rest
+  double way_to_go = 0.0;      ///< of the leaf, m
+  double hold_s = 0.0;         ///< clear time at the end point, up to what `obstacles` covers
+  double cost = 0.0;           ///< f of the leaf
+  std::int64_t expansions = 0;
+  PairCounts pairs;
+};
+
+/// Best-first over (hold, band of the way to go that is still reachable, f, index).
+///
+/// Nodes are control points q_l with their index l, from q_2 on. A child's velocity control point v_l is sampled uniformly per axis in the
+/// interval that v_max, a_max, j_max and the end at rest leave (AxisReach), and one child aims at the goal;
+/// q_{l+1} = q_l + v_l (t_{l+4} − t_{l+1})/3. A node is tested for collision when it is popped: interval l−3, at a leaf (l = n−2) also the
+/// two closing intervals. Leaves are ranked: hold ≥ required first, then the band of the way to go, then f; the search ends when
+/// no open node can still win, when max_expansions are spent, or when the budget is. Ties by (f, index): deterministic.
+/// @param obstacles  origin at the start, intervals 0 … J−1 the plan's, the others after its end for the hold.
+SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
+                             Budget& budget);
+
+}  // namespace tern
