@@ -1,0 +1,22 @@
+#include <cstdlib>
+#include <memory>
+
+#include "runtime/data_folder.h"
+#include "runtime/process.h"
+#include "simulator/app/simulator_config.h"
+#include "simulator/app/simulator_node.h"
+
+int main(int argc, char** argv) {
+  const tern::ProcessDescription description{
+      .name = "tern-simulator",
+      .section = "simulator",
+      .summary = "Flies a scenario's vehicle through its world: sensors, executor, referee; ends with FLIGHT_RESULT"};
+  return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+    const tern::Scenario& scenario = context.scenario;
+    const auto config = tern::read_simulator_config(context.section, scenario.seed);
+    const auto executor = tern::read_executor_config(context.document.root().section("executor"));
+    auto world = tern::make_world(scenario, tern::data_folder(scenario.file, std::getenv("TERN_DATA")));
+    if (!world) throw tern::ConfigError(scenario.file + ": world: " + world.error().message);
+    return std::make_unique<tern::SimulatorNode>(context.bus, scenario, std::move(*world), config, executor);
+  });
+}

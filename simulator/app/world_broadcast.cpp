@@ -1,0 +1,118 @@
+#include "simulator/app/world_broadcast.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "messages/batching.h"
+#include "messages/observation_set.h"
+#include "messages/obstacle_truth.h"
+#include "messages/track_set.h"
+#include "runtime/channels.h"
+#include "simulator/app/beat.h"
+#include "simulator/worlds/declared_motions.h"
+
+namespace tern {
+namespace {
+
+constexpr Duration kDeclaredPeriod{200'000};
+constexpr Duration kTruthPeriod{33'333};
+
+/// Everything that is there at world time 0, never moving, with the ids that it has.
+World at_rest_at_zero(const World& world) {
+  World resting;
+  for (const WorldObstacle& obstacle : world.obstacles) {
+    if (!obstacle.present(0.0)) continue;
+    ObstacleSpec spec = obstacle.spec();
+    spec.centre = obstacle.at(0.0).p;
+    spec.motion = StaticMotion{};
+    // The same shape within the same bounds: what was accepted moving is accepted at rest.
+    resting.obstacles.push_back(WorldObstacle::make(obstacle.id(), std::move(spec)).value());
+  }
+  return resting;
+}
+
+/// Those that come nearest to the vehicle within the horizon first.
+void sort_by_reach(std::vector<Track>& tracks, const Vec3& vehicle, UTime from, UTime to) {
+  std::vector<std::tuple<double, std::int64_t, std::size_t>> keys;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    keys.emplace_back(tracks[k].bounds(from, to).exteriorDistance(vehicle), tracks[k].id, k);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<Track> sorted;
+  for (const auto& key : keys) sorted.push_back(std::move(tracks[std::get<2>(key)]));
+  tracks = std::move(sorted);
+}
+
+}  // namespace
+
+WorldBroadcast::WorldBroadcast(Bus& bus, const World& world, const SimulatorConfig& config, UTime now)
+    : bus_(bus),
+      world_(world),
+      resting_(at_rest_at_zero(world)),
+      config_(config),
+      frames_zero_(now),
+      next_declared_(now),
+      next_truth_(now) {}
+
+void WorldBroadcast::start(UTime world_zero, UTime now) {
+  world_zero_ = world_zero;
+  // What was declared until now is no longer so.
+  next_declared_ = now;
+}
+
+UTime WorldBroadcast::next_wakeup() const {
+  const UTime frame = frame_arrives(config_.sensor, frames_zero_, frame_);
+  return std::min({frame, next_truth_, config_.declare ? next_declared_ : frame});
+}
+
+void WorldBroadcast::step(UTime now, const Executor& uav) {
+  publish_observations(now, uav);
+  if (config_.declare && now >= next_declared_) {
+    publish_declared(now, uav.sample(now).p);
+    next_declared_ = next_beat(next_declared_, kDeclaredPeriod, now);
+  }
+  if (now >= next_truth_) {
+    publish_truth(now);
+    next_truth_ = next_beat(next_truth_, kTruthPeriod, now);
+  }
+}
+
+void WorldBroadcast::choose_epoch() {
+  if (!frames_rest_ || frame_taken(config_.sensor, frames_zero_, frame_) < world_zero_) return;
+  frames_rest_ = false;
+  frames_zero_ = world_zero_;
+  frame_ = 0;
+}
+
+void WorldBroadcast::publish_observations(UTime now, const Executor& uav) {
+  for (choose_epoch(); frame_arrives(config_.sensor, frames_zero_, frame_) <= now; choose_epoch()) {
+    const Vec3 eye = uav.sample(frame_taken(config_.sensor, frames_zero_, frame_)).p;
+    const World& seen = frames_rest_ ? resting_ : world_;
+    bus_.publish(channels::kObstacleObservations, observe(seen, config_.sensor, frames_zero_, frame_, eye));
+    ++frame_;
+  }
+}
+
+void WorldBroadcast::publish_declared(UTime now, const Vec3& uav) {
+  TrackSet set = declare_motions(world_, world_zero_, now - kDeclaredPast, now + kDeclaredAhead);
+  set.batch.set = ++declared_set_;
+  set.made_at = now;
+  sort_by_reach(set.tracks, uav, now, now + kDeclaredAhead);
+  bus_.publish_paced(channels::kDeclaredMotions, split_batches(set));
+}
+
+void WorldBroadcast::publish_truth(UTime now) {
+  ObstacleTruth truth;
+  truth.batch.set = ++truth_set_;
+  truth.at = now;
+  if (now < world_zero_) {
+    truth.obstacles = true_obstacles(resting_, 0.0);
+  } else {
+    truth.obstacles = true_obstacles(world_, (now - world_zero_).seconds());
+  }
+  bus_.publish_paced(channels::kObstacleTruth, split_batches(truth));
+}
+
+}  // namespace tern
