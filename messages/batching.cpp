@@ -58,7 +58,8 @@ class Room {
   bool take(const Entry& entry) {
     const std::size_t items = Kind<T>::items(entry);
     const std::size_t bytes = bytes_ + per_entry() + items * per_item();
-    if (entries_ + 1 > Kind<T>::kMostEntries || items_ + items > Kind<T>::kMostItems || bytes > kMaxMessageBytes) return false;
+    if (entries_ + 1 > Kind<T>::kMostEntries || items_ + items > Kind<T>::kMostItems || bytes > kMaxMessageBytes)
+      return false;
     ++entries_;
     items_ += items;
     bytes_ = bytes;

@@ -19,11 +19,16 @@ std::size_t sequence_length(unsigned char lead) {
 /// The second byte rules out overlong forms, surrogates and code points beyond U+10FFFF.
 bool second_byte_legal(unsigned char lead, unsigned char second) {
   switch (lead) {
-    case 0xE0: return second >= 0xA0;
-    case 0xED: return second < 0xA0;
-    case 0xF0: return second >= 0x90;
-    case 0xF4: return second < 0x90;
-    default: return true;
+    case 0xE0:
+      return second >= 0xA0;
+    case 0xED:
+      return second < 0xA0;
+    case 0xF0:
+      return second >= 0x90;
+    case 0xF4:
+      return second < 0x90;
+    default:
+      return true;
   }
 }
 
@@ -146,7 +151,8 @@ Header FieldReader::header(const tern_msgs::header_t& h) {
 }
 
 BatchHeader FieldReader::batch(const tern_msgs::batch_t& b) {
-  const BatchHeader batch{integer<std::int64_t>(b.set, 1, kMaxCounter), integer<std::int32_t>(b.index, 0, kMaxBatches - 1),
+  const BatchHeader batch{integer<std::int64_t>(b.set, 1, kMaxCounter),
+                          integer<std::int32_t>(b.index, 0, kMaxBatches - 1),
                           integer<std::int32_t>(b.count, 1, kMaxBatches)};
   consistent(batch.index < batch.count);
   return batch;

@@ -78,7 +78,8 @@ tl::expected<FlightResult, Rejection> from_lcm(const Message& m) {
   result.stops = read.counter(m.stops);
   result.limit_violations = read.counter(m.limit_violations);
   wire::Slices names(m.region_text);
-  for (const tern_msgs::exposure_t& exposure : m.exposure) result.exposure.push_back(read_exposure(read, exposure, names));
+  for (const tern_msgs::exposure_t& exposure : m.exposure)
+    result.exposure.push_back(read_exposure(read, exposure, names));
   read.consistent(names.complete());
   return read.accept(std::move(result));
 }

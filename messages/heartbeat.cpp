@@ -22,7 +22,7 @@ const wire::Layout kLayout{
     wire::Array{&Message::build_id_count, &Message::build_id, 0, kMaxBuildIdText},
     wire::Array{&Message::waiting_count, &Message::waiting_for, 0, kMaxWaitingText},
     wire::Array{&Message::channel_count, &Message::channels, 0, kMaxHeartbeatChannels},
-    wire::Array{&Message::channel_text_count, &Message::channel_text, 0, kMaxHeartbeatChannels * kMaxChannelName},
+    wire::Array{&Message::channel_text_count, &Message::channel_text, 0, kMaxHeartbeatChannels* kMaxChannelName},
 };
 
 tern_msgs::channel_counters_t to_lcm(const std::string& name, const ChannelCounters& counters) {

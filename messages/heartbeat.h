@@ -8,7 +8,8 @@ namespace tern {
 
 template <>
 Bytes encode(const Heartbeat& value);
-/// Inconsistent: name lengths that do not sum to the names' bytes, channels that are not in ascending order of their names.
+/// Inconsistent: name lengths that do not sum to the names' bytes, channels that are not in ascending order of their
+/// names.
 template <>
 tl::expected<Heartbeat, Rejection> decode(std::span<const std::uint8_t> bytes);
 

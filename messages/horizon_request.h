@@ -8,8 +8,8 @@ namespace tern {
 
 template <>
 Bytes encode(const HorizonRequest& value);
-/// Time: t_s before the committed trajectory, a deadline later than t_s − kDeadlineLead. Inconsistent: a committed trajectory that does
-/// not end at rest, a start that is not its state at t_s (to kJoinTolerance), an empty flight box.
+/// Time: t_s before the committed trajectory, a deadline later than t_s − kDeadlineLead. Inconsistent: a committed
+/// trajectory that does not end at rest, a start that is not its state at t_s (to kJoinTolerance), an empty flight box.
 template <>
 tl::expected<HorizonRequest, Rejection> decode(std::span<const std::uint8_t> bytes);
 

@@ -53,7 +53,8 @@ VoxelGrid read_grid(wire::FieldReader& read, const Message& m) {
   VoxelGrid grid;
   grid.origin = read.position(m.origin);
   grid.resolution = read.number(m.resolution, wire::kAboveZero, kMaxResolution);
-  grid.size = {read.integer(m.size_x, 0, kMaxSide), read.integer(m.size_y, 0, kMaxSide), read.integer(m.size_z, 0, kMaxSide)};
+  grid.size = {read.integer(m.size_x, 0, kMaxSide), read.integer(m.size_y, 0, kMaxSide),
+               read.integer(m.size_z, 0, kMaxSide)};
   for (const double corner : Vec3(grid.bounds().max())) read.number(corner, -kMaxCoordinate, kMaxCoordinate);
   // The product as a double first: three sides of kMaxSide overflow 64 bits.
   const double voxels = grid.size.cast<double>().prod();

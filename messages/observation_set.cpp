@@ -53,7 +53,8 @@ tl::expected<ObservationSet, Rejection> from_lcm(const Message& m) {
   set.sensor_position = read.position(m.sensor_position);
   set.detections.reserve(m.detections.size());
   for (const tern_msgs::detection_t& d : m.detections) {
-    set.detections.push_back({read.position(d.position), read.extents(d.half_extents), read.vec3(d.variance, 0.0, kMaxVariance),
+    set.detections.push_back({read.position(d.position), read.extents(d.half_extents),
+                              read.vec3(d.variance, 0.0, kMaxVariance),
                               read.integer(d.track_id, kNoTrackId, wire::kMaxCounter)});
   }
   read.consistent(ids_differ(set.detections));

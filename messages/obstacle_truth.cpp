@@ -43,8 +43,9 @@ tl::expected<ObstacleTruth, Rejection> from_lcm(const Message& m) {
   truth.left_out = read.integer(m.left_out, 0, std::numeric_limits<std::int32_t>::max());
   std::vector<std::int64_t> ids;
   for (const tern_msgs::true_obstacle_t& o : m.obstacles) {
-    truth.obstacles.push_back({read.counter(o.id), read.position(o.position), read.vec3(o.velocity, -kMaxSpeed, kMaxSpeed),
-                               read.extents(o.half_extents), read.flag(o.moves)});
+    truth.obstacles.push_back({read.counter(o.id), read.position(o.position),
+                               read.vec3(o.velocity, -kMaxSpeed, kMaxSpeed), read.extents(o.half_extents),
+                               read.flag(o.moves)});
     ids.push_back(o.id);
   }
   read.consistent(wire::all_different(std::move(ids)));

@@ -8,8 +8,8 @@ namespace tern {
 
 template <>
 Bytes encode(const Plan& value);
-/// Inconsistent: a certificate plane of an interval or part that the trajectory does not have, or whose normal is not of length 1
-/// (to 1e-6). Whether the trajectory is a good one is the executor's and the audit's to judge.
+/// Inconsistent: a certificate plane of an interval or part that the trajectory does not have, or whose normal is not
+/// of length 1 (to 1e-6). Whether the trajectory is a good one is the executor's and the audit's to judge.
 template <>
 tl::expected<Plan, Rejection> decode(std::span<const std::uint8_t> bytes);
 

@@ -50,7 +50,8 @@ Message to_lcm(const TrackSet& set) {
       throw std::invalid_argument("track " + std::to_string(track.id) + ": as many alphas as pieces are needed");
     }
     m.tracks.push_back(to_lcm(track));
-    for (std::size_t k = 0; k < track.alpha.size(); ++k) m.pieces.push_back(to_lcm(track.motion.pieces[k], track.alpha[k]));
+    for (std::size_t k = 0; k < track.alpha.size(); ++k)
+      m.pieces.push_back(to_lcm(track.motion.pieces[k], track.alpha[k]));
   }
   return m;
 }

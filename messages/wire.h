@@ -1,7 +1,8 @@
 // The form of every message: counts at fixed offsets right behind the fingerprint, then fixed fields, then flat arrays.
 //
-// So the exact length of a message follows from its first bytes, before a generated decoder sees it (they throw, or wrap a hostile
-// count and read beyond their buffer). A message states its arrays once, as a Layout, and encoder and decoder do the rest.
+// So the exact length of a message follows from its first bytes, before a generated decoder sees it (they throw, or
+// wrap a hostile count and read beyond their buffer). A message states its arrays once, as a Layout, and encoder and
+// decoder do the rest.
 #pragma once
 
 #include <cstdint>
@@ -68,15 +69,15 @@ struct Layout {
   static constexpr std::size_t head_bytes() { return kFingerprintBytes + kCountBytes * sizeof...(E); }
 };
 
-/// Sets the counts from the arrays' sizes and encodes. @throws std::invalid_argument when a count is out of its range or the
-/// whole is longer than kMaxMessageBytes.
+/// Sets the counts from the arrays' sizes and encodes. @throws std::invalid_argument when a count is out of its range
+/// or the whole is longer than kMaxMessageBytes.
 template <class M, class... E>
 Bytes encode(M message, const Layout<M, E...>& layout) {
   layout.for_each([&](const auto& array) {
     const std::size_t n = (message.*array.items).size();
     if (n < static_cast<std::size_t>(array.least) || n > static_cast<std::size_t>(array.most)) {
-      throw std::invalid_argument(std::string(M::getTypeName()) + ": an array of " + std::to_string(n) + ", legal are " +
-                                  std::to_string(array.least) + " to " + std::to_string(array.most));
+      throw std::invalid_argument(std::string(M::getTypeName()) + ": an array of " + std::to_string(n) +
+                                  ", legal are " + std::to_string(array.least) + " to " + std::to_string(array.most));
     }
     message.*array.count = static_cast<std::int32_t>(n);
   });

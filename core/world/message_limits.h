@@ -1,7 +1,9 @@
-// Published maxima of the messages (lcmtypes/ names the same numbers): what a sender may not exceed and a receiver refuses.
+// Published maxima of the messages (lcmtypes/ names the same numbers): what a sender may not exceed and a receiver
+// refuses.
 //
-// A message may reach each of its maxima only as far as kMaxMessageBytes allows all of them together. The ranges of numbers are
-// far beyond any vehicle: they keep sums, products and integer times of accepted values finite, they do not judge them.
+// A message may reach each of its maxima only as far as kMaxMessageBytes allows all of them together. The ranges of
+// numbers are far beyond any vehicle: they keep sums, products and integer times of accepted values finite, they do not
+// judge them.
 #pragma once
 
 #include <cstdint>
@@ -10,37 +12,37 @@
 
 namespace tern {
 
-inline constexpr double kMaxCoordinate = 1e6;      ///< |position| per axis and extents, m
-inline constexpr double kMaxSpeed = 1e6;           ///< |velocity| per axis, m/s
-inline constexpr double kMaxAcceleration = 1e9;    ///< |acceleration| per axis, m/s²
-inline constexpr double kMaxJerk = 1e12;           ///< |jerk| per axis, m/s³
-inline constexpr double kMaxBodyExtent = 1e3;      ///< radius and |vertex| per axis of a body, m
+inline constexpr double kMaxCoordinate = 1e6;                      ///< |position| per axis and extents, m
+inline constexpr double kMaxSpeed = 1e6;                           ///< |velocity| per axis, m/s
+inline constexpr double kMaxAcceleration = 1e9;                    ///< |acceleration| per axis, m/s²
+inline constexpr double kMaxJerk = 1e12;                           ///< |jerk| per axis, m/s³
+inline constexpr double kMaxBodyExtent = 1e3;                      ///< radius and |vertex| per axis of a body, m
 inline constexpr std::int64_t kMaxTimeUs = 4'000'000'000'000'000;  ///< |time|, µs: the year 2096
 inline constexpr Duration kMaxSpan{1'000'000'000'000};             ///< of a track's piece or a hold: 11 days
-inline constexpr Duration kShortestInterval{1'000};        ///< of a trajectory's spline
-inline constexpr Duration kLongestInterval{100'000'000};  ///< of a trajectory's spline
+inline constexpr Duration kShortestInterval{1'000};                ///< of a trajectory's spline
+inline constexpr Duration kLongestInterval{100'000'000};           ///< of a trajectory's spline
 /// An answer's deadline is at least this long before t_s.
 inline constexpr Duration kDeadlineLead{5'000};
 
-inline constexpr int kMaxDetections = 700;            ///< in an ObservationSet
-inline constexpr int kMaxTracksPerBatch = 320;        ///< in a TrackSet
-inline constexpr int kMaxPiecesPerBatch = 460;        ///< of all its tracks together; so also of one track
-inline constexpr int kMaxObstaclesPerBatch = 700;     ///< in an ObstacleTruth
-inline constexpr int kMinControlPoints = 7;           ///< of a trajectory
-inline constexpr int kMaxControlPoints = 64;          ///< of a trajectory
+inline constexpr int kMaxDetections = 700;         ///< in an ObservationSet
+inline constexpr int kMaxTracksPerBatch = 320;     ///< in a TrackSet
+inline constexpr int kMaxPiecesPerBatch = 460;     ///< of all its tracks together; so also of one track
+inline constexpr int kMaxObstaclesPerBatch = 700;  ///< in an ObstacleTruth
+inline constexpr int kMinControlPoints = 7;        ///< of a trajectory
+inline constexpr int kMaxControlPoints = 64;       ///< of a trajectory
 inline constexpr int kMaxBodyVertices = 64;
 inline constexpr int kMaxCertificatePlanes = 1200;
 inline constexpr int kMaxBudgetCuts = 256;
-inline constexpr int kMaxMapClasses = 256;            ///< class names of a map, the empty one included
-inline constexpr int kMaxMapClassText = 8192;         ///< bytes of all class names together
+inline constexpr int kMaxMapClasses = 256;     ///< class names of a map, the empty one included
+inline constexpr int kMaxMapClassText = 8192;  ///< bytes of all class names together
 inline constexpr int kMaxHeartbeatChannels = 64;
-inline constexpr int kMaxChannelName = 63;            ///< bytes (LCM's own limit)
-inline constexpr int kMaxProcessText = 64;            ///< bytes
-inline constexpr int kMaxBuildIdText = 256;           ///< bytes
-inline constexpr int kMaxWaitingText = 1024;          ///< bytes
-inline constexpr int kMaxYamlText = 50'000;           ///< bytes
-inline constexpr int kMaxDetailText = 2048;           ///< bytes
-inline constexpr int kMaxExposures = 256;             ///< regions in a FlightResult
-inline constexpr int kMaxRegionText = 16'384;         ///< bytes of all region names together
+inline constexpr int kMaxChannelName = 63;     ///< bytes (LCM's own limit)
+inline constexpr int kMaxProcessText = 64;     ///< bytes
+inline constexpr int kMaxBuildIdText = 256;    ///< bytes
+inline constexpr int kMaxWaitingText = 1024;   ///< bytes
+inline constexpr int kMaxYamlText = 50'000;    ///< bytes
+inline constexpr int kMaxDetailText = 2048;    ///< bytes
+inline constexpr int kMaxExposures = 256;      ///< regions in a FlightResult
+inline constexpr int kMaxRegionText = 16'384;  ///< bytes of all region names together
 
 }  // namespace tern

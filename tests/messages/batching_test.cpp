@@ -1,0 +1,148 @@
+#include "messages/batching.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/world/message_limits.h"
+#include "tests/messages/messages_under_test.h"
+#include "tests/support/generators.h"
+#include "tests/support/random_splines.h"
+
+namespace tern {
+namespace {
+
+using support::random_integer;
+
+/// Tracks by descending id, so that the given order and the joined order differ.
+TrackSet random_set(Rng& rng, int tracks, int most_pieces) {
+  TrackSet set;
+  set.header = {{12, 3}, {45}};
+  set.batch = {7, 0, 1};
+  set.made_at = {40};
+  set.confidence = 0.9;
+  for (int i = 0; i < tracks; ++i)
+    set.tracks.push_back(support::random_track(rng, tracks - i, random_integer(rng, 1, most_pieces)));
+  return set;
+}
+
+ObstacleTruth random_truth(Rng& rng, int obstacles) {
+  ObstacleTruth truth;
+  truth.header = {{12, 3}, {45}};
+  truth.batch = {7, 0, 1};
+  for (int i = 0; i < obstacles; ++i) {
+    truth.obstacles.push_back(
+        {obstacles - i, support::random_vector(rng, 10.0), Vec3::Zero(), Vec3::Ones(), i % 2 == 0});
+  }
+  return truth;
+}
+
+template <class T>
+void expect_legal_batches(const std::vector<T>& batches) {
+  ASSERT_GE(batches.size(), 1U);
+  ASSERT_LE(batches.size(), static_cast<std::size_t>(kMaxBatches));
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    EXPECT_EQ(batches[i].batch.set, 7);
+    EXPECT_EQ(batches[i].batch.index, static_cast<int>(i));
+    EXPECT_EQ(batches[i].batch.count, static_cast<int>(batches.size()));
+    EXPECT_TRUE(decode<T>(encode(batches[i])));
+  }
+}
+
+/// The whole set as it is after it was sent and joined: by id.
+TrackSet sorted(TrackSet set) {
+  std::sort(set.tracks.begin(), set.tracks.end(), [](const Track& a, const Track& b) { return a.id < b.id; });
+  return set;
+}
+
+TEST(Batches, OfTracksJoinToTheWholeWhateverTheirSizes) {
+  Rng rng(9);
+  for (int i = 0; i < 200; ++i) {
+    const TrackSet whole = random_set(rng, random_integer(rng, 0, 120), random_integer(rng, 1, 20));
+    const auto batches = split_batches(whole);
+    expect_legal_batches(batches);
+    EXPECT_EQ(words_of(join_batches(batches)), words_of(sorted(whole)));
+  }
+}
+
+TEST(Batches, KeepTheFirstTracksAndCountTheOthersAsLeftOut) {
+  Rng rng(10);
+  TrackSet whole = random_set(rng, 1500, 7);
+  whole.left_out = 5;
+  const auto batches = split_batches(whole);
+  expect_legal_batches(batches);
+  std::size_t sent = 0;
+  for (const TrackSet& batch : batches) {
+    for (const Track& track : batch.tracks) EXPECT_EQ(track.id, whole.tracks[sent++].id);
+  }
+  EXPECT_LT(sent, whole.tracks.size());
+  for (const TrackSet& batch : batches) EXPECT_EQ(batch.left_out, 5 + static_cast<int>(whole.tracks.size() - sent));
+}
+
+TEST(Batches, FillTheirMessages) {
+  Rng rng(11);
+  const auto batches = split_batches(random_set(rng, 1500, 7));
+  ASSERT_EQ(batches.size(), static_cast<std::size_t>(kMaxBatches));
+  for (const TrackSet& batch : batches)
+    EXPECT_GT(encode(batch).size(), static_cast<std::size_t>(kMaxMessageBytes) - 1000);
+}
+
+TEST(Batches, LeaveOutATrackThatNoMessageHoldsButNotTheOnesAfterIt) {
+  Rng rng(12);
+  TrackSet whole = random_set(rng, 3, 2);
+  whole.tracks[1] = support::random_track(rng, 2, kMaxPiecesPerBatch + 1);
+  const auto batches = split_batches(whole);
+  ASSERT_EQ(batches.size(), 1U);
+  EXPECT_EQ(batches[0].left_out, 1);
+  ASSERT_EQ(batches[0].tracks.size(), 2U);
+  EXPECT_EQ(batches[0].tracks[1].id, whole.tracks[2].id);
+}
+
+TEST(Batches, HoldTheLongestTrack) {
+  Rng rng(13);
+  TrackSet whole = random_set(rng, 0, 1);
+  whole.tracks.push_back(support::random_track(rng, 1, kMaxPiecesPerBatch));
+  EXPECT_EQ(split_batches(whole)[0].left_out, 0);
+}
+
+TEST(Batches, OfNothingAreOneEmptyBatch) {
+  Rng rng(14);
+  const auto tracks = split_batches(random_set(rng, 0, 1));
+  expect_legal_batches(tracks);
+  EXPECT_EQ(tracks.size(), 1U);
+  EXPECT_TRUE(join_batches(tracks).tracks.empty());
+  EXPECT_EQ(split_batches(random_truth(rng, 0)).size(), 1U);
+}
+
+TEST(Batches, OfObstaclesJoinToTheWholeOrCountWhatIsLeftOut) {
+  Rng rng(15);
+  for (const int n : {1, kMaxObstaclesPerBatch, kMaxObstaclesPerBatch + 1, kMaxBatches * kMaxObstaclesPerBatch, 5000}) {
+    const ObstacleTruth whole = random_truth(rng, n);
+    const auto batches = split_batches(whole);
+    expect_legal_batches(batches);
+    const ObstacleTruth joined = join_batches(batches);
+    EXPECT_EQ(joined.left_out, std::max(0, n - kMaxBatches * kMaxObstaclesPerBatch));
+    EXPECT_EQ(static_cast<int>(joined.obstacles.size()) + joined.left_out, n);
+    EXPECT_TRUE(std::is_sorted(joined.obstacles.begin(), joined.obstacles.end(),
+                               [](const auto& a, const auto& b) { return a.id < b.id; }));
+  }
+}
+
+TEST(Batches, ThatDisagreeJoinToTheCarefulValue) {
+  Rng rng(16);
+  TrackSet a = random_set(rng, 2, 1);
+  TrackSet b = random_set(rng, 2, 1);
+  b.made_at = {30};
+  b.confidence = 0.5;
+  b.left_out = 4;
+  const TrackSet joined = join_batches({a, b});
+  EXPECT_EQ(joined.made_at, UTime{30});
+  EXPECT_EQ(joined.confidence, 0.5);
+  EXPECT_EQ(joined.left_out, 4);
+  EXPECT_EQ(joined.tracks.size(), 4U);
+  EXPECT_THROW(join_batches(std::vector<TrackSet>{}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace tern

@@ -1,0 +1,186 @@
+#include "tests/messages/messages_under_test.h"
+
+#include <bit>
+#include <concepts>
+#include <string>
+#include <type_traits>
+
+namespace tern {
+namespace {
+
+std::int32_t size_of(const auto& list) { return static_cast<std::int32_t>(list.size()); }
+
+std::int32_t text_bytes(const auto& list, const auto& text_of) {
+  std::size_t n = 0;
+  for (const auto& item : list) n += text_of(item).size();
+  return static_cast<std::int32_t>(n);
+}
+
+/// Collects words; a list brings its size first.
+struct Words {
+  std::vector<std::uint64_t> words;
+
+  void operator()(const auto&... fields) { (add(fields), ...); }
+
+  void add(double x) { words.push_back(std::bit_cast<std::uint64_t>(x)); }
+  void add(std::integral auto x) { words.push_back(static_cast<std::uint64_t>(x)); }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void add(Enum x) { words.push_back(static_cast<std::uint64_t>(x)); }
+  template <class Derived>
+  void add(const Eigen::DenseBase<Derived>& m) {
+    add(m.cols());
+    for (Eigen::Index c = 0; c < m.cols(); ++c) {
+      for (Eigen::Index r = 0; r < m.rows(); ++r) add(m(r, c));
+    }
+  }
+  void add(const std::string& text) {
+    add(text.size());
+    for (const char c : text) add(c);
+  }
+  template <class E>
+  void add(const std::vector<E>& list) {
+    add(list.size());
+    for (const E& item : list) add(item);
+  }
+  template <class E, std::size_t n>
+  void add(const E (&list)[n]) {
+    for (const E& item : list) add(item);
+  }
+  void add(const Box& box) { (*this)(box.min(), box.max()); }
+  void add(UTime t) { add(t.us); }
+  void add(Duration d) { add(d.us); }
+  void add(const MessageName& n) { (*this)(n.sender_epoch_us, n.sequence); }
+  void add(const Header& h) { (*this)(h.name, h.utime); }
+  void add(const BatchHeader& b) { (*this)(b.set, b.index, b.count); }
+  void add(const MotionSample& m) { (*this)(m.p, m.v, m.a, m.j); }
+  void add(const TimedSpline& s) { (*this)(s.start, s.interval, s.control_points); }
+  void add(const Detection& d) { (*this)(d.position, d.half_extents, d.variance, d.track_id); }
+  void add(const CubicPiece& p) { (*this)(p.duration, p.coefficients); }
+  void add(const Track& t) {
+    (*this)(t.id, t.kind, t.half_extents, t.motion.start, t.motion.pieces, t.alpha, t.top_speed);
+  }
+  void add(const VoxelRun& r) { (*this)(r.label, r.class_index, r.length); }
+  void add(const CertificatePlane& p) { (*this)(p.track, p.interval, p.part, p.parts, p.plane.n, p.plane.d); }
+  void add(const BudgetCut& c) { (*this)(c.attempt, c.stage, c.count); }
+  void add(const PlanCost& c) { (*this)(c.distance_to_goal, c.jerk, c.attraction, c.repulsion, c.total); }
+  void add(const PlanInputs& i) {
+    (*this)(i.request, i.goal, i.predictions, i.prediction_set, i.map_version, i.configuration_hash);
+  }
+  void add(const ChannelCounters& c) { (*this)(c.sent, c.received, c.rejected, c.lost, c.late); }
+  void add(const TrueObstacle& o) { (*this)(o.id, o.position, o.velocity, o.half_extents, o.moves); }
+  void add(const Exposure& e) { (*this)(e.region, e.seconds, e.metres, e.near_seconds, e.near_metres); }
+
+  void add(const UavState& s) { (*this)(s.header, s.at, s.motion, s.yaw); }
+  void add(const Goal& g) { (*this)(g.header, g.id, g.mode, g.position); }
+  void add(const ObservationSet& s) {
+    (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.detections);
+  }
+  void add(const TrackSet& s) { (*this)(s.header, s.batch, s.made_at, s.confidence, s.left_out, s.tracks); }
+  void add(const MapChunk& c) {
+    (*this)(c.header, c.version, c.grid.origin, c.grid.resolution, c.grid.size, c.class_names, c.index, c.count,
+            c.first_voxel, c.runs);
+  }
+  void add(const HorizonRequest& r) {
+    (*this)(r.header, r.id, r.t_s, r.deadline, r.committed, r.start, r.limits.v_max, r.limits.a_max, r.limits.j_max,
+            r.body.vertices, r.body.radius, r.flight_box);
+  }
+  void add(const Plan& p) {
+    (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.relaxed, p.local_goal, p.sphere_radius,
+            p.cost, p.inputs, p.certificate, p.cuts);
+  }
+  void add(const PlanTiming& t) {
+    (*this)(t.header, t.request_id, t.total_ms, t.first_answer_ms, t.cpu_ms, t.stage_ms, t.expansions, t.hulls,
+            t.pairs_by_box, t.pairs_by_plane, t.pairs_by_lp, t.solver_iterations, t.peak_rss_kb, t.from_watchdog);
+  }
+  void add(const Heartbeat& h) {
+    (*this)(h.header, h.process, h.build_id, h.state, h.waiting_for, h.channels.size());
+    for (const auto& [name, counters] : h.channels) (*this)(name, counters);
+  }
+  void add(const ConfigurationReport& r) { (*this)(r.header, r.process, r.build_id, r.yaml, r.hash); }
+  void add(const ObstacleTruth& t) { (*this)(t.header, t.batch, t.at, t.obstacles, t.left_out); }
+  void add(const FlightResult& r) {
+    (*this)(r.header, r.outcome, r.detail, r.flight_time_s, r.first_entry_s, r.path_length_m, r.mean_speed_mps,
+            r.top_speed_mps, r.min_clearance_m, r.jerk_integral, r.stops, r.limit_violations, r.exposure);
+  }
+};
+
+}  // namespace
+
+template <class T>
+std::vector<std::uint64_t> words_of(const T& value) {
+  Words words;
+  words.add(value);
+  return words.words;
+}
+template std::vector<std::uint64_t> words_of(const UavState&);
+template std::vector<std::uint64_t> words_of(const ObservationSet&);
+template std::vector<std::uint64_t> words_of(const TrackSet&);
+template std::vector<std::uint64_t> words_of(const MapChunk&);
+template std::vector<std::uint64_t> words_of(const Goal&);
+template std::vector<std::uint64_t> words_of(const HorizonRequest&);
+template std::vector<std::uint64_t> words_of(const Plan&);
+template std::vector<std::uint64_t> words_of(const PlanTiming&);
+template std::vector<std::uint64_t> words_of(const Heartbeat&);
+template std::vector<std::uint64_t> words_of(const ConfigurationReport&);
+template std::vector<std::uint64_t> words_of(const ObstacleTruth&);
+template std::vector<std::uint64_t> words_of(const FlightResult&);
+
+template <>
+std::vector<std::int32_t> array_sizes(const UavState&) {
+  return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const Goal&) {
+  return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const PlanTiming&) {
+  return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const ObservationSet& set) {
+  return {size_of(set.detections)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const TrackSet& set) {
+  std::int32_t pieces = 0;
+  for (const Track& track : set.tracks) pieces += size_of(track.motion.pieces);
+  return {size_of(set.tracks), pieces};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const MapChunk& chunk) {
+  return {size_of(chunk.runs), size_of(chunk.class_names),
+          text_bytes(chunk.class_names, [](const auto& n) { return n; })};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const HorizonRequest& request) {
+  return {static_cast<std::int32_t>(request.committed.control_points.cols()),
+          static_cast<std::int32_t>(request.body.vertices.cols())};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const Plan& plan) {
+  return {static_cast<std::int32_t>(plan.trajectory.control_points.cols()), size_of(plan.certificate),
+          size_of(plan.cuts)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const Heartbeat& heartbeat) {
+  return {size_of(heartbeat.process), size_of(heartbeat.build_id), size_of(heartbeat.waiting_for),
+          size_of(heartbeat.channels),
+          text_bytes(heartbeat.channels, [](const auto& channel) { return channel.first; })};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const ConfigurationReport& report) {
+  return {size_of(report.process), size_of(report.build_id), size_of(report.yaml)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const ObstacleTruth& truth) {
+  return {size_of(truth.obstacles)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const FlightResult& result) {
+  return {size_of(result.detail), size_of(result.exposure),
+          text_bytes(result.exposure, [](const auto& e) { return e.region; })};
+}
+
+}  // namespace tern

@@ -1,0 +1,390 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "core/base/digest.h"
+#include "core/world/message_limits.h"
+#include "messages/wire.h"
+#include "tern_msgs/exposure_t.hpp"
+#include "tern_msgs/flight_result_t.hpp"
+#include "tern_msgs/heartbeat_t.hpp"
+#include "tern_msgs/map_chunk_t.hpp"
+#include "tern_msgs/track_set_t.hpp"
+#include "tests/messages/messages_under_test.h"
+#include "tests/support/generators.h"
+
+namespace tern {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::int64_t kFarFuture = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kFarPast = std::numeric_limits<std::int64_t>::min();
+
+/// A valid value with at least two elements in every array.
+template <class T>
+T rich_message() {
+  Rng rng(6);
+  for (;;) {
+    auto value = support::random_message<T>(rng);
+    const auto sizes = array_sizes(value);
+    if (std::all_of(sizes.begin(), sizes.end(), [](std::int32_t n) { return n >= 2; })) return value;
+  }
+}
+
+template <class T>
+std::string verdict(const Bytes& bytes) {
+  static constexpr const char* kNames[] = {"Length",      "Fingerprint", "Count",       "Number",
+                                           "Enumeration", "Time",        "Inconsistent"};
+  const auto decoded = decode<T>(bytes);
+  return decoded ? "accepted" : kNames[static_cast<int>(decoded.error())];
+}
+
+/// What becomes of a valid value after `spoil` had it.
+template <class T>
+std::string after(const std::function<void(T&)>& spoil) {
+  T value = rich_message<T>();
+  spoil(value);
+  return verdict<T>(encode(value));
+}
+
+/// The same on the generated type M, for what our own values cannot say.
+template <class T, class M>
+std::string after_on_wire(const std::function<void(M&)>& spoil) {
+  Bytes bytes = encode(rich_message<T>());
+  M message{};
+  message.decode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  spoil(message);
+  bytes.resize(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return verdict<T>(bytes);
+}
+
+/// What becomes of the message when the byte that carries a bool is 2: found as the byte that differs between its two
+/// values.
+template <class T>
+std::string after_flag_of_two(const std::function<void(T&, bool)>& set) {
+  T value = rich_message<T>();
+  set(value, false);
+  Bytes bytes = encode(value);
+  set(value, true);
+  const Bytes other = encode(value);
+  *std::mismatch(bytes.begin(), bytes.end(), other.begin()).first = 2;
+  return verdict<T>(bytes);
+}
+
+template <class T>
+class EveryMessage : public testing::Test {};
+TYPED_TEST_SUITE(EveryMessage, AllMessages);
+
+TYPED_TEST(EveryMessage, OfAnotherFingerprintIsRefused) {
+  Bytes bytes = encode(rich_message<TypeParam>());
+  bytes[3] ^= 1U;
+  EXPECT_EQ(verdict<TypeParam>(bytes), "Fingerprint");
+}
+
+TYPED_TEST(EveryMessage, OfAnotherLengthIsRefused) {
+  const Bytes bytes = encode(rich_message<TypeParam>());
+  for (std::size_t n = 0; n < bytes.size(); n += n < 64 ? 1 : 97) {
+    EXPECT_EQ(verdict<TypeParam>(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(n))), "Length") << n;
+  }
+  Bytes longer = bytes;
+  longer.push_back(0);
+  EXPECT_EQ(verdict<TypeParam>(longer), "Length");
+}
+
+TYPED_TEST(EveryMessage, OfAnIllegalCountIsRefused) {
+  const auto value = rich_message<TypeParam>();
+  for (std::size_t k = 0; k < array_sizes(value).size(); ++k) {
+    for (const std::uint32_t count : {0x40000001U, 0xFFFFFFFFU, 0x80000000U, 0x7FFFFFFFU, 0x00010000U}) {
+      Bytes bytes = encode(value);
+      for (std::size_t i = 0; i < 4; ++i) {
+        bytes[wire::kFingerprintBytes + 4 * k + i] = static_cast<std::uint8_t>(count >> (24 - 8 * i));
+      }
+      EXPECT_EQ(verdict<TypeParam>(bytes), "Count") << k << " " << count;
+    }
+  }
+}
+
+TYPED_TEST(EveryMessage, WithoutANameOrATimeIsRefused) {
+  EXPECT_EQ(after<TypeParam>([](auto& v) { v.header.name.sequence = 0; }), "Number");
+  EXPECT_EQ(after<TypeParam>([](auto& v) { v.header.name.sequence = -1; }), "Number");
+  EXPECT_EQ(after<TypeParam>([](auto& v) { v.header.name.sender_epoch_us = -1; }), "Time");
+  EXPECT_EQ(after<TypeParam>([](auto& v) { v.header.utime.us = kFarFuture; }), "Time");
+  EXPECT_EQ(after<TypeParam>([](auto& v) { v.header.utime.us = kFarPast; }), "Time");
+}
+
+TEST(Rejection, OfUavState) {
+  EXPECT_EQ(after<UavState>([](auto& s) { s.motion.p.x() = kNaN; }), "Number");
+  EXPECT_EQ(after<UavState>([](auto& s) { s.motion.j.z() = kInfinity; }), "Number");
+  EXPECT_EQ(after<UavState>([](auto& s) { s.yaw = 3.2; }), "Number");
+  EXPECT_EQ(after<UavState>([](auto& s) { s.at.us = kFarPast; }), "Time");
+}
+
+TEST(Rejection, OfGoal) {
+  EXPECT_EQ(after<Goal>([](auto& g) { g.id = 0; }), "Number");
+  EXPECT_EQ(after<Goal>([](auto& g) { g.position.y() = 1.1e6; }), "Number");
+  EXPECT_EQ(after<Goal>([](auto& g) { g.mode = static_cast<GoalMode>(3); }), "Enumeration");
+  EXPECT_EQ(after<Goal>([](auto& g) { g.mode = static_cast<GoalMode>(255); }), "Enumeration");
+}
+
+TEST(Rejection, OfObservationSet) {
+  EXPECT_EQ(after<ObservationSet>([](auto& s) { s.at.us = kFarFuture; }), "Time");
+  EXPECT_EQ(after<ObservationSet>([](auto& s) { s.sensor_id = -1; }), "Number");
+  EXPECT_EQ(after<ObservationSet>([](auto& s) { s.range_m = -1.0; }), "Number");
+  EXPECT_EQ(after<ObservationSet>([](auto& s) { s.detections[1].half_extents.x() = -1e-9; }), "Number");
+  EXPECT_EQ(after<ObservationSet>([](auto& s) { s.detections[1].variance.x() = -1e-9; }), "Number");
+  EXPECT_EQ(after<ObservationSet>([](auto& s) { s.detections[1].track_id = -2; }), "Number");
+  EXPECT_EQ(after<ObservationSet>([](auto& s) { s.detections[0].track_id = s.detections[1].track_id = 5; }),
+            "Inconsistent");
+  EXPECT_EQ(after<ObservationSet>([](auto& s) { s.detections[0].track_id = s.detections[1].track_id = kNoTrackId; }),
+            "accepted");
+}
+
+TEST(Rejection, OfTrackSet) {
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.batch.set = 0; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.batch.count = kMaxBatches + 1; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.batch.index = -1; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.batch = {1, 2, 2}; }), "Inconsistent");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.made_at.us = kFarFuture; }), "Time");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.confidence = 0.0; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.confidence = 1.0 + 1e-15; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.left_out = -1; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].id = -1; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].id = s.tracks[1].id; }), "Inconsistent");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].kind = static_cast<TrackKind>(3); }), "Enumeration");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].half_extents.z() = -1.0; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].top_speed = kInfinity; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].alpha[0].x() = -1.0; }), "Number");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].motion.start.us = kFarPast; }), "Time");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].motion.pieces[0].duration.us = 0; }), "Time");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].motion.pieces[0].duration.us = kFarFuture; }), "Time");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].motion.pieces[0].coefficients(1, 3) = kNaN; }), "Number");
+}
+
+TEST(Rejection, OfTracksWhosePiecesDoNotAddUp) {
+  using Wire = tern_msgs::track_set_t;
+  const auto after_wire = after_on_wire<TrackSet, Wire>;
+  EXPECT_EQ(after_wire([](Wire& m) { ++m.tracks[0].piece_count; }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) { m.tracks[1].piece_count = kMaxPiecesPerBatch; }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) { m.tracks[0].piece_count = 0; }), "Number");
+  EXPECT_EQ(after_wire([](Wire& m) { m.tracks[0].piece_count = std::numeric_limits<std::int32_t>::min(); }), "Number");
+}
+
+TEST(Rejection, OfAStaticTrackThatMoves) {
+  const auto make_static = [](Track& track, int pieces) {
+    track.kind = TrackKind::Static;
+    track.motion.pieces.assign(static_cast<std::size_t>(pieces), CubicPiece{Duration{1}, PowerCubic::Zero()});
+    track.alpha.assign(track.motion.pieces.size(), Vec3::Zero());
+  };
+  EXPECT_EQ(after<TrackSet>([&](auto& s) { make_static(s.tracks[0], 1); }), "accepted");
+  EXPECT_EQ(after<TrackSet>([&](auto& s) { make_static(s.tracks[0], 2); }), "Inconsistent");
+  EXPECT_EQ(after<TrackSet>([&](auto& s) {
+              make_static(s.tracks[0], 1);
+              s.tracks[0].motion.pieces[0].coefficients(2, 2) = 1e-300;
+            }),
+            "Inconsistent");
+}
+
+TEST(Rejection, OfMapChunk) {
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.version = 0; }), "Number");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.grid.resolution = 0.0; }), "Number");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.grid.origin.setConstant(1e6 - 1e-3); }), "Number");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.grid.size.x() = -1; }), "Number");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.grid.size.setConstant(200'000'000); }), "Number");
+  EXPECT_EQ(after<MapChunk>([](auto& c) {
+              c.grid.resolution = 0.01;
+              c.grid.size = {20'001, 10'000, 1};
+            }),
+            "Number");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.count = kMaxMapChunks + 1; }), "Number");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.index = c.count = 4; }), "Inconsistent");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.first_voxel = -1; }), "Number");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.first_voxel = c.grid.voxels(); }), "Inconsistent");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.runs[0].length = 0; }), "Number");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.runs[0].length = 199'999'999; }), "Inconsistent");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.runs[1].label = static_cast<VoxelLabel>(5); }), "Enumeration");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.runs[1].class_index = static_cast<std::uint8_t>(c.class_names.size()); }),
+            "Inconsistent");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.class_names[0] = "water"; }), "Inconsistent");
+  EXPECT_EQ(after<MapChunk>([](auto& c) { c.class_names[1] = "wa\x1b[2Jter"; }), "Number");
+  using Wire = tern_msgs::map_chunk_t;
+  const auto after_wire = after_on_wire<MapChunk, Wire>;
+  EXPECT_EQ(after_wire([](Wire& m) { --m.class_lengths.back(); }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) { m.class_lengths.back() = 8000; }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) { m.class_lengths.back() = -1; }), "Number");
+}
+
+TEST(Rejection, OfHorizonRequest) {
+  using Request = HorizonRequest;
+  EXPECT_EQ(after<Request>([](auto& r) { r.id = -1; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.t_s.us = kFarPast; }), "Time");
+  EXPECT_EQ(after<Request>([](auto& r) { r.deadline = r.t_s - Duration{4'999}; }), "Time");
+  EXPECT_EQ(after<Request>([](auto& r) {
+              r.t_s = r.committed.start - Duration{1};
+              r.deadline = r.t_s - Duration{10'000};
+            }),
+            "Time");
+  EXPECT_EQ(after<Request>([](auto& r) { r.committed.interval.us = 0; }), "Time");
+  EXPECT_EQ(after<Request>([](auto& r) { r.committed.interval = kLongestInterval + Duration{1}; }), "Time");
+  EXPECT_EQ(after<Request>([](auto& r) { r.committed.control_points(0, 3) = kNaN; }), "Number");
+  EXPECT_EQ(
+      after<Request>([](auto& r) { r.committed.control_points(0, r.committed.control_points.cols() - 1) += 1e-9; }),
+      "Inconsistent");
+  EXPECT_EQ(after<Request>([](auto& r) { r.start.p.x() += 2e-6; }), "Inconsistent");
+  EXPECT_EQ(after<Request>([](auto& r) { r.start.v.y() += 2e-6; }), "Inconsistent");
+  EXPECT_EQ(after<Request>([](auto& r) { r.start.a.z() += 2e-6; }), "Inconsistent");
+  EXPECT_EQ(after<Request>([](auto& r) { r.start.j.z() += 1.0; }), "accepted");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.v_max.x() = kInfinity; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.a_max.x() = 0.0; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.setConstant(kInfinity); }), "accepted");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.x() = -kInfinity; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.y() = kNaN; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.body.radius = -0.1; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.body.vertices(2, 0) = 1001.0; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.flight_box = Box(Vec3(0, 0, 1), Vec3(1, 1, 0)); }), "Inconsistent");
+  EXPECT_EQ(after<Request>([](auto& r) { r.flight_box.setEmpty(); }), "Number");
+}
+
+TEST(Rejection, OfPlan) {
+  EXPECT_EQ(after<Plan>([](auto& p) { p.request_id = 0; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.outcome = static_cast<PlanOutcome>(kPlanOutcomes); }), "Enumeration");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.reason = static_cast<PlanReason>(kPlanReasons); }), "Enumeration");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.trajectory.start.us = kFarFuture; }), "Time");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.trajectory.interval.us = -1; }), "Time");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.trajectory.control_points(2, 6) = -kInfinity; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.hold.us = -1; }), "Time");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.sphere_radius = -1.0; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cost.jerk = -1.0; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cost.total = kInfinity; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cost.repulsion = kNaN; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.goal.sequence = -1; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.predictions.sender_epoch_us = -1; }), "Time");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.prediction_set = -1; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.request = {0, 0}; }), "accepted");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].plane.n *= 1.0 + 3e-6; }), "Inconsistent");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].plane.n.setConstant(kNaN); }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].plane.d = 2e7; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].track = kFarPast; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) {
+              p.certificate[1].interval = static_cast<std::int16_t>(p.trajectory.control_points.cols() - 3);
+            }),
+            "Inconsistent");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].interval = -1; }), "Inconsistent");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].parts = 3; }), "Inconsistent");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].part = p.certificate[1].parts; }), "Inconsistent");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].stage = static_cast<Stage>(kStages); }), "Enumeration");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = -1; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].count = -1; }), "Number");
+  EXPECT_EQ(after_flag_of_two<Plan>([](Plan& p, bool flag) { p.relaxed = flag; }), "Enumeration");
+}
+
+TEST(Rejection, OfPlanTiming) {
+  EXPECT_EQ(after<PlanTiming>([](auto& t) { t.request_id = 0; }), "Number");
+  EXPECT_EQ(after<PlanTiming>([](auto& t) { t.total_ms = -0.1; }), "Number");
+  EXPECT_EQ(after<PlanTiming>([](auto& t) { t.stage_ms[kStages - 1] = kNaN; }), "Number");
+  EXPECT_EQ(after<PlanTiming>([](auto& t) { t.peak_rss_kb = -1; }), "Number");
+  EXPECT_EQ(after_flag_of_two<PlanTiming>([](PlanTiming& t, bool flag) { t.from_watchdog = flag; }), "Enumeration");
+}
+
+TEST(Rejection, OfHeartbeat) {
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.state = static_cast<ProcessState>(5); }), "Enumeration");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.lost = -1; }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.rejected[6] = -1; }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.emplace("", ChannelCounters{}); }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.emplace(std::string(64, 'x'), ChannelCounters{}); }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.waiting_for = "\xC3"; }), "Number");
+  using Wire = tern_msgs::heartbeat_t;
+  const auto after_wire = after_on_wire<Heartbeat, Wire>;
+  EXPECT_EQ(after_wire([](Wire& m) { ++m.channels[0].name_length; }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) {
+              m.channels.resize(2);
+              m.channel_count = 2;
+              m.channels[0].name_length = m.channels[1].name_length = 1;
+              m.channel_text = {'A', 'A'};
+              m.channel_text_count = 2;
+            }),
+            "Inconsistent");
+}
+
+TEST(Rejection, OfConfigurationReport) {
+  EXPECT_EQ(after<ConfigurationReport>([](auto& r) { ++r.hash; }), "Inconsistent");
+  EXPECT_EQ(after<ConfigurationReport>([](auto& r) { r.yaml += ' '; }), "Inconsistent");
+  EXPECT_EQ(after<ConfigurationReport>([](auto& r) {
+              r.yaml += '\0';
+              r.hash = digest(r.yaml);
+            }),
+            "Number");
+}
+
+TEST(Rejection, OfObstacleTruth) {
+  EXPECT_EQ(after<ObstacleTruth>([](auto& t) { t.at.us = kFarPast; }), "Time");
+  EXPECT_EQ(after<ObstacleTruth>([](auto& t) { t.left_out = -1; }), "Number");
+  EXPECT_EQ(after<ObstacleTruth>([](auto& t) { t.batch = {1, 5, 5}; }), "Inconsistent");
+  EXPECT_EQ(after<ObstacleTruth>([](auto& t) { t.obstacles[0].id = -1; }), "Number");
+  EXPECT_EQ(after<ObstacleTruth>([](auto& t) { t.obstacles[0].id = t.obstacles[1].id; }), "Inconsistent");
+  EXPECT_EQ(after<ObstacleTruth>([](auto& t) { t.obstacles[0].velocity.x() = kNaN; }), "Number");
+  EXPECT_EQ(after_flag_of_two<ObstacleTruth>([](ObstacleTruth& t, bool flag) { t.obstacles[0].moves = flag; }),
+            "Enumeration");
+}
+
+TEST(Rejection, OfFlightResult) {
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.outcome = static_cast<FlightOutcome>(4); }), "Enumeration");
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.first_entry_s = kNaN; }), "accepted");
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.first_entry_s = kInfinity; }), "Number");
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.flight_time_s = -1.0; }), "Number");
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.min_clearance_m = -2e7; }), "Number");
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.stops = -1; }), "Number");
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.exposure[0].metres = kNaN; }), "Number");
+  using Wire = tern_msgs::flight_result_t;
+  const auto after_wire = after_on_wire<FlightResult, Wire>;
+  EXPECT_EQ(after_wire([](Wire& m) { m.exposure[0].name_length = 16'000; }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) { m.exposure[0].name_length = -1; }), "Number");
+}
+
+TEST(Rejection, NamesTheReasonThatComesFirstInTheOrderOfTheContract) {
+  const auto number = [](Plan& p) { p.cost.jerk = kNaN; };
+  const auto enumeration = [](Plan& p) { p.outcome = static_cast<PlanOutcome>(99); };
+  const auto time = [](Plan& p) { p.trajectory.start.us = kFarFuture; };
+  const auto inconsistent = [](Plan& p) { p.certificate[0].parts = 3; };
+  EXPECT_EQ(after<Plan>([&](Plan& p) { inconsistent(p), time(p), enumeration(p), number(p); }), "Number");
+  EXPECT_EQ(after<Plan>([&](Plan& p) { inconsistent(p), time(p), enumeration(p); }), "Enumeration");
+  EXPECT_EQ(after<Plan>([&](Plan& p) { inconsistent(p), time(p); }), "Time");
+}
+
+TEST(Encoding, ThrowsOnACountBeyondItsLimit) {
+  ObservationSet observations;
+  observations.detections.resize(kMaxDetections + 1);
+  EXPECT_THROW(encode(observations), std::invalid_argument);
+  Plan plan;
+  plan.trajectory.control_points = Points::Zero(3, kMinControlPoints - 1);
+  EXPECT_THROW(encode(plan), std::invalid_argument);
+  plan.trajectory.control_points = Points::Zero(3, kMaxControlPoints + 1);
+  EXPECT_THROW(encode(plan), std::invalid_argument);
+}
+
+TEST(Encoding, ThrowsOnAMessageThatIsTooLong) {
+  Rng rng(7);
+  TrackSet set;
+  for (int i = 0; i < 2; ++i) set.tracks.push_back(support::random_track(rng, i, kMaxPiecesPerBatch / 2));
+  EXPECT_LE(encode(set).size(), static_cast<std::size_t>(kMaxMessageBytes));
+  for (int i = 2; i < 200; ++i) set.tracks.push_back(support::random_track(rng, i, 1));
+  set.tracks.erase(set.tracks.begin());
+  EXPECT_THROW(encode(set), std::invalid_argument);
+}
+
+TEST(Encoding, ThrowsOnATrackWithoutAnAlphaForEachPiece) {
+  Rng rng(8);
+  TrackSet set;
+  set.tracks.push_back(support::random_track(rng, 0, 3));
+  set.tracks[0].alpha.pop_back();
+  EXPECT_THROW(encode(set), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace tern

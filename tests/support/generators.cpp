@@ -1,0 +1,355 @@
+#include "tests/support/generators.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "core/base/digest.h"
+#include "core/world/message_limits.h"
+#include "tests/support/random_splines.h"
+
+namespace tern::support {
+namespace {
+
+constexpr std::int64_t kMaxCounter = std::numeric_limits<std::int64_t>::max();
+
+/// Within [lo, hi]; one in ten is an end.
+double number(Rng& rng, double lo, double hi) {
+  const double u = rng.uniform();
+  if (u < 0.05) return lo;
+  if (u < 0.10) return hi;
+  return rng.uniform(lo, hi);
+}
+
+std::int64_t integer(Rng& rng, std::int64_t lo, std::int64_t hi) {
+  const double x = std::round(number(rng, static_cast<double>(lo), static_cast<double>(hi)));
+  return x >= static_cast<double>(hi) ? hi : std::max(lo, static_cast<std::int64_t>(x));
+}
+
+int count(Rng& rng, Fill fill, int lo, int hi) {
+  if (fill == Fill::Largest) return hi;
+  const double u = rng.uniform();
+  return rng.uniform() < 0.02 ? hi : random_integer(rng, lo, lo + static_cast<int>((hi - lo) * u * u * u * u));
+}
+
+template <class Enum>
+Enum enumerator(Rng& rng, Enum last) {
+  return static_cast<Enum>(random_integer(rng, 0, static_cast<int>(last)));
+}
+
+bool flag(Rng& rng) { return rng.uniform() < 0.5; }
+Vec3 vec3(Rng& rng, double lo, double hi) {
+  const double x = number(rng, lo, hi);
+  const double y = number(rng, lo, hi);
+  return {x, y, number(rng, lo, hi)};
+}
+Vec3 position(Rng& rng) { return vec3(rng, -kMaxCoordinate, kMaxCoordinate); }
+Vec3 extents(Rng& rng) { return vec3(rng, 0.0, kMaxCoordinate); }
+UTime time(Rng& rng) { return {integer(rng, -kMaxTimeUs, kMaxTimeUs)}; }
+Duration interval(Rng& rng) { return {integer(rng, kShortestInterval.us, kLongestInterval.us)}; }
+double positive(Rng& rng, double hi) {
+  return rng.uniform() < 0.05 ? std::numeric_limits<double>::denorm_min() : number(rng, 1e-3, hi);
+}
+
+Points points(Rng& rng, int n, double limit) {
+  Points result(3, n);
+  for (int i = 0; i < n; ++i) result.col(i) = vec3(rng, -limit, limit);
+  return result;
+}
+
+MotionSample motion(Rng& rng) {
+  return {position(rng), vec3(rng, -kMaxSpeed, kMaxSpeed), vec3(rng, -kMaxAcceleration, kMaxAcceleration),
+          vec3(rng, -kMaxJerk, kMaxJerk)};
+}
+
+MessageName name(Rng& rng) { return {integer(rng, 0, kMaxTimeUs), integer(rng, 0, kMaxCounter)}; }
+Header header(Rng& rng) { return {{integer(rng, 0, kMaxTimeUs), integer(rng, 1, kMaxCounter)}, time(rng)}; }
+
+BatchHeader batch(Rng& rng) {
+  BatchHeader b;
+  b.set = integer(rng, 1, kMaxCounter);
+  b.count = random_integer(rng, 1, kMaxBatches);
+  b.index = random_integer(rng, 0, b.count - 1);
+  return b;
+}
+
+/// Exactly n bytes of text, some of them of two to four bytes a letter.
+std::string text(Rng& rng, int n) {
+  static const std::vector<std::string> kLetters = {"é", "α", "–", "木", "🜁"};
+  std::string result;
+  while (static_cast<int>(result.size()) < n) {
+    const std::string& letter = kLetters[static_cast<std::size_t>(random_integer(rng, 0, 4))];
+    const bool fits = static_cast<int>(result.size() + letter.size()) <= n;
+    if (fits && rng.uniform() < 0.1) {
+      result += letter;
+    } else {
+      result += rng.uniform() < 0.02 ? '\n' : static_cast<char>(random_integer(rng, 0x20, 0x7E));
+    }
+  }
+  return result;
+}
+
+std::vector<std::int64_t> different_ids(Rng& rng, int n) {
+  std::vector<std::int64_t> ids;
+  std::int64_t id = 0;
+  for (int i = 0; i < n; ++i) ids.push_back(id += random_integer(rng, 1, 1000));
+  std::reverse(ids.begin(), ids.begin() + n / 2);
+  return ids;
+}
+
+ChannelCounters counters(Rng& rng) {
+  ChannelCounters c;
+  for (std::int64_t* x : {&c.sent, &c.received, &c.lost, &c.late}) *x = integer(rng, 0, kMaxCounter);
+  for (std::int64_t& x : c.rejected) x = integer(rng, 0, kMaxCounter);
+  return c;
+}
+
+/// A trajectory that ends at rest, with derivatives that a sample may have.
+TimedSpline resting_spline(Rng& rng, int control_points) {
+  TimedSpline spline;
+  spline.start = time(rng);
+  spline.interval = {integer(rng, 100'000, 2'000'000)};
+  spline.control_points = random_control_points(rng, control_points - 3);
+  spline.control_points.rightCols<3>().colwise() = Vec3(spline.control_points.col(control_points - 1));
+  return spline;
+}
+
+CertificatePlane plane(Rng& rng, int intervals) {
+  CertificatePlane p;
+  p.track = integer(rng, -1 - kMaxVoxels, kMaxCounter);
+  p.interval = static_cast<std::int16_t>(random_integer(rng, 0, intervals - 1));
+  p.parts = static_cast<std::int8_t>(1 << random_integer(rng, 0, 2));
+  p.part = static_cast<std::int8_t>(random_integer(rng, 0, p.parts - 1));
+  p.plane.n = (random_vector(rng, 1.0) + Vec3(2.0, 0.0, 0.0)).normalized();
+  p.plane.d = number(rng, -1e7, 1e7);
+  return p;
+}
+
+double measure(Rng& rng, double lo, double hi) {
+  return rng.uniform() < 0.2 ? std::numeric_limits<double>::quiet_NaN() : number(rng, lo, hi);
+}
+
+}  // namespace
+
+Track random_track(Rng& rng, std::int64_t id, int pieces) {
+  Track track;
+  track.id = id;
+  track.kind = pieces == 1 && flag(rng) ? TrackKind::Static : enumerator(rng, TrackKind::Declared);
+  if (track.kind == TrackKind::Static && pieces > 1) track.kind = TrackKind::Estimated;
+  track.half_extents = extents(rng);
+  track.top_speed = number(rng, 0.0, kMaxSpeed);
+  track.motion.start = time(rng);
+  for (int k = 0; k < pieces; ++k) {
+    CubicPiece piece;
+    piece.duration = {integer(rng, 1, kMaxSpan.us)};
+    if (track.kind != TrackKind::Static) {
+      piece.coefficients.col(0) = vec3(rng, -kMaxJerk, kMaxJerk);
+      piece.coefficients.col(1) = vec3(rng, -kMaxAcceleration, kMaxAcceleration);
+      piece.coefficients.col(2) = vec3(rng, -kMaxSpeed, kMaxSpeed);
+    }
+    piece.coefficients.col(3) = position(rng);
+    track.motion.pieces.push_back(piece);
+    track.alpha.push_back(extents(rng));
+  }
+  return track;
+}
+
+template <>
+UavState random_message(Rng& rng, Fill) {
+  return {header(rng), time(rng), motion(rng), number(rng, -std::numbers::pi, std::numbers::pi)};
+}
+
+template <>
+Goal random_message(Rng& rng, Fill) {
+  return {header(rng), integer(rng, 1, kMaxCounter), enumerator(rng, GoalMode::Stop), position(rng)};
+}
+
+template <>
+ObservationSet random_message(Rng& rng, Fill fill) {
+  ObservationSet set;
+  set.header = header(rng);
+  set.at = time(rng);
+  set.sensor_id = random_integer(rng, 0, 1000);
+  set.range_m = number(rng, 0.0, kMaxCoordinate);
+  set.sensor_position = position(rng);
+  for (const std::int64_t id : different_ids(rng, count(rng, fill, 0, kMaxDetections))) {
+    set.detections.push_back({position(rng), extents(rng), vec3(rng, 0.0, 1e12), flag(rng) ? id : kNoTrackId});
+  }
+  return set;
+}
+
+template <>
+TrackSet random_message(Rng& rng, Fill fill) {
+  TrackSet set;
+  set.header = header(rng);
+  set.batch = batch(rng);
+  set.made_at = time(rng);
+  set.confidence = positive(rng, 1.0);
+  set.left_out = random_integer(rng, 0, 1000);
+  const int tracks = count(rng, fill, 0, kMaxTracksPerBatch);
+  const int spare = std::min(kMaxPiecesPerBatch - tracks, (kMaxMessageBytes - 200 - tracks * 181) / 128);
+  int left = fill == Fill::Largest ? 0 : random_integer(rng, 0, spare);
+  for (const std::int64_t id : different_ids(rng, tracks)) {
+    const int more = random_integer(rng, 0, std::min(left, 12));
+    left -= more;
+    set.tracks.push_back(random_track(rng, id, 1 + more));
+  }
+  return set;
+}
+
+template <>
+MapChunk random_message(Rng& rng, Fill fill) {
+  MapChunk chunk;
+  chunk.header = header(rng);
+  chunk.version = digest(text(rng, 8));
+  chunk.grid.resolution = number(rng, 0.01, 1.0);
+  chunk.grid.origin = random_vector(rng, 1000.0);
+  chunk.grid.size = {random_integer(rng, 1, 500), random_integer(rng, 1, 500), random_integer(rng, 1, 100)};
+  chunk.count = random_integer(rng, 1, kMaxMapChunks);
+  chunk.index = random_integer(rng, 0, chunk.count - 1);
+  const int classes = count(rng, fill, 0, kMaxMapClasses);
+  for (int i = 0; i < classes; ++i) chunk.class_names.push_back(text(rng, i == 0 ? 0 : random_integer(rng, 1, 32)));
+  if (fill == Fill::Largest) chunk.class_names.back() += text(rng, 32);
+  const std::int64_t voxels = chunk.grid.voxels();
+  chunk.first_voxel = fill == Fill::Largest ? 0 : integer(rng, 0, voxels);
+  if (fill == Fill::Largest) chunk.grid.size = {500, 500, 100};
+  const int wanted = count(rng, fill, 0, kMaxRunsPerChunk);
+  std::int64_t left = chunk.grid.voxels() - chunk.first_voxel;
+  for (int i = 0; i < wanted && left > 0; ++i) {
+    const auto length = static_cast<std::int32_t>(integer(rng, 1, std::min<std::int64_t>(left, 3000)));
+    left -= length;
+    chunk.runs.push_back({enumerator(rng, VoxelLabel::Repulsive),
+                          static_cast<std::uint8_t>(random_integer(rng, 0, std::max(0, classes - 1))), length});
+  }
+  return chunk;
+}
+
+template <>
+HorizonRequest random_message(Rng& rng, Fill fill) {
+  HorizonRequest request;
+  request.header = header(rng);
+  request.id = integer(rng, 1, kMaxCounter);
+  request.committed = resting_spline(rng, count(rng, fill, kMinControlPoints, kMaxControlPoints));
+  request.committed.start.us = std::clamp(request.committed.start.us, -kMaxTimeUs + 10'000, kMaxTimeUs - 200'000'000);
+  request.t_s = request.committed.start + Duration{integer(rng, 0, 130'000'000)};
+  request.deadline = request.t_s - kDeadlineLead - Duration{random_integer(rng, 0, 1000)};
+  request.start = request.committed.sample(request.t_s);
+  request.limits.v_max = vec3(rng, 1e-3, kMaxSpeed);
+  request.limits.a_max = vec3(rng, 1e-3, kMaxAcceleration);
+  request.limits.j_max =
+      flag(rng) ? vec3(rng, 1e-3, kMaxJerk) : Vec3::Constant(std::numeric_limits<double>::infinity());
+  request.body.radius = number(rng, 0.0, kMaxBodyExtent);
+  request.body.vertices = points(rng, count(rng, fill, 1, kMaxBodyVertices), kMaxBodyExtent);
+  const Vec3 a = position(rng);
+  const Vec3 b = position(rng);
+  request.flight_box = Box(a.cwiseMin(b), a.cwiseMax(b));
+  return request;
+}
+
+template <>
+Plan random_message(Rng& rng, Fill fill) {
+  Plan plan;
+  plan.header = header(rng);
+  plan.request_id = integer(rng, 1, kMaxCounter);
+  plan.outcome = enumerator(rng, PlanOutcome::NoPlan);
+  plan.reason = enumerator(rng, PlanReason::AtGoal);
+  const int n = count(rng, fill, kMinControlPoints, kMaxControlPoints);
+  plan.trajectory = {time(rng), interval(rng), points(rng, n, kMaxCoordinate)};
+  plan.hold = {integer(rng, 0, kMaxSpan.us)};
+  plan.relaxed = flag(rng);
+  plan.local_goal = position(rng);
+  plan.sphere_radius = number(rng, 0.0, kMaxCoordinate);
+  plan.cost = {number(rng, 0.0, 1e9), number(rng, 0.0, 1e300), number(rng, -1e300, 1e300), number(rng, -1e9, 1e9),
+               number(rng, -1e9, 1e9)};
+  plan.inputs = {name(rng),           name(rng), name(rng), integer(rng, 0, kMaxCounter), digest(text(rng, 8)),
+                 digest(text(rng, 8))};
+  const int planes = count(rng, fill, 0, kMaxCertificatePlanes);
+  for (int i = 0; i < planes; ++i) plan.certificate.push_back(plane(rng, n - 3));
+  const int cuts = count(rng, fill, 0, kMaxBudgetCuts);
+  for (int i = 0; i < cuts; ++i) {
+    plan.cuts.push_back({random_integer(rng, 0, 1000), enumerator(rng, Stage::Check), integer(rng, 0, kMaxCounter)});
+  }
+  return plan;
+}
+
+template <>
+PlanTiming random_message(Rng& rng, Fill) {
+  PlanTiming t;
+  t.header = header(rng);
+  t.request_id = integer(rng, 1, kMaxCounter);
+  for (double* x : {&t.total_ms, &t.first_answer_ms, &t.cpu_ms}) *x = number(rng, 0.0, 1e9);
+  for (double& x : t.stage_ms) x = number(rng, 0.0, 1e9);
+  for (std::int64_t* x : {&t.expansions, &t.hulls, &t.pairs_by_box, &t.pairs_by_plane, &t.pairs_by_lp,
+                          &t.solver_iterations, &t.peak_rss_kb}) {
+    *x = integer(rng, 0, kMaxCounter);
+  }
+  t.from_watchdog = flag(rng);
+  return t;
+}
+
+template <>
+Heartbeat random_message(Rng& rng, Fill fill) {
+  Heartbeat heartbeat;
+  heartbeat.header = header(rng);
+  heartbeat.process = text(rng, count(rng, fill, 1, kMaxProcessText));
+  heartbeat.build_id = text(rng, count(rng, fill, 0, kMaxBuildIdText));
+  heartbeat.state = enumerator(rng, ProcessState::Failed);
+  heartbeat.waiting_for = text(rng, count(rng, fill, 0, kMaxWaitingText));
+  const auto channels = static_cast<std::size_t>(count(rng, fill, 0, kMaxHeartbeatChannels));
+  while (heartbeat.channels.size() < channels) {
+    heartbeat.channels.emplace(text(rng, count(rng, fill, 1, kMaxChannelName)), counters(rng));
+  }
+  return heartbeat;
+}
+
+template <>
+ConfigurationReport random_message(Rng& rng, Fill fill) {
+  ConfigurationReport report;
+  report.header = header(rng);
+  report.process = text(rng, count(rng, fill, 1, kMaxProcessText));
+  report.build_id = text(rng, count(rng, fill, 0, kMaxBuildIdText));
+  report.yaml = text(rng, count(rng, fill, 0, kMaxYamlText));
+  report.hash = digest(report.yaml);
+  return report;
+}
+
+template <>
+ObstacleTruth random_message(Rng& rng, Fill fill) {
+  ObstacleTruth truth;
+  truth.header = header(rng);
+  truth.batch = batch(rng);
+  truth.at = time(rng);
+  truth.left_out = random_integer(rng, 0, 1000);
+  for (const std::int64_t id : different_ids(rng, count(rng, fill, 0, kMaxObstaclesPerBatch))) {
+    truth.obstacles.push_back({id, position(rng), vec3(rng, -kMaxSpeed, kMaxSpeed), extents(rng), flag(rng)});
+  }
+  return truth;
+}
+
+template <>
+FlightResult random_message(Rng& rng, Fill fill) {
+  FlightResult result;
+  result.header = header(rng);
+  result.outcome = enumerator(rng, FlightOutcome::Failed);
+  result.detail = text(rng, count(rng, fill, 0, kMaxDetailText));
+  result.flight_time_s = measure(rng, 0.0, 1e9);
+  result.first_entry_s = measure(rng, 0.0, 1e9);
+  result.path_length_m = measure(rng, 0.0, 1e9);
+  result.mean_speed_mps = measure(rng, 0.0, kMaxSpeed);
+  result.top_speed_mps = measure(rng, 0.0, kMaxSpeed);
+  result.min_clearance_m = measure(rng, -1e7, 1e7);
+  result.jerk_integral = measure(rng, 0.0, 1e300);
+  result.stops = integer(rng, 0, kMaxCounter);
+  result.limit_violations = integer(rng, 0, kMaxCounter);
+  const int regions = count(rng, fill, 0, kMaxExposures);
+  for (int i = 0; i < regions; ++i) {
+    result.exposure.push_back({text(rng, fill == Fill::Largest ? 64 : random_integer(rng, 0, 64)),
+                               number(rng, 0.0, 1e9), number(rng, 0.0, 1e9), number(rng, 0.0, 1e9),
+                               number(rng, 0.0, 1e9)});
+  }
+  return result;
+}
+
+}  // namespace tern::support
