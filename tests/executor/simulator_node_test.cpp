@@ -1,0 +1,365 @@
+// The simulator's node, whole, on virtual time with a stub planner: it flies, judges, waits, survives.
+#include "simulator/app/simulator_node.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "messages/flight_result.h"
+#include "messages/goal.h"
+#include "messages/horizon_request.h"
+#include "messages/observation_set.h"
+#include "messages/obstacle_truth.h"
+#include "messages/plan.h"
+#include "messages/track_set.h"
+#include "messages/uav_state.h"
+#include "runtime/batches.h"
+#include "runtime/channels.h"
+#include "runtime/virtual_runner.h"
+#include "tests/support/stub_planner.h"
+
+namespace tern {
+namespace {
+
+constexpr UTime kStart{1'700'000'000'000'000};
+constexpr Duration kSecond{1'000'000};
+
+Scenario empty_scenario() {
+  Scenario scenario;
+  scenario.name = "empty";
+  scenario.uav.goal = Vec3(20.0, -3.0, 2.0);
+  return scenario;
+}
+
+Scenario with_obstacle(Scenario scenario, ObstacleSpec obstacle) {
+  scenario.world.obstacles.push_back(std::move(obstacle));
+  return scenario;
+}
+
+ObstacleSpec far_trefoil() {
+  ObstacleSpec obstacle;
+  obstacle.centre = Vec3(10.0, 30.0, 1.0);
+  obstacle.motion = TrefoilMotion{Vec3::Ones(), 1.1, 0.4};
+  return obstacle;
+}
+
+/// A flight of the simulator and a stub planner; what was said on the way.
+struct Flight {
+  explicit Flight(const Scenario& scenario, SimulatorConfig config = {}, ExecutorConfig executor = {}) {
+    config.wait_for = {"tern-planner"};
+    Bus& ear = runner.observer();
+    ear.subscribe<HorizonRequest>(channels::kHorizonRequest, [this](const HorizonRequest& m) { requests.push_back(m); });
+    ear.subscribe<Plan>(channels::kPlan, [this](const Plan& m) { plans.push_back({m, runner.now()}); });
+    ear.subscribe<UavState>(channels::kUavState, [this](const UavState& m) { states.push_back(m); });
+    ear.subscribe<FlightResult>(channels::kFlightResult, [this](const FlightResult& m) { results.push_back(m); });
+    ear.subscribe<ObstacleTruth>(channels::kObstacleTruth, [this](const ObstacleTruth& m) { truths.push_back(m); });
+    ear.subscribe<ObservationSet>(channels::kObstacleObservations,
+                                  [this](const ObservationSet& m) { observations.push_back({m, runner.now()}); });
+    ear.subscribe<Goal>(channels::kGoal, [this](const Goal& m) { goals.push_back(m); });
+    World world = make_world(scenario, "").value();
+    runner.start("tern-simulator", [&](Bus& bus) -> std::unique_ptr<Node> {
+      auto node = std::make_unique<SimulatorNode>(bus, scenario, std::move(world), config, executor);
+      simulator = node.get();
+      return node;
+    });
+  }
+
+  void start_planner(const StubPlannerOptions& options = {}) {
+    runner.start("tern-planner", [&](Bus& bus) { return std::make_unique<StubPlannerNode>(bus, options); });
+  }
+
+  RunResult fly(Duration at_most = kSecond * 100) { return runner.run(runner.now() + at_most); }
+
+  struct Answer {
+    Plan plan;
+    UTime at;
+  };
+  struct Observed {
+    ObservationSet set;
+    UTime at;
+  };
+  VirtualRunner runner{kStart};
+  SimulatorNode* simulator = nullptr;
+  std::vector<HorizonRequest> requests;
+  std::vector<Answer> plans;
+  std::vector<UavState> states;
+  std::vector<FlightResult> results;
+  std::vector<ObstacleTruth> truths;
+  std::vector<Observed> observations;
+  std::vector<Goal> goals;
+};
+
+TEST(SimulatorNode, FliesToTheGoalWithEveryRequestAnsweredOnceAndInTime) {
+  Flight flight(empty_scenario());
+  flight.start_planner();
+  const RunResult end = flight.fly();
+  EXPECT_EQ(end.end, RunEnd::Finished);
+  EXPECT_EQ(end.exit_code, 0);
+  ASSERT_EQ(flight.results.size(), 6U);
+  const FlightResult& result = flight.results.front();
+  EXPECT_EQ(result.outcome, FlightOutcome::Reached) << result.detail;
+  EXPECT_EQ(result.limit_violations, 0);
+  EXPECT_GT(result.flight_time_s, 4.0);
+  EXPECT_LT(result.flight_time_s, 15.0);
+  std::map<std::int64_t, int> answers;
+  for (const auto& [plan, at] : flight.plans) {
+    const HorizonRequest& request = flight.requests.at(static_cast<std::size_t>(plan.request_id - 1));
+    EXPECT_LE(at, request.deadline);
+    ++answers[plan.request_id];
+  }
+  EXPECT_GT(flight.requests.size(), 50U);
+  EXPECT_EQ(answers.size(), flight.requests.size());
+  for (const auto& [id, count] : answers) EXPECT_EQ(count, 1) << "request " << id;
+  const ExecutorCounters& counters = flight.simulator->executor().counters();
+  EXPECT_EQ(counters.answered_in_time, counters.requests);
+  EXPECT_EQ(counters.refused(), 0);
+}
+
+TEST(SimulatorNode, FliesTheSameTwice) {
+  std::vector<UavState> first;
+  for (int round = 0; round < 2; ++round) {
+    Flight flight(empty_scenario());
+    flight.start_planner();
+    flight.fly();
+    if (round == 0) {
+      first = flight.states;
+      continue;
+    }
+    ASSERT_EQ(flight.states.size(), first.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      ASSERT_EQ(flight.states[k].at, first[k].at);
+      ASSERT_EQ(flight.states[k].motion.p, first[k].motion.p);
+    }
+  }
+}
+
+TEST(SimulatorNode, PublishesStateAt100HzWithoutAGapOrAJump) {
+  Flight flight(empty_scenario());
+  flight.start_planner();
+  flight.fly();
+  for (std::size_t k = 1; k < flight.states.size(); ++k) {
+    ASSERT_EQ((flight.states[k].at - flight.states[k - 1].at).us, 10'000);
+    const Vec3 step = flight.states[k].motion.p - flight.states[k - 1].motion.p;
+    ASSERT_LE(step.cwiseAbs().maxCoeff(), 0.0601);
+  }
+}
+
+TEST(SimulatorNode, WithoutAPlannerFailsNamingItAndExits3) {
+  Flight flight(empty_scenario());
+  const RunResult end = flight.fly();
+  EXPECT_EQ(end.end, RunEnd::Finished);
+  EXPECT_EQ(end.exit_code, kExitNotReady);
+  ASSERT_FALSE(flight.results.empty());
+  EXPECT_EQ(flight.results.front().outcome, FlightOutcome::Failed);
+  EXPECT_THAT(flight.results.front().detail, testing::HasSubstr("tern-planner (not heard)"));
+  EXPECT_TRUE(flight.requests.empty());
+  EXPECT_NEAR((flight.runner.now() - kStart).seconds(), 16.2, 0.1);
+}
+
+TEST(SimulatorNode, WorldTimeStartsAtAWholeMillisecondAfterTheLastProcessIsReady) {
+  Flight flight(empty_scenario());
+  flight.fly(kSecond * 3);
+  EXPECT_FALSE(flight.simulator->world_zero());
+  EXPECT_EQ(flight.simulator->health().state, ProcessState::Waiting);
+  const UTime planner_start = flight.runner.now();
+  flight.start_planner();
+  flight.fly(kSecond);
+  ASSERT_TRUE(flight.simulator->world_zero());
+  const UTime zero = *flight.simulator->world_zero();
+  EXPECT_EQ(zero.us % 1'000, 0);
+  EXPECT_GE(zero, planner_start + Duration{300'000});
+  EXPECT_LE(zero, planner_start + Duration{320'000});
+  ASSERT_FALSE(flight.requests.empty());
+  EXPECT_EQ(flight.requests.front().t_s, zero + Duration{75'000});
+}
+
+TEST(SimulatorNode, UntilWorldZeroEverythingRests) {
+  Flight flight(with_obstacle(empty_scenario(), far_trefoil()));
+  flight.fly(kSecond * 2);
+  ASSERT_GT(flight.truths.size(), 50U);
+  ASSERT_GT(flight.observations.size(), 50U);
+  flight.start_planner();
+  flight.fly(kSecond * 2);
+  const UTime zero = *flight.simulator->world_zero();
+  const Vec3 resting = flight.truths.front().obstacles.at(0).position;
+  bool moved = false;
+  for (const ObstacleTruth& truth : flight.truths) {
+    if (truth.at <= zero) {
+      EXPECT_EQ(truth.obstacles.at(0).position, resting);
+    }
+    moved = moved || truth.obstacles.at(0).position != resting;
+  }
+  EXPECT_TRUE(moved);
+  for (const auto& [set, at] : flight.observations) {
+    if (set.at <= zero) {
+      EXPECT_EQ(set.detections.at(0).position, resting);
+    }
+  }
+}
+
+TEST(SimulatorNode, DetectionsFlowWithoutAGapThroughWorldZero) {
+  SimulatorConfig config;
+  config.sensor = perception_only(3);
+  Flight flight(with_obstacle(empty_scenario(), far_trefoil()), config);
+  flight.fly(kSecond);
+  flight.start_planner();
+  flight.fly(kSecond * 2);
+  for (std::size_t k = 1; k < flight.observations.size(); ++k) {
+    EXPECT_LE((flight.observations[k].at - flight.observations[k - 1].at).us, 2 * 33'334);
+    EXPECT_GT(flight.observations[k].set.at, flight.observations[k - 1].set.at);
+    EXPECT_NEAR(static_cast<double>((flight.observations[k].at - flight.observations[k].set.at).us), 50'000.0, 1.0);
+  }
+}
+
+TEST(SimulatorNode, WhatIsDeclaredHoldsFromTheDeclarationOn) {
+  Scenario scenario = with_obstacle(empty_scenario(), far_trefoil());
+  ObstacleSpec wall;
+  wall.centre = Vec3(10.0, 20.0, 1.0);
+  scenario = with_obstacle(scenario, wall);
+  Flight flight(scenario);
+  BatchCollector<TrackSet> collector;
+  std::vector<TrackSet> declared;
+  flight.runner.observer().subscribe<TrackSet>(channels::kDeclaredMotions, [&](const TrackSet& batch) {
+    if (auto set = collector.add(batch)) declared.push_back(std::move(set->front()));
+  });
+  flight.fly(kSecond);
+  flight.start_planner();
+  flight.fly(kSecond * 6);
+  const UTime zero = *flight.simulator->world_zero();
+  ASSERT_GT(declared.size(), 25U);
+  int checked = 0;
+  for (const TrackSet& set : declared) {
+    ASSERT_EQ(set.tracks.size(), 2U);
+    for (const ObstacleTruth& truth : flight.truths) {
+      // What was said before anyone knew world zero holds until then only.
+      if (truth.at < set.made_at || (truth.at > zero && set.made_at <= zero - Duration{300'000})) continue;
+      for (const Track& track : set.tracks) {
+        const TrueObstacle& o = truth.obstacles.at(static_cast<std::size_t>(track.id));
+        EXPECT_TRUE(track.bounds(truth.at, truth.at).contains(box_around(o.position, o.half_extents)))
+            << "track " << track.id << ", " << (truth.at - zero).us << " us of world time, declared at "
+            << (set.made_at - zero).us;
+        ++checked;
+      }
+    }
+  }
+  EXPECT_GT(checked, 1'000);
+}
+
+TEST(SimulatorNode, PerceptionOnlyDeclaresNothing) {
+  SimulatorConfig config;
+  config.declare = false;
+  Flight flight(with_obstacle(empty_scenario(), far_trefoil()), config);
+  int declared = 0;
+  flight.runner.observer().subscribe<TrackSet>(channels::kDeclaredMotions, [&](const TrackSet&) { ++declared; });
+  flight.start_planner();
+  flight.fly(kSecond * 2);
+  EXPECT_EQ(declared, 0);
+  EXPECT_GT(flight.observations.size(), 50U);
+}
+
+TEST(SimulatorNode, APlannerThatDiesStopsTheVehicleAndItsReturnBringsItHome) {
+  Flight flight(empty_scenario());
+  flight.start_planner();
+  flight.fly(kSecond * 2);
+  flight.runner.stop("tern-planner");
+  flight.fly(kSecond * 5);
+  const MotionSample resting = flight.states.back().motion;
+  EXPECT_EQ(resting.v, Vec3::Zero());
+  EXPECT_GT((resting.p - empty_scenario().uav.goal).norm(), 1.0);
+  EXPECT_GT(flight.simulator->executor().counters().unanswered, 40);
+  flight.start_planner();
+  flight.fly();
+  ASSERT_FALSE(flight.results.empty());
+  EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached) << flight.results.back().detail;
+  EXPECT_EQ(flight.results.back().limit_violations, 0);
+  EXPECT_EQ(flight.results.back().stops, 1);
+}
+
+TEST(SimulatorNode, LateAndRepeatedAnswersAreCountedAndFlyNowhere) {
+  Flight flight(empty_scenario());
+  flight.start_planner({.delay = Duration{72'000}, .answers = 2, .plan = {}});
+  flight.fly();
+  ASSERT_FALSE(flight.results.empty());
+  EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Timeout);
+  EXPECT_EQ(flight.states.back().motion.p, empty_scenario().uav.start);
+  const ExecutorCounters& counters = flight.simulator->executor().counters();
+  EXPECT_EQ(counters.answered_in_time, 0);
+  EXPECT_EQ(counters.of(Verdict::Late), counters.answered_twice());
+  EXPECT_GT(counters.late(), 100);
+}
+
+TEST(SimulatorNode, TakesOverANewerGoalAndRepeatsIt) {
+  Flight flight(empty_scenario());
+  flight.start_planner();
+  flight.fly(kSecond * 2);
+  Goal goal;
+  goal.id = 7;
+  goal.position = Vec3(-4.0, 6.0, 3.0);
+  flight.runner.observer().publish(channels::kGoal, goal);
+  Goal older = goal;
+  older.id = 5;
+  older.position = Vec3::Zero();
+  flight.runner.observer().publish(channels::kGoal, older);
+  flight.fly();
+  ASSERT_FALSE(flight.results.empty());
+  EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached) << flight.results.back().detail;
+  EXPECT_LT((flight.states.back().motion.p - goal.position).norm(), 0.2);
+  EXPECT_EQ(flight.goals.front().id, 1);
+  EXPECT_EQ(flight.goals.back().id, 7);
+  EXPECT_EQ(flight.goals.back().position, goal.position);
+}
+
+TEST(SimulatorNode, WithoutAGoalTheMissionWaits) {
+  SimulatorConfig config;
+  config.send_goal = false;
+  Flight flight(empty_scenario(), config);
+  flight.start_planner();
+  flight.fly(kSecond * 2);
+  EXPECT_TRUE(flight.requests.empty());
+  EXPECT_EQ(flight.simulator->health().waiting_for, "a goal");
+  Goal goal;
+  goal.id = 1;
+  goal.position = Vec3(2.0, 0.0, 1.0);
+  flight.runner.observer().publish(channels::kGoal, goal);
+  flight.fly();
+  ASSERT_FALSE(flight.results.empty());
+  EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached);
+}
+
+TEST(SimulatorNode, ACollisionEndsTheFlight) {
+  ObstacleSpec intruder;
+  intruder.centre = Vec3(0.0, 9.0, 1.0);
+  intruder.motion = LinearMotion{Vec3(0.0, -3.0, 0.0), 0.0};
+  Scenario scenario = with_obstacle(empty_scenario(), intruder);
+  scenario.uav.goal = scenario.uav.start;
+  SimulatorConfig config;
+  config.min_flight_s = 8.0;
+  Flight flight(scenario, config);
+  flight.start_planner();
+  EXPECT_EQ(flight.fly().exit_code, 0);
+  ASSERT_FALSE(flight.results.empty());
+  EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Collision);
+  EXPECT_NEAR(flight.results.back().flight_time_s, (9.0 - 0.4 - 0.1) / 3.0, 1e-3);
+  EXPECT_LT(flight.results.back().min_clearance_m, 0.0);
+}
+
+TEST(SimulatorNode, AGuardedPlaceIsReachedWhenTheMinimumFlightIsOver) {
+  Scenario scenario = empty_scenario();
+  scenario.uav.goal = scenario.uav.start;
+  SimulatorConfig config;
+  config.min_flight_s = 3.0;
+  Flight flight(scenario, config);
+  flight.start_planner();
+  flight.fly();
+  ASSERT_FALSE(flight.results.empty());
+  EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached);
+  EXPECT_NEAR(flight.results.back().flight_time_s, 3.0, 0.011);
+}
+
+}  // namespace
+}  // namespace tern
