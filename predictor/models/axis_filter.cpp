@@ -1,0 +1,30 @@
+#include "predictor/models/axis_filter.h"
+
+#include <algorithm>
+
+namespace tern {
+
+void AxisFilter::predict(double dt, double q) {
+  x += v * dt;
+  xx += dt * (2.0 * xv + dt * (vv + q * dt / 3.0));
+  xv += dt * (vv + q * dt / 2.0);
+  vv += q * dt;
+}
+
+void AxisFilter::update(double z, double r) {
+  const double s = xx + std::max(r, kLeastVariance);
+  const double gain_x = xx / s;
+  const double gain_v = xv / s;
+  const double innovation = z - x;
+  x += gain_x * innovation;
+  v += gain_v * innovation;
+  vv -= gain_v * xv;
+  xv -= gain_x * xv;
+  xx -= gain_x * xx;
+}
+
+double AxisFilter::distance2(double z, double r) const {
+  return (z - x) * (z - x) / (xx + std::max(r, kLeastVariance));
+}
+
+}  // namespace tern

@@ -1,0 +1,55 @@
+// What a constant-velocity estimate promises: a predicted line and an α that holds over the whole horizon.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/base/time.h"
+#include "core/world/track.h"
+#include "predictor/models/axis_filter.h"
+
+namespace tern {
+
+/// How far a filter's prediction looks, and how sure it is.
+struct PredictionSpec {
+  Duration horizon{4'500'000};  ///< > 0
+  /// Pieces are so long during the first second, twice that afterwards: α grows, and each piece carries its largest.
+  Duration piece{250'000};      ///< > 0, ≤ horizon
+  double confidence = 0.99;     ///< in (0, 1): probability that a track keeps its α over all its pieces
+  double max_speed = 5.0;       ///< m/s per axis, > 0: nothing is believed to move faster
+};
+
+/// The piece ends: seconds since the prediction's start, ascending, from 0 to the horizon.
+std::vector<Duration> piece_ends(const PredictionSpec& spec);
+
+/// P[the error leaves ±z σ(t) at any time in [0, horizon]] ≤ this, for one axis (a bound by Rice's formula):
+///   erfc(z/√2) + e^{−z²/2}/π · ∫ √(det P(t))/P_xx(t) dt.
+/// The first term is the error's start outside, the second the expected number of its outcrossings: ν = e(t)/σ(t) is a
+/// Gaussian process of variance 1 whose derivative has variance det P/P_xx², since σσ̇ = P_xv.
+/// S. O. Rice, "Mathematical analysis of random noise", 1945, §3.3.
+double escape_probability(double z, double crossings);
+
+/// ∫ √(det P(t))/P_xx(t) dt over [0, horizon_s], by Simpson's rule on t = horizon·u³ (the integrand falls like 1/t).
+double crossing_integral(const AxisFilter& filter, double q, double horizon_s);
+
+/// The least z with escape_probability(z, crossings) ≤ probability. @pre 0 < probability < 1, crossings ≥ 0.
+double quantile_for(double probability, double crossings);
+
+/// One axis: line ends and half-widths at the times of piece_ends.
+struct AxisTube {
+  std::vector<double> centre;  ///< m
+  std::vector<double> half;    ///< m, never falling
+};
+
+/// The region of one axis over time. The error stays inside z σ(t), and no speed exceeds u = max(max_speed, |v|), so
+///   high(0) = x + zσ(0), high(t_k) = min(x + v t_k + z σ(t_k), high(t_{k−1}) + u (t_k − t_{k−1})), low alike;
+/// centre and half-width are of [low, high]. high is convex and low concave, so between two times the chords contain the
+/// region: a straight piece between the centres with the later half-width keeps the promise. Without the speed's
+/// limit the centre is the predicted line; where it bites on one side only, the centre bends to the other.
+AxisTube axis_tube(const AxisFilter& filter, double q, double probability, const PredictionSpec& spec);
+
+/// The motion and α of an estimate whose state is that of `start`. Each axis gets a third of 1 − confidence.
+/// Sets motion, alpha and top_speed (max_speed, or the estimate's own speed if that is larger).
+void predict_motion(const std::array<AxisFilter, 3>& axes, double q, UTime start, const PredictionSpec& spec, Track& track);
+
+}  // namespace tern

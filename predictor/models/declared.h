@@ -1,0 +1,29 @@
+// The declared model: passes on what owners promise, and lets it win over what is merely seen.
+#pragma once
+
+#include <vector>
+
+#include "core/world/observation.h"
+#include "core/world/track.h"
+
+namespace tern {
+
+/// A detection within this many standard deviations of a declared box (centre in box grown by α) is that track's.
+inline constexpr double kExplainedSigmas = 4.0;
+
+/// The declared tracks over [now, now + horizon]: pieces that ended by `now` and pieces that begin after now + horizon
+/// go, the others stay bit for bit with their α (the first one begins when it began). A track that is over keeps its
+/// last piece, so that its region goes on growing at its top speed; Static tracks stay as they are. Order is kept.
+std::vector<Track> trimmed(const std::vector<Track>& declared, UTime now, Duration horizon);
+
+/// True if a declared track has the detection's id, or holds it at the time of the observation.
+bool is_explained(const Detection& detection, UTime at, const std::vector<Track>& declared);
+
+/// The set without the detections that declared tracks explain.
+ObservationSet without_explained(ObservationSet observations, const std::vector<Track>& declared);
+
+/// The declared tracks, and those estimated ones that are not explained: id not declared, predicted centre at `now` in no
+/// declared region. By id ascending.
+std::vector<Track> merged(std::vector<Track> declared, const std::vector<Track>& estimated, UTime now);
+
+}  // namespace tern

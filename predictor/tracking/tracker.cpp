@@ -1,0 +1,219 @@
+#include "predictor/tracking/tracker.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "predictor/tracking/assignment.h"
+
+namespace tern {
+namespace {
+
+constexpr int kNoDetection = -1;
+
+// For each object the index of its detection, and which detections are taken.
+struct Matching {
+  std::vector<int> detection_of;
+  std::vector<bool> taken;
+};
+
+std::array<AxisFilter, 3> start_filters(const Detection& detection, double speed_variance) {
+  std::array<AxisFilter, 3> axes;
+  for (int i = 0; i < 3; ++i) {
+    axes[static_cast<std::size_t>(i)] = {detection.position[i], 0.0, std::max(detection.variance[i], kLeastVariance), 0.0,
+                                         speed_variance};
+  }
+  return axes;
+}
+
+void predict_axes(std::array<AxisFilter, 3>& axes, double dt, double sigma) {
+  for (AxisFilter& axis : axes) axis.predict(dt, sigma * sigma);
+}
+
+void update_axes(std::array<AxisFilter, 3>& axes, const Detection& detection) {
+  for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].update(detection.position[i], detection.variance[i]);
+}
+
+void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections, Matching& matching) {
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    if (detections[d].track_id == kNoTrackId) continue;
+    const auto object = std::find_if(objects.begin(), objects.end(),
+                                     [&](const TrackedObject& o) { return o.id == detections[d].track_id; });
+    if (object == objects.end()) continue;
+    int& mine = matching.detection_of[static_cast<std::size_t>(object - objects.begin())];
+    if (mine != kNoDetection) continue;
+    mine = static_cast<int>(d);
+    matching.taken[d] = true;
+  }
+}
+
+// Among objects with the given confirmation, and detections without an id, that are still free.
+void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections, bool confirmed,
+                       Matching& matching) {
+  std::vector<std::size_t> rows, columns;
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    if (objects[o].confirmed == confirmed && matching.detection_of[o] == kNoDetection) rows.push_back(o);
+  }
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    if (!matching.taken[d] && detections[d].track_id == kNoTrackId) columns.push_back(d);
+  }
+  Eigen::MatrixXd cost(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index r = 0; r < cost.rows(); ++r) {
+    for (Eigen::Index c = 0; c < cost.cols(); ++c) {
+      cost(r, c) = mahalanobis2(objects[rows[static_cast<std::size_t>(r)]].moving,
+                                detections[columns[static_cast<std::size_t>(c)]]);
+    }
+  }
+  const std::vector<int> column_of = assign(cost, kAssociationGate);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (column_of[r] == kUnassigned) continue;
+    const std::size_t d = columns[static_cast<std::size_t>(column_of[r])];
+    matching.detection_of[rows[r]] = static_cast<int>(d);
+    matching.taken[d] = true;
+  }
+}
+
+Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections) {
+  Matching matching{std::vector<int>(objects.size(), kNoDetection), std::vector<bool>(detections.size(), false)};
+  match_by_id(objects, detections, matching);
+  match_by_distance(objects, detections, true, matching);
+  match_by_distance(objects, detections, false, matching);
+  return matching;
+}
+
+bool comes_before(const ObservationSet& a, const ObservationSet& b) {
+  return std::pair(a.at, a.sensor_id) < std::pair(b.at, b.sensor_id);
+}
+
+}  // namespace
+
+double mahalanobis2(const std::array<AxisFilter, 3>& axes, const Detection& detection) {
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    sum += axes[static_cast<std::size_t>(i)].distance2(detection.position[i], detection.variance[i]);
+  }
+  return sum;
+}
+
+bool Tracker::update(const ObservationSet& observations) {
+  if (!steps_.empty() && observations.at + kReorderWindow < newest()) return false;
+  const auto place = std::upper_bound(steps_.begin(), steps_.end(), observations,
+                                      [](const ObservationSet& a, const Step& b) { return comes_before(a, b.observations); });
+  auto step = steps_.insert(place, Step{observations, {}});
+  for (; step != steps_.end(); ++step) {
+    const State& before = step == steps_.begin() ? before_steps_ : (step - 1)->after;
+    step->after = advanced(before, step->observations);
+  }
+  while (steps_.size() > 1 && steps_.front().observations.at + kReorderWindow < newest()) {
+    before_steps_ = std::move(steps_.front().after);
+    steps_.pop_front();
+  }
+  return true;
+}
+
+Tracker::State Tracker::advanced(State state, const ObservationSet& observations) const {
+  const UTime at = observations.at;
+  predict_to(state, at);
+  const std::vector<Detection>& detections = observations.detections;
+  const Matching matching = match(state.objects, detections);
+  for (std::size_t o = 0; o < state.objects.size(); ++o) {
+    TrackedObject& object = state.objects[o];
+    ++object.age;
+    object.hits <<= 1;
+    const int d = matching.detection_of[o];
+    if (d != kNoDetection) take(object, detections[static_cast<std::size_t>(d)], at);
+    object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
+  }
+  std::erase_if(state.objects, [&](const TrackedObject& object) { return is_dead(object, at); });
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    if (matching.taken[d]) continue;
+    const std::int64_t given = detections[d].track_id;
+    const bool known = given != kNoTrackId && std::any_of(state.objects.begin(), state.objects.end(),
+                                                          [&](const TrackedObject& o) { return o.id == given; });
+    if (!known) state.objects.push_back(born(detections[d], at, given == kNoTrackId ? state.next_id++ : given));
+  }
+  std::sort(state.objects.begin(), state.objects.end(),
+            [](const TrackedObject& a, const TrackedObject& b) { return a.id < b.id; });
+  return state;
+}
+
+void Tracker::predict_to(State& state, UTime at) const {
+  const double dt = state.objects.empty() ? 0.0 : (at - state.at).seconds();
+  for (TrackedObject& object : state.objects) {
+    predict_axes(object.moving, dt, config_.sigma_acceleration);
+    predict_axes(object.resting, dt, kRestingSigma);
+  }
+  state.at = at;
+}
+
+void Tracker::take(TrackedObject& object, const Detection& detection, UTime at) const {
+  const double distance2 = mahalanobis2(object.moving, detection);
+  if (distance2 > kJumpGate) {
+    const TrackedObject anew = born(detection, at, object.id);
+    object.moving = anew.moving;
+    object.resting = anew.resting;
+    object.resting_since = at;
+    object.resting_average = anew.resting_average;
+  } else {
+    const double resting2 = mahalanobis2(object.resting, detection);
+    object.resting_average += kRestingForgetting * (resting2 - object.resting_average);
+    update_axes(object.moving, detection);
+    update_axes(object.resting, detection);
+    if (object.resting_average > kRestingLimit) {
+      object.resting = object.moving;
+      object.resting_since = at;
+      object.resting_average = 3.0;
+    }
+  }
+  const Vec3 shrunk = object.half_extents + kExtentShrink * (detection.half_extents - object.half_extents);
+  object.half_extents = shrunk.cwiseMax(detection.half_extents);
+  object.last_seen = at;
+  object.hits |= 1u;
+}
+
+TrackedObject Tracker::born(const Detection& detection, UTime at, std::int64_t id) const {
+  TrackedObject object;
+  object.id = id;
+  object.last_seen = at;
+  object.resting_since = at;
+  object.half_extents = detection.half_extents;
+  // Uniform in ±max_speed has this variance.
+  object.moving = start_filters(detection, config_.prediction.max_speed * config_.prediction.max_speed / 3.0);
+  object.resting = object.moving;
+  object.confirmed = config_.confirm_hits <= 1;
+  return object;
+}
+
+bool Tracker::is_dead(const TrackedObject& object, UTime at) const {
+  if (object.confirmed) return at - object.last_seen > config_.coast;
+  return object.age >= config_.confirm_window;
+}
+
+bool Tracker::rests(const TrackedObject& object) const {
+  if (object.last_seen - object.resting_since < config_.resting_after) return false;
+  return std::all_of(object.resting.begin(), object.resting.end(), [](const AxisFilter& axis) {
+    return std::abs(axis.v) <= std::max(kRestingSpeed, kRestingSpeedSigmas * std::sqrt(axis.vv));
+  });
+}
+
+std::vector<Track> Tracker::predict(UTime now) const {
+  State state = newest_state();
+  predict_to(state, std::max(now, state.at));
+  std::vector<Track> tracks;
+  for (const TrackedObject& object : state.objects) {
+    if (!object.confirmed) continue;
+    Track track;
+    track.id = object.id;
+    track.kind = TrackKind::Estimated;
+    track.half_extents = object.half_extents;
+    const bool resting = rests(object);
+    const double sigma = resting ? kRestingSigma : config_.sigma_acceleration;
+    predict_motion(resting ? object.resting : object.moving, sigma * sigma, state.at, config_.prediction, track);
+    tracks.push_back(std::move(track));
+  }
+  return tracks;
+}
+
+}  // namespace tern

@@ -1,0 +1,107 @@
+// Tracks from noisy, late, anonymous detections: born, confirmed, coasting, dead.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "core/world/observation.h"
+#include "core/world/track.h"
+#include "predictor/models/axis_filter.h"
+#include "predictor/models/constant_velocity.h"
+
+namespace tern {
+
+/// Tracks of detections without an id get ids from here on; sensors and owners use smaller ones.
+inline constexpr std::int64_t kFirstOwnTrackId = 1'000'000'000;
+/// A detection belongs to a track only if Σ over axes (z − x)²/S is at most this: χ² of three degrees of freedom, 0.9999.
+inline constexpr double kAssociationGate = 21.1;
+/// A detection with its track's id farther than this is another thing, or a jump: the track starts anew there.
+inline constexpr double kJumpGate = 100.0;
+/// How far back observations may come out of order.
+inline constexpr Duration kReorderWindow{300'000};
+/// Extents grow at once to the largest seen and shrink by this share of the difference per detection.
+inline constexpr double kExtentShrink = 0.1;
+/// The resting hypothesis: so little acceleration is put down to what rests, m/s^1.5 (√ of the spectral density).
+inline constexpr double kRestingSigma = 0.01;
+/// It is given up when the average of its χ²₃ over about ten detections exceeds this (mean 3, deviation 0.56: 4 deviations).
+inline constexpr double kRestingLimit = 5.3;
+inline constexpr double kRestingForgetting = 0.1;
+/// What rests has no speed beyond so many standard deviations per axis, or beyond kRestingSpeed m/s.
+inline constexpr double kRestingSpeedSigmas = 3.0;
+inline constexpr double kRestingSpeed = 0.05;
+
+struct TrackerConfig {
+  PredictionSpec prediction;
+  double sigma_acceleration = 1.0;  ///< √ of the spectral density of white acceleration per axis, m/s^1.5, > 0
+  int confirm_hits = 3;             ///< a track is published once detected in so many …
+  int confirm_window = 5;           ///< … of its first observation sets, hits ≤ window ≤ 32
+  Duration coast{1'500'000};        ///< a confirmed track dies when not detected for longer
+  Duration resting_after{1'000'000};  ///< a track that has been consistent with rest so long is predicted at rest
+};
+
+/// One tracked thing, all at the time of the tracker's state.
+struct TrackedObject {
+  std::int64_t id = 0;
+  bool confirmed = false;
+  std::uint32_t hits = 1;   ///< bit k: detected in the set k sets ago
+  int age = 1;              ///< sets since birth, this one included
+  UTime last_seen;
+  Vec3 half_extents = Vec3::Zero();
+  std::array<AxisFilter, 3> moving;   ///< with sigma_acceleration
+  std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
+  UTime resting_since;
+  double resting_average = 3.0;       ///< of its χ²₃, see kRestingLimit
+};
+
+/// Steps of one update, in this order: predict every track to the observation's time; match detections that have ids by
+/// id; match the others by the optimal assignment of Mahalanobis distances, first to confirmed tracks, what remains to
+/// tentative ones; update what is matched; count hits and misses, confirm (n of m), bury; start a tentative track from
+/// each detection that is left. Ids, sensors': one space for all sensors.
+///
+/// A pure function of the observations: sets that come out of order within kReorderWindow give the same tracks as in order
+/// of (time, sensor). Not thread-safe. A set of d detections and t tracks costs O(d·t) and the assignment's groups.
+class Tracker {
+ public:
+  explicit Tracker(const TrackerConfig& config) : config_(config) {}
+
+  /// @return false, and nothing changes, if the set is older than the newest by more than kReorderWindow.
+  bool update(const ObservationSet& observations);
+
+  /// The confirmed tracks predicted from `now` over the horizon, kind Estimated, by id ascending. Tracks whose detections
+  /// have stopped altogether remain, with growing α. If `now` lies before the newest observation, that is where they start.
+  [[nodiscard]] std::vector<Track> predict(UTime now) const;
+
+  /// All tracks, tentative ones too, by id ascending, at newest().
+  [[nodiscard]] const std::vector<TrackedObject>& objects() const { return newest_state().objects; }
+  /// Time of the newest observation; 0 when there was none.
+  [[nodiscard]] UTime newest() const { return steps_.empty() ? UTime{} : steps_.back().observations.at; }
+
+ private:
+  struct State {
+    UTime at;
+    std::int64_t next_id = kFirstOwnTrackId;
+    std::vector<TrackedObject> objects;
+  };
+  struct Step {
+    ObservationSet observations;
+    State after;
+  };
+  [[nodiscard]] const State& newest_state() const { return steps_.empty() ? before_steps_ : steps_.back().after; }
+  [[nodiscard]] State advanced(State state, const ObservationSet& observations) const;
+  void predict_to(State& state, UTime at) const;
+  void take(TrackedObject& object, const Detection& detection, UTime at) const;
+  [[nodiscard]] TrackedObject born(const Detection& detection, UTime at, std::int64_t id) const;
+  [[nodiscard]] bool is_dead(const TrackedObject& object, UTime at) const;
+  [[nodiscard]] bool rests(const TrackedObject& object) const;
+
+  TrackerConfig config_;
+  State before_steps_;
+  std::deque<Step> steps_;  // ascending by (time, sensor), the newest kReorderWindow
+};
+
+/// Σ over axes of (z − x)²/S for the detection's position.
+double mahalanobis2(const std::array<AxisFilter, 3>& axes, const Detection& detection);
+
+}  // namespace tern
