@@ -7,8 +7,6 @@
 namespace tern {
 namespace {
 
-// Pieces double in length after this time.
-constexpr Duration kShortPiecesUntil{1'000'000};
 // Simpson's nodes of crossing_integral: relative error below 1e-3 against adaptive quadrature (see its test).
 constexpr int kSimpsonIntervals = 48;
 // Halvings of [0, kLargestQuantile]: to 1e-9.
@@ -26,8 +24,8 @@ double crossing_rate(const AxisFilter& start, double q, double t) {
 std::vector<Duration> piece_ends(const PredictionSpec& spec) {
   std::vector<Duration> ends{Duration{}};
   while (ends.back() < spec.horizon) {
-    const Duration step = ends.back() < kShortPiecesUntil ? spec.piece : spec.piece * 2;
-    ends.push_back(std::min(ends.back() + step, spec.horizon));
+    const Duration length = std::max(spec.piece, Duration{ends.back().us / 2});
+    ends.push_back(std::min(ends.back() + length, spec.horizon));
   }
   return ends;
 }

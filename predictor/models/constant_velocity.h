@@ -13,13 +13,14 @@ namespace tern {
 /// How far a filter's prediction looks, and how sure it is.
 struct PredictionSpec {
   Duration horizon{4'500'000};  ///< > 0
-  /// Pieces are so long during the first second, twice that afterwards: α grows, and each piece carries its largest.
+  /// A piece is so long, or half as long as the time before it if that is more: α grows, each piece carries its largest,
+  /// and few pieces make small messages (8 for the defaults).
   Duration piece{250'000};      ///< > 0, ≤ horizon
   double confidence = 0.99;     ///< in (0, 1): probability that a track keeps its α over all its pieces
   double max_speed = 5.0;       ///< m/s per axis, > 0: nothing is believed to move faster
 };
 
-/// The piece ends: seconds since the prediction's start, ascending, from 0 to the horizon.
+/// Where pieces begin and end: time since the prediction's start, ascending, from 0 to the horizon.
 std::vector<Duration> piece_ends(const PredictionSpec& spec);
 
 /// P[the error leaves ±z σ(t) at any time in [0, horizon]] ≤ this, for one axis (a bound by Rice's formula):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace tern {
@@ -23,6 +24,25 @@ Track trimmed_track(const Track& track, UTime now, UTime until) {
   return kept;
 }
 
+// Where a declared track may be at one instant.
+struct Region {
+  std::int64_t id = 0;
+  Box box;
+};
+
+std::vector<Region> regions_at(const std::vector<Track>& declared, UTime at) {
+  std::vector<Region> regions;
+  regions.reserve(declared.size());
+  for (const Track& track : declared) regions.push_back({track.id, track.bounds(at, at)});
+  return regions;
+}
+
+bool is_explained(const std::vector<Region>& regions, std::int64_t id, const Vec3& position, const Vec3& margin) {
+  return std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
+    return region.id == id || grown(region.box, margin).contains(position);
+  });
+}
+
 }  // namespace
 
 std::vector<Track> trimmed(const std::vector<Track>& declared, UTime now, Duration horizon) {
@@ -32,30 +52,19 @@ std::vector<Track> trimmed(const std::vector<Track>& declared, UTime now, Durati
   return kept;
 }
 
-bool is_explained(const Detection& detection, UTime at, const std::vector<Track>& declared) {
-  const Vec3 noise = kExplainedSigmas * detection.variance.cwiseSqrt();
-  return std::any_of(declared.begin(), declared.end(), [&](const Track& track) {
-    if (detection.track_id != kNoTrackId && detection.track_id == track.id) return true;
-    return grown(track.bounds(at, at), noise).contains(detection.position);
-  });
-}
-
 ObservationSet without_explained(ObservationSet observations, const std::vector<Track>& declared) {
-  std::erase_if(observations.detections,
-                [&](const Detection& detection) { return is_explained(detection, observations.at, declared); });
+  const std::vector<Region> regions = regions_at(declared, observations.at);
+  std::erase_if(observations.detections, [&](const Detection& detection) {
+    return is_explained(regions, detection.track_id, detection.position, kExplainedSigmas * detection.variance.cwiseSqrt());
+  });
   return observations;
 }
 
 std::vector<Track> merged(std::vector<Track> declared, const std::vector<Track>& estimated, UTime now) {
+  const std::vector<Region> regions = regions_at(declared, now);
   std::vector<Track> all = std::move(declared);
-  const std::size_t declared_count = all.size();
   for (const Track& track : estimated) {
-    const Vec3 centre = track.motion.sample(now).p;
-    const bool explained = std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(declared_count),
-                                       [&](const Track& owner) {
-                                         return owner.id == track.id || owner.bounds(now, now).contains(centre);
-                                       });
-    if (!explained) all.push_back(track);
+    if (!is_explained(regions, track.id, track.motion.sample(now).p, Vec3::Zero())) all.push_back(track);
   }
   std::sort(all.begin(), all.end(), [](const Track& a, const Track& b) { return a.id < b.id; });
   return all;

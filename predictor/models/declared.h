@@ -16,10 +16,8 @@ inline constexpr double kExplainedSigmas = 4.0;
 /// last piece, so that its region goes on growing at its top speed; Static tracks stay as they are. Order is kept.
 std::vector<Track> trimmed(const std::vector<Track>& declared, UTime now, Duration horizon);
 
-/// True if a declared track has the detection's id, or holds it at the time of the observation.
-bool is_explained(const Detection& detection, UTime at, const std::vector<Track>& declared);
-
-/// The set without the detections that declared tracks explain.
+/// The set without the detections that declared tracks explain: those with a declared track's id, and those in a declared
+/// region at the time of the observation (kExplainedSigmas). O(detections · tracks).
 ObservationSet without_explained(ObservationSet observations, const std::vector<Track>& declared);
 
 /// The declared tracks, and those estimated ones that are not explained: id not declared, predicted centre at `now` in no

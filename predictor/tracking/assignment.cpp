@@ -56,20 +56,28 @@ struct Group {
   std::vector<Index> rows, columns;
 };
 
+// Marks index as seen. @return true if it was not.
+bool first_time(std::vector<bool>& seen, Index index) {
+  const auto i = static_cast<std::size_t>(index);
+  if (seen[i]) return false;
+  seen[i] = true;
+  return true;
+}
+
 // Connected components of the pairs within the gate, in order of their first row.
 std::vector<Group> groups_of(const Eigen::MatrixXd& cost, double gate) {
   std::vector<bool> row_seen(static_cast<std::size_t>(cost.rows()), false);
   std::vector<bool> column_seen(static_cast<std::size_t>(cost.cols()), false);
   std::vector<Group> groups;
   for (Index seed = 0; seed < cost.rows(); ++seed) {
-    if (std::exchange(row_seen[static_cast<std::size_t>(seed)], true)) continue;
+    if (!first_time(row_seen, seed)) continue;
     Group group{{seed}, {}};
     for (std::size_t next = 0; next < group.rows.size(); ++next) {
       for (Index c = 0; c < cost.cols(); ++c) {
-        if (cost(group.rows[next], c) > gate || std::exchange(column_seen[static_cast<std::size_t>(c)], true)) continue;
+        if (cost(group.rows[next], c) > gate || !first_time(column_seen, c)) continue;
         group.columns.push_back(c);
         for (Index r = 0; r < cost.rows(); ++r) {
-          if (cost(r, c) > gate || std::exchange(row_seen[static_cast<std::size_t>(r)], true)) continue;
+          if (cost(r, c) > gate || !first_time(row_seen, r)) continue;
           group.rows.push_back(r);
         }
       }

@@ -34,7 +34,7 @@ inline constexpr double kRestingSpeed = 0.05;
 
 struct TrackerConfig {
   PredictionSpec prediction;
-  double sigma_acceleration = 1.0;  ///< √ of the spectral density of white acceleration per axis, m/s^1.5, > 0
+  double sigma_acceleration = 2.0;  ///< √ of the spectral density of white acceleration per axis, m/s^1.5, > 0
   int confirm_hits = 3;             ///< a track is published once detected in so many …
   int confirm_window = 5;           ///< … of its first observation sets, hits ≤ window ≤ 32
   Duration coast{1'500'000};        ///< a confirmed track dies when not detected for longer

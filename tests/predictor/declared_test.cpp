@@ -1,0 +1,121 @@
+#include "predictor/models/declared.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/predictor/simulated_motion.h"
+
+namespace tern {
+namespace {
+
+using testing::at_seconds;
+
+// Ten pieces of half a second from t = 10 s, random coefficients and α.
+Track random_track(Rng& rng, std::int64_t id) {
+  Track track;
+  track.id = id;
+  track.half_extents = Vec3(0.4, 0.3, 0.2);
+  track.top_speed = 3.0;
+  track.motion.start = at_seconds(10.0);
+  for (int k = 0; k < 10; ++k) {
+    CubicPiece piece{Duration{500'000}, PowerCubic::Zero()};
+    for (Eigen::Index i = 0; i < piece.coefficients.size(); ++i) piece.coefficients(i) = rng.uniform(-1.0, 1.0);
+    track.motion.pieces.push_back(piece);
+    track.alpha.push_back(Vec3::Constant(0.01 * k));
+  }
+  return track;
+}
+
+bool same_bits(const CubicPiece& a, const CubicPiece& b) {
+  return a.duration == b.duration && std::memcmp(a.coefficients.data(), b.coefficients.data(), sizeof(double) * 12) == 0;
+}
+
+TEST(Trimmed, PassesPiecesOnBitForBit) {
+  Rng rng(1);
+  const Track track = random_track(rng, 4);
+  const Track kept = trimmed({track}, at_seconds(11.2), Duration::from_seconds(1.5)).front();
+  ASSERT_EQ(kept.motion.start, at_seconds(11.0));
+  ASSERT_EQ(kept.motion.pieces.size(), 4u);  // 11.0 … 13.0 holds 11.2 … 12.7
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_TRUE(same_bits(kept.motion.pieces[k], track.motion.pieces[k + 2]));
+    EXPECT_EQ(kept.alpha[k], track.alpha[k + 2]);
+  }
+  EXPECT_EQ(kept.id, track.id);
+  EXPECT_EQ(kept.kind, track.kind);
+  EXPECT_EQ(kept.half_extents, track.half_extents);
+  EXPECT_EQ(kept.top_speed, track.top_speed);
+}
+
+TEST(Trimmed, SaysTheSameOverTheHorizonAsWhatWasDeclared) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Rng rng(seed);
+    const Track track = random_track(rng, 1);
+    const UTime now = at_seconds(rng.uniform(8.0, 17.0));
+    const Duration horizon = Duration::from_seconds(rng.uniform(0.5, 6.0));
+    const Track kept = trimmed({track}, now, horizon).front();
+    for (int i = 0; i < 20; ++i) {
+      const UTime t = now + Duration{static_cast<std::int64_t>(rng.uniform() * static_cast<double>(horizon.us))};
+      EXPECT_EQ(kept.bounds(t, t).min(), track.bounds(t, t).min()) << "seed " << seed;
+      EXPECT_EQ(kept.bounds(t, t).max(), track.bounds(t, t).max()) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Trimmed, KeepsTheLastPieceOfWhatIsOver) {
+  Rng rng(2);
+  const Track track = random_track(rng, 1);
+  const Track kept = trimmed({track}, at_seconds(20.0), Duration::from_seconds(4.5)).front();
+  ASSERT_EQ(kept.motion.pieces.size(), 1u);
+  EXPECT_TRUE(same_bits(kept.motion.pieces.front(), track.motion.pieces.back()));
+  EXPECT_EQ(kept.motion.end(), track.motion.end());
+}
+
+TEST(Trimmed, KeepsStatics) {
+  Rng rng(3);
+  Track track = random_track(rng, 1);
+  track.kind = TrackKind::Static;
+  track.motion.pieces.resize(1);
+  track.alpha.resize(1);
+  const Track kept = trimmed({track}, at_seconds(1e6), Duration::from_seconds(4.5)).front();
+  EXPECT_EQ(kept.motion.start, track.motion.start);
+  EXPECT_TRUE(same_bits(kept.motion.pieces.front(), track.motion.pieces.front()));
+}
+
+TEST(WithoutExplained, DropsDetectionsOfDeclaredTracksOnly) {
+  Rng rng(4);
+  const Track track = random_track(rng, 7);
+  const Vec3 centre = track.motion.sample(at_seconds(11.3)).p;
+  ObservationSet set;
+  set.at = at_seconds(11.3);
+  Detection inside, near, same_id, other;
+  inside.position = centre + Vec3(0.4, 0.0, 0.0);
+  near.position = centre + Vec3(0.5, 0.0, 0.0);  // 0.4 + α 0.02 + 4 · 0.05
+  near.variance = Vec3::Constant(0.0025);
+  same_id.position = centre + Vec3(30.0, 0.0, 0.0);
+  same_id.track_id = 7;
+  other.position = centre + Vec3(0.7, 0.0, 0.0);
+  other.variance = Vec3::Constant(0.0025);
+  other.track_id = 8;
+  set.detections = {inside, near, same_id, other};
+  const ObservationSet left = without_explained(set, {track});
+  ASSERT_EQ(left.detections.size(), 1u);
+  EXPECT_EQ(left.detections.front().track_id, 8);
+}
+
+TEST(Merged, DeclaredTracksWinAndIdsAscend) {
+  Rng rng(5);
+  const Track declared = random_track(rng, 5);
+  Track apart = random_track(rng, 2), same_id = random_track(rng, 5), within = declared;
+  for (CubicPiece& piece : apart.motion.pieces) piece.coefficients.col(3).x() += 50.0;
+  for (CubicPiece& piece : same_id.motion.pieces) piece.coefficients.col(3).x() += 90.0;
+  within.id = kNoTrackId + 100;
+  const std::vector<Track> all = merged({declared}, {apart, same_id, within}, at_seconds(11.0));
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].id, 2);
+  EXPECT_EQ(all[1].id, 5);
+  EXPECT_TRUE(same_bits(all[1].motion.pieces.front(), declared.motion.pieces.front()));
+}
+
+}  // namespace
+}  // namespace tern

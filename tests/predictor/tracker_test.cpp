@@ -1,0 +1,297 @@
+#include "predictor/tracking/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "tests/predictor/simulated_motion.h"
+
+namespace tern {
+namespace {
+
+using testing::at_seconds;
+using testing::detection_of;
+using testing::observations_at;
+using testing::Path;
+
+constexpr double kRate = 30.0;
+constexpr double kNoise = 0.05;
+constexpr double kLatency = 0.05;
+
+Path straight(const Vec3& p, const Vec3& v) {
+  return [=](double t) -> Vec3 { return p + v * t; };
+}
+
+// Feeds `seconds` of detections of all paths (each dropped with the given probability) and returns the time of the last.
+double feed(Tracker& tracker, const std::vector<Path>& paths, double from, double seconds, Rng& rng, double dropout = 0.0) {
+  double t = from;
+  for (int k = 0; k < static_cast<int>(seconds * kRate); ++k) {
+    t = from + k / kRate;
+    std::vector<Detection> detections;
+    for (const Path& path : paths) {
+      if (rng.uniform() >= dropout) detections.push_back(detection_of(path(t), kNoise, rng));
+    }
+    EXPECT_TRUE(tracker.update(observations_at(t, detections)));
+  }
+  return t;
+}
+
+// How often one prediction per seed keeps its promise over the horizon.
+int kept(int seeds, const TrackerConfig& config, const std::function<Path(Rng&)>& make) {
+  int hits = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Rng rng(static_cast<std::uint64_t>(seed));
+    const Path path = make(rng);
+    Tracker tracker(config);
+    const double t = feed(tracker, {path}, 0.0, 1.5, rng, 0.05);
+    const std::vector<Track> tracks = tracker.predict(at_seconds(t + kLatency));
+    EXPECT_EQ(tracks.size(), 1u) << "seed " << seed;
+    if (!tracks.empty() && testing::keeps_promise(tracks.front(), path, config.prediction.horizon.seconds())) ++hits;
+  }
+  return hits;
+}
+
+TEST(TrackerCoverage, WhiteAccelerationKeepsThePromisedConfidence) {
+  for (const double confidence : {0.9, 0.99}) {
+    TrackerConfig config;
+    config.sigma_acceleration = 1.0;
+    config.prediction.confidence = confidence;
+    config.prediction.max_speed = 100.0;
+    const int seeds = 2000;
+    const int hits = kept(seeds, config, [](Rng& rng) {
+      const Vec3 v(rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-1, 1));
+      return testing::random_path(rng, Vec3::Zero(), v, 1.0, 7.0);
+    });
+    RecordProperty("kept_at_" + std::to_string(confidence), hits);
+    EXPECT_GE(testing::wilson(hits, seeds).high, confidence) << hits << " of " << seeds;
+    // α is not bought by being far too large.
+    if (confidence < 0.95) { EXPECT_LE(testing::wilson(hits, seeds).low, 0.985) << hits << " of " << seeds; }
+  }
+}
+
+TEST(TrackerCoverage, StraightMotionKeepsThePromisedConfidence) {
+  const int seeds = 1000;
+  const int hits = kept(seeds, TrackerConfig{}, [](Rng& rng) {
+    return straight(Vec3::Zero(), Vec3(rng.uniform(-4.5, 4.5), rng.uniform(-4.5, 4.5), rng.uniform(-1, 1)));
+  });
+  EXPECT_GE(testing::wilson(hits, seeds).low, 0.99) << hits << " of " << seeds;
+}
+
+// Speeds of ±3 m/s that turn round every 2 to 6 s: accelerations within what sigma_acceleration = 2 puts down to noise.
+TEST(TrackerCoverage, SwingingMotionWithinTheNoiseKeepsThePromisedConfidence) {
+  const int seeds = 1000;
+  const int hits = kept(seeds, TrackerConfig{}, [](Rng& rng) {
+    Vec3 rate, phase;
+    for (int axis = 0; axis < 3; ++axis) rate[axis] = rng.uniform(0.5, 1.5), phase[axis] = rng.uniform(0, 6.3);
+    return [=](double t) -> Vec3 {
+      return (3.0 / rate.array() * (rate.array() * t + phase.array()).sin()).matrix();
+    };
+  });
+  EXPECT_GE(testing::wilson(hits, seeds).low, 0.99) << hits << " of " << seeds;
+}
+
+// BENCHMARKS "perception only": the movers of paper_corridor are the fiercest that the default is made for, those of
+// sando_forest calm beside them.
+TEST(TrackerCoverage, TrefoilsKeepThePromiseForOneSecond) {
+  const auto share = [](const std::function<Path(Rng&)>& make, double sigma) {
+    TrackerConfig config;
+    config.sigma_acceleration = sigma;
+    config.prediction.horizon = Duration{1'000'000};
+    return testing::wilson(kept(1000, config, make), 1000).low;
+  };
+  EXPECT_GE(share([](Rng& rng) { return testing::trefoil(Vec3::Zero(), Vec3::Ones(), 1.1, rng.uniform(-6.28, 6.28)); }, 2.0),
+            0.98);
+  EXPECT_GE(share(
+                [](Rng& rng) {
+                  const Vec3 k(rng.uniform(2, 4) / 6, rng.uniform(2, 4) / 5, rng.uniform(2, 4) / 2);
+                  const double s = rng.uniform(4, 6), phase = rng.uniform(0, 3);
+                  return testing::trefoil(Vec3::Zero(), k, s, phase);
+                },
+                0.5),
+            0.98);
+}
+
+TEST(Tracker, PredictsWhatRestsAtRest) {
+  Rng rng(1);
+  Tracker tracker(TrackerConfig{});
+  const Vec3 p(3.0, 1.0, 2.0);
+  const double t = feed(tracker, {straight(p, Vec3::Zero())}, 0.0, 5.0, rng);
+  const std::vector<Track> tracks = tracker.predict(at_seconds(t));
+  ASSERT_EQ(tracks.size(), 1u);
+  EXPECT_EQ(tracks[0].kind, TrackKind::Estimated);
+  EXPECT_LT(tracks[0].alpha.back().maxCoeff(), 0.5);
+  EXPECT_LT((tracks[0].motion.sample(at_seconds(t + 4.0)).p - p).norm(), 0.2);
+}
+
+TEST(Tracker, GivesRestUpWhenItEnds) {
+  Rng rng(2);
+  Tracker tracker(TrackerConfig{});
+  const Path path = [](double t) -> Vec3 { return Vec3(std::max(0.0, t - 3.0), 0.0, 1.0); };  // sets off at 1 m/s
+  feed(tracker, {path}, 0.0, 3.0, rng);
+  const double t = feed(tracker, {path}, 3.0, 0.5, rng);
+  const std::vector<Track> tracks = tracker.predict(at_seconds(t));
+  ASSERT_EQ(tracks.size(), 1u);
+  EXPECT_NEAR(tracks[0].motion.sample(at_seconds(t)).v.x(), 1.0, 0.4);
+  EXPECT_TRUE(testing::keeps_promise(tracks[0], path, 4.5));
+}
+
+TEST(Tracker, KeepsIdentitiesWhereTracksCross) {
+  int exchanged = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    Rng rng(seed);
+    Tracker tracker(TrackerConfig{});
+    // They meet in the middle at t = 2 s, at a right angle and head on.
+    const std::vector<Path> paths{straight(Vec3(-4, 0, 1), Vec3(2, 0, 0)), straight(Vec3(0, -4, 1), Vec3(0, 2, 0)),
+                                  straight(Vec3(4, 0.1, 1), Vec3(-2, 0, 0))};
+    const double before = feed(tracker, paths, 0.0, 1.0, rng, 0.05);
+    std::map<std::int64_t, std::size_t> path_of;
+    for (const Track& track : tracker.predict(at_seconds(before))) {
+      for (std::size_t i = 0; i < paths.size(); ++i) {
+        if ((track.motion.sample(at_seconds(before)).p - paths[i](before)).norm() < 0.5) path_of[track.id] = i;
+      }
+    }
+    ASSERT_EQ(path_of.size(), 3u) << "seed " << seed;
+    const double after = feed(tracker, paths, before + 1 / kRate, 3.0, rng, 0.05);
+    const std::vector<Track> tracks = tracker.predict(at_seconds(after));
+    bool same = tracks.size() == 3;
+    for (const Track& track : tracks) {
+      const auto path = path_of.find(track.id);
+      same = same && path != path_of.end() &&
+             (track.motion.sample(at_seconds(after)).p - paths[path->second](after)).norm() < 0.5;
+    }
+    exchanged += same ? 0 : 1;
+  }
+  EXPECT_EQ(exchanged, 0);
+}
+
+TEST(Tracker, ConfirmsAfterSoManyHitsOfSoManySets) {
+  Rng rng(3);
+  Tracker tracker(TrackerConfig{});  // 3 of 5
+  const auto see = [&](int k, bool seen) {
+    std::vector<Detection> detections;
+    if (seen) detections.push_back(detection_of(Vec3::Zero(), 0.01, rng));
+    tracker.update(observations_at(k / kRate, detections));
+    return tracker.predict(at_seconds(k / kRate)).size();
+  };
+  EXPECT_EQ(see(0, true), 0u);
+  EXPECT_EQ(see(1, false), 0u);
+  EXPECT_EQ(see(2, true), 0u);
+  EXPECT_EQ(see(3, false), 0u);
+  EXPECT_EQ(see(4, true), 1u);
+  EXPECT_EQ(tracker.objects().size(), 1u);
+}
+
+TEST(Tracker, ForgetsFalseAlarms) {
+  Rng rng(4);
+  Tracker tracker(TrackerConfig{});
+  tracker.update(observations_at(0.0, {detection_of(Vec3::Zero(), 0.01, rng)}));
+  for (int k = 1; k <= 3; ++k) {
+    tracker.update(observations_at(k / kRate, {}));
+    EXPECT_EQ(tracker.objects().size(), 1u);
+  }
+  tracker.update(observations_at(4 / kRate, {}));
+  EXPECT_TRUE(tracker.objects().empty());
+}
+
+TEST(Tracker, CoastsWithGrowingAlphaThenDies) {
+  Rng rng(5);
+  Tracker tracker(TrackerConfig{});
+  const double last = feed(tracker, {straight(Vec3::Zero(), Vec3(2, 0, 0))}, 0.0, 2.0, rng);
+  double alpha = 0.0;
+  int k = 1;
+  for (; k / kRate <= 1.5; ++k) {
+    tracker.update(observations_at(last + k / kRate, {}));
+    const std::vector<Track> tracks = tracker.predict(at_seconds(last + k / kRate));
+    ASSERT_EQ(tracks.size(), 1u) << k;
+    EXPECT_GT(tracks[0].alpha.front().x(), alpha);
+    alpha = tracks[0].alpha.front().x();
+  }
+  tracker.update(observations_at(last + k / kRate, {}));
+  EXPECT_TRUE(tracker.predict(at_seconds(last + k / kRate)).empty());
+}
+
+TEST(Tracker, KeepsTracksWhenTheSensorFallsSilent) {
+  Rng rng(6);
+  Tracker tracker(TrackerConfig{});
+  const double last = feed(tracker, {straight(Vec3::Zero(), Vec3(1, 0, 0))}, 0.0, 1.0, rng);
+  const std::vector<Track> soon = tracker.predict(at_seconds(last)), late = tracker.predict(at_seconds(last + 20.0));
+  ASSERT_EQ(late.size(), 1u);
+  EXPECT_GT(late[0].alpha.front().minCoeff(), soon[0].alpha.front().maxCoeff());
+}
+
+TEST(Tracker, FollowsIdsOfTheSensor) {
+  Tracker tracker(TrackerConfig{});
+  Rng rng(7);
+  // Two things at one place: only ids tell them apart.
+  for (int k = 0; k < 60; ++k) {
+    const double x = k / kRate;
+    tracker.update(observations_at(k / kRate, {detection_of(Vec3(x, 0, 0), 0.01, rng, 7), detection_of(Vec3(1 - x, 0, 0), 0.01, rng, 3)}));
+  }
+  const std::vector<Track> tracks = tracker.predict(tracker.newest());
+  ASSERT_EQ(tracks.size(), 2u);
+  EXPECT_EQ(tracks[0].id, 3);
+  EXPECT_EQ(tracks[1].id, 7);
+  EXPECT_NEAR(tracks[0].motion.sample(tracker.newest()).v.x(), -1.0, 0.2);
+  EXPECT_NEAR(tracks[1].motion.sample(tracker.newest()).v.x(), 1.0, 0.2);
+}
+
+TEST(Tracker, StartsAnewWhereAnIdJumps) {
+  Tracker tracker(TrackerConfig{});
+  Rng rng(8);
+  for (int k = 0; k < 30; ++k) tracker.update(observations_at(k / kRate, {detection_of(Vec3::Zero(), 0.01, rng, 7)}));
+  tracker.update(observations_at(1.0, {detection_of(Vec3(9, 9, 9), 0.01, rng, 7)}));
+  const std::vector<Track> tracks = tracker.predict(at_seconds(1.0));
+  ASSERT_EQ(tracks.size(), 1u);
+  EXPECT_LT((tracks[0].motion.sample(at_seconds(1.0)).p - Vec3(9, 9, 9)).norm(), 0.1);
+  EXPECT_NEAR(tracks[0].motion.sample(at_seconds(1.0)).v.norm(), 0.0, 1e-9);
+}
+
+TEST(Tracker, TakesObservationsOutOfOrderAsIfInOrder) {
+  Rng rng(9);
+  std::vector<ObservationSet> sets;
+  for (int k = 0; k < 60; ++k) {
+    std::vector<Detection> detections;
+    for (int i = 0; i < 5; ++i) {
+      if (rng.uniform() > 0.1) detections.push_back(detection_of(Vec3(3 * i, k / kRate, 0), kNoise, rng));
+    }
+    sets.push_back(observations_at(k / kRate, detections));
+    sets.back().sensor_id = k % 2;
+  }
+  Tracker in_order(TrackerConfig{}), out_of_order(TrackerConfig{});
+  for (const ObservationSet& set : sets) in_order.update(set);
+  for (std::size_t k = 0; k < sets.size(); k += 6) {
+    std::reverse(sets.begin() + static_cast<std::ptrdiff_t>(k), sets.begin() + static_cast<std::ptrdiff_t>(k + 6));
+  }
+  for (const ObservationSet& set : sets) EXPECT_TRUE(out_of_order.update(set));
+  ASSERT_EQ(in_order.objects().size(), out_of_order.objects().size());
+  for (std::size_t i = 0; i < in_order.objects().size(); ++i) {
+    const TrackedObject &a = in_order.objects()[i], &b = out_of_order.objects()[i];
+    EXPECT_EQ(a.id, b.id);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(a.moving[axis].x, b.moving[axis].x);
+      EXPECT_EQ(a.moving[axis].vv, b.moving[axis].vv);
+    }
+  }
+  EXPECT_FALSE(out_of_order.update(observations_at(1.0, {})));
+}
+
+TEST(Tracker, GrowsExtentsAtOnceAndShrinksThemSlowly) {
+  Tracker tracker(TrackerConfig{});
+  const auto see = [&](int k, double half) {
+    Detection detection;
+    detection.half_extents = Vec3::Constant(half);
+    detection.variance = Vec3::Constant(1e-4);
+    tracker.update(observations_at(k / kRate, {detection}));
+    return tracker.objects().front().half_extents.x();
+  };
+  EXPECT_EQ(see(0, 0.3), 0.3);
+  EXPECT_EQ(see(1, 0.5), 0.5);
+  EXPECT_NEAR(see(2, 0.4), 0.49, 1e-12);
+  EXPECT_NEAR(see(3, 0.4), 0.481, 1e-12);
+}
+
+}  // namespace
+}  // namespace tern

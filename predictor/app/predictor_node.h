@@ -1,0 +1,52 @@
+// tern-predictor: observations and declared motions in, predictions out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/world/observation.h"
+#include "core/world/track.h"
+#include "core/world/vehicle.h"
+#include "predictor/app/predictor_config.h"
+#include "predictor/tracking/tracker.h"
+#include "runtime/batches.h"
+#include "runtime/bus.h"
+#include "runtime/node.h"
+
+namespace tern {
+
+/// Inputs older than this are said to have stopped (the planner calls such a world stale).
+inline constexpr Duration kInputsStopped{300'000};
+
+/// Publishes a complete set of predictions each period from the first input on, for ever: when inputs stop, made_at stays
+/// and the α of what was tracked grows, so that the planner sees for itself how old the world is. A world without
+/// obstacles is an empty set. made_at is the newest of the declared set's made_at and the observations' times, as far as
+/// the model uses them.
+class PredictorNode final : public Node {
+ public:
+  PredictorNode(Bus& bus, const PredictorConfig& config);
+
+  [[nodiscard]] UTime next_wakeup() const override { return next_; }
+  void step(UTime now) override;
+  [[nodiscard]] NodeHealth health() const override;
+
+ private:
+  void on_declared(const TrackSet& batch);
+  void on_observations(const ObservationSet& observations);
+  void have_input(UTime made_at);
+  void publish(UTime now);
+  [[nodiscard]] std::vector<Track> predictions(UTime now) const;
+
+  Bus& bus_;
+  PredictorConfig config_;
+  BatchCollector<TrackSet> collector_;
+  std::vector<Track> declared_;
+  Tracker tracker_;
+  std::optional<Vec3> vehicle_;     // W, m
+  std::optional<UTime> made_at_;    // none: no input yet
+  std::int64_t sets_ = 0;
+  UTime next_ = kNever;
+};
+
+}  // namespace tern
