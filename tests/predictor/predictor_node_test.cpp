@@ -1,0 +1,255 @@
+#include "predictor/app/predictor_node.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "core/base/random.h"
+#include "messages/batching.h"
+#include "runtime/channels.h"
+#include "runtime/virtual_runner.h"
+#include "tests/predictor/simulated_motion.h"
+
+namespace tern {
+namespace {
+
+Track mover(std::int64_t id, const Vec3& p, const Vec3& v, UTime start, int pieces = 8) {
+  Track track;
+  track.id = id;
+  track.half_extents = Vec3::Constant(0.4);
+  track.top_speed = 5.0;
+  track.motion.start = start;
+  for (int k = 0; k < pieces; ++k) {
+    CubicPiece piece{Duration{625'000}, PowerCubic::Zero()};
+    piece.coefficients.col(2) = v;
+    piece.coefficients.col(3) = p + v * (0.625 * k);
+    track.motion.pieces.push_back(piece);
+    track.alpha.push_back(Vec3::Constant(0.004));
+  }
+  return track;
+}
+
+// A predictor among a test that plays simulator and planner.
+class PredictorNodeTest : public ::testing::Test {
+ protected:
+  void start(const PredictorConfig& config = {}) {
+    runner_.start("tern-predictor", [&](Bus& bus) {
+      auto node = std::make_unique<PredictorNode>(bus, config);
+      node_ = node.get();
+      return node;
+    });
+    runner_.observer().subscribe<TrackSet>(channels::kPredictions, [this](const TrackSet& batch) {
+      ++batches_;
+      first_batch_ = batch.batch.index == 0 ? runner_.now() : first_batch_;
+      largest_gap_ = std::max(largest_gap_, batch.batch.index == 0 ? Duration{} : runner_.now() - last_batch_);
+      last_batch_ = runner_.now();
+      if (auto set = collector_.add(batch)) sets_.push_back(join_batches(std::move(*set)));
+    });
+  }
+  void run_for(double seconds) { runner_.run(runner_.now() + Duration::from_seconds(seconds)); }
+  void declare(std::vector<Track> tracks) {
+    TrackSet set;
+    set.batch.set = ++declared_sets_;
+    set.made_at = runner_.now();
+    set.tracks = std::move(tracks);
+    runner_.observer().publish_paced(channels::kDeclaredMotions, split_batches(set));
+  }
+  void observe(std::vector<Detection> detections, Duration age = Duration{50'000}) {
+    ObservationSet set;
+    set.at = runner_.now() - age;
+    set.detections = std::move(detections);
+    runner_.observer().publish(channels::kObstacleObservations, set);
+  }
+  void say_vehicle_is_at(const Vec3& p) {
+    UavState state;
+    state.at = runner_.now();
+    state.motion.p = p;
+    runner_.observer().publish(channels::kUavState, state);
+  }
+
+  VirtualRunner runner_;
+  PredictorNode* node_ = nullptr;
+  std::int64_t declared_sets_ = 0;
+  BatchCollector<TrackSet> collector_;
+  std::vector<TrackSet> sets_;
+  int batches_ = 0;
+  UTime first_batch_, last_batch_;
+  Duration largest_gap_;
+};
+
+TEST_F(PredictorNodeTest, WaitsAndSaysWhatForUntilItHasAnInput) {
+  start();
+  run_for(2.0);
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_EQ(node_->health().waiting_for, "obstacle observations or declared motions");
+  EXPECT_EQ(batches_, 0);
+}
+
+TEST_F(PredictorNodeTest, AWorldWithoutObstaclesIsAnEmptySet) {
+  start();
+  declare({});
+  run_for(0.15);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  ASSERT_FALSE(sets_.empty());
+  EXPECT_TRUE(sets_.back().tracks.empty());
+  EXPECT_EQ(sets_.back().confidence, 1.0);
+}
+
+TEST_F(PredictorNodeTest, AnEmptyObservationMakesItReadyToo) {
+  start();
+  observe({});
+  run_for(0.1);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  ASSERT_FALSE(sets_.empty());
+  EXPECT_EQ(sets_.front().made_at, UTime{1'000'000 - 50'000});
+}
+
+TEST_F(PredictorNodeTest, PublishesTwentySetsPerSecond) {
+  start();
+  declare({mover(1, Vec3::Zero(), Vec3(1, 0, 0), runner_.now())});
+  run_for(5.0);
+  EXPECT_NEAR(static_cast<double>(sets_.size()), 100.0, 1.0);
+  EXPECT_EQ(collector_.incomplete(), 0);
+}
+
+TEST_F(PredictorNodeTest, PassesDeclaredMotionsOn) {
+  start();
+  const Track track = mover(4, Vec3(1, 2, 3), Vec3(1, -1, 0.5), runner_.now());
+  declare({track});
+  run_for(1.0);
+  ASSERT_FALSE(sets_.empty());
+  const Track& got = sets_.back().tracks.at(0);
+  EXPECT_EQ(got.id, 4);
+  EXPECT_EQ(got.kind, TrackKind::Declared);
+  EXPECT_EQ(got.alpha.front(), track.alpha.front());
+  const UTime later = runner_.now() + Duration{1'000'000};
+  EXPECT_EQ(got.motion.sample(later).p, track.motion.sample(later).p);
+}
+
+TEST_F(PredictorNodeTest, GoesOnWithTheOldTimeWhenInputsStop) {
+  start();
+  declare({mover(1, Vec3::Zero(), Vec3(1, 0, 0), runner_.now())});
+  const UTime declared_at = runner_.now();
+  run_for(0.2);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  run_for(10.0);
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_EQ(sets_.back().made_at, declared_at);
+  EXPECT_GE(runner_.now() - sets_.back().header.utime, Duration{});
+  EXPECT_LE(runner_.now() - sets_.back().header.utime, Duration{50'000});
+  ASSERT_EQ(sets_.back().tracks.size(), 1u);
+  EXPECT_GT(sets_.back().tracks[0].bounds(runner_.now(), runner_.now()).sizes().x(), 20.0);
+}
+
+TEST_F(PredictorNodeTest, EstimatesWhatNobodyDeclares) {
+  start();
+  Rng rng(1);
+  const UTime begin = runner_.now();
+  const Track declared = mover(1, Vec3(5, 0, 1), Vec3(-1, 0, 0), begin, 16);
+  for (int k = 0; k < 60; ++k) {
+    if (k % 6 == 0) declare({declared});
+    const UTime at = runner_.now() - Duration{50'000};
+    const Vec3 other(0.0, 1.5 * (at - begin).seconds(), 1.0);
+    observe({testing::detection_of(declared.motion.sample(at).p, 0.05, rng), testing::detection_of(other, 0.05, rng)});
+    run_for(1.0 / 30);
+  }
+  const TrackSet& set = sets_.back();
+  ASSERT_EQ(set.tracks.size(), 2u);
+  EXPECT_EQ(set.confidence, 0.99);
+  EXPECT_EQ(set.tracks[0].id, 1);
+  EXPECT_EQ(set.tracks[0].kind, TrackKind::Declared);
+  EXPECT_EQ(set.tracks[1].kind, TrackKind::Estimated);
+  EXPECT_NEAR(set.tracks[1].motion.sample(runner_.now()).v.y(), 1.5, 0.3);
+}
+
+TEST_F(PredictorNodeTest, EachModelListensOnlyToItsOwn) {
+  for (const PredictorModel model : {PredictorModel::Declared, PredictorModel::ConstantVelocity}) {
+    VirtualRunner runner;
+    PredictorConfig config;
+    config.model = model;
+    runner.start("tern-predictor", [&](Bus& bus) { return std::make_unique<PredictorNode>(bus, config); });
+    std::set<TrackKind> kinds;
+    runner.observer().subscribe<TrackSet>(channels::kPredictions, [&](const TrackSet& batch) {
+      for (const Track& track : batch.tracks) kinds.insert(track.kind);
+    });
+    Rng rng(2);
+    for (int k = 0; k < 30; ++k) {
+      TrackSet declared;
+      declared.batch.set = k + 1;
+      declared.made_at = runner.now();
+      declared.tracks = {mover(1, Vec3::Zero(), Vec3::Zero(), runner.now())};
+      runner.observer().publish(channels::kDeclaredMotions, declared);
+      ObservationSet observed;
+      observed.at = runner.now();
+      observed.detections = {testing::detection_of(Vec3(9, 9, 9), 0.05, rng)};
+      runner.observer().publish(channels::kObstacleObservations, observed);
+      runner.run(runner.now() + Duration{33'333});
+    }
+    EXPECT_EQ(kinds, std::set<TrackKind>{model == PredictorModel::Declared ? TrackKind::Declared : TrackKind::Estimated});
+  }
+}
+
+TEST_F(PredictorNodeTest, ThreeHundredTracksAreCompleteSetsPaced) {
+  start();
+  std::vector<Track> tracks;
+  for (int i = 0; i < 300; ++i) tracks.push_back(mover(i, Vec3(i, 0, 1), Vec3(0, 1, 0), runner_.now(), 200));
+  // Declared in full once: 200 pieces of each do not fit a set, so their owner declares eight at a time.
+  for (int k = 0; k < 300; ++k) {
+    std::vector<Track> now = tracks;
+    for (Track& track : now) {
+      track = mover(track.id, Vec3(static_cast<double>(track.id), 0.2 * k, 1), Vec3(0, 1, 0), runner_.now());
+    }
+    declare(std::move(now));
+    run_for(0.2);
+  }
+  EXPECT_NEAR(static_cast<double>(sets_.size()), 1200.0, 3.0);
+  EXPECT_EQ(collector_.incomplete(), 0);
+  EXPECT_EQ(sets_.back().tracks.size(), 300u);
+  EXPECT_EQ(sets_.back().left_out, 0);
+  EXPECT_GE(batches_, 6 * 1190);
+  EXPECT_EQ(largest_gap_, kPacing);
+}
+
+TEST_F(PredictorNodeTest, LeavesOutTheFarthestAndCountsThem) {
+  start();
+  std::vector<Detection> detections;
+  const Vec3 vehicle(100.0, 0.0, 1.0);
+  for (int k = 0; k < 10; ++k) {
+    Rng rng(static_cast<std::uint64_t>(k) + 1);
+    detections.clear();
+    // 400 detections 40 m apart on two lines; a track that is watched for so short a time could move at 5 m/s for 4.5 s.
+    for (int i = 0; i < 400; ++i) {
+      detections.push_back(testing::detection_of(Vec3(40.0 * (i / 2), 60.0 * (i % 2), 1.0), 0.02, rng, i));
+    }
+    say_vehicle_is_at(vehicle);
+    observe(detections, Duration{});
+    run_for(0.033);
+  }
+  const TrackSet& set = sets_.back();
+  EXPECT_GT(set.left_out, 0);
+  ASSERT_EQ(set.tracks.size() + static_cast<std::size_t>(set.left_out), 400u);
+  double farthest_in = 0.0, nearest_out = 1e9;
+  std::set<std::int64_t> in;
+  for (const Track& track : set.tracks) in.insert(track.id);
+  for (int i = 0; i < 400; ++i) {
+    const double distance = (Vec3(40.0 * (i / 2), 60.0 * (i % 2), 1.0) - vehicle).norm();
+    (in.contains(i) ? farthest_in = std::max(farthest_in, distance) : nearest_out = std::min(nearest_out, distance));
+  }
+  EXPECT_LE(farthest_in, nearest_out + 2.0);
+}
+
+TEST_F(PredictorNodeTest, CountsObservationsThatComeTooLate) {
+  start();
+  observe({}, Duration{});
+  run_for(0.1);
+  observe({}, Duration{600'000});
+  run_for(0.1);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  EXPECT_EQ(sets_.back().made_at, UTime{1'000'000});
+}
+
+}  // namespace
+}  // namespace tern
