@@ -60,7 +60,10 @@ void VirtualRunner::settle() {
     bool busy = drain(*lcm_, kMaxMessagesPerRound) > 0;
     if (observer_) observer_->rethrow();
     for (const auto& process : processes_) process->bus->rethrow();
-    if (observer_) observer_->send_due(now());
+    if (observer_ && observer_->next_due() <= now()) {
+      observer_->send_due(now());
+      busy = true;  // else the batch would wait for the next instant
+    }
     for (const auto& process : processes_) {
       if (!process->host->is_due(now())) continue;
       process->host->step(now());
