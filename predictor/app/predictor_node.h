@@ -19,10 +19,10 @@ namespace tern {
 /// Inputs older than this are said to have stopped (the planner calls such a world stale).
 inline constexpr Duration kInputsStopped{300'000};
 
-/// Publishes a complete set of predictions each period from the first input on, for ever: when inputs stop, made_at stays
-/// and the α of what was tracked grows, so that the planner sees for itself how old the world is. A world without
-/// obstacles is an empty set. made_at is the newest of the declared set's made_at and the observations' times, as far as
-/// the model uses them.
+/// Publishes a complete set of predictions each period from the first input on, for ever: when inputs stop, made_at
+/// stays and the α of what was tracked grows, so that the planner sees for itself how old the world is. A world without
+/// obstacles is an empty set. made_at is the newest of the declared set's made_at and the observations' times, as far
+/// as the model uses them.
 class PredictorNode final : public Node {
  public:
   PredictorNode(Bus& bus, const PredictorConfig& config);
@@ -43,8 +43,8 @@ class PredictorNode final : public Node {
   BatchCollector<TrackSet> collector_;
   std::vector<Track> declared_;
   Tracker tracker_;
-  std::optional<Vec3> vehicle_;     // W, m
-  std::optional<UTime> made_at_;    // none: no input yet
+  std::optional<Vec3> vehicle_;   // W, m
+  std::optional<UTime> made_at_;  // none: no input yet
   std::int64_t sets_ = 0;
   UTime next_ = kNever;
 };

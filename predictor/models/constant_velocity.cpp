@@ -74,7 +74,8 @@ AxisTube axis_tube(const AxisFilter& filter, double q, double probability, const
   return tube;
 }
 
-void predict_motion(const std::array<AxisFilter, 3>& axes, double q, UTime start, const PredictionSpec& spec, Track& track) {
+void predict_motion(const std::array<AxisFilter, 3>& axes, double q, UTime start, const PredictionSpec& spec,
+                    Track& track) {
   const std::vector<Duration> ends = piece_ends(spec);
   const std::size_t pieces = ends.size() - 1;
   track.motion.start = start;

@@ -13,11 +13,11 @@ namespace tern {
 /// How far a filter's prediction looks, and how sure it is.
 struct PredictionSpec {
   Duration horizon{4'500'000};  ///< > 0
-  /// A piece is so long, or half as long as the time before it if that is more: α grows, each piece carries its largest,
-  /// and few pieces make small messages (8 for the defaults).
-  Duration piece{250'000};      ///< > 0, ≤ horizon
-  double confidence = 0.99;     ///< in (0, 1): probability that a track keeps its α over all its pieces
-  double max_speed = 5.0;       ///< m/s per axis, > 0: nothing is believed to move faster
+  /// A piece is so long, or half as long as the time before it if that is more: α grows, each piece carries its
+  /// largest, and few pieces make small messages (8 for the defaults).
+  Duration piece{250'000};   ///< > 0, ≤ horizon
+  double confidence = 0.99;  ///< in (0, 1): probability that a track keeps its α over all its pieces
+  double max_speed = 5.0;    ///< m/s per axis, > 0: nothing is believed to move faster
 };
 
 /// Where pieces begin and end: time since the prediction's start, ascending, from 0 to the horizon.
@@ -44,13 +44,14 @@ struct AxisTube {
 
 /// The region of one axis over time. The error stays inside z σ(t), and no speed exceeds u = max(max_speed, |v|), so
 ///   high(0) = x + zσ(0), high(t_k) = min(x + v t_k + z σ(t_k), high(t_{k−1}) + u (t_k − t_{k−1})), low alike;
-/// centre and half-width are of [low, high]. high is convex and low concave, so between two times the chords contain the
-/// region: a straight piece between the centres with the later half-width keeps the promise. Without the speed's
+/// centre and half-width are of [low, high]. high is convex and low concave, so between two times the chords contain
+/// the region: a straight piece between the centres with the later half-width keeps the promise. Without the speed's
 /// limit the centre is the predicted line; where it bites on one side only, the centre bends to the other.
 AxisTube axis_tube(const AxisFilter& filter, double q, double probability, const PredictionSpec& spec);
 
 /// The motion and α of an estimate whose state is that of `start`. Each axis gets a third of 1 − confidence.
 /// Sets motion, alpha and top_speed (max_speed, or the estimate's own speed if that is larger).
-void predict_motion(const std::array<AxisFilter, 3>& axes, double q, UTime start, const PredictionSpec& spec, Track& track);
+void predict_motion(const std::array<AxisFilter, 3>& axes, double q, UTime start, const PredictionSpec& spec,
+                    Track& track);
 
 }  // namespace tern

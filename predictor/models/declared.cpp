@@ -55,7 +55,8 @@ std::vector<Track> trimmed(const std::vector<Track>& declared, UTime now, Durati
 ObservationSet without_explained(ObservationSet observations, const std::vector<Track>& declared) {
   const std::vector<Region> regions = regions_at(declared, observations.at);
   std::erase_if(observations.detections, [&](const Detection& detection) {
-    return is_explained(regions, detection.track_id, detection.position, kExplainedSigmas * detection.variance.cwiseSqrt());
+    return is_explained(regions, detection.track_id, detection.position,
+                        kExplainedSigmas * detection.variance.cwiseSqrt());
   });
   return observations;
 }

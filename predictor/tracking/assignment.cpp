@@ -15,7 +15,9 @@ using Index = Eigen::Index;
 std::vector<Index> cheapest_assignment(const Eigen::MatrixXd& cost) {
   const auto rows = static_cast<std::size_t>(cost.rows());
   const auto columns = static_cast<std::size_t>(cost.cols());
-  const auto reduced = [&](std::size_t r, std::size_t c) { return cost(static_cast<Index>(r) - 1, static_cast<Index>(c) - 1); };
+  const auto reduced = [&](std::size_t r, std::size_t c) {
+    return cost(static_cast<Index>(r) - 1, static_cast<Index>(c) - 1);
+  };
   std::vector<double> row_potential(rows + 1, 0.0), column_potential(columns + 1, 0.0);
   std::vector<std::size_t> row_of(columns + 1, 0), previous(columns + 1, 0);
   for (std::size_t row = 1; row <= rows; ++row) {
@@ -35,8 +37,10 @@ std::vector<Index> cheapest_assignment(const Eigen::MatrixXd& cost) {
         if (slack[c] < delta) delta = slack[c], next = c;
       }
       for (std::size_t c = 0; c <= columns; ++c) {
-        if (in_tree[c]) row_potential[row_of[c]] += delta, column_potential[c] -= delta;
-        else slack[c] -= delta;
+        if (in_tree[c])
+          row_potential[row_of[c]] += delta, column_potential[c] -= delta;
+        else
+          slack[c] -= delta;
       }
       column = next;
     } while (row_of[column] != 0);

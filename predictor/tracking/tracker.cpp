@@ -22,8 +22,8 @@ struct Matching {
 std::array<AxisFilter, 3> start_filters(const Detection& detection, double speed_variance) {
   std::array<AxisFilter, 3> axes;
   for (int i = 0; i < 3; ++i) {
-    axes[static_cast<std::size_t>(i)] = {detection.position[i], 0.0, std::max(detection.variance[i], kLeastVariance), 0.0,
-                                         speed_variance};
+    axes[static_cast<std::size_t>(i)] = {detection.position[i], 0.0, std::max(detection.variance[i], kLeastVariance),
+                                         0.0, speed_variance};
   }
   return axes;
 }
@@ -36,7 +36,8 @@ void update_axes(std::array<AxisFilter, 3>& axes, const Detection& detection) {
   for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].update(detection.position[i], detection.variance[i]);
 }
 
-void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections, Matching& matching) {
+void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
+                 Matching& matching) {
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (detections[d].track_id == kNoTrackId) continue;
     const auto object = std::find_if(objects.begin(), objects.end(),
@@ -50,8 +51,8 @@ void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<De
 }
 
 // Among objects with the given confirmation, and detections without an id, that are still free.
-void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections, bool confirmed,
-                       Matching& matching) {
+void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
+                       bool confirmed, Matching& matching) {
   std::vector<std::size_t> rows, columns;
   for (std::size_t o = 0; o < objects.size(); ++o) {
     if (objects[o].confirmed == confirmed && matching.detection_of[o] == kNoDetection) rows.push_back(o);
@@ -99,8 +100,9 @@ double mahalanobis2(const std::array<AxisFilter, 3>& axes, const Detection& dete
 
 bool Tracker::update(const ObservationSet& observations) {
   if (!steps_.empty() && observations.at + kReorderWindow < newest()) return false;
-  const auto place = std::upper_bound(steps_.begin(), steps_.end(), observations,
-                                      [](const ObservationSet& a, const Step& b) { return comes_before(a, b.observations); });
+  const auto place =
+      std::upper_bound(steps_.begin(), steps_.end(), observations,
+                       [](const ObservationSet& a, const Step& b) { return comes_before(a, b.observations); });
   auto step = steps_.insert(place, Step{observations, {}});
   for (; step != steps_.end(); ++step) {
     const State& before = step == steps_.begin() ? before_steps_ : (step - 1)->after;

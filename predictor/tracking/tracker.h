@@ -15,7 +15,8 @@ namespace tern {
 
 /// Tracks of detections without an id get ids from here on; sensors and owners use smaller ones.
 inline constexpr std::int64_t kFirstOwnTrackId = 1'000'000'000;
-/// A detection belongs to a track only if Σ over axes (z − x)²/S is at most this: χ² of three degrees of freedom, 0.9999.
+/// A detection belongs to a track only if Σ over axes (z − x)²/S is at most this: χ² of three degrees of freedom,
+/// 0.9999.
 inline constexpr double kAssociationGate = 21.1;
 /// A detection with its track's id farther than this is another thing, or a jump: the track starts anew there.
 inline constexpr double kJumpGate = 100.0;
@@ -25,7 +26,8 @@ inline constexpr Duration kReorderWindow{300'000};
 inline constexpr double kExtentShrink = 0.1;
 /// The resting hypothesis: so little acceleration is put down to what rests, m/s^1.5 (√ of the spectral density).
 inline constexpr double kRestingSigma = 0.01;
-/// It is given up when the average of its χ²₃ over about ten detections exceeds this (mean 3, deviation 0.56: 4 deviations).
+/// It is given up when the average of its χ²₃ over about ten detections exceeds this (mean 3, deviation 0.56: 4
+/// deviations).
 inline constexpr double kRestingLimit = 5.3;
 inline constexpr double kRestingForgetting = 0.1;
 /// What rests has no speed beyond so many standard deviations per axis, or beyond kRestingSpeed m/s.
@@ -34,10 +36,10 @@ inline constexpr double kRestingSpeed = 0.05;
 
 struct TrackerConfig {
   PredictionSpec prediction;
-  double sigma_acceleration = 2.0;  ///< √ of the spectral density of white acceleration per axis, m/s^1.5, > 0
-  int confirm_hits = 3;             ///< a track is published once detected in so many …
-  int confirm_window = 5;           ///< … of its first observation sets, hits ≤ window ≤ 32
-  Duration coast{1'500'000};        ///< a confirmed track dies when not detected for longer
+  double sigma_acceleration = 2.0;    ///< √ of the spectral density of white acceleration per axis, m/s^1.5, > 0
+  int confirm_hits = 3;               ///< a track is published once detected in so many …
+  int confirm_window = 5;             ///< … of its first observation sets, hits ≤ window ≤ 32
+  Duration coast{1'500'000};          ///< a confirmed track dies when not detected for longer
   Duration resting_after{1'000'000};  ///< a track that has been consistent with rest so long is predicted at rest
 };
 
@@ -45,14 +47,14 @@ struct TrackerConfig {
 struct TrackedObject {
   std::int64_t id = 0;
   bool confirmed = false;
-  std::uint32_t hits = 1;   ///< bit k: detected in the set k sets ago
-  int age = 1;              ///< sets since birth, this one included
+  std::uint32_t hits = 1;  ///< bit k: detected in the set k sets ago
+  int age = 1;             ///< sets since birth, this one included
   UTime last_seen;
   Vec3 half_extents = Vec3::Zero();
   std::array<AxisFilter, 3> moving;   ///< with sigma_acceleration
   std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
   UTime resting_since;
-  double resting_average = 3.0;       ///< of its χ²₃, see kRestingLimit
+  double resting_average = 3.0;  ///< of its χ²₃, see kRestingLimit
 };
 
 /// Steps of one update, in this order: predict every track to the observation's time; match detections that have ids by
@@ -60,8 +62,9 @@ struct TrackedObject {
 /// tentative ones; update what is matched; count hits and misses, confirm (n of m), bury; start a tentative track from
 /// each detection that is left. Ids, sensors': one space for all sensors.
 ///
-/// A pure function of the observations: sets that come out of order within kReorderWindow give the same tracks as in order
-/// of (time, sensor). Not thread-safe. A set of d detections and t tracks costs O(d·t) and the assignment's groups.
+/// A pure function of the observations: sets that come out of order within kReorderWindow give the same tracks as in
+/// order of (time, sensor). Not thread-safe. A set of d detections and t tracks costs O(d·t) and the assignment's
+/// groups.
 class Tracker {
  public:
   explicit Tracker(const TrackerConfig& config) : config_(config) {}
@@ -69,8 +72,9 @@ class Tracker {
   /// @return false, and nothing changes, if the set is older than the newest by more than kReorderWindow.
   bool update(const ObservationSet& observations);
 
-  /// The confirmed tracks predicted from `now` over the horizon, kind Estimated, by id ascending. Tracks whose detections
-  /// have stopped altogether remain, with growing α. If `now` lies before the newest observation, that is where they start.
+  /// The confirmed tracks predicted from `now` over the horizon, kind Estimated, by id ascending. Tracks whose
+  /// detections have stopped altogether remain, with growing α. If `now` lies before the newest observation, that is
+  /// where they start.
   [[nodiscard]] std::vector<Track> predict(UTime now) const;
 
   /// All tracks, tentative ones too, by id ascending, at newest().

@@ -35,7 +35,8 @@ double least_total(const Eigen::MatrixXd& cost, double gate, Eigen::Index row, s
 TEST(Assignment, IsAsCheapAsTheBestOfAll) {
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
     Rng rng(seed);
-    const auto rows = static_cast<Eigen::Index>(rng.uniform(0, 7)), columns = static_cast<Eigen::Index>(rng.uniform(0, 7));
+    const auto rows = static_cast<Eigen::Index>(rng.uniform(0, 7)),
+               columns = static_cast<Eigen::Index>(rng.uniform(0, 7));
     Eigen::MatrixXd cost(rows, columns);
     for (Eigen::Index i = 0; i < cost.size(); ++i) {
       cost(i) = rng.uniform() < 0.1 ? std::numeric_limits<double>::infinity() : rng.uniform(0.0, 30.0);

@@ -28,7 +28,8 @@ Track random_track(Rng& rng, std::int64_t id) {
 }
 
 bool same_bits(const CubicPiece& a, const CubicPiece& b) {
-  return a.duration == b.duration && std::memcmp(a.coefficients.data(), b.coefficients.data(), sizeof(double) * 12) == 0;
+  return a.duration == b.duration &&
+         std::memcmp(a.coefficients.data(), b.coefficients.data(), sizeof(double) * 12) == 0;
 }
 
 TEST(Trimmed, PassesPiecesOnBitForBit) {

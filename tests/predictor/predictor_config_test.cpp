@@ -36,10 +36,11 @@ TEST(PredictorConfig, HasDefaults) {
 }
 
 TEST(PredictorConfig, ReadsItsKeys) {
-  const PredictorConfig config = read("keys",
-                                      "  model: constant_velocity\n  rate_hz: 10\n  horizon_s: 3\n  piece_s: 0.5\n"
-                                      "  confidence: 0.9\n  max_speed: 2\n  sigma_acceleration: 0.5\n  confirm_hits: 2\n"
-                                      "  confirm_window: 4\n  coast_s: 1\n  resting_after_s: 2\n");
+  const PredictorConfig config =
+      read("keys",
+           "  model: constant_velocity\n  rate_hz: 10\n  horizon_s: 3\n  piece_s: 0.5\n"
+           "  confidence: 0.9\n  max_speed: 2\n  sigma_acceleration: 0.5\n  confirm_hits: 2\n"
+           "  confirm_window: 4\n  coast_s: 1\n  resting_after_s: 2\n");
   EXPECT_EQ(config.model, PredictorModel::ConstantVelocity);
   EXPECT_EQ(config.period, Duration{100'000});
   EXPECT_EQ(config.tracker.prediction.piece, Duration{500'000});

@@ -187,7 +187,8 @@ TEST_F(PredictorNodeTest, EachModelListensOnlyToItsOwn) {
       runner.observer().publish(channels::kObstacleObservations, observed);
       runner.run(runner.now() + Duration{33'333});
     }
-    EXPECT_EQ(kinds, std::set<TrackKind>{model == PredictorModel::Declared ? TrackKind::Declared : TrackKind::Estimated});
+    EXPECT_EQ(kinds,
+              std::set<TrackKind>{model == PredictorModel::Declared ? TrackKind::Declared : TrackKind::Estimated});
   }
 }
 
@@ -214,7 +215,8 @@ TEST_F(PredictorNodeTest, LeavesOutTheFarthestAndCountsThem) {
   for (int k = 0; k < 10; ++k) {
     Rng rng(static_cast<std::uint64_t>(k) + 1);
     detections.clear();
-    // 400 detections 40 m apart on two lines; a track that is watched for so short a time could move at 5 m/s for 4.5 s.
+    // 400 detections 40 m apart on two lines; a track that is watched for so short a time could move at 5 m/s for 4.5
+    // s.
     for (int i = 0; i < 400; ++i) {
       detections.push_back(testing::detection_of(Vec3(40.0 * (i / 2), 60.0 * (i % 2), 1.0), 0.02, rng, i));
     }

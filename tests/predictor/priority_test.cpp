@@ -27,11 +27,10 @@ std::vector<std::int64_t> ids(const std::vector<Track>& tracks) {
 
 TEST(SortByReach, PutsWhatCanReachTheVehicleFirstThenTheNearest) {
   std::vector<Track> tracks{
-      track_at(1, Vec3(5, 0, 0), Vec3::Zero()),       // near, never comes
-      track_at(2, Vec3(20, 0, 0), Vec3(-5, 0, 0)),    // far, arrives after 4 s
-      track_at(3, Vec3(10, 0, 0), Vec3(-3, 0, 0)),    // nearer, arrives after 3.3 s
-      track_at(4, Vec3(50, 0, 0), Vec3::Zero()),
-      track_at(5, Vec3(30, 0, 0), Vec3(-5, 0, 0)),    // comes to 7.5 m
+      track_at(1, Vec3(5, 0, 0), Vec3::Zero()),     // near, never comes
+      track_at(2, Vec3(20, 0, 0), Vec3(-5, 0, 0)),  // far, arrives after 4 s
+      track_at(3, Vec3(10, 0, 0), Vec3(-3, 0, 0)),  // nearer, arrives after 3.3 s
+      track_at(4, Vec3(50, 0, 0), Vec3::Zero()),   track_at(5, Vec3(30, 0, 0), Vec3(-5, 0, 0)),  // comes to 7.5 m
   };
   sort_by_reach(tracks, Vec3::Zero(), UTime{}, Duration{4'500'000});
   EXPECT_EQ(ids(tracks), (std::vector<std::int64_t>{3, 2, 1, 5, 4}));

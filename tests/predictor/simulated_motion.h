@@ -16,8 +16,10 @@ using Path = std::function<Vec3(double)>;
 
 inline UTime at_seconds(double t) { return UTime{} + Duration::from_seconds(t); }
 
-/// A path of white-noise acceleration of spectral density sigma² per axis, exact at multiples of `step`, linear between.
-inline Path random_path(Rng& rng, const Vec3& start, const Vec3& velocity, double sigma, double duration, double step = 1.0 / 120) {
+/// A path of white-noise acceleration of spectral density sigma² per axis, exact at multiples of `step`, linear
+/// between.
+inline Path random_path(Rng& rng, const Vec3& start, const Vec3& velocity, double sigma, double duration,
+                        double step = 1.0 / 120) {
   std::vector<Vec3> points{start};
   Vec3 p = start, v = velocity;
   for (double t = 0.0; t < duration; t += step) {
@@ -43,7 +45,8 @@ inline Path trefoil(const Vec3& c, const Vec3& k, double s, double phase) {
   return [=](double t) -> Vec3 {
     const double w = t / s;
     return c + Vec3(k.x() * (std::sin(w + phase) + 2.0 * std::sin(2.0 * w + phase)),
-                    k.y() * (std::cos(w + phase) - 2.0 * std::cos(2.0 * w + phase)), -k.z() * std::sin(3.0 * w + phase));
+                    k.y() * (std::cos(w + phase) - 2.0 * std::cos(2.0 * w + phase)),
+                    -k.z() * std::sin(3.0 * w + phase));
   };
 }
 

@@ -32,8 +32,10 @@ TrackerConfig calm() {
   return config;
 }
 
-// Feeds `seconds` of detections of all paths (each dropped with the given probability) and returns the time of the last.
-double feed(Tracker& tracker, const std::vector<Path>& paths, double from, double seconds, Rng& rng, double dropout = 0.0) {
+// Feeds `seconds` of detections of all paths (each dropped with the given probability) and returns the time of the
+// last.
+double feed(Tracker& tracker, const std::vector<Path>& paths, double from, double seconds, Rng& rng,
+            double dropout = 0.0) {
   double t = from;
   for (int k = 0; k < static_cast<int>(seconds * kRate); ++k) {
     t = from + k / kRate;
@@ -75,7 +77,9 @@ TEST(TrackerCoverage, WhiteAccelerationKeepsThePromisedConfidence) {
     RecordProperty("kept_at_" + std::to_string(confidence), hits);
     EXPECT_GE(testing::wilson(hits, seeds).high, confidence) << hits << " of " << seeds;
     // α is not bought by being far too large.
-    if (confidence < 0.95) { EXPECT_LE(testing::wilson(hits, seeds).low, 0.985) << hits << " of " << seeds; }
+    if (confidence < 0.95) {
+      EXPECT_LE(testing::wilson(hits, seeds).low, 0.985) << hits << " of " << seeds;
+    }
   }
 }
 
@@ -93,9 +97,7 @@ TEST(TrackerCoverage, SwingingMotionWithinTheNoiseKeepsThePromisedConfidence) {
   const int hits = kept(seeds, TrackerConfig{}, [](Rng& rng) {
     Vec3 rate, phase;
     for (int axis = 0; axis < 3; ++axis) rate[axis] = rng.uniform(0.5, 1.5), phase[axis] = rng.uniform(0, 6.3);
-    return [=](double t) -> Vec3 {
-      return (3.0 / rate.array() * (rate.array() * t + phase.array()).sin()).matrix();
-    };
+    return [=](double t) -> Vec3 { return (3.0 / rate.array() * (rate.array() * t + phase.array()).sin()).matrix(); };
   });
   EXPECT_GE(testing::wilson(hits, seeds).low, 0.99) << hits << " of " << seeds;
 }
@@ -109,8 +111,9 @@ TEST(TrackerCoverage, TrefoilsKeepThePromiseForOneSecond) {
     config.prediction.horizon = Duration{1'000'000};
     return testing::wilson(kept(1000, config, make), 1000).low;
   };
-  EXPECT_GE(share([](Rng& rng) { return testing::trefoil(Vec3::Zero(), Vec3::Ones(), 1.1, rng.uniform(-6.28, 6.28)); }, 2.0),
-            0.98);
+  EXPECT_GE(
+      share([](Rng& rng) { return testing::trefoil(Vec3::Zero(), Vec3::Ones(), 1.1, rng.uniform(-6.28, 6.28)); }, 2.0),
+      0.98);
   EXPECT_GE(share(
                 [](Rng& rng) {
                   const Vec3 k(rng.uniform(2, 4) / 6, rng.uniform(2, 4) / 5, rng.uniform(2, 4) / 2);
@@ -235,7 +238,8 @@ TEST(Tracker, FollowsIdsOfTheSensor) {
   // Two things at one place: only ids tell them apart.
   for (int k = 0; k < 60; ++k) {
     const double x = k / kRate;
-    tracker.update(observations_at(k / kRate, {detection_of(Vec3(x, 0, 0), 0.01, rng, 7), detection_of(Vec3(1 - x, 0, 0), 0.01, rng, 3)}));
+    tracker.update(observations_at(
+        k / kRate, {detection_of(Vec3(x, 0, 0), 0.01, rng, 7), detection_of(Vec3(1 - x, 0, 0), 0.01, rng, 3)}));
   }
   const std::vector<Track> tracks = tracker.predict(tracker.newest());
   ASSERT_EQ(tracks.size(), 2u);
