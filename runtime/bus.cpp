@@ -77,6 +77,8 @@ struct Bus::State {
   std::int64_t unsent = 0;
   std::int64_t deliveries = 0;
   std::exception_ptr error;
+  Listener listener;
+  lcm::Subscription* listening = nullptr;
 
   /// @pre the mutex is held
   Channel& channel(std::string_view name) {
@@ -102,6 +104,15 @@ struct Bus::State {
       state.error = std::current_exception();
     }
   }
+
+  static void on_any(const lcm::ReceiveBuffer* buffer, const std::string& wire_name, State* state) {
+    if (state->error) return;
+    try {
+      state->listener(wire_name, buffer->recv_utime, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    } catch (...) {
+      state->error = std::current_exception();
+    }
+  }
 };
 
 Bus::Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix)
@@ -115,6 +126,7 @@ Bus::~Bus() {
   for (auto& [name, channel] : state_->channels) {
     if (channel.subscription != nullptr) state_->lcm->unsubscribe(channel.subscription);
   }
+  if (state_->listening != nullptr) state_->lcm->unsubscribe(state_->listening);
 }
 
 MessageName Bus::send(std::string_view name, const Encoder& encoder) {
@@ -176,6 +188,14 @@ void Bus::subscribe_raw(std::string_view name, RawHandler handler) {
   channel.subscription->setQueueCapacity(kQueueCapacity);
 }
 
+void Bus::listen(Listener listener) {
+  state_->listener = std::move(listener);
+  if (state_->listening != nullptr) return;
+  state_->listening = state_->lcm->subscribeFunction(".*", &State::on_any, state_.get());
+  if (state_->listening == nullptr) throw std::runtime_error("LCM cannot subscribe to all channels");
+  state_->listening->setQueueCapacity(kListenCapacity);
+}
+
 void Bus::reject(const std::string& name, Rejection reason) {
   const std::scoped_lock lock(state_->mutex);
   Channel& channel = state_->channel(name);
@@ -215,6 +235,8 @@ void Bus::count_late(std::string_view name) {
   const std::scoped_lock lock(state_->mutex);
   ++state_->channel(name).counters.late;
 }
+
+const std::string& Bus::suffix() const { return state_->suffix; }
 
 std::int64_t Bus::unsent() const { return state_->unsent; }
 

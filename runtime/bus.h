@@ -28,6 +28,9 @@ inline constexpr Duration kPacing{2'000};
 /// a process that was stopped for a moment finds no gap in a state's sequence, only old messages.
 inline constexpr int kQueueCapacity = 1'000;
 
+/// The same for a listener to all channels, which may wait for a disk: over twenty seconds of a flight.
+inline constexpr int kListenCapacity = 50'000;
+
 /// One process's end of the LCM network. Not thread-safe but for publish() and counters() (a planner's worker publishes its answer).
 ///
 /// publish() fills in header.name and header.utime. subscribe() hands over only messages that decode exactly and pass
@@ -84,6 +87,13 @@ class Bus {
                   });
   }
 
+  /// Hands over every message of every channel as it came, unchecked and uncounted: what a recorder needs. `received_us` is when the
+  /// kernel took it from the network, µs since the Unix epoch. Channel names are the wire's, with their suffixes.
+  using Listener =
+      std::function<void(std::string_view wire_name, std::int64_t received_us, std::span<const std::uint8_t> bytes)>;
+  /// One listener at most; kListenCapacity messages wait for it in LCM's queue at most.
+  void listen(Listener listener);
+
   [[nodiscard]] UTime next_due() const;  ///< when a paced message is due; kNever if none waits
   void send_due(UTime now);              ///< sends what is due, at most one message per channel
   /// A copy, by channel name without suffix. Thread-safe.
@@ -95,6 +105,7 @@ class Bus {
   void rethrow();
   [[nodiscard]] const Clock& clock() const { return clock_; }
   [[nodiscard]] std::int64_t epoch_us() const { return epoch_us_; }
+  [[nodiscard]] const std::string& suffix() const;  ///< of its channels' names on the wire
 
  private:
   using Encoder = std::function<Bytes(const Header&)>;

@@ -45,7 +45,11 @@ int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
     if (const auto code = host.node().finished()) return *code;
     const UTime wakeup = host.next_wakeup();
     const Duration sleep = wakeup == kNever ? kLongestSleep : wakeup - clock.now();
-    if (wait(fds, sleep)) return 0;
+    if (wait(fds, sleep)) {
+      drain(lcm, kMaxMessagesPerStep);  // a recorder keeps what has come in already
+      host.bus().rethrow();
+      return 0;
+    }
   }
 }
 

@@ -1,0 +1,69 @@
+#include "logger/app/logger_node.h"
+
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace tern {
+namespace {
+
+LogWriter open_writer(std::string path, std::int64_t rotate_bytes) {
+  if (std::filesystem::is_directory(path)) path = (std::filesystem::path(path) / "flight.lcm").string();
+  auto writer = LogWriter::open(path, rotate_bytes);
+  if (!writer) throw ConfigError("--record " + writer.error().message);
+  return std::move(*writer);
+}
+
+}  // namespace
+
+LoggerConfig read_logger_config(ConfigSection section) {
+  LoggerConfig config;
+  config.rotate_bytes = section.integer("rotate_mb", 1'000, 0, 1'000'000) * 1'000'000;
+  section.finish();
+  return config;
+}
+
+LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path)
+    : writer_(open_writer(path, config.rotate_bytes)), table_(bus.suffix()), next_flush_(bus.clock().now()) {
+  spdlog::info("writes {}", writer_.part_path());
+  bus.listen([this](std::string_view channel, std::int64_t received_us, std::span<const std::uint8_t> data) {
+    table_.add(channel, data);
+    writer_.append(channel, received_us, data);
+  });
+}
+
+LoggerNode::~LoggerNode() {
+  flush();
+  report();
+}
+
+void LoggerNode::step(UTime now) {
+  if (now < next_flush_) return;
+  flush();
+  next_flush_ = now + kFlushPeriod;
+}
+
+void LoggerNode::flush() {
+  const auto flushed = writer_.flush();
+  if (!flushed && trouble_ != flushed.error().message) spdlog::error("{}", flushed.error().message);
+  trouble_ = flushed ? "" : flushed.error().message;
+}
+
+NodeHealth LoggerNode::health() const {
+  return {trouble_.empty() ? ProcessState::Ready : ProcessState::Failed, trouble_};
+}
+
+void LoggerNode::report() const {
+  const LogWriterCounters& counters = writer_.counters();
+  spdlog::info("{} messages, {:.1f} MB in {} file(s), {} not written", counters.written,
+               static_cast<double>(counters.bytes) * 1e-6, counters.parts, counters.unwritten);
+  for (const auto& [channel, count] : table_.counts()) {
+    spdlog::info("{:<24} received {:>8}  lost {:>6}  refused {:>4}  {:>9.3f} MB", channel, count.received, count.lost,
+                 count.refused, static_cast<double>(count.bytes) * 1e-6);
+  }
+}
+
+}  // namespace tern

@@ -1,0 +1,29 @@
+// The event log of LCM, as lcm-logger writes it and lcm-logplayer and lcm-spy read it.
+//
+// A file is a row of events without a header, an index or checksums. An event, integers big-endian:
+//   u32 0xEDA1DA01 | i64 number | i64 time, µs | i32 channel bytes | i32 data bytes | channel | data
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tern {
+
+inline constexpr std::uint32_t kLogSyncWord = 0xEDA1DA01;
+inline constexpr std::size_t kLogHeadBytes = 28;
+/// LCM_MAX_CHANNEL_NAME_LENGTH.
+inline constexpr std::size_t kLogMaxChannelBytes = 63;
+/// What a reader takes for an event at most. Tern's messages are a thousandth of it; LCM's own reader believes any length, and dies.
+inline constexpr std::size_t kLogMaxDataBytes = std::size_t{1} << 26U;
+
+/// A message as it was received.
+struct LogEvent {
+  std::int64_t number = 0;       ///< counts the events of a log from 0, on through its parts
+  std::int64_t received_us = 0;  ///< when it was received, µs since the Unix epoch
+  std::string channel;           ///< 1 … kLogMaxChannelBytes bytes
+  std::vector<std::uint8_t> data;
+};
+
+}  // namespace tern
