@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/geometry/box.h"
 #include "core/geometry/distance.h"
 
 namespace tern {
@@ -19,14 +20,8 @@ double signed_distance_to_box(const Vec3& c, const Vec3& h) {
   return beyond.maxCoeff() > 0.0 ? beyond.cwiseMax(0.0).norm() : beyond.maxCoeff();
 }
 
-Points corners_of(const Box& box) {
-  Points corners(3, 8);
-  for (int i = 0; i < 8; ++i) corners.col(i) = box.corner(static_cast<Box::CornerType>(i));
-  return corners;
-}
-
 bool has_all_corners(const Points& vertices, const Box& box) {
-  const Points corners = corners_of(box);
+  const Points corners = box_corners(box);
   for (int i = 0; i < 8; ++i) {
     if ((vertices.colwise() - corners.col(i)).colwise().squaredNorm().minCoeff() > 0.0) return false;
   }
@@ -68,7 +63,7 @@ double BodyDistance::operator()(const Vec3& p_rel, const Vec3& half_extents) con
 }
 
 double BodyDistance::to_polytope(const Vec3& p_rel, const Vec3& half_extents) const {
-  const Points box = corners_of(Box(-half_extents, half_extents));
+  const Points box = box_corners(Box(-half_extents, half_extents));
   const Points body = vertices_.colwise() + p_rel;
   const double apart = distance(box, body);
   if (apart > 0.0) return apart;

@@ -14,10 +14,10 @@
 
 namespace tern {
 
-inline constexpr double kGoalRadius = 0.2;           ///< reached and first entry: within this distance of the goal, m
-inline constexpr double kRestSpeed = 0.1;            ///< reached and stopped: under this speed, m/s
-inline constexpr double kStopsCountFrom = 1.0;       ///< stops count after this world time, s
-inline constexpr double kNearRegion = 1.0;           ///< "near" a region: within this distance of it, m
+inline constexpr double kGoalRadius = 0.2;      ///< reached and first entry: within this distance of the goal, m
+inline constexpr double kRestSpeed = 0.1;       ///< reached and stopped: under this speed, m/s
+inline constexpr double kStopsCountFrom = 1.0;  ///< stops count after this world time, s
+inline constexpr double kNearRegion = 1.0;      ///< "near" a region: within this distance of it, m
 /// First entry, arrival, stops and crossings of regions are found to this, s.
 inline constexpr double kMeasureTimeResolution = 1e-5;
 

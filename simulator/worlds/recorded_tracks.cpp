@@ -96,12 +96,11 @@ std::string add_row(const std::vector<double>& row, const RecordedTracksSpec& sp
   return {};
 }
 
-/// Instants at which someone's box is near the start, ascending.
-std::vector<double> crowded_instants(const std::vector<RecordedTrack>& tracks, const Vec3& half_extents,
-                                     const Vec3& start) {
+/// Instants at which someone is near the start, ascending.
+std::vector<double> crowded_instants(const std::vector<RecordedTrack>& tracks, const Vec3& start) {
   std::vector<double> instants;
   const auto look = [&](double t, const Vec3& p) {
-    if (distance_to_box(start, p, half_extents) < kStartClearance) instants.push_back(t);
+    if ((p - start).head<2>().norm() < kStartClearance) instants.push_back(t);
   };
   for (const RecordedTrack& track : tracks) {
     for (std::size_t i = 0; i + 1 < track.points.size(); ++i) {
@@ -182,19 +181,18 @@ Result<std::vector<RecordedTrack>> load_recorded_tracks(const std::string& path,
 Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
                               const Vec3& start) {
   if (!spec.wait_for_clear_start) return spec.start_s;
-  std::vector<double> frames;
-  for (const RecordedTrack& track : tracks) {
-    for (const auto& point : track.points) frames.push_back(point.first);
-  }
-  std::sort(frames.begin(), frames.end());
-  const std::vector<double> crowded = crowded_instants(tracks, spec.half_extents, start);
-  for (auto frame = std::lower_bound(frames.begin(), frames.end(), spec.start_s); frame != frames.end();) {
-    const auto next = std::lower_bound(crowded.begin(), crowded.end(), *frame);
-    if (next == crowded.end() || *next > *frame + kStartQuiet) return *frame;
-    frame = std::upper_bound(frame, frames.end(), *next);
+  double last_s = -std::numeric_limits<double>::infinity();
+  for (const RecordedTrack& track : tracks) last_s = std::max(last_s, track.points.back().first);
+  const std::vector<double> crowded = crowded_instants(tracks, start);
+  const double rate = spec.frames_per_second;
+  for (double frame = std::ceil(spec.start_s * rate); frame / rate <= last_s;) {
+    const double t = frame / rate;
+    const auto next = std::lower_bound(crowded.begin(), crowded.end(), t);
+    if (next == crowded.end() || *next > t + kStartQuiet) return t;
+    frame = std::max(frame, std::floor(*next * rate)) + 1.0;
   }
   return fail(fmt::format("{}: no frame from {} s to the last at {} s leaves the start clear by {} m for {} s",
-                          spec.file, spec.start_s, frames.empty() ? 0.0 : frames.back(), kStartClearance, kStartQuiet));
+                          spec.file, spec.start_s, last_s, kStartClearance, kStartQuiet));
 }
 
 std::vector<ObstacleSpec> recorded_obstacles(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,

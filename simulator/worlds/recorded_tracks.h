@@ -46,9 +46,11 @@ Result<std::string> find_track_file(const std::string& file, const std::string& 
 /// libraries.
 Result<std::vector<RecordedTrack>> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec);
 
-/// The time of the file at which world time is 0: spec.start_s itself, or with spec.wait_for_clear_start the first
-/// recorded frame from there on after which no one's box comes within kStartClearance of `start` for kStartQuiet
-/// (sampled at most 10 ms apart). @return an Error when no recorded frame is clear or start_s is beyond the last one.
+/// The time of the file at which world time is 0: spec.start_s itself, or with spec.wait_for_clear_start that of the
+/// first whole frame number from there on (recorded or not: a frame may show no one) after which no one's recorded
+/// position comes within kStartClearance of `start`, measured on the floor, for kStartQuiet (sampled at most 10 ms
+/// apart).
+/// @return an Error when no frame up to the last recorded one is clear.
 Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
                               const Vec3& start);
 
