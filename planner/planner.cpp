@@ -143,7 +143,7 @@ class Planning {
       context.way = {at, 0.0};
       return true;
     }
-    const auto path = world_.goal->field.path_from(at);
+    const auto path = world_.goal->field->path_from(at);
     if (!path) return false;
     std::size_t corner = 1;
     while (corner + 1 < path->size() && ((*path)[corner] - at).norm() < kCornerReached) ++corner;

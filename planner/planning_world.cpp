@@ -12,22 +12,13 @@ namespace {
 /// Paths keep this far from static obstacles, m, where that leaves a way: flights by hulls need a little room.
 constexpr double kPathSpacing = 0.02;
 
-std::uint64_t digest_of(const Box& box, std::uint64_t seed) {
-  const double numbers[6] = {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()};
-  return digest({reinterpret_cast<const char*>(numbers), sizeof(numbers)}, seed);
-}
-
 }  // namespace
 
 PredictionProducts::PredictionProducts(TrackSet tracks) : set(std::move(tracks)) {
-  static_digest = kDigestSeed;
   for (const Track& track : set.tracks) {
     const UTime from = track.motion.start;
     const Box box = track.bounds(from, track.motion.end() + kTrackBoxReach);
     obstacles.push_back({track.id, &track, box, 1.0});
-    if (track.kind != TrackKind::Static) continue;
-    static_boxes.push_back(box);
-    static_digest = digest_of(box, static_digest);
   }
 }
 
@@ -41,17 +32,23 @@ MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
 
 Box centre_box(const Box& flight_box, const Body& body) { return grown(flight_box, -body.half_extents()); }
 
-GoalProducts::GoalProducts(const Goal& goal_in, const MapProducts& map, const PredictionProducts& predictions,
-                           const Body& body, const Box& flight_box_in, const Vec3& start)
-    : goal(goal_in), map_version(map.version), static_digest(predictions.static_digest),
-      body_half(body.half_extents()), flight_box(flight_box_in) {
-  std::vector<Box> boxes = predictions.static_boxes;
-  boxes.insert(boxes.end(), map.occupied.boxes().begin(), map.occupied.boxes().end());
-  const Vec3 inflation = body_half + Vec3::Constant(kPathSpacing);
-  for (Box& box : boxes) box = grown(box, inflation);
+std::uint64_t digest_of(const std::vector<Box>& boxes) {
+  std::uint64_t h = kDigestSeed;
+  for (const Box& b : boxes) {
+    const double numbers[6] = {b.min().x(), b.min().y(), b.min().z(), b.max().x(), b.max().y(), b.max().z()};
+    h = digest({reinterpret_cast<const char*>(numbers), sizeof(numbers)}, h);
+  }
+  return h;
+}
+
+GoalField make_goal_field(const GoalFieldKey& key, const BoxIndex& map_boxes, const std::vector<Box>& static_boxes,
+                          const Vec3& start) {
+  std::vector<Box> boxes = static_boxes;
+  boxes.insert(boxes.end(), map_boxes.boxes().begin(), map_boxes.boxes().end());
+  for (Box& box : boxes) box = grown(box, key.body_half + Vec3::Constant(kPathSpacing));
   GoalFieldOptions options;
   options.start = start;
-  field = GoalField::build(std::move(boxes), centre_box(flight_box, body), goal.position, options);
+  return GoalField::build(std::move(boxes), grown(key.flight_box, -key.body_half), key.goal, options);
 }
 
 }  // namespace tern

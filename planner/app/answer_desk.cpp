@@ -1,0 +1,69 @@
+#include "planner/app/answer_desk.h"
+
+#include <utility>
+
+#include "runtime/channels.h"
+
+namespace tern {
+
+void AnswerDesk::open(const HorizonRequest& request, UTime now) {
+  const std::lock_guard lock(mutex_);
+  if (open_) send_standing(now);
+  Open next;
+  next.id = request.id;
+  next.arrived = now;
+  next.watch_at = request.deadline - kWatchdogLead;
+  next.standing.request_id = request.id;
+  next.standing.reason = PlanReason::OutOfTime;
+  next.standing.trajectory = request.committed;
+  next.standing.local_goal = request.start.p;
+  next.standing.inputs.request = request.header.name;
+  open_ = std::move(next);
+}
+
+void AnswerDesk::improve(const Plan& plan) {
+  const std::lock_guard lock(mutex_);
+  if (!open_ || open_->id != plan.request_id) return;
+  open_->standing = plan;
+  ++open_->improvements;
+}
+
+bool AnswerDesk::answer(const Plan& plan, const PlanTiming& timing) {
+  const std::lock_guard lock(mutex_);
+  if (!open_ || open_->id != plan.request_id) return false;
+  send(plan, timing);
+  open_.reset();
+  return true;
+}
+
+void AnswerDesk::watch(UTime now) {
+  const std::lock_guard lock(mutex_);
+  if (open_ && now >= open_->watch_at) send_standing(now);
+}
+
+std::optional<UTime> AnswerDesk::watch_time() const {
+  const std::lock_guard lock(mutex_);
+  if (!open_) return std::nullopt;
+  return open_->watch_at;
+}
+
+/// The answer that stands says which improvement it was: attempt −1, counted in Stage::Check. A replay takes that one.
+void AnswerDesk::send_standing(UTime now) {
+  Plan plan = std::move(open_->standing);
+  plan.cuts.push_back({-1, Stage::Check, open_->improvements});
+  PlanTiming timing;
+  timing.request_id = plan.request_id;
+  timing.total_ms = (now - open_->arrived).seconds() * 1e3;
+  timing.first_answer_ms = timing.total_ms;
+  timing.from_watchdog = true;
+  send(std::move(plan), timing);
+  open_.reset();
+}
+
+void AnswerDesk::send(Plan plan, const PlanTiming& timing) {
+  plan.inputs.configuration_hash = configuration_hash_;
+  bus_.publish(channels::kPlan, std::move(plan));
+  bus_.publish(channels::kPlanTiming, timing);
+}
+
+}  // namespace tern

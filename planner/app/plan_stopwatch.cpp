@@ -1,0 +1,40 @@
+#include "planner/app/plan_stopwatch.h"
+
+#include <algorithm>
+
+namespace tern {
+
+void PlanStopwatch::close_stage() {
+  stage_ms_[static_cast<int>(stage_)] += stage_watch_.elapsed_ms();
+  stage_watch_ = Stopwatch();
+}
+
+void PlanStopwatch::enter(Stage stage) {
+  close_stage();
+  stage_ = stage;
+}
+
+void PlanStopwatch::answer(const Plan& best_so_far) {
+  const bool is_new = best_so_far.outcome != PlanOutcome::KeepCommitted && best_so_far.outcome != PlanOutcome::NoPlan;
+  if (is_new && first_answer_ms_ == 0.0) first_answer_ms_ = total_.elapsed_ms();
+  improved_(best_so_far);
+}
+
+PlanTiming PlanStopwatch::timing(const PlanAnswer& answer) {
+  close_stage();
+  PlanTiming timing;
+  timing.request_id = answer.plan.request_id;
+  timing.total_ms = total_.elapsed_ms();
+  timing.first_answer_ms = first_answer_ms_ > 0.0 ? first_answer_ms_ : timing.total_ms;
+  timing.cpu_ms = thread_cpu_ms() - cpu_at_start_ms_;
+  std::copy_n(stage_ms_, kStages, timing.stage_ms);
+  timing.expansions = answer.statistics.expansions;
+  timing.hulls = answer.statistics.hulls;
+  timing.pairs_by_box = answer.statistics.pairs_by_box;
+  timing.pairs_by_plane = answer.statistics.pairs_by_plane;
+  timing.solver_iterations = answer.statistics.solver_iterations;
+  timing.peak_rss_kb = peak_rss_kb();
+  return timing;
+}
+
+}  // namespace tern

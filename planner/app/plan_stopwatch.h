@@ -1,0 +1,31 @@
+// Measures one call of plan(): PLAN_TIMING, and the answers on the way for the watchdog.
+#pragma once
+
+#include <functional>
+
+#include "planner/planner.h"
+#include "runtime/stopwatch.h"
+
+namespace tern {
+
+class PlanStopwatch final : public PlanObserver {
+ public:
+  explicit PlanStopwatch(std::function<void(const Plan&)> improved) : improved_(std::move(improved)) {}
+
+  void enter(Stage stage) override;
+  void answer(const Plan& best_so_far) override;
+  /// What has been measured; call it when plan() is done.
+  [[nodiscard]] PlanTiming timing(const PlanAnswer& answer);
+
+ private:
+  void close_stage();
+
+  std::function<void(const Plan&)> improved_;
+  Stopwatch total_, stage_watch_;
+  double cpu_at_start_ms_ = thread_cpu_ms();
+  Stage stage_ = Stage::Fallback;
+  double stage_ms_[kStages] = {};
+  double first_answer_ms_ = 0.0;  ///< of the first certified trajectory that is new
+};
+
+}  // namespace tern

@@ -1,0 +1,117 @@
+#include "planner/app/planner_node.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/geometry/separation.h"
+#include "core/geometry/separation_lp.h"
+#include "planner/app/plan_stopwatch.h"
+#include "runtime/channels.h"
+#include "runtime/process.h"
+
+namespace tern {
+namespace {
+
+/// Preparations of the world are looked after this often.
+constexpr Duration kPrepareEvery{20'000};
+/// Shares of the time from arrival to the watchdog: after these, no new duration is tried, the search ends, the optimizer ends.
+constexpr double kAttemptShare = 0.35;
+constexpr double kSearchShare = 0.55;
+constexpr double kOptimizationShare = 0.85;
+
+/// Ends each stage by the clock, so that the whole is done before the watchdog acts.
+Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
+  const auto at = [&](double share) {
+    return arrived + Duration{static_cast<std::int64_t>(share * static_cast<double>((watch_at - arrived).us))};
+  };
+  return Budget([&clock, attempts = at(kAttemptShare), search = at(kSearchShare),
+                 optimization = at(kOptimizationShare)](int, Stage stage, std::int64_t) {
+    const UTime now = clock.now();
+    if (stage == Stage::Search) return now >= search;
+    if (stage == Stage::Optimization) return now >= optimization;
+    return now >= attempts;
+  });
+}
+
+}  // namespace
+
+PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& config, std::uint64_t configuration_hash,
+                         const PlannerExecution& execution)
+    : bus_(bus), config_(config), execution_(execution), intake_(bus, config, uav, execution.threaded),
+      desk_(bus, configuration_hash) {
+  bus.subscribe<HorizonRequest>(channels::kHorizonRequest, [this](const HorizonRequest& r) { on_request(r); });
+  if (execution.threaded) worker_ = std::make_unique<Worker>();
+}
+
+PlannerNode::~PlannerNode() = default;
+
+UTime PlannerNode::next_wakeup() const {
+  UTime next = bus_.clock().now() + kPrepareEvery;
+  if (delayed_) next = std::min(next, delayed_->due);
+  if (const auto watch = desk_.watch_time(); watch && execution_.threaded) next = std::min(next, *watch);
+  return next;
+}
+
+void PlannerNode::step(UTime now) {
+  intake_.prepare();
+  if (delayed_ && now >= delayed_->due) {
+    desk_.answer(delayed_->plan, delayed_->timing);
+    delayed_.reset();
+  }
+  if (!execution_.threaded) return;
+  desk_.watch(now);
+  if (waiting_) start_planning(now);
+}
+
+NodeHealth PlannerNode::health() const {
+  const std::string missing = intake_.missing();
+  if (missing.empty()) return {ProcessState::Ready, ""};
+  return {ProcessState::Waiting, missing};
+}
+
+std::optional<int> PlannerNode::finished() const {
+  if (!stuck_at_ || !worker_ || !worker_->busy() || bus_.clock().now() < *stuck_at_) return std::nullopt;
+  spdlog::critical("the worker has missed two deadlines; this process ends so that it is started again");
+  return kExitStuck;
+}
+
+void PlannerNode::on_request(const HorizonRequest& request) {
+  const UTime now = bus_.clock().now();
+  if (now >= request.deadline) return bus_.count_late(channels::kHorizonRequest);
+  intake_.set_vehicle(request.body, request.flight_box, request.start.p);
+  desk_.open(request, now);
+  if (!execution_.threaded) return work(request, intake_.snapshot(), now);
+  waiting_ = request;
+  waiting_since_ = now;
+  start_planning(now);
+}
+
+void PlannerNode::start_planning(UTime now) {
+  const UTime arrived = waiting_since_;
+  const Duration allowed = waiting_->deadline - arrived;
+  const bool taken = worker_->try_start(
+      [this, request = *waiting_, world = intake_.snapshot(), arrived] { work(request, world, arrived); });
+  if (!taken) return;
+  stuck_at_ = now + allowed * 2;
+  waiting_.reset();
+}
+
+void PlannerNode::work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived) {
+  PlanStopwatch stopwatch([this](const Plan& plan) { desk_.improve(plan); });
+  Budget budget = execution_.threaded ? clock_budget(bus_.clock(), arrived, request.deadline - kWatchdogLead)
+                                      : Budget::unlimited();
+  const SeparationCounts before = separation_counts();
+  const PlanAnswer answer = plan(request, world, config_, budget, &stopwatch);
+  PlanTiming timing = stopwatch.timing(answer);
+  timing.pairs_by_lp = separation_counts().lp - before.lp;
+  if (execution_.threaded) {
+    timing.total_ms = std::max(timing.total_ms, (bus_.clock().now() - arrived).seconds() * 1e3);
+    desk_.answer(answer.plan, timing);
+  } else {
+    delayed_ = Delayed{arrived + execution_.virtual_latency, answer.plan, timing};
+  }
+}
+
+}  // namespace tern

@@ -1,0 +1,59 @@
+// tern-planner's node: requests in, certified plans out, in time whatever happens.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include "core/world/scenario.h"
+#include "planner/app/answer_desk.h"
+#include "planner/app/worker.h"
+#include "planner/app/world_intake.h"
+#include "planner/planner.h"
+#include "runtime/bus.h"
+#include "runtime/node.h"
+
+namespace tern {
+
+/// How a node spends time.
+struct PlannerExecution {
+  /// Plan in a thread of its own, under the wall clock and the watchdog; else at once, unlimited, charged with `virtual_latency`.
+  bool threaded = true;
+  Duration virtual_latency{15'000};  ///< virtual time from request to answer
+};
+
+class PlannerNode final : public Node {
+ public:
+  PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& config, std::uint64_t configuration_hash,
+              const PlannerExecution& execution);
+  ~PlannerNode() override;
+
+  [[nodiscard]] UTime next_wakeup() const override;
+  void step(UTime now) override;
+  [[nodiscard]] NodeHealth health() const override;
+  /// kExitStuck when the worker has missed two deadlines.
+  [[nodiscard]] std::optional<int> finished() const override;
+
+ private:
+  void on_request(const HorizonRequest& request);
+  void start_planning(UTime now);
+  void work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived);
+
+  Bus& bus_;
+  PlannerConfig config_;
+  PlannerExecution execution_;
+  WorldIntake intake_;
+  AnswerDesk desk_;
+  std::optional<HorizonRequest> waiting_;  ///< came in while the worker was busy
+  UTime waiting_since_{};
+  std::optional<UTime> stuck_at_;          ///< two deadlines after what the worker is at
+  struct Delayed {
+    UTime due;
+    Plan plan;
+    PlanTiming timing;
+  };
+  std::optional<Delayed> delayed_;         ///< virtual time: the answer, not yet given
+  std::unique_ptr<Worker> worker_;         ///< null in virtual time. Last: its job uses the others
+};
+
+}  // namespace tern

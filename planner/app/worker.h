@@ -1,0 +1,32 @@
+// A thread that runs one job at a time: planning, or preparing what planning needs, off the receiving thread.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace tern {
+
+class Worker {
+ public:
+  Worker();
+  /// Waits for the running job.
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  /// Starts the job if the worker is idle. @return false when it is busy; the job is then not taken.
+  bool try_start(std::function<void()> job);
+  [[nodiscard]] bool busy() const;
+
+ private:
+  void run();
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::function<void()> job_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace tern
