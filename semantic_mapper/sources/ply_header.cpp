@@ -1,0 +1,156 @@
+#include "semantic_mapper/sources/ply_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+#include "semantic_mapper/sources/ply.h"
+
+namespace tern {
+namespace {
+
+constexpr std::array<const char*, 7> kClassNames{"label",    "class",        "classification",       "class_id",
+                                                 "semantic", "scalar_Label", "scalar_Classification"};
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos) return words;
+    line.remove_prefix(begin);
+    const std::size_t end = std::min(line.find_first_of(" \t\r"), line.size());
+    words.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+std::optional<PlyType> type_of(std::string_view word) {
+  constexpr std::array<std::array<const char*, 2>, 8> kNames{{{"char", "int8"},
+                                                              {"uchar", "uint8"},
+                                                              {"short", "int16"},
+                                                              {"ushort", "uint16"},
+                                                              {"int", "int32"},
+                                                              {"uint", "uint32"},
+                                                              {"float", "float32"},
+                                                              {"double", "float64"}}};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (word == kNames[i][0] || word == kNames[i][1]) return static_cast<PlyType>(i);
+  }
+  return std::nullopt;
+}
+
+/// Takes the header's lines one after the other; an empty answer means that the line was fine.
+class HeaderLines {
+ public:
+  PlyHeader header;
+  bool ended = false;
+
+  std::string take(std::string_view line) {
+    const auto words = words_of(line);
+    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") return "";
+    if (words[0] == "format") return take_format(words);
+    if (words[0] == "element") return take_element(words);
+    if (words[0] == "property") return in_vertices_ ? take_property(words) : "";
+    if (words[0] == "end_header") return take_end();
+    return fmt::format("unknown header line \"{}\"", line.substr(0, 40));
+  }
+
+ private:
+  std::string take_format(const std::vector<std::string_view>& words) {
+    if (words.size() != 3 || words[2] != "1.0") return "the format line is not \"format <kind> 1.0\"";
+    has_format_ = true;
+    if (words[1] == "ascii") header.format = PlyFormat::Ascii;
+    else if (words[1] == "binary_little_endian") header.format = PlyFormat::LittleEndian;
+    else if (words[1] == "binary_big_endian") header.format = PlyFormat::BigEndian;
+    else return fmt::format("unknown format {}", words[1].substr(0, 40));
+    return "";
+  }
+
+  std::string take_element(const std::vector<std::string_view>& words) {
+    std::uint64_t count = 0;
+    if (words.size() != 3) return "the element line is not \"element <name> <count>\"";
+    const auto [end, error] = std::from_chars(words[2].data(), words[2].data() + words[2].size(), count);
+    if (error != std::errc() || end != words[2].data() + words[2].size()) {
+      return fmt::format("\"{}\" is no number of elements", words[2].substr(0, 40));
+    }
+    in_vertices_ = words[1] == "vertex";
+    if (!in_vertices_) return has_vertices_ ? "" : fmt::format("element {} before vertex", words[1].substr(0, 40));
+    if (has_vertices_) return "element vertex given twice";
+    has_vertices_ = true;
+    if (count > static_cast<std::uint64_t>(kMaxCloudPoints)) return fmt::format("{} vertices (limit {})", count, kMaxCloudPoints);
+    header.count = static_cast<std::size_t>(count);
+    return "";
+  }
+
+  std::string take_property(const std::vector<std::string_view>& words) {
+    if (words.size() > 1 && words[1] == "list") return "a list property in a vertex";
+    if (words.size() != 3) return "the property line is not \"property <type> <name>\"";
+    const auto type = type_of(words[1]);
+    if (!type) return fmt::format("unknown type {}", words[1].substr(0, 40));
+    if (header.properties.size() == kMaxPlyProperties) return fmt::format("more than {} properties", kMaxPlyProperties);
+    if (std::find(names_.begin(), names_.end(), words[2]) != names_.end()) {
+      return fmt::format("property {} given twice", words[2].substr(0, 40));
+    }
+    names_.push_back(words[2]);
+    header.properties.push_back(*type);
+    return "";
+  }
+
+  std::string take_end() {
+    ended = true;
+    if (!has_format_) return "no format line";
+    if (!has_vertices_) return "no element vertex";
+    const auto find = [&](std::string_view name) {
+      const auto at = std::find(names_.begin(), names_.end(), name);
+      return at == names_.end() ? PlyHeader::kNone : static_cast<std::size_t>(at - names_.begin());
+    };
+    constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      header.position[i] = find(kAxes[i]);
+      if (header.position[i] == PlyHeader::kNone) return fmt::format("vertices have no property {}", kAxes[i]);
+    }
+    for (std::size_t i = 0; i < kClassNames.size() && header.class_number == PlyHeader::kNone; ++i) {
+      header.class_number = find(kClassNames[i]);
+    }
+    return "";
+  }
+
+  bool has_format_ = false;
+  bool has_vertices_ = false;
+  bool in_vertices_ = false;
+  std::vector<std::string_view> names_;
+};
+
+}  // namespace
+
+std::size_t size_of(PlyType type) {
+  constexpr std::array<std::size_t, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[static_cast<std::size_t>(type)];
+}
+
+Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), kMaxPlyHeader));
+  HeaderLines lines;
+  std::size_t at = 0;
+  while (!lines.ended) {
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string_view::npos) {
+      return bad_file(file, at, fmt::format("no PLY header: no end_header within {} bytes", text.size()));
+    }
+    const std::string_view line = text.substr(at, end - at);
+    if (at == 0) {
+      if (line != "ply" && line != "ply\r") return bad_file(file, 0, "no PLY file: it does not begin with ply");
+    } else if (const std::string problem = lines.take(line); !problem.empty()) {
+      return bad_file(file, at, problem);
+    }
+    at = end + 1;
+  }
+  lines.header.data_offset = at;
+  return lines.header;
+}
+
+}  // namespace tern

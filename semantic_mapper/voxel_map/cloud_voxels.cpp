@@ -1,0 +1,91 @@
+#include "semantic_mapper/voxel_map/cloud_voxels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tern {
+namespace {
+
+using Cell = Eigen::Vector3i;
+
+/// A point's mark on a voxel. Sorted by voxel, then class.
+struct Mark {
+  std::int64_t voxel;
+  std::uint8_t class_number;
+  friend bool operator<(const Mark& a, const Mark& b) {
+    return a.voxel != b.voxel ? a.voxel < b.voxel : a.class_number < b.class_number;
+  }
+};
+
+std::vector<Mark> marks_of(const CloudLayer& cloud, const VoxelGrid& grid) {
+  std::vector<Mark> marks;
+  const int reach = static_cast<int>(std::ceil(cloud.point_radius / grid.resolution));
+  const double radius2 = cloud.point_radius * cloud.point_radius;
+  for (const LabelledPoint& point : cloud.points) {
+    if (!cloud.classes[point.class_number] || !grown(grid.bounds(), Vec3::Constant(cloud.point_radius)).contains(point.position)) {
+      continue;
+    }
+    const Cell own = grid.cell_of(point.position);
+    const Cell low = (own - Cell::Constant(reach)).cwiseMax(0);
+    const Cell high = (own + Cell::Constant(reach)).cwiseMin(grid.size - Cell::Ones());
+    for (int z = low.z(); z <= high.z(); ++z) {
+      for (int y = low.y(); y <= high.y(); ++y) {
+        for (int x = low.x(); x <= high.x(); ++x) {
+          const Cell cell(x, y, z);
+          if (cell != own && (grid.centre(cell) - point.position).squaredNorm() > radius2) continue;
+          marks.push_back({grid.index(cell), point.class_number});
+        }
+      }
+    }
+  }
+  std::sort(marks.begin(), marks.end());
+  return marks;
+}
+
+/// The marks of one voxel, counted.
+struct Tally {
+  std::array<int, kVoxelLabels> of_label{};
+  std::array<int, kVoxelLabels> most{};                ///< marks of the label's leading class
+  std::array<std::uint8_t, kVoxelLabels> leader{};     ///< that class
+};
+
+Tally count(const CloudLayer& cloud, std::vector<Mark>::const_iterator begin, std::vector<Mark>::const_iterator end) {
+  Tally tally;
+  while (begin != end) {
+    const std::uint8_t number = begin->class_number;
+    const auto next = std::find_if(begin, end, [&](const Mark& m) { return m.class_number != number; });
+    const int n = static_cast<int>(next - begin);
+    const auto label = static_cast<std::size_t>(cloud.classes[number]->label);
+    tally.of_label[label] += n;
+    if (n > tally.most[label]) {
+      tally.most[label] = n;
+      tally.leader[label] = number;
+    }
+    begin = next;
+  }
+  return tally;
+}
+
+}  // namespace
+
+void paint_cloud(const CloudLayer& cloud, VoxelPainter& painter) {
+  const VoxelGrid grid = painter.grid();
+  const std::int64_t layer = static_cast<std::int64_t>(grid.size.x()) * grid.size.y();
+  const std::vector<Mark> marks = marks_of(cloud, grid);
+  for (auto begin = marks.begin(); begin != marks.end();) {
+    const std::int64_t voxel = begin->voxel;
+    const auto end = std::find_if(begin, marks.end(), [&](const Mark& m) { return m.voxel != voxel; });
+    const Tally tally = count(cloud, begin, end);
+    begin = end;
+    for (std::size_t label = 0; label < kVoxelLabels; ++label) {
+      if (tally.of_label[label] < cloud.min_points) continue;
+      const std::uint8_t number = tally.leader[label];
+      const std::uint8_t index = painter.class_index(cloud.classes[number]->name);
+      const std::int64_t floor = cloud.fill_below[number] ? voxel % layer : voxel;
+      for (std::int64_t v = floor; v <= voxel; v += layer) painter.paint(v, cloud.classes[number]->label, index);
+    }
+  }
+}
+
+}  // namespace tern

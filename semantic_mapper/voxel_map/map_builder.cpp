@@ -1,0 +1,110 @@
+#include "semantic_mapper/voxel_map/map_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "semantic_mapper/voxel_map/cloud_voxels.h"
+#include "semantic_mapper/voxel_map/voxel_painter.h"
+
+namespace tern {
+namespace {
+
+/// Rounding in the last places must not add a layer of voxels, in voxels.
+constexpr double kSnap = 1e-6;
+/// What merely touches does not overlap, in voxels.
+constexpr double kTouch = 1e-9;
+
+Box bounds_of(const MapSources& sources) {
+  Box box;
+  for (const Region& region : sources.regions) box.extend(region.bounds());
+  for (const Box& obstacle : sources.obstacles) box.extend(obstacle);
+  for (const CloudLayer& cloud : sources.clouds) {
+    for (const LabelledPoint& point : cloud.points) {
+      if (cloud.classes[point.class_number]) box.extend(point.position);
+    }
+  }
+  return box;
+}
+
+/// Voxels per axis as doubles: products of absurd extents stay finite.
+struct Lattice {
+  Vec3 first, size;
+};
+Lattice lattice_of(const Box& box, double resolution) {
+  const Vec3 first = (box.min() / resolution + Vec3::Constant(kSnap)).array().floor();
+  const Vec3 end = (box.max() / resolution - Vec3::Constant(kSnap)).array().ceil();
+  return {first, (end - first).cwiseMax(1.0)};
+}
+
+Result<VoxelGrid> choose_grid(const MapSources& sources, const MapBuildOptions& options) {
+  Box box = options.extents ? *options.extents : bounds_of(sources);
+  if (box.isEmpty()) box = Box(options.somewhere, options.somewhere);
+  if (!options.extents && !options.include.isEmpty()) {
+    const Box roomy = box.merged(options.include);
+    if (lattice_of(roomy, options.resolution).size.prod() <= static_cast<double>(kMaxRoomyVoxels)) box = roomy;
+  }
+  const Lattice lattice = lattice_of(box, options.resolution);
+  if (lattice.size.prod() > static_cast<double>(kMaxVoxels)) {
+    return fail(fmt::format("a map of {:g} × {:g} × {:g} m takes {:g} voxels of {} m (limit {}): give smaller extents or a "
+                            "coarser resolution",
+                            box.sizes().x(), box.sizes().y(), box.sizes().z(), lattice.size.prod(), options.resolution,
+                            kMaxVoxels));
+  }
+  VoxelGrid grid;
+  grid.origin = lattice.first * options.resolution;
+  grid.resolution = options.resolution;
+  grid.size = lattice.size.cast<int>();
+  return grid;
+}
+
+/// Does the shape overlap the voxel's interior?
+bool overlaps(const Box& shape, const Box& voxel) {
+  const double touch = kTouch * voxel.sizes().x();
+  return (shape.min().array() < voxel.max().array() - touch).all() && (shape.max().array() > voxel.min().array() + touch).all();
+}
+
+bool overlaps(const Region& region, const Box& voxel) {
+  const double touch = kTouch * voxel.sizes().x();
+  if (const auto* box = std::get_if<Box>(&region.shape)) return overlaps(*box, voxel);
+  if (const auto* ball = std::get_if<BallRegion>(&region.shape)) {
+    return voxel.exteriorDistance(ball->centre) < ball->radius - touch;
+  }
+  const auto& prism = std::get<PrismRegion>(region.shape);
+  if (voxel.max().z() <= prism.z_min + touch || voxel.min().z() >= prism.z_max - touch) return false;
+  Vec3 p = voxel.center();
+  p.z() = std::clamp(p.z(), prism.z_min, prism.z_max);
+  return region.distance(p) < std::sqrt(0.5) * voxel.sizes().x() - touch;
+}
+
+void paint_region(const Region& region, VoxelLabel label, VoxelPainter& painter) {
+  const std::uint8_t index = painter.class_index(region.class_name);
+  painter.paint_if(region.bounds(), label, index, [&](const Box& voxel) {
+    return label == VoxelLabel::Occupied ? overlaps(region, voxel) : region.contains(voxel.center());
+  });
+}
+
+VoxelLabel label_of(const std::string& class_name, const MapSources& sources) {
+  for (const auto& [name, label] : sources.region_classes) {
+    if (name == class_name) return label;
+  }
+  return VoxelLabel::Unknown;
+}
+
+}  // namespace
+
+Result<VoxelMap> build_map(const MapSources& sources, const MapBuildOptions& options) {
+  const auto grid = choose_grid(sources, options);
+  if (!grid) return tl::unexpected(grid.error());
+  VoxelPainter painter(*grid, options.background);
+  for (const Region& region : sources.regions) paint_region(region, label_of(region.class_name, sources), painter);
+  for (const Box& obstacle : sources.obstacles) {
+    painter.paint_if(obstacle, VoxelLabel::Occupied, painter.class_index("obstacle"),
+                     [&](const Box& voxel) { return overlaps(obstacle, voxel); });
+  }
+  for (const CloudLayer& cloud : sources.clouds) paint_cloud(cloud, painter);
+  return painter.finish();
+}
+
+}  // namespace tern

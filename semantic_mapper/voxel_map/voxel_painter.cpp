@@ -1,0 +1,78 @@
+#include "semantic_mapper/voxel_map/voxel_painter.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "core/world/message_limits.h"
+
+namespace tern {
+namespace {
+
+/// Precedence; the background has 0.
+std::uint8_t strength_of(VoxelLabel label) {
+  switch (label) {
+    case VoxelLabel::Unknown: return 1;
+    case VoxelLabel::Free: return 2;
+    case VoxelLabel::Attractive: return 3;
+    case VoxelLabel::Repulsive: return 4;
+    case VoxelLabel::Occupied: return 5;
+  }
+  return 0;
+}
+
+}  // namespace
+
+VoxelPainter::VoxelPainter(const VoxelGrid& grid, VoxelLabel background) {
+  const auto n = static_cast<std::size_t>(grid.voxels());
+  map_.grid = grid;
+  map_.labels.assign(n, background);
+  map_.classes.assign(n, 0);
+  map_.class_names = {""};
+  strength_.assign(n, 0);
+}
+
+std::uint8_t VoxelPainter::class_index(const std::string& name) {
+  auto& names = map_.class_names;
+  const auto found = std::find(names.begin(), names.end(), name);
+  const auto index = static_cast<std::size_t>(found - names.begin());
+  if (found == names.end()) {
+    if (names.size() == kMaxMapClasses) throw std::length_error("more classes than a map can name");
+    names.push_back(name);
+  }
+  return static_cast<std::uint8_t>(index);
+}
+
+void VoxelPainter::paint(std::int64_t index, VoxelLabel label, std::uint8_t class_index) {
+  const auto i = static_cast<std::size_t>(index);
+  const std::uint8_t strength = strength_of(label);
+  if (strength <= strength_[i]) return;
+  strength_[i] = strength;
+  map_.labels[i] = label;
+  map_.classes[i] = class_index;
+}
+
+void VoxelPainter::paint_if(const Box& region, VoxelLabel label, std::uint8_t class_index,
+                            const std::function<bool(const Box&)>& inside) {
+  const VoxelGrid& g = map_.grid;
+  const Box cut = region.intersection(g.bounds());
+  if (cut.isEmpty()) return;
+  const Eigen::Vector3i last = g.size - Eigen::Vector3i::Ones();
+  const Eigen::Vector3i low = g.cell_of(cut.min()).cwiseMax(0).cwiseMin(last);
+  const Eigen::Vector3i high = g.cell_of(cut.max()).cwiseMax(0).cwiseMin(last);
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) {
+        if (inside(g.box({x, y, z}))) paint(g.index({x, y, z}), label, class_index);
+      }
+    }
+  }
+}
+
+VoxelMap VoxelPainter::finish() {
+  map_.version = map_.compute_version();
+  strength_.clear();
+  return std::exchange(map_, {});
+}
+
+}  // namespace tern
