@@ -1,0 +1,103 @@
+#include "semantic_mapper/app/load_map.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "runtime/data_folder.h"
+#include "semantic_mapper/sources/class_names.h"
+#include "semantic_mapper/sources/las.h"
+#include "semantic_mapper/sources/ply.h"
+#include "semantic_mapper/voxel_map/map_builder.h"
+
+namespace tern {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path find_file(const CloudSource& source, const Scenario& scenario, const char* environment) {
+  const std::string data = data_folder(scenario.file, environment);
+  std::vector<fs::path> places{fs::path(scenario.file).parent_path() / source.file};
+  if (!data.empty()) places.push_back(fs::path(data) / source.file);
+  std::string tried;
+  for (const fs::path& place : places) {
+    std::error_code ignored;
+    if (fs::is_regular_file(place, ignored)) return place;
+    tried += (tried.empty() ? "" : ", ") + place.lexically_normal().string();
+  }
+  throw source.section.error("file", fmt::format("{} not found (sought: {}; set TERN_DATA to the data's folder)", source.file, tried));
+}
+
+std::vector<std::uint8_t> read_bytes(const fs::path& file, const CloudSource& source) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) throw source.section.error("file", fmt::format("{}: {}", file.string(), error.message()));
+  if (size > kMaxCloudBytes) {
+    throw source.section.error("file", fmt::format("{} has {} bytes (limit {})", file.string(), size, kMaxCloudBytes));
+  }
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
+    throw source.section.error("file", fmt::format("{} cannot be read", file.string()));
+  }
+  return bytes;
+}
+
+bool is_kept(VoxelLabel label, bool semantics) {
+  return semantics || (label != VoxelLabel::Attractive && label != VoxelLabel::Repulsive);
+}
+
+CloudLayer load_cloud(const CloudSource& source, const Scenario& scenario, const MapperConfig& config, const char* environment) {
+  const fs::path file = find_file(source, scenario, environment);
+  const std::vector<std::uint8_t> bytes = read_bytes(file, source);
+  auto points = source.format == CloudFormat::Las ? parse_las(bytes, file.string(), source.frame)
+                                                  : parse_ply(bytes, file.string(), source.frame);
+  if (!points) throw source.section.error("file", points.error().message);
+  CloudLayer layer;
+  layer.points = std::move(*points);
+  // Groups first: a class that is named itself has the last word.
+  for (const bool groups : {true, false}) {
+    for (const auto& [name, label] : config.classes) {
+      if (is_class_group(name) != groups || !is_kept(label, scenario.semantics.enabled)) continue;
+      for (const std::uint8_t number : class_numbers(name)) layer.classes[number] = ClassMeaning{class_name(number), label};
+    }
+  }
+  for (const std::string& name : source.fill_below) {
+    for (const std::uint8_t number : class_numbers(name)) layer.fill_below[number] = true;
+  }
+  layer.point_radius = source.point_radius;
+  layer.min_points = source.min_points;
+  return layer;
+}
+
+}  // namespace
+
+VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const char* environment) {
+  MapSources sources;
+  for (const auto& [name, word] : scenario.semantics.classes) {
+    sources.region_classes.emplace_back(name, *label_from(word));
+  }
+  for (const Region& region : scenario.semantics.regions) {
+    for (const auto& [name, label] : sources.region_classes) {
+      if (name == region.class_name && is_kept(label, scenario.semantics.enabled)) sources.regions.push_back(region);
+    }
+  }
+  for (const ObstacleSpec& obstacle : scenario.world.obstacles) {
+    const bool rests = std::holds_alternative<StaticMotion>(obstacle.motion);
+    if (config.voxelize_obstacles && rests) sources.obstacles.push_back(box_around(obstacle.centre, obstacle.half_extents));
+  }
+  for (const CloudSource& source : config.sources) sources.clouds.push_back(load_cloud(source, scenario, config, environment));
+
+  MapBuildOptions options;
+  options.resolution = config.resolution;
+  options.extents = config.extents;
+  options.include = scenario.uav.flight_box;
+  options.somewhere = scenario.uav.start;
+  options.background = config.background;
+  auto map = build_map(sources, options);
+  if (!map) throw ConfigError(fmt::format("{}: mapper: {}", scenario.file, map.error().message));
+  return std::move(*map);
+}
+
+}  // namespace tern

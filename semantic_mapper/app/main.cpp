@@ -1,0 +1,10 @@
+#include "runtime/process.h"
+#include "semantic_mapper/app/mapper_node.h"
+
+int main(int argc, char** argv) {
+  const tern::ProcessDescription description{
+      .name = "tern-mapper",
+      .section = "mapper",
+      .summary = "Labels voxels from regions and point clouds and publishes the map: SEMANTIC_MAP"};
+  return tern::run_process(argc, argv, description, tern::make_mapper_node);
+}

@@ -1,0 +1,94 @@
+#include "semantic_mapper/app/mapper_config.h"
+
+#include <filesystem>
+
+#include "core/world/message_limits.h"
+#include "semantic_mapper/sources/class_names.h"
+
+namespace tern {
+namespace {
+
+const std::vector<std::string> kLabelWords{"unknown", "free", "occupied", "attractive", "repulsive"};
+/// Files count from far away, in whatever unit.
+const Range kFileCoordinate = Range::within(1e9);
+const Range kPosition = Range::within(1e5);
+
+const std::vector<std::pair<std::string, std::string>> kDefaultClasses{
+    {"ground", "occupied"}, {"building", "occupied"},    {"bridge_deck", "occupied"},   {"tower", "occupied"},
+    {"wire", "occupied"},   {"vegetation", "attractive"}, {"water", "repulsive"}};
+
+std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection classes, bool is_given) {
+  std::vector<std::pair<std::string, VoxelLabel>> result;
+  const auto read = [&](const std::string& name, const std::string& fallback) {
+    if (class_numbers(name).empty()) throw classes.error(name, "is no class or group of classes (see semantic_mapper/README.md)");
+    result.emplace_back(name, *label_from(classes.choice(name, fallback, kLabelWords)));
+  };
+  if (!is_given) {
+    for (const auto& [name, label] : kDefaultClasses) read(name, label);
+  } else {
+    for (const std::string& name : classes.keys()) read(name, "");
+  }
+  return result;
+}
+
+/// "building, tower" as its words.
+std::vector<std::string> read_class_list(ConfigSection& section, const char* key) {
+  std::vector<std::string> names;
+  std::string word;
+  for (const char c : section.text(key, "") + ',') {
+    if (c != ',' && c != ' ') {
+      word += c;
+      continue;
+    }
+    if (word.empty()) continue;
+    if (class_numbers(word).empty()) throw section.error(key, word + " is no class or group of classes");
+    names.push_back(std::exchange(word, {}));
+  }
+  return names;
+}
+
+CloudSource read_source(ConfigSection section) {
+  CloudSource source;
+  source.section = section;
+  source.file = section.required_text("file");
+  if (source.file.empty()) throw section.error("file", "is empty");
+  const bool is_ply = std::filesystem::path(source.file).extension() == ".ply";
+  source.format = section.choice("format", is_ply ? "ply" : "las", {"las", "ply"}) == "ply" ? CloudFormat::Ply : CloudFormat::Las;
+  source.frame.origin = section.vec3("origin", source.frame.origin, kFileCoordinate);
+  source.frame.metres_per_unit = section.number("metres_per_unit", source.frame.metres_per_unit, Range::positive(1e6));
+  source.min_points = static_cast<int>(section.integer("min_points", source.min_points, 1, 1'000'000));
+  source.point_radius = section.number("point_radius_m", source.point_radius, Range::at_least(0.0, 10.0));
+  source.fill_below = read_class_list(section, "fill_below");
+  section.finish();
+  return source;
+}
+
+Box read_extents(ConfigSection section) {
+  const Box box(section.required_vec3("min", kPosition), section.required_vec3("max", kPosition));
+  section.finish();
+  if (!(box.min().array() < box.max().array()).all()) throw section.error("max", "is not greater than min on every axis");
+  return box;
+}
+
+}  // namespace
+
+std::optional<VoxelLabel> label_from(const std::string& word) {
+  for (std::size_t i = 0; i < kLabelWords.size(); ++i) {
+    if (word == kLabelWords[i]) return static_cast<VoxelLabel>(i);
+  }
+  return std::nullopt;
+}
+
+MapperConfig read_mapper_config(ConfigSection section) {
+  MapperConfig config;
+  config.resolution = section.number("resolution_m", config.resolution, Range{0.01, 100.0});
+  if (section.has("extents")) config.extents = read_extents(section.section("extents"));
+  config.background = *label_from(section.choice("background", "free", {"free", "unknown"}));
+  config.voxelize_obstacles = section.flag("voxelize_obstacles", config.voxelize_obstacles);
+  config.classes = read_classes(section.section("classes"), section.has("classes"));
+  for (const ConfigSection& source : section.list("sources")) config.sources.push_back(read_source(source));
+  section.finish();
+  return config;
+}
+
+}  // namespace tern

@@ -1,0 +1,65 @@
+#include "semantic_mapper/app/mapper_node.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "messages/map_chunk.h"
+#include "runtime/channels.h"
+#include "semantic_mapper/app/load_map.h"
+
+namespace tern {
+namespace {
+
+/// A chunk's length on the wire, to within a few bytes.
+std::int64_t bytes_of(const MapChunk& chunk) {
+  constexpr std::int64_t kFixedBytes = 120;
+  constexpr std::int64_t kRunBytes = 6;
+  std::int64_t bytes = kFixedBytes + kRunBytes * static_cast<std::int64_t>(chunk.runs.size());
+  for (const std::string& name : chunk.class_names) bytes += 4 + static_cast<std::int64_t>(name.size());
+  return bytes;
+}
+
+std::array<std::int64_t, kVoxelLabels> count_labels(const VoxelMap& map) {
+  std::array<std::int64_t, kVoxelLabels> count{};
+  for (const VoxelLabel label : map.labels) ++count[static_cast<std::size_t>(label)];
+  return count;
+}
+
+}  // namespace
+
+MapperNode::MapperNode(Bus& bus, const VoxelMap& map)
+    : bus_(bus), chunks_(to_chunks(map)), rotation_began_(bus.clock().now()), next_(rotation_began_) {
+  if (chunks_.size() > static_cast<std::size_t>(kMaxMapChunks)) {
+    throw std::invalid_argument(fmt::format("the map takes {} chunks (limit {}): it is too large or too ragged", chunks_.size(),
+                                            kMaxMapChunks));
+  }
+}
+
+void MapperNode::step(UTime now) {
+  if (now < next_) return;
+  if (at_ == 0) rotation_began_ = now;
+  const MapChunk& chunk = chunks_[at_];
+  bus_.publish(channels::kSemanticMap, chunk);
+  next_ = now + std::max(kPacing, Duration{bytes_of(chunk) * 1'000'000 / kMapBytesPerSecond});
+  at_ = (at_ + 1) % chunks_.size();
+  if (at_ == 0) next_ = std::max(next_, rotation_began_ + kMapPeriod);
+}
+
+std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
+  const VoxelMap map = load_map(context.scenario, read_mapper_config(context.section), std::getenv("TERN_DATA"));
+  const auto count = count_labels(map);
+  spdlog::info("map {:016x}: {} × {} × {} voxels of {} m: {} occupied, {} attractive, {} repulsive, {} unknown", map.version,
+               map.grid.size.x(), map.grid.size.y(), map.grid.size.z(), map.grid.resolution, count[2], count[3], count[4], count[0]);
+  try {
+    return std::make_unique<MapperNode>(context.bus, map);
+  } catch (const std::invalid_argument& e) {
+    throw ConfigError(fmt::format("{}: mapper: {}", context.scenario.file, e.what()));
+  }
+}
+
+}  // namespace tern

@@ -1,0 +1,79 @@
+// Files that somebody damaged, by chance or on purpose: a value comes back, whatever the bytes.
+#include <gtest/gtest.h>
+
+#include <string_view>
+
+#include "core/base/random.h"
+#include "core/world/message_limits.h"
+#include "semantic_mapper/sources/las.h"
+#include "semantic_mapper/sources/ply.h"
+#include "tests/support/cloud_files.h"
+
+namespace tern {
+namespace {
+
+using test_support::FileBytes;
+
+constexpr int kMutations = 10'000;
+
+PointCloud some_points(Rng& rng) {
+  PointCloud points;
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 p(rng.uniform(-50, 50), rng.uniform(-50, 50), rng.uniform(-5, 5));
+    points.push_back({p, static_cast<std::uint8_t>(rng.uniform(0, 32))});
+  }
+  return points;
+}
+
+/// Flips, overwrites, cuts out, doubles or cuts off some bytes; mostly in the header, where it hurts.
+FileBytes mutated(FileBytes bytes, Rng& rng) {
+  for (int n = 1 + static_cast<int>(rng.uniform(0, 4)); n > 0 && !bytes.empty(); --n) {
+    const double reach = rng.uniform() < 0.7 ? std::min(400.0, static_cast<double>(bytes.size())) : static_cast<double>(bytes.size());
+    const auto at = static_cast<std::ptrdiff_t>(rng.uniform(0, reach));
+    const auto length = std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(rng.uniform(0, 9)), std::ssize(bytes) - at);
+    switch (static_cast<int>(rng.uniform(0, 6))) {
+      case 0: bytes[static_cast<std::size_t>(at)] ^= static_cast<std::uint8_t>(1 << static_cast<int>(rng.uniform(0, 8))); break;
+      case 1: bytes[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(rng.uniform(0, 256)); break;
+      case 2: std::fill_n(bytes.begin() + at, length, rng.uniform() < 0.5 ? 0xff : 0x00); break;
+      case 3: bytes.erase(bytes.begin() + at, bytes.begin() + at + length); break;
+      case 4: bytes.insert(bytes.begin() + at, static_cast<std::size_t>(length), bytes[static_cast<std::size_t>(at)]); break;
+      default: bytes.resize(static_cast<std::size_t>(at)); break;
+    }
+  }
+  return bytes;
+}
+
+void expect_sane(const Result<PointCloud>& cloud, std::size_t bytes) {
+  if (!cloud) {
+    ASSERT_TRUE(cloud.error().message.starts_with("file, offset ")) << cloud.error().message;
+    ASSERT_LT(cloud.error().message.size(), 300u);
+    return;
+  }
+  ASSERT_LE(cloud->size(), bytes);
+  for (const LabelledPoint& point : *cloud) ASSERT_LE(point.position.cwiseAbs().maxCoeff(), kMaxCoordinate);
+}
+
+TEST(HostileFiles, MutatedLasGivesAValueOrAnError) {
+  Rng rng(1);
+  for (int i = 0; i < kMutations; ++i) {
+    test_support::LasSpec spec;
+    spec.minor = i % 5;
+    spec.format = spec.minor == 4 ? i % 11 : i % 6;
+    const FileBytes bytes = mutated(test_support::las_file(some_points(rng), spec), rng);
+    expect_sane(parse_las(bytes, "file", {}), bytes.size());
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(HostileFiles, MutatedPlyGivesAValueOrAnError) {
+  Rng rng(2);
+  for (int i = 0; i < kMutations; ++i) {
+    const auto kind = static_cast<test_support::PlyKind>(i % 3);
+    const FileBytes bytes = mutated(test_support::ply_file(some_points(rng), kind), rng);
+    expect_sane(parse_ply(bytes, "file", {}), bytes.size());
+    if (HasFatalFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace tern
