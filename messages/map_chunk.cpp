@@ -78,8 +78,7 @@ tl::expected<MapChunk, Rejection> from_lcm(const Message& m) {
   wire::FieldReader read;
   MapChunk chunk;
   chunk.header = read.header(m.header);
-  chunk.version = static_cast<std::uint64_t>(m.version);
-  read.number(static_cast<double>(chunk.version), 1.0, wire::kMaxNumber);
+  chunk.version = read.integer<std::uint64_t>(static_cast<std::uint64_t>(m.version), 1, ~std::uint64_t{0});
   chunk.grid = read_grid(read, m);
   chunk.class_names = read_class_names(read, m);
   chunk.index = read.integer(m.index, 0, kMaxMapChunks - 1);

@@ -15,12 +15,19 @@ std::atomic<std::size_t> largest_single{0};
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+// The nothrow forms too: under ASan the standard ones do not go through those that are replaced here.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   void* block = std::malloc(size == 0 ? 1 : size);
-  if (block == nullptr) throw std::bad_alloc();
+  if (block == nullptr) return nullptr;
   held += static_cast<std::ptrdiff_t>(malloc_usable_size(block));
   peak_held = std::max(peak_held.load(), held.load());
   largest_single = std::max(largest_single.load(), size);
+  return block;
+}
+
+void* operator new(std::size_t size) {
+  void* block = operator new(size, std::nothrow);
+  if (block == nullptr) throw std::bad_alloc();
   return block;
 }
 
@@ -30,6 +37,8 @@ void operator delete(void* block) noexcept {
 }
 
 void operator delete(void* block, std::size_t) noexcept { operator delete(block); }
+
+void operator delete(void* block, const std::nothrow_t&) noexcept { operator delete(block); }
 
 namespace tern {
 
