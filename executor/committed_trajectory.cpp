@@ -67,7 +67,8 @@ MotionSample CommittedTrajectory::sample(UTime t) const {
 
 PiecewiseCubic CommittedTrajectory::pieces(UTime from, UTime to) const {
   if (from >= to) {
-    throw std::invalid_argument("pieces: from " + std::to_string(from.us) + " us is not before " + std::to_string(to.us));
+    throw std::invalid_argument("pieces: from " + std::to_string(from.us) + " us is not before " +
+                                std::to_string(to.us));
   }
   PiecewiseCubic result{from, {}};
   const Segment& first = segments_.front();

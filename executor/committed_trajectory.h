@@ -8,16 +8,16 @@
 
 namespace tern {
 
-/// The committed trajectory. Invariants: it has at least one segment; segments start in ascending order; each ends at rest,
-/// so that the vehicle comes to rest whatever is lost after it, and rests for ever at the last segment's end.
+/// The committed trajectory. Invariants: it has at least one segment; segments start in ascending order; each ends at
+/// rest, so that the vehicle comes to rest whatever is lost after it, and rests for ever at the last segment's end.
 /// Joining (position, velocity, acceleration within kJoinTolerance) is the caller's rule: see Adoption.
 class CommittedTrajectory {
  public:
   /// At rest at p (W, m) for ever, as a spline of four intervals that begins at `from`.
   CommittedTrajectory(const Vec3& p, UTime from);
 
-  /// Flies `next` from its start on. @throws std::invalid_argument unless it starts after every earlier segment, has a form
-  /// that ClampedSpline takes, and ends at rest.
+  /// Flies `next` from its start on. @throws std::invalid_argument unless it starts after every earlier segment, has a
+  /// form that ClampedSpline takes, and ends at rest.
   void splice(const TimedSpline& next);
 
   /// The segment in force at t: the last that starts at or before t; before the first segment the first.

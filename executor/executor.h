@@ -24,8 +24,8 @@ struct ExecutorConfig {
 /// Everything is counted; nothing is counted twice: requests = answered_in_time + unanswered + (0 or 1 outstanding).
 struct ExecutorCounters {
   std::int64_t requests = 0;
-  std::int64_t answered_in_time = 0;  ///< whatever the answer's verdict
-  std::int64_t unanswered = 0;        ///< closed by their deadline
+  std::int64_t answered_in_time = 0;                  ///< whatever the answer's verdict
+  std::int64_t unanswered = 0;                        ///< closed by their deadline
   std::array<std::int64_t, kVerdicts> verdicts = {};  ///< plans by Verdict; late, twice, unknown ones among them
 
   [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
@@ -37,8 +37,8 @@ struct ExecutorCounters {
 /// Holds the committed trajectory, makes requests, adopts plans. Pure: times are arguments and never go back.
 ///
 /// One request is outstanding at most; the next one goes out after its answer or its deadline, at no more than rate_hz.
-/// An answer is in time when now ≤ deadline; from then on the request is closed. Nothing is asked before begin()'s time,
-/// without a mode, or in mode Stop. At rest it goes on asking: a vehicle at rest must be able to evade.
+/// An answer is in time when now ≤ deadline; from then on the request is closed. Nothing is asked before begin()'s
+/// time, without a mode, or in mode Stop. At rest it goes on asking: a vehicle at rest must be able to evade.
 class Executor {
  public:
   /// At rest at uav.start from `now` on. @throws std::invalid_argument when config is out of its ranges.

@@ -13,8 +13,9 @@ namespace tern {
 
 struct SimulatorConfig {
   bool declare = true;  ///< publish DECLARED_MOTIONS; false: perception only
-  std::vector<std::string> wait_for = {"tern-predictor", "tern-mapper", "tern-planner"};  ///< world time waits for these
-  Duration wait{15'000'000};  ///< for so long, then the flight has failed, > 0
+  std::vector<std::string> wait_for = {"tern-predictor", "tern-mapper",
+                                       "tern-planner"};  ///< world time waits for these
+  Duration wait{15'000'000};                             ///< for so long, then the flight has failed, > 0
   bool send_goal = true;      ///< send the scenario's goal; false: the mission waits for a GOAL of someone else
   double min_flight_s = 0.0;  ///< an arrival counts only from this world time on, ≥ 0 (a vehicle that guards a place)
   SensorConfig sensor;

@@ -161,7 +161,8 @@ void SimulatorNode::end_flight(const FlightResult& result, int exit_code, UTime 
 
 void SimulatorNode::log_end() const {
   const ExecutorCounters& counters = executor_.counters();
-  spdlog::info("flight ended: {} {} after {:.2f} s", to_string(result_->outcome), result_->detail, result_->flight_time_s);
+  spdlog::info("flight ended: {} {} after {:.2f} s", to_string(result_->outcome), result_->detail,
+               result_->flight_time_s);
   spdlog::info("requests {}, answered in time {}, unanswered {}, late {}, answered twice {}", counters.requests,
                counters.answered_in_time, counters.unanswered, counters.late(), counters.answered_twice());
   for (int k = 0; k < kVerdicts; ++k) {

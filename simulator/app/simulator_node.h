@@ -21,13 +21,16 @@ namespace tern {
 inline constexpr int kExitNotReady = 3;  ///< a process that the flight needs was not ready in time
 
 /// A flight has three parts.
-///   Waiting: everything rests and is declared so, until every process of config.wait_for says Ready. After config.wait the
+///   Waiting: everything rests and is declared so, until every process of config.wait_for says Ready. After config.wait
+///   the
 ///     flight has failed, FLIGHT_RESULT names who is missing, and the exit code is kExitNotReady.
-///   Flying: from world zero on (0.3 s after the last process was ready, a whole ms) the world moves, the executor asks for
+///   Flying: from world zero on (0.3 s after the last process was ready, a whole ms) the world moves, the executor asks
+///   for
 ///     horizons while there is a goal, and the referee watches.
-///   Ended: FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit code is 0 whatever the verdict.
-/// The goal is the scenario's (id 1, unless config.send_goal is false) until a GOAL with a larger id comes; the newest is
-/// repeated at 1 Hz.
+///   Ended: FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit code is 0 whatever the
+///   verdict.
+/// The goal is the scenario's (id 1, unless config.send_goal is false) until a GOAL with a larger id comes; the newest
+/// is repeated at 1 Hz.
 class SimulatorNode final : public Node {
  public:
   /// Time begins at bus.clock().now().

@@ -15,9 +15,9 @@ inline constexpr Duration kDeclaredPast{100'000};
 /// … to this much after: t_s, the longest plan and its hold (3.5 s), and the age of a set that is still fresh.
 inline constexpr Duration kDeclaredAhead{4'500'000};
 
-/// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, DECLARED_MOTIONS at 5 Hz, OBSTACLE_TRUTH at 30 Hz. Until
-/// start() the world rests as it is at world time 0, and is declared so; after it, it rests until world_zero and is declared to
-/// move from there on.
+/// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, DECLARED_MOTIONS at 5 Hz, OBSTACLE_TRUTH at 30 Hz.
+/// Until start() the world rests as it is at world time 0, and is declared so; after it, it rests until world_zero and
+/// is declared to move from there on.
 class WorldBroadcast {
  public:
   WorldBroadcast(Bus& bus, const World& world, const SimulatorConfig& config, UTime now);

@@ -68,9 +68,10 @@ ConfigSection simulator_section(const std::string& yaml) {
 
 TEST(SimulatorConfig, ReadsEveryKey) {
   const SimulatorConfig config = read_simulator_config(
-      simulator_section("  declare: false\n  wait_for: tern-planner tern-mapper\n  wait_s: 3\n  send_goal: false\n"
-                        "  min_flight_s: 4\n  sensor:\n    mode: noisy\n    range_m: 6\n    sigma_m: 0.1\n    rate_hz: 20\n"
-                        "    latency_s: 0.08\n    dropout: 0.2\n    ids: true\n"),
+      simulator_section(
+          "  declare: false\n  wait_for: tern-planner tern-mapper\n  wait_s: 3\n  send_goal: false\n"
+          "  min_flight_s: 4\n  sensor:\n    mode: noisy\n    range_m: 6\n    sigma_m: 0.1\n    rate_hz: 20\n"
+          "    latency_s: 0.08\n    dropout: 0.2\n    ids: true\n"),
       9);
   EXPECT_FALSE(config.declare);
   EXPECT_THAT(config.wait_for, testing::ElementsAre("tern-planner", "tern-mapper"));

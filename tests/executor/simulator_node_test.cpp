@@ -53,13 +53,15 @@ struct Flight {
   explicit Flight(const Scenario& scenario, SimulatorConfig config = {}, ExecutorConfig executor = {}) {
     config.wait_for = {"tern-planner"};
     Bus& ear = runner.observer();
-    ear.subscribe<HorizonRequest>(channels::kHorizonRequest, [this](const HorizonRequest& m) { requests.push_back(m); });
+    ear.subscribe<HorizonRequest>(channels::kHorizonRequest,
+                                  [this](const HorizonRequest& m) { requests.push_back(m); });
     ear.subscribe<Plan>(channels::kPlan, [this](const Plan& m) { plans.push_back({m, runner.now()}); });
     ear.subscribe<UavState>(channels::kUavState, [this](const UavState& m) { states.push_back(m); });
     ear.subscribe<FlightResult>(channels::kFlightResult, [this](const FlightResult& m) { results.push_back(m); });
     ear.subscribe<ObstacleTruth>(channels::kObstacleTruth, [this](const ObstacleTruth& m) { truths.push_back(m); });
-    ear.subscribe<ObservationSet>(channels::kObstacleObservations,
-                                  [this](const ObservationSet& m) { observations.push_back({m, runner.now()}); });
+    ear.subscribe<ObservationSet>(channels::kObstacleObservations, [this](const ObservationSet& m) {
+      observations.push_back({m, runner.now()});
+    });
     ear.subscribe<Goal>(channels::kGoal, [this](const Goal& m) { goals.push_back(m); });
     World world = make_world(scenario, "").value();
     runner.start("tern-simulator", [&](Bus& bus) -> std::unique_ptr<Node> {

@@ -33,9 +33,11 @@ bool obeys(const ClampedSpline& spline, const Limits& limits, double share) {
          (bounds.j_max.array() <= share * limits.j_max.array()).all();
 }
 
-std::optional<TimedSpline> shortest(const HorizonRequest& request, const Vec3& end, const StraightPlanOptions& options) {
+std::optional<TimedSpline> shortest(const HorizonRequest& request, const Vec3& end,
+                                    const StraightPlanOptions& options) {
   for (Duration interval{20'000}; interval < Duration{3'000'000}; interval.us += interval.us / 16) {
-    TimedSpline timed{request.t_s, interval, least_jerk_points(request.start, end, options.intervals, interval.seconds())};
+    TimedSpline timed{request.t_s, interval,
+                      least_jerk_points(request.start, end, options.intervals, interval.seconds())};
     if (obeys(timed.spline(), request.limits, options.limit_share)) return timed;
   }
   return std::nullopt;

@@ -17,7 +17,8 @@ struct StubPlannerOptions {
   StraightPlanOptions plan;
 };
 
-/// Answers each HORIZON_REQUEST by straight_plan to the newest GOAL (NoPlan, StaleWorld while there is none). Ready at once.
+/// Answers each HORIZON_REQUEST by straight_plan to the newest GOAL (NoPlan, StaleWorld while there is none). Ready at
+/// once.
 class StubPlannerNode final : public Node {
  public:
   explicit StubPlannerNode(Bus& bus, const StubPlannerOptions& options = {});
