@@ -174,9 +174,10 @@ Result<WorldObstacle> WorldObstacle::make(std::int64_t id, ObstacleSpec spec) {
   o.moves_ = o.bounds_.speed.maxCoeff() > 0.0;
   o.first_s_ = -kInfinity;
   o.last_s_ = kInfinity;
-  if (const auto* m = std::get_if<WaypointMotion>(&spec.motion); m != nullptr && m->vanish) {
-    if (m->points.front().first > 0.0) o.first_s_ = m->points.front().first;
-    o.last_s_ = m->points.back().first;
+  if (const auto* m = std::get_if<WaypointMotion>(&spec.motion)) {
+    spec.centre = m->points.front().second;
+    if (m->vanish && m->points.front().first > 0.0) o.first_s_ = m->points.front().first;
+    if (m->vanish) o.last_s_ = m->points.back().first;
   }
   o.spec_ = std::move(spec);
   return o;

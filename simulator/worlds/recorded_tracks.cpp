@@ -207,7 +207,6 @@ std::vector<ObstacleSpec> recorded_obstacles(const std::vector<RecordedTrack>& t
     if (motion.points.size() < 2 || motion.points.back().first <= 0.0) continue;
     ObstacleSpec o;
     o.name = fmt::format("{}#{}", stem, track.id);
-    o.centre = motion.points.front().second;
     o.half_extents = spec.half_extents;
     o.motion = std::move(motion);
     obstacles.push_back(std::move(o));

@@ -166,6 +166,28 @@ TEST(Referee, SaysWhatIsKnownBeforeTheEnd) {
   EXPECT_TRUE(std::isnan(so_far.min_clearance_m)) << "there is no obstacle";
 }
 
+TEST(Referee, LetsAVehicleGuardItsPlaceUntilItsEarliestArrival) {
+  Scenario s = short_flight();
+  s.uav.goal = s.uav.start;
+  Referee referee = referee_of(s);
+  referee.set_earliest_arrival(1.5);
+  referee.advance({}, hop(s.uav.start, s.uav.start, 5.0));
+  EXPECT_EQ(referee.verdict()->outcome, FlightOutcome::Reached);
+  EXPECT_NEAR(referee.verdict()->flight_time_s, 1.5, 2 * kMeasureTimeResolution);
+}
+
+TEST(Referee, JudgesByTheGoalInForce) {
+  Scenario s = short_flight();
+  s.timeout_s = 30.0;
+  Referee referee = referee_of(s);
+  referee.set_goal(std::nullopt);
+  referee.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  EXPECT_FALSE(referee.verdict()) << "no goal, no arrival";
+  referee.set_goal(Vec3(10, 4, 1));
+  referee.advance(Duration{5'000'000}, hop(s.uav.goal, Vec3(10, 4, 1), 3.0));
+  EXPECT_EQ(referee.verdict()->outcome, FlightOutcome::Reached);
+}
+
 TEST(Referee, TakesNothingAfterTheVerdict) {
   const Scenario s = short_flight();
   Referee referee = referee_of(s);
