@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# enter.sh [RECORD_DIR] [-- COMMAND...]: a shell (or COMMAND) in the network namespace of an isolated flight that is still running;
+# by default the newest one in flights/. LCM_DEFAULT_URL is set there.
+set -euo pipefail
+# shellcheck source=launch_scripts/lib.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
+
+# running RECORD_DIR: whether its flight runs in a namespace; sets pid and flags.
+running() {
+  [[ -r $1/namespace ]] && read -r pid flags <"$1/namespace" && [[ -e /proc/$pid/ns/net ]]
+}
+
+record=''
+if [[ $# -gt 0 && $1 != -- ]]; then
+  record=$1
+  shift
+  running "$record" || die "$record: no isolated flight runs there"
+else
+  for folder in "$TERN_ROOT"/flights/*/; do
+    if running "$folder"; then record=$folder; fi
+  done
+  [[ -n $record ]] || die "no isolated flight runs"
+  running "$record"
+fi
+[[ ${1:-} != -- ]] || shift
+[[ $# -gt 0 ]] || set -- "${SHELL:-/bin/bash}"
+
+# shellcheck source=/dev/null
+source "$record/env.sh"
+enter=(--net)
+[[ $flags != -Urn ]] || enter=(--user --net --preserve-credentials)
+exec nsenter "${enter[@]}" --target "$pid" -- "$@"

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# install.sh: installs the Debian packages of packages.txt that are missing, as root or with sudo. Does nothing when none is.
+set -euo pipefail
+# shellcheck source=launch_scripts/lib.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
+
+mapfile -t wanted < <(grep -oE '^[a-z0-9][^[:space:]]*' "$TERN_ROOT/launch_scripts/packages.txt")
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) || status=''
+  [[ $status == 'install ok installed' ]] || missing+=("$package")
+done
+[[ ${#missing[@]} -gt 0 ]] || exit 0
+
+say "Installing ${#missing[@]} Debian packages: ${missing[*]}"
+as_root=()
+if [[ $(id -u) != 0 ]]; then
+  command -v sudo >/dev/null || die "packages are missing and there is no sudo; as root: apt-get install ${missing[*]}"
+  as_root=(sudo)
+fi
+"${as_root[@]}" apt-get update -qq </dev/null
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" </dev/null

@@ -1,0 +1,127 @@
+# Functions that the launch scripts share. Sourced, never run.
+# shellcheck shell=bash
+
+TERN_ROOT=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
+readonly TERN_ROOT
+# Where the programs are. Set in the environment: they are taken from there, and nothing is built.
+TERN_BIN_GIVEN=${TERN_BIN:+yes}
+TERN_BIN=${TERN_BIN:-$TERN_ROOT/build/release/bin}
+readonly TERN_BIN TERN_BIN_GIVEN
+
+# Exit code of a flight that the system itself could not fly.
+readonly EXIT_FAILED=3
+readonly FIRST_PORT=7667
+readonly LAST_PORT=7766
+readonly LCM_GROUP=239.255.76.67
+
+say() { printf '%s\n' "$*"; }
+
+die() {
+  printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+  exit "$EXIT_FAILED"
+}
+
+# Builds the programs unless the environment says where they are.
+build_programs() {
+  [[ -n $TERN_BIN_GIVEN ]] || "$TERN_ROOT/launch_scripts/build.sh"
+}
+
+# exec_process NAME ARG...: becomes the program, which is built first if it is not there.
+exec_process() {
+  local name=$1
+  shift
+  [[ -x $TERN_BIN/$name ]] || build_programs >&2
+  [[ -x $TERN_BIN/$name ]] || die "$TERN_BIN/$name is not there"
+  exec "$TERN_BIN/$name" "$@"
+}
+
+# find_scenario FILE_OR_NAME: prints the file's path.
+find_scenario() {
+  local wanted=$1 file
+  for file in "$wanted" "$TERN_ROOT/scenarios/$wanted.yaml" "$TERN_ROOT/scenarios/$wanted"; do
+    if [[ -f $file ]]; then
+      readlink -f "$file"
+      return
+    fi
+  done
+  local names
+  names=$(cd "$TERN_ROOT/scenarios" 2>/dev/null && printf '%s ' *.yaml)
+  die "no scenario $wanted; there are: ${names//.yaml/}"
+}
+
+# What a plain user or root may make a network namespace with: prints unshare's flags, or nothing.
+namespace_flags() {
+  local flags
+  for flags in -Urn -n; do
+    # shellcheck disable=SC2016  # the inner shell expands it
+    if unshare "$flags" sh -c 'ip link set lo up && ip route add 224.0.0.0/4 dev lo' 2>/dev/null; then
+      printf '%s' "$flags"
+      return
+    fi
+  done
+}
+
+has_multicast_route() { ip -4 route get "$LCM_GROUP" >/dev/null 2>&1; }
+
+# lock_port: sets `port` to the first one that no other flight holds, and holds it by a lock on an open descriptor, which this
+# shell's children inherit: it is free again when the last of them has ended.
+lock_port() {
+  local file
+  for ((port = FIRST_PORT; port <= LAST_PORT; port++)); do
+    file=/tmp/tern-lcm-port-$port.lock
+    # Opened for reading only, and never created through an existing name: the file may be another user's.
+    [[ -e $file ]] || (set -o noclobber && umask 022 && : >"$file") 2>/dev/null || true
+    { exec {port_lock}<"$file"; } 2>/dev/null || continue
+    flock --nonblock "$port_lock" && return
+    exec {port_lock}<&-
+  done
+  die "all ports from $FIRST_PORT to $LAST_PORT are taken by flights"
+}
+
+json_text() {
+  local text=${1//\\/\\\\}
+  text=${text//\"/\\\"}
+  printf '"%s"' "${text//[[:cntrl:]]/ }"
+}
+
+# write_failed_summary FILE SCENARIO SEED COUNT: what the monitor would write of a flight that it could not watch. An empty value
+# is null.
+write_failed_summary() {
+  local file=$1 scenario=${2:-} seed=${3:-} count=${4:-} version percentiles
+  [[ $seed =~ ^[0-9]+$ ]] || seed=null
+  [[ $count =~ ^[0-9]+$ ]] || count=null
+  version=$("$TERN_BIN/tern-monitor" --version 2>/dev/null) || version=unknown
+  percentiles='{ "p50": null, "p95": null, "p99": null, "max": null }'
+  cat >"$file" <<END
+{
+  "outcome": "failed",
+  "scenario": $(json_text "$scenario"),
+  "seed": $seed,
+  "count": $count,
+  "flight_time_s": null,
+  "first_entry_s": null,
+  "path_length_m": null,
+  "mean_speed_mps": null,
+  "top_speed_mps": null,
+  "stops": null,
+  "min_clearance_m": null,
+  "limit_violations": null,
+  "requests": 0,
+  "answered_in_time": 0,
+  "plans": { "optimized": 0, "search_only": 0, "keep_committed": 0, "evade": 0, "no_plan": 0 },
+  "replan_ms": {
+    "total": $percentiles,
+    "first_answer": $percentiles,
+    "hulls": $percentiles,
+    "search": $percentiles,
+    "optimization": $percentiles,
+    "check": $percentiles
+  },
+  "exposure": {},
+  "messages": {},
+  "restarts": 0,
+  "log": null,
+  "version": $(json_text "${version##* }")
+}
+END
+}

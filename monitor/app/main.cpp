@@ -1,0 +1,23 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "monitor/app/monitor_node.h"
+#include "runtime/process.h"
+
+int main(int argc, char** argv) {
+  tern::MonitorOptions options;
+  const tern::ProcessDescription description{
+      .name = "tern-monitor",
+      .section = "",
+      .summary = "Shows a flight, judges its end and sums it up; exit code 0 reached, 1 collision, 2 timeout, 3 failed",
+      .add_options = [&options](CLI::App& app) {
+        app.add_option("--summary", options.summary_file, "Write the summary as JSON")->type_name("FILE");
+        app.add_option("--log", options.log, "Path of the recording, named in the summary")->type_name("FILE");
+        app.add_option("--failure-file", options.failure_file, "Once it exists, the flight has failed; its text says why")
+            ->type_name("FILE");
+      }};
+  return tern::run_process(argc, argv, description, [&options](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+    return std::make_unique<tern::MonitorNode>(context.bus, context.scenario, options);
+  });
+}

@@ -1,0 +1,47 @@
+// tern-monitor: shows a flight, judges its end, sums it up.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/world/scenario.h"
+#include "monitor/app/terminal.h"
+#include "monitor/flight_watch.h"
+#include "runtime/batches.h"
+#include "runtime/bus.h"
+#include "runtime/node.h"
+
+namespace tern {
+
+struct MonitorOptions {
+  std::string summary_file;  ///< where the summary's JSON goes; empty: nowhere
+  std::string log;           ///< path of the recording, for the summary
+  std::string failure_file;  ///< once it exists, the flight has failed for the reason that is its text; empty: none is watched
+};
+
+/// Listens to the channels that it judges by and to those that nobody else may count; finishes with the outcome as exit code: 0
+/// reached, 1 collision, 2 timeout, 3 failed.
+class MonitorNode final : public Node {
+ public:
+  MonitorNode(Bus& bus, const Scenario& scenario, MonitorOptions options);
+
+  [[nodiscard]] UTime next_wakeup() const override { return next_look_; }
+  void step(UTime now) override;
+  [[nodiscard]] NodeHealth health() const override { return {ProcessState::Ready, ""}; }
+  [[nodiscard]] std::optional<int> finished() const override { return exit_code_; }
+
+ private:
+  void subscribe();
+  void look_for_failure();
+  void finish(const Ending& ending);
+
+  Bus& bus_;
+  MonitorOptions options_;
+  FlightWatch watch_;
+  BatchCollector<ObstacleTruth> truth_;
+  LiveOutput output_;
+  UTime next_look_, next_line_;
+  std::optional<int> exit_code_;
+};
+
+}  // namespace tern

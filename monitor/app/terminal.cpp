@@ -1,0 +1,42 @@
+#include "monitor/app/terminal.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "monitor/live_line.h"
+
+namespace tern {
+namespace {
+
+std::size_t columns() {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return 80;
+  return size.ws_col;
+}
+
+}  // namespace
+
+LiveOutput::LiveOutput() : terminal_(isatty(STDOUT_FILENO) == 1) {}
+
+Duration LiveOutput::period() const { return terminal_ ? Duration{200'000} : Duration{5'000'000}; }
+
+void LiveOutput::show(const std::string& line) {
+  if (terminal_) {
+    // Carriage return, erase to the end of the line.
+    std::printf("\r\x1b[K%s", fit(line, columns() - 1).c_str());
+    line_open_ = true;
+  } else {
+    std::printf("%s\n", line.c_str());
+  }
+  std::fflush(stdout);
+}
+
+void LiveOutput::print(const std::string& text) {
+  std::printf("%s%s", line_open_ ? "\n" : "", text.c_str());
+  std::fflush(stdout);
+  line_open_ = false;
+}
+
+}  // namespace tern

@@ -1,0 +1,133 @@
+#include "monitor/flight_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tern {
+namespace {
+
+double timeout_s(const Scenario& scenario) {
+  const UavSpec& uav = scenario.uav;
+  return scenario.timeout_s.value_or(3.0 * rest_to_rest_bound_s(uav.start, uav.goal, uav.limits) + 10.0);
+}
+
+}  // namespace
+
+FlightWatch::FlightWatch(const Scenario& scenario, UTime now) : scenario_(scenario), goal_(scenario.uav.goal), began_(now) {}
+
+void FlightWatch::hear(const Heartbeat& heartbeat, UTime now) { processes_.add(heartbeat, now); }
+
+void FlightWatch::hear(const UavState& state) {
+  state_ = state;
+  ledger_.advance(state.header.utime);
+}
+
+void FlightWatch::hear(const Goal& goal) {
+  if (goal.mode == GoalMode::Go) goal_ = goal.position;
+}
+
+void FlightWatch::hear(const HorizonRequest& request, UTime now) {
+  ledger_.add(request);
+  if (first_request_) return;
+  first_request_ = request;
+  first_request_at_ = now;
+  world_epoch_us_ = request.header.name.sender_epoch_us;
+}
+
+void FlightWatch::hear(const PlanTiming& timing) {
+  total_ms_.push_back(timing.total_ms);
+  if (timing.first_answer_ms > 0.0) first_answer_ms_.push_back(timing.first_answer_ms);
+  for (int k = 0; k < kStages; ++k) {
+    if (timing.stage_ms[k] > 0.0) stage_ms_[k].push_back(timing.stage_ms[k]);
+  }
+}
+
+void FlightWatch::hear(const FlightResult& result, UTime now) {
+  if (result_) return;
+  result_ = result;
+  result_at_ = now;
+}
+
+void FlightWatch::fail(std::string detail) {
+  if (failure_.empty()) failure_ = std::move(detail);
+}
+
+std::optional<std::string> FlightWatch::failure(UTime now) const {
+  if (!failure_.empty()) return failure_;
+  const UTime heard = processes_.heard(kSimulatorProcess).value_or(began_);
+  if (now - heard > kSimulatorSilence) {
+    return fmt::format("{} was not heard for {:.0f} s", kSimulatorProcess, (now - heard).seconds());
+  }
+  const auto epoch_us = processes_.epoch_us(kSimulatorProcess);
+  if (world_epoch_us_ && epoch_us && *epoch_us > *world_epoch_us_) {
+    return fmt::format("{} started anew during the flight: its world is lost", kSimulatorProcess);
+  }
+  const Duration limit = Duration::from_seconds(timeout_s(scenario_)) + kVerdictSlack;
+  if (first_request_at_ && now - *first_request_at_ > limit) {
+    return fmt::format("no verdict {:.0f} s after the first request", limit.seconds());
+  }
+  return std::nullopt;
+}
+
+std::optional<Ending> FlightWatch::ending(UTime now) const {
+  if (result_) {
+    if (now - result_at_ < kLastWords) return std::nullopt;
+    return Ending{result_->outcome, result_->detail};
+  }
+  if (const auto why = failure(now)) return Ending{FlightOutcome::Failed, *why};
+  return std::nullopt;
+}
+
+double FlightWatch::nearest_obstacle() const {
+  double nearest = std::numeric_limits<double>::quiet_NaN();
+  for (const TrueObstacle& obstacle : obstacles_) {
+    const Vec3 apart = (obstacle.position - state_->motion.p).cwiseAbs() - obstacle.half_extents - scenario_.uav.body.half_extents();
+    nearest = std::fmin(nearest, apart.cwiseMax(0.0).norm());
+  }
+  return nearest;
+}
+
+LiveView FlightWatch::live() const {
+  LiveView view;
+  view.waiting = processes_.waiting();
+  view.flying = first_request_ && state_;
+  if (!view.flying) return view;
+  const Vec3& p = state_->motion.p;
+  view.elapsed_s = (state_->at - first_request_->header.utime).seconds();
+  view.progress = std::clamp(1.0 - (goal_ - p).norm() / (goal_ - scenario_.uav.start).norm(), 0.0, 1.0);
+  view.speed_mps = state_->motion.v.norm();
+  view.nearest_m = nearest_obstacle();
+  const Percentiles replan = percentiles(total_ms_);
+  view.replan_p50_ms = replan.p50;
+  view.replan_p99_ms = replan.p99;
+  view.requests = ledger_.requests();
+  view.answered_in_time = ledger_.answered_in_time();
+  return view;
+}
+
+FlightSummary FlightWatch::summary(const Ending& ending) const {
+  const auto stage = [this](Stage s) { return percentiles(stage_ms_[static_cast<int>(s)]); };
+  FlightSummary summary;
+  summary.outcome = ending.outcome;
+  summary.detail = ending.detail;
+  summary.scenario = scenario_.name;
+  summary.seed = scenario_.seed;
+  summary.count = scenario_.world.count;
+  summary.result = result_;
+  summary.requests = ledger_.requests();
+  summary.answered_in_time = ledger_.answered_in_time();
+  for (int k = 0; k < kPlanOutcomes; ++k) {
+    summary.plans[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanOutcome>(k));
+  }
+  summary.replan_ms = {percentiles(total_ms_), percentiles(first_answer_ms_), stage(Stage::Hulls),
+                       stage(Stage::Search),   stage(Stage::Optimization),    stage(Stage::Check)};
+  summary.messages = processes_.messages();
+  summary.restarts = processes_.restarts();
+  return summary;
+}
+
+}  // namespace tern

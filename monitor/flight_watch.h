@@ -1,0 +1,96 @@
+// Watches a flight by its messages: what to show of it now, when it has ended and how, and its summary.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/world/flight_result.h"
+#include "core/world/goal.h"
+#include "core/world/horizon.h"
+#include "core/world/observation.h"
+#include "core/world/scenario.h"
+#include "core/world/vehicle.h"
+#include "monitor/flight_summary.h"
+#include "monitor/process_table.h"
+#include "monitor/request_ledger.h"
+
+namespace tern {
+
+inline constexpr char kSimulatorProcess[] = "tern-simulator";
+/// Without a heartbeat of the simulator for so long, there is no flight.
+inline constexpr Duration kSimulatorSilence{20'000'000};
+/// After the verdict every process has a last heartbeat to send, with its last counts.
+inline constexpr Duration kLastWords{600'000};
+/// The referee has this much longer than the scenario's own timeout to say something.
+inline constexpr Duration kVerdictSlack{60'000'000};
+
+/// What a live line shows.
+struct LiveView {
+  bool flying = false;       ///< a horizon was asked for; else the rest but `waiting` is meaningless
+  std::string waiting;       ///< who is not ready, and why
+  double elapsed_s = 0.0;    ///< since the first request, vehicle's clock
+  double progress = 0.0;     ///< of the straight distance from start to goal, 0 … 1
+  double speed_mps = 0.0;
+  double nearest_m = 0.0;    ///< distance of the body's box to the nearest obstacle; NaN: none known
+  double replan_p50_ms = 0.0, replan_p99_ms = 0.0;  ///< of all answers so far; NaN: none
+  std::int64_t requests = 0, answered_in_time = 0;
+};
+
+/// How a flight ended.
+struct Ending {
+  FlightOutcome outcome = FlightOutcome::Failed;
+  std::string detail;
+};
+
+/// Pure: messages and times come in, values go out.
+///
+/// The flight ends kLastWords after FLIGHT_RESULT, with its outcome; before that it has failed when
+///   fail() was called (the launcher knows of a process that cannot run),
+///   the simulator was not heard for kSimulatorSilence, from the watch's beginning on,
+///   the simulator started anew after the first request: its world is lost,
+///   the referee says nothing kVerdictSlack after the scenario's timeout.
+class FlightWatch {
+ public:
+  /// @param now  the watcher's clock, as everywhere here unless the vehicle's is named
+  FlightWatch(const Scenario& scenario, UTime now);
+
+  void hear(const Heartbeat& heartbeat, UTime now);
+  void hear(const UavState& state);
+  void hear(const Goal& goal);
+  void hear(const HorizonRequest& request, UTime now);
+  void hear(const Plan& plan) { ledger_.add(plan); }
+  void hear(const PlanTiming& timing);
+  void hear(const FlightResult& result, UTime now);
+  /// A complete set.
+  void hear(std::vector<TrueObstacle> obstacles) { obstacles_ = std::move(obstacles); }
+  /// Something outside of the messages made the flight impossible. The first reason stays.
+  void fail(std::string detail);
+
+  [[nodiscard]] std::optional<Ending> ending(UTime now) const;
+  [[nodiscard]] LiveView live() const;
+  /// All but log and version, which the watch does not know.
+  [[nodiscard]] FlightSummary summary(const Ending& ending) const;
+
+ private:
+  [[nodiscard]] double nearest_obstacle() const;
+  [[nodiscard]] std::optional<std::string> failure(UTime now) const;
+
+  Scenario scenario_;
+  Vec3 goal_;
+  UTime began_;
+  ProcessTable processes_;
+  RequestLedger ledger_;
+  std::optional<UavState> state_;
+  std::optional<HorizonRequest> first_request_;
+  std::optional<UTime> first_request_at_;
+  std::optional<std::int64_t> world_epoch_us_;  ///< the simulator's when the first request was heard
+  std::vector<TrueObstacle> obstacles_;
+  std::vector<double> total_ms_, first_answer_ms_, stage_ms_[kStages];
+  std::optional<FlightResult> result_;
+  UTime result_at_;
+  std::string failure_;
+};
+
+}  // namespace tern

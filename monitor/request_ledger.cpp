@@ -1,0 +1,21 @@
+#include "monitor/request_ledger.h"
+
+namespace tern {
+
+void RequestLedger::add(const HorizonRequest& request) { deadlines_[request.id] = request.deadline; }
+
+void RequestLedger::add(const Plan& plan) {
+  ++plans_[static_cast<std::size_t>(plan.outcome)];
+  const auto request = deadlines_.find(plan.request_id);
+  if (request == deadlines_.end()) return;
+  ++settled_;
+  if (plan.header.utime <= request->second) ++in_time_;
+  deadlines_.erase(request);
+}
+
+void RequestLedger::advance(UTime vehicle_time) {
+  settled_ += static_cast<std::int64_t>(std::erase_if(
+      deadlines_, [&](const auto& request) { return request.second + kAnswerGrace < vehicle_time; }));
+}
+
+}  // namespace tern

@@ -1,0 +1,36 @@
+// Requests and their answers, as the wire shows them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+#include "core/world/horizon.h"
+
+namespace tern {
+
+/// How long after its deadline a request's answer is still waited for: messages of several processes may overtake each other.
+inline constexpr Duration kAnswerGrace{200'000};
+
+/// Matches PLAN with HORIZON_REQUEST by the request's id. A request is settled when its first answer came, or kAnswerGrace after its
+/// deadline; only settled ones are counted, so that the flight's end leaves no request half open.
+class RequestLedger {
+ public:
+  void add(const HorizonRequest& request);
+  /// The first answer settles its request; a further one, or one to an unknown request, is counted among the plans only.
+  /// In time: published (header.utime) by the deadline.
+  void add(const Plan& plan);
+  /// The vehicle's clock has come so far.
+  void advance(UTime vehicle_time);
+
+  [[nodiscard]] std::int64_t requests() const { return settled_; }
+  [[nodiscard]] std::int64_t answered_in_time() const { return in_time_; }
+  [[nodiscard]] std::int64_t plans(PlanOutcome outcome) const { return plans_[static_cast<std::size_t>(outcome)]; }
+
+ private:
+  std::map<std::int64_t, UTime> deadlines_;  ///< of open requests, by id
+  std::int64_t settled_ = 0, in_time_ = 0;
+  std::array<std::int64_t, kPlanOutcomes> plans_ = {};
+};
+
+}  // namespace tern

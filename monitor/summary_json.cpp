@@ -1,0 +1,78 @@
+#include <nlohmann/json.hpp>
+
+#include "monitor/flight_summary.h"
+
+namespace tern {
+namespace {
+
+// Keeps the order of insertion; NaN and infinity become null when it is written.
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Percentiles& p) { return {{"p50", p.p50}, {"p95", p.p95}, {"p99", p.p99}, {"max", p.max}}; }
+
+Json to_json(const ReplanTimes& times) {
+  return {{"total", to_json(times.total)},   {"first_answer", to_json(times.first_answer)},
+          {"hulls", to_json(times.hulls)},   {"search", to_json(times.search)},
+          {"optimization", to_json(times.optimization)}, {"check", to_json(times.check)}};
+}
+
+/// The referee's measure, or null.
+template <class T>
+Json measure(const std::optional<FlightResult>& result, T FlightResult::*field) {
+  return result ? Json((*result).*field) : Json(nullptr);
+}
+
+Json plans_by_outcome(const FlightSummary& summary) {
+  Json plans = Json::object();
+  for (int k = 0; k < kPlanOutcomes; ++k) {
+    plans[plan_outcome_key(static_cast<PlanOutcome>(k))] = summary.plans[static_cast<std::size_t>(k)];
+  }
+  return plans;
+}
+
+Json exposure_by_region(const std::optional<FlightResult>& result) {
+  Json regions = Json::object();
+  if (!result) return regions;
+  for (const Exposure& e : result->exposure) regions[e.region] = {{"seconds", e.seconds}, {"metres", e.metres}};
+  return regions;
+}
+
+Json messages_by_channel(const FlightSummary& summary) {
+  Json messages = Json::object();
+  for (const auto& [channel, count] : summary.messages) {
+    messages[channel] = {{"received", count.received}, {"rejected", count.rejected}, {"lost", count.lost}};
+  }
+  return messages;
+}
+
+}  // namespace
+
+std::string to_json(const FlightSummary& summary) {
+  const auto& result = summary.result;
+  const Json json = {
+      {"outcome", to_string(summary.outcome)},
+      {"scenario", summary.scenario},
+      {"seed", summary.seed},
+      {"count", summary.count},
+      {"flight_time_s", measure(result, &FlightResult::flight_time_s)},
+      {"first_entry_s", measure(result, &FlightResult::first_entry_s)},
+      {"path_length_m", measure(result, &FlightResult::path_length_m)},
+      {"mean_speed_mps", measure(result, &FlightResult::mean_speed_mps)},
+      {"top_speed_mps", measure(result, &FlightResult::top_speed_mps)},
+      {"stops", measure(result, &FlightResult::stops)},
+      {"min_clearance_m", measure(result, &FlightResult::min_clearance_m)},
+      {"limit_violations", measure(result, &FlightResult::limit_violations)},
+      {"requests", summary.requests},
+      {"answered_in_time", summary.answered_in_time},
+      {"plans", plans_by_outcome(summary)},
+      {"replan_ms", to_json(summary.replan_ms)},
+      {"exposure", exposure_by_region(result)},
+      {"messages", messages_by_channel(summary)},
+      {"restarts", summary.restarts},
+      {"log", summary.log.empty() ? Json(nullptr) : Json(summary.log)},
+      {"version", summary.version},
+  };
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tern

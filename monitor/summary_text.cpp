@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "monitor/flight_summary.h"
+
+namespace tern {
+namespace {
+
+/// Channels listed at most: those that lost or refused something come first in a report of trouble.
+constexpr int kTroubledChannels = 6;
+
+/// The number with its unit, or a dash when there is none.
+std::string value(double x, std::string_view unit, int digits = 2) {
+  return std::isnan(x) ? "-" : fmt::format("{:.{}f} {}", x, digits, unit);
+}
+
+std::string row(std::string_view name, const Percentiles& p) {
+  if (std::isnan(p.p50)) return fmt::format("  {:<14}{:>9}{:>9}{:>9}{:>9}\n", name, "-", "-", "-", "-");
+  return fmt::format("  {:<14}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}\n", name, p.p50, p.p95, p.p99, p.max);
+}
+
+std::string flight_lines(const FlightResult& r) {
+  std::string text;
+  text += fmt::format("  flight time   {:<14} first entry  {}\n", value(r.flight_time_s, "s"), value(r.first_entry_s, "s"));
+  text += fmt::format("  path          {:<14} mean speed   {:<14} top speed  {}\n", value(r.path_length_m, "m"),
+                      value(r.mean_speed_mps, "m/s"), value(r.top_speed_mps, "m/s"));
+  text += fmt::format("  clearance     {:<14} stops        {:<14} limit violations  {}\n", value(r.min_clearance_m, "m", 3),
+                      r.stops, r.limit_violations);
+  for (const Exposure& e : r.exposure) {
+    text += fmt::format("  in {:<20.20} {:>8} {:>10}   within 1 m {:>8} {:>10}\n", e.region, value(e.seconds, "s"),
+                        value(e.metres, "m"), value(e.near_seconds, "s"), value(e.near_metres, "m"));
+  }
+  return text;
+}
+
+std::string plan_lines(const FlightSummary& s) {
+  std::string text = fmt::format("  requests      {} settled, {} answered in time\n  plans        ", s.requests, s.answered_in_time);
+  for (int k = 0; k < kPlanOutcomes; ++k) {
+    text += fmt::format(" {} {}", s.plans[static_cast<std::size_t>(k)], plan_outcome_key(static_cast<PlanOutcome>(k)));
+    if (k + 1 < kPlanOutcomes) text += ",";
+  }
+  return text + "\n";
+}
+
+std::string message_lines(const FlightSummary& s) {
+  MessageCount all;
+  std::string troubled;
+  int listed = 0;
+  for (const auto& [channel, count] : s.messages) {
+    all.received += count.received;
+    all.rejected += count.rejected;
+    all.lost += count.lost;
+    if ((count.rejected > 0 || count.lost > 0) && listed++ < kTroubledChannels) {
+      troubled += fmt::format("    {:<22} {} rejected, {} lost\n", channel, count.rejected, count.lost);
+    }
+  }
+  return fmt::format("  messages      {} received, {} rejected, {} lost\n", all.received, all.rejected, all.lost) + troubled;
+}
+
+}  // namespace
+
+const char* plan_outcome_key(PlanOutcome outcome) {
+  switch (outcome) {
+    case PlanOutcome::Optimized: return "optimized";
+    case PlanOutcome::SearchOnly: return "search_only";
+    case PlanOutcome::KeepCommitted: return "keep_committed";
+    case PlanOutcome::Evade: return "evade";
+    case PlanOutcome::NoPlan: return "no_plan";
+  }
+  return "no_plan";
+}
+
+std::string to_text(const FlightSummary& s) {
+  std::string text = fmt::format("{}{}{}\n", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
+  text += fmt::format("  scenario      {}, seed {}, {} obstacles\n", s.scenario, s.seed, s.count);
+  if (s.result) text += flight_lines(*s.result);
+  text += plan_lines(s);
+  text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");
+  text += row("total", s.replan_ms.total) + row("first answer", s.replan_ms.first_answer) + row("hulls", s.replan_ms.hulls) +
+          row("search", s.replan_ms.search) + row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);
+  text += message_lines(s);
+  text += fmt::format("  restarts      {}\n", s.restarts);
+  if (!s.log.empty()) text += fmt::format("  log           {}\n", s.log);
+  return text + fmt::format("  version       {}\n", s.version);
+}
+
+}  // namespace tern
