@@ -1,6 +1,7 @@
 // Collects the batches of a set; only complete sets are handed on.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -16,7 +17,7 @@ template <class T>
 class BatchCollector {
  public:
   /// @return the batches of the set in index order when `message` completed it. Batches of a sender epoch or a set older than
-  /// the newest seen are dropped. Out-of-order arrival within a set is fine; a repeated batch changes nothing.
+  /// the newest seen are dropped, and so are those that contradict the set's count. Out-of-order arrival within a set is fine; a repeated batch changes nothing.
   std::optional<std::vector<T>> add(const T& message) {
     const std::pair key{message.header.name.sender_epoch_us, message.batch.set};
     if (key < key_ || (key == key_ && missing_ == 0)) return std::nullopt;
@@ -27,7 +28,8 @@ class BatchCollector {
       missing_ = message.batch.count;
     }
     const auto index = static_cast<std::size_t>(message.batch.index);
-    if (index >= parts_.size() || parts_[index]) return std::nullopt;
+    const bool fits = message.batch.count == static_cast<std::int32_t>(parts_.size()) && index < parts_.size();
+    if (!fits || parts_[index]) return std::nullopt;
     parts_[index] = message;
     if (--missing_ > 0) return std::nullopt;
     std::vector<T> set;

@@ -24,13 +24,10 @@ constexpr std::size_t kMaxSenders = 64;
 /// A forged sequence number shall not overflow the sum: no honest gap is as long.
 constexpr std::int64_t kMaxGap = 1'000'000'000;
 
-/// LCM takes a subscription's channel as a regular expression: only characters that mean themselves are allowed.
-void check_name(const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-  if (!std::all_of(name.begin(), name.end(), plain) || name.size() > static_cast<std::size_t>(kMaxChannelName)) {
-    throw std::invalid_argument(
-        fmt::format("channel name \"{}\": only letters, digits, '_' and '-', at most {} of them", name, kMaxChannelName));
-  }
+void check_name(std::string_view name) {
+  if (Bus::is_channel_name(name)) return;
+  throw std::invalid_argument(
+      fmt::format("channel name \"{}\": only letters, digits, '_' and '-', at most {} of them", name, kMaxChannelName));
 }
 
 /// Says yes at most once per kLogInterval and counts the times between.
@@ -127,6 +124,12 @@ Bus::~Bus() {
     if (channel.subscription != nullptr) state_->lcm->unsubscribe(channel.subscription);
   }
   if (state_->listening != nullptr) state_->lcm->unsubscribe(state_->listening);
+}
+
+bool Bus::is_channel_name(std::string_view name) {
+  // LCM takes a subscription's channel as a regular expression: only characters that mean themselves are allowed.
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  return std::all_of(name.begin(), name.end(), plain) && name.size() <= static_cast<std::size_t>(kMaxChannelName);
 }
 
 MessageName Bus::send(std::string_view name, const Encoder& encoder) {

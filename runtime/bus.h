@@ -41,13 +41,16 @@ class Bus {
  public:
   /// @param lcm  shared by all nodes of a process (memq:// delivers only within one instance)
   /// @param epoch_us  when the process started, > 0: the first half of every name it gives; no two buses may share it
-  /// @param suffix  appended to every channel name ("" by default); letters, digits, '_' and '-'
-  /// @throws std::invalid_argument for another suffix.
+  /// @param suffix  appended to every channel name ("" by default)
+  /// @throws std::invalid_argument if the suffix is not is_channel_name.
   Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix = "");
   /// Unsubscribes. @pre not called from a handler
   ~Bus();
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
+
+  /// Whether a channel name or suffix is one that LCM takes literally: letters, digits, '_' and '-', at most 63 (it may be empty).
+  static bool is_channel_name(std::string_view name);
 
   /// Sends now. Returns the name that the message got. Thread-safe: sequence numbers leave in order.
   /// @throws std::invalid_argument when the message breaks its contract (see encode); nothing was sent, no number used.

@@ -75,7 +75,7 @@ std::optional<double> parse_number(const YamlValue& value) {
     return std::numeric_limits<double>::infinity();
   }
   if (text == "-inf" || text == "-.inf") return -std::numeric_limits<double>::infinity();
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0.0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || rest != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;

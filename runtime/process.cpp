@@ -63,8 +63,12 @@ void declare(CLI::App& app, Options& options, const ProcessDescription& descript
   app.add_option("--lcm-url", options.lcm_url, fmt::format("LCM network; else LCM_DEFAULT_URL, else {}", kDefaultLcmUrl))
       ->type_name("URL");
   app.add_option("--clock-offset-us", options.clock_offset_us, "Added to the system clock, to test skew")->type_name("N");
+  const auto plain = [](const std::string& suffix) {
+    return Bus::is_channel_name(suffix) ? std::string() : suffix + ": only letters, digits, '_' and '-'";
+  };
   app.add_option("--channel-suffix", options.channel_suffix, "Appended to every channel name, one per vehicle")
-      ->type_name("S");
+      ->type_name("S")
+      ->check(plain);
   app.add_option("--log-level", options.log_level, "How much to say on stderr")
       ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
       ->capture_default_str();

@@ -1,0 +1,311 @@
+// The bus: names, counters, firewall, pacing.
+#include "runtime/bus.h"
+
+#include <gtest/gtest.h>
+
+#include <lcm/lcm-cpp.hpp>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "messages/goal.h"
+#include "messages/heartbeat.h"
+#include "runtime/channels.h"
+#include "runtime/lcm_network.h"
+#include "runtime/node.h"
+
+namespace tern {
+namespace {
+
+constexpr char kChannel[] = "GOAL";
+
+Goal goal(std::int64_t id) {
+  Goal g;
+  g.id = id;
+  return g;
+}
+
+/// A network within the test: `bus` listens; arrive() plays remote senders, which give names of their own making.
+class BusTest : public testing::Test {
+ protected:
+  void listen() {
+    bus.subscribe<Goal>(kChannel, [this](const Goal& g) { heard.push_back(g); });
+  }
+
+  void arrive(std::int64_t epoch_us, std::int64_t sequence) {
+    Goal g = goal(1);
+    g.header = {{epoch_us, sequence}, clock.now()};
+    arrive_bytes(encode(g));
+  }
+
+  void arrive_bytes(const Bytes& bytes) { lcm->publish(kChannel, bytes.data(), static_cast<unsigned>(bytes.size())); }
+
+  ChannelCounters settle() {
+    drain(*lcm, 1'000'000);
+    bus.rethrow();
+    return bus.counters()[kChannel];
+  }
+
+  std::shared_ptr<lcm::LCM> lcm = std::make_shared<lcm::LCM>("memq://");
+  VirtualClock clock{UTime{5'000'000}};
+  Bus bus{lcm, clock, 1'000};
+  std::vector<Goal> heard;
+};
+
+TEST_F(BusTest, NamesMessagesBySenderEpochAndAscendingSequence) {
+  listen();
+  const MessageName first = bus.publish(kChannel, goal(7));
+  const MessageName second = bus.publish(kChannel, goal(8));
+  EXPECT_EQ(first, (MessageName{1'000, 1}));
+  EXPECT_EQ(second, (MessageName{1'000, 2}));
+  settle();
+  ASSERT_EQ(heard.size(), 2U);
+  EXPECT_EQ(heard[1].header.name, second);
+  EXPECT_EQ(heard[1].header.utime, clock.now());
+  EXPECT_EQ(heard[1].id, 8);
+}
+
+TEST_F(BusTest, CountsSequencesPerChannel) {
+  bus.publish(kChannel, goal(1));
+  EXPECT_EQ(bus.publish("GOAL_2", goal(1)).sequence, 1);
+}
+
+TEST_F(BusTest, ItsOwnMessagesAreDeliveredAndAreNoLoss) {
+  listen();
+  for (int i = 1; i <= 10; ++i) bus.publish(kChannel, goal(i));
+  const ChannelCounters counters = settle();
+  EXPECT_EQ(counters.sent, 10);
+  EXPECT_EQ(counters.received, 10);
+  EXPECT_EQ(counters.lost, 0);
+}
+
+TEST_F(BusTest, GapsInASendersSequenceAreCountedAsLost) {
+  listen();
+  arrive(50, 10);
+  arrive(50, 11);
+  arrive(50, 14);
+  EXPECT_EQ(settle().lost, 2);
+}
+
+TEST_F(BusTest, ALateJoinerHasLostNothing) {
+  listen();
+  arrive(50, 1'000'000);
+  EXPECT_EQ(settle().lost, 0);
+}
+
+TEST_F(BusTest, ARestartedSenderIsNoLoss) {
+  listen();
+  arrive(50, 10);
+  arrive(60, 1);
+  arrive(60, 2);
+  EXPECT_EQ(settle().lost, 0);
+}
+
+TEST_F(BusTest, SendersAreCountedApart) {
+  listen();
+  for (int i = 1; i <= 5; ++i) {
+    arrive(50, i);
+    arrive(60, 2 * i);
+  }
+  EXPECT_EQ(settle().lost, 4);
+}
+
+TEST_F(BusTest, ARepeatedOrOvertakenMessageIsNoLossAndDoesNotMoveTheCountBack) {
+  listen();
+  for (const int sequence : {1, 2, 5, 3, 5, 6}) arrive(50, sequence);
+  EXPECT_EQ(settle().lost, 2);
+}
+
+TEST_F(BusTest, ForgedSequencesDoNotOverflowTheCount) {
+  listen();
+  for (int i = 1; i <= 40; ++i) {
+    arrive(i, 1);
+    arrive(i, std::numeric_limits<std::int64_t>::max());
+  }
+  EXPECT_GT(settle().lost, 0);
+}
+
+TEST_F(BusTest, ForgedSendersPushOutOnlyTheOnesNotHeardLongest) {
+  listen();
+  arrive(1, 1);
+  for (int i = 2; i <= 2'000; ++i) {
+    arrive(i, 1);
+    arrive(1, i);
+  }
+  arrive(1, 2'002);
+  EXPECT_EQ(settle().lost, 1) << "the sender that was heard all along is still known";
+}
+
+TEST_F(BusTest, RefusedMessagesAreCountedByReasonAndReachNoHandler) {
+  listen();
+  Goal g = goal(1);
+  g.header = {{50, 1}, clock.now()};
+  const Bytes good = encode(g);
+  const Bytes truncated(good.begin(), good.end() - 1);
+  Bytes trailing = good;
+  trailing.push_back(0);
+  Bytes another_type = good;
+  another_type[0] ^= 0xffU;
+  for (const Bytes& bytes : {truncated, trailing, another_type, Bytes{}, good}) arrive_bytes(bytes);
+  const ChannelCounters counters = settle();
+  EXPECT_EQ(counters.received, 1);
+  EXPECT_EQ(counters.rejected[static_cast<int>(Rejection::Length)], 3);
+  EXPECT_EQ(counters.rejected[static_cast<int>(Rejection::Fingerprint)], 1);
+  EXPECT_EQ(heard.size(), 1U);
+}
+
+TEST_F(BusTest, LateMessagesAreCountedBesideReceivedOnes) {
+  listen();
+  arrive(50, 1);
+  bus.count_late(kChannel);
+  const ChannelCounters counters = settle();
+  EXPECT_EQ(counters.received, 1);
+  EXPECT_EQ(counters.late, 1);
+}
+
+TEST_F(BusTest, SeveralHandlersOfAChannelAreCalledInOrderAndTheMessageIsCountedOnce) {
+  std::string order;
+  bus.subscribe<Goal>(kChannel, [&](const Goal&) { order += "a"; });
+  bus.subscribe<Goal>(kChannel, [&](const Goal&) { order += "b"; });
+  arrive(50, 1);
+  arrive(50, 3);
+  const ChannelCounters counters = settle();
+  EXPECT_EQ(order, "abab");
+  EXPECT_EQ(counters.received, 2);
+  EXPECT_EQ(counters.lost, 1);
+}
+
+TEST_F(BusTest, WhatAHandlerThrowsComesOutOfRethrowAndStopsDeliveriesUntilThen) {
+  bus.subscribe<Goal>(kChannel, [&](const Goal& g) {
+    heard.push_back(g);
+    if (g.header.name.sequence == 1) throw std::runtime_error("handler");
+  });
+  arrive(50, 1);
+  arrive(50, 2);
+  drain(*lcm, 100);
+  EXPECT_THROW(bus.rethrow(), std::runtime_error);
+  EXPECT_EQ(heard.size(), 1U);
+  EXPECT_NO_THROW(bus.rethrow());
+  arrive(50, 3);
+  settle();
+  EXPECT_EQ(heard.size(), 2U);
+}
+
+TEST_F(BusTest, AMessageThatBreaksItsContractUsesNoNumber) {
+  Heartbeat endless;
+  endless.process = std::string(1'000'000, 'x');
+  EXPECT_THROW(bus.publish(channels::kHeartbeat, endless), std::invalid_argument);
+  Heartbeat good;
+  good.process = "x";
+  EXPECT_EQ(bus.publish(channels::kHeartbeat, good).sequence, 1);
+}
+
+TEST_F(BusTest, TheSuffixKeepsVehiclesApartAndCountersPlain) {
+  Bus second(lcm, clock, 2'000, "_2");
+  int count = 0;
+  second.subscribe<Goal>(kChannel, [&](const Goal&) { ++count; });
+  bus.publish(kChannel, goal(1));
+  settle();
+  EXPECT_EQ(count, 0);
+  second.publish(kChannel, goal(1));
+  settle();
+  EXPECT_EQ(count, 1);
+  EXPECT_EQ(second.counters().count(kChannel), 1U);
+}
+
+TEST_F(BusTest, RefusesNamesThatAreRegularExpressionsOrTooLong) {
+  EXPECT_THROW(Bus(lcm, clock, 1, ".*"), std::invalid_argument);
+  EXPECT_THROW(bus.publish(std::string(64, 'x'), goal(1)), std::invalid_argument);
+}
+
+TEST_F(BusTest, ADestroyedBusHearsNothing) {
+  int count = 0;
+  {
+    Bus gone(lcm, clock, 2'000);
+    gone.subscribe<Goal>(kChannel, [&](const Goal&) { ++count; });
+    bus.publish(kChannel, goal(1));
+  }
+  settle();
+  EXPECT_EQ(count, 0);
+}
+
+TEST_F(BusTest, APacedSetLeavesOneMessagePerPacingInterval) {
+  listen();
+  bus.publish_paced(kChannel, std::vector<Goal>{goal(1), goal(2), goal(3)});
+  settle();
+  EXPECT_EQ(heard.size(), 1U);
+  const UTime start = clock.now();
+  EXPECT_EQ(bus.next_due(), start + kPacing);
+  bus.send_due(start + kPacing - Duration{1});
+  settle();
+  EXPECT_EQ(heard.size(), 1U) << "not before it is due";
+  clock.advance_to(start + kPacing * 10);
+  bus.send_due(clock.now());
+  settle();
+  EXPECT_EQ(heard.size(), 2U) << "one message, however late";
+  EXPECT_EQ(bus.next_due(), clock.now() + kPacing);
+  clock.advance_to(bus.next_due());
+  bus.send_due(clock.now());
+  settle();
+  ASSERT_EQ(heard.size(), 3U);
+  EXPECT_EQ(heard[2].id, 3);
+  EXPECT_EQ(heard[2].header.utime, clock.now()) << "named when it leaves";
+  EXPECT_EQ(bus.next_due(), kNever);
+}
+
+TEST_F(BusTest, ANewerPacedSetReplacesTheUnsentRestWithoutAGap) {
+  listen();
+  bus.publish_paced(kChannel, std::vector<Goal>{goal(1), goal(2), goal(3)});
+  bus.publish_paced(kChannel, std::vector<Goal>{goal(4), goal(5)});
+  EXPECT_EQ(bus.unsent(), 2);
+  clock.advance_to(clock.now() + kPacing);
+  bus.send_due(clock.now());
+  const ChannelCounters counters = settle();
+  ASSERT_EQ(heard.size(), 3U);
+  EXPECT_EQ(heard[1].id, 4);
+  EXPECT_EQ(heard[2].id, 5);
+  EXPECT_EQ(counters.lost, 0) << "what was never sent is not lost";
+}
+
+TEST_F(BusTest, AnEmptyPacedSetSendsNothing) {
+  bus.publish_paced(kChannel, std::vector<Goal>{});
+  EXPECT_EQ(bus.next_due(), kNever);
+  EXPECT_EQ(bus.counters()[kChannel].sent, 0);
+}
+
+TEST_F(BusTest, PublishesFromSeveralThreadsInSequence) {
+  listen();
+  constexpr int kEach = 500;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([this] {
+      for (int i = 1; i <= kEach; ++i) bus.publish(kChannel, goal(i));
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  const ChannelCounters counters = settle();
+  EXPECT_EQ(counters.received, 4 * kEach);
+  EXPECT_EQ(counters.lost, 0);
+  for (std::size_t i = 0; i < heard.size(); ++i) EXPECT_EQ(heard[i].header.name.sequence, static_cast<std::int64_t>(i) + 1);
+}
+
+TEST_F(BusTest, AHandlerMayPublishOnItsOwnChannel) {
+  bus.subscribe<Goal>(kChannel, [&](const Goal& g) {
+    heard.push_back(g);
+    if (g.id < 100) bus.publish(kChannel, goal(g.id + 1));
+  });
+  bus.publish(kChannel, goal(1));
+  EXPECT_EQ(settle().lost, 0);
+  EXPECT_EQ(heard.size(), 100U);
+}
+
+TEST_F(BusTest, LosesNothingOfAHundredThousandMessagesInOneInstant) {
+  listen();
+  for (int i = 1; i <= 100'000; ++i) bus.publish(kChannel, goal(i));
+  const ChannelCounters counters = settle();
+  EXPECT_EQ(counters.received, 100'000);
+  EXPECT_EQ(counters.lost, 0);
+}
+
+}  // namespace
+}  // namespace tern

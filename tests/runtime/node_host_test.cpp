@@ -1,0 +1,110 @@
+// A host reports its node's health and configuration, and paces.
+#include <gtest/gtest.h>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "core/base/digest.h"
+#include "core/world/message_limits.h"
+#include "messages/configuration_report.h"
+#include "messages/heartbeat.h"
+#include "runtime/lcm_network.h"
+#include "runtime/version.h"
+#include "runtime/virtual_runner.h"
+#include "talker.h"
+
+namespace tern {
+namespace {
+
+constexpr UTime kStart{1'000'000};
+
+TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFiveSeconds) {
+  VirtualRunner runner(kStart);
+  std::vector<Heartbeat> beats;
+  std::vector<ConfigurationReport> reports;
+  runner.observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& h) { beats.push_back(h); });
+  runner.observer().subscribe<ConfigurationReport>(channels::kConfiguration,
+                                                   [&](const ConfigurationReport& r) { reports.push_back(r); });
+  runner.start("tern-test", [](Bus& bus) { return std::make_unique<Talker>(bus, Talker::Options{"t", Duration{100'000}}, nullptr); },
+               "x: 1\n");
+  runner.run(kStart + Duration{10'000'000});
+  EXPECT_EQ(beats.size(), 21U);
+  EXPECT_EQ(beats.back().process, "tern-test");
+  EXPECT_EQ(beats.back().build_id, build_id());
+  EXPECT_EQ(beats.back().state, ProcessState::Ready);
+  EXPECT_EQ(beats.back().channels.at(channels::kGoal).sent, 101);
+  ASSERT_EQ(reports.size(), 3U);
+  EXPECT_EQ(reports[0].header.utime, kStart);
+  EXPECT_EQ(reports[0].yaml, "x: 1\n");
+  EXPECT_EQ(reports[0].hash, configuration_hash("x: 1\n"));
+}
+
+TEST(NodeHost, CutsAConfigurationThatNoMessageHoldsAndStillTellsTwoApart) {
+  std::string yaml;
+  while (yaml.size() < 100'000) yaml += "key: value\n";
+  const std::string cut = reported_yaml(yaml);
+  EXPECT_LE(cut.size(), static_cast<std::size_t>(kMaxYamlText));
+  EXPECT_NE(cut.find("# cut here: "), std::string::npos);
+  std::string other = yaml;
+  other.back() = ' ';
+  EXPECT_NE(configuration_hash(other), configuration_hash(yaml));
+  ConfigurationReport report;
+  report.header = {{1, 1}, kStart};
+  report.process = "x";
+  report.yaml = cut;
+  report.hash = configuration_hash(yaml);
+  EXPECT_TRUE(decode<ConfigurationReport>(encode(report)));
+  EXPECT_EQ(reported_yaml("short: 1\n"), "short: 1\n");
+  EXPECT_LE(reported_yaml(std::string(100'000, 'x')).size(), static_cast<std::size_t>(kMaxYamlText));
+}
+
+/// Sends a set of goals once, paced.
+class Pacer final : public Node {
+ public:
+  explicit Pacer(Bus& bus) : bus_(bus) {}
+  [[nodiscard]] UTime next_wakeup() const override { return done_ ? kNever : kStart; }
+  void step(UTime /*now*/) override {
+    done_ = true;
+    std::vector<Goal> goals(4);
+    for (Goal& goal : goals) goal.id = 1;
+    bus_.publish_paced(channels::kGoal, goals);
+  }
+  [[nodiscard]] NodeHealth health() const override { return {ProcessState::Ready, ""}; }
+
+ private:
+  Bus& bus_;
+  bool done_ = false;
+};
+
+TEST(NodeHost, WakesForPacedMessages) {
+  VirtualRunner runner(kStart);
+  runner.start("pacer", [](Bus& bus) { return std::make_unique<Pacer>(bus); });
+  std::vector<std::int64_t> times;
+  runner.observer().subscribe<Goal>(channels::kGoal, [&](const Goal& g) { times.push_back((g.header.utime - kStart).us); });
+  runner.run(kStart + Duration{100'000});
+  EXPECT_EQ(times, (std::vector<std::int64_t>{0, 2'000, 4'000, 6'000}));
+}
+
+TEST(LcmUrl, IsTheOptionElseTheEnvironmentElseThisHostOnly) {
+  EXPECT_EQ(choose_lcm_url("memq://", "udpm://x"), "memq://");
+  EXPECT_EQ(choose_lcm_url("", "file:///tmp/x"), "file:///tmp/x");
+  EXPECT_EQ(choose_lcm_url("", nullptr), std::string(kDefaultLcmUrl) + "&recv_buf_size=8000000");
+  EXPECT_EQ(choose_lcm_url("", ""), std::string(kDefaultLcmUrl) + "&recv_buf_size=8000000");
+  EXPECT_EQ(choose_lcm_url("udpm://239.255.76.67:7777", nullptr), "udpm://239.255.76.67:7777?recv_buf_size=8000000");
+  EXPECT_EQ(choose_lcm_url("udpm://a:1?recv_buf_size=5&ttl=0", nullptr), "udpm://a:1?recv_buf_size=5&ttl=0");
+}
+
+TEST(WallClock, IsTheSystemClockPlusItsOffset) {
+  const UTime plain = WallClock().now();
+  const UTime ahead = WallClock(Duration{3'600'000'000}).now();
+  EXPECT_GE((ahead - plain).us, 3'600'000'000);
+  EXPECT_GT(plain.us, 1'600'000'000'000'000) << "microseconds since 1970";
+}
+
+TEST(VirtualClock, NeverGoesBack) {
+  VirtualClock clock(kStart);
+  clock.advance_to(kStart);
+  EXPECT_THROW(clock.advance_to(kStart - Duration{1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace tern

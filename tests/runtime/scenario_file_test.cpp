@@ -1,0 +1,200 @@
+// Scenario files: what is written is read back; every rule refuses with file, line and key.
+#include "runtime/scenario_file.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+
+#include "random_scenario.h"
+
+namespace tern {
+namespace {
+
+Scenario read(const std::string& yaml) {
+  ConfigDocument document = ConfigDocument::parse(yaml, "a.yaml");
+  return read_scenario(document);
+}
+
+std::string error_of(const std::string& yaml) {
+  try {
+    read(yaml);
+  } catch (const ConfigError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// The error of one obstacle, given as the lines under its dash (the first is line 3).
+std::string obstacle_error(const std::string& lines) { return error_of("world:\n  obstacles:\n    - " + lines); }
+
+/// The error of one region, likewise.
+std::string region_error(const std::string& lines) { return error_of("semantics:\n  regions:\n    - " + lines); }
+
+RC_GTEST_PROP(ScenarioFile, ReadsBackWhatItWrites, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const Scenario scenario = random_scenario(rng);
+  const std::string yaml = write_scenario(scenario);
+  const std::string differs = difference(read(yaml), scenario);
+  RC_LOG() << yaml;
+  RC_ASSERT(differs == std::string());
+}
+
+RC_GTEST_PROP(ScenarioFile, ReadsBackTheEffectiveConfiguration, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const Scenario scenario = random_scenario(rng);
+  ConfigDocument document = ConfigDocument::parse(write_scenario(scenario), "a.yaml");
+  read_scenario(document);
+  const std::string differs = difference(read(document.effective()), scenario);
+  RC_LOG() << document.effective();
+  RC_ASSERT(differs == std::string());
+}
+
+TEST(ScenarioFile, AnEmptyFileIsAllDefaultsNamedAfterTheFile) {
+  Scenario defaults;
+  defaults.name = "a";
+  EXPECT_EQ(difference(read(""), defaults), "");
+}
+
+TEST(ScenarioFile, LeavesProcessSectionsToTheirProcesses) {
+  EXPECT_EQ(error_of("planner: {anything: 1}\nsimulator: {}\npredictor:\n"), "");
+  EXPECT_EQ(error_of("plannr: {}\n").rfind("a.yaml:1: plannr: unknown key", 0), 0U);
+}
+
+TEST(ScenarioFile, TakesLimitsAsOneNumberOrThreeAndInfiniteJerk) {
+  const Scenario s = read("uav: {limits: {v_max: 3.5, a_max: [20, 20, 9.6], j_max: inf}}\n");
+  EXPECT_EQ(s.uav.limits.v_max, Vec3(3.5, 3.5, 3.5));
+  EXPECT_EQ(s.uav.limits.a_max, Vec3(20, 20, 9.6));
+  EXPECT_EQ(s.uav.limits.j_max, Vec3::Constant(std::numeric_limits<double>::infinity()));
+  EXPECT_EQ(error_of("uav:\n  limits:\n    v_max: -3\n"), "a.yaml:3: uav.limits.v_max: -3 is out of range (0, 1000]");
+  EXPECT_EQ(error_of("uav:\n  limits:\n    v_max: inf\n"), "a.yaml:3: uav.limits.v_max: inf is out of range (0, 1000]");
+  EXPECT_EQ(error_of("uav:\n  limits:\n    a_max: [1, 0, 1]\n"), "a.yaml:3: uav.limits.a_max[1]: 0 is out of range (0, 10000]");
+  EXPECT_EQ(error_of("uav:\n  limits:\n    j_max: 0\n"), "a.yaml:3: uav.limits.j_max: 0 is out of range (0, inf]");
+}
+
+TEST(ScenarioFile, ABoxBodyIsItsCorners) {
+  const Scenario s = read("uav: {body: {half_extents: [0.1, 0.2, 0.3]}}\n");
+  EXPECT_EQ(s.uav.body.radius, 0.0);
+  EXPECT_EQ(s.uav.body.vertices.cols(), 8);
+  EXPECT_EQ(s.uav.body.half_extents(), Vec3(0.1, 0.2, 0.3));
+}
+
+TEST(ScenarioFile, RefusesTwoBodies) {
+  EXPECT_EQ(error_of("uav:\n  body:\n    radius: 0.1\n    vertices: [[0, 0, 1]]\n"),
+            "a.yaml:3: uav.body.radius: give one of radius, half_extents, vertices");
+  EXPECT_EQ(error_of("uav:\n  body:\n    vertices: []\n"), "a.yaml:3: uav.body.vertices: 0 of them (limit 1 to 64)");
+}
+
+TEST(ScenarioFile, TheWholeBodyMustStartAndEndInsideTheFlightBox) {
+  const std::string box = "  flight_box: {min: [-1, -1, 0], max: [9, 1, 4]}\n  body: {radius: 0.5}\n";
+  EXPECT_EQ(error_of("uav:\n  start: [0, 0, 0.5]\n  goal: [8.5, 0, 1]\n" + box), "");
+  EXPECT_EQ(error_of("uav:\n  start: [0, 0, 0.4]\n  goal: [8, 0, 1]\n" + box),
+            "a.yaml:2: uav.start: [0, 0, 0.4] is outside the flight box, body included (limits [-0.5, -0.5, 0.5] to [8.5, 0.5, "
+            "3.5])");
+  EXPECT_EQ(error_of("uav:\n  start: [0, 0, 1]\n  goal: [9, 0, 1]\n" + box),
+            "a.yaml:3: uav.goal: [9, 0, 1] is outside the flight box, body included (limits [-0.5, -0.5, 0.5] to [8.5, 0.5, "
+            "3.5])");
+  EXPECT_EQ(error_of("uav:\n  flight_box:\n    min: [0, 0, 0]\n    max: [1, 0, 1]\n"),
+            "a.yaml:4: uav.flight_box.max: is not greater than min on every axis");
+}
+
+TEST(ScenarioFile, RefusesUnknownGeneratorsAndCountsWithoutOne) {
+  EXPECT_EQ(error_of("world:\n  generator: corridor\n"),
+            "a.yaml:2: world.generator: corridor is not one of none, paper_corridor, paper_attract, paper_repel, corridor_demo, "
+            "mader_corridor, sando_forest");
+  EXPECT_EQ(error_of("world:\n  count: 3\n"), "a.yaml:2: world.count: 3 needs a generator, which is none");
+  EXPECT_EQ(error_of("world:\n  generator: sando_forest\n  count: 100001\n"),
+            "a.yaml:3: world.count: 100001 is out of range [0, 100000]");
+}
+
+TEST(ScenarioFile, RefusesTheKeysOfAnotherMotion) {
+  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      phase: 1\n"),
+            "a.yaml:4: world.obstacles[0].phase: unknown key (known here: centre, half_extents, motion, name)");
+  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: trefoil\n      velocity: [1, 0, 0]\n"),
+            "a.yaml:5: world.obstacles[0].velocity: unknown key (known here: centre, half_extents, motion, name, phase, scale, "
+            "slowness)");
+  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: waypoints\n      points: [[0, 1, 1, 1]]\n"),
+            "a.yaml:3: world.obstacles[0].centre: is not used by motion waypoints");
+  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: circle\n"),
+            "a.yaml:4: world.obstacles[0].motion: circle is not one of static, trefoil, wave, linear, waypoints");
+}
+
+TEST(ScenarioFile, RefusesObstaclesThatLackWhatTheirMotionNeeds) {
+  EXPECT_EQ(obstacle_error("name: a\n"), "a.yaml:3: world.obstacles[0].centre: is missing");
+  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: linear\n"), "a.yaml:3: world.obstacles[0].velocity: is missing");
+  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: wave\n"), "a.yaml:3: world.obstacles[0].amplitude: is missing");
+  EXPECT_EQ(obstacle_error("motion: waypoints\n"), "a.yaml:3: world.obstacles[0].points: has no point (at least 1)");
+  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      half_extents: [1, 0, 1]\n"),
+            "a.yaml:4: world.obstacles[0].half_extents[1]: 0 is out of range (0, 10000]");
+}
+
+TEST(ScenarioFile, RefusesWaypointsOutOfOrderAndHalfRepeats) {
+  const std::string head = "motion: waypoints\n      ";
+  EXPECT_EQ(obstacle_error(head + "points: [[0, 0, 0, 0], [1, 0, 0, 0], [1, 2, 0, 0]]\n"),
+            "a.yaml:4: world.obstacles[0].points: time 1 of point 2 is not after 1");
+  EXPECT_EQ(obstacle_error(head + "points: [[0, 0, 0, 0]]\n      repeat: true\n"),
+            "a.yaml:5: world.obstacles[0].repeat: true needs at least 2 points");
+  EXPECT_EQ(obstacle_error(head + "points: [[0, 0, 0, 0], [1, 1, 0, 0]]\n      repeat: true\n"),
+            "a.yaml:5: world.obstacles[0].repeat: true needs a last point that is the first one");
+  EXPECT_EQ(obstacle_error(head + "points: [[0, 0, 0, 0], [1, 0, 0, 0]]\n      repeat: true\n      vanish: true\n"),
+            "a.yaml:6: world.obstacles[0].vanish: true does not go with repeat");
+}
+
+TEST(ScenarioFile, RefusesNamesGivenTwice) {
+  EXPECT_EQ(obstacle_error("{name: a, centre: [0, 0, 0]}\n    - {name: b, centre: [0, 0, 0]}\n    - {name: a, centre: [1, 0, 0]}\n"),
+            "a.yaml:5: world.obstacles[2].name: a is the name of another entry too");
+  EXPECT_EQ(obstacle_error("{centre: [0, 0, 0]}\n    - {centre: [0, 0, 0]}\n"), "") << "obstacles need no name";
+  EXPECT_EQ(region_error("{name: a, class: water, ball: {centre: [0, 0, 0], radius: 1}}\n"
+                         "    - {name: a, class: water, ball: {centre: [0, 0, 0], radius: 1}}\n"),
+            "a.yaml:4: semantics.regions[1].name: a is the name of another entry too");
+}
+
+TEST(ScenarioFile, RefusesNamesThatDoNotFitTheirMessages) {
+  EXPECT_EQ(error_of("name: " + std::string(65, 'x')), "a.yaml:1: name: has 65 bytes (limit 64)");
+  EXPECT_EQ(error_of("name: \"a\\nb\""), "a.yaml:1: name: has a control character");
+  EXPECT_EQ(error_of("semantics:\n  classes:\n    " + std::string(33, 'x') + ": free\n"),
+            "a.yaml:3: semantics.classes." + std::string(33, 'x') + ": has 33 bytes (limit 32)");
+}
+
+TEST(ScenarioFile, RefusesRecordedColumnsBeyondTheLineOrUsedTwice) {
+  const auto recorded = [](const std::string& lines) { return error_of("world:\n  recorded:\n    - file: x.txt\n" + lines); };
+  EXPECT_EQ(recorded(""), "");
+  EXPECT_EQ(recorded("      columns: 4\n      y_column: 4\n"), "a.yaml:5: world.recorded[0].y_column: 4 is out of range [0, 3]");
+  EXPECT_EQ(recorded("      z_column: 2\n"), "a.yaml:4: world.recorded[0].z_column: column 2 is another key's column too");
+  EXPECT_EQ(error_of("world:\n  recorded:\n    - columns: 5\n"), "a.yaml:3: world.recorded[0].file: is missing");
+}
+
+TEST(ScenarioFile, RefusesRegionsWithoutExactlyOneShape) {
+  EXPECT_EQ(region_error("name: a\n      class: water\n"),
+            "a.yaml:3: semantics.regions[0].name: 0 shapes (give one of box, ball, prism)");
+  EXPECT_EQ(region_error("name: a\n      class: water\n      ball: {centre: [0, 0, 0], radius: 1}\n      box: {}\n"),
+            "a.yaml:3: semantics.regions[0].name: 2 shapes (give one of box, ball, prism)");
+}
+
+TEST(ScenarioFile, RefusesRegionsOfAClassThatHasNoLabel) {
+  EXPECT_EQ(region_error("name: a\n      class: grass\n      ball: {centre: [0, 0, 0], radius: 1}\n"),
+            "a.yaml:4: semantics.regions[0].class: grass is not one of semantics.classes");
+  EXPECT_EQ(error_of("semantics:\n  classes:\n    water: wet\n"),
+            "a.yaml:3: semantics.classes.water: wet is not one of unknown, free, occupied, attractive, repulsive");
+}
+
+TEST(ScenarioFile, RefusesPrismsThatAreNoSolid) {
+  const auto prism = [](const std::string& corners, const std::string& z) {
+    return region_error("name: a\n      class: water\n      prism:\n        corners: " + corners + "\n" + z);
+  };
+  const std::string z = "        z_min: 0\n        z_max: 1\n";
+  EXPECT_EQ(prism("[[0, 0], [1, 0], [0, 1]]", z), "");
+  EXPECT_EQ(prism("[[0, 0], [1, 0]]", z), "a.yaml:6: semantics.regions[0].prism.corners: 2 of them (at least 3)");
+  EXPECT_EQ(prism("[[0, 0], [1, 1], [1, 0], [0, 1]]", z),
+            "a.yaml:6: semantics.regions[0].prism.corners: the polygon touches or crosses itself");
+  EXPECT_EQ(prism("[[0, 0], [1, 0], [0, 1]]", "        z_min: 1\n        z_max: 1\n"),
+            "a.yaml:8: semantics.regions[0].prism.z_max: is not greater than z_min");
+}
+
+TEST(ScenarioFile, RefusesSeedsAndTimeoutsOutOfRange) {
+  EXPECT_EQ(error_of("seed: -1\n"), "a.yaml:1: seed: -1 is out of range [0, 9223372036854775807]");
+  EXPECT_EQ(error_of("timeout_s: 0\n"), "a.yaml:1: timeout_s: 0 is out of range (0, 1000000]");
+}
+
+}  // namespace
+}  // namespace tern
