@@ -16,8 +16,9 @@ namespace tern {
 template <class T>
 class BatchCollector {
  public:
-  /// @return the batches of the set in index order when `message` completed it. Batches of a sender epoch or a set older than
-  /// the newest seen are dropped, and so are those that contradict the set's count. Out-of-order arrival within a set is fine; a repeated batch changes nothing.
+  /// @return the batches of the set in index order when `message` completed it. Batches of a sender epoch or a set
+  /// older than the newest seen are dropped, and so are those that contradict the set's count. Out-of-order arrival
+  /// within a set is fine; a repeated batch changes nothing.
   std::optional<std::vector<T>> add(const T& message) {
     const std::pair key{message.header.name.sender_epoch_us, message.batch.set};
     if (key < key_ || (key == key_ && missing_ == 0)) return std::nullopt;

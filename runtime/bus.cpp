@@ -19,7 +19,8 @@ namespace tern {
 namespace {
 
 constexpr Duration kLogInterval{1'000'000};
-/// Senders whose sequence a channel remembers; the one not heard longest is forgotten first, so that forged epochs cost no memory.
+/// Senders whose sequence a channel remembers; the one not heard longest is forgotten first, so that forged epochs cost
+/// no memory.
 constexpr std::size_t kMaxSenders = 64;
 /// A forged sequence number shall not overflow the sum: no honest gap is as long.
 constexpr std::int64_t kMaxGap = 1'000'000'000;
@@ -105,7 +106,8 @@ struct Bus::State {
   static void on_any(const lcm::ReceiveBuffer* buffer, const std::string& wire_name, State* state) {
     if (state->error) return;
     try {
-      state->listener(wire_name, buffer->recv_utime, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+      state->listener(wire_name, buffer->recv_utime,
+                      {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
     } catch (...) {
       state->error = std::current_exception();
     }
@@ -205,7 +207,8 @@ void Bus::reject(const std::string& name, Rejection reason) {
   if (std::exchange(channel.counted, true)) return;
   ++channel.counters.rejected[static_cast<int>(reason)];
   if (const auto times = channel.reject_log.admit(clock_.now())) {
-    spdlog::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, to_string(reason), *times);
+    spdlog::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, to_string(reason),
+                 *times);
   }
 }
 

@@ -1,4 +1,5 @@
-// The bus: typed publish and subscribe over LCM with a firewall, names, counters and pacing. The only owner of LCM in a process.
+// The bus: typed publish and subscribe over LCM with a firewall, names, counters and pacing. The only owner of LCM in a
+// process.
 #pragma once
 
 #include <cstdint>
@@ -24,19 +25,21 @@ namespace tern {
 /// Batches of a set leave at least this far apart: LCM drops what does not fit the socket buffer.
 inline constexpr Duration kPacing{2'000};
 
-/// What LCM may hold of one subscription until the process comes to read it; then it drops the newest. Ten seconds at 100 Hz:
-/// a process that was stopped for a moment finds no gap in a state's sequence, only old messages.
+/// What LCM may hold of one subscription until the process comes to read it; then it drops the newest. Ten seconds at
+/// 100 Hz: a process that was stopped for a moment finds no gap in a state's sequence, only old messages.
 inline constexpr int kQueueCapacity = 1'000;
 
 /// The same for a listener to all channels, which may wait for a disk: over twenty seconds of a flight.
 inline constexpr int kListenCapacity = 50'000;
 
-/// One process's end of the LCM network. Not thread-safe but for publish() and counters() (a planner's worker publishes its answer).
+/// One process's end of the LCM network. Not thread-safe but for publish() and counters() (a planner's worker publishes
+/// its answer).
 ///
 /// publish() fills in header.name and header.utime. subscribe() hands over only messages that decode exactly and pass
-/// validation; the others are counted by reason and logged at most once a second per channel, and change nothing. Gaps in a
-/// sender's sequence numbers are counted as lost; the first message heard of a sender epoch begins its count, so neither a
-/// late joiner nor a sender's restart is loss. Messages of this bus's own epoch are delivered too (LCM loops back).
+/// validation; the others are counted by reason and logged at most once a second per channel, and change nothing. Gaps
+/// in a sender's sequence numbers are counted as lost; the first message heard of a sender epoch begins its count, so
+/// neither a late joiner nor a sender's restart is loss. Messages of this bus's own epoch are delivered too (LCM loops
+/// back).
 class Bus {
  public:
   /// @param lcm  shared by all nodes of a process (memq:// delivers only within one instance)
@@ -49,7 +52,8 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// Whether a channel name or suffix is one that LCM takes literally: letters, digits, '_' and '-', at most 63 (it may be empty).
+  /// Whether a channel name or suffix is one that LCM takes literally: letters, digits, '_' and '-', at most 63 (it may
+  /// be empty).
   static bool is_channel_name(std::string_view name);
 
   /// Sends now. Returns the name that the message got. Thread-safe: sequence numbers leave in order.
@@ -76,22 +80,23 @@ class Bus {
     send_paced(channel, std::move(encoders));
   }
 
-  /// Calls `handler` with every accepted message of the channel. Several handlers of one channel are called in the order
-  /// of their subscription, and the message is counted once. What a handler throws is kept for rethrow(): nothing may
-  /// unwind through LCM.
+  /// Calls `handler` with every accepted message of the channel. Several handlers of one channel are called in the
+  /// order of their subscription, and the message is counted once. What a handler throws is kept for rethrow(): nothing
+  /// may unwind through LCM.
   template <class T>
   void subscribe(std::string_view channel, std::function<void(const T&)> handler) {
-    subscribe_raw(channel,
-                  [this, handler = std::move(handler), name = std::string(channel)](std::span<const std::uint8_t> bytes) {
-                    auto message = decode<T>(bytes);
-                    if (!message) return reject(name, message.error());
-                    accept(name, message->header.name);
-                    handler(*message);
-                  });
+    subscribe_raw(channel, [this, handler = std::move(handler),
+                            name = std::string(channel)](std::span<const std::uint8_t> bytes) {
+      auto message = decode<T>(bytes);
+      if (!message) return reject(name, message.error());
+      accept(name, message->header.name);
+      handler(*message);
+    });
   }
 
-  /// Hands over every message of every channel as it came, unchecked and uncounted: what a recorder needs. `received_us` is when the
-  /// kernel took it from the network, µs since the Unix epoch. Channel names are the wire's, with their suffixes.
+  /// Hands over every message of every channel as it came, unchecked and uncounted: what a recorder needs.
+  /// `received_us` is when the kernel took it from the network, µs since the Unix epoch. Channel names are the wire's,
+  /// with their suffixes.
   using Listener =
       std::function<void(std::string_view wire_name, std::int64_t received_us, std::span<const std::uint8_t> bytes)>;
   /// One listener at most; kListenCapacity messages wait for it in LCM's queue at most.
@@ -101,10 +106,11 @@ class Bus {
   void send_due(UTime now);              ///< sends what is due, at most one message per channel
   /// A copy, by channel name without suffix. Thread-safe.
   [[nodiscard]] std::map<std::string, ChannelCounters> counters() const;
-  void count_late(std::string_view channel);  ///< a node found an accepted message too old to be used
-  [[nodiscard]] std::int64_t unsent() const;  ///< paced messages that a newer set replaced before they left
+  void count_late(std::string_view channel);      ///< a node found an accepted message too old to be used
+  [[nodiscard]] std::int64_t unsent() const;      ///< paced messages that a newer set replaced before they left
   [[nodiscard]] std::int64_t deliveries() const;  ///< messages that came in, accepted or not
-  /// Throws what a handler threw, if one did since the last call. Deliveries stop until then. Runners call it after a drain.
+  /// Throws what a handler threw, if one did since the last call. Deliveries stop until then. Runners call it after a
+  /// drain.
   void rethrow();
   [[nodiscard]] const Clock& clock() const { return clock_; }
   [[nodiscard]] std::int64_t epoch_us() const { return epoch_us_; }

@@ -90,10 +90,10 @@ bool allows(const Range& range, double v) {
 }  // namespace
 
 struct ConfigSection::Impl {
-  const YamlValue* value = nullptr;  ///< null: the section is absent
+  const YamlValue* value = nullptr;           ///< null: the section is absent
   std::shared_ptr<const YamlValue> document;  ///< keeps `value` alive
-  std::string path;                  ///< "uav.limits"; "" at the top
-  std::string where;                 ///< for messages about what is missing
+  std::string path;                           ///< "uav.limits"; "" at the top
+  std::string where;                          ///< for messages about what is missing
   std::set<std::string, std::less<>> known;
   RecordPtr record = std::make_shared<Record>();
   std::map<std::string, std::shared_ptr<Impl>, std::less<>> sections;
@@ -140,7 +140,8 @@ struct ConfigSection::Impl {
   std::vector<double> numbers(std::string_view key, const YamlValue& v, const Range& range) const {
     if (v.kind != YamlValue::Kind::Sequence) throw error(key, &v, v.describe() + " is not a list of numbers");
     std::vector<double> result;
-    for (std::size_t i = 0; i < v.items.size(); ++i) result.push_back(number(fmt::format("{}[{}]", key, i), v.items[i], range));
+    for (std::size_t i = 0; i < v.items.size(); ++i)
+      result.push_back(number(fmt::format("{}[{}]", key, i), v.items[i], range));
     return result;
   }
 
@@ -183,7 +184,8 @@ std::int64_t ConfigSection::integer(std::string_view key, std::int64_t fallback,
     const char* const end = v->scalar.data() + v->scalar.size();
     const auto [rest, error] = std::from_chars(v->scalar.data(), end, result);
     const bool digits = v->kind == YamlValue::Kind::Scalar && !v->quoted && rest == end && !v->scalar.empty();
-    if (!digits || error == std::errc::invalid_argument) throw impl_->error(key, v, v->describe() + " is not an integer");
+    if (!digits || error == std::errc::invalid_argument)
+      throw impl_->error(key, v, v->describe() + " is not an integer");
     if (error != std::errc{} || result < low || result > high) {
       throw impl_->error(key, v, fmt::format("{} is out of range [{}, {}]", v->describe(), low, high));
     }
@@ -244,7 +246,8 @@ std::vector<std::vector<double>> ConfigSection::rows(std::string_view key, std::
   std::vector<std::vector<double>> result;
   std::vector<std::string> rendered;
   if (const YamlValue* v = impl_->find(key)) {
-    if (v->kind != YamlValue::Kind::Sequence) throw impl_->error(key, v, v->describe() + " is not a list of lists of numbers");
+    if (v->kind != YamlValue::Kind::Sequence)
+      throw impl_->error(key, v, v->describe() + " is not a list of lists of numbers");
     for (const YamlValue& row : v->items) {
       const std::string row_key = fmt::format("{}[{}]", key, result.size());
       if (row.items.size() != columns) {

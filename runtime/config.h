@@ -16,14 +16,14 @@
 
 namespace tern {
 
-/// what() is for the user: "scenarios/x.yaml:12: uav.limits.v_max: -3 is out of range (0, 1000]"; for a value of the command
-/// line "--set uav.limits.v_max=-3: uav.limits.v_max: -3 is out of range (0, 1000]".
+/// what() is for the user: "scenarios/x.yaml:12: uav.limits.v_max: -3 is out of range (0, 1000]"; for a value of the
+/// command line "--set uav.limits.v_max=-3: uav.limits.v_max: -3 is out of range (0, 1000]".
 class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A closed or open interval of allowed numbers. Infinity (written `inf`) is allowed only where `high` is infinite and `low` is
-/// not, as in Range::positive(infinity); NaN never.
+/// A closed or open interval of allowed numbers. Infinity (written `inf`) is allowed only where `high` is infinite and
+/// `low` is not, as in Range::positive(infinity); NaN never.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -34,12 +34,13 @@ struct Range {
   static Range within(double magnitude) { return {-magnitude, magnitude}; }
 };
 
-/// One mapping of a YAML file. Every read names its default, so that the effective configuration can be written out whole.
-/// All methods throw ConfigError. Call finish() when all keys are read: it refuses the unknown ones. Copies, and sections
-/// got twice by the same key, are the same section.
+/// One mapping of a YAML file. Every read names its default, so that the effective configuration can be written out
+/// whole. All methods throw ConfigError. Call finish() when all keys are read: it refuses the unknown ones. Copies, and
+/// sections got twice by the same key, are the same section.
 ///
-/// Types are strict: a number is a plain scalar like 3, -0.5, 1e-3 or inf, an integer has no point, a flag is true or false; a
-/// quoted scalar is text only; a key without a value is an error, except that an empty section or list may be written so.
+/// Types are strict: a number is a plain scalar like 3, -0.5, 1e-3 or inf, an integer has no point, a flag is true or
+/// false; a quoted scalar is text only; a key without a value is an error, except that an empty section or list may be
+/// written so.
 class ConfigSection {
  public:
   double number(std::string_view key, double fallback, Range range = {});
@@ -58,9 +59,9 @@ class ConfigSection {
   double required_number(std::string_view key, Range range = {});
   std::string required_text(std::string_view key);
   Vec3 required_vec3(std::string_view key, Range each = {});
-  ConfigSection section(std::string_view key);               ///< an absent mapping is an empty one
-  std::vector<ConfigSection> list(std::string_view key);     ///< of mappings; absent is empty
-  std::vector<std::string> keys() const;                     ///< in file order (for open tables such as classes)
+  ConfigSection section(std::string_view key);            ///< an absent mapping is an empty one
+  std::vector<ConfigSection> list(std::string_view key);  ///< of mappings; absent is empty
+  std::vector<std::string> keys() const;                  ///< in file order (for open tables such as classes)
   /// Marks a key as known without reading it (another process's section).
   void ignore(std::string_view key);
   /// @throws ConfigError at the first key that was neither read nor ignored; it lists the known ones.
@@ -79,8 +80,8 @@ class ConfigSection {
 /// A YAML file with `--set key.path=value` overrides applied.
 class ConfigDocument {
  public:
-  /// An override's path may name an entry of a list as in `world.obstacles[2].centre`; what is missing of the path is made; its
-  /// value is YAML. Overrides are applied in their order. An empty file name is an empty document.
+  /// An override's path may name an entry of a list as in `world.obstacles[2].centre`; what is missing of the path is
+  /// made; its value is YAML. Overrides are applied in their order. An empty file name is an empty document.
   /// @throws ConfigError: no such file, not YAML, a key given twice, an override that is not key=value.
   static ConfigDocument load(const std::string& file, const std::vector<std::string>& overrides);
   /// The same for YAML in memory; `name` stands where the file's name would.

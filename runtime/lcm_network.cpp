@@ -26,8 +26,8 @@ std::optional<int> requested_buffer(std::string_view url) {
   return bytes;
 }
 
-/// What the kernel grants a socket that asks for so much: LCM does not let us at its own. It doubles what it grants (and says so),
-/// for its own bookkeeping; half of it is for messages.
+/// What the kernel grants a socket that asks for so much: LCM does not let us at its own. It doubles what it grants
+/// (and says so), for its own bookkeeping; half of it is for messages.
 std::optional<int> granted_buffer(int requested) {
   const int probe = socket(AF_INET, SOCK_DGRAM, 0);
   if (probe < 0) return std::nullopt;
@@ -47,8 +47,8 @@ void report_buffer(const std::string& url) {
   if (!granted) {
     spdlog::warn("LCM receive buffer: {} bytes asked for, what was granted is unknown", *requested);
   } else if (*granted < *requested) {
-    spdlog::warn("LCM receive buffer: {} bytes asked for, {} granted (more: sysctl -w net.core.rmem_max={})", *requested,
-                 *granted, *requested);
+    spdlog::warn("LCM receive buffer: {} bytes asked for, {} granted (more: sysctl -w net.core.rmem_max={})",
+                 *requested, *granted, *requested);
   } else {
     spdlog::info("LCM receive buffer: {} bytes granted", *granted);
   }
@@ -68,10 +68,11 @@ Result<std::shared_ptr<lcm::LCM>> open_lcm(const std::string& url) {
   auto lcm = std::make_shared<lcm::LCM>(url);
   // getFileno() sets up reception and tests it once: a host that can send but not receive is found here.
   if (!lcm->good() || lcm->getFileno() < 0) {
-    return fail(fmt::format("LCM cannot use {}. If this host has no multicast route, give it one: "
-                            "`ip link set lo multicast on up; ip route add 224.0.0.0/4 dev lo` as root, or run inside "
-                            "`unshare -Urn` with the same two commands; see docs.",
-                            url));
+    return fail(
+        fmt::format("LCM cannot use {}. If this host has no multicast route, give it one: "
+                    "`ip link set lo multicast on up; ip route add 224.0.0.0/4 dev lo` as root, or run inside "
+                    "`unshare -Urn` with the same two commands; see docs.",
+                    url));
   }
   report_buffer(url);
   return lcm;

@@ -1,4 +1,5 @@
-// A node: a process's life as values and deadlines, so that it runs alone on the wall clock or with all others in virtual time.
+// A node: a process's life as values and deadlines, so that it runs alone on the wall clock or with all others in
+// virtual time.
 #pragma once
 
 #include <limits>

@@ -20,8 +20,8 @@
 namespace tern {
 namespace {
 
-/// SIGINT and SIGTERM as a readable descriptor. Made before LCM starts its thread, so that every thread inherits the mask and no
-/// signal can arrive between a check and a wait.
+/// SIGINT and SIGTERM as a readable descriptor. Made before LCM starts its thread, so that every thread inherits the
+/// mask and no signal can arrive between a check and a wait.
 class StopSignals {
  public:
   StopSignals() {
@@ -57,12 +57,15 @@ struct Options {
 void declare(CLI::App& app, Options& options, const ProcessDescription& description) {
   app.set_version_flag("--version", fmt::format("{} {}", description.name, build_id()));
   app.add_option("--config", options.config, "Scenario file (YAML); without it, all defaults")->type_name("FILE");
-  app.add_option("--set", options.overrides, "Override a value of the scenario file, as uav.limits.v_max=3 (repeatable)")
+  app.add_option("--set", options.overrides,
+                 "Override a value of the scenario file, as uav.limits.v_max=3 (repeatable)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--lcm-url", options.lcm_url, fmt::format("LCM network; else LCM_DEFAULT_URL, else {}", kDefaultLcmUrl))
+  app.add_option("--lcm-url", options.lcm_url,
+                 fmt::format("LCM network; else LCM_DEFAULT_URL, else {}", kDefaultLcmUrl))
       ->type_name("URL");
-  app.add_option("--clock-offset-us", options.clock_offset_us, "Added to the system clock, to test skew")->type_name("N");
+  app.add_option("--clock-offset-us", options.clock_offset_us, "Added to the system clock, to test skew")
+      ->type_name("N");
   const auto plain = [](const std::string& suffix) {
     return Bus::is_channel_name(suffix) ? std::string() : suffix + ": only letters, digits, '_' and '-'";
   };

@@ -18,41 +18,42 @@ class App;
 
 namespace tern {
 
-inline constexpr int kExitBadConfiguration = 2;   ///< bad command line, configuration or scenario; nothing was published
-inline constexpr int kExitNoNetwork = 3;          ///< LCM cannot be used
-inline constexpr int kExitStuck = 70;             ///< stuck, or an internal error (in the log): restart me
+inline constexpr int kExitBadConfiguration = 2;  ///< bad command line, configuration or scenario; nothing was published
+inline constexpr int kExitNoNetwork = 3;         ///< LCM cannot be used
+inline constexpr int kExitStuck = 70;            ///< stuck, or an internal error (in the log): restart me
 
 /// What a process is given to build its node.
 struct ProcessContext {
   const Scenario& scenario;
-  ConfigSection section;    ///< this process's own section of the scenario file; the node calls finish()
+  ConfigSection section;  ///< this process's own section of the scenario file; the node calls finish()
   Bus& bus;
-  /// The document of both: for a process that hosts another's part (the simulator reads `executor` too). When all sections have
-  /// been read, configuration_hash(document.effective()) names the configuration.
+  /// The document of both: for a process that hosts another's part (the simulator reads `executor` too). When all
+  /// sections have been read, configuration_hash(document.effective()) names the configuration.
   ConfigDocument& document;
 };
 
-/// The text that CONFIGURATION carries: the effective configuration, or its head with a last line that says how much was cut and the
-/// digest of the whole, so that texts differ when configurations do.
+/// The text that CONFIGURATION carries: the effective configuration, or its head with a last line that says how much
+/// was cut and the digest of the whole, so that texts differ when configurations do.
 std::string reported_yaml(const std::string& effective_yaml);
 
 /// The hash that CONFIGURATION carries, and PLAN as its configuration_hash: digest(reported_yaml(effective_yaml)).
 std::uint64_t configuration_hash(const std::string& effective_yaml);
 
 struct ProcessDescription {
-  std::string name;         ///< "tern-planner"
-  std::string section;      ///< "planner": its key in the scenario file; "" if it has none
-  std::string summary;      ///< one line for --help
+  std::string name;                                 ///< "tern-planner"
+  std::string section;                              ///< "planner": its key in the scenario file; "" if it has none
+  std::string summary;                              ///< one line for --help
   std::function<void(CLI::App&)> add_options = {};  ///< options besides the common ones
 };
 
 using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 
-/// Parses --help, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL, --clock-offset-us N, --channel-suffix S, --log-level L;
-/// loads the scenario (without --config: all defaults), makes the node, publishes CONFIGURATION (at start, then every 5 s) and
-/// HEARTBEAT (2 Hz), and runs until the node has finished, or SIGINT/SIGTERM (exit 0). Logs to stderr. The epoch is the wall
-/// clock's time at the start, without the offset.
-/// @return the exit code: the node's own, 0 after a signal, or kExit…. ConfigError and bad options: the message on stderr, exit 2.
+/// Parses --help, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL, --clock-offset-us N, --channel-suffix S,
+/// --log-level L; loads the scenario (without --config: all defaults), makes the node, publishes CONFIGURATION (at
+/// start, then every 5 s) and HEARTBEAT (2 Hz), and runs until the node has finished, or SIGINT/SIGTERM (exit 0). Logs
+/// to stderr. The epoch is the wall clock's time at the start, without the offset.
+/// @return the exit code: the node's own, 0 after a signal, or kExit…. ConfigError and bad options: the message on
+/// stderr, exit 2.
 int run_process(int argc, char** argv, const ProcessDescription& description, const NodeFactory& make_node);
 
 /// Hosts one node: its heartbeat and configuration reports, its pacing. The same in a process and in virtual time.
@@ -64,7 +65,8 @@ class NodeHost {
   [[nodiscard]] UTime next_wakeup() const;
   /// Whether step(now) has something to do: a wakeup has come, or messages were delivered since the last step.
   [[nodiscard]] bool is_due(UTime now) const;
-  /// Steps the node if is_due for its sake, then sends what is due. A node that has just finished says so on HEARTBEAT at once.
+  /// Steps the node if is_due for its sake, then sends what is due. A node that has just finished says so on HEARTBEAT
+  /// at once.
   void step(UTime now);
   [[nodiscard]] const Node& node() const { return node_; }
   [[nodiscard]] const std::string& process() const { return process_; }

@@ -34,14 +34,16 @@ void check_name(const ConfigSection& section, std::string_view key, const std::s
 /// A name that no other entry of the same list has.
 std::string unique_name(const ConfigSection& section, std::string name, std::set<std::string>& taken) {
   check_name(section, "name", name, kMaxNameBytes);
-  if (!name.empty() && !taken.insert(name).second) throw section.error("name", name + " is the name of another entry too");
+  if (!name.empty() && !taken.insert(name).second)
+    throw section.error("name", name + " is the name of another entry too");
   return name;
 }
 
 Box read_box(ConfigSection section) {
   const Box box(section.required_vec3("min", kPosition), section.required_vec3("max", kPosition));
   section.finish();
-  if (!(box.min().array() < box.max().array()).all()) throw section.error("max", "is not greater than min on every axis");
+  if (!(box.min().array() < box.max().array()).all())
+    throw section.error("max", "is not greater than min on every axis");
   return box;
 }
 
@@ -56,7 +58,8 @@ WaypointMotion read_waypoints(ConfigSection& section) {
       throw section.error("points", fmt::format("point {} lies farther out than {} m", index, kPosition.high));
     }
     if (index > 0 && row[0] <= motion.points.back().first) {
-      throw section.error("points", fmt::format("time {} of point {} is not after {}", row[0], index, motion.points.back().first));
+      throw section.error(
+          "points", fmt::format("time {} of point {} is not after {}", row[0], index, motion.points.back().first));
     }
     motion.points.emplace_back(row[0], p);
   }
@@ -71,8 +74,7 @@ WaypointMotion read_waypoints(ConfigSection& section) {
 
 /// Each motion reads its own keys only, so that finish() refuses those of the others.
 void read_motion(ConfigSection& section, ObstacleSpec& obstacle) {
-  const std::string motion =
-      section.choice("motion", "static", {"static", "trefoil", "wave", "linear", "waypoints"});
+  const std::string motion = section.choice("motion", "static", {"static", "trefoil", "wave", "linear", "waypoints"});
   if (motion == "waypoints") {
     obstacle.motion = read_waypoints(section);
     if (section.has("centre")) throw section.error("centre", "is not used by motion waypoints");
@@ -155,7 +157,8 @@ Points box_corners(const Vec3& h) {
 
 Body read_body(ConfigSection section) {
   Body body;
-  const int shapes = (section.has("radius") ? 1 : 0) + (section.has("half_extents") ? 1 : 0) + (section.has("vertices") ? 1 : 0);
+  const int shapes =
+      (section.has("radius") ? 1 : 0) + (section.has("half_extents") ? 1 : 0) + (section.has("vertices") ? 1 : 0);
   if (shapes > 1) throw section.error("radius", "give one of radius, half_extents, vertices");
   if (section.has("half_extents")) {
     body.vertices = box_corners(section.required_vec3("half_extents", Range::positive(100.0)));
@@ -193,9 +196,10 @@ UavSpec read_uav(ConfigSection section) {
     if (uav.flight_box.contains(box_around(p, h))) return;
     const Vec3 low = uav.flight_box.min() + h;
     const Vec3 high = uav.flight_box.max() - h;
-    throw section.error(key, fmt::format("[{}, {}, {}] is outside the flight box, body included (limits [{}, {}, {}] to "
-                                         "[{}, {}, {}])",
-                                         p.x(), p.y(), p.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
+    throw section.error(key,
+                        fmt::format("[{}, {}, {}] is outside the flight box, body included (limits [{}, {}, {}] to "
+                                    "[{}, {}, {}])",
+                                    p.x(), p.y(), p.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
   };
   check("start", uav.start);
   check("goal", uav.goal);
@@ -205,11 +209,13 @@ UavSpec read_uav(ConfigSection section) {
 
 PrismRegion read_prism(ConfigSection section) {
   PrismRegion prism;
-  for (const std::vector<double>& row : section.rows("corners", 2, kPosition)) prism.corners.emplace_back(row[0], row[1]);
+  for (const std::vector<double>& row : section.rows("corners", 2, kPosition))
+    prism.corners.emplace_back(row[0], row[1]);
   prism.z_min = section.required_number("z_min", kPosition);
   prism.z_max = section.required_number("z_max", kPosition);
   section.finish();
-  if (prism.corners.size() < 3) throw section.error("corners", fmt::format("{} of them (at least 3)", prism.corners.size()));
+  if (prism.corners.size() < 3)
+    throw section.error("corners", fmt::format("{} of them (at least 3)", prism.corners.size()));
   if (!is_simple_polygon(prism.corners)) throw section.error("corners", "the polygon touches or crosses itself");
   if (prism.z_min >= prism.z_max) throw section.error("z_max", "is not greater than z_min");
   return prism;
@@ -244,7 +250,8 @@ decltype(SemanticsSpec::classes) read_classes(ConfigSection classes, bool is_giv
   const std::vector<std::string> labels = {"unknown", "free", "occupied", "attractive", "repulsive"};
   decltype(SemanticsSpec::classes) result;
   if (!is_given) {
-    for (const auto& [name, label] : SemanticsSpec{}.classes) result.emplace_back(name, classes.choice(name, label, labels));
+    for (const auto& [name, label] : SemanticsSpec{}.classes)
+      result.emplace_back(name, classes.choice(name, label, labels));
   }
   for (const std::string& name : classes.keys()) {
     check_name(classes, name, name, kMaxClassBytes);
@@ -256,8 +263,10 @@ decltype(SemanticsSpec::classes) read_classes(ConfigSection classes, bool is_giv
 SemanticsSpec read_semantics(ConfigSection section) {
   SemanticsSpec semantics;
   semantics.enabled = section.flag("enabled", semantics.enabled);
-  semantics.lambda_attractive = section.number("lambda_attractive", semantics.lambda_attractive, Range::at_least(0.0, 1e6));
-  semantics.lambda_repulsive = section.number("lambda_repulsive", semantics.lambda_repulsive, Range::at_least(0.0, 1e6));
+  semantics.lambda_attractive =
+      section.number("lambda_attractive", semantics.lambda_attractive, Range::at_least(0.0, 1e6));
+  semantics.lambda_repulsive =
+      section.number("lambda_repulsive", semantics.lambda_repulsive, Range::at_least(0.0, 1e6));
   semantics.cost = section.choice("cost", semantics.cost, {"exposure", "mean_distance"});
   semantics.classes = read_classes(section.section("classes"), section.has("classes"));
   // The map's class 0 is "none".

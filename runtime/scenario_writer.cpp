@@ -12,7 +12,9 @@ std::string to_yaml(const Vec3& v) {
   return fmt::format("[{}, {}, {}]", yaml_number(v.x()), yaml_number(v.y()), yaml_number(v.z()));
 }
 
-std::string to_yaml(const Box& box) { return fmt::format("{{min: {}, max: {}}}", to_yaml(box.min()), to_yaml(box.max())); }
+std::string to_yaml(const Box& box) {
+  return fmt::format("{{min: {}, max: {}}}", to_yaml(box.min()), to_yaml(box.max()));
+}
 
 /// The keys of a motion, each on a line of its own; static has none but its centre.
 std::string motion_yaml(const ObstacleSpec& obstacle) {
@@ -104,15 +106,16 @@ std::string shape_yaml(const PrismRegion& prism) {
 }
 
 std::string semantics_yaml(const SemanticsSpec& semantics) {
-  std::string out = fmt::format("semantics:\n  enabled: {}\n  lambda_attractive: {}\n  lambda_repulsive: {}\n  cost: {}\n",
-                                semantics.enabled, yaml_number(semantics.lambda_attractive),
-                                yaml_number(semantics.lambda_repulsive), semantics.cost);
+  std::string out = fmt::format(
+      "semantics:\n  enabled: {}\n  lambda_attractive: {}\n  lambda_repulsive: {}\n  cost: {}\n", semantics.enabled,
+      yaml_number(semantics.lambda_attractive), yaml_number(semantics.lambda_repulsive), semantics.cost);
   out += semantics.classes.empty() ? "  classes: {}\n" : "  classes:\n";
   for (const auto& [name, label] : semantics.classes) out += fmt::format("    {}: {}\n", yaml_text(name), label);
   out += semantics.regions.empty() ? "" : "  regions:\n";
   for (const Region& region : semantics.regions) {
     const std::string shape = std::visit([](const auto& s) { return shape_yaml(s); }, region.shape);
-    out += fmt::format("    - name: {}\n      class: {}\n      {}\n", yaml_text(region.name), yaml_text(region.class_name), shape);
+    out += fmt::format("    - name: {}\n      class: {}\n      {}\n", yaml_text(region.name),
+                       yaml_text(region.class_name), shape);
   }
   return out;
 }

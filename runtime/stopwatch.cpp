@@ -1,6 +1,7 @@
 #include "runtime/stopwatch.h"
 
 #include <sys/resource.h>
+
 #include <ctime>
 
 namespace tern {

@@ -27,9 +27,10 @@ struct RunResult {
 
 /// A network of nodes that share one clock which moves only when all of them have nothing to do.
 ///
-/// At each instant, in turn until nothing is left: every message is delivered in the order of publishing, then the hosts that are due
-/// are stepped in the order of their start; then the clock jumps to the earliest wakeup (of a node, a report or a paced message). So
-/// a message takes no time, nothing is lost, and equal nodes with equal inputs give equal messages, byte for byte and in order.
+/// At each instant, in turn until nothing is left: every message is delivered in the order of publishing, then the
+/// hosts that are due are stepped in the order of their start; then the clock jumps to the earliest wakeup (of a node,
+/// a report or a paced message). So a message takes no time, nothing is lost, and equal nodes with equal inputs give
+/// equal messages, byte for byte and in order.
 class VirtualRunner {
  public:
   /// @param start  µs, > 0 so that it is a valid time in messages
@@ -38,16 +39,18 @@ class VirtualRunner {
   VirtualRunner(const VirtualRunner&) = delete;
   VirtualRunner& operator=(const VirtualRunner&) = delete;
 
-  /// Starts a process: a bus of its own (its epoch is the time now, made unique by counting up), the node that `make` builds on it,
-  /// their host. @return the node, which lives until stop() or the runner's end.
+  /// Starts a process: a bus of its own (its epoch is the time now, made unique by counting up), the node that `make`
+  /// builds on it, their host. @return the node, which lives until stop() or the runner's end.
   Node& start(std::string process, const std::function<std::unique_ptr<Node>(Bus&)>& make,
               const std::string& effective_yaml = "");
-  /// Kills the process as SIGKILL would: node, unsent messages and subscriptions are gone. @pre not called from a handler or step().
+  /// Kills the process as SIGKILL would: node, unsent messages and subscriptions are gone. @pre not called from a
+  /// handler or step().
   /// @throws std::invalid_argument when no process has this name.
   void stop(std::string_view process);
 
-  /// Runs until `until` (asked once per instant, when all messages of the instant are delivered; may be empty) holds, a node has
-  /// finished, or the time is `end`. Can be called again to go on. A finished node is still hosted; a later run() reports it again.
+  /// Runs until `until` (asked once per instant, when all messages of the instant are delivered; may be empty) holds, a
+  /// node has finished, or the time is `end`. Can be called again to go on. A finished node is still hosted; a later
+  /// run() reports it again.
   /// @throws what a handler or a node threw; std::logic_error when nodes keep each other busy without time passing.
   RunResult run(UTime end, const std::function<bool()>& until = {});
 

@@ -46,7 +46,7 @@ int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
     const UTime wakeup = host.next_wakeup();
     const Duration sleep = wakeup == kNever ? kLongestSleep : wakeup - clock.now();
     if (wait(fds, sleep)) {
-      drain(lcm, kMaxMessagesPerStep);  // a recorder keeps what has come in already
+      drain(lcm, kListenCapacity);  // a recorder keeps what has come in already
       host.bus().rethrow();
       return 0;
     }

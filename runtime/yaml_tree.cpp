@@ -42,7 +42,8 @@ YamlValue convert(const YAML::Node& node, const Locate& locate, int depth) {
         throw ConfigError(fmt::format("{}: key {} is given twice (first at {})", where, key, first->where));
       }
       value.entries.emplace_back(key, convert(entry.second, locate, depth + 1));
-      // A mapping below its key begins a line later, a value left out may lie anywhere: the key's line is what one looks for.
+      // A mapping below its key begins a line later, a value left out may lie anywhere: the key's line is what one
+      // looks for.
       value.entries.back().second.where = where;
     }
   }
@@ -106,7 +107,8 @@ YamlValue& descend(YamlValue& parent, const Step& step, const std::string& where
   }
   if (!step.index) return *child;
   if (*step.index >= child->items.size()) {
-    throw ConfigError(fmt::format("{}: {}[{}]: the list has {} entries", where, step.key, *step.index, child->items.size()));
+    throw ConfigError(
+        fmt::format("{}: {}[{}]: the list has {} entries", where, step.key, *step.index, child->items.size()));
   }
   return child->items[*step.index];
 }
@@ -114,7 +116,8 @@ YamlValue& descend(YamlValue& parent, const Step& step, const std::string& where
 }  // namespace
 
 const YamlValue* YamlValue::find(std::string_view key) const {
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.first == key; });
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.first == key; });
   return found == entries.end() ? nullptr : &found->second;
 }
 
@@ -131,7 +134,8 @@ std::string YamlValue::describe() const {
 }
 
 YamlValue parse_yaml(const std::string& text, const std::string& name) {
-  YamlValue document = parse_with(text, [&](const YAML::Mark& mark) { return fmt::format("{}:{}", name, mark.line + 1); });
+  YamlValue document =
+      parse_with(text, [&](const YAML::Mark& mark) { return fmt::format("{}:{}", name, mark.line + 1); });
   if (document.kind == YamlValue::Kind::Null) document.kind = YamlValue::Kind::Mapping;
   if (document.kind != YamlValue::Kind::Mapping) {
     throw ConfigError(fmt::format("{}: {} where keys are expected", document.where, document.describe()));
@@ -154,8 +158,11 @@ void apply_override(YamlValue& document, const std::string& override_text) {
 std::string yaml_text(std::string_view text) {
   static constexpr std::string_view kWords[] = {"true", "false", "null", "yes", "no", "on", "off", "inf", "nan"};
   std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto safe = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '/' || c == '.'; };
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto safe = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '/' || c == '.';
+  };
   const bool plain = !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0 &&
                      std::all_of(text.begin(), text.end(), safe) &&
                      std::find(std::begin(kWords), std::end(kWords), lower) == std::end(kWords);

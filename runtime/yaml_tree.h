@@ -12,10 +12,10 @@ namespace tern {
 struct YamlValue {
   enum class Kind { Null, Scalar, Sequence, Mapping };
   Kind kind = Kind::Null;
-  std::string where;   ///< "scenarios/x.yaml:12" or "--set key=value"
-  std::string scalar;  ///< of a Scalar
-  bool quoted = false; ///< a quoted scalar is text only
-  std::vector<YamlValue> items;                              ///< of a Sequence
+  std::string where;                                       ///< "scenarios/x.yaml:12" or "--set key=value"
+  std::string scalar;                                      ///< of a Scalar
+  bool quoted = false;                                     ///< a quoted scalar is text only
+  std::vector<YamlValue> items;                            ///< of a Sequence
   std::vector<std::pair<std::string, YamlValue>> entries;  ///< of a Mapping, in file order, no key twice
 
   /// The entry, or nullptr.

@@ -286,7 +286,8 @@ TEST_F(BusTest, PublishesFromSeveralThreadsInSequence) {
   const ChannelCounters counters = settle();
   EXPECT_EQ(counters.received, 4 * kEach);
   EXPECT_EQ(counters.lost, 0);
-  for (std::size_t i = 0; i < heard.size(); ++i) EXPECT_EQ(heard[i].header.name.sequence, static_cast<std::int64_t>(i) + 1);
+  for (std::size_t i = 0; i < heard.size(); ++i)
+    EXPECT_EQ(heard[i].header.name.sequence, static_cast<std::int64_t>(i) + 1);
 }
 
 TEST_F(BusTest, AHandlerMayPublishOnItsOwnChannel) {

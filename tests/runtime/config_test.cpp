@@ -80,7 +80,8 @@ TEST(Config, RefusesWhatIsNotANumber) {
   EXPECT_EQ(error_of("a:\n  x: {}\n", read), "a.yaml:2: a.x: a mapping is not a number");
   EXPECT_EQ(error_of("a:\n  x:\n", read), "a.yaml:2: a.x: nothing is not a number");
   for (const char* text : {"nan", ".nan", "1e999", "0x10", "1 2", "1,5", "--1", "+-1", "3m"}) {
-    EXPECT_EQ(error_of(std::string("a:\n  x: ") + text, read), std::string("a.yaml:2: a.x: ") + text + " is not a number");
+    EXPECT_EQ(error_of(std::string("a:\n  x: ") + text, read),
+              std::string("a.yaml:2: a.x: ") + text + " is not a number");
   }
 }
 
@@ -99,7 +100,8 @@ TEST(Config, TakesInfinityOnlyWhereTheRangeAllowsIt) {
     ConfigSection root = root_of(std::string("x: ") + text);
     EXPECT_EQ(root.number("x", 1.0, Range::positive(kInfinity)), kInfinity);
   }
-  EXPECT_EQ(error_of("x: inf", [](ConfigSection& s) { s.number("x", 1.0); }), "a.yaml:1: x: inf is out of range (-inf, inf)");
+  EXPECT_EQ(error_of("x: inf", [](ConfigSection& s) { s.number("x", 1.0); }),
+            "a.yaml:1: x: inf is out of range (-inf, inf)");
   EXPECT_EQ(error_of("x: inf", [](ConfigSection& s) { s.number("x", 1.0, Range::positive()); }),
             "a.yaml:1: x: inf is out of range (0, 1000000000]");
   EXPECT_EQ(error_of("x: -inf", [](ConfigSection& s) { s.number("x", 1.0, Range::positive(kInfinity)); }),
@@ -124,7 +126,11 @@ TEST(Config, RefusesFlagsThatAreNotTrueOrFalse) {
 }
 
 TEST(Config, RefusesWordsThatAreNoChoice) {
-  EXPECT_EQ(error_of("c: d", [](ConfigSection& s) { s.choice("c", "a", {"a", "b"}); }), "a.yaml:1: c: d is not one of a, b");
+  EXPECT_EQ(error_of("c: d",
+                     [](ConfigSection& s) {
+                       s.choice("c", "a", {"a", "b"});
+                     }),
+            "a.yaml:1: c: d is not one of a, b");
 }
 
 TEST(Config, RefusesListsOfAnotherLengthOrContent) {
@@ -165,7 +171,8 @@ TEST(Config, SaysWhereARequiredKeyIsMissing) {
 }
 
 TEST(Config, RefusesAKeyGivenTwice) {
-  EXPECT_EQ(error_of("a: 1\nb: 2\na: 3\n", [](ConfigSection&) {}), "a.yaml:3: key a is given twice (first at a.yaml:1)");
+  EXPECT_EQ(error_of("a: 1\nb: 2\na: 3\n", [](ConfigSection&) {}),
+            "a.yaml:3: key a is given twice (first at a.yaml:1)");
 }
 
 TEST(Config, RefusesWhatIsNotOneMappingOfYaml) {
@@ -174,7 +181,8 @@ TEST(Config, RefusesWhatIsNotOneMappingOfYaml) {
   EXPECT_EQ(error_of("- 1\n", nothing), "a.yaml:1: a list of 1 where keys are expected");
   EXPECT_EQ(error_of("a: 1\n---\nb: 1\n", nothing), "a.yaml:3: a second YAML document begins here");
   EXPECT_EQ(error_of("[1, 2]: 3\n", nothing), "a.yaml:1: a key must be a word");
-  EXPECT_EQ(error_of("a: " + std::string(100, '[') + std::string(100, ']'), nothing), "a.yaml:1: nested deeper than 32 levels");
+  EXPECT_EQ(error_of("a: " + std::string(100, '[') + std::string(100, ']'), nothing),
+            "a.yaml:1: nested deeper than 32 levels");
 }
 
 TEST(Config, RefusesAFileThatCannotBeRead) {
@@ -264,10 +272,11 @@ std::string effective_of(const std::string& yaml) {
 
 TEST(Effective, HoldsEveryValueReadAndReadsBackAsItself) {
   const std::string whole = effective_of("items:\n  - {name: a b, inner: {x: 2}}\n  - {}\nr: [[1, 2], [3, 4]]\nn: 7\n");
-  EXPECT_EQ(whole,
-            "n: 7\nlimit: .inf\ni: -3\nf: true\nt: \"true\"\nv: [1, 0.5, 1e-09]\nr: [[1, 2], [3, 4]]\nl: [1, 2]\nitems:\n"
-            "  -\n    name: \"a b\"\n    inner:\n      x: 2\n  -\n    name: \"\"\n    inner:\n      x: 1\n"
-            "s:\n  g: false\nempty: {}\n");
+  EXPECT_EQ(
+      whole,
+      "n: 7\nlimit: .inf\ni: -3\nf: true\nt: \"true\"\nv: [1, 0.5, 1e-09]\nr: [[1, 2], [3, 4]]\nl: [1, 2]\nitems:\n"
+      "  -\n    name: \"a b\"\n    inner:\n      x: 2\n  -\n    name: \"\"\n    inner:\n      x: 1\n"
+      "s:\n  g: false\nempty: {}\n");
   EXPECT_EQ(effective_of(whole), whole);
 }
 

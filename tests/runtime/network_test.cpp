@@ -223,7 +223,8 @@ TEST(Process, VersionAndHelpExitWithZero) {
   EXPECT_EQ(version.output, std::string("tern-echo ") + build_id() + "\n");
   Child help(echo({"--help"}));
   EXPECT_EQ(help.wait(), 0);
-  for (const char* option : {"--config", "--set", "--lcm-url", "--clock-offset-us", "--channel-suffix", "--log-level"}) {
+  for (const char* option :
+       {"--config", "--set", "--lcm-url", "--clock-offset-us", "--channel-suffix", "--log-level"}) {
     EXPECT_NE(help.output.find(option), std::string::npos) << option;
   }
 }
@@ -234,7 +235,8 @@ TEST(Process, BadOptionsAndConfigurationsExitWithTwoAndSayWhere) {
       {{"--log-level", "loud"}, "loud"},
       {{"--clock-offset-us", "soon"}, "soon"},
       {{"--config", "/no/such.yaml"}, "tern-echo: /no/such.yaml: cannot be read"},
-      {{"--set", "planner.period_s=0"}, "tern-echo: --set planner.period_s=0: planner.period_s: 0 is out of range (0, 10]"},
+      {{"--set", "planner.period_s=0"},
+       "tern-echo: --set planner.period_s=0: planner.period_s: 0 is out of range (0, 10]"},
       {{"--set", "planner.typo=0"}, "planner.typo: unknown key (known here: period_s)"},
       {{"--set", "uav.limits.v_max=-3"}, "uav.limits.v_max: -3 is out of range (0, 1000]"},
       {{"--channel-suffix", ".*"}, ".*"},

@@ -24,8 +24,12 @@ TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFive
   runner.observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& h) { beats.push_back(h); });
   runner.observer().subscribe<ConfigurationReport>(channels::kConfiguration,
                                                    [&](const ConfigurationReport& r) { reports.push_back(r); });
-  runner.start("tern-test", [](Bus& bus) { return std::make_unique<Talker>(bus, Talker::Options{"t", Duration{100'000}}, nullptr); },
-               "x: 1\n");
+  runner.start(
+      "tern-test",
+      [](Bus& bus) {
+        return std::make_unique<Talker>(bus, Talker::Options{"t", Duration{100'000}}, nullptr);
+      },
+      "x: 1\n");
   runner.run(kStart + Duration{10'000'000});
   EXPECT_EQ(beats.size(), 21U);
   EXPECT_EQ(beats.back().process, "tern-test");
@@ -79,7 +83,8 @@ TEST(NodeHost, WakesForPacedMessages) {
   VirtualRunner runner(kStart);
   runner.start("pacer", [](Bus& bus) { return std::make_unique<Pacer>(bus); });
   std::vector<std::int64_t> times;
-  runner.observer().subscribe<Goal>(channels::kGoal, [&](const Goal& g) { times.push_back((g.header.utime - kStart).us); });
+  runner.observer().subscribe<Goal>(channels::kGoal,
+                                    [&](const Goal& g) { times.push_back((g.header.utime - kStart).us); });
   runner.run(kStart + Duration{100'000});
   EXPECT_EQ(times, (std::vector<std::int64_t>{0, 2'000, 4'000, 6'000}));
 }

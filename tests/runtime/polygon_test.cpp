@@ -47,7 +47,8 @@ TEST(SimplePolygon, RefusesACornerThatTouchesAnotherSide) {
   EXPECT_FALSE(is_simple_polygon({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}));
 }
 
-/// Corners on a circle in the order of their angle are convex; exchanging two neighbours of five or more makes sides cross.
+/// Corners on a circle in the order of their angle are convex; exchanging two neighbours of five or more makes sides
+/// cross.
 RC_GTEST_PROP(SimplePolygon, TakesCircleOrderAndRefusesItWithTwoCornersExchanged, ()) {
   const int n = *rc::gen::inRange(4, 20);
   const double radius = *rc::gen::inRange(1, 1'000);

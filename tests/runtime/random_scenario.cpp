@@ -39,9 +39,7 @@ ObstacleSpec obstacle(Rng& rng, int index) {
     case 1: o.motion = TrefoilMotion{vec(rng, -2.0, 2.0), rng.uniform(0.1, 6.0), rng.uniform(-7.0, 7.0)}; break;
     case 2: o.motion = WaveMotion{vec(rng, -2.0, 2.0), rng.uniform(0.1, 6.0), rng.uniform(-7.0, 7.0)}; break;
     case 3: o.motion = LinearMotion{vec(rng, -9.0, 9.0), rng.uniform(-5.0, 60.0)}; break;
-    default:
-      o.motion = waypoints(rng);
-      o.centre = Vec3::Zero();
+    default: o.motion = waypoints(rng); o.centre = Vec3::Zero();
   }
   return o;
 }
@@ -149,7 +147,8 @@ void compare(Comparison& equal, const std::string& at, const PrismRegion& a, con
 }
 
 template <class... Types>
-void compare(Comparison& equal, const std::string& at, const std::variant<Types...>& a, const std::variant<Types...>& b) {
+void compare(Comparison& equal, const std::string& at, const std::variant<Types...>& a,
+             const std::variant<Types...>& b) {
   equal(at + "kind", a.index(), b.index());
   if (a.index() != b.index()) return;
   std::visit([&](const auto& x) { compare(equal, at, x, std::get<std::decay_t<decltype(x)>>(b)); }, a);
@@ -209,7 +208,8 @@ Scenario random_scenario(Rng& rng) {
   semantics.lambda_attractive = rng.uniform(0.0, 4.0);
   semantics.lambda_repulsive = rng.uniform(0.0, 4.0);
   semantics.cost = toss(rng) ? "exposure" : "mean_distance";
-  if (toss(rng)) semantics.classes = {{"true", "free"}, {"old road", "occupied"}, {"lawn", "unknown"}, {"x", "repulsive"}};
+  if (toss(rng))
+    semantics.classes = {{"true", "free"}, {"old road", "occupied"}, {"lawn", "unknown"}, {"x", "repulsive"}};
   for (int n = pick(rng, 4); n > 0; --n) {
     const auto& classes = semantics.classes;
     semantics.regions.push_back(region(rng, n, classes[static_cast<std::size_t>(n) % classes.size()].first));

@@ -8,7 +8,8 @@
 
 namespace tern {
 
-/// A scenario that keeps read_scenario's rules: every motion, shape and option comes up over seeds; numbers have full mantissas.
+/// A scenario that keeps read_scenario's rules: every motion, shape and option comes up over seeds; numbers have full
+/// mantissas.
 Scenario random_scenario(Rng& rng);
 
 /// The first field that differs ("uav.start"), or "" if the scenarios are equal but for `file`.

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "random_scenario.h"
@@ -50,6 +53,28 @@ RC_GTEST_PROP(ScenarioFile, ReadsBackTheEffectiveConfiguration, (std::uint64_t s
   RC_ASSERT(differs == std::string());
 }
 
+TEST(ScenarioFile, EveryScenarioOfTheProjectIsRead) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TERN_SCENARIOS)) {
+    if (entry.path().extension() != ".yaml") continue;
+    ConfigDocument document = ConfigDocument::load(entry.path().string(), {});
+    EXPECT_NO_THROW(read_scenario(document)) << entry.path();
+    ++count;
+  }
+  EXPECT_GT(count, 0);
+}
+
+TEST(ScenarioFile, TheReadmesExampleIsRead) {
+  std::ifstream stream(std::filesystem::path(TERN_SCENARIOS) / "README.md");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string open = "```yaml\n";
+  const std::size_t begin = text.find(open) + open.size();
+  const Scenario scenario = read(text.substr(begin, text.find("```", begin) - begin));
+  EXPECT_EQ(scenario.name, "courtyard");
+  EXPECT_EQ(scenario.world.obstacles.size(), 3U);
+  EXPECT_EQ(scenario.semantics.regions.size(), 2U);
+}
+
 TEST(ScenarioFile, AnEmptyFileIsAllDefaultsNamedAfterTheFile) {
   Scenario defaults;
   defaults.name = "a";
@@ -68,7 +93,8 @@ TEST(ScenarioFile, TakesLimitsAsOneNumberOrThreeAndInfiniteJerk) {
   EXPECT_EQ(s.uav.limits.j_max, Vec3::Constant(std::numeric_limits<double>::infinity()));
   EXPECT_EQ(error_of("uav:\n  limits:\n    v_max: -3\n"), "a.yaml:3: uav.limits.v_max: -3 is out of range (0, 1000]");
   EXPECT_EQ(error_of("uav:\n  limits:\n    v_max: inf\n"), "a.yaml:3: uav.limits.v_max: inf is out of range (0, 1000]");
-  EXPECT_EQ(error_of("uav:\n  limits:\n    a_max: [1, 0, 1]\n"), "a.yaml:3: uav.limits.a_max[1]: 0 is out of range (0, 10000]");
+  EXPECT_EQ(error_of("uav:\n  limits:\n    a_max: [1, 0, 1]\n"),
+            "a.yaml:3: uav.limits.a_max[1]: 0 is out of range (0, 10000]");
   EXPECT_EQ(error_of("uav:\n  limits:\n    j_max: 0\n"), "a.yaml:3: uav.limits.j_max: 0 is out of range (0, inf]");
 }
 
@@ -89,18 +115,21 @@ TEST(ScenarioFile, TheWholeBodyMustStartAndEndInsideTheFlightBox) {
   const std::string box = "  flight_box: {min: [-1, -1, 0], max: [9, 1, 4]}\n  body: {radius: 0.5}\n";
   EXPECT_EQ(error_of("uav:\n  start: [0, 0, 0.5]\n  goal: [8.5, 0, 1]\n" + box), "");
   EXPECT_EQ(error_of("uav:\n  start: [0, 0, 0.4]\n  goal: [8, 0, 1]\n" + box),
-            "a.yaml:2: uav.start: [0, 0, 0.4] is outside the flight box, body included (limits [-0.5, -0.5, 0.5] to [8.5, 0.5, "
+            "a.yaml:2: uav.start: [0, 0, 0.4] is outside the flight box, body included (limits [-0.5, -0.5, 0.5] to "
+            "[8.5, 0.5, "
             "3.5])");
-  EXPECT_EQ(error_of("uav:\n  start: [0, 0, 1]\n  goal: [9, 0, 1]\n" + box),
-            "a.yaml:3: uav.goal: [9, 0, 1] is outside the flight box, body included (limits [-0.5, -0.5, 0.5] to [8.5, 0.5, "
-            "3.5])");
+  EXPECT_EQ(
+      error_of("uav:\n  start: [0, 0, 1]\n  goal: [9, 0, 1]\n" + box),
+      "a.yaml:3: uav.goal: [9, 0, 1] is outside the flight box, body included (limits [-0.5, -0.5, 0.5] to [8.5, 0.5, "
+      "3.5])");
   EXPECT_EQ(error_of("uav:\n  flight_box:\n    min: [0, 0, 0]\n    max: [1, 0, 1]\n"),
             "a.yaml:4: uav.flight_box.max: is not greater than min on every axis");
 }
 
 TEST(ScenarioFile, RefusesUnknownGeneratorsAndCountsWithoutOne) {
   EXPECT_EQ(error_of("world:\n  generator: corridor\n"),
-            "a.yaml:2: world.generator: corridor is not one of none, paper_corridor, paper_attract, paper_repel, corridor_demo, "
+            "a.yaml:2: world.generator: corridor is not one of none, paper_corridor, paper_attract, paper_repel, "
+            "corridor_demo, "
             "mader_corridor, sando_forest");
   EXPECT_EQ(error_of("world:\n  count: 3\n"), "a.yaml:2: world.count: 3 needs a generator, which is none");
   EXPECT_EQ(error_of("world:\n  generator: sando_forest\n  count: 100001\n"),
@@ -111,7 +140,8 @@ TEST(ScenarioFile, RefusesTheKeysOfAnotherMotion) {
   EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      phase: 1\n"),
             "a.yaml:4: world.obstacles[0].phase: unknown key (known here: centre, half_extents, motion, name)");
   EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: trefoil\n      velocity: [1, 0, 0]\n"),
-            "a.yaml:5: world.obstacles[0].velocity: unknown key (known here: centre, half_extents, motion, name, phase, scale, "
+            "a.yaml:5: world.obstacles[0].velocity: unknown key (known here: centre, half_extents, motion, name, "
+            "phase, scale, "
             "slowness)");
   EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: waypoints\n      points: [[0, 1, 1, 1]]\n"),
             "a.yaml:3: world.obstacles[0].centre: is not used by motion waypoints");
@@ -121,8 +151,10 @@ TEST(ScenarioFile, RefusesTheKeysOfAnotherMotion) {
 
 TEST(ScenarioFile, RefusesObstaclesThatLackWhatTheirMotionNeeds) {
   EXPECT_EQ(obstacle_error("name: a\n"), "a.yaml:3: world.obstacles[0].centre: is missing");
-  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: linear\n"), "a.yaml:3: world.obstacles[0].velocity: is missing");
-  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: wave\n"), "a.yaml:3: world.obstacles[0].amplitude: is missing");
+  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: linear\n"),
+            "a.yaml:3: world.obstacles[0].velocity: is missing");
+  EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      motion: wave\n"),
+            "a.yaml:3: world.obstacles[0].amplitude: is missing");
   EXPECT_EQ(obstacle_error("motion: waypoints\n"), "a.yaml:3: world.obstacles[0].points: has no point (at least 1)");
   EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      half_extents: [1, 0, 1]\n"),
             "a.yaml:4: world.obstacles[0].half_extents[1]: 0 is out of range (0, 10000]");
@@ -141,8 +173,10 @@ TEST(ScenarioFile, RefusesWaypointsOutOfOrderAndHalfRepeats) {
 }
 
 TEST(ScenarioFile, RefusesNamesGivenTwice) {
-  EXPECT_EQ(obstacle_error("{name: a, centre: [0, 0, 0]}\n    - {name: b, centre: [0, 0, 0]}\n    - {name: a, centre: [1, 0, 0]}\n"),
-            "a.yaml:5: world.obstacles[2].name: a is the name of another entry too");
+  EXPECT_EQ(
+      obstacle_error(
+          "{name: a, centre: [0, 0, 0]}\n    - {name: b, centre: [0, 0, 0]}\n    - {name: a, centre: [1, 0, 0]}\n"),
+      "a.yaml:5: world.obstacles[2].name: a is the name of another entry too");
   EXPECT_EQ(obstacle_error("{centre: [0, 0, 0]}\n    - {centre: [0, 0, 0]}\n"), "") << "obstacles need no name";
   EXPECT_EQ(region_error("{name: a, class: water, ball: {centre: [0, 0, 0], radius: 1}}\n"
                          "    - {name: a, class: water, ball: {centre: [0, 0, 0], radius: 1}}\n"),
@@ -157,10 +191,14 @@ TEST(ScenarioFile, RefusesNamesThatDoNotFitTheirMessages) {
 }
 
 TEST(ScenarioFile, RefusesRecordedColumnsBeyondTheLineOrUsedTwice) {
-  const auto recorded = [](const std::string& lines) { return error_of("world:\n  recorded:\n    - file: x.txt\n" + lines); };
+  const auto recorded = [](const std::string& lines) {
+    return error_of("world:\n  recorded:\n    - file: x.txt\n" + lines);
+  };
   EXPECT_EQ(recorded(""), "");
-  EXPECT_EQ(recorded("      columns: 4\n      y_column: 4\n"), "a.yaml:5: world.recorded[0].y_column: 4 is out of range [0, 3]");
-  EXPECT_EQ(recorded("      z_column: 2\n"), "a.yaml:4: world.recorded[0].z_column: column 2 is another key's column too");
+  EXPECT_EQ(recorded("      columns: 4\n      y_column: 4\n"),
+            "a.yaml:5: world.recorded[0].y_column: 4 is out of range [0, 3]");
+  EXPECT_EQ(recorded("      z_column: 2\n"),
+            "a.yaml:4: world.recorded[0].z_column: column 2 is another key's column too");
   EXPECT_EQ(error_of("world:\n  recorded:\n    - columns: 5\n"), "a.yaml:3: world.recorded[0].file: is missing");
 }
 

@@ -11,17 +11,21 @@
 
 namespace tern {
 
-/// Publishes a Goal with id 1, 2, … every `period` (first at the start), writes what it hears and does into a shared journal.
+/// Publishes a Goal with id 1, 2, … every `period` (first at the start), writes what it hears and does into a shared
+/// journal.
 class Talker final : public Node {
  public:
   struct Options {
     std::string name;
-    Duration period{0};          ///< 0: only listens
+    Duration period{0};             ///< 0: only listens
     std::int64_t finish_after = 0;  ///< goals said before it finishes with exit code 7; 0: never
   };
 
   Talker(Bus& bus, Options options, std::vector<std::string>* journal)
-      : bus_(bus), options_(std::move(options)), journal_(journal), next_(options_.period.us > 0 ? bus.clock().now() : kNever) {
+      : bus_(bus),
+        options_(std::move(options)),
+        journal_(journal),
+        next_(options_.period.us > 0 ? bus.clock().now() : kNever) {
     bus_.subscribe<Goal>(channels::kGoal, [this](const Goal& goal) {
       ++heard_;
       write("hears " + std::to_string(goal.id) + " of " + std::to_string(goal.header.name.sender_epoch_us));
@@ -40,7 +44,9 @@ class Talker final : public Node {
     write("says " + std::to_string(said_));
   }
 
-  [[nodiscard]] NodeHealth health() const override { return {finished() ? ProcessState::Finished : ProcessState::Ready, ""}; }
+  [[nodiscard]] NodeHealth health() const override {
+    return {finished() ? ProcessState::Finished : ProcessState::Ready, ""};
+  }
 
   [[nodiscard]] std::optional<int> finished() const override {
     if (options_.finish_after > 0 && said_ >= options_.finish_after) return 7;
@@ -52,7 +58,8 @@ class Talker final : public Node {
 
  private:
   void write(const std::string& what) {
-    if (journal_ != nullptr) journal_->push_back(std::to_string(bus_.clock().now().us) + " " + options_.name + " " + what);
+    if (journal_ != nullptr)
+      journal_->push_back(std::to_string(bus_.clock().now().us) + " " + options_.name + " " + what);
   }
 
   Bus& bus_;

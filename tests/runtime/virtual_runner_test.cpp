@@ -48,8 +48,9 @@ TEST(VirtualRunner, StepsInOrderOfStartAndDeliversInOrderOfPublishing) {
   add(runner, {"a", kSecond}, &journal);
   add(runner, {"b", kSecond}, &journal);
   runner.run(kStart);
-  EXPECT_EQ(journal, (Journal{"1000000 a says 1", "1000000 b says 1", "1000000 a hears 1 of 1000000",
-                              "1000000 b hears 1 of 1000000", "1000000 a hears 1 of 1000001", "1000000 b hears 1 of 1000001"}));
+  EXPECT_EQ(journal,
+            (Journal{"1000000 a says 1", "1000000 b says 1", "1000000 a hears 1 of 1000000",
+                     "1000000 b hears 1 of 1000000", "1000000 a hears 1 of 1000001", "1000000 b hears 1 of 1000001"}));
 }
 
 TEST(VirtualRunner, TimeJumpsToTheEarliestWakeup) {
@@ -110,7 +111,8 @@ TEST(VirtualRunner, AStoppedProcessIsSilentAndARestartedOneHasANewerEpoch) {
   VirtualRunner runner(kStart);
   add(runner, {"a", Duration{10'000}}, nullptr);
   std::vector<std::int64_t> epochs;
-  runner.observer().subscribe<Goal>(channels::kGoal, [&](const Goal& g) { epochs.push_back(g.header.name.sender_epoch_us); });
+  runner.observer().subscribe<Goal>(channels::kGoal,
+                                    [&](const Goal& g) { epochs.push_back(g.header.name.sender_epoch_us); });
   runner.run(kStart);
   runner.stop("a");
   runner.run(kStart + kSecond);
