@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <utility>
 
 namespace tern {
@@ -30,10 +31,16 @@ struct Region {
   Box box;
 };
 
+bool explains(const Track& track, UTime at) {
+  if (track.kind == TrackKind::Static) return true;
+  return at + kExplainedSlack >= track.motion.start && at <= track.motion.end() + kExplainedSlack;
+}
+
 std::vector<Region> regions_at(const std::vector<Track>& declared, UTime at) {
   std::vector<Region> regions;
-  regions.reserve(declared.size());
-  for (const Track& track : declared) regions.push_back({track.id, track.bounds(at, at)});
+  for (const Track& track : declared) {
+    if (explains(track, at)) regions.push_back({track.id, track.bounds(at, at)});
+  }
   return regions;
 }
 
@@ -63,9 +70,15 @@ ObservationSet without_explained(ObservationSet observations, const std::vector<
 
 std::vector<Track> merged(std::vector<Track> declared, const std::vector<Track>& estimated, UTime now) {
   const std::vector<Region> regions = regions_at(declared, now);
-  std::vector<Track> all = std::move(declared);
+  std::vector<Track> all;
+  std::set<std::int64_t> replaced;
   for (const Track& track : estimated) {
-    if (!is_explained(regions, track.id, track.motion.sample(now).p, Vec3::Zero())) all.push_back(track);
+    if (is_explained(regions, track.id, track.motion.sample(now).p, Vec3::Zero())) continue;
+    all.push_back(track);
+    replaced.insert(track.id);
+  }
+  for (Track& track : declared) {
+    if (!replaced.contains(track.id)) all.push_back(std::move(track));
   }
   std::sort(all.begin(), all.end(), [](const Track& a, const Track& b) { return a.id < b.id; });
   return all;

@@ -16,12 +16,16 @@ inline constexpr double kExplainedSigmas = 4.0;
 /// last piece, so that its region goes on growing at its top speed; Static tracks stay as they are. Order is kept.
 std::vector<Track> trimmed(const std::vector<Track>& declared, UTime now, Duration horizon);
 
+/// A declared track explains detections while its pieces last, and this much before and after (sensors are late). Not
+/// longer: a region that has grown for seconds would hide whatever else is there.
+inline constexpr Duration kExplainedSlack{300'000};
+
 /// The set without the detections that declared tracks explain: those with a declared track's id, and those in a
-/// declared region at the time of the observation (kExplainedSigmas). O(detections · tracks).
+/// declared region at the time of the observation (kExplainedSigmas, kExplainedSlack). O(detections · tracks).
 ObservationSet without_explained(ObservationSet observations, const std::vector<Track>& declared);
 
-/// The declared tracks, and those estimated ones that are not explained: id not declared, predicted centre at `now` in
-/// no declared region. By id ascending.
+/// The declared tracks, and those estimated ones that they do not explain at `now`. Where an estimate has the id of a
+/// declared track that is over, the estimate replaces it: ids are unique. By id ascending.
 std::vector<Track> merged(std::vector<Track> declared, const std::vector<Track>& estimated, UTime now);
 
 }  // namespace tern

@@ -110,12 +110,41 @@ TEST(Merged, DeclaredTracksWinAndIdsAscend) {
   Track apart = random_track(rng, 2), same_id = random_track(rng, 5), within = declared;
   for (CubicPiece& piece : apart.motion.pieces) piece.coefficients.col(3).x() += 50.0;
   for (CubicPiece& piece : same_id.motion.pieces) piece.coefficients.col(3).x() += 90.0;
-  within.id = kNoTrackId + 100;
+  within.id = 99;
   const std::vector<Track> all = merged({declared}, {apart, same_id, within}, at_seconds(11.0));
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].id, 2);
   EXPECT_EQ(all[1].id, 5);
   EXPECT_TRUE(same_bits(all[1].motion.pieces.front(), declared.motion.pieces.front()));
+}
+
+// A region that grows for seconds after its owner fell silent must not hide what is seen in it.
+TEST(WithoutExplained, DropsNothingForTracksThatAreLongOver) {
+  Rng rng(6);
+  Track track = random_track(rng, 7);  // until 15 s
+  ObservationSet set;
+  set.detections = {Detection{}};
+  set.detections.front().position = track.motion.sample(at_seconds(15.0)).p;
+  set.detections.front().track_id = 7;
+  set.at = at_seconds(15.2);
+  EXPECT_TRUE(without_explained(set, {track}).detections.empty());
+  set.at = at_seconds(17.0);
+  EXPECT_EQ(without_explained(set, {track}).detections.size(), 1u);
+  set.at = at_seconds(8.0);
+  EXPECT_EQ(without_explained(set, {track}).detections.size(), 1u);
+  track.kind = TrackKind::Static;
+  EXPECT_TRUE(without_explained(set, {track}).detections.empty());
+}
+
+TEST(Merged, AnEstimateReplacesADeclaredTrackThatIsOver) {
+  Rng rng(7);
+  const Track declared = random_track(rng, 5);
+  Track estimate = random_track(rng, 5);
+  estimate.kind = TrackKind::Estimated;
+  const std::vector<Track> all = merged({declared}, {estimate}, at_seconds(20.0));
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].kind, TrackKind::Estimated);
+  EXPECT_EQ(merged({declared}, {}, at_seconds(20.0)).size(), 1u);
 }
 
 }  // namespace
