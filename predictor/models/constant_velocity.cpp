@@ -24,7 +24,7 @@ double crossing_rate(const AxisFilter& start, double q, double t) {
 std::vector<Duration> piece_ends(const PredictionSpec& spec) {
   std::vector<Duration> ends{Duration{}};
   while (ends.back() < spec.horizon) {
-    const Duration length = std::max(spec.piece, Duration{ends.back().us / 2});
+    const Duration length = std::max(spec.piece, Duration{ends.back().us / 4});
     ends.push_back(std::min(ends.back() + length, spec.horizon));
   }
   return ends;

@@ -13,8 +13,9 @@ namespace tern {
 /// How far a filter's prediction looks, and how sure it is.
 struct PredictionSpec {
   Duration horizon{4'500'000};  ///< > 0
-  /// A piece is so long, or half as long as the time before it if that is more: α grows, each piece carries its
-  /// largest, and few pieces make small messages (8 for the defaults).
+  /// A piece is so long, or a quarter of the time before it if that is more: each piece carries its largest α, and α
+  /// grows like t^1.5 at most, so that this is at most 1.4 times its least; and few pieces (11 for the defaults) make
+  /// small messages.
   Duration piece{250'000};   ///< > 0, ≤ horizon
   double confidence = 0.99;  ///< in (0, 1): probability that a track keeps its α over all its pieces
   double max_speed = 5.0;    ///< m/s per axis, > 0: nothing is believed to move faster

@@ -40,7 +40,7 @@ struct TrackerConfig {
   int confirm_hits = 3;               ///< a track is published once detected in so many …
   int confirm_window = 5;             ///< … of its first observation sets, hits ≤ window ≤ 32
   Duration coast{1'500'000};          ///< a confirmed track dies when not detected for longer
-  Duration resting_after{1'000'000};  ///< a track that has been consistent with rest so long is predicted at rest
+  Duration resting_after{600'000};  ///< a track that has been consistent with rest so long is predicted at rest
 };
 
 /// One tracked thing, all at the time of the tracker's state.

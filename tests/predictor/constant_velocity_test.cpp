@@ -16,7 +16,7 @@ AxisFilter random_filter(Rng& rng) {
 
 TEST(PieceEnds, CoverTheHorizonWithPiecesThatGrow) {
   const std::vector<Duration> ends = piece_ends(PredictionSpec{});
-  EXPECT_EQ(ends.size(), 9u);
+  EXPECT_EQ(ends.size(), 12u);
   EXPECT_EQ(ends.front(), Duration{});
   EXPECT_EQ(ends[1], Duration{250'000});
   EXPECT_EQ(ends.back(), Duration{4'500'000});
