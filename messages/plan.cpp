@@ -138,7 +138,7 @@ tl::expected<Plan, Rejection> from_lcm(const Message& m) {
   plan.certificate.reserve(m.planes.size());
   for (const auto& plane : m.planes) plan.certificate.push_back(read_plane(read, plane, intervals));
   for (const auto& cut : m.cuts) {
-    plan.cuts.push_back({read.integer(cut.attempt, 0, std::numeric_limits<std::int32_t>::max()),
+    plan.cuts.push_back({read.integer(cut.attempt, -1, std::numeric_limits<std::int32_t>::max()),
                          read.enumeration(cut.stage, Stage::Check), read.counter(cut.count)});
   }
   return read.accept(std::move(plan));

@@ -45,7 +45,7 @@ inline constexpr int kStages = 6;
 
 /// Where a budget cut a loop: what a replay needs instead of a clock.
 struct BudgetCut {
-  std::int32_t attempt = 0;  ///< which try (duration, local goal) of this plan
+  std::int32_t attempt = 0;  ///< which try (duration, local goal) of this plan; −1: the watchdog cut it all
   Stage stage = Stage::Fallback;
   std::int64_t count = 0;    ///< how often the loop had asked when the budget was found spent
 };
