@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/duration.h"
 #include "planner/optimization/convex_problem.h"
 #include "planner/optimization/ipopt_solver.h"
 
@@ -74,7 +75,7 @@ std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& 
   c.holds = c.hold_s >= hold_required_s;
   const double duration_s = interval.seconds() * intervals;
   c.clear_s = duration_s + c.hold_s;
-  c.arrival_s = duration_s + seconds_to_go(context.way, end, context.plan_limits);
+  c.arrival_s = arrival_estimate(context.way, c.trajectory, context.request.t_s, context.plan_limits);
   c.cost = cost_of(context, c.trajectory);
   return c;
 }
@@ -99,11 +100,15 @@ std::vector<PlaneConstraint> gather_planes(const AttemptContext& context, SweptO
 
 }  // namespace
 
-double seconds_to_go(const WayToGo& way, const Vec3& p, const Limits& limits) {
-  const Vec3 d = way.point - p;
-  double first = 0.0;
-  for (int axis = 0; axis < 3; ++axis) first = std::max(first, std::abs(d[axis]) / limits.v_max[axis]);
-  return first + way.rest / limits.v_max.minCoeff();
+double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits) {
+  const ClampedSpline spline = trajectory.spline();
+  const double offset_s = (from - trajectory.start).seconds();
+  double sum = 0.0;
+  for (const double while_s : {0.3, 0.8}) {
+    const MotionSample at = spline.sample(offset_s + while_s);
+    sum += while_s + least_duration(at, way.point, limits) + way.rest / limits.v_max.minCoeff();
+  }
+  return 0.5 * sum;
 }
 
 SweptObstacles sweep_horizon(const AttemptContext& context, Duration interval) {

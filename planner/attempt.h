@@ -19,7 +19,7 @@ struct Candidate {
   double clear_s = 0.0;      ///< from t_s until the end point is no longer clear, or as far as was looked
   double hold_s = 0.0;       ///< of that, after the end
   bool holds = false;        ///< hold_s reaches the requirement
-  double arrival_s = 0.0;    ///< estimate from t_s to the goal: duration + way to go at v_max
+  double arrival_s = 0.0;    ///< estimate of the time from t_s to the goal (arrival_estimate)
   PlanCost cost;
   std::vector<CertificatePlane> certificate;
 
@@ -56,7 +56,9 @@ std::optional<Candidate> search_candidate(const AttemptContext& context, SweptOb
 std::optional<Candidate> optimize_candidate(const AttemptContext& context, SweptObstacles& obstacles,
                                             const Candidate& searched);
 
-/// Seconds from p to the goal along the way, at v_max of the direction.
-double seconds_to_go(const WayToGo& way, const Vec3& p, const Limits& limits);
+/// When the goal would be reached if the trajectory were flown for a while and the rest time-optimally, per axis: the mean over two such
+/// whiles. Comparing ends instead would favour short plans, because every plan brakes at its end and hardly one is flown so far.
+/// @param from  the time on the trajectory that counts as 0
+double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits);
 
 }  // namespace tern

@@ -49,8 +49,7 @@ std::optional<Candidate> find_evasion(const AttemptContext& base) {
       base.statistics.hulls += swept.hulls_made();
       if (!found) continue;
       found->outcome = PlanOutcome::Evade;
-      const double arrival = interval.seconds() * base.config.intervals;
-      found->arrival_s = arrival + seconds_to_go(base.way, context.local_goal, base.plan_limits);
+      found->arrival_s = arrival_estimate(base.way, found->trajectory, base.request.t_s, base.plan_limits);
       if (best && found->clear_s <= best->clear_s) continue;
       best = std::move(found);
       best->holds = best->hold_s >= base.config.hold_required_s;

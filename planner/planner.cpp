@@ -109,7 +109,6 @@ class Planning {
     if (pieces.empty() && c.hold_s <= 0.0) return std::nullopt;
     c.holds = c.hold_s >= config_.hold_required_s;
     c.clear_s = moving_s + c.hold_s;
-    c.arrival_s = moving_s;
     return c;
   }
 
@@ -152,8 +151,7 @@ class Planning {
     context.local_goal = local_goal(*path, at, kLocalGoalShare * config_.sphere_radius_m);
     answer_.plan.local_goal = context.local_goal;
     if (committed_) {
-      const Points& q = committed_->trajectory.control_points;
-      committed_->arrival_s += seconds_to_go(context.way, q.col(q.cols() - 1), context.plan_limits);
+      committed_->arrival_s = arrival_estimate(context.way, committed_->trajectory, request_.t_s, context.plan_limits);
     }
     return true;
   }
@@ -165,7 +163,7 @@ class Planning {
     int attempt = 0;
     for (const double scale : config_.duration_scales) {
       budget_.begin_attempt(attempt++);
-      if (best_ && budget_.expired(Stage::LocalGoal)) break;
+      if (best_ && (enough() || budget_.expired(Stage::LocalGoal))) break;
       const Duration interval = interval_of(scale * least);
       enter(Stage::Hulls);
       SweptObstacles swept = sweep_horizon(context, interval);
@@ -174,7 +172,6 @@ class Planning {
         best_ = std::move(found);
         best_swept.emplace(std::move(swept));
         offer(&*best_, PlanReason::None);
-        if (best_->holds && best_->cost.distance_to_goal <= config_.search.band_m) break;
       } else {
         answer_.statistics.hulls += swept.hulls_made();
       }
@@ -183,6 +180,9 @@ class Planning {
     if (best_swept) answer_.statistics.hulls += best_swept->hulls_made();
     if (!best_) reason_ = start_collides_ ? PlanReason::StartInCollision : PlanReason::Infeasible;
   }
+
+  /// A longer duration is not tried when a leaf holds and comes near the local goal.
+  [[nodiscard]] bool enough() const { return best_->holds && best_->cost.distance_to_goal <= kNearLocalGoal; }
 
   void optimize(AttemptContext& context, SweptObstacles& swept) {
     auto optimized = optimize_candidate(context, swept, *best_);
@@ -256,6 +256,7 @@ class Planning {
   }
   PlanAnswer finish_without(PlanReason reason) { return finish(nullptr, reason); }
 
+  static constexpr double kNearLocalGoal = 1.0;    // m
   static constexpr double kHoldStep = 0.1;         // s
   static constexpr double kLeastInterval = 0.02;   // s: below this Δt, rounding of accelerations q/Δt² eats the tolerances
 

@@ -11,7 +11,8 @@ enum class SemanticCost { MeanDistance, Exposure };
 struct SearchConfig {
   int samples_xy = 5;           ///< velocity samples per horizontal axis and node, 2 … 15
   int samples_z = 3;            ///< on the vertical axis, 2 … 15
-  int max_expansions = 6000;    ///< per attempt, 1 … 10⁷
+  int max_expansions = 1500;    ///< per attempt, 1 … 10⁷
+  int hold_expansions = 400;    ///< how many more are spent after the first leaf to find one that holds long enough
   double lambda_g = 1.0;        ///< weight of the path's length, ≥ 0
   double lambda_h = 1.0;        ///< weight of the way to go, ≥ 0
   double band_m = 0.5;          ///< leaves whose way to go lies in one band make equal progress, m

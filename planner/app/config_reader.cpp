@@ -7,6 +7,7 @@ void read_search(ConfigSection section, SearchConfig& c) {
   c.samples_xy = static_cast<int>(section.integer("samples_xy", c.samples_xy, 2, 15));
   c.samples_z = static_cast<int>(section.integer("samples_z", c.samples_z, 2, 15));
   c.max_expansions = static_cast<int>(section.integer("max_expansions", c.max_expansions, 1, 10'000'000));
+  c.hold_expansions = static_cast<int>(section.integer("hold_expansions", c.hold_expansions, 0, 10'000'000));
   c.lambda_g = section.number("lambda_g", c.lambda_g, Range::at_least(0.0, 1e3));
   c.lambda_h = section.number("lambda_h", c.lambda_h, Range::at_least(0.0, 1e3));
   c.band_m = section.number("band_m", c.band_m, Range::positive(100.0));

@@ -22,12 +22,19 @@ struct Node {
   double g = 0.0;         ///< λ_g · length + accumulated semantics
 };
 
+/// f only counts to kCostStep: on the way to a far goal almost every node has the same f, and of equals the deepest is
+/// expanded first, so that the search dives instead of widening.
 struct Entry {
   int band;
+  std::int64_t f_step;
+  int depth_left;
   double f;
   int node;
-  bool operator>(const Entry& o) const { return std::tie(band, f, node) > std::tie(o.band, o.f, o.node); }
+  [[nodiscard]] auto key() const { return std::tie(band, f_step, depth_left, f, node); }
+  bool operator>(const Entry& o) const { return key() > o.key(); }
 };
+constexpr double kCostStep = 0.2;  // m
+std::int64_t step_of(double f) { return static_cast<std::int64_t>(std::floor(f / kCostStep)); }
 
 struct Leaf {
   int node = -1;
@@ -57,7 +64,8 @@ class Search {
     while (!open_.empty()) {
       if (result_.expansions >= config_.max_expansions || budget_.expired(Stage::Search)) break;
       const Entry top = open_.top();
-      if (best_.holds && std::tie(top.band, top.f) >= std::tie(best_.band, best_.f)) break;
+      if (best_.holds && std::pair(top.band, top.f_step) >= std::pair(best_.band, step_of(best_.f))) break;
+      if (best_.node >= 0 && result_.expansions >= give_up_at_) break;
       open_.pop();
       visit(top);
     }
@@ -93,7 +101,8 @@ class Search {
     reachable = Box(low, high);
     double f = n.g + config_.lambda_h * problem_.way.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
-    open_.push({static_cast<int>(problem_.way.from(reachable) / config_.band_m), f, static_cast<int>(nodes_.size())});
+    const int band = static_cast<int>(problem_.way.from(reachable) / config_.band_m);
+    open_.push({band, step_of(f), leaf_index() - n.l, f, static_cast<int>(nodes_.size())});
     nodes_.push_back(n);
   }
 
@@ -148,6 +157,7 @@ class Search {
     Leaf leaf{entry.node, false, entry.band, entry.f, 0.0};
     leaf.hold_s = clear_time_at(obstacles_, problem_.intervals, n.q, result_.pairs);
     leaf.holds = leaf.hold_s >= problem_.hold_required_s;
+    if (best_.node < 0) give_up_at_ = result_.expansions + config_.hold_expansions;
     if (leaf.better_than(best_)) best_ = leaf;
   }
 
@@ -252,6 +262,7 @@ class Search {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
   std::unordered_set<std::uint64_t> closed_;
   Leaf best_;
+  std::int64_t give_up_at_ = 0;  ///< when a leaf that holds has not followed the first leaf by then
   SearchResult result_;
 };
 

@@ -56,7 +56,8 @@ struct SearchResult {
 /// interval that v_max, a_max, j_max and the end at rest leave (AxisReach), and one child aims at the goal;
 /// q_{l+1} = q_l + v_l (t_{l+4} − t_{l+1})/3. A node is tested for collision when it is popped: interval l−3, at a leaf (l = n−2) also the
 /// two closing intervals. Leaves are ranked: hold ≥ required first, then the band of the way to go, then f; the search ends when
-/// no open node can still win, when max_expansions are spent, or when the budget is. Ties by (f, index): deterministic.
+/// no open node can still win (by more than a step of f), when max_expansions are spent, hold_expansions after the first leaf, or when
+/// the budget is. Ties by depth, f and index: deterministic.
 /// @param obstacles  origin at the start, intervals 0 … J−1 the plan's, the others after its end for the hold.
 SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
                              Budget& budget);
