@@ -13,10 +13,12 @@ namespace tern {
 /// the origin), below anything that matters to a vehicle.
 inline constexpr double kPathClearance = 1e-6;
 
-/// Does the closed segment ab meet the closed box? Slab method; exact but for rounding in the last places of a parameter.
+/// Does the closed segment ab meet the closed box? Slab method; exact but for rounding in the last places of a
+/// parameter.
 bool segment_meets_box(const Vec3& a, const Vec3& b, const Box& box);
 
-/// A tree of bounding boxes (split at the median of the longest axis, ties by index). Immutable; queries do not allocate.
+/// A tree of bounding boxes (split at the median of the longest axis, ties by index). Immutable; queries do not
+/// allocate.
 class BoxIndex {
  public:
   BoxIndex() = default;

@@ -136,7 +136,8 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
         path.erase(path.begin() + static_cast<std::ptrdiff_t>(i));
         continue;
       }
-      // Pull the vertex towards the chord, then along either of its segments, as far as both stay free: each step shortens.
+      // Pull the vertex towards the chord, then along either of its segments, as far as both stay free: each step
+      // shortens.
       const auto pull_to = [&](const Vec3& target) {
         const Vec3 v = path[i];
         const auto reaches = [&](double s) {
@@ -190,8 +191,8 @@ double GoalField::distance(const Vec3& p) const {
 /// Where a corner of the cell is not reached: by way of the best one that is.
 double GoalField::distance_by_nearest(const Vec3& p, const Cell& cell) const {
   double best = kInfinity;
-  grid_.for_neighbours(cell, 0, 1,
-                       [&](std::int32_t node) { best = std::min(best, to_go(node) + (grid_.position(node) - p).norm()); });
+  grid_.for_neighbours(
+      cell, 0, 1, [&](std::int32_t node) { best = std::min(best, to_go(node) + (grid_.position(node) - p).norm()); });
   return best;
 }
 

@@ -1,4 +1,5 @@
-// How far it is to the goal around static obstacles, and along which way: once per (map, static boxes, goal), off the hot path.
+// How far it is to the goal around static obstacles, and along which way: once per (map, static boxes, goal), off the
+// hot path.
 #pragma once
 
 #include <cstdint>
@@ -19,21 +20,24 @@ struct GoalFieldOptions {
   Vec3 anchor = Vec3::Zero();        ///< grid lines pass through it: for a map, the centre of a voxel
 };
 
-/// Goal distances on the nodes of a rectilinear grid, by an any-angle Dijkstra search from the goal (Lazy Theta*, Nash et
-/// al. 2010, without a heuristic): every node reached knows the turning point that it sees and that leads it on, so paths
-/// are not bound to the grid's directions.
+/// Goal distances on the nodes of a rectilinear grid, by an any-angle Dijkstra search from the goal (Lazy Theta*, Nash
+/// et al. 2010, without a heuristic): every node reached knows the turning point that it sees and that leads it on, so
+/// paths are not bound to the grid's directions.
 ///
-/// What is free is never decided by cells. Every segment used is tested against the exact boxes, and where two boxes (or a box
-/// and the flight box) leave a gap narrower than two steps without a grid line in it, a line is added at its middle: a
-/// 0.6 m window stays open for a vehicle of 0.2 m in a 0.25 m grid, wherever it lies, and so does one voxel's width.
+/// What is free is never decided by cells. Every segment used is tested against the exact boxes, and where two boxes
+/// (or a box and the flight box) leave a gap narrower than two steps without a grid line in it, a line is added at its
+/// middle: a 0.6 m window stays open for a vehicle of 0.2 m in a 0.25 m grid, wherever it lies, and so does one voxel's
+/// width.
 ///
-/// The region searched is the bounds of goal, options.start and obstacles plus a margin, cut by the flight box; open worlds
-/// (flight boxes of ±10⁴ m) cost no more than what stands in them. Deterministic: ties by node index, no libm but sqrt.
+/// The region searched is the bounds of goal, options.start and obstacles plus a margin, cut by the flight box; open
+/// worlds (flight boxes of ±10⁴ m) cost no more than what stands in them. Deterministic: ties by node index, no libm
+/// but sqrt.
 class GoalField {
  public:
   GoalField() = default;
 
-  /// @param inflated_statics  obstacles grown by the vehicle's half-extents, and by the clearance that the caller wishes:
+  /// @param inflated_statics  obstacles grown by the vehicle's half-extents, and by the clearance that the caller
+  /// wishes:
   ///   paths keep only kPathClearance from them. Their order matters to nothing.
   /// @param flight_box  where the vehicle's centre may be. @param goal  in W, m.
   /// A goal in a box or outside the flight box gives a field in which nothing reaches it.
@@ -41,9 +45,9 @@ class GoalField {
   static GoalField build(std::vector<Box> inflated_statics, const Box& flight_box, const Vec3& goal,
                          const GoalFieldOptions& options = {});
 
-  /// A taut piecewise-linear path from start to the goal, both included, clear of every box; nothing when there is none.
-  /// A start inside boxes is allowed to leave them: the first segment passes over the boxes that contain it.
-  /// A few percent longer than the shortest at most in simple cases (tested); about 10 µs.
+  /// A taut piecewise-linear path from start to the goal, both included, clear of every box; nothing when there is
+  /// none. A start inside boxes is allowed to leave them: the first segment passes over the boxes that contain it. A
+  /// few percent longer than the shortest at most in simple cases (tested); about 10 µs.
   [[nodiscard]] std::optional<std::vector<Vec3>> path_from(const Vec3& start) const;
 
   /// Metres to go from p, by interpolation between grid nodes; infinite where no node around p reaches the goal.
@@ -72,8 +76,8 @@ class GoalField {
   bool goal_free_ = false;
   BoxIndex obstacles_;
   RectilinearGrid grid_;
-  std::vector<double> to_go_;        ///< per node, m; infinite: not reached
-  std::vector<std::int32_t> next_;   ///< per node: the turning point that it sees (a node, or kGoalNode)
+  std::vector<double> to_go_;       ///< per node, m; infinite: not reached
+  std::vector<std::int32_t> next_;  ///< per node: the turning point that it sees (a node, or kGoalNode)
 };
 
 }  // namespace tern

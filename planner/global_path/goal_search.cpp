@@ -38,7 +38,8 @@ void GoalSearch::block_covered_nodes() {
     const auto [low, high] = grid_.nodes_within(grown(box, Vec3::Constant(kPathClearance)));
     for (int z = low.z(); z < high.z(); ++z) {
       for (int y = low.y(); y < high.y(); ++y) {
-        for (int x = low.x(); x < high.x(); ++x) state_[static_cast<std::size_t>(grid_.index({x, y, z}))] = State::Blocked;
+        for (int x = low.x(); x < high.x(); ++x)
+          state_[static_cast<std::size_t>(grid_.index({x, y, z}))] = State::Blocked;
       }
     }
   }

@@ -17,17 +17,17 @@ namespace tern {
 inline constexpr std::int32_t kGoalNode = -1;
 inline constexpr std::int32_t kNoNode = -2;
 
-/// Invariant of a closed node: the segment to its `next` (a node, or the goal) is free, and to_go is its length plus to_go of
-/// that. A node is queued as if it saw the turning point of the node that found it; only when it is popped is that tested,
-/// and if it is false, the best closed neighbour takes its place.
+/// Invariant of a closed node: the segment to its `next` (a node, or the goal) is free, and to_go is its length plus
+/// to_go of that. A node is queued as if it saw the turning point of the node that found it; only when it is popped is
+/// that tested, and if it is false, the best closed neighbour takes its place.
 class GoalSearch {
  public:
   /// Keeps references: grid and obstacles must live as long as the search.
   GoalSearch(const RectilinearGrid& grid, const BoxIndex& obstacles, const Vec3& goal);
   void run();
 
-  std::vector<double> to_go;        ///< per node, m; infinite: not reached
-  std::vector<std::int32_t> next;   ///< per node: the turning point it sees
+  std::vector<double> to_go;       ///< per node, m; infinite: not reached
+  std::vector<std::int32_t> next;  ///< per node: the turning point it sees
 
  private:
   enum class State : std::uint8_t { Open, Sighted, Closed, Blocked };
@@ -38,7 +38,9 @@ class GoalSearch {
   bool sight(std::int32_t node);
   void expand(std::int32_t node);
   [[nodiscard]] Vec3 position(std::int32_t node) const { return node == kGoalNode ? goal_ : grid_.position(node); }
-  [[nodiscard]] double to_go_of(std::int32_t node) const { return node == kGoalNode ? 0.0 : to_go[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] double to_go_of(std::int32_t node) const {
+    return node == kGoalNode ? 0.0 : to_go[static_cast<std::size_t>(node)];
+  }
 
   const RectilinearGrid& grid_;
   const BoxIndex& obstacles_;

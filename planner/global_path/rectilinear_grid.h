@@ -11,7 +11,8 @@
 
 namespace tern {
 
-/// Node (i, j, k) stands at (x_i, y_j, z_k); cell (i, j, k) has it as its least corner. x runs fastest in the numbering.
+/// Node (i, j, k) stands at (x_i, y_j, z_k); cell (i, j, k) has it as its least corner. x runs fastest in the
+/// numbering.
 struct RectilinearGrid {
   using Cell = Eigen::Vector3i;
   GridAxis axis[3];
@@ -20,7 +21,9 @@ struct RectilinearGrid {
   [[nodiscard]] std::int64_t nodes() const { return size().cast<std::int64_t>().prod(); }
   [[nodiscard]] Vec3 low() const { return {axis[0].low(), axis[1].low(), axis[2].low()}; }
   [[nodiscard]] Vec3 high() const { return {axis[0].high(), axis[1].high(), axis[2].high()}; }
-  [[nodiscard]] std::int32_t index(const Cell& c) const { return c.x() + axis[0].size() * (c.y() + axis[1].size() * c.z()); }
+  [[nodiscard]] std::int32_t index(const Cell& c) const {
+    return c.x() + axis[0].size() * (c.y() + axis[1].size() * c.z());
+  }
   [[nodiscard]] Cell cell_of(std::int32_t node) const {
     const std::int32_t row = node / axis[0].size();
     return {node % axis[0].size(), row % axis[1].size(), row / axis[1].size()};
@@ -28,7 +31,9 @@ struct RectilinearGrid {
   [[nodiscard]] Vec3 position(const Cell& c) const { return {axis[0][c.x()], axis[1][c.y()], axis[2][c.z()]}; }
   [[nodiscard]] Vec3 position(std::int32_t node) const { return position(cell_of(node)); }
   /// The cell that holds p, or the nearest one.
-  [[nodiscard]] Cell cell(const Vec3& p) const { return {axis[0].cell(p.x()), axis[1].cell(p.y()), axis[2].cell(p.z())}; }
+  [[nodiscard]] Cell cell(const Vec3& p) const {
+    return {axis[0].cell(p.x()), axis[1].cell(p.y()), axis[2].cell(p.z())};
+  }
 
   /// The nodes (from, to), `to` excluded, that lie in the closed box.
   [[nodiscard]] std::pair<Cell, Cell> nodes_within(const Box& box) const {

@@ -11,8 +11,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// The lower envelope of the parabolas (q − k)² + f[k], sampled at 0 … n − 1.
 class Envelope {
  public:
-  explicit Envelope(int longest)
-      : f_(static_cast<std::size_t>(longest)), vertex_(f_.size()), from_(f_.size() + 1) {}
+  explicit Envelope(int longest) : f_(static_cast<std::size_t>(longest)), vertex_(f_.size()), from_(f_.size() + 1) {}
 
   /// Transforms the line of n values that begins at `line`, `stride` apart, in place.
   void transform(float* line, std::ptrdiff_t stride, int n) {

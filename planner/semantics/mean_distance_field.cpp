@@ -50,7 +50,8 @@ double MeanDistanceField::interpolation_error(double resolution) const {
     const double gap = distance - kSqrt3 * h;
     return gap > 0.0 ? std::min(lipschitz, 0.375 * h * h / gap) : lipschitz;
   };
-  // The densest arrangement: at most as many voxels lie within δ of p as cubes fit into the ball of radius δ + half a diagonal.
+  // The densest arrangement: at most as many voxels lie within δ of p as cubes fit into the ball of radius δ + half a
+  // diagonal.
   const auto n = static_cast<double>(tree_.voxels());
   const auto within = [&](double distance) {
     const double cubes = distance / resolution + 0.5 * kSqrt3;

@@ -11,7 +11,8 @@ namespace {
 
 using Cell = Eigen::Vector3i;
 
-/// The smallest box of voxels (both corners included) that holds every voxel of the label; low > high when there is none.
+/// The smallest box of voxels (both corners included) that holds every voxel of the label; low > high when there is
+/// none.
 std::pair<Cell, Cell> bounds_of(const VoxelMap& map, VoxelLabel label) {
   Cell low = map.grid.size;
   Cell high = Cell::Constant(-1);

@@ -18,9 +18,10 @@ struct SemanticFieldsOptions {
 
 /// How far p is from the nearest voxel of a label, in the band where exposure varies.
 ///
-/// The exact Euclidean distance transform between voxel centres, less half a voxel, interpolated trilinearly: exact along the
-/// normal of a flat face that follows the grid. Against the true distance to the union of the label's cubes it errs by
-/// at most kBandError voxels (√3/2 by interpolation of a 1-Lipschitz function, (√3−1)/2 because a cube is not a ball).
+/// The exact Euclidean distance transform between voxel centres, less half a voxel, interpolated trilinearly: exact
+/// along the normal of a flat face that follows the grid. Against the true distance to the union of the label's cubes
+/// it errs by at most kBandError voxels (√3/2 by interpolation of a 1-Lipschitz function, (√3−1)/2 because a cube is
+/// not a ball).
 class DistanceBand {
  public:
   static constexpr double kBandError = 1.233;
@@ -41,8 +42,8 @@ class DistanceBand {
   std::vector<float> distance_;
 };
 
-/// Eq. 3's mean distance and our exposure for the labels Attractive and Repulsive. Immutable, queries allocate nothing and use no
-/// libm but sqrt, so that a replay computes the same bytes. At most 50 ns a query inside the fields' grids.
+/// Eq. 3's mean distance and our exposure for the labels Attractive and Repulsive. Immutable, queries allocate nothing
+/// and use no libm but sqrt, so that a replay computes the same bytes. At most 50 ns a query inside the fields' grids.
 /// Building: about 0.5 s for 10⁶ labelled voxels; memory 4 bytes per voxel of the labels' bounding boxes.
 class SemanticFields {
  public:

@@ -56,8 +56,8 @@ void VoxelTree::build(std::int32_t begin, std::int32_t end) {
   (high - low).maxCoeff(&axis);
   // Distinct voxels: the longest side spans at least two, so both halves are non-empty.
   const int middle = low[axis] + (high[axis] - low[axis]) / 2;
-  const auto split = std::partition(voxels_.begin() + begin, voxels_.begin() + end,
-                                    [&](const Cell& v) { return v[axis] <= middle; });
+  const auto split =
+      std::partition(voxels_.begin() + begin, voxels_.begin() + end, [&](const Cell& v) { return v[axis] <= middle; });
   const auto mid = static_cast<std::int32_t>(split - voxels_.begin());
   build(begin, mid);
   nodes_[at].right = static_cast<std::int32_t>(nodes_.size());

@@ -1,4 +1,5 @@
-// A hierarchy of clusters of voxels: sums of distances to very many voxels in the time of a few dozen, with a proven error.
+// A hierarchy of clusters of voxels: sums of distances to very many voxels in the time of a few dozen, with a proven
+// error.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace tern {
 ///
 /// For a cluster with centroid c, covariance Σ and radius ρ, seen from p at distance D = ‖p − c‖ > ρ in direction u,
 ///   mean ‖p − v‖ = D + (tr Σ − uᵀΣu)/(2D) + e,   |e| ≤ (1/6)(2/√3) ρ tr Σ / (D − ρ)²
-/// (Taylor: the linear term vanishes at the centroid; the third derivative of ‖x‖ is at most 2/(√3 ‖x‖²)). A cluster is opened
-/// unless its bound is at most `error`; leaves are summed exactly. So the whole mean errs by at most `error`.
+/// (Taylor: the linear term vanishes at the centroid; the third derivative of ‖x‖ is at most 2/(√3 ‖x‖²)). A cluster is
+/// opened unless its bound is at most `error`; leaves are summed exactly. So the whole mean errs by at most `error`.
 class VoxelTree {
  public:
   VoxelTree() = default;
@@ -28,13 +29,13 @@ class VoxelTree {
  private:
   using Cell = Eigen::Vector3i;
   struct Node {
-    Vec3 centroid;                ///< in voxels
-    Eigen::Matrix3d covariance;   ///< voxels²
-    double trace = 0.0;           ///< of the covariance
-    double radius = 0.0;          ///< of the ball about the centroid that holds every centre, voxels
-    double weight = 0.0;          ///< number of voxels
+    Vec3 centroid;                      ///< in voxels
+    Eigen::Matrix3d covariance;         ///< voxels²
+    double trace = 0.0;                 ///< of the covariance
+    double radius = 0.0;                ///< of the ball about the centroid that holds every centre, voxels
+    double weight = 0.0;                ///< number of voxels
     std::int32_t first = 0, count = 0;  ///< of voxels_
-    std::int32_t right = 0;       ///< 0: a leaf; the left child follows its parent
+    std::int32_t right = 0;             ///< 0: a leaf; the left child follows its parent
   };
   static constexpr int kLeafSize = 8;
 

@@ -26,7 +26,8 @@ fs::path find_file(const CloudSource& source, const Scenario& scenario, const ch
     if (fs::is_regular_file(place, ignored)) return place;
     tried += (tried.empty() ? "" : ", ") + place.lexically_normal().string();
   }
-  throw source.section.error("file", fmt::format("{} not found (sought: {}; set TERN_DATA to the data's folder)", source.file, tried));
+  throw source.section.error(
+      "file", fmt::format("{} not found (sought: {}; set TERN_DATA to the data's folder)", source.file, tried));
 }
 
 std::vector<std::uint8_t> read_bytes(const fs::path& file, const CloudSource& source) {
@@ -48,7 +49,8 @@ bool is_kept(VoxelLabel label, bool semantics) {
   return semantics || (label != VoxelLabel::Attractive && label != VoxelLabel::Repulsive);
 }
 
-CloudLayer load_cloud(const CloudSource& source, const Scenario& scenario, const MapperConfig& config, const char* environment) {
+CloudLayer load_cloud(const CloudSource& source, const Scenario& scenario, const MapperConfig& config,
+                      const char* environment) {
   const fs::path file = find_file(source, scenario, environment);
   const std::vector<std::uint8_t> bytes = read_bytes(file, source);
   auto points = source.format == CloudFormat::Las ? parse_las(bytes, file.string(), source.frame)
@@ -60,7 +62,8 @@ CloudLayer load_cloud(const CloudSource& source, const Scenario& scenario, const
   for (const bool groups : {true, false}) {
     for (const auto& [name, label] : config.classes) {
       if (is_class_group(name) != groups || !is_kept(label, scenario.semantics.enabled)) continue;
-      for (const std::uint8_t number : class_numbers(name)) layer.classes[number] = ClassMeaning{class_name(number), label};
+      for (const std::uint8_t number : class_numbers(name))
+        layer.classes[number] = ClassMeaning{class_name(number), label};
     }
   }
   for (const std::string& name : source.fill_below) {
@@ -85,9 +88,11 @@ VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const ch
   }
   for (const ObstacleSpec& obstacle : scenario.world.obstacles) {
     const bool rests = std::holds_alternative<StaticMotion>(obstacle.motion);
-    if (config.voxelize_obstacles && rests) sources.obstacles.push_back(box_around(obstacle.centre, obstacle.half_extents));
+    if (config.voxelize_obstacles && rests)
+      sources.obstacles.push_back(box_around(obstacle.centre, obstacle.half_extents));
   }
-  for (const CloudSource& source : config.sources) sources.clouds.push_back(load_cloud(source, scenario, config, environment));
+  for (const CloudSource& source : config.sources)
+    sources.clouds.push_back(load_cloud(source, scenario, config, environment));
 
   MapBuildOptions options;
   options.resolution = config.resolution;

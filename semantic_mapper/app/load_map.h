@@ -7,8 +7,9 @@
 
 namespace tern {
 
-/// The map of the scenario's regions, the configured point clouds and, where asked for, its static obstacles. With semantics off only
-/// what is occupied stays. Files are sought as given if absolute; else beside the scenario, then in data_folder().
+/// The map of the scenario's regions, the configured point clouds and, where asked for, its static obstacles. With
+/// semantics off only what is occupied stays. Files are sought as given if absolute; else beside the scenario, then in
+/// data_folder().
 /// @param environment  TERN_DATA's value, may be null
 /// @throws ConfigError that names the key and the file: not found, unreadable, refused by its reader; a map too large.
 VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const char* environment);

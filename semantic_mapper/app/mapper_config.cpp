@@ -14,13 +14,14 @@ const Range kFileCoordinate = Range::within(1e9);
 const Range kPosition = Range::within(1e5);
 
 const std::vector<std::pair<std::string, std::string>> kDefaultClasses{
-    {"ground", "occupied"}, {"building", "occupied"},    {"bridge_deck", "occupied"},   {"tower", "occupied"},
+    {"ground", "occupied"}, {"building", "occupied"},     {"bridge_deck", "occupied"}, {"tower", "occupied"},
     {"wire", "occupied"},   {"vegetation", "attractive"}, {"water", "repulsive"}};
 
 std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection classes, bool is_given) {
   std::vector<std::pair<std::string, VoxelLabel>> result;
   const auto read = [&](const std::string& name, const std::string& fallback) {
-    if (class_numbers(name).empty()) throw classes.error(name, "is no class or group of classes (see semantic_mapper/README.md)");
+    if (class_numbers(name).empty())
+      throw classes.error(name, "is no class or group of classes (see semantic_mapper/README.md)");
     result.emplace_back(name, *label_from(classes.choice(name, fallback, kLabelWords)));
   };
   if (!is_given) {
@@ -53,7 +54,8 @@ CloudSource read_source(ConfigSection section) {
   source.file = section.required_text("file");
   if (source.file.empty()) throw section.error("file", "is empty");
   const bool is_ply = std::filesystem::path(source.file).extension() == ".ply";
-  source.format = section.choice("format", is_ply ? "ply" : "las", {"las", "ply"}) == "ply" ? CloudFormat::Ply : CloudFormat::Las;
+  source.format =
+      section.choice("format", is_ply ? "ply" : "las", {"las", "ply"}) == "ply" ? CloudFormat::Ply : CloudFormat::Las;
   source.frame.origin = section.vec3("origin", source.frame.origin, kFileCoordinate);
   source.frame.metres_per_unit = section.number("metres_per_unit", source.frame.metres_per_unit, Range::positive(1e6));
   source.min_points = static_cast<int>(section.integer("min_points", source.min_points, 1, 1'000'000));
@@ -66,7 +68,8 @@ CloudSource read_source(ConfigSection section) {
 Box read_extents(ConfigSection section) {
   const Box box(section.required_vec3("min", kPosition), section.required_vec3("max", kPosition));
   section.finish();
-  if (!(box.min().array() < box.max().array()).all()) throw section.error("max", "is not greater than min on every axis");
+  if (!(box.min().array() < box.max().array()).all())
+    throw section.error("max", "is not greater than min on every axis");
   return box;
 }
 

@@ -15,18 +15,18 @@ namespace tern {
 enum class CloudFormat { Las, Ply };
 
 struct CloudSource {
-  std::string file;         ///< as the scenario names it
+  std::string file;  ///< as the scenario names it
   CloudFormat format = CloudFormat::Las;
   PointFrame frame;
   int min_points = 1;
-  double point_radius = 0.0;              ///< m
-  std::vector<std::string> fill_below;    ///< class names
-  ConfigSection section;                  ///< where it was read: for errors that show only when the file is opened
+  double point_radius = 0.0;            ///< m
+  std::vector<std::string> fill_below;  ///< class names
+  ConfigSection section;                ///< where it was read: for errors that show only when the file is opened
 };
 
 struct MapperConfig {
-  double resolution = 0.25;               ///< m
-  std::optional<Box> extents;             ///< W, m
+  double resolution = 0.25;    ///< m
+  std::optional<Box> extents;  ///< W, m
   VoxelLabel background = VoxelLabel::Free;
   bool voxelize_obstacles = false;
   std::vector<std::pair<std::string, VoxelLabel>> classes;  ///< point clouds': class or group name → label

@@ -35,8 +35,8 @@ std::array<std::int64_t, kVoxelLabels> count_labels(const VoxelMap& map) {
 MapperNode::MapperNode(Bus& bus, const VoxelMap& map)
     : bus_(bus), chunks_(to_chunks(map)), rotation_began_(bus.clock().now()), next_(rotation_began_) {
   if (chunks_.size() > static_cast<std::size_t>(kMaxMapChunks)) {
-    throw std::invalid_argument(fmt::format("the map takes {} chunks (limit {}): it is too large or too ragged", chunks_.size(),
-                                            kMaxMapChunks));
+    throw std::invalid_argument(fmt::format("the map takes {} chunks (limit {}): it is too large or too ragged",
+                                            chunks_.size(), kMaxMapChunks));
   }
 }
 
@@ -53,8 +53,9 @@ void MapperNode::step(UTime now) {
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context) {
   const VoxelMap map = load_map(context.scenario, read_mapper_config(context.section), std::getenv("TERN_DATA"));
   const auto count = count_labels(map);
-  spdlog::info("map {:016x}: {} × {} × {} voxels of {} m: {} occupied, {} attractive, {} repulsive, {} unknown", map.version,
-               map.grid.size.x(), map.grid.size.y(), map.grid.size.z(), map.grid.resolution, count[2], count[3], count[4], count[0]);
+  spdlog::info("map {:016x}: {} × {} × {} voxels of {} m: {} occupied, {} attractive, {} repulsive, {} unknown",
+               map.version, map.grid.size.x(), map.grid.size.y(), map.grid.size.z(), map.grid.resolution, count[2],
+               count[3], count[4], count[0]);
   try {
     return std::make_unique<MapperNode>(context.bus, map);
   } catch (const std::invalid_argument& e) {

@@ -8,11 +8,29 @@
 namespace tern {
 namespace {
 
-constexpr std::array<const char*, 23> kNames{
-    "never_classified", "unclassified",    "ground",     "low_vegetation",  "medium_vegetation",  "high_vegetation",
-    "building",         "low_noise",       "key_point",  "water",           "rail",               "road_surface",
-    "overlap",          "wire_guard",      "wire_conductor", "tower",       "wire_connector",     "bridge_deck",
-    "high_noise",       "overhead_structure", "ignored_ground", "snow",     "temporal_exclusion"};
+constexpr std::array<const char*, 23> kNames{"never_classified",
+                                             "unclassified",
+                                             "ground",
+                                             "low_vegetation",
+                                             "medium_vegetation",
+                                             "high_vegetation",
+                                             "building",
+                                             "low_noise",
+                                             "key_point",
+                                             "water",
+                                             "rail",
+                                             "road_surface",
+                                             "overlap",
+                                             "wire_guard",
+                                             "wire_conductor",
+                                             "tower",
+                                             "wire_connector",
+                                             "bridge_deck",
+                                             "high_noise",
+                                             "overhead_structure",
+                                             "ignored_ground",
+                                             "snow",
+                                             "temporal_exclusion"};
 
 struct Group {
   const char* name;

@@ -56,11 +56,13 @@ Result<LasHeader> read_header(std::span<const std::uint8_t> bytes, const std::st
     return bad_file(file, 0, "no LAS file: it does not begin with LASF");
   }
   if (bytes[kMajorAt] != 1 || bytes[kMinorAt] > 4) {
-    return bad_file(file, kMajorAt, fmt::format("LAS version {}.{} (limit 1.0 to 1.4)", bytes[kMajorAt], bytes[kMinorAt]));
+    return bad_file(file, kMajorAt,
+                    fmt::format("LAS version {}.{} (limit 1.0 to 1.4)", bytes[kMajorAt], bytes[kMinorAt]));
   }
   const std::uint8_t format = bytes[kFormatAt];
   if (format >= 128) return bad_file(file, kFormatAt, "compressed (LAZ) points: decompress the file first");
-  if (format >= kRecordLength.size()) return bad_file(file, kFormatAt, fmt::format("point format {} (limit 0 to 10)", format));
+  if (format >= kRecordLength.size())
+    return bad_file(file, kFormatAt, fmt::format("point format {} (limit 0 to 10)", format));
   LasHeader header;
   header.wide_class = format >= 6;
   header.data_offset = read_number<std::uint32_t>(bytes, kDataOffsetAt);
@@ -68,8 +70,9 @@ Result<LasHeader> read_header(std::span<const std::uint8_t> bytes, const std::st
   header.scale = read_vec3(bytes, kScaleAt);
   header.offset = read_vec3(bytes, kOffsetAt);
   if (header.record_length < kRecordLength[format]) {
-    return bad_file(file, kRecordLengthAt, fmt::format("records of {} bytes (format {} has at least {})", header.record_length,
-                                                       format, kRecordLength[format]));
+    return bad_file(file, kRecordLengthAt,
+                    fmt::format("records of {} bytes (format {} has at least {})", header.record_length, format,
+                                kRecordLength[format]));
   }
   const auto count = read_count(bytes, file);
   if (!count) return tl::unexpected(count.error());
@@ -79,11 +82,12 @@ Result<LasHeader> read_header(std::span<const std::uint8_t> bytes, const std::st
   }
   header.count = static_cast<std::size_t>(*count);
   if (header.data_offset < kHeaderSize || header.data_offset > bytes.size()) {
-    return bad_file(file, kDataOffsetAt, fmt::format("points begin at {} (limit {} to {})", header.data_offset, kHeaderSize,
-                                                     bytes.size()));
+    return bad_file(file, kDataOffsetAt,
+                    fmt::format("points begin at {} (limit {} to {})", header.data_offset, kHeaderSize, bytes.size()));
   }
   const std::size_t fit = (bytes.size() - header.data_offset) / header.record_length;
-  if (header.count > fit) return bad_file(file, at, fmt::format("{} points, but the file ends after {}", header.count, fit));
+  if (header.count > fit)
+    return bad_file(file, at, fmt::format("{} points, but the file ends after {}", header.count, fit));
   return header;
 }
 
@@ -103,8 +107,9 @@ Result<PointCloud> parse_las(std::span<const std::uint8_t> bytes, const std::str
     const Vec3 p_file = raw.cwiseProduct(header->scale) + header->offset;
     const auto p = frame.to_world(p_file);
     if (!p) {
-      return bad_file(file, at, fmt::format("point {} at ({:g}, {:g}, {:g}) is too far from the origin that was given", i,
-                                            p_file.x(), p_file.y(), p_file.z()));
+      return bad_file(file, at,
+                      fmt::format("point {} at ({:g}, {:g}, {:g}) is too far from the origin that was given", i,
+                                  p_file.x(), p_file.y(), p_file.z()));
     }
     const auto class_number = static_cast<std::uint8_t>(header->wide_class ? bytes[at + 16] : bytes[at + 15] & 0x1f);
     cloud.push_back({*p, class_number});

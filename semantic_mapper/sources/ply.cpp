@@ -25,8 +25,9 @@ class Vertices {
     const Vec3 p_file(values[header_.position[0]], values[header_.position[1]], values[header_.position[2]]);
     const auto p = frame_.to_world(p_file);
     if (!p) {
-      return bad_file(file_, at, fmt::format("a vertex at ({:g}, {:g}, {:g}) is too far from the origin that was given",
-                                             p_file.x(), p_file.y(), p_file.z()));
+      return bad_file(file_, at,
+                      fmt::format("a vertex at ({:g}, {:g}, {:g}) is too far from the origin that was given",
+                                  p_file.x(), p_file.y(), p_file.z()));
     }
     if (header_.class_number == PlyHeader::kNone) return LabelledPoint{*p, 0};
     const double number = values[header_.class_number];
@@ -56,12 +57,14 @@ double read_value(Bytes bytes, std::size_t at, PlyType type, std::endian order) 
   return 0.0;
 }
 
-Result<PointCloud> read_binary(Bytes bytes, const std::string& file, const PlyHeader& header, const Vertices& vertices) {
+Result<PointCloud> read_binary(Bytes bytes, const std::string& file, const PlyHeader& header,
+                               const Vertices& vertices) {
   std::size_t stride = 0;
   for (const PlyType type : header.properties) stride += size_of(type);
   const std::size_t fit = (bytes.size() - header.data_offset) / stride;
   if (header.count > fit) {
-    return bad_file(file, header.data_offset, fmt::format("{} vertices, but the file ends after {}", header.count, fit));
+    return bad_file(file, header.data_offset,
+                    fmt::format("{} vertices, but the file ends after {}", header.count, fit));
   }
   const std::endian order = header.format == PlyFormat::BigEndian ? std::endian::big : std::endian::little;
   PointCloud cloud;
@@ -98,7 +101,8 @@ Result<PointCloud> read_ascii(Bytes bytes, const std::string& file, const PlyHea
   // A value takes two characters at least: no more memory than the file can fill.
   const std::size_t most = (bytes.size() - header.data_offset + 1) / (2 * header.properties.size());
   if (header.count > most) {
-    return bad_file(file, header.data_offset, fmt::format("{} vertices, but the file has room for {}", header.count, most));
+    return bad_file(file, header.data_offset,
+                    fmt::format("{} vertices, but the file has room for {}", header.count, most));
   }
   PointCloud cloud;
   cloud.reserve(header.count);
@@ -107,7 +111,8 @@ Result<PointCloud> read_ascii(Bytes bytes, const std::string& file, const PlyHea
   for (std::size_t i = 0; i < header.count; ++i) {
     const std::size_t begin = at;
     for (double& value : values) {
-      if (!next_number(text, at, value)) return bad_file(file, at, fmt::format("no number where vertex {} needs one", i));
+      if (!next_number(text, at, value))
+        return bad_file(file, at, fmt::format("no number where vertex {} needs one", i));
     }
     const auto point = vertices.point(values, begin);
     if (!point) return tl::unexpected(point.error());

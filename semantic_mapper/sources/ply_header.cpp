@@ -63,10 +63,14 @@ class HeaderLines {
   std::string take_format(const std::vector<std::string_view>& words) {
     if (words.size() != 3 || words[2] != "1.0") return "the format line is not \"format <kind> 1.0\"";
     has_format_ = true;
-    if (words[1] == "ascii") header.format = PlyFormat::Ascii;
-    else if (words[1] == "binary_little_endian") header.format = PlyFormat::LittleEndian;
-    else if (words[1] == "binary_big_endian") header.format = PlyFormat::BigEndian;
-    else return fmt::format("unknown format {}", words[1].substr(0, 40));
+    if (words[1] == "ascii")
+      header.format = PlyFormat::Ascii;
+    else if (words[1] == "binary_little_endian")
+      header.format = PlyFormat::LittleEndian;
+    else if (words[1] == "binary_big_endian")
+      header.format = PlyFormat::BigEndian;
+    else
+      return fmt::format("unknown format {}", words[1].substr(0, 40));
     return "";
   }
 
@@ -81,7 +85,8 @@ class HeaderLines {
     if (!in_vertices_) return has_vertices_ ? "" : fmt::format("element {} before vertex", words[1].substr(0, 40));
     if (has_vertices_) return "element vertex given twice";
     has_vertices_ = true;
-    if (count > static_cast<std::uint64_t>(kMaxCloudPoints)) return fmt::format("{} vertices (limit {})", count, kMaxCloudPoints);
+    if (count > static_cast<std::uint64_t>(kMaxCloudPoints))
+      return fmt::format("{} vertices (limit {})", count, kMaxCloudPoints);
     header.count = static_cast<std::size_t>(count);
     return "";
   }

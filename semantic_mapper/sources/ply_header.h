@@ -20,11 +20,11 @@ struct PlyHeader {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   PlyFormat format = PlyFormat::Ascii;
-  std::size_t count = 0;            ///< vertices
-  std::vector<PlyType> properties;  ///< of a vertex, in file order
+  std::size_t count = 0;                            ///< vertices
+  std::vector<PlyType> properties;                  ///< of a vertex, in file order
   std::size_t position[3] = {kNone, kNone, kNone};  ///< indices of x, y, z; all set
   std::size_t class_number = kNone;                 ///< index of the class, kNone without one
-  std::size_t data_offset = 0;      ///< where the first vertex begins
+  std::size_t data_offset = 0;                      ///< where the first vertex begins
 };
 
 /// Reads the header as parse_ply says.

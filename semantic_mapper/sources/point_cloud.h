@@ -18,8 +18,8 @@ struct LabelledPoint {
 };
 using PointCloud = std::vector<LabelledPoint>;
 
-/// How a file's coordinates become W's: p_W = (p_file − origin) · metres_per_unit. Surveys count from far away, in metres or
-/// feet, and do not always say which.
+/// How a file's coordinates become W's: p_W = (p_file − origin) · metres_per_unit. Surveys count from far away, in
+/// metres or feet, and do not always say which.
 struct PointFrame {
   Vec3 origin = Vec3::Zero();    ///< file's units
   double metres_per_unit = 1.0;  ///< > 0

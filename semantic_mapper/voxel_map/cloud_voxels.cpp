@@ -23,7 +23,8 @@ std::vector<Mark> marks_of(const CloudLayer& cloud, const VoxelGrid& grid) {
   const int reach = static_cast<int>(std::ceil(cloud.point_radius / grid.resolution));
   const double radius2 = cloud.point_radius * cloud.point_radius;
   for (const LabelledPoint& point : cloud.points) {
-    if (!cloud.classes[point.class_number] || !grown(grid.bounds(), Vec3::Constant(cloud.point_radius)).contains(point.position)) {
+    if (!cloud.classes[point.class_number] ||
+        !grown(grid.bounds(), Vec3::Constant(cloud.point_radius)).contains(point.position)) {
       continue;
     }
     const Cell own = grid.cell_of(point.position);
@@ -46,8 +47,8 @@ std::vector<Mark> marks_of(const CloudLayer& cloud, const VoxelGrid& grid) {
 /// The marks of one voxel, counted.
 struct Tally {
   std::array<int, kVoxelLabels> of_label{};
-  std::array<int, kVoxelLabels> most{};                ///< marks of the label's leading class
-  std::array<std::uint8_t, kVoxelLabels> leader{};     ///< that class
+  std::array<int, kVoxelLabels> most{};             ///< marks of the label's leading class
+  std::array<std::uint8_t, kVoxelLabels> leader{};  ///< that class
 };
 
 Tally count(const CloudLayer& cloud, std::vector<Mark>::const_iterator begin, std::vector<Mark>::const_iterator end) {

@@ -47,10 +47,10 @@ Result<VoxelGrid> choose_grid(const MapSources& sources, const MapBuildOptions& 
   }
   const Lattice lattice = lattice_of(box, options.resolution);
   if (lattice.size.prod() > static_cast<double>(kMaxVoxels)) {
-    return fail(fmt::format("a map of {:g} × {:g} × {:g} m takes {:g} voxels of {} m (limit {}): give smaller extents or a "
-                            "coarser resolution",
-                            box.sizes().x(), box.sizes().y(), box.sizes().z(), lattice.size.prod(), options.resolution,
-                            kMaxVoxels));
+    return fail(fmt::format(
+        "a map of {:g} × {:g} × {:g} m takes {:g} voxels of {} m (limit {}): give smaller extents or a "
+        "coarser resolution",
+        box.sizes().x(), box.sizes().y(), box.sizes().z(), lattice.size.prod(), options.resolution, kMaxVoxels));
   }
   VoxelGrid grid;
   grid.origin = lattice.first * options.resolution;
@@ -62,7 +62,8 @@ Result<VoxelGrid> choose_grid(const MapSources& sources, const MapBuildOptions& 
 /// Does the shape overlap the voxel's interior?
 bool overlaps(const Box& shape, const Box& voxel) {
   const double touch = kTouch * voxel.sizes().x();
-  return (shape.min().array() < voxel.max().array() - touch).all() && (shape.max().array() > voxel.min().array() + touch).all();
+  return (shape.min().array() < voxel.max().array() - touch).all() &&
+         (shape.max().array() > voxel.min().array() + touch).all();
 }
 
 bool overlaps(const Region& region, const Box& voxel) {

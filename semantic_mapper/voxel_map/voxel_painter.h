@@ -19,7 +19,8 @@ class VoxelPainter {
   /// Labels a voxel unless it carries a label as strong or stronger. @pre index in [0, grid.voxels())
   void paint(std::int64_t index, VoxelLabel label, std::uint8_t class_index);
   /// Paints the voxels that meet `region` and for which `inside` (given the voxel's box) holds.
-  void paint_if(const Box& region, VoxelLabel label, std::uint8_t class_index, const std::function<bool(const Box&)>& inside);
+  void paint_if(const Box& region, VoxelLabel label, std::uint8_t class_index,
+                const std::function<bool(const Box&)>& inside);
 
   [[nodiscard]] const VoxelGrid& grid() const { return map_.grid; }
   /// The map with its version. The painter is empty afterwards.

@@ -28,15 +28,21 @@ PointCloud some_points(Rng& rng) {
 /// Flips, overwrites, cuts out, doubles or cuts off some bytes; mostly in the header, where it hurts.
 FileBytes mutated(FileBytes bytes, Rng& rng) {
   for (int n = 1 + static_cast<int>(rng.uniform(0, 4)); n > 0 && !bytes.empty(); --n) {
-    const double reach = rng.uniform() < 0.7 ? std::min(400.0, static_cast<double>(bytes.size())) : static_cast<double>(bytes.size());
+    const double reach =
+        rng.uniform() < 0.7 ? std::min(400.0, static_cast<double>(bytes.size())) : static_cast<double>(bytes.size());
     const auto at = static_cast<std::ptrdiff_t>(rng.uniform(0, reach));
-    const auto length = std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(rng.uniform(0, 9)), std::ssize(bytes) - at);
+    const auto length =
+        std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(rng.uniform(0, 9)), std::ssize(bytes) - at);
     switch (static_cast<int>(rng.uniform(0, 6))) {
-      case 0: bytes[static_cast<std::size_t>(at)] ^= static_cast<std::uint8_t>(1 << static_cast<int>(rng.uniform(0, 8))); break;
+      case 0:
+        bytes[static_cast<std::size_t>(at)] ^= static_cast<std::uint8_t>(1 << static_cast<int>(rng.uniform(0, 8)));
+        break;
       case 1: bytes[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(rng.uniform(0, 256)); break;
       case 2: std::fill_n(bytes.begin() + at, length, rng.uniform() < 0.5 ? 0xff : 0x00); break;
       case 3: bytes.erase(bytes.begin() + at, bytes.begin() + at + length); break;
-      case 4: bytes.insert(bytes.begin() + at, static_cast<std::size_t>(length), bytes[static_cast<std::size_t>(at)]); break;
+      case 4:
+        bytes.insert(bytes.begin() + at, static_cast<std::size_t>(length), bytes[static_cast<std::size_t>(at)]);
+        break;
       default: bytes.resize(static_cast<std::size_t>(at)); break;
     }
   }

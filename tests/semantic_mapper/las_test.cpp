@@ -77,9 +77,12 @@ TEST(Las, NamesFileOffsetValueAndLimitOfWhatItRefuses) {
   EXPECT_THAT(with([](FileBytes& b) { b[25] = 5; }), HasSubstr("offset 24: LAS version 1.5 (limit 1.0 to 1.4)"));
   EXPECT_THAT(with([](FileBytes& b) { b[104] = 131; }), HasSubstr("offset 104: compressed (LAZ)"));
   EXPECT_THAT(with([](FileBytes& b) { b[104] = 11; }), HasSubstr("offset 104: point format 11 (limit 0 to 10)"));
-  EXPECT_THAT(with([](FileBytes& b) { put<std::uint16_t>(b, 105, 33); }), HasSubstr("records of 33 bytes (format 3 has at least 34)"));
-  EXPECT_THAT(with([](FileBytes& b) { put<std::uint32_t>(b, 107, 4); }), HasSubstr("offset 107: 4 points, but the file ends after 3"));
-  EXPECT_THAT(with([](FileBytes& b) { put<std::uint32_t>(b, 107, 0xffffffff); }), HasSubstr("4294967295 points (limit 50000000)"));
+  EXPECT_THAT(with([](FileBytes& b) { put<std::uint16_t>(b, 105, 33); }),
+              HasSubstr("records of 33 bytes (format 3 has at least 34)"));
+  EXPECT_THAT(with([](FileBytes& b) { put<std::uint32_t>(b, 107, 4); }),
+              HasSubstr("offset 107: 4 points, but the file ends after 3"));
+  EXPECT_THAT(with([](FileBytes& b) { put<std::uint32_t>(b, 107, 0xffffffff); }),
+              HasSubstr("4294967295 points (limit 50000000)"));
   EXPECT_THAT(with([](FileBytes& b) { put<std::uint32_t>(b, 96, 9999); }), HasSubstr("points begin at 9999"));
   EXPECT_THAT(with([](FileBytes& b) { put(b, 131, std::nan("")); }), HasSubstr("offset 227: point 0 at (nan"));
   EXPECT_THAT(with([](FileBytes& b) { put(b, 155, 1e12); }), HasSubstr("too far from the origin"));

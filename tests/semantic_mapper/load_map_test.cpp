@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <algorithm>
@@ -36,7 +35,8 @@ class LoadMapTest : public ::testing::Test {
   ~LoadMapTest() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& name, const test_support::FileBytes& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+    std::ofstream(folder_ / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
   }
   [[nodiscard]] VoxelMap load(const std::string& yaml, const std::vector<std::string>& overrides = {}) const {
     auto document = ConfigDocument::parse(yaml, (folder_ / "s.yaml").string(), overrides);
@@ -55,7 +55,9 @@ class LoadMapTest : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-std::int64_t count(const VoxelMap& map, VoxelLabel label) { return std::count(map.labels.begin(), map.labels.end(), label); }
+std::int64_t count(const VoxelMap& map, VoxelLabel label) {
+  return std::count(map.labels.begin(), map.labels.end(), label);
+}
 
 TEST_F(LoadMapTest, LabelsTheRegionsByTheirClasses) {
   const VoxelMap map = load(kRegions);
@@ -82,7 +84,8 @@ TEST_F(LoadMapTest, AWorldWithoutAnythingHasAFreeMap) {
 
 TEST_F(LoadMapTest, VoxelizesStaticObstaclesWhenAsked) {
   const std::string yaml =
-      "world: {obstacles: [{centre: [1, 1, 1], half_extents: 0.5}, {centre: [5, 1, 1], motion: linear, velocity: [1, 0, 0]}]}\n";
+      "world: {obstacles: [{centre: [1, 1, 1], half_extents: 0.5}, {centre: [5, 1, 1], motion: linear, velocity: [1, "
+      "0, 0]}]}\n";
   EXPECT_EQ(count(load(yaml), VoxelLabel::Occupied), 0);
   EXPECT_EQ(count(load(yaml + "mapper: {voxelize_obstacles: true}\n"), VoxelLabel::Occupied), 64);
 }
@@ -101,7 +104,8 @@ TEST_F(LoadMapTest, FindsFilesBesideTheScenarioThenInTheDataFolder) {
 TEST_F(LoadMapTest, AClassThatIsNamedItselfOverrulesItsGroup) {
   const PointCloud plants{{Vec3(0.1, 0.1, 0.1), 3}, {Vec3(2.1, 0.1, 0.1), 5}};
   write("cloud.las", test_support::las_file(plants, {}));
-  const VoxelMap map = load("mapper: {classes: {high_vegetation: occupied, vegetation: attractive}, sources: [{file: cloud.las}]}");
+  const VoxelMap map =
+      load("mapper: {classes: {high_vegetation: occupied, vegetation: attractive}, sources: [{file: cloud.las}]}");
   EXPECT_EQ(count(map, VoxelLabel::Occupied), 1);
   EXPECT_EQ(count(map, VoxelLabel::Attractive), 1);
 }
@@ -109,8 +113,10 @@ TEST_F(LoadMapTest, AClassThatIsNamedItselfOverrulesItsGroup) {
 TEST_F(LoadMapTest, NamesTheFileThatIsMissingOrBroken) {
   EXPECT_THAT(error_of("mapper: {sources: [{file: no.las}]}"), HasSubstr("mapper.sources[0].file: no.las not found"));
   write("bad.las", {'L', 'A', 'S', 'F'});
-  EXPECT_THAT(error_of("mapper: {sources: [{file: bad.las}]}"), HasSubstr("bad.las, offset 4: the file ends within the header"));
-  EXPECT_THAT(error_of("mapper: {resolution_m: 0.01, extents: {min: [0, 0, 0], max: [100, 100, 100]}}"), HasSubstr("limit 200000000"));
+  EXPECT_THAT(error_of("mapper: {sources: [{file: bad.las}]}"),
+              HasSubstr("bad.las, offset 4: the file ends within the header"));
+  EXPECT_THAT(error_of("mapper: {resolution_m: 0.01, extents: {min: [0, 0, 0], max: [100, 100, 100]}}"),
+              HasSubstr("limit 200000000"));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "semantic_mapper/voxel_map/map_builder.h"
 
-#include <algorithm>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace tern {
 namespace {
@@ -18,8 +18,10 @@ Region region(const char* class_name, const std::variant<Box, BallRegion, PrismR
 MapSources sources_of(std::vector<Region> regions) {
   MapSources sources;
   sources.regions = std::move(regions);
-  sources.region_classes = {{"wall", VoxelLabel::Occupied},     {"water", VoxelLabel::Repulsive},
-                            {"texture", VoxelLabel::Attractive}, {"air", VoxelLabel::Free},
+  sources.region_classes = {{"wall", VoxelLabel::Occupied},
+                            {"water", VoxelLabel::Repulsive},
+                            {"texture", VoxelLabel::Attractive},
+                            {"air", VoxelLabel::Free},
                             {"fog", VoxelLabel::Unknown}};
   return sources;
 }
@@ -36,7 +38,9 @@ VoxelLabel label_at(const VoxelMap& map, const Vec3& p) {
   return map.grid.contains(cell) ? map.labels[static_cast<std::size_t>(map.grid.index(cell))] : VoxelLabel::Unknown;
 }
 
-std::int64_t count(const VoxelMap& map, VoxelLabel label) { return std::count(map.labels.begin(), map.labels.end(), label); }
+std::int64_t count(const VoxelMap& map, VoxelLabel label) {
+  return std::count(map.labels.begin(), map.labels.end(), label);
+}
 
 TEST(MapBuilder, AlignedBoxesAreExact) {
   const VoxelMap map = build(sources_of({region("texture", Box(Vec3(15, 1, 0), Vec3(30, 3, 4)))}));
@@ -65,9 +69,13 @@ TEST(MapBuilder, OccupiedShapesLoseNothingAndOthersFollowVoxelCentres) {
       // Every part of the solid lies in an occupied voxel; none is farther than a voxel's diagonal.
       for (int k = 0; k < 27; ++k) {
         const Vec3 u = Vec3(k % 3, k / 3 % 3, k / 9) * 0.4995 + Vec3::Constant(0.0005);
-        if (solid.contains(voxel.min() + u * 0.25)) EXPECT_EQ(walls.labels[v], VoxelLabel::Occupied);
+        if (solid.contains(voxel.min() + u * 0.25)) {
+          EXPECT_EQ(walls.labels[v], VoxelLabel::Occupied);
+        }
       }
-      if (walls.labels[v] == VoxelLabel::Occupied) EXPECT_LE(solid.distance(voxel.center()), 0.25 * 0.87);
+      if (walls.labels[v] == VoxelLabel::Occupied) {
+        EXPECT_LE(solid.distance(voxel.center()), 0.25 * 0.87);
+      }
     }
   }
 }
@@ -108,7 +116,8 @@ TEST(MapBuilder, ChoosesExtentsThatHoldEverythingAndStayHandy) {
   EXPECT_EQ(build(sources_of({}), options).grid.size, Eigen::Vector3i(300, 24, 16));
   options.include = Box(Vec3::Constant(-1e4), Vec3::Constant(1e4));
   const Box water(Vec3(0.1, 0.1, 0.1), Vec3(0.9, 0.9, 0.9));
-  EXPECT_EQ(build(sources_of({region("water", water)}), options).grid.size, Eigen::Vector3i(4, 4, 4)) << "an open world";
+  EXPECT_EQ(build(sources_of({region("water", water)}), options).grid.size, Eigen::Vector3i(4, 4, 4))
+      << "an open world";
 }
 
 TEST(MapBuilder, RefusesAMapThatIsTooLarge) {
@@ -146,7 +155,8 @@ VoxelMap build(CloudLayer layer) {
 }
 
 TEST(CloudVoxels, MarkTheVoxelsOfTheirPoints) {
-  const VoxelMap map = build(layer_of({{Vec3(1.1, 1.1, 1.1), 2}, {Vec3(2.1, 2.1, 2.1), 5}, {Vec3(3.1, 3.1, 3.1), 9}, {Vec3(9, 9, 9), 2}}));
+  const VoxelMap map = build(
+      layer_of({{Vec3(1.1, 1.1, 1.1), 2}, {Vec3(2.1, 2.1, 2.1), 5}, {Vec3(3.1, 3.1, 3.1), 9}, {Vec3(9, 9, 9), 2}}));
   EXPECT_EQ(count(map, VoxelLabel::Occupied), 1);
   EXPECT_EQ(count(map, VoxelLabel::Attractive), 1);
   EXPECT_EQ(label_at(map, Vec3(1.2, 1.2, 1.2)), VoxelLabel::Occupied);
@@ -155,8 +165,12 @@ TEST(CloudVoxels, MarkTheVoxelsOfTheirPoints) {
 }
 
 TEST(CloudVoxels, NeedTheirNumberOfPointsOfOneLabel) {
-  CloudLayer layer = layer_of({{Vec3(1.1, 1.1, 1.1), 2}, {Vec3(1.2, 1.1, 1.1), 6}, {Vec3(1.2, 1.2, 1.1), 6}, {Vec3(2.1, 1.1, 1.1), 2},
-                               {Vec3(2.2, 1.1, 1.1), 5}, {Vec3(2.2, 1.2, 1.1), 5}});
+  CloudLayer layer = layer_of({{Vec3(1.1, 1.1, 1.1), 2},
+                               {Vec3(1.2, 1.1, 1.1), 6},
+                               {Vec3(1.2, 1.2, 1.1), 6},
+                               {Vec3(2.1, 1.1, 1.1), 2},
+                               {Vec3(2.2, 1.1, 1.1), 5},
+                               {Vec3(2.2, 1.2, 1.1), 5}});
   layer.min_points = 3;
   EXPECT_EQ(count(build(layer), VoxelLabel::Occupied), 1) << "ground and building count together";
   layer.min_points = 2;

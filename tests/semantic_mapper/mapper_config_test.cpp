@@ -8,7 +8,9 @@ namespace {
 
 using testing::HasSubstr;
 
-MapperConfig read(const std::string& yaml) { return read_mapper_config(ConfigDocument::parse(yaml, "s.yaml").root().section("mapper")); }
+MapperConfig read(const std::string& yaml) {
+  return read_mapper_config(ConfigDocument::parse(yaml, "s.yaml").root().section("mapper"));
+}
 
 std::string error_of(const std::string& yaml) {
   try {
@@ -65,7 +67,8 @@ TEST(MapperConfig, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(error_of("mapper: {classes: {lava: repulsive}}"), HasSubstr("mapper.classes.lava: is no class"));
   EXPECT_THAT(error_of("mapper: {classes: {ground: hot}}"), HasSubstr("mapper.classes.ground"));
   EXPECT_THAT(error_of("mapper: {background: occupied}"), HasSubstr("mapper.background"));
-  EXPECT_THAT(error_of("mapper: {extents: {min: [0, 0, 0], max: [1, 0, 1]}}"), HasSubstr("is not greater than min on every axis"));
+  EXPECT_THAT(error_of("mapper: {extents: {min: [0, 0, 0], max: [1, 0, 1]}}"),
+              HasSubstr("is not greater than min on every axis"));
   EXPECT_THAT(error_of("mapper: {sources: [{format: las}]}"), HasSubstr("file"));
   EXPECT_THAT(error_of("mapper: {sources: [{file: a.las, fill_below: lava}]}"), HasSubstr("lava is no class"));
   EXPECT_THAT(error_of("mapper: {sources: [{file: a.xyz, format: xyz}]}"), HasSubstr("format"));

@@ -51,7 +51,8 @@ TEST_F(MapperNodeTest, ASmallMapComesWholeOnceASecond) {
   const UTime began = runner_.now();
   runner_.run(began + Duration{4'500'000});
   ASSERT_EQ(arrivals_.size(), 5u);
-  for (std::size_t i = 0; i < arrivals_.size(); ++i) EXPECT_EQ((arrivals_[i].at - began).us, 1'000'000 * static_cast<int>(i));
+  for (std::size_t i = 0; i < arrivals_.size(); ++i)
+    EXPECT_EQ((arrivals_[i].at - began).us, 1'000'000 * static_cast<int>(i));
   ASSERT_EQ(maps_.size(), 1u);
   EXPECT_EQ(maps_[0].labels, map.labels);
 }
@@ -68,7 +69,9 @@ TEST_F(MapperNodeTest, ALargeMapGoesRoundAtItsShareOfTheNetwork) {
     const auto size = static_cast<std::int64_t>(encode(arrivals_[i].chunk).size());
     EXPECT_LE(size, kMaxMessageBytes);
     bytes += size;
-    if (i > 0) EXPECT_GE((arrivals_[i].at - arrivals_[i - 1].at).us, kPacing.us);
+    if (i > 0) {
+      EXPECT_GE((arrivals_[i].at - arrivals_[i - 1].at).us, kPacing.us);
+    }
   }
   EXPECT_LE(bytes, 10 * kMapBytesPerSecond + 2 * kMaxMessageBytes);
   EXPECT_GE(bytes, 9 * kMapBytesPerSecond) << "it uses its share";
@@ -93,7 +96,8 @@ TEST_F(MapperNodeTest, RefusesAMapOfTooManyChunks) {
   for (std::size_t i = 0; i < map.labels.size(); i += 2) map.labels[i] = VoxelLabel::Occupied;
   map.version = map.compute_version();
   VirtualRunner runner;
-  EXPECT_THROW(runner.start("tern-mapper", [&](Bus& bus) { return std::make_unique<MapperNode>(bus, map); }), std::invalid_argument);
+  EXPECT_THROW(runner.start("tern-mapper", [&](Bus& bus) { return std::make_unique<MapperNode>(bus, map); }),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -78,13 +78,16 @@ TEST(Ply, NamesFileOffsetValueAndLimitOfWhatItRefuses) {
   EXPECT_THAT(error_of(with_lines(kXyz, "1 2\n   ")), HasSubstr("no number where vertex 0 needs one"));
   EXPECT_THAT(error_of(with_lines(kXyz, "1 2 3x\n")), HasSubstr("no number where vertex 0 needs one"));
   EXPECT_THAT(error_of(with_lines(kXyz, "1 2 nan\n")), HasSubstr("too far from the origin"));
-  EXPECT_THAT(error_of(with_lines(kXyz + "property int label\n", "1 2 3 256\n")), HasSubstr("class 256 is not an integer in [0, 255]"));
+  EXPECT_THAT(error_of(with_lines(kXyz + "property int label\n", "1 2 3 256\n")),
+              HasSubstr("class 256 is not an integer in [0, 255]"));
   EXPECT_THAT(error_of(with_lines(kXyz + "property float label\n", "1 2 3 1.5\n")), HasSubstr("class 1.5"));
   EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement face 1\nend_header\n"), HasSubstr("element face before vertex"));
-  EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement vertex 60000000\nend_header\n"), HasSubstr("60000000 vertices (limit 50000000)"));
+  EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement vertex 60000000\nend_header\n"),
+              HasSubstr("60000000 vertices (limit 50000000)"));
   EXPECT_THAT(error_of("ply\nformat binary_little_endian 1.0\nelement vertex 2\n" + kXyz + "end_header\n0123456789ab"),
               HasSubstr("2 vertices, but the file ends after 1"));
-  EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement vertex 49999999\n" + kXyz + "end_header\n1 2 3\n"), HasSubstr("has room for 1"));
+  EXPECT_THAT(error_of("ply\nformat ascii 1.0\nelement vertex 49999999\n" + kXyz + "end_header\n1 2 3\n"),
+              HasSubstr("has room for 1"));
 }
 
 }  // namespace

@@ -37,16 +37,19 @@ FileBytes las_file(const PointCloud& points, const LasSpec& spec) {
 
 FileBytes ply_file(const PointCloud& points, PlyKind kind, const std::string& class_property) {
   constexpr const char* kFormats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
-  std::string text = "ply\nformat " + std::string(kFormats[static_cast<int>(kind)]) + " 1.0\ncomment made by a test\nelement vertex " +
-                     std::to_string(points.size()) + "\nproperty double x\nproperty double y\nproperty float z\nproperty short other\n" +
-                     "property uchar " + class_property + "\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string text = "ply\nformat " + std::string(kFormats[static_cast<int>(kind)]) +
+                     " 1.0\ncomment made by a test\nelement vertex " + std::to_string(points.size()) +
+                     "\nproperty double x\nproperty double y\nproperty float z\nproperty short other\n" +
+                     "property uchar " + class_property +
+                     "\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
   FileBytes bytes(text.begin(), text.end());
   const std::endian order = kind == PlyKind::Big ? std::endian::big : std::endian::little;
   for (const LabelledPoint& point : points) {
     const Vec3& p = point.position;
     if (kind == PlyKind::Ascii) {
       char line[200];
-      const int n = std::snprintf(line, sizeof line, "%.17g %.17g %.9g -7 %d\n", p.x(), p.y(), p.z(), point.class_number);
+      const int n =
+          std::snprintf(line, sizeof line, "%.17g %.17g %.9g -7 %d\n", p.x(), p.y(), p.z(), point.class_number);
       bytes.insert(bytes.end(), line, line + n);
       continue;
     }

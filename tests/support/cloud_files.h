@@ -13,9 +13,9 @@ namespace tern::test_support {
 using FileBytes = std::vector<std::uint8_t>;
 
 struct LasSpec {
-  int minor = 2;         ///< version 1.minor
-  int format = 3;        ///< point data record format
-  int extra_bytes = 0;   ///< of every record, behind the standard fields
+  int minor = 2;        ///< version 1.minor
+  int format = 3;       ///< point data record format
+  int extra_bytes = 0;  ///< of every record, behind the standard fields
   Vec3 scale = Vec3(0.01, 0.01, 0.01);
   Vec3 offset = Vec3::Zero();
 };

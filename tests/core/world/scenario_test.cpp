@@ -14,8 +14,8 @@ Limits limits_of(const Vec3& v, const Vec3& a, double j = std::numeric_limits<do
   return {v, a, Vec3::Constant(j)};
 }
 
-/// One axis by simulation: the largest distance that a jerk-limited rest-to-rest motion of duration T covers, by its known shape: a
-/// symmetric ramp up in half the time, integrated in small steps.
+/// One axis by simulation: the largest distance that a jerk-limited rest-to-rest motion of duration T covers, by its
+/// known shape: a symmetric ramp up in half the time, integrated in small steps.
 double distance_in(double time, double v_max, double a_max, double j_max) {
   const int steps = 20'000;
   const double dt = 0.5 * time / steps;
@@ -35,9 +35,12 @@ double distance_in(double time, double v_max, double a_max, double j_max) {
   for (int i = 0; i < steps; ++i) {
     const double t = (i + 0.5) * dt;
     double acceleration = a;
-    if (t > ramp) acceleration = 0.0;
-    else if (t < jerk_time) acceleration = j_max * t;
-    else if (t > ramp - jerk_time) acceleration = j_max * (ramp - t);
+    if (t > ramp)
+      acceleration = 0.0;
+    else if (t < jerk_time)
+      acceleration = j_max * t;
+    else if (t > ramp - jerk_time)
+      acceleration = j_max * (ramp - t);
     x += v * dt + 0.5 * acceleration * dt * dt;
     v += acceleration * dt;
   }
@@ -47,10 +50,16 @@ double distance_in(double time, double v_max, double a_max, double j_max) {
 TEST(RestToRestBound, IsTheBenchmarksNumber) {
   const Limits paper = limits_of(Vec3::Constant(6), Vec3(20, 20, 10));
   EXPECT_NEAR(rest_to_rest_bound_s(Vec3(0, 0, 1), Vec3(75, -1, 1), paper), 12.8, 1e-12);
-  EXPECT_NEAR(rest_to_rest_bound_s(Vec3(0, 0, 1), Vec3(75, 0, 1), limits_of(Vec3::Constant(5), Vec3::Constant(20))), 15.25, 1e-12);
-  EXPECT_NEAR(rest_to_rest_bound_s(Vec3(0, 0, 2), Vec3(105, 0, 2), limits_of(Vec3::Constant(5), Vec3::Constant(20))), 21.25, 1e-12);
-  EXPECT_NEAR(rest_to_rest_bound_s(Vec3(0, 0, 2), Vec3(105, 0, 2), limits_of(Vec3::Constant(5), Vec3::Constant(20), 100)), 21.45, 1e-9);
-  EXPECT_NEAR(rest_to_rest_bound_s(Vec3(0, 0, 1), Vec3(75, 0, 1), limits_of(Vec3::Constant(3.5), Vec3(20, 20, 9.6), 30)), 22.11, 5e-3);
+  EXPECT_NEAR(rest_to_rest_bound_s(Vec3(0, 0, 1), Vec3(75, 0, 1), limits_of(Vec3::Constant(5), Vec3::Constant(20))),
+              15.25, 1e-12);
+  EXPECT_NEAR(rest_to_rest_bound_s(Vec3(0, 0, 2), Vec3(105, 0, 2), limits_of(Vec3::Constant(5), Vec3::Constant(20))),
+              21.25, 1e-12);
+  EXPECT_NEAR(
+      rest_to_rest_bound_s(Vec3(0, 0, 2), Vec3(105, 0, 2), limits_of(Vec3::Constant(5), Vec3::Constant(20), 100)),
+      21.45, 1e-9);
+  EXPECT_NEAR(
+      rest_to_rest_bound_s(Vec3(0, 0, 1), Vec3(75, 0, 1), limits_of(Vec3::Constant(3.5), Vec3(20, 20, 9.6), 30)), 22.11,
+      5e-3);
 }
 
 TEST(RestToRestBound, IsTheTimeInWhichTheDistanceIsCovered) {
@@ -60,8 +69,11 @@ TEST(RestToRestBound, IsTheTimeInWhichTheDistanceIsCovered) {
     const double a = rng.uniform(1, 25);
     const double j = i % 3 == 0 ? std::numeric_limits<double>::infinity() : rng.uniform(5, 200);
     const double distance = std::exp(rng.uniform(-4, 4));
-    const double time = rest_to_rest_bound_s(Vec3::Zero(), Vec3(distance, 0, 0), limits_of(Vec3::Constant(v), Vec3::Constant(a), j));
-    EXPECT_NEAR(distance_in(time, v, a, j), distance, 2e-3 * distance) << "v " << v << " a " << a << " j " << j;
+    const double time =
+        rest_to_rest_bound_s(Vec3::Zero(), Vec3(distance, 0, 0), limits_of(Vec3::Constant(v), Vec3::Constant(a), j));
+    // The oracle's steps are time / 40,000 long: its speed is off by up to a step's worth of acceleration.
+    EXPECT_NEAR(distance_in(time, v, a, j), distance, 1e-3 * distance + a * time * time / 40'000)
+        << "v " << v << " a " << a << " j " << j;
   }
 }
 

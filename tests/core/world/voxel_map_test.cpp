@@ -16,7 +16,8 @@ VoxelMap random_map(std::uint64_t seed, const Eigen::Vector3i& size, double dens
   VoxelMap map = free_map(size, 0.25, Vec3(-3.5, 2.25, 0.0));
   map.class_names = {"", "water", "wall"};
   for (std::size_t i = 0; i < map.labels.size(); ++i) {
-    if (rng.uniform() < density) map.labels[i] = static_cast<VoxelLabel>(static_cast<int>(rng.uniform(0, kVoxelLabels)));
+    if (rng.uniform() < density)
+      map.labels[i] = static_cast<VoxelLabel>(static_cast<int>(rng.uniform(0, kVoxelLabels)));
     if (rng.uniform() < density) map.classes[i] = static_cast<std::uint8_t>(rng.uniform(0, 3));
   }
   map.version = map.compute_version();
@@ -52,7 +53,8 @@ TEST(MapChunks, JoinToTheMapThatWasCutInAnyOrder) {
     std::vector<MapChunk> chunks = to_chunks(map);
     ASSERT_GT(chunks.size(), 1u);
     Rng rng(seed);
-    for (std::size_t i = chunks.size(); i > 1; --i) std::swap(chunks[i - 1], chunks[static_cast<std::size_t>(rng.uniform(0, static_cast<double>(i)))]);
+    for (std::size_t i = chunks.size(); i > 1; --i)
+      std::swap(chunks[i - 1], chunks[static_cast<std::size_t>(rng.uniform(0, static_cast<double>(i)))]);
     chunks.insert(chunks.begin() + 1, chunks.front());  // one comes twice
     MapAssembler assembler;
     for (std::size_t i = 0; i < chunks.size(); ++i) {
@@ -134,7 +136,8 @@ TEST(VoxelMap, VersionNamesEveryPartOfTheMap) {
   EXPECT_TRUE(differs([](VoxelMap& m) { m.grid.resolution = 0.5; }));
   EXPECT_TRUE(differs([](VoxelMap& m) { std::swap(m.grid.size.x(), m.grid.size.y()); }));
   EXPECT_TRUE(differs([](VoxelMap& m) { m.class_names[1] = "lava"; }));
-  EXPECT_TRUE(differs([](VoxelMap& m) { m.labels[7] = m.labels[7] == VoxelLabel::Free ? VoxelLabel::Occupied : VoxelLabel::Free; }));
+  EXPECT_TRUE(differs(
+      [](VoxelMap& m) { m.labels[7] = m.labels[7] == VoxelLabel::Free ? VoxelLabel::Occupied : VoxelLabel::Free; }));
   EXPECT_TRUE(differs([](VoxelMap& m) { m.classes[7] ^= 1; }));
 }
 

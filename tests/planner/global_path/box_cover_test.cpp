@@ -25,8 +25,8 @@ void expect_exact_cover(const VoxelMap& map, bool unknown_is_obstacle) {
   const std::vector<Box> boxes = cover_with_boxes(map, unknown_is_obstacle);
   const std::vector<int> count = count_covers(map, boxes);
   for (std::size_t i = 0; i < count.size(); ++i) {
-    const bool obstacle = map.labels[i] == VoxelLabel::Occupied ||
-                          (unknown_is_obstacle && map.labels[i] == VoxelLabel::Unknown);
+    const bool obstacle =
+        map.labels[i] == VoxelLabel::Occupied || (unknown_is_obstacle && map.labels[i] == VoxelLabel::Unknown);
     ASSERT_EQ(count[i], obstacle ? 1 : 0) << "voxel " << i;
   }
 }

@@ -40,7 +40,8 @@ double visibility_graph_length(const std::vector<Box>& boxes, const Vec3& from, 
   }
   const BoxIndex index(boxes);
   std::vector<double> best(points.size(), INFINITY);
-  std::priority_queue<std::pair<double, std::size_t>, std::vector<std::pair<double, std::size_t>>, std::greater<>> queue;
+  std::priority_queue<std::pair<double, std::size_t>, std::vector<std::pair<double, std::size_t>>, std::greater<>>
+      queue;
   queue.emplace(best[0] = 0.0, 0);
   while (!queue.empty()) {
     const auto [length, i] = queue.top();
@@ -175,7 +176,8 @@ TEST(GoalField, SaysNothingWhenTheGoalIsBlocked) {
   const GoalField inside = GoalField::build(boxes, flight_box, Vec3(10, 0, 1));
   EXPECT_FALSE(inside.path_from(Vec3(0, 0, 1)));
   EXPECT_TRUE(std::isinf(inside.distance(Vec3(0, 0, 1))));
-  EXPECT_FALSE(GoalField::build(boxes, flight_box, Vec3(10, 4, 1)).path_from(Vec3(0, 0, 1))) << "outside the flight box";
+  EXPECT_FALSE(GoalField::build(boxes, flight_box, Vec3(10, 4, 1)).path_from(Vec3(0, 0, 1)))
+      << "outside the flight box";
 
   const std::vector<Box> wall{Box(Vec3(5, -4, -1), Vec3(6, 4, 4))};
   const GoalField behind = GoalField::build(wall, flight_box, Vec3(10, 0, 1));

@@ -49,7 +49,8 @@ TEST(SemanticFields, ExposureIsTheDistanceToTheVoxelsWithinTheStatedError) {
   const double error = DistanceBand::kBandError * map.grid.resolution;
   for (int i = 0; i < 2000; ++i) {
     const Vec3 u(rng.uniform(), rng.uniform(), rng.uniform());
-    const Vec3 p = map.grid.bounds().min() - Vec3::Ones() + u.cwiseProduct(map.grid.bounds().sizes() + 2 * Vec3::Ones());
+    const Vec3 p =
+        map.grid.bounds().min() - Vec3::Ones() + u.cwiseProduct(map.grid.bounds().sizes() + 2 * Vec3::Ones());
     const double repulsive = std::clamp(1.0 - distance_to_voxels(map, VoxelLabel::Repulsive, p), 0.0, 1.0);
     const double attractive = std::clamp(distance_to_voxels(map, VoxelLabel::Attractive, p), 0.0, 1.0);
     EXPECT_NEAR(fields.exposure_repulsive(p), repulsive, error);
@@ -81,7 +82,8 @@ TEST(SemanticFields, MeanDistanceStaysWithinItsBound) {
       sum += (p - map.grid.centre(map.grid.cell(static_cast<std::int64_t>(v)))).norm();
       ++n;
     }
-    EXPECT_NEAR(fields.mean_distance(VoxelLabel::Repulsive, p), sum / n, fields.mean_distance_error(VoxelLabel::Repulsive));
+    EXPECT_NEAR(fields.mean_distance(VoxelLabel::Repulsive, p), sum / n,
+                fields.mean_distance_error(VoxelLabel::Repulsive));
   }
 }
 
