@@ -115,7 +115,7 @@ choose_network() {
 }
 
 announce() {
-  printf 'export LCM_DEFAULT_URL=%q\n' "$url" >"$record/env.sh"
+  printf "export LCM_DEFAULT_URL='%s'\n" "$url" >"$record/env.sh"
   printf '%q ' "$0" "${arguments[@]}" >"$record/command"
   printf '\n' >>"$record/command"
   say "Flight of $scenario_file"

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# install.sh: installs the Debian packages of packages.txt that are missing, as root or with sudo. Does nothing when none is.
+# install.sh [LIST...]: installs the Debian packages of the lists (by default packages.txt) that are missing, as root or with
+# sudo. Does nothing when none is.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
-mapfile -t wanted < <(grep -oE '^[a-z0-9][^[:space:]]*' "$TERN_ROOT/launch_scripts/packages.txt")
+[[ $# -gt 0 ]] || set -- "$TERN_ROOT/launch_scripts/packages.txt"
+mapfile -t wanted < <(grep -ohE '^[a-z0-9][^[:space:]]*' "$@")
 missing=()
 for package in "${wanted[@]}"; do
   status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) || status=''

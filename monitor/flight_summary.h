@@ -16,14 +16,14 @@ namespace tern {
 
 /// What PLAN_TIMING measures, by percentile; ms. A stage's are over the answers in which it ran.
 struct ReplanTimes {
-  Percentiles total;          ///< from the request's arrival to the answer
-  Percentiles first_answer;   ///< until the first certified trajectory
+  Percentiles total;         ///< from the request's arrival to the answer
+  Percentiles first_answer;  ///< until the first certified trajectory
   Percentiles hulls, search, optimization, check;
 };
 
 struct FlightSummary {
   FlightOutcome outcome = FlightOutcome::Failed;
-  std::string detail;                  ///< why, in words; may be empty
+  std::string detail;  ///< why, in words; may be empty
   std::string scenario;
   std::uint64_t seed = 0;
   std::int64_t count = 0;              ///< obstacles of the world's generator
@@ -33,13 +33,14 @@ struct FlightSummary {
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel
   std::int64_t restarts = 0;
-  std::string log;                     ///< path of the recording; empty: none
-  std::string version;                 ///< build id
+  std::string log;      ///< path of the recording; empty: none
+  std::string version;  ///< build id
 };
 
-/// One JSON object, two spaces of indent, with exactly the keys outcome, scenario, seed, count, flight_time_s, first_entry_s,
-/// path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m, limit_violations, requests, answered_in_time, plans,
-/// replan_ms, exposure, messages, restarts, log, version. What has no value (NaN, a measure that no referee gave) is null.
+/// One JSON object, two spaces of indent, with exactly the keys outcome, scenario, seed, count, flight_time_s,
+/// first_entry_s, path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m, limit_violations, requests,
+/// answered_in_time, plans, replan_ms, exposure, messages, restarts, log, version. What has no value (NaN, a measure
+/// that no referee gave) is null.
 std::string to_json(const FlightSummary& summary);
 
 /// The same for a person, at most 30 lines of at most 100 characters while there are at most 6 regions.

@@ -17,7 +17,8 @@ double timeout_s(const Scenario& scenario) {
 
 }  // namespace
 
-FlightWatch::FlightWatch(const Scenario& scenario, UTime now) : scenario_(scenario), goal_(scenario.uav.goal), began_(now) {}
+FlightWatch::FlightWatch(const Scenario& scenario, UTime now)
+    : scenario_(scenario), goal_(scenario.uav.goal), began_(now) {}
 
 void FlightWatch::hear(const Heartbeat& heartbeat, UTime now) { processes_.add(heartbeat, now); }
 
@@ -85,7 +86,8 @@ std::optional<Ending> FlightWatch::ending(UTime now) const {
 double FlightWatch::nearest_obstacle() const {
   double nearest = std::numeric_limits<double>::quiet_NaN();
   for (const TrueObstacle& obstacle : obstacles_) {
-    const Vec3 apart = (obstacle.position - state_->motion.p).cwiseAbs() - obstacle.half_extents - scenario_.uav.body.half_extents();
+    const Vec3 apart =
+        (obstacle.position - state_->motion.p).cwiseAbs() - obstacle.half_extents - scenario_.uav.body.half_extents();
     nearest = std::fmin(nearest, apart.cwiseMax(0.0).norm());
   }
   return nearest;

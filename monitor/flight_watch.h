@@ -28,12 +28,12 @@ inline constexpr Duration kVerdictSlack{60'000'000};
 
 /// What a live line shows.
 struct LiveView {
-  bool flying = false;       ///< a horizon was asked for; else the rest but `waiting` is meaningless
-  std::string waiting;       ///< who is not ready, and why
-  double elapsed_s = 0.0;    ///< since the first request, vehicle's clock
-  double progress = 0.0;     ///< of the straight distance from start to goal, 0 … 1
+  bool flying = false;     ///< a horizon was asked for; else the rest but `waiting` is meaningless
+  std::string waiting;     ///< who is not ready, and why
+  double elapsed_s = 0.0;  ///< since the first request, vehicle's clock
+  double progress = 0.0;   ///< of the straight distance from start to goal, 0 … 1
   double speed_mps = 0.0;
-  double nearest_m = 0.0;    ///< distance of the body's box to the nearest obstacle; NaN: none known
+  double nearest_m = 0.0;  ///< distance of the body's box to the nearest obstacle; NaN: none known
   double replan_p50_ms = 0.0, replan_p99_ms = 0.0;  ///< of all answers so far; NaN: none
   std::int64_t requests = 0, answered_in_time = 0;
 };

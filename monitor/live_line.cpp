@@ -13,10 +13,10 @@ std::string number(double x, int digits) { return std::isnan(x) ? "-" : fmt::for
 
 std::string live_line(const LiveView& view) {
   if (!view.flying) return "waiting for " + (view.waiting.empty() ? std::string("the simulator") : view.waiting);
-  std::string line = fmt::format("{:6.1f} s  {:3.0f} %  {:5.2f} m/s  nearest {} m  replan {}/{} ms (p50/p99)  in time {}/{}",
-                                 view.elapsed_s, view.progress * 100.0, view.speed_mps, number(view.nearest_m, 2),
-                                 number(view.replan_p50_ms, 1), number(view.replan_p99_ms, 1), view.answered_in_time,
-                                 view.requests);
+  std::string line =
+      fmt::format("{:6.1f} s  {:3.0f} %  {:5.2f} m/s  nearest {} m  replan {}/{} ms (p50/p99)  in time {}/{}",
+                  view.elapsed_s, view.progress * 100.0, view.speed_mps, number(view.nearest_m, 2),
+                  number(view.replan_p50_ms, 1), number(view.replan_p99_ms, 1), view.answered_in_time, view.requests);
   if (!view.waiting.empty()) line += "  waiting for " + view.waiting;
   return line;
 }

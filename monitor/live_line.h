@@ -10,7 +10,8 @@ namespace tern {
 /// "  6.4 s   48 %  5.93 m/s  nearest 0.72 m  replan 4.1/12.3 ms (p50/p99)  in time 128/128", or what is waited for.
 std::string live_line(const LiveView& view);
 
-/// The text's first `columns` columns, so that a terminal does not wrap it. UTF-8 is cut between characters, each taken as one column.
+/// The text's first `columns` columns, so that a terminal does not wrap it. UTF-8 is cut between characters, each taken
+/// as one column.
 std::string fit(const std::string& text, std::size_t columns);
 
 }  // namespace tern

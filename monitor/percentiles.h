@@ -14,7 +14,8 @@ struct Percentiles {
   double max = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// By nearest rank: the q-th percentile is the least sample that at least q % of all samples do not exceed; so each is a sample.
+/// By nearest rank: the q-th percentile is the least sample that at least q % of all samples do not exceed; so each is
+/// a sample.
 /// @pre no sample is NaN. O(n).
 Percentiles percentiles(std::vector<double> samples);
 

@@ -18,7 +18,8 @@ struct MessageCount {
   std::int64_t lost = 0;      ///< gaps in sequence numbers
 };
 
-/// Keeps the newest heartbeat of each start (sender epoch) of each process, so that the counts of one that died are kept.
+/// Keeps the newest heartbeat of each start (sender epoch) of each process, so that the counts of one that died are
+/// kept.
 class ProcessTable {
  public:
   /// @param now  the listener's clock
@@ -30,9 +31,11 @@ class ProcessTable {
   [[nodiscard]] std::optional<std::int64_t> epoch_us(const std::string& process) const;
   /// Starts beyond the first, over all processes. A start that ended before its first heartbeat was not seen.
   [[nodiscard]] std::int64_t restarts() const;
-  /// Received, rejected and lost summed over every start of every process: what came in twice, at two processes, counts twice.
+  /// Received, rejected and lost summed over every start of every process: what came in twice, at two processes, counts
+  /// twice.
   [[nodiscard]] std::map<std::string, MessageCount> messages() const;
-  /// Who is not ready and why, in words: "tern-planner: a map; tern-mapper: starting". Empty when all that were heard are ready.
+  /// Who is not ready and why, in words: "tern-planner: a map; tern-mapper: starting". Empty when all that were heard
+  /// are ready.
   [[nodiscard]] std::string waiting() const;
 
  private:

@@ -14,8 +14,8 @@ void RequestLedger::add(const Plan& plan) {
 }
 
 void RequestLedger::advance(UTime vehicle_time) {
-  settled_ += static_cast<std::int64_t>(std::erase_if(
-      deadlines_, [&](const auto& request) { return request.second + kAnswerGrace < vehicle_time; }));
+  settled_ += static_cast<std::int64_t>(
+      std::erase_if(deadlines_, [&](const auto& request) { return request.second + kAnswerGrace < vehicle_time; }));
 }
 
 }  // namespace tern

@@ -9,16 +9,18 @@
 
 namespace tern {
 
-/// How long after its deadline a request's answer is still waited for: messages of several processes may overtake each other.
+/// How long after its deadline a request's answer is still waited for: messages of several processes may overtake each
+/// other.
 inline constexpr Duration kAnswerGrace{200'000};
 
-/// Matches PLAN with HORIZON_REQUEST by the request's id. A request is settled when its first answer came, or kAnswerGrace after its
-/// deadline; only settled ones are counted, so that the flight's end leaves no request half open.
+/// Matches PLAN with HORIZON_REQUEST by the request's id. A request is settled when its first answer came, or
+/// kAnswerGrace after its deadline; only settled ones are counted, so that the flight's end leaves no request half
+/// open.
 class RequestLedger {
  public:
   void add(const HorizonRequest& request);
-  /// The first answer settles its request; a further one, or one to an unknown request, is counted among the plans only.
-  /// In time: published (header.utime) by the deadline.
+  /// The first answer settles its request; a further one, or one to an unknown request, is counted among the plans
+  /// only. In time: published (header.utime) by the deadline.
   void add(const Plan& plan);
   /// The vehicle's clock has come so far.
   void advance(UTime vehicle_time);

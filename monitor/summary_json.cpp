@@ -11,9 +11,12 @@ using Json = nlohmann::ordered_json;
 Json to_json(const Percentiles& p) { return {{"p50", p.p50}, {"p95", p.p95}, {"p99", p.p99}, {"max", p.max}}; }
 
 Json to_json(const ReplanTimes& times) {
-  return {{"total", to_json(times.total)},   {"first_answer", to_json(times.first_answer)},
-          {"hulls", to_json(times.hulls)},   {"search", to_json(times.search)},
-          {"optimization", to_json(times.optimization)}, {"check", to_json(times.check)}};
+  return {{"total", to_json(times.total)},
+          {"first_answer", to_json(times.first_answer)},
+          {"hulls", to_json(times.hulls)},
+          {"search", to_json(times.search)},
+          {"optimization", to_json(times.optimization)},
+          {"check", to_json(times.check)}};
 }
 
 /// The referee's measure, or null.

@@ -23,11 +23,12 @@ std::string row(std::string_view name, const Percentiles& p) {
 
 std::string flight_lines(const FlightResult& r) {
   std::string text;
-  text += fmt::format("  flight time   {:<14} first entry  {}\n", value(r.flight_time_s, "s"), value(r.first_entry_s, "s"));
+  text +=
+      fmt::format("  flight time   {:<14} first entry  {}\n", value(r.flight_time_s, "s"), value(r.first_entry_s, "s"));
   text += fmt::format("  path          {:<14} mean speed   {:<14} top speed  {}\n", value(r.path_length_m, "m"),
                       value(r.mean_speed_mps, "m/s"), value(r.top_speed_mps, "m/s"));
-  text += fmt::format("  clearance     {:<14} stops        {:<14} limit violations  {}\n", value(r.min_clearance_m, "m", 3),
-                      r.stops, r.limit_violations);
+  text += fmt::format("  clearance     {:<14} stops        {:<14} limit violations  {}\n",
+                      value(r.min_clearance_m, "m", 3), r.stops, r.limit_violations);
   for (const Exposure& e : r.exposure) {
     text += fmt::format("  in {:<20.20} {:>8} {:>10}   within 1 m {:>8} {:>10}\n", e.region, value(e.seconds, "s"),
                         value(e.metres, "m"), value(e.near_seconds, "s"), value(e.near_metres, "m"));
@@ -36,7 +37,8 @@ std::string flight_lines(const FlightResult& r) {
 }
 
 std::string plan_lines(const FlightSummary& s) {
-  std::string text = fmt::format("  requests      {} settled, {} answered in time\n  plans        ", s.requests, s.answered_in_time);
+  std::string text =
+      fmt::format("  requests      {} settled, {} answered in time\n  plans        ", s.requests, s.answered_in_time);
   for (int k = 0; k < kPlanOutcomes; ++k) {
     text += fmt::format(" {} {}", s.plans[static_cast<std::size_t>(k)], plan_outcome_key(static_cast<PlanOutcome>(k)));
     if (k + 1 < kPlanOutcomes) text += ",";
@@ -56,7 +58,8 @@ std::string message_lines(const FlightSummary& s) {
       troubled += fmt::format("    {:<22} {} rejected, {} lost\n", channel, count.rejected, count.lost);
     }
   }
-  return fmt::format("  messages      {} received, {} rejected, {} lost\n", all.received, all.rejected, all.lost) + troubled;
+  return fmt::format("  messages      {} received, {} rejected, {} lost\n", all.received, all.rejected, all.lost) +
+         troubled;
 }
 
 }  // namespace
@@ -78,8 +81,9 @@ std::string to_text(const FlightSummary& s) {
   if (s.result) text += flight_lines(*s.result);
   text += plan_lines(s);
   text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");
-  text += row("total", s.replan_ms.total) + row("first answer", s.replan_ms.first_answer) + row("hulls", s.replan_ms.hulls) +
-          row("search", s.replan_ms.search) + row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);
+  text += row("total", s.replan_ms.total) + row("first answer", s.replan_ms.first_answer) +
+          row("hulls", s.replan_ms.hulls) + row("search", s.replan_ms.search) +
+          row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);
   text += message_lines(s);
   text += fmt::format("  restarts      {}\n", s.restarts);
   if (!s.log.empty()) text += fmt::format("  log           {}\n", s.log);

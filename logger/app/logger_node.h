@@ -17,15 +17,16 @@ inline constexpr Duration kFlushPeriod{100'000};
 
 /// The section `logger:` of a scenario file.
 struct LoggerConfig {
-  std::int64_t rotate_bytes = 0;  ///< `rotate_mb` · 10⁶: a part of the log that is as long is followed by the next; 0: never
+  std::int64_t rotate_bytes =
+      0;  ///< `rotate_mb` · 10⁶: a part of the log that is as long is followed by the next; 0: never
 };
 
 /// Reads and finishes the section. @throws ConfigError.
 LoggerConfig read_logger_config(ConfigSection section);
 
-/// Writes every message as it came, with the kernel's time of receipt, and hands it to the kernel every kFlushPeriod. LCM's own
-/// receiving thread empties the socket meanwhile, so that a slow disk costs memory, not messages (Bus::listen).
-/// A disk that takes nothing makes it Failed, with the reason in waiting_for; it goes on trying.
+/// Writes every message as it came, with the kernel's time of receipt, and hands it to the kernel every kFlushPeriod.
+/// LCM's own receiving thread empties the socket meanwhile, so that a slow disk costs memory, not messages
+/// (Bus::listen). A disk that takes nothing makes it Failed, with the reason in waiting_for; it goes on trying.
 class LoggerNode final : public Node {
  public:
   /// @param path  of the log; an existing folder means flight.lcm in it

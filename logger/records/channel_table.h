@@ -24,12 +24,12 @@ HeadDecoder find_head_decoder(std::string_view channel);
 struct ChannelCount {
   std::int64_t received = 0;  ///< all, refused ones too
   std::int64_t bytes = 0;
-  std::int64_t refused = 0;   ///< not what Tern sends on this channel; 0 on channels that are not Tern's
-  std::int64_t lost = 0;      ///< gaps in the sequence numbers of its senders; 0 on channels that are not Tern's
+  std::int64_t refused = 0;  ///< not what Tern sends on this channel; 0 on channels that are not Tern's
+  std::int64_t lost = 0;     ///< gaps in the sequence numbers of its senders; 0 on channels that are not Tern's
 };
 
-/// Counts messages. The first message heard of a sender begins its count, so a late joiner has lost nothing; what arrives after a
-/// newer one of its sender was counted as lost before and is not lost twice.
+/// Counts messages. The first message heard of a sender begins its count, so a late joiner has lost nothing; what
+/// arrives after a newer one of its sender was counted as lost before and is not lost twice.
 class ChannelTable {
  public:
   /// @param suffix  what the vehicle's channels end with, "" for none

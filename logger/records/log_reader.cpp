@@ -58,7 +58,8 @@ std::optional<LogReader::Head> LogReader::head_at(std::size_t offset) {
   head.received_us = static_cast<std::int64_t>(read_big_endian(at + 12, 8));
   head.channel_bytes = static_cast<std::size_t>(read_big_endian(at + 20, 4));
   head.data_bytes = static_cast<std::size_t>(read_big_endian(at + 24, 4));
-  if (head.number < 0 || head.channel_bytes < 1 || head.channel_bytes > kLogMaxChannelBytes || head.data_bytes > kLogMaxDataBytes) {
+  if (head.number < 0 || head.channel_bytes < 1 || head.channel_bytes > kLogMaxChannelBytes ||
+      head.data_bytes > kLogMaxDataBytes) {
     return std::nullopt;
   }
   const std::size_t named = offset + kLogHeadBytes + head.channel_bytes;
@@ -107,7 +108,9 @@ void LogReader::skip(std::size_t bytes) {
 LogEvent LogReader::take(const Head& head) {
   const auto name = window_.begin() + static_cast<std::ptrdiff_t>(cursor_ + kLogHeadBytes);
   const auto data = name + static_cast<std::ptrdiff_t>(head.channel_bytes);
-  LogEvent event{head.number, head.received_us, std::string(name, data),
+  LogEvent event{head.number,
+                 head.received_us,
+                 std::string(name, data),
                  {data, data + static_cast<std::ptrdiff_t>(head.data_bytes)}};
   cursor_ += head.size();
   in_damage_ = false;

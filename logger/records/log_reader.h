@@ -15,15 +15,16 @@ namespace tern {
 
 /// What a reader had to leave out.
 struct LogDamage {
-  std::int64_t places = 0;  ///< runs of bytes that are no events
-  std::int64_t bytes = 0;   ///< of those
+  std::int64_t places = 0;   ///< runs of bytes that are no events
+  std::int64_t bytes = 0;    ///< of those
   std::int64_t missing = 0;  ///< events that the gaps in the numbers say were there; 0 where numbers start anew
   bool truncated = false;    ///< the file's end is no event's end
 };
 
-/// Reads one file in its order. An event counts as whole when the next one, or the end of the file, follows it; where that is not so,
-/// its length is doubted if another event begins within it. After damage the reader goes on at the next event that looks
-/// whole. The format has no checksum: damage within the data of a message is for the message's own decoder to find.
+/// Reads one file in its order. An event counts as whole when the next one, or the end of the file, follows it; where
+/// that is not so, its length is doubted if another event begins within it. After damage the reader goes on at the next
+/// event that looks whole. The format has no checksum: damage within the data of a message is for the message's own
+/// decoder to find.
 class LogReader {
  public:
   /// @return an Error that names path and reason when the file cannot be opened.

@@ -14,10 +14,12 @@ int main(int argc, char** argv) {
       .add_options = [&options](CLI::App& app) {
         app.add_option("--summary", options.summary_file, "Write the summary as JSON")->type_name("FILE");
         app.add_option("--log", options.log, "Path of the recording, named in the summary")->type_name("FILE");
-        app.add_option("--failure-file", options.failure_file, "Once it exists, the flight has failed; its text says why")
+        app.add_option("--failure-file", options.failure_file,
+                       "Once it exists, the flight has failed; its text says why")
             ->type_name("FILE");
       }};
-  return tern::run_process(argc, argv, description, [&options](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
-    return std::make_unique<tern::MonitorNode>(context.bus, context.scenario, options);
-  });
+  return tern::run_process(argc, argv, description,
+                           [&options](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+                             return std::make_unique<tern::MonitorNode>(context.bus, context.scenario, options);
+                           });
 }

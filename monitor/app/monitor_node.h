@@ -16,11 +16,12 @@ namespace tern {
 struct MonitorOptions {
   std::string summary_file;  ///< where the summary's JSON goes; empty: nowhere
   std::string log;           ///< path of the recording, for the summary
-  std::string failure_file;  ///< once it exists, the flight has failed for the reason that is its text; empty: none is watched
+  std::string
+      failure_file;  ///< once it exists, the flight has failed for the reason that is its text; empty: none is watched
 };
 
-/// Listens to the channels that it judges by and to those that nobody else may count; finishes with the outcome as exit code: 0
-/// reached, 1 collision, 2 timeout, 3 failed.
+/// Listens to the channels that it judges by and to those that nobody else may count; finishes with the outcome as exit
+/// code: 0 reached, 1 collision, 2 timeout, 3 failed.
 class MonitorNode final : public Node {
  public:
   MonitorNode(Bus& bus, const Scenario& scenario, MonitorOptions options);

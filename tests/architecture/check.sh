@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# check.sh ROOT: holds the sources to the dependency rules of docs/architecture.md, by their includes. Prints every breach.
+set -euo pipefail
+cd "$1"
+
+breaches=0
+breach() {
+  echo "$*"
+  breaches=$((breaches + 1))
+}
+
+# Every source of ours, built or not yet added to git.
+mapfile -t sources < <(find -- * \( -name build -o -name flights -o -name node_modules \) -prune -o \
+  -type f \( -name '*.h' -o -name '*.cpp' \) -print | sort)
+((${#sources[@]} > 100)) || breach "only ${#sources[@]} sources found under $1"
+
+# all INCLUDES as "file<TAB>header", quoted and bracketed ones.
+includes=$(grep -HoE '^ *# *include *[<"][^>"]+' "${sources[@]}" | sed -E 's/^([^:]+): *# *include *[<"]/\1\t/')
+
+# only_in PATTERN_OF_HEADERS PATTERN_OF_FILES WHY
+only_in() {
+  local file header
+  while IFS=$'\t' read -r file header; do
+    [[ $file =~ $2 ]] || breach "$file includes $header: $3"
+  done < <(awk -F'\t' -v p="$1" '$2 ~ p' <<<"$includes")
+}
+
+# never PATTERN_OF_FILES PATTERN_OF_HEADERS WHY
+never() {
+  local file header
+  while IFS=$'\t' read -r file header; do
+    breach "$file includes $header: $3"
+  done < <(awk -F'\t' -v f="$1" -v h="$2" '$1 ~ f && $2 ~ h' <<<"$includes")
+}
+
+# one_folder LIBRARY PATTERN_OF_HEADERS: tests and benchmarks may, besides.
+one_folder() {
+  local folders
+  folders=$(awk -F'\t' -v p="$2" '$2 ~ p && $1 !~ /^(tests|benchmarks)\// {sub(/\/[^\/]*$/, "", $1); print $1}' <<<"$includes" | sort -u)
+  [[ $(wc -w <<<"$folders") -le 1 ]] || breach "$1 is in several folders: ${folders//$'\n'/ }"
+}
+
+# Middleware and formats stay at the edge.
+only_in '^lcm/' '^(messages|runtime|tools/log_reader|tests|benchmarks)/|/app/' 'LCM is for messages, runtime, apps and tests'
+only_in '^tern_msgs/' '^(messages|tests|benchmarks)/' 'generated types are for messages'
+only_in '^yaml-cpp/' '^(runtime|tests)/|/app/' 'YAML is for runtime and apps'
+only_in '^CLI/' '^(runtime|benchmarks|tests)/|/app/' 'the command line is for runtime and apps'
+only_in '^spdlog/' '^(runtime|tests)/|/app/' 'a library does not log'
+only_in '^(chrono|sys/time.h)$' '^(runtime|tests|benchmarks|tools|campaign)/|/app/' 'a library gets times as arguments'
+
+# Solvers stay behind one adapter each.
+one_folder CGAL '^CGAL/'
+one_folder GLPK '^glpk.h$'
+one_folder Ipopt '^(coin/)?Ip[A-Z].*[.]hpp$'
+
+# base <- geometry <- splines <- world <- process libraries <- apps.
+ours='^(core|messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|tools|tests)/'
+never '^core/base/' "^core/(geometry|splines|world)/" 'base stands on nothing'
+never '^core/geometry/' '^core/(splines|world)/' 'geometry stands on base'
+never '^core/splines/' '^core/world/' 'splines stand on base and geometry'
+never '^core/' '^(messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|tools|tests)/' \
+  'core stands on itself'
+never '^messages/' '^(runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|tools|tests)/' \
+  'messages stand on core'
+never '^runtime/' '^(planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|tools|tests)/' \
+  'runtime stands on core and messages'
+
+# A process library knows its own folder, core, and for a recorder what messages are called.
+for process in planner predictor executor simulator semantic_mapper logger monitor; do
+  while IFS=$'\t' read -r file header; do
+    case $file in "$process"/app/*) continue ;; esac
+    case $header in
+      "$process"/app/*) breach "$file includes $header: libraries do not know their node" ;;
+      core/* | "$process"/*) ;;
+      messages/* | runtime/channels.h) [[ $process == logger ]] || breach "$file includes $header: a library knows no messages" ;;
+      executor/*) [[ $process == simulator ]] || breach "$file includes $header: not its own" ;;
+      *) breach "$file includes $header: not its own" ;;
+    esac
+  done < <(awk -F'\t' -v f="^$process/" -v o="$ours" '$1 ~ f && $2 ~ o' <<<"$includes")
+done
+
+# A node stands on its own process's libraries; only tests, campaign and tools may host several nodes.
+while IFS=$'\t' read -r file header; do
+  case $file in tests/* | campaign/* | tools/* | benchmarks/*) continue ;; esac
+  [[ ${file%%/app/*} == "${header%%/app/*}" ]] || breach "$file includes $header: another process's node"
+done < <(awk -F'\t' '$2 ~ /\/app\//' <<<"$includes")
+
+# An auditor shares data types with what it audits, no algorithms.
+never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|executor|simulator)' 'audit shares no algorithm'
+
+# Sizes.
+while read -r lines file; do
+  limit=600
+  [[ $file != */main.cpp ]] || limit=60
+  [[ $file == total ]] || ((lines <= limit)) || breach "$file has $lines lines, more than $limit"
+done < <(wc -l "${sources[@]}")
+
+((breaches == 0)) || { echo "$breaches breaches" && exit 1; }
+echo "${#sources[@]} sources keep the rules"

@@ -1,0 +1,273 @@
+#!/usr/bin/env bash
+# tests.sh NAME: runs one test of the launch scripts. Environment: TERN_BIN, where the programs are.
+set -euo pipefail
+
+root=$(dirname "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")")
+scripts=$root/launch_scripts
+work=$(mktemp -d)
+flights=() # pids of flights that this test started
+cleanup() {
+  local pid
+  for pid in "${flights[@]}"; do kill -KILL "$pid" 2>/dev/null || true; done
+  rm -rf "$work"
+}
+trap cleanup EXIT
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+
+# expect WHAT COMMAND...: the command succeeds.
+expect() {
+  local what=$1
+  shift
+  "$@" || fail "$what: $*"
+}
+
+# eventually WHAT SECONDS COMMAND...: the command succeeds within so many seconds.
+eventually() {
+  local what=$1 deadline=$((SECONDS + $2 + 1))
+  shift 2
+  until "$@" >/dev/null 2>&1; do
+    ((SECONDS <= deadline)) || fail "not in time: $what: $*"
+    read -rt 0.02 <> <(:) || true
+  done
+}
+
+# code COMMAND...: runs it with its output in $work/out; prints its exit code.
+code() {
+  local code=0
+  "$@" >"$work/out" 2>&1 || code=$?
+  echo "$code"
+}
+
+# A scenario in this test's folder, so that every process of its flights has the folder's name in its command line.
+short_scenario() { sed 's/^name:.*/name: test/' "$root/scenarios/corridor_demo.yaml" >"$work/scenario.yaml"; }
+
+nobody_left() { ! pgrep -f "$work/" >/dev/null; }
+has_text() { grep -q -- "$1" "$2"; }
+is_gone() { ! kill -0 "$1" 2>/dev/null; }
+
+# start_flight NAME OPTION...: in the background as a terminal would run it, SIGINT not ignored; waits until it records. Sets
+# `flight` to the process group.
+start_flight() {
+  local name=$1
+  shift
+  short_scenario
+  env --default-signal=INT setsid "$scripts/fly.sh" --no-install --scenario "$work/scenario.yaml" --record "$work/$name" "$@" \
+    >"$work/$name.out" 2>&1 &
+  flight=$!
+  flights+=("$flight")
+  eventually "$name records" 60 test -s "$work/$name/flight.lcm"
+}
+
+# A program that lives as long as it is told to: dies at once, and counts its starts.
+make_mortal() {
+  cat >"$work/mortal" <<END
+#!/bin/sh
+echo start >>"$work/starts"
+exit $1
+END
+  chmod +x "$work/mortal"
+}
+
+keep_alive_restarts_with_growing_delays() {
+  make_mortal 70
+  "$scripts/keep_alive.sh" --log "$work/log" -- "$work/mortal" &
+  local keeper=$!
+  eventually "9 restarts" 30 has_text "restart 9 in 1000 ms" "$work/log"
+  kill -TERM "$keeper"
+  wait "$keeper" || fail "exit code $?"
+  local delays
+  delays=$(grep -oE 'in [0-9]+ ms' "$work/log" | grep -oE '[0-9]+' | head -n 9 | tr '\n' ' ')
+  [[ $delays == '10 20 40 80 160 320 640 1000 1000 ' ]] || fail "delays: $delays"
+  expect "the log says why" has_text "mortal ended with exit code 70; restart 1 in 10 ms" "$work/log"
+}
+
+keep_alive_does_not_repeat_a_mistake() {
+  local mistake
+  for mistake in 0 2 3; do
+    : >"$work/starts"
+    make_mortal "$mistake"
+    [[ $(code "$scripts/keep_alive.sh" "$work/mortal") == "$mistake" ]] || fail "exit code of $mistake"
+    [[ $(wc -l <"$work/starts") == 1 ]] || fail "started again after $mistake"
+  done
+}
+
+keep_alive_passes_the_end_on() {
+  cat >"$work/polite" <<END
+#!/bin/sh
+trap 'echo heard >"$work/heard"; exit 0' TERM
+echo ready >"$work/ready"
+while :; do read -r _ <"$work/fifo" || true; done
+END
+  chmod +x "$work/polite"
+  mkfifo "$work/fifo"
+  "$scripts/keep_alive.sh" "$work/polite" &
+  local keeper=$!
+  eventually "start" 10 test -e "$work/ready"
+  kill -TERM "$keeper"
+  wait "$keeper" || fail "exit code $?"
+  expect "the child heard it" test -e "$work/heard"
+  eventually "nobody is left" 5 nobody_left
+}
+
+# A program that ends by SIGKILL only; it holds a file named $1 with its pid.
+make_stubborn() {
+  cat >"$work/stubborn" <<END
+#!/bin/bash
+trap '' TERM INT HUP
+echo \$\$ >"$work/stubborn.pid"
+while :; do read -rt 1 <> <(:) || true; done
+END
+  chmod +x "$work/stubborn"
+}
+
+keep_alive_does_not_outlive_its_child_nor_the_other_way_round() {
+  make_stubborn
+  "$scripts/keep_alive.sh" "$work/stubborn" &
+  local keeper=$!
+  eventually "start" 10 test -s "$work/stubborn.pid"
+  kill -TERM "$keeper"
+  wait "$keeper" || fail "exit code $?"
+  eventually "the child was killed" 5 is_gone "$(cat "$work/stubborn.pid")"
+
+  rm "$work/stubborn.pid"
+  "$scripts/keep_alive.sh" "$work/stubborn" &
+  keeper=$!
+  eventually "start" 10 test -s "$work/stubborn.pid"
+  kill -KILL "$keeper"
+  wait "$keeper" || true
+  eventually "the kernel killed the child" 5 is_gone "$(cat "$work/stubborn.pid")"
+}
+
+fly_refuses_a_bad_scenario_with_file_and_line() {
+  printf 'name: bad\nworld:\n  count: -4\n' >"$work/bad.yaml"
+  [[ $(code "$scripts/fly.sh" --no-install --scenario "$work/bad.yaml" --record "$work/r") == 3 ]] || fail "exit code"
+  expect "file, line, key, value, limit" has_text "$work/bad.yaml:3: world.count: -4 is out of range \[0, " "$work/out"
+  [[ $(grep -c 'world.count' "$work/out") == 1 ]] || fail "said more than once"
+  expect "nobody is left" nobody_left
+}
+
+fly_refuses_a_bad_setting_of_one_process() {
+  [[ $(code "$scripts/fly.sh" --no-install --set planner.bogus=3 --record "$work/r") == 3 ]] || fail "exit code"
+  expect "override, key" has_text "planner.bogus=3: planner.bogus: unknown key" "$work/out"
+  expect "a summary" has_text '"outcome": "failed"' "$work/r/summary.json"
+}
+
+fly_refuses_bad_options() {
+  local options
+  for options in "--seed" "--nonsense" "--goal 1,2" "--semantics maybe" "--scenario nowhere" "stray" "--seed one"; do
+    # shellcheck disable=SC2086  # an option and its value
+    [[ $(code "$scripts/fly.sh" --no-install --record "$work/$RANDOM" $options) == 3 ]] || fail "exit code of $options"
+  done
+  [[ $(code "$scripts/fly.sh" --help) == 0 ]] || fail "--help"
+}
+
+fly_summarizes_what_it_could_not_fly() {
+  local keys
+  keys='outcome scenario seed count flight_time_s first_entry_s path_length_m mean_speed_mps top_speed_mps stops'
+  keys+=' min_clearance_m limit_violations requests answered_in_time plans replan_ms exposure messages restarts log version'
+  [[ $(code "$scripts/fly.sh" --no-install --scenario nowhere --seed 4 --summary "$work/s.json") == 3 ]] || fail "exit code"
+  [[ $(grep -oE '^  "[a-z_]+"' "$work/s.json" | tr -d ' "' | tr '\n' ' ') == "$keys " ]] || fail "keys: $(cat "$work/s.json")"
+  expect "the seed" has_text '"seed": 4,' "$work/s.json"
+}
+
+# A folder of programs like TERN_BIN, with a planner that no signal but SIGKILL ends.
+with_stubborn_planner() {
+  make_stubborn
+  mkdir "$work/bin"
+  ln -s "$TERN_BIN"/tern-* "$work/bin"
+  ln -sf "$work/stubborn" "$work/bin/tern-planner"
+  export TERN_BIN=$work/bin
+}
+
+ctrl_c_ends_everything() {
+  with_stubborn_planner
+  start_flight flight --seed 2
+  eventually "the planner" 10 test -s "$work/stubborn.pid"
+  local began=${EPOCHREALTIME/[.,]/} result=0
+  kill -INT -- "-$flight"
+  wait "$flight" || result=$?
+  echo "ended after $(((${EPOCHREALTIME/[.,]/} - began) / 1000)) ms"
+  [[ $result == 130 ]] || fail "exit code $result"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+  expect "the logger had the last word" has_text "ends with exit code 0" "$work/flight/tern-logger.log"
+}
+
+a_killed_launcher_leaves_no_orphan() {
+  with_stubborn_planner
+  start_flight flight
+  eventually "the planner" 10 test -s "$work/stubborn.pid"
+  kill -KILL "$flight"
+  eventually "nobody is left" 5 nobody_left
+}
+
+two_flights_take_two_ports() {
+  start_flight one --set name=flight_of_one
+  start_flight two --set name=flight_of_two
+  local url_one url_two
+  url_one=$(env -i bash -c "source $work/one/env.sh && echo \$LCM_DEFAULT_URL")
+  url_two=$(env -i bash -c "source $work/two/env.sh && echo \$LCM_DEFAULT_URL")
+  [[ $url_one == udpm://239.255.76.67:*ttl=0 && $url_two == udpm://239.255.76.67:*ttl=0 ]] || fail "$url_one, $url_two"
+  [[ $url_one != "$url_two" ]] || fail "both on $url_one"
+  # Configurations, repeated every 5 s, name their flight.
+  local flight other
+  for flight in one two; do eventually "$flight hears itself" 20 has_text "flight_of_$flight" "$work/$flight/flight.lcm"; done
+  kill -INT "${flights[@]}"
+  wait "${flights[0]}" "${flights[1]}" || true
+  for flight in one two; do
+    other=$([[ $flight == one ]] && echo two || echo one)
+    ! has_text "flight_of_$other" "$work/$flight/flight.lcm" || fail "$flight heard $other"
+  done
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+}
+
+an_isolated_flight_can_be_entered() {
+  start_flight flight --isolated
+  local outside inside
+  outside=$(readlink /proc/self/ns/net)
+  inside=$("$scripts/enter.sh" "$work/flight" -- readlink /proc/self/ns/net)
+  [[ -n $inside && $inside != "$outside" ]] || fail "inside $inside, outside $outside"
+  # shellcheck disable=SC2016  # the inner shell expands it
+  [[ $("$scripts/enter.sh" "$work/flight" -- sh -c 'echo $LCM_DEFAULT_URL') == udpm://* ]] || fail "no LCM_DEFAULT_URL"
+  kill -INT -- "-$flight"
+  wait "$flight" || true
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+  [[ $(code "$scripts/enter.sh" "$work/flight") == 3 ]] || fail "entered a flight that has ended"
+}
+
+the_log_holds_what_the_logger_counted() {
+  start_flight flight
+  eventually "states" 20 has_text UAV_STATE "$work/flight/flight.lcm"
+  kill -INT -- "-$flight"
+  wait "$flight" || true
+  local counted logged
+  counted=$(grep -E 'UAV_STATE .*received' "$work/flight/tern-logger.log" | sed -E 's/.*received +([0-9]+).*/\1/')
+  # The head of an event of this channel: its length, 9, the data's length, its name.
+  logged=$(LC_ALL=C grep -aoP '\x00\x00\x00\x09\x00\x00..UAV_STATE' "$work/flight/flight.lcm" | grep -ac UAV_STATE)
+  [[ $counted -gt 0 && $counted == "$logged" ]] || fail "counted $counted, logged $logged"
+}
+
+every_program_starts_alone() {
+  local name pid
+  for name in simulator predictor mapper planner logger monitor; do
+    [[ $(code "$scripts/$name.sh" --help) == 0 ]] || fail "$name --help"
+    [[ $(code "$scripts/$name.sh" --version) == 0 ]] || fail "$name --version"
+    expect "$name --version" has_text "tern-$name 0" "$work/out"
+    [[ $(code "$scripts/$name.sh" --config "$work/nowhere.yaml") == 2 ]] || fail "$name --config nowhere"
+  done
+  cd "$work"
+  for name in simulator predictor mapper planner logger monitor; do
+    "$scripts/$name.sh" >"$work/$name.out" 2>&1 &
+    pid=$!
+    eventually "$name runs" 20 has_text "runs" "$work/$name.out"
+    kill -TERM "$pid"
+    wait "$pid" || fail "$name ends with $?"
+  done
+}
+
+declare -F "$1" >/dev/null || fail "no test $1"
+"$1"
+echo "passed: $1"

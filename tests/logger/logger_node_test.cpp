@@ -1,0 +1,67 @@
+#include "logger/app/logger_node.h"
+
+#include <gtest/gtest.h>
+
+#include "logger/records/log_reader.h"
+#include "messages/goal.h"
+#include "runtime/channels.h"
+#include "runtime/virtual_runner.h"
+#include "tests/logger/temp_folder.h"
+
+namespace tern {
+namespace {
+
+LoggerConfig configured(const std::string& yaml) {
+  ConfigDocument document = ConfigDocument::parse(yaml, "test.yaml");
+  return read_logger_config(document.root().section("logger"));
+}
+
+TEST(Logger, ReadsItsSectionStrictly) {
+  EXPECT_EQ(configured("logger: {rotate_mb: 2}").rotate_bytes, 2'000'000);
+  EXPECT_THROW(configured("logger: {rotate_mb: -1}"), ConfigError);
+  EXPECT_THROW(configured("logger: {rotate: 1}"), ConfigError);
+}
+
+TEST(Logger, RefusesAPlaceThatCannotBeWritten) {
+  VirtualRunner runner;
+  EXPECT_THROW(LoggerNode(runner.observer(), LoggerConfig{}, "/nowhere/a.lcm"), ConfigError);
+}
+
+TEST(Logger, RecordsEveryMessageOfEveryChannel) {
+  const TempFolder folder;
+  const std::string path = folder.file("a.lcm");
+  VirtualRunner runner;
+  auto& logger = dynamic_cast<LoggerNode&>(
+      runner.start("tern-logger", [&](Bus& bus) { return std::make_unique<LoggerNode>(bus, LoggerConfig{}, path); }));
+  Bus& sender = runner.observer();
+  for (int i = 0; i < 50; ++i) {
+    Goal goal;
+    goal.id = i + 1;
+    sender.publish(channels::kGoal, goal);
+    sender.publish("EXTRA", goal);
+    runner.run(runner.now() + Duration{50'000});
+  }
+  EXPECT_EQ(logger.table().counts().at("GOAL").received, 50);
+  EXPECT_EQ(logger.table().counts().at("GOAL").lost, 0);
+  EXPECT_EQ(logger.table().counts().at("EXTRA").received, 50);
+  std::int64_t received = 0;
+  for (const auto& [channel, count] : logger.table().counts()) received += count.received;
+  runner.stop("tern-logger");
+
+  auto reader = LogReader::open(path);
+  ASSERT_TRUE(reader);
+  std::int64_t events = 0, goals = 0;
+  while (const auto event = reader->next()) {
+    ++events;
+    if (event->channel != channels::kGoal) continue;
+    const auto goal = decode<Goal>(event->data);
+    ASSERT_TRUE(goal);
+    EXPECT_EQ(goal->id, ++goals);
+  }
+  EXPECT_EQ(goals, 50);
+  EXPECT_EQ(events, received);
+  EXPECT_EQ(reader->damage().bytes, 0);
+}
+
+}  // namespace
+}  // namespace tern

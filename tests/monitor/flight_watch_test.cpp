@@ -1,0 +1,175 @@
+#include "monitor/flight_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tern {
+namespace {
+
+constexpr UTime kStart{1'000'000'000};
+
+Heartbeat simulator(std::int64_t epoch) {
+  Heartbeat heartbeat;
+  heartbeat.process = kSimulatorProcess;
+  heartbeat.header.name = {epoch, 1};
+  heartbeat.state = ProcessState::Ready;
+  return heartbeat;
+}
+
+HorizonRequest request(std::int64_t simulator_epoch) {
+  HorizonRequest request;
+  request.header = {{simulator_epoch, 1}, kStart};
+  request.id = 1;
+  request.deadline = kStart + Duration{50'000};
+  return request;
+}
+
+UavState state(const Vec3& p, const Vec3& v, UTime at) {
+  UavState state;
+  state.header.utime = state.at = at;
+  state.motion.p = p;
+  state.motion.v = v;
+  return state;
+}
+
+Scenario scenario() {
+  Scenario scenario;
+  scenario.name = "test";
+  scenario.seed = 7;
+  scenario.world.count = 100;
+  scenario.uav.start = Vec3(0, 0, 1);
+  scenario.uav.goal = Vec3(10, 0, 1);
+  scenario.uav.body.radius = 0.5;
+  scenario.timeout_s = 30.0;
+  return scenario;
+}
+
+TEST(FlightWatch, TakesTheRefereesOutcomeAfterTheLastWords) {
+  for (const FlightOutcome outcome :
+       {FlightOutcome::Reached, FlightOutcome::Collision, FlightOutcome::Timeout, FlightOutcome::Failed}) {
+    FlightWatch watch(scenario(), kStart);
+    FlightResult result;
+    result.outcome = outcome;
+    result.detail = "why";
+    watch.hear(result, kStart + Duration{1'000});
+    EXPECT_FALSE(watch.ending(kStart + Duration{1'000}));
+    const auto ending = watch.ending(kStart + Duration{1'000} + kLastWords);
+    ASSERT_TRUE(ending);
+    EXPECT_EQ(ending->outcome, outcome);
+    EXPECT_EQ(ending->detail, "why");
+  }
+}
+
+TEST(FlightWatch, FailsWhenTheSimulatorIsNotHeard) {
+  FlightWatch watch(scenario(), kStart);
+  EXPECT_FALSE(watch.ending(kStart + kSimulatorSilence));
+  EXPECT_EQ(watch.ending(kStart + kSimulatorSilence + Duration{1})->outcome, FlightOutcome::Failed);
+  const UTime heard = kStart + Duration{10'000'000};
+  watch.hear(simulator(1), heard);
+  EXPECT_FALSE(watch.ending(heard + kSimulatorSilence));
+  EXPECT_TRUE(watch.ending(heard + kSimulatorSilence + Duration{1}));
+}
+
+TEST(FlightWatch, FailsWhenTheWorldIsLostMidway) {
+  FlightWatch watch(scenario(), kStart);
+  watch.hear(simulator(1), kStart);
+  watch.hear(request(1), kStart);
+  EXPECT_FALSE(watch.ending(kStart));
+  watch.hear(simulator(2), kStart);
+  const auto ending = watch.ending(kStart);
+  ASSERT_TRUE(ending);
+  EXPECT_EQ(ending->outcome, FlightOutcome::Failed);
+  EXPECT_NE(ending->detail.find("world is lost"), std::string::npos);
+}
+
+TEST(FlightWatch, ASimulatorThatStartsAnewBeforeTheFlightIsARestartOnly) {
+  FlightWatch watch(scenario(), kStart);
+  watch.hear(simulator(1), kStart);
+  watch.hear(simulator(2), kStart);
+  watch.hear(request(2), kStart);
+  EXPECT_FALSE(watch.ending(kStart));
+  EXPECT_EQ(watch.summary({}).restarts, 1);
+}
+
+TEST(FlightWatch, FailsWhenTheRefereeKeepsSilent) {
+  FlightWatch watch(scenario(), kStart);
+  watch.hear(request(1), kStart);
+  const UTime late = kStart + Duration{30'000'000} + kVerdictSlack;
+  watch.hear(simulator(1), late);
+  EXPECT_FALSE(watch.ending(late));
+  EXPECT_TRUE(watch.ending(late + Duration{1}));
+}
+
+TEST(FlightWatch, FailsForTheLaunchersFirstReason) {
+  FlightWatch watch(scenario(), kStart);
+  watch.fail("first");
+  watch.fail("second");
+  EXPECT_EQ(watch.ending(kStart)->detail, "first");
+}
+
+TEST(FlightWatch, AVerdictCountsMoreThanAFailureAfterIt) {
+  FlightWatch watch(scenario(), kStart);
+  FlightResult result;
+  result.outcome = FlightOutcome::Reached;
+  watch.hear(result, kStart);
+  watch.fail("a process ended");
+  EXPECT_EQ(watch.ending(kStart + kLastWords)->outcome, FlightOutcome::Reached);
+}
+
+TEST(FlightWatch, ShowsProgressSpeedAndTheNearestObstacle) {
+  FlightWatch watch(scenario(), kStart);
+  EXPECT_FALSE(watch.live().flying);
+  watch.hear(request(1), kStart);
+  watch.hear(state(Vec3(4, 0, 1), Vec3(3, 4, 0), kStart + Duration{2'000'000}));
+  EXPECT_TRUE(std::isnan(watch.live().nearest_m));
+  TrueObstacle near, far;
+  near.position = Vec3(4, 3, 1);
+  near.half_extents = Vec3::Constant(0.5);
+  far.position = Vec3(40, 0, 1);
+  watch.hear({far, near});
+  const LiveView view = watch.live();
+  EXPECT_TRUE(view.flying);
+  EXPECT_DOUBLE_EQ(view.elapsed_s, 2.0);
+  EXPECT_NEAR(view.progress, 0.4, 1e-12);
+  EXPECT_DOUBLE_EQ(view.speed_mps, 5.0);
+  EXPECT_NEAR(view.nearest_m, 2.0, 1e-12);  // 3 m less the obstacle's half and the body's radius
+}
+
+TEST(FlightWatch, MeasuresProgressToANewGoal) {
+  FlightWatch watch(scenario(), kStart);
+  watch.hear(request(1), kStart);
+  watch.hear(state(Vec3(0, 5, 1), Vec3::Zero(), kStart));
+  Goal goal;
+  goal.id = 2;
+  goal.position = Vec3(0, 20, 1);
+  watch.hear(goal);
+  EXPECT_NEAR(watch.live().progress, 0.25, 1e-12);
+}
+
+TEST(FlightWatch, SumsUpTimesOfTheStagesThatRan) {
+  FlightWatch watch(scenario(), kStart);
+  for (int i = 1; i <= 100; ++i) {
+    PlanTiming timing;
+    timing.total_ms = i;
+    timing.stage_ms[static_cast<int>(Stage::Search)] = i <= 50 ? 0.0 : 2.0 * i;
+    watch.hear(timing);
+  }
+  const ReplanTimes times = watch.summary({}).replan_ms;
+  EXPECT_EQ(times.total.p99, 99.0);
+  EXPECT_EQ(times.search.p50, 150.0);
+  EXPECT_TRUE(std::isnan(times.first_answer.p50));
+  EXPECT_TRUE(std::isnan(times.hulls.max));
+}
+
+TEST(FlightWatch, SummaryNamesTheScenario) {
+  const FlightSummary summary = FlightWatch(scenario(), kStart).summary({FlightOutcome::Failed, "why"});
+  EXPECT_EQ(summary.scenario, "test");
+  EXPECT_EQ(summary.seed, 7U);
+  EXPECT_EQ(summary.count, 100);
+  EXPECT_EQ(summary.detail, "why");
+  EXPECT_FALSE(summary.result);
+}
+
+}  // namespace
+}  // namespace tern

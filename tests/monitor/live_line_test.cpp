@@ -1,0 +1,47 @@
+#include "monitor/live_line.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace tern {
+namespace {
+
+TEST(LiveLine, ShowsWhatAPersonWantsToKnow) {
+  LiveView view;
+  view.flying = true;
+  view.elapsed_s = 6.43;
+  view.progress = 0.478;
+  view.speed_mps = 5.934;
+  view.nearest_m = 0.717;
+  view.replan_p50_ms = 4.12;
+  view.replan_p99_ms = 12.34;
+  view.requests = 128;
+  view.answered_in_time = 127;
+  EXPECT_EQ(live_line(view),
+            "   6.4 s   48 %   5.93 m/s  nearest 0.72 m  replan 4.1/12.3 ms (p50/p99)  in time 127/128");
+}
+
+TEST(LiveLine, ShowsADashForWhatIsNotKnown) {
+  LiveView view;
+  view.flying = true;
+  view.nearest_m = view.replan_p50_ms = view.replan_p99_ms = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(live_line(view).find("nearest - m  replan -/- ms"), std::string::npos);
+}
+
+TEST(LiveLine, SaysWhoIsWaitedFor) {
+  LiveView view;
+  EXPECT_EQ(live_line(view), "waiting for the simulator");
+  view.waiting = "tern-planner: a map";
+  EXPECT_EQ(live_line(view), "waiting for tern-planner: a map");
+}
+
+TEST(LiveLine, FitsATerminalWithoutCuttingACharacter) {
+  EXPECT_EQ(fit("abcdef", 4), "abcd");
+  EXPECT_EQ(fit("abc", 4), "abc");
+  EXPECT_EQ(fit("äöüß", 2), "äö");
+  EXPECT_EQ(fit("", 0), "");
+}
+
+}  // namespace
+}  // namespace tern

@@ -1,0 +1,73 @@
+#include "monitor/app/monitor_node.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "messages/flight_result.h"
+#include "runtime/channels.h"
+#include "runtime/virtual_runner.h"
+
+namespace tern {
+namespace {
+
+const Scenario kScenario;
+
+std::string temp_file(const std::string& name) {
+  const std::string path = testing::TempDir() + "/" + name + std::to_string(getpid());
+  std::filesystem::remove(path);
+  return path;
+}
+
+/// Runs a monitor in virtual time after `before` has had its way with the network.
+template <class Before>
+RunResult run_monitor(const MonitorOptions& options, Before&& before) {
+  VirtualRunner runner;
+  runner.start("tern-monitor", [&](Bus& bus) { return std::make_unique<MonitorNode>(bus, kScenario, options); });
+  before(runner.observer());
+  return runner.run(runner.now() + Duration{60'000'000});
+}
+
+TEST(Monitor, ExitCodeAndSummaryAreTheRefereesOutcome) {
+  for (const FlightOutcome outcome :
+       {FlightOutcome::Reached, FlightOutcome::Collision, FlightOutcome::Timeout, FlightOutcome::Failed}) {
+    MonitorOptions options;
+    options.summary_file = temp_file("summary");
+    const RunResult result = run_monitor(options, [&](Bus& bus) {
+      FlightResult verdict;
+      verdict.outcome = outcome;
+      bus.publish(channels::kFlightResult, verdict);
+    });
+    EXPECT_EQ(result.end, RunEnd::Finished);
+    EXPECT_EQ(result.exit_code, static_cast<int>(outcome));
+    std::ifstream file(options.summary_file);
+    const auto summary = nlohmann::json::parse(file);
+    EXPECT_EQ(summary["outcome"], to_string(outcome));
+    EXPECT_EQ(summary["messages"]["FLIGHT_RESULT"]["received"], 1);
+    std::filesystem::remove(options.summary_file);
+  }
+}
+
+TEST(Monitor, FailsWithoutASimulator) {
+  const RunResult result = run_monitor({}, [](Bus&) {});
+  EXPECT_EQ(result.end, RunEnd::Finished);
+  EXPECT_EQ(result.exit_code, 3);
+}
+
+TEST(Monitor, FailsWhenTheLauncherGivesUp) {
+  MonitorOptions options;
+  options.failure_file = temp_file("failure");
+  std::ofstream(options.failure_file) << "tern-planner ended with exit code 2\n";
+  VirtualRunner runner;
+  runner.start("tern-monitor", [&](Bus& bus) { return std::make_unique<MonitorNode>(bus, kScenario, options); });
+  const RunResult result = runner.run(runner.now() + Duration{1'000'000});
+  EXPECT_EQ(result.end, RunEnd::Finished);
+  EXPECT_EQ(result.exit_code, 3);
+  std::filesystem::remove(options.failure_file);
+}
+
+}  // namespace
+}  // namespace tern

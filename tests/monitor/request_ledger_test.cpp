@@ -1,0 +1,69 @@
+#include "monitor/request_ledger.h"
+
+#include <gtest/gtest.h>
+
+namespace tern {
+namespace {
+
+constexpr UTime kDeadline{1'000'000};
+
+HorizonRequest request(std::int64_t id) {
+  HorizonRequest request;
+  request.id = id;
+  request.deadline = kDeadline;
+  return request;
+}
+
+Plan plan(std::int64_t id, UTime at, PlanOutcome outcome = PlanOutcome::Optimized) {
+  Plan plan;
+  plan.request_id = id;
+  plan.header.utime = at;
+  plan.outcome = outcome;
+  return plan;
+}
+
+TEST(RequestLedger, AnAnswerAtTheDeadlineIsInTime) {
+  RequestLedger ledger;
+  ledger.add(request(1));
+  ledger.add(plan(1, kDeadline));
+  EXPECT_EQ(ledger.requests(), 1);
+  EXPECT_EQ(ledger.answered_in_time(), 1);
+}
+
+TEST(RequestLedger, AnAnswerAfterTheDeadlineIsNot) {
+  RequestLedger ledger;
+  ledger.add(request(1));
+  ledger.add(plan(1, kDeadline + Duration{1}));
+  EXPECT_EQ(ledger.requests(), 1);
+  EXPECT_EQ(ledger.answered_in_time(), 0);
+}
+
+TEST(RequestLedger, ASecondAnswerChangesNothingButThePlans) {
+  RequestLedger ledger;
+  ledger.add(request(1));
+  ledger.add(plan(1, kDeadline));
+  ledger.add(plan(1, kDeadline, PlanOutcome::Evade));
+  EXPECT_EQ(ledger.answered_in_time(), 1);
+  EXPECT_EQ(ledger.plans(PlanOutcome::Optimized), 1);
+  EXPECT_EQ(ledger.plans(PlanOutcome::Evade), 1);
+}
+
+TEST(RequestLedger, AnOpenRequestIsNotCountedBeforeItsDeadlineHasLongPassed) {
+  RequestLedger ledger;
+  ledger.add(request(1));
+  ledger.advance(kDeadline + kAnswerGrace);
+  EXPECT_EQ(ledger.requests(), 0);
+  ledger.advance(kDeadline + kAnswerGrace + Duration{1});
+  EXPECT_EQ(ledger.requests(), 1);
+  EXPECT_EQ(ledger.answered_in_time(), 0);
+}
+
+TEST(RequestLedger, AnAnswerToNobodySettlesNothing) {
+  RequestLedger ledger;
+  ledger.add(plan(7, kDeadline, PlanOutcome::NoPlan));
+  EXPECT_EQ(ledger.requests(), 0);
+  EXPECT_EQ(ledger.plans(PlanOutcome::NoPlan), 1);
+}
+
+}  // namespace
+}  // namespace tern

@@ -1,0 +1,106 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "monitor/flight_summary.h"
+
+namespace tern {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string> keys(const json& object) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : object.items()) names.push_back(name);
+  return names;
+}
+
+FlightSummary flown() {
+  FlightSummary s;
+  s.outcome = FlightOutcome::Reached;
+  s.scenario = "corridor_demo";
+  s.seed = 1;
+  s.count = 100;
+  FlightResult r;
+  r.flight_time_s = 13.25;
+  r.first_entry_s = std::numeric_limits<double>::quiet_NaN();
+  r.min_clearance_m = -0.5;
+  r.stops = 2;
+  r.exposure = {{"mural", 1.5, 6.0, 2.0, 8.0}};
+  s.result = r;
+  s.requests = 300;
+  s.answered_in_time = 299;
+  s.plans = {250, 30, 15, 4, 1};
+  s.replan_ms.total = {4.0, 10.0, 12.0, 20.0};
+  s.messages["PLAN"] = {300, 2, 1};
+  s.restarts = 3;
+  s.log = "flight.lcm";
+  s.version = "0.1.0+abc";
+  return s;
+}
+
+TEST(Summary, HasExactlyTheKeysThatWerePromised) {
+  const json summary = json::parse(to_json(flown()));
+  EXPECT_THAT(keys(summary),
+              testing::UnorderedElementsAre(
+                  "outcome", "scenario", "seed", "count", "flight_time_s", "first_entry_s", "path_length_m",
+                  "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m", "limit_violations", "requests",
+                  "answered_in_time", "plans", "replan_ms", "exposure", "messages", "restarts", "log", "version"));
+  EXPECT_THAT(keys(summary["replan_ms"]),
+              testing::UnorderedElementsAre("total", "first_answer", "hulls", "search", "optimization", "check"));
+  EXPECT_THAT(keys(summary["replan_ms"]["hulls"]), testing::UnorderedElementsAre("p50", "p95", "p99", "max"));
+  EXPECT_THAT(keys(summary["exposure"]["mural"]), testing::UnorderedElementsAre("seconds", "metres"));
+  EXPECT_THAT(keys(summary["messages"]["PLAN"]), testing::UnorderedElementsAre("received", "rejected", "lost"));
+}
+
+TEST(Summary, SaysTheValuesInJson) {
+  const json summary = json::parse(to_json(flown()));
+  EXPECT_EQ(summary["outcome"], "reached");
+  EXPECT_EQ(summary["seed"], 1);
+  EXPECT_EQ(summary["flight_time_s"], 13.25);
+  EXPECT_EQ(summary["stops"], 2);
+  EXPECT_EQ(summary["plans"]["optimized"], 250);
+  EXPECT_EQ(summary["plans"]["no_plan"], 1);
+  EXPECT_EQ(summary["replan_ms"]["total"]["p99"], 12.0);
+  EXPECT_EQ(summary["messages"]["PLAN"]["lost"], 1);
+}
+
+TEST(Summary, WhatHasNoValueIsNull) {
+  FlightSummary s = flown();
+  EXPECT_TRUE(json::parse(to_json(s))["first_entry_s"].is_null());
+  EXPECT_TRUE(json::parse(to_json(s))["replan_ms"]["search"]["p50"].is_null());
+  s.result.reset();
+  const json unjudged = json::parse(to_json(s));
+  EXPECT_TRUE(unjudged["flight_time_s"].is_null());
+  EXPECT_TRUE(unjudged["stops"].is_null());
+  EXPECT_EQ(unjudged["exposure"], json::object());
+}
+
+TEST(Summary, KeepsTheRangeOfASeed) {
+  FlightSummary s = flown();
+  s.seed = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_EQ(json::parse(to_json(s))["seed"], std::numeric_limits<std::uint64_t>::max());
+}
+
+TEST(Summary, FitsOneScreen) {
+  FlightSummary s = flown();
+  s.result->exposure.assign(6, s.result->exposure.front());
+  for (int i = 0; i < 14; ++i) s.messages["CHANNEL_" + std::to_string(i)] = {1, 1, 1};
+  std::istringstream text(to_text(s));
+  int lines = 0;
+  for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 100U) << line;
+  EXPECT_LE(lines, 30);
+}
+
+TEST(Summary, TellsAPersonTheOutcomeFirst) {
+  FlightSummary s = flown();
+  s.outcome = FlightOutcome::Collision;
+  s.detail = "hit obstacle 7";
+  EXPECT_EQ(to_text(s).substr(0, 26), "collision: hit obstacle 7\n");
+}
+
+}  // namespace
+}  // namespace tern
