@@ -128,7 +128,12 @@ class Builder {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const auto r = static_cast<Eigen::Index>(i);
       out.rows.row(r) = rows_[i].transpose();
-      out.bounds[r] = std::max(bounds_[i], rows_[i].dot(x0));
+      out.bounds[r] = bounds_[i];
+    }
+    // By the very product that judges feasibility: another order of summing would leave x0 outside by its rounding.
+    out.bounds = out.bounds.cwiseMax(out.rows * x0).eval();
+    for (int k = 0; k < out.spheres(); ++k) {
+      out.sphere_radius2 = std::max(out.sphere_radius2, out.sphere_point(k, x0).squaredNorm());
     }
   }
 

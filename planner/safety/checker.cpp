@@ -18,7 +18,8 @@ CheckReport fault(CheckFault kind, int interval, int axis, double value, double 
 }
 
 bool has_shape(const TimedSpline& plan) {
-  return plan.control_points.cols() >= 7 && plan.interval.us > 0 && plan.control_points.allFinite();
+  const Eigen::Index n = plan.control_points.cols();
+  return n >= 7 && n <= kMaxIntervals + 3 && plan.interval.us > 0 && plan.control_points.allFinite();
 }
 
 CheckReport check_start(const ClampedSpline& spline, const MotionSample& start) {

@@ -13,7 +13,7 @@ namespace tern {
 
 enum class CheckFault {
   None,
-  Shape,         ///< fewer than 4 intervals, Δt ≤ 0, or a number that is not finite
+  Shape,         ///< fewer than 4 or more than kMaxIntervals intervals, Δt ≤ 0, or a number that is not finite
   Start,         ///< does not join the start state
   Velocity,      ///< at its true extremum
   Acceleration,

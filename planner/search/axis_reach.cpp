@@ -10,6 +10,9 @@ namespace {
 using Point = Eigen::Vector2d;
 using Polygon = std::vector<Point>;
 
+/// A velocity taken from the end of its range must not fall out by rounding, m/s.
+constexpr double kOnBoundary = 1e-9;
+
 double cross(const Point& o, const Point& a, const Point& b) {
   return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
 }
@@ -61,7 +64,6 @@ Polygon clip_box(Polygon polygon, double v_max, double a_max) {
 AxisReach::Interval line_in_polygon(const Polygon& polygon, double v, double dt) {
   // In sheared coordinates (v' − a Δt, a) the line is vertical: the polygon's a-range at first coordinate v.
   constexpr double kInf = std::numeric_limits<double>::infinity();
-  constexpr double kOnBoundary = 1e-9;  // m/s: a velocity taken from the end of its range must not fall out by rounding
   AxisReach::Interval range{kInf, -kInf};
   const auto take = [&](double a) {
     range.low = std::min(range.low, a);
@@ -98,6 +100,8 @@ AxisReach::Interval AxisReach::next_velocity(int l, double v, double a_previous)
   Interval a = line_in_polygon(finishable_[static_cast<std::size_t>(l) + 1], v, dt_);
   a.low = std::max({a.low, -a_max_, a_previous - j_step_});
   a.high = std::min({a.high, a_max_, a_previous + j_step_});
+  // At the edge of what can be finished one acceleration alone is left, and rounding may turn its bounds around.
+  if (a.low > a.high && (a.low - a.high) * dt_ <= kOnBoundary) a.low = a.high = 0.5 * (a.low + a.high);
   return {v + a.low * dt_, v + a.high * dt_};
 }
 

@@ -1,0 +1,194 @@
+#include "planner/safety/separation_test.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/distance.h"
+#include "core/geometry/separation.h"
+#include "tests/support/planner_worlds.h"
+#include "tests/support/random_splines.h"
+
+namespace tern {
+namespace {
+
+using namespace support;
+
+constexpr UTime kOrigin{50'000'000};
+const Box kEverywhere(Vec3::Constant(-1e4), Vec3::Constant(1e4));
+const Box kWhere(Vec3(-2.5, -2.5, -1.5), Vec3(2.5, 2.5, 1.5));
+
+/// A trajectory among a few movers, cut into its own intervals.
+struct Scene {
+  std::vector<Track> tracks;
+  std::vector<PlanningObstacle> obstacles;
+  Body body;
+  TimedSpline trajectory;
+  std::vector<double> times;
+};
+
+Scene random_scene(std::uint64_t seed) {
+  Rng rng(seed);
+  Scene s;
+  for (int id = 1; id <= 3; ++id) {
+    const UTime from = kOrigin - Duration{random_integer(rng, 0, 300'000)};
+    s.tracks.push_back(rng.uniform() < 0.7 ? random_mover(rng, id, kWhere, from, 1.5) : jumping_mover(rng, id, kWhere, from, 1.5));
+    if (rng.uniform() < 0.2) s.tracks.back().kind = TrackKind::Static;
+  }
+  s.obstacles = obstacles_of(s.tracks);
+  s.obstacles.push_back({-1, nullptr, box_around(random_vector(rng, 2.0), Vec3::Constant(0.3)), 1.0});
+  s.body = body_of(kBodyKinds[random_integer(rng, 0, 2)]);
+  s.trajectory = random_trajectory(rng, random_vector(rng, 1.5), kOrigin, Limits{});
+  for (int j = 0; j <= s.trajectory.spline().intervals(); ++j) s.times.push_back(j * s.trajectory.interval.seconds());
+  return s;
+}
+
+TEST(SeparateInterval, NeverCertifiesACollisionFoundByDenseSampling) {
+  int passed = 0;
+  int met = 0;
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+    const Scene s = random_scene(seed);
+    const ClampedSpline spline = s.trajectory.spline();
+    SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    for (int j = 0; j < spline.intervals(); ++j) {
+      PairCounts counts;
+      const bool ok = separate_interval(swept, j, spline.power(j), counts, nullptr).ok;
+      const UTime from = kOrigin + s.trajectory.interval * j;
+      const double gap = least_gap(s.trajectory, s.body, s.obstacles, from, from + s.trajectory.interval, Duration{5'000});
+      if (gap == 0.0) ++met;
+      if (!ok) continue;
+      ++passed;
+      ASSERT_GT(gap, 0.0) << "seed " << seed << ", interval " << j;
+    }
+  }
+  EXPECT_GT(passed, 500);
+  EXPECT_GT(met, 150);
+}
+
+TEST(SeparateInterval, PassesWhateverStaysWellClear) {
+  int clear = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Scene s = random_scene(seed);
+    const ClampedSpline spline = s.trajectory.spline();
+    SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    for (int j = 0; j < spline.intervals(); ++j) {
+      double least = INFINITY;
+      for (const auto& candidate : swept.candidates(j)) least = std::min(least, distance(swept.hull(j, candidate, 0, 1), spline.minvo(j)));
+      PairCounts counts;
+      if (least <= s.body.radius + 2.0 * kTouchingTolerance) continue;
+      ++clear;
+      ASSERT_TRUE(separate_interval(swept, j, spline.power(j), counts, nullptr).ok) << "seed " << seed << ", interval " << j;
+    }
+  }
+  EXPECT_GT(clear, 200);
+}
+
+TEST(SeparateInterval, EveryPlaneHoldsTheHullOnOneSideAndThePartOnTheOther) {
+  int planes_seen = 0;
+  int split = 0;
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+    const Scene s = random_scene(seed);
+    const ClampedSpline spline = s.trajectory.spline();
+    SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    for (int j = 0; j < spline.intervals(); ++j) {
+      PairCounts counts;
+      std::vector<CertificatePlane> planes;
+      if (!separate_interval(swept, j, spline.power(j), counts, &planes, seed % 2 == 0 ? 0.0 : 1.0).ok) continue;
+      for (const CertificatePlane& c : planes) {
+        ++planes_seen;
+        split += c.parts > 1 ? 1 : 0;
+        ASSERT_EQ(c.interval, j);
+        ASSERT_NEAR(c.plane.n.norm(), 1.0, 1e-12);
+        const auto& candidates = swept.candidates(j);
+        const auto of = std::find_if(candidates.begin(), candidates.end(),
+                                     [&](const auto& candidate) { return swept.obstacle(candidate).id == c.track; });
+        ASSERT_NE(of, candidates.end());
+        const Points& hull = swept.hull(j, *of, c.part, c.parts);
+        for (Eigen::Index k = 0; k < hull.cols(); ++k) ASSERT_GE(c.plane.signed_distance(hull.col(k)), 0.0);
+        const Points4 curve = minvo_of(spline.power(j), static_cast<double>(c.part) / c.parts, (c.part + 1.0) / c.parts);
+        for (int k = 0; k < 4; ++k) {
+          ASSERT_LE(c.plane.signed_distance(curve.col(k)), -std::max(s.body.radius, kPlaneMargin)) << "seed " << seed;
+        }
+      }
+    }
+  }
+  EXPECT_GT(planes_seen, 1000);
+  EXPECT_GT(split, 20);
+}
+
+TEST(SeparateInterval, SplitsTheIntervalInTimeWhereOnePlaneDoesNotDo) {
+  // The vehicle comes along x to the origin's far side; the mover was at the origin when it set out, and leaves along y.
+  const std::vector<Track> tracks{straight_mover(7, Vec3::Zero(), Vec3(0, 12, 0), 0.3, kOrigin, 1.0)};
+  const auto obstacles = obstacles_of(tracks);
+  SweptObstacles swept(obstacles, Body{}, kOrigin, {0.0, 0.5}, kEverywhere);
+  PowerCubic along_x = PowerCubic::Zero();
+  along_x.col(2) = Vec3(3, 0, 0);
+  along_x.col(3) = Vec3(-1.5, 0, 0);
+  PairCounts counts;
+  EXPECT_LT(distance(swept.hull(0, swept.candidates(0)[0], 0, 1), minvo_of(along_x, 0.0, 1.0)), 1e-9);
+  EXPECT_LT(distance(swept.hull(0, swept.candidates(0)[0], 0, 2), minvo_of(along_x, 0.0, 0.5)), 1e-9);
+  EXPECT_TRUE(separate_interval(swept, 0, along_x, counts, nullptr).ok);
+}
+
+TEST(SeparateInterval, NamesWhatBlocks) {
+  const std::vector<Track> tracks{straight_mover(7, Vec3(9, 0, 0), Vec3::Zero(), 0.3, kOrigin, 1.0),
+                                  straight_mover(8, Vec3(0.5, 0, 0), Vec3::Zero(), 0.3, kOrigin, 1.0)};
+  const auto obstacles = obstacles_of(tracks);
+  SweptObstacles swept(obstacles, Body{}, kOrigin, {0.0, 0.5}, kEverywhere);
+  PairCounts counts;
+  const Separated result = separate_interval(swept, 0, PowerCubic::Zero(), counts, nullptr);
+  EXPECT_TRUE(result.ok);
+  PowerCubic there = PowerCubic::Zero();
+  there.col(3) = Vec3(0.4, 0, 0);
+  const Separated blocked = separate_interval(swept, 0, there, counts, nullptr);
+  EXPECT_FALSE(blocked.ok);
+  EXPECT_EQ(blocked.blocker, 8);
+}
+
+TEST(ClearTimeAt, TheBodyTouchesNothingAsLongAsItSays) {
+  int cut = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    const Scene s = random_scene(seed);
+    SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    const int first = static_cast<int>(seed % 3);
+    const Vec3 p = s.trajectory.control_points.col(0);
+    PairCounts counts;
+    const double clear = clear_time_at(swept, first, p, counts);
+    const double whole = s.times.back() - swept.time(first);
+    ASSERT_LE(clear, whole + 1e-12);
+    if (clear > 0.0) {
+      const UTime from = kOrigin + Duration::from_seconds(swept.time(first));
+      const UTime to = from + Duration::from_seconds(clear);
+      ASSERT_GT(least_gap(resting_at(p, from), s.body, s.obstacles, from, to), 0.0) << "seed " << seed;
+    }
+    if (clear < whole - 1e-9) {
+      // The interval in which it ends really has a hull at the body.
+      ++cut;
+      int k = first;
+      while (swept.time(k) - swept.time(first) < clear - 1e-9) ++k;
+      double nearest = INFINITY;
+      for (const auto& candidate : swept.candidates(k)) nearest = std::min(nearest, distance(swept.hull(k, candidate, 0, 1), Points(p)));
+      ASSERT_LE(nearest, s.body.radius + 2.0 * kTouchingTolerance) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(cut, 50);
+  EXPECT_LT(cut, 290);
+}
+
+TEST(MinvoOf, APartsPointsHoldThatPartOfTheCurve) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Rng rng(seed);
+    const PowerCubic cubic = random_cubic(rng);
+    const double u0 = rng.uniform() < 0.3 ? 0.0 : rng.uniform(0.0, 0.9);
+    const double u1 = rng.uniform() < 0.3 ? 1.0 : rng.uniform(u0 + 0.05, 1.0);
+    const Points4 points = minvo_of(cubic, u0, u1);
+    for (int i = 0; i <= 20; ++i) {
+      const Vec3 p = sample_cubic(cubic, u0 + (u1 - u0) * i / 20).p;
+      ASSERT_LE(distance(points, Points(p)), 1e-9) << "seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tern

@@ -1,0 +1,283 @@
+#include "planner/search/semantic_a_star.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/duration.h"
+#include "planner/safety/checker.h"
+#include "tests/support/planner_worlds.h"
+#include "tests/support/random_splines.h"
+
+namespace tern {
+namespace {
+
+using namespace support;
+
+constexpr UTime kStart{50'000'000};
+constexpr double kRadius = 4.0;
+constexpr double kHold = 1.5;
+const Box kOpen(Vec3::Constant(-1e4), Vec3::Constant(1e4));
+
+/// A search and what its leaf must satisfy.
+struct Scene {
+  std::vector<Track> tracks;
+  std::vector<PlanningObstacle> obstacles;
+  Body body;
+  SearchProblem problem;
+  CheckDemands demands;
+
+  [[nodiscard]] SweptObstacles sweep() const {
+    std::vector<double> times;
+    for (int k = 0; k <= problem.intervals; ++k) times.push_back(k * problem.interval_s);
+    const double end = times.back();
+    for (double hold = 0.1; hold < kHold + 1e-9; hold += 0.1) times.push_back(end + hold);
+    return {obstacles, body, kStart, std::move(times), box_around(problem.start.p, Vec3::Constant(kRadius))};
+  }
+  [[nodiscard]] SearchResult search(const SearchConfig& config = {}) const {
+    SweptObstacles swept = sweep();
+    Budget budget = Budget::unlimited();
+    return semantic_a_star(problem, config, swept, budget);
+  }
+  [[nodiscard]] CheckReport check(const SearchResult& result) const {
+    SweptObstacles swept = sweep();
+    return check_plan({kStart, Duration::from_seconds(problem.interval_s), result.control_points}, demands, swept);
+  }
+};
+
+Scene scene_from(const MotionSample& start, double interval_s, const Vec3& goal, std::vector<Track> tracks = {}) {
+  Scene s;
+  s.tracks = std::move(tracks);
+  s.obstacles = obstacles_of(s.tracks);
+  s.problem.start = start;
+  s.problem.interval_s = interval_s;
+  s.problem.true_v_max = s.problem.limits.v_max;
+  s.problem.limits.v_max *= 0.99;
+  s.problem.sphere_centre = start.p;
+  s.problem.centre_box = kOpen;
+  s.problem.way.point = goal;
+  s.demands = {start, Limits{}, kOpen, kRadius};
+  return s;
+}
+
+/// Up to 12 movers around a vehicle that is under way; limits, body, flight box and jerk limit vary.
+Scene random_scene(std::uint64_t seed) {
+  Rng rng(seed);
+  Limits limits;
+  if (rng.uniform() < 0.3) limits.j_max = Vec3::Constant(rng.uniform(60.0, 200.0));
+  const TimedSpline flown = random_trajectory(rng, random_vector(rng, 1.0), kStart, limits);
+  MotionSample start = rng.uniform() < 0.3 ? MotionSample{} : flown.sample(kStart + Duration{random_integer(rng, 0, 1'000'000)});
+  std::vector<Track> tracks;
+  for (int id = random_integer(rng, 0, 12); id > 0; --id) {
+    tracks.push_back(random_mover(rng, id, box_around(start.p, Vec3::Constant(4.0)), kStart - Duration{200'000}, 4.0));
+  }
+  Scene s = scene_from(start, 1e-6 * random_integer(rng, 100'000, 350'000), Vec3(start.p + random_vector(rng, 6.0)), std::move(tracks));
+  s.body = body_of(kBodyKinds[random_integer(rng, 0, 2)]);
+  s.problem.intervals = random_integer(rng, 4, 8);
+  s.problem.limits = limits;
+  s.problem.true_v_max = limits.v_max;
+  s.problem.limits.v_max *= 0.99;
+  s.problem.way.rest = rng.uniform(0.0, 3.0);
+  s.demands.limits = limits;
+  if (rng.uniform() < 0.5) {
+    s.demands.flight_box = box_around(start.p, Vec3(rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0)));
+    s.problem.centre_box = centre_box(s.demands.flight_box, s.body);
+  }
+  return s;
+}
+
+SearchConfig quick() {
+  SearchConfig config;
+  config.max_expansions = 200;
+  return config;
+}
+
+TEST(SemanticAStar, NeverReturnsALeafThatTheCheckerRejects) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const Scene s = random_scene(seed);
+    const SearchResult result = s.search(quick());
+    if (!result.found) continue;
+    ++found;
+    ASSERT_EQ(result.control_points.cols(), s.problem.intervals + 3);
+    const CheckReport report = s.check(result);
+    ASSERT_TRUE(report.ok()) << "seed " << seed << ": " << to_string(report.fault) << " in interval " << report.interval << ", axis "
+                             << report.axis << ": " << report.value << " against " << report.limit;
+  }
+  EXPECT_GT(found, 150);
+}
+
+TEST(SemanticAStar, WhatItSaysOfItsLeafIsTrue) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const Scene s = random_scene(seed);
+    const SearchResult result = s.search(quick());
+    if (!result.found) continue;
+    const Vec3 end = result.control_points.rightCols<1>();
+    EXPECT_EQ(result.way_to_go, s.problem.way.from(end));
+    SweptObstacles swept = s.sweep();
+    PairCounts counts;
+    EXPECT_EQ(result.hold_s, clear_time_at(swept, s.problem.intervals, end, counts));
+  }
+}
+
+TEST(SemanticAStar, GivesTheSameBitsTwiceAndInWhateverOrderTheObstaclesCome) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Scene s = random_scene(seed);
+    const SearchResult first = s.search(quick());
+    const SearchResult second = s.search(quick());
+    ASSERT_EQ(first.found, second.found);
+    ASSERT_EQ(first.control_points, second.control_points);
+    ASSERT_EQ(first.expansions, second.expansions);
+    std::reverse(s.obstacles.begin(), s.obstacles.end());
+    const SearchResult reversed = s.search(quick());
+    ASSERT_EQ(first.found, reversed.found);
+    ASSERT_EQ(first.control_points, reversed.control_points) << "seed " << seed;
+  }
+}
+
+TEST(SemanticAStar, ABudgetCutReplaysToTheSameBits) {
+  int cut_and_found = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const Scene s = random_scene(seed);
+    for (const std::int64_t n : {0, 3, 17, 90}) {
+      Budget live([n](int, Stage stage, std::int64_t count) { return stage == Stage::Search && count >= n; });
+      SweptObstacles swept = s.sweep();
+      const SearchResult first = semantic_a_star(s.problem, SearchConfig{}, swept, live);
+      ASSERT_LE(live.cuts().size(), 1u);
+      Budget replay = Budget::replay(live.cuts());
+      SweptObstacles again = s.sweep();
+      const SearchResult second = semantic_a_star(s.problem, SearchConfig{}, again, replay);
+      ASSERT_EQ(first.found, second.found);
+      ASSERT_EQ(first.control_points, second.control_points) << "seed " << seed << ", cut at " << n;
+      ASSERT_EQ(first.expansions, second.expansions);
+      if (first.found && !live.cuts().empty()) ++cut_and_found;
+    }
+  }
+  EXPECT_GT(cut_and_found, 3);
+}
+
+TEST(SemanticAStar, InAnEmptyWorldItComesAsNearAsAMuchFinerSearch) {
+  SearchConfig fine;
+  fine.samples_xy = fine.samples_z = 9;
+  fine.max_expansions = 20'000;
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    Rng rng(seed);
+    const Vec3 goal = random_vector(rng, 2.2);
+    const double duration = rng.uniform(1.1, 1.8) * least_duration({}, goal, Limits{});
+    const Scene s = scene_from({}, std::max(duration / 6, 0.05), goal);
+    const SearchResult usual = s.search();
+    const SearchResult finer = s.search(fine);
+    ASSERT_TRUE(usual.found && finer.found) << "seed " << seed;
+    EXPECT_LE(usual.way_to_go, finer.way_to_go + SearchConfig{}.band_m) << "seed " << seed;
+  }
+}
+
+TEST(SemanticAStar, AmongAFewBoxesItComesAsNearAsAMuchFinerSearch) {
+  SearchConfig fine;
+  fine.samples_xy = 7;
+  fine.samples_z = 5;
+  fine.max_expansions = 8'000;
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    Rng rng(seed);
+    std::vector<Track> tracks;
+    for (int id = 1; id <= 3; ++id) {
+      const Vec3 at(rng.uniform(0.9, 2.5), rng.uniform(-1.0, 1.0), rng.uniform(-0.6, 0.6));
+      tracks.push_back(standing_box(id, box_around(at, Vec3(0.2, 0.3, 0.3)), kStart));
+    }
+    const Scene s = scene_from({}, 0.25, Vec3(3.5, 0, 0), std::move(tracks));
+    const SearchResult usual = s.search();
+    const SearchResult finer = s.search(fine);
+    ASSERT_TRUE(usual.found && finer.found) << "seed " << seed;
+    EXPECT_LE(usual.way_to_go, finer.way_to_go + SearchConfig{}.band_m) << "seed " << seed;
+  }
+}
+
+TEST(SemanticAStar, EndsWhenNothingOpenCanStillWinNotWhenItsBudgetEnds) {
+  const Scene s = scene_from({}, 0.25, Vec3(2.5, 0.5, 0.2));
+  const SearchResult result = s.search();
+  ASSERT_TRUE(result.found);
+  EXPECT_LT(result.expansions, SearchConfig{}.max_expansions / 10);
+}
+
+TEST(SemanticAStar, StartsAtNearlyTheTopSpeedWithOutwardAccelerationAreSolvable) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      for (const double outward : {1.0, 2.5}) {
+        MotionSample start;
+        start.v[axis] = sign * 0.98 * Limits{}.v_max[axis];
+        start.a[axis] = sign * outward;
+        start.v[(axis + 1) % 3] = 2.0;
+        const Scene s = scene_from(start, axis == 2 ? 0.18 : 0.12, 3.5 * start.v.normalized());
+        const SearchResult result = s.search();
+        ASSERT_TRUE(result.found) << "axis " << axis << ", sign " << sign << ", " << outward << " m/s^2";
+        EXPECT_TRUE(s.check(result).ok());
+      }
+    }
+  }
+}
+
+TEST(SemanticAStar, AnEndThatStaysClearIsPreferredToANearerOneThatDoesNot) {
+  // Something crosses the goal shortly after the vehicle would have come there.
+  const double interval = 0.45;
+  const double crossing_s = 4 * interval + 0.3;
+  const Vec3 goal(2, 0, 0);
+  const std::vector<Track> tracks{straight_mover(1, goal - Vec3(0, 3.0 * crossing_s, 0), Vec3(0, 3, 0), 0.4, kStart, 5.0)};
+  Scene s = scene_from({}, interval, goal, tracks);
+  s.problem.intervals = 4;
+  s.problem.hold_required_s = 0.0;
+  const SearchResult careless = s.search();
+  ASSERT_TRUE(careless.found);
+  EXPECT_LT(careless.way_to_go, 0.5);
+  EXPECT_LT(careless.hold_s, 0.5);
+  s.problem.hold_required_s = 1.0;
+  const SearchResult careful = s.search();
+  ASSERT_TRUE(careful.found);
+  EXPECT_GE(careful.hold_s, 1.0);
+  EXPECT_LT(careful.way_to_go, 1.5);
+}
+
+TEST(SemanticAStar, AWalledInStartHasNoLeafBeyondTheWalls) {
+  std::vector<Track> tracks;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Vec3 half = Vec3::Constant(2.0);
+      half[axis] = 0.1;
+      tracks.push_back(standing_box(static_cast<std::int64_t>(tracks.size()) + 1, box_around(Vec3::Unit(axis) * side, half), kStart));
+    }
+  }
+  const Scene s = scene_from({}, 0.25, Vec3(3, 0, 0), tracks);
+  const SearchResult result = s.search(quick());
+  if (result.found) {
+    EXPECT_LT(result.control_points.cwiseAbs().maxCoeff(), 0.8);
+  }
+}
+
+TEST(SemanticAStar, AStepsCostBendsTheWayAroundWhatIsDear) {
+  // A dear slab lies across the straight way but for y > 0.5.
+  const Vec3 goal(3, 0, 0);
+  Scene s = scene_from({}, 0.3, goal);
+  const auto dear_metres = [](const Vec3& a, const Vec3& b) {
+    double sum = 0.0;
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 p = a + (b - a) * ((k + 0.5) / 8);
+      if (p.x() > 1.0 && p.x() < 2.0 && p.y() < 0.5) sum += (b - a).norm() / 8;
+    }
+    return sum;
+  };
+  const auto dear_of = [&](const SearchResult& r) {
+    double sum = 0.0;
+    for (Eigen::Index l = 1; l < r.control_points.cols(); ++l) sum += dear_metres(r.control_points.col(l - 1), r.control_points.col(l));
+    return sum;
+  };
+  const SearchResult blind = s.search();
+  s.problem.accumulated = [&](const Vec3& a, const Vec3& b) { return 5.0 * dear_metres(a, b); };
+  const SearchResult seeing = s.search();
+  ASSERT_TRUE(blind.found && seeing.found);
+  EXPECT_GT(dear_of(blind), 0.8);
+  EXPECT_LT(dear_of(seeing), 0.5 * dear_of(blind));
+  EXPECT_LT(seeing.way_to_go, 1.0);
+}
+
+}  // namespace
+}  // namespace tern

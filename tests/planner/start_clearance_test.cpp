@@ -1,0 +1,80 @@
+#include "planner/start_clearance.h"
+
+#include <gtest/gtest.h>
+
+#include "core/geometry/separation.h"
+#include "tests/support/planner_worlds.h"
+#include "tests/support/random_splines.h"
+
+namespace tern {
+namespace {
+
+using namespace support;
+
+constexpr UTime kNow{50'000'000};
+/// clear_start() keeps the body this much farther away than it must, at most, m.
+constexpr double kSlack = 2e-3;
+
+Box body_box(const Body& body, const Vec3& p) { return box_around(p, body.half_extents()); }
+
+TEST(ClearStart, ScalesAlphaToTheLargestValueThatLeavesTheBodyClear) {
+  int relaxed = 0;
+  int collided = 0;
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    Rng rng(seed);
+    Track track = straight_mover(1, random_vector(rng, 0.5), random_vector(rng, 1.0), 0.2, kNow - Duration{100'000}, 1.0);
+    track.alpha[0] = Vec3(rng.uniform(0.0, 0.8), rng.uniform(0.0, 0.8), rng.uniform() < 0.3 ? 0.0 : rng.uniform(0.0, 0.8));
+    const std::vector<Track> tracks{track};
+    auto obstacles = obstacles_of(tracks);
+    const Body body = body_of(kBodyKinds[seed % 3]);
+    const StartClearance result = clear_start(obstacles, body, Vec3::Zero(), kNow);
+    const double scale = obstacles[0].alpha_scale;
+    ASSERT_GE(scale, 0.0);
+    ASSERT_LE(scale, 1.0);
+    const Box bare = promised_box(track, kNow, 0.0);
+    const Box at = body_box(body, Vec3::Zero());
+    if (result.collides) {
+      ++collided;
+      ASSERT_TRUE(grown(bare, Vec3::Constant(kSlack)).intersects(at)) << "seed " << seed;
+      continue;
+    }
+    ASSERT_EQ(result.relaxed, scale < 1.0);
+    const Box now = promised_box(track, kNow, scale);
+    ASSERT_FALSE(grown(now, Vec3::Constant(kTouchingTolerance)).intersects(at)) << "seed " << seed;
+    if (!result.relaxed) continue;
+    ++relaxed;
+    ASSERT_TRUE(grown(now, Vec3::Constant(kSlack)).intersects(at)) << "seed " << seed << ": α could have been larger";
+  }
+  EXPECT_GT(relaxed, 500);
+  EXPECT_GT(collided, 100);
+}
+
+TEST(ClearStart, LeavesWhatIsFarAlone) {
+  const std::vector<Track> tracks{straight_mover(1, Vec3(3, 0, 0), Vec3::Zero(), 0.4, kNow, 1.0)};
+  auto obstacles = obstacles_of(tracks);
+  const StartClearance result = clear_start(obstacles, Body{}, Vec3::Zero(), kNow);
+  EXPECT_FALSE(result.relaxed);
+  EXPECT_FALSE(result.collides);
+  EXPECT_EQ(obstacles[0].alpha_scale, 1.0);
+}
+
+TEST(ClearStart, TakesTheAlphaOfThePieceThatIsInForce) {
+  Track track = straight_mover(1, Vec3(0.4, 0, 0), Vec3::Zero(), 0.2, kNow - Duration{1'000'000}, 1.0);
+  track.motion.pieces.push_back(track.motion.pieces[0]);
+  track.alpha = {Vec3::Constant(0.5), Vec3::Constant(0.05)};
+  const std::vector<Track> tracks{track};
+  auto obstacles = obstacles_of(tracks);
+  EXPECT_FALSE(clear_start(obstacles, Body{}, Vec3::Zero(), kNow + Duration{500'000}).relaxed);
+  EXPECT_TRUE(clear_start(obstacles, Body{}, Vec3::Zero(), kNow - Duration{500'000}).relaxed);
+}
+
+TEST(ClearStart, ABoxOfTheMapHasNoAlphaToGive) {
+  std::vector<PlanningObstacle> obstacles{{-1, nullptr, box_around(Vec3(0.25, 0, 0), Vec3::Constant(0.2)), 1.0}};
+  const StartClearance result = clear_start(obstacles, Body{}, Vec3::Zero(), kNow);
+  EXPECT_TRUE(result.collides);
+  EXPECT_FALSE(result.relaxed);
+  EXPECT_EQ(obstacles[0].alpha_scale, 1.0);
+}
+
+}  // namespace
+}  // namespace tern
