@@ -27,12 +27,11 @@ install(FILES ${PROJECT_BINARY_DIR}/tern-config.cmake ${PROJECT_BINARY_DIR}/tern
               ${CMAKE_CURRENT_LIST_DIR}/FindGLPK.cmake
         DESTINATION ${TERN_PACKAGE_DIR} COMPONENT core)
 
-# Programs are the executables of */app folders; tests and benchmarks stay behind. `apps` builds them all.
+# Programs are the executables named tern-…; tests and benchmarks stay behind. `apps` builds them all.
 add_custom_target(apps)
 get_property(executables GLOBAL PROPERTY TERN_EXECUTABLES)
 foreach(program ${executables})
-  get_target_property(folder ${program} SOURCE_DIR)
-  if(folder MATCHES "/app$")
+  if(program MATCHES "^tern-")
     add_dependencies(apps ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   endif()

@@ -240,6 +240,9 @@ if [[ -z ${TERN_FLY_INSIDE:-} ]]; then
   [[ -z $install ]] || "$TERN_ROOT/launch_scripts/install.sh" || die "the packages could not be installed"
   build_programs || die "the programs could not be built"
 fi
+for program in "$LOGGER" "$MONITOR" "${OTHERS[@]}"; do
+  [[ -x $TERN_BIN/$program ]] || die "$TERN_BIN/$program is not there"
+done
 make_record
 choose_network
 announce

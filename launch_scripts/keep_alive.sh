@@ -3,8 +3,8 @@
 #
 # It waits 10 ms before the first restart and twice as long before each further one, up to 1 s; a run of 5 s or more starts anew at
 # 10 ms. Exit codes that another run cannot mend end it, with that code: 0 (done), 2 (bad configuration), 3 (no network, nobody
-# ready). SIGTERM is passed on to COMMAND, which has 1.2 s to end before it is killed; then the exit code is 0. Should keep_alive.sh
-# itself be killed, COMMAND is killed by the kernel.
+# ready), 126 and 127 (cannot be run). SIGTERM is passed on to COMMAND, which has 1.2 s to end before it is killed; then the exit
+# code is 0. Should keep_alive.sh itself be killed, COMMAND is killed by the kernel.
 set -euo pipefail
 
 readonly FIRST_DELAY_MS=10 LAST_DELAY_MS=1000 LONG_RUN_MS=5000
@@ -57,7 +57,7 @@ while [[ -z $stopping ]]; do
     end_child
     exit 0
   fi
-  case $code in 0 | 2 | 3) exit "$code" ;; esac
+  case $code in 0 | 2 | 3 | 126 | 127) exit "$code" ;; esac
 
   (($(now_ms) - started_ms < LONG_RUN_MS)) || delay_ms=$FIRST_DELAY_MS
   restarts=$((restarts + 1))

@@ -93,6 +93,7 @@ keep_alive_does_not_repeat_a_mistake() {
     [[ $(code "$scripts/keep_alive.sh" "$work/mortal") == "$mistake" ]] || fail "exit code of $mistake"
     [[ $(wc -l <"$work/starts") == 1 ]] || fail "started again after $mistake"
   done
+  [[ $(code "$scripts/keep_alive.sh" "$work/nothing") == 127 ]] || fail "exit code of a program that is not there"
 }
 
 keep_alive_passes_the_end_on() {
