@@ -161,9 +161,12 @@ std::optional<Candidate> optimize_candidate(const AttemptContext& context, Swept
   problem.clearance = context.request.body.radius;
   problem.weight_jerk = config.weight_jerk;
   problem.weight_goal = config.weight_goal;
-  // With semantics the leaf stands where it does on purpose: the optimizer smooths the way there.
+  // With semantics the leaf stands where it does on purpose: the optimizer smooths the way there. But a leaf in the last band stands
+  // anywhere within half a metre of the goal, and there the goal counts.
   const Points& leaf = searched.trajectory.control_points;
-  problem.goal = context.fields != nullptr ? Vec3(leaf.col(leaf.cols() - 1)) : context.local_goal;
+  const Vec3 end = leaf.col(leaf.cols() - 1);
+  const bool arrives = context.way.from(end) <= context.config.search.band_m;
+  problem.goal = context.fields != nullptr && !arrives ? end : context.local_goal;
 
   std::optional<Candidate> best;
   TimedSpline current = searched.trajectory;

@@ -70,13 +70,26 @@ class Planning {
   void choose_obstacles() {
     obstacles_ = world_.predictions->obstacles;
     const double reach = config_.sphere_radius_m + request_.body.half_extents().maxCoeff() + kBetaMax;
-    const Box region = box_around(request_.start.p, Vec3::Constant(reach));
+    const Box sphere = box_around(request_.start.p, Vec3::Constant(reach));
+    const Box committed = grown(committed_box(), request_.body.half_extents() + Vec3::Constant(kBetaMax));
+    const Box region = sphere.merged(committed);
     for (const std::int32_t k : world_.map->occupied.query(region)) {
       obstacles_.push_back({-1 - static_cast<std::int64_t>(k), nullptr, world_.map->occupied.boxes()[static_cast<std::size_t>(k)], 1.0});
     }
     const StartClearance start = clear_start(obstacles_, request_.body, request_.start.p, request_.t_s);
     answer_.plan.relaxed = start.relaxed;
     start_collides_ = start.collides;
+  }
+
+  /// Where the vehicle's centre may be from t_s on if nothing new is flown. It may lie far out of the sphere around the start.
+  [[nodiscard]] Box committed_box() const {
+    const ClampedSpline spline = request_.committed.spline();
+    const double from_s = (request_.t_s - request_.committed.start).seconds();
+    Box box(request_.start.p);
+    for (int j = 0; j < spline.intervals(); ++j) {
+      if ((j + 1) * spline.interval_s() >= from_s) box.extend(spline.position_bounds(j));
+    }
+    return box;
   }
 
   /// The committed trajectory from t_s on and its end's hold, against this world.
@@ -96,8 +109,7 @@ class Planning {
     }
     const double moving_s = times.back();
     for (double hold = 0.0; hold < config_.hold_cap_s - 1e-9; hold += kHoldStep) times.push_back(moving_s + hold + kHoldStep);
-    const Box region = box_around(request_.start.p, Vec3::Constant(config_.sphere_radius_m + 1.0));
-    SweptObstacles swept(obstacles_, request_.body, request_.t_s, std::move(times), region);
+    SweptObstacles swept(obstacles_, request_.body, request_.t_s, std::move(times), committed_box());
     CheckReport report = check_separation(pieces, swept);
     count(report.pairs, swept);
     if (!report.ok()) return std::nullopt;
@@ -178,7 +190,7 @@ class Planning {
     }
     if (best_ && config_.optimization.enabled) optimize(context, *best_swept);
     if (best_swept) answer_.statistics.hulls += best_swept->hulls_made();
-    if (!best_) reason_ = start_collides_ ? PlanReason::StartInCollision : PlanReason::Infeasible;
+    if (!best_) reason_ = reason_of_nothing();
   }
 
   /// A longer duration is not tried when a leaf holds and comes near the local goal.
@@ -210,6 +222,11 @@ class Planning {
     if (found->clear_s <= standing) return;
     best_ = std::move(found);
     offer(&*best_, PlanReason::None);
+  }
+
+  [[nodiscard]] PlanReason reason_of_nothing() const {
+    if (start_collides_) return PlanReason::StartInCollision;
+    return budget_.cuts().empty() ? PlanReason::Infeasible : PlanReason::OutOfTime;
   }
 
   [[nodiscard]] PlanReason reason_of_fallback() const {

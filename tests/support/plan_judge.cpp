@@ -1,0 +1,75 @@
+#include "tests/support/plan_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "planner/safety/checker.h"
+#include "planner/start_clearance.h"
+
+namespace tern::support {
+namespace {
+
+constexpr Duration kStep{5'000};
+
+std::string fault_of_new(const Plan& plan, const HorizonRequest& request, const std::vector<PlanningObstacle>& obstacles,
+                         const PlannerConfig& config) {
+  if (plan.trajectory.start != request.t_s) return "does not begin at t_s";
+  const int intervals = static_cast<int>(plan.trajectory.control_points.cols()) - 3;
+  std::vector<double> times;
+  for (int k = 0; k <= intervals; ++k) times.push_back(k * plan.trajectory.interval.seconds());
+  SweptObstacles swept(obstacles, request.body, request.t_s, times, Box(Vec3::Constant(-1e5), Vec3::Constant(1e5)));
+  const CheckReport report =
+      check_plan(plan.trajectory, {request.start, request.limits, request.flight_box, config.sphere_radius_m}, swept);
+  if (report.ok()) return "";
+  return fmt::format("the checker: {}, interval {}, axis {}, {} against {}, obstacle {}", to_string(report.fault), report.interval,
+                     report.axis, report.value, report.limit, report.obstacle);
+}
+
+bool same(const TimedSpline& a, const TimedSpline& b) {
+  return a.start == b.start && a.interval == b.interval && a.control_points == b.control_points;
+}
+
+}  // namespace
+
+std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world) {
+  std::vector<PlanningObstacle> obstacles = world.predictions->obstacles;
+  std::int64_t id = -1;
+  for (const Box& box : world.map->occupied.boxes()) obstacles.push_back({id--, nullptr, box, 1.0});
+  (void)clear_start(obstacles, request.body, request.start.p, request.t_s);
+  return obstacles;
+}
+
+std::string fault_of(const Plan& plan, const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config) {
+  if (plan.request_id != request.id) return "answers another request";
+  if (plan.outcome == PlanOutcome::NoPlan) return "";
+  const auto obstacles = obstacles_for(request, world);
+  if (plan.outcome == PlanOutcome::KeepCommitted) {
+    if (!same(plan.trajectory, request.committed)) return "keeps what was not committed";
+  } else if (std::string fault = fault_of_new(plan, request, obstacles, config); !fault.empty()) {
+    return fault;
+  }
+  const UTime moves_until = std::max(plan.trajectory.end(), request.t_s);
+  if (moves_until > request.t_s && least_gap(plan.trajectory, request.body, obstacles, request.t_s, moves_until, kStep) <= 0.0) {
+    return "touches an obstacle under way";
+  }
+  if (plan.hold.us > 0 && least_gap(plan.trajectory, request.body, obstacles, moves_until, moves_until + plan.hold, kStep) <= 0.0) {
+    return "touches an obstacle during its hold";
+  }
+  return "";
+}
+
+Plan Loop::step(const std::function<PlanningWorld(const HorizonRequest&)>& world_at) {
+  HorizonRequest request = request_at(t_s, committed);
+  request.id = static_cast<std::int64_t>(outcomes.size()) + 1;
+  request.limits = limits;
+  request.body = body;
+  Budget budget = Budget::unlimited();
+  const Plan answer = plan(request, world_at(request), config, budget).plan;
+  outcomes.push_back(answer.outcome);
+  if (answer.outcome != PlanOutcome::KeepCommitted && answer.outcome != PlanOutcome::NoPlan) committed = answer.trajectory;
+  t_s = t_s + period;
+  return answer;
+}
+
+}  // namespace tern::support
