@@ -79,6 +79,8 @@ std::optional<int> PlannerNode::finished() const {
 
 void PlannerNode::on_request(const HorizonRequest& request) {
   const UTime now = bus_.clock().now();
+  if (request.header.name == last_request_) return;
+  last_request_ = request.header.name;
   if (now >= request.deadline) return bus_.count_late(channels::kHorizonRequest);
   intake_.set_vehicle(request.body, request.flight_box, request.start.p);
   desk_.open(request, now);

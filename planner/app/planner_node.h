@@ -44,6 +44,7 @@ class PlannerNode final : public Node {
   PlannerExecution execution_;
   WorldIntake intake_;
   AnswerDesk desk_;
+  MessageName last_request_;               ///< a network may deliver a message twice
   std::optional<HorizonRequest> waiting_;  ///< came in while the worker was busy
   UTime waiting_since_{};
   std::optional<UTime> stuck_at_;          ///< two deadlines after what the worker is at
