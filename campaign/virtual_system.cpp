@@ -1,0 +1,72 @@
+#include "campaign/virtual_system.h"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/app/config_reader.h"
+#include "planner/app/planner_node.h"
+#include "predictor/app/predictor_config.h"
+#include "predictor/app/predictor_node.h"
+#include "runtime/config.h"
+#include "runtime/data_folder.h"
+#include "runtime/process.h"
+#include "runtime/scenario_file.h"
+#include "semantic_mapper/app/load_map.h"
+#include "semantic_mapper/app/mapper_config.h"
+#include "semantic_mapper/app/mapper_node.h"
+#include "simulator/app/simulator_config.h"
+#include "simulator/app/simulator_node.h"
+
+namespace tern {
+
+struct VirtualSystem::Parts {
+  Scenario scenario;
+  PredictorConfig predictor;
+  VoxelMap map;
+  PlannerConfig planner;
+  std::uint64_t configuration = 0;
+
+  explicit Parts(ConfigDocument& document)
+      : scenario(read_scenario(document)),
+        predictor(read_predictor_config(document.root().section("predictor"))),
+        map(load_map(scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA"))),
+        planner(read_planner_config(document.root().section("planner"), scenario.semantics)) {}
+};
+
+VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides) {
+  ConfigDocument document = ConfigDocument::load(scenario_file, overrides);
+  parts_ = std::make_unique<Parts>(document);
+  const Scenario& scenario = parts_->scenario;
+  const SimulatorConfig config = read_simulator_config(document.root().section("simulator"), scenario.seed);
+  const ExecutorConfig executor = read_executor_config(document.root().section("executor"));
+  parts_->configuration = configuration_hash(document.effective());
+  auto world = make_world(scenario, data_folder(scenario.file, std::getenv("TERN_DATA")));
+  if (!world) throw ConfigError(scenario.file + ": world: " + world.error().message);
+  simulator_ = static_cast<SimulatorNode*>(&runner_.start("tern-simulator", [&](Bus& bus) {
+    return std::make_unique<SimulatorNode>(bus, scenario, std::move(*world), config, executor);
+  }));
+  for (const char* process : {"tern-predictor", "tern-mapper", "tern-planner"}) start(process);
+}
+
+VirtualSystem::~VirtualSystem() = default;
+
+const Scenario& VirtualSystem::scenario() const { return parts_->scenario; }
+
+void VirtualSystem::stop(const std::string& process) {
+  if (process == "tern-simulator") throw std::invalid_argument("VirtualSystem: a flight is its simulator");
+  runner_.stop(process);
+}
+
+void VirtualSystem::start(const std::string& process) {
+  runner_.start(process, [&](Bus& bus) -> std::unique_ptr<Node> {
+    if (process == "tern-predictor") return std::make_unique<PredictorNode>(bus, parts_->predictor);
+    if (process == "tern-mapper") return std::make_unique<MapperNode>(bus, parts_->map);
+    if (process != "tern-planner") throw std::invalid_argument("VirtualSystem: no process " + process);
+    PlannerExecution execution;
+    execution.threaded = false;
+    return std::make_unique<PlannerNode>(bus, parts_->scenario.uav, parts_->planner, parts_->configuration, execution);
+  });
+}
+
+}  // namespace tern

@@ -1,0 +1,41 @@
+// The processes of a flight as nodes of one virtual network; each can be stopped and started again.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/world/scenario.h"
+#include "runtime/virtual_runner.h"
+
+namespace tern {
+
+class SimulatorNode;
+
+/// Simulator, predictor, mapper and planner of one scenario file on a VirtualRunner, all started. The planner has no
+/// threads and no clock budget, so a flight is a function of the file and the overrides.
+class VirtualSystem {
+ public:
+  /// @throws ConfigError for what run_process would refuse.
+  VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides);
+  ~VirtualSystem();
+
+  /// Kills "tern-predictor", "tern-mapper" or "tern-planner"; the next start() makes a new one that knows nothing.
+  /// @throws std::invalid_argument for other names.
+  void stop(const std::string& process);
+  void start(const std::string& process);
+
+  /// Time, the bus for those who watch, run().
+  [[nodiscard]] VirtualRunner& runner() { return runner_; }
+  [[nodiscard]] const SimulatorNode& simulator() const { return *simulator_; }
+  [[nodiscard]] const Scenario& scenario() const;
+
+ private:
+  struct Parts;  // what the nodes are made from
+
+  std::unique_ptr<Parts> parts_;
+  VirtualRunner runner_;
+  const SimulatorNode* simulator_ = nullptr;
+};
+
+}  // namespace tern
