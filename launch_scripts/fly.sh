@@ -217,6 +217,7 @@ end_group() {
 finish() {
   local code=$? written=''
   stop_all
+  ((code <= EXIT_FAILED)) || say $'\n'"Ended by a signal; what was recorded: ${record:-nothing}"
   if [[ -n $record && -e $record/summary.json ]]; then
     written=$record/summary.json
     [[ -z $summary ]] || cp "$written" "$summary"

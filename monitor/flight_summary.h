@@ -29,7 +29,8 @@ struct FlightSummary {
   std::int64_t count = 0;              ///< obstacles of the world's generator
   std::optional<FlightResult> result;  ///< the referee's measures; nothing when it gave none
   std::int64_t requests = 0, answered_in_time = 0;
-  std::array<std::int64_t, kPlanOutcomes> plans = {};  ///< by PlanOutcome
+  std::array<std::int64_t, kPlanOutcomes> plans = {};   ///< by PlanOutcome
+  std::array<std::int64_t, kPlanReasons> reasons = {};  ///< of the plans, by PlanReason; not in the JSON
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel
   std::int64_t restarts = 0;
@@ -43,10 +44,13 @@ struct FlightSummary {
 /// that no referee gave) is null.
 std::string to_json(const FlightSummary& summary);
 
-/// The same for a person, at most 30 lines of at most 100 characters while there are at most 6 regions.
+/// The same for a person, at most 31 lines of at most 130 characters while there are at most 6 regions.
 std::string to_text(const FlightSummary& summary);
 
 /// "optimized", "search_only", "keep_committed", "evade", "no_plan".
 const char* plan_outcome_key(PlanOutcome outcome);
+
+/// "stale world" and so on, in words; "" for None.
+const char* plan_reason_words(PlanReason reason);
 
 }  // namespace tern

@@ -108,6 +108,7 @@ LiveView FlightWatch::live() const {
   view.replan_p99_ms = replan.p99;
   view.requests = ledger_.requests();
   view.answered_in_time = ledger_.answered_in_time();
+  view.reason = ledger_.last_reason();
   return view;
 }
 
@@ -124,6 +125,9 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   summary.answered_in_time = ledger_.answered_in_time();
   for (int k = 0; k < kPlanOutcomes; ++k) {
     summary.plans[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanOutcome>(k));
+  }
+  for (int k = 0; k < kPlanReasons; ++k) {
+    summary.reasons[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanReason>(k));
   }
   summary.replan_ms = {percentiles(total_ms_), percentiles(first_answer_ms_), stage(Stage::Hulls),
                        stage(Stage::Search),   stage(Stage::Optimization),    stage(Stage::Check)};

@@ -6,6 +6,8 @@ void RequestLedger::add(const HorizonRequest& request) { deadlines_[request.id] 
 
 void RequestLedger::add(const Plan& plan) {
   ++plans_[static_cast<std::size_t>(plan.outcome)];
+  ++reasons_[static_cast<std::size_t>(plan.reason)];
+  last_reason_ = plan.reason;
   const auto request = deadlines_.find(plan.request_id);
   if (request == deadlines_.end()) return;
   ++settled_;

@@ -28,11 +28,16 @@ class RequestLedger {
   [[nodiscard]] std::int64_t requests() const { return settled_; }
   [[nodiscard]] std::int64_t answered_in_time() const { return in_time_; }
   [[nodiscard]] std::int64_t plans(PlanOutcome outcome) const { return plans_[static_cast<std::size_t>(outcome)]; }
+  [[nodiscard]] std::int64_t plans(PlanReason reason) const { return reasons_[static_cast<std::size_t>(reason)]; }
+  /// The newest plan's; None before the first one.
+  [[nodiscard]] PlanReason last_reason() const { return last_reason_; }
 
  private:
   std::map<std::int64_t, UTime> deadlines_;  ///< of open requests, by id
   std::int64_t settled_ = 0, in_time_ = 0;
   std::array<std::int64_t, kPlanOutcomes> plans_ = {};
+  std::array<std::int64_t, kPlanReasons> reasons_ = {};
+  PlanReason last_reason_ = PlanReason::None;
 };
 
 }  // namespace tern

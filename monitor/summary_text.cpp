@@ -43,7 +43,14 @@ std::string plan_lines(const FlightSummary& s) {
     text += fmt::format(" {} {}", s.plans[static_cast<std::size_t>(k)], plan_outcome_key(static_cast<PlanOutcome>(k)));
     if (k + 1 < kPlanOutcomes) text += ",";
   }
-  return text + "\n";
+  std::string reasons;
+  for (int k = 1; k < kPlanReasons; ++k) {
+    const std::int64_t count = s.reasons[static_cast<std::size_t>(k)];
+    if (count == 0) continue;
+    reasons +=
+        fmt::format("{} {} {}", reasons.empty() ? "" : ",", count, plan_reason_words(static_cast<PlanReason>(k)));
+  }
+  return text + "\n" + (reasons.empty() ? "" : "  because      " + reasons + "\n");
 }
 
 std::string message_lines(const FlightSummary& s) {
@@ -73,6 +80,21 @@ const char* plan_outcome_key(PlanOutcome outcome) {
     case PlanOutcome::NoPlan: return "no_plan";
   }
   return "no_plan";
+}
+
+const char* plan_reason_words(PlanReason reason) {
+  switch (reason) {
+    case PlanReason::None: return "";
+    case PlanReason::Infeasible: return "infeasible";
+    case PlanReason::OutOfTime: return "out of time";
+    case PlanReason::StartInCollision: return "start in collision";
+    case PlanReason::GoalBlocked: return "goal blocked";
+    case PlanReason::StaleWorld: return "stale world";
+    case PlanReason::SolverFailure: return "solver failure";
+    case PlanReason::WorsePlan: return "worse plan";
+    case PlanReason::AtGoal: return "at goal";
+  }
+  return "";
 }
 
 std::string to_text(const FlightSummary& s) {

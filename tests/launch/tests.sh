@@ -1,66 +1,8 @@
 #!/usr/bin/env bash
 # tests.sh NAME: runs one test of the launch scripts. Environment: TERN_BIN, where the programs are.
 set -euo pipefail
-
-root=$(dirname "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")")
-scripts=$root/launch_scripts
-work=$(mktemp -d)
-flights=() # pids of flights that this test started
-cleanup() {
-  local pid
-  for pid in "${flights[@]}"; do kill -KILL "$pid" 2>/dev/null || true; done
-  rm -rf "$work"
-}
-trap cleanup EXIT
-
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-
-# expect WHAT COMMAND...: the command succeeds.
-expect() {
-  local what=$1
-  shift
-  "$@" || fail "$what: $*"
-}
-
-# eventually WHAT SECONDS COMMAND...: the command succeeds within so many seconds.
-eventually() {
-  local what=$1 deadline=$((SECONDS + $2 + 1))
-  shift 2
-  until "$@" >/dev/null 2>&1; do
-    ((SECONDS <= deadline)) || fail "not in time: $what: $*"
-    read -rt 0.02 <> <(:) || true
-  done
-}
-
-# code COMMAND...: runs it with its output in $work/out; prints its exit code.
-code() {
-  local code=0
-  "$@" >"$work/out" 2>&1 || code=$?
-  echo "$code"
-}
-
-# A scenario in this test's folder, so that every process of its flights has the folder's name in its command line.
-short_scenario() { sed 's/^name:.*/name: test/' "$root/scenarios/corridor_demo.yaml" >"$work/scenario.yaml"; }
-
-nobody_left() { ! pgrep -f "$work/" >/dev/null; }
-has_text() { grep -q -- "$1" "$2"; }
-is_gone() { ! kill -0 "$1" 2>/dev/null; }
-
-# start_flight NAME OPTION...: in the background as a terminal would run it, SIGINT not ignored; waits until it records. Sets
-# `flight` to the process group.
-start_flight() {
-  local name=$1
-  shift
-  short_scenario
-  env --default-signal=INT setsid "$scripts/fly.sh" --no-install --scenario "$work/scenario.yaml" --record "$work/$name" "$@" \
-    >"$work/$name.out" 2>&1 &
-  flight=$!
-  flights+=("$flight")
-  eventually "$name records" 60 test -s "$work/$name/flight.lcm"
-}
+# shellcheck source=tests/launch/lib.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 # A program that lives as long as it is told to: dies at once, and counts its starts.
 make_mortal() {
@@ -233,8 +175,7 @@ an_isolated_flight_can_be_entered() {
   [[ -n $inside && $inside != "$outside" ]] || fail "inside $inside, outside $outside"
   # shellcheck disable=SC2016  # the inner shell expands it
   [[ $("$scripts/enter.sh" "$work/flight" -- sh -c 'echo $LCM_DEFAULT_URL') == udpm://* ]] || fail "no LCM_DEFAULT_URL"
-  kill -INT -- "-$flight"
-  wait "$flight" || true
+  end_flight "$flight"
   nobody_left || fail "left: $(pgrep -af "$work/")"
   [[ $(code "$scripts/enter.sh" "$work/flight") == 3 ]] || fail "entered a flight that has ended"
 }
@@ -242,8 +183,7 @@ an_isolated_flight_can_be_entered() {
 the_log_holds_what_the_logger_counted() {
   start_flight flight
   eventually "states" 20 has_text UAV_STATE "$work/flight/flight.lcm"
-  kill -INT -- "-$flight"
-  wait "$flight" || true
+  end_flight "$flight"
   local counted logged
   counted=$(grep -E 'UAV_STATE .*received' "$work/flight/tern-logger.log" | sed -E 's/.*received +([0-9]+).*/\1/')
   # The head of an event of this channel: its length, 9, the data's length, its name.
@@ -269,6 +209,4 @@ every_program_starts_alone() {
   done
 }
 
-declare -F "$1" >/dev/null || fail "no test $1"
-"$1"
-echo "passed: $1"
+run_test "$1"

@@ -29,6 +29,13 @@ TEST(LiveLine, ShowsADashForWhatIsNotKnown) {
   EXPECT_NE(live_line(view).find("nearest - m  replan -/- ms"), std::string::npos);
 }
 
+TEST(LiveLine, SaysWhatTheNewestPlanExcusesItselfWith) {
+  LiveView view;
+  view.flying = true;
+  view.reason = PlanReason::StaleWorld;
+  EXPECT_TRUE(live_line(view).ends_with("(stale world)")) << live_line(view);
+}
+
 TEST(LiveLine, SaysWhoIsWaitedFor) {
   LiveView view;
   EXPECT_EQ(live_line(view), "waiting for the simulator");

@@ -58,6 +58,18 @@ TEST(RequestLedger, AnOpenRequestIsNotCountedBeforeItsDeadlineHasLongPassed) {
   EXPECT_EQ(ledger.answered_in_time(), 0);
 }
 
+TEST(RequestLedger, CountsReasonsAndKeepsTheNewest) {
+  RequestLedger ledger;
+  EXPECT_EQ(ledger.last_reason(), PlanReason::None);
+  Plan stale = plan(1, kDeadline, PlanOutcome::KeepCommitted);
+  stale.reason = PlanReason::StaleWorld;
+  ledger.add(stale);
+  EXPECT_EQ(ledger.last_reason(), PlanReason::StaleWorld);
+  ledger.add(plan(2, kDeadline));
+  EXPECT_EQ(ledger.last_reason(), PlanReason::None);
+  EXPECT_EQ(ledger.plans(PlanReason::StaleWorld), 1);
+}
+
 TEST(RequestLedger, AnAnswerToNobodySettlesNothing) {
   RequestLedger ledger;
   ledger.add(plan(7, kDeadline, PlanOutcome::NoPlan));

@@ -1,0 +1,136 @@
+#!/usr/bin/env bash
+# flights.sh NAME: whole flights through the real processes. Environment: TERN_BIN, where the programs are.
+set -euo pipefail
+# shellcheck source=tests/launch/lib.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
+
+# field FLIGHT KEY...: a value of the flight's summary.
+field() {
+  local name=$1
+  shift
+  python3 -c 'import json, sys
+value = json.load(open(sys.argv[1]))
+for key in sys.argv[2:]:
+    value = value[key]
+print("null" if value is None else value)' "$work/$name/summary.json" "$@"
+}
+
+# holds WHAT EXPRESSION: of numbers, by awk.
+holds() { awk "BEGIN { exit !($2) }" || fail "$1: not $2"; }
+
+# reached FLIGHT: it ended by itself, well, and left nobody.
+reached() {
+  local result=0
+  wait "$flight" || result=$?
+  cat "$work/$1.out"
+  [[ $result == 0 && $(field "$1" outcome) == reached ]] || fail "exit code $result, $(field "$1" outcome)"
+  holds "clearance" "$(field "$1" min_clearance_m) >= 0"
+  holds "limits" "$(field "$1" limit_violations) == 0"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+}
+
+# The keeper of a process of this test's flights, and the process.
+keeper_of() { pgrep -f "keep_alive.sh.*$work/.*/$1 " | head -n 1; }
+process_of() { pgrep -x -f "[^ ]*/$1 --config $work/.*" | head -n 1; }
+
+# says FLIGHT TEXT: the monitor's newest line has it.
+says() { tail -n 1 "$work/$1.out" | grep -q -- "$2"; }
+flies() { grep -qE ' [1-9]\.[0-9]+ m/s' "$work/$1.out"; }
+
+# keep_down PROCESS: kills it and holds its keeper, so that it stays away until bring_back.
+keep_down() {
+  keeper=$(keeper_of "$1")
+  kill -STOP "$keeper"
+  kill -KILL "$(process_of "$1")"
+}
+bring_back() { kill -CONT "$keeper"; }
+
+a_flight_reaches_its_goal() {
+  start_flight flight
+  reached flight
+  [[ $(field flight restarts) == 0 ]] || fail "restarts"
+  [[ $(field flight requests) == "$(field flight answered_in_time)" ]] || fail "answers: $(cat "$work/flight/summary.json")"
+  [[ $(field flight scenario) == corridor_demo && $(field flight count) == 100 && $(field flight seed) == 1 ]] || fail "names"
+  [[ -s $(field flight log) ]] || fail "no log at $(field flight log)"
+}
+
+a_killed_planner_comes_back_and_the_vehicle_flies_on() {
+  scenario=$root/tests/launch/pillars.yaml
+  start_flight flight
+  eventually "flies" 30 flies flight
+  keep_down tern-planner
+  eventually "rests" 15 says flight " 0.00 m/s"
+  bring_back
+  reached flight
+  holds "restarts" "$(field flight restarts) == 1"
+  holds "stops" "$(field flight stops) >= 1"
+}
+
+without_predictions_nobody_flies_blind() {
+  scenario=$root/tests/launch/pillars.yaml
+  start_flight flight
+  eventually "flies" 30 flies flight
+  keep_down tern-predictor
+  eventually "rests" 15 says flight " 0.00 m/s"
+  says flight "stale world" || fail "the planner does not say so: $(tail -n 1 "$work/flight.out")"
+  bring_back
+  reached flight
+  holds "restarts" "$(field flight restarts) == 1"
+}
+
+a_killed_mapper_does_not_end_a_flight() {
+  start_flight flight
+  eventually "flies" 30 flies flight
+  kill -KILL "$(process_of tern-mapper)"
+  reached flight
+  holds "restarts" "$(field flight restarts) == 1"
+}
+
+a_planner_that_joins_late_has_the_map() {
+  mkdir "$work/bin"
+  ln -s "$TERN_BIN"/tern-* "$work/bin"
+  rm "$work/bin/tern-planner"
+  mkfifo "$work/go"
+  printf '#!/bin/sh\nread -r _ <"%s"\nexec "%s" "$@"\n' "$work/go" "$TERN_BIN/tern-planner" >"$work/bin/tern-planner"
+  chmod +x "$work/bin/tern-planner"
+  TERN_BIN=$work/bin start_flight flight
+  eventually "all others wait" 15 says flight "tern-planner (not heard)"
+  echo >"$work/go"
+  reached flight
+}
+
+two_flights_at_once_reach_their_goals() {
+  local flight_one
+  start_flight one
+  flight_one=$flight
+  start_flight two --seed 2
+  local result=0
+  wait "$flight_one" || result=$?
+  [[ $result == 0 && $(field one outcome) == reached ]] || fail "one: $(cat "$work/one.out")"
+  reached two
+}
+
+three_hundred_tracks_arrive_complete() {
+  start_flight flight --count 300 --set simulator.min_flight_s=60 --set timeout_s=120
+  wait "$flight" || true # what counts here are the messages, not the flight
+  cat "$work/flight.out"
+  holds "sets" "$(field flight messages PREDICTIONS received) > 60 * 20 * 4"
+  holds "lost" "$(field flight messages PREDICTIONS lost) == 0 && $(field flight messages PREDICTIONS rejected) == 0"
+}
+
+busy_cores_leave_the_answers_in_time() {
+  local busy=() core
+  for ((core = 0; core < $(nproc); core++)); do
+    (while :; do :; done) &
+    busy+=($!)
+  done
+  start_flight flight
+  local result=0
+  wait "$flight" || result=$?
+  kill "${busy[@]}"
+  cat "$work/flight.out"
+  holds "in time" "$(field flight answered_in_time) >= 0.999 * $(field flight requests) && $(field flight requests) > 100"
+  has_text "answered twice 0" "$work/flight/tern-simulator.log" || fail "answered twice"
+}
+
+run_test "$1"

@@ -1,0 +1,78 @@
+# What the tests of the launch scripts share. Sourced, never run. Environment: TERN_BIN, where the programs are.
+# shellcheck shell=bash
+
+root=$(dirname "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")")
+scripts=$root/launch_scripts
+work=$(mktemp -d)
+flights=() # pids of flights that this test started
+cleanup() {
+  local pid
+  for pid in "${flights[@]}"; do kill -KILL "$pid" 2>/dev/null || true; done
+  rm -rf "$work"
+}
+trap cleanup EXIT
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+
+# expect WHAT COMMAND...: the command succeeds.
+expect() {
+  local what=$1
+  shift
+  "$@" || fail "$what: $*"
+}
+
+# eventually WHAT SECONDS COMMAND...: the command succeeds within so many seconds.
+eventually() {
+  local what=$1 deadline=$((SECONDS + $2 + 1))
+  shift 2
+  until "$@" >/dev/null 2>&1; do
+    if ((SECONDS > deadline)); then
+      tail -n 20 "$work"/*.out "$work"/*/tern-*.log >&2
+      fail "not in time: $what: $*"
+    fi
+    read -rt 0.02 <> <(:) || true
+  done
+}
+
+# code COMMAND...: runs it with its output in $work/out; prints its exit code.
+code() {
+  local code=0
+  "$@" >"$work/out" 2>&1 || code=$?
+  echo "$code"
+}
+
+# What start_flight flies: a copy in this test's folder, so that every process has the folder's name in its command line.
+scenario=$root/scenarios/corridor_demo.yaml
+
+nobody_left() { ! pgrep -f "$work/" >/dev/null; }
+has_text() { grep -q -- "$1" "$2"; }
+is_gone() { ! kill -0 "$1" 2>/dev/null; }
+
+# start_flight NAME OPTION...: in the background as a terminal would run it, SIGINT not ignored; waits until it records. Sets
+# `flight` to the process group.
+start_flight() {
+  local name=$1
+  shift
+  cp "$scenario" "$work/scenario.yaml"
+  env --default-signal=INT setsid "$scripts/fly.sh" --no-install --scenario "$work/scenario.yaml" --record "$work/$name" "$@" \
+    >"$work/$name.out" 2>&1 &
+  flight=$!
+  flights+=("$flight")
+  eventually "$name records" 60 test -s "$work/$name/flight.lcm"
+}
+
+# Ends a flight as Ctrl-C does, and waits for it.
+end_flight() {
+  kill -INT -- "-$1"
+  wait "$1" || true
+}
+
+# run_test NAME: a function of the test script.
+run_test() {
+  declare -F "$1" >/dev/null || fail "no test $1"
+  "$1"
+  echo "passed: $1"
+}
