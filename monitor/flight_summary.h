@@ -44,7 +44,7 @@ struct FlightSummary {
 /// that no referee gave) is null.
 std::string to_json(const FlightSummary& summary);
 
-/// The same for a person, at most 31 lines of at most 130 characters while there are at most 6 regions.
+/// The same for a person, at most 31 lines of at most 100 characters while there are at most 6 regions.
 std::string to_text(const FlightSummary& summary);
 
 /// "optimized", "search_only", "keep_committed", "evade", "no_plan".

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "monitor/flight_summary.h"
 
@@ -10,6 +13,7 @@ namespace {
 
 /// Channels listed at most: those that lost or refused something come first in a report of trouble.
 constexpr int kTroubledChannels = 6;
+constexpr std::size_t kListedReasons = 4;
 
 /// The number with its unit, or a dash when there is none.
 std::string value(double x, std::string_view unit, int digits = 2) {
@@ -36,6 +40,22 @@ std::string flight_lines(const FlightResult& r) {
   return text;
 }
 
+/// The plans' commonest excuses; nothing when there was nothing to excuse.
+std::string reason_line(const FlightSummary& s) {
+  std::vector<std::pair<std::int64_t, PlanReason>> reasons;
+  for (int k = 1; k < kPlanReasons; ++k) {
+    const std::int64_t count = s.reasons[static_cast<std::size_t>(k)];
+    if (count > 0) reasons.emplace_back(count, static_cast<PlanReason>(k));
+  }
+  if (reasons.empty()) return "";
+  std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text = "  because      ";
+  for (std::size_t k = 0; k < std::min(reasons.size(), kListedReasons); ++k) {
+    text += fmt::format("{} {} {}", k == 0 ? "" : ",", reasons[k].first, plan_reason_words(reasons[k].second));
+  }
+  return text + (reasons.size() > kListedReasons ? ", …\n" : "\n");
+}
+
 std::string plan_lines(const FlightSummary& s) {
   std::string text =
       fmt::format("  requests      {} settled, {} answered in time\n  plans        ", s.requests, s.answered_in_time);
@@ -43,14 +63,7 @@ std::string plan_lines(const FlightSummary& s) {
     text += fmt::format(" {} {}", s.plans[static_cast<std::size_t>(k)], plan_outcome_key(static_cast<PlanOutcome>(k)));
     if (k + 1 < kPlanOutcomes) text += ",";
   }
-  std::string reasons;
-  for (int k = 1; k < kPlanReasons; ++k) {
-    const std::int64_t count = s.reasons[static_cast<std::size_t>(k)];
-    if (count == 0) continue;
-    reasons +=
-        fmt::format("{} {} {}", reasons.empty() ? "" : ",", count, plan_reason_words(static_cast<PlanReason>(k)));
-  }
-  return text + "\n" + (reasons.empty() ? "" : "  because      " + reasons + "\n");
+  return text + "\n" + reason_line(s);
 }
 
 std::string message_lines(const FlightSummary& s) {

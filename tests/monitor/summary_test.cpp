@@ -92,7 +92,7 @@ TEST(Summary, FitsOneScreen) {
   s.reasons.fill(99);
   std::istringstream text(to_text(s));
   int lines = 0;
-  for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 130U) << line;
+  for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 100U) << line;
   EXPECT_LE(lines, 31);
 }
 
