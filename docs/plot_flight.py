@@ -108,7 +108,7 @@ def main(log, picture):
         axis, left = 1 + k % 2, first + k // 2 * step
         path = draw_view(axes, axis, scenario, states, obstacles)
         axes.set(xlim=(left, left + step), ylim=(box["min"][axis], box["max"][axis]),
-                 aspect="equal", facecolor="#f6f7f9", ylabel=("top view: y, m", "side view: z, m")[axis - 1])
+                 aspect="equal", facecolor="#f6f7f9", ylabel=("top: y, m", "side: z, m")[axis - 1])
         axes.tick_params(length=2, labelbottom=axis == 2)
     figure.colorbar(path, ax=grid, location="bottom", shrink=0.35, aspect=45, pad=0.01, label="speed, m/s")
     title = f"{scenario['name']}, seed {scenario['seed']}, {len(obstacles)} obstacles; each mover as it was passed"
