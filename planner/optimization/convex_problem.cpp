@@ -87,16 +87,23 @@ class Builder {
     return p;
   }
 
+  /// Only the sides that cut the sphere: the others follow from it, and each row costs Ipopt time.
+  void add_box_rows(const AffinePoint& p) {
+    const Vec3 above = problem_.centre_box.max() - problem_.start.p;
+    const Vec3 below = problem_.start.p - problem_.centre_box.min();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (above[axis] < problem_.sphere_radius) add_row(p, Vec3::Unit(axis), problem_.centre_box.max()[axis]);
+      if (below[axis] < problem_.sphere_radius) add_row(p, -Vec3::Unit(axis), -problem_.centre_box.min()[axis]);
+    }
+  }
+
   void add_boxes_and_spheres(ConvexProblem& out) {
     std::vector<AffinePoint> points;
     for (int j = 0; j < problem_.intervals; ++j) {
       for (int k = 0; k < 4; ++k) {
         AffinePoint p = combination(j, basis_.position_minvo(j).col(k));
         if (p.weights.cwiseAbs().maxCoeff() < 1e-12) continue;
-        for (int axis = 0; axis < 3; ++axis) {
-          add_row(p, Vec3::Unit(axis), problem_.centre_box.max()[axis]);
-          add_row(p, -Vec3::Unit(axis), -problem_.centre_box.min()[axis]);
-        }
+        add_box_rows(p);
         points.push_back(std::move(p));
       }
     }

@@ -33,16 +33,16 @@ TEST(LeastTimeToRest, MatchesABruteForceOverCruisingSpeeds) {
     const double a = rng.uniform(2.0, 20.0);
     const double v0 = rng.uniform() < 0.2 ? 0.0 : rng.uniform(-1.3, 1.3) * v_max;
     const double d = rng.uniform() < 0.5 ? rng.uniform(-20.0, 20.0) : rng.uniform(-2.0, 2.0);
-    EXPECT_NEAR(least_time_to_rest(d, v0, v_max, a), brute_force(d, v0, v_max, a), 2e-3) << "d " << d << " v0 " << v0 << " v_max " << v_max
-                                                                                        << " a " << a;
+    EXPECT_NEAR(least_time_to_rest(d, v0, v_max, a), brute_force(d, v0, v_max, a), 2e-3)
+        << "d " << d << " v0 " << v0 << " v_max " << v_max << " a " << a;
   }
 }
 
 TEST(LeastTimeToRest, KnowsTheClosedCases) {
   EXPECT_DOUBLE_EQ(least_time_to_rest(0.0, 0.0, 6.0, 20.0), 0.0);
-  EXPECT_DOUBLE_EQ(least_time_to_rest(1.0, 0.0, 100.0, 4.0), 1.0);          // 2 √(d/a)
-  EXPECT_DOUBLE_EQ(least_time_to_rest(6.0, 0.0, 2.0, 4.0), 3.5);            // d/v + v/a
-  EXPECT_DOUBLE_EQ(least_time_to_rest(2.0, 4.0, 6.0, 4.0), 1.0);            // just brakes: v²/(2a) = d
+  EXPECT_DOUBLE_EQ(least_time_to_rest(1.0, 0.0, 100.0, 4.0), 1.0);                       // 2 √(d/a)
+  EXPECT_DOUBLE_EQ(least_time_to_rest(6.0, 0.0, 2.0, 4.0), 3.5);                         // d/v + v/a
+  EXPECT_DOUBLE_EQ(least_time_to_rest(2.0, 4.0, 6.0, 4.0), 1.0);                         // just brakes: v²/(2a) = d
   EXPECT_DOUBLE_EQ(least_time_to_rest(0.0, 4.0, 6.0, 4.0), 1.0 + 2.0 * std::sqrt(0.5));  // brakes and comes back 2 m
 }
 
@@ -65,7 +65,8 @@ TEST(LeastDuration, IsTheSlowestAxisWhereJerkIsFree) {
     const Limits limits;
     double slowest = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-      slowest = std::max(slowest, least_time_to_rest(to[axis] - start.p[axis], start.v[axis], limits.v_max[axis], limits.a_max[axis]));
+      slowest = std::max(
+          slowest, least_time_to_rest(to[axis] - start.p[axis], start.v[axis], limits.v_max[axis], limits.a_max[axis]));
     }
     EXPECT_EQ(least_duration(start, to, limits), slowest);
     Limits jerky = limits;

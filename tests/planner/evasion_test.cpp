@@ -33,12 +33,14 @@ struct Encounter {
   bool evaded = false;          ///< at least one answer was an evasion or a new plan
 };
 
-/// The box's centre comes from `direction` at `speed` and would meet the vehicle's 1 s after it is first seen. A loop at 10 Hz flies.
+/// The box's centre comes from `direction` at `speed` and would meet the vehicle's 1 s after it is first seen. A loop
+/// at 10 Hz flies.
 Encounter meet(const Vec3& direction, double speed, GoalMode mode) {
   const Vec3 home(0, 0, 50);
   PlannerConfig config;
   Loop loop{kStart, resting_at(home, kStart - Duration{1'000'000}), Limits{}, Body{}, config, Duration{100'000}};
-  const Track intruder = straight_mover(1, home + direction * (speed * kSeenBefore), -speed * direction, kHalf, kStart, 8.0);
+  const Track intruder =
+      straight_mover(1, home + direction * (speed * kSeenBefore), -speed * direction, kHalf, kStart, 8.0);
   Goal goal = go_to(home);
   goal.mode = mode;
   const PlanningWorld first = world_of({}, goal, request_at(kStart, loop.committed));
@@ -53,9 +55,11 @@ Encounter meet(const Vec3& direction, double speed, GoalMode mode) {
       world.predictions = std::make_shared<const PredictionProducts>(std::move(set));
       return world;
     });
-    encounter.evaded = encounter.evaded || (answer.outcome != PlanOutcome::KeepCommitted && answer.outcome != PlanOutcome::NoPlan);
+    encounter.evaded =
+        encounter.evaded || (answer.outcome != PlanOutcome::KeepCommitted && answer.outcome != PlanOutcome::NoPlan);
     for (UTime t = from; t < loop.t_s; t = t + Duration{2'000}) {
-      encounter.least_gap = std::min(encounter.least_gap, gap(loop.body, loop.committed.sample(t).p, promised_box(intruder, t)));
+      encounter.least_gap =
+          std::min(encounter.least_gap, gap(loop.body, loop.committed.sample(t).p, promised_box(intruder, t)));
     }
   }
   return encounter;

@@ -1,11 +1,11 @@
-#include "planner/planner.h"
+#include "messages/plan.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "messages/plan.h"
+#include "planner/planner.h"
 #include "tests/support/plan_judge.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/voxel_maps.h"
@@ -28,7 +28,8 @@ Plan answer(const HorizonRequest& request, const PlanningWorld& world, const Pla
   return plan(request, world, config, budget).plan;
 }
 
-/// A vehicle somewhere on a random committed trajectory, or at rest at its end, among up to 60 movers, standing boxes and voxels.
+/// A vehicle somewhere on a random committed trajectory, or at rest at its end, among up to 60 movers, standing boxes
+/// and voxels.
 struct Draw {
   HorizonRequest request;
   PlanningWorld world;
@@ -56,7 +57,8 @@ Draw random_draw(std::uint64_t seed) {
   const Vec3 home(0, 0, 1);
   const TimedSpline committed = random_trajectory(rng, home, kStart, limits, random_integer(rng, 4, 10));
   const double share = rng.uniform() < 0.2 ? 1.2 : rng.uniform();
-  const UTime t_s = kStart + Duration{static_cast<std::int64_t>(share * static_cast<double>((committed.end() - kStart).us))};
+  const UTime t_s =
+      kStart + Duration{static_cast<std::int64_t>(share * static_cast<double>((committed.end() - kStart).us))};
   d.request = request_at(t_s, committed);
   d.request.limits = limits;
   d.request.body = body_of(kBodyKinds[random_integer(rng, 0, 2)]);
@@ -64,9 +66,11 @@ Draw random_draw(std::uint64_t seed) {
   std::vector<Track> tracks;
   const Box where = box_around(d.request.start.p, Vec3(5, 5, 3));
   const int movers = rng.uniform() < 0.2 ? 60 : random_integer(rng, 0, 25);
-  for (int id = 1; id <= movers; ++id) tracks.push_back(random_mover(rng, id, where, t_s - Duration{250'000}, rng.uniform(2.0, 5.0)));
+  for (int id = 1; id <= movers; ++id)
+    tracks.push_back(random_mover(rng, id, where, t_s - Duration{250'000}, rng.uniform(2.0, 5.0)));
   for (int id = 101; id <= 100 + random_integer(rng, 0, 4); ++id) {
-    tracks.push_back(standing_box(id, box_around(Vec3(d.request.start.p + random_vector(rng, 4.0)), Vec3(0.2, 0.2, 2.0)), t_s));
+    tracks.push_back(
+        standing_box(id, box_around(Vec3(d.request.start.p + random_vector(rng, 4.0)), Vec3(0.2, 0.2, 2.0)), t_s));
   }
   Goal goal = go_to(d.request.start.p + random_vector(rng, 8.0));
   if (rng.uniform() < 0.1) goal.mode = GoalMode::Hold;
@@ -80,7 +84,8 @@ TEST(Planner, NeverReturnsAPlanTheCheckerRejects) {
     const Draw d = random_draw(seed);
     const Plan got = answer(d.request, d.world, d.config);
     ++by_outcome[static_cast<int>(got.outcome)];
-    EXPECT_EQ(fault_of(got, d.request, d.world, d.config), "") << "seed " << seed << ", outcome " << static_cast<int>(got.outcome);
+    EXPECT_EQ(fault_of(got, d.request, d.world, d.config), "")
+        << "seed " << seed << ", outcome " << static_cast<int>(got.outcome);
     ASSERT_NO_THROW((void)encode(got)) << "seed " << seed;
   }
   for (const PlanOutcome outcome : {PlanOutcome::Optimized, PlanOutcome::KeepCommitted, PlanOutcome::NoPlan}) {
@@ -112,7 +117,8 @@ TEST(Planner, TheSameRequestInTheSameWorldGivesTheSameBytes) {
   for (std::uint64_t seed = 601; seed <= 630; ++seed) {
     const Draw first = random_draw(seed);
     const Draw second = random_draw(seed);
-    ASSERT_EQ(encode(answer(first.request, first.world, first.config)), encode(answer(second.request, second.world, second.config)))
+    ASSERT_EQ(encode(answer(first.request, first.world, first.config)),
+              encode(answer(second.request, second.world, second.config)))
         << "seed " << seed;
   }
 }
@@ -197,7 +203,8 @@ std::vector<Track> cage(const Vec3& around, double half) {
     for (const double side : {-half, half}) {
       Vec3 size = Vec3::Constant(half + 0.1);
       size[axis] = 0.1;
-      tracks.push_back(standing_box(static_cast<std::int64_t>(tracks.size()) + 1, box_around(around + Vec3::Unit(axis) * side, size), kStart));
+      tracks.push_back(standing_box(static_cast<std::int64_t>(tracks.size()) + 1,
+                                    box_around(around + Vec3::Unit(axis) * side, size), kStart));
     }
   }
   return tracks;
@@ -312,9 +319,10 @@ TEST_F(PlannerAlone, FromNearlyTheTopSpeedWithOutwardAccelerationItFindsANewPlan
         const PlanningWorld world = world_of({}, go_to(start.p + 10.0 * start.v), request);
         const Plan got = answer(request, world, PlannerConfig{});
         // A new plan was found, though it need not beat the committed one.
-        EXPECT_TRUE(got.outcome == PlanOutcome::Optimized || got.outcome == PlanOutcome::SearchOnly || got.reason == PlanReason::WorsePlan)
-            << "axis " << axis << ", sign " << sign << ", " << outward << " m/s^2: outcome " << static_cast<int>(got.outcome)
-            << ", reason " << static_cast<int>(got.reason);
+        EXPECT_TRUE(got.outcome == PlanOutcome::Optimized || got.outcome == PlanOutcome::SearchOnly ||
+                    got.reason == PlanReason::WorsePlan)
+            << "axis " << axis << ", sign " << sign << ", " << outward << " m/s^2: outcome "
+            << static_cast<int>(got.outcome) << ", reason " << static_cast<int>(got.reason);
         EXPECT_EQ(fault_of(got, request, world, PlannerConfig{}), "");
       }
     }

@@ -22,8 +22,10 @@ TEST(ClearStart, ScalesAlphaToTheLargestValueThatLeavesTheBodyClear) {
   int collided = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
     Rng rng(seed);
-    Track track = straight_mover(1, random_vector(rng, 0.5), random_vector(rng, 1.0), 0.2, kNow - Duration{100'000}, 1.0);
-    track.alpha[0] = Vec3(rng.uniform(0.0, 0.8), rng.uniform(0.0, 0.8), rng.uniform() < 0.3 ? 0.0 : rng.uniform(0.0, 0.8));
+    Track track =
+        straight_mover(1, random_vector(rng, 0.5), random_vector(rng, 1.0), 0.2, kNow - Duration{100'000}, 1.0);
+    track.alpha[0] =
+        Vec3(rng.uniform(0.0, 0.8), rng.uniform(0.0, 0.8), rng.uniform() < 0.3 ? 0.0 : rng.uniform(0.0, 0.8));
     const std::vector<Track> tracks{track};
     auto obstacles = obstacles_of(tracks);
     const Body body = body_of(kBodyKinds[seed % 3]);

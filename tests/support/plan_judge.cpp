@@ -12,8 +12,8 @@ namespace {
 
 constexpr Duration kStep{5'000};
 
-std::string fault_of_new(const Plan& plan, const HorizonRequest& request, const std::vector<PlanningObstacle>& obstacles,
-                         const PlannerConfig& config) {
+std::string fault_of_new(const Plan& plan, const HorizonRequest& request,
+                         const std::vector<PlanningObstacle>& obstacles, const PlannerConfig& config) {
   if (plan.trajectory.start != request.t_s) return "does not begin at t_s";
   const int intervals = static_cast<int>(plan.trajectory.control_points.cols()) - 3;
   std::vector<double> times;
@@ -22,8 +22,8 @@ std::string fault_of_new(const Plan& plan, const HorizonRequest& request, const 
   const CheckReport report =
       check_plan(plan.trajectory, {request.start, request.limits, request.flight_box, config.sphere_radius_m}, swept);
   if (report.ok()) return "";
-  return fmt::format("the checker: {}, interval {}, axis {}, {} against {}, obstacle {}", to_string(report.fault), report.interval,
-                     report.axis, report.value, report.limit, report.obstacle);
+  return fmt::format("the checker: {}, interval {}, axis {}, {} against {}, obstacle {}", to_string(report.fault),
+                     report.interval, report.axis, report.value, report.limit, report.obstacle);
 }
 
 bool same(const TimedSpline& a, const TimedSpline& b) {
@@ -40,7 +40,8 @@ std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const
   return obstacles;
 }
 
-std::string fault_of(const Plan& plan, const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config) {
+std::string fault_of(const Plan& plan, const HorizonRequest& request, const PlanningWorld& world,
+                     const PlannerConfig& config) {
   if (plan.request_id != request.id) return "answers another request";
   if (plan.outcome == PlanOutcome::NoPlan) return "";
   const auto obstacles = obstacles_for(request, world);
@@ -50,10 +51,12 @@ std::string fault_of(const Plan& plan, const HorizonRequest& request, const Plan
     return fault;
   }
   const UTime moves_until = std::max(plan.trajectory.end(), request.t_s);
-  if (moves_until > request.t_s && least_gap(plan.trajectory, request.body, obstacles, request.t_s, moves_until, kStep) <= 0.0) {
+  if (moves_until > request.t_s &&
+      least_gap(plan.trajectory, request.body, obstacles, request.t_s, moves_until, kStep) <= 0.0) {
     return "touches an obstacle under way";
   }
-  if (plan.hold.us > 0 && least_gap(plan.trajectory, request.body, obstacles, moves_until, moves_until + plan.hold, kStep) <= 0.0) {
+  if (plan.hold.us > 0 &&
+      least_gap(plan.trajectory, request.body, obstacles, moves_until, moves_until + plan.hold, kStep) <= 0.0) {
     return "touches an obstacle during its hold";
   }
   return "";
@@ -64,10 +67,12 @@ Plan Loop::step(const std::function<PlanningWorld(const HorizonRequest&)>& world
   request.id = static_cast<std::int64_t>(outcomes.size()) + 1;
   request.limits = limits;
   request.body = body;
+  request.flight_box = flight_box;
   Budget budget = Budget::unlimited();
   const Plan answer = plan(request, world_at(request), config, budget).plan;
   outcomes.push_back(answer.outcome);
-  if (answer.outcome != PlanOutcome::KeepCommitted && answer.outcome != PlanOutcome::NoPlan) committed = answer.trajectory;
+  if (answer.outcome != PlanOutcome::KeepCommitted && answer.outcome != PlanOutcome::NoPlan)
+    committed = answer.trajectory;
   t_s = t_s + period;
   return answer;
 }

@@ -1,4 +1,5 @@
-// Judges what plan() answers by dense sampling and by the checker with every obstacle in it; flies plans in a closed loop.
+// Judges what plan() answers by dense sampling and by the checker with every obstacle in it; flies plans in a closed
+// loop.
 #pragma once
 
 #include <functional>
@@ -10,12 +11,15 @@
 
 namespace tern::support {
 
-/// The obstacles that an answer must be clear of: all tracks and all boxes of the map, α scaled as clear_start() has it.
+/// The obstacles that an answer must be clear of: all tracks and all boxes of the map, α scaled as clear_start() has
+/// it.
 std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world);
 
-/// What is wrong with the answer, in words; empty: nothing. A new trajectory must begin at t_s, pass check_plan() against all obstacles
-/// and touch nothing at any sampled instant until its hold ends; a kept one must be the committed one and touch nothing either.
-std::string fault_of(const Plan& plan, const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config);
+/// What is wrong with the answer, in words; empty: nothing. A new trajectory must begin at t_s, pass check_plan()
+/// against all obstacles and touch nothing at any sampled instant until its hold ends; a kept one must be the committed
+/// one and touch nothing either.
+std::string fault_of(const Plan& plan, const HorizonRequest& request, const PlanningWorld& world,
+                     const PlannerConfig& config);
 
 /// What plan() says on the way.
 class RecordingObserver final : public PlanObserver {
@@ -34,9 +38,11 @@ struct Loop {
   Body body;
   PlannerConfig config;
   Duration period{50'000};
+  Box flight_box{Vec3::Constant(-1e4), Vec3::Constant(1e4)};
   std::vector<PlanOutcome> outcomes = {};  ///< one per step
 
-  /// Plans once in the world that `world_at` gives for the request, adopts a new trajectory, goes on by a period. @return the answer.
+  /// Plans once in the world that `world_at` gives for the request, adopts a new trajectory, goes on by a period.
+  /// @return the answer.
   Plan step(const std::function<PlanningWorld(const HorizonRequest&)>& world_at);
   [[nodiscard]] MotionSample now() const { return committed.sample(t_s); }
 };

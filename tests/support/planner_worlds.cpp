@@ -20,7 +20,8 @@ Vec3 random_in(Rng& rng, const Box& box) {
 }
 
 Vec3 random_alpha(Rng& rng) {
-  return rng.uniform() < 0.2 ? Vec3(Vec3::Zero()) : Vec3(rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1));
+  return rng.uniform() < 0.2 ? Vec3(Vec3::Zero())
+                             : Vec3(rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1));
 }
 
 Track shell(Rng& rng, std::int64_t id) {
@@ -60,7 +61,8 @@ Track jumping_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, dou
   track.motion.start = from;
   const int pieces = random_integer(rng, 1, 7);
   for (int k = 0; k < pieces; ++k) {
-    CubicPiece piece{Duration{static_cast<std::int64_t>(seconds * 1e6 / pieces) + random_integer(rng, 0, 999)}, random_cubic(rng)};
+    CubicPiece piece{Duration{static_cast<std::int64_t>(seconds * 1e6 / pieces) + random_integer(rng, 0, 999)},
+                     random_cubic(rng)};
     piece.coefficients.col(3) = random_in(rng, where);
     track.motion.pieces.push_back(piece);
     track.alpha.push_back(random_alpha(rng));
@@ -155,8 +157,8 @@ double gap(const Body& body, const Vec3& p, const Box& box) {
   return std::max(0.0, distance(box_corners(box), at) - body.radius);
 }
 
-double least_gap(const TimedSpline& trajectory, const Body& body, const std::vector<PlanningObstacle>& obstacles, UTime from,
-                 UTime to, Duration step) {
+double least_gap(const TimedSpline& trajectory, const Body& body, const std::vector<PlanningObstacle>& obstacles,
+                 UTime from, UTime to, Duration step) {
   double least = INFINITY;
   const ClampedSpline spline = trajectory.spline();
   const Vec3 half = body.half_extents();
@@ -171,7 +173,8 @@ double least_gap(const TimedSpline& trajectory, const Body& body, const std::vec
   }
 }
 
-std::optional<Points> random_way_to_rest(Rng& rng, const MotionSample& start, const Limits& limits, int intervals, double dt) {
+std::optional<Points> random_way_to_rest(Rng& rng, const MotionSample& start, const Limits& limits, int intervals,
+                                         double dt) {
   Points q(3, intervals + 3);
   q.leftCols<3>() = start_control_points(start, dt);
   for (int axis = 0; axis < 3; ++axis) {
@@ -238,13 +241,15 @@ PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const Horizo
   for (const Track& track : world.predictions->set.tracks) {
     if (track.kind == TrackKind::Static) statics.push_back(track.bounds(track.motion.start, track.motion.start));
   }
-  const GoalFieldKey key{goal.position, products->version, digest_of(statics), request.body.half_extents(), request.flight_box};
+  const GoalFieldKey key{goal.position, products->version, digest_of(statics), request.body.half_extents(),
+                         request.flight_box};
   auto field = std::make_shared<const GoalField>(make_goal_field(key, products->occupied, statics, request.start.p));
   world.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field)});
   return world;
 }
 
-PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const HorizonRequest& request, const PlannerConfig& config) {
+PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const HorizonRequest& request,
+                       const PlannerConfig& config) {
   return world_of(std::move(tracks), goal, request, config, test_support::free_map({1, 1, 1}));
 }
 

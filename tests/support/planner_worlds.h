@@ -11,8 +11,8 @@
 
 namespace tern::support {
 
-/// The smooth mover: a Lissajous curve through `where`, up to 6 m/s, as Hermite pieces from `from` on; α differs from piece to
-/// piece; half-extents 0.1 … 0.6 m.
+/// The smooth mover: a Lissajous curve through `where`, up to 6 m/s, as Hermite pieces from `from` on; α differs from
+/// piece to piece; half-extents 0.1 … 0.6 m.
 Track random_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, double seconds);
 /// The nasty mover: arbitrary cubics that jump at their joints.
 Track jumping_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, double seconds);
@@ -31,18 +31,20 @@ std::vector<PlanningObstacle> obstacles_of(const std::vector<Track>& tracks);
 
 /// Oracle: the box that the track promises at t, its α scaled. Beyond its pieces it grows by top_speed.
 Box promised_box(const Track& track, UTime t, double alpha_scale = 1.0);
-/// Oracle: the largest d·x over everything that the obstacle's box may cover in [from, to] seconds after origin. By the extrema of
-/// the cubics d·p(t), so exact to rounding; β is not in it.
+/// Oracle: the largest d·x over everything that the obstacle's box may cover in [from, to] seconds after origin. By the
+/// extrema of the cubics d·p(t), so exact to rounding; β is not in it.
 double support_of_sweep(const Track& track, double alpha_scale, UTime origin, double from, double to, const Vec3& d);
 /// Oracle: the distance between the body at p and the box; 0 when they meet.
 double gap(const Body& body, const Vec3& p, const Box& box);
-/// Oracle: the least gap between the body on its trajectory (at rest after its end) and the obstacles, at instants `step` apart.
+/// Oracle: the least gap between the body on its trajectory (at rest after its end) and the obstacles, at instants
+/// `step` apart.
 double least_gap(const TimedSpline& trajectory, const Body& body, const std::vector<PlanningObstacle>& obstacles,
                  UTime from, UTime to, Duration step = Duration{2'000});
 
-/// Control points from `start` to rest within the limits, drawn at their edges as often as inside; nothing where J intervals of dt do
-/// not suffice. (A v_1 that the start drives beyond v_max is not held against it.)
-std::optional<Points> random_way_to_rest(Rng& rng, const MotionSample& start, const Limits& limits, int intervals, double dt);
+/// Control points from `start` to rest within the limits, drawn at their edges as often as inside; nothing where J
+/// intervals of dt do not suffice. (A v_1 that the start drives beyond v_max is not held against it.)
+std::optional<Points> random_way_to_rest(Rng& rng, const MotionSample& start, const Limits& limits, int intervals,
+                                         double dt);
 /// The same from rest at p, in time.
 TimedSpline random_trajectory(Rng& rng, const Vec3& p, UTime start, const Limits& limits, int intervals = 8);
 /// Rests at p from `start` on.

@@ -19,8 +19,10 @@ class Programme {
     for (int k = 1; k <= n_; ++k) {
       std::vector<double> row(static_cast<std::size_t>(n_) + 1, 0.0);
       for (int c = 1; c <= k; ++c) row[static_cast<std::size_t>(c)] = p.interval_s;
-      if (k < n_) add_row(row, -p.v_max - v, p.v_max - v);
-      else add_row(row, -v, -v);
+      if (k < n_)
+        add_row(row, -p.v_max - v, p.v_max - v);
+      else
+        add_row(row, -v, -v);
     }
     const double step = p.j_max * p.interval_s;
     for (int k = 0; k <= n_; ++k) {

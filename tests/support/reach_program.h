@@ -8,8 +8,8 @@ namespace tern::oracle {
 /// What AxisReach asks: v_{k+1} = v_k + a_k Δt for k = l … J − 1, v_J = 0, a_J = 0, |v_k| ≤ v_max, |a_k| ≤ a_max,
 /// |a_k − a_{k−1}| ≤ j_max Δt.
 struct ReachProgram {
-  int intervals = 6;       ///< J
-  double interval_s = 0.2; ///< Δt
+  int intervals = 6;        ///< J
+  double interval_s = 0.2;  ///< Δt
   double v_max = 6.0, a_max = 20.0, j_max = 1e30;
 };
 

@@ -33,7 +33,8 @@ class PlannerNodeTest : public ::testing::Test {
     set.made_at = clock_.now();
     set.tracks = std::move(tracks);
     for (const TrackSet& batch : split_batches(set)) answers_.bus().publish(channels::kPredictions, batch);
-    for (const MapChunk& chunk : to_chunks(test_support::free_map({8, 8, 8}))) answers_.bus().publish(channels::kSemanticMap, chunk);
+    for (const MapChunk& chunk : to_chunks(test_support::free_map({8, 8, 8})))
+      answers_.bus().publish(channels::kSemanticMap, chunk);
     answers_.bus().publish(channels::kGoal, support::go_to(Vec3(6, 0, 1)));
     answers_.hear();
   }
@@ -46,7 +47,8 @@ class PlannerNodeTest : public ::testing::Test {
     ASSERT_EQ(node_->health().state, ProcessState::Ready) << node_->health().waiting_for;
   }
   HorizonRequest ask(std::int64_t id) {
-    HorizonRequest request = support::request_at(clock_.now() + Duration{75'000}, support::resting_at(kHome, kStart - Duration{1'000'000}));
+    HorizonRequest request =
+        support::request_at(clock_.now() + Duration{75'000}, support::resting_at(kHome, kStart - Duration{1'000'000}));
     request.id = id;
     answers_.bus().publish(channels::kHorizonRequest, request);
     answers_.hear();
@@ -109,7 +111,8 @@ TEST_F(PlannerNodeTest, InVirtualTimeTheAnswerComesAfterItsLatency) {
 TEST_F(PlannerNodeTest, ALateRequestIsCountedAndNotAnswered) {
   start({false, Duration{15'000}});
   tell_world();
-  HorizonRequest late = support::request_at(clock_.now() + Duration{5'000}, support::resting_at(kHome, kStart - Duration{1'000'000}));
+  HorizonRequest late =
+      support::request_at(clock_.now() + Duration{5'000}, support::resting_at(kHome, kStart - Duration{1'000'000}));
   late.id = 9;
   answers_.bus().publish(channels::kHorizonRequest, late);
   answers_.hear();
@@ -135,7 +138,8 @@ std::vector<Track> crowd() {
   std::vector<Track> tracks;
   Rng rng(3);
   for (int id = 1; id <= 40; ++id) {
-    tracks.push_back(support::random_mover(rng, id, Box(Vec3(1.8, -2.5, -1), Vec3(4.5, 2.5, 3)), kStart - Duration{100'000}, 5.0));
+    tracks.push_back(
+        support::random_mover(rng, id, Box(Vec3(1.8, -2.5, -1), Vec3(4.5, 2.5, 3)), kStart - Duration{100'000}, 5.0));
   }
   return tracks;
 }
@@ -198,11 +202,13 @@ TEST_F(PlannerNodeTest, ARequestHeardTwiceIsAnsweredOnce) {
   start({false, Duration{15'000}});
   tell_world();
   node_->step(clock_.now());
-  HorizonRequest request = support::request_at(clock_.now() + Duration{75'000}, support::resting_at(kHome, kStart - Duration{1'000'000}));
+  HorizonRequest request =
+      support::request_at(clock_.now() + Duration{75'000}, support::resting_at(kHome, kStart - Duration{1'000'000}));
   request.header.name = {5, 1};
   // As a network that duplicates packets delivers it: the same bytes twice.
   const Bytes bytes = encode(request);
-  for (int k = 0; k < 2; ++k) lcm_->publish(channels::kHorizonRequest, bytes.data(), static_cast<unsigned>(bytes.size()));
+  for (int k = 0; k < 2; ++k)
+    lcm_->publish(channels::kHorizonRequest, bytes.data(), static_cast<unsigned>(bytes.size()));
   answers_.hear();
   at(kStart + Duration{15'000});
   at(kStart + Duration{75'000});

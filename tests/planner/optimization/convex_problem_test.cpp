@@ -40,7 +40,8 @@ TEST(ConvexProblem, TheObjectiveIsEquation4) {
     const ClampedSpline spline(control_points_of(x, p), p.interval_s);
     double jerk = 0.0;
     for (int j = 0; j < p.intervals; ++j) jerk += spline.sample((j + 0.5) * p.interval_s).j.squaredNorm();
-    const double expected = p.weight_jerk * jerk + p.weight_goal * (spline.control_points().rightCols<1>() - p.goal).squaredNorm();
+    const double expected =
+        p.weight_jerk * jerk + p.weight_goal * (spline.control_points().rightCols<1>() - p.goal).squaredNorm();
     ASSERT_NEAR(convex.objective(x), expected, 1e-7 * (1.0 + expected)) << "seed " << seed;
     ASSERT_NEAR(jerk_cost(spline.control_points(), p.interval_s), jerk, 1e-7 * (1.0 + jerk)) << "seed " << seed;
   }
@@ -84,18 +85,22 @@ void expect_within(const Instance& instance, const Eigen::VectorXd& x, std::uint
     const MotionBounds was = motion_bounds(before, j);
     for (int axis = 0; axis < 3; ++axis) {
       // The start's own acceleration is not a variable; bounds that the initial point breaks are its own.
-      ASSERT_LE(now.a_max[axis], std::max({p.limits.a_max[axis], was.a_max[axis], std::abs(p.start.a[axis])}) + kRounding) << "seed " << seed;
+      ASSERT_LE(now.a_max[axis],
+                std::max({p.limits.a_max[axis], was.a_max[axis], std::abs(p.start.a[axis])}) + kRounding)
+          << "seed " << seed;
       ASSERT_LE(now.j_max[axis], std::max(p.limits.j_max[axis], was.j_max[axis]) + 1e-4) << "seed " << seed;
     }
     const Points4 points = spline.minvo(j);
-    ASSERT_LE((points.colwise() - p.start.p).colwise().norm().maxCoeff(), p.sphere_radius + kRounding) << "seed " << seed;
+    ASSERT_LE((points.colwise() - p.start.p).colwise().norm().maxCoeff(), p.sphere_radius + kRounding)
+        << "seed " << seed;
     const Box box(points.rowwise().minCoeff(), points.rowwise().maxCoeff());
     ASSERT_TRUE(grown(p.centre_box, Vec3::Constant(kRounding)).contains(box)) << "seed " << seed;
   }
   for (const PlaneConstraint& c : instance.planes) {
     const Points4 points = minvo_of(spline.power(c.interval), c.u0, c.u1);
     for (int k = 0; k < 4; ++k) {
-      ASSERT_LE(c.plane.signed_distance(points.col(k)), -std::max(p.clearance, kPlaneMargin) + 1e-12) << "seed " << seed;
+      ASSERT_LE(c.plane.signed_distance(points.col(k)), -std::max(p.clearance, kPlaneMargin) + 1e-12)
+          << "seed " << seed;
     }
   }
 }

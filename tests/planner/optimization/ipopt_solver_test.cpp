@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
-
 #include <cmath>
 
 #include "planner/safety/separation_test.h"
@@ -31,7 +30,8 @@ TEST(IpoptDerivatives, GradientJacobianAndHessianMatchFiniteDifferences) {
     const ConvexDerivatives at = derivatives_for_ipopt(p, x, factor, multipliers);
     const Eigen::VectorXd gradient = p.hessian * x + p.gradient;
     const auto lagrangian_gradient = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
-      return factor * (p.hessian * y + p.gradient) + derivatives_for_ipopt(p, y, factor, multipliers).jacobian.transpose() * multipliers;
+      return factor * (p.hessian * y + p.gradient) +
+             derivatives_for_ipopt(p, y, factor, multipliers).jacobian.transpose() * multipliers;
     };
     constexpr double h = 1e-4;  // all functions are quadratic: central differences err by rounding alone
     for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -41,9 +41,9 @@ TEST(IpoptDerivatives, GradientJacobianAndHessianMatchFiniteDifferences) {
       const Eigen::VectorXd below = x - step;
       const double slope = (p.objective(above) - p.objective(below)) / (2.0 * h);
       ASSERT_NEAR(gradient[i], slope, 1e-5 * (1.0 + std::abs(slope) + p.constant)) << "seed " << seed;
-      const Eigen::VectorXd column =
-          (derivatives_for_ipopt(p, above, factor, multipliers).constraints - derivatives_for_ipopt(p, below, factor, multipliers).constraints) /
-          (2.0 * h);
+      const Eigen::VectorXd column = (derivatives_for_ipopt(p, above, factor, multipliers).constraints -
+                                      derivatives_for_ipopt(p, below, factor, multipliers).constraints) /
+                                     (2.0 * h);
       const double scale = 1.0 + at.jacobian.cwiseAbs().maxCoeff();
       ASSERT_LE((at.jacobian.col(i) - column).cwiseAbs().maxCoeff(), 1e-6 * scale) << "seed " << seed;
       const Eigen::VectorXd curvature = (lagrangian_gradient(above) - lagrangian_gradient(below)) / (2.0 * h);
@@ -150,7 +150,8 @@ TEST(SolveByIpopt, WithPlanesTheCurveStaysOnItsSide) {
       ++planes;
       const Points4 points = minvo_of(spline.power(c.interval), c.u0, c.u1);
       for (int k = 0; k < 4; ++k) {
-        ASSERT_LE(c.plane.signed_distance(points.col(k)), -std::max(instance.problem.clearance, kPlaneMargin) + 1e-12) << "seed " << seed;
+        ASSERT_LE(c.plane.signed_distance(points.col(k)), -std::max(instance.problem.clearance, kPlaneMargin) + 1e-12)
+            << "seed " << seed;
       }
     }
   }

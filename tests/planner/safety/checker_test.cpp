@@ -235,7 +235,8 @@ TEST_F(CheckPlan, RefusesEachPairOfObstacleAndInterval) {
       std::vector<Track> tracks;
       for (int i = 0; i < 3; ++i) {
         const Vec3 harmless = start_.p + Vec3(0, 3.0 + i, 0);
-        tracks.push_back(i == culprit ? visitor(i + 1, plan_, j) : straight_mover(i + 1, harmless, Vec3::Zero(), 0.5, kStart, 2.0));
+        tracks.push_back(i == culprit ? visitor(i + 1, plan_, j)
+                                      : straight_mover(i + 1, harmless, Vec3::Zero(), 0.5, kStart, 2.0));
       }
       const CheckReport report = check(tracks);
       EXPECT_EQ(report.fault, CheckFault::NotSeparated) << "obstacle " << culprit + 1 << " in interval " << j;
@@ -249,8 +250,9 @@ TEST_F(CheckPlan, RefusesEachPairOfObstacleAndInterval) {
 TEST_F(CheckPlan, RefusesEachPairOfMapBoxAndInterval) {
   for (int j = 0; j < kIntervals; ++j) {
     const Vec3 there = plan_.spline().sample((j + 0.5) * 0.25).p;
-    const std::vector<PlanningObstacle> obstacles{{-1, nullptr, box_around(there + Vec3(0, 5, 0), Vec3::Constant(0.2)), 1.0},
-                                                  {-2, nullptr, box_around(there, Vec3::Constant(0.001)), 1.0}};
+    const std::vector<PlanningObstacle> obstacles{
+        {-1, nullptr, box_around(there + Vec3(0, 5, 0), Vec3::Constant(0.2)), 1.0},
+        {-2, nullptr, box_around(there, Vec3::Constant(0.001)), 1.0}};
     SweptObstacles swept(obstacles, body_, kStart, {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5}, kEverywhere);
     const CheckReport report = check_plan(plan_, demands_, swept);
     EXPECT_EQ(report.fault, CheckFault::NotSeparated);
@@ -281,14 +283,16 @@ TEST_F(CheckPlan, NeverPassesAPlanThatDenseSamplingSeesCollide) {
     body_ = body_of(kBodyKinds[seed % 3]);
     std::vector<Track> tracks;
     for (int id = 1; id <= 6; ++id) {
-      tracks.push_back(random_mover(rng, id, Box(Vec3::Constant(-5), Vec3::Constant(5)), kStart - Duration{100'000}, 1.2));
+      tracks.push_back(
+          random_mover(rng, id, Box(Vec3::Constant(-5), Vec3::Constant(5)), kStart - Duration{100'000}, 1.2));
     }
     const auto obstacles = obstacles_of(tracks);
     std::vector<double> times;
     for (int k = 0; k <= kIntervals; ++k) times.push_back(k * plan_.interval.seconds());
     SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
     const CheckReport report = check_plan(plan_, demands_, swept);
-    ASSERT_TRUE(report.ok() || report.fault == CheckFault::NotSeparated) << to_string(report.fault) << " at seed " << seed;
+    ASSERT_TRUE(report.ok() || report.fault == CheckFault::NotSeparated)
+        << to_string(report.fault) << " at seed " << seed;
     if (!report.ok()) continue;
     ++passed;
     ASSERT_GT(least_gap(plan_, body_, obstacles, kStart, plan_.end(), Duration{5'000}), 0.0) << "seed " << seed;
@@ -297,7 +301,8 @@ TEST_F(CheckPlan, NeverPassesAPlanThatDenseSamplingSeesCollide) {
 }
 
 TEST_F(CheckPlan, GivesAPlaneForEveryPairWhoseBoxesOverlap) {
-  const std::vector<Track> tracks{straight_mover(5, plan_.spline().sample(0.75).p + Vec3(0.22, 0.1, 0), Vec3::Zero(), 0.05, kStart, 2.0)};
+  const std::vector<Track> tracks{
+      straight_mover(5, plan_.spline().sample(0.75).p + Vec3(0.22, 0.1, 0), Vec3::Zero(), 0.05, kStart, 2.0)};
   const auto obstacles = obstacles_of(tracks);
   std::vector<double> times;
   for (int k = 0; k <= kIntervals; ++k) times.push_back(k * 0.25);

@@ -33,7 +33,8 @@ Scene random_scene(std::uint64_t seed) {
   Scene s;
   for (int id = 1; id <= 3; ++id) {
     const UTime from = kOrigin - Duration{random_integer(rng, 0, 300'000)};
-    s.tracks.push_back(rng.uniform() < 0.7 ? random_mover(rng, id, kWhere, from, 1.5) : jumping_mover(rng, id, kWhere, from, 1.5));
+    s.tracks.push_back(rng.uniform() < 0.7 ? random_mover(rng, id, kWhere, from, 1.5)
+                                           : jumping_mover(rng, id, kWhere, from, 1.5));
     if (rng.uniform() < 0.2) s.tracks.back().kind = TrackKind::Static;
   }
   s.obstacles = obstacles_of(s.tracks);
@@ -55,7 +56,8 @@ TEST(SeparateInterval, NeverCertifiesACollisionFoundByDenseSampling) {
       PairCounts counts;
       const bool ok = separate_interval(swept, j, spline.power(j), counts, nullptr).ok;
       const UTime from = kOrigin + s.trajectory.interval * j;
-      const double gap = least_gap(s.trajectory, s.body, s.obstacles, from, from + s.trajectory.interval, Duration{5'000});
+      const double gap =
+          least_gap(s.trajectory, s.body, s.obstacles, from, from + s.trajectory.interval, Duration{5'000});
       if (gap == 0.0) ++met;
       if (!ok) continue;
       ++passed;
@@ -74,11 +76,13 @@ TEST(SeparateInterval, PassesWhateverStaysWellClear) {
     SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
     for (int j = 0; j < spline.intervals(); ++j) {
       double least = INFINITY;
-      for (const auto& candidate : swept.candidates(j)) least = std::min(least, distance(swept.hull(j, candidate, 0, 1), spline.minvo(j)));
+      for (const auto& candidate : swept.candidates(j))
+        least = std::min(least, distance(swept.hull(j, candidate, 0, 1), spline.minvo(j)));
       PairCounts counts;
       if (least <= s.body.radius + 2.0 * kTouchingTolerance) continue;
       ++clear;
-      ASSERT_TRUE(separate_interval(swept, j, spline.power(j), counts, nullptr).ok) << "seed " << seed << ", interval " << j;
+      ASSERT_TRUE(separate_interval(swept, j, spline.power(j), counts, nullptr).ok)
+          << "seed " << seed << ", interval " << j;
     }
   }
   EXPECT_GT(clear, 200);
@@ -106,7 +110,8 @@ TEST(SeparateInterval, EveryPlaneHoldsTheHullOnOneSideAndThePartOnTheOther) {
         ASSERT_NE(of, candidates.end());
         const Points& hull = swept.hull(j, *of, c.part, c.parts);
         for (Eigen::Index k = 0; k < hull.cols(); ++k) ASSERT_GE(c.plane.signed_distance(hull.col(k)), 0.0);
-        const Points4 curve = minvo_of(spline.power(j), static_cast<double>(c.part) / c.parts, (c.part + 1.0) / c.parts);
+        const Points4 curve =
+            minvo_of(spline.power(j), static_cast<double>(c.part) / c.parts, (c.part + 1.0) / c.parts);
         for (int k = 0; k < 4; ++k) {
           ASSERT_LE(c.plane.signed_distance(curve.col(k)), -std::max(s.body.radius, kPlaneMargin)) << "seed " << seed;
         }
@@ -118,7 +123,8 @@ TEST(SeparateInterval, EveryPlaneHoldsTheHullOnOneSideAndThePartOnTheOther) {
 }
 
 TEST(SeparateInterval, SplitsTheIntervalInTimeWhereOnePlaneDoesNotDo) {
-  // The vehicle comes along x to the origin's far side; the mover was at the origin when it set out, and leaves along y.
+  // The vehicle comes along x to the origin's far side; the mover was at the origin when it set out, and leaves along
+  // y.
   const std::vector<Track> tracks{straight_mover(7, Vec3::Zero(), Vec3(0, 12, 0), 0.3, kOrigin, 1.0)};
   const auto obstacles = obstacles_of(tracks);
   SweptObstacles swept(obstacles, Body{}, kOrigin, {0.0, 0.5}, kEverywhere);
@@ -168,7 +174,8 @@ TEST(ClearTimeAt, TheBodyTouchesNothingAsLongAsItSays) {
       int k = first;
       while (swept.time(k) - swept.time(first) < clear - 1e-9) ++k;
       double nearest = INFINITY;
-      for (const auto& candidate : swept.candidates(k)) nearest = std::min(nearest, distance(swept.hull(k, candidate, 0, 1), Points(p)));
+      for (const auto& candidate : swept.candidates(k))
+        nearest = std::min(nearest, distance(swept.hull(k, candidate, 0, 1), Points(p)));
       ASSERT_LE(nearest, s.body.radius + 2.0 * kTouchingTolerance) << "seed " << seed;
     }
   }

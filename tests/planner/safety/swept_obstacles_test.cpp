@@ -21,7 +21,8 @@ const Box kEverywhere(Vec3::Constant(-1e4), Vec3::Constant(1e4));
 constexpr UTime kOrigin{50'000'000};
 constexpr double kRounding = 1e-9;  // m, of coordinates within tens of metres
 
-/// One obstacle of random motion, α and body, over a random cut of time that may begin before its pieces and end after them.
+/// One obstacle of random motion, α and body, over a random cut of time that may begin before its pieces and end after
+/// them.
 struct Case {
   std::vector<Track> tracks;
   std::vector<PlanningObstacle> obstacles;
@@ -33,7 +34,8 @@ Case random_case(Rng& rng) {
   Case c;
   const UTime from = kOrigin + Duration{random_integer(rng, -1'500'000, 600'000)};
   const double seconds = rng.uniform(0.8, 3.0);
-  c.tracks.push_back(rng.uniform() < 0.5 ? random_mover(rng, 1, kWhere, from, seconds) : jumping_mover(rng, 1, kWhere, from, seconds));
+  c.tracks.push_back(rng.uniform() < 0.5 ? random_mover(rng, 1, kWhere, from, seconds)
+                                         : jumping_mover(rng, 1, kWhere, from, seconds));
   if (rng.uniform() < 0.1) c.tracks[0].kind = TrackKind::Static;
   c.obstacles = obstacles_of(c.tracks);
   if (rng.uniform() < 0.3) c.obstacles[0].alpha_scale = rng.uniform();
@@ -90,7 +92,8 @@ TEST(SweptObstacles, HullsContainDenseSamplesOfEverySweptInflatedBody) {
           const Points swept = (-c.body.vertices).colwise() + corners.col(corner);
           for (Eigen::Index v = 0; v < swept.cols(); ++v) {
             // Times are rounded to a microsecond here.
-            ASSERT_LE(distance(hull, Points(swept.col(v))), 1e-4) << "seed " << seed << ", from " << from << " to " << to;
+            ASSERT_LE(distance(hull, Points(swept.col(v))), 1e-4)
+                << "seed " << seed << ", from " << from << " to " << to;
           }
         }
       }
@@ -105,10 +108,12 @@ TEST(SweptObstacles, HullsHoldTheSweepAndExceedItByNoMoreThanBeta) {
     const Case c = random_case(rng);
     for_each_hull(c, [&](const Points& hull, double from, double to) {
       for (int i = 0; i < 12; ++i) {
-        const Vec3 d = i < 6 ? Vec3((i % 2 == 0 ? 1.0 : -1.0) * Vec3::Unit(i / 2)) : Vec3(random_vector(rng, 1.0).normalized());
+        const Vec3 d =
+            i < 6 ? Vec3((i % 2 == 0 ? 1.0 : -1.0) * Vec3::Unit(i / 2)) : Vec3(random_vector(rng, 1.0).normalized());
         const double is = support(hull, d);
         const double least = true_support(c, from, to, d);
-        ASSERT_GE(is, least - kRounding) << "seed " << seed << ", from " << from << " to " << to << ", along " << d.transpose();
+        ASSERT_GE(is, least - kRounding) << "seed " << seed << ", from " << from << " to " << to << ", along "
+                                         << d.transpose();
         ASSERT_LE(is, least + kBetaMax * d.lpNorm<1>() + kRounding)
             << "seed " << seed << ", from " << from << " to " << to << ", along " << d.transpose();
         ++checked;
@@ -121,7 +126,8 @@ TEST(SweptObstacles, HullsHoldTheSweepAndExceedItByNoMoreThanBeta) {
 TEST(SweptObstacles, HullsHaveNoSuperfluousPoints) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Rng rng(seed);
-    for_each_hull(random_case(rng), [&](const Points& hull, double, double) { ASSERT_EQ(hull_vertices(hull).cols(), hull.cols()); });
+    for_each_hull(random_case(rng),
+                  [&](const Points& hull, double, double) { ASSERT_EQ(hull_vertices(hull).cols(), hull.cols()); });
   }
 }
 
@@ -191,7 +197,8 @@ TEST(SweptObstacles, BoxesOfTheMapAndStaticTracksHaveOneHullForAllTime) {
         const Points& hull = swept.hull(k, candidate, k, 4);
         for (int axis = 0; axis < 3; ++axis) {
           const Vec3 d = Vec3::Unit(axis);
-          EXPECT_NEAR(support(hull, d), swept.obstacle(candidate).box.max()[axis] + support(-body.vertices, d), kRounding);
+          EXPECT_NEAR(support(hull, d), swept.obstacle(candidate).box.max()[axis] + support(-body.vertices, d),
+                      kRounding);
         }
       }
     }

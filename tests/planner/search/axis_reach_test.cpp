@@ -71,7 +71,7 @@ struct Chain {
   bool finished = true;
   double worst = 0.0;  ///< by how much a limit was broken at most, relative
   double end_v = 0.0, end_a = 0.0;
-  double way = 0.0;    ///< Σ v_k Δt from `from` on
+  double way = 0.0;  ///< Σ v_k Δt from `from` on
 };
 
 /// Walks from v_1, a_0 to v_J by ends of the intervals (mostly) or anything inside.

@@ -67,12 +67,14 @@ Scene random_scene(std::uint64_t seed) {
   Limits limits;
   if (rng.uniform() < 0.3) limits.j_max = Vec3::Constant(rng.uniform(60.0, 200.0));
   const TimedSpline flown = random_trajectory(rng, random_vector(rng, 1.0), kStart, limits);
-  MotionSample start = rng.uniform() < 0.3 ? MotionSample{} : flown.sample(kStart + Duration{random_integer(rng, 0, 1'000'000)});
+  MotionSample start =
+      rng.uniform() < 0.3 ? MotionSample{} : flown.sample(kStart + Duration{random_integer(rng, 0, 1'000'000)});
   std::vector<Track> tracks;
   for (int id = random_integer(rng, 0, 12); id > 0; --id) {
     tracks.push_back(random_mover(rng, id, box_around(start.p, Vec3::Constant(4.0)), kStart - Duration{200'000}, 4.0));
   }
-  Scene s = scene_from(start, 1e-6 * random_integer(rng, 100'000, 350'000), Vec3(start.p + random_vector(rng, 6.0)), std::move(tracks));
+  Scene s = scene_from(start, 1e-6 * random_integer(rng, 100'000, 350'000), Vec3(start.p + random_vector(rng, 6.0)),
+                       std::move(tracks));
   s.body = body_of(kBodyKinds[random_integer(rng, 0, 2)]);
   s.problem.intervals = random_integer(rng, 4, 8);
   s.problem.limits = limits;
@@ -81,7 +83,8 @@ Scene random_scene(std::uint64_t seed) {
   s.problem.way.rest = rng.uniform(0.0, 3.0);
   s.demands.limits = limits;
   if (rng.uniform() < 0.5) {
-    s.demands.flight_box = box_around(start.p, Vec3(rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0)));
+    s.demands.flight_box =
+        box_around(start.p, Vec3(rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0)));
     s.problem.centre_box = centre_box(s.demands.flight_box, s.body);
   }
   return s;
@@ -102,8 +105,8 @@ TEST(SemanticAStar, NeverReturnsALeafThatTheCheckerRejects) {
     ++found;
     ASSERT_EQ(result.control_points.cols(), s.problem.intervals + 3);
     const CheckReport report = s.check(result);
-    ASSERT_TRUE(report.ok()) << "seed " << seed << ": " << to_string(report.fault) << " in interval " << report.interval << ", axis "
-                             << report.axis << ": " << report.value << " against " << report.limit;
+    ASSERT_TRUE(report.ok()) << "seed " << seed << ": " << to_string(report.fault) << " in interval " << report.interval
+                             << ", axis " << report.axis << ": " << report.value << " against " << report.limit;
   }
   EXPECT_GT(found, 150);
 }
@@ -222,7 +225,8 @@ TEST(SemanticAStar, AnEndThatStaysClearIsPreferredToANearerOneThatDoesNot) {
   const double interval = 0.45;
   const double crossing_s = 4 * interval + 0.3;
   const Vec3 goal(2, 0, 0);
-  const std::vector<Track> tracks{straight_mover(1, goal - Vec3(0, 3.0 * crossing_s, 0), Vec3(0, 3, 0), 0.4, kStart, 5.0)};
+  const std::vector<Track> tracks{
+      straight_mover(1, goal - Vec3(0, 3.0 * crossing_s, 0), Vec3(0, 3, 0), 0.4, kStart, 5.0)};
   Scene s = scene_from({}, interval, goal, tracks);
   s.problem.intervals = 4;
   s.problem.hold_required_s = 0.0;
@@ -243,7 +247,8 @@ TEST(SemanticAStar, AWalledInStartHasNoLeafBeyondTheWalls) {
     for (const double side : {-1.0, 1.0}) {
       Vec3 half = Vec3::Constant(2.0);
       half[axis] = 0.1;
-      tracks.push_back(standing_box(static_cast<std::int64_t>(tracks.size()) + 1, box_around(Vec3::Unit(axis) * side, half), kStart));
+      tracks.push_back(standing_box(static_cast<std::int64_t>(tracks.size()) + 1,
+                                    box_around(Vec3::Unit(axis) * side, half), kStart));
     }
   }
   const Scene s = scene_from({}, 0.25, Vec3(3, 0, 0), tracks);
@@ -267,7 +272,8 @@ TEST(SemanticAStar, AStepsCostBendsTheWayAroundWhatIsDear) {
   };
   const auto dear_of = [&](const SearchResult& r) {
     double sum = 0.0;
-    for (Eigen::Index l = 1; l < r.control_points.cols(); ++l) sum += dear_metres(r.control_points.col(l - 1), r.control_points.col(l));
+    for (Eigen::Index l = 1; l < r.control_points.cols(); ++l)
+      sum += dear_metres(r.control_points.col(l - 1), r.control_points.col(l));
     return sum;
   };
   const SearchResult blind = s.search();
