@@ -65,7 +65,7 @@ def draw_box(axes, axis, centre, half, **style):
 
 def draw_obstacle(axes, axis, states, half, track):
     if not any(moves for _, _, moves in track):
-        return draw_box(axes, axis, track[0][1], half, fc=STATIC, ec="#5c6670", lw=0.6, zorder=2, alpha=1.5 - 0.6 * axis)
+        return draw_box(axes, axis, track[0][1], half, fc=STATIC, ec="#5c6670", lw=0.5, zorder=2, alpha=1.5 - 0.6*axis)
     now = time_of_passing(states, track)
     trail = [(p[0], p[axis]) for t, p, _ in track if now - 1.0 <= t <= now]
     shades = [(0.35, 0.15, 0.0, 0.6 * k / len(trail)) for k in range(1, len(trail))]
@@ -108,12 +108,12 @@ def main(log, picture):
         axis, left = 1 + k % 2, first + k // 2 * step
         path = draw_view(axes, axis, scenario, states, obstacles)
         axes.set(xlim=(left, left + step), ylim=(box["min"][axis], box["max"][axis]),
-                 aspect="equal", facecolor="#f6f7f9", ylabel=("top: y, m", "side: z, m")[axis - 1])
+                 aspect="equal", facecolor="#f6f7f9", ylabel=("top view: y, m", "side view: z, m")[axis - 1])
         axes.tick_params(length=2, labelbottom=axis == 2)
     figure.colorbar(path, ax=grid, location="bottom", shrink=0.35, aspect=45, pad=0.01, label="speed, m/s")
     title = f"{scenario['name']}, seed {scenario['seed']}, {len(obstacles)} obstacles; each mover as it was passed"
     figure.suptitle(title, fontsize=12, color=INK)
-    figure.savefig(picture, dpi=100)
+    figure.savefig(picture, dpi=100, bbox_inches="tight")
 
 
 if __name__ == "__main__":
