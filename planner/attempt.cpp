@@ -17,13 +17,24 @@ void add_semantics(const AttemptContext& context, SearchProblem& problem) {
   const double attract = context.config.lambda_attractive;
   const double repel = context.config.lambda_repulsive;
   if (context.config.semantic_cost == SemanticCost::Exposure) {
+    // The way to go is taken to lie outside the attractive region: a metre inside is then a metre won, wherever it is flown.
+    if (fields->has(VoxelLabel::Attractive)) problem.cost_to_go_rate = attract;
     problem.accumulated = [=](const Vec3& a, const Vec3& b) {
       return attract * fields->exposure_attractive(a, b) + repel * fields->exposure_repulsive(a, b);
     };
   } else {
+    // Counted from the point of the straight way with the same progress: among nodes of equal progress, which alone compete, the order is
+    // Eq. 2's, but going forward is not paid for by coming nearer to what repels.
+    const Vec3 start = context.request.start.p;
+    const Vec3 ahead = context.local_goal - start;
+    const double length2 = std::max(ahead.squaredNorm(), 1e-12);
+    const auto cost = [=](const Vec3& p) {
+      return attract * fields->mean_distance(VoxelLabel::Attractive, p) -
+             repel * fields->mean_distance(VoxelLabel::Repulsive, p);
+    };
     problem.pointwise = [=](const Vec3& q) {
-      return attract * fields->mean_distance(VoxelLabel::Attractive, q) -
-             repel * fields->mean_distance(VoxelLabel::Repulsive, q);
+      const double progress = std::clamp((q - start).dot(ahead) / length2, 0.0, 1.0);
+      return cost(q) - cost(start + progress * ahead);
     };
   }
 }
@@ -161,6 +172,7 @@ std::optional<Candidate> optimize_candidate(const AttemptContext& context, Swept
   problem.clearance = context.request.body.radius;
   problem.weight_jerk = config.weight_jerk;
   problem.weight_goal = config.weight_goal;
+  problem.reach = config.plane_reach_m;
   // With semantics the leaf stands where it does on purpose: the optimizer smooths the way there. But a leaf in the last band stands
   // anywhere within half a metre of the goal, and there the goal counts.
   const Points& leaf = searched.trajectory.control_points;

@@ -17,8 +17,22 @@ namespace {
 
 /// The sphere's border is left to rounding and to MINVO points that bulge: local goals lie this far inside, as a share of r.
 constexpr double kLocalGoalShare = 0.985;
-/// A path's first corner nearer than this to the start is passed: the next one is headed for, m.
-constexpr double kCornerReached = 0.15;
+/// A path that is longer than the straight line by no more than this counts as straight, m.
+constexpr double kBendIgnored = 0.15;
+
+/// Heads for the farthest corner of the path to which the straight line is hardly shorter: small bends around posts are the search's
+/// business, but the way into a window or out of a trap leads over its corners.
+WayToGo way_along(const std::vector<Vec3>& path) {
+  std::size_t corner = 1;
+  double length = 0.0;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    length += (path[k] - path[k - 1]).norm();
+    if (k == 1 || length - (path[k] - path[0]).norm() <= kBendIgnored) corner = k;
+  }
+  WayToGo way{path[corner], 0.0};
+  for (std::size_t k = corner + 1; k < path.size(); ++k) way.rest += (path[k] - path[k - 1]).norm();
+  return way;
+}
 
 class Planning {
  public:
@@ -140,10 +154,21 @@ class Planning {
   AttemptContext make_context() {
     Limits reduced = request_.limits;
     reduced.v_max *= config_.velocity_share;
-    const SemanticFields& fields = world_.map->fields;
-    const bool semantic = config_.semantics && (fields.has(VoxelLabel::Attractive) || fields.has(VoxelLabel::Repulsive));
-    return {request_, config_, obstacles_, semantic ? &fields : nullptr, reduced, {}, request_.start.p,
+    return {request_, config_, obstacles_, semantics_in_reach(), reduced, {}, request_.start.p,
             budget_, observer_, answer_.statistics};
+  }
+
+  /// The fields, if they differ anywhere in the sphere. The mean distance of Eq. 3 differs everywhere.
+  [[nodiscard]] const SemanticFields* semantics_in_reach() const {
+    const SemanticFields& fields = world_.map->fields;
+    if (!config_.semantics) return nullptr;
+    const Box sphere = box_around(request_.start.p, Vec3::Constant(config_.sphere_radius_m));
+    for (const VoxelLabel label : {VoxelLabel::Attractive, VoxelLabel::Repulsive}) {
+      const bool weighs = (label == VoxelLabel::Attractive ? config_.lambda_attractive : config_.lambda_repulsive) > 0.0;
+      if (!fields.has(label) || !weighs) continue;
+      if (config_.semantic_cost == SemanticCost::MeanDistance || fields.influence(label).intersects(sphere)) return &fields;
+    }
+    return nullptr;
   }
 
   /// The path around static obstacles gives the way to go and the local goal. False: there is no path.
@@ -156,10 +181,7 @@ class Planning {
     }
     const auto path = world_.goal->field->path_from(at);
     if (!path) return false;
-    std::size_t corner = 1;
-    while (corner + 1 < path->size() && ((*path)[corner] - at).norm() < kCornerReached) ++corner;
-    context.way.point = (*path)[corner];
-    for (std::size_t k = corner + 1; k < path->size(); ++k) context.way.rest += ((*path)[k] - (*path)[k - 1]).norm();
+    context.way = way_along(*path);
     context.local_goal = local_goal(*path, at, kLocalGoalShare * config_.sphere_radius_m);
     answer_.plan.local_goal = context.local_goal;
     if (committed_) {
@@ -200,6 +222,7 @@ class Planning {
     auto optimized = optimize_candidate(context, swept, *best_);
     if (!optimized) return;
     if (best_->holds && !optimized->holds) return;
+    if (optimized->arrival_s > best_->arrival_s + kSmoothnessPrice) return;
     best_ = std::move(optimized);
     offer(&*best_, PlanReason::None);
   }
@@ -274,6 +297,7 @@ class Planning {
   PlanAnswer finish_without(PlanReason reason) { return finish(nullptr, reason); }
 
   static constexpr double kNearLocalGoal = 1.0;    // m
+  static constexpr double kSmoothnessPrice = 0.05; // s: an optimized trajectory may arrive so much later than the search's
   static constexpr double kHoldStep = 0.1;         // s
   static constexpr double kLeastInterval = 0.02;   // s: below this Δt, rounding of accelerations q/Δt² eats the tolerances
 

@@ -24,7 +24,7 @@ struct OptimizationConfig {
   bool enabled = true;
   double weight_jerk = 2e-6;    ///< ω_u of Eq. 4, s⁶
   double weight_goal = 1.0;     ///< ω_g of Eq. 4
-  int rounds = 2;               ///< solve, recentre the planes, solve again
+  int rounds = 1;               ///< solve; more rounds recentre the planes and solve again
   double plane_reach_m = 1.0;   ///< planes nearer than this to the search's path enter the problem, m
   int max_iterations = 60;      ///< of Ipopt, per round
 };

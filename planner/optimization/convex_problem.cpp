@@ -8,6 +8,9 @@
 namespace tern {
 namespace {
 
+/// Limits farther away than this share of themselves are left out: an axis that x0 leaves at rest may go to half its limit.
+constexpr double kLimitReach = 1.5;
+
 /// A point that is affine in the free control points: Σ_i weight_i q_{3+i} + offset. The same weights on each axis.
 struct AffinePoint {
   Eigen::VectorXd weights;
@@ -16,8 +19,8 @@ struct AffinePoint {
 
 class Builder {
  public:
-  explicit Builder(const TrajectoryProblem& problem)
-      : problem_(problem), basis_(spline_basis(problem.intervals)), free_(problem.intervals - 2),
+  Builder(const TrajectoryProblem& problem, const Eigen::VectorXd& x0)
+      : problem_(problem), x0_(x0), basis_(spline_basis(problem.intervals)), free_(problem.intervals - 2),
         start_(start_control_points(problem.start, problem.interval_s)) {}
 
   /// Σ_k c_k q_{j+k}: a combination of the four control points of interval j.
@@ -31,21 +34,24 @@ class Builder {
     return p;
   }
 
-  /// direction·point ≤ limit; dropped when it does not depend on x.
-  void add_row(const AffinePoint& point, const Vec3& direction, double limit) {
+  /// direction·point ≤ limit; dropped when it does not depend on x, or when x0 is farther than `reach` from it.
+  void add_row(const AffinePoint& point, const Vec3& direction, double limit, double reach) {
     if (point.weights.cwiseAbs().maxCoeff() < 1e-12) return;
     Eigen::VectorXd row(3 * free_);
     for (int i = 0; i < free_; ++i) row.segment<3>(3 * i) = point.weights[i] * direction;
+    const double bound = limit - direction.dot(point.offset);
+    const double at_x0 = row.dot(x0_);
+    if (bound - at_x0 > reach) return;
     rows_.push_back(std::move(row));
-    bounds_.push_back(limit - direction.dot(point.offset));
+    bounds_.push_back(std::max(bound, at_x0));
   }
 
   void add_symmetric(const AffinePoint& point, const Vec3& limits, double scale) {
     for (int axis = 0; axis < 3; ++axis) {
       if (!std::isfinite(limits[axis])) continue;
       AffinePoint scaled{point.weights * scale, point.offset * scale};
-      add_row(scaled, Vec3::Unit(axis), limits[axis]);
-      add_row(scaled, -Vec3::Unit(axis), limits[axis]);
+      add_row(scaled, Vec3::Unit(axis), limits[axis], kLimitReach * limits[axis]);
+      add_row(scaled, -Vec3::Unit(axis), limits[axis], kLimitReach * limits[axis]);
     }
   }
 
@@ -54,7 +60,7 @@ class Builder {
     for (const PlaneConstraint& c : planes) {
       const Eigen::Matrix4d weights = part_weights(c);
       for (int k = 0; k < 4; ++k) {
-        add_row(combination(c.interval, weights.col(k)), c.plane.n, -c.plane.d - margin);
+        add_row(combination(c.interval, weights.col(k)), c.plane.n, -c.plane.d - margin, problem_.reach);
       }
     }
   }
@@ -92,8 +98,8 @@ class Builder {
     const Vec3 above = problem_.centre_box.max() - problem_.start.p;
     const Vec3 below = problem_.start.p - problem_.centre_box.min();
     for (int axis = 0; axis < 3; ++axis) {
-      if (above[axis] < problem_.sphere_radius) add_row(p, Vec3::Unit(axis), problem_.centre_box.max()[axis]);
-      if (below[axis] < problem_.sphere_radius) add_row(p, -Vec3::Unit(axis), -problem_.centre_box.min()[axis]);
+      if (above[axis] < problem_.sphere_radius) add_row(p, Vec3::Unit(axis), problem_.centre_box.max()[axis], problem_.reach);
+      if (below[axis] < problem_.sphere_radius) add_row(p, -Vec3::Unit(axis), -problem_.centre_box.min()[axis], problem_.reach);
     }
   }
 
@@ -104,6 +110,7 @@ class Builder {
         AffinePoint p = combination(j, basis_.position_minvo(j).col(k));
         if (p.weights.cwiseAbs().maxCoeff() < 1e-12) continue;
         add_box_rows(p);
+        if (problem_.sphere_radius - (at_x0(p) - problem_.start.p).norm() > problem_.reach) continue;
         points.push_back(std::move(p));
       }
     }
@@ -114,6 +121,12 @@ class Builder {
       out.sphere_offsets.col(static_cast<Eigen::Index>(k)) = points[k].offset - problem_.start.p;
     }
     out.sphere_radius2 = problem_.sphere_radius * problem_.sphere_radius;
+  }
+
+  [[nodiscard]] Vec3 at_x0(const AffinePoint& p) const {
+    Vec3 at = p.offset;
+    for (int i = 0; i < free_; ++i) at += p.weights[i] * x0_.segment<3>(3 * i);
+    return at;
   }
 
   void add_objective(ConvexProblem& out) const {
@@ -129,7 +142,7 @@ class Builder {
     add_square(out, end, problem_.goal, problem_.weight_goal);
   }
 
-  void take_rows(ConvexProblem& out, const Eigen::VectorXd& x0) {
+  void take_rows(ConvexProblem& out) const {
     out.rows.resize(static_cast<Eigen::Index>(rows_.size()), 3 * free_);
     out.bounds.resize(out.rows.rows());
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -138,9 +151,9 @@ class Builder {
       out.bounds[r] = bounds_[i];
     }
     // By the very product that judges feasibility: another order of summing would leave x0 outside by its rounding.
-    out.bounds = out.bounds.cwiseMax(out.rows * x0).eval();
+    out.bounds = out.bounds.cwiseMax(out.rows * x0_).eval();
     for (int k = 0; k < out.spheres(); ++k) {
-      out.sphere_radius2 = std::max(out.sphere_radius2, out.sphere_point(k, x0).squaredNorm());
+      out.sphere_radius2 = std::max(out.sphere_radius2, out.sphere_point(k, x0_).squaredNorm());
     }
   }
 
@@ -174,6 +187,7 @@ class Builder {
   }
 
   const TrajectoryProblem& problem_;
+  const Eigen::VectorXd& x0_;
   const SplineBasis& basis_;
   int free_;
   Points3 start_;
@@ -198,12 +212,13 @@ double ConvexProblem::worst_violation(const Eigen::VectorXd& x) const {
 ConvexProblem make_convex_problem(const TrajectoryProblem& problem, const std::vector<PlaneConstraint>& planes,
                                   const Points& initial_control_points) {
   ConvexProblem out;
-  Builder builder(problem);
+  const Eigen::VectorXd x0 = free_variables(initial_control_points);
+  Builder builder(problem, x0);
   builder.add_objective(out);
   builder.add_limits();
   builder.add_boxes_and_spheres(out);
   builder.add_planes(planes);
-  builder.take_rows(out, free_variables(initial_control_points));
+  builder.take_rows(out);
   return out;
 }
 

@@ -26,6 +26,7 @@ struct TrajectoryProblem {
   double clearance = 0.0;       ///< radius of a spherical body, m
   Vec3 goal = Vec3::Zero();     ///< s_g^temp
   double weight_jerk = 0.0, weight_goal = 1.0;  ///< ω_u, ω_g
+  double reach = 1e9;           ///< constraints on position farther than this from x0 are left out, m; the checker sees all
 };
 
 /// min ½ xᵀH x + gᵀx + c   subject to   A x ≤ b   and   ‖W_k x + p_k‖² ≤ r² for each sphere point k.
@@ -55,7 +56,7 @@ struct ConvexProblem {
 inline constexpr double kOptimizerMargin = 5e-6;
 
 /// Builds the problem. Bounds that x0 (the search's result) breaks a little — MINVO points bulge beyond the curve — are widened to x0's own
-/// value, so that x0 is always feasible; the checker decides with true extrema.
+/// value, so that x0 is always feasible; the checker decides with true extrema. What x0 is far from is left out: each row costs.
 ConvexProblem make_convex_problem(const TrajectoryProblem& problem, const std::vector<PlaneConstraint>& planes,
                                   const Points& initial_control_points);
 

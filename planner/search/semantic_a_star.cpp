@@ -49,6 +49,13 @@ struct Leaf {
   }
 };
 
+/// Bands of the way to go: `width` wide, and ten times finer within the last one, so that the goal itself is reached.
+int band_of(double way_to_go, double width) {
+  constexpr int kFiner = 10;
+  const double bands = way_to_go / width;
+  return bands < 1.0 ? static_cast<int>(bands * kFiner) : kFiner - 1 + static_cast<int>(bands);
+}
+
 class Search {
  public:
   Search(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles, Budget& budget)
@@ -99,9 +106,9 @@ class Search {
       high[axis] = n.q[axis] + d.high;
     }
     reachable = Box(low, high);
-    double f = n.g + config_.lambda_h * problem_.way.from(n.q);
+    double f = n.g + (config_.lambda_h + problem_.cost_to_go_rate) * problem_.way.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
-    const int band = static_cast<int>(problem_.way.from(reachable) / config_.band_m);
+    const int band = band_of(problem_.way.from(reachable), config_.band_m);
     open_.push({band, step_of(f), leaf_index() - n.l, f, static_cast<int>(nodes_.size())});
     nodes_.push_back(n);
   }

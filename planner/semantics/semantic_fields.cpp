@@ -88,6 +88,8 @@ const std::optional<SemanticFields::Label>& SemanticFields::of(VoxelLabel label)
 
 bool SemanticFields::has(VoxelLabel label) const { return of(label).has_value(); }
 
+Box SemanticFields::influence(VoxelLabel label) const { return has(label) ? of(label)->band.window() : Box(); }
+
 double SemanticFields::mean_distance(VoxelLabel label, const Vec3& p) const {
   const std::optional<Label>& fields = of(label);
   return fields ? fields->mean(p) : 0.0;
