@@ -16,8 +16,8 @@ struct VirtualFlight {
   ExecutorCounters executor;
   std::array<std::int64_t, kPlanOutcomes> outcomes = {};  ///< answers by PlanOutcome
   std::array<std::int64_t, kPlanReasons> reasons = {};    ///< answers by PlanReason
-  std::vector<PlanTiming> timings;                        ///< one per answer; wall and CPU times are those of this machine
-  std::string end;                                        ///< how the run ended when there is no result
+  std::vector<PlanTiming> timings;  ///< one per answer; wall and CPU times are those of this machine
+  std::string end;                  ///< how the run ended when there is no result
 };
 
 /// Watches a flight from outside: called with every plan and its request.
@@ -27,7 +27,8 @@ struct FlightObserver {
   virtual void on_plan(const Plan&) {}
 };
 
-/// Flies a scenario file (with `key=value` overrides) to its end. @throws ConfigError for what run_process would refuse.
+/// Flies a scenario file (with `key=value` overrides) to its end. @throws ConfigError for what run_process would
+/// refuse.
 VirtualFlight fly_virtually(const std::string& scenario_file, const std::vector<std::string>& overrides,
                             FlightObserver* observer = nullptr);
 

@@ -1,4 +1,5 @@
-// Bytes ↔ values: one pair per message, pure. A message is accepted only when every check passes; see DESIGN "Bad input".
+// Bytes ↔ values: one pair per message, pure. A message is accepted only when every check passes; see DESIGN "Bad
+// input".
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ template <class T>
 Bytes encode(const T& value);
 
 /// The value of exactly these bytes, or why they are refused. Checks, in this order: fingerprint; counts at their fixed
-/// offsets within limits; length exactly as the counts ask; numbers finite and in range; enumerations known; times in order;
-/// fields consistent. Never throws, allocates no more than the message's own size asks for.
+/// offsets within limits; length exactly as the counts ask; numbers finite and in range; enumerations known; times in
+/// order; fields consistent. Never throws, allocates no more than the message's own size asks for.
 template <class T>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes);
 

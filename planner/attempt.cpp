@@ -17,14 +17,15 @@ void add_semantics(const AttemptContext& context, SearchProblem& problem) {
   const double attract = context.config.lambda_attractive;
   const double repel = context.config.lambda_repulsive;
   if (context.config.semantic_cost == SemanticCost::Exposure) {
-    // The way to go is taken to lie outside the attractive region: a metre inside is then a metre won, wherever it is flown.
+    // The way to go is taken to lie outside the attractive region: a metre inside is then a metre won, wherever it is
+    // flown.
     if (fields->has(VoxelLabel::Attractive)) problem.cost_to_go_rate = attract;
     problem.accumulated = [=](const Vec3& a, const Vec3& b) {
       return attract * fields->exposure_attractive(a, b) + repel * fields->exposure_repulsive(a, b);
     };
   } else {
-    // Counted from the point of the straight way with the same progress: among nodes of equal progress, which alone compete, the order is
-    // Eq. 2's, but going forward is not paid for by coming nearer to what repels.
+    // Counted from the point of the straight way with the same progress: among nodes of equal progress, which alone
+    // compete, the order is Eq. 2's, but going forward is not paid for by coming nearer to what repels.
     const Vec3 start = context.request.start.p;
     const Vec3 ahead = context.local_goal - start;
     const double length2 = std::max(ahead.squaredNorm(), 1e-12);
@@ -104,7 +105,8 @@ std::vector<PlaneConstraint> gather_planes(const AttemptContext& context, SweptO
   context.statistics.pairs_by_plane += pairs.by_plane;
   std::vector<PlaneConstraint> planes;
   for (const CertificatePlane& c : found) {
-    planes.push_back({c.interval, static_cast<double>(c.part) / c.parts, static_cast<double>(c.part + 1) / c.parts, c.plane});
+    planes.push_back(
+        {c.interval, static_cast<double>(c.part) / c.parts, static_cast<double>(c.part + 1) / c.parts, c.plane});
   }
   return planes;
 }
@@ -173,8 +175,8 @@ std::optional<Candidate> optimize_candidate(const AttemptContext& context, Swept
   problem.weight_jerk = config.weight_jerk;
   problem.weight_goal = config.weight_goal;
   problem.reach = config.plane_reach_m;
-  // With semantics the leaf stands where it does on purpose: the optimizer smooths the way there. But a leaf in the last band stands
-  // anywhere within half a metre of the goal, and there the goal counts.
+  // With semantics the leaf stands where it does on purpose: the optimizer smooths the way there. But a leaf in the
+  // last band stands anywhere within half a metre of the goal, and there the goal counts.
   const Points& leaf = searched.trajectory.control_points;
   const Vec3 end = leaf.col(leaf.cols() - 1);
   const bool arrives = context.way.from(end) <= context.config.search.band_m;
@@ -186,9 +188,11 @@ std::optional<Candidate> optimize_candidate(const AttemptContext& context, Swept
   for (int round = 0; round < config.rounds; ++round) {
     if (context.observer != nullptr) context.observer->enter(Stage::Optimization);
     if (context.budget.expired(Stage::Optimization)) break;
-    const ConvexProblem convex = make_convex_problem(problem, gather_planes(context, obstacles, current), current.control_points);
-    const ConvexSolution solution = solve_by_ipopt(convex, free_variables(current.control_points), config.max_iterations,
-                                                   [&] { return context.budget.expired(Stage::Optimization); });
+    const ConvexProblem convex =
+        make_convex_problem(problem, gather_planes(context, obstacles, current), current.control_points);
+    const ConvexSolution solution =
+        solve_by_ipopt(convex, free_variables(current.control_points), config.max_iterations,
+                       [&] { return context.budget.expired(Stage::Optimization); });
     context.statistics.solver_iterations += solution.iterations;
     if (!solution.found) break;
     auto candidate = certify(context, obstacles, current.interval, control_points_of(solution.x, problem),

@@ -16,10 +16,10 @@ namespace tern {
 struct Candidate {
   PlanOutcome outcome = PlanOutcome::NoPlan;
   TimedSpline trajectory;
-  double clear_s = 0.0;      ///< from t_s until the end point is no longer clear, or as far as was looked
-  double hold_s = 0.0;       ///< of that, after the end
-  bool holds = false;        ///< hold_s reaches the requirement
-  double arrival_s = 0.0;    ///< estimate of the time from t_s to the goal (arrival_estimate)
+  double clear_s = 0.0;    ///< from t_s until the end point is no longer clear, or as far as was looked
+  double hold_s = 0.0;     ///< of that, after the end
+  bool holds = false;      ///< hold_s reaches the requirement
+  double arrival_s = 0.0;  ///< estimate of the time from t_s to the goal (arrival_estimate)
   PlanCost cost;
   std::vector<CertificatePlane> certificate;
 
@@ -36,9 +36,9 @@ struct AttemptContext {
   const PlannerConfig& config;
   const std::vector<PlanningObstacle>& obstacles;
   const SemanticFields* fields = nullptr;  ///< null: no semantics
-  Limits plan_limits;      ///< v_max reduced to velocity_share
-  WayToGo way;             ///< to the goal, for ranking
-  Vec3 local_goal;         ///< s_g^temp
+  Limits plan_limits;                      ///< v_max reduced to velocity_share
+  WayToGo way;                             ///< to the goal, for ranking
+  Vec3 local_goal;                         ///< s_g^temp
   Budget& budget;
   PlanObserver* observer;
   PlanStatistics& statistics;
@@ -52,12 +52,14 @@ SweptObstacles sweep_horizon(const AttemptContext& context, Duration interval);
 std::optional<Candidate> search_candidate(const AttemptContext& context, SweptObstacles& obstacles, Duration interval,
                                           double hold_required_s, const SearchConfig& config);
 
-/// Optimizes a search result with Eq. 4 (`alternating`). Nothing: no iterate that the checker passes and that holds as long.
+/// Optimizes a search result with Eq. 4 (`alternating`). Nothing: no iterate that the checker passes and that holds as
+/// long.
 std::optional<Candidate> optimize_candidate(const AttemptContext& context, SweptObstacles& obstacles,
                                             const Candidate& searched);
 
-/// When the goal would be reached if the trajectory were flown for a while and the rest time-optimally, per axis: the mean over two such
-/// whiles. Comparing ends instead would favour short plans, because every plan brakes at its end and hardly one is flown so far.
+/// When the goal would be reached if the trajectory were flown for a while and the rest time-optimally, per axis: the
+/// mean over two such whiles. Comparing ends instead would favour short plans, because every plan brakes at its end and
+/// hardly one is flown so far.
 /// @param from  the time on the trajectory that counts as 0
 double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits);
 

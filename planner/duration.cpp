@@ -24,7 +24,8 @@ double least_duration(const MotionSample& start, const Vec3& to, const Limits& l
     const double d = to[axis] - start.p[axis];
     double time = least_time_to_rest(d, start.v[axis], limits.v_max[axis], a);
     if (std::isfinite(limits.j_max[axis])) {
-      const double peak = std::min(limits.v_max[axis], std::sqrt(a * std::abs(d) + 0.5 * start.v[axis] * start.v[axis]));
+      const double peak =
+          std::min(limits.v_max[axis], std::sqrt(a * std::abs(d) + 0.5 * start.v[axis] * start.v[axis]));
       time += std::min(a / limits.j_max[axis], std::sqrt(peak / limits.j_max[axis]));
     }
     least = std::max(least, time);

@@ -5,13 +5,14 @@
 
 namespace tern {
 
-/// The least time in which a double integrator gets from velocity v0 at 0 to rest at d, under |v| ≤ v_max and |a| ≤ a_max, s.
-/// With s = sign(d − v0|v0|/(2a)) it accelerates by s·a to a peak of √(a|d| + v0²/2) or v_max, cruises, and brakes.
+/// The least time in which a double integrator gets from velocity v0 at 0 to rest at d, under |v| ≤ v_max and |a| ≤
+/// a_max, s. With s = sign(d − v0|v0|/(2a)) it accelerates by s·a to a peak of √(a|d| + v0²/2) or v_max, cruises, and
+/// brakes.
 /// @pre v_max, a_max > 0. |v0| > v_max is taken as it is: braking to v_max counts.
 double least_time_to_rest(double d, double v0, double v_max, double a_max);
 
-/// The largest of the three axes, plus what a jerk limit adds at least to braking from the start's speed (a_max/j_max, or less
-/// where the acceleration does not build up that far), s.
+/// The largest of the three axes, plus what a jerk limit adds at least to braking from the start's speed (a_max/j_max,
+/// or less where the acceleration does not build up that far), s.
 double least_duration(const MotionSample& start, const Vec3& to, const Limits& limits);
 
 }  // namespace tern

@@ -15,13 +15,14 @@
 namespace tern {
 namespace {
 
-/// The sphere's border is left to rounding and to MINVO points that bulge: local goals lie this far inside, as a share of r.
+/// The sphere's border is left to rounding and to MINVO points that bulge: local goals lie this far inside, as a share
+/// of r.
 constexpr double kLocalGoalShare = 0.985;
 /// A path that is longer than the straight line by no more than this counts as straight, m.
 constexpr double kBendIgnored = 0.15;
 
-/// Heads for the farthest corner of the path to which the straight line is hardly shorter: small bends around posts are the search's
-/// business, but the way into a window or out of a trap leads over its corners.
+/// Heads for the farthest corner of the path to which the straight line is hardly shorter: small bends around posts are
+/// the search's business, but the way into a window or out of a trap leads over its corners.
 WayToGo way_along(const std::vector<Vec3>& path) {
   std::size_t corner = 1;
   double length = 0.0;
@@ -50,8 +51,10 @@ class Planning {
     offer(committed_ ? &*committed_ : nullptr, reason_of_fallback());
     if (idle() && committed_ && committed_->holds) return finish(&*committed_, PlanReason::AtGoal);
     AttemptContext context = make_context();
-    if (!head_for_goal(context)) reason_ = PlanReason::GoalBlocked;
-    else try_durations(context);
+    if (!head_for_goal(context))
+      reason_ = PlanReason::GoalBlocked;
+    else
+      try_durations(context);
     if (needs_evasion()) evade(context);
     return choose();
   }
@@ -88,14 +91,16 @@ class Planning {
     const Box committed = grown(committed_box(), request_.body.half_extents() + Vec3::Constant(kBetaMax));
     const Box region = sphere.merged(committed);
     for (const std::int32_t k : world_.map->occupied.query(region)) {
-      obstacles_.push_back({-1 - static_cast<std::int64_t>(k), nullptr, world_.map->occupied.boxes()[static_cast<std::size_t>(k)], 1.0});
+      obstacles_.push_back(
+          {-1 - static_cast<std::int64_t>(k), nullptr, world_.map->occupied.boxes()[static_cast<std::size_t>(k)], 1.0});
     }
     const StartClearance start = clear_start(obstacles_, request_.body, request_.start.p, request_.t_s);
     answer_.plan.relaxed = start.relaxed;
     start_collides_ = start.collides;
   }
 
-  /// Where the vehicle's centre may be from t_s on if nothing new is flown. It may lie far out of the sphere around the start.
+  /// Where the vehicle's centre may be from t_s on if nothing new is flown. It may lie far out of the sphere around the
+  /// start.
   [[nodiscard]] Box committed_box() const {
     const ClampedSpline spline = request_.committed.spline();
     const double from_s = (request_.t_s - request_.committed.start).seconds();
@@ -122,7 +127,8 @@ class Planning {
       }
     }
     const double moving_s = times.back();
-    for (double hold = 0.0; hold < config_.hold_cap_s - 1e-9; hold += kHoldStep) times.push_back(moving_s + hold + kHoldStep);
+    for (double hold = 0.0; hold < config_.hold_cap_s - 1e-9; hold += kHoldStep)
+      times.push_back(moving_s + hold + kHoldStep);
     SweptObstacles swept(obstacles_, request_.body, request_.t_s, std::move(times), committed_box());
     CheckReport report = check_separation(pieces, swept);
     count(report.pairs, swept);
@@ -154,8 +160,8 @@ class Planning {
   AttemptContext make_context() {
     Limits reduced = request_.limits;
     reduced.v_max *= config_.velocity_share;
-    return {request_, config_, obstacles_, semantics_in_reach(), reduced, {}, request_.start.p,
-            budget_, observer_, answer_.statistics};
+    return {request_,         config_, obstacles_, semantics_in_reach(), reduced, {},
+            request_.start.p, budget_, observer_,  answer_.statistics};
   }
 
   /// The fields, if they differ anywhere in the sphere. The mean distance of Eq. 3 differs everywhere.
@@ -164,9 +170,11 @@ class Planning {
     if (!config_.semantics) return nullptr;
     const Box sphere = box_around(request_.start.p, Vec3::Constant(config_.sphere_radius_m));
     for (const VoxelLabel label : {VoxelLabel::Attractive, VoxelLabel::Repulsive}) {
-      const bool weighs = (label == VoxelLabel::Attractive ? config_.lambda_attractive : config_.lambda_repulsive) > 0.0;
+      const bool weighs =
+          (label == VoxelLabel::Attractive ? config_.lambda_attractive : config_.lambda_repulsive) > 0.0;
       if (!fields.has(label) || !weighs) continue;
-      if (config_.semantic_cost == SemanticCost::MeanDistance || fields.influence(label).intersects(sphere)) return &fields;
+      if (config_.semantic_cost == SemanticCost::MeanDistance || fields.influence(label).intersects(sphere))
+        return &fields;
     }
     return nullptr;
   }
@@ -190,7 +198,8 @@ class Planning {
     return true;
   }
 
-  /// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, the best kept.
+  /// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, the best
+  /// kept.
   void try_durations(AttemptContext& context) {
     const double least = least_duration(request_.start, context.local_goal, context.plan_limits);
     std::optional<SweptObstacles> best_swept;
@@ -296,10 +305,12 @@ class Planning {
   }
   PlanAnswer finish_without(PlanReason reason) { return finish(nullptr, reason); }
 
-  static constexpr double kNearLocalGoal = 1.0;    // m
-  static constexpr double kSmoothnessPrice = 0.05; // s: an optimized trajectory may arrive so much later than the search's
-  static constexpr double kHoldStep = 0.1;         // s
-  static constexpr double kLeastInterval = 0.02;   // s: below this Δt, rounding of accelerations q/Δt² eats the tolerances
+  static constexpr double kNearLocalGoal = 1.0;  // m
+  static constexpr double kSmoothnessPrice =
+      0.05;                                 // s: an optimized trajectory may arrive so much later than the search's
+  static constexpr double kHoldStep = 0.1;  // s
+  static constexpr double kLeastInterval =
+      0.02;  // s: below this Δt, rounding of accelerations q/Δt² eats the tolerances
 
   const HorizonRequest& request_;
   const PlanningWorld& world_;

@@ -27,7 +27,8 @@ struct PlanAnswer {
 };
 
 /// Plans from request.start within the sphere of radius r around it (paper §2), in this order:
-///  1. the committed trajectory is checked against these predictions, and if it does not stay clear an evasion is sought;
+///  1. the committed trajectory is checked against these predictions, and if it does not stay clear an evasion is
+///  sought;
 ///  2. the path around static obstacles gives the local goal; for a few durations the semantic A* looks for a leaf;
 ///  3. the best leaf is optimized with its planes fixed, the planes are recentred, and again (Eq. 4, `alternating`);
 ///  4. the best certified trajectory is chosen: separated, hold long enough, least time to the goal, in that order.

@@ -9,41 +9,41 @@ namespace tern {
 enum class SemanticCost { MeanDistance, Exposure };
 
 struct SearchConfig {
-  int samples_xy = 5;           ///< velocity samples per horizontal axis and node, 2 … 15
-  int samples_z = 3;            ///< on the vertical axis, 2 … 15
-  int max_expansions = 1500;    ///< per attempt, 1 … 10⁷
-  int hold_expansions = 400;    ///< how many more are spent after the first leaf to find one that holds long enough
-  double lambda_g = 1.0;        ///< weight of the path's length, ≥ 0
-  double lambda_h = 1.0;        ///< weight of the way to go, ≥ 0
-  double band_m = 0.5;          ///< leaves whose way to go lies in one band make equal progress, m
-  double prune_position_m = 0.1;   ///< δ: nodes in one voxel of position, index and coarse velocity are one
-  double prune_velocity_mps = 1.5; ///< the coarse velocity
+  int samples_xy = 5;               ///< velocity samples per horizontal axis and node, 2 … 15
+  int samples_z = 3;                ///< on the vertical axis, 2 … 15
+  int max_expansions = 1500;        ///< per attempt, 1 … 10⁷
+  int hold_expansions = 400;        ///< how many more are spent after the first leaf to find one that holds long enough
+  double lambda_g = 1.0;            ///< weight of the path's length, ≥ 0
+  double lambda_h = 1.0;            ///< weight of the way to go, ≥ 0
+  double band_m = 0.5;              ///< leaves whose way to go lies in one band make equal progress, m
+  double prune_position_m = 0.1;    ///< δ: nodes in one voxel of position, index and coarse velocity are one
+  double prune_velocity_mps = 1.5;  ///< the coarse velocity
 };
 
 struct OptimizationConfig {
   bool enabled = true;
-  double weight_jerk = 2e-6;    ///< ω_u of Eq. 4, s⁶
-  double weight_goal = 1.0;     ///< ω_g of Eq. 4
-  int rounds = 1;               ///< solve; more rounds recentre the planes and solve again
-  double plane_reach_m = 1.0;   ///< planes nearer than this to the search's path enter the problem, m
-  int max_iterations = 60;      ///< of Ipopt, per round
+  double weight_jerk = 2e-6;   ///< ω_u of Eq. 4, s⁶
+  double weight_goal = 1.0;    ///< ω_g of Eq. 4
+  int rounds = 1;              ///< solve; more rounds recentre the planes and solve again
+  double plane_reach_m = 1.0;  ///< planes nearer than this to the search's path enter the problem, m
+  int max_iterations = 60;     ///< of Ipopt, per round
 };
 
 struct PlannerConfig {
-  int intervals = 6;                ///< J, 4 … 12
-  double sphere_radius_m = 4.0;     ///< r
+  int intervals = 6;                                            ///< J, 4 … 12
+  double sphere_radius_m = 4.0;                                 ///< r
   std::vector<double> duration_scales = {1.1, 1.35, 1.8, 2.6};  ///< T over the per-axis bound, tried in order
-  double hold_required_s = 0.5;     ///< an end that stays clear this long is preferred to one that does not
-  double hold_cap_s = 1.5;          ///< how far the hold is followed
-  double stale_after_s = 0.3;       ///< predictions older than this are stale
-  double velocity_share = 0.99;     ///< plans stay below this share of v_max
-  bool unknown_is_obstacle = false; ///< unknown voxels of the map
+  double hold_required_s = 0.5;      ///< an end that stays clear this long is preferred to one that does not
+  double hold_cap_s = 1.5;           ///< how far the hold is followed
+  double stale_after_s = 0.3;        ///< predictions older than this are stale
+  double velocity_share = 0.99;      ///< plans stay below this share of v_max
+  bool unknown_is_obstacle = false;  ///< unknown voxels of the map
   bool semantics = true;
   SemanticCost semantic_cost = SemanticCost::Exposure;
   double lambda_attractive = 2.0;
   double lambda_repulsive = 2.0;
-  double exposure_margin_m = 1.0;   ///< exposure falls from 1 to 0 within this distance of a region
-  double goal_tolerance_m = 0.05;   ///< at rest within this of the goal: nothing to do
+  double exposure_margin_m = 1.0;  ///< exposure falls from 1 to 0 within this distance of a region
+  double goal_tolerance_m = 0.05;  ///< at rest within this of the goal: nothing to do
   SearchConfig search;
   OptimizationConfig optimization;
 };

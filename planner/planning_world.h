@@ -32,7 +32,7 @@ inline constexpr Duration kTrackBoxReach{4'000'000};
 /// One version of the map.
 struct MapProducts {
   std::uint64_t version = 0;
-  BoxIndex occupied;       ///< voxels that are obstacles, as few boxes
+  BoxIndex occupied;  ///< voxels that are obstacles, as few boxes
   SemanticFields fields;
 
   MapProducts(const VoxelMap& map, const PlannerConfig& config);
@@ -42,8 +42,8 @@ struct MapProducts {
 struct GoalFieldKey {
   Vec3 goal = Vec3::Zero();
   std::uint64_t map_version = 0;
-  std::uint64_t statics = 0;           ///< digest of the static boxes
-  Vec3 body_half = Vec3::Zero();       ///< what the obstacles were grown by, m
+  std::uint64_t statics = 0;      ///< digest of the static boxes
+  Vec3 body_half = Vec3::Zero();  ///< what the obstacles were grown by, m
   Box flight_box;
   friend bool operator==(const GoalFieldKey& a, const GoalFieldKey& b) {
     return a.goal == b.goal && a.map_version == b.map_version && a.statics == b.statics && a.body_half == b.body_half &&

@@ -29,8 +29,10 @@ StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body&
     if ((room.array() > alpha.array()).any()) continue;
     double scale = -1.0;
     for (int axis = 0; axis < 3; ++axis) {
-      if (alpha[axis] > 0.0) scale = std::max(scale, room[axis] / alpha[axis]);
-      else if (room[axis] > 0.0) scale = 1.0;
+      if (alpha[axis] > 0.0)
+        scale = std::max(scale, room[axis] / alpha[axis]);
+      else if (room[axis] > 0.0)
+        scale = 1.0;
     }
     if (scale < 0.0) result.collides = true;
     o.alpha_scale = std::clamp(scale, 0.0, 1.0);

@@ -12,8 +12,9 @@ struct StartClearance {
   bool collides = false;  ///< the start touches an obstacle even without its α
 };
 
-/// Lowers alpha_scale of each track whose box (half-extents + α) touches the body at p at time t to the largest value that leaves
-/// the body clear by kTouchingTolerance: per axis s = (|p − c| − h − body)/α, the best axis taken; the rest is left as it is.
+/// Lowers alpha_scale of each track whose box (half-extents + α) touches the body at p at time t to the largest value
+/// that leaves the body clear by kTouchingTolerance: per axis s = (|p − c| − h − body)/α, the best axis taken; the rest
+/// is left as it is.
 StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p, UTime t);
 
 }  // namespace tern

@@ -1,7 +1,7 @@
 // tern-campaign: many seeded flights on virtual time, a line of CSV each.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <string>

@@ -9,8 +9,8 @@
 
 namespace tern {
 
-/// Every loop that time may end asks `expired(stage)` once per turn. What asked how often is counted per (attempt, stage);
-/// where the gate said stop is kept as a BudgetCut. A replay's gate stops at exactly those counts.
+/// Every loop that time may end asks `expired(stage)` once per turn. What asked how often is counted per (attempt,
+/// stage); where the gate said stop is kept as a BudgetCut. A replay's gate stops at exactly those counts.
 class Budget {
  public:
   /// @return true when the loop must end. Called with how often the loop has asked before, from 0.

@@ -25,14 +25,14 @@ struct Exposure {
 struct FlightResult {
   Header header;
   FlightOutcome outcome = FlightOutcome::Failed;
-  std::string detail;                ///< in words: what was hit, which limit, what failed
-  double flight_time_s = 0.0;        ///< world time at arrival or end
-  double first_entry_s = 0.0;        ///< first within 0.2 m of the goal
+  std::string detail;          ///< in words: what was hit, which limit, what failed
+  double flight_time_s = 0.0;  ///< world time at arrival or end
+  double first_entry_s = 0.0;  ///< first within 0.2 m of the goal
   double path_length_m = 0.0;
-  double mean_speed_mps = 0.0;       ///< straight distance / flight time
+  double mean_speed_mps = 0.0;  ///< straight distance / flight time
   double top_speed_mps = 0.0;
-  double min_clearance_m = 0.0;      ///< continuous time, negative in overlap
-  double jerk_integral = 0.0;        ///< ∫‖jerk‖² dt, m²/s⁵
+  double min_clearance_m = 0.0;  ///< continuous time, negative in overlap
+  double jerk_integral = 0.0;    ///< ∫‖jerk‖² dt, m²/s⁵
   std::int64_t stops = 0;
   std::int64_t limit_violations = 0;
   std::vector<Exposure> exposure;

@@ -1,4 +1,5 @@
-// Who sent a message, which one it is, and when: names survive restarts because a sender's epoch changes with each start.
+// Who sent a message, which one it is, and when: names survive restarts because a sender's epoch changes with each
+// start.
 #pragma once
 
 #include <compare>
@@ -23,9 +24,9 @@ struct Header {
 
 /// A part of a set that is sent as numbered batches; only complete sets are used.
 struct BatchHeader {
-  std::int64_t set = 0;     ///< counts the sender's sets, from 1
-  std::int32_t index = 0;   ///< 0 … count − 1
-  std::int32_t count = 1;   ///< batches in this set, 1 … kMaxBatches
+  std::int64_t set = 0;    ///< counts the sender's sets, from 1
+  std::int32_t index = 0;  ///< 0 … count − 1
+  std::int32_t count = 1;  ///< batches in this set, 1 … kMaxBatches
 };
 inline constexpr int kMaxBatches = 6;
 /// No message is longer than this, bytes: beyond it LCM fragments and sends unpaced.

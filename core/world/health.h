@@ -13,28 +13,28 @@ enum class ProcessState : std::uint8_t { Starting = 0, Waiting = 1, Ready = 2, F
 
 /// Why a received message was refused.
 enum class Rejection : std::uint8_t {
-  Length = 0,       ///< not exactly the bytes that its counts ask for
-  Fingerprint = 1,  ///< another type, or another version of it
-  Count = 2,        ///< a count is negative or beyond its limit
-  Number = 3,       ///< not finite, or a number beyond its range
-  Enumeration = 4,  ///< an unknown value of an enumeration
-  Time = 5,         ///< times out of order, or absurd
-  Inconsistent = 6, ///< fields contradict each other
+  Length = 0,        ///< not exactly the bytes that its counts ask for
+  Fingerprint = 1,   ///< another type, or another version of it
+  Count = 2,         ///< a count is negative or beyond its limit
+  Number = 3,        ///< not finite, or a number beyond its range
+  Enumeration = 4,   ///< an unknown value of an enumeration
+  Time = 5,          ///< times out of order, or absurd
+  Inconsistent = 6,  ///< fields contradict each other
 };
 inline constexpr int kRejections = 7;
 
 /// Counters of one channel as one process saw it.
 struct ChannelCounters {
   std::int64_t sent = 0;
-  std::int64_t received = 0;               ///< accepted
+  std::int64_t received = 0;                ///< accepted
   std::int64_t rejected[kRejections] = {};  ///< by Rejection
-  std::int64_t lost = 0;                   ///< gaps in sequence numbers
-  std::int64_t late = 0;                   ///< accepted but too old to be used
+  std::int64_t lost = 0;                    ///< gaps in sequence numbers
+  std::int64_t late = 0;                    ///< accepted but too old to be used
 };
 
 struct Heartbeat {
   Header header;
-  std::string process;     ///< "tern-planner"
+  std::string process;  ///< "tern-planner"
   std::string build_id;
   ProcessState state = ProcessState::Starting;
   std::string waiting_for;  ///< what it waits for, in words; empty when nothing
@@ -45,8 +45,8 @@ struct ConfigurationReport {
   Header header;
   std::string process;
   std::string build_id;
-  std::string yaml;          ///< the effective configuration
-  std::uint64_t hash = 0;    ///< digest of yaml
+  std::string yaml;        ///< the effective configuration
+  std::uint64_t hash = 0;  ///< digest of yaml
 };
 
 }  // namespace tern

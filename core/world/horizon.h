@@ -14,14 +14,14 @@ namespace tern {
 /// HORIZON_REQUEST: plan from the state on the committed trajectory at t_s.
 struct HorizonRequest {
   Header header;
-  std::int64_t id = 0;     ///< > 0, ascending per executor
-  UTime t_s;               ///< when the plan shall begin, vehicle's clock
-  UTime deadline;          ///< an answer after this is late; ≤ t_s − 5 ms
-  TimedSpline committed;   ///< in force at t_s; ends at rest
-  MotionSample start;      ///< the committed trajectory's state at t_s
+  std::int64_t id = 0;    ///< > 0, ascending per executor
+  UTime t_s;              ///< when the plan shall begin, vehicle's clock
+  UTime deadline;         ///< an answer after this is late; ≤ t_s − 5 ms
+  TimedSpline committed;  ///< in force at t_s; ends at rest
+  MotionSample start;     ///< the committed trajectory's state at t_s
   Limits limits;
   Body body;
-  Box flight_box;          ///< the whole body stays inside, W
+  Box flight_box;  ///< the whole body stays inside, W
 };
 
 enum class PlanOutcome : std::uint8_t { Optimized = 0, SearchOnly = 1, KeepCommitted = 2, Evade = 3, NoPlan = 4 };
@@ -47,24 +47,24 @@ inline constexpr int kStages = 6;
 struct BudgetCut {
   std::int32_t attempt = 0;  ///< which try (duration, local goal) of this plan; −1: the watchdog cut it all
   Stage stage = Stage::Fallback;
-  std::int64_t count = 0;    ///< how often the loop had asked when the budget was found spent
+  std::int64_t count = 0;  ///< how often the loop had asked when the budget was found spent
 };
 
 /// One plane of a certificate: separates obstacle `track` from part `part` of `parts` of interval `interval`.
 struct CertificatePlane {
-  std::int64_t track = 0;      ///< track id; −1 − k: the k-th box of the map's occupied voxels
+  std::int64_t track = 0;  ///< track id; −1 − k: the k-th box of the map's occupied voxels
   std::int16_t interval = 0;
-  std::int8_t part = 0;        ///< 0 … parts − 1
-  std::int8_t parts = 1;       ///< 1, 2 or 4
-  Plane plane;                 ///< W; the vehicle's points at n·q + d ≤ −max(radius, kPlaneMargin)
+  std::int8_t part = 0;   ///< 0 … parts − 1
+  std::int8_t parts = 1;  ///< 1, 2 or 4
+  Plane plane;            ///< W; the vehicle's points at n·q + d ≤ −max(radius, kPlaneMargin)
 };
 
 /// What a plan is worth: each term as it entered the choice.
 struct PlanCost {
-  double distance_to_goal = 0.0;   ///< of the end to the local goal, m
-  double jerk = 0.0;               ///< Eq. 4: Σ_j ‖jerk_j‖², m²/s⁶
-  double attraction = 0.0;         ///< λ_att·C_att as used
-  double repulsion = 0.0;          ///< λ_rep·C_rep as used
+  double distance_to_goal = 0.0;  ///< of the end to the local goal, m
+  double jerk = 0.0;              ///< Eq. 4: Σ_j ‖jerk_j‖², m²/s⁶
+  double attraction = 0.0;        ///< λ_att·C_att as used
+  double repulsion = 0.0;         ///< λ_rep·C_rep as used
   double total = 0.0;
 };
 
@@ -72,7 +72,7 @@ struct PlanCost {
 struct PlanInputs {
   MessageName request, goal, predictions;
   std::int64_t prediction_set = 0;
-  std::uint64_t map_version = 0;          ///< digest of the map; 0: none
+  std::uint64_t map_version = 0;  ///< digest of the map; 0: none
   std::uint64_t configuration_hash = 0;
 };
 
@@ -82,11 +82,11 @@ struct Plan {
   std::int64_t request_id = 0;
   PlanOutcome outcome = PlanOutcome::NoPlan;
   PlanReason reason = PlanReason::None;
-  TimedSpline trajectory;        ///< starts at t_s unless KeepCommitted (then the committed one); meaningless for NoPlan
-  Duration hold;                 ///< how long after its end the end point stays clear of every predicted mover, ≤ the cap
-  bool relaxed = false;          ///< the start lay inside a hull and α was scaled to the largest clear value
+  TimedSpline trajectory;  ///< starts at t_s unless KeepCommitted (then the committed one); meaningless for NoPlan
+  Duration hold;           ///< how long after its end the end point stays clear of every predicted mover, ≤ the cap
+  bool relaxed = false;    ///< the start lay inside a hull and α was scaled to the largest clear value
   Vec3 local_goal = Vec3::Zero();  ///< W
-  double sphere_radius = 0.0;    ///< r, m
+  double sphere_radius = 0.0;      ///< r, m
   PlanCost cost;
   PlanInputs inputs;
   std::vector<CertificatePlane> certificate;
@@ -97,18 +97,18 @@ struct Plan {
 struct PlanTiming {
   Header header;
   std::int64_t request_id = 0;
-  double total_ms = 0.0;             ///< wall time from the request's arrival to the answer
-  double first_answer_ms = 0.0;      ///< until the first certified trajectory
-  double cpu_ms = 0.0;               ///< thread CPU time of the worker
-  double stage_ms[kStages] = {};     ///< wall time by Stage
-  std::int64_t expansions = 0;       ///< search nodes expanded
-  std::int64_t hulls = 0;            ///< hulls made
-  std::int64_t pairs_by_box = 0;     ///< pairs settled by bounding boxes
-  std::int64_t pairs_by_plane = 0;   ///< pairs settled by the fast separation
-  std::int64_t pairs_by_lp = 0;      ///< pairs handed to GLPK
+  double total_ms = 0.0;            ///< wall time from the request's arrival to the answer
+  double first_answer_ms = 0.0;     ///< until the first certified trajectory
+  double cpu_ms = 0.0;              ///< thread CPU time of the worker
+  double stage_ms[kStages] = {};    ///< wall time by Stage
+  std::int64_t expansions = 0;      ///< search nodes expanded
+  std::int64_t hulls = 0;           ///< hulls made
+  std::int64_t pairs_by_box = 0;    ///< pairs settled by bounding boxes
+  std::int64_t pairs_by_plane = 0;  ///< pairs settled by the fast separation
+  std::int64_t pairs_by_lp = 0;     ///< pairs handed to GLPK
   std::int64_t solver_iterations = 0;
   std::int64_t peak_rss_kb = 0;
-  bool from_watchdog = false;        ///< the receiving thread answered because the worker had not
+  bool from_watchdog = false;  ///< the receiving thread answered because the worker had not
 };
 
 }  // namespace tern

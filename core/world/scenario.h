@@ -41,29 +41,31 @@ struct WaypointMotion {
 };
 
 struct ObstacleSpec {
-  std::string name;                  ///< may be empty
-  Vec3 centre = Vec3::Zero();        ///< c, W, m
+  std::string name;                         ///< may be empty
+  Vec3 centre = Vec3::Zero();               ///< c, W, m
   Vec3 half_extents = Vec3::Constant(0.4);  ///< m, > 0
   std::variant<StaticMotion, TrefoilMotion, WaveMotion, LinearMotion, WaypointMotion> motion;
 };
 
 /// Tracks of people or things from a text file of white-space separated numbers.
 struct RecordedTracksSpec {
-  std::string file;                    ///< relative to the scenario's folder, or to TERN_DATA, or absolute
-  int columns = 5;                     ///< numbers per line
+  std::string file;  ///< relative to the scenario's folder, or to TERN_DATA, or absolute
+  int columns = 5;   ///< numbers per line
   int id_column = 0, frame_column = 1, x_column = 2, y_column = 3;
-  std::optional<int> z_column;         ///< none: z is not recorded
+  std::optional<int> z_column;  ///< none: z is not recorded
   double metres_per_unit = 1.0;
   double frames_per_second = 25.0;
-  double start_s = 0.0;                ///< world time 0 is this time of the file (frame / frames_per_second)
+  double start_s = 0.0;                       ///< world time 0 is this time of the file (frame / frames_per_second)
   Vec3 half_extents = Vec3(0.25, 0.25, 1.0);  ///< of every person, m
-  double centre_z = 1.0;               ///< boxes stand here, m
-  bool wait_for_clear_start = true;    ///< start at the first frame ≥ start_s when none comes within 1 m of the start for 1 s
+  double centre_z = 1.0;                      ///< boxes stand here, m
+  bool wait_for_clear_start =
+      true;  ///< start at the first frame ≥ start_s when none comes within 1 m of the start for 1 s
 };
 
 struct WorldSpec {
-  std::string generator = "none";  ///< none, paper_corridor, paper_attract, paper_repel, corridor_demo, mader_corridor, sando_forest
-  int count = 0;                   ///< N of the generator, 0 … 100000
+  std::string generator =
+      "none";     ///< none, paper_corridor, paper_attract, paper_repel, corridor_demo, mader_corridor, sando_forest
+  int count = 0;  ///< N of the generator, 0 … 100000
   std::vector<ObstacleSpec> obstacles;       ///< besides the generator's
   std::vector<RecordedTracksSpec> recorded;  ///< besides these
 };
@@ -88,7 +90,7 @@ struct UavSpec {
 
 struct Scenario {
   std::string name;
-  std::string file;            ///< where it was read
+  std::string file;  ///< where it was read
   std::uint64_t seed = 1;
   WorldSpec world;
   UavSpec uav;
@@ -96,7 +98,8 @@ struct Scenario {
   std::optional<double> timeout_s;  ///< default 3 × bound + 10 s
 };
 
-/// BENCHMARKS' bound: the per-axis time-optimal rest-to-rest time from start to goal, jerk included where it is limited, s.
+/// BENCHMARKS' bound: the per-axis time-optimal rest-to-rest time from start to goal, jerk included where it is
+/// limited, s.
 double rest_to_rest_bound_s(const Vec3& from, const Vec3& to, const Limits& limits);
 
 }  // namespace tern

@@ -27,7 +27,8 @@ struct Track {
   std::vector<Vec3> alpha;           ///< per piece: half-extents of the error box, m, each ≥ 0; size = pieces
   double top_speed = 0.0;            ///< m/s per axis, ≥ 0: beyond the last piece the box grows at this speed
 
-  /// A box that surely holds the obstacle during [t0, t1] (any times; before the start the first piece's rule applies backwards).
+  /// A box that surely holds the obstacle during [t0, t1] (any times; before the start the first piece's rule applies
+  /// backwards).
   [[nodiscard]] Box bounds(UTime t0, UTime t1) const;
 };
 
@@ -35,10 +36,10 @@ struct Track {
 struct TrackSet {
   Header header;
   BatchHeader batch;
-  UTime made_at;             ///< the newest input that it rests on, s: stale when older than 0.3 s
-  double confidence = 1.0;   ///< in (0, 1]: probability that a track keeps its α over its pieces (1: declared)
-  std::int32_t left_out = 0; ///< tracks that did not fit in the batches, farthest first
-  std::vector<Track> tracks; ///< by id ascending in a complete set
+  UTime made_at;              ///< the newest input that it rests on, s: stale when older than 0.3 s
+  double confidence = 1.0;    ///< in (0, 1]: probability that a track keeps its α over its pieces (1: declared)
+  std::int32_t left_out = 0;  ///< tracks that did not fit in the batches, farthest first
+  std::vector<Track> tracks;  ///< by id ascending in a complete set
 };
 
 }  // namespace tern

@@ -12,8 +12,8 @@ namespace tern {
 
 /// Largest magnitude per axis of W; every entry > 0. Jerk may be infinite (no limit).
 struct Limits {
-  Vec3 v_max = Vec3::Constant(6.0);   ///< m/s
-  Vec3 a_max = Vec3(20.0, 20.0, 10.0);  ///< m/s²
+  Vec3 v_max = Vec3::Constant(6.0);                                      ///< m/s
+  Vec3 a_max = Vec3(20.0, 20.0, 10.0);                                   ///< m/s²
   Vec3 j_max = Vec3::Constant(std::numeric_limits<double>::infinity());  ///< m/s³
 };
 /// A limit L is obeyed by x when |x| ≤ L·(1 + kLimitTolerance): the same in planner, checker, executor and referee.
@@ -23,8 +23,8 @@ inline constexpr double kJoinTolerance = 1e-6;
 /// The body may stand out of the flight box by this, m: as far as a join may shift it, and rounding.
 inline constexpr double kBoxTolerance = 1e-6;
 
-/// The vehicle's shape: conv(vertices) ⊕ ball(radius) about its position; it does not turn (the shape contains its rotations).
-/// A sphere has the single vertex 0; a polytope has radius 0.
+/// The vehicle's shape: conv(vertices) ⊕ ball(radius) about its position; it does not turn (the shape contains its
+/// rotations). A sphere has the single vertex 0; a polytope has radius 0.
 struct Body {
   Points vertices = Points::Zero(3, 1);  ///< 3×m, m ≥ 1, metres
   double radius = 0.1;                   ///< m, ≥ 0
@@ -41,10 +41,11 @@ struct UavState {
   double yaw = 0.0;     ///< rad, (−π, π], about W's z from W's x
 };
 
-/// A trajectory in time: a clamped spline that starts at `start`, interval in integer µs. Rests at its last point after its end.
+/// A trajectory in time: a clamped spline that starts at `start`, interval in integer µs. Rests at its last point after
+/// its end.
 struct TimedSpline {
   UTime start;
-  Duration interval{250'000};                ///< Δt, > 0
+  Duration interval{250'000};                  ///< Δt, > 0
   Points control_points = Points::Zero(3, 7);  ///< 3×(J+3), J ≥ 4
 
   [[nodiscard]] ClampedSpline spline() const { return {control_points, interval.seconds()}; }

@@ -23,7 +23,8 @@ bool same_grid(const VoxelGrid& a, const VoxelGrid& b) {
 /// The run that starts at voxel `begin`.
 VoxelRun run_at(const VoxelMap& map, std::size_t begin) {
   std::size_t end = begin + 1;
-  while (end < map.labels.size() && map.labels[end] == map.labels[begin] && map.classes[end] == map.classes[begin]) ++end;
+  while (end < map.labels.size() && map.labels[end] == map.labels[begin] && map.classes[end] == map.classes[begin])
+    ++end;
   return {map.labels[begin], map.classes[begin], static_cast<std::int32_t>(end - begin)};
 }
 
@@ -89,8 +90,10 @@ Result<bool> MapAssembler::add(const MapChunk& chunk) {
     map_ = {};
     return fail(text);
   };
-  if (!same_grid(chunk.grid, map_.grid) || chunk.class_names != map_.class_names) return discard("another grid or class table");
-  if (chunk.count != static_cast<int>(have_.size()) || chunk.index >= chunk.count) return discard("another number of chunks");
+  if (!same_grid(chunk.grid, map_.grid) || chunk.class_names != map_.class_names)
+    return discard("another grid or class table");
+  if (chunk.count != static_cast<int>(have_.size()) || chunk.index >= chunk.count)
+    return discard("another number of chunks");
   if (have_[static_cast<std::size_t>(chunk.index)]) return false;
   auto at = static_cast<std::size_t>(chunk.first_voxel);
   for (const VoxelRun& run : chunk.runs) {

@@ -16,13 +16,11 @@ inline constexpr int kVoxelLabels = 5;
 
 /// The grid's frame: voxel (i, j, k) is the cube from origin + resolution·(i, j, k), side `resolution`.
 struct VoxelGrid {
-  Vec3 origin = Vec3::Zero();  ///< the least corner, W, m
-  double resolution = 0.25;    ///< m, > 0
+  Vec3 origin = Vec3::Zero();                      ///< the least corner, W, m
+  double resolution = 0.25;                        ///< m, > 0
   Eigen::Vector3i size = Eigen::Vector3i::Zero();  ///< voxels per axis, ≥ 0
 
-  [[nodiscard]] std::int64_t voxels() const {
-    return static_cast<std::int64_t>(size.x()) * size.y() * size.z();
-  }
+  [[nodiscard]] std::int64_t voxels() const { return static_cast<std::int64_t>(size.x()) * size.y() * size.z(); }
   /// x runs fastest, then y, then z.
   [[nodiscard]] std::int64_t index(const Eigen::Vector3i& v) const {
     return v.x() + static_cast<std::int64_t>(size.x()) * (v.y() + static_cast<std::int64_t>(size.y()) * v.z());
@@ -46,10 +44,10 @@ struct VoxelGrid {
 /// Labels and classes of every voxel. Immutable once made; named by its digest.
 struct VoxelMap {
   VoxelGrid grid;
-  std::vector<VoxelLabel> labels;          ///< grid.voxels() entries, by grid.index
-  std::vector<std::uint8_t> classes;       ///< same size; index into class_names, 0 = none
-  std::vector<std::string> class_names;    ///< class_names[0] = "" (no class)
-  std::uint64_t version = 0;               ///< compute_version()
+  std::vector<VoxelLabel> labels;        ///< grid.voxels() entries, by grid.index
+  std::vector<std::uint8_t> classes;     ///< same size; index into class_names, 0 = none
+  std::vector<std::string> class_names;  ///< class_names[0] = "" (no class)
+  std::uint64_t version = 0;             ///< compute_version()
 
   /// Digest of everything above; never 0.
   [[nodiscard]] std::uint64_t compute_version() const;
@@ -68,8 +66,8 @@ struct MapChunk {
   std::uint64_t version = 0;
   VoxelGrid grid;
   std::vector<std::string> class_names;
-  std::int32_t index = 0, count = 1;   ///< this chunk of so many, count ≤ kMaxMapChunks
-  std::int64_t first_voxel = 0;        ///< where this chunk's runs begin
+  std::int32_t index = 0, count = 1;  ///< this chunk of so many, count ≤ kMaxMapChunks
+  std::int64_t first_voxel = 0;       ///< where this chunk's runs begin
   std::vector<VoxelRun> runs;
 };
 inline constexpr int kMaxMapChunks = 4096;
@@ -83,7 +81,8 @@ std::vector<MapChunk> to_chunks(const VoxelMap& map);
 class MapAssembler {
  public:
   /// Takes a chunk. @return true when it completed a map, which `take` then gives.
-  /// An inconsistent chunk (other grid, overlapping runs, wrong digest at the end) is an Error and discards that version.
+  /// An inconsistent chunk (other grid, overlapping runs, wrong digest at the end) is an Error and discards that
+  /// version.
   Result<bool> add(const MapChunk& chunk);
   [[nodiscard]] VoxelMap take();
 

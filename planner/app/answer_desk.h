@@ -13,10 +13,12 @@ namespace tern {
 /// The watchdog sends what stands this long before the deadline: an answer must still travel and be checked.
 inline constexpr Duration kWatchdogLead{4'000};
 
-/// Shared by the receiving thread (opens requests, runs the watchdog) and the worker (improves and gives answers). Thread-safe.
+/// Shared by the receiving thread (opens requests, runs the watchdog) and the worker (improves and gives answers).
+/// Thread-safe.
 class AnswerDesk {
  public:
-  explicit AnswerDesk(Bus& bus, std::uint64_t configuration_hash) : bus_(bus), configuration_hash_(configuration_hash) {}
+  explicit AnswerDesk(Bus& bus, std::uint64_t configuration_hash)
+      : bus_(bus), configuration_hash_(configuration_hash) {}
 
   /// A request came in at `now`. An older one that is still open is answered first with what stands.
   void open(const HorizonRequest& request, UTime now);
@@ -34,7 +36,7 @@ class AnswerDesk {
     std::int64_t id = 0;
     UTime arrived;
     UTime watch_at;
-    Plan standing;            ///< NoPlan, out of time, until the worker has more
+    Plan standing;  ///< NoPlan, out of time, until the worker has more
     std::int32_t improvements = 0;
   };
   void send_standing(UTime now);

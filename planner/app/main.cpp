@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::PlannerConfig config = tern::read_planner_config(context.section, context.scenario.semantics);
     const std::uint64_t hash = tern::configuration_hash(context.document.effective());
-    return std::make_unique<tern::PlannerNode>(context.bus, context.scenario.uav, config, hash, tern::PlannerExecution{});
+    return std::make_unique<tern::PlannerNode>(context.bus, context.scenario.uav, config, hash,
+                                               tern::PlannerExecution{});
   });
 }

@@ -16,7 +16,8 @@ namespace {
 
 /// Preparations of the world are looked after this often.
 constexpr Duration kPrepareEvery{20'000};
-/// Shares of the time from arrival to the watchdog: after these, no new duration is tried, the search ends, the optimizer ends.
+/// Shares of the time from arrival to the watchdog: after these, no new duration is tried, the search ends, the
+/// optimizer ends.
 constexpr double kAttemptShare = 0.35;
 constexpr double kSearchShare = 0.55;
 constexpr double kOptimizationShare = 0.85;
@@ -39,7 +40,10 @@ Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
 
 PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& config, std::uint64_t configuration_hash,
                          const PlannerExecution& execution)
-    : bus_(bus), config_(config), execution_(execution), intake_(bus, config, uav, execution.threaded),
+    : bus_(bus),
+      config_(config),
+      execution_(execution),
+      intake_(bus, config, uav, execution.threaded),
       desk_(bus, configuration_hash) {
   bus.subscribe<HorizonRequest>(channels::kHorizonRequest, [this](const HorizonRequest& r) { on_request(r); });
   if (execution.threaded) worker_ = std::make_unique<Worker>();
@@ -102,8 +106,8 @@ void PlannerNode::start_planning(UTime now) {
 
 void PlannerNode::work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived) {
   PlanStopwatch stopwatch([this](const Plan& plan) { desk_.improve(plan); });
-  Budget budget = execution_.threaded ? clock_budget(bus_.clock(), arrived, request.deadline - kWatchdogLead)
-                                      : Budget::unlimited();
+  Budget budget =
+      execution_.threaded ? clock_budget(bus_.clock(), arrived, request.deadline - kWatchdogLead) : Budget::unlimited();
   const SeparationCounts before = separation_counts();
   const PlanAnswer answer = plan(request, world, config_, budget, &stopwatch);
   PlanTiming timing = stopwatch.timing(answer);

@@ -17,7 +17,8 @@ namespace tern {
 
 /// How a node spends time.
 struct PlannerExecution {
-  /// Plan in a thread of its own, under the wall clock and the watchdog; else at once, unlimited, charged with `virtual_latency`.
+  /// Plan in a thread of its own, under the wall clock and the watchdog; else at once, unlimited, charged with
+  /// `virtual_latency`.
   bool threaded = true;
   Duration virtual_latency{15'000};  ///< virtual time from request to answer
 };
@@ -47,14 +48,14 @@ class PlannerNode final : public Node {
   MessageName last_request_;               ///< a network may deliver a message twice
   std::optional<HorizonRequest> waiting_;  ///< came in while the worker was busy
   UTime waiting_since_{};
-  std::optional<UTime> stuck_at_;          ///< two deadlines after what the worker is at
+  std::optional<UTime> stuck_at_;  ///< two deadlines after what the worker is at
   struct Delayed {
     UTime due;
     Plan plan;
     PlanTiming timing;
   };
-  std::optional<Delayed> delayed_;         ///< virtual time: the answer, not yet given
-  std::unique_ptr<Worker> worker_;         ///< null in virtual time. Last: its job uses the others
+  std::optional<Delayed> delayed_;  ///< virtual time: the answer, not yet given
+  std::unique_ptr<Worker> worker_;  ///< null in virtual time. Last: its job uses the others
 };
 
 }  // namespace tern

@@ -17,8 +17,8 @@
 
 namespace tern {
 
-/// Subscribes PREDICTIONS, SEMANTIC_MAP and GOAL. A map's fields and a goal's distances take up to seconds: with a worker they
-/// are made in the background and used once they are ready, without one at once (virtual time).
+/// Subscribes PREDICTIONS, SEMANTIC_MAP and GOAL. A map's fields and a goal's distances take up to seconds: with a
+/// worker they are made in the background and used once they are ready, without one at once (virtual time).
 class WorldIntake {
  public:
   WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background);
@@ -44,7 +44,7 @@ class WorldIntake {
   PlannerConfig config_;
   BatchCollector<TrackSet> batches_;
   MapAssembler assembler_;
-  std::map<std::int64_t, Box> statics_;   ///< all static tracks ever heard of this predictor epoch
+  std::map<std::int64_t, Box> statics_;  ///< all static tracks ever heard of this predictor epoch
   std::int64_t statics_epoch_ = 0;
   std::vector<Box> static_boxes_;
   std::uint64_t static_digest_ = 0;

@@ -8,7 +8,8 @@
 namespace tern {
 namespace {
 
-/// Limits farther away than this share of themselves are left out: an axis that x0 leaves at rest may go to half its limit.
+/// Limits farther away than this share of themselves are left out: an axis that x0 leaves at rest may go to half its
+/// limit.
 constexpr double kLimitReach = 1.5;
 
 /// A point that is affine in the free control points: Σ_i weight_i q_{3+i} + offset. The same weights on each axis.
@@ -20,7 +21,10 @@ struct AffinePoint {
 class Builder {
  public:
   Builder(const TrajectoryProblem& problem, const Eigen::VectorXd& x0)
-      : problem_(problem), x0_(x0), basis_(spline_basis(problem.intervals)), free_(problem.intervals - 2),
+      : problem_(problem),
+        x0_(x0),
+        basis_(spline_basis(problem.intervals)),
+        free_(problem.intervals - 2),
         start_(start_control_points(problem.start, problem.interval_s)) {}
 
   /// Σ_k c_k q_{j+k}: a combination of the four control points of interval j.
@@ -28,8 +32,10 @@ class Builder {
     AffinePoint p{Eigen::VectorXd::Zero(free_), Vec3::Zero()};
     for (int k = 0; k < 4; ++k) {
       const int l = j + k;
-      if (l < 3) p.offset += c[k] * start_.col(l);
-      else p.weights[std::min(l - 3, free_ - 1)] += c[k];  // q_{n-2} = q_{n-1} = q_n
+      if (l < 3)
+        p.offset += c[k] * start_.col(l);
+      else
+        p.weights[std::min(l - 3, free_ - 1)] += c[k];  // q_{n-2} = q_{n-1} = q_n
     }
     return p;
   }
@@ -82,14 +88,16 @@ class Builder {
     }
   }
 
-  /// v_l = (q_{l+1} − q_l)/Δt for l ≥ 2: the first two intervals are bounded by these, because their MINVO points hang almost wholly on
-  /// the start, which may move at the limit.
+  /// v_l = (q_{l+1} − q_l)/Δt for l ≥ 2: the first two intervals are bounded by these, because their MINVO points hang
+  /// almost wholly on the start, which may move at the limit.
   [[nodiscard]] AffinePoint velocity_control_point(int l) const {
     AffinePoint p{Eigen::VectorXd::Zero(free_), Vec3::Zero()};
     const double scale = 1.0 / problem_.interval_s;
     p.weights[std::min(l - 2, free_ - 1)] += scale;
-    if (l < 3) p.offset = -scale * start_.col(l);
-    else p.weights[std::min(l - 3, free_ - 1)] -= scale;
+    if (l < 3)
+      p.offset = -scale * start_.col(l);
+    else
+      p.weights[std::min(l - 3, free_ - 1)] -= scale;
     return p;
   }
 
@@ -98,8 +106,10 @@ class Builder {
     const Vec3 above = problem_.centre_box.max() - problem_.start.p;
     const Vec3 below = problem_.start.p - problem_.centre_box.min();
     for (int axis = 0; axis < 3; ++axis) {
-      if (above[axis] < problem_.sphere_radius) add_row(p, Vec3::Unit(axis), problem_.centre_box.max()[axis], problem_.reach);
-      if (below[axis] < problem_.sphere_radius) add_row(p, -Vec3::Unit(axis), -problem_.centre_box.min()[axis], problem_.reach);
+      if (above[axis] < problem_.sphere_radius)
+        add_row(p, Vec3::Unit(axis), problem_.centre_box.max()[axis], problem_.reach);
+      if (below[axis] < problem_.sphere_radius)
+        add_row(p, -Vec3::Unit(axis), -problem_.centre_box.min()[axis], problem_.reach);
     }
   }
 

@@ -2,7 +2,6 @@
 
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
-
 #include <algorithm>
 #include <vector>
 
@@ -75,7 +74,8 @@ class Nlp final : public Ipopt::TNLP {
 
   [[nodiscard]] const ConvexSolution& best() const { return best_; }
 
-  bool get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& hessian_entries, IndexStyleEnum& style) override {
+  bool get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& hessian_entries,
+                    IndexStyleEnum& style) override {
     n = static_cast<Index>(p_.variables());
     m = static_cast<Index>(p_.rows.rows()) + p_.spheres();
     jacobian_entries = static_cast<Index>(pattern_.jacobian_rows.size());
@@ -115,7 +115,8 @@ class Nlp final : public Ipopt::TNLP {
     return true;
   }
 
-  bool eval_jac_g(Index n, const Number* x, bool, Index, Index entries, Index* rows, Index* columns, Number* values) override {
+  bool eval_jac_g(Index n, const Number* x, bool, Index, Index entries, Index* rows, Index* columns,
+                  Number* values) override {
     if (values == nullptr) {
       std::copy(pattern_.jacobian_rows.begin(), pattern_.jacobian_rows.end(), rows);
       std::copy(pattern_.jacobian_columns.begin(), pattern_.jacobian_columns.end(), columns);
@@ -129,8 +130,8 @@ class Nlp final : public Ipopt::TNLP {
     return true;
   }
 
-  bool eval_h(Index, const Number*, bool, Number factor, Index, const Number* multipliers, bool, Index entries, Index* rows,
-              Index* columns, Number* values) override {
+  bool eval_h(Index, const Number*, bool, Number factor, Index, const Number* multipliers, bool, Index entries,
+              Index* rows, Index* columns, Number* values) override {
     if (values == nullptr) {
       std::copy(pattern_.hessian_rows.begin(), pattern_.hessian_rows.end(), rows);
       std::copy(pattern_.hessian_columns.begin(), pattern_.hessian_columns.end(), columns);
@@ -143,8 +144,9 @@ class Nlp final : public Ipopt::TNLP {
     return true;
   }
 
-  bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number, Number, Number, Number, Number, Number, Number,
-                             Number, Index, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+  bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number, Number, Number, Number, Number, Number,
+                             Number, Number, Index, const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities*) override {
     best_.iterations = iteration;
     return !stop_();
   }
@@ -171,7 +173,8 @@ class Nlp final : public Ipopt::TNLP {
   ConvexSolution best_;
 };
 
-/// Tuned on recorded problems: the monotone barrier from 1e-2 and MUMPS's AMD ordering halve the time against Ipopt's defaults.
+/// Tuned on recorded problems: the monotone barrier from 1e-2 and MUMPS's AMD ordering halve the time against Ipopt's
+/// defaults.
 void set_options(Ipopt::IpoptApplication& app, int max_iterations) {
   const auto options = app.Options();
   options->SetIntegerValue("print_level", 0);

@@ -8,7 +8,7 @@
 namespace tern {
 
 struct ConvexSolution {
-  bool found = false;       ///< some feasible iterate was seen; x is the best of them
+  bool found = false;          ///< some feasible iterate was seen; x is the best of them
   bool solver_failed = false;  ///< Ipopt ended in error (found may still be true)
   Eigen::VectorXd x;
   double objective = 0.0;
@@ -23,7 +23,7 @@ ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const Eigen::VectorX
 
 /// The derivatives that Ipopt is given, for tests: constraint values, Jacobian, Hessian of the Lagrangian.
 struct ConvexDerivatives {
-  Eigen::VectorXd constraints;   ///< rows·x, then ‖p_k‖²
+  Eigen::VectorXd constraints;  ///< rows·x, then ‖p_k‖²
   Eigen::MatrixXd jacobian;
   Eigen::MatrixXd lagrangian_hessian;  ///< objective_factor·H + Σ multipliers · ∇²constraint
 };

@@ -13,9 +13,9 @@ namespace tern {
 
 enum class CheckFault {
   None,
-  Shape,         ///< fewer than 4 or more than kMaxIntervals intervals, Δt ≤ 0, or a number that is not finite
-  Start,         ///< does not join the start state
-  Velocity,      ///< at its true extremum
+  Shape,     ///< fewer than 4 or more than kMaxIntervals intervals, Δt ≤ 0, or a number that is not finite
+  Start,     ///< does not join the start state
+  Velocity,  ///< at its true extremum
   Acceleration,
   Jerk,
   NotAtRest,     ///< does not end with q_{n-2} = q_{n-1} = q_n
@@ -28,10 +28,10 @@ const char* to_string(CheckFault fault);
 /// The first fault, in the order of the enumeration, or the certificate.
 struct CheckReport {
   CheckFault fault = CheckFault::None;
-  int interval = -1;           ///< where, if it is in one
+  int interval = -1;  ///< where, if it is in one
   int axis = -1;
-  double value = 0.0, limit = 0.0;  ///< what was found and what was allowed
-  std::int64_t obstacle = 0;   ///< which was not separated
+  double value = 0.0, limit = 0.0;            ///< what was found and what was allowed
+  std::int64_t obstacle = 0;                  ///< which was not separated
   std::vector<CertificatePlane> certificate;  ///< a plane for every pair whose boxes overlap
   PairCounts pairs;
   [[nodiscard]] bool ok() const { return fault == CheckFault::None; }
@@ -39,15 +39,15 @@ struct CheckReport {
 
 /// What a plan must satisfy.
 struct CheckDemands {
-  MotionSample start;        ///< of the request
-  Limits limits;             ///< with kLimitTolerance, at the true extrema
-  Box flight_box;            ///< the whole body stays inside (to kFlightBoxTolerance)
+  MotionSample start;          ///< of the request
+  Limits limits;               ///< with kLimitTolerance, at the true extrema
+  Box flight_box;              ///< the whole body stays inside (to kFlightBoxTolerance)
   double sphere_radius = 4.0;  ///< S is centred at the start
 };
 inline constexpr double kFlightBoxTolerance = 1e-6;  ///< m, of rounding in control points up to 1e4 m
 
-/// Checks a new plan against everything. @param obstacles  origin t_s, its first J intervals are the plan's, and it holds
-/// every obstacle that can touch the sphere: not only those that a solver saw.
+/// Checks a new plan against everything. @param obstacles  origin t_s, its first J intervals are the plan's, and it
+/// holds every obstacle that can touch the sphere: not only those that a solver saw.
 CheckReport check_plan(const TimedSpline& plan, const CheckDemands& demands, SweptObstacles& obstacles);
 
 /// Checks only Eq. 1 for a motion already committed to: pieces in powers of u, one per interval of `obstacles`.

@@ -15,7 +15,12 @@ class PairTest {
  public:
   PairTest(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
            std::vector<CertificatePlane>* planes, double reach)
-      : obstacles_(obstacles), interval_(interval), power_(power), counts_(counts), planes_(planes), reach_(Vec3::Constant(reach)) {}
+      : obstacles_(obstacles),
+        interval_(interval),
+        power_(power),
+        counts_(counts),
+        planes_(planes),
+        reach_(Vec3::Constant(reach)) {}
 
   /// One pair of obstacle and part; splits the part in time where one plane does not do.
   bool separated(const SweptObstacles::Candidate& candidate, const Points4& points, int part, int parts) {

@@ -24,14 +24,15 @@ struct Separated {
 
 /// Eq. 1 for one interval: is the curve (powers of u ∈ [0, 1] over the whole interval) separated from every obstacle?
 ///
-/// A pair whose boxes are disjoint needs no plane. Otherwise a plane must hold the MINVO points of the whole interval, or of both
-/// its halves, or of the quarters of a half that fails. @param planes  if not null, gets every plane that was needed.
+/// A pair whose boxes are disjoint needs no plane. Otherwise a plane must hold the MINVO points of the whole interval,
+/// or of both its halves, or of the quarters of a half that fails. @param planes  if not null, gets every plane that
+/// was needed.
 /// @param reach  m: boxes nearer than this count as overlapping, so that near obstacles get their planes too.
 Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
                             std::vector<CertificatePlane>* planes, double reach = 0.0);
 
-/// How long the body at rest at p stays separated from every obstacle, from the start of interval `first` on: the end of the
-/// last clear interval minus the start of the first, s (0 when the first is not clear).
+/// How long the body at rest at p stays separated from every obstacle, from the start of interval `first` on: the end
+/// of the last clear interval minus the start of the first, s (0 when the first is not clear).
 double clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts);
 
 /// MINVO points of the part [u0, u1] of a cubic in powers of u.

@@ -94,7 +94,11 @@ Box sweep_box(const PlanningObstacle& obstacle, const Vec3& body_half, UTime ori
 
 SweptObstacles::SweptObstacles(const std::vector<PlanningObstacle>& obstacles, const Body& body, UTime origin,
                                std::vector<double> times, const Box& region)
-    : obstacles_(obstacles), body_(body), body_is_box_(is_box(body.vertices)), origin_(origin), times_(std::move(times)) {
+    : obstacles_(obstacles),
+      body_(body),
+      body_is_box_(is_box(body.vertices)),
+      origin_(origin),
+      times_(std::move(times)) {
   if (times_.size() < 2) throw std::invalid_argument("SweptObstacles: fewer than two times");
   candidates_.resize(static_cast<std::size_t>(intervals()));
   const Vec3 half = body_.half_extents();

@@ -16,18 +16,18 @@ inline constexpr double kBetaMax = 0.005;
 struct PlanningObstacle {
   std::int64_t id = 0;           ///< track id; −1 − k: the k-th box of the map
   const Track* track = nullptr;  ///< null: a static box
-  Box box;                       ///< the static box (not inflated by the body); for a track: holds it over all times of interest
-  double alpha_scale = 1.0;      ///< < 1 when the start lay inside the obstacle inflated by its α
+  Box box;  ///< the static box (not inflated by the body); for a track: holds it over all times of interest
+  double alpha_scale = 1.0;  ///< < 1 when the start lay inside the obstacle inflated by its α
 
   [[nodiscard]] bool moves() const { return track != nullptr && track->kind != TrackKind::Static; }
 };
 
 /// Hulls of obstacles over the intervals [times[k], times[k+1]], each perhaps split into 2 or 4 parts of equal time.
 ///
-/// C_ij = conv of V_i^o ⊕ (−V^U) ⊕ box(α_ij) ⊕ box(β_ij) along the predicted motion (paper §3.2). A sphere's radius is not in
-/// the hull: it is the clearance that separation asks for. β: within a cubic piece |ξ''| ≤ a per axis, and the chord
-/// between samples h apart leaves the curve by at most a h²/8; samples stand at every piece break and h keeps β ≤ kBetaMax.
-/// Boxes of all candidates are made at construction, hulls lazily; a hull is a pure function of its inputs.
+/// C_ij = conv of V_i^o ⊕ (−V^U) ⊕ box(α_ij) ⊕ box(β_ij) along the predicted motion (paper §3.2). A sphere's radius is
+/// not in the hull: it is the clearance that separation asks for. β: within a cubic piece |ξ''| ≤ a per axis, and the
+/// chord between samples h apart leaves the curve by at most a h²/8; samples stand at every piece break and h keeps β ≤
+/// kBetaMax. Boxes of all candidates are made at construction, hulls lazily; a hull is a pure function of its inputs.
 class SweptObstacles {
  public:
   /// @param obstacles  kept alive by the caller for the life of this object

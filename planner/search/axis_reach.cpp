@@ -83,7 +83,11 @@ AxisReach::Interval line_in_polygon(const Polygon& polygon, double v, double dt)
 }  // namespace
 
 AxisReach::AxisReach(int intervals, double interval_s, double v_max, double a_max, double j_max)
-    : intervals_(intervals), dt_(interval_s), v_max_(v_max), a_max_(a_max), j_step_(std::min(j_max * interval_s, 2.0 * a_max)) {
+    : intervals_(intervals),
+      dt_(interval_s),
+      v_max_(v_max),
+      a_max_(a_max),
+      j_step_(std::min(j_max * interval_s, 2.0 * a_max)) {
   const double last = std::min(a_max_, j_step_);
   finishable_.resize(static_cast<std::size_t>(intervals_) + 1);
   finishable_[static_cast<std::size_t>(intervals_)] = {Point(0.0, -last), Point(0.0, last)};

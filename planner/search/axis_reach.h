@@ -1,18 +1,19 @@
 // Which velocities can still be braked to rest: one axis of the clamped spline as a chain of accelerations.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <vector>
 
-#include <Eigen/Core>
-
 namespace tern {
 
-/// The limits of one axis for one Δt and J: the exact set of (velocity, acceleration) from which the spline can end at rest.
+/// The limits of one axis for one Δt and J: the exact set of (velocity, acceleration) from which the spline can end at
+/// rest.
 ///
-/// With v_l the velocity control points and a_l the accelerations at the knots, v_{l+1} = v_l + a_l Δt for l = 1 … n−3, and the
-/// end at rest asks v_{n-2} = 0, a_{n-2} = 0. Limits: |v_l| ≤ v_max, |a_l| ≤ a_max, |a_l − a_{l-1}| ≤ j_max Δt (the jerk of an interval).
-/// The sets K_l of (v_l, a_{l-1}) that can be finished are convex polygons, computed backwards from K_{n-2}.
+/// With v_l the velocity control points and a_l the accelerations at the knots, v_{l+1} = v_l + a_l Δt for l = 1 … n−3,
+/// and the end at rest asks v_{n-2} = 0, a_{n-2} = 0. Limits: |v_l| ≤ v_max, |a_l| ≤ a_max, |a_l − a_{l-1}| ≤ j_max Δt
+/// (the jerk of an interval). The sets K_l of (v_l, a_{l-1}) that can be finished are convex polygons, computed
+/// backwards from K_{n-2}.
 class AxisReach {
  public:
   /// @param intervals J ≥ 4; @param interval_s Δt, s; limits > 0, j_max may be infinite.

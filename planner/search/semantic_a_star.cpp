@@ -19,7 +19,7 @@ struct Node {
   Vec3 a = Vec3::Zero();  ///< a_{l-2}, the acceleration at the knot before it
   int parent = -1;
   int l = 0;
-  double g = 0.0;         ///< λ_g · length + accumulated semantics
+  double g = 0.0;  ///< λ_g · length + accumulated semantics
 };
 
 /// f only counts to kCostStep: on the way to a far goal almost every node has the same f, and of equals the deepest is
@@ -59,7 +59,11 @@ int band_of(double way_to_go, double width) {
 class Search {
  public:
   Search(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles, Budget& budget)
-      : problem_(problem), config_(config), obstacles_(obstacles), budget_(budget), basis_(spline_basis(problem.intervals)) {
+      : problem_(problem),
+        config_(config),
+        obstacles_(obstacles),
+        budget_(budget),
+        basis_(spline_basis(problem.intervals)) {
     for (int axis = 0; axis < 3; ++axis) {
       reach_.emplace_back(problem.intervals, problem.interval_s, problem.limits.v_max[axis], problem.limits.a_max[axis],
                           problem.limits.j_max[axis]);
@@ -171,7 +175,8 @@ class Search {
   void expand(int index, const Node& n) {
     std::array<AxisReach::Interval, 3> range{};
     for (int axis = 0; axis < 3; ++axis) {
-      range[static_cast<std::size_t>(axis)] = reach_[static_cast<std::size_t>(axis)].next_velocity(n.l - 1, n.v[axis], n.a[axis]);
+      range[static_cast<std::size_t>(axis)] =
+          reach_[static_cast<std::size_t>(axis)].next_velocity(n.l - 1, n.v[axis], n.a[axis]);
       if (n.l == 2) bound_first_peak(axis, range[static_cast<std::size_t>(axis)]);
       if (range[static_cast<std::size_t>(axis)].empty()) return;
     }
@@ -182,15 +187,16 @@ class Search {
     for (int ix = 0; ix < config_.samples_xy; ++ix) {
       for (int iy = 0; iy < config_.samples_xy; ++iy) {
         for (int iz = 0; iz < config_.samples_z; ++iz) {
-          add_child(index, n, {sample(range[0], ix, config_.samples_xy), sample(range[1], iy, config_.samples_xy),
-                               sample(range[2], iz, config_.samples_z)});
+          add_child(index, n,
+                    {sample(range[0], ix, config_.samples_xy), sample(range[1], iy, config_.samples_xy),
+                     sample(range[2], iz, config_.samples_z)});
         }
       }
     }
   }
 
-  /// Where the start drives v_1 beyond the limit, the velocity's peak inside interval 0 hangs on v_2: with Bézier velocities
-  /// v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it stays within v_max exactly if b_2 ≥ b_1²/b_0.
+  /// Where the start drives v_1 beyond the limit, the velocity's peak inside interval 0 hangs on v_2: with Bézier
+  /// velocities v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it stays within v_max exactly if b_2 ≥ b_1²/b_0.
   void bound_first_peak(int axis, AxisReach::Interval& v2) const {
     const double limit = problem_.true_v_max[axis];
     for (const double sign : {1.0, -1.0}) {

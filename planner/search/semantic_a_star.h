@@ -27,13 +27,13 @@ using StepCost = std::function<double(const Vec3& from, const Vec3& to)>;
 
 struct SearchProblem {
   MotionSample start;
-  int intervals = 6;             ///< J
-  double interval_s = 0.2;       ///< Δt
-  Limits limits;                 ///< v_max already reduced to the share that plans may use
+  int intervals = 6;               ///< J
+  double interval_s = 0.2;         ///< Δt
+  Limits limits;                   ///< v_max already reduced to the share that plans may use
   Vec3 true_v_max = Vec3::Zero();  ///< the whole of it: where the start moves faster than the share allows, m/s
   Vec3 sphere_centre = Vec3::Zero();
-  double sphere_radius = 4.0;    ///< S
-  Box centre_box;                ///< the flight box for the vehicle's centre
+  double sphere_radius = 4.0;  ///< S
+  Box centre_box;              ///< the flight box for the vehicle's centre
   WayToGo way;
   StepCost accumulated;          ///< summed along the path (exposure)
   double cost_to_go_rate = 0.0;  ///< what a metre of the way to go is expected to add to `accumulated`, ≥ 0
@@ -43,22 +43,23 @@ struct SearchProblem {
 
 struct SearchResult {
   bool found = false;
-  Points control_points;       ///< 3×(J+3), ends at rest
-  double way_to_go = 0.0;      ///< of the leaf, m
-  double hold_s = 0.0;         ///< clear time at the end point, up to what `obstacles` covers
-  double cost = 0.0;           ///< f of the leaf
+  Points control_points;   ///< 3×(J+3), ends at rest
+  double way_to_go = 0.0;  ///< of the leaf, m
+  double hold_s = 0.0;     ///< clear time at the end point, up to what `obstacles` covers
+  double cost = 0.0;       ///< f of the leaf
   std::int64_t expansions = 0;
   PairCounts pairs;
 };
 
 /// Best-first over (hold, band of the way to go that is still reachable, f, index).
 ///
-/// Nodes are control points q_l with their index l, from q_2 on. A child's velocity control point v_l is sampled uniformly per axis in the
-/// interval that v_max, a_max, j_max and the end at rest leave (AxisReach), and one child aims at the goal;
-/// q_{l+1} = q_l + v_l (t_{l+4} − t_{l+1})/3. A node is tested for collision when it is popped: interval l−3, at a leaf (l = n−2) also the
-/// two closing intervals. Leaves are ranked: hold ≥ required first, then the band of the way to go, then f; the search ends when
-/// no open node can still win (by more than a step of f), when max_expansions are spent, hold_expansions after the first leaf, or when
-/// the budget is. Ties by depth, f and index: deterministic.
+/// Nodes are control points q_l with their index l, from q_2 on. A child's velocity control point v_l is sampled
+/// uniformly per axis in the interval that v_max, a_max, j_max and the end at rest leave (AxisReach), and one child
+/// aims at the goal; q_{l+1} = q_l + v_l (t_{l+4} − t_{l+1})/3. A node is tested for collision when it is popped:
+/// interval l−3, at a leaf (l = n−2) also the two closing intervals. Leaves are ranked: hold ≥ required first, then the
+/// band of the way to go, then f; the search ends when no open node can still win (by more than a step of f), when
+/// max_expansions are spent, hold_expansions after the first leaf, or when the budget is. Ties by depth, f and index:
+/// deterministic.
 /// @param obstacles  origin at the start, intervals 0 … J−1 the plan's, the others after its end for the hold.
 SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
                              Budget& budget);

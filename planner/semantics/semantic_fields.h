@@ -55,7 +55,8 @@ class SemanticFields {
   /// Are there voxels of this label? Only Attractive and Repulsive are ever prepared.
   [[nodiscard]] bool has(VoxelLabel label) const;
 
-  /// Outside this box the exposure to the label is constant (0 to what is repulsive, 1 to what attracts). Empty without such voxels.
+  /// Outside this box the exposure to the label is constant (0 to what is repulsive, 1 to what attracts). Empty without
+  /// such voxels.
   [[nodiscard]] Box influence(VoxelLabel label) const;
 
   /// Eq. 3: C(p) = (1/|M|) Σ_{v ∈ M} ‖p − v‖ over the centres of the label's voxels, m; 0 without such voxels.

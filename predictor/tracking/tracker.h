@@ -36,10 +36,10 @@ inline constexpr double kRestingSpeed = 0.05;
 
 struct TrackerConfig {
   PredictionSpec prediction;
-  double sigma_acceleration = 2.0;    ///< √ of the spectral density of white acceleration per axis, m/s^1.5, > 0
-  int confirm_hits = 3;               ///< a track is published once detected in so many …
-  int confirm_window = 5;             ///< … of its first observation sets, hits ≤ window ≤ 32
-  Duration coast{1'500'000};          ///< a confirmed track dies when not detected for longer
+  double sigma_acceleration = 2.0;  ///< √ of the spectral density of white acceleration per axis, m/s^1.5, > 0
+  int confirm_hits = 3;             ///< a track is published once detected in so many …
+  int confirm_window = 5;           ///< … of its first observation sets, hits ≤ window ≤ 32
+  Duration coast{1'500'000};        ///< a confirmed track dies when not detected for longer
   Duration resting_after{600'000};  ///< a track that has been consistent with rest so long is predicted at rest
 };
 

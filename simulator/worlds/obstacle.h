@@ -30,7 +30,8 @@ struct ObstacleBounds {
 ///   trefoil  c + (k_x (sin(w+φ) + 2 sin(2w+φ)), k_y (cos(w+φ) − 2 cos(2w+φ)), −k_z sin(3w+φ)), so that
 ///            |v| ≤ (5, 5, 3)·k/s, |a| ≤ (9, 9, 9)·k/s², |p⁗| ≤ (33, 33, 81)·k/s⁴ per axis;
 ///   wave     c + A sin(w+φ): |v| ≤ |A|/s, |a| ≤ |A|/s², |p⁗| ≤ |A|/s⁴;
-///   linear, waypoints: straight between corners, a = 0. Waypoints do not use c: the spec here holds the first one as c.
+///   linear, waypoints: straight between corners, a = 0. Waypoints do not use c: the spec here holds the first one as
+///   c.
 /// An obstacle whose waypoint motion vanishes is absent outside [first_s, last_s]; all others are always present.
 class WorldObstacle {
  public:

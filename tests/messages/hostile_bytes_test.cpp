@@ -98,20 +98,13 @@ void splice(Rng& rng, Bytes& bytes, const Bytes& other) {
 
 void mutate(Rng& rng, Bytes& bytes, const Bytes& other, std::size_t counts) {
   switch (random_integer(rng, 0, 6)) {
-    case 0:
-      return flip_bits(rng, bytes);
-    case 1:
-      return truncate(rng, bytes);
-    case 2:
-      return extend(rng, bytes);
-    case 3:
-      return set_count(rng, bytes, counts);
-    case 4:
-      return slip(rng, bytes, counts);
-    case 5:
-      return set_number(rng, bytes);
-    default:
-      return splice(rng, bytes, other);
+    case 0: return flip_bits(rng, bytes);
+    case 1: return truncate(rng, bytes);
+    case 2: return extend(rng, bytes);
+    case 3: return set_count(rng, bytes, counts);
+    case 4: return slip(rng, bytes, counts);
+    case 5: return set_number(rng, bytes);
+    default: return splice(rng, bytes, other);
   }
 }
 

@@ -94,10 +94,8 @@ PointSets random_pair(PairKind kind, Rng& rng) {
       const Points b = ((a.leftCols(std::min(n, m)).colwise() - middle) * rng.uniform(0.1, 1.0)).colwise() + middle;
       return {a, on_exact_grid(b)};
     }
-    case PairKind::Flat:
-      return subspaces(rng, false);
-    case PairKind::Line:
-      return subspaces(rng, true);
+    case PairKind::Flat: return subspaces(rng, false);
+    case PairKind::Line: return subspaces(rng, true);
     case PairKind::Single: {
       const Points a = lattice(rng, rng.uniform() < 0.5 ? 1 : n);
       return {a, rng.uniform() < 0.3 ? Points(a.col(0)) : on_exact_grid(cloud(rng, 1, Vec3::Zero(), 1.5))};
