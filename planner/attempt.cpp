@@ -17,11 +17,14 @@ void add_semantics(const AttemptContext& context, SearchProblem& problem) {
   const double attract = context.config.lambda_attractive;
   const double repel = context.config.lambda_repulsive;
   if (context.config.semantic_cost == SemanticCost::Exposure) {
-    // The way to go is taken to lie outside the attractive region: a metre inside is then a metre won, wherever it is
-    // flown.
-    if (fields->has(VoxelLabel::Attractive)) problem.cost_to_go_rate = attract;
     problem.accumulated = [=](const Vec3& a, const Vec3& b) {
       return attract * fields->exposure_attractive(a, b) + repel * fields->exposure_repulsive(a, b);
+    };
+    // What is left of the way to the local goal is taken to be as exposed as the point itself: straight on, f stays the
+    // same and the search dives; leaving what repels, or reaching what attracts, lowers it.
+    problem.pointwise = [=, goal = context.local_goal](const Vec3& q) {
+      const double ahead = (goal - q).norm();
+      return ahead * (attract * fields->exposure_attractive(q) + repel * fields->exposure_repulsive(q));
     };
   } else {
     // Counted from the point of the straight way with the same progress: among nodes of equal progress, which alone

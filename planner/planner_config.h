@@ -11,7 +11,7 @@ enum class SemanticCost { MeanDistance, Exposure };
 struct SearchConfig {
   int samples_xy = 5;               ///< velocity samples per horizontal axis and node, 2 … 15
   int samples_z = 3;                ///< on the vertical axis, 2 … 15
-  int max_expansions = 1500;        ///< per attempt, 1 … 10⁷
+  int max_expansions = 1200;        ///< per attempt, 1 … 10⁷
   int hold_expansions = 400;        ///< how many more are spent after the first leaf to find one that holds long enough
   double lambda_g = 1.0;            ///< weight of the path's length, ≥ 0
   double lambda_h = 1.0;            ///< weight of the way to go, ≥ 0
@@ -39,7 +39,7 @@ struct PlannerConfig {
   double velocity_share = 0.99;      ///< plans stay below this share of v_max
   bool unknown_is_obstacle = false;  ///< unknown voxels of the map
   bool semantics = true;
-  SemanticCost semantic_cost = SemanticCost::Exposure;
+  SemanticCost semantic_cost = SemanticCost::MeanDistance;
   double lambda_attractive = 2.0;
   double lambda_repulsive = 2.0;
   double exposure_margin_m = 1.0;  ///< exposure falls from 1 to 0 within this distance of a region

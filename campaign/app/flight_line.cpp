@@ -29,6 +29,15 @@ std::string percentiles_of(const VirtualFlight& flight, Stage stage) {
   return percentiles(flight, [stage](const PlanTiming& t) { return t.stage_ms[static_cast<int>(stage)]; });
 }
 
+/// "name:seconds:metres" inside each region, separated by spaces.
+std::string exposure_of(const FlightResult& result) {
+  std::string text;
+  for (const Exposure& e : result.exposure) {
+    text += fmt::format("{}{}:{:.2f}:{:.2f}", text.empty() ? "" : " ", e.region, e.seconds, e.metres);
+  }
+  return text;
+}
+
 }  // namespace
 
 const char* flight_columns() {
@@ -36,12 +45,12 @@ const char* flight_columns() {
          "optimized,"
          "search_only,keep_committed,evade,no_plan,cpu_p50_ms,cpu_p99_ms,first_p50_ms,first_p99_ms,search_p50_ms,"
          "search_p99_ms,"
-         "optimization_p50_ms,optimization_p99_ms,infeasible,start_in_collision,worse_plan,detail";
+         "optimization_p50_ms,optimization_p99_ms,infeasible,start_in_collision,worse_plan,exposure,detail";
 }
 
 std::string flight_line(std::int64_t seed, const VirtualFlight& f) {
   const auto reason = [&](PlanReason r) { return f.reasons[static_cast<std::size_t>(r)]; };
-  return fmt::format("{},{},{:.3f},{:.3f},{:.2f},{},{:.3f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"", seed,
+  return fmt::format("{},{},{:.3f},{:.3f},{:.2f},{},{:.3f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"", seed,
                      to_string(f.result.outcome), f.result.flight_time_s, f.result.first_entry_s,
                      f.result.top_speed_mps, f.result.stops, f.result.min_clearance_m, f.executor.requests,
                      f.executor.answered_in_time, f.outcomes[0], f.outcomes[1], f.outcomes[2], f.outcomes[3],
@@ -49,7 +58,7 @@ std::string flight_line(std::int64_t seed, const VirtualFlight& f) {
                      percentiles(f, [](const PlanTiming& t) { return t.first_answer_ms; }),
                      percentiles_of(f, Stage::Search), percentiles_of(f, Stage::Optimization),
                      reason(PlanReason::Infeasible), reason(PlanReason::StartInCollision),
-                     reason(PlanReason::WorsePlan), f.result.detail);
+                     reason(PlanReason::WorsePlan), exposure_of(f.result), f.result.detail);
 }
 
 void PlanTracer::on_plan(const Plan& p) {

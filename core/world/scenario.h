@@ -73,9 +73,9 @@ struct WorldSpec {
 struct SemanticsSpec {
   bool enabled = true;
   std::vector<Region> regions;
-  double lambda_attractive = 2.0;  ///< λ_att ≥ 0
-  double lambda_repulsive = 2.0;   ///< λ_rep ≥ 0
-  std::string cost = "exposure";   ///< exposure, mean_distance
+  double lambda_attractive = 2.0;      ///< λ_att ≥ 0
+  double lambda_repulsive = 2.0;       ///< λ_rep ≥ 0
+  std::string cost = "mean_distance";  ///< exposure, mean_distance
   /// class → label name (unknown, free, occupied, attractive, repulsive)
   std::vector<std::pair<std::string, std::string>> classes = {{"texture", "attractive"}, {"water", "repulsive"}};
 };

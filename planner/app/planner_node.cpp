@@ -18,8 +18,8 @@ namespace {
 constexpr Duration kPrepareEvery{20'000};
 /// Shares of the time from arrival to the watchdog: after these, no new duration is tried, the search ends, the
 /// optimizer ends.
-constexpr double kAttemptShare = 0.35;
-constexpr double kSearchShare = 0.55;
+constexpr double kAttemptShare = 0.3;
+constexpr double kSearchShare = 0.42;
 constexpr double kOptimizationShare = 0.85;
 
 /// Ends each stage by the clock, so that the whole is done before the watchdog acts.

@@ -110,7 +110,7 @@ class Search {
       high[axis] = n.q[axis] + d.high;
     }
     reachable = Box(low, high);
-    double f = n.g + (config_.lambda_h + problem_.cost_to_go_rate) * problem_.way.from(n.q);
+    double f = n.g + config_.lambda_h * problem_.way.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
     const int band = band_of(problem_.way.from(reachable), config_.band_m);
     open_.push({band, step_of(f), leaf_index() - n.l, f, static_cast<int>(nodes_.size())});

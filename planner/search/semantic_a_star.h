@@ -35,8 +35,7 @@ struct SearchProblem {
   double sphere_radius = 4.0;  ///< S
   Box centre_box;              ///< the flight box for the vehicle's centre
   WayToGo way;
-  StepCost accumulated;          ///< summed along the path (exposure)
-  double cost_to_go_rate = 0.0;  ///< what a metre of the way to go is expected to add to `accumulated`, ≥ 0
+  StepCost accumulated;                          ///< summed along the path (exposure)
   std::function<double(const Vec3&)> pointwise;  ///< of a node alone: λ_att C_att − λ_rep C_rep (mean_distance)
   double hold_required_s = 0.5;
 };
