@@ -2,41 +2,68 @@
 
 #include <algorithm>
 
+#include "core/geometry/box.h"
+#include "core/geometry/distance.h"
+#include "core/geometry/separation.h"
+
 namespace tern {
 namespace {
 
-/// Clear by this much at the start, m: a first interval's hull needs a little more than touching.
+/// An α that is scaled leaves this much room at the start, m: more than touching, because the first interval's hull
+/// moves on.
 constexpr double kStartSlack = 1e-3;
+/// Halvings of the scale: α of a metre to a micrometre.
+constexpr int kHalvings = 20;
 
-/// The α in force at t.
-const Vec3& alpha_at(const Track& track, UTime t) { return track.alpha[track.motion.locate(t).index]; }
+/// How far the body at p is from the track's box at time t when its α is scaled by s.
+class StartDistance {
+ public:
+  StartDistance(const Track& track, const Body& body, const Vec3& p, UTime t)
+      : body_(body.vertices.colwise() + p),
+        radius_(body.radius),
+        centre_(track.motion.sample(std::clamp(t, track.motion.start, track.motion.end())).p),
+        half_(track.half_extents),
+        alpha_(track.alpha[track.motion.locate(t).index]) {}
+
+  [[nodiscard]] bool clear(double scale, double slack) const {
+    const Points box = box_corners(box_around(centre_, half_ + scale * alpha_));
+    return distance(box, body_) > radius_ + slack;
+  }
+
+  /// The largest scale that leaves kStartSlack; 0 when none does.
+  [[nodiscard]] double largest_scale() const {
+    double low = 0.0;
+    double high = 1.0;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (clear(middle, kStartSlack) ? low : high) = middle;
+    }
+    return low;
+  }
+
+ private:
+  Points body_;
+  double radius_;
+  Vec3 centre_, half_, alpha_;
+};
 
 }  // namespace
 
 StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p, UTime t) {
   StartClearance result;
-  const Vec3 half = body.half_extents();
+  const Points body_at_p = body.vertices.colwise() + p;
   for (PlanningObstacle& o : obstacles) {
+    if (!grown(o.box, body.half_extents()).contains(p)) continue;
     if (o.track == nullptr) {
-      result.collides = result.collides || grown(o.box, half).contains(p);
+      const bool clear = distance(box_corners(o.box), body_at_p) > body.radius + kTouchingTolerance;
+      result.collides = result.collides || !clear;
       continue;
     }
-    if (!grown(o.box, half).contains(p)) continue;
-    const Track& track = *o.track;
-    const Vec3 centre = track.motion.sample(std::clamp(t, track.motion.start, track.motion.end())).p;
-    const Vec3 alpha = alpha_at(track, t);
-    const Vec3 room = (p - centre).cwiseAbs() - track.half_extents - half - Vec3::Constant(kStartSlack);
-    if ((room.array() > alpha.array()).any()) continue;
-    double scale = -1.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (alpha[axis] > 0.0)
-        scale = std::max(scale, room[axis] / alpha[axis]);
-      else if (room[axis] > 0.0)
-        scale = 1.0;
-    }
-    if (scale < 0.0) result.collides = true;
-    o.alpha_scale = std::clamp(scale, 0.0, 1.0);
-    result.relaxed = result.relaxed || o.alpha_scale < 1.0;
+    const StartDistance start(*o.track, body, p, t);
+    if (start.clear(1.0, kTouchingTolerance)) continue;
+    result.collides = result.collides || !start.clear(0.0, kTouchingTolerance);
+    o.alpha_scale = start.largest_scale();
+    result.relaxed = true;
   }
   return result;
 }

@@ -12,9 +12,9 @@ struct StartClearance {
   bool collides = false;  ///< the start touches an obstacle even without its α
 };
 
-/// Lowers alpha_scale of each track whose box (half-extents + α) touches the body at p at time t to the largest value
-/// that leaves the body clear by kTouchingTolerance: per axis s = (|p − c| − h − body)/α, the best axis taken; the rest
-/// is left as it is.
+/// Where the body at p touches a track's box (half-extents + α) at time t, lowers alpha_scale to the largest value that
+/// leaves a millimetre of room, to 1e-6 by bisection of the true distance; to 0 where none does. The other obstacles
+/// are left as they are.
 StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p, UTime t);
 
 }  // namespace tern

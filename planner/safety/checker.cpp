@@ -60,7 +60,7 @@ CheckReport check_sphere(const ClampedSpline& spline, const Vec3& centre, double
 }
 
 CheckReport check_flight_box(const ClampedSpline& spline, const Body& body, const Box& flight_box) {
-  const Vec3 half = body.half_extents() - Vec3::Constant(kFlightBoxTolerance);
+  const Vec3 half = body.half_extents() - Vec3::Constant(kBoxTolerance);
   for (int j = 0; j < spline.intervals(); ++j) {
     const Box swept = grown(spline.position_bounds(j), half);
     for (int axis = 0; axis < 3; ++axis) {

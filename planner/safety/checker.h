@@ -41,10 +41,9 @@ struct CheckReport {
 struct CheckDemands {
   MotionSample start;          ///< of the request
   Limits limits;               ///< with kLimitTolerance, at the true extrema
-  Box flight_box;              ///< the whole body stays inside (to kFlightBoxTolerance)
+  Box flight_box;              ///< the whole body stays inside (to kBoxTolerance)
   double sphere_radius = 4.0;  ///< S is centred at the start
 };
-inline constexpr double kFlightBoxTolerance = 1e-6;  ///< m, of rounding in control points up to 1e4 m
 
 /// Checks a new plan against everything. @param obstacles  origin t_s, its first J intervals are the plan's, and it
 /// holds every obstacle that can touch the sphere: not only those that a solver saw.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/box.h"
+#include "core/geometry/distance.h"
 #include "core/geometry/separation.h"
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"
@@ -15,7 +17,8 @@ constexpr UTime kNow{50'000'000};
 /// clear_start() keeps the body this much farther away than it must, at most, m.
 constexpr double kSlack = 2e-3;
 
-Box body_box(const Body& body, const Vec3& p) { return box_around(p, body.half_extents()); }
+/// Room between the body at the origin and a box, m.
+double room(const Body& body, const Box& box) { return distance(box_corners(box), body.vertices) - body.radius; }
 
 TEST(ClearStart, ScalesAlphaToTheLargestValueThatLeavesTheBodyClear) {
   int relaxed = 0;
@@ -34,21 +37,30 @@ TEST(ClearStart, ScalesAlphaToTheLargestValueThatLeavesTheBodyClear) {
     ASSERT_GE(scale, 0.0);
     ASSERT_LE(scale, 1.0);
     const Box bare = promised_box(track, kNow, 0.0);
-    const Box at = body_box(body, Vec3::Zero());
     if (result.collides) {
       ++collided;
-      ASSERT_TRUE(grown(bare, Vec3::Constant(kSlack)).intersects(at)) << "seed " << seed;
+      ASSERT_LE(room(body, bare), kSlack) << "seed " << seed;
       continue;
     }
-    ASSERT_EQ(result.relaxed, scale < 1.0);
+    ASSERT_EQ(result.relaxed, scale < 1.0) << "seed " << seed;
     const Box now = promised_box(track, kNow, scale);
-    ASSERT_FALSE(grown(now, Vec3::Constant(kTouchingTolerance)).intersects(at)) << "seed " << seed;
+    ASSERT_GT(room(body, now), kTouchingTolerance) << "seed " << seed;
     if (!result.relaxed) continue;
     ++relaxed;
-    ASSERT_TRUE(grown(now, Vec3::Constant(kSlack)).intersects(at)) << "seed " << seed << ": α could have been larger";
+    ASSERT_LE(room(body, now), kSlack) << "seed " << seed << ": α could have been larger";
   }
   EXPECT_GT(relaxed, 500);
   EXPECT_GT(collided, 100);
+}
+
+TEST(ClearStart, ASphereBesideACornerIsNotInsideTheBox) {
+  Track track = straight_mover(1, Vec3(0.28, 0.28, 0), Vec3::Zero(), 0.1, kNow, 1.0);
+  track.alpha[0] = Vec3::Constant(0.1);  // the corner is 0.08·√2 = 0.113 m away, the sphere's radius 0.1 m
+  const std::vector<Track> tracks{track};
+  auto obstacles = obstacles_of(tracks);
+  const StartClearance result = clear_start(obstacles, Body{}, Vec3::Zero(), kNow);
+  EXPECT_FALSE(result.relaxed);
+  EXPECT_FALSE(result.collides);
 }
 
 TEST(ClearStart, LeavesWhatIsFarAlone) {

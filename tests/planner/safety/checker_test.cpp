@@ -205,7 +205,7 @@ TEST_F(CheckPlan, RefusesABodyOutsideTheFlightBoxThroughEachOfItsSides) {
         demands_.flight_box = kEverywhere;
         side(demands_.flight_box) = upper ? tight.max()[axis] : tight.min()[axis];
         EXPECT_TRUE(check().ok());
-        side(demands_.flight_box) += inwards * 2.0 * kFlightBoxTolerance;
+        side(demands_.flight_box) += inwards * 2.0 * kBoxTolerance;
         ASSERT_TRUE(demands_.flight_box.contains(curve_box()));
         expect_fault(CheckFault::FlightBox, axis);
       }
