@@ -12,10 +12,18 @@ namespace {
 /// Longer than what is left of any committed trajectory, and than any age that is still taken as fresh.
 constexpr double kLongEnough = 2.5;
 
-/// A thin corridor, in which a vehicle at rest is not soon run into.
+/// Movers and pillars before and after the middle of the corridor: who rests there without a planner is not run into.
+constexpr char kObstacles[] =
+    "world.obstacles=["
+    "{motion: trefoil, centre: [8, 0.5, 1], slowness: 1.1}, {centre: [14, -1, 2], half_extents: [0.2, 0.2, 4]},"
+    "{motion: trefoil, centre: [48, 0, 1], slowness: 1.1}, {centre: [54, 0, 2], half_extents: [0.2, 0.2, 4]},"
+    "{motion: trefoil, centre: [62, -0.5, 2], slowness: 1.1, phase: 2}]";
+
 class Restarts : public ::testing::Test {
  protected:
-  Restarts() : system_(scenario_file("paper_corridor"), {"world.count=20", "seed=1", "executor.rate_hz=10"}) {
+  Restarts()
+      : system_(scenario_file("paper_corridor"),
+                {"world.generator=none", "world.count=0", kObstacles, "executor.rate_hz=10"}) {
     Bus& bus = system_.runner().observer();
     bus.subscribe<HorizonRequest>(channels::kHorizonRequest,
                                   [this](const HorizonRequest& r) { exchange_.on_request(r); });
