@@ -9,7 +9,7 @@ namespace tern {
 enum class SemanticCost { MeanDistance, Exposure };
 
 struct SearchConfig {
-  int samples_xy = 5;               ///< velocity samples per horizontal axis and node, 2 … 15
+  int samples_xy = 3;               ///< velocity samples per horizontal axis and node, 2 … 15
   int samples_z = 3;                ///< on the vertical axis, 2 … 15
   int max_expansions = 1200;        ///< per attempt, 1 … 10⁷
   int hold_expansions = 400;        ///< how many more are spent after the first leaf to find one that holds long enough
