@@ -1,7 +1,9 @@
 #include "planner/evasion.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "planner/duration.h"
 
@@ -27,12 +29,23 @@ std::array<Vec3, 14> directions() {
   return d;
 }
 
+/// From the end point to the nearest obstacle's box in the first interval after the end, m.
+double room_at_end(const SweptObstacles& swept, int intervals, const TimedSpline& trajectory) {
+  const Vec3 end = trajectory.control_points.col(trajectory.control_points.cols() - 1);
+  double room = std::numeric_limits<double>::infinity();
+  for (const SweptObstacles::Candidate& candidate : swept.candidates(intervals)) {
+    room = std::min(room, candidate.box.exteriorDistance(end));
+  }
+  return room;
+}
+
 }  // namespace
 
-std::optional<Candidate> find_evasion(const AttemptContext& base) {
+std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim) {
   SearchConfig search = base.config.search;
   search.max_expansions = kMaxExpansions;
   std::optional<Candidate> best;
+  double best_worth = 0.0;
   int attempt = kFirstAttempt;
   for (const double share : {0.35, 0.8}) {
     for (const Vec3& direction : directions()) {
@@ -50,10 +63,14 @@ std::optional<Candidate> find_evasion(const AttemptContext& base) {
       if (!found) continue;
       found->outcome = PlanOutcome::Evade;
       found->arrival_s = arrival_estimate(base.way, found->trajectory, base.request.t_s, base.plan_limits);
-      if (best && found->clear_s <= best->clear_s) continue;
+      found->holds = found->hold_s >= base.config.hold_required_s;
+      const bool by_time = aim == EvasionAim::LongestClear;
+      if (!by_time && !found->holds) continue;
+      const double worth = by_time ? found->clear_s : room_at_end(swept, base.config.intervals, found->trajectory);
+      if (best && worth <= best_worth) continue;
       best = std::move(found);
-      best->holds = best->hold_s >= base.config.hold_required_s;
-      if (best->hold_s >= base.config.hold_cap_s) return best;
+      best_worth = worth;
+      if (by_time && best->hold_s >= base.config.hold_cap_s) return best;
     }
   }
   return best;

@@ -7,9 +7,14 @@
 
 namespace tern {
 
+enum class EvasionAim {
+  LongestClear,       ///< the stop that stays clear longest; the first that does to the hold's cap ends the search
+  GreatestClearance,  ///< of the stops that hold, the one farthest from every obstacle's box: for a start inside a hull
+};
+
 /// Searches for stops in 14 directions around the vehicle (faces and corners of a cube) at two distances, each with as
-/// long a hold as is looked for; the longest clear time wins, ties by order. Ends early when one holds to the cap or
-/// the budget is spent. The outcome is Evade. Nothing: no certified stop was found.
-std::optional<Candidate> find_evasion(const AttemptContext& context);
+/// long a hold as is looked for; ties by order. Ends early when the budget is spent. The outcome is Evade. Nothing: no
+/// certified stop was found.
+std::optional<Candidate> find_evasion(const AttemptContext& context, EvasionAim aim);
 
 }  // namespace tern

@@ -51,10 +51,10 @@ class Planning {
     offer(committed_ ? &*committed_ : nullptr, reason_of_fallback());
     if (idle() && committed_ && committed_->holds) return finish(&*committed_, PlanReason::AtGoal);
     AttemptContext context = make_context();
-    if (!head_for_goal(context))
-      reason_ = PlanReason::GoalBlocked;
-    else
-      try_durations(context);
+    const bool has_path = head_for_goal(context);
+    if (!has_path) reason_ = PlanReason::GoalBlocked;
+    if (answer_.plan.relaxed) gain_clearance(context);
+    if (has_path && !best_) try_durations(context);
     if (needs_evasion()) evade(context);
     return choose();
   }
@@ -246,9 +246,15 @@ class Planning {
     return !(committed_ && committed_->holds);
   }
 
+  /// The start lies inside a hull: out of it first, to where there is most room.
+  void gain_clearance(AttemptContext& context) {
+    best_ = find_evasion(context, EvasionAim::GreatestClearance);
+    if (best_) offer(&*best_, PlanReason::None);
+  }
+
   /// The reachable stop that stays clear longest, sought all around the vehicle.
   void evade(AttemptContext& context) {
-    auto found = find_evasion(context);
+    auto found = find_evasion(context, EvasionAim::LongestClear);
     if (!found) return;
     const double standing = std::max(best_ ? best_->clear_s : 0.0, committed_ ? committed_->clear_s : 0.0);
     if (found->clear_s <= standing) return;

@@ -286,8 +286,11 @@ TEST_F(PlannerAlone, SaysRelaxedWhenTheStartLiesInsideAnInflatedBoxAndFliesOutOf
   const PlanningWorld world = world_of({near}, goal_, request_);
   const Plan got = answer(request_, world);
   EXPECT_TRUE(got.relaxed);
-  EXPECT_EQ(got.outcome, PlanOutcome::Optimized);
+  EXPECT_EQ(got.outcome, PlanOutcome::Evade);
   EXPECT_EQ(fault_of(got, request_, world, quick()), "");
+  const Vec3 end = got.trajectory.control_points.rightCols<1>();
+  EXPECT_GT(box_around(request_.start.p + Vec3(0, 0.7, 0), Vec3::Constant(0.8)).exteriorDistance(end), 1.0)
+      << "it does not come out of the inflated box to where there is room";
 }
 
 TEST_F(PlannerAlone, SaysSoWhenItStartsInCollision) {
