@@ -27,11 +27,12 @@ struct PlanAnswer {
 };
 
 /// Plans from request.start within the sphere of radius r around it (paper §2), in this order:
-///  1. the committed trajectory is checked against these predictions, and if it does not stay clear an evasion is
-///  sought;
-///  2. the path around static obstacles gives the local goal; for a few durations the semantic A* looks for a leaf;
-///  3. the best leaf is optimized with its planes fixed, the planes are recentred, and again (Eq. 4, `alternating`);
-///  4. the best certified trajectory is chosen: separated, hold long enough, least time to the goal, in that order.
+///  1. the committed trajectory is checked against these predictions: the fallback;
+///  2. a start inside a hull seeks room first; else the path around static obstacles gives the local goal, and the
+///     semantic A* looks for a leaf at a few durations;
+///  3. the best leaf is optimized with its planes fixed (Eq. 4, `alternating`);
+///  4. if neither that nor the committed trajectory holds long enough, an evasion is sought;
+///  5. the best certified trajectory is chosen: separated, hold long enough, least time to the goal, in that order.
 /// Every trajectory in an answer has passed check_plan() or check_separation(). Deterministic in its arguments.
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanObserver* observer = nullptr);
