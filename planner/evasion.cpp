@@ -10,8 +10,6 @@
 namespace tern {
 namespace {
 
-/// Attempts are numbered from here in the budget's counts: after the durations.
-constexpr int kFirstAttempt = 100;
 constexpr int kMaxExpansions = 150;
 constexpr double kDurationScale = 1.5;
 
@@ -46,7 +44,7 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
   search.max_expansions = kMaxExpansions;
   std::optional<Candidate> best;
   double best_worth = 0.0;
-  int attempt = kFirstAttempt;
+  int attempt = kFirstEvasionAttempt;
   for (const double share : {0.35, 0.8}) {
     for (const Vec3& direction : directions()) {
       base.budget.begin_attempt(attempt++);

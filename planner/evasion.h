@@ -7,6 +7,10 @@
 
 namespace tern {
 
+/// Evasion's tries are numbered from here in the budget's counts, after the durations: a gate gives them time of their
+/// own, because evasion is needed just when the search has spent its time in vain.
+inline constexpr int kFirstEvasionAttempt = 100;
+
 enum class EvasionAim {
   LongestClear,       ///< the stop that stays clear longest; the first that does to the hold's cap ends the search
   GreatestClearance,  ///< of the stops that hold, the one farthest from every obstacle's box: for a start inside a hull

@@ -8,6 +8,7 @@
 #include "core/geometry/separation.h"
 #include "core/geometry/separation_lp.h"
 #include "planner/app/plan_stopwatch.h"
+#include "planner/evasion.h"
 #include "runtime/channels.h"
 #include "runtime/process.h"
 
@@ -17,7 +18,7 @@ namespace {
 /// Preparations of the world are looked after this often.
 constexpr Duration kPrepareEvery{20'000};
 /// Shares of the time from arrival to the watchdog: after these, no new duration is tried, the search ends, the
-/// optimizer ends.
+/// optimizer and evasion end.
 constexpr double kAttemptShare = 0.3;
 constexpr double kSearchShare = 0.42;
 constexpr double kOptimizationShare = 0.85;
@@ -28,8 +29,9 @@ Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
     return arrived + Duration{static_cast<std::int64_t>(share * static_cast<double>((watch_at - arrived).us))};
   };
   return Budget([&clock, attempts = at(kAttemptShare), search = at(kSearchShare),
-                 optimization = at(kOptimizationShare)](int, Stage stage, std::int64_t) {
+                 optimization = at(kOptimizationShare)](int attempt, Stage stage, std::int64_t) {
     const UTime now = clock.now();
+    if (attempt >= kFirstEvasionAttempt) return now >= optimization;
     if (stage == Stage::Search) return now >= search;
     if (stage == Stage::Optimization) return now >= optimization;
     return now >= attempts;
