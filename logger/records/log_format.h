@@ -15,9 +15,9 @@ inline constexpr std::uint32_t kLogSyncWord = 0xEDA1DA01;
 inline constexpr std::size_t kLogHeadBytes = 28;
 /// LCM_MAX_CHANNEL_NAME_LENGTH.
 inline constexpr std::size_t kLogMaxChannelBytes = 63;
-/// What a reader takes for an event at most. Tern's messages are a thousandth of it; LCM's own reader believes any
-/// length, and dies.
-inline constexpr std::size_t kLogMaxDataBytes = std::size_t{1} << 26U;
+/// What a reader takes for an event at most: 16 MiB, so that a wrong length costs no more memory than that. Tern's
+/// messages are at most 60 kB; LCM's own reader believes any length, and dies.
+inline constexpr std::size_t kLogMaxDataBytes = std::size_t{1} << 24U;
 
 /// A message as it was received.
 struct LogEvent {

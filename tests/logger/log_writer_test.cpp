@@ -10,8 +10,8 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "logger/records/log_format.h"
-#include "logger/records/log_reader.h"
 #include "tests/logger/temp_folder.h"
+#include "tools/log_reader/log_reader.h"
 
 namespace tern {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "logger/records/log_reader.h"
 #include "messages/goal.h"
 #include "runtime/channels.h"
 #include "runtime/virtual_runner.h"
 #include "tests/logger/temp_folder.h"
+#include "tools/log_reader/log_reader.h"
 
 namespace tern {
 namespace {

@@ -1,4 +1,4 @@
-#include "logger/records/log_reader.h"
+#include "tools/log_reader/log_reader.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,0 +1,100 @@
+#include "tools/log_reader/flight_log.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "logger/records/log_writer.h"
+#include "messages/goal.h"
+#include "messages/uav_state.h"
+#include "runtime/channels.h"
+#include "tests/logger/temp_folder.h"
+
+namespace tern {
+namespace {
+
+Goal goal(std::int64_t sequence) {
+  Goal g;
+  g.header = {{7, sequence}, UTime{1'000}};
+  g.id = sequence;
+  return g;
+}
+
+class FlightLogTest : public ::testing::Test {
+ protected:
+  void write(const std::string& channel, const Bytes& bytes) { writer_->append(channel, 1'000 + time_++, bytes); }
+  void next_part() { writer_.emplace(*LogWriter::open(path_, 0)); }
+  LogContents read(FlightLog& log) {
+    (void)writer_->flush();
+    return *log.read(path_);
+  }
+
+  TempFolder folder_;
+  std::string path_ = folder_.file("flight.lcm");
+  std::optional<LogWriter> writer_{*LogWriter::open(path_, 0)};
+  std::int64_t time_ = 0;
+};
+
+TEST_F(FlightLogTest, HandsOverMessagesInTheLogsOrderThroughAllParts) {
+  write(channels::kGoal, encode(goal(1)));
+  next_part();
+  write(channels::kGoal, encode(goal(2)));
+  write(channels::kGoal, encode(goal(3)));
+  FlightLog log;
+  std::vector<std::int64_t> ids, times;
+  log.on<Goal>(channels::kGoal, [&](const Goal& g, std::int64_t received_us) {
+    ids.push_back(g.id);
+    times.push_back(received_us);
+  });
+  const LogContents contents = read(log);
+  EXPECT_EQ(ids, (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(times, (std::vector<std::int64_t>{1'000, 1'001, 1'002}));
+  EXPECT_EQ(contents.parts, (std::vector<std::string>{path_, folder_.file("flight.001.lcm")}));
+  EXPECT_EQ(contents.first_us, 1'000);
+  EXPECT_EQ(contents.last_us, 1'002);
+}
+
+TEST_F(FlightLogTest, AFolderMeansTheFlightInIt) {
+  EXPECT_EQ(log_parts(std::filesystem::path(path_).parent_path().string()), std::vector<std::string>{path_});
+}
+
+TEST_F(FlightLogTest, CountsWhatIsLostForeignOrOfAnotherVersion) {
+  write(channels::kGoal, encode(goal(1)));
+  write(channels::kGoal, encode(goal(4)));
+  write(channels::kGoal, encode(UavState{}));
+  write("CAMERA", Bytes(1'000));
+  FlightLog log;
+  int seen = 0;
+  log.on<Goal>(channels::kGoal, [&](const Goal&, std::int64_t) { ++seen; });
+  const LogContents contents = read(log);
+  EXPECT_EQ(seen, 2);
+  const LogChannel& goals = contents.channels.at(channels::kGoal);
+  EXPECT_EQ(goals.messages, 3);
+  EXPECT_EQ(goals.lost, 2);
+  EXPECT_EQ(goals.refused[static_cast<int>(Rejection::Fingerprint)], 1);
+  EXPECT_TRUE(goals.read);
+  EXPECT_FALSE(goals.foreign);
+  EXPECT_TRUE(contents.channels.at("CAMERA").foreign);
+}
+
+TEST_F(FlightLogTest, AnotherVehiclesChannelsAreForeign) {
+  write("GOAL_a", encode(goal(1)));
+  write("GOAL_b", encode(goal(1)));
+  FlightLog log("_a");
+  int seen = 0;
+  log.on<Goal>(channels::kGoal, [&](const Goal&, std::int64_t) { ++seen; });
+  const LogContents contents = read(log);
+  EXPECT_EQ(seen, 1);
+  EXPECT_FALSE(contents.channels.at("GOAL_a").foreign);
+  EXPECT_TRUE(contents.channels.at("GOAL_b").foreign);
+}
+
+TEST_F(FlightLogTest, SaysWhichPartCannotBeOpened) {
+  FlightLog log;
+  const auto contents = log.read(folder_.file("none.lcm"));
+  ASSERT_FALSE(contents);
+  EXPECT_NE(contents.error().message.find("none.lcm"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tern

@@ -1,0 +1,111 @@
+#include "tools/log_reader/flight_log.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "logger/records/channel_table.h"
+#include "logger/records/log_writer.h"
+
+namespace tern {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Forged epochs cost no memory beyond this; the oldest are forgotten first.
+constexpr std::size_t kMaxSenders = 64;
+/// A forged sequence number shall not overflow the sum.
+constexpr std::int64_t kMaxGap = 1'000'000'000;
+/// Channels beyond this are not told apart: damage that reads as names shall not eat memory.
+constexpr std::size_t kMaxChannels = 1'000;
+constexpr char kOtherChannels[] = "(others)";
+
+using LastSequences = std::map<std::int64_t, std::int64_t>;  // by sender epoch
+
+std::int64_t gap_before(LastSequences& last_sequences, const MessageName& name) {
+  const auto [last, is_new] = last_sequences.try_emplace(name.sender_epoch_us, name.sequence);
+  if (is_new) {
+    if (last_sequences.size() > kMaxSenders) last_sequences.erase(last_sequences.begin());
+    return 0;
+  }
+  if (name.sequence <= last->second) return 0;
+  const std::int64_t gap = std::min(name.sequence - last->second - 1, kMaxGap);
+  last->second = name.sequence;
+  return gap;
+}
+
+}  // namespace
+
+std::vector<std::string> log_parts(const std::string& path) {
+  std::error_code ignored;
+  const std::string first = fs::is_directory(path, ignored) ? (fs::path(path) / "flight.lcm").string() : path;
+  std::vector<std::string> parts{first};
+  for (int part = 1; fs::exists(log_part_path(first, part), ignored); ++part) {
+    parts.push_back(log_part_path(first, part));
+  }
+  return parts;
+}
+
+/// One reading of all parts.
+struct FlightLog::Reading {
+  const std::map<std::string, std::vector<Handler>>& handlers;
+  std::string suffix;
+  LogContents contents;
+  std::map<std::string, LastSequences> last_sequences;
+
+  LogChannel& channel_of(const std::string& name) {
+    const auto found = contents.channels.find(name);
+    if (found != contents.channels.end()) return found->second;
+    const bool room = contents.channels.size() < kMaxChannels || handlers.contains(name);
+    LogChannel& channel = contents.channels[room ? name : kOtherChannels];
+    channel.read = handlers.contains(name);
+    channel.foreign =
+        !name.ends_with(suffix) || find_head_decoder(name.substr(0, name.size() - suffix.size())) == nullptr;
+    return channel;
+  }
+
+  void take(const LogEvent& event) {
+    if (contents.events++ == 0) contents.first_us = contents.last_us = event.received_us;
+    contents.first_us = std::min(contents.first_us, event.received_us);
+    contents.last_us = std::max(contents.last_us, event.received_us);
+    LogChannel& channel = channel_of(event.channel);
+    ++channel.messages;
+    channel.bytes += static_cast<std::int64_t>(event.data.size());
+    const auto found = handlers.find(event.channel);
+    if (found == handlers.end()) return;
+    bool is_first = true;
+    for (const Handler& handler : found->second) {
+      const auto header = handler(event.data, event.received_us);
+      if (!std::exchange(is_first, false)) continue;
+      if (!header) {
+        ++channel.refused[static_cast<std::size_t>(header.error())];
+        return;
+      }
+      channel.lost += gap_before(last_sequences[event.channel], header->name);
+    }
+  }
+
+  void take(const LogDamage& damage) {
+    contents.damage.places += damage.places;
+    contents.damage.bytes += damage.bytes;
+    contents.damage.missing += damage.missing;
+    contents.damage.truncated = damage.truncated;
+  }
+};
+
+void FlightLog::add(std::string_view channel, Handler handler) {
+  handlers_[std::string(channel) + suffix_].push_back(std::move(handler));
+}
+
+Result<LogContents> FlightLog::read(const std::string& path) {
+  Reading reading{handlers_, suffix_, {}, {}};
+  reading.contents.parts = log_parts(path);
+  for (const std::string& part : reading.contents.parts) {
+    auto reader = LogReader::open(part);
+    if (!reader) return tl::make_unexpected(reader.error());
+    while (const auto event = reader->next()) reading.take(*event);
+    reading.take(reader->damage());
+  }
+  return std::move(reading.contents);
+}
+
+}  // namespace tern
