@@ -97,6 +97,8 @@ void WorldBroadcast::publish_observations(UTime now, const Executor& uav) {
 
 void WorldBroadcast::publish_declared(UTime now, const Vec3& uav) {
   TrackSet set = declare_motions(world_, world_zero_, now - kDeclaredPast, now + kDeclaredAhead);
+  // Whoever is not there yet promises nothing: before its motion begins a track is a box that grows into the past.
+  std::erase_if(set.tracks, [now](const Track& track) { return track.motion.start > now; });
   set.batch.set = ++declared_set_;
   set.made_at = now;
   sort_by_reach(set.tracks, uav, now, now + kDeclaredAhead);

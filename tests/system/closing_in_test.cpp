@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <vector>
+
 #include "tests/support/watched_flight.h"
 
 namespace tern::testing {
@@ -38,6 +41,40 @@ INSTANTIATE_TEST_SUITE_P(From, ClosingIn,
                                            Intruder{"ACorner", {-1, -1, 0}, 10, 3},
                                            Intruder{"AskewBelow", {-1.5, 2, 0.5}, 9, 2.5}),
                          [](const auto& flight) { return flight.param.name; });
+
+/// Faces and corners of a cube.
+std::vector<Vec3> fourteen_directions() {
+  std::vector<Vec3> directions;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        const int axes = std::abs(x) + std::abs(y) + std::abs(z);
+        if (axes == 1 || axes == 3) directions.push_back(Vec3(x, y, z).normalized());
+      }
+    }
+  }
+  return directions;
+}
+
+class AppearsASecondBefore : public ::testing::TestWithParam<Vec3> {};
+
+TEST_P(AppearsASecondBefore, AndIsEvadedAtTheVehiclesTopSpeed) {
+  constexpr double kSpeed = 6.0;  // m/s: v_max of the vehicle
+  constexpr double kSeen = 1.0;   // s of flight away, centre to centre
+  const Vec3 goal(0, 0, 10);
+  const Vec3 from = goal - kSeen * kSpeed * GetParam();
+  const Vec3 to = goal + 2.0 * kSeen * kSpeed * GetParam();
+  const VirtualFlight flight = fly_and_expect_all_well(
+      "closing_in",
+      {fmt::format("world.obstacles=[{{name: intruder, half_extents: 0.4, motion: waypoints, vanish: true, "
+                   "points: [[1, {}, {}, {}], [4, {}, {}, {}]]}}]",
+                   from.x(), from.y(), from.z(), to.x(), to.y(), to.z()),
+       "uav.start=[0, 0, 10]", "uav.goal=[0, 0, 10]", "uav.flight_box={min: [-30, -30, -20], max: [30, 30, 40]}",
+       "simulator.min_flight_s=4"});
+  EXPECT_GT(flight.result.path_length_m, 2.0 * 0.4) << "the box is 0.4 m wide on each side: there and back";
+}
+
+INSTANTIATE_TEST_SUITE_P(From, AppearsASecondBefore, ::testing::ValuesIn(fourteen_directions()));
 
 }  // namespace
 }  // namespace tern::testing
