@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "core/geometry/box.h"
 #include "planner/duration.h"
 
 namespace tern {
@@ -27,6 +30,59 @@ std::array<Vec3, 14> directions() {
   return d;
 }
 
+/// A stop to try.
+struct Aim {
+  Vec3 point = Vec3::Zero();
+  Duration interval;     ///< Δt of the way there
+  double clear_s = 0.0;  ///< forecast: when the way there, or resting there, first meets an obstacle's box
+};
+
+/// Where all aims are forecast: the sphere, long enough to reach the farthest of them and to hold there.
+SweptObstacles sweep_forecast(const AttemptContext& context, double duration_s) {
+  constexpr double kStep = 0.1;  // s
+  std::vector<double> times{0.0};
+  while (times.back() < duration_s) times.push_back(times.back() + kStep);
+  const Box region = box_around(context.request.start.p, Vec3::Constant(context.config.sphere_radius_m));
+  return {context.obstacles, context.request.body, context.request.t_s, std::move(times), region};
+}
+
+/// A smooth way from rest to rest at s of its duration, 0 … 1.
+double smooth(double s) { return s * s * (3.0 - 2.0 * s); }
+
+double forecast(const SweptObstacles& swept, const Vec3& from, const Vec3& to, double way_s) {
+  for (int k = 0; k < swept.intervals(); ++k) {
+    const double middle = 0.5 * (swept.time(k) + swept.time(k + 1));
+    const Vec3 p = from + smooth(std::min(1.0, middle / way_s)) * (to - from);
+    for (const SweptObstacles::Candidate& candidate : swept.candidates(k)) {
+      if (candidate.box.contains(p)) return swept.time(k);
+    }
+  }
+  return swept.time(swept.intervals());
+}
+
+/// All aims, those first whose forecast is clear longest; of equals the nearer ones, then by direction.
+std::vector<Aim> ordered_aims(const AttemptContext& context) {
+  std::vector<Aim> aims;
+  double longest = 0.0;
+  for (const double share : {0.35, 0.8}) {
+    for (const Vec3& direction : directions()) {
+      Aim aim;
+      aim.point = context.request.start.p + direction * (share * context.config.sphere_radius_m);
+      const double duration = kDurationScale * least_duration(context.request.start, aim.point, context.plan_limits);
+      aim.interval = Duration{static_cast<std::int64_t>(std::ceil(duration / context.config.intervals * 1e6))};
+      longest = std::max(longest, duration);
+      aims.push_back(aim);
+    }
+  }
+  const SweptObstacles swept = sweep_forecast(context, longest + context.config.hold_cap_s);
+  for (Aim& aim : aims) {
+    aim.clear_s =
+        forecast(swept, context.request.start.p, aim.point, aim.interval.seconds() * context.config.intervals);
+  }
+  std::stable_sort(aims.begin(), aims.end(), [](const Aim& a, const Aim& b) { return a.clear_s > b.clear_s; });
+  return aims;
+}
+
 /// From the end point to the nearest obstacle's box in the first interval after the end, m.
 double room_at_end(const SweptObstacles& swept, int intervals, const TimedSpline& trajectory) {
   const Vec3 end = trajectory.control_points.col(trajectory.control_points.cols() - 1);
@@ -45,31 +101,27 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
   std::optional<Candidate> best;
   double best_worth = 0.0;
   int attempt = kFirstEvasionAttempt;
-  for (const double share : {0.35, 0.8}) {
-    for (const Vec3& direction : directions()) {
-      base.budget.begin_attempt(attempt++);
-      if (base.budget.expired(Stage::Search)) return best;
-      AttemptContext context = base;
-      context.fields = nullptr;
-      context.local_goal = base.request.start.p + direction * (share * base.config.sphere_radius_m);
-      context.way = {context.local_goal, 0.0};
-      const double duration = kDurationScale * least_duration(base.request.start, context.local_goal, base.plan_limits);
-      const Duration interval{static_cast<std::int64_t>(std::ceil(duration / base.config.intervals * 1e6))};
-      SweptObstacles swept = sweep_horizon(context, interval);
-      auto found = search_candidate(context, swept, interval, base.config.hold_cap_s, search);
-      base.statistics.hulls += swept.hulls_made();
-      if (!found) continue;
-      found->outcome = PlanOutcome::Evade;
-      found->arrival_s = arrival_estimate(base.way, found->trajectory, base.request.t_s, base.plan_limits);
-      found->holds = found->hold_s >= base.config.hold_required_s;
-      const bool by_time = aim == EvasionAim::LongestClear;
-      if (!by_time && !found->holds) continue;
-      const double worth = by_time ? found->clear_s : room_at_end(swept, base.config.intervals, found->trajectory);
-      if (best && worth <= best_worth) continue;
-      best = std::move(found);
-      best_worth = worth;
-      if (by_time && best->hold_s >= base.config.hold_cap_s) return best;
-    }
+  for (const Aim& aim_at : ordered_aims(base)) {
+    base.budget.begin_attempt(attempt++);
+    if (base.budget.expired(Stage::Search)) return best;
+    AttemptContext context = base;
+    context.fields = nullptr;
+    context.local_goal = aim_at.point;
+    context.way = {context.local_goal, 0.0};
+    SweptObstacles swept = sweep_horizon(context, aim_at.interval);
+    auto found = search_candidate(context, swept, aim_at.interval, base.config.hold_cap_s, search);
+    base.statistics.hulls += swept.hulls_made();
+    if (!found) continue;
+    found->outcome = PlanOutcome::Evade;
+    found->arrival_s = arrival_estimate(base.way, found->trajectory, base.request.t_s, base.plan_limits);
+    found->holds = found->hold_s >= base.config.hold_required_s;
+    const bool by_time = aim == EvasionAim::LongestClear;
+    if (!by_time && !found->holds) continue;
+    const double worth = by_time ? found->clear_s : room_at_end(swept, base.config.intervals, found->trajectory);
+    if (best && worth <= best_worth) continue;
+    best = std::move(found);
+    best_worth = worth;
+    if (by_time && best->hold_s >= base.config.hold_cap_s) return best;
   }
   return best;
 }

@@ -17,8 +17,8 @@ enum class EvasionAim {
 };
 
 /// Searches for stops in 14 directions around the vehicle (faces and corners of a cube) at two distances, each with as
-/// long a hold as is looked for; ties by order. Ends early when the budget is spent. The outcome is Evade. Nothing: no
-/// certified stop was found.
+/// long a hold as is looked for; those first that by the obstacles' boxes stay clear longest, so that the first try is
+/// mostly the last. Ends early when the budget is spent. The outcome is Evade. Nothing: no certified stop was found.
 std::optional<Candidate> find_evasion(const AttemptContext& context, EvasionAim aim);
 
 }  // namespace tern

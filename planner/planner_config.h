@@ -36,7 +36,7 @@ struct PlannerConfig {
   double hold_required_s = 0.5;      ///< an end that stays clear this long is preferred to one that does not
   double hold_cap_s = 1.5;           ///< how far the hold is followed
   double stale_after_s = 0.3;        ///< predictions older than this are stale
-  double velocity_share = 0.99;      ///< plans stay below this share of v_max
+  double velocity_share = 0.998;     ///< plans stay below this share of v_max
   bool unknown_is_obstacle = false;  ///< unknown voxels of the map
   bool semantics = true;
   SemanticCost semantic_cost = SemanticCost::MeanDistance;
