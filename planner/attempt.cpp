@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/duration.h"
+#include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/convex_problem.h"
 #include "planner/optimization/ipopt_solver.h"
 
@@ -193,9 +194,9 @@ std::optional<Candidate> optimize_candidate(const AttemptContext& context, Swept
     if (context.budget.expired(Stage::Optimization)) break;
     const ConvexProblem convex =
         make_convex_problem(problem, gather_planes(context, obstacles, current), current.control_points);
-    const ConvexSolution solution =
-        solve_by_ipopt(convex, free_variables(current.control_points), config.max_iterations,
-                       [&] { return context.budget.expired(Stage::Optimization); });
+    const auto solve = config.solver == ConvexSolver::Barrier ? solve_by_barrier : solve_by_ipopt;
+    const ConvexSolution solution = solve(convex, free_variables(current.control_points), config.max_iterations,
+                                          [&] { return context.budget.expired(Stage::Optimization); });
     context.statistics.solver_iterations += solution.iterations;
     if (!solution.found) break;
     auto candidate = certify(context, obstacles, current.interval, control_points_of(solution.x, problem),

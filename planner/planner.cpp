@@ -219,7 +219,7 @@ class Planning {
         answer_.statistics.hulls += swept.hulls_made();
       }
     }
-    if (best_ && config_.optimization.enabled) optimize(context, *best_swept);
+    if (best_ && config_.optimization.method != OptimizationMethod::SearchOnly) optimize(context, *best_swept);
     if (best_swept) answer_.statistics.hulls += best_swept->hulls_made();
     if (!best_) reason_ = reason_of_nothing();
   }

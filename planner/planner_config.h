@@ -20,13 +20,19 @@ struct SearchConfig {
   double prune_velocity_mps = 1.5;  ///< the coarse velocity
 };
 
+/// How Eq. 4 is solved. Alternating: for points with the planes fixed, then the planes anew.
+enum class OptimizationMethod { SearchOnly, Alternating };
+/// Of the convex problem with the planes fixed.
+enum class ConvexSolver { Barrier, Ipopt };
+
 struct OptimizationConfig {
-  bool enabled = true;
+  OptimizationMethod method = OptimizationMethod::Alternating;
+  ConvexSolver solver = ConvexSolver::Barrier;
   double weight_jerk = 2e-6;   ///< ω_u of Eq. 4, s⁶
   double weight_goal = 1.0;    ///< ω_g of Eq. 4
   int rounds = 1;              ///< solve; more rounds recentre the planes and solve again
   double plane_reach_m = 1.0;  ///< planes nearer than this to the search's path enter the problem, m
-  int max_iterations = 60;     ///< of Ipopt, per round
+  int max_iterations = 60;     ///< of the solver, per round
 };
 
 struct PlannerConfig {

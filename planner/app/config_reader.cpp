@@ -17,7 +17,11 @@ void read_search(ConfigSection section, SearchConfig& c) {
 }
 
 void read_optimization(ConfigSection section, OptimizationConfig& c) {
-  c.enabled = section.flag("enabled", c.enabled);
+  c.method = section.choice("method", "alternating", {"search_only", "alternating"}) == "search_only"
+                 ? OptimizationMethod::SearchOnly
+                 : OptimizationMethod::Alternating;
+  c.solver = section.choice("solver", "barrier", {"barrier", "ipopt"}) == "ipopt" ? ConvexSolver::Ipopt
+                                                                                  : ConvexSolver::Barrier;
   c.weight_jerk = section.number("weight_jerk", c.weight_jerk, Range::positive(1e6));
   c.weight_goal = section.number("weight_goal", c.weight_goal, Range::positive(1e6));
   c.rounds = static_cast<int>(section.integer("rounds", c.rounds, 1, 20));

@@ -67,7 +67,7 @@ Eigen::VectorXd constraint_values(const ConvexProblem& p, const Eigen::VectorXd&
 
 class Nlp final : public Ipopt::TNLP {
  public:
-  Nlp(const ConvexProblem& problem, const Eigen::VectorXd& x0, const std::function<bool()>& stop)
+  Nlp(const ConvexProblem& problem, const Eigen::VectorXd& x0, const StopFunction& stop)
       : p_(problem), pattern_(make_pattern(problem)), x0_(x0), stop_(stop) {
     harvest(x0);
   }
@@ -169,7 +169,7 @@ class Nlp final : public Ipopt::TNLP {
   const ConvexProblem& p_;
   Pattern pattern_;
   Eigen::VectorXd x0_;
-  const std::function<bool()>& stop_;
+  const StopFunction& stop_;
   ConvexSolution best_;
 };
 
@@ -191,7 +191,7 @@ void set_options(Ipopt::IpoptApplication& app, int max_iterations) {
 }  // namespace
 
 ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
-                              const std::function<bool()>& stop) {
+                              const StopFunction& stop) {
   Ipopt::SmartPtr<Ipopt::IpoptApplication> app = new Ipopt::IpoptApplication(false);
   set_options(*app, max_iterations);
   ConvexSolution failed;

@@ -1,25 +1,16 @@
 // The convex problem of `alternating` by Ipopt. The only Ipopt in Tern; not safe from two threads at once (MUMPS).
 #pragma once
 
-#include <functional>
-
 #include "planner/optimization/convex_problem.h"
+#include "planner/optimization/convex_solution.h"
 
 namespace tern {
-
-struct ConvexSolution {
-  bool found = false;          ///< some feasible iterate was seen; x is the best of them
-  bool solver_failed = false;  ///< Ipopt ended in error (found may still be true)
-  Eigen::VectorXd x;
-  double objective = 0.0;
-  int iterations = 0;
-};
 
 /// Minimises from x0; every iterate that Ipopt evaluates is harvested if it is feasible, so that the answer is anytime.
 /// @param stop  asked once per iteration; true ends the solve with the best so far.
 /// Exact derivatives: ∇f = H x + g; rows constant; ∇‖p_k‖² = 2 W_kᵀ p_k with Hessian 2 W_kᵀ W_k.
 ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
-                              const std::function<bool()>& stop);
+                              const StopFunction& stop);
 
 /// The derivatives that Ipopt is given, for tests: constraint values, Jacobian, Hessian of the Lagrangian.
 struct ConvexDerivatives {

@@ -51,7 +51,7 @@ Draw random_draw(std::uint64_t seed) {
   d.config.intervals = random_integer(rng, 4, 8);
   d.config.sphere_radius_m = rng.uniform() < 0.5 ? 4.0 : rng.uniform(1.0, 4.0);
   d.config.semantic_cost = rng.uniform() < 0.5 ? SemanticCost::Exposure : SemanticCost::MeanDistance;
-  if (rng.uniform() < 0.2) d.config.optimization.enabled = false;
+  if (rng.uniform() < 0.2) d.config.optimization.method = OptimizationMethod::SearchOnly;
   Limits limits;
   if (rng.uniform() < 0.3) limits.j_max = Vec3::Constant(rng.uniform(60.0, 150.0));
   const Vec3 home(0, 0, 1);
@@ -165,7 +165,7 @@ TEST_F(PlannerAlone, HeadsForTheGoal) {
 
 TEST_F(PlannerAlone, SaysSearchOnlyWithoutTheOptimizer) {
   PlannerConfig config = quick();
-  config.optimization.enabled = false;
+  config.optimization.method = OptimizationMethod::SearchOnly;
   EXPECT_EQ(answer(request_, world_of({}, goal_, request_), config).outcome, PlanOutcome::SearchOnly);
 }
 

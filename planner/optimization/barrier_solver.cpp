@@ -1,0 +1,367 @@
+#include "planner/optimization/barrier_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tern {
+namespace {
+
+constexpr double kFirstSlack = 0.1;        ///< m
+constexpr double kStrictlyInside = 1e-10;  ///< m: beyond the rounding of positions 10 km from the origin
+constexpr double kStepShare = 0.995;       ///< of the way to the nearest bound
+constexpr double kLeastStep = 1e-8;
+
+/// Symmetric positive definite systems by L Lᵀ, row-major, fixed order.
+class Cholesky {
+ public:
+  explicit Cholesky(int n) : n_(n), l_(static_cast<std::size_t>(n * n), 0.0), inverse_(static_cast<std::size_t>(n)) {}
+
+  /// Row-major lower triangle to fill before factor().
+  double* matrix() { return l_.data(); }
+
+  bool factor() {
+    for (int r = 0; r < n_; ++r) {
+      double* row = &l_[static_cast<std::size_t>(r * n_)];
+      for (int c = 0; c < r; ++c) {
+        const double* other = &l_[static_cast<std::size_t>(c * n_)];
+        double sum = row[c];
+        for (int k = 0; k < c; ++k) sum -= row[k] * other[k];
+        row[c] = sum * inverse_[static_cast<std::size_t>(c)];
+      }
+      double pivot = row[r];
+      for (int k = 0; k < r; ++k) pivot -= row[k] * row[k];
+      if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
+      row[r] = std::sqrt(pivot);
+      inverse_[static_cast<std::size_t>(r)] = 1.0 / row[r];
+    }
+    return true;
+  }
+
+  /// y := L⁻¹ y.
+  void solve_lower(double* y) const {
+    for (int r = 0; r < n_; ++r) {
+      const double* row = &l_[static_cast<std::size_t>(r * n_)];
+      double sum = y[r];
+      for (int k = 0; k < r; ++k) sum -= row[k] * y[k];
+      y[r] = sum * inverse_[static_cast<std::size_t>(r)];
+    }
+  }
+
+  void solve(double* y) const {
+    solve_lower(y);
+    for (int r = n_ - 1; r >= 0; --r) {
+      y[r] *= inverse_[static_cast<std::size_t>(r)];
+      const double* row = &l_[static_cast<std::size_t>(r * n_)];
+      for (int k = 0; k < r; ++k) y[k] -= row[k] * y[r];
+    }
+  }
+
+ private:
+  int n_;
+  std::vector<double> l_, inverse_;
+};
+
+/// All constraints with their gradients, in y = x − x0. Rows are sparse and constant, sphere gradients follow y.
+class Constraints {
+ public:
+  Constraints(const ConvexProblem& p, const Eigen::VectorXd& x0) : n_(p.variables()) {
+    for (Eigen::Index r = 0; r < p.rows.rows(); ++r) add_row(p, x0, r);
+    linear_ = static_cast<int>(bound_.size());
+    for (int k = 0; k < p.spheres(); ++k) add_sphere(p, x0, k);
+  }
+
+  [[nodiscard]] int count() const { return linear_ + spheres(); }
+  [[nodiscard]] int spheres() const { return static_cast<int>(at_.size()); }
+
+  /// c_i(y) for all i; sets the spheres' gradients.
+  void evaluate(const std::vector<double>& y, std::vector<double>& c) {
+    for (int i = 0; i < linear_; ++i) c[idx(i)] = dot(i, y.data()) - bound_[idx(i)];
+    for (int k = 0; k < spheres(); ++k) {
+      Vec3 at = at_[idx(k)];
+      const int from = begin_[idx(linear_ + k)];
+      const int to = begin_[idx(linear_ + k + 1)];
+      for (int e = from; e < to; ++e) at[column_[idx(e)] % 3] += weight_[idx(e)] * y[idx(column_[idx(e)])];
+      for (int e = from; e < to; ++e) value_[idx(e)] = weight_[idx(e)] * at[column_[idx(e)] % 3] / radius_;
+      c[idx(linear_ + k)] = (at[0] * at[0] + at[1] * at[1] + at[2] * at[2] - radius_ * radius_) / (2.0 * radius_);
+    }
+  }
+
+  /// ∇c_i · v.
+  [[nodiscard]] double dot(int i, const double* v) const {
+    double sum = 0.0;
+    for (int e = begin_[idx(i)]; e < begin_[idx(i) + 1]; ++e) sum += value_[idx(e)] * v[column_[idx(e)]];
+    return sum;
+  }
+
+  /// v += factor ∇c_i.
+  void add_gradient(int i, double factor, double* v) const {
+    for (int e = begin_[idx(i)]; e < begin_[idx(i) + 1]; ++e) v[column_[idx(e)]] += factor * value_[idx(e)];
+  }
+
+  /// lower triangle += factor ∇c_i ∇c_iᵀ.
+  void add_outer(int i, double factor, double* matrix) const {
+    const int from = begin_[idx(i)];
+    const int to = begin_[idx(i) + 1];
+    for (int e = from; e < to; ++e) {
+      const double scaled = factor * value_[idx(e)];
+      double* row = matrix + column_[idx(e)] * n_;
+      for (int f = from; f <= e; ++f) row[column_[idx(f)]] += scaled * value_[idx(f)];
+    }
+  }
+
+  /// lower triangle += multiplier ∇²c_i: nothing for rows.
+  void add_curvature(int i, double multiplier, double* matrix) const {
+    if (i < linear_) return;
+    const double scaled = multiplier / radius_;
+    const int from = begin_[idx(i)];
+    const int to = begin_[idx(i) + 1];
+    for (int e = from; e < to; ++e) {
+      for (int f = from; f <= e; ++f) {
+        if ((column_[idx(e)] - column_[idx(f)]) % 3 != 0) continue;  // axes do not mix
+        matrix[column_[idx(e)] * n_ + column_[idx(f)]] += scaled * weight_[idx(e)] * weight_[idx(f)];
+      }
+    }
+  }
+
+ private:
+  static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+  void add_row(const ConvexProblem& p, const Eigen::VectorXd& x0, Eigen::Index r) {
+    double square = 0.0;
+    double at_x0 = 0.0;
+    for (int c = 0; c < n_; ++c) {
+      square += p.rows(r, c) * p.rows(r, c);
+      at_x0 += p.rows(r, c) * x0[c];
+    }
+    const double scale = square > 0.0 ? 1.0 / std::sqrt(square) : 1.0;
+    for (int c = 0; c < n_; ++c) {
+      if (p.rows(r, c) != 0.0) push(c, scale * p.rows(r, c), 0.0);
+    }
+    begin_.push_back(static_cast<int>(column_.size()));
+    bound_.push_back(scale * (p.bounds[r] - at_x0));
+  }
+
+  void add_sphere(const ConvexProblem& p, const Eigen::VectorXd& x0, int k) {
+    radius_ = std::sqrt(p.sphere_radius2);
+    for (int c = 0; c < n_; ++c) {
+      const double w = p.sphere_weights(k, c / 3);
+      if (w != 0.0) push(c, 0.0, w);
+    }
+    begin_.push_back(static_cast<int>(column_.size()));
+    at_.push_back(p.sphere_point(k, x0));
+  }
+
+  void push(int column, double value, double weight) {
+    column_.push_back(column);
+    value_.push_back(value);
+    weight_.push_back(weight);
+  }
+
+  int n_;
+  int linear_ = 0;
+  double radius_ = 1.0;
+  std::vector<int> begin_{0};   ///< constraint i has the entries begin_[i] … begin_[i + 1] − 1
+  std::vector<int> column_;     ///< ascending within a constraint
+  std::vector<double> value_;   ///< of the gradient
+  std::vector<double> weight_;  ///< of W_k
+  std::vector<double> bound_;   ///< per row, less the row at x0
+  std::vector<Vec3> at_;        ///< per sphere: W_k x0 + p_k
+};
+
+class Solver {
+ public:
+  Solver(const ConvexProblem& problem, const Eigen::VectorXd& x0)
+      : p_(problem),
+        x0_(x0),
+        n_(problem.variables()),
+        constraints_(problem, x0),
+        m_(constraints_.count()),
+        hessian_factor_(n_),
+        system_(n_) {
+    for (std::vector<double>* v : {&y_, &gradient0_, &gradient_, &dual_residual_, &step_, &work_})
+      v->resize(static_cast<std::size_t>(n_), 0.0);
+    for (std::vector<double>* v : {&c_, &slack_, &multiplier_, &slack_step_, &multiplier_step_, &complement_})
+      v->resize(static_cast<std::size_t>(m_), 0.0);
+  }
+
+  ConvexSolution run(int max_iterations, const StopFunction& stop) {
+    if (!prepare()) return fail();
+    for (;;) {
+      evaluate();
+      harvest();
+      if (optimal() || solution_.iterations >= max_iterations || stop()) return solution_;
+      if (!advance()) return fail();
+      ++solution_.iterations;
+    }
+  }
+
+ private:
+  static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+  ConvexSolution fail() {
+    solution_.solver_failed = true;
+    return solution_;
+  }
+
+  bool prepare() {
+    if (p_.worst_violation(x0_) <= 0.0) {
+      solution_.found = true;
+      solution_.x = x0_;
+      solution_.objective = p_.objective(x0_);
+    }
+    for (int r = 0; r < n_; ++r) {
+      double sum = p_.gradient[r];
+      for (int c = 0; c < n_; ++c) {
+        sum += p_.hessian(r, c) * x0_[c];
+        if (c <= r) hessian_factor_.matrix()[r * n_ + c] = p_.hessian(r, c);
+      }
+      gradient0_[idx(r)] = sum;
+    }
+    if (!hessian_factor_.factor()) return false;
+    constraints_.evaluate(y_, c_);
+    for (int i = 0; i < m_; ++i) slack_[idx(i)] = std::max(-c_[idx(i)], kFirstSlack);
+    const double mu = first_barrier();
+    for (int i = 0; i < m_; ++i) multiplier_[idx(i)] = mu / slack_[idx(i)];
+    return true;
+  }
+
+  /// What the unconstrained optimum would gain bounds what there is to gain; spread over the constraints.
+  double first_barrier() {
+    work_ = gradient0_;
+    hessian_factor_.solve_lower(work_.data());
+    double gain = 0.0;
+    for (const double w : work_) gain += 0.5 * w * w;
+    return std::max(kFirstBarrierShare * gain / std::max(m_, 1), 1e-9);
+  }
+
+  /// Constraints, gradient and dual residual at y.
+  void evaluate() {
+    constraints_.evaluate(y_, c_);
+    for (int r = 0; r < n_; ++r) {
+      double sum = gradient0_[idx(r)];
+      for (int c = 0; c < n_; ++c) sum += p_.hessian(r, c) * y_[idx(c)];
+      gradient_[idx(r)] = sum;
+    }
+    dual_residual_ = gradient_;
+    for (int i = 0; i < m_; ++i) {
+      // A feasible constraint's slack may only grow by being told the truth: its residual is gone.
+      slack_[idx(i)] = std::max(slack_[idx(i)], -c_[idx(i)]);
+      constraints_.add_gradient(i, multiplier_[idx(i)], dual_residual_.data());
+    }
+  }
+
+  /// Keeps y if it is the best point strictly inside, and the multipliers' bound if it is the highest.
+  void harvest() {
+    const Eigen::VectorXd x = x0_ + Eigen::Map<const Eigen::VectorXd>(y_.data(), n_);
+    const double objective = p_.objective(x);
+    tolerance_ = std::max(kGapShare * std::abs(objective), kGapAbsolute);
+    double lagrangian = objective;
+    double nearest = -1.0;
+    for (int i = 0; i < m_; ++i) {
+      lagrangian += multiplier_[idx(i)] * c_[idx(i)];
+      nearest = std::max(nearest, c_[idx(i)]);
+    }
+    work_ = dual_residual_;
+    hessian_factor_.solve_lower(work_.data());
+    for (const double w : work_) lagrangian -= 0.5 * w * w;
+    lower_bound_ = std::max(lower_bound_, lagrangian);
+    if (nearest <= -kStrictlyInside && (!solution_.found || objective < solution_.objective) &&
+        p_.worst_violation(x) <= 0.0) {
+      solution_.found = true;
+      solution_.x = x;
+      solution_.objective = objective;
+    }
+    if (solution_.found) solution_.gap = std::max(solution_.objective - lower_bound_, 0.0);
+  }
+
+  [[nodiscard]] bool optimal() const { return solution_.found && solution_.gap <= tolerance_; }
+
+  bool advance() {
+    double* matrix = system_.matrix();
+    for (int r = 0; r < n_; ++r) {
+      for (int c = 0; c <= r; ++c) matrix[r * n_ + c] = p_.hessian(r, c);
+    }
+    double mu = 0.0;
+    for (int i = 0; i < m_; ++i) {
+      mu += slack_[idx(i)] * multiplier_[idx(i)];
+      constraints_.add_outer(i, multiplier_[idx(i)] / slack_[idx(i)], matrix);
+      constraints_.add_curvature(i, multiplier_[idx(i)], matrix);
+    }
+    mu /= std::max(m_, 1);
+    if (!system_.factor()) return false;
+    for (int i = 0; i < m_; ++i) complement_[idx(i)] = slack_[idx(i)] * multiplier_[idx(i)];
+    direction();
+    const double affine = largest_step(1.0);
+    double mu_affine = 0.0;
+    for (int i = 0; i < m_; ++i) {
+      mu_affine +=
+          (slack_[idx(i)] + affine * slack_step_[idx(i)]) * (multiplier_[idx(i)] + affine * multiplier_step_[idx(i)]);
+    }
+    mu_affine /= std::max(m_, 1);
+    const double ratio = mu > 0.0 ? mu_affine / mu : 0.0;
+    const double target = std::max(ratio * ratio * ratio * mu, kLastBarrierShare * tolerance_ / std::max(m_, 1));
+    for (int i = 0; i < m_; ++i) complement_[idx(i)] += slack_step_[idx(i)] * multiplier_step_[idx(i)] - target;
+    direction();
+    const double length = largest_step(kStepShare);
+    for (int r = 0; r < n_; ++r) y_[idx(r)] += length * step_[idx(r)];
+    for (int i = 0; i < m_; ++i) {
+      slack_[idx(i)] += length * slack_step_[idx(i)];
+      multiplier_[idx(i)] += length * multiplier_step_[idx(i)];
+    }
+    return length > kLeastStep;
+  }
+
+  /// Newton's direction for the complementarity residual in complement_.
+  void direction() {
+    for (int r = 0; r < n_; ++r) step_[idx(r)] = -dual_residual_[idx(r)];
+    for (int i = 0; i < m_; ++i) {
+      const double residual = c_[idx(i)] + slack_[idx(i)];
+      const double pull = (multiplier_[idx(i)] * residual - complement_[idx(i)]) / slack_[idx(i)];
+      multiplier_step_[idx(i)] = pull;
+      constraints_.add_gradient(i, -pull, step_.data());
+    }
+    system_.solve(step_.data());
+    for (int i = 0; i < m_; ++i) {
+      const double along = constraints_.dot(i, step_.data());
+      slack_step_[idx(i)] = -(c_[idx(i)] + slack_[idx(i)]) - along;
+      multiplier_step_[idx(i)] += multiplier_[idx(i)] / slack_[idx(i)] * along;
+    }
+  }
+
+  /// The longest step ≤ 1 that keeps slacks and multipliers positive, times `share` where a bound is hit.
+  [[nodiscard]] double largest_step(double share) const {
+    double length = 1.0;
+    for (int i = 0; i < m_; ++i) {
+      if (slack_step_[idx(i)] < 0.0) length = std::min(length, -share * slack_[idx(i)] / slack_step_[idx(i)]);
+      if (multiplier_step_[idx(i)] < 0.0)
+        length = std::min(length, -share * multiplier_[idx(i)] / multiplier_step_[idx(i)]);
+    }
+    return length;
+  }
+
+  static constexpr double kNoBound = 1e300;
+  static constexpr double kFirstBarrierShare = 0.1;
+  static constexpr double kLastBarrierShare = 0.3;
+
+  const ConvexProblem& p_;
+  const Eigen::VectorXd& x0_;
+  int n_;
+  Constraints constraints_;
+  int m_;
+  double lower_bound_ = -kNoBound;  ///< of the optimum
+  double tolerance_ = 0.0;          ///< of the gap, m²
+  Cholesky hessian_factor_, system_;
+  std::vector<double> y_, gradient0_, gradient_, dual_residual_, step_, work_;
+  std::vector<double> c_, slack_, multiplier_, slack_step_, multiplier_step_, complement_;
+  ConvexSolution solution_;
+};
+
+}  // namespace
+
+ConvexSolution solve_by_barrier(const ConvexProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
+                                const StopFunction& stop) {
+  return Solver(problem, x0).run(max_iterations, stop);
+}
+
+}  // namespace tern
