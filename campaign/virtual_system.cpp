@@ -25,7 +25,7 @@ struct VirtualSystem::Parts {
   PredictorConfig predictor;
   VoxelMap map;
   PlannerConfig planner;
-  std::uint64_t configuration = 0;
+  std::string effective_yaml;  ///< of the whole file
 
   explicit Parts(ConfigDocument& document)
       : scenario(read_scenario(document)),
@@ -40,7 +40,7 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
   const Scenario& scenario = parts_->scenario;
   const SimulatorConfig config = read_simulator_config(document.root().section("simulator"), scenario.seed);
   const ExecutorConfig executor = read_executor_config(document.root().section("executor"));
-  parts_->configuration = configuration_hash(document.effective());
+  parts_->effective_yaml = document.effective();
   auto world = make_world(scenario, data_folder(scenario.file, std::getenv("TERN_DATA")));
   if (!world) throw ConfigError(scenario.file + ": world: " + world.error().message);
   simulator_ = static_cast<SimulatorNode*>(&runner_.start("tern-simulator", [&](Bus& bus) {
@@ -59,14 +59,16 @@ void VirtualSystem::stop(const std::string& process) {
 }
 
 void VirtualSystem::start(const std::string& process) {
-  runner_.start(process, [&](Bus& bus) -> std::unique_ptr<Node> {
+  const auto make = [&](Bus& bus) -> std::unique_ptr<Node> {
     if (process == "tern-predictor") return std::make_unique<PredictorNode>(bus, parts_->predictor);
     if (process == "tern-mapper") return std::make_unique<MapperNode>(bus, parts_->map);
     if (process != "tern-planner") throw std::invalid_argument("VirtualSystem: no process " + process);
     PlannerExecution execution;
     execution.threaded = false;
-    return std::make_unique<PlannerNode>(bus, parts_->scenario.uav, parts_->planner, parts_->configuration, execution);
-  });
+    return std::make_unique<PlannerNode>(bus, parts_->scenario.uav, parts_->planner,
+                                         configuration_hash(parts_->effective_yaml), execution);
+  };
+  runner_.start(process, make, parts_->effective_yaml);
 }
 
 }  // namespace tern

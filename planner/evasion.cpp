@@ -100,7 +100,9 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
   search.max_expansions = kMaxExpansions;
   std::optional<Candidate> best;
   double best_worth = 0.0;
-  int attempt = kFirstEvasionAttempt;
+  // One plan may seek both aims; a budget's cuts are by attempt, so no attempt occurs twice.
+  constexpr int kAttempts = 100;
+  int attempt = kFirstEvasionAttempt + (aim == EvasionAim::GreatestClearance ? kAttempts : 0);
   for (const Aim& aim_at : ordered_aims(base)) {
     base.budget.begin_attempt(attempt++);
     if (base.budget.expired(Stage::Search)) return best;

@@ -71,7 +71,10 @@ class Planning {
     p.local_goal = request_.start.p;
     p.trajectory = request_.committed;
     p.inputs.request = request_.header.name;
-    if (world_.goal) p.inputs.goal = world_.goal->goal.header.name;
+    if (world_.goal) {
+      p.inputs.goal = world_.goal->goal.header.name;
+      p.inputs.goal_field = world_.goal->made_from;
+    }
     if (world_.map) p.inputs.map_version = world_.map->version;
     if (world_.predictions) {
       p.inputs.predictions = world_.predictions->set.header.name;

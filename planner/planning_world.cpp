@@ -1,9 +1,7 @@
 #include "planner/planning_world.h"
 
-#include <string_view>
 #include <utility>
 
-#include "core/base/digest.h"
 #include "planner/global_path/box_cover.h"
 
 namespace tern {
@@ -31,15 +29,6 @@ MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
 }
 
 Box centre_box(const Box& flight_box, const Body& body) { return grown(flight_box, -body.half_extents()); }
-
-std::uint64_t digest_of(const std::vector<Box>& boxes) {
-  std::uint64_t h = kDigestSeed;
-  for (const Box& b : boxes) {
-    const double numbers[6] = {b.min().x(), b.min().y(), b.min().z(), b.max().x(), b.max().y(), b.max().z()};
-    h = digest({reinterpret_cast<const char*>(numbers), sizeof(numbers)}, h);
-  }
-  return h;
-}
 
 GoalField make_goal_field(const GoalFieldKey& key, const BoxIndex& map_boxes, const std::vector<Box>& static_boxes,
                           const Vec3& start) {

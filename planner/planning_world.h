@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/world/goal.h"
+#include "core/world/horizon.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
@@ -14,6 +15,7 @@
 #include "planner/planner_config.h"
 #include "planner/safety/swept_obstacles.h"
 #include "planner/semantics/semantic_fields.h"
+#include "planner/static_tracks.h"
 
 namespace tern {
 
@@ -61,6 +63,7 @@ struct GoalProducts {
   Goal goal;
   GoalFieldKey key;
   std::shared_ptr<const GoalField> field;
+  GoalFieldInputs made_from;  ///< what `field` was made from, as a plan names it
 };
 
 /// The snapshot of one planning call. A null member: not there yet.
@@ -69,9 +72,6 @@ struct PlanningWorld {
   std::shared_ptr<const MapProducts> map;
   std::shared_ptr<const GoalProducts> goal;
 };
-
-/// Names a list of boxes.
-std::uint64_t digest_of(const std::vector<Box>& boxes);
 
 /// Where the vehicle's centre may be: the flight box shrunk by the body.
 Box centre_box(const Box& flight_box, const Body& body);

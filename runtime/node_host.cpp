@@ -7,6 +7,7 @@
 #include "messages/configuration_report.h"
 #include "messages/heartbeat.h"
 #include "runtime/channels.h"
+#include "runtime/platform.h"
 #include "runtime/process.h"
 #include "runtime/version.h"
 
@@ -76,6 +77,7 @@ void NodeHost::publish_configuration() {
   ConfigurationReport message;
   message.process = process_;
   message.build_id = build_id();
+  message.platform = platform();
   message.yaml = yaml_;
   message.hash = digest(yaml_);
   bus_.publish(channels::kConfiguration, message);

@@ -45,6 +45,7 @@ struct ConfigurationReport {
   Header header;
   std::string process;
   std::string build_id;
+  std::string platform;    ///< compiler, CPU features, C library, BLAS: what floating point depends on besides
   std::string yaml;        ///< the effective configuration
   std::uint64_t hash = 0;  ///< digest of yaml
 };

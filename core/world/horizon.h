@@ -68,12 +68,23 @@ struct PlanCost {
   double total = 0.0;
 };
 
+/// The names of what the distances to the goal were made from, besides the goal's position. They are prepared beside
+/// the planning, so they may rest on an older map or older static tracks than the plan.
+struct GoalFieldInputs {
+  std::uint64_t map_version = 0;       ///< whose boxes are in it; 0: there were no distances
+  std::int64_t statics_epoch_us = 0;   ///< the predictor whose static tracks are in it; 0: none was heard
+  std::int64_t statics_first_set = 0;  ///< the first of its sets that were heard: each adds its static tracks
+  std::uint64_t statics = 0;           ///< digest of the static tracks' boxes, by track id
+  MessageName vehicle;  ///< the request whose body, flight box and start it was made for; none: the configured vehicle
+};
+
 /// The names of what a plan was made from.
 struct PlanInputs {
   MessageName request, goal, predictions;
   std::int64_t prediction_set = 0;
   std::uint64_t map_version = 0;  ///< digest of the map; 0: none
   std::uint64_t configuration_hash = 0;
+  GoalFieldInputs goal_field;
 };
 
 /// PLAN: answers exactly one request. Nothing in it depends on the clock.

@@ -39,6 +39,7 @@ inline constexpr int kMaxHeartbeatChannels = 64;
 inline constexpr int kMaxChannelName = 63;     ///< bytes (LCM's own limit)
 inline constexpr int kMaxProcessText = 64;     ///< bytes
 inline constexpr int kMaxBuildIdText = 256;    ///< bytes
+inline constexpr int kMaxPlatformText = 1024;  ///< bytes
 inline constexpr int kMaxWaitingText = 1024;   ///< bytes
 inline constexpr int kMaxYamlText = 50'000;    ///< bytes
 inline constexpr int kMaxDetailText = 2048;    ///< bytes

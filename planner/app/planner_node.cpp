@@ -88,7 +88,7 @@ void PlannerNode::on_request(const HorizonRequest& request) {
   if (request.header.name == last_request_) return;
   last_request_ = request.header.name;
   if (now >= request.deadline) return bus_.count_late(channels::kHorizonRequest);
-  intake_.set_vehicle(request.body, request.flight_box, request.start.p);
+  intake_.set_vehicle(request);
   desk_.open(request, now);
   if (!execution_.threaded) return work(request, intake_.snapshot(), now);
   waiting_ = request;

@@ -12,7 +12,6 @@ namespace tern {
 WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background)
     : config_(config), body_half_(uav.body.half_extents()), flight_box_(uav.flight_box), at_(uav.start) {
   if (in_background) worker_ = std::make_unique<Worker>();
-  static_digest_ = digest_of(static_boxes_);
   bus.subscribe<TrackSet>(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
   bus.subscribe<MapChunk>(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus.subscribe<Goal>(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
@@ -32,45 +31,21 @@ std::string WorldIntake::missing() const {
   return "";
 }
 
-void WorldIntake::set_vehicle(const Body& body, const Box& flight_box, const Vec3& at) {
-  body_half_ = body.half_extents();
-  flight_box_ = flight_box;
-  at_ = at;
+void WorldIntake::set_vehicle(const HorizonRequest& request) {
+  body_half_ = request.body.half_extents();
+  flight_box_ = request.flight_box;
+  at_ = request.start.p;
+  vehicle_ = request.header.name;
 }
 
 void WorldIntake::on_predictions(const TrackSet& batch) {
   auto set = batches_.add(batch);
   if (!set) return;
   TrackSet whole = join_batches(std::move(*set));
-  remember_statics(whole);
+  statics_.add(whole);
   auto products = std::make_shared<const PredictionProducts>(std::move(whole));
   const std::lock_guard lock(mutex_);
   ready_.predictions = std::move(products);
-}
-
-/// A set may leave out what is far; a path to the goal needs all that stands. Another predictor starts a new memory.
-void WorldIntake::remember_statics(const TrackSet& set) {
-  bool changed = false;
-  if (set.header.name.sender_epoch_us != statics_epoch_) {
-    statics_epoch_ = set.header.name.sender_epoch_us;
-    changed = !statics_.empty();
-    statics_.clear();
-  }
-  for (const Track& track : set.tracks) {
-    if (track.kind != TrackKind::Static) continue;
-    const Box box = track.bounds(track.motion.start, track.motion.start);
-    const auto [at, is_new] = statics_.emplace(track.id, box);
-    if (is_new || (at->second.min() == box.min() && at->second.max() == box.max())) {
-      changed = changed || is_new;
-      continue;
-    }
-    at->second = box;
-    changed = true;
-  }
-  if (!changed) return;
-  static_boxes_.clear();
-  for (const auto& [id, box] : statics_) static_boxes_.push_back(box);
-  static_digest_ = digest_of(static_boxes_);
 }
 
 void WorldIntake::on_map(const MapChunk& chunk) {
@@ -100,18 +75,20 @@ void WorldIntake::prepare() {
   }
   const PlanningWorld world = snapshot();
   if (!newest_goal_ || !world.map || !world.predictions) return;
-  const GoalFieldKey key{newest_goal_->position, world.map->version, static_digest_, body_half_, flight_box_};
+  const GoalFieldKey key{newest_goal_->position, world.map->version, statics_.digest(), body_half_, flight_box_};
   if (world.goal && world.goal->key == key) {
     const Goal& known = world.goal->goal;
     if (known.id == newest_goal_->id && known.mode == newest_goal_->mode) return;
     const std::lock_guard lock(mutex_);
-    ready_.goal = std::make_shared<const GoalProducts>(GoalProducts{*newest_goal_, key, world.goal->field});
+    ready_.goal = std::make_shared<const GoalProducts>(
+        GoalProducts{*newest_goal_, key, world.goal->field, world.goal->made_from});
     return;
   }
-  start([this, goal = *newest_goal_, key, map = world.map, boxes = static_boxes_, at = at_] {
+  const GoalFieldInputs names{key.map_version, statics_.epoch_us(), statics_.first_set(), key.statics, vehicle_};
+  start([this, goal = *newest_goal_, key, names, map = world.map, boxes = statics_.boxes(), at = at_] {
     auto field = std::make_shared<const GoalField>(make_goal_field(key, map->occupied, boxes, at));
     const std::lock_guard lock(mutex_);
-    ready_.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field)});
+    ready_.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names});
   });
 }
 

@@ -2,16 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/world/scenario.h"
 #include "planner/app/worker.h"
 #include "planner/planning_world.h"
+#include "planner/static_tracks.h"
 #include "runtime/batches.h"
 #include "runtime/bus.h"
 
@@ -28,8 +27,8 @@ class WorldIntake {
   [[nodiscard]] std::string missing() const;
   /// Starts the preparation that the newest messages ask for, if none runs.
   void prepare();
-  /// The vehicle as a request describes it: paths are made for this body and flight box from then on.
-  void set_vehicle(const Body& body, const Box& flight_box, const Vec3& at);
+  /// The vehicle as a request describes it: paths are made for its body and flight box from then on.
+  void set_vehicle(const HorizonRequest& request);
   /// Sets of which a batch was lost.
   [[nodiscard]] std::int64_t incomplete_sets() const { return batches_.incomplete(); }
 
@@ -37,22 +36,19 @@ class WorldIntake {
   void on_predictions(const TrackSet& batch);
   void on_map(const MapChunk& chunk);
   void on_goal(const Goal& goal);
-  void remember_statics(const TrackSet& set);
   void start(std::function<void()> job);
   void make_map(VoxelMap map);
 
   PlannerConfig config_;
   BatchCollector<TrackSet> batches_;
   MapAssembler assembler_;
-  std::map<std::int64_t, Box> statics_;  ///< all static tracks ever heard of this predictor epoch
-  std::int64_t statics_epoch_ = 0;
-  std::vector<Box> static_boxes_;
-  std::uint64_t static_digest_ = 0;
+  StaticTracks statics_;
   std::optional<VoxelMap> pending_map_;
   std::optional<Goal> newest_goal_;
   Vec3 body_half_;
   Box flight_box_;
   Vec3 at_;
+  MessageName vehicle_;  ///< the request that described it last; none: as configured
 
   mutable std::mutex mutex_;  ///< guards ready_
   PlanningWorld ready_;

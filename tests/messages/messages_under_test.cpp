@@ -65,7 +65,9 @@ struct Words {
   void add(const BudgetCut& c) { (*this)(c.attempt, c.stage, c.count); }
   void add(const PlanCost& c) { (*this)(c.distance_to_goal, c.jerk, c.attraction, c.repulsion, c.total); }
   void add(const PlanInputs& i) {
-    (*this)(i.request, i.goal, i.predictions, i.prediction_set, i.map_version, i.configuration_hash);
+    const GoalFieldInputs& f = i.goal_field;
+    (*this)(i.request, i.goal, i.predictions, i.prediction_set, i.map_version, i.configuration_hash, f.map_version,
+            f.statics_epoch_us, f.statics_first_set, f.statics, f.vehicle);
   }
   void add(const ChannelCounters& c) { (*this)(c.sent, c.received, c.rejected, c.lost, c.late); }
   void add(const TrueObstacle& o) { (*this)(o.id, o.position, o.velocity, o.half_extents, o.moves); }
@@ -97,7 +99,7 @@ struct Words {
     (*this)(h.header, h.process, h.build_id, h.state, h.waiting_for, h.channels.size());
     for (const auto& [name, counters] : h.channels) (*this)(name, counters);
   }
-  void add(const ConfigurationReport& r) { (*this)(r.header, r.process, r.build_id, r.yaml, r.hash); }
+  void add(const ConfigurationReport& r) { (*this)(r.header, r.process, r.build_id, r.platform, r.yaml, r.hash); }
   void add(const ObstacleTruth& t) { (*this)(t.header, t.batch, t.at, t.obstacles, t.left_out); }
   void add(const FlightResult& r) {
     (*this)(r.header, r.outcome, r.detail, r.flight_time_s, r.first_entry_s, r.path_length_m, r.mean_speed_mps,
@@ -171,7 +173,7 @@ std::vector<std::int32_t> array_sizes(const Heartbeat& heartbeat) {
 }
 template <>
 std::vector<std::int32_t> array_sizes(const ConfigurationReport& report) {
-  return {size_of(report.process), size_of(report.build_id), size_of(report.yaml)};
+  return {size_of(report.process), size_of(report.build_id), size_of(report.platform), size_of(report.yaml)};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const ObstacleTruth& truth) {

@@ -266,6 +266,9 @@ TEST(Rejection, OfPlan) {
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.goal.sequence = -1; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.predictions.sender_epoch_us = -1; }), "Time");
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.prediction_set = -1; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.goal_field.statics_epoch_us = -1; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.goal_field.statics_first_set = -1; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.goal_field.vehicle.sequence = -1; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.request = {0, 0}; }), "accepted");
   EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].plane.n *= 1.0 + 3e-6; }), "Inconsistent");
   EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].plane.n.setConstant(kNaN); }), "Number");
@@ -316,6 +319,7 @@ TEST(Rejection, OfHeartbeat) {
 TEST(Rejection, OfConfigurationReport) {
   EXPECT_EQ(after<ConfigurationReport>([](auto& r) { ++r.hash; }), "Inconsistent");
   EXPECT_EQ(after<ConfigurationReport>([](auto& r) { r.yaml += ' '; }), "Inconsistent");
+  EXPECT_EQ(after<ConfigurationReport>([](auto& r) { r.platform = std::string(1, '\0'); }), "Number");
   EXPECT_EQ(after<ConfigurationReport>([](auto& r) {
               r.yaml += '\0';
               r.hash = digest(r.yaml);

@@ -8,6 +8,7 @@
 #include "messages/configuration_report.h"
 #include "messages/heartbeat.h"
 #include "runtime/lcm_network.h"
+#include "runtime/platform.h"
 #include "runtime/version.h"
 #include "runtime/virtual_runner.h"
 #include "talker.h"
@@ -39,6 +40,8 @@ TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFive
   ASSERT_EQ(reports.size(), 3U);
   EXPECT_EQ(reports[0].header.utime, kStart);
   EXPECT_EQ(reports[0].yaml, "x: 1\n");
+  EXPECT_EQ(reports[0].build_id, build_id());
+  EXPECT_EQ(reports[0].platform, platform());
   EXPECT_EQ(reports[0].hash, configuration_hash("x: 1\n"));
 }
 

@@ -263,8 +263,14 @@ Plan random_message(Rng& rng, Fill fill) {
   plan.sphere_radius = number(rng, 0.0, kMaxCoordinate);
   plan.cost = {number(rng, 0.0, 1e9), number(rng, 0.0, 1e300), number(rng, -1e300, 1e300), number(rng, -1e9, 1e9),
                number(rng, -1e9, 1e9)};
-  plan.inputs = {name(rng),           name(rng), name(rng), integer(rng, 0, kMaxCounter), digest(text(rng, 8)),
-                 digest(text(rng, 8))};
+  plan.inputs = {name(rng),
+                 name(rng),
+                 name(rng),
+                 integer(rng, 0, kMaxCounter),
+                 digest(text(rng, 8)),
+                 digest(text(rng, 8)),
+                 {digest(text(rng, 8)), integer(rng, 0, kMaxCounter), integer(rng, 0, kMaxCounter),
+                  digest(text(rng, 8)), name(rng)}};
   const int planes = count(rng, fill, 0, kMaxCertificatePlanes);
   for (int i = 0; i < planes; ++i) plan.certificate.push_back(plane(rng, n - 3));
   const int cuts = count(rng, fill, 0, kMaxBudgetCuts);
@@ -310,6 +316,7 @@ ConfigurationReport random_message(Rng& rng, Fill fill) {
   report.header = header(rng);
   report.process = text(rng, count(rng, fill, 1, kMaxProcessText));
   report.build_id = text(rng, count(rng, fill, 0, kMaxBuildIdText));
+  report.platform = text(rng, count(rng, fill, 0, kMaxPlatformText));
   report.yaml = text(rng, count(rng, fill, 0, kMaxYamlText));
   report.hash = digest(report.yaml);
   return report;
