@@ -60,6 +60,7 @@ void put(Message& m, const PlanInputs& inputs) {
   m.prediction_set = inputs.prediction_set;
   m.map_version = static_cast<std::int64_t>(inputs.map_version);
   m.configuration_hash = static_cast<std::int64_t>(inputs.configuration_hash);
+  m.planner_build = static_cast<std::int64_t>(inputs.planner_build);
   m.field_map_version = static_cast<std::int64_t>(inputs.goal_field.map_version);
   m.field_statics_epoch_us = inputs.goal_field.statics_epoch_us;
   m.field_statics_first_set = inputs.goal_field.statics_first_set;
@@ -106,6 +107,7 @@ PlanInputs read_inputs(wire::FieldReader& read, const Message& m) {
   inputs.prediction_set = read.counter(m.prediction_set);
   inputs.map_version = static_cast<std::uint64_t>(m.map_version);
   inputs.configuration_hash = static_cast<std::uint64_t>(m.configuration_hash);
+  inputs.planner_build = static_cast<std::uint64_t>(m.planner_build);
   inputs.goal_field.map_version = static_cast<std::uint64_t>(m.field_map_version);
   inputs.goal_field.statics_epoch_us = read.counter(m.field_statics_epoch_us);
   inputs.goal_field.statics_first_set = read.counter(m.field_statics_first_set);

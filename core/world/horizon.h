@@ -84,6 +84,7 @@ struct PlanInputs {
   std::int64_t prediction_set = 0;
   std::uint64_t map_version = 0;  ///< digest of the map; 0: none
   std::uint64_t configuration_hash = 0;
+  std::uint64_t planner_build = 0;  ///< digest of what plan() was compiled from
   GoalFieldInputs goal_field;
 };
 

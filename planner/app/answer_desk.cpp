@@ -2,9 +2,20 @@
 
 #include <utility>
 
+#include "planner/planner_build.h"
 #include "runtime/channels.h"
 
 namespace tern {
+
+Plan unanswered(const HorizonRequest& request) {
+  Plan plan;
+  plan.request_id = request.id;
+  plan.reason = PlanReason::OutOfTime;
+  plan.trajectory = request.committed;
+  plan.local_goal = request.start.p;
+  plan.inputs.request = request.header.name;
+  return plan;
+}
 
 void AnswerDesk::open(const HorizonRequest& request, UTime now) {
   const std::lock_guard lock(mutex_);
@@ -13,11 +24,7 @@ void AnswerDesk::open(const HorizonRequest& request, UTime now) {
   next.id = request.id;
   next.arrived = now;
   next.watch_at = request.deadline - kWatchdogLead;
-  next.standing.request_id = request.id;
-  next.standing.reason = PlanReason::OutOfTime;
-  next.standing.trajectory = request.committed;
-  next.standing.local_goal = request.start.p;
-  next.standing.inputs.request = request.header.name;
+  next.standing = unanswered(request);
   open_ = std::move(next);
 }
 
@@ -62,6 +69,7 @@ void AnswerDesk::send_standing(UTime now) {
 
 void AnswerDesk::send(Plan plan, const PlanTiming& timing) {
   plan.inputs.configuration_hash = configuration_hash_;
+  plan.inputs.planner_build = planner_build();
   bus_.publish(channels::kPlan, std::move(plan));
   bus_.publish(channels::kPlanTiming, timing);
 }

@@ -13,6 +13,9 @@ namespace tern {
 /// The watchdog sends what stands this long before the deadline: an answer must still travel and be checked.
 inline constexpr Duration kWatchdogLead{4'000};
 
+/// The answer while the worker has none: NoPlan, out of time; it rests on the request alone.
+Plan unanswered(const HorizonRequest& request);
+
 /// Shared by the receiving thread (opens requests, runs the watchdog) and the worker (improves and gives answers).
 /// Thread-safe.
 class AnswerDesk {
@@ -36,7 +39,7 @@ class AnswerDesk {
     std::int64_t id = 0;
     UTime arrived;
     UTime watch_at;
-    Plan standing;  ///< NoPlan, out of time, until the worker has more
+    Plan standing;  ///< unanswered(), until the worker has more
     std::int32_t improvements = 0;
   };
   void send_standing(UTime now);

@@ -269,6 +269,7 @@ Plan random_message(Rng& rng, Fill fill) {
                  integer(rng, 0, kMaxCounter),
                  digest(text(rng, 8)),
                  digest(text(rng, 8)),
+                 digest(text(rng, 8)),
                  {digest(text(rng, 8)), integer(rng, 0, kMaxCounter), integer(rng, 0, kMaxCounter),
                   digest(text(rng, 8)), name(rng)}};
   const int planes = count(rng, fill, 0, kMaxCertificatePlanes);
