@@ -19,6 +19,9 @@ fly.sh [OPTION...]: installs what is missing, builds, starts Tern's processes, f
   --summary FILE        write the summary as JSON there, too
   --lcm-url URL         the LCM network to use (default: this host only, on the first port that no other flight uses)
   --isolated            fly in a network namespace of its own; enter.sh gives a shell in it
+  --view[=ADDRESS]      show the flight in the browser: builds the page (Node 18 or newer), prints its URL and opens it
+                        (default 127.0.0.1, on the first free port from 8765)
+  --allow-goals         that page may send goals
   --no-install          do not look for missing packages
   --help                this
 
@@ -27,9 +30,10 @@ END
 }
 
 readonly OTHERS=(tern-simulator tern-predictor tern-mapper tern-planner)
-readonly LOGGER=tern-logger MONITOR=tern-monitor
+readonly LOGGER=tern-logger MONITOR=tern-monitor VIEWER=tern-viewer
 
-scenario=corridor_demo seed='' count='' record='' summary='' url='' isolated='' install=yes
+scenario=corridor_demo seed='' count='' record='' summary='' url='' isolated='' install=yes view=''
+viewer_options=()
 settings=() # as --set KEY=VALUE ... for every process
 
 set_value() { settings+=(--set "$1"); }
@@ -41,6 +45,8 @@ parse() {
     shift
     case $option in
       --isolated) isolated=yes && continue ;;
+      --view) view=127.0.0.1 && continue ;;
+      --allow-goals) viewer_options+=(--allow-goals) && continue ;;
       --no-install) install='' && continue ;;
       --help | -h) usage && exit 0 ;;
       --*=*) value=${option#*=} option=${option%%=*} ;;
@@ -67,10 +73,22 @@ parse() {
       --record) record=$value ;;
       --summary) summary=$value ;;
       --lcm-url) url=$value ;;
+      --view) view=$value ;;
       *) die "unknown option $option (--help)" ;;
     esac
   done
 }
+
+install_and_build() {
+  local lists=("$TERN_ROOT/launch_scripts/packages.txt")
+  [[ -z $view ]] || lists+=("$TERN_ROOT/launch_scripts/packages_view.txt")
+  [[ -z $install ]] || "$TERN_ROOT/launch_scripts/install.sh" "${lists[@]}" || die "the packages could not be installed"
+  build_programs || die "the programs could not be built"
+  [[ -z $view ]] || "$TERN_ROOT/launch_scripts/view_page.sh" || die "the page could not be built"
+}
+
+# Becomes this script with a listening socket, made before any namespace, so that browsers outside reach the page.
+listen_for_browsers() { exec "$TERN_BIN/tern-listen" "$view" "$0" "${arguments[@]}"; }
 
 # Where the flight's files go; made, with its absolute path in `record`.
 make_record() {
@@ -125,6 +143,7 @@ announce() {
   else
     say "  network  export LCM_DEFAULT_URL='$url'"
   fi
+  [[ -z $view ]] || say "  view     $TERN_LISTEN_URL"
 }
 
 declare -A names=() # of the running children, by pid; each leads a session and process group of its own
@@ -135,7 +154,11 @@ start() {
   shift
   printf '%q ' "$@" >>"$record/command"
   printf '\n' >>"$record/command"
-  setpriv --pdeathsig TERM -- setsid -- "$@" </dev/null &
+  if [[ -n ${TERN_LISTEN_FD:-} && $name != "$VIEWER" ]]; then
+    setpriv --pdeathsig TERM -- setsid -- "$@" </dev/null {TERN_LISTEN_FD}<&- &
+  else
+    setpriv --pdeathsig TERM -- setsid -- "$@" </dev/null &
+  fi
   names[$!]=$name
 }
 
@@ -145,6 +168,10 @@ start_all() {
     "$TERN_BIN/$LOGGER" "${common[@]}" --record "$record/flight.lcm"
   start "$MONITOR" "$TERN_BIN/$MONITOR" "${common[@]}" --summary "$record/summary.json" \
     --log "$record/flight.lcm" --failure-file "$record/failure" 2>"$record/$MONITOR.log"
+  if [[ -n $view ]]; then
+    start "$VIEWER" "$TERN_ROOT/launch_scripts/keep_alive.sh" --log "$record/$VIEWER.log" -- \
+      "$TERN_BIN/$VIEWER" "${common[@]}" --page "$TERN_PAGE" "${viewer_options[@]}"
+  fi
   for name in "${OTHERS[@]}"; do
     start "$name" "$TERN_ROOT/launch_scripts/keep_alive.sh" --log "$record/$name.log" -- "$TERN_BIN/$name" "${common[@]}"
   done
@@ -237,10 +264,11 @@ trap 'exit 130' INT
 trap 'exit 143' TERM
 trap 'exit 129' HUP
 scenario_file=$(find_scenario "$scenario")
-if [[ -z ${TERN_FLY_INSIDE:-} ]]; then
-  [[ -z $install ]] || "$TERN_ROOT/launch_scripts/install.sh" || die "the packages could not be installed"
-  build_programs || die "the programs could not be built"
+if [[ -z ${TERN_FLY_INSIDE:-}${TERN_LISTEN_FD:-} ]]; then
+  install_and_build
+  [[ -z $view ]] || listen_for_browsers
 fi
+[[ -z $view || -n ${TERN_FLY_INSIDE:-} ]] || open_page "$TERN_LISTEN_URL"
 for program in "$LOGGER" "$MONITOR" "${OTHERS[@]}"; do
   [[ -x $TERN_BIN/$program ]] || die "$TERN_BIN/$program is not there"
 done
@@ -250,4 +278,5 @@ announce
 outcome=$EXIT_FAILED
 start_all
 watch
+[[ -z $view ]] || say "  see it again: launch_scripts/view.sh --log $record/flight.lcm"
 exit "$outcome"

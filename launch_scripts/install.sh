@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # install.sh [LIST...]: installs the Debian packages of the lists (by default packages.txt) that are missing, as root or with
-# sudo. Does nothing when none is.
+# sudo. Does nothing when none is. A line "PACKAGE unless COMMAND" asks for nothing where the command is there already.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 [[ $# -gt 0 ]] || set -- "$TERN_ROOT/launch_scripts/packages.txt"
-mapfile -t wanted < <(grep -ohE '^[a-z0-9][^[:space:]]*' "$@")
 missing=()
-for package in "${wanted[@]}"; do
+while read -r package condition command; do
+  [[ $condition != unless ]] || ! command -v "$command" >/dev/null || continue
   status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) || status=''
   [[ $status == 'install ok installed' ]] || missing+=("$package")
-done
+done < <(grep -hE '^[a-z0-9]' "$@")
 [[ ${#missing[@]} -gt 0 ]] || exit 0
 
 say "Installing ${#missing[@]} Debian packages: ${missing[*]}"

@@ -7,6 +7,8 @@ readonly TERN_ROOT
 TERN_BIN_GIVEN=${TERN_BIN:+yes}
 TERN_BIN=${TERN_BIN:-$TERN_ROOT/build/release/bin}
 readonly TERN_BIN TERN_BIN_GIVEN
+# The built page of tern-viewer.
+readonly TERN_PAGE=${TERN_PAGE:-$TERN_ROOT/build/viewer-page}
 
 # Exit code of a flight that the system itself could not fly.
 readonly EXIT_FAILED=3
@@ -124,4 +126,10 @@ write_failed_summary() {
   "version": $(json_text "${version##* }")
 }
 END
+}
+
+# open_page URL: in the user's browser, where there is a display.
+open_page() {
+  [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] && command -v xdg-open >/dev/null || return 0
+  setsid xdg-open "$1" </dev/null >/dev/null 2>&1 &
 }

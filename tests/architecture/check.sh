@@ -52,21 +52,22 @@ only_in '^(chrono|sys/time.h)$' '^(runtime|tests|benchmarks|tools|campaign)/|/ap
 one_folder CGAL '^CGAL/'
 one_folder GLPK '^glpk.h$'
 one_folder Ipopt '^(coin/)?Ip[A-Z].*[.]hpp$'
+one_folder Beast '^boost/beast'
 
 # base <- geometry <- splines <- world <- process libraries <- apps.
-ours='^(core|messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|tools|tests)/'
+ours='^(core|messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|viewer|tools|tests)/'
 never '^core/base/' "^core/(geometry|splines|world)/" 'base stands on nothing'
 never '^core/geometry/' '^core/(splines|world)/' 'geometry stands on base'
 never '^core/splines/' '^core/world/' 'splines stand on base and geometry'
-never '^core/' '^(messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|tools|tests)/' \
+never '^core/' '^(messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|viewer|tools|tests)/' \
   'core stands on itself'
-never '^messages/' '^(runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|tools|tests)/' \
+never '^messages/' '^(runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|viewer|tools|tests)/' \
   'messages stand on core'
-never '^runtime/' '^(planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|tools|tests)/' \
+never '^runtime/' '^(planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|viewer|tools|tests)/' \
   'runtime stands on core and messages'
 
 # A process library knows its own folder, core, and for a recorder what messages are called.
-for process in planner predictor executor simulator semantic_mapper logger monitor; do
+for process in planner predictor executor simulator semantic_mapper logger monitor viewer/bridge; do
   while IFS=$'\t' read -r file header; do
     case $file in "$process"/app/*) continue ;; esac
     case $header in

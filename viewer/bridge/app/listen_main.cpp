@@ -1,0 +1,30 @@
+// tern-listen ADDRESS[:PORT] COMMAND [ARG...]: opens a listening socket and becomes COMMAND, which inherits it. So a
+// program in a network namespace of its own can be reached from outside: the socket belongs to the namespace in which
+// it was made.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "viewer/bridge/app/listening_socket.h"
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    fmt::print(stderr, "tern-listen ADDRESS[:PORT] COMMAND [ARG...]: sets {} and {} for COMMAND\n",
+               tern::kListenFdVariable, tern::kListenUrlVariable);
+    return 3;
+  }
+  const auto fd = tern::open_listening_socket(argv[1], true);
+  if (!fd) {
+    fmt::print(stderr, "tern-listen: {}\n", fd.error().message);
+    return 3;
+  }
+  setenv(tern::kListenFdVariable, std::to_string(*fd).c_str(), 1);
+  setenv(tern::kListenUrlVariable, tern::listening_url(*fd)->c_str(), 1);
+  execvp(argv[2], argv + 2);
+  fmt::print(stderr, "tern-listen: {}: {}\n", argv[2], std::strerror(errno));
+  return 127;
+}

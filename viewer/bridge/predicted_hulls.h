@@ -1,0 +1,31 @@
+// Where obstacles may be while a plan is flown: their predicted hulls, interval by interval.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/world/track.h"
+#include "core/world/vehicle.h"
+
+namespace tern {
+
+struct PredictedHull {
+  std::int64_t track = 0;
+  int interval = 0;
+  Points points;  ///< 3×m: the extreme points, W, m
+};
+
+struct PredictedHulls {
+  std::vector<PredictedHull> hulls;  ///< the tracks nearest to the plan first
+  int left_out = 0;                  ///< hulls that were not made because there were `most` already
+};
+
+/// For each interval of the plan and each moving track that may come within `reach` of it: conv of the track's box
+/// grown by its α and by β, swept along the prediction (the paper's C_ij without the vehicle's body). β: sampled at
+/// steps h of a piece with |ξ''| ≤ a, the chord leaves the curve by at most a h²/8. Beyond a track's last piece it is
+/// the box that grows at top speed.
+/// @param reach  m, ≥ 0: a hull is made where the track's box in that interval is no farther from the plan's curve
+/// @param most   hulls made at most; each costs about 40 µs
+PredictedHulls predicted_hulls(const TrackSet& tracks, const TimedSpline& plan, double reach, int most);
+
+}  // namespace tern

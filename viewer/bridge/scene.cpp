@@ -1,0 +1,122 @@
+#include "viewer/bridge/scene.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace tern {
+namespace {
+
+constexpr std::size_t kRememberedRequests = 16;
+
+double ball_radius(const Body& body) { return body.vertices.colwise().norm().maxCoeff() + body.radius; }
+
+}  // namespace
+
+void Scene::hear(const UavState& message) {
+  state_ = message;
+  if (history_ != nullptr) history_->add(message);
+  for (const Topic topic : {Topic::State, Topic::Chart, Topic::Path}) mark(topic);
+}
+
+void Scene::hear(const ObstacleTruth& complete_set) {
+  truth_ = complete_set;
+  mark(Topic::Truth);
+  if (const auto metres = clearance(); metres && history_ != nullptr) history_->add_clearance(state_->at, *metres);
+}
+
+void Scene::hear(TrackSet complete_set) {
+  tracks_ = std::move(complete_set);
+  mark(Topic::Tracks);
+}
+
+void Scene::hear(const HorizonRequest& message) {
+  request_ = message;
+  allowed_ms_[message.id] = (message.deadline - message.header.utime).seconds() * 1e3;
+  while (allowed_ms_.size() > kRememberedRequests) allowed_ms_.erase(allowed_ms_.begin());
+  mark(Topic::Request);
+}
+
+void Scene::hear(const Plan& message) {
+  plan_ = message;
+  mark(Topic::Plan);
+  mark(Topic::Hulls);
+}
+
+void Scene::hear(const PlanTiming& message) {
+  timing_ = message;
+  mark(Topic::Timing);
+  if (history_ == nullptr || !plan_ || plan_->request_id != message.request_id) return;
+  history_->add_answer(message.header.utime, message.total_ms, allowed_ms(), plan_->outcome);
+}
+
+void Scene::hear(const Goal& message) {
+  if (goal_ && message.id < goal_->id) return;
+  goal_ = message;
+  mark(Topic::Goal);
+}
+
+void Scene::hear(const FlightResult& message) {
+  result_ = message;
+  mark(Topic::Result);
+}
+
+void Scene::hear(const Heartbeat& message, UTime now) {
+  if (!processes_.contains(message.process) && processes_.size() >= kMostProcesses) return;
+  HeardProcess& process = processes_[message.process];
+  process.heartbeat = message;
+  process.heard = now;
+  mark(Topic::Health);
+}
+
+void Scene::hear(const ConfigurationReport& message) {
+  const auto found = processes_.find(message.process);
+  if (found != processes_.end()) found->second.configuration = message;
+}
+
+void Scene::hear(const VoxelMap& map) {
+  SeenMap seen{voxel_surface(map), map.grid, map.version, map.class_names, {}};
+  for (const VoxelLabel label : map.labels) ++seen.voxels[static_cast<std::size_t>(label)];
+  map_ = std::move(seen);
+  mark(Topic::Map);
+}
+
+void Scene::clear() {
+  state_.reset();
+  truth_.reset();
+  tracks_.reset();
+  request_.reset();
+  plan_.reset();
+  timing_.reset();
+  goal_.reset();
+  result_.reset();
+  processes_.clear();
+  allowed_ms_.clear();
+  const bool map_changed = changed_.test(static_cast<std::size_t>(Topic::Map));
+  changed_.set();
+  changed_.set(static_cast<std::size_t>(Topic::Map), map_changed);
+}
+
+std::optional<double> Scene::clearance() const {
+  if (!state_ || !truth_ || truth_->obstacles.empty()) return std::nullopt;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const TrueObstacle& o : truth_->obstacles) {
+    nearest = std::min(nearest, box_around(o.position, o.half_extents).exteriorDistance(state_->motion.p));
+  }
+  return nearest - (request_ ? ball_radius(request_->body) : 0.0);
+}
+
+double Scene::allowed_ms() const {
+  if (!timing_) return 0.0;
+  const auto found = allowed_ms_.find(timing_->request_id);
+  return found == allowed_ms_.end() ? 0.0 : found->second;
+}
+
+bool Scene::take_change(Topic topic) {
+  const auto k = static_cast<std::size_t>(topic);
+  const bool changed = changed_.test(k);
+  changed_.reset(k);
+  return changed;
+}
+
+}  // namespace tern

@@ -1,0 +1,98 @@
+// What is known of a flight right now: the newest message of each kind.
+#pragma once
+
+#include <bitset>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/world/flight_result.h"
+#include "core/world/goal.h"
+#include "core/world/health.h"
+#include "core/world/horizon.h"
+#include "core/world/observation.h"
+#include "core/world/track.h"
+#include "core/world/vehicle.h"
+#include "viewer/bridge/board.h"
+#include "viewer/bridge/flight_history.h"
+#include "viewer/bridge/voxel_faces.h"
+
+namespace tern {
+
+/// A process as it was heard.
+struct HeardProcess {
+  Heartbeat heartbeat;
+  UTime heard;
+  std::optional<ConfigurationReport> configuration;
+};
+
+/// Names are hostile, too: more processes than this are not remembered.
+inline constexpr std::size_t kMostProcesses = 64;
+
+/// The map as it is drawn, and what is told of it.
+struct SeenMap {
+  VoxelSurface surface;
+  VoxelGrid grid;
+  std::uint64_t version = 0;
+  std::vector<std::string> class_names;
+  std::array<std::int64_t, kVoxelLabels> voxels{};  ///< by label
+};
+
+/// Takes validated messages, complete sets and whole maps. Which topics changed is noted for whoever tells the page.
+class Scene {
+ public:
+  /// @param history  is told of motion, clearances and answers; may be null
+  explicit Scene(FlightHistory* history = nullptr) : history_(history) {}
+
+  void hear(const UavState& message);
+  void hear(const ObstacleTruth& complete_set);
+  void hear(TrackSet complete_set);
+  void hear(const HorizonRequest& message);
+  void hear(const Plan& message);
+  void hear(const PlanTiming& message);
+  void hear(const Goal& message);
+  void hear(const FlightResult& message);
+  void hear(const Heartbeat& message, UTime now);
+  void hear(const ConfigurationReport& message);
+  void hear(const VoxelMap& map);
+  /// Forgets everything but the map, for a jump in a log.
+  void clear();
+
+  [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
+  [[nodiscard]] const std::optional<ObstacleTruth>& truth() const { return truth_; }
+  [[nodiscard]] const std::optional<TrackSet>& tracks() const { return tracks_; }
+  [[nodiscard]] const std::optional<HorizonRequest>& request() const { return request_; }
+  [[nodiscard]] const std::optional<Plan>& plan() const { return plan_; }
+  [[nodiscard]] const std::optional<PlanTiming>& timing() const { return timing_; }
+  [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
+  [[nodiscard]] const std::optional<FlightResult>& result() const { return result_; }
+  [[nodiscard]] const std::optional<SeenMap>& map() const { return map_; }
+  [[nodiscard]] const std::map<std::string, HeardProcess>& processes() const { return processes_; }
+
+  /// From the body to the nearest true obstacle, m; nothing before both were heard. A body of vertices counts as the
+  /// ball around it.
+  [[nodiscard]] std::optional<double> clearance() const;
+  /// What the planner was given for the answer that `timing` tells of, ms; 0: not known.
+  [[nodiscard]] double allowed_ms() const;
+
+  /// True once per change.
+  bool take_change(Topic topic);
+  void mark(Topic topic) { changed_.set(static_cast<std::size_t>(topic)); }
+
+ private:
+  FlightHistory* history_;
+  std::optional<UavState> state_;
+  std::optional<ObstacleTruth> truth_;
+  std::optional<TrackSet> tracks_;
+  std::optional<HorizonRequest> request_;
+  std::optional<Plan> plan_;
+  std::optional<PlanTiming> timing_;
+  std::optional<Goal> goal_;
+  std::optional<FlightResult> result_;
+  std::optional<SeenMap> map_;
+  std::map<std::string, HeardProcess> processes_;
+  std::map<std::int64_t, double> allowed_ms_;  ///< of the last requests, by id
+  std::bitset<kTopics> changed_;
+};
+
+}  // namespace tern

@@ -1,0 +1,70 @@
+// The messages of what was picked, as they are.
+
+const REFRESH_MS = 400;
+
+function cell(tag, text) {
+  const element = document.createElement(tag);
+  element.textContent = text;
+  return element;
+}
+
+function words(value) {
+  if (Array.isArray(value)) return value.map(words).join(', ');
+  if (value !== null && typeof value === 'object') {
+    return Object.entries(value).map(([key, x]) => `${key} ${words(x)}`).join(';  ');
+  }
+  return String(value);
+}
+
+function fields(message) {
+  const list = document.createElement('dl');
+  for (const [key, value] of Object.entries(message)) {
+    if (key === 'channel') continue;
+    if (key === 'yaml') {
+      list.append(cell('pre', value));
+    } else if (Array.isArray(value) && typeof value[0] === 'object') {
+      value.forEach((entry, k) => list.append(cell('dt', `${key}[${k}]`), cell('dd', words(entry))));
+    } else if (value !== null && typeof value === 'object' && !Array.isArray(value)) {
+      for (const [name, x] of Object.entries(value)) list.append(cell('dt', name), cell('dd', words(x)));
+    } else {
+      list.append(cell('dt', key), cell('dd', words(value)));
+    }
+  }
+  return list;
+}
+
+export class Inspector {
+  /** @param ask  sends a command to the bridge */
+  constructor(ask) {
+    this.ask = ask;
+    this.panel = document.getElementById('inspector');
+    this.pick = null;
+    document.getElementById('closeinspector').onclick = () => this.close();
+    setInterval(() => this.refresh(), REFRESH_MS);
+  }
+
+  open(pick) {
+    this.pick = pick;
+    this.refresh();
+  }
+
+  close() {
+    this.pick = null;
+    this.panel.hidden = true;
+    this.closed?.();
+  }
+
+  refresh() {
+    if (this.pick) this.ask({ pick: this.pick });
+  }
+
+  show(detail) {
+    if (!this.pick) return;
+    const scroll = this.panel.scrollTop;
+    document.getElementById('inspected').textContent = detail.title;
+    const parts = detail.messages.flatMap((message) => [cell('h3', message.channel), fields(message)]);
+    document.getElementById('messages').replaceChildren(...(parts.length ? parts : [cell('p', 'nothing was heard of it')]));
+    this.panel.hidden = false;
+    this.panel.scrollTop = scroll;
+  }
+}

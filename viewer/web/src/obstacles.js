@@ -1,0 +1,133 @@
+// Obstacles as instanced boxes, with a soft dark spot below each, so that one sees where it hovers.
+import * as THREE from 'three';
+import { palette } from './palette.js';
+
+const MOST = 4096; // what is drawn at most
+const LONGEST_GUESS_S = 0.25; // positions are carried on by velocity no longer than this
+
+function spotTexture() {
+  const size = 64;
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = size;
+  const context = canvas.getContext('2d');
+  const gradient = context.createRadialGradient(32, 32, 4, 32, 32, 32);
+  gradient.addColorStop(0, 'rgba(0,0,0,0.62)');
+  gradient.addColorStop(1, 'rgba(0,0,0,0)');
+  context.fillStyle = gradient;
+  context.fillRect(0, 0, size, size);
+  return new THREE.CanvasTexture(canvas);
+}
+
+/** Faces a little darker within than at their edges: boxes keep their outline without lines. */
+function faceTexture() {
+  const size = 128;
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = size;
+  const context = canvas.getContext('2d');
+  context.fillStyle = '#fff';
+  context.fillRect(0, 0, size, size);
+  context.fillStyle = '#c9c9c9';
+  context.fillRect(4, 4, size - 8, size - 8);
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.generateMipmaps = true;
+  texture.anisotropy = 4;
+  return texture;
+}
+
+export class Obstacles {
+  constructor(scene) {
+    this.boxes = new THREE.InstancedMesh(
+      new THREE.BoxGeometry(1, 1, 1), new THREE.MeshLambertMaterial({ map: faceTexture() }), MOST);
+    this.spots = new THREE.InstancedMesh(
+      new THREE.PlaneGeometry(1, 1),
+      new THREE.MeshBasicMaterial({ map: spotTexture(), transparent: true, depthWrite: false }), MOST);
+    this.spots.renderOrder = -1;
+    for (const mesh of [this.boxes, this.spots]) {
+      mesh.frustumCulled = false;
+      mesh.count = 0;
+      mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+      scene.add(mesh);
+    }
+    this.colors = { 0: new THREE.Color(palette.pillar), 1: new THREE.Color(palette.mover) };
+    this.picked = new THREE.Color('#ffffff');
+    this.clear();
+  }
+
+  clear() {
+    this.set = null;
+    this.boxes.count = this.spots.count = 0;
+  }
+
+  get count() {
+    return this.boxes.count;
+  }
+
+  /**
+   * @param set  {at_us, id, moves, p, v, h}: a row per obstacle; p, v, h are flat, three numbers each
+   * @throws RangeError when the lists are not of one length
+   */
+  take(set) {
+    const n = set.id.length;
+    if (set.moves.length !== n || [set.p, set.v, set.h].some((list) => list.length !== 3 * n)) {
+      throw new RangeError('obstacle lists differ in length');
+    }
+    this.set = set;
+    this.boxes.count = this.spots.count = Math.min(n, MOST);
+    this.recolor();
+  }
+
+  pick(id) {
+    this.pickedId = id;
+    this.recolor();
+  }
+
+  recolor() {
+    for (let k = 0; k < this.boxes.count; ++k) {
+      const color = this.set.id[k] === this.pickedId ? this.picked : this.colors[this.set.moves[k]];
+      this.boxes.setColorAt(k, color);
+    }
+    if (this.boxes.instanceColor) this.boxes.instanceColor.needsUpdate = true;
+  }
+
+  /** @param now_us  the vehicle's clock */
+  draw(now_us) {
+    if (!this.set) return;
+    const dt = Math.min(Math.max((now_us - this.set.at_us) * 1e-6, 0), LONGEST_GUESS_S);
+    const { p, v, h } = this.set;
+    const box = this.boxes.instanceMatrix.array;
+    const spot = this.spots.instanceMatrix.array;
+    for (let k = 0; k < this.boxes.count; ++k) {
+      const i = 3 * k;
+      const m = 16 * k;
+      const x = p[i] + v[i] * dt;
+      const y = p[i + 1] + v[i + 1] * dt;
+      const z = p[i + 2] + v[i + 2] * dt;
+      box[m] = 2 * h[i];
+      box[m + 5] = 2 * h[i + 1];
+      box[m + 10] = 2 * h[i + 2];
+      box[m + 12] = x;
+      box[m + 13] = y;
+      box[m + 14] = z;
+      box[m + 15] = 1;
+      const spread = 2.6 + 0.25 * Math.max(z - h[i + 2], 0);
+      spot[m] = spread * h[i];
+      spot[m + 5] = spread * h[i + 1];
+      spot[m + 10] = 1;
+      spot[m + 12] = x;
+      spot[m + 13] = y;
+      spot[m + 14] = 0.02;
+      spot[m + 15] = 1;
+    }
+    this.boxes.instanceMatrix.needsUpdate = true;
+    this.spots.instanceMatrix.needsUpdate = true;
+  }
+
+  /** The obstacle under a ray, {id, distance}, or nothing. */
+  hit(raycaster) {
+    if (!this.set) return null;
+    this.boxes.computeBoundingSphere();
+    const [first] = raycaster.intersectObject(this.boxes);
+    return first ? { id: this.set.id[first.instanceId], distance: first.distance } : null;
+  }
+}

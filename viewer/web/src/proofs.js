@@ -1,0 +1,116 @@
+// What a plan stands on: predicted hulls per interval, the certificate's separating planes, the search's nodes.
+import * as THREE from 'three';
+import { ConvexHull } from 'three/addons/math/ConvexHull.js';
+import { palette } from './palette.js';
+
+const PATCH = 0.9; // half the side of a drawn plane, m
+const SOON = new THREE.Color('#ffb26b');
+const LATER = new THREE.Color('#7d4630');
+
+/** Triangles of a convex hull, appended to `out`. */
+function triangulate(points, out) {
+  const hull = new ConvexHull().setFromPoints(points);
+  for (const face of hull.faces) {
+    let edge = face.edge;
+    do {
+      const { x, y, z } = edge.head().point;
+      out.push(x, y, z);
+      edge = edge.next;
+    } while (edge !== face.edge);
+  }
+}
+
+function translucent(color, opacity) {
+  return new THREE.MeshBasicMaterial({
+    color, transparent: true, opacity, side: THREE.DoubleSide, depthWrite: false });
+}
+
+export class Proofs {
+  constructor(scene) {
+    this.hulls = new THREE.Mesh(new THREE.BufferGeometry(), translucent('#ffffff', 0.09));
+    this.hulls.material.vertexColors = true;
+    this.planes = new THREE.Group();
+    this.patches = new THREE.Mesh(new THREE.BufferGeometry(), translucent(palette.plane, 0.07));
+    this.frames = new THREE.LineSegments(
+      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: palette.plane, transparent: true, opacity: 0.3 }));
+    this.planes.add(this.patches, this.frames);
+    this.nodes = new THREE.LineSegments(
+      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#c7b6ff', transparent: true, opacity: 0.35 }));
+    for (const mesh of [this.hulls, this.patches, this.frames, this.nodes]) mesh.frustumCulled = false;
+    scene.add(this.hulls, this.planes, this.nodes);
+    this.clear();
+  }
+
+  clear() {
+    this.hullCount = this.planeCount = 0;
+    for (const mesh of [this.hulls, this.patches, this.frames, this.nodes]) this.fill(mesh, []);
+  }
+
+  fill(mesh, positions, colors = null) {
+    mesh.geometry.dispose();
+    mesh.geometry = new THREE.BufferGeometry();
+    mesh.geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+    if (colors) mesh.geometry.setAttribute('color', new THREE.Float32BufferAttribute(colors, 3));
+  }
+
+  /** @param message  {hulls: [{track, interval, points}]}; points flat; null: none */
+  takeHulls(message) {
+    const positions = [];
+    const colors = [];
+    const color = new THREE.Color();
+    for (const hull of message?.hulls ?? []) {
+      const points = [];
+      for (let k = 0; k + 2 < hull.points.length; k += 3) points.push(new THREE.Vector3().fromArray(hull.points, k));
+      if (points.length < 4) continue;
+      triangulate(points, positions);
+      color.copy(SOON).lerp(LATER, Math.min(hull.interval / 6, 1));
+      while (colors.length < positions.length) colors.push(color.r, color.g, color.b);
+    }
+    this.hullCount = message?.hulls?.length ?? 0;
+    this.fill(this.hulls, positions, colors);
+  }
+
+  /**
+   * A patch of each plane where it stands between the interval's part and the obstacle.
+   * @param plan  with planes; of the picked obstacle only, if there is one
+   */
+  takePlanes(plan, picked) {
+    const patches = [];
+    const frames = [];
+    const planes = (plan?.planes ?? []).filter((plane) => picked === undefined || plane.track === picked);
+    const samples = plan?.curve ? plan.curve.length / 4 - 1 : 0;
+    const intervals = plan?.minvo ? plan.minvo.length / 12 : 0;
+    for (const plane of planes) {
+      const share = (plane.interval + (plane.part + 0.5) / plane.parts) / Math.max(intervals, 1);
+      const middle = new THREE.Vector3().fromArray(plan.curve, 4 * Math.round(share * samples));
+      this.patch(plane, middle, patches, frames);
+    }
+    this.planeCount = planes.length;
+    this.fill(this.patches, patches);
+    this.fill(this.frames, frames);
+  }
+
+  patch(plane, from, patches, frames) {
+    const n = new THREE.Vector3(...plane.n);
+    const centre = from.clone().addScaledVector(n, -(n.dot(from) + plane.d));
+    const u = new THREE.Vector3(-n.y, n.x, 0);
+    if (u.lengthSq() < 1e-6) u.set(1, 0, 0);
+    u.normalize().multiplyScalar(PATCH);
+    const v = new THREE.Vector3().crossVectors(n, u);
+    const corner = (a, b) => centre.clone().addScaledVector(u, a).addScaledVector(v, b).toArray();
+    const c = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+    patches.push(...c[0], ...c[1], ...c[2], ...c[0], ...c[2], ...c[3]);
+    frames.push(...c[0], ...c[1], ...c[1], ...c[2], ...c[2], ...c[3], ...c[3], ...c[0]);
+  }
+
+  /** @param message  {edges}: six numbers per edge of the search's tree; null: none */
+  takeSearch(message) {
+    this.fill(this.nodes, message?.edges ?? []);
+  }
+
+  show(layer, on) {
+    if (layer === 'hulls') this.hulls.visible = on;
+    if (layer === 'planes') this.planes.visible = on;
+    if (layer === 'search') this.nodes.visible = on;
+  }
+}

@@ -1,0 +1,150 @@
+// The flown path by speed, the committed trajectory, the newest plan with its MINVO simplices, local goal and sphere.
+import * as THREE from 'three';
+import { Line2 } from 'three/addons/lines/Line2.js';
+import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
+import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import { palette, speedColor } from './palette.js';
+
+const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
+const FACES = [0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3];
+
+/** A line of changing length, as wide as `width` pixels. */
+class Ribbon {
+  constructor(scene, options) {
+    this.material = new LineMaterial({ linewidth: 3, transparent: true, ...options });
+    this.line = new Line2(new LineGeometry(), this.material);
+    this.line.frustumCulled = false;
+    this.line.visible = false;
+    scene.add(this.line);
+  }
+  /** @param positions, colors  flat, three numbers per point */
+  set(positions, colors = null) {
+    this.line.visible = positions.length >= 6;
+    if (!this.line.visible) return;
+    this.line.geometry.dispose(); // its buffers have one length for life
+    this.line.geometry = new LineGeometry();
+    this.line.geometry.setPositions(positions);
+    if (colors) this.line.geometry.setColors(colors);
+  }
+}
+
+/** Tetrahedra, four points each: faint faces and edges. */
+class Simplices {
+  constructor(scene, color) {
+    this.group = new THREE.Group();
+    this.edges = new THREE.LineSegments(
+      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.22, depthWrite: false }));
+    this.faces = new THREE.Mesh(
+      new THREE.BufferGeometry(),
+      new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.035, side: THREE.DoubleSide, depthWrite: false }));
+    this.edges.frustumCulled = this.faces.frustumCulled = false;
+    this.group.add(this.edges, this.faces);
+    scene.add(this.group);
+  }
+  set(points) {
+    const simplices = points.length / 12;
+    const index = (pattern) => Array.from({ length: simplices }, (_, j) => pattern.map((k) => 4 * j + k)).flat();
+    const positions = new THREE.Float32BufferAttribute(points, 3);
+    for (const [mesh, pattern] of [[this.edges, EDGES], [this.faces, FACES]]) {
+      mesh.geometry.dispose();
+      mesh.geometry = new THREE.BufferGeometry().setAttribute('position', positions).setIndex(index(pattern));
+    }
+  }
+}
+
+/** [x, y, z, speed, …] → positions, and colours by speed. */
+function split(curve, top, target = new THREE.Color()) {
+  if (curve.length % 4 !== 0) throw new RangeError('a curve has four numbers per point');
+  const positions = [];
+  const colors = [];
+  for (let k = 0; k < curve.length; k += 4) {
+    positions.push(curve[k], curve[k + 1], curve[k + 2]);
+    speedColor(curve[k + 3] / top, target);
+    colors.push(target.r, target.g, target.b);
+  }
+  return { positions, colors };
+}
+
+export class Trajectories {
+  constructor(scene) {
+    this.top = 6; // m/s, what is drawn as fastest
+    this.path = new Ribbon(scene, { linewidth: 4, vertexColors: true });
+    this.tail = new Ribbon(scene, { linewidth: 4, vertexColors: true });
+    this.committed = new Ribbon(scene, { color: palette.committed, linewidth: 2, opacity: 0.85 });
+    this.plan = new Ribbon(scene, { color: palette.plan, linewidth: 4 });
+    this.minvo = new Simplices(scene, palette.plan);
+    this.sphere = new THREE.Mesh(
+      new THREE.SphereGeometry(1, 40, 24),
+      new THREE.MeshBasicMaterial({ color: '#8fb8dd', wireframe: true, transparent: true, opacity: 0.045, depthWrite: false }));
+    this.localGoal = new THREE.Mesh(
+      new THREE.OctahedronGeometry(0.13), new THREE.MeshLambertMaterial({ color: palette.goal, emissive: '#6b4d00' }));
+    this.goal = new THREE.Group();
+    const ring = new THREE.Mesh(
+      new THREE.TorusGeometry(0.35, 0.025, 10, 48), new THREE.MeshBasicMaterial({ color: palette.goal }));
+    const stem = new THREE.Mesh(
+      new THREE.CylinderGeometry(0.012, 0.012, 1, 8), new THREE.MeshBasicMaterial({ color: palette.goal, transparent: true, opacity: 0.5 }));
+    stem.rotation.x = Math.PI / 2;
+    this.goal.add(ring, stem);
+    this.goal.stem = stem;
+    scene.add(this.sphere, this.localGoal, this.goal);
+    this.clear();
+  }
+
+  clear() {
+    for (const ribbon of [this.path, this.tail, this.committed, this.plan]) ribbon.line.visible = false;
+    this.minvo.set([]);
+    this.sphere.visible = this.localGoal.visible = this.goal.visible = false;
+    this.recent = [];
+    this.lastOfPath = null;
+  }
+
+  takePath(curve) {
+    const { positions, colors } = split(curve, this.top);
+    this.path.set(positions, colors);
+    this.recent = [];
+    this.lastOfPath = curve.length >= 4 ? curve.slice(-4) : null;
+  }
+
+  /** Where the path has not come to yet: it is told twice a second. */
+  takeState(state) {
+    this.recent.push(...state.p, Math.hypot(...state.v));
+    if (this.recent.length > 4 * 120) this.recent.splice(0, 4);
+    const curve = this.lastOfPath ? [...this.lastOfPath, ...this.recent] : this.recent;
+    const { positions, colors } = split(curve, this.top);
+    this.tail.set(positions, colors);
+  }
+
+  takeRequest(request) {
+    this.top = Math.max(Math.hypot(request.v_max[0], request.v_max[1]) * 0.85, 0.1);
+    this.committed.set(split(request.curve, this.top).positions);
+    this.sphere.position.set(...request.p);
+  }
+
+  takePlan(plan) {
+    this.plan.set(plan.curve ? split(plan.curve, this.top).positions : []);
+    this.minvo.set(plan.minvo ?? []);
+    this.sphere.visible = this.wantSphere && plan.radius > 0;
+    this.sphere.scale.setScalar(Math.max(plan.radius, 0.01));
+    this.localGoal.visible = true;
+    this.localGoal.position.set(...plan.local_goal);
+  }
+
+  takeGoal(goal) {
+    this.goal.visible = goal !== null;
+    if (!goal) return;
+    this.goal.position.set(...goal.p);
+    this.goal.stem.scale.y = Math.max(goal.p[2], 0.01);
+    this.goal.stem.position.z = -goal.p[2] / 2;
+  }
+
+  draw(seconds) {
+    this.localGoal.rotation.z = 1.2 * seconds;
+    this.goal.children[0].rotation.set(Math.PI / 2, 0.5 * seconds, 0);
+  }
+
+  show(layer, on) {
+    if (layer === 'minvo') this.minvo.group.visible = on;
+    if (layer === 'committed') this.committed.material.visible = on;
+    if (layer === 'sphere') this.wantSphere = this.sphere.visible = on;
+  }
+}
