@@ -1,0 +1,47 @@
+// tern-replay: plans every answer of a log again and compares.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+
+#include "runtime/config.h"
+#include "runtime/process.h"
+#include "runtime/version.h"
+#include "tools/replay/replay_report.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Plans every answer of a log again from the inputs that it names, and compares byte for byte."};
+  std::string log, json;
+  tern::ReplayOptions options;
+  app.set_version_flag("--version", fmt::format("tern-replay {}", tern::build_id()));
+  app.add_option("LOG", log,
+                 "A log of tern-logger or lcm-logger (its further parts are read too), or a flight's folder")
+      ->required();
+  app.add_option("--planner-config", options.other.file, "What if: a scenario file whose planner section holds instead")
+      ->type_name("FILE");
+  app.add_option("--set", options.other.settings, "What if: a setting, as planner.search.samples_xy=5 (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--from", options.from_s, "Answers from this time of the log on, seconds")->type_name("S");
+  app.add_option("--to", options.to_s, "Answers up to this time of the log, seconds")->type_name("S");
+  app.add_option("--request", options.request, "Answers to this request alone")->type_name("ID");
+  app.add_option("--channel-suffix", options.suffix, "What the vehicle's channels end with")->type_name("S");
+  app.add_option("--json", json, "Write what was found, with a line per answer, to this file")->type_name("FILE");
+  try {
+    app.parse(argc, argv);
+    const bool what_if = !options.other.empty();
+    const auto replay = tern::replay_log(log, options);
+    if (!replay) throw tern::ConfigError(replay.error().message);
+    fmt::print("{}", tern::replay_text(*replay, what_if));
+    if (!json.empty() && !(std::ofstream(json) << tern::replay_json(*replay, what_if))) {
+      throw tern::ConfigError(json + ": cannot be written");
+    }
+    return tern::replay_exit_code(*replay, what_if);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : tern::kExitBadConfiguration;
+  } catch (const tern::ConfigError& error) {
+    fmt::print(stderr, "tern-replay: {}\n", error.what());
+    return tern::kExitBadConfiguration;
+  }
+}

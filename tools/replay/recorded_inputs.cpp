@@ -1,0 +1,109 @@
+#include "tools/replay/recorded_inputs.h"
+
+#include <utility>
+
+#include "messages/batching.h"
+#include "messages/configuration_report.h"
+#include "messages/goal.h"
+#include "messages/horizon_request.h"
+#include "messages/map_chunk.h"
+#include "messages/plan.h"
+#include "messages/plan_timing.h"
+#include "messages/track_set.h"
+#include "runtime/channels.h"
+
+namespace tern {
+namespace {
+
+/// Sets and maps that never become complete are given up, the oldest first, when so many others are begun.
+constexpr std::size_t kMaxUnfinished = 32;
+
+/// A map of its own per version: a planner that restarted may use an older one than those that follow.
+class Maps {
+ public:
+  explicit Maps(std::map<std::uint64_t, VoxelMap>& complete) : complete_(complete) {}
+  void add(const MapChunk& chunk) {
+    if (complete_.contains(chunk.version)) return;
+    MapAssembler& assembler = unfinished_[chunk.version];
+    const auto done = assembler.add(chunk);
+    if (done && *done) complete_.emplace(chunk.version, assembler.take());
+    if ((done && *done) || !done) unfinished_.erase(chunk.version);
+    if (unfinished_.size() > kMaxUnfinished) unfinished_.erase(unfinished_.begin());
+  }
+
+ private:
+  std::map<std::uint64_t, VoxelMap>& complete_;
+  std::map<std::uint64_t, MapAssembler> unfinished_;
+};
+
+/// Not the receivers' BatchCollector, which forgets a set as soon as a newer one begins: whichever set a planner had
+/// shall be found.
+class Sets {
+ public:
+  std::optional<TrackSet> add(const TrackSet& batch) {
+    const std::pair key{batch.header.name.sender_epoch_us, batch.batch.set};
+    auto& parts = unfinished_[key];
+    parts.emplace(batch.batch.index, batch);
+    if (static_cast<std::int32_t>(parts.size()) < batch.batch.count) {
+      if (unfinished_.size() > kMaxUnfinished) unfinished_.erase(unfinished_.begin());
+      return std::nullopt;
+    }
+    std::vector<TrackSet> batches;
+    for (auto& [index, part] : parts) batches.push_back(std::move(part));
+    unfinished_.erase(key);
+    return join_batches(std::move(batches));
+  }
+
+ private:
+  std::map<std::pair<std::int64_t, std::int64_t>, std::map<std::int32_t, TrackSet>> unfinished_;
+};
+
+using PlanKey = std::pair<std::int64_t, std::int64_t>;  // sender epoch, request id
+
+void attach(std::map<PlanKey, PlanTiming> timings, std::vector<RecordedPlan>& plans) {
+  for (RecordedPlan& recorded : plans) {
+    const auto found = timings.find({recorded.plan.header.name.sender_epoch_us, recorded.plan.request_id});
+    if (found != timings.end()) recorded.timing = found->second;
+  }
+}
+
+}  // namespace
+
+Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::string& suffix) {
+  RecordedInputs inputs;
+  Maps maps(inputs.maps);
+  std::map<PlanKey, PlanTiming> timings;
+  FlightLog log(suffix);
+  log.on<HorizonRequest>(channels::kHorizonRequest, [&](const HorizonRequest& request, std::int64_t) {
+    inputs.requests.emplace(request.header.name, request);
+  });
+  log.on<Goal>(channels::kGoal, [&](const Goal& goal, std::int64_t) { inputs.goals.emplace(goal.header.name, goal); });
+  log.on<MapChunk>(channels::kSemanticMap, [&](const MapChunk& chunk, std::int64_t) { maps.add(chunk); });
+  log.on<ConfigurationReport>(channels::kConfiguration, [&](const ConfigurationReport& report, std::int64_t) {
+    inputs.configurations.emplace(report.hash, report);
+    inputs.platforms.emplace(report.header.name.sender_epoch_us, report.platform);
+  });
+  log.on<Plan>(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) {
+    inputs.plans.push_back({plan, received_us, std::nullopt});
+  });
+  log.on<PlanTiming>(channels::kPlanTiming, [&](const PlanTiming& timing, std::int64_t) {
+    timings[{timing.header.name.sender_epoch_us, timing.request_id}] = timing;
+  });
+  auto contents = log.read(path);
+  if (!contents) return tl::make_unexpected(contents.error());
+  attach(std::move(timings), inputs.plans);
+  inputs.log = std::move(*contents);
+  return inputs;
+}
+
+Result<LogContents> read_prediction_sets(const std::string& path, const std::string& suffix,
+                                         const std::function<void(TrackSet)>& use) {
+  Sets sets;
+  FlightLog log(suffix);
+  log.on<TrackSet>(channels::kPredictions, [&](const TrackSet& batch, std::int64_t) {
+    if (auto whole = sets.add(batch)) use(std::move(*whole));
+  });
+  return log.read(path);
+}
+
+}  // namespace tern

@@ -1,0 +1,48 @@
+// What a log holds of planners' answers and of what they were made from.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/world/goal.h"
+#include "core/world/health.h"
+#include "core/world/horizon.h"
+#include "core/world/track.h"
+#include "core/world/voxel_map.h"
+#include "tools/log_reader/flight_log.h"
+
+namespace tern {
+
+/// An answer of a planner.
+struct RecordedPlan {
+  Plan plan;
+  std::int64_t received_us = 0;      ///< when the logger had it, µs since the Unix epoch
+  std::optional<PlanTiming> timing;  ///< what it cost; nothing when the log has none
+};
+
+/// Everything that plans name but the prediction sets, which are many: those are read by read_prediction_sets.
+struct RecordedInputs {
+  std::vector<RecordedPlan> plans;  ///< in the log's order
+  std::map<MessageName, HorizonRequest> requests;
+  std::map<MessageName, Goal> goals;
+  std::map<std::uint64_t, VoxelMap> maps;                       ///< complete ones, by version
+  std::map<std::uint64_t, ConfigurationReport> configurations;  ///< any one of each hash
+  std::map<std::int64_t, std::string> platforms;                ///< by the sender epoch of the process, any process
+  LogContents log;
+};
+
+/// @param path  a log (all its parts are read) or the folder of a flight. @return an Error when it cannot be opened.
+Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::string& suffix = "");
+
+/// Calls `use` with each complete prediction set of any predictor, in the order in which they became complete.
+/// @return what the log holds of predictions.
+Result<LogContents> read_prediction_sets(const std::string& path, const std::string& suffix,
+                                         const std::function<void(TrackSet)>& use);
+
+}  // namespace tern

@@ -1,0 +1,150 @@
+#include "tools/replay/replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "planner/planner_build.h"
+#include "runtime/channels.h"
+#include "runtime/platform.h"
+#include "tools/replay/replan.h"
+
+namespace tern {
+namespace {
+
+/// Replays each answer as soon as its prediction set is there.
+class Replayer {
+ public:
+  Replayer(const RecordedInputs& inputs, const ReplayOptions& options)
+      : inputs_(inputs), rebuilder_(inputs, options.other) {
+    for (std::size_t k = 0; k < inputs.plans.size(); ++k) {
+      if (!is_chosen(inputs.plans[k], options)) continue;
+      const PlanInputs& names = inputs.plans[k].plan.inputs;
+      waiting_[{names.predictions.sender_epoch_us, names.prediction_set}].push_back(k);
+    }
+    replay_those_of({0, 0});  // stale worlds: no predictions at all
+  }
+
+  void add(TrackSet set) {
+    const SetName name{set.header.name.sender_epoch_us, set.batch.set};
+    rebuilder_.add(std::move(set));
+    replay_those_of(name);
+  }
+
+  std::vector<ReplayedPlan> finish() {
+    while (!waiting_.empty()) replay_those_of(SetName(waiting_.begin()->first));
+    std::sort(done_.begin(), done_.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+    return std::move(done_);
+  }
+
+ private:
+  using SetName = std::pair<std::int64_t, std::int64_t>;  // sender epoch, set
+
+  [[nodiscard]] bool is_chosen(const RecordedPlan& recorded, const ReplayOptions& options) const {
+    const double at_s = static_cast<double>(recorded.received_us - inputs_.log.first_us) * 1e-6;
+    return at_s >= options.from_s.value_or(at_s) && at_s <= options.to_s.value_or(at_s) &&
+           recorded.plan.request_id == options.request.value_or(recorded.plan.request_id);
+  }
+
+  void replay_those_of(const SetName& name) {
+    const auto found = waiting_.find(name);
+    if (found == waiting_.end()) return;
+    for (const std::size_t k : found->second) done_.push_back(replay(k));
+    waiting_.erase(found);
+  }
+
+  ReplayedPlan replay(std::size_t index) {
+    const RecordedPlan& recorded = inputs_.plans[index];
+    ReplayedPlan result;
+    result.index = index;
+    result.weaker = weaker_promise(inputs_, recorded.plan);
+    const auto problem = rebuilder_.problem_of(recorded.plan);
+    if (!problem) {
+      result.missing = problem.error().message;
+      return result;
+    }
+    const Replanned again = replan(*problem, recorded.plan);
+    result.outcome = again.plan.outcome;
+    result.difference = difference_of(recorded.plan, again.plan, recorded.timing ? &*recorded.timing : nullptr,
+                                      again.statistics ? &*again.statistics : nullptr);
+    return result;
+  }
+
+  const RecordedInputs& inputs_;
+  WorldRebuilder rebuilder_;
+  std::map<SetName, std::vector<std::size_t>> waiting_;  ///< answers by the set that they name
+  std::vector<ReplayedPlan> done_;
+};
+
+/// Whether a channel was not read whole, as far as its receivers and sequence numbers tell.
+bool lacks(const LogContents& log, const char* channel_name, const std::string& suffix) {
+  const auto found = log.channels.find(channel_name + suffix);
+  if (found == log.channels.end()) return false;
+  const LogChannel& channel = found->second;
+  return channel.lost > 0 || std::accumulate(std::begin(channel.refused), std::end(channel.refused), 0LL) > 0;
+}
+
+}  // namespace
+
+std::string weaker_promise(const RecordedInputs& inputs, const Plan& plan) {
+  if (plan.inputs.planner_build != planner_build()) {
+    return fmt::format("the planner was built from other sources, or otherwise: build {:016x}, here {:016x}",
+                       plan.inputs.planner_build, planner_build());
+  }
+  const auto recorded = inputs.platforms.find(plan.header.name.sender_epoch_us);
+  if (recorded == inputs.platforms.end()) return "the log does not say on what platform the planner ran";
+  if (recorded->second == platform()) return "";
+  return fmt::format("another platform: {}; here {}", recorded->second, platform());
+}
+
+std::int64_t Replay::count(Agreement agreement) const {
+  return std::count_if(plans.begin(), plans.end(), [agreement](const ReplayedPlan& p) {
+    return p.missing.empty() && p.difference.agreement == agreement;
+  });
+}
+
+std::int64_t Replay::missing() const {
+  return std::count_if(plans.begin(), plans.end(), [](const ReplayedPlan& p) { return !p.missing.empty(); });
+}
+
+std::int64_t Replay::broken() const {
+  return std::count_if(plans.begin(), plans.end(), [](const ReplayedPlan& p) {
+    if (!p.missing.empty() || p.difference.agreement == Agreement::Identical) return false;
+    return p.weaker.empty() || p.difference.agreement == Agreement::Different;
+  });
+}
+
+bool Replay::incomplete() const {
+  const LogDamage& damage = inputs.log.damage;
+  return missing() > 0 || inputs.plans.empty() || damage.places > 0 || damage.missing > 0 ||
+         lacks(inputs.log, channels::kPlan, suffix);
+}
+
+Result<Replay> replay_log(const std::string& path, const ReplayOptions& options) {
+  auto inputs = read_recorded_inputs(path, options.suffix);
+  if (!inputs) return tl::make_unexpected(inputs.error());
+  Replayer replayer(*inputs, options);
+  auto predictions = read_prediction_sets(path, options.suffix, [&](TrackSet set) { replayer.add(std::move(set)); });
+  if (!predictions) return tl::make_unexpected(predictions.error());
+  Replay replay;
+  replay.suffix = options.suffix;
+  replay.plans = replayer.finish();
+  replay.predictions = std::move(*predictions);
+  replay.inputs = std::move(*inputs);
+  return replay;
+}
+
+Replay replay_inputs(RecordedInputs inputs, const std::vector<TrackSet>& predictions, const ReplayOptions& options) {
+  Replay replay;
+  replay.suffix = options.suffix;
+  Replayer replayer(inputs, options);
+  for (const TrackSet& set : predictions) replayer.add(set);
+  replay.plans = replayer.finish();
+  replay.inputs = std::move(inputs);
+  return replay;
+}
+
+}  // namespace tern

@@ -1,0 +1,147 @@
+#include "tools/replay/world_rebuilder.h"
+
+#include <fmt/format.h>
+
+#include "planner/app/config_reader.h"
+#include "runtime/config.h"
+#include "runtime/scenario_file.h"
+
+namespace tern {
+namespace {
+
+/// Fields of goals kept: a plan names the newest one or the one before.
+constexpr std::size_t kFieldsKept = 4;
+
+std::string text(const MessageName& name) {
+  return fmt::format("{} of sender {}", name.sequence, name.sender_epoch_us);
+}
+
+/// The text that a process that reports too long a configuration ends it with (reported_yaml).
+bool is_cut(const std::string& yaml) { return yaml.find("\n# cut here: ") != std::string::npos; }
+
+}  // namespace
+
+WorldRebuilder::WorldRebuilder(const RecordedInputs& inputs, OtherSettings other)
+    : inputs_(inputs), other_(std::move(other)) {
+  for (const RecordedPlan& recorded : inputs.plans) {
+    const GoalFieldInputs& names = recorded.plan.inputs.goal_field;
+    if (names.map_version == 0) continue;
+    statics_.emplace(names.statics, std::nullopt);
+    if (names.statics_epoch_us != 0) memories_[{names.statics_epoch_us, names.statics_first_set}];
+  }
+  statics_[StaticTracks().digest()].emplace();
+}
+
+void WorldRebuilder::add(TrackSet set) {
+  for (auto& [key, memory] : memories_) {
+    const auto [epoch_us, first_set] = key;
+    if (epoch_us != set.header.name.sender_epoch_us || set.batch.set < first_set) continue;
+    if (!memory.add(set)) continue;
+    const auto named = statics_.find(memory.digest());
+    if (named != statics_.end()) named->second = memory.boxes();
+  }
+  predictions_ = std::make_shared<const PredictionProducts>(std::move(set));
+}
+
+Result<WorldRebuilder::Configuration*> WorldRebuilder::configuration_of(std::uint64_t hash) {
+  const auto known = configurations_.find(hash);
+  if (known != configurations_.end()) return &known->second;
+  const auto report = inputs_.configurations.find(hash);
+  if (report == inputs_.configurations.end()) return fail(fmt::format("configuration {:016x}", hash));
+  if (is_cut(report->second.yaml)) return fail(fmt::format("the whole of configuration {:016x}", hash));
+  Configuration made;
+  const bool own = other_.file.empty();
+  auto document = ConfigDocument::parse(report->second.yaml, "the log's configuration",
+                                        own ? other_.settings : std::vector<std::string>());
+  const Scenario scenario = read_scenario(document);
+  made.uav = scenario.uav;
+  if (own) {
+    made.config = read_planner_config(document.root().section("planner"), scenario.semantics);
+  } else {
+    auto file = ConfigDocument::load(other_.file, other_.settings);
+    const Scenario others = read_scenario(file);
+    made.config = read_planner_config(file.root().section("planner"),
+                                      file.root().has("semantics") ? others.semantics : scenario.semantics);
+  }
+  return &configurations_.emplace(hash, std::move(made)).first->second;
+}
+
+Result<std::shared_ptr<const MapProducts>> WorldRebuilder::map_of(std::uint64_t version, Configuration& configuration) {
+  const auto known = configuration.maps.find(version);
+  if (known != configuration.maps.end()) return known->second;
+  const auto map = inputs_.maps.find(version);
+  if (map == inputs_.maps.end()) return fail(fmt::format("map {:016x}", version));
+  auto products = std::make_shared<const MapProducts>(map->second, configuration.config);
+  configuration.maps.emplace(version, products);
+  return products;
+}
+
+std::shared_ptr<const GoalField> WorldRebuilder::field_of(const GoalFieldKey& key, const Vec3& start,
+                                                          const MapProducts& map, const std::vector<Box>& statics) {
+  for (const Field& known : fields_) {
+    if (known.key == key && known.start == start) return known.field;
+  }
+  if (fields_.size() == kFieldsKept) fields_.erase(fields_.begin());
+  auto field = std::make_shared<const GoalField>(make_goal_field(key, map.occupied, statics, start));
+  fields_.push_back({key, start, field});
+  return field;
+}
+
+Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanInputs& names,
+                                                                    Configuration& configuration) {
+  const GoalFieldInputs& from = names.goal_field;
+  const auto goal = inputs_.goals.find(names.goal);
+  if (goal == inputs_.goals.end()) return fail("goal " + text(names.goal));
+  const auto map = map_of(from.map_version, configuration);
+  if (!map) return tl::make_unexpected(map.error());
+  const auto statics = statics_.find(from.statics);
+  if (statics == statics_.end() || !statics->second) {
+    return fail(fmt::format("static tracks {:016x} of predictor {} from set {} on", from.statics, from.statics_epoch_us,
+                            from.statics_first_set));
+  }
+  GoalFieldKey key{goal->second.position, from.map_version, from.statics, configuration.uav.body.half_extents(),
+                   configuration.uav.flight_box};
+  Vec3 start = configuration.uav.start;
+  if (from.vehicle != MessageName{}) {
+    const auto request = inputs_.requests.find(from.vehicle);
+    if (request == inputs_.requests.end()) return fail("request " + text(from.vehicle) + " (for the way to the goal)");
+    key.body_half = request->second.body.half_extents();
+    key.flight_box = request->second.flight_box;
+    start = request->second.start.p;
+  }
+  auto field = field_of(key, start, **map, *statics->second);
+  return std::make_shared<const GoalProducts>(GoalProducts{goal->second, key, std::move(field), from});
+}
+
+Result<PlanProblem> WorldRebuilder::problem_of(const Plan& plan) {
+  const PlanInputs& names = plan.inputs;
+  PlanProblem problem;
+  const auto request = inputs_.requests.find(names.request);
+  if (request == inputs_.requests.end()) return fail("request " + text(names.request));
+  problem.request = request->second;
+  const auto configuration = configuration_of(names.configuration_hash);
+  if (!configuration) return tl::make_unexpected(configuration.error());
+  problem.config = (*configuration)->config;
+  if (names.predictions != MessageName{}) {
+    const bool there = predictions_ && predictions_->set.batch.set == names.prediction_set &&
+                       predictions_->set.header.name.sender_epoch_us == names.predictions.sender_epoch_us;
+    if (!there) {
+      return fail(
+          fmt::format("prediction set {} of sender {}", names.prediction_set, names.predictions.sender_epoch_us));
+    }
+    problem.world.predictions = predictions_;
+  }
+  if (names.map_version != 0) {
+    auto map = map_of(names.map_version, **configuration);
+    if (!map) return tl::make_unexpected(map.error());
+    problem.world.map = std::move(*map);
+  }
+  if (names.goal != MessageName{}) {
+    auto goal = goal_of(names, **configuration);
+    if (!goal) return tl::make_unexpected(goal.error());
+    problem.world.goal = std::move(*goal);
+  }
+  return problem;
+}
+
+}  // namespace tern
