@@ -7,41 +7,24 @@
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/convex_problem.h"
 #include "planner/optimization/ipopt_solver.h"
+#include "planner/semantics/semantic_guide.h"
 
 namespace tern {
 namespace {
 
-/// Semantics enter Eq. 2 either summed along the path (exposure) or at the node (the paper's mean distance, Eq. 3).
+/// For how long a trajectory is taken to be flown before a better one follows, s.
+constexpr double kWhiles[] = {0.3, 0.8};
+
+SemanticGuide guide_of(const AttemptContext& context) {
+  return {*context.fields, context.config.semantic_cost, context.request.start.p, context.local_goal};
+}
+
+/// Semantics enter Eq. 2 summed along the path and by what is expected of the rest.
 void add_semantics(const AttemptContext& context, SearchProblem& problem) {
   if (context.fields == nullptr) return;
-  const SemanticFields* fields = context.fields;
-  const double attract = context.config.lambda_attractive;
-  const double repel = context.config.lambda_repulsive;
-  if (context.config.semantic_cost == SemanticCost::Exposure) {
-    problem.accumulated = [=](const Vec3& a, const Vec3& b) {
-      return attract * fields->exposure_attractive(a, b) + repel * fields->exposure_repulsive(a, b);
-    };
-    // What is left of the way to the local goal is taken to be as exposed as the point itself: straight on, f stays the
-    // same and the search dives; leaving what repels, or reaching what attracts, lowers it.
-    problem.pointwise = [=, goal = context.local_goal](const Vec3& q) {
-      const double ahead = (goal - q).norm();
-      return ahead * (attract * fields->exposure_attractive(q) + repel * fields->exposure_repulsive(q));
-    };
-  } else {
-    // Counted from the point of the straight way with the same progress: among nodes of equal progress, which alone
-    // compete, the order is Eq. 2's, but going forward is not paid for by coming nearer to what repels.
-    const Vec3 start = context.request.start.p;
-    const Vec3 ahead = context.local_goal - start;
-    const double length2 = std::max(ahead.squaredNorm(), 1e-12);
-    const auto cost = [=](const Vec3& p) {
-      return attract * fields->mean_distance(VoxelLabel::Attractive, p) -
-             repel * fields->mean_distance(VoxelLabel::Repulsive, p);
-    };
-    problem.pointwise = [=](const Vec3& q) {
-      const double progress = std::clamp((q - start).dot(ahead) / length2, 0.0, 1.0);
-      return cost(q) - cost(start + progress * ahead);
-    };
-  }
+  const SemanticGuide guide = guide_of(context);
+  problem.accumulated = [guide](const Vec3& a, const Vec3& b) { return guide.along(a, b); };
+  problem.pointwise = [guide](const Vec3& q) { return guide.ahead(q); };
 }
 
 CheckDemands demands_of(const AttemptContext& context) {
@@ -55,17 +38,16 @@ PlanCost cost_of(const AttemptContext& context, const TimedSpline& trajectory) {
   cost.distance_to_goal = (end - context.local_goal).norm();
   cost.jerk = jerk_cost(q, trajectory.interval.seconds());
   if (context.fields != nullptr) {
-    const bool exposure = context.config.semantic_cost == SemanticCost::Exposure;
-    for (Eigen::Index l = 1; exposure && l < q.cols(); ++l) {
-      cost.attraction += context.fields->exposure_attractive(q.col(l - 1), q.col(l));
-      cost.repulsion += context.fields->exposure_repulsive(q.col(l - 1), q.col(l));
+    const SemanticFields& fields = *context.fields;
+    if (context.config.semantic_cost == SemanticCost::MeanDistance) {
+      cost.attraction = fields.mean_distance_cost(VoxelLabel::Attractive, end);
+      cost.repulsion = fields.mean_distance_cost(VoxelLabel::Repulsive, end);
+    } else {
+      for (Eigen::Index l = 1; l < q.cols(); ++l) {
+        cost.attraction += fields.exposure_cost(VoxelLabel::Attractive, q.col(l - 1), q.col(l));
+        cost.repulsion += fields.exposure_cost(VoxelLabel::Repulsive, q.col(l - 1), q.col(l));
+      }
     }
-    if (!exposure) {
-      cost.attraction = context.fields->mean_distance(VoxelLabel::Attractive, end);
-      cost.repulsion = context.fields->mean_distance(VoxelLabel::Repulsive, end);
-    }
-    cost.attraction *= context.config.lambda_attractive;
-    cost.repulsion *= context.config.lambda_repulsive;
   }
   const OptimizationConfig& w = context.config.optimization;
   cost.total = w.weight_jerk * cost.jerk + w.weight_goal * cost.distance_to_goal * cost.distance_to_goal;
@@ -91,7 +73,7 @@ std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& 
   c.holds = c.hold_s >= hold_required_s;
   const double duration_s = interval.seconds() * intervals;
   c.clear_s = duration_s + c.hold_s;
-  c.arrival_s = arrival_estimate(context.way, c.trajectory, context.request.t_s, context.plan_limits);
+  c.arrival_s = worth_of(context, c.trajectory);
   c.cost = cost_of(context, c.trajectory);
   return c;
 }
@@ -121,11 +103,22 @@ double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime
   const ClampedSpline spline = trajectory.spline();
   const double offset_s = (from - trajectory.start).seconds();
   double sum = 0.0;
-  for (const double while_s : {0.3, 0.8}) {
+  for (const double while_s : kWhiles) {
     const MotionSample at = spline.sample(offset_s + while_s);
     sum += while_s + least_duration(at, way.point, limits) + way.rest / limits.v_max.minCoeff();
   }
   return 0.5 * sum;
+}
+
+double worth_of(const AttemptContext& context, const TimedSpline& trajectory) {
+  const UTime from = context.request.t_s;
+  const double arrival_s = arrival_estimate(context.way, trajectory, from, context.plan_limits);
+  if (context.fields == nullptr || context.config.semantic_cost == SemanticCost::MeanDistance) return arrival_s;
+  const SemanticGuide guide = guide_of(context);
+  const ClampedSpline spline = trajectory.spline();
+  double metres = 0.0;
+  for (const double while_s : kWhiles) metres += 0.5 * guide.of(spline, (from - trajectory.start).seconds(), while_s);
+  return arrival_s + metres / context.plan_limits.v_max.minCoeff();
 }
 
 SweptObstacles sweep_horizon(const AttemptContext& context, Duration interval) {

@@ -19,7 +19,7 @@ struct Candidate {
   double clear_s = 0.0;    ///< from t_s until the end point is no longer clear, or as far as was looked
   double hold_s = 0.0;     ///< of that, after the end
   bool holds = false;      ///< hold_s reaches the requirement
-  double arrival_s = 0.0;  ///< estimate of the time from t_s to the goal (arrival_estimate)
+  double arrival_s = 0.0;  ///< estimate of the time from t_s to the goal, and what regions cost on it (worth_of)
   PlanCost cost;
   std::vector<CertificatePlane> certificate;
 
@@ -62,5 +62,10 @@ std::optional<Candidate> optimize_candidate(const AttemptContext& context, Swept
 /// hardly one is flown so far.
 /// @param from  the time on the trajectory that counts as 0
 double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits);
+
+/// The arrival estimate from t_s on, plus the exposure cost over the same whiles and ahead (SemanticGuide), as if those
+/// metres were flown at v_max, s: the same exchange of metres for metres as in the search. The mean distance stays out:
+/// it has no measure of its own that seconds could be given for (flights of paper_repel took 0.3 s longer with it).
+double worth_of(const AttemptContext& context, const TimedSpline& trajectory);
 
 }  // namespace tern

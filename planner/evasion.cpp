@@ -115,7 +115,7 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
     base.statistics.hulls += swept.hulls_made();
     if (!found) continue;
     found->outcome = PlanOutcome::Evade;
-    found->arrival_s = arrival_estimate(base.way, found->trajectory, base.request.t_s, base.plan_limits);
+    found->arrival_s = worth_of(base, found->trajectory);
     found->holds = found->hold_s >= base.config.hold_required_s;
     const bool by_time = aim == EvasionAim::LongestClear;
     if (!by_time && !found->holds) continue;

@@ -18,17 +18,20 @@ namespace {
 /// The sphere's border is left to rounding and to MINVO points that bulge: local goals lie this far inside, as a share
 /// of r.
 constexpr double kLocalGoalShare = 0.985;
-/// A path that is longer than the straight line by no more than this counts as straight, m.
+/// A path that is longer than the straight line, or cheaper, by no more than this counts as straight, m.
 constexpr double kBendIgnored = 0.15;
 
 /// Heads for the farthest corner of the path to which the straight line is hardly shorter: small bends around posts are
-/// the search's business, but the way into a window or out of a trap leads over its corners.
-WayToGo way_along(const std::vector<Vec3>& path) {
+/// the search's business, but the way into a window, out of a trap or around a region leads over its corners.
+WayToGo way_along(const std::vector<Vec3>& path, const TravelCost& cost) {
   std::size_t corner = 1;
   double length = 0.0;
+  double along = 0.0;
   for (std::size_t k = 1; k < path.size(); ++k) {
     length += (path[k] - path[k - 1]).norm();
-    if (k == 1 || length - (path[k] - path[0]).norm() <= kBendIgnored) corner = k;
+    along += cost(path[k - 1], path[k]);
+    const bool is_straight = length - (path[k] - path[0]).norm() <= kBendIgnored;
+    if (k == 1 || (is_straight && cost(path[0], path[k]) - along <= kBendIgnored)) corner = k;
   }
   WayToGo way{path[corner], 0.0};
   for (std::size_t k = corner + 1; k < path.size(); ++k) way.rest += (path[k] - path[k - 1]).norm();
@@ -167,19 +170,14 @@ class Planning {
             request_.start.p, budget_, observer_,  answer_.statistics};
   }
 
-  /// The fields, if they differ anywhere in the sphere. The mean distance of Eq. 3 differs everywhere.
+  /// The fields, if what they cost differs anywhere in the sphere. The mean distance of Eq. 3 differs everywhere.
   [[nodiscard]] const SemanticFields* semantics_in_reach() const {
     const SemanticFields& fields = world_.map->fields;
     if (!config_.semantics) return nullptr;
     const Box sphere = box_around(request_.start.p, Vec3::Constant(config_.sphere_radius_m));
-    for (const VoxelLabel label : {VoxelLabel::Attractive, VoxelLabel::Repulsive}) {
-      const bool weighs =
-          (label == VoxelLabel::Attractive ? config_.lambda_attractive : config_.lambda_repulsive) > 0.0;
-      if (!fields.has(label) || !weighs) continue;
-      if (config_.semantic_cost == SemanticCost::MeanDistance || fields.influence(label).intersects(sphere))
-        return &fields;
-    }
-    return nullptr;
+    const bool differs =
+        config_.semantic_cost == SemanticCost::MeanDistance ? fields.weighs() : fields.varies_in(sphere);
+    return differs ? &fields : nullptr;
   }
 
   /// The path around static obstacles gives the way to go and the local goal. False: there is no path.
@@ -192,12 +190,10 @@ class Planning {
     }
     const auto path = world_.goal->field->path_from(at);
     if (!path) return false;
-    context.way = way_along(*path);
+    context.way = way_along(*path, world_.goal->field->cost());
     context.local_goal = local_goal(*path, at, kLocalGoalShare * config_.sphere_radius_m);
     answer_.plan.local_goal = context.local_goal;
-    if (committed_) {
-      committed_->arrival_s = arrival_estimate(context.way, committed_->trajectory, request_.t_s, context.plan_limits);
-    }
+    if (committed_) committed_->arrival_s = worth_of(context, committed_->trajectory);
     return true;
   }
 

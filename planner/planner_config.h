@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tern {
@@ -45,9 +46,11 @@ struct PlannerConfig {
   double velocity_share = 0.998;     ///< plans stay below this share of v_max
   bool unknown_is_obstacle = false;  ///< unknown voxels of the map
   bool semantics = true;
-  SemanticCost semantic_cost = SemanticCost::MeanDistance;
+  SemanticCost semantic_cost = SemanticCost::Exposure;
   double lambda_attractive = 2.0;
   double lambda_repulsive = 2.0;
+  std::vector<std::pair<std::string, double>> class_lambdas;  ///< classes with a λ of their own
+  bool semantic_path = true;       ///< the path around static obstacles knows regions (by exposure)
   double exposure_margin_m = 1.0;  ///< exposure falls from 1 to 0 within this distance of a region
   double goal_tolerance_m = 0.05;  ///< at rest within this of the goal: nothing to do
   SearchConfig search;

@@ -25,18 +25,26 @@ MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
   if (!config.semantics) return;
   SemanticFieldsOptions options;
   options.exposure_margin = config.exposure_margin_m;
+  options.lambda_attractive = config.lambda_attractive;
+  options.lambda_repulsive = config.lambda_repulsive;
+  options.class_lambdas = config.class_lambdas;
   fields = SemanticFields(map, options);
+  weighs_paths = config.semantic_path && fields.weighs();
 }
 
 Box centre_box(const Box& flight_box, const Body& body) { return grown(flight_box, -body.half_extents()); }
 
-GoalField make_goal_field(const GoalFieldKey& key, const BoxIndex& map_boxes, const std::vector<Box>& static_boxes,
-                          const Vec3& start) {
+GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
+                          const std::vector<Box>& static_boxes, const Vec3& start) {
   std::vector<Box> boxes = static_boxes;
-  boxes.insert(boxes.end(), map_boxes.boxes().begin(), map_boxes.boxes().end());
+  boxes.insert(boxes.end(), map->occupied.boxes().begin(), map->occupied.boxes().end());
   for (Box& box : boxes) box = grown(box, key.body_half + Vec3::Constant(kPathSpacing));
   GoalFieldOptions options;
   options.start = start;
+  if (map->weighs_paths) {
+    options.cost = {[map](const Vec3& a, const Vec3& b) { return map->fields.exposure_cost(a, b); },
+                    map->fields.influence()};
+  }
   return GoalField::build(std::move(boxes), grown(key.flight_box, -key.body_half), key.goal, options);
 }
 

@@ -260,6 +260,19 @@ decltype(SemanticsSpec::classes) read_classes(ConfigSection classes, bool is_giv
   return result;
 }
 
+/// Class → λ of its own.
+decltype(SemanticsSpec::lambdas) read_lambdas(ConfigSection lambdas, const decltype(SemanticsSpec::classes)& classes) {
+  decltype(SemanticsSpec::lambdas) result;
+  for (const std::string& name : lambdas.keys()) {
+    const auto has_name = [&](const auto& c) { return c.first == name; };
+    if (std::none_of(classes.begin(), classes.end(), has_name)) {
+      throw lambdas.error(name, "is not one of semantics.classes");
+    }
+    result.emplace_back(name, lambdas.required_number(name, Range::at_least(0.0, 1e6)));
+  }
+  return result;
+}
+
 SemanticsSpec read_semantics(ConfigSection section) {
   SemanticsSpec semantics;
   semantics.enabled = section.flag("enabled", semantics.enabled);
@@ -269,6 +282,7 @@ SemanticsSpec read_semantics(ConfigSection section) {
       section.number("lambda_repulsive", semantics.lambda_repulsive, Range::at_least(0.0, 1e6));
   semantics.cost = section.choice("cost", semantics.cost, {"exposure", "mean_distance"});
   semantics.classes = read_classes(section.section("classes"), section.has("classes"));
+  semantics.lambdas = read_lambdas(section.section("lambdas"), semantics.classes);
   // The map's class 0 is "none".
   if (semantics.classes.size() >= kMaxMapClasses) {
     throw section.error("classes", fmt::format("{} of them (limit {})", semantics.classes.size(), kMaxMapClasses - 1));

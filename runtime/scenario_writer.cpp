@@ -111,6 +111,10 @@ std::string semantics_yaml(const SemanticsSpec& semantics) {
       yaml_number(semantics.lambda_attractive), yaml_number(semantics.lambda_repulsive), semantics.cost);
   out += semantics.classes.empty() ? "  classes: {}\n" : "  classes:\n";
   for (const auto& [name, label] : semantics.classes) out += fmt::format("    {}: {}\n", yaml_text(name), label);
+  out += semantics.lambdas.empty() ? "" : "  lambdas:\n";
+  for (const auto& [name, lambda] : semantics.lambdas) {
+    out += fmt::format("    {}: {}\n", yaml_text(name), yaml_number(lambda));
+  }
   out += semantics.regions.empty() ? "" : "  regions:\n";
   for (const Region& region : semantics.regions) {
     const std::string shape = std::visit([](const auto& s) { return shape_yaml(s); }, region.shape);

@@ -73,9 +73,10 @@ struct WorldSpec {
 struct SemanticsSpec {
   bool enabled = true;
   std::vector<Region> regions;
-  double lambda_attractive = 2.0;      ///< λ_att ≥ 0
-  double lambda_repulsive = 2.0;       ///< λ_rep ≥ 0
-  std::string cost = "mean_distance";  ///< exposure, mean_distance
+  double lambda_attractive = 2.0;                       ///< λ_att ≥ 0
+  double lambda_repulsive = 2.0;                        ///< λ_rep ≥ 0
+  std::vector<std::pair<std::string, double>> lambdas;  ///< classes with a λ of their own, ≥ 0; not named: the label's
+  std::string cost = "exposure";                        ///< exposure, mean_distance
   /// class → label name (unknown, free, occupied, attractive, repulsive)
   std::vector<std::pair<std::string, std::string>> classes = {{"texture", "attractive"}, {"water", "repulsive"}};
 };

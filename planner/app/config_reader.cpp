@@ -47,9 +47,11 @@ PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& se
   c.exposure_margin_m = section.number("exposure_margin_m", c.exposure_margin_m, Range::positive(100.0));
   c.goal_tolerance_m = section.number("goal_tolerance_m", c.goal_tolerance_m, Range{0.001, 10.0});
   c.semantics = semantics.enabled;
+  c.semantic_path = section.flag("semantic_path", c.semantic_path);
   c.semantic_cost = semantics.cost == "mean_distance" ? SemanticCost::MeanDistance : SemanticCost::Exposure;
   c.lambda_attractive = semantics.lambda_attractive;
   c.lambda_repulsive = semantics.lambda_repulsive;
+  c.class_lambdas = semantics.lambdas;
   read_search(section.section("search"), c.search);
   read_optimization(section.section("optimization"), c.optimization);
   section.finish();

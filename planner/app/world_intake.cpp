@@ -86,7 +86,7 @@ void WorldIntake::prepare() {
   }
   const GoalFieldInputs names{key.map_version, statics_.epoch_us(), statics_.first_set(), key.statics, vehicle_};
   start([this, goal = *newest_goal_, key, names, map = world.map, boxes = statics_.boxes(), at = at_] {
-    auto field = std::make_shared<const GoalField>(make_goal_field(key, map->occupied, boxes, at));
+    auto field = std::make_shared<const GoalField>(make_goal_field(key, map, boxes, at));
     const std::lock_guard lock(mutex_);
     ready_.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names});
   });

@@ -27,12 +27,13 @@ GoalField GoalField::build(std::vector<Box> inflated_statics, const Box& flight_
   GoalField field;
   field.goal_ = goal;
   field.flight_box_ = flight_box;
+  field.cost_ = options.cost;
   std::erase_if(inflated_statics, [&](const Box& box) { return box.isEmpty() || !box.intersects(flight_box); });
   field.obstacles_ = BoxIndex(std::move(inflated_statics));
   field.goal_free_ = flight_box.contains(goal) && !field.obstacles_.covers(goal);
   if (!field.goal_free_) return field;
   field.lay_grid(options);
-  GoalSearch search(field.grid_, field.obstacles_, goal);
+  GoalSearch search(field.grid_, field.obstacles_, goal, field.cost_);
   search.run();
   field.to_go_ = std::move(search.to_go);
   field.next_ = std::move(search.next);
@@ -43,6 +44,8 @@ void GoalField::lay_grid(const GoalFieldOptions& options) {
   Box region(goal_);
   if (options.start) region.extend(*options.start);
   for (const Box& box : obstacles_.boxes()) region.extend(box.intersection(flight_box_));
+  const Box weighed = cost_.region.intersection(flight_box_);
+  if (!weighed.isEmpty()) region.extend(weighed);
   region = grown(region, Vec3::Constant(options.margin)).intersection(flight_box_);
   const double step = affordable_step(region, options);
   for (int i = 0; i < 3; ++i) {
@@ -93,7 +96,8 @@ std::int32_t GoalField::first_turn(const Vec3& start) const {
   double shortest = kInfinity;
   const auto consider = [&](std::int32_t turn) {
     const Vec3 p = position(turn);
-    const double length = (p - start).norm() + to_go(turn);
+    if ((p - start).norm() + to_go(turn) >= shortest) return;
+    const double length = cost_(start, p) + to_go(turn);
     if (length >= shortest || obstacles_.blocks(start, p, start)) return;
     best = turn;
     shortest = length;
@@ -111,8 +115,12 @@ std::int32_t GoalField::first_turn(const Vec3& start) const {
 
 std::optional<std::vector<Vec3>> GoalField::path_from(const Vec3& start) const {
   if (!goal_free_) return std::nullopt;
-  if (!obstacles_.blocks(start, goal_, start)) return std::vector<Vec3>{start, goal_};
+  const bool sees_goal = !obstacles_.blocks(start, goal_, start);
+  if (sees_goal && cost_.is_length()) return std::vector<Vec3>{start, goal_};
   std::int32_t turn = first_turn(start);
+  if (sees_goal && (turn == kNoNode || cost_(start, goal_) <= cost_(start, position(turn)) + to_go(turn))) {
+    return std::vector<Vec3>{start, goal_};
+  }
   if (turn == kNoNode) return std::nullopt;
   std::vector<Vec3> path{start, position(turn)};
   while (turn != kGoalNode) {
@@ -128,11 +136,15 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
   constexpr double kLeastPull = 1.0 / 64.0;
   const Vec3 start = path.front();
   const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
+  // Length alone needs no asking: erasing a vertex or pulling it to a chord never makes a path longer.
+  const auto is_cheaper = [&](const Vec3& a, const Vec3& v, const Vec3& w, const Vec3& b) {
+    return cost_.is_length() || cost_(a, w) + cost_(w, b) <= cost_(a, v) + cost_(v, b);
+  };
   for (int pass = 0; pass < kPasses; ++pass) {
     for (std::size_t i = 1; i + 1 < path.size();) {
       const Vec3 a = path[i - 1];
       const Vec3 b = path[i + 1];
-      if (is_free(a, b)) {
+      if (is_free(a, b) && is_cheaper(a, path[i], a, b)) {
         path.erase(path.begin() + static_cast<std::ptrdiff_t>(i));
         continue;
       }
@@ -142,7 +154,7 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
         const Vec3 v = path[i];
         const auto reaches = [&](double s) {
           const Vec3 w = v + s * (target - v);
-          return is_free(a, w) && is_free(w, b);
+          return is_free(a, w) && is_free(w, b) && is_cheaper(a, v, w, b);
         };
         if (!reaches(kLeastPull)) return;
         double free = kLeastPull;

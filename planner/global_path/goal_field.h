@@ -9,6 +9,7 @@
 #include "core/base/types.h"
 #include "planner/global_path/box_index.h"
 #include "planner/global_path/rectilinear_grid.h"
+#include "planner/global_path/travel_cost.h"
 
 namespace tern {
 
@@ -18,6 +19,7 @@ struct GoalFieldOptions {
   double margin = 2.0;               ///< free space searched around start, goal and obstacles, m
   std::optional<Vec3> start;         ///< enlarges the region searched; starts elsewhere still work
   Vec3 anchor = Vec3::Zero();        ///< grid lines pass through it: for a map, the centre of a voxel
+  TravelCost cost;                   ///< the field keeps a copy: what it calls must live as long
 };
 
 /// Goal distances on the nodes of a rectilinear grid, by an any-angle Dijkstra search from the goal (Lazy Theta*, Nash
@@ -29,7 +31,11 @@ struct GoalFieldOptions {
 /// middle: a 0.6 m window stays open for a vehicle of 0.2 m in a 0.25 m grid, wherever it lies, and so does one voxel's
 /// width.
 ///
-/// The region searched is the bounds of goal, options.start and obstacles plus a margin, cut by the flight box; open
+/// With a TravelCost the cheapest way is sought instead of the shortest, by the same search: every segment is weighed
+/// by the cost along it, so ways lead around what repels and through what attracts as far as that pays.
+///
+/// The region searched is the bounds of goal, options.start, obstacles and the cost's region plus a margin, cut by the
+/// flight box; open
 /// worlds (flight boxes of ±10⁴ m) cost no more than what stands in them. Deterministic: ties by node index, no libm
 /// but sqrt.
 class GoalField {
@@ -45,16 +51,18 @@ class GoalField {
   static GoalField build(std::vector<Box> inflated_statics, const Box& flight_box, const Vec3& goal,
                          const GoalFieldOptions& options = {});
 
-  /// A taut piecewise-linear path from start to the goal, both included, clear of every box; nothing when there is
-  /// none. A start inside boxes is allowed to leave them: the first segment passes over the boxes that contain it. A
-  /// few percent longer than the shortest at most in simple cases (tested); about 10 µs.
+  /// A taut piecewise-linear path (no vertex could be pulled to a cheaper place) from start to the goal, both included,
+  /// clear of every box; nothing when there is none. A start inside boxes is allowed to leave them: the first segment
+  /// passes over the boxes that contain it. A few percent longer than the shortest at most in simple cases (tested);
+  /// about 10 µs, with a TravelCost some 100.
   [[nodiscard]] std::optional<std::vector<Vec3>> path_from(const Vec3& start) const;
 
-  /// Metres to go from p, by interpolation between grid nodes; infinite where no node around p reaches the goal.
-  /// Outside the region searched: the distance to it, plus what is to go from there. About 50 ns.
+  /// Metres of way (TravelCost) to go from p, by interpolation between grid nodes; infinite where no node around p
+  /// reaches the goal. Outside the region searched: the distance to it, plus what is to go from there. About 50 ns.
   [[nodiscard]] double distance(const Vec3& p) const;
 
   [[nodiscard]] const Vec3& goal() const { return goal_; }
+  [[nodiscard]] const TravelCost& cost() const { return cost_; }
   [[nodiscard]] const BoxIndex& obstacles() const { return obstacles_; }
   [[nodiscard]] std::int64_t nodes() const { return static_cast<std::int64_t>(to_go_.size()); }
   /// The bounds of the region searched.
@@ -74,9 +82,10 @@ class GoalField {
   Vec3 goal_ = Vec3::Zero();
   Box flight_box_;
   bool goal_free_ = false;
+  TravelCost cost_;
   BoxIndex obstacles_;
   RectilinearGrid grid_;
-  std::vector<double> to_go_;       ///< per node, m; infinite: not reached
+  std::vector<double> to_go_;       ///< per node, metres of way; infinite: not reached
   std::vector<std::int32_t> next_;  ///< per node: the turning point that it sees (a node, or kGoalNode)
 };
 

@@ -11,12 +11,13 @@ constexpr double kGain = 1e-9;
 
 }  // namespace
 
-GoalSearch::GoalSearch(const RectilinearGrid& grid, const BoxIndex& obstacles, const Vec3& goal)
+GoalSearch::GoalSearch(const RectilinearGrid& grid, const BoxIndex& obstacles, const Vec3& goal, const TravelCost& cost)
     : to_go(static_cast<std::size_t>(grid.nodes()), kInfinity),
       next(to_go.size(), kNoNode),
       grid_(grid),
       obstacles_(obstacles),
       goal_(goal),
+      cost_(cost),
       state_(to_go.size(), State::Open) {}
 
 void GoalSearch::run() {
@@ -49,7 +50,7 @@ void GoalSearch::queue_around_goal() {
   grid_.for_neighbours(grid_.cell(goal_), 1, 2, [&](std::int32_t node) {
     const auto n = static_cast<std::size_t>(node);
     if (state_[n] == State::Blocked) return;
-    to_go[n] = (grid_.position(node) - goal_).norm();
+    to_go[n] = cost_(grid_.position(node), goal_);
     next[n] = kGoalNode;
     queue_.emplace(to_go[n], node);
   });
@@ -66,7 +67,7 @@ bool GoalSearch::sight(std::int32_t node) {
     const auto o = static_cast<std::size_t>(other);
     if (state_[o] != State::Closed) return;
     const Vec3 q = grid_.position(other);
-    const double length = to_go[o] + (p - q).norm();
+    const double length = to_go[o] + cost_(p, q);
     if (length >= to_go[n] - kGain || obstacles_.blocks(p, q)) return;
     to_go[n] = length;
     next[n] = other;
@@ -80,18 +81,26 @@ bool GoalSearch::sight(std::int32_t node) {
 
 void GoalSearch::expand(std::int32_t node) {
   const std::int32_t turn = next[static_cast<std::size_t>(node)];
-  const Vec3 p = position(turn);
-  const double rest = to_go_of(turn);
   grid_.for_neighbours(grid_.cell_of(node), 1, 1, [&](std::int32_t other) {
     const auto o = static_cast<std::size_t>(other);
     if (state_[o] == State::Closed || state_[o] == State::Blocked) return;
-    const double length = rest + (grid_.position(other) - p).norm();
-    if (length >= to_go[o] - kGain) return;
-    to_go[o] = length;
-    next[o] = turn;
-    state_[o] = State::Open;
-    queue_.emplace(length, other);
+    offer(other, turn);
+    if (!cost_.is_length()) offer(other, node);
   });
+}
+
+void GoalSearch::offer(std::int32_t other, std::int32_t turn) {
+  const auto o = static_cast<std::size_t>(other);
+  const Vec3 p = position(turn);
+  const Vec3 q = grid_.position(other);
+  const double bar = to_go[o] - kGain - to_go_of(turn);
+  if ((q - p).norm() >= bar) return;
+  const double length = cost_(q, p);
+  if (length >= bar) return;
+  to_go[o] = to_go_of(turn) + length;
+  next[o] = turn;
+  state_[o] = State::Open;
+  queue_.emplace(to_go[o], other);
 }
 
 }  // namespace tern

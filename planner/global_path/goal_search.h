@@ -10,6 +10,7 @@
 #include "core/base/types.h"
 #include "planner/global_path/box_index.h"
 #include "planner/global_path/rectilinear_grid.h"
+#include "planner/global_path/travel_cost.h"
 
 namespace tern {
 
@@ -17,16 +18,18 @@ namespace tern {
 inline constexpr std::int32_t kGoalNode = -1;
 inline constexpr std::int32_t kNoNode = -2;
 
-/// Invariant of a closed node: the segment to its `next` (a node, or the goal) is free, and to_go is its length plus
-/// to_go of that. A node is queued as if it saw the turning point of the node that found it; only when it is popped is
-/// that tested, and if it is false, the best closed neighbour takes its place.
+/// Invariant of a closed node: the segment to its `next` (a node, or the goal) is free, and to_go is its cost plus
+/// to_go of that. Where cost is more than length, the way by way of the node itself is also tried, because a straight
+/// line need not be the cheapest then (Theta* on weighted grids). A node is queued as if it saw the turning point of
+/// the node that found it; only when it is popped is that tested, and if it is false, the best closed neighbour takes
+/// its place.
 class GoalSearch {
  public:
-  /// Keeps references: grid and obstacles must live as long as the search.
-  GoalSearch(const RectilinearGrid& grid, const BoxIndex& obstacles, const Vec3& goal);
+  /// Keeps references: grid, obstacles and cost must live as long as the search.
+  GoalSearch(const RectilinearGrid& grid, const BoxIndex& obstacles, const Vec3& goal, const TravelCost& cost);
   void run();
 
-  std::vector<double> to_go;       ///< per node, m; infinite: not reached
+  std::vector<double> to_go;       ///< per node, metres of way (TravelCost); infinite: not reached
   std::vector<std::int32_t> next;  ///< per node: the turning point it sees
 
  private:
@@ -37,6 +40,7 @@ class GoalSearch {
   void queue_around_goal();
   bool sight(std::int32_t node);
   void expand(std::int32_t node);
+  void offer(std::int32_t other, std::int32_t turn);
   [[nodiscard]] Vec3 position(std::int32_t node) const { return node == kGoalNode ? goal_ : grid_.position(node); }
   [[nodiscard]] double to_go_of(std::int32_t node) const {
     return node == kGoalNode ? 0.0 : to_go[static_cast<std::size_t>(node)];
@@ -45,6 +49,7 @@ class GoalSearch {
   const RectilinearGrid& grid_;
   const BoxIndex& obstacles_;
   Vec3 goal_;
+  const TravelCost& cost_;
   std::vector<State> state_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };

@@ -2,17 +2,22 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/types.h"
 #include "core/world/voxel_map.h"
 #include "planner/semantics/mean_distance_field.h"
+#include "planner/semantics/voxel_kind.h"
 
 namespace tern {
 
 struct SemanticFieldsOptions {
-  double exposure_margin = 1.0;  ///< m, > 0: how far outside a region exposure ramps
+  double exposure_margin = 1.0;                               ///< m, > 0: how far outside a region exposure ramps
+  double lambda_attractive = 1.0;                             ///< λ_att ≥ 0
+  double lambda_repulsive = 1.0;                              ///< λ_rep ≥ 0
+  std::vector<std::pair<std::string, double>> class_lambdas;  ///< class name → λ of its own, ≥ 0
   MeanDistanceOptions mean_distance;
 };
 
@@ -27,7 +32,7 @@ class DistanceBand {
   static constexpr double kBandError = 1.233;
 
   DistanceBand() = default;
-  DistanceBand(const VoxelMap& map, VoxelLabel label, double margin);
+  DistanceBand(const VoxelMap& map, const VoxelKind& kind, double margin);
 
   /// 0 inside the region, `margin` and more are margin: clamped to [0, margin], m.
   [[nodiscard]] double operator()(const Vec3& p) const;
@@ -42,9 +47,16 @@ class DistanceBand {
   std::vector<float> distance_;
 };
 
-/// Eq. 3's mean distance and our exposure for the labels Attractive and Repulsive. Immutable, queries allocate nothing
-/// and use no libm but sqrt, so that a replay computes the same bytes. At most 50 ns a query inside the fields' grids.
-/// Building: about 0.5 s for 10⁶ labelled voxels; memory 4 bytes per voxel of the labels' bounding boxes.
+/// Eq. 3's mean distance and our exposure for the labels Attractive and Repulsive, each class with its λ. Immutable,
+/// queries allocate nothing and use no libm but sqrt, so that a replay computes the same bytes. At most 50 ns a query
+/// and distinct λ inside the fields' grids. Building: about 0.5 s for 10⁶ labelled voxels; memory 4 bytes per voxel of
+/// the labels' bounding boxes.
+///
+/// Exposure with several classes: what repels most counts, max_c λ_c e_c(p) with e_c = 1 inside and falling linearly to
+/// 0 at the margin outside; and what is missed of the strongest attraction, λ* − max_c λ_c e_c(p) with λ* = max_c λ_c.
+/// So a metre costs the same in one region as where two of a class overlap, and nothing is ever a reward.
+/// Mean distance: C = (1/|M|) Σ_{v ∈ M} w_v ‖p − v‖ over the centres of all voxels of the label, w_v the λ of v's
+/// class: λ C of Eq. 3 where the λ are equal.
 class SemanticFields {
  public:
   SemanticFields() = default;
@@ -54,39 +66,51 @@ class SemanticFields {
   [[nodiscard]] std::uint64_t map_version() const { return version_; }
   /// Are there voxels of this label? Only Attractive and Repulsive are ever prepared.
   [[nodiscard]] bool has(VoxelLabel label) const;
+  /// Are there voxels whose λ is positive?
+  [[nodiscard]] bool weighs() const { return !influence_.isEmpty(); }
 
-  /// Outside this box the exposure to the label is constant (0 to what is repulsive, 1 to what attracts). Empty without
-  /// such voxels.
-  [[nodiscard]] Box influence(VoxelLabel label) const;
+  /// Outside this box a metre's exposure cost is base_rate(). Empty when nothing weighs.
+  [[nodiscard]] const Box& influence() const { return influence_; }
+  /// Does the exposure cost differ anywhere in the box?
+  [[nodiscard]] bool varies_in(const Box& box) const;
+  /// λ*: what a metre far from every region costs.
+  [[nodiscard]] double base_rate() const { return strongest_attraction_; }
 
-  /// Eq. 3: C(p) = (1/|M|) Σ_{v ∈ M} ‖p − v‖ over the centres of the label's voxels, m; 0 without such voxels.
-  /// Errs by at most mean_distance_error(label), and never downwards by more than the tree's part of it.
-  [[nodiscard]] double mean_distance(VoxelLabel label, const Vec3& p) const;
+  /// What regions of the label cost per metre at p, ≥ 0.
+  [[nodiscard]] double exposure_cost(VoxelLabel label, const Vec3& p) const;
+  /// ∫ exposure_cost ds along the segment ab, m: midpoint rule with samples at most half the margin apart.
+  [[nodiscard]] double exposure_cost(VoxelLabel label, const Vec3& a, const Vec3& b) const;
+  /// Of both labels.
+  [[nodiscard]] double exposure_cost(const Vec3& a, const Vec3& b) const;
+
+  /// Σ_c λ_c C_c(p), m, ≥ 0; 0 without such voxels. Errs by at most mean_distance_error(label), and never downwards by
+  /// more than the tree's part of it.
+  [[nodiscard]] double mean_distance_cost(VoxelLabel label, const Vec3& p) const;
+  /// Attraction less repulsion: λ_att C_att − λ_rep C_rep of Eq. 2.
+  [[nodiscard]] double mean_distance_cost(const Vec3& p) const;
   /// The bound inside the map's extents, m (beyond them: MeanDistanceOptions::far_error).
   [[nodiscard]] double mean_distance_error(VoxelLabel label) const;
-
-  /// 1 inside, falling linearly to 0 at the margin outside; 0 without repulsive voxels.
-  [[nodiscard]] double exposure_repulsive(const Vec3& p) const;
-  /// 0 inside, rising linearly to 1 at the margin outside: a cost for metres flown outside, never a reward. 0 without
-  /// attractive voxels.
-  [[nodiscard]] double exposure_attractive(const Vec3& p) const;
-
-  /// ∫ exposure ds along the segment ab, m: midpoint rule with samples at most half the margin apart.
-  [[nodiscard]] double exposure_repulsive(const Vec3& a, const Vec3& b) const;
-  [[nodiscard]] double exposure_attractive(const Vec3& a, const Vec3& b) const;
 
   [[nodiscard]] double exposure_margin() const { return margin_; }
 
  private:
-  struct Label {
+  /// All voxels of one label whose classes have one λ.
+  struct Group {
+    VoxelLabel label;
+    double lambda;
+    double share;  ///< of the label's voxels
     DistanceBand band;
     MeanDistanceField mean;
   };
-  [[nodiscard]] const std::optional<Label>& of(VoxelLabel label) const;
+  void prepare(const VoxelMap& map, VoxelLabel label, const SemanticFieldsOptions& options);
+  template <class Rate>
+  [[nodiscard]] double integral(const Vec3& a, const Vec3& b, double outside, const Rate& rate) const;
 
   std::uint64_t version_ = 0;
   double margin_ = 1.0;
-  std::optional<Label> attractive_, repulsive_;
+  double strongest_attraction_ = 0.0;
+  Box influence_;
+  std::vector<Group> groups_;
 };
 
 }  // namespace tern

@@ -6,12 +6,12 @@
 
 namespace tern {
 
-VoxelTree::VoxelTree(const VoxelMap& map, VoxelLabel label) : grid_(map.grid) {
+VoxelTree::VoxelTree(const VoxelMap& map, const VoxelKind& kind) : grid_(map.grid) {
   std::size_t i = 0;
   for (int z = 0; z < grid_.size.z(); ++z) {
     for (int y = 0; y < grid_.size.y(); ++y) {
       for (int x = 0; x < grid_.size.x(); ++x, ++i) {
-        if (map.labels[i] == label) voxels_.emplace_back(x, y, z);
+        if (kind.has(map, i)) voxels_.emplace_back(x, y, z);
       }
     }
   }

@@ -7,6 +7,7 @@
 
 #include "core/base/types.h"
 #include "core/world/voxel_map.h"
+#include "planner/semantics/voxel_kind.h"
 
 namespace tern {
 
@@ -19,8 +20,8 @@ namespace tern {
 class VoxelTree {
  public:
   VoxelTree() = default;
-  /// Of the map's voxels with this label. O(n log n); moments are exact integers, so their order does not matter.
-  VoxelTree(const VoxelMap& map, VoxelLabel label);
+  /// Of the map's voxels of this kind. O(n log n); moments are exact integers, so their order does not matter.
+  VoxelTree(const VoxelMap& map, const VoxelKind& kind);
 
   [[nodiscard]] std::int64_t voxels() const { return static_cast<std::int64_t>(voxels_.size()); }
   /// Σ ‖p − v‖ / n to within error > 0, m. @pre voxels() > 0. Allocates nothing; about 5 ns per cluster visited.

@@ -210,6 +210,7 @@ Scenario random_scenario(Rng& rng) {
   semantics.cost = toss(rng) ? "exposure" : "mean_distance";
   if (toss(rng))
     semantics.classes = {{"true", "free"}, {"old road", "occupied"}, {"lawn", "unknown"}, {"x", "repulsive"}};
+  if (toss(rng)) semantics.lambdas = {{semantics.classes.front().first, rng.uniform(0.0, 4.0)}};
   for (int n = pick(rng, 4); n > 0; --n) {
     const auto& classes = semantics.classes;
     semantics.regions.push_back(region(rng, n, classes[static_cast<std::size_t>(n) % classes.size()].first));
@@ -240,6 +241,7 @@ std::string difference(const Scenario& a, const Scenario& b) {
   equal("semantics.lambda_repulsive", a.semantics.lambda_repulsive, b.semantics.lambda_repulsive);
   equal("semantics.cost", a.semantics.cost, b.semantics.cost);
   equal("semantics.classes", a.semantics.classes, b.semantics.classes);
+  equal("semantics.lambdas", a.semantics.lambdas, b.semantics.lambdas);
   compare(equal, "semantics.regions.", a.semantics.regions, b.semantics.regions);
   return equal.first;
 }

@@ -212,6 +212,10 @@ TEST(ScenarioFile, RefusesRegionsWithoutExactlyOneShape) {
 TEST(ScenarioFile, RefusesRegionsOfAClassThatHasNoLabel) {
   EXPECT_EQ(region_error("name: a\n      class: grass\n      ball: {centre: [0, 0, 0], radius: 1}\n"),
             "a.yaml:4: semantics.regions[0].class: grass is not one of semantics.classes");
+  EXPECT_EQ(error_of("semantics:\n  lambdas:\n    wather: 3\n"),
+            "a.yaml:3: semantics.lambdas.wather: is not one of semantics.classes");
+  EXPECT_EQ(error_of("semantics:\n  lambdas:\n    water: -3\n"),
+            "a.yaml:3: semantics.lambdas.water: -3 is out of range [0, 1000000]");
   EXPECT_EQ(error_of("semantics:\n  classes:\n    water: wet\n"),
             "a.yaml:3: semantics.classes.water: wet is not one of unknown, free, occupied, attractive, repulsive");
 }

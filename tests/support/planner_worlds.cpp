@@ -243,7 +243,7 @@ PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const Horizo
   }
   const GoalFieldKey key{goal.position, products->version, digest_of(statics), request.body.half_extents(),
                          request.flight_box};
-  auto field = std::make_shared<const GoalField>(make_goal_field(key, products->occupied, statics, request.start.p));
+  auto field = std::make_shared<const GoalField>(make_goal_field(key, products, statics, request.start.p));
   world.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), {}});
   return world;
 }

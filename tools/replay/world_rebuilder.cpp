@@ -77,13 +77,14 @@ Result<std::shared_ptr<const MapProducts>> WorldRebuilder::map_of(std::uint64_t 
 }
 
 std::shared_ptr<const GoalField> WorldRebuilder::field_of(const GoalFieldKey& key, const Vec3& start,
-                                                          const MapProducts& map, const std::vector<Box>& statics) {
+                                                          const std::shared_ptr<const MapProducts>& map,
+                                                          const std::vector<Box>& statics) {
   for (const Field& known : fields_) {
-    if (known.key == key && known.start == start) return known.field;
+    if (known.key == key && known.map == map && known.start == start) return known.field;
   }
   if (fields_.size() == kFieldsKept) fields_.erase(fields_.begin());
-  auto field = std::make_shared<const GoalField>(make_goal_field(key, map.occupied, statics, start));
-  fields_.push_back({key, start, field});
+  auto field = std::make_shared<const GoalField>(make_goal_field(key, map, statics, start));
+  fields_.push_back({key, map, start, field});
   return field;
 }
 
@@ -109,7 +110,7 @@ Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanIn
     key.flight_box = request->second.flight_box;
     start = request->second.start.p;
   }
-  auto field = field_of(key, start, **map, *statics->second);
+  auto field = field_of(key, start, *map, *statics->second);
   return std::make_shared<const GoalProducts>(GoalProducts{goal->second, key, std::move(field), from});
 }
 

@@ -53,13 +53,15 @@ class WorldRebuilder {
   };
   struct Field {
     GoalFieldKey key;
+    std::shared_ptr<const MapProducts> map;  ///< of one configuration, whose weights the field knows
     Vec3 start;
     std::shared_ptr<const GoalField> field;
   };
   Result<Configuration*> configuration_of(std::uint64_t hash);
   Result<std::shared_ptr<const MapProducts>> map_of(std::uint64_t version, Configuration& configuration);
   Result<std::shared_ptr<const GoalProducts>> goal_of(const PlanInputs& names, Configuration& configuration);
-  std::shared_ptr<const GoalField> field_of(const GoalFieldKey& key, const Vec3& start, const MapProducts& map,
+  std::shared_ptr<const GoalField> field_of(const GoalFieldKey& key, const Vec3& start,
+                                            const std::shared_ptr<const MapProducts>& map,
                                             const std::vector<Box>& statics);
 
   const RecordedInputs& inputs_;

@@ -1,0 +1,24 @@
+// Which voxels are meant: a label, and of it all classes or some.
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+
+#include "core/world/voxel_map.h"
+
+namespace tern {
+
+struct VoxelKind {
+  VoxelLabel label = VoxelLabel::Unknown;
+  std::bitset<256> classes;  ///< by VoxelMap's class index
+
+  /// All voxels of a label, whatever their class.
+  VoxelKind(VoxelLabel of) : label(of) { classes.set(); }  // NOLINT(google-explicit-constructor): a label is a kind
+  VoxelKind(VoxelLabel of, const std::bitset<256>& only) : label(of), classes(only) {}
+
+  [[nodiscard]] bool has(const VoxelMap& map, std::size_t voxel) const {
+    return map.labels[voxel] == label && classes[map.classes[voxel]];
+  }
+};
+
+}  // namespace tern
