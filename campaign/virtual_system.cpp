@@ -20,23 +20,28 @@
 
 namespace tern {
 
+const char* to_string(Charge charge) { return charge == Charge::Cpu ? "cpu" : "counts"; }
+
 struct VirtualSystem::Parts {
+  Charge charge;
   Scenario scenario;
   PredictorConfig predictor;
   VoxelMap map;
   PlannerConfig planner;
   std::string effective_yaml;  ///< of the whole file
 
-  explicit Parts(ConfigDocument& document)
-      : scenario(read_scenario(document)),
+  Parts(ConfigDocument& document, Charge charge_)
+      : charge(charge_),
+        scenario(read_scenario(document)),
         predictor(read_predictor_config(document.root().section("predictor"))),
         map(load_map(scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA"))),
         planner(read_planner_config(document.root().section("planner"), scenario.semantics)) {}
 };
 
-VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides) {
+VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides,
+                             Charge charge) {
   ConfigDocument document = ConfigDocument::load(scenario_file, overrides);
-  parts_ = std::make_unique<Parts>(document);
+  parts_ = std::make_unique<Parts>(document, charge);
   const Scenario& scenario = parts_->scenario;
   const SimulatorConfig config = read_simulator_config(document.root().section("simulator"), scenario.seed);
   const ExecutorConfig executor = read_executor_config(document.root().section("executor"));
@@ -65,6 +70,7 @@ void VirtualSystem::start(const std::string& process) {
     if (process != "tern-planner") throw std::invalid_argument("VirtualSystem: no process " + process);
     PlannerExecution execution;
     execution.threaded = false;
+    execution.charge_cpu = parts_->charge == Charge::Cpu;
     return std::make_unique<PlannerNode>(bus, parts_->scenario.uav, parts_->planner,
                                          configuration_hash(parts_->effective_yaml), execution);
   };

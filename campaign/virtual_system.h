@@ -12,12 +12,22 @@ namespace tern {
 
 class SimulatorNode;
 
+/// What planning costs in virtual time. In neither case anything else does: messages arrive at once, and what live
+/// processes do beside the planner's worker takes no time.
+enum class Charge {
+  Counts,  ///< 15 ms per answer, whatever it took; loops end by their own limits. A flight is a function of its inputs
+  Cpu,     ///< the thread's CPU time; budget and watchdog end a plan by it, so a slow plan is a late or a poor one
+};
+/// "counts", "cpu".
+const char* to_string(Charge charge);
+
 /// Simulator, predictor, mapper and planner of one scenario file on a VirtualRunner, all started. The planner has no
-/// threads and no clock budget, so a flight is a function of the file and the overrides.
+/// threads.
 class VirtualSystem {
  public:
   /// @throws ConfigError for what run_process would refuse.
-  VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides);
+  VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides,
+                Charge charge = Charge::Counts);
   ~VirtualSystem();
 
   /// Kills "tern-predictor", "tern-mapper" or "tern-planner"; the next start() makes a new one that knows nothing.

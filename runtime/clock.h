@@ -33,4 +33,16 @@ class VirtualClock final : public Clock {
   UTime now_;
 };
 
+/// A time from which only the calling thread's CPU time counts on: what the thread's work takes, whoever else uses the
+/// machine. @pre now() is called by the thread that made it
+class ThreadCpuClock final : public Clock {
+ public:
+  explicit ThreadCpuClock(UTime start);
+  [[nodiscard]] UTime now() const override;
+
+ private:
+  UTime start_;
+  double cpu_at_start_ms_;
+};
+
 }  // namespace tern

@@ -17,6 +17,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Monotonic wall time, ms; only differences mean anything.
+double monotonic_ms();
+
 /// CPU time that the calling thread has used, ms.
 double thread_cpu_ms();
 

@@ -5,8 +5,9 @@
 namespace tern {
 
 void PlanStopwatch::close_stage() {
-  stage_ms_[static_cast<int>(stage_)] += stage_watch_.elapsed_ms();
-  stage_watch_ = Stopwatch();
+  const double now_ms = clock_ms_();
+  stage_ms_[static_cast<int>(stage_)] += now_ms - stage_started_ms_;
+  stage_started_ms_ = now_ms;
 }
 
 void PlanStopwatch::enter(Stage stage) {
@@ -16,7 +17,7 @@ void PlanStopwatch::enter(Stage stage) {
 
 void PlanStopwatch::answer(const Plan& best_so_far) {
   const bool is_new = best_so_far.outcome != PlanOutcome::KeepCommitted && best_so_far.outcome != PlanOutcome::NoPlan;
-  if (is_new && first_answer_ms_ == 0.0) first_answer_ms_ = total_.elapsed_ms();
+  if (is_new && first_answer_ms_ == 0.0) first_answer_ms_ = clock_ms_() - started_ms_;
   improved_(best_so_far);
 }
 
@@ -24,7 +25,7 @@ PlanTiming PlanStopwatch::timing(const PlanAnswer& answer) {
   close_stage();
   PlanTiming timing;
   timing.request_id = answer.plan.request_id;
-  timing.total_ms = total_.elapsed_ms();
+  timing.total_ms = clock_ms_() - started_ms_;
   timing.first_answer_ms = first_answer_ms_ > 0.0 ? first_answer_ms_ : timing.total_ms;
   timing.cpu_ms = thread_cpu_ms() - cpu_at_start_ms_;
   std::copy_n(stage_ms_, kStages, timing.stage_ms);

@@ -10,7 +10,9 @@ namespace tern {
 
 class PlanStopwatch final : public PlanObserver {
  public:
-  explicit PlanStopwatch(std::function<void(const Plan&)> improved) : improved_(std::move(improved)) {}
+  /// @param clock_ms  what its times are read from: monotonic_ms, or thread_cpu_ms where only work shall count
+  PlanStopwatch(std::function<void(const Plan&)> improved, double (*clock_ms)())
+      : improved_(std::move(improved)), clock_ms_(clock_ms) {}
 
   void enter(Stage stage) override;
   void answer(const Plan& best_so_far) override;
@@ -21,7 +23,8 @@ class PlanStopwatch final : public PlanObserver {
   void close_stage();
 
   std::function<void(const Plan&)> improved_;
-  Stopwatch total_, stage_watch_;
+  double (*clock_ms_)();
+  double started_ms_ = clock_ms_(), stage_started_ms_ = started_ms_;
   double cpu_at_start_ms_ = thread_cpu_ms();
   Stage stage_ = Stage::Fallback;
   double stage_ms_[kStages] = {};

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "core/geometry/separation.h"
@@ -38,6 +39,16 @@ Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
   });
 }
 
+/// plan(), and what it cost. `budget` and `stopwatch` were made for this call.
+std::pair<Plan, PlanTiming> timed_plan(const HorizonRequest& request, const PlanningWorld& world,
+                                       const PlannerConfig& config, Budget& budget, PlanStopwatch& stopwatch) {
+  const SeparationCounts before = separation_counts();
+  PlanAnswer answer = plan(request, world, config, budget, &stopwatch);
+  PlanTiming timing = stopwatch.timing(answer);
+  timing.pairs_by_lp = separation_counts().lp - before.lp;
+  return {std::move(answer.plan), timing};
+}
+
 }  // namespace
 
 PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& config, std::uint64_t configuration_hash,
@@ -56,19 +67,25 @@ PlannerNode::~PlannerNode() = default;
 UTime PlannerNode::next_wakeup() const {
   UTime next = bus_.clock().now() + kPrepareEvery;
   if (delayed_) next = std::min(next, delayed_->due);
-  if (const auto watch = desk_.watch_time(); watch && execution_.threaded) next = std::min(next, *watch);
+  if (const auto watch = desk_.watch_time(); watch && has_watchdog()) next = std::min(next, *watch);
   return next;
 }
 
 void PlannerNode::step(UTime now) {
   intake_.prepare();
-  if (delayed_ && now >= delayed_->due) {
-    desk_.answer(delayed_->plan, delayed_->timing);
-    delayed_.reset();
-  }
-  if (!execution_.threaded) return;
-  desk_.watch(now);
+  if (delayed_) deliver_delayed(now);
+  if (has_watchdog()) desk_.watch(now);
   if (waiting_) start_planning(now);
+}
+
+void PlannerNode::deliver_delayed(UTime now) {
+  Delayed& d = *delayed_;
+  for (; d.next < d.improvements.size() && d.improvements[d.next].first <= now; ++d.next) {
+    desk_.improve(d.improvements[d.next].second);
+  }
+  if (now < d.due) return;
+  desk_.answer(d.plan, d.timing);
+  delayed_.reset();
 }
 
 NodeHealth PlannerNode::health() const {
@@ -90,7 +107,6 @@ void PlannerNode::on_request(const HorizonRequest& request) {
   if (now >= request.deadline) return bus_.count_late(channels::kHorizonRequest);
   intake_.set_vehicle(request);
   desk_.open(request, now);
-  if (!execution_.threaded) return work(request, intake_.snapshot(), now);
   waiting_ = request;
   waiting_since_ = now;
   start_planning(now);
@@ -98,6 +114,10 @@ void PlannerNode::on_request(const HorizonRequest& request) {
 
 void PlannerNode::start_planning(UTime now) {
   const UTime arrived = waiting_since_;
+  if (!execution_.threaded) {
+    if (!delayed_) work_in_virtual_time(*std::exchange(waiting_, std::nullopt), intake_.snapshot(), arrived);
+    return;
+  }
   const Duration allowed = waiting_->deadline - arrived;
   const bool taken = worker_->try_start(
       [this, request = *waiting_, world = intake_.snapshot(), arrived] { work(request, world, arrived); });
@@ -107,19 +127,25 @@ void PlannerNode::start_planning(UTime now) {
 }
 
 void PlannerNode::work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived) {
-  PlanStopwatch stopwatch([this](const Plan& plan) { desk_.improve(plan); });
-  Budget budget =
-      execution_.threaded ? clock_budget(bus_.clock(), arrived, request.deadline - kWatchdogLead) : Budget::unlimited();
-  const SeparationCounts before = separation_counts();
-  const PlanAnswer answer = plan(request, world, config_, budget, &stopwatch);
-  PlanTiming timing = stopwatch.timing(answer);
-  timing.pairs_by_lp = separation_counts().lp - before.lp;
-  if (execution_.threaded) {
-    timing.total_ms = std::max(timing.total_ms, (bus_.clock().now() - arrived).seconds() * 1e3);
-    desk_.answer(answer.plan, timing);
-  } else {
-    delayed_ = Delayed{arrived + execution_.virtual_latency, answer.plan, timing};
-  }
+  PlanStopwatch stopwatch([this](const Plan& plan) { desk_.improve(plan); }, &monotonic_ms);
+  Budget budget = clock_budget(bus_.clock(), arrived, request.deadline - kWatchdogLead);
+  auto [plan, timing] = timed_plan(request, world, config_, budget, stopwatch);
+  timing.total_ms = std::max(timing.total_ms, (bus_.clock().now() - arrived).seconds() * 1e3);
+  desk_.answer(plan, timing);
+}
+
+void PlannerNode::work_in_virtual_time(const HorizonRequest& request, const PlanningWorld& world, UTime arrived) {
+  const UTime began = bus_.clock().now();
+  const bool charged = execution_.charge_cpu;
+  const ThreadCpuClock cpu(began);
+  Delayed delayed;
+  const auto improved = [&](const Plan& p) { delayed.improvements.emplace_back(charged ? cpu.now() : began, p); };
+  PlanStopwatch stopwatch(improved, &thread_cpu_ms);
+  Budget budget = charged ? clock_budget(cpu, arrived, request.deadline - kWatchdogLead) : Budget::unlimited();
+  std::tie(delayed.plan, delayed.timing) = timed_plan(request, world, config_, budget, stopwatch);
+  delayed.due = charged ? cpu.now() : began + execution_.virtual_latency;
+  if (charged) delayed.timing.total_ms = (delayed.due - arrived).seconds() * 1e3;
+  delayed_ = std::move(delayed);
 }
 
 }  // namespace tern

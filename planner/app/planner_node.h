@@ -4,6 +4,8 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/world/scenario.h"
 #include "planner/app/answer_desk.h"
@@ -17,10 +19,11 @@ namespace tern {
 
 /// How a node spends time.
 struct PlannerExecution {
-  /// Plan in a thread of its own, under the wall clock and the watchdog; else at once, unlimited, charged with
-  /// `virtual_latency`.
+  /// Plan in a thread of its own, under the wall clock and the watchdog; else at once, in virtual time.
   bool threaded = true;
-  Duration virtual_latency{15'000};  ///< virtual time from request to answer
+  Duration virtual_latency{15'000};  ///< virtual time from request to answer: the budget is unlimited then …
+  /// … unless a plan takes the CPU time of its thread instead, under the budget and the watchdog of a live one.
+  bool charge_cpu = false;
 };
 
 class PlannerNode final : public Node {
@@ -39,6 +42,9 @@ class PlannerNode final : public Node {
   void on_request(const HorizonRequest& request);
   void start_planning(UTime now);
   void work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived);
+  void work_in_virtual_time(const HorizonRequest& request, const PlanningWorld& world, UTime arrived);
+  void deliver_delayed(UTime now);
+  [[nodiscard]] bool has_watchdog() const { return execution_.threaded || execution_.charge_cpu; }
 
   Bus& bus_;
   PlannerConfig config_;
@@ -50,11 +56,13 @@ class PlannerNode final : public Node {
   UTime waiting_since_{};
   std::optional<UTime> stuck_at_;  ///< two deadlines after what the worker is at
   struct Delayed {
+    std::vector<std::pair<UTime, Plan>> improvements;  ///< what stood on the way, and from when on
+    std::size_t next = 0;                              ///< the first of them that the desk has not seen
     UTime due;
     Plan plan;
     PlanTiming timing;
   };
-  std::optional<Delayed> delayed_;  ///< virtual time: the answer, not yet given
+  std::optional<Delayed> delayed_;  ///< virtual time: the answer of a worker that is still at it
   std::unique_ptr<Worker> worker_;  ///< null in virtual time. Last: its job uses the others
 };
 

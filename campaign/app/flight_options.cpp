@@ -1,0 +1,45 @@
+#include "campaign/app/flight_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "runtime/config.h"
+
+namespace tern {
+
+void add_flight_options(CLI::App& app, FlightOptions& options) {
+  app.add_option("--world", options.world, "Scenario: a file, or a name in scenarios/")->type_name("NAME|FILE");
+  app.add_option("--count", options.count, "Number of obstacles (world.count)")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--set", options.settings, "Override key=value (repeatable)")->type_name("KEY=VALUE")->take_all();
+  app.add_option("--charge", options.charge, "What planning takes of virtual time: its thread's CPU time, or 15 ms")
+      ->check(CLI::IsMember({"cpu", "counts"}))
+      ->capture_default_str();
+  app.add_option("--audit", options.audit, "Run this program on every log: exit code 0 passed, 1 broken")
+      ->type_name("PROGRAM");
+}
+
+FlightInputs inputs_of(const FlightOptions& options) {
+  if (options.world.empty()) throw ConfigError("--world is required: a scenario's file or name");
+  FlightInputs inputs;
+  const auto file = find_scenario(options.world);
+  if (!file) throw ConfigError("--world: " + file.error().message);
+  inputs.scenario_file = *file;
+  inputs.overrides = options.settings;
+  if (!options.count.empty()) inputs.overrides.push_back("world.count=" + options.count);
+  inputs.charge = options.charge == "cpu" ? Charge::Cpu : Charge::Counts;
+  for (const std::string& setting : options.settings) {
+    if (setting.starts_with("seed=")) throw ConfigError("--set " + setting + ": seeds are set by --seeds or --seed");
+  }
+  return inputs;
+}
+
+std::vector<std::string> words_of(const FlightOptions& options) {
+  std::vector<std::string> words = {"--world", options.world, "--charge", options.charge};
+  if (!options.count.empty()) words.insert(words.end(), {"--count", options.count});
+  for (const std::string& setting : options.settings) words.insert(words.end(), {"--set", setting});
+  if (!options.audit.empty()) words.insert(words.end(), {"--audit", options.audit});
+  return words;
+}
+
+}  // namespace tern

@@ -1,0 +1,32 @@
+// The options that say what is flown, the same for a campaign and for one flight.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "campaign/flight_inputs.h"
+
+namespace CLI {
+class App;
+}
+
+namespace tern {
+
+struct FlightOptions {
+  std::string world;
+  std::string count;                  ///< "" when not given
+  std::vector<std::string> settings;  ///< key=value
+  std::string charge = "cpu";
+  std::string audit;
+};
+
+/// --world, --count, --set, --charge, --audit.
+void add_flight_options(CLI::App& app, FlightOptions& options);
+
+/// @throws ConfigError when there is no such world, or a setting sets the seed.
+FlightInputs inputs_of(const FlightOptions& options);
+
+/// The same options as words of a command line.
+std::vector<std::string> words_of(const FlightOptions& options);
+
+}  // namespace tern

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "campaign/app/commands.h"
+#include "campaign/app/flight_options.h"
+#include "campaign/app/plan_tracer.h"
+#include "campaign/campaign.h"
+#include "campaign/recorded_flight.h"
+
+namespace tern {
+namespace {
+
+struct Options {
+  FlightOptions flight;
+  std::uint64_t seed = 1;
+  std::string folder = "flight";
+  bool trace = false;
+};
+
+int fly_one(const Options& options) {
+  spdlog::set_default_logger(spdlog::stderr_color_st("tern"));  // standard output is for the result
+  const FlightInputs inputs = inputs_of(options.flight);
+  const CampaignIdentity identity = check_inputs(inputs, options.seed);
+  std::filesystem::create_directories(options.folder);
+  PlanTracer tracer;
+  const RecordedFlight flight = fly_recorded(inputs, options.seed, identity, options.folder, options.flight.audit,
+                                             options.trace ? &tracer : nullptr);
+  fmt::print("{}", encode_flight(flight.record, flight.times));
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_fly_one(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("fly-one", "Fly one seed in this process and record it; two lines of CSV");
+  add_flight_options(*command, options->flight);
+  command->add_option("--seed", options->seed, "Seed")->capture_default_str();
+  command->add_option("--folder", options->folder, "For scenario.yaml, flight.lcm and summary.json")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_flag("--trace", options->trace, "Say every answer on stderr");
+  command->callback([&chosen, options] { chosen = [options] { return fly_one(*options); }; });
+}
+
+}  // namespace tern

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "campaign/app/commands.h"
+#include "campaign/app/summary_output.h"
+#include "campaign/records/flight_book.h"
+#include "runtime/config.h"
+
+namespace tern {
+namespace {
+
+struct Options {
+  std::vector<std::string> parts;
+  std::string out, summary;
+};
+
+int merge(const Options& options) {
+  Flights all;
+  for (const std::string& part : options.parts) {
+    auto flights = read_flights(part);
+    if (!flights) throw ConfigError(flights.error().message);
+    if (auto joined = join(all, std::move(*flights)); !joined) {
+      throw ConfigError(fmt::format("{}: {}", part, joined.error().message));
+    }
+  }
+  if (auto written = write_flights(options.out, all); !written) throw ConfigError(written.error().message);
+  return write_summary(options.out, options.summary, command_line());
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("merge", "Make one file of the flights of several shards");
+  command->add_option("parts", options->parts, "Files of flights")->required()->type_name("PART.csv ...");
+  command->add_option("--out", options->out, "For all of them, by seed")->required()->type_name("FLIGHTS.csv");
+  command->add_option("--summary", options->summary, "The campaign in numbers")->type_name("FILE.json");
+  command->callback([&chosen, options] { chosen = [options] { return merge(*options); }; });
+}
+
+}  // namespace tern

@@ -1,0 +1,27 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "campaign/app/commands.h"
+#include "campaign/app/summary_output.h"
+
+namespace tern {
+namespace {
+
+struct Options {
+  std::string flights, summary;
+};
+
+}  // namespace
+
+void add_summarize(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("summarize", "Sum up a file of flights again");
+  command->add_option("flights", options->flights, "What a campaign wrote")->required()->type_name("FLIGHTS.csv");
+  command->add_option("--summary", options->summary, "The campaign in numbers")->type_name("FILE.json");
+  command->callback([&chosen, options] {
+    chosen = [options] { return write_summary(options->flights, options->summary, command_line()); };
+  });
+}
+
+}  // namespace tern

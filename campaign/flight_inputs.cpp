@@ -1,0 +1,112 @@
+#include "campaign/flight_inputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "planner/app/config_reader.h"
+#include "predictor/app/predictor_config.h"
+#include "runtime/config.h"
+#include "runtime/data_folder.h"
+#include "runtime/process.h"
+#include "runtime/scenario_file.h"
+#include "runtime/version.h"
+#include "semantic_mapper/app/mapper_config.h"
+#include "simulator/app/simulator_config.h"
+#include "simulator/worlds/world.h"
+
+namespace tern {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> scenario_folders() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return {"scenarios", program.parent_path() / ".." / ".." / ".." / "scenarios"};
+}
+
+/// Reads every process's section, as the processes would.
+MapperConfig read_sections(ConfigDocument& document, const Scenario& scenario) {
+  ConfigSection root = document.root();
+  (void)read_simulator_config(root.section("simulator"), scenario.seed);
+  (void)read_executor_config(root.section("executor"));
+  (void)read_predictor_config(root.section("predictor"));
+  (void)read_planner_config(root.section("planner"), scenario.semantics);
+  return read_mapper_config(root.section("mapper"));
+}
+
+World world_of(const Scenario& scenario) {
+  auto world = make_world(scenario, data_folder(scenario.file, std::getenv("TERN_DATA")));
+  if (!world) throw ConfigError(scenario.file + ": world: " + world.error().message);
+  return std::move(*world);
+}
+
+/// Overrides that name the mapper's files by absolute paths.
+std::vector<std::string> absolute_sources(const MapperConfig& mapper, const std::string& scenario_file) {
+  const fs::path data = data_folder(scenario_file, std::getenv("TERN_DATA"));
+  std::vector<std::string> overrides;
+  for (std::size_t k = 0; k < mapper.sources.size(); ++k) {
+    for (const fs::path& folder : {fs::path(scenario_file).parent_path(), data}) {
+      std::error_code error;
+      const fs::path file = fs::absolute(folder / mapper.sources[k].file, error).lexically_normal();
+      if (!fs::is_regular_file(file, error)) continue;
+      overrides.push_back(fmt::format("mapper.sources[{}].file={}", k, file.string()));
+      break;
+    }
+  }
+  return overrides;
+}
+
+}  // namespace
+
+std::vector<std::string> FlightInputs::with_seed(std::uint64_t seed) const {
+  std::vector<std::string> all = overrides;
+  all.push_back(fmt::format("seed={}", seed));
+  return all;
+}
+
+Result<std::string> find_scenario(const std::string& wanted) {
+  if (fs::is_regular_file(wanted)) return wanted;
+  std::set<std::string> names;
+  for (const fs::path& folder : scenario_folders()) {
+    for (const std::string& file : {wanted + ".yaml", wanted}) {
+      if (fs::is_regular_file(folder / file)) return (folder / file).lexically_normal().string();
+    }
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      if (entry.path().extension() == ".yaml") names.insert(entry.path().stem().string());
+    }
+  }
+  std::string list;
+  for (const std::string& name : names) list += " " + name;
+  return fail(fmt::format("no scenario {}; there are:{}", wanted, list.empty() ? " none" : list));
+}
+
+CampaignIdentity check_inputs(const FlightInputs& inputs, std::uint64_t seed) {
+  ConfigDocument document = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(0));
+  Scenario scenario = read_scenario(document);
+  (void)read_sections(document, scenario);
+  scenario.seed = seed;
+  (void)world_of(scenario);
+  return {scenario.name, scenario.world.count, to_string(inputs.charge),
+          fmt::format("{:016x}", configuration_hash(document.effective())), build_id()};
+}
+
+std::string spell_out(const FlightInputs& inputs, std::uint64_t seed) {
+  std::vector<std::string> overrides = inputs.with_seed(seed);
+  ConfigDocument document = ConfigDocument::load(inputs.scenario_file, overrides);
+  const Scenario scenario = read_scenario(document);
+  const MapperConfig mapper = read_sections(document, scenario);
+  const std::vector<std::string> absolute = absolute_sources(mapper, inputs.scenario_file);
+  overrides.insert(overrides.end(), absolute.begin(), absolute.end());
+  // A document of which only the sections are read says only them.
+  ConfigDocument sections = ConfigDocument::load(inputs.scenario_file, overrides);
+  (void)read_sections(sections, scenario);
+  return write_scenario(list_obstacles(scenario, world_of(scenario))) + sections.effective();
+}
+
+}  // namespace tern

@@ -1,0 +1,175 @@
+#include "campaign/recorded_flight.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include "logger/records/log_writer.h"
+#include "messages/flight_result.h"
+#include "messages/goal.h"
+#include "messages/heartbeat.h"
+#include "messages/horizon_request.h"
+#include "messages/plan.h"
+#include "messages/plan_timing.h"
+#include "messages/uav_state.h"
+#include "monitor/flight_watch.h"
+#include "runtime/channels.h"
+#include "simulator/app/simulator_node.h"
+
+namespace tern {
+namespace {
+
+/// No flight of a scenario lasts longer, virtual time.
+constexpr Duration kLongestFlight{3600LL * 1'000'000};
+
+/// The digits that a stopwatch is good for: times are kept to the microsecond.
+Percentiles rounded(Percentiles p) {
+  for (double* x : {&p.p50, &p.p95, &p.p99, &p.max}) *x = std::round(*x * 1e3) / 1e3;
+  return p;
+}
+
+ReplanTimes rounded(const ReplanTimes& t) {
+  return {rounded(t.total),  rounded(t.first_answer), rounded(t.hulls),
+          rounded(t.search), rounded(t.optimization), rounded(t.check)};
+}
+
+void add(FlightTimes& times, const PlanTiming& timing) {
+  const auto stage = [&](Stage s) { return timing.stage_ms[static_cast<int>(s)]; };
+  times.times[0].add(timing.total_ms);
+  const double parts[] = {timing.first_answer_ms, stage(Stage::Hulls), stage(Stage::Search), stage(Stage::Optimization),
+                          stage(Stage::Check)};
+  for (std::size_t k = 0; k < std::size(parts); ++k) {
+    if (parts[k] > 0.0) times.times[k + 1].add(parts[k]);
+  }
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream out(path);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
+}
+
+/// Everything on the bus, on its way into the log, the watch and the observer.
+void subscribe(Bus& bus, FlightWatch& watch, FlightTimes& times, FlightObserver* observer) {
+  const Clock& clock = bus.clock();
+  bus.subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& m) { watch.hear(m, clock.now()); });
+  bus.subscribe<UavState>(channels::kUavState, [&](const UavState& m) { watch.hear(m); });
+  bus.subscribe<Goal>(channels::kGoal, [&](const Goal& m) { watch.hear(m); });
+  bus.subscribe<HorizonRequest>(channels::kHorizonRequest, [&clock, &watch, observer](const HorizonRequest& m) {
+    watch.hear(m, clock.now());
+    if (observer != nullptr) observer->on_request(m);
+  });
+  bus.subscribe<Plan>(channels::kPlan, [&watch, observer](const Plan& m) {
+    watch.hear(m);
+    if (observer != nullptr) observer->on_plan(m);
+  });
+  bus.subscribe<PlanTiming>(channels::kPlanTiming, [&](const PlanTiming& m) {
+    watch.hear(m);
+    add(times, m);
+  });
+  bus.subscribe<FlightResult>(channels::kFlightResult, [&](const FlightResult& m) { watch.hear(m, clock.now()); });
+}
+
+/// Runs until the watch has its verdict.
+Ending fly(VirtualSystem& system, FlightWatch& watch) {
+  VirtualRunner& runner = system.runner();
+  const UTime end = runner.now() + kLongestFlight;
+  std::optional<Ending> ending;
+  const auto ended = [&] { return (ending = watch.ending(runner.now())).has_value(); };
+  const RunResult run = runner.run(end, ended);
+  if (ending) return *ending;
+  if (run.end == RunEnd::Finished) {
+    return {FlightOutcome::Failed, fmt::format("{} ended with exit code {}", run.process, run.exit_code)};
+  }
+  return {FlightOutcome::Failed, "no end within an hour"};
+}
+
+FlightRecord make_record(const FlightSummary& summary, const ExecutorCounters& executor, const FlightInputs& inputs,
+                         const CampaignIdentity& identity) {
+  FlightRecord record;
+  record.identity = identity;
+  record.seed = summary.seed;
+  record.result = summary.result.value_or(unjudged(summary.outcome, summary.detail));
+  record.result.outcome = summary.outcome;
+  record.result.detail = summary.detail;
+  record.requests = summary.requests;
+  record.answered_in_time = summary.answered_in_time;
+  record.answers_late = executor.late();
+  record.answers_refused = executor.refused();
+  record.plans = summary.plans;
+  record.reasons = summary.reasons;
+  if (inputs.charge == Charge::Cpu) record.replan_ms = rounded(summary.replan_ms);
+  record.messages = summary.messages;
+  record.restarts = summary.restarts;
+  return record;
+}
+
+/// @return "passed", "broken" or "failed".
+std::string run_audit(const std::string& audit, const std::string& folder) {
+  const std::string log = folder + "/flight.lcm", out = folder + "/audit.txt";
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  const char* arguments[] = {audit.c_str(), log.c_str(), nullptr};
+  pid_t pid = 0;
+  const int error = posix_spawnp(&pid, audit.c_str(), &files, nullptr, const_cast<char* const*>(arguments), environ);
+  posix_spawn_file_actions_destroy(&files);
+  int status = 0;
+  if (error != 0 || waitpid(pid, &status, 0) != pid || !WIFEXITED(status)) return "failed";
+  if (WEXITSTATUS(status) == 0) return "passed";
+  return WEXITSTATUS(status) == 1 ? "broken" : "failed";
+}
+
+}  // namespace
+
+RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, const CampaignIdentity& identity,
+                            const std::string& folder, const std::string& audit, FlightObserver* observer) {
+  write_text(folder + "/scenario.yaml", spell_out(inputs, seed));
+  const std::string log = folder + "/flight.lcm";
+  auto writer = LogWriter::open(log, 0);
+  if (!writer) throw std::runtime_error(writer.error().message);
+  RecordedFlight flight;
+  flight.times.seed = seed;
+  flight.times.machine = machine_name();
+  flight.times.compiler = compiler_name();
+  {
+    VirtualSystem system(inputs.scenario_file, inputs.with_seed(seed), inputs.charge);
+    VirtualRunner& runner = system.runner();
+    FlightWatch watch(system.scenario(), runner.now());
+    runner.observer().listen([&](std::string_view channel, std::int64_t, std::span<const std::uint8_t> bytes) {
+      writer->append(channel, runner.now().us, bytes);
+    });
+    subscribe(runner.observer(), watch, flight.times, observer);
+    FlightSummary summary = watch.summary(fly(system, watch));
+    summary.log = log;
+    summary.version = identity.version;
+    write_text(folder + "/summary.json", to_json(summary));
+    flight.record = make_record(summary, system.simulator().executor().counters(), inputs, identity);
+  }
+  if (const auto flushed = writer->flush(); !flushed) throw std::runtime_error(flushed.error().message);
+  if (writer->counters().unwritten > 0) throw std::runtime_error(log + ": not all messages could be written");
+  if (!audit.empty()) flight.record.audit = run_audit(audit, folder);
+  return flight;
+}
+
+std::string machine_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (!line.starts_with("model name")) continue;
+    const std::size_t at = line.find(": ");
+    if (at != std::string::npos) return fmt::format("{}, {} cores", line.substr(at + 2), sysconf(_SC_NPROCESSORS_ONLN));
+  }
+  return fmt::format("unknown, {} cores", sysconf(_SC_NPROCESSORS_ONLN));
+}
+
+std::string compiler_name() { return TERN_COMPILER; }
+
+}  // namespace tern

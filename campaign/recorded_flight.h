@@ -1,0 +1,31 @@
+// One flight of a campaign: flown, watched as tern-monitor watches, recorded as tern-logger records.
+#pragma once
+
+#include <string>
+
+#include "campaign/flight_inputs.h"
+#include "campaign/records/flight_record.h"
+#include "campaign/virtual_flight.h"
+
+namespace tern {
+
+struct RecordedFlight {
+  FlightRecord record;
+  FlightTimes times;
+};
+
+/// Flies one seed. Into `folder`, which must exist, go scenario.yaml (spell_out; before the flight, so that a crash
+/// leaves it), flight.lcm (every message, with virtual times) and summary.json (tern-monitor's).
+/// @param audit  a program to run on the log, "tern-audit LOG", with its output in audit.txt: exit code 0 passed,
+/// 1 broken, anything else failed. Empty: none
+/// @throws ConfigError for bad inputs; std::runtime_error when the log cannot be written.
+RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, const CampaignIdentity& identity,
+                            const std::string& folder, const std::string& audit, FlightObserver* observer = nullptr);
+
+/// "Intel(R) Xeon(R) CPU @ 2.20GHz, 2 cores".
+std::string machine_name();
+
+/// "GNU 12.2.0 Release".
+std::string compiler_name();
+
+}  // namespace tern

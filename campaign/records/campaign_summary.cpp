@@ -1,0 +1,189 @@
+#include "campaign/records/campaign_summary.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace tern {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Records = std::vector<const FlightRecord*>;
+
+Distribution over(const Records& records, double FlightResult::*measure) {
+  std::vector<double> numbers;
+  for (const FlightRecord* r : records) numbers.push_back(r->result.*measure);
+  return describe(std::move(numbers));
+}
+
+void count_outcomes(CampaignSummary& s, const Records& all) {
+  for (const FlightRecord* r : all) {
+    switch (r->result.outcome) {
+      case FlightOutcome::Reached: ++s.reached; break;
+      case FlightOutcome::Collision: ++s.collisions; break;
+      case FlightOutcome::Timeout: ++s.timeouts; break;
+      case FlightOutcome::Failed: ++s.failed; break;
+    }
+    if (is_success(*r)) {
+      ++s.successes;
+    } else {
+      s.failed_seeds.push_back(r->seed);
+    }
+    if (!r->audit.empty()) ++s.audits[r->audit];
+  }
+  s.flights = static_cast<std::int64_t>(all.size());
+  s.success_ci95 = wilson_interval(s.successes, s.flights);
+}
+
+void add_counts(CampaignSummary& s, const Records& all) {
+  for (const FlightRecord* r : all) {
+    s.stops += r->result.stops;
+    s.flights_with_stops += r->result.stops > 0 ? 1 : 0;
+    s.limit_violations += r->result.limit_violations;
+    s.requests += r->requests;
+    s.deadlines_missed += r->requests - r->answered_in_time;
+    s.answers_refused += r->answers_refused;
+    for (std::size_t k = 0; k < kPlanOutcomes; ++k)
+      s.plans[plan_outcome_key(static_cast<PlanOutcome>(k))] += r->plans[k];
+  }
+}
+
+void add_exposure(CampaignSummary& s, const Records& all) {
+  struct Numbers {
+    std::vector<double> seconds, metres, near_seconds, near_metres;
+  };
+  std::map<std::string, Numbers> regions;
+  for (const FlightRecord* r : all) {
+    for (const Exposure& e : r->result.exposure) {
+      Numbers& n = regions[e.region];
+      n.seconds.push_back(e.seconds), n.metres.push_back(e.metres);
+      n.near_seconds.push_back(e.near_seconds), n.near_metres.push_back(e.near_metres);
+    }
+  }
+  for (auto& [region, n] : regions) {
+    s.exposure[region] = {describe(std::move(n.seconds)), describe(std::move(n.metres)),
+                          describe(std::move(n.near_seconds)), describe(std::move(n.near_metres))};
+  }
+}
+
+void add_times(CampaignSummary& s, const Flights& flights) {
+  std::array<LogHistogram, kMeasuredTimes.size()> sums;
+  std::set<std::string> machines, compilers;
+  for (const auto& [seed, one] : flights.times) {
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k].merge(one.times[k]);
+    machines.insert(one.machine);
+    compilers.insert(one.compiler);
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) s.times[k] = sums[k].describe();
+  s.timed_flights = static_cast<std::int64_t>(flights.times.size());
+  s.machines.assign(machines.begin(), machines.end());
+  s.compilers.assign(compilers.begin(), compilers.end());
+}
+
+Json to_json(const Distribution& d) {
+  return {{"mean", d.mean}, {"p50", d.p50}, {"p95", d.p95}, {"p99", d.p99}, {"min", d.min}, {"max", d.max}};
+}
+
+Json exposure_json(const CampaignSummary& s) {
+  Json regions = Json::object();
+  for (const auto& [region, e] : s.exposure) {
+    regions[region] = {{"seconds", to_json(e.seconds)},
+                       {"metres", to_json(e.metres)},
+                       {"near_seconds", to_json(e.near_seconds)},
+                       {"near_metres", to_json(e.near_metres)}};
+  }
+  return regions;
+}
+
+}  // namespace
+
+CampaignSummary summarize(const Flights& flights) {
+  CampaignSummary s;
+  Records all, reached;
+  for (const auto& [seed, record] : flights.records) {
+    all.push_back(&record);
+    if (record.result.outcome == FlightOutcome::Reached) reached.push_back(&record);
+  }
+  if (!all.empty()) s.identity = all.front()->identity;
+  count_outcomes(s, all);
+  add_counts(s, all);
+  s.flight_time_s = over(reached, &FlightResult::flight_time_s);
+  s.first_entry_s = over(reached, &FlightResult::first_entry_s);
+  s.path_length_m = over(reached, &FlightResult::path_length_m);
+  s.mean_speed_mps = over(reached, &FlightResult::mean_speed_mps);
+  s.jerk_integral = over(reached, &FlightResult::jerk_integral);
+  s.top_speed_mps = over(all, &FlightResult::top_speed_mps);
+  s.min_clearance_m = over(all, &FlightResult::min_clearance_m);
+  add_exposure(s, all);
+  add_times(s, flights);
+  return s;
+}
+
+std::string to_json(const CampaignSummary& s, const std::string& command) {
+  const double rate = s.flights > 0 ? static_cast<double>(s.successes) / static_cast<double>(s.flights) : 0.0;
+  Json json = {
+      {"scenario", s.identity.scenario},
+      {"count", s.identity.count},
+      {"charge", s.identity.charge},
+      {"flights", s.flights},
+      {"reached", s.reached},
+      {"collisions", s.collisions},
+      {"timeouts", s.timeouts},
+      {"failed", s.failed},
+      {"success", s.flights > 0 ? Json(rate) : Json(nullptr)},
+      {"success_ci95", {s.success_ci95.low, s.success_ci95.high}},
+      {"flight_time_s", to_json(s.flight_time_s)},
+      {"first_entry_s", to_json(s.first_entry_s)},
+      {"path_length_m", to_json(s.path_length_m)},
+      {"mean_speed_mps", to_json(s.mean_speed_mps)},
+      {"top_speed_mps", to_json(s.top_speed_mps)},
+      {"min_clearance_m", to_json(s.min_clearance_m)},
+      {"jerk_integral", to_json(s.jerk_integral)},
+      {"stops", s.stops},
+      {"flights_with_stops", s.flights_with_stops},
+      {"limit_violations", s.limit_violations},
+      {"requests", s.requests},
+      {"deadlines_missed", s.deadlines_missed},
+      {"answers_refused", s.answers_refused},
+      {"plans", s.plans},
+      {"timed_flights", s.timed_flights},
+  };
+  for (std::size_t k = 0; k < kMeasuredTimes.size(); ++k) json[kMeasuredTimes[k]] = to_json(s.times[k]);
+  json["exposure"] = exposure_json(s);
+  json["audits"] = s.audits;
+  json["failed_seeds"] = s.failed_seeds;
+  json["configuration"] = s.identity.configuration;
+  json["version"] = s.identity.version;
+  json["compiler"] = s.compilers;
+  json["machine"] = s.machines;
+  json["command"] = command;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_text(const CampaignSummary& s) {
+  const double rate = s.flights > 0 ? 100.0 * static_cast<double>(s.successes) / static_cast<double>(s.flights) : 0.0;
+  std::string text =
+      fmt::format("{} {}: {} flights, success {:.2f} % [{:.2f}, {:.2f}]\n", s.identity.scenario, s.identity.count,
+                  s.flights, rate, 100.0 * s.success_ci95.low, 100.0 * s.success_ci95.high);
+  text += fmt::format("  reached {}, collisions {}, timeouts {}, failed {}\n", s.reached, s.collisions, s.timeouts,
+                      s.failed);
+  text += fmt::format("  {:<20}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "mean", "p50", "p95", "p99", "min", "max");
+  const auto row = [&](const char* name, const Distribution& d) {
+    if (d.count == 0) return;
+    text += fmt::format("  {:<20}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}\n", name, d.mean, d.p50, d.p95,
+                        d.p99, d.min, d.max);
+  };
+  row("flight_time_s", s.flight_time_s), row("first_entry_s", s.first_entry_s);
+  row("mean_speed_mps", s.mean_speed_mps), row("top_speed_mps", s.top_speed_mps);
+  row("min_clearance_m", s.min_clearance_m), row("jerk_integral", s.jerk_integral);
+  for (std::size_t k = 0; k < kMeasuredTimes.size(); ++k) row(kMeasuredTimes[k], s.times[k]);
+  for (const auto& [region, e] : s.exposure) row(fmt::format("{} m", region).c_str(), e.metres);
+  text += fmt::format("  stops {} in {} flights, limit violations {}, requests {}, deadlines missed {}\n", s.stops,
+                      s.flights_with_stops, s.limit_violations, s.requests, s.deadlines_missed);
+  if (!s.failed_seeds.empty()) text += fmt::format("  failed seeds: {}\n", fmt::join(s.failed_seeds, " "));
+  return text;
+}
+
+}  // namespace tern

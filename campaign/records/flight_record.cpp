@@ -1,0 +1,271 @@
+#include "campaign/records/flight_record.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace tern {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array kReasonKeys = {"none",         "infeasible",  "out_of_time",    "start_in_collision",
+                                    "goal_blocked", "stale_world", "solver_failure", "worse_plan",
+                                    "at_goal"};
+static_assert(kReasonKeys.size() == kPlanReasons);
+
+std::string write(const std::string& text) { return text; }
+std::string write(std::int64_t number) { return fmt::format("{}", number); }
+std::string write(std::uint64_t number) { return fmt::format("{}", number); }
+std::string write(double number) { return std::isnan(number) ? "" : fmt::format("{}", number); }
+std::string write(FlightOutcome outcome) { return to_string(outcome); }
+
+std::string write(const std::vector<Exposure>& exposure) {
+  Json regions = Json::object();
+  for (const Exposure& e : exposure) {
+    regions[e.region] = {
+        {"seconds", e.seconds}, {"metres", e.metres}, {"near_seconds", e.near_seconds}, {"near_metres", e.near_metres}};
+  }
+  return regions.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string write(const std::map<std::string, MessageCount>& messages) {
+  Json channels = Json::object();
+  for (const auto& [channel, count] : messages) channels[channel] = {count.received, count.rejected, count.lost};
+  return channels.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+template <class Number>
+bool read_number(const std::string& cell, Number& value) {
+  const char* end = cell.data() + cell.size();
+  const auto [rest, error] = std::from_chars(cell.data(), end, value);
+  return error == std::errc{} && rest == end;
+}
+
+bool read(const std::string& cell, std::string& value) {
+  value = cell;
+  return true;
+}
+bool read(const std::string& cell, std::int64_t& value) { return read_number(cell, value); }
+bool read(const std::string& cell, std::uint64_t& value) { return read_number(cell, value); }
+
+bool read(const std::string& cell, double& value) {
+  value = kNaN;
+  return cell.empty() || read_number(cell, value);
+}
+
+bool read(const std::string& cell, FlightOutcome& value) {
+  for (const auto outcome :
+       {FlightOutcome::Reached, FlightOutcome::Collision, FlightOutcome::Timeout, FlightOutcome::Failed}) {
+    if (cell == to_string(outcome)) return value = outcome, true;
+  }
+  return false;
+}
+
+bool read(const std::string& cell, std::vector<Exposure>& value) try {
+  value.clear();
+  const Json regions = Json::parse(cell);
+  for (const auto& [region, e] : regions.items()) {
+    value.push_back({region, e.at("seconds"), e.at("metres"), e.at("near_seconds"), e.at("near_metres")});
+  }
+  return regions.is_object();
+} catch (const Json::exception&) {
+  return false;
+}
+
+bool read(const std::string& cell, std::map<std::string, MessageCount>& value) try {
+  value.clear();
+  const Json channels = Json::parse(cell);
+  for (const auto& [channel, n] : channels.items()) value[channel] = {n.at(0), n.at(1), n.at(2)};
+  return channels.is_object();
+} catch (const Json::exception&) {
+  return false;
+}
+
+struct Column {
+  std::string name;
+  std::function<std::string(const FlightRecord&)> write_cell;
+  std::function<bool(const std::string&, FlightRecord&)> read_cell;
+};
+
+/// The column of the field that the member pointers lead to, one after the other.
+template <class... Members>
+Column column(std::string name, Members... path) {
+  const auto field = [path...](auto& record) -> auto& { return (record.*....*path); };
+  return {std::move(name), [field](const FlightRecord& r) { return write(field(r)); },
+          [field](const std::string& cell, FlightRecord& r) { return read(cell, field(r)); }};
+}
+
+template <class Array>
+Column column_at(std::string name, Array FlightRecord::*array, std::size_t k) {
+  return {std::move(name), [array, k](const FlightRecord& r) { return write((r.*array)[k]); },
+          [array, k](const std::string& cell, FlightRecord& r) { return read(cell, (r.*array)[k]); }};
+}
+
+void add_measures(std::vector<Column>& columns) {
+  using R = FlightRecord;
+  const auto add = [&](const char* name, auto FlightResult::*member) {
+    columns.push_back(column(name, &R::result, member));
+  };
+  add("outcome", &FlightResult::outcome);
+  add("detail", &FlightResult::detail);
+  add("flight_time_s", &FlightResult::flight_time_s);
+  add("first_entry_s", &FlightResult::first_entry_s);
+  add("path_length_m", &FlightResult::path_length_m);
+  add("mean_speed_mps", &FlightResult::mean_speed_mps);
+  add("top_speed_mps", &FlightResult::top_speed_mps);
+  add("stops", &FlightResult::stops);
+  add("min_clearance_m", &FlightResult::min_clearance_m);
+  add("jerk_integral", &FlightResult::jerk_integral);
+  add("limit_violations", &FlightResult::limit_violations);
+}
+
+void add_answers(std::vector<Column>& columns) {
+  using R = FlightRecord;
+  columns.push_back(column("requests", &R::requests));
+  columns.push_back(column("answered_in_time", &R::answered_in_time));
+  columns.push_back(column("answers_late", &R::answers_late));
+  columns.push_back(column("answers_refused", &R::answers_refused));
+  for (std::size_t k = 0; k < kPlanOutcomes; ++k) {
+    const char* key = plan_outcome_key(static_cast<PlanOutcome>(k));
+    columns.push_back(column_at(fmt::format("plans_{}", key), &R::plans, k));
+  }
+  for (std::size_t k = 0; k < kPlanReasons; ++k) {
+    columns.push_back(column_at(fmt::format("reasons_{}", kReasonKeys[k]), &R::reasons, k));
+  }
+}
+
+void add_times(std::vector<Column>& columns) {
+  using Stages = std::pair<const char*, Percentiles ReplanTimes::*>;
+  using Ranks = std::pair<const char*, double Percentiles::*>;
+  for (const auto& [stage, times] :
+       {Stages{"total", &ReplanTimes::total}, Stages{"first_answer", &ReplanTimes::first_answer},
+        Stages{"hulls", &ReplanTimes::hulls}, Stages{"search", &ReplanTimes::search},
+        Stages{"optimization", &ReplanTimes::optimization}, Stages{"check", &ReplanTimes::check}}) {
+    for (const auto& [rank, member] : {Ranks{"p50", &Percentiles::p50}, Ranks{"p95", &Percentiles::p95},
+                                       Ranks{"p99", &Percentiles::p99}, Ranks{"max", &Percentiles::max}}) {
+      columns.push_back(column(fmt::format("replan_ms_{}_{}", stage, rank), &FlightRecord::replan_ms, times, member));
+    }
+  }
+}
+
+std::vector<Column> make_columns() {
+  using R = FlightRecord;
+  std::vector<Column> columns;
+  columns.push_back(column("scenario", &R::identity, &CampaignIdentity::scenario));
+  columns.push_back(column("seed", &R::seed));
+  columns.push_back(column("count", &R::identity, &CampaignIdentity::count));
+  add_measures(columns);
+  add_answers(columns);
+  add_times(columns);
+  columns.push_back(column("exposure", &R::result, &FlightResult::exposure));
+  columns.push_back(column("messages", &R::messages));
+  columns.push_back(column("restarts", &R::restarts));
+  columns.push_back(column("audit", &R::audit));
+  columns.push_back(column("log", &R::log));
+  columns.push_back(column("charge", &R::identity, &CampaignIdentity::charge));
+  columns.push_back(column("configuration", &R::identity, &CampaignIdentity::configuration));
+  columns.push_back(column("version", &R::identity, &CampaignIdentity::version));
+  return columns;
+}
+
+const std::vector<Column>& all_columns() {
+  static const std::vector<Column> columns = make_columns();
+  return columns;
+}
+
+}  // namespace
+
+std::string difference(const CampaignIdentity& a, const CampaignIdentity& b) {
+  std::string words;
+  const auto compare = [&](const char* field, const auto& one, const auto& other) {
+    if (one != other) words += fmt::format("{}{} {} against {}", words.empty() ? "" : ", ", field, one, other);
+  };
+  compare("scenario", a.scenario, b.scenario);
+  compare("count", a.count, b.count);
+  compare("charge", a.charge, b.charge);
+  compare("configuration", a.configuration, b.configuration);
+  compare("version", a.version, b.version);
+  return words;
+}
+
+FlightResult unjudged(FlightOutcome outcome, std::string detail) {
+  FlightResult result;
+  result.outcome = outcome;
+  result.detail = std::move(detail);
+  result.flight_time_s = result.first_entry_s = result.path_length_m = kNaN;
+  result.mean_speed_mps = result.top_speed_mps = result.min_clearance_m = result.jerk_integral = kNaN;
+  return result;
+}
+
+bool is_success(const FlightRecord& record) {
+  return record.result.outcome == FlightOutcome::Reached && record.result.limit_violations == 0 &&
+         (record.audit.empty() || record.audit == "passed");
+}
+
+const CsvRecord& flight_columns() {
+  static const CsvRecord names = [] {
+    CsvRecord made;
+    for (const Column& c : all_columns()) made.push_back(c.name);
+    return made;
+  }();
+  return names;
+}
+
+CsvRecord to_cells(const FlightRecord& record) {
+  CsvRecord cells;
+  for (const Column& c : all_columns()) cells.push_back(c.write_cell(record));
+  return cells;
+}
+
+Result<FlightRecord> read_flight(const CsvRecord& cells) {
+  const std::vector<Column>& columns = all_columns();
+  if (cells.size() != columns.size()) return fail(fmt::format("{} cells, not {}", cells.size(), columns.size()));
+  FlightRecord record;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (!columns[k].read_cell(cells[k], record)) {
+      return fail(fmt::format("{}: \"{}\" cannot be read", columns[k].name, cells[k]));
+    }
+  }
+  return record;
+}
+
+const CsvRecord& times_columns() {
+  static const CsvRecord names = [] {
+    CsvRecord made = {"seed", "machine", "compiler"};
+    made.insert(made.end(), kMeasuredTimes.begin(), kMeasuredTimes.end());
+    return made;
+  }();
+  return names;
+}
+
+CsvRecord to_cells(const FlightTimes& times) {
+  CsvRecord cells = {write(times.seed), times.machine, times.compiler};
+  for (const LogHistogram& histogram : times.times) cells.push_back(histogram.to_text());
+  return cells;
+}
+
+Result<FlightTimes> read_times(const CsvRecord& cells) {
+  const CsvRecord& columns = times_columns();
+  if (cells.size() != columns.size()) return fail(fmt::format("{} cells, not {}", cells.size(), columns.size()));
+  FlightTimes times;
+  times.machine = cells[1];
+  times.compiler = cells[2];
+  if (!read(cells[0], times.seed)) return fail(fmt::format("seed: \"{}\" cannot be read", cells[0]));
+  for (std::size_t k = 0; k < times.times.size(); ++k) {
+    auto histogram = LogHistogram::parse(cells[k + 3]);
+    if (!histogram) return fail(fmt::format("{}: \"{}\" cannot be read", columns[k + 3], cells[k + 3]));
+    times.times[k] = std::move(*histogram);
+  }
+  return times;
+}
+
+}  // namespace tern

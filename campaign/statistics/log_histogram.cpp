@@ -1,0 +1,79 @@
+#include "campaign/statistics/log_histogram.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace tern {
+namespace {
+
+int bin_of(double x) {
+  return static_cast<int>(std::floor(std::log(std::max(x, LogHistogram::kLeast)) / std::log(LogHistogram::kBinRatio)));
+}
+
+}  // namespace
+
+void LogHistogram::add(double x) {
+  if (!std::isfinite(x) || x < 0.0) throw std::invalid_argument(fmt::format("LogHistogram: {} is not counted", x));
+  ++bins_[bin_of(x)];
+  ++count_;
+  sum_ += x;
+  least_ = std::min(least_, x);
+  greatest_ = std::max(greatest_, x);
+}
+
+void LogHistogram::merge(const LogHistogram& other) {
+  for (const auto& [bin, count] : other.bins_) bins_[bin] += count;
+  count_ += other.count_;
+  sum_ += other.sum_;
+  least_ = std::min(least_, other.least_);
+  greatest_ = std::max(greatest_, other.greatest_);
+}
+
+double LogHistogram::percentile(int percent) const {
+  const std::int64_t rank = (count_ * percent + 99) / 100;
+  std::int64_t passed = 0;
+  for (const auto& [bin, count] : bins_) {
+    passed += count;
+    if (passed >= rank) return std::clamp(std::pow(kBinRatio, bin + 0.5), least_, greatest_);
+  }
+  return greatest_;
+}
+
+Distribution LogHistogram::describe() const {
+  if (count_ == 0) return {};
+  return {count_,   sum_ / static_cast<double>(count_), percentile(50), percentile(95), percentile(99), least_,
+          greatest_};
+}
+
+std::string LogHistogram::to_text() const {
+  if (count_ == 0) return "";
+  std::string text = fmt::format("{} {} {} {}", count_, sum_, least_, greatest_);
+  for (const auto& [bin, count] : bins_) text += fmt::format(" {}:{}", bin, count);
+  return text;
+}
+
+std::optional<LogHistogram> LogHistogram::parse(std::string_view text) {
+  LogHistogram histogram;
+  if (text.empty()) return histogram;
+  std::istringstream in{std::string(text)};
+  in.imbue(std::locale::classic());
+  if (!(in >> histogram.count_ >> histogram.sum_ >> histogram.least_ >> histogram.greatest_)) return std::nullopt;
+  std::int64_t total = 0;
+  for (std::string entry; in >> entry;) {
+    std::istringstream pair(entry);
+    int bin = 0;
+    char colon = 0;
+    std::int64_t count = 0;
+    if (!(pair >> bin >> colon >> count) || colon != ':' || count <= 0 || !pair.eof()) return std::nullopt;
+    histogram.bins_[bin] += count;
+    total += count;
+  }
+  if (total != histogram.count_ || total == 0) return std::nullopt;
+  return histogram;
+}
+
+}  // namespace tern
