@@ -8,11 +8,12 @@
 #include "runtime/config.h"
 #include "runtime/process.h"
 #include "runtime/version.h"
+#include "tools/replay/extract.h"
 #include "tools/replay/replay_report.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Plans every answer of a log again from the inputs that it names, and compares byte for byte."};
-  std::string log, json;
+  std::string log, json, save;
   tern::ReplayOptions options;
   app.set_version_flag("--version", fmt::format("tern-replay {}", tern::build_id()));
   app.add_option("LOG", log,
@@ -28,9 +29,15 @@ int main(int argc, char** argv) {
   app.add_option("--request", options.request, "Answers to this request alone")->type_name("ID");
   app.add_option("--channel-suffix", options.suffix, "What the vehicle's channels end with")->type_name("S");
   app.add_option("--json", json, "Write what was found, with a line per answer, to this file")->type_name("FILE");
+  app.add_option("--save", save, "Write those answers with only what they name as a new, small log")->type_name("FILE");
   try {
     app.parse(argc, argv);
     const bool what_if = !options.other.empty();
+    if (!save.empty()) {
+      const auto small = tern::extract(log, options);
+      const auto saved = small ? tern::write_log(*small, save) : tl::make_unexpected(small.error());
+      if (!saved) throw tern::ConfigError(saved.error().message);
+    }
     const auto replay = tern::replay_log(log, options);
     if (!replay) throw tern::ConfigError(replay.error().message);
     fmt::print("{}", tern::replay_text(*replay, what_if));

@@ -21,7 +21,7 @@ class Replayer {
   Replayer(const RecordedInputs& inputs, const ReplayOptions& options)
       : inputs_(inputs), rebuilder_(inputs, options.other) {
     for (std::size_t k = 0; k < inputs.plans.size(); ++k) {
-      if (!is_chosen(inputs.plans[k], options)) continue;
+      if (!is_chosen(inputs.plans[k], inputs.log, options)) continue;
       const PlanInputs& names = inputs.plans[k].plan.inputs;
       waiting_[{names.predictions.sender_epoch_us, names.prediction_set}].push_back(k);
     }
@@ -42,12 +42,6 @@ class Replayer {
 
  private:
   using SetName = std::pair<std::int64_t, std::int64_t>;  // sender epoch, set
-
-  [[nodiscard]] bool is_chosen(const RecordedPlan& recorded, const ReplayOptions& options) const {
-    const double at_s = static_cast<double>(recorded.received_us - inputs_.log.first_us) * 1e-6;
-    return at_s >= options.from_s.value_or(at_s) && at_s <= options.to_s.value_or(at_s) &&
-           recorded.plan.request_id == options.request.value_or(recorded.plan.request_id);
-  }
 
   void replay_those_of(const SetName& name) {
     const auto found = waiting_.find(name);
@@ -88,6 +82,12 @@ bool lacks(const LogContents& log, const char* channel_name, const std::string& 
 }
 
 }  // namespace
+
+bool is_chosen(const RecordedPlan& recorded, const LogContents& log, const ReplayOptions& options) {
+  const double at_s = static_cast<double>(recorded.received_us - log.first_us) * 1e-6;
+  return at_s >= options.from_s.value_or(at_s) && at_s <= options.to_s.value_or(at_s) &&
+         recorded.plan.request_id == options.request.value_or(recorded.plan.request_id);
+}
 
 std::string weaker_promise(const RecordedInputs& inputs, const Plan& plan) {
   if (plan.inputs.planner_build != planner_build()) {

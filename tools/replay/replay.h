@@ -21,6 +21,9 @@ struct ReplayOptions {
   OtherSettings other;                  ///< what-if; empty: as recorded
 };
 
+/// Whether an answer is one of those asked for.
+bool is_chosen(const RecordedPlan& recorded, const LogContents& log, const ReplayOptions& options);
+
 /// What became of one answer.
 struct ReplayedPlan {
   std::size_t index = 0;                      ///< in RecordedInputs::plans

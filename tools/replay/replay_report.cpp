@@ -18,6 +18,8 @@ constexpr const char* kAgreements[] = {"identical", "equivalent", "different"};
 constexpr const char* kRefusals[kRejections] = {
     "of a wrong length",          "of another version",      "with a count out of range", "with a number out of range",
     "with an unknown enumerator", "with times out of order", "that contradict themselves"};
+/// What LCM sends to itself at the start.
+constexpr char kLcmSelfTest[] = "LCM_SELF_TEST";
 /// So many lines about the first answer that differs, and about what is missing.
 constexpr std::size_t kMostLines = 12;
 
@@ -39,7 +41,8 @@ std::string what_the_log_lacks(const Replay& replay) {
   }
   std::string foreign;
   for (const auto& [name, channel] : channels) {
-    if (channel.foreign) foreign += fmt::format("{}{} ({})", foreign.empty() ? "" : ", ", name, channel.messages);
+    if (channel.foreign && name != kLcmSelfTest)
+      foreign += fmt::format("{}{} ({})", foreign.empty() ? "" : ", ", name, channel.messages);
     if (channel.lost > 0) text += fmt::format("  {}: {} messages were lost before the logger\n", name, channel.lost);
     for (int r = 0; r < kRejections; ++r) {
       if (channel.refused[r] > 0) text += fmt::format("  {}: {} messages {}\n", name, channel.refused[r], kRefusals[r]);
@@ -144,6 +147,7 @@ std::string replay_text(const Replay& replay, bool what_if) {
   text += what_the_log_lacks(replay);
   if (!what_if) text += promise_text(replay);
   text += missing_text(replay);
+  if (replay.inputs.plans.empty()) text += "  no answers of a planner\n";
   const std::int64_t replayed = static_cast<std::int64_t>(replay.plans.size()) - replay.missing();
   text += fmt::format("{} of {} identical, {} equivalent, {} different, {} not replayed\n",
                       replay.count(Agreement::Identical), replayed, replay.count(Agreement::Equivalent),

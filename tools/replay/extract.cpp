@@ -1,0 +1,172 @@
+#include "tools/replay/extract.h"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "logger/records/log_writer.h"
+#include "messages/batching.h"
+#include "messages/configuration_report.h"
+#include "messages/goal.h"
+#include "messages/horizon_request.h"
+#include "messages/map_chunk.h"
+#include "messages/plan.h"
+#include "messages/plan_timing.h"
+#include "messages/track_set.h"
+#include "runtime/channels.h"
+
+namespace tern {
+namespace {
+
+using SetName = std::pair<std::int64_t, std::int64_t>;  // sender epoch, set
+
+SetName set_named_by(const Plan& plan) { return {plan.inputs.predictions.sender_epoch_us, plan.inputs.prediction_set}; }
+
+/// Keeps the entries of a map whose keys are named.
+template <class Map, class Keys>
+void keep(Map& map, const Keys& keys) {
+  std::erase_if(map, [&](const auto& entry) { return !keys.contains(entry.first); });
+}
+
+void keep_what_is_named(RecordedInputs& inputs) {
+  std::set<MessageName> requests, goals;
+  std::set<std::uint64_t> maps, configurations;
+  std::set<std::int64_t> planners;
+  for (const RecordedPlan& recorded : inputs.plans) {
+    const PlanInputs& names = recorded.plan.inputs;
+    requests.insert({names.request, names.goal_field.vehicle});
+    goals.insert(names.goal);
+    maps.insert({names.map_version, names.goal_field.map_version});
+    configurations.insert(names.configuration_hash);
+    planners.insert(recorded.plan.header.name.sender_epoch_us);
+  }
+  keep(inputs.requests, requests);
+  keep(inputs.goals, goals);
+  keep(inputs.maps, maps);
+  keep(inputs.configurations, configurations);
+  keep(inputs.platforms, planners);
+}
+
+/// Which sets are needed: those named, and those that told a planner of static tracks that it named.
+class NeededSets {
+ public:
+  explicit NeededSets(const std::vector<RecordedPlan>& plans) {
+    for (const RecordedPlan& recorded : plans) {
+      const GoalFieldInputs& field = recorded.plan.inputs.goal_field;
+      named_.insert(set_named_by(recorded.plan));
+      if (field.statics_epoch_us != 0) memories_[{field.statics_epoch_us, field.statics_first_set}];
+    }
+  }
+  bool operator()(const TrackSet& set) {
+    const SetName name{set.header.name.sender_epoch_us, set.batch.set};
+    bool needed = named_.contains(name);
+    for (auto& [from, memory] : memories_) {
+      if (from.first == name.first && from.second <= name.second) needed = memory.add(set) || needed;
+    }
+    return needed;
+  }
+
+ private:
+  std::set<SetName> named_;
+  std::map<SetName, StaticTracks> memories_;
+};
+
+/// Writes messages under their own names; times are the answers'.
+class ExtractWriter {
+ public:
+  ExtractWriter(LogWriter& writer, const Extract& extract) : writer_(writer), extract_(extract) {
+    if (!extract.inputs.plans.empty()) now_us_ = extract.inputs.plans.front().received_us;
+    for (const RecordedPlan& recorded : extract.inputs.plans) {
+      answers_[set_named_by(recorded.plan)].push_back(&recorded);
+    }
+  }
+
+  void run() {
+    write_configurations();
+    for (const auto& [version, map] : extract_.inputs.maps) {
+      std::int64_t sequence = 0;
+      for (MapChunk& chunk : to_chunks(map)) {
+        chunk.header.name = {1, ++sequence};
+        put(channels::kSemanticMap, chunk);
+      }
+    }
+    for (const auto& [name, goal] : extract_.inputs.goals) put(channels::kGoal, goal);
+    for (const auto& [name, request] : extract_.inputs.requests) put(channels::kHorizonRequest, request);
+    for (const TrackSet& set : extract_.predictions) {
+      for (const TrackSet& batch : split_batches(set)) put(channels::kPredictions, batch);
+      write_answers({set.header.name.sender_epoch_us, set.batch.set});
+    }
+    while (!answers_.empty()) write_answers(SetName(answers_.begin()->first));
+  }
+
+ private:
+  template <class T>
+  void put(const char* channel, const T& message) {
+    writer_.append(channel, now_us_, encode(message));
+  }
+
+  /// One for each planner process, because a process's platform decides what is promised.
+  void write_configurations() {
+    std::map<std::int64_t, std::uint64_t> hashes;
+    for (const RecordedPlan& recorded : extract_.inputs.plans) {
+      hashes[recorded.plan.header.name.sender_epoch_us] = recorded.plan.inputs.configuration_hash;
+    }
+    for (const auto& [epoch_us, hash] : hashes) {
+      const auto report = extract_.inputs.configurations.find(hash);
+      if (report == extract_.inputs.configurations.end()) continue;
+      ConfigurationReport own = report->second;
+      const auto platform = extract_.inputs.platforms.find(epoch_us);
+      own.header.name = {epoch_us, 1};
+      own.platform = platform == extract_.inputs.platforms.end() ? "" : platform->second;
+      put(channels::kConfiguration, own);
+    }
+  }
+
+  void write_answers(const SetName& name) {
+    const auto found = answers_.find(name);
+    if (found == answers_.end()) return;
+    for (const RecordedPlan* recorded : found->second) {
+      now_us_ = recorded->received_us;
+      put(channels::kPlan, recorded->plan);
+      if (recorded->timing) put(channels::kPlanTiming, *recorded->timing);
+    }
+    answers_.erase(found);
+  }
+
+  LogWriter& writer_;
+  const Extract& extract_;
+  std::int64_t now_us_ = 0;
+  std::map<SetName, std::vector<const RecordedPlan*>> answers_;
+};
+
+}  // namespace
+
+Result<Extract> extract(const std::string& path, const ReplayOptions& options, int every) {
+  auto inputs = read_recorded_inputs(path, options.suffix);
+  if (!inputs) return tl::make_unexpected(inputs.error());
+  Extract result;
+  result.inputs = std::move(*inputs);
+  std::vector<RecordedPlan> chosen;
+  std::int64_t count = 0;
+  for (RecordedPlan& recorded : result.inputs.plans) {
+    if (is_chosen(recorded, result.inputs.log, options) && count++ % every == 0) chosen.push_back(std::move(recorded));
+  }
+  result.inputs.plans = std::move(chosen);
+  keep_what_is_named(result.inputs);
+  NeededSets is_needed(result.inputs.plans);
+  auto read = read_prediction_sets(path, options.suffix, [&](TrackSet set) {
+    if (is_needed(set)) result.predictions.push_back(std::move(set));
+  });
+  if (!read) return tl::make_unexpected(read.error());
+  return result;
+}
+
+Result<void> write_log(const Extract& extract, const std::string& path) {
+  auto writer = LogWriter::open(path, 0);
+  if (!writer) return tl::make_unexpected(writer.error());
+  if (writer->part_path() != path) return fail(path + ": exists already");
+  ExtractWriter(*writer, extract).run();
+  return writer->flush();
+}
+
+}  // namespace tern

@@ -1,0 +1,26 @@
+// Some answers of a log with what they name and nothing else: a small log to keep, to send, to test with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "tools/replay/replay.h"
+
+namespace tern {
+
+/// Answers and all that they were made from.
+struct Extract {
+  RecordedInputs inputs;
+  std::vector<TrackSet> predictions;  ///< complete sets, in the log's order: those named, and those that static tracks
+                                      ///< were remembered from
+};
+
+/// @param options  which answers (its other settings are not used)
+/// @param every  of those, only each so-manieth, ≥ 1
+Result<Extract> extract(const std::string& path, const ReplayOptions& options, int every = 1);
+
+/// Writes it as a log, which must not exist yet. A replay of it replays the same answers.
+Result<void> write_log(const Extract& extract, const std::string& path);
+
+}  // namespace tern
