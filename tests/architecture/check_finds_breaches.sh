@@ -6,7 +6,7 @@ root=$(dirname "$(dirname "$here")")
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 cd "$root"
-find core messages runtime planner predictor executor simulator semantic_mapper logger monitor \
+find core messages runtime planner predictor executor simulator semantic_mapper logger monitor viewer \
   -type f \( -name '*.h' -o -name '*.cpp' \) -exec cp --parents {} "$copy" \;
 
 "$here/check.sh" "$copy"
@@ -37,6 +37,8 @@ planted core/world/x.h '#include <yaml-cpp/yaml.h>\n'
 planted monitor/x.h '#include <CLI/CLI.hpp>\n'
 planted planner/x.cpp '#include <spdlog/spdlog.h>\n'
 planted planner/x.cpp '#include <chrono>\n'
+planted viewer/bridge/x.h '#include "messages/plan.h"\n'
+planted viewer/bridge/x.cpp '#include <boost/beast/core.hpp>\n' Beast
 planted planner/x.cpp '#include <glpk.h>\n' GLPK
 planted simulator/x.cpp '#include <CGAL/convex_hull_3.h>\n' CGAL
 planted simulator/x.cpp '#include <IpTNLP.hpp>\n' Ipopt

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <atomic>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -141,7 +142,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
 
   void hear(std::string text) {
     if (const auto n = seen_frame(text)) {
-      seen_ = std::min(*n, reader_.frame);
+      seen_ = std::max(seen_, std::min(*n, reader_.frame));
       return push();
     }
     const std::lock_guard lock(shared_.mutex);

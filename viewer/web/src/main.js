@@ -62,8 +62,8 @@ const topics = {
   },
   state(state) {
     if (!state) return vehicle.clear();
-    clock = { at_us: state.at_us, arrived_ms: performance.now() };
     vehicle.take(state);
+    clock = { at_us: state.at_us, arrived_ms: performance.now() };
     trajectories.takeState(state);
     hud.showState(state, known.goal);
   },

@@ -1,5 +1,6 @@
 // Obstacles as instanced boxes, with a soft dark spot below each, so that one sees where it hovers.
 import * as THREE from 'three';
+import { numbers } from './form.js';
 import { palette } from './palette.js';
 
 const MOST = 4096; // what is drawn at most
@@ -68,10 +69,9 @@ export class Obstacles {
    * @throws RangeError when the lists are not of one length
    */
   take(set) {
-    const n = set.id.length;
-    if (set.moves.length !== n || [set.p, set.v, set.h].some((list) => list.length !== 3 * n)) {
-      throw new RangeError('obstacle lists differ in length');
-    }
+    const n = numbers(set.id, 1).length;
+    numbers(set.moves, 1, n);
+    for (const list of [set.p, set.v, set.h]) numbers(list, 3, n);
     this.set = set;
     this.boxes.count = this.spots.count = Math.min(n, MOST);
     this.recolor();

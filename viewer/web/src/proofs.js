@@ -1,6 +1,7 @@
 // What a plan stands on: predicted hulls per interval, the certificate's separating planes, the search's nodes.
 import * as THREE from 'three';
 import { ConvexHull } from 'three/addons/math/ConvexHull.js';
+import { numbers } from './form.js';
 import { palette } from './palette.js';
 
 const PATCH = 0.9; // half the side of a drawn plane, m
@@ -60,7 +61,8 @@ export class Proofs {
     const color = new THREE.Color();
     for (const hull of message?.hulls ?? []) {
       const points = [];
-      for (let k = 0; k + 2 < hull.points.length; k += 3) points.push(new THREE.Vector3().fromArray(hull.points, k));
+      numbers(hull.points, 3);
+      for (let k = 0; k < hull.points.length; k += 3) points.push(new THREE.Vector3().fromArray(hull.points, k));
       if (points.length < 4) continue;
       triangulate(points, positions);
       color.copy(SOON).lerp(LATER, Math.min(hull.interval / 6, 1));
@@ -105,7 +107,7 @@ export class Proofs {
 
   /** @param message  {edges}: six numbers per edge of the search's tree; null: none */
   takeSearch(message) {
-    this.fill(this.nodes, message?.edges ?? []);
+    this.fill(this.nodes, numbers(message?.edges ?? [], 6));
   }
 
   show(layer, on) {

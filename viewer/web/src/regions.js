@@ -1,5 +1,6 @@
 // The semantic map: outer faces of labelled voxels as translucent volumes with a faint grid of the voxels.
 import * as THREE from 'three';
+import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const NUMBERS_PER_FACE = 8; // label, direction, low x y z, high x y z
@@ -65,7 +66,8 @@ export class Regions {
 
   /** @param map  {origin, resolution, faces}: eight integers per face, corners in voxels */
   take(map) {
-    if (map.faces.length % NUMBERS_PER_FACE !== 0) throw new RangeError('a face has eight numbers');
+    numbers(map.faces, NUMBERS_PER_FACE);
+    point(map.origin);
     this.clear();
     for (const [label, look] of Object.entries(LABELS)) {
       const geometry = this.geometry(map, Number(label));

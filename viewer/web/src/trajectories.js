@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import { Line2 } from 'three/addons/lines/Line2.js';
 import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import { numbers, point } from './form.js';
 import { palette, speedColor } from './palette.js';
 
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
@@ -52,9 +53,29 @@ class Simplices {
   }
 }
 
+/** The unit sphere as its equator and two meridians. */
+function circles(color, opacity) {
+  const segments = 72;
+  const points = [];
+  for (let axis = 0; axis < 3; ++axis) {
+    for (let k = 0; k < segments; ++k) {
+      for (const end of [k, k + 1]) {
+        const angle = (2 * Math.PI * end) / segments;
+        const p = [0, 0, 0];
+        p[(axis + 1) % 3] = Math.cos(angle);
+        p[(axis + 2) % 3] = Math.sin(angle);
+        points.push(...p);
+      }
+    }
+  }
+  return new THREE.LineSegments(
+    new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3)),
+    new THREE.LineBasicMaterial({ color, transparent: true, opacity, depthWrite: false }));
+}
+
 /** [x, y, z, speed, …] → positions, and colours by speed. */
 function split(curve, top, target = new THREE.Color()) {
-  if (curve.length % 4 !== 0) throw new RangeError('a curve has four numbers per point');
+  numbers(curve, 4);
   const positions = [];
   const colors = [];
   for (let k = 0; k < curve.length; k += 4) {
@@ -73,9 +94,7 @@ export class Trajectories {
     this.committed = new Ribbon(scene, { color: palette.committed, linewidth: 2, opacity: 0.85 });
     this.plan = new Ribbon(scene, { color: palette.plan, linewidth: 4 });
     this.minvo = new Simplices(scene, palette.plan);
-    this.sphere = new THREE.Mesh(
-      new THREE.SphereGeometry(1, 40, 24),
-      new THREE.MeshBasicMaterial({ color: '#8fb8dd', wireframe: true, transparent: true, opacity: 0.045, depthWrite: false }));
+    this.sphere = circles('#8fb8dd', 0.22);
     this.localGoal = new THREE.Mesh(
       new THREE.OctahedronGeometry(0.13), new THREE.MeshLambertMaterial({ color: palette.goal, emissive: '#6b4d00' }));
     this.goal = new THREE.Group();
@@ -115,24 +134,25 @@ export class Trajectories {
   }
 
   takeRequest(request) {
+    point(request.v_max);
     this.top = Math.max(Math.hypot(request.v_max[0], request.v_max[1]) * 0.85, 0.1);
     this.committed.set(split(request.curve, this.top).positions);
-    this.sphere.position.set(...request.p);
+    this.sphere.position.set(...point(request.p));
   }
 
   takePlan(plan) {
     this.plan.set(plan.curve ? split(plan.curve, this.top).positions : []);
-    this.minvo.set(plan.minvo ?? []);
+    this.minvo.set(numbers(plan.minvo ?? [], 12));
     this.sphere.visible = this.wantSphere && plan.radius > 0;
     this.sphere.scale.setScalar(Math.max(plan.radius, 0.01));
     this.localGoal.visible = true;
-    this.localGoal.position.set(...plan.local_goal);
+    this.localGoal.position.set(...point(plan.local_goal));
   }
 
   takeGoal(goal) {
     this.goal.visible = goal !== null;
     if (!goal) return;
-    this.goal.position.set(...goal.p);
+    this.goal.position.set(...point(goal.p));
     this.goal.stem.scale.y = Math.max(goal.p[2], 0.01);
     this.goal.stem.position.z = -goal.p[2] / 2;
   }

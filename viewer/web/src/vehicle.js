@@ -1,5 +1,6 @@
 // The vehicle: a quadrotor that leans into its acceleration, and the ball that the planner takes it for.
 import * as THREE from 'three';
+import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const GRAVITY = 9.81;
@@ -55,6 +56,8 @@ export class Vehicle {
   }
 
   take(state) {
+    for (const vector of [state.p, state.v, state.a]) point(vector);
+    numbers([state.at_us, state.yaw], 2);
     this.state = state;
     for (const part of [this.group, this.stem, this.spot]) part.visible = true;
   }

@@ -8,7 +8,7 @@ const TOP_HEIGHT = 26;
 
 const SLOW_MS = 45;
 const FAST_MS = 18;
-const FEWEST_PIXELS = 0.45; // of the window's, per axis
+const FEWEST_PIXELS = 0.4; // of the window's, per axis
 
 /** Whether WebGL draws on the CPU: then it gets no more pixels than it can pay for. */
 function isSoftware() {
@@ -22,10 +22,11 @@ function isSoftware() {
 export class World {
   constructor(canvas) {
     THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
-    // ?quality=high: every pixel, whatever it costs (for pictures).
-    this.thrifty = isSoftware() && new URLSearchParams(location.search).get('quality') !== 'high';
+    // ?quality=high: every pixel, whatever it costs (for pictures); low: few (for tests).
+    const quality = new URLSearchParams(location.search).get('quality');
+    this.thrifty = quality === 'low' || (isSoftware() && quality !== 'high');
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.thrifty, powerPreference: 'high-performance' });
-    this.pixels = this.thrifty ? 0.7 : Math.min(window.devicePixelRatio, 2);
+    this.pixels = quality === 'low' ? FEWEST_PIXELS : this.thrifty ? 0.7 : Math.min(window.devicePixelRatio, 2);
     this.renderer.setPixelRatio(this.pixels);
     this.frameMs = 30;
     this.settle = 0;
@@ -42,7 +43,9 @@ export class World {
     this.followed = null; // where the camera's vehicle was
     this.mode = 'follow';
     this.light();
-    this.ground();
+    this.floor = this.thrifty ? this.lineGround() : this.shadedGround();
+    this.floor.renderOrder = -2;
+    this.scene.add(this.floor);
     this.resize();
     window.addEventListener('resize', () => this.resize());
   }
@@ -57,7 +60,7 @@ export class World {
   }
 
   /** A plane with lines every metre and every five, which fade with distance. */
-  ground() {
+  shadedGround() {
     const material = new THREE.ShaderMaterial({
       uniforms: {
         base: { value: new THREE.Color(palette.ground) },
@@ -79,9 +82,14 @@ export class World {
           #include <colorspace_fragment>
         }`,
     });
-    this.floor = new THREE.Mesh(new THREE.PlaneGeometry(320, 320), material);
-    this.floor.renderOrder = -2;
-    this.scene.add(this.floor);
+    return new THREE.Mesh(new THREE.PlaneGeometry(320, 320), material);
+  }
+
+  /** The same for a renderer that pays for every pixel: nothing but lines. */
+  lineGround() {
+    const grid = new THREE.GridHelper(160, 160, palette.grid, '#18222c');
+    grid.rotation.x = Math.PI / 2;
+    return grid;
   }
 
   resize() {
@@ -132,10 +140,10 @@ export class World {
   render(seconds) {
     this.adapt(seconds);
     this.controls.update();
+    const { target } = this.controls;
+    this.floor.position.set(Math.round(target.x / 5) * 5, Math.round(target.y / 5) * 5, 0);
     const { x, y } = this.camera.position;
-    this.floor.position.set(this.controls.target.x, this.controls.target.y, 0);
-    this.floor.material.uniforms.eye.value.set(
-      (x + this.controls.target.x) / 2, (y + this.controls.target.y) / 2);
+    this.floor.material.uniforms?.eye.value.set((x + target.x) / 2, (y + target.y) / 2);
     this.renderer.render(this.scene, this.camera);
   }
 }

@@ -1,0 +1,261 @@
+// browser_tests.mjs NAME: one test of tern-viewer's page in a headless Chromium.
+import http from 'node:http';
+import { join } from 'node:path';
+import {
+  end, eventually, expect, knownLog, onScreen, openPage, run, shows, start, startScene, startViewer, status, work,
+} from './support.mjs';
+
+const OBSTACLES = 30; // of the known scene
+const REGIONS = 2;
+const scripts = new URL('../../launch_scripts', import.meta.url).pathname;
+
+const text = (page, selector) => page.textContent(selector);
+
+/** A request by hand: {status, body}. */
+function request(url, options = {}) {
+  return new Promise((resolve, reject) => {
+    const sent = http.request(url, options, (response) => {
+      let body = '';
+      response.on('data', (part) => (body += part));
+      response.on('end', () => resolve({ status: response.statusCode, body }));
+    });
+    sent.on('upgrade', (response, socket) => resolve({ status: response.statusCode }) || socket.destroy());
+    sent.on('error', reject);
+    sent.end(options.body);
+  });
+}
+
+const upgrade = (url, headers) =>
+  request(new URL('stream', url), {
+    headers: {
+      Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': '13',
+      'Sec-WebSocket-Key': 'dGhlIHNhbXBsZSBub25jZQ==', ...headers,
+    },
+  });
+
+await run({
+  async a_live_scene_is_shown_as_it_is_and_moves() {
+    startScene();
+    const viewer = await startViewer();
+    const page = await openPage(viewer.url);
+    const first = await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES && s.regions === REGIONS && s.vehicle);
+    await shows(page, 'the vehicle flies along x', (s) => s.vehicle[0] > first.vehicle[0] + 0.5);
+    await eventually('its speed', async () => (await text(page, '#speed')) === '1.0');
+    expect('live', (await text(page, '#mode')) === 'live');
+    expect('the outcome', (await text(page, '#outcome')) === 'optimized');
+    expect('replan time', (await text(page, '#replan')) === '12.5 of 70 ms');
+    await eventually('health', async () => (await text(page, '#health')).includes('scene'));
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async hulls_and_planes_are_made_when_someone_looks() {
+    startScene();
+    const viewer = await startViewer();
+    const page = await openPage(viewer.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    const before = await status(page);
+    expect('nothing before', before.hulls === 0 && before.planes === 0);
+    await page.check('input[name=hulls]');
+    await page.check('input[name=planes]');
+    await shows(page, 'hulls and planes', (s) => s.hulls > 0 && s.planes === 1);
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async what_is_picked_shows_its_messages() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url);
+    await page.evaluate(() => window.tern.send({ player: { play: false } }));
+    await page.click('[data-camera=free]');
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    await page.waitForFunction(() => window.tern.known.player?.playing === false);
+    const { vehicle } = await status(page);
+    const spot = await onScreen(page, vehicle);
+    await page.mouse.click(spot.x, spot.y);
+    await eventually('the vehicle', async () => (await text(page, '#inspected')) === 'Vehicle');
+    expect('its message', (await text(page, '#messages')).includes('UAV_STATE'));
+    // Some obstacle's centre is in view and nothing stands before it.
+    const centres = await page.evaluate(() => {
+      const { p } = window.tern.known.truth;
+      return Array.from({ length: p.length / 3 }, (_, k) => p.slice(3 * k, 3 * k + 3));
+    });
+    const spots = await Promise.all(centres.map((p) => onScreen(page, p)));
+    const free = spots.find(({ x, y, seen }) => seen && x > 290 && x < 540 && y > 20 && y < 380);
+    expect('an obstacle is in view', free);
+    await page.mouse.click(free.x, free.y);
+    await eventually('an obstacle', async () => /^Obstacle \d+$/.test(await text(page, '#inspected')));
+    await eventually('both messages', async () => /OBSTACLE_TRUTH.*PREDICTIONS/s.test(await text(page, '#messages')));
+    await page.click('#closeinspector');
+    expect('closed', await page.isHidden('#inspector'));
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async a_log_plays_steps_and_scrubs() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url);
+    const first = await shows(page, 'it plays', (s) => s.vehicle && s.obstacles === OBSTACLES);
+    await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > first.vehicle[0] + 0.2);
+    await page.click('#play');
+    await page.waitForFunction(() => window.tern.known.player.playing === false);
+    const scrubTo = (share) =>
+      page.$eval('#scrub', (scrub, x) => {
+        scrub.value = x * scrub.max;
+        scrub.dispatchEvent(new Event('input'));
+      }, share);
+    for (const share of [0.75, 0.1, 0.5]) {
+      await scrubTo(share);
+      // 20 s at 1 m/s.
+      await shows(page, `the vehicle at ${20 * share} m`, (s) => Math.abs(s.vehicle[0] - 20 * share) < 0.05);
+    }
+    const at = () => page.evaluate(() => window.tern.known.player.at_us);
+    const here = await at();
+    await page.click('#forth');
+    await eventually('the next plan', async () => (await at()) === here + 100_000);
+    await page.click('#back');
+    await eventually('and back', async () => (await at()) === here);
+    await page.selectOption('#rate', '8');
+    await page.click('#play');
+    await eventually('it ends at the end', async () => (await text(page, '#at')) === '20.0 s');
+    expect('a goal is refused', await refusal(page, /a log is played/));
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async goals_are_refused_unless_allowed() {
+    const scene = startScene();
+    const readonly = await startViewer();
+    const page = await openPage(readonly.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    expect('no button', await page.isDisabled('#goalmode'));
+    expect('refused', await refusal(page, /--allow-goals/));
+
+    const open = await startViewer('--allow-goals');
+    const other = await openPage(open.url);
+    await shows(other, 'the scene', (s) => s.obstacles === OBSTACLES && s.vehicle);
+    await other.waitForFunction(() => window.tern.known.goal && window.tern.known.request);
+    await other.click('#goalmode');
+    await other.mouse.click(400, 300);
+    await other.waitForFunction(() => window.tern.counts.goals.length === 1);
+    const [{ sent }] = await other.evaluate(() => window.tern.counts.goals);
+    expect('it is newer than the flight’s own', sent === 2);
+    await eventually('the bus heard it', () => /^goal 2 /m.test(scene.said));
+    const [, z] = /^goal 2 \S+ \S+ (\S+)/m.exec(scene.said);
+    expect('at the height of the last', Number(z) === 1);
+    await other.waitForFunction(() => window.tern.known.goal.id === 2);
+    await other.evaluate(() => window.tern.send({ goal: { position: [1000, 0, 1] } }));
+    await other.waitForFunction(() => /flight box/.test(window.tern.counts.goals[1]?.refused));
+    expect('nobody sent a third', !/^goal 3 /m.test(scene.said));
+  },
+
+  async malformed_messages_break_neither_page_nor_bridge() {
+    startScene();
+    const viewer = await startViewer();
+    const nasty = [
+      'not json', 'null', '7', '"text"', '[]', '{"frame":"one"}', '{"frame":1,"state":{}}', '{"frame":1,"state":7}',
+      '{"frame":1,"truth":{"id":[1,2],"moves":[0],"p":[0],"v":[],"h":[]}}', '{"frame":1,"plan":{"curve":"x"}}',
+      '{"frame":1,"map":{"faces":[1,2,3]}}', '{"frame":1,"chart":{}}', '{"frame":1,"health":{"a":1}}',
+      '{"frame":1,"hulls":{"hulls":[{"points":null}]}}', '{"frame":1,"path":[1,2,3]}', '{"detail":{"title":"x"}}',
+    ];
+    let toPage = null;
+    const page = await openPage(viewer.url, (p) =>
+      p.routeWebSocket(/stream/, (socket) => {
+        socket.connectToServer();
+        toPage = socket;
+      }));
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    for (const message of nasty) toPage.send(message);
+    const hurt = await shows(page, 'it noticed', (s) => s.malformed >= nasty.length - 4);
+    await shows(page, 'it goes on', (s) => s.frames > hurt.frames + 5 && s.obstacles === OBSTACLES && s.vehicle);
+    expect(`no error: ${page.complaints}`, page.complaints.length === 0);
+
+    const answers = await page.evaluate(
+      (url) =>
+        new Promise((resolve) => {
+          const heard = [];
+          const socket = new WebSocket(url);
+          socket.onopen = () => ['{', '{"fly":1}', '{"seen":"x"}'].forEach((text) => socket.send(text));
+          socket.onmessage = ({ data }) => {
+            const message = JSON.parse(data);
+            if (message.refused) heard.push(message.refused);
+            if (heard.length === 3) socket.send('x'.repeat(100_000));
+          };
+          socket.onclose = () => resolve(heard);
+        }),
+      viewer.url.replace('http', 'ws') + 'stream');
+    expect(`each command was refused: ${answers}`, answers.length === 3);
+    const after = await status(page);
+    await shows(page, 'the bridge goes on', (s) => s.frames > after.frames + 5);
+  },
+
+  async a_page_comes_back_when_the_bridge_does() {
+    startScene();
+    const viewer = await startViewer();
+    const page = await openPage(viewer.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    await end(viewer, 'SIGKILL');
+    await eventually('it says so', async () => (await text(page, '#mode')) === 'bridge gone');
+    const before = await status(page);
+    await startViewer('--listen', new URL(viewer.url).host);
+    await shows(page, 'it is back', (s) => s.connections === 2 && s.frames > before.frames + 5 && s.obstacles === OBSTACLES);
+    expect('live again', (await text(page, '#mode')) === 'live');
+  },
+
+  async a_slow_page_gets_the_newest_and_holds_up_nobody() {
+    startScene();
+    const viewer = await startViewer();
+    const page = await openPage(viewer.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    await page.evaluate((url) => {
+      const slow = (window.slow = { frames: [], socket: new WebSocket(url) });
+      slow.socket.onmessage = ({ data }) => slow.frames.push(JSON.parse(data));
+    }, viewer.url.replace('http', 'ws') + 'stream');
+    await page.waitForFunction(() => window.slow.frames.length === 2);
+    const { frames } = await status(page);
+    await shows(page, 'the other page goes on', (s) => s.frames > frames + 30);
+    expect('two frames and no more', (await page.evaluate(() => window.slow.frames.length)) === 2);
+    const newest = await page.evaluate(() => window.tern.known.state.at_us);
+    await page.evaluate(() => window.slow.socket.send('{"seen":2}'));
+    await page.waitForFunction(() => window.slow.frames.length > 2);
+    const third = await page.evaluate(() => window.slow.frames[2]);
+    expect('what it missed was counted', third.dropped > 10);
+    expect('it got the newest', third.state.at_us >= newest);
+  },
+
+  async other_sites_and_other_hosts_are_refused() {
+    const { url } = await startViewer();
+    const { host, port } = new URL(url);
+    expect('its own page', (await upgrade(url, { Origin: `http://${host}` })).status === 101);
+    expect('no browser', (await upgrade(url, {})).status === 101);
+    for (const origin of ['http://evil.example', 'null', `http://localhost:${port}`]) {
+      expect(`Origin ${origin}`, (await upgrade(url, { Origin: origin })).status === 403);
+    }
+    expect('a name that was bent here', (await request(url, { headers: { Host: `evil.example:${port}` } })).status === 403);
+    expect('POST', (await request(url, { method: 'POST', body: 'x' })).status === 405);
+    for (const path of ['/nothing', '/../../etc/passwd', '//index.html', '/%2e%2e/', '/stream']) {
+      expect(path, (await request(url, { path })).status === 404);
+    }
+    const index = await request(url);
+    expect('the page', index.status === 200 && index.body.includes('<title>Tern</title>'));
+  },
+
+  async an_isolated_flight_is_seen_from_outside() {
+    const record = join(work, 'flight');
+    const flight = start(`${scripts}/fly.sh`, [
+      '--no-install', '--isolated', '--view', '--allow-goals', '--record', record, '--set', 'simulator.min_flight_s=60',
+    ]);
+    await eventually('the URL', () => /view +http/.test(flight.said) || flight.ended);
+    const page = await openPage(/view +(\S+)/.exec(flight.said)[1]);
+    const first = await shows(page, 'the corridor', (s) => s.obstacles === 100 && s.regions === 2 && s.vehicle);
+    await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > first.vehicle[0] + 2);
+    await eventually('every process', async () => (await page.$$('#health li.ready')).length === 7);
+    expect('goals may be sent', await page.isEnabled('#goalmode'));
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+    await end(flight, 'SIGINT');
+  },
+});
+
+/** Sends a goal past the buttons; whether it is refused for this reason. */
+async function refusal(page, reason) {
+  await page.evaluate(() => window.tern.send({ goal: { position: [1, 0, 1] } }));
+  await page.waitForFunction(() => window.tern.counts.goals.length > 0);
+  const [goal] = await page.evaluate(() => window.tern.counts.goals);
+  return reason.test(goal.refused);
+}

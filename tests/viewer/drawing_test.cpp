@@ -1,0 +1,147 @@
+// What is made for drawing: faces of voxels, predicted hulls, a flight's past.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+
+#include "tests/viewer/known_scene.h"
+#include "viewer/bridge/flight_history.h"
+#include "viewer/bridge/predicted_hulls.h"
+#include "viewer/bridge/voxel_faces.h"
+
+namespace tern {
+namespace {
+
+using nlohmann::json;
+
+VoxelMap random_map(const Eigen::Vector3i& size, const std::vector<int>& labels) {
+  VoxelMap map;
+  map.grid.size = size;
+  for (std::int64_t k = 0; k < map.grid.voxels(); ++k) {
+    map.labels.push_back(static_cast<VoxelLabel>(labels[static_cast<std::size_t>(k) % labels.size()]));
+  }
+  return map;
+}
+
+using UnitFace = std::tuple<int, int, int, int, int>;  // direction, label, voxel
+
+/// Oracle: every drawn voxel's every face whose neighbour is of another label.
+std::set<UnitFace> exposed_faces(const VoxelMap& map) {
+  std::set<UnitFace> faces;
+  for (std::int64_t k = 0; k < map.grid.voxels(); ++k) {
+    const VoxelLabel label = map.labels[static_cast<std::size_t>(k)];
+    if (label < VoxelLabel::Occupied) continue;
+    const Eigen::Vector3i cell = map.grid.cell(k);
+    for (int direction = 0; direction < 6; ++direction) {
+      Eigen::Vector3i next = cell;
+      next[direction / 2] += direction % 2 == 0 ? -1 : 1;
+      const bool same = map.grid.contains(next) && map.labels[static_cast<std::size_t>(map.grid.index(next))] == label;
+      if (!same) faces.insert({direction, static_cast<int>(label), cell.x(), cell.y(), cell.z()});
+    }
+  }
+  return faces;
+}
+
+RC_GTEST_PROP(VoxelSurface, CoversEachExposedFaceOnceAndNothingElse, ()) {
+  const auto axis = rc::gen::inRange(1, 6);
+  const Eigen::Vector3i size(*axis, *axis, *axis);
+  const auto labels = *rc::gen::container<std::vector<int>>(7, rc::gen::inRange(0, kVoxelLabels));
+  const VoxelMap map = random_map(size, labels);
+  std::set<UnitFace> covered;
+  for (const VoxelFace& face : voxel_surface(map).faces) {
+    const int axis_of = face.direction / 2;
+    RC_ASSERT(face.low[axis_of] == face.high[axis_of]);
+    Eigen::Vector3i low = face.low, high = face.high;
+    low[axis_of] -= face.direction % 2;
+    high[axis_of] = low[axis_of] + 1;
+    for (int x = low.x(); x < high.x(); ++x) {
+      for (int y = low.y(); y < high.y(); ++y) {
+        for (int z = low.z(); z < high.z(); ++z) {
+          RC_ASSERT(covered.insert({face.direction, static_cast<int>(face.label), x, y, z}).second);
+        }
+      }
+    }
+  }
+  RC_ASSERT(covered == exposed_faces(map));
+}
+
+TEST(VoxelSurface, CoarsensWhatIsTooLargeAndLosesNoHazard) {
+  VoxelMap map = random_map({40, 40, 40}, {static_cast<int>(VoxelLabel::Free)});
+  map.labels[static_cast<std::size_t>(map.grid.index({21, 5, 33}))] = VoxelLabel::Repulsive;
+  const VoxelSurface surface = voxel_surface(map, 1'000);
+  EXPECT_EQ(surface.grid.resolution, 4 * map.grid.resolution);
+  ASSERT_EQ(surface.faces.size(), 6U);
+  EXPECT_EQ(surface.faces.front().low, Eigen::Vector3i(5, 1, 8));
+}
+
+TEST(PredictedHulls, HoldTheObstacleAtEveryInstant) {
+  const UTime start{1'000'000'000};
+  const support::KnownScene scene(start);
+  TrackSet tracks = scene.predictions(start);
+  for (Track& track : tracks.tracks) {
+    track.motion.pieces.front().coefficients.col(1) = Vec3(0.3, -0.8, 0.5);           // curved
+    if (track.id % 2 == 0) track.motion.pieces.front().duration = Duration{400'000};  // ends within the plan
+  }
+  const TimedSpline plan = scene.request(start, 1).committed;
+  const PredictedHulls made = predicted_hulls(tracks, plan, 20.0, 1'000);
+  EXPECT_EQ(made.left_out, 0);
+  EXPECT_EQ(made.hulls.size(), static_cast<std::size_t>(support::kKnownMovers * plan.spline().intervals()));
+  for (const PredictedHull& hull : made.hulls) {
+    const Track& track = tracks.tracks[static_cast<std::size_t>(hull.track)];
+    for (int k = 0; k <= 20; ++k) {
+      const UTime t = plan.start + plan.interval * hull.interval + Duration{plan.interval.us * k / 20};
+      const Box promised = track.bounds(t, t);
+      // A hull holds a box if it reaches as far in every direction; the axes and diagonals are looked at.
+      for (const Vec3& d : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(1, -1, 0.5)}) {
+        for (const Vec3& n : {d, Vec3(-d)}) {
+          const double box = n.dot(promised.center()) + 0.5 * n.cwiseAbs().dot(promised.sizes());
+          EXPECT_GE((n.transpose() * hull.points).maxCoeff(), box - 1e-9);
+        }
+      }
+    }
+  }
+}
+
+TEST(PredictedHulls, AreBoundedNearestFirst) {
+  const UTime start{1'000'000'000};
+  const support::KnownScene scene(start);
+  const TimedSpline plan = scene.request(start, 1).committed;
+  const PredictedHulls made = predicted_hulls(scene.predictions(start), plan, 20.0, 5);
+  ASSERT_EQ(made.hulls.size(), 5U);
+  EXPECT_EQ(made.left_out, support::kKnownMovers * plan.spline().intervals() - 5);
+  EXPECT_LE(made.hulls.front().points.row(0).minCoeff(), 6.0);  // not one of those 18 m away
+}
+
+TEST(FlightHistory, TellsTheLastThirtySecondsAndTheWholePath) {
+  FlightHistory history;
+  const UTime start{1'000'000'000};
+  for (int k = 0; k <= 6'000; ++k) {
+    UavState state;
+    state.at = start + Duration{k * 10'000};
+    state.motion.p = Vec3(0.01 * k, 0.0, 1.0);
+    state.motion.v = Vec3(3.0, 4.0, 0.0);
+    history.add(state);
+    history.add_clearance(state.at, 1.5);
+  }
+  history.add_answer(start + Duration{59'000'000}, 20.0, 70.0, PlanOutcome::Evade);
+  const UTime now = start + Duration{60'000'000};
+  const json chart = json::parse(history.chart_json(now));
+  EXPECT_EQ(chart["elapsed_s"], 60.0);
+  EXPECT_EQ(chart["motion"][0].size(), 600U);
+  EXPECT_NEAR(chart["motion"][0].front().get<double>(), -29.95, 1e-9);
+  EXPECT_EQ(chart["motion"][0].back(), 0.0);
+  EXPECT_EQ(chart["motion"][1].back(), 5.0);
+  EXPECT_EQ(chart["clearance"][0].size(), 300U);
+  EXPECT_EQ(chart["answers"], json::parse("[[-1],[20],[70],[3]]"));
+  EXPECT_EQ(json::parse(history.path_json(now)).size(), 4 * 1'201U);
+  const json thinned = json::parse(history.path_json(now, 100));
+  EXPECT_LE(thinned.size(), 4 * 100U);
+  EXPECT_EQ(thinned[0], 0.0);
+  const json half = json::parse(history.path_json(start + Duration{30'000'000}));
+  EXPECT_EQ(half[half.size() - 4], 30.0);
+}
+
+}  // namespace
+}  // namespace tern

@@ -1,0 +1,62 @@
+#include "tests/viewer/known_log.h"
+
+#include <map>
+
+#include "logger/records/log_writer.h"
+#include "messages/goal.h"
+#include "messages/heartbeat.h"
+#include "messages/horizon_request.h"
+#include "messages/map_chunk.h"
+#include "messages/obstacle_truth.h"
+#include "messages/plan.h"
+#include "messages/plan_timing.h"
+#include "messages/track_set.h"
+#include "messages/uav_state.h"
+#include "runtime/channels.h"
+#include "tests/viewer/known_scene.h"
+
+namespace tern::support {
+namespace {
+
+class Recorder {
+ public:
+  explicit Recorder(const std::string& path) : writer_(std::move(*LogWriter::open(path, 0))) {}
+  template <class T>
+  void publish(const char* channel, T message, UTime now) {
+    message.header = {{kKnownLogStart.us, ++sequences_[channel]}, now};
+    writer_.append(channel, now.us, encode(message));
+  }
+
+ private:
+  LogWriter writer_;
+  std::map<std::string, std::int64_t> sequences_;
+};
+
+}  // namespace
+
+void write_known_log(const std::string& path) {
+  Recorder recorder(path);
+  const KnownScene scene(kKnownLogStart);
+  std::int64_t requests = 0;
+  for (int tick = 0; tick <= 2'000; ++tick) {
+    const UTime now = kKnownLogStart + Duration{tick * 10'000};
+    recorder.publish(channels::kUavState, scene.state(now), now);
+    if (tick % 5 == 0) {
+      recorder.publish(channels::kObstacleTruth, scene.truth(now), now);
+      recorder.publish(channels::kPredictions, scene.predictions(now), now);
+    }
+    if (tick % 10 == 0) {
+      const HorizonRequest request = scene.request(now, ++requests);
+      recorder.publish(channels::kHorizonRequest, request, now);
+      recorder.publish(channels::kPlan, scene.plan(request), now);
+      recorder.publish(channels::kPlanTiming, scene.timing(request.id), now);
+    }
+    if (tick % 50 == 0) recorder.publish(channels::kHeartbeat, scene.heartbeat(), now);
+    if (tick % 100 == 0) {
+      recorder.publish(channels::kGoal, scene.goal(), now);
+      for (const MapChunk& chunk : to_chunks(scene.map())) recorder.publish(channels::kSemanticMap, chunk, now);
+    }
+  }
+}
+
+}  // namespace tern::support

@@ -1,0 +1,42 @@
+// A flight of which everything is known: what the page shows of it can be told beforehand.
+#pragma once
+
+#include "core/world/goal.h"
+#include "core/world/health.h"
+#include "core/world/horizon.h"
+#include "core/world/observation.h"
+#include "core/world/track.h"
+#include "core/world/vehicle.h"
+#include "core/world/voxel_map.h"
+
+namespace tern::support {
+
+/// The vehicle flies 20 s along x at 1 m/s, from (0, 0, 1) on. 20 pillars stand at (k, 3, 1); 10 movers oscillate
+/// slowly about (2 k, −3, 1). Around 8 m ahead of the start an attractive box lies left of the way and a repulsive one
+/// right.
+inline constexpr int kKnownPillars = 20, kKnownMovers = 10;
+inline constexpr double kKnownSpeed = 1.0;  ///< m/s
+inline constexpr double kKnownSeconds = 20.0;
+
+class KnownScene {
+ public:
+  explicit KnownScene(UTime start) : start_(start) {}
+
+  [[nodiscard]] UavState state(UTime now) const;
+  [[nodiscard]] ObstacleTruth truth(UTime now) const;
+  /// Movers by one piece of 3.5 s at their present velocity, α 0.2 m.
+  [[nodiscard]] TrackSet predictions(UTime now) const;
+  /// From the vehicle's place 4 m ahead.
+  [[nodiscard]] HorizonRequest request(UTime now, std::int64_t id) const;
+  /// What it asks for, optimized, with one plane against pillar 0.
+  [[nodiscard]] Plan plan(const HorizonRequest& request) const;
+  [[nodiscard]] PlanTiming timing(std::int64_t request_id) const;
+  [[nodiscard]] Goal goal() const;
+  [[nodiscard]] Heartbeat heartbeat() const;
+  [[nodiscard]] VoxelMap map() const;
+
+ private:
+  UTime start_;
+};
+
+}  // namespace tern::support

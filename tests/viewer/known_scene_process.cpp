@@ -1,0 +1,74 @@
+// known_scene_process: puts the known scene on the bus, for the browser's tests; with KNOWN_LOG=FILE, writes it there
+// instead. Says each goal that it hears.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include "messages/goal.h"
+#include "messages/heartbeat.h"
+#include "messages/horizon_request.h"
+#include "messages/map_chunk.h"
+#include "messages/obstacle_truth.h"
+#include "messages/plan.h"
+#include "messages/plan_timing.h"
+#include "messages/track_set.h"
+#include "messages/uav_state.h"
+#include "runtime/channels.h"
+#include "runtime/process.h"
+#include "tests/viewer/known_log.h"
+#include "tests/viewer/known_scene.h"
+
+namespace tern {
+namespace {
+
+class KnownSceneNode final : public Node {
+ public:
+  explicit KnownSceneNode(Bus& bus) : bus_(bus), scene_(bus.clock().now()), next_(bus.clock().now()) {
+    bus.subscribe<Goal>(channels::kGoal, [](const Goal& goal) {
+      std::printf("goal %lld %.3f %.3f %.3f\n", static_cast<long long>(goal.id), goal.position.x(), goal.position.y(),
+                  goal.position.z());
+      std::fflush(stdout);
+    });
+  }
+  [[nodiscard]] UTime next_wakeup() const override { return next_; }
+  [[nodiscard]] NodeHealth health() const override { return {ProcessState::Ready, ""}; }
+  void step(UTime now) override {
+    if (now < next_) return;
+    next_ = now + Duration{10'000};
+    bus_.publish(channels::kUavState, scene_.state(now));
+    if (tick_ % 5 == 0) {
+      bus_.publish(channels::kObstacleTruth, scene_.truth(now));
+      bus_.publish(channels::kPredictions, scene_.predictions(now));
+      const HorizonRequest request = scene_.request(now, ++requests_);
+      bus_.publish(channels::kHorizonRequest, request);
+      bus_.publish(channels::kPlan, scene_.plan(request));
+      bus_.publish(channels::kPlanTiming, scene_.timing(request.id));
+    }
+    if (tick_ % 50 == 0) {
+      for (const MapChunk& chunk : to_chunks(scene_.map())) bus_.publish(channels::kSemanticMap, chunk);
+    }
+    if (tick_ % 100 == 0) bus_.publish(channels::kGoal, scene_.goal());
+    ++tick_;
+  }
+
+ private:
+  Bus& bus_;
+  support::KnownScene scene_;
+  UTime next_;
+  std::int64_t tick_ = 0, requests_ = 0;
+};
+
+}  // namespace
+}  // namespace tern
+
+int main(int argc, char** argv) {
+  if (const char* log = std::getenv("KNOWN_LOG")) {
+    tern::support::write_known_log(log);
+    return 0;
+  }
+  const tern::ProcessDescription description{.name = "tern-scene", .section = "", .summary = "A known scene"};
+  return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+    return std::make_unique<tern::KnownSceneNode>(context.bus);
+  });
+}

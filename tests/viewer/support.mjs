@@ -1,0 +1,132 @@
+// What the browser's tests share: processes that end with the test, a browser, and waiting for what shall become true.
+import { spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { chromium } from '../../viewer/web/node_modules/playwright-core/index.mjs';
+
+const { TERN_BIN, TERN_PAGE, TERN_CHROMIUM } = process.env;
+const PATIENCE_MS = 60_000; // for what takes milliseconds on an idle machine
+
+export const work = mkdtempSync(join(tmpdir(), 'tern-viewer-'));
+const running = new Set();
+let browser = null;
+
+export function fail(text) {
+  throw new Error(text);
+}
+
+export function expect(what, holds) {
+  if (!holds) fail(what);
+}
+
+/** Polls until `holds()` is true. */
+export async function eventually(what, holds) {
+  const deadline = Date.now() + PATIENCE_MS;
+  while (!(await holds())) {
+    if (Date.now() > deadline) fail(`not in time: ${what}`);
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+}
+
+/** Starts a program in a process group of its own; `said` grows with its output. */
+export function start(program, args, env = {}) {
+  const child = spawn(program, args, {
+    env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
+  const process_ = { child, said: '', ended: false };
+  for (const stream of [child.stdout, child.stderr]) stream.on('data', (text) => (process_.said += text));
+  child.on('error', (error) => (process_.said += error.message));
+  process_.gone = new Promise((resolve) => child.on('close', (code) => resolve((process_.ended = true) && code)));
+  running.add(process_);
+  return process_;
+}
+
+export async function end(process_, signal = 'SIGTERM') {
+  if (!process_.ended) process.kill(-process_.child.pid, signal);
+  running.delete(process_);
+  return process_.gone;
+}
+
+/** tern-viewer with these options; `url` is where its page is. */
+export async function startViewer(...options) {
+  const viewer = start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, ...options]);
+  await eventually('tern-viewer listens', () => /the page is at/.test(viewer.said) || viewer.ended);
+  viewer.url = /the page is at (\S+)/.exec(viewer.said)?.[1] ?? fail(`tern-viewer: ${viewer.said}`);
+  return viewer;
+}
+
+export const startScene = () => start(`${TERN_BIN}/viewer_known_scene_process`, []);
+
+/** The known scene as a log; its path. */
+export async function knownLog() {
+  const path = join(work, 'flight.lcm');
+  const code = await start(`${TERN_BIN}/viewer_known_scene_process`, [], { KNOWN_LOG: path }).gone;
+  expect('the log is written', code === 0);
+  return path;
+}
+
+export async function openBrowser() {
+  browser ??= await chromium.launch({
+    executablePath: TERN_CHROMIUM,
+    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  });
+  return browser;
+}
+
+/** A page that has begun to show something. `page.complaints` holds what its console complained of. */
+export async function openPage(url, prepare = async () => {}) {
+  const page = await (await openBrowser()).newPage({ viewport: { width: 800, height: 600 } });
+  page.setDefaultTimeout(PATIENCE_MS);
+  page.complaints = [];
+  page.on('pageerror', (error) => page.complaints.push(error.message));
+  page.on('console', (message) => {
+    if (message.type() === 'error') page.complaints.push(message.text());
+  });
+  await prepare(page);
+  await page.goto(`${url}?quality=low`);
+  await page.waitForFunction(() => window.tern?.counts.drawn > 0);
+  return page;
+}
+
+export const status = (page) => page.evaluate(() => window.tern.status());
+
+/** Polls the page's status. */
+export async function shows(page, what, holds) {
+  let last = null;
+  try {
+    await eventually(what, async () => holds((last = await status(page))));
+  } catch (error) {
+    fail(`${error.message}; the page: ${JSON.stringify(last)} ${page.complaints.join('; ')}`);
+  }
+  return last;
+}
+
+/** Where a point of W is on the screen, in CSS pixels. */
+export function onScreen(page, point) {
+  return page.evaluate((p) => {
+    const { camera } = window.tern.world;
+    camera.updateMatrixWorld();
+    const v = camera.position.clone().fromArray(p).project(camera);
+    return { x: ((v.x + 1) / 2) * innerWidth, y: ((1 - v.y) / 2) * innerHeight, seen: v.z < 1 };
+  }, point);
+}
+
+/** Runs one of the tests; its name is the claim. */
+export async function run(tests) {
+  const name = process.argv[2];
+  let code = 0;
+  try {
+    await (tests[name] ?? fail(`no test ${name}`))();
+    console.log(`passed: ${name}`);
+  } catch (error) {
+    console.error(`FAILED: ${name}: ${error.stack}`);
+    for (const { child, said } of running) console.error(`---- ${child.spawnfile}:\n${said.slice(-3000)}`);
+    code = 1;
+  }
+  await browser?.close();
+  await Promise.all([...running].map((process_) => end(process_, 'SIGKILL')));
+  rmSync(work, { recursive: true, force: true });
+  process.exit(code);
+}
+
+export const read = (path) => readFileSync(path, 'utf8');

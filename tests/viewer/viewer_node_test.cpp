@@ -1,0 +1,214 @@
+// Log player and scene, with the node's own intake.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/logger/temp_folder.h"
+#include "tests/viewer/known_log.h"
+#include "tests/viewer/known_scene.h"
+#include "viewer/bridge/app/listening_socket.h"
+#include "viewer/bridge/app/log_player.h"
+#include "viewer/bridge/scene_json.h"
+
+namespace tern {
+namespace {
+
+using nlohmann::json;
+using support::kKnownLogStart;
+
+/// One log for all tests of this file: writing it takes longer than playing it.
+class LogPlayerTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TempFolder;
+    support::write_known_log(folder_->file("flight.lcm"));
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::string log() { return folder_->file("flight.lcm"); }
+  static UTime at(double seconds) { return kKnownLogStart + Duration::from_seconds(seconds); }
+
+  /// Everything that is shown, but for the ages of processes.
+  static std::string shown(const Scene& scene) {
+    return state_json(scene) + truth_json(scene) + tracks_json(scene) + request_json(scene) + plan_json(scene, true) +
+           timing_json(scene) + map_json(scene) + goal_json(scene) + hulls_json(scene, 5.0, 100);
+  }
+
+  Scene scene_;
+  SceneIntake intake_{scene_};
+  static inline TempFolder* folder_ = nullptr;
+};
+
+TEST_F(LogPlayerTest, AJumpShowsWhatPlayingThereShows) {
+  auto played = LogPlayer::open(log(), "");
+  auto jumped = LogPlayer::open(log(), "");
+  ASSERT_TRUE(played && jumped) << played.error().message;
+  Scene there;
+  SceneIntake there_intake(there);
+  played->seek(played->begin(), scene_, intake_);
+  played->play(true, UTime{0});
+  for (int k = 1; k <= 40; ++k) {
+    played->advance(UTime{k * 437'000}, intake_);
+    jumped->seek(played->position(), there, there_intake);
+    EXPECT_EQ(shown(there), shown(scene_)) << k;
+  }
+}
+
+TEST_F(LogPlayerTest, GoesToAnyTimeInAnyOrder) {
+  auto player = LogPlayer::open(log(), "");
+  ASSERT_TRUE(player);
+  EXPECT_EQ(player->begin(), at(0.0));
+  EXPECT_EQ(player->end(), at(20.0));
+  for (const double t : {15.0, 3.0, 19.99, 0.0, 7.77}) {
+    player->seek(at(t), scene_, intake_);
+    EXPECT_NEAR(scene_.state()->motion.p.x(), t, 0.0101) << t;
+    EXPECT_EQ(scene_.truth()->obstacles.size(), 30U);
+    EXPECT_EQ(scene_.map()->voxels[static_cast<std::size_t>(VoxelLabel::Repulsive)], 16);
+  }
+  player->seek(at(-5.0), scene_, intake_);
+  EXPECT_EQ(player->position(), player->begin());
+  player->seek(at(500.0), scene_, intake_);
+  EXPECT_EQ(player->position(), player->end());
+}
+
+TEST_F(LogPlayerTest, StepsFromPlanToPlanAndStaysThere) {
+  auto player = LogPlayer::open(log(), "");
+  ASSERT_TRUE(player);
+  player->seek(at(5.03), scene_, intake_);
+  player->play(true, UTime{0});
+  player->step(1, scene_, intake_);
+  EXPECT_EQ(player->position(), at(5.1));
+  EXPECT_FALSE(player->playing());
+  player->step(-1, scene_, intake_);
+  EXPECT_EQ(player->position(), at(5.0));
+  player->seek(at(0.0), scene_, intake_);
+  player->step(-1, scene_, intake_);
+  EXPECT_EQ(player->position(), at(0.0));
+}
+
+TEST_F(LogPlayerTest, PlaysAtItsSpeedAndEndsAtTheEnd) {
+  auto player = LogPlayer::open(log(), "");
+  ASSERT_TRUE(player);
+  player->seek(at(0.0), scene_, intake_);
+  player->set_speed(0.5);
+  player->play(true, UTime{0});
+  player->advance(UTime{4'000'000}, intake_);
+  EXPECT_EQ(player->position(), at(2.0));
+  player->set_speed(8.0);
+  player->advance(UTime{60'000'000}, intake_);
+  EXPECT_EQ(player->position(), player->end());
+  EXPECT_FALSE(player->playing());
+}
+
+TEST_F(LogPlayerTest, KnowsTheWholeFlightBeforeItPlays) {
+  auto player = LogPlayer::open(log(), "");
+  ASSERT_TRUE(player);
+  const json path = json::parse(player->history().path_json(at(20.0)));
+  EXPECT_EQ(path.size(), 4 * 401U);
+  EXPECT_EQ(path[path.size() - 4], 20.0);
+  const json chart = json::parse(player->history().chart_json(at(10.0)));
+  EXPECT_EQ(chart["answers"][1].back(), 12.5);
+  EXPECT_EQ(chart["answers"][2].back(), 70.0);
+}
+
+TEST_F(LogPlayerTest, PlaysADamagedLogAndSaysSo) {
+  const std::string damaged = folder_->file("damaged.lcm");
+  std::filesystem::copy_file(log(), damaged);
+  const auto bytes = static_cast<std::streamoff>(std::filesystem::file_size(damaged));
+  std::fstream file(damaged, std::ios::in | std::ios::out | std::ios::binary);
+  for (const std::streamoff where : {bytes / 3, bytes / 2}) {
+    file.seekp(where);
+    file << std::string(20'000, '\xff');
+  }
+  file.close();
+  std::filesystem::resize_file(damaged, static_cast<std::uintmax_t>(bytes - 100));
+  auto player = LogPlayer::open(damaged, "");
+  ASSERT_TRUE(player);
+  EXPECT_NE(json::parse(player->json())["damage"].get<std::string>().find("2"), std::string::npos);
+  for (const double t : {2.0, 8.0, 12.0, 18.0}) {
+    player->seek(at(t), scene_, intake_);
+    EXPECT_NEAR(scene_.state()->motion.p.x(), t, 0.5) << t;
+  }
+}
+
+TEST_F(LogPlayerTest, RefusesWhatIsNoLog) {
+  EXPECT_FALSE(LogPlayer::open(folder_->file("nowhere.lcm"), ""));
+  std::ofstream(folder_->file("text.lcm")) << "no events in here\n";
+  const auto player = LogPlayer::open(folder_->file("text.lcm"), "");
+  ASSERT_FALSE(player);
+  EXPECT_NE(player.error().message.find("text.lcm"), std::string::npos);
+}
+
+TEST(Scene, TellsClearanceFromTheBodyToTheNearestBox) {
+  Scene scene;
+  EXPECT_EQ(scene.clearance(), std::nullopt);
+  const support::KnownScene known(kKnownLogStart);
+  scene.hear(known.state(kKnownLogStart));
+  scene.hear(known.truth(kKnownLogStart));
+  const double nearest = std::hypot(2.0 - 0.4, 3.0 - std::sin(1.0) - 0.4);  // mover 1 at (2, −3 + sin 1)
+  EXPECT_NEAR(*scene.clearance(), nearest, 1e-9);
+  scene.hear(known.request(kKnownLogStart, 1));
+  EXPECT_NEAR(*scene.clearance(), nearest - 0.1, 1e-9);
+}
+
+TEST(Scene, RemembersABoundedNumberOfProcesses) {
+  Scene scene;
+  for (int k = 0; k < 1'000; ++k) {
+    Heartbeat heartbeat;
+    heartbeat.process = "p" + std::to_string(k);
+    scene.hear(heartbeat, kKnownLogStart);
+  }
+  EXPECT_EQ(scene.processes().size(), kMostProcesses);
+}
+
+TEST(Scene, TellsAllMessagesOfWhatIsPicked) {
+  Scene scene;
+  const support::KnownScene known(kKnownLogStart);
+  const HorizonRequest request = known.request(kKnownLogStart, 7);
+  scene.hear(known.state(kKnownLogStart));
+  scene.hear(known.truth(kKnownLogStart));
+  scene.hear(known.predictions(kKnownLogStart));
+  scene.hear(request);
+  scene.hear(known.plan(request));
+  scene.hear(known.timing(7));
+  scene.hear(known.heartbeat(), kKnownLogStart);
+  scene.hear(known.goal());
+  scene.hear(known.map());
+  const auto channels = [&](const PickCommand& pick) {
+    std::vector<std::string> names;
+    const json detail = json::parse(detail_json(scene, pick));
+    for (const json& message : detail["messages"]) names.push_back(message["channel"]);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(channels({PickKind::Vehicle, 0, ""}), Names{"UAV_STATE"});
+  EXPECT_EQ(channels({PickKind::Obstacle, 25, ""}), (Names{"OBSTACLE_TRUTH", "PREDICTIONS"}));
+  EXPECT_EQ(channels({PickKind::Obstacle, 99, ""}), Names{});
+  EXPECT_EQ(channels({PickKind::Plan, 0, ""}), (Names{"PLAN", "PLAN_TIMING"}));
+  EXPECT_EQ(channels({PickKind::Request, 0, ""}), Names{"HORIZON_REQUEST"});
+  EXPECT_EQ(channels({PickKind::Goal, 0, ""}), Names{"GOAL"});
+  EXPECT_EQ(channels({PickKind::Map, 0, ""}), Names{"SEMANTIC_MAP"});
+  EXPECT_EQ(channels({PickKind::Process, 0, "tern-scene"}), Names{"HEARTBEAT"});
+  EXPECT_EQ(channels({PickKind::Result, 0, ""}), Names{});
+}
+
+TEST(ListeningSocket, TakesTheAddressThatItIsGiven) {
+  const auto any = open_listening_socket("127.0.0.1:0", false);
+  ASSERT_TRUE(any) << any.error().message;
+  const std::string url = *listening_url(*any);
+  EXPECT_TRUE(url.starts_with("http://127.0.0.1:")) << url;
+  EXPECT_EQ(host_of_url(url), "127.0.0.1");
+  const std::string taken = url.substr(7, url.size() - 8);
+  EXPECT_FALSE(open_listening_socket(taken, false));
+  for (const char* where : {"", "nowhere", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:x", "::1", "256.0.0.1:80"}) {
+    EXPECT_FALSE(open_listening_socket(where, false)) << where;
+  }
+  EXPECT_FALSE(listening_url(0));
+  close(*any);
+}
+
+}  // namespace
+}  // namespace tern
