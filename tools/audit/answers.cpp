@@ -1,0 +1,114 @@
+// Whether each request was answered once, in time by the planner's own stamp, and from a fresh world.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tools/audit/audit.h"
+#include "tools/audit/configured.h"
+
+namespace tern::audit {
+namespace {
+
+constexpr double kDefaultStaleAfter = 0.3;  // s
+
+/// True when the answers around `when` come from two planners: one died, another came.
+bool planner_changed(const FlightRecord& record, UTime when) {
+  const Plan* before = nullptr;
+  for (const Plan& plan : record.plans) {
+    if (plan.header.utime >= when) {
+      return before == nullptr || before->header.name.sender_epoch_us != plan.header.name.sender_epoch_us;
+    }
+    before = &plan;
+  }
+  return false;
+}
+
+class AnswerCheck {
+ public:
+  AnswerCheck(const FlightRecord& record, Check& check)
+      : record_(record),
+        check_(check),
+        stale_after_(configured_number(record, "tern-planner", "stale_after_s").value_or(kDefaultStaleAfter)) {
+    for (const HorizonRequest& r : record.requests) requests_.emplace(r.header.name, &r);
+  }
+
+  void plan(const Plan& plan) {
+    const auto found = requests_.find(plan.inputs.request);
+    if (found == requests_.end()) {
+      ++check_.unchecked["plans whose request is not in the log"];
+      return;
+    }
+    const HorizonRequest& request = *found->second;
+    ++check_.checked;
+    if (++answers_[request.header.name] > 1) fail(plan, "answered more than once");
+    const double late_s = (plan.header.utime - request.deadline).seconds();
+    least_spare_s_ = std::min(least_spare_s_, -late_s);
+    if (late_s > 0.0) fail(plan, fmt::format("answered {:.3f} ms after its deadline", late_s * 1e3));
+    if (plan.outcome != PlanOutcome::NoPlan) fresh(plan, request);
+  }
+
+  void fresh(const Plan& plan, const HorizonRequest& request) {
+    const auto set = record_.predictions.find(plan.inputs.predictions);
+    if (set == record_.predictions.end()) {
+      ++check_.unchecked["plans whose predictions are not in the log"];
+      return;
+    }
+    ++check_.checked;
+    if (set->second.batch.set != plan.inputs.prediction_set) fail(plan, "names predictions of another set");
+    const double age_s = (request.header.utime - set->second.made_at).seconds();
+    oldest_s_ = std::max(oldest_s_, age_s);
+    if (age_s > stale_after_)
+      fail(plan, fmt::format("planned on predictions {:.3f} s old, limit {:.3f} s", age_s, stale_after_));
+  }
+
+  void unanswered() {
+    const auto plans = record_.contents.channels.find("PLAN");
+    std::int64_t lost = plans == record_.contents.channels.end() ? 0 : plans->second.lost;
+    for (const HorizonRequest& r : record_.requests) {
+      if (answers_.contains(r.header.name)) continue;
+      if (r.deadline >= record_.end()) {
+        ++check_.unchecked["requests that were open when the log ended"];
+      } else if (lost > 0) {
+        --lost;
+        ++check_.unchecked["requests whose answer may be among the PLANs that were lost"];
+      } else if (planner_changed(record_, r.header.utime)) {
+        ++check_.unchecked["requests while no planner was there"];
+      } else {
+        ++check_.checked;
+        check_.fail({r.deadline, "was never answered", r.id});
+      }
+    }
+  }
+
+  void summarize() {
+    if (check_.checked == 0) return;
+    check_.summary =
+        fmt::format("{} answers to {} requests, at least {:.1f} ms to spare; predictions at most {:.0f} ms old",
+                    record_.plans.size(), record_.requests.size(), least_spare_s_ * 1e3, oldest_s_ * 1e3);
+    check_.measures = {{"least_spare_s", least_spare_s_}, {"oldest_predictions_s", oldest_s_}};
+  }
+
+ private:
+  void fail(const Plan& plan, std::string what) { check_.fail({plan.header.utime, std::move(what), plan.request_id}); }
+
+  const FlightRecord& record_;
+  Check& check_;
+  double stale_after_;
+  std::map<MessageName, const HorizonRequest*> requests_;
+  std::map<MessageName, int> answers_;
+  double least_spare_s_ = 1e9, oldest_s_ = 0.0;
+};
+
+}  // namespace
+
+Check check_answers(const FlightRecord& record) {
+  Check check{.name = "answers", .claim = "each request was answered once, by its deadline, from a fresh world"};
+  AnswerCheck answers(record, check);
+  for (const Plan& plan : record.plans) answers.plan(plan);
+  answers.unanswered();
+  answers.summarize();
+  return check;
+}
+
+}  // namespace tern::audit

@@ -1,0 +1,23 @@
+#include "tools/audit/app/load_flight.h"
+
+#include "runtime/config.h"
+#include "runtime/scenario_file.h"
+
+namespace tern::audit {
+
+Result<FlightRecord> load_flight(const std::string& path) {
+  auto record = read_flight(path);
+  if (!record) return record;
+  for (const ConfigurationReport& report : record->configurations) {
+    try {
+      ConfigDocument document = ConfigDocument::parse(report.yaml, report.process);
+      record->regions = read_scenario(document).semantics.regions;
+      break;
+    } catch (const ConfigError&) {
+      // Not a scenario, or one of another version: the next process's may be.
+    }
+  }
+  return record;
+}
+
+}  // namespace tern::audit

@@ -1,0 +1,53 @@
+// tern-audit: recomputes a recorded flight and says what was broken.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tools/audit/app/load_flight.h"
+#include "tools/audit/audit.h"
+
+namespace {
+
+constexpr int kBroken = 1;
+constexpr int kUnreadable = 2;
+
+int complain(const std::string& what) {
+  fmt::print(stderr, "tern-audit: {}\n", what);
+  return kUnreadable;
+}
+
+int run(const std::string& log, const std::string& json_file) {
+  const auto record = tern::audit::load_flight(log);
+  if (!record) return complain(record.error().message);
+  if (record->contents.events == 0) return complain(log + ": not one whole event in it");
+  const tern::audit::Audit audit = tern::audit::audit_flight(*record);
+  fmt::print("{}", tern::audit::to_text(audit, *record));
+  if (!json_file.empty()) {
+    std::ofstream file(json_file);
+    file << tern::audit::to_json(audit, *record).dump(1) << '\n';
+    if (!file.flush()) return complain(json_file + " cannot be written");
+  }
+  return audit.verdict() == tern::audit::Verdict::Broken ? kBroken : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Recomputes a recorded flight and says what was broken. Exit code: 0 held, 1 broken, 2 bad arguments or log."};
+  std::string log, json;
+  app.add_option("LOG", log, "The log: a file (its parts are found), or the folder of flight.lcm")->required();
+  app.add_option("--json", json, "Write the audit as JSON there, too")->type_name("FILE");
+  try {
+    app.parse(argc, argv);
+    return run(log, json);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUnreadable;
+  } catch (const std::exception& error) {
+    return complain(error.what());
+  }
+}

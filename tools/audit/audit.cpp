@@ -1,0 +1,148 @@
+#include "tools/audit/audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace tern::audit {
+namespace {
+
+/// The channels that an audit needs.
+constexpr const char* kNeeded[] = {"UAV_STATE",   "SETPOINT",       "HORIZON_REQUEST", "PLAN",
+                                   "PREDICTIONS", "OBSTACLE_TRUTH", "SEMANTIC_MAP"};
+/// Findings of one check that the text lists.
+constexpr std::size_t kFindingsInText = 10;
+
+std::vector<std::string> what_is_missing(const FlightRecord& record) {
+  std::vector<std::string> missing;
+  const LogContents& log = record.contents;
+  if (log.damage.places > 0) {
+    missing.push_back(fmt::format("the log is damaged at {} places ({} bytes; {} events are missing by their numbers)",
+                                  log.damage.places, log.damage.bytes, log.damage.missing));
+  }
+  if (log.damage.truncated) missing.push_back("the log ends in the middle of an event");
+  for (const char* name : kNeeded) {
+    const auto channel = log.channels.find(name);
+    if (channel == log.channels.end() || channel->second.messages == 0) {
+      missing.push_back(fmt::format("no {}", name));
+      continue;
+    }
+    if (channel->second.lost > 0) {
+      missing.push_back(fmt::format("{}: {} messages lost, by their numbers", name, channel->second.lost));
+    }
+    std::int64_t refused = 0;
+    for (const std::int64_t n : channel->second.refused) refused += n;
+    if (refused > 0)
+      missing.push_back(fmt::format("{}: {} messages refused (damaged, or another version)", name, refused));
+  }
+  return missing;
+}
+
+}  // namespace
+
+const char* to_string(Verdict verdict) {
+  constexpr std::array kNames{"held", "broken", "not checked"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+Verdict Audit::verdict() const {
+  const auto is = [&](Verdict v) { return [v](const Check& c) { return c.verdict() == v; }; };
+  if (std::any_of(checks.begin(), checks.end(), is(Verdict::Broken))) return Verdict::Broken;
+  return std::any_of(checks.begin(), checks.end(), is(Verdict::Held)) ? Verdict::Held : Verdict::NotChecked;
+}
+
+const Check& Audit::check(const std::string& name) const {
+  const auto found = std::find_if(checks.begin(), checks.end(), [&](const Check& c) { return c.name == name; });
+  if (found == checks.end()) throw std::out_of_range("no check " + name);
+  return *found;
+}
+
+Audit audit_flight(const FlightRecord& record) {
+  Audit audit;
+  audit.missing = what_is_missing(record);
+  audit.checks.push_back(check_clearance(record, audit.clearance));
+  audit.checks.push_back(check_limits(record));
+  audit.checks.push_back(check_continuity(record));
+  audit.checks.push_back(check_commitment(record));
+  audit.checks.push_back(check_certificates(record));
+  audit.checks.push_back(check_holds(record));
+  audit.checks.push_back(check_answers(record));
+  audit.checks.push_back(check_predictions(record, audit));
+  audit.checks.push_back(check_exposure(record));
+  audit.checks.push_back(check_result(record, audit));
+  return audit;
+}
+
+std::string to_text(const Audit& audit, const FlightRecord& record) {
+  std::string text = fmt::format("Audit of {}: {:.2f} s, {} requests, {} plans\n\n", record.path,
+                                 (record.end() - record.zero()).seconds(), record.requests.size(), record.plans.size());
+  for (const Check& check : audit.checks) {
+    const Verdict verdict = check.verdict();
+    text += fmt::format("  {:<12} {:<13} {}\n", verdict == Verdict::Broken ? "BROKEN" : to_string(verdict), check.name,
+                        verdict == Verdict::NotChecked || check.summary.empty() ? check.claim : check.summary);
+    const std::size_t listed = std::min(check.findings.size(), kFindingsInText);
+    for (std::size_t k = 0; k < listed; ++k) {
+      const Finding& f = check.findings[k];
+      text += fmt::format("      {:>8.3f} s  {}{}\n", record.seconds(f.at),
+                          f.request > 0 ? fmt::format("request {}: ", f.request) : "", f.what);
+    }
+    const auto more = check.broken - static_cast<std::int64_t>(listed);
+    if (check.broken > 0 && more > 0)
+      text += fmt::format("      and {} more of {} things checked\n", more, check.checked);
+  }
+  std::string gaps;
+  for (const std::string& what : audit.missing) gaps += fmt::format("  {}\n", what);
+  for (const Check& check : audit.checks) {
+    for (const auto& [what, n] : check.unchecked) gaps += fmt::format("  {}: {} ({})\n", check.name, what, n);
+  }
+  text += gaps.empty() ? "\nNothing was left unchecked.\n" : "\nCould not be checked, or only in part:\n" + gaps;
+  const std::string verdict = audit.verdict() == Verdict::Broken ? "BROKEN" : to_string(audit.verdict());
+  return text + "\n" + verdict + "\n";
+}
+
+nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
+  nlohmann::json checks = nlohmann::json::array();
+  for (const Check& check : audit.checks) {
+    nlohmann::json findings = nlohmann::json::array();
+    for (const Finding& f : check.findings) {
+      nlohmann::json one = {{"time_s", record.seconds(f.at)}, {"what", f.what}};
+      if (f.request > 0) one["request"] = f.request;
+      if (f.obstacle != kNobody) one["obstacle"] = f.obstacle;
+      findings.push_back(std::move(one));
+    }
+    nlohmann::json measures = nlohmann::json::object();
+    for (const auto& [name, value] : check.measures) measures[name] = value;
+    checks.push_back({{"name", check.name},
+                      {"claim", check.claim},
+                      {"verdict", to_string(check.verdict())},
+                      {"summary", check.summary},
+                      {"checked", check.checked},
+                      {"broken", check.broken},
+                      {"findings", findings},
+                      {"unchecked", check.unchecked},
+                      {"measures", measures}});
+  }
+  nlohmann::json coverage = nlohmann::json::array();
+  for (const Coverage& c : audit.coverage) {
+    coverage.push_back({{"from_s", c.from_s}, {"to_s", c.to_s}, {"samples", c.samples}, {"kept", c.kept}});
+  }
+  nlohmann::json tracks = nlohmann::json::array();
+  for (const TrackCoverage& t : audit.tracks) {
+    tracks.push_back(
+        {{"track", t.track}, {"obstacle", t.obstacle}, {"promises", t.sets}, {"kept", t.kept}, {"worst_m", t.worst_m}});
+  }
+  return {{"log", record.path},
+          {"verdict", to_string(audit.verdict())},
+          {"flight_s", (record.end() - record.zero()).seconds()},
+          {"checks", checks},
+          {"missing", audit.missing},
+          {"coverage", coverage},
+          {"tracks", tracks},
+          {"confidence", audit.promised_confidence}};
+}
+
+}  // namespace tern::audit

@@ -1,0 +1,64 @@
+// Recomputes a flight from what was recorded, and trusts nothing that the planner said of it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/audit/check.h"
+#include "tools/audit/flight_record.h"
+
+namespace tern::audit {
+
+/// How near the flight came to what really was there, at each state.
+struct ClearancePoint {
+  UTime at;
+  double clearance_m = 0.0;  ///< to the nearest obstacle's box, body included; negative in overlap
+  std::int64_t obstacle = kNobody;
+};
+
+/// How many of the tracks predicted so far ahead were where they were promised.
+struct Coverage {
+  double from_s = 0.0, to_s = 0.0;  ///< ahead of the set's time
+  std::int64_t samples = 0, kept = 0;
+};
+
+/// What one track promised and kept.
+struct TrackCoverage {
+  std::int64_t track = 0, obstacle = 0;
+  std::int64_t sets = 0, kept = 0;  ///< promises (a set's pieces) that truth reaches; those that held throughout
+  double worst_m = 0.0;             ///< farthest that the true box stood out of its promise; ≤ 0: never
+};
+
+struct Audit {
+  std::vector<Check> checks;
+  std::vector<std::string> missing;  ///< what the log lacks, in words
+  std::vector<ClearancePoint> clearance;
+  std::vector<Coverage> coverage;
+  std::vector<TrackCoverage> tracks;
+  double promised_confidence = 1.0;  ///< the least that a prediction set said
+
+  [[nodiscard]] Verdict verdict() const;
+  [[nodiscard]] const Check& check(const std::string& name) const;  ///< @throws std::out_of_range
+};
+
+Audit audit_flight(const FlightRecord& record);
+
+/// For people: a line per check, the findings below it, at last what could not be checked.
+std::string to_text(const Audit& audit, const FlightRecord& record);
+/// For programs. docs/after_the_flight.md lists the keys.
+nlohmann::json to_json(const Audit& audit, const FlightRecord& record);
+
+// The checks, in files of their own.
+Check check_clearance(const FlightRecord& record, std::vector<ClearancePoint>& series);
+Check check_limits(const FlightRecord& record);
+Check check_continuity(const FlightRecord& record);
+Check check_commitment(const FlightRecord& record);
+Check check_certificates(const FlightRecord& record);
+Check check_holds(const FlightRecord& record);
+Check check_answers(const FlightRecord& record);
+Check check_predictions(const FlightRecord& record, Audit& audit);
+Check check_exposure(const FlightRecord& record);
+Check check_result(const FlightRecord& record, const Audit& audit);
+
+}  // namespace tern::audit

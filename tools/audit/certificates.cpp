@@ -1,0 +1,279 @@
+// Each certificate plane of each plan, against sweeps built anew; what has no plane must be separated by its boxes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "tools/audit/audit.h"
+#include "tools/audit/body_gap.h"
+#include "tools/audit/commitment.h"
+#include "tools/audit/configured.h"
+#include "tools/audit/plan_case.h"
+
+namespace tern::audit {
+namespace {
+
+/// A plane may be crossed by this, m: the planner's own rounding at coordinates of some 100 m, and what
+/// core/geometry calls touching.
+constexpr double kPlaneTolerance = 1e-6;
+/// Extrema are enclosed to this, m.
+constexpr double kExtremum = 1e-8;
+/// What lcmtypes/certificate_plane_t.lcm promises of a body without a radius, m.
+constexpr double kPublishedMargin = 1e-9;
+constexpr int kMostParts = 4;
+
+struct Part {
+  int interval, part, parts;
+  friend auto operator<=>(const Part&, const Part&) = default;
+};
+
+std::string words(const Part& p) {
+  return p.parts == 1 ? fmt::format("interval {}", p.interval)
+                      : fmt::format("interval {}, part {} of {}", p.interval, p.part + 1, p.parts);
+}
+
+class CaseCheck {
+ public:
+  CaseCheck(const PlanCase& plan, bool unknown_is_obstacle, Check& check)
+      : case_(plan), body_(plan.request.body), unknown_is_obstacle_(unknown_is_obstacle), check_(check) {
+    for (const CertificatePlane& c : plan.plan.certificate) planes_[{c.interval, c.part, c.parts}].push_back(&c);
+  }
+
+  void run() {
+    if (case_.plan.outcome == PlanOutcome::KeepCommitted && !same(case_.plan.trajectory, case_.request.committed)) {
+      fail("keeps a trajectory that is not the committed one", kNobody);
+    }
+    for (const CertificatePlane& plane : case_.plan.certificate) on_its_side(plane);
+    for (std::size_t k = 0; k < case_.curves.size(); ++k) {
+      const Part whole{static_cast<int>(k), 0, 1};
+      for (const PredictedBox& obstacle : case_.obstacles) {
+        ++check_.checked;
+        separated(obstacle, whole);
+      }
+      if (case_.map != nullptr) voxels(whole);
+    }
+  }
+
+  [[nodiscard]] std::int64_t planes() const { return static_cast<std::int64_t>(case_.plan.certificate.size()); }
+  [[nodiscard]] std::int64_t voxels_checked() const { return voxels_checked_; }
+
+ private:
+  struct Span {
+    double a, b;
+  };
+  [[nodiscard]] const Curve& curve(const Part& p) const { return case_.curves[static_cast<std::size_t>(p.interval)]; }
+  [[nodiscard]] Span span(const Part& p) const {
+    const double step = curve(p).length_s() / p.parts;
+    return {p.part * step, p.part + 1 == p.parts ? curve(p).length_s() : (p.part + 1) * step};
+  }
+
+  void fail(std::string what, std::int64_t obstacle) {
+    check_.fail({case_.request.t_s, std::move(what), case_.request.id, obstacle});
+  }
+
+  /// The vehicle's side of a plane.
+  void on_its_side(const CertificatePlane& c) {
+    ++check_.checked;
+    const Part part{c.interval, c.part, c.parts};
+    if (static_cast<std::size_t>(c.interval) >= case_.curves.size()) {
+      return fail(fmt::format("the plane of obstacle {} names {}, which is over at t_s", c.track, words(part)),
+                  c.track);
+    }
+    const Span s = span(part);
+    const Enclosure e = enclose(curve(part).along(c.plane.n), s.a, s.b, kExtremum);
+    const double out = e.high + c.plane.d + std::max(body_.radius, kPublishedMargin);
+    if (out > kPlaneTolerance) {
+      fail(fmt::format("the vehicle crosses the plane of obstacle {} by {:.3g} m in {}", c.track, out, words(part)),
+           c.track);
+    }
+  }
+
+  /// How far a predicted box, grown by the mirrored body, stands out of its side of a plane during a part.
+  [[nodiscard]] double crossing(const PredictedBox& obstacle, const Plane& plane, const Part& part) const {
+    const Span s = span(part);
+    double least = INFINITY;
+    for (const PredictedBox::Stretch& stretch : obstacle.stretches(curve(part).from, s.a, s.b)) {
+      const Enclosure e = enclose(stretch.curve.along(plane.n), stretch.a, stretch.b, kExtremum);
+      least = std::min(least, e.low - plane.n.cwiseAbs().dot(stretch.half));
+    }
+    return -(least + plane.d - (plane.n.transpose() * body_.vertices).maxCoeff());
+  }
+
+  /// Where the vehicle's centre may be during a part, grown by the body.
+  [[nodiscard]] Box vehicle_box(const Part& part) {
+    const auto known = vehicle_boxes_.find(part);
+    if (known != vehicle_boxes_.end()) return known->second;
+    const Span s = span(part);
+    Vec3 low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Enclosure e = enclose(curve(part).axis[static_cast<std::size_t>(axis)], s.a, s.b, kExtremum);
+      low[axis] = e.low - body_support(body_, -Vec3::Unit(axis));
+      high[axis] = e.high + body_support(body_, Vec3::Unit(axis));
+    }
+    return vehicle_boxes_.emplace(part, Box(low, high)).first->second;
+  }
+
+  static bool apart(const Box& a, const Box& b) {
+    return ((a.min() - b.max()).array() >= -kPlaneTolerance).any() ||
+           ((b.min() - a.max()).array() >= -kPlaneTolerance).any();
+  }
+
+  /// A pair of obstacle and part: by its plane, by boxes, or in halves.
+  void separated(const PredictedBox& obstacle, const Part& part) {
+    const std::int64_t id = obstacle.track().id;
+    for (const CertificatePlane* c : planes_of(part)) {
+      if (c->track != id) continue;
+      const double out = crossing(obstacle, c->plane, part);
+      if (out > kPlaneTolerance) {
+        fail(fmt::format("obstacle {} crosses its plane by {:.3g} m in {}", id, out, words(part)), id);
+      }
+      return;
+    }
+    const Span s = span(part);
+    if (apart(vehicle_box(part), obstacle.bounds(curve(part).from, s.a, s.b))) return;
+    if (part.parts == kMostParts) {
+      return fail(fmt::format("no plane and no box separates obstacle {} in {}", id, words(part)), id);
+    }
+    for (int half = 0; half < 2; ++half) separated(obstacle, {part.interval, 2 * part.part + half, 2 * part.parts});
+  }
+
+  [[nodiscard]] const std::vector<const CertificatePlane*>& planes_of(const Part& part) const {
+    static const std::vector<const CertificatePlane*> kNone;
+    const auto found = planes_.find(part);
+    return found == planes_.end() ? kNone : found->second;
+  }
+
+  /// The map's obstacle voxels about a part's box, one by one.
+  void voxels(const Part& whole) {
+    const VoxelGrid& grid = case_.map->grid;
+    const Box box = vehicle_box(whole);
+    const Eigen::Vector3i low = grid.cell_of(box.min()).cwiseMax(0);
+    const Eigen::Vector3i high = grid.cell_of(box.max()).cwiseMin(grid.size - Eigen::Vector3i::Ones());
+    for (int z = low.z(); z <= high.z(); ++z) {
+      for (int y = low.y(); y <= high.y(); ++y) {
+        for (int x = low.x(); x <= high.x(); ++x) voxel({x, y, z}, whole);
+      }
+    }
+  }
+
+  void voxel(const Eigen::Vector3i& cell, const Part& whole) {
+    const VoxelLabel label = case_.map->labels[static_cast<std::size_t>(case_.map->grid.index(cell))];
+    if (label != VoxelLabel::Occupied && !(unknown_is_obstacle_ && label == VoxelLabel::Unknown)) return;
+    ++check_.checked;
+    ++voxels_checked_;
+    const Box box = case_.map->grid.box(cell);
+    if (voxel_separated(box, whole)) return;
+    fail(fmt::format("nothing separates the map's voxel at ({:.2f}, {:.2f}, {:.2f}) m in {}", box.center().x(),
+                     box.center().y(), box.center().z(), words(whole)),
+         kNobody);
+  }
+
+  [[nodiscard]] bool voxel_separated(const Box& box, const Part& part) {
+    if (apart(vehicle_box(part), box)) return true;
+    const Vec3 half = 0.5 * box.sizes();
+    for (const CertificatePlane* c : planes_of(part)) {
+      const Vec3& n = c->plane.n;
+      const double least = n.dot(box.center()) - n.cwiseAbs().dot(half) - (n.transpose() * body_.vertices).maxCoeff();
+      if (c->track < 0 && least + c->plane.d >= -kPlaneTolerance) return true;
+    }
+    if (part.parts == kMostParts) return false;
+    return voxel_separated(box, {part.interval, 2 * part.part, 2 * part.parts}) &&
+           voxel_separated(box, {part.interval, 2 * part.part + 1, 2 * part.parts});
+  }
+
+  const PlanCase& case_;
+  const Body& body_;
+  bool unknown_is_obstacle_;
+  Check& check_;
+  std::map<Part, std::vector<const CertificatePlane*>> planes_;
+  std::map<Part, Box> vehicle_boxes_;
+  std::int64_t voxels_checked_ = 0;
+};
+
+/// Whether the body at the end point stays out of a moving box: by halving, each stretch judged by its middle and how
+/// far the centre strays from there. @return the overlap found, m; 0: none
+double overlap(const Body& body, const Vec3& point, const PredictedBox::Stretch& s, double a, double b, int depth) {
+  constexpr int kDeepest = 30;
+  const Vec3 centre = s.curve.p(0.5 * (a + b));
+  const Gap gap = body_gap(body, point - centre, s.half);
+  if (gap.high < -kPlaneTolerance) return -gap.high;
+  const double stray = (bernstein_points(s.curve, a, b).colwise() - centre).colwise().norm().maxCoeff();
+  if (gap.low - stray >= -kPlaneTolerance || depth == kDeepest) return 0.0;
+  const double first = overlap(body, point, s, a, 0.5 * (a + b), depth + 1);
+  return first > 0.0 ? first : overlap(body, point, s, 0.5 * (a + b), b, depth + 1);
+}
+
+void check_hold(const PlanCase& plan, Check& check) {
+  const UTime end = std::max(plan.plan.trajectory.end(), plan.request.t_s);
+  const Vec3 p = plan.end_point();
+  const Body& body = plan.request.body;
+  for (const PredictedBox& obstacle : plan.obstacles) {
+    ++check.checked;
+    for (const PredictedBox::Stretch& s : obstacle.stretches(end, 0.0, plan.plan.hold.seconds())) {
+      const double depth = overlap(body, p, s, s.a, s.b, 0);
+      if (depth <= 0.0) continue;
+      const std::int64_t id = obstacle.track().id;
+      check.fail({end, fmt::format("obstacle {} may reach the end point by {:.3g} m within the hold", id, depth),
+                  plan.request.id, id});
+      break;
+    }
+  }
+}
+
+/// Calls visit(case) for each plan that claims anything; notes those whose inputs are not in the log.
+template <class Visit>
+void for_each_case(const FlightRecord& record, Check& check, const Visit& visit) {
+  for (const Plan& plan : record.plans) {
+    if (plan.outcome == PlanOutcome::NoPlan) continue;
+    std::string why;
+    const auto found = find_case(record, plan, why);
+    if (found) {
+      visit(*found);
+    } else {
+      ++check.unchecked[why];
+    }
+  }
+}
+
+}  // namespace
+
+Check check_certificates(const FlightRecord& record) {
+  Check check{.name = "certificates",
+              .claim = "each plan is separated from all that was predicted, as its certificate says"};
+  const bool unknown = configured(record, "tern-planner", "unknown") == "obstacle";
+  std::int64_t plans = 0, planes = 0, voxels = 0, relaxed = 0;
+  for_each_case(record, check, [&](const PlanCase& plan) {
+    CaseCheck one(plan, unknown, check);
+    one.run();
+    ++plans;
+    planes += one.planes();
+    voxels += one.voxels_checked();
+    relaxed += plan.plan.relaxed ? 1 : 0;
+  });
+  check.summary =
+      fmt::format("{} plans, {} planes, {} pairs{}; {} plans with alpha relaxed at the start", plans, planes,
+                  check.checked - planes, voxels > 0 ? fmt::format(" ({} with voxels)", voxels) : "", relaxed);
+  check.measures = {{"plans", static_cast<double>(plans)},
+                    {"planes", static_cast<double>(planes)},
+                    {"relaxed_plans", static_cast<double>(relaxed)}};
+  return check;
+}
+
+Check check_holds(const FlightRecord& record) {
+  Check check{.name = "holds", .claim = "each plan's end stays clear of all that was predicted for as long as it says"};
+  double shortest = INFINITY;
+  for_each_case(record, check, [&](const PlanCase& plan) {
+    check_hold(plan, check);
+    if (plan.plan.reason != PlanReason::AtGoal) shortest = std::min(shortest, plan.plan.hold.seconds());
+  });
+  if (check.checked > 0 && std::isfinite(shortest)) {
+    check.summary = fmt::format("the shortest hold is {:.2f} s", shortest);
+    check.measures = {{"shortest_hold_s", shortest}};
+  }
+  return check;
+}
+
+}  // namespace tern::audit

@@ -1,0 +1,62 @@
+// A recorded flight as the auditor and the report need it: all messages of interest, decoded and put in order.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/world/flight_result.h"
+#include "core/world/goal.h"
+#include "core/world/health.h"
+#include "core/world/horizon.h"
+#include "core/world/observation.h"
+#include "core/world/region.h"
+#include "core/world/track.h"
+#include "core/world/voxel_map.h"
+#include "tools/log_reader/flight_log.h"
+
+namespace tern::audit {
+
+/// A true obstacle over time.
+struct ObstacleHistory {
+  struct Sample {
+    UTime at;
+    Vec3 p, v;          ///< W, m and m/s
+    Vec3 half_extents;  ///< m
+  };
+  std::vector<Sample> samples;  ///< times strictly ascending
+  bool moves = false;
+};
+
+/// What a log holds of a flight. Times are the vehicle's clock.
+struct FlightRecord {
+  std::string path;
+  LogContents contents;
+
+  std::vector<UavState> states, setpoints;        ///< times strictly ascending
+  std::map<std::int64_t, ObstacleHistory> truth;  ///< by obstacle
+  std::vector<HorizonRequest> requests;           ///< in the log's order, as all below
+  std::vector<Plan> plans;
+  std::vector<PlanTiming> timings;
+  std::vector<Goal> goals;                          ///< each that differs from the one before
+  std::map<MessageName, TrackSet> predictions;      ///< complete sets by the name that plans call them
+  std::int64_t incomplete_predictions = 0;          ///< sets of which a batch is missing
+  std::int64_t truth_left_out = 0;                  ///< most obstacles that a truth message says it left out
+  std::map<std::uint64_t, VoxelMap> maps;           ///< complete ones, by version
+  std::vector<FlightResult> results;                ///< each that differs from the one before
+  std::vector<ConfigurationReport> configurations;  ///< the last of each process
+  std::vector<Region> regions;                      ///< the scenario's; filled by whoever can read configurations
+
+  /// When the flight began: the first request's time, else the first state's.
+  [[nodiscard]] UTime zero() const;
+  /// Until when it is judged: the last state's time.
+  [[nodiscard]] UTime end() const;
+  [[nodiscard]] double seconds(UTime t) const { return (t - zero()).seconds(); }
+};
+
+/// Reads a log (a file and its parts, or the folder of flight.lcm). @return an Error when it cannot be opened.
+Result<FlightRecord> read_flight(const std::string& path);
+
+}  // namespace tern::audit

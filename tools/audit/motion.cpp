@@ -1,0 +1,247 @@
+// Limits, continuity at every splice, and whether what was commanded is what was committed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/audit/audit.h"
+#include "tools/audit/commitment.h"
+
+namespace tern::audit {
+namespace {
+
+constexpr char kAxes[] = {'x', 'y', 'z'};
+/// Extrema are enclosed to this share of the limit: well under kLimitTolerance.
+constexpr double kExtremumShare = 1e-8;
+/// Rounding of a derivative computed in two ways, m, m/s, m/s²; a join is accepted up to kJoinTolerance itself.
+constexpr double kJoinRounding = 1e-8;
+
+struct Quantity {
+  const char* name;
+  const char* unit;
+  int order;
+  const Vec3& limit;
+};
+
+/// The largest magnitude of a derivative of one axis on a curve.
+double largest(const Curve& curve, int axis, int order, double tolerance) {
+  Cubic cubic = curve.axis[static_cast<std::size_t>(axis)];
+  for (int k = 0; k < order; ++k) cubic = cubic.derivative();
+  const Enclosure e = enclose(cubic, 0.0, curve.length_s(), tolerance);
+  return std::max(std::abs(e.low), std::abs(e.high));
+}
+
+class LimitCheck {
+ public:
+  explicit LimitCheck(Check& check) : check_(check) {}
+
+  void plan(const Plan& plan, const HorizonRequest& request) {
+    const std::vector<Curve> curves = curves_of(plan.trajectory);
+    const Limits& l = request.limits;
+    for (const Quantity& q : {Quantity{"speed", "m/s", 1, l.v_max}, Quantity{"acceleration", "m/s2", 2, l.a_max},
+                              Quantity{"jerk", "m/s3", 3, l.j_max}}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!std::isfinite(q.limit[axis])) continue;
+        double value = 0.0;
+        for (const Curve& c : curves)
+          value = std::max(value, largest(c, axis, q.order, kExtremumShare * q.limit[axis]));
+        demand(plan.trajectory.start, request.id, q, axis, value);
+      }
+    }
+    Box box;
+    for (const Curve& c : curves) {
+      Vec3 low, high;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Enclosure e = enclose(c.axis[static_cast<std::size_t>(axis)], 0.0, c.length_s(), kBoxTolerance * 0.1);
+        low[axis] = e.low;
+        high[axis] = e.high;
+      }
+      box.extend(Box(low, high));
+    }
+    inside(plan.trajectory.start, request, box);
+  }
+
+  void state(const UavState& state, const HorizonRequest& request) {
+    const Limits& l = request.limits;
+    const Vec3 values[] = {state.motion.v, state.motion.a, state.motion.j};
+    const Quantity quantities[] = {{"flown speed", "m/s", 1, l.v_max},
+                                   {"flown acceleration", "m/s2", 2, l.a_max},
+                                   {"flown jerk", "m/s3", 3, l.j_max}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis) demand(state.at, 0, quantities[k], axis, std::abs(values[k][axis]));
+    }
+    inside(state.at, request, Box(state.motion.p, state.motion.p));
+  }
+
+  [[nodiscard]] double used(int order) const { return used_[order]; }
+
+ private:
+  void demand(UTime at, std::int64_t request, const Quantity& q, int axis, double value) {
+    ++check_.checked;
+    used_[q.order] = std::max(used_[q.order], value / q.limit[axis]);
+    if (value <= q.limit[axis] * (1.0 + kLimitTolerance + 2.0 * kExtremumShare)) return;
+    check_.fail(
+        {at, fmt::format("{} {} {:.6g} {} beyond {:.6g}", q.name, kAxes[axis], value, q.unit, q.limit[axis]), request});
+  }
+
+  void inside(UTime at, const HorizonRequest& request, const Box& positions) {
+    for (int axis = 0; axis < 3; ++axis) {
+      ++check_.checked;
+      const Vec3 n = Vec3::Unit(axis);
+      const double high = positions.max()[axis] + body_high(request.body, n) - request.flight_box.max()[axis];
+      const double low = request.flight_box.min()[axis] - positions.min()[axis] + body_high(request.body, -n);
+      const double out = std::max(high, low);
+      if (out <= kBoxTolerance * 1.2) continue;
+      check_.fail(
+          {at, fmt::format("the body leaves the flight box by {:.6g} m along {}", out, kAxes[axis]), request.id});
+    }
+  }
+
+  static double body_high(const Body& body, const Vec3& n) {
+    return (n.transpose() * body.vertices).maxCoeff() + body.radius;
+  }
+
+  Check& check_;
+  double used_[4] = {};  ///< greatest share of a limit, by order of derivative
+};
+
+const HorizonRequest* request_of(const FlightRecord& record, const Plan& plan) {
+  for (const HorizonRequest& r : record.requests) {
+    if (r.header.name == plan.inputs.request) return &r;
+  }
+  return nullptr;
+}
+
+void join(UTime at, std::int64_t request, const char* what, const MotionSample& a, const MotionSample& b, Check& check,
+          double& worst) {
+  ++check.checked;
+  const double gap = join_gap(a, b);
+  worst = std::max(worst, gap);
+  if (gap <= kJoinTolerance + kJoinRounding) return;
+  check.fail({at,
+              fmt::format("{}: jumps by {:.3g} m, {:.3g} m/s, {:.3g} m/s2", what, (a.p - b.p).norm(),
+                          (a.v - b.v).norm(), (a.a - b.a).norm()),
+              request});
+}
+
+void ends_at_rest(const Plan& plan, const std::vector<Curve>& curves, Check& check) {
+  ++check.checked;
+  const Curve& last = curves.back();
+  const double s = last.length_s();
+  if (std::max(last.v(s).norm(), last.a(s).norm()) <= kJoinTolerance) return;
+  check.fail({plan.trajectory.start,
+              fmt::format("ends with {:.3g} m/s, {:.3g} m/s2, not at rest", last.v(s).norm(), last.a(s).norm()),
+              plan.request_id});
+}
+
+/// The difference between the states as measured and as commanded at the same time.
+double worst_tracking(const FlightRecord& record) {
+  double worst = 0.0;
+  std::size_t k = 0;
+  for (const UavState& state : record.states) {
+    while (k < record.setpoints.size() && record.setpoints[k].at < state.at) ++k;
+    if (k == record.setpoints.size()) break;
+    if (record.setpoints[k].at == state.at) {
+      worst = std::max(worst, (record.setpoints[k].motion.p - state.motion.p).norm());
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+Check check_limits(const FlightRecord& record) {
+  Check check{.name = "limits", .claim = "every plan and every state kept speed, acceleration, jerk and flight box"};
+  LimitCheck limits(check);
+  for (const Plan& plan : record.plans) {
+    if (!brings_trajectory(plan)) continue;
+    const HorizonRequest* request = request_of(record, plan);
+    if (request == nullptr) {
+      ++check.unchecked["plans whose request is not in the log"];
+    } else {
+      limits.plan(plan, *request);
+    }
+  }
+  if (!record.requests.empty()) {
+    for (const UavState& state : record.states) limits.state(state, record.requests.front());
+  }
+  check.summary = fmt::format("at most {:.1f} % of the speed, {:.1f} % of the acceleration allowed",
+                              limits.used(1) * 100.0, limits.used(2) * 100.0);
+  check.measures = {{"speed_share", limits.used(1)}, {"acceleration_share", limits.used(2)}};
+  return check;
+}
+
+Check check_continuity(const FlightRecord& record) {
+  Check check{.name = "continuity", .claim = "plans join the committed trajectory at every splice and end at rest"};
+  double worst = 0.0;
+  for (const HorizonRequest& r : record.requests) {
+    join(r.t_s, r.id, "the request's start leaves the committed trajectory", r.start,
+         motion_at(curves_of(r.committed), r.t_s), check, worst);
+  }
+  for (const Plan& plan : record.plans) {
+    if (!brings_trajectory(plan)) continue;
+    const std::vector<Curve> curves = curves_of(plan.trajectory);
+    ends_at_rest(plan, curves, check);
+    const HorizonRequest* request = request_of(record, plan);
+    if (request == nullptr) {
+      ++check.unchecked["plans whose request is not in the log"];
+      continue;
+    }
+    if (plan.trajectory.start != request->t_s) {
+      check.fail({plan.trajectory.start, "the plan does not start at its request's t_s", plan.request_id});
+      continue;
+    }
+    join(request->t_s, plan.request_id, "the plan leaves the committed trajectory", motion_at(curves, request->t_s),
+         motion_at(curves_of(request->committed), request->t_s), check, worst);
+  }
+  std::int64_t splices = 0;
+  for (const Commitments& own : commitments(record)) {
+    for (std::size_t k = 1; k < own.list.size(); ++k) {
+      const UTime at = own.list[k].spline.start;
+      join(at, own.list[k].request, "the splice", motion_at(own.list[k].curves, at),
+           motion_at(own.list[k - 1].curves, at), check, worst);
+      ++splices;
+    }
+  }
+  check.summary = fmt::format("{} splices, none jumps by more than {:.2g} (m, m/s, m/s2 per axis)", splices, worst);
+  check.measures = {{"splices", static_cast<double>(splices)}, {"worst_jump", worst}};
+  return check;
+}
+
+Check check_commitment(const FlightRecord& record) {
+  Check check{.name = "commitment",
+              .claim = "what was commanded is the committed trajectory, and that is a logged plan"};
+  const std::vector<Commitments> all = commitments(record);
+  const auto lost = record.contents.channels.find("PLAN");
+  const bool plans_lost = lost != record.contents.channels.end() && lost->second.lost > 0;
+  for (const Commitments& own : all) {
+    for (std::size_t k = 1; k < own.list.size(); ++k) {
+      ++check.checked;
+      if (own.list[k].request != 0) continue;
+      if (plans_lost) {
+        ++check.unchecked["committed trajectories whose plan may be among the PLANs that were lost"];
+      } else {
+        check.fail({own.list[k].spline.start, "flies a trajectory that no plan in the log brought"});
+      }
+    }
+  }
+  if (all.size() > 1)
+    check.unchecked["setpoints: several executors sent requests"] = static_cast<std::int64_t>(all.size());
+  double worst = 0.0;
+  if (all.size() == 1) {
+    for (const UavState& s : record.setpoints) {
+      ++check.checked;
+      const double gap = join_gap(s.motion, motion_at(all.front().at(s.at).curves, s.at));
+      worst = std::max(worst, gap);
+      if (gap > kJoinTolerance)
+        check.fail({s.at, fmt::format("the setpoint is {:.3g} off the committed trajectory", gap)});
+    }
+  }
+  const double tracking = worst_tracking(record);
+  check.summary =
+      fmt::format("setpoints within {:.2g} of it; the vehicle within {:.2g} m of its setpoints", worst, tracking);
+  check.measures = {{"worst_setpoint", worst}, {"tracking_error_m", tracking}};
+  return check;
+}
+
+}  // namespace tern::audit

@@ -1,0 +1,113 @@
+#include "tools/audit/plan_case.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "tools/audit/body_gap.h"
+
+namespace tern::audit {
+namespace {
+
+constexpr double kBoundsTolerance = 1e-4;  // m
+constexpr double kStartRoom = 1e-3;        // m
+constexpr int kHalvings = 40;
+constexpr double kTouching = 1e-6;  // m
+
+Curve resting(const Vec3& p) {
+  Curve curve;
+  for (int k = 0; k < 3; ++k) curve.axis[static_cast<std::size_t>(k)].c[0] = p[k];
+  return curve;
+}
+
+/// What is left of the trajectory from t_s on: a first part of an interval, then whole ones.
+std::vector<Curve> remaining(const Plan& plan, UTime t_s) {
+  std::vector<Curve> rest;
+  for (const Curve& c : curves_of(plan.trajectory)) {
+    if (c.to > t_s) rest.push_back(c.from < t_s ? c.cut(t_s, c.to) : c);
+  }
+  return rest;
+}
+
+}  // namespace
+
+PredictedBox::PredictedBox(const Track& track, double alpha_scale)
+    : track_(track), alpha_scale_(alpha_scale), curves_(curves_of(track.motion)) {}
+
+std::vector<PredictedBox::Stretch> PredictedBox::stretches(UTime origin, double from, double to) const {
+  if (track_.kind == TrackKind::Static) return {{resting(curves_.front().p(0.0)), 0.0, 0.0, half(0)}};
+  std::vector<Stretch> all;
+  const auto grown_by = [&](std::size_t piece, double s) -> Vec3 {
+    return half(piece) + Vec3::Constant(track_.top_speed * s);
+  };
+  const double first = (curves_.front().from - origin).seconds();
+  const double last = (curves_.back().to - origin).seconds();
+  if (from < first) all.push_back({resting(curves_.front().p(0.0)), 0.0, 0.0, grown_by(0, first - from)});
+  for (std::size_t k = 0; k < curves_.size(); ++k) {
+    const double start = (curves_[k].from - origin).seconds();
+    const double a = std::max(from - start, 0.0);
+    const double b = std::min(to - start, curves_[k].length_s());
+    if (a <= b) all.push_back({curves_[k], a, b, half(k)});
+  }
+  if (to > last) {
+    const Curve& end = curves_.back();
+    all.push_back({resting(end.p(end.length_s())), 0.0, 0.0, grown_by(curves_.size() - 1, to - last)});
+  }
+  return all;
+}
+
+Box PredictedBox::bounds(UTime origin, double from, double to) const {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  for (const Stretch& s : stretches(origin, from, to)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Enclosure e = enclose(s.curve.axis[static_cast<std::size_t>(axis)], s.a, s.b, kBoundsTolerance);
+      low[axis] = std::min(low[axis], e.low - s.half[axis]);
+      high[axis] = std::max(high[axis], e.high + s.half[axis]);
+    }
+  }
+  return {low, high};
+}
+
+double relaxed_share(const Track& track, const Body& body, const Vec3& p, UTime t) {
+  const std::vector<Curve> curves = curves_of(track.motion);
+  const UTime at = std::clamp(t, curves.front().from, curves.back().to);
+  std::size_t k = 0;
+  while (k + 1 < curves.size() && curves[k].to <= at) ++k;
+  const Vec3 relative = p - curves[k].p((at - curves[k].from).seconds());
+  const auto room = [&](double share) {
+    return body_gap(body, relative, track.half_extents + share * track.alpha[k]).low;
+  };
+  if (room(1.0) > kTouching) return 1.0;
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (room(middle) > kStartRoom ? low : high) = middle;
+  }
+  return std::max(0.0, low - 2e-6);
+}
+
+std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, std::string& why) {
+  const auto request = std::find_if(record.requests.begin(), record.requests.end(),
+                                    [&](const HorizonRequest& r) { return r.header.name == plan.inputs.request; });
+  const auto predictions = record.predictions.find(plan.inputs.predictions);
+  const auto map = record.maps.find(plan.inputs.map_version);
+  why = "";
+  if (request == record.requests.end()) why = "plans whose request is not in the log";
+  if (predictions == record.predictions.end()) why = "plans whose predictions are not in the log";
+  if (plan.inputs.map_version != 0 && map == record.maps.end()) why = "plans whose map is not in the log";
+  if (!why.empty()) return std::nullopt;
+  PlanCase result{plan,
+                  *request,
+                  predictions->second,
+                  map == record.maps.end() ? nullptr : &map->second,
+                  remaining(plan, request->t_s),
+                  {}};
+  for (const Track& track : result.predictions.tracks) {
+    const double share = plan.relaxed ? relaxed_share(track, request->body, request->start.p, request->t_s) : 1.0;
+    result.obstacles.emplace_back(track, share);
+  }
+  return result;
+}
+
+}  // namespace tern::audit

@@ -1,0 +1,60 @@
+// A plan with all that it was made from, ready to be checked.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/audit/cubic.h"
+#include "tools/audit/flight_record.h"
+
+namespace tern::audit {
+
+/// A predicted obstacle over time, as the planner was told to take it: a box about a moving centre. Before its first
+/// piece and after its last it stays where the piece begins or ends, and grows at its top speed.
+class PredictedBox {
+ public:
+  /// @param alpha_scale  see PlanCase
+  PredictedBox(const Track& track, double alpha_scale);
+
+  /// A stretch of time: the centre moves along `curve` for its parameter in [a, b]; half-extents are the largest ones
+  /// where they grow.
+  struct Stretch {
+    Curve curve;
+    double a = 0.0, b = 0.0;
+    Vec3 half;
+  };
+  /// All of [from, to], seconds after origin, in order.
+  [[nodiscard]] std::vector<Stretch> stretches(UTime origin, double from, double to) const;
+  /// Holds the box over that time; tight to 1e-4 m.
+  [[nodiscard]] Box bounds(UTime origin, double from, double to) const;
+  [[nodiscard]] const Track& track() const { return track_; }
+
+ private:
+  [[nodiscard]] Vec3 half(std::size_t piece) const { return track_.half_extents + alpha_scale_ * track_.alpha[piece]; }
+
+  const Track& track_;
+  double alpha_scale_;
+  std::vector<Curve> curves_;
+};
+
+/// What a plan says it was made from, and its trajectory from t_s on.
+struct PlanCase {
+  const Plan& plan;
+  const HorizonRequest& request;
+  const TrackSet& predictions;
+  const VoxelMap* map = nullptr;        ///< null: the plan names none
+  std::vector<Curve> curves;            ///< from t_s on: interval k of the certificate is curves[k]
+  std::vector<PredictedBox> obstacles;  ///< of the predictions; α scaled where the plan is relaxed
+
+  [[nodiscard]] Vec3 end_point() const { return plan.trajectory.control_points.rightCols<1>(); }
+};
+
+/// The share of its α that leaves the body at p a millimetre of room from the track at t (what `relaxed` promises: the
+/// largest clear value); 1 where it is clear with all of it, 0 where there is no room without any. To 1e-6, low.
+double relaxed_share(const Track& track, const Body& body, const Vec3& p, UTime t);
+
+/// Puts a plan together with its inputs. Nothing, and the reason in `why`, when the log lacks one of them.
+std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, std::string& why);
+
+}  // namespace tern::audit
