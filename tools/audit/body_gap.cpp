@@ -72,7 +72,7 @@ Gap body_gap(const Body& body, const Vec3& p, const Vec3& h) {
     if (length - low < kResolution) break;
     pairwise_step(atoms, x, extreme);
   }
-  return {low - body.radius, x.norm() - body.radius};
+  return {std::min(low, x.norm()) - body.radius, x.norm() - body.radius};
 }
 
 }  // namespace tern::audit

@@ -9,6 +9,7 @@ Result<FlightRecord> load_flight(const std::string& path) {
   auto record = read_flight(path);
   if (!record) return record;
   for (const ConfigurationReport& report : record->configurations) {
+    if (report.yaml.empty()) continue;
     try {
       ConfigDocument document = ConfigDocument::parse(report.yaml, report.process);
       record->regions = read_scenario(document).semantics.regions;
