@@ -13,6 +13,8 @@ namespace {
 
 /// The least clearance is found to this, m.
 constexpr double kResolution = 1e-4;
+/// A collision's verdict comes at the first touch; what follows shows how deep it was.
+constexpr Duration kAfterCollision{100'000};
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 struct Closest {
@@ -126,6 +128,8 @@ Check check_clearance(const FlightRecord& record, std::vector<ClearancePoint>& s
     return check;
   }
   Watch watch{record, record.requests.front().body, judged(record), flown(record), series};
+  const bool collided = !record.results.empty() && record.results.back().outcome == FlightOutcome::Collision;
+  if (collided) watch.window.to = watch.window.to + kAfterCollision;
   count_holes(watch.vehicle, "UAV_STATE", check);
   for (const UavState& s : record.states) {
     if (s.at >= watch.window.from && s.at <= watch.window.to) series.push_back({s.at, kFar, kNobody});

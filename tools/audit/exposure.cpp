@@ -141,7 +141,9 @@ Check check_result(const FlightRecord& record, const Audit& audit) {
   if (clearance.measures.size() >= 2 && std::isfinite(result.min_clearance_m)) {
     ++check.checked;
     const double low = clearance.measures[0].second, high = clearance.measures[1].second, said = result.min_clearance_m;
-    if (said < low - kClearanceOff || said > high + kClearanceOff) {
+    if (result.outcome == FlightOutcome::Collision) {
+      if (low > 0.0) fail(fmt::format("says collision, but the least clearance is at least {:.4f} m", low));
+    } else if (said < low - kClearanceOff || said > high + kClearanceOff) {
       fail(fmt::format("says least clearance {:.4f} m, recomputed {:.4f} to {:.4f} m", said, low, high));
     }
   }
