@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "planner/duration.h"
-#include "planner/optimization/barrier_solver.h"
-#include "planner/optimization/convex_problem.h"
-#include "planner/optimization/ipopt_solver.h"
+#include "planner/optimization/trajectory_problem.h"
 #include "planner/semantics/semantic_guide.h"
 
 namespace tern {
@@ -54,7 +52,8 @@ PlanCost cost_of(const AttemptContext& context, const TimedSpline& trajectory) {
   return cost;
 }
 
-/// A candidate if the checker passes the control points.
+}  // namespace
+
 std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& obstacles, Duration interval,
                                  const Points& control_points, PlanOutcome outcome, double hold_required_s) {
   Candidate c;
@@ -77,27 +76,6 @@ std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& 
   c.cost = cost_of(context, c.trajectory);
   return c;
 }
-
-/// Planes for every pair near the trajectory, each of widest margin: they leave the optimizer the most room.
-std::vector<PlaneConstraint> gather_planes(const AttemptContext& context, SweptObstacles& obstacles,
-                                           const TimedSpline& trajectory) {
-  const ClampedSpline spline = trajectory.spline();
-  std::vector<CertificatePlane> found;
-  PairCounts pairs;
-  for (int j = 0; j < spline.intervals(); ++j) {
-    separate_interval(obstacles, j, spline.power(j), pairs, &found, context.config.optimization.plane_reach_m);
-  }
-  context.statistics.pairs_by_box += pairs.by_box;
-  context.statistics.pairs_by_plane += pairs.by_plane;
-  std::vector<PlaneConstraint> planes;
-  for (const CertificatePlane& c : found) {
-    planes.push_back(
-        {c.interval, static_cast<double>(c.part) / c.parts, static_cast<double>(c.part + 1) / c.parts, c.plane});
-  }
-  return planes;
-}
-
-}  // namespace
 
 double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits) {
   const ClampedSpline spline = trajectory.spline();
@@ -156,50 +134,6 @@ std::optional<Candidate> search_candidate(const AttemptContext& context, SweptOb
   context.statistics.pairs_by_plane += found.pairs.by_plane;
   if (!found.found) return std::nullopt;
   return certify(context, obstacles, interval, found.control_points, PlanOutcome::SearchOnly, hold_required_s);
-}
-
-std::optional<Candidate> optimize_candidate(const AttemptContext& context, SweptObstacles& obstacles,
-                                            const Candidate& searched) {
-  const OptimizationConfig& config = context.config.optimization;
-  TrajectoryProblem problem;
-  problem.start = context.request.start;
-  problem.intervals = context.config.intervals;
-  problem.interval_s = searched.trajectory.interval.seconds();
-  problem.limits = context.plan_limits;
-  problem.sphere_radius = context.config.sphere_radius_m;
-  problem.centre_box = centre_box(context.request.flight_box, context.request.body);
-  problem.clearance = context.request.body.radius;
-  problem.weight_jerk = config.weight_jerk;
-  problem.weight_goal = config.weight_goal;
-  problem.reach = config.plane_reach_m;
-  // With semantics the leaf stands where it does on purpose: the optimizer smooths the way there. But a leaf in the
-  // last band stands anywhere within half a metre of the goal, and there the goal counts.
-  const Points& leaf = searched.trajectory.control_points;
-  const Vec3 end = leaf.col(leaf.cols() - 1);
-  const bool arrives = context.way.from(end) <= context.config.search.band_m;
-  problem.goal = context.fields != nullptr && !arrives ? end : context.local_goal;
-
-  std::optional<Candidate> best;
-  TimedSpline current = searched.trajectory;
-  const double hold_required = std::min(context.config.hold_required_s, searched.hold_s);
-  for (int round = 0; round < config.rounds; ++round) {
-    if (context.observer != nullptr) context.observer->enter(Stage::Optimization);
-    if (context.budget.expired(Stage::Optimization)) break;
-    const ConvexProblem convex =
-        make_convex_problem(problem, gather_planes(context, obstacles, current), current.control_points);
-    const auto solve = config.solver == ConvexSolver::Barrier ? solve_by_barrier : solve_by_ipopt;
-    const ConvexSolution solution = solve(convex, free_variables(current.control_points), config.max_iterations,
-                                          [&] { return context.budget.expired(Stage::Optimization); });
-    context.statistics.solver_iterations += solution.iterations;
-    if (!solution.found) break;
-    auto candidate = certify(context, obstacles, current.interval, control_points_of(solution.x, problem),
-                             PlanOutcome::Optimized, hold_required);
-    if (!candidate || candidate->hold_s < hold_required) break;
-    candidate->holds = candidate->hold_s >= context.config.hold_required_s;
-    current = candidate->trajectory;
-    best = std::move(candidate);
-  }
-  return best;
 }
 
 }  // namespace tern

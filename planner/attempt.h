@@ -1,4 +1,4 @@
-// One attempt: a duration and a way to go, searched, optimized and certified.
+// One attempt: a duration and a way to go, searched and certified.
 #pragma once
 
 #include <optional>
@@ -52,10 +52,10 @@ SweptObstacles sweep_horizon(const AttemptContext& context, Duration interval);
 std::optional<Candidate> search_candidate(const AttemptContext& context, SweptObstacles& obstacles, Duration interval,
                                           double hold_required_s, const SearchConfig& config);
 
-/// Optimizes a search result with Eq. 4 (`alternating`). Nothing: no iterate that the checker passes and that holds as
-/// long.
-std::optional<Candidate> optimize_candidate(const AttemptContext& context, SweptObstacles& obstacles,
-                                            const Candidate& searched);
+/// A candidate if the checker passes the control points.
+/// @param hold_required_s  what its end must hold to count as holding
+std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& obstacles, Duration interval,
+                                 const Points& control_points, PlanOutcome outcome, double hold_required_s);
 
 /// When the goal would be reached if the trajectory were flown for a while and the rest time-optimally, per axis: the
 /// mean over two such whiles. Comparing ends instead would favour short plans, because every plan brakes at its end and

@@ -10,6 +10,7 @@
 #include "planner/duration.h"
 #include "planner/evasion.h"
 #include "planner/global_path/local_goal.h"
+#include "planner/refinement.h"
 #include "planner/start_clearance.h"
 
 namespace tern {
@@ -227,7 +228,7 @@ class Planning {
   [[nodiscard]] bool enough() const { return best_->holds && best_->cost.distance_to_goal <= kNearLocalGoal; }
 
   void optimize(AttemptContext& context, SweptObstacles& swept) {
-    auto optimized = optimize_candidate(context, swept, *best_);
+    auto optimized = refine(context, swept, *best_);
     if (!optimized) return;
     if (best_->holds && !optimized->holds) return;
     if (optimized->arrival_s > best_->arrival_s + kSmoothnessPrice) return;

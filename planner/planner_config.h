@@ -21,8 +21,8 @@ struct SearchConfig {
   double prune_velocity_mps = 1.5;  ///< the coarse velocity
 };
 
-/// How Eq. 4 is solved. Alternating: for points with the planes fixed, then the planes anew.
-enum class OptimizationMethod { SearchOnly, Alternating };
+/// How Eq. 4 is solved. Alternating: for points with the planes fixed, then the planes anew. Joint: for both together.
+enum class OptimizationMethod { SearchOnly, Alternating, Joint, AlternatingThenJoint };
 /// Of the convex problem with the planes fixed.
 enum class ConvexSolver { Barrier, Ipopt };
 

@@ -16,10 +16,16 @@ void read_search(ConfigSection section, SearchConfig& c) {
   section.finish();
 }
 
+OptimizationMethod method_of(const std::string& name) {
+  if (name == "search_only") return OptimizationMethod::SearchOnly;
+  if (name == "joint") return OptimizationMethod::Joint;
+  if (name == "alternating_then_joint") return OptimizationMethod::AlternatingThenJoint;
+  return OptimizationMethod::Alternating;
+}
+
 void read_optimization(ConfigSection section, OptimizationConfig& c) {
-  c.method = section.choice("method", "alternating", {"search_only", "alternating"}) == "search_only"
-                 ? OptimizationMethod::SearchOnly
-                 : OptimizationMethod::Alternating;
+  c.method = method_of(
+      section.choice("method", "alternating", {"search_only", "alternating", "joint", "alternating_then_joint"}));
   c.solver = section.choice("solver", "barrier", {"barrier", "ipopt"}) == "ipopt" ? ConvexSolver::Ipopt
                                                                                   : ConvexSolver::Barrier;
   c.weight_jerk = section.number("weight_jerk", c.weight_jerk, Range::positive(1e6));

@@ -1,24 +1,28 @@
-// The convex problem of `alternating` by Ipopt. The only Ipopt in Tern; not safe from two threads at once (MUMPS).
+// Ipopt behind two functions. The only Ipopt in Tern; not safe from two threads at once (MUMPS).
 #pragma once
 
-#include "planner/optimization/convex_problem.h"
 #include "planner/optimization/convex_solution.h"
+#include "planner/optimization/nonlinear_problem.h"
 
 namespace tern {
 
-/// Minimises from x0; every iterate that Ipopt evaluates is harvested if it is feasible, so that the answer is anytime.
-/// @param stop  asked once per iteration; true ends the solve with the best so far.
-/// Exact derivatives: ∇f = H x + g; rows constant; ∇‖p_k‖² = 2 W_kᵀ p_k with Hessian 2 W_kᵀ W_k.
+/// How a run of Ipopt ended; its points were shown on the way.
+struct IpoptRun {
+  bool failed = false;  ///< in error: not solved, not to an acceptable level, not stopped, iterations not used up
+  int iterations = 0;
+};
+
+/// Shown x and c(x), first for x0, then wherever Ipopt evaluates the constraints: what is to be kept is the caller's to
+/// decide.
+using Visit = std::function<void(const Eigen::VectorXd& x, const Eigen::VectorXd& constraints)>;
+
+/// Minimises from x0 with exact derivatives. @param stop  asked once per iteration
+IpoptRun minimise_by_ipopt(const NonlinearProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
+                           const StopFunction& stop, const Visit& visit);
+
+/// The convex problem from x0; every feasible point that Ipopt evaluates is harvested, so that the answer is anytime.
+/// No certified gap.
 ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
                               const StopFunction& stop);
-
-/// The derivatives that Ipopt is given, for tests: constraint values, Jacobian, Hessian of the Lagrangian.
-struct ConvexDerivatives {
-  Eigen::VectorXd constraints;  ///< rows·x, then ‖p_k‖²
-  Eigen::MatrixXd jacobian;
-  Eigen::MatrixXd lagrangian_hessian;  ///< objective_factor·H + Σ multipliers · ∇²constraint
-};
-ConvexDerivatives derivatives_for_ipopt(const ConvexProblem& problem, const Eigen::VectorXd& x, double objective_factor,
-                                        const Eigen::VectorXd& multipliers);
 
 }  // namespace tern

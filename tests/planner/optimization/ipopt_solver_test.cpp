@@ -27,11 +27,12 @@ TEST(IpoptDerivatives, GradientJacobianAndHessianMatchFiniteDifferences) {
     Eigen::VectorXd multipliers(p.rows.rows() + p.spheres());
     for (Eigen::Index i = 0; i < multipliers.size(); ++i) multipliers[i] = rng.uniform(-2.0, 2.0);
     const double factor = rng.uniform(0.0, 2.0);
-    const ConvexDerivatives at = derivatives_for_ipopt(p, x, factor, multipliers);
+    const ConvexAsNonlinear nonlinear(p);
+    const DenseDerivatives at = dense_derivatives(nonlinear, x, factor, multipliers);
     const Eigen::VectorXd gradient = p.hessian * x + p.gradient;
     const auto lagrangian_gradient = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
       return factor * (p.hessian * y + p.gradient) +
-             derivatives_for_ipopt(p, y, factor, multipliers).jacobian.transpose() * multipliers;
+             dense_derivatives(nonlinear, y, factor, multipliers).jacobian.transpose() * multipliers;
     };
     constexpr double h = 1e-4;  // all functions are quadratic: central differences err by rounding alone
     for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -41,9 +42,7 @@ TEST(IpoptDerivatives, GradientJacobianAndHessianMatchFiniteDifferences) {
       const Eigen::VectorXd below = x - step;
       const double slope = (p.objective(above) - p.objective(below)) / (2.0 * h);
       ASSERT_NEAR(gradient[i], slope, 1e-5 * (1.0 + std::abs(slope) + p.constant)) << "seed " << seed;
-      const Eigen::VectorXd column = (derivatives_for_ipopt(p, above, factor, multipliers).constraints -
-                                      derivatives_for_ipopt(p, below, factor, multipliers).constraints) /
-                                     (2.0 * h);
+      const Eigen::VectorXd column = (nonlinear.constraints(above) - nonlinear.constraints(below)) / (2.0 * h);
       const double scale = 1.0 + at.jacobian.cwiseAbs().maxCoeff();
       ASSERT_LE((at.jacobian.col(i) - column).cwiseAbs().maxCoeff(), 1e-6 * scale) << "seed " << seed;
       const Eigen::VectorXd curvature = (lagrangian_gradient(above) - lagrangian_gradient(below)) / (2.0 * h);
@@ -58,10 +57,10 @@ TEST(IpoptDerivatives, ConstraintsAreTheRowsAndTheSquaredDistancesFromTheSpheres
   const Instance instance = random_instance(3);
   const ConvexProblem p = instance.convex();
   const Eigen::VectorXd x = free_variables(instance.initial);
-  const ConvexDerivatives at = derivatives_for_ipopt(p, x, 1.0, Eigen::VectorXd::Zero(p.rows.rows() + p.spheres()));
-  EXPECT_EQ(at.constraints.head(p.rows.rows()), p.rows * x);
-  EXPECT_LE((at.constraints.array().head(p.rows.rows()) - p.bounds.array()).maxCoeff(), 0.0);
-  EXPECT_LE(at.constraints.tail(p.spheres()).maxCoeff(), p.sphere_radius2);
+  const Eigen::VectorXd constraints = ConvexAsNonlinear(p).constraints(x);
+  EXPECT_EQ(constraints.head(p.rows.rows()), p.rows * x);
+  EXPECT_LE((constraints.array().head(p.rows.rows()) - p.bounds.array()).maxCoeff(), 0.0);
+  EXPECT_LE(constraints.tail(p.spheres()).maxCoeff(), p.sphere_radius2);
 }
 
 /// Oracle: Eq. 4 without constraints as linear least squares, its residuals read off the spline.

@@ -1,8 +1,9 @@
 // Random instances of Eq. 4, with a start that a search could have given.
 #pragma once
 
+#include "core/geometry/box.h"
 #include "core/geometry/separation.h"
-#include "planner/optimization/convex_problem.h"
+#include "planner/optimization/joint_problem.h"
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"
 
@@ -11,9 +12,15 @@ namespace tern::test_support {
 struct Instance {
   TrajectoryProblem problem;
   std::vector<PlaneConstraint> planes;
-  Points initial;  ///< control points
+  std::vector<Points> hulls;  ///< what each plane holds off
+  Points initial;             ///< control points
 
   [[nodiscard]] ConvexProblem convex() const { return make_convex_problem(problem, planes, initial); }
+  [[nodiscard]] std::vector<SeparatedPair> pairs() const {
+    std::vector<SeparatedPair> pairs;
+    for (std::size_t k = 0; k < planes.size(); ++k) pairs.push_back({planes[k], hulls[k]});
+    return pairs;
+  }
 };
 
 /// Box obstacles beside the initial way, each separated from those intervals and parts that it lies near.
@@ -21,15 +28,16 @@ inline void add_planes(Rng& rng, Instance& instance) {
   const ClampedSpline spline(instance.initial, instance.problem.interval_s);
   for (int i = 0; i < 6; ++i) {
     const Vec3 near = spline.sample(rng.uniform() * spline.duration_s()).p + support::random_vector(rng, 1.0);
-    Points box(3, 2);
-    box << near, near + Vec3::Constant(0.3);
+    const Points box = box_corners(Box(near, near + Vec3::Constant(0.3)));
     for (int j = 0; j < spline.intervals(); ++j) {
       const int parts = 1 << support::random_integer(rng, 0, 2);
       const int part = support::random_integer(rng, 0, parts - 1);
       const double u0 = static_cast<double>(part) / parts;
       const double u1 = (part + 1.0) / parts;
       const auto found = separate(box, Points(spline.minvo(j, u0, u1)), instance.problem.clearance);
-      if (found) instance.planes.push_back({j, u0, u1, found->plane});
+      if (!found) continue;
+      instance.planes.push_back({j, u0, u1, found->plane});
+      instance.hulls.push_back(box);
     }
   }
 }

@@ -1,0 +1,77 @@
+#include "planner/optimization/nonlinear_problem.h"
+
+namespace tern {
+
+ConvexAsNonlinear::ConvexAsNonlinear(const ConvexProblem& problem) : p_(problem) {
+  const auto rows = static_cast<int>(p_.rows.rows());
+  const int n = p_.variables();
+  bounds_.resize(rows + p_.spheres());
+  bounds_.head(rows) = p_.bounds;
+  bounds_.tail(p_.spheres()).setConstant(p_.sphere_radius2);
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < n; ++c) {
+      if (p_.rows(r, c) != 0.0) jacobian_pattern_.add(r, c);
+    }
+  }
+  for (int k = 0; k < p_.spheres(); ++k) {
+    for (int c = 0; c < n; ++c) {
+      if (p_.sphere_weights(k, c / 3) != 0.0) jacobian_pattern_.add(rows + k, c);
+    }
+  }
+  for (int r = 0; r < n; ++r) {
+    for (int c = r % 3; c <= r; c += 3) hessian_pattern_.add(r, c);  // axes do not mix
+  }
+}
+
+Eigen::VectorXd ConvexAsNonlinear::gradient(const Eigen::VectorXd& x) const { return p_.hessian * x + p_.gradient; }
+
+Eigen::VectorXd ConvexAsNonlinear::constraints(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd c(bounds_.size());
+  c.head(p_.rows.rows()) = p_.rows * x;
+  for (int k = 0; k < p_.spheres(); ++k) c[p_.rows.rows() + k] = p_.sphere_point(k, x).squaredNorm();
+  return c;
+}
+
+void ConvexAsNonlinear::jacobian(const Eigen::VectorXd& x, double* values) const {
+  const auto rows = static_cast<int>(p_.rows.rows());
+  Points at(3, p_.spheres());
+  for (int k = 0; k < p_.spheres(); ++k) at.col(k) = p_.sphere_point(k, x);
+  for (std::size_t e = 0; e < jacobian_pattern_.size(); ++e) {
+    const int row = jacobian_pattern_.rows[e];
+    const int column = jacobian_pattern_.columns[e];
+    values[e] = row < rows ? p_.rows(row, column)
+                           : 2.0 * p_.sphere_weights(row - rows, column / 3) * at(column % 3, row - rows);
+  }
+}
+
+void ConvexAsNonlinear::hessian(const Eigen::VectorXd&, double factor, const double* multipliers,
+                                double* values) const {
+  for (std::size_t e = 0; e < hessian_pattern_.size(); ++e) {
+    const int row = hessian_pattern_.rows[e];
+    const int column = hessian_pattern_.columns[e];
+    double h = factor * p_.hessian(row, column);
+    for (int k = 0; k < p_.spheres(); ++k) {
+      h += multipliers[p_.rows.rows() + k] * 2.0 * p_.sphere_weights(k, row / 3) * p_.sphere_weights(k, column / 3);
+    }
+    values[e] = h;
+  }
+}
+
+DenseDerivatives dense_derivatives(const NonlinearProblem& problem, const Eigen::VectorXd& x, double factor,
+                                   const Eigen::VectorXd& multipliers) {
+  const SparsePattern& j = problem.jacobian_pattern();
+  const SparsePattern& h = problem.hessian_pattern();
+  std::vector<double> values(std::max(j.size(), h.size()));
+  DenseDerivatives d{Eigen::MatrixXd::Zero(problem.bounds().size(), x.size()),
+                     Eigen::MatrixXd::Zero(x.size(), x.size())};
+  problem.jacobian(x, values.data());
+  for (std::size_t e = 0; e < j.size(); ++e) d.jacobian(j.rows[e], j.columns[e]) += values[e];
+  problem.hessian(x, factor, multipliers.data(), values.data());
+  for (std::size_t e = 0; e < h.size(); ++e) {
+    d.lagrangian_hessian(h.rows[e], h.columns[e]) += values[e];
+    if (h.rows[e] != h.columns[e]) d.lagrangian_hessian(h.columns[e], h.rows[e]) += values[e];
+  }
+  return d;
+}
+
+}  // namespace tern

@@ -1,0 +1,68 @@
+// A smooth problem as a general solver asks for it: values and exact sparse derivatives.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planner/optimization/convex_problem.h"
+
+namespace tern {
+
+/// Which entries of a matrix can be non-zero, in the order in which their values are given.
+struct SparsePattern {
+  std::vector<int> rows, columns;
+
+  [[nodiscard]] std::size_t size() const { return rows.size(); }
+  void add(int row, int column) {
+    rows.push_back(row);
+    columns.push_back(column);
+  }
+};
+
+/// min f(x)   subject to   c(x) ≤ b.
+class NonlinearProblem {
+ public:
+  virtual ~NonlinearProblem() = default;
+  [[nodiscard]] virtual int variables() const = 0;
+  [[nodiscard]] virtual const Eigen::VectorXd& bounds() const = 0;  ///< b
+  [[nodiscard]] virtual const SparsePattern& jacobian_pattern() const = 0;
+  [[nodiscard]] virtual const SparsePattern& hessian_pattern() const = 0;  ///< lower triangle
+  [[nodiscard]] virtual double objective(const Eigen::VectorXd& x) const = 0;
+  [[nodiscard]] virtual Eigen::VectorXd gradient(const Eigen::VectorXd& x) const = 0;     ///< ∇f
+  [[nodiscard]] virtual Eigen::VectorXd constraints(const Eigen::VectorXd& x) const = 0;  ///< c
+  /// ∇c, one value per entry of the pattern.
+  virtual void jacobian(const Eigen::VectorXd& x, double* values) const = 0;
+  /// factor ∇²f + Σ multiplier_i ∇²c_i, one value per entry of the pattern.
+  virtual void hessian(const Eigen::VectorXd& x, double factor, const double* multipliers, double* values) const = 0;
+};
+
+/// A ConvexProblem so seen: c stacks A x and ‖W_k x + p_k‖², whose gradients are A's rows and 2 W_kᵀ(W_k x + p_k).
+class ConvexAsNonlinear final : public NonlinearProblem {
+ public:
+  explicit ConvexAsNonlinear(const ConvexProblem& problem);  ///< kept by reference
+
+  [[nodiscard]] int variables() const override { return p_.variables(); }
+  [[nodiscard]] const Eigen::VectorXd& bounds() const override { return bounds_; }
+  [[nodiscard]] const SparsePattern& jacobian_pattern() const override { return jacobian_pattern_; }
+  [[nodiscard]] const SparsePattern& hessian_pattern() const override { return hessian_pattern_; }
+  [[nodiscard]] double objective(const Eigen::VectorXd& x) const override { return p_.objective(x); }
+  [[nodiscard]] Eigen::VectorXd gradient(const Eigen::VectorXd& x) const override;
+  [[nodiscard]] Eigen::VectorXd constraints(const Eigen::VectorXd& x) const override;
+  void jacobian(const Eigen::VectorXd& x, double* values) const override;
+  void hessian(const Eigen::VectorXd& x, double factor, const double* multipliers, double* values) const override;
+
+ private:
+  const ConvexProblem& p_;
+  Eigen::VectorXd bounds_;
+  SparsePattern jacobian_pattern_, hessian_pattern_;
+};
+
+/// The derivatives at x as dense matrices, for tests.
+struct DenseDerivatives {
+  Eigen::MatrixXd jacobian;
+  Eigen::MatrixXd lagrangian_hessian;  ///< both triangles
+};
+DenseDerivatives dense_derivatives(const NonlinearProblem& problem, const Eigen::VectorXd& x, double factor,
+                                   const Eigen::VectorXd& multipliers);
+
+}  // namespace tern

@@ -1,0 +1,85 @@
+// Eq. 4's data, and the points of the curve that its constraints speak of, as functions of the free control points.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "core/geometry/separation.h"
+#include "core/splines/clamped_spline.h"
+#include "core/world/horizon.h"
+#include "planner/planner_config.h"
+
+namespace tern {
+
+/// A plane that the vehicle's curve must stay behind during part [u0, u1] of an interval.
+struct PlaneConstraint {
+  int interval = 0;
+  double u0 = 0.0, u1 = 1.0;
+  Plane plane;
+};
+
+/// What Eq. 4 needs; the free variables are q_3 … q_{n-2}, with q_{n-2} = q_{n-1} = q_n.
+struct TrajectoryProblem {
+  MotionSample start;
+  int intervals = 6;                            ///< J
+  double interval_s = 0.2;                      ///< Δt
+  Limits limits;                                ///< v_max already reduced to the share that plans may use
+  double sphere_radius = 4.0;                   ///< S about the start
+  Box centre_box;                               ///< flight box for the centre
+  double clearance = 0.0;                       ///< radius of a spherical body, m
+  Vec3 goal = Vec3::Zero();                     ///< s_g^temp
+  double weight_jerk = 0.0, weight_goal = 1.0;  ///< ω_u, ω_g
+  double reach = 1e9;  ///< constraints on position farther than this from x0 are left out, m; the checker sees all
+};
+
+/// Kept between the optimizer's planes and the vehicle, beyond the radius, m: so that the checker, which refuses what
+/// lies within kTouchingTolerance of touching, accepts an iterate that sits on its bound.
+inline constexpr double kOptimizerMargin = 5e-6;
+
+/// How far beyond its plane the curve must stay: at −this or less.
+inline double plane_margin(const TrajectoryProblem& problem) {
+  return std::max(problem.clearance, kPlaneMargin) + kOptimizerMargin;
+}
+
+/// A point that is affine in the free control points: Σ_i weight_i q_{3+i} + offset, on each axis alike.
+struct AffinePoint {
+  Eigen::VectorXd weights;  ///< J − 2
+  Vec3 offset = Vec3::Zero();
+
+  [[nodiscard]] bool fixed() const { return weights.cwiseAbs().maxCoeff() < 1e-12; }  ///< the start decides it alone
+  [[nodiscard]] Vec3 at(const Eigen::VectorXd& x) const;
+};
+
+/// Hull points and control points of the curve and its derivatives as affine points.
+class CurvePoints {
+ public:
+  /// @param problem  kept by reference
+  explicit CurvePoints(const TrajectoryProblem& problem);
+
+  [[nodiscard]] int free_points() const { return free_; }  ///< J − 2
+  /// Σ_k c_k q_{j+k}: a combination of the four control points of interval j.
+  [[nodiscard]] AffinePoint combination(int j, const Eigen::Vector4d& c) const;
+  /// The points whose hull holds the part [u0, u1] of interval j.
+  [[nodiscard]] std::array<AffinePoint, 4> hull(int j, double u0 = 0.0, double u1 = 1.0) const;
+  /// The points whose hull holds the velocity of interval j, m/s.
+  [[nodiscard]] std::array<AffinePoint, 3> velocity_hull(int j) const;
+  /// v_l = (q_{l+1} − q_l)/Δt for l ≥ 2, m/s.
+  [[nodiscard]] AffinePoint velocity_control_point(int l) const;
+  [[nodiscard]] AffinePoint acceleration_at_end(int j) const;  ///< of interval j, m/s²
+  [[nodiscard]] AffinePoint jerk(int j) const;                 ///< m/s³
+
+ private:
+  const TrajectoryProblem& problem_;
+  const SplineBasis& basis_;
+  int free_;
+  Points3 start_;
+};
+
+/// The free variables of control points (3×(J+3)), and back.
+Eigen::VectorXd free_variables(const Points& control_points);
+Points control_points_of(const Eigen::VectorXd& x, const TrajectoryProblem& problem);
+
+/// Eq. 4's first term without its weight: Σ_j ‖jerk_j‖².
+double jerk_cost(const Points& control_points, double interval_s);
+
+}  // namespace tern
