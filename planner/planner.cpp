@@ -198,11 +198,10 @@ class Planning {
     return true;
   }
 
-  /// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, the best
-  /// kept.
+  /// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, each
+  /// leaf optimized, the best kept.
   void try_durations(AttemptContext& context) {
     const double least = least_duration(request_.start, context.local_goal, context.plan_limits);
-    std::optional<SweptObstacles> best_swept;
     int attempt = 0;
     for (const double scale : config_.duration_scales) {
       budget_.begin_attempt(attempt++);
@@ -211,28 +210,28 @@ class Planning {
       enter(Stage::Hulls);
       SweptObstacles swept = sweep_horizon(context, interval);
       auto found = search_candidate(context, swept, interval, config_.hold_required_s, config_.search);
-      if (found && (!best_ || found->better_than(*best_))) {
-        best_ = std::move(found);
-        best_swept.emplace(std::move(swept));
-        offer(&*best_, PlanReason::None);
-      } else {
-        answer_.statistics.hulls += swept.hulls_made();
+      if (found) {
+        if (!best_ || found->better_than(*best_)) offer(&*found, PlanReason::None);
+        take(optimized(context, swept, std::move(*found)));
       }
+      answer_.statistics.hulls += swept.hulls_made();
     }
-    if (best_ && config_.optimization.method != OptimizationMethod::SearchOnly) optimize(context, *best_swept);
-    if (best_swept) answer_.statistics.hulls += best_swept->hulls_made();
     if (!best_) reason_ = reason_of_nothing();
   }
 
   /// A longer duration is not tried when a leaf holds and comes near the local goal.
   [[nodiscard]] bool enough() const { return best_->holds && best_->cost.distance_to_goal <= kNearLocalGoal; }
 
-  void optimize(AttemptContext& context, SweptObstacles& swept) {
-    auto optimized = refine(context, swept, *best_);
-    if (!optimized) return;
-    if (best_->holds && !optimized->holds) return;
-    if (optimized->arrival_s > best_->arrival_s + kSmoothnessPrice) return;
-    best_ = std::move(optimized);
+  /// The optimizer's trajectory, where it neither gives up the leaf's hold nor much of its arrival; else the leaf.
+  Candidate optimized(AttemptContext& context, SweptObstacles& swept, Candidate leaf) {
+    auto smooth = refine(context, swept, leaf);
+    if (!smooth || (leaf.holds && !smooth->holds)) return leaf;
+    return smooth->arrival_s <= leaf.arrival_s + kSmoothnessPrice ? std::move(*smooth) : leaf;
+  }
+
+  void take(Candidate candidate) {
+    if (best_ && !candidate.better_than(*best_)) return;
+    best_ = std::move(candidate);
     offer(&*best_, PlanReason::None);
   }
 
