@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# The flight campaigns of docs/results.md. What has been flown is not flown again, so it may be stopped and started at will.
+#   launch_scripts/results.sh [--share S] [--out DIR] [NAME...]
+# S: a share of the seeds, 1 = all (3000 flights of the hard worlds, 200 of each other one); NAME: only these campaigns.
+set -euo pipefail
+# shellcheck source=launch_scripts/lib.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
+
+# name, scenario, obstacles, seeds, further settings
+readonly CAMPAIGNS="
+paper_corridor_300 paper_corridor 300 1000
+mader_own_limits_250 mader_corridor_own_limits 250 1000
+sando_forest_200 sando_forest 200 1000
+paper_corridor_50 paper_corridor 50 200
+paper_corridor_100 paper_corridor 100 200
+paper_corridor_200 paper_corridor 200 200
+mader_corridor_50 mader_corridor 50 200
+mader_corridor_150 mader_corridor 150 200
+mader_corridor_250 mader_corridor 250 200
+mader_own_limits_140 mader_corridor_own_limits 140 200
+sando_forest_50 sando_forest 50 200
+sando_forest_100 sando_forest 100 200
+"
+
+share=1 out=$TERN_ROOT/build/results only=" "
+while (($#)); do
+  case $1 in
+    --share) share=${2:?} && shift 2 ;;
+    --out) out=${2:?} && shift 2 ;;
+    -h | --help) sed -n '2,4s/^# //p' "$0" && exit ;;
+    -*) die "no option $1" ;;
+    *) only+="$1 " && shift ;;
+  esac
+done
+
+build_programs
+mkdir -p "$out"
+while read -r name scenario count seeds settings; do
+  [[ -n $name ]] || continue
+  [[ $only == " " || $only == *" $name "* ]] || continue
+  last=$(awk -v n="$seeds" -v s="$share" 'BEGIN { k = int(n * s); print k < 1 ? 1 : k }')
+  say "== $name: seeds 1 to $last"
+  # shellcheck disable=SC2086  # settings are words
+  "$TERN_BIN/tern-campaign" --world "$TERN_ROOT/scenarios/$scenario.yaml" --count "$count" --seeds "1:$last" $settings \
+    --out "$out/$name.csv" --summary "$out/$name.json"
+done <<<"$CAMPAIGNS"
+"$TERN_ROOT/docs/results/table.py" "$out"/*.json
