@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# campaign_slurm.sh: a campaign as a Slurm job array; campaign_slurm.sh --help.
+#SBATCH --job-name=tern-campaign
+#SBATCH --output=tern-campaign-%A_%a.out
+set -euo pipefail
+# Slurm runs a copy from its spool: the project is where the job was submitted from.
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+[[ -e $here/lib.sh ]] || here=${SLURM_SUBMIT_DIR:?}/launch_scripts
+# shellcheck source=launch_scripts/lib.sh
+source "$here/lib.sh"
+
+usage() {
+  cat <<'END'
+campaign_slurm.sh DIR SHARDS OPTION...: flies a campaign on a Slurm cluster.
+
+Run it in the project's folder, which every node must see, as DIR. It submits an array of SHARDS jobs, each of which flies its
+share of the seeds into DIR/shards/, and a job that merges them when all have ended well, into DIR/flights.csv and
+DIR/summary.json. OPTION... are tern-campaign's: --world, --count, --seeds, --set, --charge, --audit.
+Cores per job: CPUS=K in the environment (default 4). Partition, account, time limit and so on: Slurm's own variables,
+SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT. After a failure or a time limit the same command goes on where it stopped.
+END
+}
+
+[[ ${1:-} != --help && ${1:-} != -h ]] || { usage && exit 0; }
+[[ $# -ge 3 && $2 =~ ^[1-9][0-9]*$ ]] || { usage >&2 && exit 2; }
+dir=$1 shards=$2
+shift 2
+
+if [[ -z ${SLURM_JOB_ID:-} ]]; then
+  build_programs
+  mkdir -p "$dir/shards"
+  array=$(sbatch --parsable --array="1-$shards" --cpus-per-task="${CPUS:-4}" "${BASH_SOURCE[0]}" "$dir" "$shards" "$@")
+  merge=$(sbatch --parsable --dependency="afterok:${array%%;*}" "${BASH_SOURCE[0]}" "$dir" "$shards" --merge)
+  say "submitted: $shards shards as job ${array%%;*}, then their merging as job ${merge%%;*}"
+elif [[ $1 == --merge ]]; then
+  parts=()
+  for ((k = 1; k <= shards; k++)); do parts+=("$dir/shards/$k.csv"); done
+  exec "$TERN_BIN/tern-campaign" merge "${parts[@]}" --out "$dir/flights.csv" --summary "$dir/summary.json"
+else
+  k=$SLURM_ARRAY_TASK_ID
+  exec "$TERN_BIN/tern-campaign" "$@" --jobs "${SLURM_CPUS_PER_TASK:-1}" --shard "$k/$shards" --out "$dir/shards/$k.csv" \
+    --failures "$dir/failures"
+fi

@@ -1,0 +1,132 @@
+#include "campaign/records/flight_book.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tests/campaign/some_flights.h"
+#include "tests/logger/temp_folder.h"
+
+namespace tern {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void append(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::app) << text; }
+
+FlightBook open(const std::string& file) {
+  auto book = FlightBook::open(file, some_flight(1).identity);
+  if (!book) throw std::runtime_error(book.error().message);
+  return std::move(*book);
+}
+
+class FlightBookTest : public ::testing::Test {
+ protected:
+  void add(FlightBook& book, std::uint64_t seed) {
+    const auto added = book.add(some_flight(seed), some_times(seed));
+    ASSERT_TRUE(added) << added.error().message;
+  }
+
+  TempFolder folder_;
+  std::string file_ = folder_.file("flights.csv");
+};
+
+TEST_F(FlightBookTest, HoldsWhatWasAddedWhenItIsOpenedAgain) {
+  {
+    FlightBook book = open(file_);
+    add(book, 7), add(book, 2);
+  }
+  FlightBook book = open(file_);
+  EXPECT_TRUE(book.has(7));
+  EXPECT_TRUE(book.has(2));
+  EXPECT_FALSE(book.has(1));
+  EXPECT_EQ(to_cells(book.flights().records.at(7)), to_cells(some_flight(7)));
+  EXPECT_EQ(book.flights().times.at(2).times, some_times(2).times);
+}
+
+TEST_F(FlightBookTest, SortedIsTheSameWhateverTheOrder) {
+  {
+    FlightBook book = open(file_);
+    add(book, 3), add(book, 1), add(book, 2);
+    ASSERT_TRUE(book.close_sorted());
+  }
+  const std::string other = folder_.file("other.csv");
+  {
+    FlightBook book = open(other);
+    add(book, 2), add(book, 3), add(book, 1);
+    ASSERT_TRUE(book.close_sorted());
+  }
+  EXPECT_EQ(text_of(file_), text_of(other));
+  EXPECT_EQ(text_of(times_file(file_)), text_of(times_file(other)));
+}
+
+TEST_F(FlightBookTest, WhatADeadWriterLeftOfALineIsCutOff) {
+  {
+    FlightBook book = open(file_);
+    add(book, 3);
+  }
+  const std::string whole = text_of(file_);
+  append(file_, csv_line(to_cells(some_flight(4))).substr(0, 30));
+  append(times_file(file_), csv_line(to_cells(some_times(4))));  // times without their flight
+  {
+    FlightBook book = open(file_);
+    EXPECT_FALSE(book.has(4));
+    EXPECT_FALSE(book.flights().times.contains(4));
+    EXPECT_EQ(text_of(file_), whole);
+    add(book, 4);
+  }
+  EXPECT_EQ(text_of(file_), whole + csv_line(to_cells(some_flight(4))));
+}
+
+TEST_F(FlightBookTest, RefusesAnotherCampaignAndSaysWhy) {
+  {
+    FlightBook book = open(file_);
+    add(book, 1);
+  }
+  CampaignIdentity other = some_flight(1).identity;
+  other.count = 300;
+  const auto refused = FlightBook::open(file_, other);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("count 100 against 300"), std::string::npos) << refused.error().message;
+}
+
+TEST_F(FlightBookTest, IsHeldByOne) {
+  FlightBook book = open(file_);
+  const auto second = FlightBook::open(file_, some_flight(1).identity);
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().message.find("another campaign writes"), std::string::npos);
+}
+
+TEST_F(FlightBookTest, NamesFileAndLineOfWhatItCannotRead) {
+  {
+    FlightBook book = open(file_);
+    add(book, 1);
+  }
+  append(file_, "a,b\n");
+  const auto refused = FlightBook::open(file_, some_flight(1).identity);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message.find(file_ + ":3: 2 cells, not "), 0U) << refused.error().message;
+}
+
+TEST(JoinFlights, TakesASeedTwiceOnlyWhenItIsTheSameFlight) {
+  Flights all, more;
+  all.records[1] = some_flight(1);
+  more.records[1] = some_flight(1);
+  more.records[2] = some_flight(2);
+  ASSERT_TRUE(join(all, more));
+  EXPECT_EQ(all.records.size(), 2U);
+  more.records[2].requests += 1;
+  EXPECT_FALSE(join(all, more));
+  Flights other;
+  other.records[9] = some_flight(9);
+  other.records[9].identity.version = "0.2";
+  EXPECT_FALSE(join(all, other));
+}
+
+}  // namespace
+}  // namespace tern

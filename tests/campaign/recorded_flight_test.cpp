@@ -1,0 +1,115 @@
+#include "campaign/recorded_flight.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "messages/horizon_request.h"
+#include "messages/plan.h"
+#include "runtime/channels.h"
+#include "runtime/config.h"
+#include "tests/logger/temp_folder.h"
+#include "tools/log_reader/flight_log.h"
+
+namespace tern {
+namespace {
+
+FlightInputs short_hop(Charge charge, std::vector<std::string> overrides = {}) {
+  return {TERN_SHORT_HOP, std::move(overrides), charge};
+}
+
+FlightRecord fly(const FlightInputs& inputs, std::uint64_t seed, const TempFolder& folder) {
+  return fly_recorded(inputs, seed, check_inputs(inputs, seed), folder.file(""), "").record;
+}
+
+TEST(RecordedFlight, ASpeltOutScenarioMakesTheSameFlight) {
+  const TempFolder first, second;
+  // What is set for processes is in the scenario, too; the flight ends by its timeout.
+  const FlightInputs inputs = short_hop(Charge::Counts, {"timeout_s=1.0", "predictor.horizon_s=2.5"});
+  const FlightRecord flown = fly(inputs, 5, first);
+  EXPECT_EQ(flown.result.outcome, FlightOutcome::Timeout);
+  const FlightInputs spelt_out{first.file("scenario.yaml"), {}, Charge::Counts};
+  const FlightRecord again = fly(spelt_out, 5, second);
+  EXPECT_EQ(again.result.outcome, FlightOutcome::Timeout);
+  EXPECT_EQ(again.result.path_length_m, flown.result.path_length_m);
+  EXPECT_EQ(again.result.min_clearance_m, flown.result.min_clearance_m);
+  EXPECT_EQ(again.plans, flown.plans);
+}
+
+TEST(RecordedFlight, TheLogHoldsEveryRequestWithItsAnswerInVirtualTime) {
+  const TempFolder folder;
+  const FlightRecord flown = fly(short_hop(Charge::Cpu), 1, folder);
+  EXPECT_EQ(flown.result.outcome, FlightOutcome::Reached) << flown.result.detail;
+  std::map<std::int64_t, int> answers;
+  std::int64_t requests = 0;
+  FlightLog log;
+  log.on<HorizonRequest>(channels::kHorizonRequest, [&](const HorizonRequest& r, std::int64_t received_us) {
+    ++requests;
+    EXPECT_EQ(received_us, r.header.utime.us);
+  });
+  log.on<Plan>(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) {
+    ++answers[plan.request_id];
+    EXPECT_EQ(received_us, plan.header.utime.us);
+  });
+  const auto contents = log.read(folder.file("flight.lcm"));
+  ASSERT_TRUE(contents) << contents.error().message;
+  EXPECT_EQ(contents->damage.bytes, 0);
+  EXPECT_EQ(requests, flown.requests);
+  EXPECT_EQ(static_cast<std::int64_t>(answers.size()), flown.requests);
+  EXPECT_EQ(contents->channels.at("PLAN").lost, 0);
+}
+
+TEST(RecordedFlight, AChargedPlanArrivesWhenItsCpuTimeIsOver) {
+  const TempFolder folder;
+  struct Watch final : FlightObserver {
+    std::map<std::int64_t, UTime> asked;
+    std::vector<double> latency_ms;
+    void on_request(const HorizonRequest& r) override { asked[r.id] = r.header.utime; }
+    void on_plan(const Plan& p) override {
+      latency_ms.push_back((p.header.utime - asked.at(p.request_id)).seconds() * 1e3);
+    }
+  } watch;
+  const FlightInputs inputs = short_hop(Charge::Cpu);
+  const RecordedFlight flight = fly_recorded(inputs, 1, check_inputs(inputs, 1), folder.file(""), "", &watch);
+  const Distribution charged = describe(watch.latency_ms), measured = flight.times.times[0].describe();
+  EXPECT_EQ(charged.count, measured.count);
+  EXPECT_NEAR(charged.mean, measured.mean, 1e-6);
+  EXPECT_NEAR(charged.max, measured.max, 1e-6);
+  EXPECT_GT(charged.min, 0.0);
+}
+
+TEST(RecordedFlight, AChargedPlannerIsCutOrWatchedAndAnswersInTimeHoweverShortTheDeadline) {
+  const TempFolder folder;
+  // The deadline is 5 ms after the request, the watchdog's time 1 ms after it: less than many a plan takes.
+  const FlightRecord flown = fly(short_hop(Charge::Cpu, {"executor.lead_s=0.01", "timeout_s=2"}), 1, folder);
+  EXPECT_GT(flown.requests, 20);
+  EXPECT_EQ(flown.answered_in_time, flown.requests);
+  EXPECT_EQ(flown.answers_late, 0);
+  EXPECT_EQ(flown.answers_refused, 0);
+}
+
+TEST(RecordedFlight, ByCountsNothingMeasuredIsInItsLine) {
+  const TempFolder first, second;
+  const FlightInputs inputs = short_hop(Charge::Counts);
+  EXPECT_EQ(to_cells(fly(inputs, 2, first)), to_cells(fly(inputs, 2, second)));
+}
+
+TEST(FlightInputs, IdentityKnowsEverySettingButTheSeed) {
+  const CampaignIdentity plain = check_inputs(short_hop(Charge::Cpu), 1);
+  EXPECT_EQ(plain, check_inputs(short_hop(Charge::Cpu), 2));
+  EXPECT_NE(plain, check_inputs(short_hop(Charge::Counts), 1));
+  EXPECT_NE(plain.configuration,
+            check_inputs(short_hop(Charge::Cpu, {"planner.hold_required_s=0.7"}), 1).configuration);
+  EXPECT_THROW(check_inputs(short_hop(Charge::Cpu, {"planner.hold=1"}), 1), ConfigError);
+}
+
+TEST(FlightInputs, AScenarioIsFoundByNameOrTheNamesAreListed) {
+  EXPECT_TRUE(find_scenario("corridor_demo"));
+  EXPECT_TRUE(find_scenario(TERN_SHORT_HOP));
+  const auto missing = find_scenario("corridor_dem");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("corridor_demo"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tern

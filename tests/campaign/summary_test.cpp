@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "campaign/records/campaign_summary.h"
+#include "tests/campaign/some_flights.h"
+
+namespace tern {
+namespace {
+
+Flights thirty_flights() {
+  Flights flights;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    flights.records[seed] = some_flight(seed);
+    flights.times[seed] = some_times(seed);
+  }
+  return flights;
+}
+
+TEST(CampaignSummary, CountsOutcomesAndNamesTheFailedSeeds) {
+  const CampaignSummary s = summarize(thirty_flights());
+  EXPECT_EQ(s.flights, 30);
+  EXPECT_EQ(s.reached, 20);
+  EXPECT_EQ(s.collisions, 10);
+  EXPECT_EQ(s.successes, 20);
+  EXPECT_EQ(s.failed_seeds, (std::vector<std::uint64_t>{3, 6, 9, 12, 15, 18, 21, 24, 27, 30}));
+  EXPECT_EQ(s.deadlines_missed, 30);
+  EXPECT_EQ(s.stops, 15);
+  EXPECT_EQ(s.flight_time_s.count, 20) << "of the flights that reached";
+  EXPECT_EQ(s.min_clearance_m.count, 30) << "of all";
+  EXPECT_LT(s.min_clearance_m.min, 0.0);
+}
+
+TEST(CampaignSummary, TimesAreOverAllAnswers) {
+  const CampaignSummary s = summarize(thirty_flights());
+  EXPECT_EQ(s.times[0].count, 3000);
+  EXPECT_EQ(s.times[0].max, 750.0);
+  EXPECT_EQ(s.times[0].min, 0.25);
+  EXPECT_EQ(s.times[1].count, 0);
+}
+
+TEST(CampaignSummary, ALimitBrokenIsNoSuccess) {
+  Flights flights;
+  flights.records[1] = some_flight(1);
+  flights.records[1].result.limit_violations = 1;
+  const CampaignSummary s = summarize(flights);
+  EXPECT_EQ(s.reached, 1);
+  EXPECT_EQ(s.successes, 0);
+  EXPECT_EQ(s.failed_seeds, std::vector<std::uint64_t>{1});
+}
+
+TEST(CampaignSummary, AsJsonHasEveryKeyAndNullForWhatIsUnknown) {
+  const auto json = nlohmann::json::parse(to_json(summarize(thirty_flights()), "tern-campaign --world x"));
+  for (const char* key : {"flights",       "reached",         "collisions",    "timeouts",        "failed",
+                          "success",       "success_ci95",    "flight_time_s", "first_entry_s",   "mean_speed_mps",
+                          "top_speed_mps", "min_clearance_m", "jerk_integral", "stops",           "limit_violations",
+                          "replan_ms",     "first_answer_ms", "search_ms",     "optimization_ms", "deadlines_missed",
+                          "exposure",      "failed_seeds",    "configuration", "version",         "compiler",
+                          "machine",       "command"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  for (const char* key : {"mean", "p50", "p95", "p99", "min", "max"}) {
+    EXPECT_TRUE(json["flight_time_s"].contains(key)) << key;
+  }
+  EXPECT_NEAR(json["success"].get<double>(), 2.0 / 3.0, 1e-12);
+  EXPECT_TRUE(json["search_ms"]["p50"].is_null());
+  EXPECT_NEAR(json["exposure"]["a \"pond\", wet"]["metres"]["max"].get<double>(), 30.0 / 9.0, 1e-6);
+}
+
+TEST(CampaignSummary, NoFlightsHaveNoRate) {
+  const auto json = nlohmann::json::parse(to_json(summarize({}), ""));
+  EXPECT_TRUE(json["success"].is_null());
+  EXPECT_EQ(json["success_ci95"][0], 0.0);
+  EXPECT_EQ(json["success_ci95"][1], 1.0);
+}
+
+}  // namespace
+}  // namespace tern
