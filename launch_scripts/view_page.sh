@@ -19,10 +19,10 @@ is_current() {
 
 command -v npm >/dev/null || die "no npm; launch_scripts/install.sh launch_scripts/packages_view.txt installs it"
 cd "$web"
-if [[ ! node_modules/.package-lock.json -nt package-lock.json ]]; then
+if ! cmp -s package-lock.json node_modules/.fetched; then
   say "Fetching what the page is built of"
   npm ci --no-audit --no-fund --loglevel=error
-  touch node_modules/.package-lock.json
+  cp package-lock.json node_modules/.fetched
 fi
 say "Building the page"
 rm -rf "$TERN_PAGE.new"

@@ -20,6 +20,7 @@ std::string type_of(const fs::path& path) {
   if (extension == ".html") return "text/html; charset=utf-8";
   if (extension == ".js") return "text/javascript; charset=utf-8";
   if (extension == ".css") return "text/css; charset=utf-8";
+  if (extension == ".txt") return "text/plain; charset=utf-8";
   if (extension == ".svg") return "image/svg+xml";
   if (extension == ".png") return "image/png";
   return "application/octet-stream";

@@ -23,7 +23,7 @@ function chart(element, series, scaleY) {
     height: HEIGHT,
     legend: { show: false },
     cursor: { show: false },
-    padding: [6, 6, 0, 0],
+    padding: [6, 14, 0, 0],
     scales: { x: { time: false, range: [-SPAN_S, 0] }, y: { range: scaleY } },
     axes: [
       { ...axis, size: 20, values: (_, ticks) => ticks.map((t) => (t === 0 ? 'now' : `${t} s`)) },

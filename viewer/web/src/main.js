@@ -19,10 +19,10 @@ const ON_DEMAND = ['hulls', 'planes', 'search']; // the bridge makes these only 
 const canvas = document.getElementById('view');
 const world = new World(canvas);
 const regions = new Regions(world.scene);
-const obstacles = new Obstacles(world.scene);
 const trajectories = new Trajectories(world.scene);
 const proofs = new Proofs(world.scene);
 const vehicle = new Vehicle(world.scene);
+const obstacles = new Obstacles(world.scene, vehicle.p);
 const charts = new Charts();
 const layers = { ...LAYERS };
 const known = {}; // the newest of each topic
@@ -65,6 +65,7 @@ const topics = {
     vehicle.take(state);
     clock = { at_us: state.at_us, arrived_ms: performance.now() };
     trajectories.takeState(state);
+    if (known.goal) world.head(state.p, known.goal.p);
     hud.showState(state, known.goal);
   },
   truth: (set) => (set ? obstacles.take(set) : obstacles.clear()),

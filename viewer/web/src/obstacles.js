@@ -27,7 +27,7 @@ function faceTexture() {
   const context = canvas.getContext('2d');
   context.fillStyle = '#fff';
   context.fillRect(0, 0, size, size);
-  context.fillStyle = '#c9c9c9';
+  context.fillStyle = '#d2d2d2';
   context.fillRect(4, 4, size - 8, size - 8);
   const texture = new THREE.CanvasTexture(canvas);
   texture.colorSpace = THREE.SRGBColorSpace;
@@ -36,10 +36,33 @@ function faceTexture() {
   return texture;
 }
 
+/** Nothing hides the vehicle: what stands before it, as seen from the camera, is drawn as a sieve. */
+function cutaway(material, vehicle) {
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.vehicle = { value: vehicle };
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', '#include <common>\nvarying vec3 seen;')
+      .replace('#include <project_vertex>', '#include <project_vertex>\nseen = mvPosition.xyz;');
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', '#include <common>\nvarying vec3 seen; uniform vec3 vehicle;')
+      .replace('#include <clipping_planes_fragment>', `
+        vec3 target = (viewMatrix * vec4(vehicle, 1.0)).xyz;
+        float along = dot(seen, target) / dot(target, target);
+        float aside = length(seen - along * target) / (0.35 + 0.65 * along);
+        if (along < 0.97 && aside < 1.5) {
+          float keep = mix(0.12, 1.0, smoothstep(0.7, 1.5, aside));
+          float sieve = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+          if (sieve > keep) discard;
+        }`);
+  };
+  return material;
+}
+
 export class Obstacles {
-  constructor(scene) {
-    this.boxes = new THREE.InstancedMesh(
-      new THREE.BoxGeometry(1, 1, 1), new THREE.MeshLambertMaterial({ map: faceTexture() }), MOST);
+  /** @param vehicle  where it is; kept */
+  constructor(scene, vehicle) {
+    const material = cutaway(new THREE.MeshLambertMaterial({ map: faceTexture() }), vehicle);
+    this.boxes = new THREE.InstancedMesh(new THREE.BoxGeometry(1, 1, 1), material, MOST);
     this.spots = new THREE.InstancedMesh(
       new THREE.PlaneGeometry(1, 1),
       new THREE.MeshBasicMaterial({ map: spotTexture(), transparent: true, depthWrite: false }), MOST);

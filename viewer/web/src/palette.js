@@ -2,11 +2,12 @@
 import { Color } from 'three';
 
 export const palette = {
-  back: '#0a0e13',
+  back: '#0b1119',
+  sky: '#060a10',
   ground: '#0f161e',
   grid: '#2b3a4a',
-  mover: '#ff9a57',
-  pillar: '#6b7a8c',
+  mover: '#ffa05c',
+  pillar: '#74849a',
   plan: '#5cd6ff',
   committed: '#9d8cff',
   goal: '#ffd166',

@@ -6,6 +6,7 @@ import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { numbers, point } from './form.js';
 import { palette, speedColor } from './palette.js';
 
+const LONGEST_GAP_US = 500_000;
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
 const FACES = [0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3];
 
@@ -34,10 +35,10 @@ class Simplices {
   constructor(scene, color) {
     this.group = new THREE.Group();
     this.edges = new THREE.LineSegments(
-      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.22, depthWrite: false }));
+      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.3, depthWrite: false }));
     this.faces = new THREE.Mesh(
       new THREE.BufferGeometry(),
-      new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.035, side: THREE.DoubleSide, depthWrite: false }));
+      new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.05, side: THREE.DoubleSide, depthWrite: false }));
     this.edges.frustumCulled = this.faces.frustumCulled = false;
     this.group.add(this.edges, this.faces);
     scene.add(this.group);
@@ -126,9 +127,12 @@ export class Trajectories {
 
   /** Where the path has not come to yet: it is told twice a second. */
   takeState(state) {
+    const gap_us = state.at_us - (this.recentAt ?? state.at_us);
+    this.recentAt = state.at_us;
+    if (gap_us < 0 || gap_us > LONGEST_GAP_US) this.recent = []; // a jump in a log
     this.recent.push(...state.p, Math.hypot(...state.v));
     if (this.recent.length > 4 * 120) this.recent.splice(0, 4);
-    const curve = this.lastOfPath ? [...this.lastOfPath, ...this.recent] : this.recent;
+    const curve = this.lastOfPath && this.recent.length > 4 ? [...this.lastOfPath, ...this.recent] : this.recent;
     const { positions, colors } = split(curve, this.top);
     this.tail.set(positions, colors);
   }

@@ -3,7 +3,9 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { palette } from './palette.js';
 
-const FOLLOW_OFFSET = new THREE.Vector3(-6.5, -6.2, 5.2);
+/** Of the camera from the vehicle that it follows: behind, to the right, above, m. */
+const FOLLOW = { behind: 8, right: 6.8, above: 7.4 };
+const AHEAD = 3.6; // of the vehicle, what the camera looks at, m
 const TOP_HEIGHT = 26;
 
 const SLOW_MS = 45;
@@ -19,6 +21,22 @@ function isSoftware() {
   return /swiftshader|llvmpipe|software/i.test(name);
 }
 
+/** A hint of a horizon. */
+function sky() {
+  const canvas = Object.assign(document.createElement('canvas'), { width: 2, height: 256 });
+  const context = canvas.getContext('2d');
+  const gradient = context.createLinearGradient(0, 0, 0, 256);
+  gradient.addColorStop(0, palette.sky);
+  gradient.addColorStop(0.3, '#101b28');
+  gradient.addColorStop(0.5, palette.back);
+  gradient.addColorStop(1, palette.back);
+  context.fillStyle = gradient;
+  context.fillRect(0, 0, 2, 256);
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  return texture;
+}
+
 export class World {
   constructor(canvas) {
     THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
@@ -31,10 +49,9 @@ export class World {
     this.frameMs = 30;
     this.settle = 0;
     this.scene = new THREE.Scene();
-    this.scene.background = new THREE.Color(palette.back);
-    this.scene.fog = new THREE.Fog(palette.back, 28, 85);
+    this.scene.background = sky();
+    this.scene.fog = new THREE.Fog(palette.back, 26, 80);
     this.camera = new THREE.PerspectiveCamera(46, 1, 0.05, 400);
-    this.camera.position.copy(FOLLOW_OFFSET).add(new THREE.Vector3(2.5, 0, 1));
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.target.set(2.5, 0, 1);
     this.controls.enableDamping = true;
@@ -42,6 +59,8 @@ export class World {
     this.controls.maxDistance = 150;
     this.followed = null; // where the camera's vehicle was
     this.mode = 'follow';
+    this.heading = new THREE.Vector3(1, 0, 0); // horizontal, towards the goal
+    this.camera.position.copy(this.controls.target).add(this.offset());
     this.light();
     this.floor = this.thrifty ? this.lineGround() : this.shadedGround();
     this.floor.renderOrder = -2;
@@ -51,9 +70,9 @@ export class World {
   }
 
   light() {
-    this.scene.add(new THREE.HemisphereLight('#bcd6f5', '#1a2028', 1.5));
-    const sun = new THREE.DirectionalLight('#fff1de', 2.1);
-    sun.position.set(-6, -9, 14);
+    this.scene.add(new THREE.HemisphereLight('#cfe2f7', '#2a2f38', 1.75));
+    const sun = new THREE.DirectionalLight('#fff1de', 2.3);
+    sun.position.set(-7, -8, 12);
     const rim = new THREE.DirectionalLight('#5aa7ff', 0.7);
     rim.position.set(8, 10, 4);
     this.scene.add(sun, rim);
@@ -107,13 +126,27 @@ export class World {
     this.controls.maxPolarAngle = mode === 'top' ? 0.02 : Math.PI * 0.495;
     this.controls.enableRotate = mode !== 'top';
     if (mode === 'top') this.camera.position.copy(target).add(new THREE.Vector3(0, -0.01, TOP_HEIGHT));
-    if (mode === 'follow') this.camera.position.copy(target).add(FOLLOW_OFFSET);
+    if (mode === 'follow') this.camera.position.copy(target).add(this.offset());
     this.controls.update();
+  }
+
+  offset() {
+    const { x, y } = this.heading;
+    const { behind, right, above } = FOLLOW;
+    return new THREE.Vector3(-behind * x + right * y, -behind * y - right * x, above);
+  }
+
+  /** The flight goes that way: a camera that follows looks along it from the start. */
+  head(from, to) {
+    const heading = new THREE.Vector3(to[0] - from[0], to[1] - from[1], 0);
+    if (this.followed || heading.length() < 1) return;
+    this.heading.copy(heading.normalize());
+    if (this.mode === 'follow') this.camera.position.copy(this.controls.target).add(this.offset());
   }
 
   /** The vehicle is at p: the camera goes the same way, softly; after a jump, at once. */
   follow(p, seconds) {
-    const ahead = new THREE.Vector3(p.x + (this.mode === 'follow' ? 2.2 : 0), p.y, p.z);
+    const ahead = p.clone().addScaledVector(this.heading, this.mode === 'follow' ? AHEAD : 0);
     if (!this.followed) this.followed = this.controls.target.clone();
     const gap = ahead.distanceTo(this.followed);
     const share = gap > 12 ? 1 : 1 - Math.exp(-seconds * 7);
@@ -141,7 +174,7 @@ export class World {
     this.adapt(seconds);
     this.controls.update();
     const { target } = this.controls;
-    this.floor.position.set(Math.round(target.x / 5) * 5, Math.round(target.y / 5) * 5, 0);
+    this.floor.position.set(Math.round(target.x / 5) * 5, Math.round(target.y / 5) * 5, -0.02); // below what stands on it
     const { x, y } = this.camera.position;
     this.floor.material.uniforms?.eye.value.set((x + target.x) / 2, (y + target.y) / 2);
     this.renderer.render(this.scene, this.camera);
