@@ -30,7 +30,7 @@ class Ribbon {
   }
 }
 
-/** Tetrahedra, four points each: faint faces and edges. */
+/** Tetrahedra, four points each: faint faces and edges, and their corners, for at speed they are slivers. */
 class Simplices {
   constructor(scene, color) {
     this.group = new THREE.Group();
@@ -39,15 +39,18 @@ class Simplices {
     this.faces = new THREE.Mesh(
       new THREE.BufferGeometry(),
       new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.05, side: THREE.DoubleSide, depthWrite: false }));
-    this.edges.frustumCulled = this.faces.frustumCulled = false;
-    this.group.add(this.edges, this.faces);
+    this.corners = new THREE.Points(
+      new THREE.BufferGeometry(),
+      new THREE.PointsMaterial({ color, size: 4, sizeAttenuation: false, transparent: true, opacity: 0.75, depthWrite: false }));
+    for (const mesh of [this.edges, this.faces, this.corners]) mesh.frustumCulled = false;
+    this.group.add(this.edges, this.faces, this.corners);
     scene.add(this.group);
   }
   set(points) {
     const simplices = points.length / 12;
     const index = (pattern) => Array.from({ length: simplices }, (_, j) => pattern.map((k) => 4 * j + k)).flat();
     const positions = new THREE.Float32BufferAttribute(points, 3);
-    for (const [mesh, pattern] of [[this.edges, EDGES], [this.faces, FACES]]) {
+    for (const [mesh, pattern] of [[this.edges, EDGES], [this.faces, FACES], [this.corners, [0, 1, 2, 3]]]) {
       mesh.geometry.dispose();
       mesh.geometry = new THREE.BufferGeometry().setAttribute('position', positions).setIndex(index(pattern));
     }
