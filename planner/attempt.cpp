@@ -127,6 +127,7 @@ std::optional<Candidate> search_candidate(const AttemptContext& context, SweptOb
   problem.centre_box = centre_box(context.request.flight_box, context.request.body);
   problem.way = context.way;
   problem.hold_required_s = hold_required_s;
+  problem.hull_basis = context.config.hull_basis;
   add_semantics(context, problem);
   const SearchResult found = semantic_a_star(problem, config, obstacles, context.budget);
   context.statistics.expansions += found.expansions;

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/splines/hull_basis.h"
+
 namespace tern {
 
 enum class SemanticCost { MeanDistance, Exposure };
@@ -40,11 +42,12 @@ struct PlannerConfig {
   int intervals = 6;                                            ///< J, 4 … 12
   double sphere_radius_m = 4.0;                                 ///< r
   std::vector<double> duration_scales = {1.1, 1.35, 1.8, 2.6};  ///< T over the per-axis bound, tried in order
-  double hold_required_s = 0.5;      ///< an end that stays clear this long is preferred to one that does not
-  double hold_cap_s = 1.5;           ///< how far the hold is followed
-  double stale_after_s = 0.3;        ///< predictions older than this are stale
-  double velocity_share = 0.998;     ///< plans stay below this share of v_max
-  bool unknown_is_obstacle = false;  ///< unknown voxels of the map
+  double hold_required_s = 0.5;             ///< an end that stays clear this long is preferred to one that does not
+  double hold_cap_s = 1.5;                  ///< how far the hold is followed
+  double stale_after_s = 0.3;               ///< predictions older than this are stale
+  double velocity_share = 0.998;            ///< plans stay below this share of v_max
+  HullBasis hull_basis = HullBasis::Minvo;  ///< of search and optimizer; the checker's is MINVO
+  bool unknown_is_obstacle = false;         ///< unknown voxels of the map
   bool semantics = true;
   SemanticCost semantic_cost = SemanticCost::Exposure;
   double lambda_attractive = 2.0;

@@ -15,7 +15,8 @@ std::vector<CertificatePlane> near_planes(const AttemptContext& context, SweptOb
   std::vector<CertificatePlane> planes;
   PairCounts counts;
   for (int j = 0; j < spline.intervals(); ++j) {
-    separate_interval(obstacles, j, spline.power(j), counts, &planes, context.config.optimization.plane_reach_m);
+    separate_interval(obstacles, j, spline.power(j), counts, &planes, context.config.optimization.plane_reach_m,
+                      {context.config.hull_basis, spline.intervals()});
   }
   context.statistics.pairs_by_box += counts.by_box;
   context.statistics.pairs_by_plane += counts.by_plane;
@@ -134,6 +135,7 @@ TrajectoryProblem trajectory_problem(const AttemptContext& context, const TimedS
   problem.weight_jerk = config.weight_jerk;
   problem.weight_goal = config.weight_goal;
   problem.reach = config.plane_reach_m;
+  problem.hull_basis = context.config.hull_basis;
   const Points& leaf = searched.control_points;
   const Vec3 end = leaf.col(leaf.cols() - 1);
   const bool arrives = context.way.from(end) <= context.config.search.band_m;

@@ -23,6 +23,11 @@ OptimizationMethod method_of(const std::string& name) {
   return OptimizationMethod::Alternating;
 }
 
+HullBasis hull_basis_of(const std::string& name) {
+  if (name == "bezier") return HullBasis::Bezier;
+  return name == "bspline" ? HullBasis::Bspline : HullBasis::Minvo;
+}
+
 void read_optimization(ConfigSection section, OptimizationConfig& c) {
   c.method = method_of(
       section.choice("method", "alternating", {"search_only", "alternating", "joint", "alternating_then_joint"}));
@@ -50,6 +55,7 @@ PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& se
   c.stale_after_s = section.number("stale_after_s", c.stale_after_s, Range::positive(10.0));
   c.velocity_share = section.number("velocity_share", c.velocity_share, Range{0.1, 1.0});
   c.unknown_is_obstacle = section.choice("unknown", "free", {"free", "obstacle"}) == "obstacle";
+  c.hull_basis = hull_basis_of(section.choice("hull_basis", "minvo", {"minvo", "bezier", "bspline"}));
   c.exposure_margin_m = section.number("exposure_margin_m", c.exposure_margin_m, Range::positive(100.0));
   c.goal_tolerance_m = section.number("goal_tolerance_m", c.goal_tolerance_m, Range{0.001, 10.0});
   c.semantics = semantics.enabled;

@@ -72,7 +72,7 @@ class Builder {
   void add_boxes_and_spheres(ConvexProblem& out) {
     std::vector<AffinePoint> points;
     for (int j = 0; j < problem_.intervals; ++j) {
-      for (AffinePoint& p : curve_.hull(j)) {
+      for (AffinePoint& p : curve_.minvo(j)) {
         if (p.fixed()) continue;
         add_box_rows(p);
         if (problem_.sphere_radius - (p.at(x0_) - problem_.start.p).norm() > problem_.reach) continue;

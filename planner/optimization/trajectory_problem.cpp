@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/splines/minvo.h"
-
 namespace tern {
 namespace {
 
@@ -51,16 +49,24 @@ AffinePoint CurvePoints::combination(int j, const Eigen::Vector4d& c) const {
   return p;
 }
 
+std::array<AffinePoint, 4> CurvePoints::minvo(int j) const {
+  const Eigen::Matrix4d& weights = basis_.position_minvo(j);
+  return {combination(j, weights.col(0)), combination(j, weights.col(1)), combination(j, weights.col(2)),
+          combination(j, weights.col(3))};
+}
+
 std::array<AffinePoint, 4> CurvePoints::hull(int j, double u0, double u1) const {
+  const HullBasis form = problem_.hull_basis;
   const bool whole = u0 == 0.0 && u1 == 1.0;
-  const Eigen::Matrix4d weights =
-      whole ? basis_.position_minvo(j) : Eigen::Matrix4d(basis_.power(j) * to_part(u0, u1) * minvo_inverse_3());
+  const Eigen::Matrix4d weights = whole ? hull_of_interval(basis_, form, j)
+                                        : Eigen::Matrix4d(basis_.power(j) * to_part(u0, u1) * hull_inverse_3(form));
   return {combination(j, weights.col(0)), combination(j, weights.col(1)), combination(j, weights.col(2)),
           combination(j, weights.col(3))};
 }
 
 std::array<AffinePoint, 3> CurvePoints::velocity_hull(int j) const {
-  const Eigen::Matrix<double, 4, 3> weights = basis_.velocity_minvo(j) / problem_.interval_s;
+  const Eigen::Matrix<double, 4, 3> weights =
+      velocity_hull_of_interval(basis_, problem_.hull_basis, j) / problem_.interval_s;
   return {combination(j, weights.col(0)), combination(j, weights.col(1)), combination(j, weights.col(2))};
 }
 

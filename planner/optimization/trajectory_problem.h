@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/geometry/separation.h"
-#include "core/splines/clamped_spline.h"
+#include "core/splines/hull_basis.h"
 #include "core/world/horizon.h"
 #include "planner/planner_config.h"
 
@@ -29,6 +29,7 @@ struct TrajectoryProblem {
   double clearance = 0.0;                       ///< radius of a spherical body, m
   Vec3 goal = Vec3::Zero();                     ///< s_g^temp
   double weight_jerk = 0.0, weight_goal = 1.0;  ///< ω_u, ω_g
+  HullBasis hull_basis = HullBasis::Minvo;      ///< of planes and velocity bounds
   double reach = 1e9;  ///< constraints on position farther than this from x0 are left out, m; the checker sees all
 };
 
@@ -59,8 +60,10 @@ class CurvePoints {
   [[nodiscard]] int free_points() const { return free_; }  ///< J − 2
   /// Σ_k c_k q_{j+k}: a combination of the four control points of interval j.
   [[nodiscard]] AffinePoint combination(int j, const Eigen::Vector4d& c) const;
-  /// The points whose hull holds the part [u0, u1] of interval j.
-  [[nodiscard]] std::array<AffinePoint, 4> hull(int j, double u0 = 0.0, double u1 = 1.0) const;
+  /// MINVO points of interval j: S and the flight box are kept by these, as the checker asks.
+  [[nodiscard]] std::array<AffinePoint, 4> minvo(int j) const;
+  /// The points of the problem's hull basis for the part [u0, u1] of interval j.
+  [[nodiscard]] std::array<AffinePoint, 4> hull(int j, double u0, double u1) const;
   /// The points whose hull holds the velocity of interval j, m/s.
   [[nodiscard]] std::array<AffinePoint, 3> velocity_hull(int j) const;
   /// v_l = (q_{l+1} − q_l)/Δt for l ≥ 2, m/s.

@@ -14,13 +14,14 @@ Box box_of(const Points4& points) { return {points.rowwise().minCoeff(), points.
 class PairTest {
  public:
   PairTest(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
-           std::vector<CertificatePlane>* planes, double reach)
+           std::vector<CertificatePlane>* planes, double reach, HullForm form)
       : obstacles_(obstacles),
         interval_(interval),
         power_(power),
         counts_(counts),
         planes_(planes),
-        reach_(Vec3::Constant(reach)) {}
+        reach_(Vec3::Constant(reach)),
+        form_(form) {}
 
   /// One pair of obstacle and part; splits the part in time where one plane does not do.
   bool separated(const SweptObstacles::Candidate& candidate, const Points4& points, int part, int parts) {
@@ -37,7 +38,7 @@ class PairTest {
     for (int half = 0; half < 2; ++half) {
       const int sub = 2 * part + half;
       const double width = 1.0 / (2 * parts);
-      const Points4 sub_points = minvo_of(power_, sub * width, (sub + 1) * width);
+      const Points4 sub_points = form_.points(interval_, power_, sub * width, (sub + 1) * width);
       if (!grown(box_of(sub_points), reach_).intersects(obstacles_.part_box(interval_, candidate, sub, 2 * parts))) {
         ++counts_.by_box;
         continue;
@@ -54,6 +55,7 @@ class PairTest {
   PairCounts& counts_;
   std::vector<CertificatePlane>* planes_;
   Vec3 reach_;
+  HullForm form_;
 };
 
 }  // namespace
@@ -64,10 +66,10 @@ Points4 minvo_of(const PowerCubic& power, double u0, double u1) {
 }
 
 Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
-                            std::vector<CertificatePlane>* planes, double reach) {
-  const Points4 points = minvo_of(power, 0.0, 1.0);
+                            std::vector<CertificatePlane>* planes, double reach, HullForm form) {
+  const Points4 points = form.points(interval, power, 0.0, 1.0);
   const Box box = grown(box_of(points), Vec3::Constant(reach));
-  PairTest test(obstacles, interval, power, counts, planes, reach);
+  PairTest test(obstacles, interval, power, counts, planes, reach, form);
   for (const SweptObstacles::Candidate& candidate : obstacles.candidates(interval)) {
     if (!box.intersects(candidate.box)) {
       ++counts.by_box;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/splines/clamped_spline.h"
+#include "core/splines/hull_basis.h"
 #include "core/world/horizon.h"
 #include "planner/safety/swept_obstacles.h"
 
@@ -28,8 +28,9 @@ struct Separated {
 /// or of both its halves, or of the quarters of a half that fails. @param planes  if not null, gets every plane that
 /// was needed.
 /// @param reach  m: boxes nearer than this count as overlapping, so that near obstacles get their planes too.
+/// @param form   whose hull points stand for the curve: the checker takes the tightest, MINVO.
 Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
-                            std::vector<CertificatePlane>* planes, double reach = 0.0);
+                            std::vector<CertificatePlane>* planes, double reach = 0.0, HullForm form = {});
 
 /// How long the body at rest at p stays separated from every obstacle, from the start of interval `first` on: the end
 /// of the last clear interval minus the start of the first, s (0 when the first is not clear).

@@ -161,7 +161,9 @@ class Search {
     if ((minvo.colwise() - problem_.sphere_centre).colwise().squaredNorm().maxCoeff() > r2) return false;
     const PowerCubic power = q * basis_.power(j);
     if (!problem_.centre_box.contains(cubic_bounds(power, 0.0, 1.0))) return false;
-    return separate_interval(obstacles_, j, power, result_.pairs, nullptr).ok;
+    return separate_interval(obstacles_, j, power, result_.pairs, nullptr, 0.0,
+                             {problem_.hull_basis, problem_.intervals})
+        .ok;
   }
 
   void consider_leaf(const Entry& entry, const Node& n) {

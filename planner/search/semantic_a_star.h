@@ -38,6 +38,7 @@ struct SearchProblem {
   StepCost accumulated;                          ///< summed along the path (exposure)
   std::function<double(const Vec3&)> pointwise;  ///< of a node alone: λ_att C_att − λ_rep C_rep (mean_distance)
   double hold_required_s = 0.5;
+  HullBasis hull_basis = HullBasis::Minvo;  ///< of the collision tests
 };
 
 struct SearchResult {

@@ -1,0 +1,93 @@
+// Holds the barrier method to Ipopt's optimum on problems recorded from flights: prints the comparison, exits with 1 if
+// one of them costs more than Ipopt's by a ten-thousandth.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "benchmarks/recorded_problems.h"
+#include "planner/optimization/barrier_solver.h"
+#include "planner/optimization/ipopt_solver.h"
+#include "runtime/stopwatch.h"
+
+namespace tern::benchmarks {
+namespace {
+
+constexpr double kAllowed = 1e-4;       ///< relative excess over Ipopt's cost
+constexpr double kSmallestCost = 1e-2;  ///< m²: costs below are compared as if they were this
+constexpr int kIterations = 200;
+
+struct Comparison {
+  std::vector<double> barrier_ms, ipopt_ms, steps, excess, gap;
+  int unsolved = 0, ipopt_unsolved = 0;
+
+  void add(const RecordedProblem& recorded) {
+    const ConvexProblem problem = recorded.convex();
+    const Eigen::VectorXd x0 = free_variables(recorded.initial);
+    const auto never = [] { return false; };
+    const double begin = thread_cpu_ms();
+    const ConvexSolution barrier = solve_by_barrier(problem, x0, kIterations, never);
+    const double between = thread_cpu_ms();
+    const ConvexSolution ipopt = solve_by_ipopt(problem, x0, kIterations, never);
+    barrier_ms.push_back(between - begin);
+    ipopt_ms.push_back(thread_cpu_ms() - between);
+    steps.push_back(barrier.iterations);
+    const double cost = std::max(ipopt.objective, kSmallestCost);
+    excess.push_back((barrier.objective - ipopt.objective) / cost);
+    gap.push_back(barrier.gap / cost);
+    if (!barrier.found || barrier.solver_failed) ++unsolved;
+    if (!ipopt.found || ipopt.solver_failed) ++ipopt_unsolved;
+    if (excess.back() > kAllowed || barrier.solver_failed) {
+      fmt::print("problem {}: barrier {:.9g} after {} steps (gap {:.2g}), Ipopt {:.9g}, start {:.9g}\n", excess.size(),
+                 barrier.objective, barrier.iterations, barrier.gap, ipopt.objective, problem.objective(x0));
+    }
+  }
+
+  [[nodiscard]] int broken() const {
+    return static_cast<int>(std::count_if(excess.begin(), excess.end(), [](double e) { return e > kAllowed; }));
+  }
+};
+
+void print(const char* name, std::vector<double> values) {
+  if (values.empty()) return;
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+  };
+  fmt::print("{:<22} p50 {:9.3g}   p99 {:9.3g}   max {:9.3g}\n", name, at(0.5), at(0.99), values.back());
+}
+
+int compare(int count, std::uint64_t seed) {
+  Comparison comparison;
+  while (static_cast<int>(comparison.excess.size()) < count) {
+    for (const char* world : kRecordedWorlds) {
+      record_problems(world, seed, [&](const RecordedProblem& problem) {
+        if (static_cast<int>(comparison.excess.size()) < count) comparison.add(problem);
+        return static_cast<int>(comparison.excess.size()) < count;
+      });
+    }
+    ++seed;
+  }
+  fmt::print("{} problems, {} cost more than Ipopt's by over {}, barrier failed on {}, Ipopt on {}\n",
+             comparison.excess.size(), comparison.broken(), kAllowed, comparison.unsolved, comparison.ipopt_unsolved);
+  print("barrier, ms", comparison.barrier_ms);
+  print("Ipopt, ms", comparison.ipopt_ms);
+  print("barrier, steps", comparison.steps);
+  print("excess over Ipopt", comparison.excess);
+  print("certified gap", comparison.gap);
+  return comparison.broken() == 0 && comparison.unsolved == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace tern::benchmarks
+
+int main(int argc, char** argv) {
+  CLI::App app("Compares the solvers of Eq. 4 with fixed planes on problems recorded from flights.");
+  int count = 10'000;
+  std::uint64_t seed = 1;
+  app.add_option("--count", count, "how many problems")->capture_default_str();
+  app.add_option("--seed", seed, "the first world's seed")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  return tern::benchmarks::compare(count, seed);
+}

@@ -1,0 +1,88 @@
+// Eq. 4 by each method on problems recorded from flights, and the problem's making. Cost reached: mean over the
+// problems, as a share of the search's.
+#include <benchmark/benchmark.h>
+
+#include "benchmarks/recorded_problems.h"
+#include "planner/optimization/barrier_solver.h"
+#include "planner/optimization/ipopt_solver.h"
+
+namespace tern::benchmarks {
+namespace {
+
+bool never() { return false; }
+bool anything(const Eigen::VectorXd&) { return true; }
+
+/// Every tenth problem of a flight through each world.
+const std::vector<RecordedProblem>& problems() {
+  static const std::vector<RecordedProblem> all = [] {
+    std::vector<RecordedProblem> taken;
+    for (const char* world : kRecordedWorlds) {
+      int k = 0;
+      record_problems(world, 1, [&](const RecordedProblem& p) {
+        if (k++ % 10 == 0) taken.push_back(p);
+        return true;
+      });
+    }
+    return taken;
+  }();
+  return all;
+}
+
+template <class Solve>
+void run(benchmark::State& state, const Solve& solve) {
+  double share = 0.0;
+  double steps = 0.0;
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const RecordedProblem& p = problems()[k++ % problems().size()];
+    const ConvexProblem convex = p.convex();
+    const ConvexSolution solution = solve(p, convex);
+    state.PauseTiming();
+    const double before = convex.objective(free_variables(p.initial));
+    share += solution.found && before > 0.0 ? solution.objective / before : 1.0;
+    steps += solution.iterations;
+    state.ResumeTiming();
+  }
+  state.counters["cost"] = benchmark::Counter(share, benchmark::Counter::kAvgIterations);
+  state.counters["steps"] = benchmark::Counter(steps, benchmark::Counter::kAvgIterations);
+}
+
+void make_problem(benchmark::State& state) {
+  std::size_t k = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(problems()[k++ % problems().size()].convex().bounds.data());
+}
+BENCHMARK(make_problem)->Unit(benchmark::kMicrosecond);
+
+void barrier(benchmark::State& state) {
+  run(state, [](const RecordedProblem& p, const ConvexProblem& convex) {
+    return solve_by_barrier(convex, free_variables(p.initial), 60, never);
+  });
+}
+BENCHMARK(barrier)->Unit(benchmark::kMicrosecond);
+
+void ipopt(benchmark::State& state) {
+  run(state, [](const RecordedProblem& p, const ConvexProblem& convex) {
+    return solve_by_ipopt(convex, free_variables(p.initial), 60, never);
+  });
+}
+BENCHMARK(ipopt)->Unit(benchmark::kMicrosecond);
+
+void joint(benchmark::State& state) {
+  run(state, [](const RecordedProblem& p, const ConvexProblem&) {
+    return solve_joint(JointProblem(p.trajectory, p.pairs, p.initial), 60, never, anything);
+  });
+}
+BENCHMARK(joint)->Unit(benchmark::kMicrosecond)->Iterations(100);
+
+void joint_from_alternating(benchmark::State& state) {
+  run(state, [](const RecordedProblem& p, const ConvexProblem& convex) {
+    const ConvexSolution first = solve_by_barrier(convex, free_variables(p.initial), 60, never);
+    const Points from = control_points_of(first.x, p.trajectory);
+    const ConvexSolution second = solve_joint(JointProblem(p.trajectory, p.pairs, from), 60, never, anything);
+    return second.found ? second : first;
+  });
+}
+BENCHMARK(joint_from_alternating)->Unit(benchmark::kMicrosecond)->Iterations(100);
+
+}  // namespace
+}  // namespace tern::benchmarks
