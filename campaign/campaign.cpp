@@ -52,7 +52,11 @@ class Run {
       report(progress_);
       bool stop = false;
       for (const FinishedProcess& finished : pool_.wait(stop_fd, kReportEvery_ms, stop)) {
-        if (auto kept = keep(finished); !kept) return tl::unexpected(kept.error());
+        if (auto kept = keep(finished); !kept) {
+          fs::remove_all(flying(finished.key));
+          (void)interrupt();
+          return tl::unexpected(kept.error());
+        }
       }
       if (stop) return interrupt();
     }
@@ -106,6 +110,9 @@ class Run {
   }
 
   Result<void> keep(const FinishedProcess& finished) {
+    if (finished.exit_code == kExitCannotWrite) {
+      return fail(fmt::format("seed {}: {}", finished.key, last_line(flying(finished.key) / "flight.log")));
+    }
     RecordedFlight flight = read(finished);
     const fs::path from = flying(finished.key);
     if (is_success(flight.record)) {

@@ -44,9 +44,10 @@ std::vector<std::uint64_t> seeds_of(const CampaignOptions& options);
 /// sorted. A flight that is no success keeps its folder, failures/seed-N: scenario.yaml, flight.lcm, summary.json,
 /// flight.log. A flight whose process dies has failed. Ends early when `stop_fd` becomes readable; flights in the air
 /// are dropped then, and flown from their beginning by the next call.
-/// @param flight_command  program and first arguments of a process that flies; the rest is added, see fly_arguments
+/// @param flight_command  program and first arguments of a process that flies, prints encode_flight() and ends with
+/// exit code 0; "--seed N --folder DIR" is added
 /// @param report  called at the start, after every flight and at least once a second
-/// @return how it ended; an Error when the book cannot be opened or written.
+/// @return how it ended; an Error when the book or a log cannot be written, or the book is another campaign's.
 /// @throws ConfigError for bad inputs, before anything is written.
 Result<CampaignEnd> run_campaign(const CampaignOptions& options, const std::vector<std::string>& flight_command,
                                  int stop_fd, const std::function<void(const CampaignProgress&)>& report);

@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <stdexcept>
 #include <utility>
 
 #include "logger/records/log_writer.h"
@@ -53,7 +52,7 @@ void add(FlightTimes& times, const PlanTiming& timing) {
 void write_text(const std::string& path, const std::string& text) {
   std::ofstream out(path);
   out << text;
-  if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
+  if (!out.flush()) throw CannotRecord(path + ": cannot be written");
 }
 
 /// Everything on the bus, on its way into the log, the watch and the observer.
@@ -135,7 +134,7 @@ RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, cons
   write_text(folder + "/scenario.yaml", spell_out(inputs, seed));
   const std::string log = folder + "/flight.lcm";
   auto writer = LogWriter::open(log, 0);
-  if (!writer) throw std::runtime_error(writer.error().message);
+  if (!writer) throw CannotRecord(writer.error().message);
   RecordedFlight flight;
   flight.times.seed = seed;
   flight.times.machine = machine_name();
@@ -154,8 +153,8 @@ RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, cons
     write_text(folder + "/summary.json", to_json(summary));
     flight.record = make_record(summary, system.simulator().executor().counters(), inputs, identity);
   }
-  if (const auto flushed = writer->flush(); !flushed) throw std::runtime_error(flushed.error().message);
-  if (writer->counters().unwritten > 0) throw std::runtime_error(log + ": not all messages could be written");
+  if (const auto flushed = writer->flush(); !flushed) throw CannotRecord(flushed.error().message);
+  if (writer->counters().unwritten > 0) throw CannotRecord(log + ": not all messages could be written");
   if (!audit.empty()) flight.record.audit = run_audit(audit, folder);
   return flight;
 }

@@ -1,6 +1,7 @@
 // One flight of a campaign: flown, watched as tern-monitor watches, recorded as tern-logger records.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "campaign/flight_inputs.h"
@@ -8,6 +9,13 @@
 #include "campaign/virtual_flight.h"
 
 namespace tern {
+
+/// The disk did not take what a flight has to leave: no flight's fault.
+class CannotRecord : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+/// The exit code of a flying process that says so, and of a campaign that ends for it.
+inline constexpr int kExitCannotWrite = 3;
 
 struct RecordedFlight {
   FlightRecord record;
@@ -18,7 +26,7 @@ struct RecordedFlight {
 /// leaves it), flight.lcm (every message, with virtual times) and summary.json (tern-monitor's).
 /// @param audit  a program to run on the log, "tern-audit LOG", with its output in audit.txt: exit code 0 passed,
 /// 1 broken, anything else failed. Empty: none
-/// @throws ConfigError for bad inputs; std::runtime_error when the log cannot be written.
+/// @throws ConfigError for bad inputs; CannotRecord.
 RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, const CampaignIdentity& identity,
                             const std::string& folder, const std::string& audit, FlightObserver* observer = nullptr);
 

@@ -18,12 +18,12 @@
 #include "campaign/app/progress_output.h"
 #include "campaign/app/summary_output.h"
 #include "campaign/campaign.h"
+#include "campaign/recorded_flight.h"
 #include "runtime/config.h"
 
 namespace tern {
 namespace {
 
-constexpr int kExitCannotWrite = 3;
 constexpr int kExitInterrupted = 130;
 constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 63U) - 1;
 

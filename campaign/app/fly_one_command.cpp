@@ -23,7 +23,7 @@ struct Options {
   bool trace = false;
 };
 
-int fly_one(const Options& options) {
+int fly_one(const Options& options) try {
   spdlog::set_default_logger(spdlog::stderr_color_st("tern"));  // standard output is for the result
   const FlightInputs inputs = inputs_of(options.flight);
   const CampaignIdentity identity = check_inputs(inputs, options.seed);
@@ -32,7 +32,10 @@ int fly_one(const Options& options) {
   const RecordedFlight flight = fly_recorded(inputs, options.seed, identity, options.folder, options.flight.audit,
                                              options.trace ? &tracer : nullptr);
   fmt::print("{}", encode_flight(flight.record, flight.times));
-  return std::fflush(stdout) == 0 ? 0 : 1;
+  return std::fflush(stdout) == 0 ? 0 : kExitCannotWrite;
+} catch (const CannotRecord& error) {
+  fmt::print(stderr, "{}\n", error.what());
+  return kExitCannotWrite;
 }
 
 }  // namespace

@@ -173,10 +173,10 @@ std::string to_text(const CampaignSummary& s) {
                   s.flights, rate, 100.0 * s.success_ci95.low, 100.0 * s.success_ci95.high);
   text += fmt::format("  reached {}, collisions {}, timeouts {}, failed {}\n", s.reached, s.collisions, s.timeouts,
                       s.failed);
-  text += fmt::format("  {:<20}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "mean", "p50", "p95", "p99", "min", "max");
+  text += fmt::format("  {:<20}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "mean", "p50", "p95", "p99", "min", "max");
   const auto row = [&](const char* name, const Distribution& d) {
     if (d.count == 0) return;
-    text += fmt::format("  {:<20}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}\n", name, d.mean, d.p50, d.p95,
+    text += fmt::format("  {:<20}{:>12.3f}{:>12.3f}{:>12.3f}{:>12.3f}{:>12.3f}{:>12.3f}\n", name, d.mean, d.p50, d.p95,
                         d.p99, d.min, d.max);
   };
   row("flight_time_s", s.flight_time_s), row("first_entry_s", s.first_entry_s);

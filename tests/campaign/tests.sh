@@ -162,6 +162,15 @@ a_flight_whose_process_dies_has_failed() {
   [[ -s $work/flights.csv.failures/seed-1/scenario.yaml ]] || fail "no scenario"
 }
 
+a_full_disk_ends_the_campaign_and_fails_no_flight() {
+  # No file may be longer than 100 kB: as on a full disk, writing fails.
+  [[ $(trap '' XFSZ && ulimit -f 100 && code "$campaign" --world "$here/short_hop.yaml" --out "$work/flights.csv") == 3 ]] ||
+    fail "flown: $(cat "$work/out")"
+  said "flight.lcm: .* File too large\|not all messages could be written"
+  [[ $(wc -l <"$work/flights.csv") == 1 ]] || fail "a flight was counted: $(cat "$work/flights.csv")"
+  fly "$work/other.csv" --seeds 1:1
+}
+
 an_audit_that_finds_a_breach_fails_the_flight() {
   # shellcheck disable=SC2016  # the audit expands it
   printf '#!/bin/sh\ntest -s "$1" && echo "a breach in $1"\nexit 1\n' >"$work/audit"
