@@ -22,17 +22,21 @@ fly.sh [OPTION...]: installs what is missing, builds, starts Tern's processes, f
   --view[=ADDRESS]      show the flight in the browser: builds the page (Node 18 or newer), prints its URL and opens it
                         (default 127.0.0.1, on the first free port from 8765)
   --allow-goals         that page may send goals
+  --audit               recompute the flight from its log when it has ended (tern-audit); writes audit.txt and audit.json
+  --report              draw the flight when it has ended (tern-report); writes report.html
   --no-install          do not look for missing packages
   --help                this
 
-Exit code: 0 reached, 1 collision, 2 not reached in time, 3 the system itself failed, 128 + n ended by signal n (Ctrl-C: 130).
+Exit code: 0 reached, 1 collision, 2 not reached in time, 3 the system itself failed, 4 the audit found something broken in a
+flight that did not collide, 128 + n ended by signal n (Ctrl-C: 130).
 END
 }
 
 readonly OTHERS=(tern-simulator tern-predictor tern-mapper tern-planner)
+readonly EXIT_BROKEN=4 # the audit's
 readonly LOGGER=tern-logger MONITOR=tern-monitor VIEWER=tern-viewer
 
-scenario=corridor_demo seed='' count='' record='' summary='' url='' isolated='' install=yes view=''
+scenario=corridor_demo seed='' count='' record='' summary='' url='' isolated='' install=yes view='' audit='' report=''
 viewer_options=()
 settings=() # as --set KEY=VALUE ... for every process
 
@@ -47,6 +51,8 @@ parse() {
       --isolated) isolated=yes && continue ;;
       --view) view=127.0.0.1 && continue ;;
       --allow-goals) viewer_options+=(--allow-goals) && continue ;;
+      --audit) audit=yes && continue ;;
+      --report) report=yes && continue ;;
       --no-install) install='' && continue ;;
       --help | -h) usage && exit 0 ;;
       --*=*) value=${option#*=} option=${option%%=*} ;;
@@ -240,11 +246,27 @@ end_group() {
   for pid in "$@"; do kill -KILL -- "-$pid" 2>/dev/null || true; done
 }
 
+# look_back: what was asked for after the flight, from its log; sets `code`.
+look_back() {
+  local audited=0
+  if [[ -n $audit ]]; then
+    "$TERN_BIN/tern-audit" "$record/flight.lcm" --json "$record/audit.json" >"$record/audit.txt" || audited=$?
+    say '' && cat "$record/audit.txt"
+    case $audited in
+      0) ;;
+      1) ((code == 1)) || code=$EXIT_BROKEN ;;
+      *) code=$EXIT_FAILED ;;
+    esac
+  fi
+  [[ -z $report ]] || { "$TERN_BIN/tern-report" "$record/flight.lcm" -o "$record/report.html" || code=$EXIT_FAILED; }
+}
+
 # However this script ends: everything is stopped, and a summary is where it was asked for.
 finish() {
   local code=$? written=''
   stop_all
-  ((code <= EXIT_FAILED)) || say $'\n'"Ended by a signal; what was recorded: ${record:-nothing}"
+  ((code >= EXIT_FAILED)) || [[ ! -e ${record:-}/flight.lcm ]] || look_back
+  ((code < 128)) || say $'\n'"Ended by a signal; what was recorded: ${record:-nothing}"
   if [[ -n $record && -e $record/summary.json ]]; then
     written=$record/summary.json
     [[ -z $summary ]] || cp "$written" "$summary"

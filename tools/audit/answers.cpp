@@ -63,15 +63,14 @@ class AnswerCheck {
   }
 
   void unanswered() {
-    const auto plans = record_.contents.channels.find("PLAN");
-    std::int64_t lost = plans == record_.contents.channels.end() ? 0 : plans->second.lost;
+    std::int64_t unread = record_.unread("PLAN");
     for (const HorizonRequest& r : record_.requests) {
       if (answers_.contains(r.header.name)) continue;
       if (r.deadline >= record_.end()) {
         ++check_.unchecked["requests that were open when the log ended"];
-      } else if (lost > 0) {
-        --lost;
-        ++check_.unchecked["requests whose answer may be among the PLANs that were lost"];
+      } else if (unread > 0) {
+        --unread;
+        ++check_.unchecked["requests whose answer may be among the PLANs that were lost or refused"];
       } else if (planner_changed(record_, r.header.utime)) {
         ++check_.unchecked["requests while no planner was there"];
       } else {

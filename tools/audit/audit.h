@@ -49,6 +49,9 @@ std::string to_text(const Audit& audit, const FlightRecord& record);
 /// For programs. docs/after_the_flight.md lists the keys.
 nlohmann::json to_json(const Audit& audit, const FlightRecord& record);
 
+/// Euclidean distance from p (W) to a region, m; 0 inside.
+double distance_to(const Region& region, const Vec3& p);
+
 // The checks, in files of their own.
 Check check_clearance(const FlightRecord& record, std::vector<ClearancePoint>& series);
 Check check_limits(const FlightRecord& record);

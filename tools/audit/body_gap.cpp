@@ -1,5 +1,6 @@
 #include "tools/audit/body_gap.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -9,6 +10,8 @@ namespace {
 
 constexpr double kResolution = 1e-6;  // m
 constexpr int kMostSteps = 200;
+/// An atom of less than this is dropped.
+constexpr double kNoWeight = 1e-14;
 
 bool is_sphere(const Body& body) { return body.vertices.cols() == 1; }
 
@@ -31,23 +34,42 @@ Vec3 extreme_against(const Points& vertices, const Vec3& p, const Vec3& h, const
   return p + vertices.col(least) - corner;
 }
 
-/// Moves weight from the atom that lies farthest along x to `target`, as far as that shortens x.
-void pairwise_step(std::vector<Atom>& atoms, Vec3& x, const Vec3& target) {
-  const auto away = std::max_element(atoms.begin(), atoms.end(),
-                                     [&](const Atom& a, const Atom& b) { return x.dot(a.at) < x.dot(b.at); });
-  const Vec3 direction = target - away->at;
-  const double length2 = direction.squaredNorm();
-  if (length2 <= 0.0) return;
-  const double step = std::min(away->weight, -x.dot(direction) / length2);
-  x += step * direction;
-  away->weight -= step;
-  const auto known = std::find_if(atoms.begin(), atoms.end(), [&](const Atom& a) { return a.at == target; });
-  if (known != atoms.end()) {
-    known->weight += step;
-  } else {
-    atoms.push_back({target, step});
+/// Weights, summing to 1, of the point of least norm in the atoms' affine hull: [0 1ᵀ; 1 AᵀA] [μ; w] = [1; 0].
+Eigen::VectorXd affine_weights(const std::vector<Atom>& atoms) {
+  const auto n = static_cast<Eigen::Index>(atoms.size());
+  Eigen::MatrixXd system = Eigen::MatrixXd::Ones(n + 1, n + 1);
+  system(0, 0) = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      system(i + 1, j + 1) = atoms[static_cast<std::size_t>(i)].at.dot(atoms[static_cast<std::size_t>(j)].at);
+    }
   }
-  std::erase_if(atoms, [](const Atom& a) { return a.weight <= 0.0; });
+  return system.fullPivLu().solve(Eigen::VectorXd::Unit(n + 1, 0)).tail(n);
+}
+
+/// Brings the weights to the point of least norm in the atoms' convex hull, and drops the atoms that it does not need.
+void correct(std::vector<Atom>& atoms) {
+  while (atoms.size() > 1) {
+    const Eigen::VectorXd wanted = affine_weights(atoms);
+    double share = 1.0;
+    for (std::size_t i = 0; i < atoms.size(); ++i) {
+      const double w = wanted[static_cast<Eigen::Index>(i)];
+      if (w < 0.0) share = std::min(share, atoms[i].weight / (atoms[i].weight - w));
+    }
+    for (std::size_t i = 0; i < atoms.size(); ++i) {
+      atoms[i].weight += share * (wanted[static_cast<Eigen::Index>(i)] - atoms[i].weight);
+    }
+    const std::size_t before = atoms.size();
+    std::erase_if(atoms, [](const Atom& a) { return a.weight <= kNoWeight; });
+    if (share == 1.0 || atoms.size() == before) return;
+  }
+}
+
+Vec3 point_of(const std::vector<Atom>& atoms) {
+  Vec3 sum = Vec3::Zero();
+  double weight = 0.0;
+  for (const Atom& a : atoms) sum += a.weight * a.at, weight += a.weight;
+  return sum / weight;
 }
 
 }  // namespace
@@ -61,8 +83,8 @@ Gap body_gap(const Body& body, const Vec3& p, const Vec3& h) {
     const double gap = sphere_gap(p + body.vertices.col(0), body.radius, h);
     return {gap, gap};
   }
-  Vec3 x = p + body.vertices.col(0);
-  std::vector<Atom> atoms{{x, 1.0}};
+  std::vector<Atom> atoms{{p + body.vertices.col(0), 1.0}};
+  Vec3 x = atoms.front().at;
   double low = -1.0;
   for (int k = 0; k < kMostSteps; ++k) {
     const double length = x.norm();
@@ -70,7 +92,9 @@ Gap body_gap(const Body& body, const Vec3& p, const Vec3& h) {
     const Vec3 extreme = extreme_against(body.vertices, p, h, x);
     low = std::max(low, x.dot(extreme) / length);
     if (length - low < kResolution) break;
-    pairwise_step(atoms, x, extreme);
+    atoms.push_back({extreme, 0.0});
+    correct(atoms);
+    x = point_of(atoms);
   }
   return {std::min(low, x.norm()) - body.radius, x.norm() - body.radius};
 }

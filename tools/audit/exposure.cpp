@@ -41,7 +41,9 @@ double to_polygon(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& 
   return std::abs(winding) > 1.0 ? 0.0 : nearest;
 }
 
-double to_region(const Vec3& p, const Region& region) {
+}  // namespace
+
+double distance_to(const Region& region, const Vec3& p) {
   if (const auto* box = std::get_if<Box>(&region.shape)) {
     return (box->min() - p).cwiseMax(p - box->max()).cwiseMax(0.0).norm();
   }
@@ -53,6 +55,8 @@ double to_region(const Vec3& p, const Region& region) {
   const double above = std::max({prism.z_min - p.z(), p.z() - prism.z_max, 0.0});
   return std::hypot(beside, above);
 }
+
+namespace {
 
 struct Measured {
   std::vector<Exposure> exposure;
@@ -75,7 +79,7 @@ Measured measure(const FlightRecord& record) {
       measured.path_m += speed * h;
       measured.top_speed = std::max(measured.top_speed, speed);
       for (std::size_t k = 0; k < record.regions.size(); ++k) {
-        const double distance = to_region(span.curve.p(s), record.regions[k]);
+        const double distance = distance_to(record.regions[k], span.curve.p(s));
         Exposure& e = measured.exposure[k];
         if (distance <= 0.0) e.seconds += h, e.metres += speed * h;
         if (distance <= kNear) e.near_seconds += h, e.near_metres += speed * h;

@@ -112,6 +112,14 @@ class Reading {
 
 }  // namespace
 
+std::int64_t FlightRecord::unread(const std::string& channel) const {
+  const auto found = contents.channels.find(channel);
+  if (found == contents.channels.end()) return 0;
+  std::int64_t sum = found->second.lost;
+  for (const std::int64_t n : found->second.refused) sum += n;
+  return sum;
+}
+
 UTime FlightRecord::zero() const {
   if (!requests.empty()) return requests.front().header.utime;
   return states.empty() ? UTime{} : states.front().at;

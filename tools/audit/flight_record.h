@@ -49,6 +49,8 @@ struct FlightRecord {
   std::vector<ConfigurationReport> configurations;  ///< the last of each process
   std::vector<Region> regions;                      ///< the scenario's; filled by whoever can read configurations
 
+  /// Messages of a channel that were sent but cannot be read: lost by their numbers, or refused.
+  [[nodiscard]] std::int64_t unread(const std::string& channel) const;
   /// When the flight began: the first request's time, else the first state's.
   [[nodiscard]] UTime zero() const;
   /// Until when it is judged: the last state's time.

@@ -212,14 +212,13 @@ Check check_commitment(const FlightRecord& record) {
   Check check{.name = "commitment",
               .claim = "what was commanded is the committed trajectory, and that is a logged plan"};
   const std::vector<Commitments> all = commitments(record);
-  const auto lost = record.contents.channels.find("PLAN");
-  const bool plans_lost = lost != record.contents.channels.end() && lost->second.lost > 0;
+  const bool plans_unread = record.unread("PLAN") > 0;
   for (const Commitments& own : all) {
     for (std::size_t k = 1; k < own.list.size(); ++k) {
       ++check.checked;
       if (own.list[k].request != 0) continue;
-      if (plans_lost) {
-        ++check.unchecked["committed trajectories whose plan may be among the PLANs that were lost"];
+      if (plans_unread) {
+        ++check.unchecked["committed trajectories whose plan may be among the PLANs that were lost or refused"];
       } else {
         check.fail({own.list[k].spline.start, "flies a trajectory that no plan in the log brought"});
       }

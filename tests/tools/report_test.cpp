@@ -1,0 +1,139 @@
+// A report is one file that needs nothing else, tells what the log tells, and stays small however long the flight.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/logger/temp_folder.h"
+#include "tests/support/recorded_flight.h"
+#include "tools/audit/app/load_flight.h"
+#include "tools/report/report_data.h"
+
+namespace tern::report {
+namespace {
+
+using audit::Audit;
+using audit::FlightRecord;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+nlohmann::json data_in(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+FlightRecord short_flight() {
+  const TempFolder folder;
+  const std::string log = folder.file("flight.lcm");
+  tern::testing::record_flight(TERN_SCENARIO_FOLDER "/corridor_demo.yaml",
+                               {"world.count=40", "uav.goal=[24, 0, 1]", "executor.rate_hz=10"}, log);
+  return audit::load_flight(log).value();
+}
+
+TEST(Report, IsOneFileThatAsksTheNetworkForNothing) {
+  const FlightRecord record = short_flight();
+  const std::string page = report_page(record, audit::audit_flight(record));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  EXPECT_FALSE(
+      std::regex_search(page, std::regex(R"((<link|<img|<iframe|\ssrc=|@import|url\(|fetch\(|XMLHttpRequest))")));
+  EXPECT_EQ(count(page, "</script>"), 3U) << "data, charts, page";
+  EXPECT_THAT(page, HasSubstr("The MIT License (MIT)"));
+}
+
+TEST(Report, TellsWhatTheLogTells) {
+  const FlightRecord record = short_flight();
+  const Audit audit = audit::audit_flight(record);
+  const nlohmann::json data = data_in(report_page(record, audit));
+  EXPECT_EQ(data["flight"]["scenario"], "corridor_demo");
+  EXPECT_EQ(data["flight"]["result"]["outcome"], "reached");
+  EXPECT_EQ(data["path"]["t"].size(), record.states.size());
+  EXPECT_EQ(data["path"]["share"], 1);
+  EXPECT_EQ(data["answers"]["t"].size(), record.requests.size());
+  EXPECT_EQ(data["obstacles"]["movers"].size() + data["obstacles"]["statics"].size(), 40U);
+  EXPECT_EQ(data["regions"][0]["name"], "mural");
+  EXPECT_EQ(data["audit"]["verdict"], "held");
+  EXPECT_EQ(data["audit"]["checks"].size(), audit.checks.size());
+  const double inside = audit.check("exposure").measures[1].second;
+  EXPECT_GT(inside, 1.0);
+  EXPECT_NEAR(data["path"]["exposure"][0].back().get<double>(), inside, 0.2) << "metres inside the mural";
+}
+
+/// Five minutes among 300 movers, at the rates of a live flight.
+FlightRecord long_flight() {
+  FlightRecord record;
+  for (int k = 0; k < 30'000; ++k) {
+    UavState s;
+    s.at = UTime{k * 10'000LL};
+    s.motion.p = {0.037123 * k, 3.0 * std::sin(0.00123 * k), 1.0 + 0.5 * std::cos(0.00321 * k)};
+    s.motion.v = {3.7123, 0.369 * std::cos(0.00123 * k), 0.1};
+    s.motion.a = {0.01 * (k % 977), 0.0, 0.0};
+    record.states.push_back(s);
+  }
+  record.states[12'345].motion.v.x() = 5.75;
+  for (int id = 0; id < 300; ++id) {
+    auto& history = record.truth[id];
+    history.moves = true;
+    for (int k = 0; k < 9'000; ++k) {
+      history.samples.push_back({UTime{k * 33'333LL}, Vec3(4.0 * id + std::sin(0.01234 * k), std::cos(0.0321 * k), 1.0),
+                                 Vec3::Zero(), Vec3::Constant(0.4)});
+    }
+  }
+  for (int k = 1; k <= 6'000; ++k) {
+    HorizonRequest request;
+    request.header = {{1, k}, UTime{k * 50'000LL}};
+    request.id = k;
+    request.deadline = request.header.utime + Duration{70'000};
+    record.requests.push_back(request);
+    Plan plan;
+    plan.request_id = k;
+    plan.inputs.request = request.header.name;
+    record.plans.push_back(plan);
+    PlanTiming timing;
+    timing.request_id = k;
+    timing.total_ms = 1.234567 + 0.01 * (k % 331);
+    for (double& ms : timing.stage_ms) ms = 0.123456 * (k % 13);
+    record.timings.push_back(timing);
+  }
+  return record;
+}
+
+TEST(Report, OfFiveMinutesAmong300MoversStaysUnder5MegabytesAndHidesNoExtreme) {
+  const FlightRecord record = long_flight();
+  Audit audit;
+  for (const UavState& s : record.states)
+    audit.clearance.push_back({s.at, 1.0 + 1e-5 * static_cast<double>(s.at.us % 977), 7});
+  audit.clearance[23'456].clearance_m = 0.0625;
+  const std::string page = report_page(record, audit);
+  RecordProperty("bytes", std::to_string(page.size()));
+  EXPECT_LT(page.size(), 5'000'000U);
+  const nlohmann::json path = data_in(page)["path"];
+  EXPECT_LE(path["t"].size(), kMostPathPoints);
+  EXPECT_GT(path["t"].size(), kMostPathPoints / 2);
+  const auto axis_speed = path["axis_speed"].get<std::vector<double>>();
+  const auto clearance = path["clearance"].get<std::vector<double>>();
+  EXPECT_DOUBLE_EQ(*std::max_element(axis_speed.begin(), axis_speed.end()), 5.75);
+  EXPECT_NEAR(*std::min_element(clearance.begin(), clearance.end()), 0.0625, 1e-3);
+}
+
+TEST(Report, LetsNoTextOfALogBecomeMarkup) {
+  FlightRecord record;
+  record.path = "</script><script>alert(1)</script><!--";
+  record.results.push_back({.detail = "touched <b>obstacle</b>\n\xff"});
+  const std::string page = report_page(record, Audit{});
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(page, Not(HasSubstr("<b>obstacle")));
+  EXPECT_EQ(data_in(page)["flight"]["log"], record.path);
+}
+
+}  // namespace
+}  // namespace tern::report

@@ -1,0 +1,273 @@
+#include "tools/report/report_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tools/report/map_runs.h"
+
+namespace tern::report {
+namespace {
+
+using audit::Audit;
+using audit::FlightRecord;
+using nlohmann::json;
+
+/// Millimetres and milliseconds are enough for the eye.
+double rounded(double x) { return std::round(x * 1e3) / 1e3; }
+
+json row(const Vec3& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
+
+/// Columns of equal length, filled together.
+struct Columns {
+  std::vector<std::pair<const char*, json>> all;
+
+  explicit Columns(std::initializer_list<const char*> names) {
+    for (const char* name : names) all.emplace_back(name, json::array());
+  }
+  void add(std::initializer_list<double> values) {
+    auto column = all.begin();
+    for (const double value : values) {
+      column->second.push_back(std::isfinite(value) ? json(rounded(value)) : json());
+      ++column;
+    }
+  }
+  [[nodiscard]] json take() {
+    json object = json::object();
+    for (auto& [name, values] : all) object[name] = std::move(values);
+    return object;
+  }
+};
+
+/// Seconds and metres spent in each region so far.
+class ExposureSoFar {
+ public:
+  explicit ExposureSoFar(const FlightRecord& record) : regions_(record.regions), metres_(regions_.size(), 0.0) {}
+
+  void advance(const UavState& state) {
+    for (std::size_t k = 0; k < regions_.size() && last_ != nullptr; ++k) {
+      if (audit::distance_to(regions_[k], state.motion.p) <= 0.0)
+        metres_[k] += (state.motion.p - last_->motion.p).norm();
+    }
+    last_ = &state;
+  }
+  [[nodiscard]] const std::vector<double>& metres() const { return metres_; }
+
+ private:
+  const std::vector<Region>& regions_;
+  std::vector<double> metres_;
+  const UavState* last_ = nullptr;
+};
+
+json path_of(const FlightRecord& record, const Audit& audit) {
+  const std::size_t share = std::max<std::size_t>(1, (record.states.size() + kMostPathPoints - 1) / kMostPathPoints);
+  Columns columns{"t", "x", "y", "z", "speed", "axis_speed", "acceleration", "axis_acceleration", "clearance"};
+  json exposure = json::array();
+  for (std::size_t k = 0; k < record.regions.size(); ++k) exposure.push_back(json::array());
+  ExposureSoFar so_far(record);
+  std::size_t point = 0;
+  for (std::size_t from = 0; from < record.states.size(); from += share) {
+    const std::size_t to = std::min(from + share, record.states.size());
+    double speed = 0.0, axis_speed = 0.0, acceleration = 0.0, axis_acceleration = 0.0, clearance = INFINITY;
+    for (std::size_t k = from; k < to; ++k) {
+      const UavState& s = record.states[k];
+      so_far.advance(s);
+      speed = std::max(speed, s.motion.v.norm());
+      axis_speed = std::max(axis_speed, s.motion.v.cwiseAbs().maxCoeff());
+      acceleration = std::max(acceleration, s.motion.a.norm());
+      axis_acceleration = std::max(axis_acceleration, s.motion.a.cwiseAbs().maxCoeff());
+      while (point < audit.clearance.size() && audit.clearance[point].at < s.at) ++point;
+      if (point < audit.clearance.size() && audit.clearance[point].at == s.at) {
+        clearance = std::min(clearance, audit.clearance[point].clearance_m);
+      }
+    }
+    const UavState& first = record.states[from];
+    const Vec3& p = first.motion.p;
+    columns.add(
+        {record.seconds(first.at), p.x(), p.y(), p.z(), speed, axis_speed, acceleration, axis_acceleration, clearance});
+    for (std::size_t k = 0; k < so_far.metres().size(); ++k) exposure[k].push_back(rounded(so_far.metres()[k]));
+  }
+  json path = columns.take();
+  path["exposure"] = std::move(exposure);
+  path["share"] = share;
+  return path;
+}
+
+json obstacles_of(const FlightRecord& record) {
+  std::size_t samples = 0;
+  for (const auto& [id, history] : record.truth) samples += history.moves ? history.samples.size() : 0;
+  const std::size_t share = std::max<std::size_t>(1, (samples + kMostMoverPoints - 1) / kMostMoverPoints);
+  json movers = json::array();
+  json statics = json::array();
+  for (const auto& [id, history] : record.truth) {
+    if (history.samples.empty()) continue;
+    const Vec3& half = history.samples.front().half_extents;
+    if (!history.moves) {
+      statics.push_back({{"id", id}, {"p", row(history.samples.front().p)}, {"half", row(half)}});
+      continue;
+    }
+    Columns columns{"t", "x", "y", "z"};
+    for (std::size_t k = 0; k < history.samples.size(); k += share) {
+      const auto& s = history.samples[k];
+      columns.add({record.seconds(s.at), s.p.x(), s.p.y(), s.p.z()});
+    }
+    json mover = columns.take();
+    mover["id"] = id;
+    mover["half"] = row(half);
+    movers.push_back(std::move(mover));
+  }
+  return {{"movers", movers}, {"statics", statics}, {"share", share}};
+}
+
+json shape_of(const Region& region) {
+  if (const auto* box = std::get_if<Box>(&region.shape)) return {{"min", row(box->min())}, {"max", row(box->max())}};
+  if (const auto* ball = std::get_if<BallRegion>(&region.shape)) {
+    return {{"centre", row(ball->centre)}, {"radius", rounded(ball->radius)}};
+  }
+  const auto& prism = std::get<PrismRegion>(region.shape);
+  json corners = json::array();
+  for (const auto& c : prism.corners) corners.push_back({rounded(c.x()), rounded(c.y())});
+  return {{"corners", corners}, {"z", {rounded(prism.z_min), rounded(prism.z_max)}}};
+}
+
+json regions_of(const FlightRecord& record) {
+  json regions = json::array();
+  for (const Region& region : record.regions) {
+    json one = shape_of(region);
+    one["name"] = region.name;
+    one["class"] = region.class_name;
+    regions.push_back(std::move(one));
+  }
+  return regions;
+}
+
+/// One answer: what was asked when, what it cost.
+struct Answer {
+  double t = 0.0, deadline_ms = 0.0;
+  const Plan* plan = nullptr;
+  const PlanTiming* timing = nullptr;
+  [[nodiscard]] double total_ms() const { return timing == nullptr ? 0.0 : timing->total_ms; }
+};
+
+std::vector<Answer> answers_of(const FlightRecord& record) {
+  std::map<std::int64_t, const PlanTiming*> timings;
+  for (const PlanTiming& t : record.timings) timings[t.request_id] = &t;
+  std::map<MessageName, const Plan*> plans;
+  for (const Plan& plan : record.plans) plans.emplace(plan.inputs.request, &plan);
+  std::vector<Answer> answers;
+  for (const HorizonRequest& r : record.requests) {
+    Answer a{record.seconds(r.header.utime), (r.deadline - r.header.utime).seconds() * 1e3, nullptr, nullptr};
+    if (const auto plan = plans.find(r.header.name); plan != plans.end()) a.plan = plan->second;
+    if (const auto timing = timings.find(r.id); timing != timings.end()) a.timing = timing->second;
+    answers.push_back(a);
+  }
+  return answers;
+}
+
+json answers_to_json(const std::vector<Answer>& answers) {
+  const std::size_t share = std::max<std::size_t>(1, (answers.size() + kMostAnswers - 1) / kMostAnswers);
+  Columns columns{"t",        "deadline",   "total", "outcome", "reason",       "watchdog",
+                  "fallback", "local_goal", "hulls", "search",  "optimization", "check"};
+  for (std::size_t from = 0; from < answers.size(); from += share) {
+    const auto last = answers.begin() + static_cast<std::ptrdiff_t>(std::min(from + share, answers.size()));
+    const Answer& a = *std::max_element(answers.begin() + static_cast<std::ptrdiff_t>(from), last,
+                                        [](const Answer& x, const Answer& y) { return x.total_ms() < y.total_ms(); });
+    const double outcome = a.plan == nullptr ? NAN : static_cast<double>(a.plan->outcome);
+    const double reason = a.plan == nullptr ? NAN : static_cast<double>(a.plan->reason);
+    const double* ms = a.timing == nullptr ? nullptr : a.timing->stage_ms;
+    const auto stage = [ms](int k) { return ms == nullptr ? NAN : ms[k]; };
+    columns.add({a.t, a.deadline_ms, a.timing == nullptr ? NAN : a.timing->total_ms, outcome, reason,
+                 a.timing != nullptr && a.timing->from_watchdog ? 1.0 : 0.0, stage(0), stage(1), stage(2), stage(3),
+                 stage(4), stage(5)});
+  }
+  json result = columns.take();
+  result["share"] = share;
+  return result;
+}
+
+/// p50, p95, p99 and the largest of a stage, or of the whole answer.
+json percentiles(std::vector<double> values) {
+  if (values.empty()) return json::array();
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return rounded(values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
+  };
+  return {at(0.5), at(0.95), at(0.99), at(1.0)};
+}
+
+json costs_of(const FlightRecord& record) {
+  constexpr std::array kStageNames{"fallback", "local goal", "hulls", "search", "optimization", "check"};
+  json costs = json::array();
+  const auto add = [&](const char* name, const auto& get) {
+    std::vector<double> values;
+    for (const PlanTiming& t : record.timings) values.push_back(get(t));
+    costs.push_back({{"name", name}, {"ms", percentiles(std::move(values))}});
+  };
+  add("whole answer", [](const PlanTiming& t) { return t.total_ms; });
+  add("first certified", [](const PlanTiming& t) { return t.first_answer_ms; });
+  for (std::size_t k = 0; k < kStageNames.size(); ++k) {
+    add(kStageNames[k], [k](const PlanTiming& t) { return t.stage_ms[k]; });
+  }
+  return costs;
+}
+
+json log_of(const FlightRecord& record) {
+  json channels = json::array();
+  for (const auto& [name, c] : record.contents.channels) {
+    std::int64_t refused = 0;
+    for (const std::int64_t n : c.refused) refused += n;
+    channels.push_back(
+        {{"name", name}, {"messages", c.messages}, {"bytes", c.bytes}, {"lost", c.lost}, {"refused", refused}});
+  }
+  json processes = json::array();
+  for (const ConfigurationReport& c : record.configurations) {
+    processes.push_back({{"process", c.process}, {"build", c.build_id}, {"platform", c.platform}});
+  }
+  return {{"channels", channels}, {"processes", processes}};
+}
+
+json flight_of(const FlightRecord& record) {
+  json flight = {{"log", record.path},
+                 {"recorded_us", record.contents.first_us},
+                 {"length_s", rounded((record.end() - record.zero()).seconds())}};
+  if (!record.requests.empty()) {
+    const HorizonRequest& r = record.requests.front();
+    flight["v_max"] = row(r.limits.v_max);
+    flight["a_max"] = row(r.limits.a_max);
+    flight["body_half"] = row(r.body.half_extents());
+    flight["flight_box"] = {row(r.flight_box.min()), row(r.flight_box.max())};
+  }
+  if (!record.goals.empty()) flight["goal"] = row(record.goals.back().position);
+  if (!record.results.empty()) {
+    const FlightResult& r = record.results.back();
+    const auto number = [](double x) { return std::isfinite(x) ? json(rounded(x)) : json(); };
+    flight["result"] = {{"outcome", to_string(r.outcome)},        {"detail", r.detail},
+                        {"time_s", number(r.flight_time_s)},      {"path_m", number(r.path_length_m)},
+                        {"mean_speed", number(r.mean_speed_mps)}, {"top_speed", number(r.top_speed_mps)},
+                        {"clearance", number(r.min_clearance_m)}, {"stops", r.stops},
+                        {"violations", r.limit_violations}};
+  }
+  for (const ConfigurationReport& c : record.configurations) {
+    const std::size_t name = c.yaml.rfind("name: ", 0) == 0 ? 6 : std::string::npos;
+    if (name != std::string::npos) flight["scenario"] = c.yaml.substr(name, c.yaml.find('\n') - name);
+  }
+  return flight;
+}
+
+}  // namespace
+
+json report_data(const FlightRecord& record, const Audit& audit) {
+  return {{"flight", flight_of(record)},
+          {"path", path_of(record, audit)},
+          {"obstacles", obstacles_of(record)},
+          {"regions", regions_of(record)},
+          {"map", map_runs(record, kMostMapRuns)},
+          {"answers", answers_to_json(answers_of(record))},
+          {"costs", costs_of(record)},
+          {"log", log_of(record)},
+          {"audit", audit::to_json(audit, record)}};
+}
+
+}  // namespace tern::report

@@ -1,0 +1,27 @@
+// What a report shows of a flight, as JSON: decimated so that it stays small however long the flight was.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "tools/audit/audit.h"
+
+namespace tern::report {
+
+/// At most so many points along the flight. Beyond that, successive states share a point: it is where the first of them
+/// is, with the greatest speed and acceleration, the least clearance and the last exposure of them, so that no extreme
+/// is hidden.
+inline constexpr std::size_t kMostPathPoints = 6'000;
+/// At most so many points of all moving obstacles together, each obstacle's samples evenly thinned.
+inline constexpr std::size_t kMostMoverPoints = 60'000;
+/// At most so many answers; beyond that, successive ones share a point: the slowest of them.
+inline constexpr std::size_t kMostAnswers = 6'000;
+/// At most so many runs of the map's voxels.
+inline constexpr std::size_t kMostMapRuns = 20'000;
+
+/// The keys are those that page/report.js reads.
+nlohmann::json report_data(const audit::FlightRecord& record, const audit::Audit& audit);
+
+/// The whole page, self-contained: style, script, charts' library and data within.
+std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit);
+
+}  // namespace tern::report
