@@ -128,7 +128,9 @@ TEST(Report, OfFiveMinutesAmong300MoversStaysUnder5MegabytesAndHidesNoExtreme) {
 TEST(Report, LetsNoTextOfALogBecomeMarkup) {
   FlightRecord record;
   record.path = "</script><script>alert(1)</script><!--";
-  record.results.push_back({.detail = "touched <b>obstacle</b>\n\xff"});
+  FlightResult result;
+  result.detail = "touched <b>obstacle</b>\n\xff";
+  record.results.push_back(result);
   const std::string page = report_page(record, Audit{});
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
   EXPECT_THAT(page, Not(HasSubstr("<b>obstacle")));
