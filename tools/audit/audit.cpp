@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 namespace tern::audit {
@@ -25,6 +26,11 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
                                   log.damage.places, log.damage.bytes, log.damage.missing));
   }
   if (log.damage.truncated) missing.push_back("the log ends in the middle of an event");
+  std::set<MessageName> names;
+  for (const HorizonRequest& r : record.requests) names.insert(r.header.name);
+  if (names.size() < record.requests.size()) {
+    missing.push_back("requests of the same name occur twice: are the log's parts of different flights?");
+  }
   for (const char* name : kNeeded) {
     const auto channel = log.channels.find(name);
     if (channel == log.channels.end() || channel->second.messages == 0) {

@@ -15,7 +15,7 @@ void adopt_last(const FlightRecord& record, const HorizonRequest& last, Commitme
         continue;
       }
       const bool flown = join_gap(s.motion, motion_at(curves, s.at)) <= kJoinTolerance;
-      if (flown) own.list.push_back({plan.trajectory, std::move(curves), plan.request_id});
+      if (flown) own.list.push_back({plan.trajectory, std::move(curves), plan.request_id, false});
       return;
     }
   }
@@ -41,10 +41,11 @@ std::vector<Commitments> commitments(const FlightRecord& record) {
       all.push_back({executor, {}});
       last.push_back(nullptr);
     }
+    const bool gap = last[k] != nullptr && request.header.name.sequence != last[k]->header.name.sequence + 1;
     last[k] = &request;
     Commitments& own = all[k];
     if (!own.list.empty() && same(own.list.back().spline, request.committed)) continue;
-    Commitment next{request.committed, curves_of(request.committed), 0};
+    Commitment next{request.committed, curves_of(request.committed), 0, gap};
     for (const Plan& plan : record.plans) {
       if (brings_trajectory(plan) && same(plan.trajectory, request.committed)) next.request = plan.request_id;
     }

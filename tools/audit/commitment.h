@@ -13,6 +13,7 @@ struct Commitment {
   TimedSpline spline;
   std::vector<Curve> curves;
   std::int64_t request = 0;  ///< of the plan that it is; 0: no plan in the log is this one
+  bool after_gap = false;    ///< requests before it are missing: others may have been flown in between
 };
 
 /// The trajectories that one executor flew, in order. Each request says which one was in force; what was adopted after

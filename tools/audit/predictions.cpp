@@ -43,7 +43,7 @@ class CoverageCheck {
   }
 
   void set(const TrackSet& set) {
-    if (set.made_at < window_.from) return;
+    if (set.made_at < window_.from || record_.truth.empty()) return;
     audit_.promised_confidence = std::min(audit_.promised_confidence, set.confidence);
     for (const Track& track : set.tracks) take(set, track);
   }
