@@ -18,5 +18,7 @@ void add_campaign(CLI::App& app, Command& chosen);
 void add_fly_one(CLI::App& app, Command& chosen);
 void add_merge(CLI::App& app, Command& chosen);
 void add_summarize(CLI::App& app, Command& chosen);
+/// paper-6.1 and paper-6.2.
+void add_paper(CLI::App& app, Command& chosen);
 
 }  // namespace tern

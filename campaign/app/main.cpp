@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   tern::add_fly_one(app, chosen);
   tern::add_merge(app, chosen);
   tern::add_summarize(app, chosen);
+  tern::add_paper(app, chosen);
   try {
     app.parse(argc, argv);
     return chosen();

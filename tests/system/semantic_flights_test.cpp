@@ -46,6 +46,31 @@ TEST(PaperRepel, FewerMetresLieInAndNearThePoolThanWithoutSemanticsWithBothCosts
   RecordProperty("without_near_m", std::to_string(without.near_m));
 }
 
+double metres_inside(const FlightResult& result, const std::string& region) {
+  for (const Exposure& e : result.exposure) {
+    if (e.region == region) return e.metres;
+  }
+  ADD_FAILURE() << "no region " << region;
+  return 0.0;
+}
+
+TEST(Regions, SmokeAndPondAreAvoidedTheCanalIsCrossedTheShortWayAndTheGoalInTheReedsIsReached) {
+  const FlightResult result = fly_and_expect_all_well("regions", {"executor.rate_hz=10"}).result;
+  EXPECT_EQ(metres_inside(result, "smoke"), 0.0);
+  EXPECT_LE(metres_inside(result, "pond"), 0.5);
+  EXPECT_GE(metres_inside(result, "mural"), 6.0);
+  EXPECT_LE(metres_inside(result, "canal"), 3.3) << "it is 3 m wide and blocks the whole way";
+  EXPECT_LE(metres_inside(result, "reeds"), 1.8) << "1.5 m around the goal";
+}
+
+TEST(Regions, ADearerClassIsLeftForTheOneAroundIt) {
+  // Without the passage beside the pond something must be crossed: the water, not the smoke in its middle.
+  const FlightResult result =
+      fly_and_expect_all_well("regions", {"executor.rate_hz=10", "uav.flight_box.max=[48, 3.4, 4]"}).result;
+  EXPECT_LE(metres_inside(result, "smoke"), 0.2);
+  EXPECT_GE(metres_inside(result, "pond"), 9.0);
+}
+
 TEST(PaperAttract, LambdaAttractiveEightStillArrives) {
   for (const char* cost : {"exposure", "mean_distance"}) {
     SCOPED_TRACE(cost);

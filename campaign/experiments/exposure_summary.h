@@ -1,0 +1,31 @@
+// What semantics bought and what it cost: flights with them against the same seeds' flights without.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "campaign/experiments/mean_interval.h"
+#include "campaign/experiments/semantic_flights.h"
+
+namespace tern {
+
+/// All flights of one world, method and λ. Means over the flights that reached the goal.
+struct ExposureSummary {
+  std::string world, method;
+  double lambda = 0.0;
+  int flights = 0, reached = 0;
+  MeanInterval inside_m, inside_s, near_m, near_s, path_length_m, flight_time_s;
+  /// Differences to the flight of the same seed without semantics, where both reached the goal. Gained: metres more
+  /// inside what attracts, metres fewer inside what repels; near: within 1 m, inside included.
+  MeanInterval gained_m, gained_near_m, longer_m, later_s;
+};
+
+/// One per (world, method, λ), in the order of semantic_worlds, semantic_methods and λ.
+std::vector<ExposureSummary> summarize_exposure(const std::vector<SemanticFlight>& flights);
+
+/// With a header.
+std::string to_csv(const std::vector<ExposureSummary>& summaries);
+/// Two tables of Markdown: what was flown, and against no semantics.
+std::string to_markdown(const std::vector<ExposureSummary>& summaries);
+
+}  // namespace tern

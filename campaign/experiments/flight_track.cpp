@@ -1,0 +1,40 @@
+#include "campaign/experiments/flight_track.h"
+
+#include <cstdlib>
+#include <utility>
+
+#include "campaign/virtual_system.h"
+#include "core/world/vehicle.h"
+#include "runtime/channels.h"
+#include "runtime/config.h"
+#include "runtime/data_folder.h"
+#include "simulator/app/simulator_node.h"
+
+namespace tern {
+namespace {
+
+constexpr Duration kStep{50'000};
+constexpr Duration kLongest{600LL * 1'000'000};
+
+}  // namespace
+
+FlightTrack fly_and_track(const std::string& scenario_file, const std::vector<std::string>& overrides) {
+  VirtualSystem system(scenario_file, overrides);
+  FlightTrack track;
+  track.scenario = system.scenario();
+  auto world = make_world(track.scenario, data_folder(track.scenario.file, std::getenv("TERN_DATA")));
+  if (!world) throw ConfigError(scenario_file + ": world: " + world.error().message);
+  track.world = std::move(*world);
+  VirtualRunner& runner = system.runner();
+  const SimulatorNode& simulator = system.simulator();
+  UTime next{0};
+  runner.observer().subscribe<UavState>(channels::kUavState, [&](const UavState& state) {
+    if (!simulator.world_zero() || state.at < next) return;
+    track.points.push_back({(state.at - *simulator.world_zero()).seconds(), state.motion.p, state.motion.v.norm()});
+    next = state.at + kStep;
+  });
+  runner.run(runner.now() + kLongest, [&] { return simulator.result().has_value(); });
+  return track;
+}
+
+}  // namespace tern

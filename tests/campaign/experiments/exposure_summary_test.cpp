@@ -1,0 +1,69 @@
+#include "campaign/experiments/exposure_summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tern {
+namespace {
+
+SemanticFlight flight(const std::string& world, const std::string& method, std::uint64_t seed, double inside_m,
+                      double length_m, FlightOutcome outcome = FlightOutcome::Reached) {
+  SemanticFlight f;
+  f.flown = {world, method, method == "off" ? 0.0 : 2.0, seed};
+  f.outcome = outcome;
+  f.path_length_m = length_m;
+  f.exposure.metres = inside_m;
+  f.planner = "0123456789abcdef";
+  return f;
+}
+
+TEST(MeanInterval, IsStudentsT) {
+  // t_{0.975, 3} = 3.18245; the standard error of 1, 2, 3, 4 is √(5/3)/2.
+  const MeanInterval m = mean_interval({1, 2, 3, 4});
+  EXPECT_DOUBLE_EQ(m.mean, 2.5);
+  EXPECT_NEAR(m.half, 3.18245 * std::sqrt(5.0 / 3.0) / 2.0, 1e-4);
+  EXPECT_EQ(mean_interval({7}).half, 0.0);
+  EXPECT_EQ(mean_interval({}).n, 0);
+}
+
+TEST(ExposureSummary, ComparesFlightsOfOneSeedAndOnlyThoseThatArrived) {
+  const auto summaries = summarize_exposure(
+      {flight("paper_repel", "off", 1, 15, 75), flight("paper_repel", "off", 2, 13, 76),
+       flight("paper_repel", "off", 3, 9, 70, FlightOutcome::Collision),
+       flight("paper_repel", "exposure+path", 1, 1, 75.5), flight("paper_repel", "exposure+path", 2, 0, 76.1),
+       flight("paper_repel", "exposure+path", 3, 5, 90)});
+  ASSERT_EQ(summaries.size(), 2U);
+  EXPECT_EQ(summaries[0].reached, 2);
+  const ExposureSummary& with = summaries[1];
+  EXPECT_EQ(with.inside_m.n, 3);
+  EXPECT_EQ(with.gained_m.n, 2) << "seed 3 has nothing to be compared with";
+  EXPECT_DOUBLE_EQ(with.gained_m.mean, 13.5) << "metres avoided are gained";
+  EXPECT_NEAR(with.longer_m.mean, 0.3, 1e-12);
+}
+
+TEST(ExposureSummary, MetresInsideWhatAttractsAreGained) {
+  const auto summaries = summarize_exposure(
+      {flight("paper_attract", "off", 1, 15, 75), flight("paper_attract", "mean_distance", 1, 30, 76)});
+  EXPECT_DOUBLE_EQ(summaries.at(1).gained_m.mean, 15.0);
+}
+
+TEST(SemanticFlight, ReadsBackWhatItWrote) {
+  const SemanticFlight f = flight("paper_attract", "mean_distance+path", 17, 30.25, 76.5);
+  const auto read = parse_semantic_flight(to_csv(f));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->flown, f.flown);
+  EXPECT_EQ(to_csv(*read), to_csv(f));
+  EXPECT_EQ(parse_semantic_case(words_of(f.flown)).value(), f.flown);
+  EXPECT_FALSE(parse_semantic_flight("paper_attract,off,0"));
+  EXPECT_FALSE(parse_semantic_case("paper_attract,off,x,1"));
+}
+
+TEST(SemanticCases, CoverEveryMethodAndLambdaWithEverySeed) {
+  EXPECT_EQ(on_off_cases(100).size(), 600U);
+  EXPECT_EQ(sweep_cases(10).size(), 10U * 2U * (1U + 4U * 5U));
+  EXPECT_THROW((void)semantic_method("none"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace tern
