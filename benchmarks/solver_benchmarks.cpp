@@ -9,6 +9,8 @@
 namespace tern::benchmarks {
 namespace {
 
+constexpr int kProblems = 100;  // the same for each method, so that costs can be compared
+
 bool never() { return false; }
 bool anything(const Eigen::VectorXd&) { return true; }
 
@@ -48,8 +50,9 @@ void run(benchmark::State& state, const Solve& solve) {
 }
 
 void make_problem(benchmark::State& state) {
+  const std::size_t count = problems().size();
   std::size_t k = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(problems()[k++ % problems().size()].convex().bounds.data());
+  for (auto _ : state) benchmark::DoNotOptimize(problems()[k++ % count].convex().bounds.data());
 }
 BENCHMARK(make_problem)->Unit(benchmark::kMicrosecond);
 
@@ -58,21 +61,21 @@ void barrier(benchmark::State& state) {
     return solve_by_barrier(convex, free_variables(p.initial), 60, never);
   });
 }
-BENCHMARK(barrier)->Unit(benchmark::kMicrosecond);
+BENCHMARK(barrier)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
 
 void ipopt(benchmark::State& state) {
   run(state, [](const RecordedProblem& p, const ConvexProblem& convex) {
     return solve_by_ipopt(convex, free_variables(p.initial), 60, never);
   });
 }
-BENCHMARK(ipopt)->Unit(benchmark::kMicrosecond);
+BENCHMARK(ipopt)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
 
 void joint(benchmark::State& state) {
   run(state, [](const RecordedProblem& p, const ConvexProblem&) {
     return solve_joint(JointProblem(p.trajectory, p.pairs, p.initial), 60, never, anything);
   });
 }
-BENCHMARK(joint)->Unit(benchmark::kMicrosecond)->Iterations(100);
+BENCHMARK(joint)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
 
 void joint_from_alternating(benchmark::State& state) {
   run(state, [](const RecordedProblem& p, const ConvexProblem& convex) {
@@ -82,7 +85,7 @@ void joint_from_alternating(benchmark::State& state) {
     return second.found ? second : first;
   });
 }
-BENCHMARK(joint_from_alternating)->Unit(benchmark::kMicrosecond)->Iterations(100);
+BENCHMARK(joint_from_alternating)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
 
 }  // namespace
 }  // namespace tern::benchmarks
