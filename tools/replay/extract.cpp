@@ -2,6 +2,7 @@
 
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "logger/records/log_writer.h"
@@ -82,6 +83,8 @@ class ExtractWriter {
   }
 
   void run() {
+    constexpr std::string_view kText = "Left out: what the answers in this log do not name.";
+    writer_.append(kExtractMark, now_us_, {reinterpret_cast<const std::uint8_t*>(kText.data()), kText.size()});
     write_configurations();
     for (const auto& [version, map] : extract_.inputs.maps) {
       std::int64_t sequence = 0;

@@ -9,6 +9,9 @@
 
 namespace tern {
 
+/// A log that write_log wrote has a message on this channel: what is not in it was left out on purpose.
+inline constexpr char kExtractMark[] = "TERN_EXTRACT";
+
 /// Answers and all that they were made from.
 struct Extract {
   RecordedInputs inputs;

@@ -10,6 +10,7 @@
 #include "planner/planner_build.h"
 #include "runtime/channels.h"
 #include "runtime/platform.h"
+#include "tools/replay/extract.h"
 #include "tools/replay/replan.h"
 
 namespace tern {
@@ -73,12 +74,8 @@ class Replayer {
   std::vector<ReplayedPlan> done_;
 };
 
-/// Whether a channel was not read whole, as far as its receivers and sequence numbers tell.
-bool lacks(const LogContents& log, const char* channel_name, const std::string& suffix) {
-  const auto found = log.channels.find(channel_name + suffix);
-  if (found == log.channels.end()) return false;
-  const LogChannel& channel = found->second;
-  return channel.lost > 0 || std::accumulate(std::begin(channel.refused), std::end(channel.refused), 0LL) > 0;
+std::int64_t refused(const LogChannel& channel) {
+  return std::accumulate(std::begin(channel.refused), std::end(channel.refused), std::int64_t{0});
 }
 
 }  // namespace
@@ -117,10 +114,14 @@ std::int64_t Replay::broken() const {
   });
 }
 
+bool Replay::is_extract() const { return inputs.log.channels.contains(kExtractMark); }
+
 bool Replay::incomplete() const {
   const LogDamage& damage = inputs.log.damage;
+  const auto answers = inputs.log.channels.find(channels::kPlan + suffix);
+  const bool known = answers != inputs.log.channels.end();
   return missing() > 0 || inputs.plans.empty() || damage.places > 0 || damage.missing > 0 ||
-         lacks(inputs.log, channels::kPlan, suffix);
+         (known && answers->second.lost > 0 && !is_extract()) || (known && refused(answers->second) > 0);
 }
 
 Result<Replay> replay_log(const std::string& path, const ReplayOptions& options) {

@@ -43,6 +43,8 @@ struct Replay {
   [[nodiscard]] std::int64_t missing() const;
   /// Those that do not keep the promise that holds for them.
   [[nodiscard]] std::int64_t broken() const;
+  /// Whether the log is an extract (write_log): then gaps in its senders' numbers mean nothing.
+  [[nodiscard]] bool is_extract() const;
   /// Whether the log lacks anything that a replay needs: inputs, answers that were lost, refused or damaged.
   [[nodiscard]] bool incomplete() const;
 };

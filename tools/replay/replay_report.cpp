@@ -10,6 +10,7 @@
 #include "planner/planner_build.h"
 #include "runtime/channels.h"
 #include "runtime/platform.h"
+#include "tools/replay/extract.h"
 
 namespace tern {
 namespace {
@@ -41,9 +42,10 @@ std::string what_the_log_lacks(const Replay& replay) {
   }
   std::string foreign;
   for (const auto& [name, channel] : channels) {
-    if (channel.foreign && name != kLcmSelfTest)
+    if (channel.foreign && name != kLcmSelfTest && name != kExtractMark)
       foreign += fmt::format("{}{} ({})", foreign.empty() ? "" : ", ", name, channel.messages);
-    if (channel.lost > 0) text += fmt::format("  {}: {} messages were lost before the logger\n", name, channel.lost);
+    if (channel.lost > 0 && !replay.is_extract())
+      text += fmt::format("  {}: {} messages were lost before the logger\n", name, channel.lost);
     for (int r = 0; r < kRejections; ++r) {
       if (channel.refused[r] > 0) text += fmt::format("  {}: {} messages {}\n", name, channel.refused[r], kRefusals[r]);
     }

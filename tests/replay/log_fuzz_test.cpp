@@ -1,0 +1,112 @@
+// Ten thousand ways to damage a recorded log: none may crash its readers or make them take memory.
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "core/base/random.h"
+#include "messages/configuration_report.h"
+#include "messages/goal.h"
+#include "messages/horizon_request.h"
+#include "messages/map_chunk.h"
+#include "messages/plan.h"
+#include "messages/plan_timing.h"
+#include "messages/track_set.h"
+#include "runtime/channels.h"
+#include "tests/messages/allocation_meter.h"
+#include "tests/support/random_splines.h"
+#include "tools/log_reader/flight_log.h"
+
+namespace tern {
+namespace {
+
+constexpr int kMutations = 10'000;
+constexpr std::size_t kMostHeld = std::size_t{64} << 20U;  // bytes
+constexpr std::size_t kLogBytes = 20'000;                  // of the log: enough for every kind of message
+
+std::size_t place_in(const std::string& log, Rng& rng) {
+  return static_cast<std::size_t>(rng.uniform() * static_cast<double>(log.size()));
+}
+
+/// Where an event's head begins: the damage that hurts most is in its lengths.
+std::size_t head_in(const std::string& log, Rng& rng) {
+  const std::size_t found = log.find("\xED\xA1\xDA\x01", place_in(log, rng));
+  return found == std::string::npos ? 0 : found;
+}
+
+void damage(std::string& log, Rng& rng) {
+  const std::size_t at = place_in(log, rng);
+  const std::size_t length = std::min<std::size_t>(1 + place_in(log, rng) % 300, log.size() - at);
+  switch (random_integer(rng, 0, 6)) {
+    case 0: log[at] = static_cast<char>(random_integer(rng, 0, 255)); break;
+    case 1: log.resize(at); break;
+    case 2: log.erase(at, length); break;
+    case 3: log.insert(at, log, place_in(log, rng), length); break;
+    case 4:
+      std::generate_n(log.begin() + static_cast<std::ptrdiff_t>(at), length,
+                      [&] { return static_cast<char>(random_integer(rng, 0, 255)); });
+      break;
+    default: {  // a length, a number or a time of a head
+      const std::size_t field = head_in(log, rng) + 4 + static_cast<std::size_t>(random_integer(rng, 0, 23));
+      if (field < log.size()) log[field] = static_cast<char>(rng.uniform() < 0.5 ? 0x7F : random_integer(rng, 0, 255));
+    }
+  }
+}
+
+/// A file that no disk has to write.
+class MemoryFile {
+ public:
+  MemoryFile() : fd_(memfd_create("log", MFD_CLOEXEC)) {}
+  ~MemoryFile() { close(fd_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  void hold(const std::string& bytes) const {
+    ASSERT_EQ(ftruncate(fd_, static_cast<off_t>(bytes.size())), 0);
+    ASSERT_EQ(pwrite(fd_, bytes.data(), bytes.size(), 0), static_cast<ssize_t>(bytes.size()));
+  }
+  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
+
+ private:
+  int fd_;
+};
+
+template <class T>
+void count(FlightLog& log, const char* channel, std::int64_t& messages) {
+  log.on<T>(channel, [&messages](const T&, std::int64_t) { ++messages; });
+}
+
+TEST(LogFuzz, TenThousandMutationsNeitherCrashNorTakeMemory) {
+  std::ifstream file(TERN_GOLDEN_LOG, std::ios::binary);
+  std::string whole((std::istreambuf_iterator<char>(file)), {});
+  ASSERT_GT(whole.size(), kLogBytes);
+  whole.resize(kLogBytes);
+  const MemoryFile memory;
+  std::int64_t messages = 0;
+  FlightLog log;
+  count<HorizonRequest>(log, channels::kHorizonRequest, messages);
+  count<TrackSet>(log, channels::kPredictions, messages);
+  count<Goal>(log, channels::kGoal, messages);
+  count<MapChunk>(log, channels::kSemanticMap, messages);
+  count<Plan>(log, channels::kPlan, messages);
+  count<PlanTiming>(log, channels::kPlanTiming, messages);
+  count<ConfigurationReport>(log, channels::kConfiguration, messages);
+  Rng rng(1);
+  for (int k = 0; k < kMutations; ++k) {
+    std::string damaged = whole;
+    for (int n = random_integer(rng, 1, 3); n > 0 && !damaged.empty(); --n) damage(damaged, rng);
+    memory.hold(damaged);
+    const AllocationMeter meter;
+    const auto contents = log.read(memory.path());
+    ASSERT_TRUE(contents) << k;
+    ASSERT_LT(meter.peak(), kMostHeld) << k;
+    ASSERT_LE(contents->damage.bytes, static_cast<std::int64_t>(damaged.size())) << k;
+  }
+  EXPECT_GT(messages, kMutations * 20) << "most of each log is still read";
+}
+
+}  // namespace
+}  // namespace tern

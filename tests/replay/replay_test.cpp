@@ -1,0 +1,242 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "logger/records/log_writer.h"
+#include "messages/plan.h"
+#include "runtime/channels.h"
+#include "tests/logger/temp_folder.h"
+#include "tests/replay/golden_flights.h"
+#include "tools/replay/extract.h"
+#include "tools/replay/replan.h"
+#include "tools/replay/replay_report.h"
+
+namespace tern::testing {
+namespace {
+
+/// One flight on virtual time in which predictor and planner die and come back, recorded whole, for all tests.
+class ReplayTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TempFolder;
+    const std::string obstacles =
+        "world.obstacles=[{name: intruder, half_extents: 0.4, motion: waypoints, vanish: true, "
+        "points: [[1, 0, 6, 2], [4, 0, -12, 2]]}, {name: post, centre: [3, 0.2, 2], half_extents: [0.3, 0.3, 2]}]";
+    const auto stop = [](const char* process) { return [=](VirtualSystem& system) { system.stop(process); }; };
+    const auto start = [](const char* process) { return [=](VirtualSystem& system) { system.start(process); }; };
+    record_virtually({std::string(TERN_SCENARIO_FOLDER) + "/closing_in.yaml",
+                      {obstacles, "uav.goal=[8, 0, 2]"},
+                      5.0,
+                      {{1.5, stop("tern-predictor")},
+                       {2.0, start("tern-predictor")},
+                       {3.0, stop("tern-planner")},
+                       {3.2, start("tern-planner")}}},
+                     log());
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+  static std::string log() { return folder_->file("flight.lcm"); }
+
+  /// The log again, without the events for which `change` returns false, the others as it left them.
+  static std::string rewritten(const std::function<bool(LogEvent&)>& change) {
+    const std::string path = folder_->file("rewritten.lcm");
+    std::filesystem::remove(path);
+    auto reader = LogReader::open(log());
+    auto writer = LogWriter::open(path, 0);
+    while (auto event = reader->next()) {
+      if (change(*event)) writer->append(event->channel, event->received_us, event->data);
+    }
+    return path;
+  }
+
+  static Replay replay(const std::string& path, const ReplayOptions& options = {}) {
+    auto result = replay_log(path, options);
+    EXPECT_TRUE(result) << result.error().message;
+    return std::move(*result);
+  }
+
+  static bool text_has(const Replay& replay, const std::string& words) {
+    return replay_text(replay, false).find(words) != std::string::npos;
+  }
+
+ private:
+  static TempFolder* folder_;
+};
+TempFolder* ReplayTest::folder_ = nullptr;
+
+TEST_F(ReplayTest, OfAFlightWithRestartsGivesTheSameBytes) {
+  const Replay all = replay(log());
+  EXPECT_GT(all.plans.size(), 60U);
+  EXPECT_EQ(all.count(Agreement::Identical), static_cast<std::int64_t>(all.plans.size())) << replay_text(all, false);
+  EXPECT_EQ(replay_exit_code(all, false), 0);
+  EXPECT_TRUE(text_has(all, "the same bytes"));
+}
+
+TEST_F(ReplayTest, AnAnswerThatIsNotThePlannersIsFoundWithItsStage) {
+  int count = 0;
+  const std::string path = rewritten([&](LogEvent& event) {
+    if (event.channel != channels::kPlan) return true;
+    Plan plan = *decode<Plan>(event.data);
+    if (plan.outcome != PlanOutcome::Optimized || ++count != 5) return true;
+    plan.trajectory.control_points(0, 4) += 1e-5;
+    event.data = encode(plan);
+    return true;
+  });
+  const Replay found = replay(path);
+  EXPECT_EQ(found.broken(), 1);
+  EXPECT_EQ(replay_exit_code(found, false), 1);
+  EXPECT_TRUE(text_has(found, "first in the stage \"optimization\"")) << replay_text(found, false);
+  EXPECT_TRUE(text_has(found, "control point 4"));
+}
+
+TEST_F(ReplayTest, AnswersThatAreNotTheSameBytesButAgreeKeepTheWeakerPromiseOnly) {
+  const auto changed = [&](std::uint64_t build) {
+    return replay(rewritten([&](LogEvent& event) {
+      if (event.channel != channels::kPlan) return true;
+      Plan plan = *decode<Plan>(event.data);
+      plan.trajectory.control_points(0, 4) += 1e-9;
+      plan.inputs.planner_build += build;
+      event.data = encode(plan);
+      return true;
+    }));
+  };
+  EXPECT_EQ(replay_exit_code(changed(0), false), 1);
+  const Replay elsewhere = changed(1);
+  EXPECT_EQ(replay_exit_code(elsewhere, false), 0) << replay_text(elsewhere, false);
+  EXPECT_EQ(elsewhere.count(Agreement::Identical), 0);
+  EXPECT_TRUE(text_has(elsewhere, "the planner was built from other sources"));
+}
+
+TEST_F(ReplayTest, SaysWhatTheLogLacksAndReplaysTheRest) {
+  // A map and a goal are repeated: only without all of them are they missing.
+  const std::map<std::string, int> kept{{channels::kHorizonRequest, 4},
+                                        {channels::kPredictions, 4},
+                                        {channels::kGoal, 1'000},
+                                        {channels::kSemanticMap, 1'000}};
+  for (const auto& [channel, every] : kept) {
+    int count = 0;
+    const Replay rest = replay(rewritten(
+        [&, name = channel, n = every](LogEvent& event) { return event.channel != name || ++count % n == 0; }));
+    EXPECT_GT(rest.missing(), 0) << channel;
+    EXPECT_EQ(rest.broken(), 0) << channel << "\n" << replay_text(rest, false);
+    EXPECT_EQ(replay_exit_code(rest, false), 3) << channel;
+    EXPECT_TRUE(text_has(rest, "not in the log: ")) << channel;
+  }
+}
+
+TEST_F(ReplayTest, WithoutItsConfigurationNothingIsReplayedButTheLogIsRead) {
+  const Replay rest = replay(rewritten([](LogEvent& event) { return event.channel != channels::kConfiguration; }));
+  EXPECT_EQ(rest.missing(), static_cast<std::int64_t>(rest.plans.size()));
+  EXPECT_TRUE(text_has(rest, "not in the log: configuration ")) << replay_text(rest, false);
+}
+
+TEST_F(ReplayTest, ATruncatedOrDamagedLogIsReplayedAsFarAsItGoes) {
+  const std::string path = rewritten([](LogEvent&) { return true; });
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
+  const Replay rest = replay(path);
+  EXPECT_EQ(rest.broken(), 0);
+  EXPECT_GT(rest.count(Agreement::Identical), 30);
+  EXPECT_EQ(replay_exit_code(rest, false), 3);
+  EXPECT_TRUE(text_has(rest, "its end is cut off")) << replay_text(rest, false);
+}
+
+TEST_F(ReplayTest, MessagesOfAnotherVersionAreCountedAndForeignChannelsPassedOver) {
+  int count = 0;
+  const Replay rest = replay(rewritten([&](LogEvent& event) {
+    if (event.channel == channels::kUavState) event.channel = "CAMERA";
+    if (event.channel == channels::kPlan && ++count % 2 == 0) event.data[0] ^= 1U;
+    return true;
+  }));
+  EXPECT_EQ(rest.broken(), 0);
+  EXPECT_EQ(replay_exit_code(rest, false), 3);
+  EXPECT_TRUE(text_has(rest, "of another version")) << replay_text(rest, false);
+  EXPECT_TRUE(text_has(rest, "CAMERA"));
+}
+
+TEST_F(ReplayTest, ASmallLogOfSomeAnswersReplaysThem) {
+  ReplayOptions options;
+  options.from_s = 3.0;
+  const auto some = extract(log(), options, 3);
+  ASSERT_TRUE(some) << some.error().message;
+  const TempFolder folder;
+  ASSERT_TRUE(write_log(*some, folder.file("small.lcm")));
+  EXPECT_FALSE(write_log(*some, folder.file("small.lcm"))) << "nothing is overwritten";
+  const Replay small = replay(folder.file("small.lcm"));
+  EXPECT_GT(small.plans.size(), 10U);
+  EXPECT_EQ(small.count(Agreement::Identical), static_cast<std::int64_t>(some->inputs.plans.size()));
+  EXPECT_EQ(replay_exit_code(small, false), 0) << replay_text(small, false);
+  EXPECT_LT(std::filesystem::file_size(folder.file("small.lcm")), std::filesystem::file_size(log()) / 2);
+}
+
+TEST_F(ReplayTest, OtherSettingsSayWhatTheyChange) {
+  ReplayOptions options;
+  options.other.settings = {"planner.sphere_radius_m=2.5"};
+  const Replay what_if = replay(log(), options);
+  EXPECT_GT(what_if.count(Agreement::Different), 0);
+  EXPECT_EQ(replay_exit_code(what_if, true), 0);
+  EXPECT_NE(replay_text(what_if, true).find("other trajectories"), std::string::npos);
+}
+
+/// Problems of the log, solved anew.
+class ReplanTest : public ReplayTest {
+ protected:
+  /// Calls `use` with the problem of each answer that had a world.
+  static void for_each_problem(const std::function<void(const PlanProblem&, const Plan&)>& use) {
+    const auto all = extract(log(), {}, 4);
+    WorldRebuilder rebuilder(all->inputs, {});
+    for (const TrackSet& set : all->predictions) {
+      rebuilder.add(set);
+      for (const RecordedPlan& recorded : all->inputs.plans) {
+        if (recorded.plan.inputs.prediction_set != set.batch.set) continue;
+        const auto problem = rebuilder.problem_of(recorded.plan);
+        if (problem && problem->world.goal) use(*problem, recorded.plan);
+      }
+    }
+  }
+};
+
+TEST_F(ReplanTest, ABudgetThatEndsAnywhereIsReplayedByItsCounts) {
+  int cut = 0;
+  for_each_problem([&](const PlanProblem& problem, const Plan& recorded) {
+    for (const std::int64_t turns : {0, 1, 7, 60}) {
+      Budget budget([turns](int, Stage, std::int64_t count) { return count >= turns; });
+      Plan live = plan(problem.request, problem.world, problem.config, budget).plan;
+      live.header = recorded.header;
+      cut += live.cuts.empty() ? 0 : 1;
+      EXPECT_EQ(encode(replan(problem, live).plan), encode(live)) << "after " << turns;
+    }
+  });
+  EXPECT_GT(cut, 20);
+}
+
+/// Keeps every answer that stands on the way.
+struct Answers final : PlanObserver {
+  void enter(Stage) override {}
+  void answer(const Plan& best_so_far) override { all.push_back(best_so_far); }
+  std::vector<Plan> all;
+};
+
+TEST_F(ReplanTest, TheWatchdogsAnswerIsTheImprovementThatItSent) {
+  int several = 0;
+  for_each_problem([&](const PlanProblem& problem, const Plan& recorded) {
+    Answers answers;
+    Budget budget = Budget::unlimited();
+    plan(problem.request, problem.world, problem.config, budget, &answers);
+    several += answers.all.size() > 1 ? 1 : 0;
+    for (std::size_t k = 0; k < answers.all.size(); ++k) {
+      Plan sent = answers.all[k];
+      sent.header = recorded.header;
+      sent.cuts.push_back({-1, Stage::Check, static_cast<std::int64_t>(k) + 1});
+      EXPECT_EQ(encode(replan(problem, sent).plan), encode(sent));
+    }
+  });
+  EXPECT_GT(several, 5);
+}
+
+}  // namespace
+}  // namespace tern::testing

@@ -1,0 +1,24 @@
+// A flight on virtual time, recorded as tern-logger would.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "campaign/virtual_system.h"
+
+namespace tern::testing {
+
+/// What is recorded, and what happens meanwhile.
+struct EventfulFlight {
+  std::string scenario_file;
+  std::vector<std::string> overrides;
+  double seconds = 3.0;  ///< from the start of all processes, virtual time
+  /// What happens when: processes are stopped and started.
+  std::vector<std::pair<double, std::function<void(VirtualSystem&)>>> events = {};  ///< (second, what), ascending
+};
+
+/// Records every message of every channel into a new log.
+void record_virtually(const EventfulFlight& flight, const std::string& log);
+
+}  // namespace tern::testing
