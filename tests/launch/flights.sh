@@ -18,6 +18,17 @@ print("null" if value is None else value)' "$work/$name/summary.json" "$@"
 # holds WHAT EXPRESSION: of numbers, by awk.
 holds() { awk "BEGIN { exit !($2) }" || fail "$1: not $2"; }
 
+# replays FLIGHT: every answer in its log, planned again, gives the same bytes.
+replays() {
+  local result=0
+  "$TERN_BIN/tern-replay" "$work/$1" --json "$work/$1.replay" || result=$?
+  [[ $result == 0 ]] || fail "the replay's exit code is $result"
+  python3 -c 'import json, sys
+replay = json.load(open(sys.argv[1]))
+assert replay["answers"] == replay["identical"] and replay["answers"] >= 30, replay["answers"]' "$work/$1.replay" ||
+    fail "not every answer is the same"
+}
+
 # reached FLIGHT: it ended by itself, well, and left nobody.
 reached() {
   local result=0
@@ -27,6 +38,7 @@ reached() {
   holds "clearance" "$(field "$1" min_clearance_m) >= 0"
   holds "limits" "$(field "$1" limit_violations) == 0"
   nobody_left || fail "left: $(pgrep -af "$work/")"
+  replays "$1"
 }
 
 # The keeper of a process of this test's flights, and the process.
@@ -36,6 +48,8 @@ process_of() { pgrep -x -f "[^ ]*/$1 --config $work/.*" | head -n 1; }
 # says FLIGHT TEXT: the monitor's newest line has it.
 says() { tail -n 1 "$work/$1.out" | grep -q -- "$2"; }
 flies() { grep -qE ' [1-9]\.[0-9]+ m/s' "$work/$1.out"; }
+
+is_larger() { (($(stat -c %s "$1") > $2)); }
 
 # keep_down PROCESS: kills it and holds its keeper, so that it stays away until bring_back.
 keep_down() {
@@ -118,12 +132,19 @@ three_hundred_tracks_arrive_complete() {
   holds "lost" "$(field flight messages PREDICTIONS lost) == 0 && $(field flight messages PREDICTIONS rejected) == 0"
 }
 
-busy_cores_leave_the_answers_in_time() {
-  local busy=() core
+# Sets `busy` to processes that never rest, one for each core.
+keep_cores_busy() {
+  local core
+  busy=()
   for ((core = 0; core < $(nproc); core++)); do
     (while :; do :; done) &
     busy+=($!)
   done
+}
+
+busy_cores_leave_the_answers_in_time() {
+  local busy
+  keep_cores_busy
   start_flight flight
   local result=0
   wait "$flight" || result=$?
@@ -131,6 +152,25 @@ busy_cores_leave_the_answers_in_time() {
   cat "$work/flight.out"
   holds "in time" "$(field flight answered_in_time) >= 0.999 * $(field flight requests) && $(field flight requests) > 100"
   has_text "answered twice 0" "$work/flight/tern-simulator.log" || fail "answered twice"
+  replays flight
+}
+
+# What the flight comes to does not matter here: nobody plans or predicts for a while.
+every_answer_replays_whoever_died_and_however_busy_the_cores_were() {
+  local busy process size
+  keep_cores_busy
+  start_flight flight
+  eventually "flies" 30 flies flight
+  for process in tern-planner tern-predictor tern-mapper tern-planner; do
+    size=$(stat -c %s "$work/flight/flight.lcm")
+    kill -KILL "$(process_of "$process")"
+    eventually "a second of flight is recorded" 15 is_larger "$work/flight/flight.lcm" $((size + 3500000))
+  done
+  wait "$flight" || true
+  kill "${busy[@]}"
+  cat "$work/flight.out"
+  holds "restarts" "$(field flight restarts) == 4"
+  replays flight
 }
 
 run_test "$1"

@@ -24,6 +24,8 @@
 namespace tern {
 namespace {
 
+using support::random_integer;
+
 constexpr int kMutations = 10'000;
 constexpr std::size_t kMostHeld = std::size_t{64} << 20U;  // bytes
 constexpr std::size_t kLogBytes = 20'000;                  // of the log: enough for every kind of message

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "runtime/channels.h"
 #include "tests/logger/temp_folder.h"
 #include "tests/replay/golden_flights.h"
+#include "tools/log_reader/text_log.h"
 #include "tools/replay/extract.h"
 #include "tools/replay/replan.h"
 #include "tools/replay/replay_report.h"
@@ -171,6 +173,29 @@ TEST_F(ReplayTest, ASmallLogOfSomeAnswersReplaysThem) {
   EXPECT_EQ(small.count(Agreement::Identical), static_cast<std::int64_t>(some->inputs.plans.size()));
   EXPECT_EQ(replay_exit_code(small, false), 0) << replay_text(small, false);
   EXPECT_LT(std::filesystem::file_size(folder.file("small.lcm")), std::filesystem::file_size(log()) / 2);
+}
+
+TEST_F(ReplayTest, AFixtureGivesAUnitTestTheRequestItsWorldAndTheAnswer) {
+  ReplayOptions options;
+  options.request = 40;
+  const auto one = extract(log(), options);
+  ASSERT_TRUE(one) << one.error().message;
+  const TempFolder folder;
+  ASSERT_TRUE(write_fixture(*one, folder.file("request_40.txt")));
+  const auto fixture = load_fixture(folder.file("request_40.txt"));
+  ASSERT_TRUE(fixture) << fixture.error().message;
+  EXPECT_EQ(fixture->problem.request.id, 40);
+  EXPECT_FALSE(fixture->problem.world.predictions->set.tracks.empty());
+  EXPECT_EQ(encode(replan(fixture->problem, fixture->answer).plan), encode(fixture->answer));
+  EXPECT_EQ(replay_exit_code(replay(folder.file("request_40.txt")), false), 0);
+}
+
+TEST_F(ReplayTest, AFixtureThatWasSpoiledSaysWhere) {
+  const TempFolder folder;
+  std::ofstream(folder.file("bad.txt")) << kTextLogHead << "\n# words\nGOAL 1 0g\n";
+  const auto fixture = load_fixture(folder.file("bad.txt"));
+  ASSERT_FALSE(fixture);
+  EXPECT_NE(fixture.error().message.find("bad.txt:3"), std::string::npos) << fixture.error().message;
 }
 
 TEST_F(ReplayTest, OtherSettingsSayWhatTheyChange) {

@@ -11,9 +11,26 @@
 #include "tools/replay/extract.h"
 #include "tools/replay/replay_report.h"
 
+namespace tern {
+namespace {
+
+void keep_answers(const std::string& log, const ReplayOptions& options, const std::string& save,
+                  const std::string& dump) {
+  if (save.empty() && dump.empty()) return;
+  const auto chosen = extract(log, options);
+  if (!chosen) throw ConfigError(chosen.error().message);
+  const auto saved = save.empty() ? Result<void>() : write_log(*chosen, save);
+  if (!saved) throw ConfigError(saved.error().message);
+  const auto dumped = dump.empty() ? Result<void>() : write_fixture(*chosen, dump);
+  if (!dumped) throw ConfigError(dumped.error().message);
+}
+
+}  // namespace
+}  // namespace tern
+
 int main(int argc, char** argv) {
   CLI::App app{"Plans every answer of a log again from the inputs that it names, and compares byte for byte."};
-  std::string log, json, save;
+  std::string log, json, save, dump;
   tern::ReplayOptions options;
   app.set_version_flag("--version", fmt::format("tern-replay {}", tern::build_id()));
   app.add_option("LOG", log,
@@ -30,14 +47,13 @@ int main(int argc, char** argv) {
   app.add_option("--channel-suffix", options.suffix, "What the vehicle's channels end with")->type_name("S");
   app.add_option("--json", json, "Write what was found, with a line per answer, to this file")->type_name("FILE");
   app.add_option("--save", save, "Write those answers with only what they name as a new, small log")->type_name("FILE");
+  app.add_option("--dump", dump, "Write the answer to --request ID with its world as a text fixture for a unit test")
+      ->type_name("FILE")
+      ->needs("--request");
   try {
     app.parse(argc, argv);
     const bool what_if = !options.other.empty();
-    if (!save.empty()) {
-      const auto small = tern::extract(log, options);
-      const auto saved = small ? tern::write_log(*small, save) : tl::make_unexpected(small.error());
-      if (!saved) throw tern::ConfigError(saved.error().message);
-    }
+    tern::keep_answers(log, options, save, dump);
     const auto replay = tern::replay_log(log, options);
     if (!replay) throw tern::ConfigError(replay.error().message);
     fmt::print("{}", tern::replay_text(*replay, what_if));

@@ -5,6 +5,7 @@
 
 #include "logger/records/channel_table.h"
 #include "logger/records/log_writer.h"
+#include "tools/log_reader/text_log.h"
 
 namespace tern {
 namespace {
@@ -100,6 +101,11 @@ Result<LogContents> FlightLog::read(const std::string& path) {
   Reading reading{handlers_, suffix_, {}, {}};
   reading.contents.parts = log_parts(path);
   for (const std::string& part : reading.contents.parts) {
+    if (is_text_log(part)) {
+      const auto whole = read_text_log(part, [&reading](const LogEvent& event) { reading.take(event); });
+      if (!whole) return tl::make_unexpected(whole.error());
+      continue;
+    }
     auto reader = LogReader::open(part);
     if (!reader) return tl::make_unexpected(reader.error());
     while (const auto event = reader->next()) reading.take(*event);

@@ -64,8 +64,8 @@ class FlightLog {
         });
   }
 
-  /// Reads all parts once. Can be called again, for a second pass. @return an Error when a part cannot be opened.
-  /// What a handler throws ends the reading.
+  /// Reads all parts once, or a text log (text_log.h). Can be called again, for a second pass. @return an Error when a
+  /// part cannot be opened. What a handler throws ends the reading.
   Result<LogContents> read(const std::string& path);
 
  private:

@@ -1,5 +1,9 @@
 #include "tools/replay/extract.h"
 
+#include <fmt/format.h>
+
+#include <fstream>
+#include <functional>
 #include <map>
 #include <set>
 #include <string_view>
@@ -15,6 +19,7 @@
 #include "messages/plan_timing.h"
 #include "messages/track_set.h"
 #include "runtime/channels.h"
+#include "tools/log_reader/text_log.h"
 
 namespace tern {
 namespace {
@@ -75,7 +80,8 @@ class NeededSets {
 /// Writes messages under their own names; times are the answers'.
 class ExtractWriter {
  public:
-  ExtractWriter(LogWriter& writer, const Extract& extract) : writer_(writer), extract_(extract) {
+  using Sink = std::function<void(const LogEvent&)>;
+  ExtractWriter(const Extract& extract, Sink sink) : extract_(extract), sink_(std::move(sink)) {
     if (!extract.inputs.plans.empty()) now_us_ = extract.inputs.plans.front().received_us;
     for (const RecordedPlan& recorded : extract.inputs.plans) {
       answers_[set_named_by(recorded.plan)].push_back(&recorded);
@@ -84,7 +90,7 @@ class ExtractWriter {
 
   void run() {
     constexpr std::string_view kText = "Left out: what the answers in this log do not name.";
-    writer_.append(kExtractMark, now_us_, {reinterpret_cast<const std::uint8_t*>(kText.data()), kText.size()});
+    sink_({0, now_us_, kExtractMark, {kText.begin(), kText.end()}});
     write_configurations();
     for (const auto& [version, map] : extract_.inputs.maps) {
       std::int64_t sequence = 0;
@@ -105,7 +111,7 @@ class ExtractWriter {
  private:
   template <class T>
   void put(const char* channel, const T& message) {
-    writer_.append(channel, now_us_, encode(message));
+    sink_({0, now_us_, channel, encode(message)});
   }
 
   /// One for each planner process, because a process's platform decides what is promised.
@@ -136,11 +142,29 @@ class ExtractWriter {
     answers_.erase(found);
   }
 
-  LogWriter& writer_;
   const Extract& extract_;
+  Sink sink_;
   std::int64_t now_us_ = 0;
   std::map<SetName, std::vector<const RecordedPlan*>> answers_;
 };
+
+/// What a reader of the fixture wants to know without decoding it.
+std::string in_words(const Plan& plan, const Extract& extract) {
+  std::string text = fmt::format("# request {}: {}", plan.request_id, to_string(plan.outcome));
+  if (plan.reason != PlanReason::None) text += fmt::format(" ({})", to_string(plan.reason));
+  const auto request = extract.inputs.requests.find(plan.inputs.request);
+  if (request != extract.inputs.requests.end()) {
+    const MotionSample& s = request->second.start;
+    text += fmt::format("; from p ({:.3f}, {:.3f}, {:.3f}) m, v ({:.3f}, {:.3f}, {:.3f}) m/s", s.p.x(), s.p.y(),
+                        s.p.z(), s.v.x(), s.v.y(), s.v.z());
+  }
+  const Vec3& g = plan.local_goal;
+  text += fmt::format(" to local goal ({:.3f}, {:.3f}, {:.3f}) m\n", g.x(), g.y(), g.z());
+  for (const BudgetCut& cut : plan.cuts) {
+    text += fmt::format("#   cut: attempt {}, {}, after {}\n", cut.attempt, to_string(cut.stage), cut.count);
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -168,8 +192,35 @@ Result<void> write_log(const Extract& extract, const std::string& path) {
   auto writer = LogWriter::open(path, 0);
   if (!writer) return tl::make_unexpected(writer.error());
   if (writer->part_path() != path) return fail(path + ": exists already");
-  ExtractWriter(*writer, extract).run();
+  ExtractWriter(extract, [&writer](const LogEvent& event) {
+    writer->append(event.channel, event.received_us, event.data);
+  }).run();
   return writer->flush();
+}
+
+Result<void> write_fixture(const Extract& extract, const std::string& path) {
+  std::ofstream file(path);
+  file << kTextLogHead << "\n";
+  for (const RecordedPlan& recorded : extract.inputs.plans) file << in_words(recorded.plan, extract);
+  ExtractWriter(extract, [&file](const LogEvent& event) { file << text_line(event) << "\n"; }).run();
+  if (!file.flush()) return fail(path + ": cannot be written");
+  return {};
+}
+
+Result<Fixture> load_fixture(const std::string& path) {
+  auto inputs = read_recorded_inputs(path);
+  if (!inputs) return tl::make_unexpected(inputs.error());
+  if (inputs->plans.empty()) return fail(path + ": holds no answer");
+  const Plan& answer = inputs->plans.front().plan;
+  WorldRebuilder rebuilder(*inputs, {});
+  Result<PlanProblem> problem = rebuilder.problem_of(answer);
+  const auto read = read_prediction_sets(path, "", [&](TrackSet set) {
+    rebuilder.add(std::move(set));
+    if (!problem) problem = rebuilder.problem_of(answer);
+  });
+  if (!read) return tl::make_unexpected(read.error());
+  if (!problem) return fail(path + ": does not hold " + problem.error().message);
+  return Fixture{std::move(*problem), answer};
 }
 
 }  // namespace tern

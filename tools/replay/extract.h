@@ -26,4 +26,17 @@ Result<Extract> extract(const std::string& path, const ReplayOptions& options, i
 /// Writes it as a log, which must not exist yet. A replay of it replays the same answers.
 Result<void> write_log(const Extract& extract, const std::string& path);
 
+/// Writes it as text (text_log.h), with a comment that says in words what was asked and answered. tern-replay takes it
+/// as a log; a unit test takes it by load_fixture.
+Result<void> write_fixture(const Extract& extract, const std::string& path);
+
+/// One request with its world, as a planner had it.
+struct Fixture {
+  PlanProblem problem;
+  Plan answer;  ///< what the planner made of it then
+};
+
+/// The first answer of a log or fixture, with its problem. @return an Error that names what is missing.
+Result<Fixture> load_fixture(const std::string& path);
+
 }  // namespace tern
