@@ -3,65 +3,41 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
+#include "benchmarks/flight_recording.h"
+#include "core/splines/minvo.h"
+#include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/convex_problem.h"
 #include "planner/optimization/ipopt_solver.h"
-#include "planner/planner.h"
+#include "planner/plan_workspace.h"
 #include "planner/safety/checker.h"
 #include "planner/search/semantic_a_star.h"
 #include "runtime/stopwatch.h"
-#include "simulator/worlds/declared_motions.h"
-#include "simulator/worlds/world.h"
-#include "tests/support/plan_judge.h"
 
 namespace tern {
 namespace {
 
-constexpr UTime kWorldZero{100'000'000};
-
-struct Moment {
-  HorizonRequest request;
-  PlanningWorld world;
+/// A request, its world, and what is answered.
+struct Answered : Moment {
   Plan answer;
 };
 
-Scenario corridor() {
-  Scenario scenario;
-  scenario.seed = 1;
-  scenario.world.generator = "paper_corridor";
-  scenario.world.count = 100;
-  scenario.uav.flight_box = Box(Vec3(-10, -3, 0), Vec3(90, 3, 4));
-  return scenario;
+const FlightRecording& recording() {
+  static const FlightRecording flown =
+      record_flight(std::string(TERN_SCENARIOS) + "/paper_corridor.yaml", {"seed=1", "world.count=100"});
+  return flown;
 }
 
-/// Every request of a flight at 20 Hz, with the world that it was planned in.
-const std::vector<Moment>& flight() {
-  static const std::vector<Moment> moments = [] {
-    const Scenario scenario = corridor();
-    const World world = *make_world(scenario, "");
-    const PlannerConfig config;
-    support::Loop loop{kWorldZero, support::resting_at(scenario.uav.start, kWorldZero), scenario.uav.limits,
-                       scenario.uav.body, config};
-    loop.flight_box = scenario.uav.flight_box;
-    HorizonRequest first = support::request_at(kWorldZero, loop.committed);
-    first.flight_box = scenario.uav.flight_box;
-    const TrackSet start = declare_motions(world, kWorldZero, kWorldZero, kWorldZero + Duration{3'500'000});
-    const PlanningWorld prepared = support::world_of(start.tracks, support::go_to(scenario.uav.goal), first, config);
-    std::vector<Moment> flown;
-    while (flown.size() < 400 && (loop.now().p - scenario.uav.goal).norm() > 0.2) {
-      Moment moment;
-      moment.answer = loop.step([&](const HorizonRequest& request) {
-        moment.request = request;
-        moment.world = prepared;
-        TrackSet set =
-            declare_motions(world, kWorldZero, request.header.utime, request.header.utime + Duration{3'500'000});
-        moment.world.predictions = std::make_shared<const PredictionProducts>(std::move(set));
-        return moment.world;
-      });
-      flown.push_back(std::move(moment));
+const std::vector<Answered>& flight() {
+  static const std::vector<Answered> moments = [] {
+    std::vector<Answered> answered;
+    for (const Moment& m : recording().moments) {
+      Budget budget = Budget::unlimited();
+      answered.push_back({m, plan(m.request, m.world, recording().config, budget).plan});
     }
-    return flown;
+    return answered;
   }();
   return moments;
 }
@@ -73,11 +49,12 @@ double percentile(std::vector<double>& sorted, double share) {
 /// plan() over the flight's requests; p50, p99, max in ms of the thread's CPU time, and how long the flight was.
 void plan_of_a_flight(benchmark::State& state) {
   std::vector<double> ms;
+  PlanWorkspace workspace;
   for (auto _ : state) {
-    for (const Moment& m : flight()) {
+    for (const Answered& m : flight()) {
       Budget budget = Budget::unlimited();
       const double begin = thread_cpu_ms();
-      benchmark::DoNotOptimize(plan(m.request, m.world, PlannerConfig{}, budget));
+      benchmark::DoNotOptimize(plan(m.request, m.world, recording().config, budget, workspace));
       ms.push_back(thread_cpu_ms() - begin);
     }
   }
@@ -85,67 +62,143 @@ void plan_of_a_flight(benchmark::State& state) {
   state.counters["p50_ms"] = percentile(ms, 0.5);
   state.counters["p99_ms"] = percentile(ms, 0.99);
   state.counters["max_ms"] = ms.back();
-  state.counters["flight_s"] = 0.05 * static_cast<double>(flight().size());
+  state.counters["flight_s"] = recording().result.flight_time_s;
 }
 BENCHMARK(plan_of_a_flight)->Unit(benchmark::kMillisecond)->Iterations(1);
 
-SweptObstacles sweep(const std::vector<PlanningObstacle>& obstacles, const Moment& m) {
+void sweep(const std::vector<PlanningObstacle>& obstacles, const Answered& m, SweptObstacles& swept) {
   std::vector<double> times;
   for (int k = 0; k <= 12; ++k) times.push_back(k * m.answer.trajectory.interval.seconds());
-  return {obstacles, m.request.body, m.request.t_s, std::move(times),
-          box_around(m.request.start.p, Vec3::Constant(4.0))};
+  swept.assign(obstacles, m.request.body, m.request.t_s, times, box_around(m.request.start.p, Vec3::Constant(4.0)));
+}
+
+std::vector<SweptObstacles> sweeps_of(const std::vector<const Answered*>& moments) {
+  std::vector<SweptObstacles> swept(moments.size());
+  for (std::size_t k = 0; k < moments.size(); ++k)
+    sweep(moments[k]->world.predictions->obstacles, *moments[k], swept[k]);
+  return swept;
 }
 
 /// Moments of the flight whose answer is a new trajectory.
-std::vector<const Moment*> planned() {
-  std::vector<const Moment*> out;
-  for (const Moment& m : flight()) {
+std::vector<const Answered*> planned() {
+  std::vector<const Answered*> out;
+  for (const Answered& m : flight()) {
     if (m.answer.outcome == PlanOutcome::Optimized || m.answer.outcome == PlanOutcome::SearchOnly) out.push_back(&m);
   }
   return out;
 }
 
+/// Which tracks can matter.
+void index_query(benchmark::State& state) {
+  const auto moments = planned();
+  std::vector<std::int32_t> found;
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const Answered& m = *moments[k++ % moments.size()];
+    m.world.predictions->index.query(box_around(m.request.start.p, Vec3::Constant(4.2)), found);
+    benchmark::DoNotOptimize(found.data());
+  }
+}
+BENCHMARK(index_query);
+
 /// Cutting the obstacles of a horizon into boxes.
 void swept_boxes(benchmark::State& state) {
   const auto moments = planned();
+  SweptObstacles swept;
   std::size_t k = 0;
   for (auto _ : state) {
-    const Moment& m = *moments[k++ % moments.size()];
-    benchmark::DoNotOptimize(sweep(m.world.predictions->obstacles, m).intervals());
+    const Answered& m = *moments[k++ % moments.size()];
+    sweep(m.world.predictions->obstacles, m, swept);
+    benchmark::DoNotOptimize(swept.intervals());
   }
 }
 BENCHMARK(swept_boxes)->Unit(benchmark::kMicrosecond);
 
-/// One hull of a swept obstacle.
-void swept_hull(benchmark::State& state) {
+/// Calls work(swept, interval, candidate) for every candidate of six intervals of each moment, sweeps not made yet.
+template <class Work>
+void for_each_candidate(benchmark::State& state, const Work& work) {
   const auto moments = planned();
   std::size_t k = 0;
-  std::int64_t hulls = 0;
+  std::int64_t candidates = 0;
+  SweptObstacles swept;
   for (auto _ : state) {
     state.PauseTiming();
-    const Moment& m = *moments[k++ % moments.size()];
-    SweptObstacles swept = sweep(m.world.predictions->obstacles, m);
+    const Answered& m = *moments[k++ % moments.size()];
+    sweep(m.world.predictions->obstacles, m, swept);
     state.ResumeTiming();
     for (int j = 0; j < 6; ++j) {
-      for (const auto& candidate : swept.candidates(j)) benchmark::DoNotOptimize(swept.hull(j, candidate, 0, 1).data());
+      for (const auto& candidate : swept.candidates(j)) {
+        if (!swept.obstacle(candidate).moves()) continue;
+        work(swept, j, candidate);
+        ++candidates;
+      }
     }
-    hulls += swept.hulls_made();
   }
-  state.counters["per_hull"] =
-      benchmark::Counter(static_cast<double>(hulls), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["each"] =
+      benchmark::Counter(static_cast<double>(candidates), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// One sweep of a moving obstacle over an interval, as boxes.
+void swept_samples(benchmark::State& state) {
+  for_each_candidate(state, [](SweptObstacles& swept, int j, const SweptObstacles::Candidate& candidate) {
+    benchmark::DoNotOptimize(swept.sweep(j, candidate, 0, 1).data());
+  });
+}
+BENCHMARK(swept_samples)->Unit(benchmark::kMicrosecond);
+
+/// One hull of a moving obstacle, by CGAL.
+void swept_hull(benchmark::State& state) {
+  for_each_candidate(state, [](SweptObstacles& swept, int j, const SweptObstacles::Candidate& candidate) {
+    benchmark::DoNotOptimize(swept.hull(j, candidate, 0, 1).data());
+  });
 }
 BENCHMARK(swept_hull)->Unit(benchmark::kMicrosecond);
+
+/// Is an interval of the answer clear? Yes or no, per pair of obstacle and interval, boxes and caches included.
+void separation_in_flight(benchmark::State& state) {
+  const auto moments = planned();
+  std::vector<SweptObstacles> swept = sweeps_of(moments);
+  std::size_t k = 0;
+  PairCounts pairs;
+  for (auto _ : state) {
+    const std::size_t i = k++ % moments.size();
+    const ClampedSpline spline = moments[i]->answer.trajectory.spline();
+    for (int j = 0; j < spline.intervals(); ++j) {
+      benchmark::DoNotOptimize(is_clear(swept[i], j, spline.power(j), spline.minvo(j), pairs));
+    }
+  }
+  state.counters["per_pair"] =
+      benchmark::Counter(static_cast<double>(pairs.by_box + pairs.by_cache + pairs.by_plane + pairs.by_instant),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(separation_in_flight)->Unit(benchmark::kMicrosecond);
+
+/// The planes that the optimizer starts from: all within a metre, hulls made already.
+void gather_planes(benchmark::State& state) {
+  const auto moments = planned();
+  std::vector<SweptObstacles> swept = sweeps_of(moments);
+  std::vector<CertificatePlane> planes;
+  std::size_t k = 0;
+  PairCounts pairs;
+  for (auto _ : state) {
+    const std::size_t i = k++ % moments.size();
+    const ClampedSpline spline = moments[i]->answer.trajectory.spline();
+    planes.clear();
+    for (int j = 0; j < spline.intervals(); ++j) separate_interval(swept[i], j, spline.power(j), pairs, &planes, 1.0);
+    benchmark::DoNotOptimize(planes.data());
+  }
+}
+BENCHMARK(gather_planes)->Unit(benchmark::kMicrosecond);
 
 /// The checker with its hulls made, and what it costs per pair (boxes included).
 void check_a_plan(benchmark::State& state) {
   const auto moments = planned();
-  std::vector<SweptObstacles> swept;
-  for (const Moment* m : moments) swept.push_back(sweep(m->world.predictions->obstacles, *m));
+  std::vector<SweptObstacles> swept = sweeps_of(moments);
   std::size_t k = 0;
   std::int64_t pairs = 0;
   for (auto _ : state) {
     const std::size_t i = k++ % moments.size();
-    const Moment& m = *moments[i];
+    const Answered& m = *moments[i];
     const CheckReport report =
         check_plan(m.answer.trajectory, {m.request.start, m.request.limits, m.request.flight_box, 4.0}, swept[i]);
     pairs += report.pairs.by_box + report.pairs.by_plane;
@@ -155,14 +208,16 @@ void check_a_plan(benchmark::State& state) {
 }
 BENCHMARK(check_a_plan)->Unit(benchmark::kMicrosecond);
 
-/// One search at the answer's own Δt, hulls included.
+/// One search at the answer's own Δt, sweeps included.
 void search(benchmark::State& state) {
   const auto moments = planned();
   std::size_t k = 0;
   std::int64_t expansions = 0;
+  SweptObstacles swept;
+  SearchMemory memory;
   for (auto _ : state) {
-    const Moment& m = *moments[k++ % moments.size()];
-    SweptObstacles swept = sweep(m.world.predictions->obstacles, m);
+    const Answered& m = *moments[k++ % moments.size()];
+    sweep(m.world.predictions->obstacles, m, swept);
     SearchProblem problem;
     problem.start = m.request.start;
     problem.interval_s = m.answer.trajectory.interval.seconds();
@@ -172,39 +227,58 @@ void search(benchmark::State& state) {
     problem.centre_box = centre_box(m.request.flight_box, m.request.body);
     problem.way.point = m.answer.local_goal;
     Budget budget = Budget::unlimited();
-    expansions += semantic_a_star(problem, SearchConfig{}, swept, budget).expansions;
+    expansions += semantic_a_star(problem, recording().config.search, swept, budget, memory).expansions;
   }
   state.counters["expansions/s"] = benchmark::Counter(static_cast<double>(expansions), benchmark::Counter::kIsRate);
 }
 BENCHMARK(search)->Unit(benchmark::kMillisecond);
 
-/// Eq. 4 by Ipopt with the answer's own planes.
-void optimize(benchmark::State& state) {
+ConvexProblem convex_problem_of(const Answered& m) {
+  TrajectoryProblem problem;
+  problem.start = m.request.start;
+  problem.interval_s = m.answer.trajectory.interval.seconds();
+  problem.limits = m.request.limits;
+  problem.limits.v_max *= recording().config.velocity_share;
+  problem.centre_box = centre_box(m.request.flight_box, m.request.body);
+  problem.clearance = m.request.body.radius;
+  problem.goal = m.answer.local_goal;
+  problem.weight_jerk = OptimizationConfig{}.weight_jerk;
+  std::vector<PlaneConstraint> planes;
+  for (const CertificatePlane& c : m.answer.certificate) {
+    planes.push_back({c.interval, static_cast<double>(c.part) / c.parts, (c.part + 1.0) / c.parts, c.plane});
+  }
+  return make_convex_problem(problem, planes, m.answer.trajectory.control_points);
+}
+
+/// Eq. 4 with the answer's own planes: making the problem.
+void make_problem(benchmark::State& state) {
   const auto moments = planned();
+  std::size_t k = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(convex_problem_of(*moments[k++ % moments.size()]).bounds.data());
+}
+BENCHMARK(make_problem)->Unit(benchmark::kMicrosecond);
+
+/// Solving it.
+template <class Solve>
+void solve(benchmark::State& state, const Solve& by) {
+  const auto moments = planned();
+  std::vector<ConvexProblem> problems;
+  for (const Answered* m : moments) problems.push_back(convex_problem_of(*m));
   std::size_t k = 0;
   std::int64_t iterations = 0;
   for (auto _ : state) {
-    const Moment& m = *moments[k++ % moments.size()];
-    TrajectoryProblem problem;
-    problem.start = m.request.start;
-    problem.interval_s = m.answer.trajectory.interval.seconds();
-    problem.limits.v_max *= 0.99;
-    problem.centre_box = centre_box(m.request.flight_box, m.request.body);
-    problem.clearance = m.request.body.radius;
-    problem.goal = m.answer.local_goal;
-    problem.weight_jerk = OptimizationConfig{}.weight_jerk;
-    std::vector<PlaneConstraint> planes;
-    for (const CertificatePlane& c : m.answer.certificate) {
-      planes.push_back({c.interval, static_cast<double>(c.part) / c.parts, (c.part + 1.0) / c.parts, c.plane});
-    }
-    const ConvexProblem convex = make_convex_problem(problem, planes, m.answer.trajectory.control_points);
-    iterations +=
-        solve_by_ipopt(convex, free_variables(m.answer.trajectory.control_points), 60, [] { return false; }).iterations;
+    const std::size_t i = k++ % moments.size();
+    iterations += by(problems[i], free_variables(moments[i]->answer.trajectory.control_points), 60, [] {
+                    return false;
+                  }).iterations;
   }
   state.counters["iterations"] =
       benchmark::Counter(static_cast<double>(iterations), benchmark::Counter::kAvgIterations);
 }
-BENCHMARK(optimize)->Unit(benchmark::kMillisecond);
+void solve_barrier(benchmark::State& state) { solve(state, solve_by_barrier); }
+void solve_ipopt(benchmark::State& state) { solve(state, solve_by_ipopt); }
+BENCHMARK(solve_barrier)->Unit(benchmark::kMicrosecond);
+BENCHMARK(solve_ipopt)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace tern

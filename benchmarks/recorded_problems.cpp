@@ -41,11 +41,13 @@ std::optional<RecordedProblem> problem_of(const HorizonRequest& request, const P
   limits.v_max *= config.velocity_share;
   Budget budget = Budget::unlimited();
   PlanStatistics statistics;
-  const AttemptContext context{request,           config, world.predictions->obstacles,
-                               nullptr,           limits, {answer.local_goal, 0.0},
-                               answer.local_goal, budget, nullptr,
-                               statistics};
-  SweptObstacles swept = sweep_horizon(context, answer.trajectory.interval);
+  PlanWorkspace workspace;
+  const AttemptContext context{request,           config,   world.predictions->obstacles,
+                               nullptr,           limits,   {answer.local_goal, 0.0},
+                               answer.local_goal, budget,   nullptr,
+                               statistics,        workspace};
+  SweptObstacles& swept = workspace.horizon;
+  sweep_horizon(context, answer.trajectory.interval, swept);
   const auto searched =
       search_candidate(context, swept, answer.trajectory.interval, config.hold_required_s, config.search);
   if (!searched) return std::nullopt;

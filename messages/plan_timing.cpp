@@ -23,9 +23,13 @@ Message to_lcm(const PlanTiming& timing) {
   std::copy(std::begin(timing.stage_ms), std::end(timing.stage_ms), m.stage_ms);
   m.expansions = timing.expansions;
   m.hulls = timing.hulls;
+  m.pairs_by_index = timing.pairs_by_index;
   m.pairs_by_box = timing.pairs_by_box;
+  m.pairs_by_instant = timing.pairs_by_instant;
+  m.pairs_by_cache = timing.pairs_by_cache;
   m.pairs_by_plane = timing.pairs_by_plane;
   m.pairs_by_lp = timing.pairs_by_lp;
+  m.solver_calls = timing.solver_calls;
   m.solver_iterations = timing.solver_iterations;
   m.peak_rss_kb = timing.peak_rss_kb;
   m.from_watchdog = timing.from_watchdog;
@@ -44,9 +48,13 @@ tl::expected<PlanTiming, Rejection> from_lcm(const Message& m) {
   std::transform(std::begin(m.stage_ms), std::end(m.stage_ms), timing.stage_ms, milliseconds);
   timing.expansions = read.counter(m.expansions);
   timing.hulls = read.counter(m.hulls);
+  timing.pairs_by_index = read.counter(m.pairs_by_index);
   timing.pairs_by_box = read.counter(m.pairs_by_box);
+  timing.pairs_by_instant = read.counter(m.pairs_by_instant);
+  timing.pairs_by_cache = read.counter(m.pairs_by_cache);
   timing.pairs_by_plane = read.counter(m.pairs_by_plane);
   timing.pairs_by_lp = read.counter(m.pairs_by_lp);
+  timing.solver_calls = read.counter(m.solver_calls);
   timing.solver_iterations = read.counter(m.solver_iterations);
   timing.peak_rss_kb = read.counter(m.peak_rss_kb);
   timing.from_watchdog = read.flag(m.from_watchdog);

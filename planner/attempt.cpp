@@ -17,12 +17,11 @@ SemanticGuide guide_of(const AttemptContext& context) {
   return {*context.fields, context.config.semantic_cost, context.request.start.p, context.local_goal};
 }
 
-/// Semantics enter Eq. 2 summed along the path and by what is expected of the rest.
-void add_semantics(const AttemptContext& context, SearchProblem& problem) {
-  if (context.fields == nullptr) return;
-  const SemanticGuide guide = guide_of(context);
-  problem.accumulated = [guide](const Vec3& a, const Vec3& b) { return guide.along(a, b); };
-  problem.pointwise = [guide](const Vec3& q) { return guide.ahead(q); };
+/// Semantics enter Eq. 2 summed along the path and by what is expected of the rest. The guide must outlive the problem
+/// (by pointer: a function that holds more allocates).
+void add_semantics(const SemanticGuide* guide, SearchProblem& problem) {
+  problem.accumulated = [guide](const Vec3& a, const Vec3& b) { return guide->along(a, b); };
+  problem.pointwise = [guide](const Vec3& q) { return guide->ahead(q); };
 }
 
 CheckDemands demands_of(const AttemptContext& context) {
@@ -61,8 +60,7 @@ std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& 
   c.trajectory = {context.request.t_s, interval, control_points};
   if (context.observer != nullptr) context.observer->enter(Stage::Check);
   CheckReport report = check_plan(c.trajectory, demands_of(context), obstacles);
-  context.statistics.pairs_by_box += report.pairs.by_box;
-  context.statistics.pairs_by_plane += report.pairs.by_plane;
+  context.statistics.pairs += report.pairs;
   if (!report.ok()) return std::nullopt;
   c.certificate = std::move(report.certificate);
   const int intervals = static_cast<int>(control_points.cols()) - 3;
@@ -99,10 +97,11 @@ double worth_of(const AttemptContext& context, const TimedSpline& trajectory) {
   return arrival_s + metres / context.plan_limits.v_max.minCoeff();
 }
 
-SweptObstacles sweep_horizon(const AttemptContext& context, Duration interval) {
+void sweep_horizon(const AttemptContext& context, Duration interval, SweptObstacles& swept) {
   constexpr double kHoldStep = 0.1;  // s: coarser than Δt where Δt is short, so that a hold costs few hulls
   const double dt = interval.seconds();
-  std::vector<double> times;
+  std::vector<double>& times = context.workspace.times;
+  times.clear();
   for (int k = 0; k <= context.config.intervals; ++k) times.push_back(k * dt);
   const double step = std::max(dt, kHoldStep);
   const double end = times.back();
@@ -110,7 +109,7 @@ SweptObstacles sweep_horizon(const AttemptContext& context, Duration interval) {
     times.push_back(end + std::min(k * step, context.config.hold_cap_s));
   }
   const Box region = box_around(context.request.start.p, Vec3::Constant(context.config.sphere_radius_m));
-  return {context.obstacles, context.request.body, context.request.t_s, std::move(times), region};
+  swept.assign(context.obstacles, context.request.body, context.request.t_s, times, region);
 }
 
 std::optional<Candidate> search_candidate(const AttemptContext& context, SweptObstacles& obstacles, Duration interval,
@@ -128,11 +127,12 @@ std::optional<Candidate> search_candidate(const AttemptContext& context, SweptOb
   problem.way = context.way;
   problem.hold_required_s = hold_required_s;
   problem.hull_basis = context.config.hull_basis;
-  add_semantics(context, problem);
-  const SearchResult found = semantic_a_star(problem, config, obstacles, context.budget);
+  std::optional<SemanticGuide> guide;
+  if (context.fields != nullptr) add_semantics(&guide.emplace(guide_of(context)), problem);
+  const SearchResult found = semantic_a_star(problem, config, obstacles, context.budget, context.workspace.search);
+  if (context.observer != nullptr) context.observer->searched(problem, obstacles, found);
   context.statistics.expansions += found.expansions;
-  context.statistics.pairs_by_box += found.pairs.by_box;
-  context.statistics.pairs_by_plane += found.pairs.by_plane;
+  context.statistics.pairs += found.pairs;
   if (!found.found) return std::nullopt;
   return certify(context, obstacles, interval, found.control_points, PlanOutcome::SearchOnly, hold_required_s);
 }

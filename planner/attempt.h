@@ -6,6 +6,7 @@
 
 #include "core/world/budget.h"
 #include "core/world/horizon.h"
+#include "planner/plan_workspace.h"
 #include "planner/planner.h"
 #include "planner/safety/checker.h"
 #include "planner/search/semantic_a_star.h"
@@ -42,10 +43,11 @@ struct AttemptContext {
   Budget& budget;
   PlanObserver* observer;
   PlanStatistics& statistics;
+  PlanWorkspace& workspace;
 };
 
 /// The obstacles of the horizon t_s … t_s + J Δt and of the hold after it.
-SweptObstacles sweep_horizon(const AttemptContext& context, Duration interval);
+void sweep_horizon(const AttemptContext& context, Duration interval, SweptObstacles& swept);
 
 /// Searches at this Δt. Nothing: no leaf that the checker passes.
 /// @param hold_required_s  what the leaf's end should hold

@@ -38,12 +38,15 @@ struct Aim {
 };
 
 /// Where all aims are forecast: the sphere, long enough to reach the farthest of them and to hold there.
-SweptObstacles sweep_forecast(const AttemptContext& context, double duration_s) {
+const SweptObstacles& sweep_forecast(const AttemptContext& context, double duration_s) {
   constexpr double kStep = 0.1;  // s
-  std::vector<double> times{0.0};
+  std::vector<double>& times = context.workspace.times;
+  times.assign(1, 0.0);
   while (times.back() < duration_s) times.push_back(times.back() + kStep);
   const Box region = box_around(context.request.start.p, Vec3::Constant(context.config.sphere_radius_m));
-  return {context.obstacles, context.request.body, context.request.t_s, std::move(times), region};
+  SweptObstacles& swept = context.workspace.forecast;
+  swept.assign(context.obstacles, context.request.body, context.request.t_s, times, region);
+  return swept;
 }
 
 /// A smooth way from rest to rest at s of its duration, 0 … 1.
@@ -74,7 +77,7 @@ std::vector<Aim> ordered_aims(const AttemptContext& context) {
       aims.push_back(aim);
     }
   }
-  const SweptObstacles swept = sweep_forecast(context, longest + context.config.hold_cap_s);
+  const SweptObstacles& swept = sweep_forecast(context, longest + context.config.hold_cap_s);
   for (Aim& aim : aims) {
     aim.clear_s =
         forecast(swept, context.request.start.p, aim.point, aim.interval.seconds() * context.config.intervals);
@@ -110,9 +113,10 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
     context.fields = nullptr;
     context.local_goal = aim_at.point;
     context.way = {context.local_goal, 0.0};
-    SweptObstacles swept = sweep_horizon(context, aim_at.interval);
+    SweptObstacles& swept = context.workspace.evasion;
+    sweep_horizon(context, aim_at.interval, swept);
     auto found = search_candidate(context, swept, aim_at.interval, base.config.hold_cap_s, search);
-    base.statistics.hulls += swept.hulls_made();
+    base.statistics.count(swept);
     if (!found) continue;
     found->outcome = PlanOutcome::Evade;
     found->arrival_s = worth_of(base, found->trajectory);

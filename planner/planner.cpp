@@ -42,8 +42,14 @@ WayToGo way_along(const std::vector<Vec3>& path, const TravelCost& cost) {
 class Planning {
  public:
   Planning(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
-           PlanObserver* observer)
-      : request_(request), world_(world), config_(config), budget_(budget), observer_(observer) {
+           PlanWorkspace& workspace, PlanObserver* observer)
+      : request_(request),
+        world_(world),
+        config_(config),
+        budget_(budget),
+        observer_(observer),
+        workspace_(workspace),
+        obstacles_(workspace.obstacles) {
     name_inputs();
   }
 
@@ -92,12 +98,18 @@ class Planning {
 
   /// Tracks and map boxes that can matter; α of those around the start scaled down where it must be.
   void choose_obstacles() {
-    obstacles_ = world_.predictions->obstacles;
     const double reach = config_.sphere_radius_m + request_.body.half_extents().maxCoeff() + kBetaMax;
     const Box sphere = box_around(request_.start.p, Vec3::Constant(reach));
     const Box committed = grown(committed_box(), request_.body.half_extents() + Vec3::Constant(kBetaMax));
     const Box region = sphere.merged(committed);
-    for (const std::int32_t k : world_.map->occupied.query(region)) {
+    obstacles_.clear();
+    std::vector<std::int32_t>& found = workspace_.found;
+    world_.predictions->index.query(region, found);
+    for (const std::int32_t k : found) {
+      obstacles_.push_back(world_.predictions->obstacles[static_cast<std::size_t>(k)]);
+    }
+    world_.map->occupied.query(region, found);
+    for (const std::int32_t k : found) {
       obstacles_.push_back(
           {-1 - static_cast<std::int64_t>(k), nullptr, world_.map->occupied.boxes()[static_cast<std::size_t>(k)], 1.0});
     }
@@ -122,7 +134,8 @@ class Planning {
   std::optional<Candidate> check_committed() {
     const TimedSpline& committed = request_.committed;
     const Vec3 end = committed.control_points.col(committed.control_points.cols() - 1);
-    std::vector<double> times{0.0};
+    std::vector<double>& times = workspace_.times;
+    times.assign(1, 0.0);
     std::vector<PowerCubic> pieces;
     if (request_.t_s < committed.end()) {
       const PiecewiseCubic motion = remaining_motion(committed.spline(), committed.start, request_.t_s);
@@ -136,7 +149,8 @@ class Planning {
     const double moving_s = times.back();
     for (double hold = 0.0; hold < config_.hold_cap_s - 1e-9; hold += kHoldStep)
       times.push_back(moving_s + hold + kHoldStep);
-    SweptObstacles swept(obstacles_, request_.body, request_.t_s, std::move(times), committed_box());
+    SweptObstacles& swept = workspace_.committed;
+    swept.assign(obstacles_, request_.body, request_.t_s, times, committed_box());
     CheckReport report = check_separation(pieces, swept);
     count(report.pairs, swept);
     if (!report.ok()) return std::nullopt;
@@ -152,9 +166,8 @@ class Planning {
   }
 
   void count(const PairCounts& pairs, const SweptObstacles& swept) {
-    answer_.statistics.pairs_by_box += pairs.by_box;
-    answer_.statistics.pairs_by_plane += pairs.by_plane;
-    answer_.statistics.hulls += swept.hulls_made();
+    answer_.statistics.pairs += pairs;
+    answer_.statistics.count(swept);
   }
 
   /// At rest where it shall be: nothing to do but to stay clear.
@@ -167,8 +180,8 @@ class Planning {
   AttemptContext make_context() {
     Limits reduced = request_.limits;
     reduced.v_max *= config_.velocity_share;
-    return {request_,         config_, obstacles_, semantics_in_reach(), reduced, {},
-            request_.start.p, budget_, observer_,  answer_.statistics};
+    return {request_,         config_, obstacles_, semantics_in_reach(), reduced,   {},
+            request_.start.p, budget_, observer_,  answer_.statistics,   workspace_};
   }
 
   /// The fields, if what they cost differs anywhere in the sphere. The mean distance of Eq. 3 differs everywhere.
@@ -208,13 +221,14 @@ class Planning {
       if (best_ && (enough() || budget_.expired(Stage::LocalGoal))) break;
       const Duration interval = interval_of(scale * least);
       enter(Stage::Hulls);
-      SweptObstacles swept = sweep_horizon(context, interval);
+      SweptObstacles& swept = workspace_.horizon;
+      sweep_horizon(context, interval, swept);
       auto found = search_candidate(context, swept, interval, config_.hold_required_s, config_.search);
       if (found) {
         if (!best_ || found->better_than(*best_)) offer(&*found, PlanReason::None);
         take(optimized(context, swept, std::move(*found)));
       }
-      answer_.statistics.hulls += swept.hulls_made();
+      answer_.statistics.count(swept);
     }
     if (!best_) reason_ = reason_of_nothing();
   }
@@ -322,7 +336,8 @@ class Planning {
   const PlannerConfig& config_;
   Budget& budget_;
   PlanObserver* observer_;
-  std::vector<PlanningObstacle> obstacles_;
+  PlanWorkspace& workspace_;
+  std::vector<PlanningObstacle>& obstacles_;
   bool start_collides_ = false;
   std::optional<Candidate> committed_;
   std::optional<Candidate> best_;
@@ -333,8 +348,14 @@ class Planning {
 }  // namespace
 
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
+                PlanWorkspace& workspace, PlanObserver* observer) {
+  return Planning(request, world, config, budget, workspace, observer).run();
+}
+
+PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanObserver* observer) {
-  return Planning(request, world, config, budget, observer).run();
+  PlanWorkspace workspace;
+  return plan(request, world, config, budget, workspace, observer);
 }
 
 }  // namespace tern

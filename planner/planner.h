@@ -5,8 +5,13 @@
 #include "core/world/horizon.h"
 #include "planner/planner_config.h"
 #include "planner/planning_world.h"
+#include "planner/safety/separation_test.h"
 
 namespace tern {
+
+struct PlanWorkspace;
+struct SearchProblem;
+struct SearchResult;
 
 /// Is told what plan() does while it does it: for timing, and so that a watchdog always has an answer.
 class PlanObserver {
@@ -14,11 +19,22 @@ class PlanObserver {
   virtual ~PlanObserver() = default;
   virtual void enter(Stage stage) = 0;               ///< work of this stage begins
   virtual void answer(const Plan& best_so_far) = 0;  ///< a (better) answer stands; the first is the fallback
+  /// A search has ended: for those who judge searches.
+  virtual void searched(const SearchProblem&, SweptObstacles&, const SearchResult&) {}
 };
 
 /// What the answer cost in things that can be counted (times are the observer's).
 struct PlanStatistics {
-  std::int64_t expansions = 0, hulls = 0, pairs_by_box = 0, pairs_by_plane = 0, solver_iterations = 0;
+  std::int64_t expansions = 0;
+  std::int64_t hulls = 0;           ///< made by CGAL
+  std::int64_t pairs_by_index = 0;  ///< pairs of obstacle and interval dropped because they cannot reach the vehicle
+  PairCounts pairs;
+  std::int64_t solver_calls = 0, solver_iterations = 0;
+
+  void count(const SweptObstacles& swept) {
+    hulls += swept.hulls_made();
+    pairs_by_index += swept.pairs_out_of_reach();
+  }
 };
 
 struct PlanAnswer {
@@ -33,7 +49,11 @@ struct PlanAnswer {
 ///  3. the best leaf is optimized with its planes fixed (Eq. 4, `alternating`);
 ///  4. if neither that nor the committed trajectory holds long enough, an evasion is sought;
 ///  5. the best certified trajectory is chosen: separated, hold long enough, least time to the goal, in that order.
-/// Every trajectory in an answer has passed check_plan() or check_separation(). Deterministic in its arguments.
+/// Every trajectory in an answer has passed check_plan() or check_separation(). Deterministic in its arguments; the
+/// workspace is memory, never meaning.
+PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
+                PlanWorkspace& workspace, PlanObserver* observer = nullptr);
+/// The same with memory of its own.
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanObserver* observer = nullptr);
 

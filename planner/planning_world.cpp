@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/splines/piecewise_cubic.h"
 #include "planner/global_path/box_cover.h"
 
 namespace tern {
@@ -10,14 +11,32 @@ namespace {
 /// Paths keep this far from static obstacles, m, where that leaves a way: flights by hulls need a little room.
 constexpr double kPathSpacing = 0.02;
 
+/// The track's box over one piece, as Track::bounds() has it.
+Box piece_box(const Track& track, std::size_t k) {
+  const CubicPiece& piece = track.motion.pieces[k];
+  return grown(cubic_bounds(piece.coefficients, 0.0, piece.duration.seconds()), track.half_extents + track.alpha[k]);
+}
+
 }  // namespace
 
 PredictionProducts::PredictionProducts(TrackSet tracks) : set(std::move(tracks)) {
+  std::size_t pieces = 0;
+  for (const Track& track : set.tracks) pieces += track.kind == TrackKind::Static ? 0 : track.motion.pieces.size();
+  piece_boxes.reserve(pieces);
+  obstacles.reserve(set.tracks.size());
+  std::vector<Box> boxes;
+  boxes.reserve(set.tracks.size());
   for (const Track& track : set.tracks) {
     const UTime from = track.motion.start;
-    const Box box = track.bounds(from, track.motion.end() + kTrackBoxReach);
-    obstacles.push_back({track.id, &track, box, 1.0});
+    const std::size_t first = piece_boxes.size();
+    if (track.kind != TrackKind::Static) {
+      for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) piece_boxes.push_back(piece_box(track, k));
+    }
+    boxes.push_back(track.bounds(from, track.motion.end() + kTrackBoxReach));
+    obstacles.push_back({track.id, &track, boxes.back(), 1.0,
+                         std::span<const Box>(piece_boxes.data() + first, piece_boxes.size() - first)});
   }
+  index = BoxIndex(std::move(boxes));
 }
 
 MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)

@@ -19,10 +19,13 @@
 
 namespace tern {
 
-/// A complete prediction set with a box around each track's whole motion.
+/// A complete prediction set with boxes around each track's motion, and an index over them: a plan costs what is in its
+/// reach, not what is in the world.
 struct PredictionProducts {
   TrackSet set;
-  std::vector<PlanningObstacle> obstacles;  ///< one per track; point into `set`, so this object does not move
+  std::vector<Box> piece_boxes;             ///< of all moving tracks, one per piece of their motions
+  std::vector<PlanningObstacle> obstacles;  ///< one per track; point into the two above, so this object does not move
+  BoxIndex index;                           ///< over the obstacles' boxes
 
   explicit PredictionProducts(TrackSet tracks);
   PredictionProducts(const PredictionProducts&) = delete;

@@ -18,8 +18,7 @@ std::vector<CertificatePlane> near_planes(const AttemptContext& context, SweptOb
     separate_interval(obstacles, j, spline.power(j), counts, &planes, context.config.optimization.plane_reach_m,
                       {context.config.hull_basis, spline.intervals()});
   }
-  context.statistics.pairs_by_box += counts.by_box;
-  context.statistics.pairs_by_plane += counts.by_plane;
+  context.statistics.pairs += counts;
   return planes;
 }
 
@@ -60,6 +59,7 @@ class Refinement {
       const ConvexSolution solution =
           solve(convex, free_variables(current.control_points), config_.max_iterations, stop_);
       context_.statistics.solver_iterations += solution.iterations;
+      ++context_.statistics.solver_calls;
       if (!solution.found) break;
       auto candidate = certified(current.interval, solution.x);
       if (!candidate) break;
@@ -84,6 +84,7 @@ class Refinement {
           return true;
         });
     context_.statistics.solver_iterations += solution.iterations;
+    ++context_.statistics.solver_calls;
     return best;
   }
 

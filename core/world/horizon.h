@@ -109,15 +109,20 @@ struct Plan {
 struct PlanTiming {
   Header header;
   std::int64_t request_id = 0;
-  double total_ms = 0.0;            ///< wall time from the request's arrival to the answer
-  double first_answer_ms = 0.0;     ///< until the first certified trajectory
-  double cpu_ms = 0.0;              ///< thread CPU time of the worker
-  double stage_ms[kStages] = {};    ///< wall time by Stage
-  std::int64_t expansions = 0;      ///< search nodes expanded
-  std::int64_t hulls = 0;           ///< hulls made
-  std::int64_t pairs_by_box = 0;    ///< pairs settled by bounding boxes
-  std::int64_t pairs_by_plane = 0;  ///< pairs settled by the fast separation
-  std::int64_t pairs_by_lp = 0;     ///< pairs handed to GLPK
+  double total_ms = 0.0;          ///< wall time from the request's arrival to the answer
+  double first_answer_ms = 0.0;   ///< until the first certified trajectory
+  double cpu_ms = 0.0;            ///< thread CPU time of the worker
+  double stage_ms[kStages] = {};  ///< wall time by Stage
+  std::int64_t expansions = 0;    ///< search nodes expanded
+  std::int64_t hulls = 0;         ///< hulls made by CGAL
+  /// How pairs of obstacle and interval (or a part of it) were settled, by the first of these that could.
+  std::int64_t pairs_by_index = 0;    ///< out of the vehicle's reach
+  std::int64_t pairs_by_box = 0;      ///< bounding boxes are disjoint
+  std::int64_t pairs_by_instant = 0;  ///< they touch at one of five instants
+  std::int64_t pairs_by_cache = 0;    ///< apart along the direction that separated that obstacle last
+  std::int64_t pairs_by_plane = 0;    ///< fast separation
+  std::int64_t pairs_by_lp = 0;       ///< handed to GLPK
+  std::int64_t solver_calls = 0;      ///< of the optimizer: how often a problem was solved
   std::int64_t solver_iterations = 0;
   std::int64_t peak_rss_kb = 0;
   bool from_watchdog = false;  ///< the receiving thread answered because the worker had not

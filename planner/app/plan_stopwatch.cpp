@@ -31,8 +31,13 @@ PlanTiming PlanStopwatch::timing(const PlanAnswer& answer) {
   std::copy_n(stage_ms_, kStages, timing.stage_ms);
   timing.expansions = answer.statistics.expansions;
   timing.hulls = answer.statistics.hulls;
-  timing.pairs_by_box = answer.statistics.pairs_by_box;
-  timing.pairs_by_plane = answer.statistics.pairs_by_plane;
+  const PairCounts& pairs = answer.statistics.pairs;
+  timing.pairs_by_index = answer.statistics.pairs_by_index;
+  timing.pairs_by_box = pairs.by_box;
+  timing.pairs_by_instant = pairs.by_instant;
+  timing.pairs_by_cache = pairs.by_cache;
+  timing.pairs_by_plane = pairs.by_plane;
+  timing.solver_calls = answer.statistics.solver_calls;
   timing.solver_iterations = answer.statistics.solver_iterations;
   timing.peak_rss_kb = peak_rss_kb();
   return timing;

@@ -41,9 +41,10 @@ Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
 
 /// plan(), and what it cost. `budget` and `stopwatch` were made for this call.
 std::pair<Plan, PlanTiming> timed_plan(const HorizonRequest& request, const PlanningWorld& world,
-                                       const PlannerConfig& config, Budget& budget, PlanStopwatch& stopwatch) {
+                                       const PlannerConfig& config, Budget& budget, PlanWorkspace& workspace,
+                                       PlanStopwatch& stopwatch) {
   const SeparationCounts before = separation_counts();
-  PlanAnswer answer = plan(request, world, config, budget, &stopwatch);
+  PlanAnswer answer = plan(request, world, config, budget, workspace, &stopwatch);
   PlanTiming timing = stopwatch.timing(answer);
   timing.pairs_by_lp = separation_counts().lp - before.lp;
   return {std::move(answer.plan), timing};
@@ -129,7 +130,7 @@ void PlannerNode::start_planning(UTime now) {
 void PlannerNode::work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived) {
   PlanStopwatch stopwatch([this](const Plan& plan) { desk_.improve(plan); }, &monotonic_ms);
   Budget budget = clock_budget(bus_.clock(), arrived, request.deadline - kWatchdogLead);
-  auto [plan, timing] = timed_plan(request, world, config_, budget, stopwatch);
+  auto [plan, timing] = timed_plan(request, world, config_, budget, workspace_, stopwatch);
   timing.total_ms = std::max(timing.total_ms, (bus_.clock().now() - arrived).seconds() * 1e3);
   desk_.answer(plan, timing);
 }
@@ -142,7 +143,7 @@ void PlannerNode::work_in_virtual_time(const HorizonRequest& request, const Plan
   const auto improved = [&](const Plan& p) { delayed.improvements.emplace_back(charged ? cpu.now() : began, p); };
   PlanStopwatch stopwatch(improved, &thread_cpu_ms);
   Budget budget = charged ? clock_budget(cpu, arrived, request.deadline - kWatchdogLead) : Budget::unlimited();
-  std::tie(delayed.plan, delayed.timing) = timed_plan(request, world, config_, budget, stopwatch);
+  std::tie(delayed.plan, delayed.timing) = timed_plan(request, world, config_, budget, workspace_, stopwatch);
   delayed.due = charged ? cpu.now() : began + execution_.virtual_latency;
   if (charged) delayed.timing.total_ms = (delayed.due - arrived).seconds() * 1e3;
   delayed_ = std::move(delayed);

@@ -11,6 +11,7 @@
 #include "planner/app/answer_desk.h"
 #include "planner/app/worker.h"
 #include "planner/app/world_intake.h"
+#include "planner/plan_workspace.h"
 #include "planner/planner.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
@@ -62,6 +63,7 @@ class PlannerNode final : public Node {
     Plan plan;
     PlanTiming timing;
   };
+  PlanWorkspace workspace_;         ///< of whichever thread plans: one request at a time
   std::optional<Delayed> delayed_;  ///< virtual time: the answer of a worker that is still at it
   std::unique_ptr<Worker> worker_;  ///< null in virtual time. Last: its job uses the others
 };

@@ -87,12 +87,17 @@ void BoxIndex::build(std::int32_t begin, std::int32_t end) {
 
 std::vector<std::int32_t> BoxIndex::query(const Box& region) const {
   std::vector<std::int32_t> found;
+  query(region, found);
+  return found;
+}
+
+void BoxIndex::query(const Box& region, std::vector<std::int32_t>& found) const {
+  found.clear();
   visit(region, [&](std::int32_t i) {
     found.push_back(i);
     return false;
   });
   std::sort(found.begin(), found.end());
-  return found;
 }
 
 bool BoxIndex::blocks(const Vec3& a, const Vec3& b) const {

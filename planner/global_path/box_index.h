@@ -36,6 +36,8 @@ class BoxIndex {
 
   /// The indices of the boxes that meet the closed region, ascending.
   [[nodiscard]] std::vector<std::int32_t> query(const Box& region) const;
+  /// The same into `found`, which keeps its memory.
+  void query(const Box& region, std::vector<std::int32_t>& found) const;
 
   /// Does the closed segment come nearer than kPathClearance (per axis) to any box?
   [[nodiscard]] bool blocks(const Vec3& a, const Vec3& b) const;

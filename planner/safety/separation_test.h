@@ -12,8 +12,18 @@ namespace tern {
 
 /// How pairs of (obstacle, interval part) were settled.
 struct PairCounts {
-  std::int64_t by_box = 0;
-  std::int64_t by_plane = 0;
+  std::int64_t by_box = 0;      ///< their boxes are disjoint
+  std::int64_t by_instant = 0;  ///< they touch at one of five instants
+  std::int64_t by_cache = 0;    ///< apart along the direction that separated the obstacle's part last
+  std::int64_t by_plane = 0;    ///< by the distance algorithm
+
+  PairCounts& operator+=(const PairCounts& o) {
+    by_box += o.by_box;
+    by_instant += o.by_instant;
+    by_cache += o.by_cache;
+    by_plane += o.by_plane;
+    return *this;
+  }
 };
 
 /// What stands against an interval.
@@ -27,10 +37,18 @@ struct Separated {
 /// A pair whose boxes are disjoint needs no plane. Otherwise a plane must hold the MINVO points of the whole interval,
 /// or of both its halves, or of the quarters of a half that fails. @param planes  if not null, gets every plane that
 /// was needed.
-/// @param reach  m: boxes nearer than this count as overlapping, so that near obstacles get their planes too.
+/// @param reach  m: boxes nearer than this count as overlapping, so that near obstacles get their planes too. Such
+/// planes are for a solver: made from the sweeps, without hulls. At 0 they are a certificate's, made from (hull,
+/// points).
 /// @param form   whose hull points stand for the curve: the checker takes the tightest, MINVO.
 Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
                             std::vector<CertificatePlane>* planes, double reach = 0.0, HullForm form = {});
+
+/// The same question for those who ask it of many curves: no planes, no hulls, only yes or no, the same but for
+/// rounding within kTouchingTolerance of touching. What blocked the interval last is asked first.
+/// @param points  the curve's hull points (of `form`, MINVO) over the whole interval
+bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
+              PairCounts& counts, HullForm form = {});
 
 /// How long the body at rest at p stays separated from every obstacle, from the start of interval `first` on: the end
 /// of the last clear interval minus the start of the first, s (0 when the first is not clear).

@@ -6,11 +6,10 @@
 
 #include "core/geometry/box.h"
 #include "core/geometry/convex_hull.h"
+#include "core/geometry/separation.h"
 
 namespace tern {
 namespace {
-
-constexpr int kHullsPerSlot = 1 + 2 + 4;
 
 bool is_box(const Points& vertices) {
   if (vertices.cols() == 1) return vertices.isZero(0.0);
@@ -24,19 +23,6 @@ bool is_box(const Points& vertices) {
   return found == 8;
 }
 
-/// Collects the corners of boxes.
-struct CornerCloud {
-  std::vector<double> xyz;
-
-  void add(const Vec3& centre, const Vec3& half) {
-    const Eigen::Matrix<double, 3, 8> corners = box_corners(box_around(centre, half));
-    xyz.insert(xyz.end(), corners.data(), corners.data() + corners.size());
-  }
-  [[nodiscard]] Points points() const {
-    return Eigen::Map<const Points>(xyz.data(), 3, static_cast<Eigen::Index>(xyz.size() / 3));
-  }
-};
-
 /// cloud ⊕ (−vertices).
 Points minkowski_difference(const Points& cloud, const Points& vertices) {
   Points sum(3, cloud.cols() * vertices.cols());
@@ -47,18 +33,18 @@ Points minkowski_difference(const Points& cloud, const Points& vertices) {
 }
 
 /// Boxes along the part of a piece between local times a and b; half-extents grow by the sampling error β.
-void add_piece(CornerCloud& cloud, const PowerCubic& cubic, double a, double b, const Vec3& half) {
+void add_piece(std::vector<CentredBox>& out, const PowerCubic& cubic, double a, double b, const Vec3& half) {
   const Vec3 acceleration = max_abs_acceleration(cubic, a, b);
   const double span = b - a;
   const int n = std::max(1, static_cast<int>(std::ceil(span * std::sqrt(acceleration.maxCoeff() / (8.0 * kBetaMax)))));
   const double h = span / n;
   const Vec3 grown_half = half + acceleration * (h * h / 8.0);
-  for (int k = 0; k <= n; ++k) cloud.add(sample_cubic(cubic, a + h * k).p, grown_half);
+  for (int k = 0; k <= n; ++k) out.push_back({sample_cubic(cubic, a + h * k).p, grown_half});
 }
 
 /// The sweep of a track (with its α) over [from, to] seconds after origin; outside its pieces a box that grows.
-CornerCloud sweep(const Track& track, double alpha_scale, const Vec3& body_half, UTime origin, double from, double to) {
-  CornerCloud cloud;
+void add_track_sweep(std::vector<CentredBox>& out, const Track& track, double alpha_scale, const Vec3& body_half,
+                     UTime origin, double from, double to) {
   const double start = (track.motion.start - origin).seconds();
   double piece_from = start;
   for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
@@ -68,53 +54,151 @@ CornerCloud sweep(const Track& track, double alpha_scale, const Vec3& body_half,
     const double b = std::min(to, piece_to);
     if (a <= b) {
       const Vec3 half = track.half_extents + alpha_scale * track.alpha[k] + body_half;
-      add_piece(cloud, piece.coefficients, a - piece_from, b - piece_from, half);
+      add_piece(out, piece.coefficients, a - piece_from, b - piece_from, half);
     }
     piece_from = piece_to;
   }
   const auto add_growing = [&](double seconds, const Vec3& p, const Vec3& alpha) {
-    cloud.add(p, track.half_extents + alpha_scale * alpha + body_half + Vec3::Constant(track.top_speed * seconds));
+    out.push_back(
+        {p, track.half_extents + alpha_scale * alpha + body_half + Vec3::Constant(track.top_speed * seconds)});
   };
   if (to > piece_from) {
     const CubicPiece& last = track.motion.pieces.back();
     add_growing(to - piece_from, sample_cubic(last.coefficients, last.duration.seconds()).p, track.alpha.back());
   }
   if (from < start) add_growing(start - from, track.motion.pieces.front().coefficients.col(3), track.alpha.front());
-  return cloud;
+}
+
+/// Where the track's box is at one instant, as add_track_sweep() has it but without β.
+CentredBox box_at(const Track& track, double alpha_scale, const Vec3& body_half, UTime origin, double at) {
+  double piece_from = (track.motion.start - origin).seconds();
+  const auto grown_half = [&](const Vec3& alpha, double seconds) -> Vec3 {
+    return track.half_extents + alpha_scale * alpha + body_half + Vec3::Constant(track.top_speed * seconds);
+  };
+  if (at < piece_from) {
+    return {track.motion.pieces.front().coefficients.col(3), grown_half(track.alpha.front(), piece_from - at)};
+  }
+  for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
+    const CubicPiece& piece = track.motion.pieces[k];
+    const double piece_to = piece_from + piece.duration.seconds();
+    if (at <= piece_to) return {sample_cubic(piece.coefficients, at - piece_from).p, grown_half(track.alpha[k], 0.0)};
+    piece_from = piece_to;
+  }
+  const CubicPiece& last = track.motion.pieces.back();
+  return {sample_cubic(last.coefficients, last.duration.seconds()).p, grown_half(track.alpha.back(), at - piece_from)};
+}
+
+/// Rounding between the box of a piece and the box of a part of it, m, with room to spare.
+constexpr double kRoughSlack = 1e-6;
+
+/// Whole microseconds around [from, to] seconds after origin.
+struct UTimeSpan {
+  UTime from, to;
+};
+UTimeSpan microseconds(UTime origin, double from, double to) {
+  const auto us = [](double s) { return Duration{static_cast<std::int64_t>(std::floor(s * 1e6))}; };
+  return {origin + us(from), origin + us(to) + Duration{1}};
 }
 
 Box sweep_box(const PlanningObstacle& obstacle, const Vec3& body_half, UTime origin, double from, double to) {
   if (obstacle.track == nullptr) return grown(obstacle.box, body_half);
-  const auto us = [](double s) { return Duration{static_cast<std::int64_t>(std::floor(s * 1e6))}; };
-  const Box box = obstacle.track->bounds(origin + us(from), origin + us(to) + Duration{1});
-  return grown(box, body_half + Vec3::Constant(kBetaMax));
+  const UTimeSpan t = microseconds(origin, from, to);
+  return grown(obstacle.track->bounds(t.from, t.to), body_half + Vec3::Constant(kBetaMax));
 }
+
+/// The boxes of the pieces that a growing series of time spans meets.
+class PieceWalk {
+ public:
+  explicit PieceWalk(const PlanningObstacle& o) : obstacle_(o), first_start_(o.track->motion.start) {
+    for (const Box& box : o.piece_boxes) whole_.extend(box);
+    end_ = o.track->motion.end();
+  }
+  [[nodiscard]] bool known() const { return !obstacle_.piece_boxes.empty(); }
+  /// A box that holds the track over the span, so that nothing finer need be asked when it is far. Spans' beginnings
+  /// must not descend.
+  Box rough(const UTimeSpan& t) {
+    const auto& pieces = obstacle_.track->motion.pieces;
+    while (first_ + 1 < pieces.size() && first_start_ + pieces[first_].duration < t.from) {
+      first_start_ = first_start_ + pieces[first_++].duration;
+    }
+    if (t.from < obstacle_.track->motion.start || t.to > end_) return obstacle_.track->bounds(t.from, t.to);
+    Box box;
+    UTime start = first_start_;
+    for (std::size_t k = first_; k < pieces.size() && start <= t.to; start = start + pieces[k++].duration) {
+      box.extend(obstacle_.piece_boxes[k]);
+    }
+    return box;
+  }
+  [[nodiscard]] bool within_pieces(const UTimeSpan& t) const {
+    return t.from >= obstacle_.track->motion.start && t.to <= end_;
+  }
+  [[nodiscard]] const Box& whole() const { return whole_; }
+
+ private:
+  const PlanningObstacle& obstacle_;
+  Box whole_;
+  std::size_t first_ = 0;
+  UTime first_start_, end_;
+};
 
 }  // namespace
 
-SweptObstacles::SweptObstacles(const std::vector<PlanningObstacle>& obstacles, const Body& body, UTime origin,
-                               std::vector<double> times, const Box& region)
-    : obstacles_(obstacles),
-      body_(body),
-      body_is_box_(is_box(body.vertices)),
-      origin_(origin),
-      times_(std::move(times)) {
-  if (times_.size() < 2) throw std::invalid_argument("SweptObstacles: fewer than two times");
-  candidates_.resize(static_cast<std::size_t>(intervals()));
-  const Vec3 half = body_.half_extents();
-  int slots = 0;
-  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    const PlanningObstacle& o = obstacles_[i];
-    if (!grown(o.box, half + Vec3::Constant(kBetaMax)).intersects(region)) continue;
-    const int shared_slot = o.moves() ? -1 : slots++;
-    for (int k = 0; k < intervals(); ++k) {
-      const Box box = sweep_box(o, half, origin_, time(k), time(k + 1));
-      if (!box.intersects(region)) continue;
-      const int slot = o.moves() ? slots++ : shared_slot;
-      candidates_[static_cast<std::size_t>(k)].push_back({box, static_cast<int>(i), slot});
+void SweptObstacles::assign(const std::vector<PlanningObstacle>& obstacles, const Body& body, UTime origin,
+                            std::span<const double> times, const Box& region) {
+  if (times.size() < 2) throw std::invalid_argument("SweptObstacles: fewer than two times");
+  obstacles_ = &obstacles;
+  body_ = body;
+  body_is_box_ = is_box(body.vertices);
+  body_half_ = body.half_extents();
+  box_half_ = body_is_box_ ? Vec3(body.vertices.cwiseAbs().rowwise().maxCoeff()) : Vec3(Vec3::Zero());
+  origin_ = origin;
+  times_.assign(times.begin(), times.end());
+  const auto n = static_cast<std::size_t>(intervals());
+  if (candidates_.size() < n) candidates_.resize(n);
+  for (auto& list : candidates_) list.clear();
+  last_blocker_.assign(n, -1);
+  slots_.clear();
+  made_.clear();
+  boxes_.clear();
+  hulls_used_ = 0;
+  hulls_made_ = 0;
+  out_of_reach_ = static_cast<std::int64_t>(obstacles.size() * n);
+  const Vec3 slack = body_half_ + Vec3::Constant(kBetaMax);
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    if (!grown(obstacles[i].box, slack).intersects(region)) continue;
+    if (obstacles[i].moves()) {
+      add_track(static_cast<int>(i), region);
+    } else {
+      add_static(static_cast<int>(i), region);
     }
   }
-  hulls_.resize(static_cast<std::size_t>(slots) * kHullsPerSlot);
+  for (std::size_t k = 0; k < n; ++k) out_of_reach_ -= static_cast<std::int64_t>(candidates_[k].size());
+}
+
+void SweptObstacles::add_static(int index, const Box& region) {
+  const PlanningObstacle& o = (*obstacles_)[static_cast<std::size_t>(index)];
+  const Box box = sweep_box(o, body_half_, origin_, time(0), time(1));
+  if (!box.intersects(region)) return;
+  const int slot = static_cast<int>(slots_.size());
+  slots_.push_back(-1);
+  for (int k = 0; k < intervals(); ++k) candidates_[static_cast<std::size_t>(k)].push_back({box, index, slot});
+}
+
+void SweptObstacles::add_track(int index, const Box& region) {
+  const PlanningObstacle& o = (*obstacles_)[static_cast<std::size_t>(index)];
+  const Vec3 slack = body_half_ + Vec3::Constant(kBetaMax);
+  const Box near = grown(region, slack + Vec3::Constant(kRoughSlack));
+  PieceWalk walk(o);
+  const bool far = walk.known() && !walk.whole().intersects(near);
+  for (int k = 0; k < intervals(); ++k) {
+    const UTimeSpan t = microseconds(origin_, time(k), time(k + 1));
+    if (far && walk.within_pieces(t)) continue;
+    if (walk.known() && !walk.rough(t).intersects(near)) continue;
+    const Box box = grown(o.track->bounds(t.from, t.to), slack);
+    if (!box.intersects(region)) continue;
+    candidates_[static_cast<std::size_t>(k)].push_back({box, index, static_cast<int>(slots_.size())});
+    slots_.push_back(-1);
+  }
 }
 
 SweptObstacles::Span SweptObstacles::span(int interval, int part, int parts) const {
@@ -124,35 +208,115 @@ SweptObstacles::Span SweptObstacles::span(int interval, int part, int parts) con
   return {from + part * step, part + 1 == parts ? to : from + (part + 1) * step};
 }
 
-Box SweptObstacles::part_box(int interval, const Candidate& candidate, int part, int parts) const {
-  const Span s = span(interval, part, parts);
-  return sweep_box(obstacle(candidate), body_.half_extents(), origin_, s.from, s.to);
+const Box& SweptObstacles::part_box(int interval, const Candidate& candidate, int part, int parts) {
+  Box& box = part_of(candidate, part, parts).box;
+  if (box.isEmpty()) {
+    const Span s = span(interval, part, parts);
+    box = sweep_box(obstacle(candidate), body_half_, origin_, s.from, s.to);
+  }
+  return box;
+}
+
+SweptObstacles::Slot& SweptObstacles::slot_of(const Candidate& candidate) {
+  int& at = slots_[static_cast<std::size_t>(candidate.slot)];
+  if (at < 0) {
+    at = static_cast<int>(made_.size());
+    made_.emplace_back();
+  }
+  return made_[static_cast<std::size_t>(at)];
+}
+
+SweptObstacles::Part& SweptObstacles::part_of(const Candidate& candidate, int part, int parts) {
+  const int within = obstacle(candidate).moves() ? parts - 1 + part : 0;
+  return slot_of(candidate).parts[static_cast<std::size_t>(within)];
+}
+
+SweptObstacles::Part& SweptObstacles::swept_part_of(int interval, const Candidate& candidate, int part, int parts) {
+  Part& made = part_of(candidate, part, parts);
+  if (made.first < 0) {
+    made.first = static_cast<int>(boxes_.size());
+    make_sweep(obstacle(candidate), span(interval, part, parts));
+    made.count = static_cast<int>(boxes_.size()) - made.first;
+  }
+  return made;
+}
+
+std::span<const CentredBox> SweptObstacles::sweep(int interval, const Candidate& candidate, int part, int parts) {
+  const Part& made = swept_part_of(interval, candidate, part, parts);
+  return {&boxes_[static_cast<std::size_t>(made.first)], static_cast<std::size_t>(made.count)};
 }
 
 const Points& SweptObstacles::hull(int interval, const Candidate& candidate, int part, int parts) {
-  const PlanningObstacle& o = obstacle(candidate);
-  const int within = o.moves() ? parts - 1 + part : 0;
-  Points& cached = hulls_[static_cast<std::size_t>(candidate.slot * kHullsPerSlot + within)];
-  if (cached.cols() == 0) {
-    cached = make_hull(o, span(interval, part, parts));
-    ++hulls_made_;
+  Part& made = swept_part_of(interval, candidate, part, parts);
+  if (made.hull < 0) {
+    made.hull = static_cast<int>(hulls_used_++);
+    if (hulls_.size() < hulls_used_) hulls_.emplace_back();
+    const std::span boxes(&boxes_[static_cast<std::size_t>(made.first)], static_cast<std::size_t>(made.count));
+    const bool is_box = !obstacle(candidate).moves() && body_is_box_;
+    hulls_[static_cast<std::size_t>(made.hull)] =
+        is_box ? Points(box_corners(box_around(boxes[0].centre, boxes[0].half))) : make_hull(boxes);
+    hulls_made_ += is_box ? 0 : 1;
   }
-  return cached;
+  return hulls_[static_cast<std::size_t>(made.hull)];
 }
 
-Points SweptObstacles::make_hull(const PlanningObstacle& o, Span s) const {
-  const Vec3 box_half = body_is_box_ ? Vec3(body_.vertices.cwiseAbs().rowwise().maxCoeff()) : Vec3(Vec3::Zero());
-  CornerCloud cloud;
+bool SweptObstacles::is_apart(int interval, const Candidate& candidate, const Eigen::Ref<const Points>& points,
+                              int part, int parts, bool* by_cache) {
+  Part& made = swept_part_of(interval, candidate, part, parts);
+  const std::span boxes(&boxes_[static_cast<std::size_t>(made.first)], static_cast<std::size_t>(made.count));
+  const bool known = !made.direction.isZero(0.0);
+  if (!known) made.direction = boxes[0].centre - points.col(0);
+  if (made.direction.isZero(0.0)) made.direction = Vec3::UnitX();
+  const Vec3 before = made.direction;
+  const Apart apart =
+      tern::is_apart(boxes, points, body_is_box_ ? no_vertices_ : body_.vertices, body_.radius, made.direction);
+  if (by_cache != nullptr) *by_cache = known && apart == Apart::Yes && made.direction == before;
+  if (apart != Apart::Doubt) return apart == Apart::Yes;
+  return separate(hull(interval, candidate, part, parts), points, body_.radius).has_value();
+}
+
+std::optional<Separation> SweptObstacles::plane(int interval, const Candidate& candidate,
+                                                const Eigen::Ref<const Points>& points, int part, int parts) {
+  return separate_sweep(sweep(interval, candidate, part, parts), points, body_is_box_ ? no_vertices_ : body_.vertices,
+                        body_.radius);
+}
+
+const CentredBox& SweptObstacles::at_quarter(int interval, const Candidate& candidate, int k) {
+  Slot& slot = slot_of(candidate);
+  if (!slot.has_quarters) {
+    const PlanningObstacle& o = obstacle(candidate);
+    const double from = time(interval);
+    const double step = (time(interval + 1) - from) / (kQuarters - 1);
+    for (int i = 0; i < kQuarters; ++i) {
+      CentredBox& box = slot.quarters[static_cast<std::size_t>(i)];
+      if (o.moves()) {
+        box = box_at(*o.track, o.alpha_scale, box_half_, origin_, from + i * step);
+      } else {
+        box = sweep(interval, candidate, 0, 1)[0];
+      }
+    }
+    slot.has_quarters = true;
+  }
+  return slot.quarters[static_cast<std::size_t>(k)];
+}
+
+void SweptObstacles::make_sweep(const PlanningObstacle& o, Span s) {
   if (o.track == nullptr) {
-    cloud.add(o.box.center(), 0.5 * o.box.sizes() + box_half);
+    boxes_.push_back({o.box.center(), 0.5 * o.box.sizes() + box_half_});
   } else if (!o.moves()) {
     const Vec3 p = o.track->motion.pieces.front().coefficients.col(3);
-    cloud.add(p, o.track->half_extents + o.alpha_scale * o.track->alpha.front() + box_half);
+    boxes_.push_back({p, o.track->half_extents + o.alpha_scale * o.track->alpha.front() + box_half_});
   } else {
-    cloud = sweep(*o.track, o.alpha_scale, box_half, origin_, s.from, s.to);
+    add_track_sweep(boxes_, *o.track, o.alpha_scale, box_half_, origin_, s.from, s.to);
   }
-  if (!body_is_box_) return hull_vertices(minkowski_difference(cloud.points(), body_.vertices));
-  return o.moves() ? hull_vertices(cloud.points()) : cloud.points();
+}
+
+Points SweptObstacles::make_hull(std::span<const CentredBox> boxes) const {
+  Points corners(3, 8 * static_cast<Eigen::Index>(boxes.size()));
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    corners.middleCols<8>(8 * static_cast<Eigen::Index>(k)) = box_corners(box_around(boxes[k].centre, boxes[k].half));
+  }
+  return hull_vertices(body_is_box_ ? corners : minkowski_difference(corners, body_.vertices));
 }
 
 }  // namespace tern

@@ -1,9 +1,15 @@
-// The obstacles of one horizon, cut into time intervals: boxes first, hulls C_ij when first needed (paper §3.2).
+// The obstacles of one horizon, cut into time intervals: boxes first, sweeps and hulls C_ij when first needed (paper
+// §3.2).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "core/geometry/swept_boxes.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 
@@ -18,24 +24,40 @@ struct PlanningObstacle {
   const Track* track = nullptr;  ///< null: a static box
   Box box;  ///< the static box (not inflated by the body); for a track: holds it over all times of interest
   double alpha_scale = 1.0;  ///< < 1 when the start lay inside the obstacle inflated by its α
+  /// A box per piece of the track's motion that holds it over the whole piece, to spare work; empty: not known.
+  std::span<const Box> piece_boxes = {};
 
   [[nodiscard]] bool moves() const { return track != nullptr && track->kind != TrackKind::Static; }
 };
 
-/// Hulls of obstacles over the intervals [times[k], times[k+1]], each perhaps split into 2 or 4 parts of equal time.
+/// Sweeps of obstacles over the intervals [times[k], times[k+1]], each perhaps split into 2 or 4 parts of equal time.
 ///
 /// C_ij = conv of V_i^o ⊕ (−V^U) ⊕ box(α_ij) ⊕ box(β_ij) along the predicted motion (paper §3.2). A sphere's radius is
 /// not in the hull: it is the clearance that separation asks for. β: within a cubic piece |ξ''| ≤ a per axis, and the
 /// chord between samples h apart leaves the curve by at most a h²/8; samples stand at every piece break and h keeps β ≤
-/// kBetaMax. Boxes of all candidates are made at construction, hulls lazily; a hull is a pure function of its inputs.
+/// kBetaMax. The sweep is conv of boxes at the samples: many questions are asked of those boxes themselves, and only
+/// published planes and the optimizer's need the hull's vertices. Boxes of all candidates are made by assign(), sweeps
+/// and hulls lazily; each is a pure function of its inputs.
+///
+/// The object keeps its memory from one assign() to the next: once it has seen the largest horizon, boxes and sweeps
+/// allocate nothing (hulls do, in CGAL).
 class SweptObstacles {
  public:
-  /// @param obstacles  kept alive by the caller for the life of this object
-  /// @param origin     the time that `times` counts from
-  /// @param times      seconds since origin, strictly ascending, ≥ 2
-  /// @param region     only obstacles that the body can touch while its centre is in this box are kept, W
+  /// Holds no interval until assign().
+  SweptObstacles() = default;
   SweptObstacles(const std::vector<PlanningObstacle>& obstacles, const Body& body, UTime origin,
-                 std::vector<double> times, const Box& region);
+                 const std::vector<double>& times, const Box& region) {
+    assign(obstacles, body, origin, times, region);
+  }
+  SweptObstacles(SweptObstacles&&) = default;
+  SweptObstacles& operator=(SweptObstacles&&) = default;
+
+  /// @param obstacles  kept alive by the caller until the next assign()
+  /// @param origin     the time that `times` counts from
+  /// @param times      seconds since origin, strictly ascending, ≥ 2. @throws std::invalid_argument for fewer
+  /// @param region     only obstacles that the body can touch while its centre is in this box are kept, W
+  void assign(const std::vector<PlanningObstacle>& obstacles, const Body& body, UTime origin,
+              std::span<const double> times, const Box& region);
 
   [[nodiscard]] int intervals() const { return static_cast<int>(times_.size()) - 1; }
   [[nodiscard]] double time(int k) const { return times_[static_cast<std::size_t>(k)]; }
@@ -43,38 +65,91 @@ class SweptObstacles {
   /// An obstacle that may matter in an interval.
   struct Candidate {
     Box box;       ///< where the vehicle's centre may touch it: the sweep grown by the whole body
-    int obstacle;  ///< index into the constructor's list
-    int slot;      ///< where its hulls are kept
+    int obstacle;  ///< index into the list of assign()
+    int slot;      ///< where its sweeps and hulls are kept
   };
   [[nodiscard]] const std::vector<Candidate>& candidates(int interval) const {
     return candidates_[static_cast<std::size_t>(interval)];
   }
-  /// The extreme points of C_ij over part `part` of `parts` (1, 2, 4) of the interval. Valid until this object dies.
+  /// The boxes whose convex hull is C_ij (for a body that is neither a sphere nor a box: without the body) over part
+  /// `part` of `parts` (1, 2, 4) of the interval. Valid until the next call.
+  std::span<const CentredBox> sweep(int interval, const Candidate& candidate, int part, int parts);
+  /// The extreme points of C_ij over that part. Valid until the next assign().
   const Points& hull(int interval, const Candidate& candidate, int part, int parts);
   /// As Candidate::box, of that part alone.
-  [[nodiscard]] Box part_box(int interval, const Candidate& candidate, int part, int parts) const;
+  const Box& part_box(int interval, const Candidate& candidate, int part, int parts);
+  /// Is the curve's part more than the body's radius (and kTouchingTolerance) away from the sweep? As separate() of the
+  /// hull and the points would say, but for rounding.
+  /// @param points  MINVO points of the part, or one point at rest
+  bool is_apart(int interval, const Candidate& candidate, const Eigen::Ref<const Points>& points, int part, int parts,
+                bool* by_cache = nullptr);
+  /// The plane of widest margin between sweep and points, made from the sweep itself: for a solver, not to be
+  /// published.
+  std::optional<Separation> plane(int interval, const Candidate& candidate, const Eigen::Ref<const Points>& points,
+                                  int part, int parts);
+  /// Where the obstacle's box (with α, without β) is at the quarter k of the interval, k = 0 … 4. A curve whose point
+  /// of that time comes nearer than the radius is separated in no part. Not for bodies that are neither spheres nor
+  /// boxes.
+  const CentredBox& at_quarter(int interval, const Candidate& candidate, int k);
 
   [[nodiscard]] const PlanningObstacle& obstacle(const Candidate& c) const {
-    return obstacles_[static_cast<std::size_t>(c.obstacle)];
+    return (*obstacles_)[static_cast<std::size_t>(c.obstacle)];
   }
   [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] bool body_is_round_or_box() const { return body_is_box_; }
+  /// By CGAL: what stands still needs none.
   [[nodiscard]] std::int64_t hulls_made() const { return hulls_made_; }
+  /// Pairs of obstacle and interval that were dropped because they cannot reach the region.
+  [[nodiscard]] std::int64_t pairs_out_of_reach() const { return out_of_reach_; }
+  /// The candidate of an interval that blocked a curve last: whoever tests many curves asks it first. Memory of the
+  /// caller's; −1 after assign().
+  int& last_blocker(int interval) { return last_blocker_[static_cast<std::size_t>(interval)]; }
 
  private:
+  static constexpr int kPartsPerSlot = 1 + 2 + 4;
+  static constexpr int kQuarters = 5;
   struct Span {
     double from, to;
   };
-  [[nodiscard]] Span span(int interval, int part, int parts) const;
-  [[nodiscard]] Points make_hull(const PlanningObstacle& obstacle, Span span) const;
+  /// What is kept of one part of one candidate.
+  struct Part {
+    int first = -1, count = 0;      ///< its boxes in boxes_; −1: not made yet
+    int hull = -1;                  ///< its hull in hulls_
+    Vec3 direction = Vec3::Zero();  ///< that separated it last
+    Box box;                        ///< part_box(); empty: not made yet
+  };
+  /// What is kept of one candidate, once it is more than a box.
+  struct Slot {
+    std::array<Part, kPartsPerSlot> parts;
+    std::array<CentredBox, kQuarters> quarters;
+    bool has_quarters = false;
+  };
 
-  const std::vector<PlanningObstacle>& obstacles_;
+  void add_track(int index, const Box& region);
+  void add_static(int index, const Box& region);
+  [[nodiscard]] Span span(int interval, int part, int parts) const;
+  Slot& slot_of(const Candidate& candidate);
+  Part& part_of(const Candidate& candidate, int part, int parts);
+  Part& swept_part_of(int interval, const Candidate& candidate, int part, int parts);
+  void make_sweep(const PlanningObstacle& obstacle, Span span);
+  [[nodiscard]] Points make_hull(std::span<const CentredBox> boxes) const;
+
+  const std::vector<PlanningObstacle>* obstacles_ = nullptr;
   Body body_;
-  bool body_is_box_;  ///< the body adds half-extents; its vertices are never multiplied out
+  Vec3 body_half_ = Vec3::Zero();  ///< of the whole body
+  Vec3 box_half_ = Vec3::Zero();   ///< what the body adds to the obstacles' boxes
+  bool body_is_box_ = true;        ///< the body adds half-extents; its vertices are never multiplied out
   UTime origin_;
   std::vector<double> times_;
   std::vector<std::vector<Candidate>> candidates_;
-  std::vector<Points> hulls_;  ///< per slot: the whole, 2 halves, 4 quarters; no columns: not made yet
-  std::int64_t hulls_made_ = 0;
+  std::vector<int> last_blocker_;
+  std::vector<int> slots_;  ///< [Candidate::slot]: its place in made_, −1: nothing made yet
+  std::vector<Slot> made_;
+  std::vector<CentredBox> boxes_;  ///< of all sweeps
+  std::deque<Points> hulls_;       ///< references stay valid
+  std::size_t hulls_used_ = 0;
+  std::int64_t hulls_made_ = 0, out_of_reach_ = 0;
+  Points no_vertices_{3, 0};
 };
 
 }  // namespace tern

@@ -17,13 +17,16 @@ double cross(const Point& o, const Point& a, const Point& b) {
   return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
 }
 
-/// Counter-clockwise convex hull (Andrew's monotone chain).
-Polygon convex(Polygon points) {
+/// Counter-clockwise convex hull (Andrew's monotone chain) of `points`, which are put in order.
+void convex(Polygon& points, Polygon& hull) {
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  Polygon hull(2 * points.size());
+  if (points.size() < 3) {
+    hull = points;
+    return;
+  }
+  hull.resize(2 * points.size());
   std::size_t k = 0;
   for (const Point& p : points) {
     while (k >= 2 && cross(hull[k - 2], hull[k - 1], p) <= 0.0) --k;
@@ -35,12 +38,11 @@ Polygon convex(Polygon points) {
     hull[k++] = points[i];
   }
   hull.resize(k - 1);
-  return hull;
 }
 
 /// The part of a convex polygon with sign·coordinate ≤ limit (Sutherland–Hodgman).
-Polygon clip(const Polygon& polygon, int coordinate, double sign, double limit) {
-  Polygon kept;
+void clip(const Polygon& polygon, int coordinate, double sign, double limit, Polygon& kept) {
+  kept.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point& a = polygon[i];
     const Point& b = polygon[(i + 1) % polygon.size()];
@@ -49,15 +51,14 @@ Polygon clip(const Polygon& polygon, int coordinate, double sign, double limit) 
     if (da <= 0.0) kept.push_back(a);
     if ((da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0)) kept.push_back(a + (b - a) * (da / (da - db)));
   }
-  return kept;
 }
 
-Polygon clip_box(Polygon polygon, double v_max, double a_max) {
+/// Leaves the part within the limits in `polygon`; `other` is memory.
+void clip_box(Polygon& polygon, Polygon& other, double v_max, double a_max) {
   for (const double sign : {1.0, -1.0}) {
-    polygon = clip(polygon, 0, sign, v_max);
-    polygon = clip(polygon, 1, sign, a_max);
+    clip(polygon, 0, sign, v_max, other);
+    clip(other, 1, sign, a_max, polygon);
   }
-  return convex(std::move(polygon));
 }
 
 /// The a for which (v + a Δt, a) lies in the polygon.
@@ -82,21 +83,29 @@ AxisReach::Interval line_in_polygon(const Polygon& polygon, double v, double dt)
 
 }  // namespace
 
-AxisReach::AxisReach(int intervals, double interval_s, double v_max, double a_max, double j_max)
-    : intervals_(intervals),
-      dt_(interval_s),
-      v_max_(v_max),
-      a_max_(a_max),
-      j_step_(std::min(j_max * interval_s, 2.0 * a_max)) {
+void AxisReach::assign(int intervals, double interval_s, double v_max, double a_max, double j_max) {
+  intervals_ = intervals;
+  dt_ = interval_s;
+  v_max_ = v_max;
+  a_max_ = a_max;
+  j_step_ = std::min(j_max * interval_s, 2.0 * a_max);
+  fastest_.resize(static_cast<std::size_t>(intervals_));
+  for (int k = 0; k < intervals_; ++k) {
+    fastest_[static_cast<std::size_t>(k)] = std::min(v_max_, a_max_ * dt_ * (intervals_ - k));
+  }
+  const auto last_index = static_cast<std::size_t>(intervals_);
+  if (finishable_.size() <= last_index) finishable_.resize(last_index + 1);
   const double last = std::min(a_max_, j_step_);
-  finishable_.resize(static_cast<std::size_t>(intervals_) + 1);
-  finishable_[static_cast<std::size_t>(intervals_)] = {Point(0.0, -last), Point(0.0, last)};
-  for (int l = intervals_ - 1; l >= 2; --l) {
-    Polygon grown_points;
-    for (const Point& p : finishable_[static_cast<std::size_t>(l) + 1]) {
-      for (const double sign : {1.0, -1.0}) grown_points.emplace_back(p.x() - p.y() * dt_, p.y() + sign * j_step_);
+  finishable_[last_index].assign({Point(0.0, -last), Point(0.0, last)});
+  auto& [points, other] = scratch_;
+  for (std::size_t l = last_index - 1; l >= 2; --l) {
+    points.clear();
+    for (const Point& p : finishable_[l + 1]) {
+      for (const double sign : {1.0, -1.0}) points.emplace_back(p.x() - p.y() * dt_, p.y() + sign * j_step_);
     }
-    finishable_[static_cast<std::size_t>(l)] = clip_box(convex(std::move(grown_points)), v_max_, a_max_);
+    convex(points, other);
+    clip_box(other, points, v_max_, a_max_);
+    convex(other, finishable_[l]);
   }
 }
 
@@ -110,10 +119,11 @@ AxisReach::Interval AxisReach::next_velocity(int l, double v, double a_previous)
 }
 
 double AxisReach::farthest(int l, double v_previous) const {
+  const double step = a_max_ * dt_;
   double sum = 0.0;
   double v = v_previous;
   for (int k = l; k < intervals_; ++k) {
-    v = std::min({v_max_, v + a_max_ * dt_, a_max_ * dt_ * (intervals_ - k)});
+    v = std::min(v + step, fastest_[static_cast<std::size_t>(k)]);
     sum += v;
   }
   return sum * dt_;

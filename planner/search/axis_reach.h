@@ -16,8 +16,13 @@ namespace tern {
 /// backwards from K_{n-2}.
 class AxisReach {
  public:
-  /// @param intervals J ≥ 4; @param interval_s Δt, s; limits > 0, j_max may be infinite.
-  AxisReach(int intervals, double interval_s, double v_max, double a_max, double j_max);
+  /// Nothing until assign().
+  AxisReach() = default;
+  AxisReach(int intervals, double interval_s, double v_max, double a_max, double j_max) {
+    assign(intervals, interval_s, v_max, a_max, j_max);
+  }
+  /// @param intervals J ≥ 4; @param interval_s Δt, s; limits > 0, j_max may be infinite. Keeps its memory.
+  void assign(int intervals, double interval_s, double v_max, double a_max, double j_max);
 
   struct Interval {
     double low, high;  ///< empty when low > high
@@ -33,9 +38,11 @@ class AxisReach {
   using Polygon = std::vector<Eigen::Vector2d>;  ///< (v, a) counter-clockwise
   [[nodiscard]] double farthest(int l, double v_previous) const;
 
-  int intervals_;
-  double dt_, v_max_, a_max_, j_step_;
+  int intervals_ = 0;
+  double dt_ = 0.0, v_max_ = 0.0, a_max_ = 0.0, j_step_ = 0.0;
   std::vector<Polygon> finishable_;  ///< [l] = K_l, l = 2 … J
+  std::vector<double> fastest_;      ///< [k]: the largest velocity after step k that can still be braked, m/s
+  Polygon scratch_[2];
 };
 
 }  // namespace tern

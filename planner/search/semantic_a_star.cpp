@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
 #include <tuple>
-#include <unordered_set>
 
 #include "core/splines/piecewise_cubic.h"
 #include "planner/search/axis_reach.h"
@@ -13,26 +11,11 @@
 namespace tern {
 namespace {
 
-struct Node {
-  Vec3 q = Vec3::Zero();
-  Vec3 v = Vec3::Zero();  ///< v_{l-1}, the velocity control point that led here
-  Vec3 a = Vec3::Zero();  ///< a_{l-2}, the acceleration at the knot before it
-  int parent = -1;
-  int l = 0;
-  double g = 0.0;  ///< λ_g · length + accumulated semantics
-};
+using Node = SearchNode;
+using Entry = SearchEntry;
 
 /// f only counts to kCostStep: on the way to a far goal almost every node has the same f, and of equals the deepest is
 /// expanded first, so that the search dives instead of widening.
-struct Entry {
-  int band;
-  std::int64_t f_step;
-  int depth_left;
-  double f;
-  int node;
-  [[nodiscard]] auto key() const { return std::tie(band, f_step, depth_left, f, node); }
-  bool operator>(const Entry& o) const { return key() > o.key(); }
-};
 constexpr double kCostStep = 0.2;  // m
 std::int64_t step_of(double f) { return static_cast<std::int64_t>(std::floor(f / kCostStep)); }
 
@@ -58,15 +41,23 @@ int band_of(double way_to_go, double width) {
 
 class Search {
  public:
-  Search(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles, Budget& budget)
+  Search(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles, Budget& budget,
+         SearchMemory& memory)
       : problem_(problem),
         config_(config),
         obstacles_(obstacles),
         budget_(budget),
-        basis_(spline_basis(problem.intervals)) {
+        basis_(spline_basis(problem.intervals)),
+        reach_(memory.reach),
+        nodes_(memory.nodes),
+        open_(memory.open),
+        closed_(memory.closed) {
+    nodes_.clear();
+    open_.clear();
+    closed_.clear();
     for (int axis = 0; axis < 3; ++axis) {
-      reach_.emplace_back(problem.intervals, problem.interval_s, problem.limits.v_max[axis], problem.limits.a_max[axis],
-                          problem.limits.j_max[axis]);
+      reach_[static_cast<std::size_t>(axis)].assign(problem.intervals, problem.interval_s, problem.limits.v_max[axis],
+                                                    problem.limits.a_max[axis], problem.limits.j_max[axis]);
     }
   }
 
@@ -74,10 +65,11 @@ class Search {
     push_root();
     while (!open_.empty()) {
       if (result_.expansions >= config_.max_expansions || budget_.expired(Stage::Search)) break;
-      const Entry top = open_.top();
+      const Entry top = open_.front();
       if (best_.holds && std::pair(top.band, top.f_step) >= std::pair(best_.band, step_of(best_.f))) break;
       if (best_.node >= 0 && result_.expansions >= give_up_at_) break;
-      open_.pop();
+      std::pop_heap(open_.begin(), open_.end(), later);
+      open_.pop_back();
       visit(top);
     }
     if (best_.node >= 0) report();
@@ -85,6 +77,7 @@ class Search {
   }
 
  private:
+  static bool later(const Entry& a, const Entry& b) { return b.before(a); }
   [[nodiscard]] int leaf_index() const { return problem_.intervals; }  // n − 2 = J
   [[nodiscard]] Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
 
@@ -113,7 +106,8 @@ class Search {
     double f = n.g + config_.lambda_h * problem_.way.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
     const int band = band_of(problem_.way.from(reachable), config_.band_m);
-    open_.push({band, step_of(f), leaf_index() - n.l, f, static_cast<int>(nodes_.size())});
+    open_.push_back({band, leaf_index() - n.l, step_of(f), f, static_cast<int>(nodes_.size())});
+    std::push_heap(open_.begin(), open_.end(), later);
     nodes_.push_back(n);
   }
 
@@ -160,10 +154,12 @@ class Search {
     const double r2 = problem_.sphere_radius * problem_.sphere_radius;
     if ((minvo.colwise() - problem_.sphere_centre).colwise().squaredNorm().maxCoeff() > r2) return false;
     const PowerCubic power = q * basis_.power(j);
-    if (!problem_.centre_box.contains(cubic_bounds(power, 0.0, 1.0))) return false;
-    return separate_interval(obstacles_, j, power, result_.pairs, nullptr, 0.0,
-                             {problem_.hull_basis, problem_.intervals})
-        .ok;
+    const Box hull(minvo.rowwise().minCoeff(), minvo.rowwise().maxCoeff());
+    if (!problem_.centre_box.contains(hull) && !problem_.centre_box.contains(cubic_bounds(power, 0.0, 1.0)))
+      return false;
+    const HullForm form{problem_.hull_basis, problem_.intervals};
+    const Points4 points = form.basis == HullBasis::Minvo ? minvo : form.points(j, power, 0.0, 1.0);
+    return is_clear(obstacles_, j, power, points, result_.pairs, form);
   }
 
   void consider_leaf(const Entry& entry, const Node& n) {
@@ -249,7 +245,7 @@ class Search {
     }
     return k;
   }
-  [[nodiscard]] bool closed(const Node& n) const { return n.l > 2 && closed_.count(key(n)) > 0; }
+  [[nodiscard]] bool closed(const Node& n) const { return n.l > 2 && closed_.contains(key(n)); }
   void close(const Node& n) { closed_.insert(key(n)); }
 
   void report() {
@@ -271,11 +267,11 @@ class Search {
   SweptObstacles& obstacles_;
   Budget& budget_;
   const SplineBasis& basis_;
-  std::vector<AxisReach> reach_;
+  std::array<AxisReach, 3>& reach_;
+  std::vector<Node>& nodes_;
+  std::vector<Entry>& open_;
+  KeySet& closed_;
   Points3 start_;
-  std::vector<Node> nodes_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
-  std::unordered_set<std::uint64_t> closed_;
   Leaf best_;
   std::int64_t give_up_at_ = 0;  ///< when a leaf that holds has not followed the first leaf by then
   SearchResult result_;
@@ -284,8 +280,14 @@ class Search {
 }  // namespace
 
 SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
+                             Budget& budget, SearchMemory& memory) {
+  return Search(problem, config, obstacles, budget, memory).run();
+}
+
+SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
                              Budget& budget) {
-  return Search(problem, config, obstacles, budget).run();
+  SearchMemory memory;
+  return semantic_a_star(problem, config, obstacles, budget, memory);
 }
 
 }  // namespace tern

@@ -10,6 +10,7 @@
 #include "planner/planner_config.h"
 #include "planner/safety/separation_test.h"
 #include "planner/safety/swept_obstacles.h"
+#include "planner/search/search_memory.h"
 
 namespace tern {
 
@@ -61,6 +62,11 @@ struct SearchResult {
 /// max_expansions are spent, hold_expansions after the first leaf, or when the budget is. Ties by depth, f and index:
 /// deterministic.
 /// @param obstacles  origin at the start, intervals 0 … J−1 the plan's, the others after its end for the hold.
+/// @param memory     used again from call to call: a search as large as an earlier one allocates only its result's
+/// control points.
+SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
+                             Budget& budget, SearchMemory& memory);
+/// The same with memory of its own.
 SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
                              Budget& budget);
 

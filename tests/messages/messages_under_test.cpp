@@ -66,8 +66,8 @@ struct Words {
   void add(const PlanCost& c) { (*this)(c.distance_to_goal, c.jerk, c.attraction, c.repulsion, c.total); }
   void add(const PlanInputs& i) {
     const GoalFieldInputs& f = i.goal_field;
-    (*this)(i.request, i.goal, i.predictions, i.prediction_set, i.map_version, i.configuration_hash, i.planner_build, f.map_version,
-            f.statics_epoch_us, f.statics_first_set, f.statics, f.vehicle);
+    (*this)(i.request, i.goal, i.predictions, i.prediction_set, i.map_version, i.configuration_hash, i.planner_build,
+            f.map_version, f.statics_epoch_us, f.statics_first_set, f.statics, f.vehicle);
   }
   void add(const ChannelCounters& c) { (*this)(c.sent, c.received, c.rejected, c.lost, c.late); }
   void add(const TrueObstacle& o) { (*this)(o.id, o.position, o.velocity, o.half_extents, o.moves); }
@@ -93,7 +93,8 @@ struct Words {
   }
   void add(const PlanTiming& t) {
     (*this)(t.header, t.request_id, t.total_ms, t.first_answer_ms, t.cpu_ms, t.stage_ms, t.expansions, t.hulls,
-            t.pairs_by_box, t.pairs_by_plane, t.pairs_by_lp, t.solver_iterations, t.peak_rss_kb, t.from_watchdog);
+            t.pairs_by_index, t.pairs_by_box, t.pairs_by_instant, t.pairs_by_cache, t.pairs_by_plane, t.pairs_by_lp,
+            t.solver_calls, t.solver_iterations, t.peak_rss_kb, t.from_watchdog);
   }
   void add(const Heartbeat& h) {
     (*this)(h.header, h.process, h.build_id, h.state, h.waiting_for, h.channels.size());

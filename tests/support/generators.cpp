@@ -288,8 +288,9 @@ PlanTiming random_message(Rng& rng, Fill) {
   t.request_id = integer(rng, 1, kMaxCounter);
   for (double* x : {&t.total_ms, &t.first_answer_ms, &t.cpu_ms}) *x = number(rng, 0.0, 1e9);
   for (double& x : t.stage_ms) x = number(rng, 0.0, 1e9);
-  for (std::int64_t* x : {&t.expansions, &t.hulls, &t.pairs_by_box, &t.pairs_by_plane, &t.pairs_by_lp,
-                          &t.solver_iterations, &t.peak_rss_kb}) {
+  for (std::int64_t* x :
+       {&t.expansions, &t.hulls, &t.pairs_by_index, &t.pairs_by_box, &t.pairs_by_instant, &t.pairs_by_cache,
+        &t.pairs_by_plane, &t.pairs_by_lp, &t.solver_calls, &t.solver_iterations, &t.peak_rss_kb}) {
     *x = integer(rng, 0, kMaxCounter);
   }
   t.from_watchdog = flag(rng);

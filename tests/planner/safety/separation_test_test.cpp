@@ -122,6 +122,31 @@ TEST(SeparateInterval, EveryPlaneHoldsTheHullOnOneSideAndThePartOnTheOther) {
   EXPECT_GT(split, 20);
 }
 
+TEST(IsClear, SaysWhatSeparateIntervalSays) {
+  int clear = 0;
+  int blocked = 0;
+  PairCounts counts;
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+    const Scene s = random_scene(seed);
+    const ClampedSpline spline = s.trajectory.spline();
+    SweptObstacles planes(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    SweptObstacles asked(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
+    for (int j = 0; j < spline.intervals(); ++j) {
+      PairCounts ignored;
+      const bool ok = separate_interval(planes, j, spline.power(j), ignored, nullptr).ok;
+      // A second time: what the first has left in memory changes nothing.
+      for (int k = 0; k < 2; ++k) {
+        ASSERT_EQ(is_clear(asked, j, spline.power(j), spline.minvo(j), counts), ok) << "seed " << seed << ", " << j;
+      }
+      ++(ok ? clear : blocked);
+    }
+    EXPECT_EQ(asked.hulls_made(), 0);
+  }
+  EXPECT_GT(clear, 500);
+  EXPECT_GT(blocked, 150);
+  EXPECT_GT(std::min({counts.by_box, counts.by_cache, counts.by_instant, counts.by_plane}), 100);
+}
+
 TEST(SeparateInterval, SplitsTheIntervalInTimeWhereOnePlaneDoesNotDo) {
   // The vehicle comes along x to the origin's far side; the mover was at the origin when it set out, and leaves along
   // y.

@@ -1,0 +1,157 @@
+// What plans cost on the requests of whole flights: percentiles of the whole and of the first answer, the share of each
+// stage, the dearest requests. Thread CPU time.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "benchmarks/flight_recording.h"
+#include "planner/plan_workspace.h"
+#include "runtime/config.h"
+#include "runtime/stopwatch.h"
+
+namespace tern {
+namespace {
+
+constexpr const char* kStageNames[kStages] = {"fallback", "local_goal", "hulls", "search", "optimization", "check"};
+constexpr const char* kOutcomeNames[kPlanOutcomes] = {"optimized", "search only", "keep", "evade", "none"};
+
+/// Thread CPU time by stage and until the first new trajectory.
+class CpuObserver final : public PlanObserver {
+ public:
+  void enter(Stage stage) override {
+    close();
+    stage_ = stage;
+  }
+  void answer(const Plan& plan) override {
+    const bool is_new = plan.outcome != PlanOutcome::KeepCommitted && plan.outcome != PlanOutcome::NoPlan;
+    if (is_new && first_ms < 0.0) first_ms = thread_cpu_ms() - begin_;
+  }
+  void end() {
+    close();
+    total_ms = thread_cpu_ms() - begin_;
+    if (first_ms < 0.0) first_ms = total_ms;
+  }
+
+  double total_ms = 0.0, first_ms = -1.0;
+  std::array<double, kStages> stage_ms{};
+
+ private:
+  void close() {
+    const double now = thread_cpu_ms();
+    stage_ms[static_cast<std::size_t>(stage_)] += now - since_;
+    since_ = now;
+  }
+  double begin_ = thread_cpu_ms(), since_ = begin_;
+  Stage stage_ = Stage::Fallback;
+};
+
+struct Cost {
+  std::size_t request = 0;
+  double total_ms = std::numeric_limits<double>::infinity(), first_ms = 0.0;
+  std::array<double, kStages> stage_ms{};
+  PlanAnswer answer;
+};
+
+/// The least of `repeats` measurements: what the machine's other work adds is not the planner's.
+Cost cost_of(const Moment& m, const PlannerConfig& config, int repeats, PlanWorkspace& workspace) {
+  Cost least;
+  for (int k = 0; k < repeats; ++k) {
+    Budget budget = Budget::unlimited();
+    CpuObserver observer;
+    PlanAnswer answer = plan(m.request, m.world, config, budget, workspace, &observer);
+    observer.end();
+    if (observer.total_ms >= least.total_ms) continue;
+    least.total_ms = observer.total_ms;
+    least.first_ms = observer.first_ms;
+    least.stage_ms = observer.stage_ms;
+    least.answer = std::move(answer);
+  }
+  return least;
+}
+
+template <class Get>
+std::string percentiles(const std::vector<Cost>& costs, const Get& get) {
+  std::vector<double> values;
+  for (const Cost& c : costs) values.push_back(get(c));
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  max {:.3f}", at(0.5), at(0.9), at(0.99), values.back());
+}
+
+void report(const std::vector<Cost>& costs, int worst) {
+  fmt::print("first answer, ms: {}\n", percentiles(costs, [](const Cost& c) { return c.first_ms; }));
+  fmt::print("whole plan, ms:   {}\n", percentiles(costs, [](const Cost& c) { return c.total_ms; }));
+  double total = 0.0;
+  for (const Cost& c : costs) total += c.total_ms;
+  for (std::size_t s = 0; s < kStages; ++s) {
+    double stage = 0.0;
+    for (const Cost& c : costs) stage += c.stage_ms[s];
+    fmt::print("{:13} {:5.1f} %  {}\n", kStageNames[s], 100.0 * stage / total,
+               percentiles(costs, [s](const Cost& c) { return c.stage_ms[s]; }));
+  }
+  std::vector<const Cost*> dearest;
+  for (const Cost& c : costs) dearest.push_back(&c);
+  std::sort(dearest.begin(), dearest.end(), [](const Cost* a, const Cost* b) { return a->total_ms > b->total_ms; });
+  dearest.resize(std::min(dearest.size(), static_cast<std::size_t>(worst)));
+  for (const Cost* c : dearest) {
+    const PlanStatistics& s = c->answer.statistics;
+    const Plan& p = c->answer.plan;
+    fmt::print(
+        "request {:4} {:7.2f} ms first {:7.2f}: {} reason {} relaxed {} hold {:.2f}; {} expansions, {} hulls, {} "
+        "boxes, {} planes\n",
+        c->request, c->total_ms, c->first_ms, kOutcomeNames[static_cast<int>(p.outcome)], static_cast<int>(p.reason),
+        p.relaxed, p.hold.seconds(), s.expansions, s.hulls, s.pairs.by_box, s.pairs.by_plane + s.pairs.by_cache);
+  }
+}
+
+}  // namespace
+}  // namespace tern
+
+int main(int argc, char** argv) {
+  CLI::App app{"Replans the requests of virtual flights and says what they cost, ms of thread CPU time."};
+  std::string scenario;
+  std::vector<std::string> overrides;
+  std::int64_t first = 1;
+  std::int64_t last = 1;
+  int repeats = 3;
+  int worst = 10;
+  app.add_option("--config", scenario, "Scenario file")->required();
+  app.add_option("--set", overrides, "Override key=value (repeatable)");
+  app.add_option("--first", first, "First seed");
+  app.add_option("--last", last, "Last seed");
+  app.add_option("--repeats", repeats, "Measurements per request; the least counts");
+  app.add_option("--worst", worst, "How many of the dearest requests are listed");
+  CLI11_PARSE(app, argc, argv);
+  std::vector<tern::Cost> costs;
+  tern::PlanWorkspace workspace;
+  for (std::int64_t seed = first; seed <= last; ++seed) {
+    std::vector<std::string> with_seed = overrides;
+    with_seed.push_back("seed=" + std::to_string(seed));
+    const tern::FlightRecording flight = tern::record_flight(scenario, with_seed);
+    std::uint64_t h = 14695981039346656037ULL;
+    for (std::size_t k = 0; k < flight.moments.size(); ++k) {
+      tern::Cost cost = tern::cost_of(flight.moments[k], flight.config, repeats, workspace);
+      cost.request = k;
+      const auto& q = cost.answer.plan.trajectory.control_points;
+      for (Eigen::Index i = 0; i < q.size(); ++i) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, q.data() + i, sizeof(bits));
+        h = (h ^ bits) * 1099511628211ULL;
+      }
+      costs.push_back(std::move(cost));
+    }
+    fmt::print("seed {}: {} requests, {} in {:.2f} s, answers {:016x}\n", seed, flight.moments.size(),
+               to_string(flight.result.outcome), flight.result.flight_time_s, h);
+  }
+  tern::report(costs, worst);
+  return 0;
+}

@@ -1,0 +1,148 @@
+// How good the search's leaves are: the searches of recorded flights, with their defaults and again with five seconds
+// and no other limit.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "benchmarks/flight_recording.h"
+#include "planner/evasion.h"
+#include "planner/plan_workspace.h"
+#include "planner/search/semantic_a_star.h"
+#include "runtime/config.h"
+#include "runtime/stopwatch.h"
+
+namespace tern {
+namespace {
+
+constexpr double kLongSearchMs = 5000.0;
+/// What counts as the best: this share of the progress that the long search makes.
+constexpr double kShare = 0.95;
+/// Progress that nobody would notice, m.
+constexpr double kNegligible = 0.05;
+
+struct Judged {
+  double default_ms = 0.0, long_ms = 0.0;
+  bool found = false, best_found = false, holds = false, best_holds = false;
+  double progress = 0.0, best_progress = 0.0;  ///< way to go at the start minus at the leaf, m
+  [[nodiscard]] bool good() const {
+    if (!best_found) return true;
+    if (!found || (best_holds && !holds)) return false;
+    if (holds && !best_holds) return true;
+    return progress >= std::min(kShare * best_progress, best_progress - kNegligible);
+  }
+};
+
+/// Searches again, for long, where plan() has searched. Evasions (other weights, other limits) are left out.
+class Judge final : public PlanObserver {
+ public:
+  explicit Judge(const PlannerConfig& config) : config_(config.search) {}
+
+  void enter(Stage stage) override {
+    if (stage == Stage::Search) began_ = thread_cpu_ms();
+  }
+  void answer(const Plan&) override {}
+  void searched(const SearchProblem& problem, SweptObstacles& obstacles, const SearchResult& found) override {
+    Judged j;
+    j.default_ms = thread_cpu_ms() - began_;
+    if (!judged.empty() && judged.back().found) return;  // the first duration that gives a leaf, and those before it
+    SearchConfig unlimited = config_;
+    unlimited.max_expansions = std::numeric_limits<int>::max();
+    unlimited.hold_expansions = std::numeric_limits<int>::max() / 2;
+    const double began = thread_cpu_ms();
+    Budget budget([&](int, Stage, std::int64_t) { return thread_cpu_ms() - began > kLongSearchMs; });
+    const SearchResult best = semantic_a_star(problem, unlimited, obstacles, budget, memory_);
+    j.long_ms = thread_cpu_ms() - began;
+    const double way = problem.way.from(problem.start.p);
+    j.found = found.found;
+    j.best_found = best.found;
+    j.holds = found.hold_s >= problem.hold_required_s;
+    j.best_holds = best.hold_s >= problem.hold_required_s;
+    j.progress = way - found.way_to_go;
+    j.best_progress = way - best.way_to_go;
+    judged.push_back(j);
+  }
+
+  std::vector<Judged> judged;
+
+ private:
+  SearchConfig config_;
+  SearchMemory memory_;
+  double began_ = 0.0;
+};
+
+/// The searches for the way ahead of every `every`-th request of a flight.
+void judge_flight(const FlightRecording& flight, std::size_t every, std::vector<Judged>& all) {
+  PlannerConfig config = flight.config;
+  config.optimization.method = OptimizationMethod::SearchOnly;
+  PlanWorkspace workspace;
+  for (std::size_t k = 0; k < flight.moments.size(); k += every) {
+    Judge judge(config);
+    Budget budget([](int attempt, Stage, std::int64_t) { return attempt >= kFirstEvasionAttempt; });
+    plan(flight.moments[k].request, flight.moments[k].world, config, budget, workspace, &judge);
+    all.insert(all.end(), judge.judged.begin(), judge.judged.end());
+  }
+}
+
+void report(const std::vector<Judged>& all) {
+  std::vector<double> ms;
+  std::vector<double> long_ms;
+  int good = 0;
+  int without = 0;
+  int with_leaf = 0;
+  int missed = 0;
+  int not_holding = 0;
+  for (const Judged& j : all) {
+    ms.push_back(j.default_ms);
+    long_ms.push_back(j.long_ms);
+    if (!j.best_found) {
+      ++without;
+      continue;
+    }
+    ++with_leaf;
+    good += j.good() ? 1 : 0;
+    missed += j.found ? 0 : 1;
+    not_holding += j.found && j.best_holds && !j.holds ? 1 : 0;
+  }
+  const auto percentiles = [](std::vector<double>& values) {
+    std::sort(values.begin(), values.end());
+    const auto at = [&](double share) {
+      return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+    };
+    return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  max {:.3f}", at(0.5), at(0.9), at(0.99), values.back());
+  };
+  fmt::print("searches {}; in {} of them 5 s find no leaf either\n", all.size(), without);
+  fmt::print("within 5 % of the best: {} of {} ({:.1f} %); no leaf: {}; a leaf that does not hold: {}\n", good,
+             with_leaf, 100.0 * good / std::max(1, with_leaf), missed, not_holding);
+  fmt::print("default, ms: {}\n5 s, ms:     {}\n", percentiles(ms), percentiles(long_ms));
+}
+
+}  // namespace
+}  // namespace tern
+
+int main(int argc, char** argv) {
+  CLI::App app{"Compares the searches of virtual flights with searches of five seconds. Thread CPU time."};
+  std::string scenario;
+  std::vector<std::string> overrides;
+  std::int64_t first = 1;
+  std::int64_t last = 1;
+  std::size_t every = 4;
+  app.add_option("--config", scenario, "Scenario file")->required();
+  app.add_option("--set", overrides, "Override key=value (repeatable)");
+  app.add_option("--first", first, "First seed");
+  app.add_option("--last", last, "Last seed");
+  app.add_option("--every", every, "Every how many requests one is judged")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  std::vector<tern::Judged> all;
+  for (std::int64_t seed = first; seed <= last; ++seed) {
+    std::vector<std::string> with_seed = overrides;
+    with_seed.push_back("seed=" + std::to_string(seed));
+    tern::judge_flight(tern::record_flight(scenario, with_seed), every, all);
+  }
+  if (all.empty()) return 1;
+  tern::report(all);
+  return 0;
+}

@@ -1,0 +1,131 @@
+// The simplex of a Gilbert–Johnson–Keerthi descent and its point nearest to the origin. A part of distance.cpp and
+// swept_boxes.cpp.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/types.h"
+
+namespace tern::gjk {
+
+// Polytopes end after a few steps; a descent that is longer is circling in rounding errors.
+inline constexpr int kMaxSteps = 48;
+// v·v − v·w below this part of v·v is no progress.
+inline constexpr double kRelativeProgress = 1e-12;
+// Bound of the rounding error of n·p, in units of |n|₁|p|₁, with the error of n = e × f in it.
+inline constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+
+struct Vertex {
+  Vec3 w;  // a.col(i) − b.col(j)
+  Eigen::Index i = 0, j = 0;
+};
+
+struct Simplex {
+  std::array<Vertex, 4> vertices;
+  int size = 0;
+  const Vec3& operator[](int k) const { return vertices[static_cast<std::size_t>(k)].w; }
+};
+
+// The point of a face of the simplex that is nearest to the origin.
+struct Nearest {
+  Vec3 v = Vec3::Zero();
+  double norm2 = std::numeric_limits<double>::infinity();
+  std::array<int, 3> face{};        // its vertices
+  std::array<double, 3> weights{};  // their barycentric weights, not normalised
+  int size = 0;                     // 1, 2, 3: vertex, edge, triangle
+
+  void offer(const Nearest& other) {
+    if (other.norm2 < norm2) *this = other;
+  }
+};
+
+inline void offer_vertex(const Simplex& s, int p, Nearest& best) {
+  best.offer({s[p], s[p].squaredNorm(), {p, 0, 0}, {1.0, 0.0, 0.0}, 1});
+}
+
+// v = e × (p × e) / e·e rather than p + t e: orthogonal to e to the last bits even where |v| is tiny against |p|.
+inline void offer_edge(const Simplex& s, int p, int q, Nearest& best) {
+  const Vec3 e = s[q] - s[p];
+  const double ee = e.squaredNorm();
+  const double t = -s[p].dot(e);
+  if (!(t > 0.0)) return offer_vertex(s, p, best);
+  if (!(t < ee)) return offer_vertex(s, q, best);
+  const Vec3 v = e.cross(s[p].cross(e)) / ee;
+  best.offer({v, v.squaredNorm(), {p, q, 0}, {ee - t, t, 0.0}, 2});
+}
+
+// n = (q − p) × (r − p).
+inline void offer_triangle(const Simplex& s, int p, int q, int r, const Vec3& n, Nearest& best) {
+  const double weight_p = s[q].cross(s[r]).dot(n);
+  const double weight_q = s[r].cross(s[p]).dot(n);
+  const double weight_r = s[p].cross(s[q]).dot(n);
+  if (weight_p > 0.0 && weight_q > 0.0 && weight_r > 0.0) {
+    const Vec3 v = n * (n.dot(s[p]) / n.squaredNorm());
+    best.offer({v, v.squaredNorm(), {p, q, r}, {weight_p, weight_q, weight_r}, 3});
+    return;
+  }
+  if (!(weight_r > 0.0)) offer_edge(s, p, q, best);
+  if (!(weight_q > 0.0)) offer_edge(s, r, p, best);
+  if (!(weight_p > 0.0)) offer_edge(s, q, r, best);
+}
+
+// Whether the origin is on the inner side of the face through p with normal n, beyond rounding.
+inline bool surely_inside(const Vec3& n, const Vec3& p, const Vec3& opposite) {
+  const double origin_side = -n.dot(p);
+  const double inner_side = n.dot(opposite - p);
+  const double doubt = kRounding * n.lpNorm<1>() * (p.lpNorm<1>() + opposite.lpNorm<1>());
+  return origin_side > 0.0 ? origin_side > doubt && inner_side > doubt : origin_side < -doubt && inner_side < -doubt;
+}
+
+// Size 0: the origin is inside the tetrahedron. A face in doubt counts as outside, so that a flat tetrahedron holds
+// nothing.
+inline Nearest nearest_of_tetrahedron(const Simplex& s) {
+  constexpr std::array<std::array<int, 4>, 4> kFaces{{{3, 0, 1, 2}, {3, 1, 2, 0}, {3, 2, 0, 1}, {0, 1, 2, 3}}};
+  Nearest best;
+  for (const auto& [p, q, r, opposite] : kFaces) {
+    const Vec3 n = (s[q] - s[p]).cross(s[r] - s[p]);
+    if (!surely_inside(n, s[p], s[opposite])) offer_triangle(s, p, q, r, n, best);
+  }
+  return best;
+}
+
+inline Nearest nearest_of(const Simplex& s) {
+  Nearest best;
+  if (s.size == 4) return nearest_of_tetrahedron(s);
+  if (s.size == 3) offer_triangle(s, 2, 0, 1, (s[0] - s[2]).cross(s[1] - s[2]), best);
+  if (s.size == 2) offer_edge(s, 1, 0, best);
+  if (s.size == 1) offer_vertex(s, 0, best);
+  return best;
+}
+
+inline Simplex face_of(const Simplex& s, const Nearest& nearest) {
+  Simplex face;
+  face.size = nearest.size;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(nearest.size); ++k) {
+    face.vertices[k] = s.vertices[static_cast<std::size_t>(nearest.face[k])];
+  }
+  return face;
+}
+
+// |Σ λ_k w_k|: unlike |v| a true distance of two points of the hulls, however thin the simplex is.
+inline double proven_distance(const Simplex& face, const Nearest& nearest) {
+  Vec3 point = Vec3::Zero();
+  double sum = 0.0;
+  for (int k = 0; k < face.size; ++k) {
+    point += nearest.weights[static_cast<std::size_t>(k)] * face[k];
+    sum += nearest.weights[static_cast<std::size_t>(k)];
+  }
+  return point.norm() / sum;
+}
+
+inline bool contains(const Simplex& s, const Vertex& vertex) {
+  for (int k = 0; k < s.size; ++k) {
+    const Vertex& other = s.vertices[static_cast<std::size_t>(k)];
+    if (other.i == vertex.i && other.j == vertex.j) return true;
+  }
+  return false;
+}
+
+}  // namespace tern::gjk
