@@ -301,7 +301,10 @@ class Solver {
     mu_affine /= std::max(m_, 1);
     const double ratio = mu > 0.0 ? mu_affine / mu : 0.0;
     const double target = std::max(ratio * ratio * ratio * mu, kLastBarrierShare * tolerance_ / std::max(m_, 1));
-    for (int i = 0; i < m_; ++i) complement_[idx(i)] += slack_step_[idx(i)] * multiplier_step_[idx(i)] - target;
+    // The second-order term is the error of the whole affine step. Where only a share of that step can be gone, all of
+    // it overcorrects: iterates have been seen to cycle.
+    for (int i = 0; i < m_; ++i)
+      complement_[idx(i)] += affine * slack_step_[idx(i)] * multiplier_step_[idx(i)] - target;
     direction();
     const double length = largest_step(kStepShare);
     for (int r = 0; r < n_; ++r) y_[idx(r)] += length * step_[idx(r)];
