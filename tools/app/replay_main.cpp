@@ -11,23 +11,6 @@
 #include "tools/replay/extract.h"
 #include "tools/replay/replay_report.h"
 
-namespace tern {
-namespace {
-
-void keep_answers(const std::string& log, const ReplayOptions& options, const std::string& save,
-                  const std::string& dump) {
-  if (save.empty() && dump.empty()) return;
-  const auto chosen = extract(log, options);
-  if (!chosen) throw ConfigError(chosen.error().message);
-  const auto saved = save.empty() ? Result<void>() : write_log(*chosen, save);
-  if (!saved) throw ConfigError(saved.error().message);
-  const auto dumped = dump.empty() ? Result<void>() : write_fixture(*chosen, dump);
-  if (!dumped) throw ConfigError(dumped.error().message);
-}
-
-}  // namespace
-}  // namespace tern
-
 int main(int argc, char** argv) {
   CLI::App app{"Plans every answer of a log again from the inputs that it names, and compares byte for byte."};
   std::string log, json, save, dump;
@@ -53,7 +36,8 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     const bool what_if = !options.other.empty();
-    tern::keep_answers(log, options, save, dump);
+    const auto kept = tern::keep_answers(log, options, save, dump);
+    if (!kept) throw tern::ConfigError(kept.error().message);
     const auto replay = tern::replay_log(log, options);
     if (!replay) throw tern::ConfigError(replay.error().message);
     fmt::print("{}", tern::replay_text(*replay, what_if));

@@ -207,6 +207,15 @@ Result<void> write_fixture(const Extract& extract, const std::string& path) {
   return {};
 }
 
+Result<void> keep_answers(const std::string& path, const ReplayOptions& options, const std::string& log,
+                          const std::string& fixture) {
+  if (log.empty() && fixture.empty()) return {};
+  const auto chosen = extract(path, options);
+  if (!chosen) return tl::make_unexpected(chosen.error());
+  const auto written = log.empty() ? Result<void>() : write_log(*chosen, log);
+  return fixture.empty() || !written ? written : write_fixture(*chosen, fixture);
+}
+
 Result<Fixture> load_fixture(const std::string& path) {
   auto inputs = read_recorded_inputs(path);
   if (!inputs) return tl::make_unexpected(inputs.error());

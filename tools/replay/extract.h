@@ -30,6 +30,10 @@ Result<void> write_log(const Extract& extract, const std::string& path);
 /// as a log; a unit test takes it by load_fixture.
 Result<void> write_fixture(const Extract& extract, const std::string& path);
 
+/// Extracts answers of the log at `path` into a log, a fixture, or both; an empty name: not that.
+Result<void> keep_answers(const std::string& path, const ReplayOptions& options, const std::string& log,
+                          const std::string& fixture);
+
 /// One request with its world, as a planner had it.
 struct Fixture {
   PlanProblem problem;
