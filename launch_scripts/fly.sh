@@ -291,7 +291,7 @@ if [[ -z ${TERN_FLY_INSIDE:-}${TERN_LISTEN_FD:-} ]]; then
   [[ -z $view ]] || listen_for_browsers
 fi
 [[ -z $view || -n ${TERN_FLY_INSIDE:-} ]] || open_page "$TERN_LISTEN_URL"
-for program in "$LOGGER" "$MONITOR" "${OTHERS[@]}"; do
+for program in "$LOGGER" "$MONITOR" "${OTHERS[@]}" ${audit:+tern-audit} ${report:+tern-report}; do
   [[ -x $TERN_BIN/$program ]] || die "$TERN_BIN/$program is not there"
 done
 make_record

@@ -48,6 +48,7 @@ struct FlightRecord {
   std::vector<FlightResult> results;                ///< each that differs from the one before
   std::vector<ConfigurationReport> configurations;  ///< the last of each process
   std::vector<Region> regions;                      ///< the scenario's; filled by whoever can read configurations
+  std::map<std::string, std::string> class_labels;  ///< what its classes are: "attractive", "repulsive", …
 
   /// Messages of a channel that were sent but cannot be read: lost by their numbers, or refused.
   [[nodiscard]] std::int64_t unread(const std::string& channel) const;

@@ -138,6 +138,8 @@ json regions_of(const FlightRecord& record) {
     json one = shape_of(region);
     one["name"] = region.name;
     one["class"] = region.class_name;
+    const auto label = record.class_labels.find(region.class_name);
+    one["label"] = label == record.class_labels.end() ? "" : label->second;
     regions.push_back(std::move(one));
   }
   return regions;

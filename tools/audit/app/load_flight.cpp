@@ -12,7 +12,9 @@ Result<FlightRecord> load_flight(const std::string& path) {
     if (report.yaml.empty()) continue;
     try {
       ConfigDocument document = ConfigDocument::parse(report.yaml, report.process);
-      record->regions = read_scenario(document).semantics.regions;
+      const SemanticsSpec semantics = read_scenario(document).semantics;
+      record->regions = semantics.regions;
+      record->class_labels.insert(semantics.classes.begin(), semantics.classes.end());
       break;
     } catch (const ConfigError&) {
       // Not a scenario, or one of another version: the next process's may be.

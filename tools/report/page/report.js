@@ -170,8 +170,7 @@
       g.globalAlpha = 1;
     }
     region(g, region) {
-      const repels = /water|hazard|repuls|no_fly/.test(region.class);
-      const colour = repels ? css("repel") : css("attract");
+      const colour = css({ attractive: "attract", repulsive: "repel", occupied: "occupied" }[region.label] || "soft");
       g.beginPath();
       let at;
       if (region.min) {
@@ -288,8 +287,8 @@
     if (obstacles.movers.length) legend.append(swatch("mover", `${obstacles.movers.length} moving`));
     if (obstacles.statics.length) legend.append(swatch("obstacle", `${obstacles.statics.length} at rest`));
     if (data.map.runs.some((r) => r[3] === 2)) legend.append(swatch("occupied", "occupied voxels"));
-    if (regions.length || data.map.runs.some((r) => r[3] === 3)) legend.append(swatch("attract", "attracts"));
-    if (regions.length || data.map.runs.some((r) => r[3] === 4)) legend.append(swatch("repel", "repels"));
+    if (regions.some((r) => r.label === "attractive") || data.map.runs.some((r) => r[3] === 3)) legend.append(swatch("attract", "attracts"));
+    if (regions.some((r) => r.label === "repulsive") || data.map.runs.some((r) => r[3] === 4)) legend.append(swatch("repel", "repels"));
     const begin = path.t[0] || 0, end = path.t[path.t.length - 1] || 0;
     const slider = el("input", { type: "range", min: begin, max: end, step: 0.01, "aria-label": "time" });
     const button = el("button", { type: "button" }, "Play");
@@ -328,11 +327,11 @@
       const width = printing ? (parent.parentElement.classList.contains("pair") ? 305 : PRINT_WIDTH) : parent.clientWidth - 36;
       const lines = { stroke: css("soft"), grid: { stroke: css("grid"), width: 1 }, ticks: { stroke: css("grid"), width: 1, size: 4 }, font: "11px system-ui, 'DejaVu Sans', sans-serif" };
       plot = new uPlot({
-        width, height, padding: [8, 8, 0, 0],
+        width, height, padding: [8, 16, 0, 0],
         scales: { x: { time: false, range: (u, low, high) => (low <= columns[0][0] && high >= columns[0][columns[0].length - 1] ? span : [low, high]) }, y: { range } },
         cursor: { sync: { key: sync.key }, y: false, points: { size: 6 }, drag: { x: true, y: false } },
         legend: { live: true },
-        axes: [{ ...lines, size: 30, values: (u, ticks) => ticks.map((t) => t + (t === ticks[ticks.length - 1] ? " s" : "")) }, { ...lines, size: 46, ...axis }],
+        axes: [{ ...lines, size: 30, space: 60, values: (u, ticks) => ticks.map((t) => t + (t === ticks[ticks.length - 1] ? " s" : "")) }, { ...lines, size: 46, ...axis }],
         series: [{ label: "t", value: (u, t) => (t == null ? "–" : fixed(t, 2) + " s") }, ...series.map((s) => ({
           spanGaps: false, width: 1.6, points: { show: false }, value: (u, y) => fixed(y, 2), ...s,
           stroke: css(s.colour), fill: s.fill ? css(s.colour) + (s.opaque ? "" : "2a") : undefined,
@@ -375,15 +374,23 @@
     });
     const exposed = card("Exposure, m", regions.length ? "Metres flown inside each region so far." : "The scenario has no regions.", row);
     if (!regions.length) return;
+    const palettes = { attractive: ["attract", "c1", "c4"], repulsive: ["repel", "c2", "c5"] };
+    const used = {};
+    const colourOf = (label) => { const palette = palettes[label] || ["c6"]; used[label] = (used[label] ?? -1) + 1; return palette[used[label] % palette.length]; };
+    const colours = regions.map((r) => colourOf(r.label));
     chart(exposed, {
       columns: [path.t, ...path.exposure],
-      series: regions.map((r, k) => ({ label: r.name, colour: /water|hazard|repuls|no_fly/.test(r.class) ? "repel" : ["attract", "c1", "c4", "c2"][k % 4], fill: true })),
+      series: regions.map((r, k) => ({ label: r.name, colour: colours[k], fill: true })),
       range: upTo(path.exposure.flat().concat([1])),
     });
   }
   function replanning() {
     const shared = answers.share > 1 ? ` A point stands for ${answers.share} answers: the slowest of them.` : "";
-    const box = card("Replan time by stage, ms", "Wall time of each answer, stacked by stage, and the time that it had until its deadline." + shared);
+    // A deadline far above all answers would leave nothing to see of them: then it is told, not drawn.
+    const slowest = most(answers.total), shortest = least(answers.deadline);
+    const above = slowest > 0 && slowest < 0.3 * shortest;
+    const deadline = above ? `The deadline, ${fixed(shortest, 0)} ms after each request, lies above the chart: the slowest answer took ${percent(slowest / shortest, 0)} of it.` : "Dashed: the time that it had until its deadline.";
+    const box = card("Replan time by stage, ms", `Wall time of each answer, stacked by stage. ${deadline}${shared}`);
     const sums = STAGES.map(() => []);
     answers.t.forEach((_, i) => { let sum = 0; STAGES.forEach(([key], k) => { sum += answers[key][i] || 0; sums[k].push(answers[key][i] == null ? null : sum); }); });
     const order = STAGES.map((_, k) => k).reverse(); // the largest sum first, the others over it
@@ -391,11 +398,11 @@
     chart(box, {
       height: 250,
       columns: [answers.t, answers.deadline, answers.total, ...order.map((k) => sums[k])],
-      series: [{ label: "deadline", colour: "bad", dash: [6, 4], value: (u, y) => fixed(y, 1), paths: stepped },
+      series: [{ label: "deadline", colour: "bad", dash: [6, 4], value: (u, y) => fixed(y, 1) },
         { label: "whole answer", colour: "ink", width: 1, paths: stepped },
         ...order.map((k) => ({ label: STAGES[k][1], colour: STAGE_COLOURS[k], fill: true, opaque: true, width: 0, paths: stepped,
           value: (u, y, s, i) => fixed(i == null ? null : answers[STAGES[k][0]][i], 2) }))],
-      range: upTo(answers.deadline.concat(answers.total)),
+      range: above ? upTo(answers.total, 1.15) : upTo(answers.deadline.concat(answers.total)),
     });
     const strip = card("Plan outcomes", "One mark per answer.");
     const present = OUTCOMES.map((_, k) => k);
@@ -450,8 +457,8 @@
     const exposure = check("exposure").measures;
     if (regions.length) {
       const box = card("Regions", null);
-      table(box, [["region", false], ["class", false], ["inside, s", true], ["inside, m", true], ["within 1 m, s", true], ["within 1 m, m", true]],
-        regions.map((r) => [r.name, r.class, ...["_s", "_m", "_near_s", "_near_m"].map((k) => fixed(exposure[r.name + k], 2))]));
+      table(box, [["region", false], ["class", false], ["is", false], ["inside, s", true], ["inside, m", true], ["within 1 m, s", true], ["within 1 m, m", true]],
+        regions.map((r) => [r.name, r.class, r.label, ...["_s", "_m", "_near_s", "_near_m"].map((k) => fixed(exposure[r.name + k], 2))]));
     }
     row = pair();
     const channels = card("Log", null, row);
@@ -468,9 +475,13 @@
   }
 
   head();
-  map();
-  motion();
-  clearances();
+  if (path.t.length) {
+    map();
+    motion();
+    clearances();
+  } else {
+    card("Where it flew", "The log has no UAV_STATE.");
+  }
   replanning();
   auditTable();
   coverage();
