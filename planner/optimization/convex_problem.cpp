@@ -106,10 +106,9 @@ class Builder {
       out.rows.row(r) = rows_[i].transpose();
       out.bounds[r] = bounds_[i];
     }
-    // By the very product that judges feasibility: another order of summing would leave x0 outside by its rounding.
-    out.bounds = out.bounds.cwiseMax(out.rows * x0_).eval();
+    out.bounds = out.bounds.cwiseMax(out.rows * x0_ + Eigen::VectorXd::Constant(out.bounds.size(), kStartRoom)).eval();
     for (int k = 0; k < out.spheres(); ++k) {
-      out.sphere_radius2 = std::max(out.sphere_radius2, out.sphere_point(k, x0_).squaredNorm());
+      out.sphere_radius2 = std::max(out.sphere_radius2, out.sphere_point(k, x0_).squaredNorm() + kStartRoom);
     }
   }
 

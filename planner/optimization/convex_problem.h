@@ -31,9 +31,15 @@ struct ConvexProblem {
   [[nodiscard]] double worst_violation(const Eigen::VectorXd& x) const;
 };
 
+/// Room that x0 has to every bound, in the bound's unit (m, m/s, m/s², m/s³, m²): a leaf that lies on opposite bounds
+/// would leave no interior, and an interior point method no way (of 10,000 recorded problems, one). A tenth of the
+/// checker's tolerance (kLimitTolerance) for limits of 1, less for larger ones; what a smaller limit refuses, the
+/// checker refuses.
+inline constexpr double kStartRoom = 1e-7;
+
 /// Builds the problem. Bounds that x0 (the search's result) breaks a little — MINVO points bulge beyond the curve — are
-/// widened to x0's own value, so that x0 is always feasible; the checker decides with true extrema. What x0 is far from
-/// is left out: each row costs.
+/// widened to x0's own value, so that x0 is always strictly feasible (by kStartRoom); the checker decides with true
+/// extrema. What x0 is far from is left out: each row costs.
 ConvexProblem make_convex_problem(const TrajectoryProblem& problem, const std::vector<PlaneConstraint>& planes,
                                   const Points& initial_control_points);
 
