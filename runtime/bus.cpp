@@ -74,6 +74,7 @@ struct Bus::State {
   std::map<std::string, Channel, std::less<>> channels;
   std::int64_t unsent = 0;
   std::int64_t deliveries = 0;
+  std::int64_t received_us = 0;  ///< the system's clock when the message being delivered came in
   std::exception_ptr error;
   Listener listener;
   lcm::Subscription* listening = nullptr;
@@ -94,6 +95,7 @@ struct Bus::State {
     State& state = *channel->state;
     if (state.error) return;
     ++state.deliveries;
+    state.received_us = buffer->recv_utime;
     channel->counted = false;
     const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
     try {
@@ -247,6 +249,8 @@ const std::string& Bus::suffix() const { return state_->suffix; }
 std::int64_t Bus::unsent() const { return state_->unsent; }
 
 std::int64_t Bus::deliveries() const { return state_->deliveries; }
+
+UTime Bus::received() const { return clock_.at_system_time(state_->received_us); }
 
 void Bus::rethrow() {
   if (state_->error) std::rethrow_exception(std::exchange(state_->error, nullptr));

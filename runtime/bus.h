@@ -109,6 +109,9 @@ class Bus {
   void count_late(std::string_view channel);      ///< a node found an accepted message too old to be used
   [[nodiscard]] std::int64_t unsent() const;      ///< paced messages that a newer set replaced before they left
   [[nodiscard]] std::int64_t deliveries() const;  ///< messages that came in, accepted or not
+  /// When the kernel took the newest delivered message from the network, by this bus's clock: a handler may run much
+  /// later. @pre called from a handler
+  [[nodiscard]] UTime received() const;
   /// Throws what a handler threw, if one did since the last call. Deliveries stop until then. Runners call it after a
   /// drain.
   void rethrow();

@@ -1,6 +1,8 @@
 // The only clocks in Tern. Libraries get times as arguments.
 #pragma once
 
+#include <cstdint>
+
 #include "core/base/time.h"
 
 namespace tern {
@@ -9,6 +11,9 @@ class Clock {
  public:
   virtual ~Clock() = default;
   [[nodiscard]] virtual UTime now() const = 0;
+  /// What this clock showed when the system's real-time clock showed `unix_us`, µs since the Unix epoch. A clock that
+  /// has nothing to do with the system's says now().
+  [[nodiscard]] virtual UTime at_system_time(std::int64_t /*unix_us*/) const { return now(); }
 };
 
 /// The system's real-time clock plus a fixed offset (`--clock-offset-us`, so that skew can be tested).
@@ -16,6 +21,7 @@ class WallClock final : public Clock {
  public:
   explicit WallClock(Duration offset = {}) : offset_(offset) {}
   [[nodiscard]] UTime now() const override;
+  [[nodiscard]] UTime at_system_time(std::int64_t unix_us) const override { return UTime{unix_us} + offset_; }
 
  private:
   Duration offset_;

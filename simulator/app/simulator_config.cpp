@@ -41,6 +41,8 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
   const std::string needed = section.text("wait_for", "tern-predictor, tern-mapper, tern-planner");
   config.wait_for = needed == "none" ? std::vector<std::string>{} : words_of(needed);
   config.wait = Duration::from_seconds(section.number("wait_s", config.wait.seconds(), Range::positive(3600.0)));
+  config.max_clock_skew = Duration::from_seconds(
+      section.number("max_clock_skew_s", config.max_clock_skew.seconds(), Range::positive(10.0)));
   config.send_goal = section.flag("send_goal", config.send_goal);
   config.min_flight_s = section.number("min_flight_s", config.min_flight_s, Range::at_least(0.0, 1e5));
   config.sensor = read_sensor(section.section("sensor"), seed);

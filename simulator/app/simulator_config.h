@@ -7,6 +7,7 @@
 
 #include "executor/executor.h"
 #include "runtime/config.h"
+#include "simulator/app/start_gate.h"
 #include "simulator/sensors/sensor.h"
 
 namespace tern {
@@ -16,6 +17,7 @@ struct SimulatorConfig {
   std::vector<std::string> wait_for = {"tern-predictor", "tern-mapper",
                                        "tern-planner"};  ///< world time waits for these
   Duration wait{15'000'000};                             ///< for so long, then the flight has failed, > 0
+  Duration max_clock_skew = kMaxClockSkew;               ///< of these from the vehicle's, > 0
   bool send_goal = true;      ///< send the scenario's goal; false: the mission waits for a GOAL of someone else
   double min_flight_s = 0.0;  ///< an arrival counts only from this world time on, ≥ 0 (a vehicle that guards a place)
   SensorConfig sensor;

@@ -45,7 +45,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, co
                              const ExecutorConfig& executor)
     : bus_(bus),
       config_(config),
-      gate_(config.wait_for),
+      gate_(config.wait_for, config.max_clock_skew),
       give_up_at_(bus.clock().now() + config.wait),
       executor_(scenario.uav, bus.clock().now(), executor),
       referee_(scenario, std::move(world)),
@@ -58,8 +58,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, co
   if (config.send_goal) take_goal(scenario_goal(scenario));
   bus_.subscribe<Goal>(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe<Plan>(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
-  bus_.subscribe<Heartbeat>(channels::kHeartbeat,
-                            [this](const Heartbeat& heartbeat) { gate_.hear(heartbeat, bus_.clock().now()); });
+  bus_.subscribe<Heartbeat>(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
 }
 
 UTime SimulatorNode::next_wakeup() const {
@@ -93,11 +92,21 @@ void SimulatorNode::wait_for_processes(UTime now) {
     executor_.begin(*world_zero_);
     broadcast_.start(*world_zero_, now);
     spdlog::info("everyone is ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
+    if (const std::string clocks = gate_.clocks(); !clocks.empty()) {
+      spdlog::info("clocks against the vehicle's: {}", clocks);
+    }
   } else if (now >= give_up_at_) {
     FlightResult result = referee_.result_so_far();
     result.detail = "not ready after " + std::to_string(config_.wait.us / 1'000'000) + " s: " + missing;
     end_flight(result, kExitNotReady, now);
   }
+}
+
+void SimulatorNode::on_heartbeat(const Heartbeat& heartbeat) {
+  gate_.hear(heartbeat, bus_.received());
+  const std::string skewed = gate_.skewed();
+  if (!skewed.empty() && !said_skewed_) spdlog::error("{}", skewed);
+  said_skewed_ = !skewed.empty();
 }
 
 void SimulatorNode::ask(UTime now) {
@@ -175,6 +184,7 @@ NodeHealth SimulatorNode::health() const {
   if (result_) return {exit_code_ == 0 ? ProcessState::Finished : ProcessState::Failed, ""};
   if (!world_zero_) return {ProcessState::Waiting, gate_.missing(bus_.clock().now())};
   if (!goal_) return {ProcessState::Waiting, "a goal"};
+  if (const std::string skewed = gate_.skewed(); !skewed.empty()) return {ProcessState::Waiting, skewed};
   return {ProcessState::Ready, ""};
 }
 

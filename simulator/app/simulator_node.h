@@ -47,6 +47,7 @@ class SimulatorNode final : public Node {
   [[nodiscard]] std::optional<UTime> world_zero() const { return world_zero_; }
 
  private:
+  void on_heartbeat(const Heartbeat& heartbeat);
   void on_goal(const Goal& goal);
   void on_plan(const Plan& plan);
   void take_goal(const Goal& goal);
@@ -69,6 +70,7 @@ class SimulatorNode final : public Node {
   std::optional<FlightResult> result_;
   int exit_code_ = 0;
   int results_left_ = 0;
+  bool said_skewed_ = false;
   double yaw_ = 0.0;  // rad, along the last horizontal velocity
   UTime next_state_, next_goal_, next_result_ = kNever;
   UTime next_refusal_log_;

@@ -1,24 +1,69 @@
 #include "simulator/app/start_gate.h"
 
-namespace tern {
+#include <fmt/format.h>
 
-void StartGate::hear(const Heartbeat& heartbeat, UTime now) {
-  heard_[heartbeat.process] = {now, heartbeat.state, heartbeat.waiting_for};
+namespace tern {
+namespace {
+
+void append(std::string& list, const std::string& name, const std::string& why) {
+  if (!why.empty()) list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", name, why);
+}
+
+double milliseconds(Duration d) { return static_cast<double>(d.us) * 1e-3; }
+
+}  // namespace
+
+void StartGate::hear(const Heartbeat& heartbeat, UTime received) {
+  Heard& heard = heard_[heartbeat.process];
+  const std::int64_t epoch_us = heartbeat.header.name.sender_epoch_us;
+  if (heard.epoch_us != epoch_us) heard.skew = {};
+  heard.at = received;
+  heard.state = heartbeat.state;
+  heard.waiting_for = heartbeat.waiting_for;
+  heard.epoch_us = epoch_us;
+  heard.skew.add(heartbeat.header.utime, received);
+}
+
+std::string StartGate::skew_of(const Heard& heard) const {
+  const Duration ahead = heard.skew.ahead().value_or(Duration{});
+  if (ahead <= max_skew_ && ahead * -1 <= max_skew_) return "";
+  return fmt::format("its clock is {:.1f} ms {} the vehicle's, more than {:g} ms: synchronize the hosts' clocks",
+                     milliseconds(ahead < Duration{} ? ahead * -1 : ahead), ahead < Duration{} ? "behind" : "ahead of",
+                     milliseconds(max_skew_));
 }
 
 std::string StartGate::missing(UTime now) const {
   std::string text;
   for (const std::string& name : needed_) {
     const auto found = heard_.find(name);
-    std::string why;
     if (found == heard_.end()) {
-      why = "not heard";
+      append(text, name, "not heard");
     } else if (now - found->second.at > kHeartbeatAge) {
-      why = "no longer heard";
+      append(text, name, "no longer heard");
+    } else if (const std::string skew = skew_of(found->second); !skew.empty()) {
+      append(text, name, skew);
     } else if (found->second.state != ProcessState::Ready) {
-      why = found->second.waiting_for.empty() ? "not ready" : "waits for " + found->second.waiting_for;
+      append(text, name, found->second.waiting_for.empty() ? "not ready" : "waits for " + found->second.waiting_for);
     }
-    if (!why.empty()) text += (text.empty() ? "" : ", ") + name + " (" + why + ")";
+  }
+  return text;
+}
+
+std::string StartGate::skewed() const {
+  std::string text;
+  for (const std::string& name : needed_) {
+    if (const auto found = heard_.find(name); found != heard_.end()) append(text, name, skew_of(found->second));
+  }
+  return text;
+}
+
+std::string StartGate::clocks() const {
+  std::string text;
+  for (const std::string& name : needed_) {
+    const auto found = heard_.find(name);
+    if (found == heard_.end()) continue;
+    const double ahead_ms = milliseconds(found->second.skew.ahead().value_or(Duration{}));
+    text += fmt::format("{}{} {:+.1f} ms", text.empty() ? "" : ", ", name, ahead_ms);
   }
   return text;
 }

@@ -1,36 +1,56 @@
-// Holds world time back until every process that the flight needs says that it is ready.
+// Holds world time back until every process that the flight needs says that it is ready, by a clock that agrees.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "core/base/time.h"
 #include "core/world/health.h"
+#include "runtime/clock_skew.h"
 
 namespace tern {
 
-/// Listens to heartbeats. A process is ready when its newest heartbeat says Ready and is at most kHeartbeatAge old.
+/// What a clock may be away from the vehicle's, in which t_s and deadlines are. With the executor's default lead the
+/// optimizer ends 14 ms before the deadline at the latest, so that a clock 10 ms behind still answers in time; one as
+/// far ahead takes as much from the 66 ms that the planner has.
+inline constexpr Duration kMaxClockSkew{10'000};
+
+/// Listens to heartbeats. A process is ready when its newest heartbeat says Ready, is at most kHeartbeatAge old, and
+/// its clock is within max_skew of the listener's.
 class StartGate {
  public:
   /// Four heartbeats in a row (2 Hz) may be lost before a process counts as gone.
   static constexpr Duration kHeartbeatAge{2'500'000};
 
-  explicit StartGate(std::vector<std::string> needed) : needed_(std::move(needed)) {}
+  explicit StartGate(std::vector<std::string> needed, Duration max_skew = kMaxClockSkew)
+      : needed_(std::move(needed)), max_skew_(max_skew) {}
 
-  void hear(const Heartbeat& heartbeat, UTime now);
+  /// @param received  when the network delivered it, the listener's clock
+  void hear(const Heartbeat& heartbeat, UTime received);
   [[nodiscard]] bool open(UTime now) const { return missing(now).empty(); }
   /// Who is not ready, and what each is waiting for: "tern-planner (waits for a map), tern-mapper (not heard)". Empty
   /// when everyone is ready.
   [[nodiscard]] std::string missing(UTime now) const;
+  /// Whose clock is out of max_skew, by how much, and what to do, in the same form. Empty when all heard are within it.
+  [[nodiscard]] std::string skewed() const;
+  /// "tern-planner +0.3 ms, tern-mapper -0.1 ms": the clocks of the needed ones that were heard, against the
+  /// listener's.
+  [[nodiscard]] std::string clocks() const;
 
  private:
   struct Heard {
     UTime at;
     ProcessState state = ProcessState::Starting;
     std::string waiting_for;
+    std::int64_t epoch_us = 0;  ///< a process that was started anew may run by another clock
+    ClockSkew skew;
   };
+  [[nodiscard]] std::string skew_of(const Heard& heard) const;
+
   std::vector<std::string> needed_;
+  Duration max_skew_;
   std::map<std::string, Heard> heard_;
 };
 
