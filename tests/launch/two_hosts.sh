@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# two_hosts.sh NAME: flights over two hosts, which are two network namespaces with a cable between them (a veth pair): simulator,
+# mapper, logger and monitor on the vehicle, planner and predictor on the ground. Run by hermetic.sh, whose namespace is the
+# vehicle. Environment: TERN_BIN, where the programs are.
+set -euo pipefail
+# shellcheck source=tests/launch/lib.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
+
+# ttl=1: packets leave the host, and pass no router.
+export LCM_DEFAULT_URL='udpm://239.255.76.67:7667?ttl=1'
+wait_s=15
+readonly SETTINGS=(--config "$work/scenario.yaml" --set uav.goal='[20,0,1]')
+
+# lay_cable: makes the ground, and a cable to it. Sets `ground` to what runs a command there.
+lay_cable() {
+  local host
+  unshare --net sleep 600 &
+  host=$!
+  flights+=("$host")
+  ground=(nsenter --net --target "$host" --)
+  eventually "a second namespace" 10 another_network "$host"
+  {
+    ip route del 224.0.0.0/4 dev lo &&
+      ip link add cable type veth peer name cable netns "$host" &&
+      ip address add 10.7.0.1/30 dev cable && ip link set cable up && ip route add 224.0.0.0/4 dev cable &&
+      "${ground[@]}" ip link set lo up && "${ground[@]}" ip address add 10.7.0.2/30 dev cable &&
+      "${ground[@]}" ip link set cable up && "${ground[@]}" ip route add 224.0.0.0/4 dev cable
+  } || refused
+}
+another_network() { [[ $(readlink "/proc/$1/ns/net") != "$(readlink /proc/self/ns/net)" ]]; }
+
+# As hermetic.sh where no namespace can be had.
+refused() {
+  echo "two_hosts.sh: this host refuses a veth pair between network namespaces; not run" >&2
+  exit 97
+}
+
+# start NAME COMMAND...: in the background, with $work/NAME.out; sets `pid`.
+start() {
+  local name=$1
+  shift
+  "$@" >"$work/$name.out" 2>&1 &
+  pid=$!
+  flights+=("$pid")
+}
+
+# start_system PLANNER_OPTION...: every process but the simulator, whose pid is then `flight`; the monitor's is `monitor`.
+start_system() {
+  cp "$root/tests/launch/pillars.yaml" "$work/scenario.yaml"
+  lay_cable
+  start tern-planner "${ground[@]}" "$TERN_BIN/tern-planner" "${SETTINGS[@]}" "$@"
+  start tern-predictor "${ground[@]}" "$TERN_BIN/tern-predictor" "${SETTINGS[@]}"
+  start tern-mapper "$TERN_BIN/tern-mapper" "${SETTINGS[@]}"
+  start tern-monitor "$TERN_BIN/tern-monitor" "${SETTINGS[@]}" --summary "$work/summary.json"
+  monitor=$pid
+  start tern-simulator "$TERN_BIN/tern-simulator" "${SETTINGS[@]}" --set simulator.wait_s="$wait_s"
+  flight=$pid
+}
+
+# ends WHO PID CODE: the process ends by itself, with this exit code.
+ends() {
+  local result=0
+  wait "$2" || result=$?
+  [[ $result == "$3" ]] || fail "$1 ended with $result, not $3: $(tail -n 20 "$work"/*.out)"
+}
+
+a_flight_whose_clocks_are_a_little_apart_reaches_its_goal() {
+  start_system --clock-offset-us 5000
+  ends tern-simulator "$flight" 0
+  ends tern-monitor "$monitor" 0
+  cat "$work/tern-monitor.out"
+  expect "reached" has_text '"outcome": "reached"' "$work/summary.json"
+  grep clocks "$work/tern-simulator.out" || fail "nothing is said of clocks"
+  expect "the skew is said" has_text 'clocks against the vehicle.s:.*tern-planner +[45]\.[0-9] ms' "$work/tern-simulator.out"
+}
+
+# refuses OFFSET_US SKEW DIRECTION: the flight does not begin, and everyone says why. The first word may be of a heartbeat that was
+# long on its way; SKEW is what the verdict measured.
+refuses() {
+  local end="ms $3 the vehicle's, more than 10 ms: synchronize the hosts' clocks)"
+  wait_s=5
+  start_system --clock-offset-us "$1"
+  ends tern-simulator "$flight" 3
+  ends tern-monitor "$monitor" 3
+  cat "$work/tern-monitor.out"
+  expect "the vehicle says so" has_text "error: tern-planner (its clock is [0-9.]* $end" "$work/tern-simulator.out"
+  expect "the verdict says so" has_text "not ready after $wait_s s: tern-planner (its clock is $2 $end" "$work/tern-simulator.out"
+  expect "the monitor says so" has_text "tern-planner (its clock is $2 $end" "$work/tern-monitor.out"
+}
+
+a_clock_that_is_far_ahead_is_refused_by_name() { refuses 100000 '\(9[0-9]\.[0-9]\|100\.0\)' 'ahead of'; }
+
+a_clock_that_is_far_behind_is_refused_by_name() { refuses -100000 '10[0-9]\.[0-9]' behind; }
+
+run_test "$1"
