@@ -44,11 +44,12 @@ start() {
   flights+=("$pid")
 }
 
-# start_system PLANNER_OPTION...: every process but the simulator, whose pid is then `flight`; the monitor's is `monitor`.
+# start_system PLANNER_OPTION...: every process but the simulator, whose pid is then `flight`; the others' are `planner` and `monitor`.
 start_system() {
   cp "$root/tests/launch/pillars.yaml" "$work/scenario.yaml"
   lay_cable
   start tern-planner "${ground[@]}" "$TERN_BIN/tern-planner" "${SETTINGS[@]}" "$@"
+  planner=$pid
   start tern-predictor "${ground[@]}" "$TERN_BIN/tern-predictor" "${SETTINGS[@]}"
   start tern-mapper "$TERN_BIN/tern-mapper" "${SETTINGS[@]}"
   start tern-monitor "$TERN_BIN/tern-monitor" "${SETTINGS[@]}" --summary "$work/summary.json"
@@ -91,5 +92,18 @@ refuses() {
 a_clock_that_is_far_ahead_is_refused_by_name() { refuses 100000 '\(9[0-9]\.[0-9]\|100\.0\)' 'ahead of'; }
 
 a_clock_that_is_far_behind_is_refused_by_name() { refuses -100000 '10[0-9]\.[0-9]' behind; }
+
+says() { tail -n 1 "$work/tern-monitor.out" | grep -q -- "$1"; }
+
+a_clock_that_goes_wrong_in_flight_is_said_and_the_vehicle_rests() {
+  local skew="tern-planner (its clock is [0-9.]* ms ahead of the vehicle's"
+  start_system
+  eventually "flies" 30 says ' [1-9]\.[0-9]* m/s'
+  kill -KILL "$planner"
+  start tern-planner-anew "${ground[@]}" "$TERN_BIN/tern-planner" "${SETTINGS[@]}" --clock-offset-us 100000
+  eventually "the vehicle says so" 15 has_text "error: $skew" "$work/tern-simulator.out"
+  eventually "the monitor says so, and rests" 15 says " 0.00 m/s.*waiting for tern-simulator: $skew"
+  cat "$work/tern-monitor.out"
+}
 
 run_test "$1"
