@@ -126,6 +126,7 @@ std::optional<Candidate> search_candidate(const AttemptContext& context, SweptOb
   problem.centre_box = centre_box(context.request.flight_box, context.request.body);
   problem.way = context.way;
   problem.hold_required_s = hold_required_s;
+  problem.keep_nodes = context.observer != nullptr && context.observer->wants_search_nodes();
   problem.hull_basis = context.config.hull_basis;
   std::optional<SemanticGuide> guide;
   if (context.fields != nullptr) add_semantics(&guide.emplace(guide_of(context)), problem);

@@ -56,6 +56,7 @@ struct PlannerConfig {
   bool semantic_path = true;       ///< the path around static obstacles knows regions (by exposure)
   double exposure_margin_m = 1.0;  ///< exposure falls from 1 to 0 within this distance of a region
   double goal_tolerance_m = 0.05;  ///< at rest within this of the goal: nothing to do
+  bool publish_search = false;     ///< SEARCH_VIEW with every answer, for people; changes no answer
   SearchConfig search;
   OptimizationConfig optimization;
 };

@@ -13,6 +13,7 @@ inline constexpr char kGoal[] = "GOAL";
 inline constexpr char kHorizonRequest[] = "HORIZON_REQUEST";
 inline constexpr char kPlan[] = "PLAN";
 inline constexpr char kPlanTiming[] = "PLAN_TIMING";
+inline constexpr char kSearchView[] = "SEARCH_VIEW";
 inline constexpr char kHeartbeat[] = "HEARTBEAT";
 inline constexpr char kConfiguration[] = "CONFIGURATION";
 inline constexpr char kObstacleTruth[] = "OBSTACLE_TRUTH";

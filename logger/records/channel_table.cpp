@@ -13,6 +13,7 @@
 #include "messages/obstacle_truth.h"
 #include "messages/plan.h"
 #include "messages/plan_timing.h"
+#include "messages/search_view.h"
 #include "messages/track_set.h"
 #include "messages/uav_state.h"
 #include "runtime/channels.h"
@@ -44,6 +45,7 @@ HeadDecoder find_head_decoder(std::string_view channel) {
       {channels::kHorizonRequest, &head_of<HorizonRequest>},
       {channels::kPlan, &head_of<Plan>},
       {channels::kPlanTiming, &head_of<PlanTiming>},
+      {channels::kSearchView, &head_of<SearchView>},
       {channels::kHeartbeat, &head_of<Heartbeat>},
       {channels::kConfiguration, &head_of<ConfigurationReport>},
       {channels::kObstacleTruth, &head_of<ObstacleTruth>},

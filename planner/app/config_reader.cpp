@@ -64,6 +64,7 @@ PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& se
   c.lambda_attractive = semantics.lambda_attractive;
   c.lambda_repulsive = semantics.lambda_repulsive;
   c.class_lambdas = semantics.lambdas;
+  c.publish_search = section.flag("publish_search", c.publish_search);
   read_search(section.section("search"), c.search);
   read_optimization(section.section("optimization"), c.optimization);
   section.finish();

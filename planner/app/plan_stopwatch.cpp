@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner/search/semantic_a_star.h"
+
 namespace tern {
 
 void PlanStopwatch::close_stage() {
@@ -19,6 +21,10 @@ void PlanStopwatch::answer(const Plan& best_so_far) {
   const bool is_new = best_so_far.outcome != PlanOutcome::KeepCommitted && best_so_far.outcome != PlanOutcome::NoPlan;
   if (is_new && first_answer_ms_ == 0.0) first_answer_ms_ = clock_ms_() - started_ms_;
   improved_(best_so_far);
+}
+
+void PlanStopwatch::searched(const SearchProblem&, SweptObstacles&, const SearchResult& result) {
+  nodes_ = result.nodes;
 }
 
 PlanTiming PlanStopwatch::timing(const PlanAnswer& answer) {

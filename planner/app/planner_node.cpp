@@ -8,6 +8,7 @@
 
 #include "core/geometry/separation.h"
 #include "core/geometry/separation_lp.h"
+#include "messages/search_view.h"
 #include "planner/app/plan_stopwatch.h"
 #include "planner/evasion.h"
 #include "runtime/channels.h"
@@ -129,10 +130,22 @@ void PlannerNode::start_planning(UTime now) {
 
 void PlannerNode::work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived) {
   PlanStopwatch stopwatch([this](const Plan& plan) { desk_.improve(plan); }, &monotonic_ms);
+  if (config_.publish_search) stopwatch.keep_search();
   Budget budget = clock_budget(bus_.clock(), arrived, request.deadline - kWatchdogLead);
   auto [plan, timing] = timed_plan(request, world, config_, budget, workspace_, stopwatch);
   timing.total_ms = std::max(timing.total_ms, (bus_.clock().now() - arrived).seconds() * 1e3);
   desk_.answer(plan, timing);
+  if (config_.publish_search) publish_search(request.id, stopwatch.take_nodes());
+}
+
+void PlannerNode::publish_search(std::int64_t request_id, std::vector<SearchViewNode> nodes) {
+  SearchView view;
+  view.request_id = request_id;
+  const auto sent = std::min<std::size_t>(nodes.size(), kMaxSearchNodes);
+  view.left_out = static_cast<std::int32_t>(nodes.size() - sent);
+  nodes.resize(sent);
+  view.nodes = std::move(nodes);
+  bus_.publish(channels::kSearchView, view);
 }
 
 void PlannerNode::work_in_virtual_time(const HorizonRequest& request, const PlanningWorld& world, UTime arrived) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/world/scenario.h"
+#include "core/world/search_view.h"
 #include "planner/app/answer_desk.h"
 #include "planner/app/worker.h"
 #include "planner/app/world_intake.h"
@@ -43,6 +44,7 @@ class PlannerNode final : public Node {
   void on_request(const HorizonRequest& request);
   void start_planning(UTime now);
   void work(const HorizonRequest& request, const PlanningWorld& world, UTime arrived);
+  void publish_search(std::int64_t request_id, std::vector<SearchViewNode> nodes);
   void work_in_virtual_time(const HorizonRequest& request, const PlanningWorld& world, UTime arrived);
   void deliver_delayed(UTime now);
   [[nodiscard]] bool has_watchdog() const { return execution_.threaded || execution_.charge_cpu; }

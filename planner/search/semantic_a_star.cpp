@@ -114,10 +114,17 @@ class Search {
   void visit(const Entry& entry) {
     const Node n = node(entry.node);
     if (closed(n) || !interval_clear(entry.node, n)) return;
+    if (problem_.keep_nodes) keep(entry.node, n);
     if (n.l == leaf_index()) return consider_leaf(entry, n);
     if (n.l > 2) close(n);
     expand(entry.node, n);
     ++result_.expansions;
+  }
+
+  void keep(int index, const Node& n) {
+    kept_.resize(nodes_.size(), -1);
+    kept_[static_cast<std::size_t>(index)] = static_cast<std::int32_t>(result_.nodes.size());
+    result_.nodes.push_back({n.q, n.parent < 0 ? -1 : kept_[static_cast<std::size_t>(n.parent)]});
   }
 
   /// q_{l-3} … q_l as powers of u on interval l − 3.
@@ -272,6 +279,7 @@ class Search {
   std::vector<Entry>& open_;
   KeySet& closed_;
   Points3 start_;
+  std::vector<std::int32_t> kept_;  ///< by node: its index in the result\'s, −1: none
   Leaf best_;
   std::int64_t give_up_at_ = 0;  ///< when a leaf that holds has not followed the first leaf by then
   SearchResult result_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/world/budget.h"
+#include "core/world/search_view.h"
 #include "core/world/vehicle.h"
 #include "planner/planner_config.h"
 #include "planner/safety/separation_test.h"
@@ -39,6 +40,7 @@ struct SearchProblem {
   StepCost accumulated;                          ///< summed along the path (exposure)
   std::function<double(const Vec3&)> pointwise;  ///< of a node alone: λ_att C_att − λ_rep C_rep (mean_distance)
   double hold_required_s = 0.5;
+  bool keep_nodes = false;                  ///< for people; changes nothing else
   HullBasis hull_basis = HullBasis::Minvo;  ///< of the collision tests
 };
 
@@ -50,6 +52,7 @@ struct SearchResult {
   double cost = 0.0;       ///< f of the leaf
   std::int64_t expansions = 0;
   PairCounts pairs;
+  std::vector<SearchViewNode> nodes;  ///< what was found clear, in that order, if they are kept
 };
 
 /// Best-first over (hold, band of the way to go that is still reachable, f, index).

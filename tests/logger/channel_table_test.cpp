@@ -25,7 +25,7 @@ TEST(ChannelTable, KnowsEveryChannelOfTern) {
   for (const char* channel :
        {channels::kUavState, channels::kSetpoint, channels::kObstacleObservations, channels::kDeclaredMotions,
         channels::kPredictions, channels::kSemanticMap, channels::kGoal, channels::kHorizonRequest, channels::kPlan,
-        channels::kPlanTiming, channels::kHeartbeat, channels::kConfiguration, channels::kObstacleTruth,
+        channels::kPlanTiming, channels::kSearchView, channels::kHeartbeat, channels::kConfiguration, channels::kObstacleTruth,
         channels::kFlightResult}) {
     EXPECT_NE(find_head_decoder(channel), nullptr) << channel;
   }

@@ -91,6 +91,8 @@ struct Words {
     (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.relaxed, p.local_goal, p.sphere_radius,
             p.cost, p.inputs, p.certificate, p.cuts);
   }
+  void add(const SearchViewNode& n) { (*this)(n.position, n.parent); }
+  void add(const SearchView& v) { (*this)(v.header, v.request_id, v.left_out, v.nodes); }
   void add(const PlanTiming& t) {
     (*this)(t.header, t.request_id, t.total_ms, t.first_answer_ms, t.cpu_ms, t.stage_ms, t.expansions, t.hulls,
             t.pairs_by_index, t.pairs_by_box, t.pairs_by_instant, t.pairs_by_cache, t.pairs_by_plane, t.pairs_by_lp,
@@ -124,6 +126,7 @@ template std::vector<std::uint64_t> words_of(const Goal&);
 template std::vector<std::uint64_t> words_of(const HorizonRequest&);
 template std::vector<std::uint64_t> words_of(const Plan&);
 template std::vector<std::uint64_t> words_of(const PlanTiming&);
+template std::vector<std::uint64_t> words_of(const SearchView&);
 template std::vector<std::uint64_t> words_of(const Heartbeat&);
 template std::vector<std::uint64_t> words_of(const ConfigurationReport&);
 template std::vector<std::uint64_t> words_of(const ObstacleTruth&);
@@ -140,6 +143,10 @@ std::vector<std::int32_t> array_sizes(const Goal&) {
 template <>
 std::vector<std::int32_t> array_sizes(const PlanTiming&) {
   return {};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const SearchView& view) {
+  return {size_of(view.nodes)};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const ObservationSet& set) {

@@ -16,13 +16,14 @@
 #include "messages/obstacle_truth.h"
 #include "messages/plan.h"
 #include "messages/plan_timing.h"
+#include "messages/search_view.h"
 #include "messages/track_set.h"
 #include "messages/uav_state.h"
 
 namespace tern {
 
 using AllMessages = testing::Types<UavState, ObservationSet, TrackSet, MapChunk, Goal, HorizonRequest, Plan, PlanTiming,
-                                   Heartbeat, ConfigurationReport, ObstacleTruth, FlightResult>;
+                                   SearchView, Heartbeat, ConfigurationReport, ObstacleTruth, FlightResult>;
 
 /// The sizes of a value's arrays, in the order in which its .lcm file declares the counts.
 template <class T>

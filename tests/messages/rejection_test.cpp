@@ -288,6 +288,14 @@ TEST(Rejection, OfPlan) {
   EXPECT_EQ(after_flag_of_two<Plan>([](Plan& p, bool flag) { p.relaxed = flag; }), "Enumeration");
 }
 
+TEST(Rejection, OfSearchView) {
+  EXPECT_EQ(after<SearchView>([](auto& v) { v.request_id = 0; }), "Number");
+  EXPECT_EQ(after<SearchView>([](auto& v) { v.left_out = -1; }), "Number");
+  EXPECT_EQ(after<SearchView>([](auto& v) { v.nodes = {{Vec3(0.0, kNaN, 0.0), -1}}; }), "Number");
+  EXPECT_EQ(after<SearchView>([](auto& v) { v.nodes = {{Vec3::Zero(), -2}}; }), "Number");
+  EXPECT_EQ(after<SearchView>([](auto& v) { v.nodes = {{Vec3::Zero(), 0}}; }), "Inconsistent");
+}
+
 TEST(Rejection, OfPlanTiming) {
   EXPECT_EQ(after<PlanTiming>([](auto& t) { t.request_id = 0; }), "Number");
   EXPECT_EQ(after<PlanTiming>([](auto& t) { t.total_ms = -0.1; }), "Number");

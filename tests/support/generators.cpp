@@ -282,6 +282,19 @@ Plan random_message(Rng& rng, Fill fill) {
 }
 
 template <>
+SearchView random_message(Rng& rng, Fill fill) {
+  SearchView view;
+  view.header = header(rng);
+  view.request_id = integer(rng, 1, kMaxCounter);
+  view.left_out = static_cast<std::int32_t>(integer(rng, 0, std::numeric_limits<std::int32_t>::max()));
+  const int nodes = count(rng, fill, 0, kMaxSearchNodes);
+  for (int k = 0; k < nodes; ++k) {
+    view.nodes.push_back({position(rng), static_cast<std::int32_t>(integer(rng, -1, k - 1))});
+  }
+  return view;
+}
+
+template <>
 PlanTiming random_message(Rng& rng, Fill) {
   PlanTiming t;
   t.header = header(rng);

@@ -7,6 +7,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
+#include "core/world/search_view.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
@@ -19,7 +20,7 @@ enum class Fill {
 };
 
 /// A value that decode() accepts, of any of the twelve message types: UavState, ObservationSet, TrackSet, MapChunk,
-/// Goal, HorizonRequest, Plan, PlanTiming, Heartbeat, ConfigurationReport, ObstacleTruth, FlightResult.
+/// Goal, HorizonRequest, Plan, PlanTiming, SearchView, Heartbeat, ConfigurationReport, ObstacleTruth, FlightResult.
 template <class T>
 T random_message(Rng& rng, Fill fill = Fill::Mixed);
 

@@ -48,16 +48,17 @@ await run({
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
   },
 
-  async hulls_and_planes_are_made_when_someone_looks() {
+  async hulls_planes_and_search_are_shown_when_someone_looks() {
     startScene();
     const viewer = await startViewer();
     const page = await openPage(viewer.url);
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
     const before = await status(page);
-    expect('nothing before', before.hulls === 0 && before.planes === 0);
+    expect('nothing before', before.hulls === 0 && before.planes === 0 && before.nodes === 0);
     await page.check('input[name=hulls]');
     await page.check('input[name=planes]');
-    await shows(page, 'hulls and planes', (s) => s.hulls > 0 && s.planes === 1);
+    await page.check('input[name=search]');
+    await shows(page, 'all three', (s) => s.hulls > 0 && s.planes === 1 && s.nodes === 3);
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
   },
 
@@ -126,6 +127,7 @@ await run({
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
     expect('no button', await page.isDisabled('#goalmode'));
     expect('refused', await refusal(page, /--allow-goals/));
+    await page.close();
 
     const open = await startViewer('--allow-goals');
     const other = await openPage(open.url);

@@ -98,6 +98,13 @@ PlanTiming KnownScene::timing(std::int64_t request_id) const {
   return timing;
 }
 
+SearchView KnownScene::search(std::int64_t request_id) const {
+  SearchView view;
+  view.request_id = request_id;
+  view.nodes = {{Vec3(0.0, 0.0, 1.0), -1}, {Vec3(1.0, 0.0, 1.0), 0}, {Vec3(1.0, 1.0, 1.0), 0}};
+  return view;
+}
+
 Goal KnownScene::goal() const { return {{}, 1, GoalMode::Go, Vec3(20.0, 0.0, 1.0)}; }
 
 Heartbeat KnownScene::heartbeat() const {

@@ -5,6 +5,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
+#include "core/world/search_view.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
@@ -31,6 +32,8 @@ class KnownScene {
   /// What it asks for, optimized, with one plane against pillar 0.
   [[nodiscard]] Plan plan(const HorizonRequest& request) const;
   [[nodiscard]] PlanTiming timing(std::int64_t request_id) const;
+  /// Three nodes, two edges.
+  [[nodiscard]] SearchView search(std::int64_t request_id) const;
   [[nodiscard]] Goal goal() const;
   [[nodiscard]] Heartbeat heartbeat() const;
   [[nodiscard]] VoxelMap map() const;

@@ -12,6 +12,7 @@
 #include "messages/obstacle_truth.h"
 #include "messages/plan.h"
 #include "messages/plan_timing.h"
+#include "messages/search_view.h"
 #include "messages/track_set.h"
 #include "messages/uav_state.h"
 #include "runtime/channels.h"
@@ -43,6 +44,7 @@ class KnownSceneNode final : public Node {
       const HorizonRequest request = scene_.request(now, ++requests_);
       bus_.publish(channels::kHorizonRequest, request);
       bus_.publish(channels::kPlan, scene_.plan(request));
+      bus_.publish(channels::kSearchView, scene_.search(request.id));
       bus_.publish(channels::kPlanTiming, scene_.timing(request.id));
     }
     if (tick_ % 50 == 0) {

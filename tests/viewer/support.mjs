@@ -84,7 +84,11 @@ export async function openPage(url, prepare = async () => {}) {
   });
   await prepare(page);
   await page.goto(`${url}?quality=low`);
-  await page.waitForFunction(() => window.tern?.counts.drawn > 0);
+  await eventually('the page draws', async () => {
+    const drawn = await page.evaluate(() => window.tern?.counts.drawn ?? 0);
+    if (drawn === 0 && page.complaints.length > 0) fail(`the page complains: ${page.complaints.join('; ')}`);
+    return drawn > 0;
+  });
   return page;
 }
 

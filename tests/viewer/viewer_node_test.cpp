@@ -127,7 +127,10 @@ TEST_F(LogPlayerTest, PlaysADamagedLogAndSaysSo) {
   std::filesystem::resize_file(damaged, static_cast<std::uintmax_t>(bytes - 100));
   auto player = LogPlayer::open(damaged, "");
   ASSERT_TRUE(player);
-  EXPECT_NE(json::parse(player->json())["damage"].get<std::string>().find("2"), std::string::npos);
+  const auto damage = json::parse(player->json())["damage"].get<std::string>();
+  for (const char* part : {"could not be read", "messages are missing", "the end is cut off"}) {
+    EXPECT_NE(damage.find(part), std::string::npos) << damage;
+  }
   for (const double t : {2.0, 8.0, 12.0, 18.0}) {
     player->seek(at(t), scene_, intake_);
     EXPECT_NEAR(scene_.state()->motion.p.x(), t, 0.5) << t;

@@ -50,6 +50,11 @@ void Scene::hear(const PlanTiming& message) {
   history_->add_answer(message.header.utime, message.total_ms, allowed_ms(), plan_->outcome);
 }
 
+void Scene::hear(const SearchView& message) {
+  search_ = message;
+  mark(Topic::Search);
+}
+
 void Scene::hear(const Goal& message) {
   if (goal_ && message.id < goal_->id) return;
   goal_ = message;
@@ -88,6 +93,7 @@ void Scene::clear() {
   request_.reset();
   plan_.reset();
   timing_.reset();
+  search_.reset();
   goal_.reset();
   result_.reset();
   processes_.clear();

@@ -11,6 +11,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
+#include "core/world/search_view.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "viewer/bridge/board.h"
@@ -50,6 +51,7 @@ class Scene {
   void hear(const HorizonRequest& message);
   void hear(const Plan& message);
   void hear(const PlanTiming& message);
+  void hear(const SearchView& message);
   void hear(const Goal& message);
   void hear(const FlightResult& message);
   void hear(const Heartbeat& message, UTime now);
@@ -64,6 +66,7 @@ class Scene {
   [[nodiscard]] const std::optional<HorizonRequest>& request() const { return request_; }
   [[nodiscard]] const std::optional<Plan>& plan() const { return plan_; }
   [[nodiscard]] const std::optional<PlanTiming>& timing() const { return timing_; }
+  [[nodiscard]] const std::optional<SearchView>& search() const { return search_; }
   [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
   [[nodiscard]] const std::optional<FlightResult>& result() const { return result_; }
   [[nodiscard]] const std::optional<SeenMap>& map() const { return map_; }
@@ -87,6 +90,7 @@ class Scene {
   std::optional<HorizonRequest> request_;
   std::optional<Plan> plan_;
   std::optional<PlanTiming> timing_;
+  std::optional<SearchView> search_;
   std::optional<Goal> goal_;
   std::optional<FlightResult> result_;
   std::optional<SeenMap> map_;

@@ -171,6 +171,18 @@ std::string hulls_json(const Scene& scene, double reach, int most) {
   return json.end_list().end_object().take();
 }
 
+std::string search_json(const Scene& scene) {
+  if (!scene.search()) return kNothing;
+  const std::vector<SearchViewNode>& nodes = scene.search()->nodes;
+  JsonWriter json;
+  json.begin_object().key("nodes").integer(static_cast<std::int64_t>(nodes.size()));
+  json.key("left_out").integer(scene.search()->left_out).key("edges").begin_list();
+  for (const SearchViewNode& node : nodes) {
+    if (node.parent >= 0) json.point(nodes[static_cast<std::size_t>(node.parent)].position).point(node.position);
+  }
+  return json.end_list().end_object().take();
+}
+
 std::string map_json(const Scene& scene) {
   if (!scene.map()) return kNothing;
   const SeenMap& map = *scene.map();

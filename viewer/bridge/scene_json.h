@@ -18,6 +18,8 @@ std::string plan_json(const Scene& scene, bool planes);
 std::string timing_json(const Scene& scene);
 /// Hulls of what moves within `reach` m of the plan, from the newest predictions, at most `most` of them.
 std::string hulls_json(const Scene& scene, double reach, int most);
+/// Edges of the search's tree, six numbers each.
+std::string search_json(const Scene& scene);
 std::string map_json(const Scene& scene);
 /// @param now  ages are counted to it
 std::string health_json(const Scene& scene, UTime now);

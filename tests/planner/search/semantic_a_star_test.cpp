@@ -160,6 +160,27 @@ TEST(SemanticAStar, ABudgetCutReplaysToTheSameBits) {
   EXPECT_GT(cut_and_found, 3);
 }
 
+TEST(SemanticAStar, ShowsItsTreeWithoutAnotherAnswer) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Scene s = random_scene(seed);
+    const SearchResult silent = s.search();
+    s.problem.keep_nodes = true;
+    const SearchResult shown = s.search();
+    EXPECT_TRUE(silent.nodes.empty());
+    ASSERT_EQ(shown.found, silent.found);
+    ASSERT_EQ(shown.control_points, silent.control_points) << "seed " << seed;
+    ASSERT_GE(static_cast<std::int64_t>(shown.nodes.size()), shown.expansions);
+    for (std::size_t k = 0; k < shown.nodes.size(); ++k) {
+      ASSERT_LT(shown.nodes[k].parent, static_cast<std::int32_t>(k));
+      ASSERT_EQ(shown.nodes[k].parent < 0, k == 0);
+    }
+    if (!shown.found) continue;
+    const Vec3 leaf = shown.control_points.rightCols<1>();
+    const auto is_leaf = [&](const SearchViewNode& node) { return node.position == leaf; };
+    EXPECT_TRUE(std::any_of(shown.nodes.begin(), shown.nodes.end(), is_leaf)) << "seed " << seed;
+  }
+}
+
 TEST(SemanticAStar, InAnEmptyWorldItComesAsNearAsAMuchFinerSearch) {
   SearchConfig fine;
   fine.samples_xy = fine.samples_z = 9;

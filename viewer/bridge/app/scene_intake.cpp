@@ -12,6 +12,7 @@
 #include "messages/obstacle_truth.h"
 #include "messages/plan.h"
 #include "messages/plan_timing.h"
+#include "messages/search_view.h"
 #include "messages/track_set.h"
 #include "messages/uav_state.h"
 #include "runtime/channels.h"
@@ -27,6 +28,7 @@ void SceneIntake::for_each_channel(Visit&& visit) {
   visit(channels::kHorizonRequest, std::type_identity<HorizonRequest>());
   visit(channels::kPlan, std::type_identity<Plan>());
   visit(channels::kPlanTiming, std::type_identity<PlanTiming>());
+  visit(channels::kSearchView, std::type_identity<SearchView>());
   visit(channels::kSemanticMap, std::type_identity<MapChunk>());
   visit(channels::kGoal, std::type_identity<Goal>());
   visit(channels::kFlightResult, std::type_identity<FlightResult>());

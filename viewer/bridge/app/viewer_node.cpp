@@ -91,6 +91,7 @@ void ViewerNode::step(UTime now) {
   if (now < next_step_) return;
   next_step_ = now + kStepPeriod;
   for (const ClientCommand& command : server_->take_commands()) obey(command, now);
+  jump();
   forget_gone_pages();
   if (player_) player_->advance(now, intake_);
   repeat_goal(now);
@@ -116,6 +117,7 @@ void ViewerNode::obey(std::int64_t client, const LayersCommand& layers, UTime) {
   }
   scene_.mark(Topic::Plan);
   scene_.mark(Topic::Hulls);
+  scene_.mark(Topic::Search);
 }
 
 void ViewerNode::obey(std::int64_t client, const PickCommand& pick, UTime) {
@@ -125,17 +127,26 @@ void ViewerNode::obey(std::int64_t client, const PickCommand& pick, UTime) {
 
 void ViewerNode::obey(std::int64_t, const PlayCommand& play, UTime now) {
   if (!player_) return;
+  jump();
   const bool again = play.play && player_->position() == player_->end();
   if (again) player_->seek(player_->begin(), scene_, intake_);
   player_->play(play.play, now);
 }
 
 void ViewerNode::obey(std::int64_t, const SeekCommand& seek, UTime) {
-  if (player_) player_->seek(UTime{seek.at_us}, scene_, intake_);
+  if (player_) jump_to_ = UTime{seek.at_us};
+}
+
+/// Who scrubs asks for more places than are shown: the last one counts.
+void ViewerNode::jump() {
+  if (jump_to_) player_->seek(*jump_to_, scene_, intake_);
+  jump_to_.reset();
 }
 
 void ViewerNode::obey(std::int64_t, const StepCommand& step, UTime) {
-  if (player_) player_->step(step.plans, scene_, intake_);
+  if (!player_) return;
+  jump();
+  player_->step(step.plans, scene_, intake_);
 }
 
 void ViewerNode::obey(std::int64_t, const SpeedCommand& speed, UTime) {
@@ -187,8 +198,9 @@ void ViewerNode::post(UTime now) {
 }
 
 void ViewerNode::post_if_changed(Topic topic, UTime now) {
-  if (topic == Topic::Session || topic == Topic::Search) return;
+  if (topic == Topic::Session) return;
   if (topic == Topic::Hulls && !wanted_.hulls) return;
+  if (topic == Topic::Search && !wanted_.search) return;
   UTime& due = next_post_[static_cast<std::size_t>(topic)];
   if (now < due) return;
   if (topic == Topic::Player) {
@@ -212,6 +224,7 @@ std::string ViewerNode::json_of(Topic topic, UTime now) const {
     case Topic::Plan: return plan_json(scene_, wanted_.planes);
     case Topic::Timing: return timing_json(scene_);
     case Topic::Hulls: return hulls_json(scene_, kHullReach, kMostHulls);
+    case Topic::Search: return search_json(scene_);
     case Topic::Map: return map_json(scene_);
     case Topic::Health: return health_json(scene_, now);
     case Topic::Goal: return goal_json(scene_);

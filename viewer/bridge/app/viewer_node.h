@@ -48,6 +48,7 @@ class ViewerNode final : public Node {
   void obey(std::int64_t client, const StepCommand& step, UTime now);
   void obey(std::int64_t client, const SpeedCommand& speed, UTime now);
   void obey(std::int64_t client, const GoalCommand& goal, UTime now);
+  void jump();
   void forget_gone_pages();
   void repeat_goal(UTime now);
   void post(UTime now);
@@ -61,6 +62,7 @@ class ViewerNode final : public Node {
   Scene scene_;
   SceneIntake intake_;
   std::optional<LogPlayer> player_;
+  std::optional<UTime> jump_to_;
   Board board_;
   std::string url_;
   std::unique_ptr<WebServer> server_;  ///< after the board that it reads

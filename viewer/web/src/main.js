@@ -136,6 +136,7 @@ function setLayer(name, on) {
   proofs.show(name, on);
   if (name === 'regions') regions.group.visible = on;
   if (ON_DEMAND.includes(name)) tellLayers();
+  if (name === 'search' && on && !known.search) hud.toast('the planner tells with --set planner.publish_search=true');
 }
 
 const boxes = document.getElementById('layers');
@@ -258,6 +259,7 @@ window.tern = {
     obstacles: obstacles.count,
     hulls: proofs.hullCount,
     planes: proofs.planeCount,
+    nodes: proofs.nodeCount,
     regions: regions.group.children.length,
     vehicle: vehicle.state ? vehicle.p.toArray() : null,
     calls: world.renderer.info.render.calls,

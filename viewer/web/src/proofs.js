@@ -43,7 +43,7 @@ export class Proofs {
   }
 
   clear() {
-    this.hullCount = this.planeCount = 0;
+    this.hullCount = this.planeCount = this.nodeCount = 0;
     for (const mesh of [this.hulls, this.patches, this.frames, this.nodes]) this.fill(mesh, []);
   }
 
@@ -105,9 +105,10 @@ export class Proofs {
     frames.push(...c[0], ...c[1], ...c[1], ...c[2], ...c[2], ...c[3], ...c[3], ...c[0]);
   }
 
-  /** @param message  {edges}: six numbers per edge of the search's tree; null: none */
+  /** @param message  {nodes, edges}: how many, and six numbers per edge of the search's tree; null: none */
   takeSearch(message) {
     this.fill(this.nodes, numbers(message?.edges ?? [], 6));
+    this.nodeCount = message?.nodes ?? 0;
   }
 
   show(layer, on) {
