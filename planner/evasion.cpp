@@ -120,7 +120,7 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
     if (!found) continue;
     found->outcome = PlanOutcome::Evade;
     found->arrival_s = worth_of(base, found->trajectory);
-    found->holds = found->hold_s >= base.config.hold_required_s;
+    found->holds = found->hold_s >= base.config.required_hold(found->clear_s - found->hold_s);
     const bool by_time = aim == EvasionAim::LongestClear;
     if (!by_time && !found->holds) continue;
     const double worth = by_time ? found->clear_s : room_at_end(swept, base.config.intervals, found->trajectory);

@@ -160,7 +160,7 @@ class Planning {
     c.certificate = std::move(report.certificate);
     c.hold_s = clear_time_at(swept, static_cast<int>(pieces.size()), end, report.pairs);
     if (pieces.empty() && c.hold_s <= 0.0) return std::nullopt;
-    c.holds = c.hold_s >= config_.hold_required_s;
+    c.holds = c.hold_s >= config_.required_hold(moving_s);
     c.clear_s = moving_s + c.hold_s;
     return c;
   }
@@ -223,7 +223,8 @@ class Planning {
       enter(Stage::Hulls);
       SweptObstacles& swept = workspace_.horizon;
       sweep_horizon(context, interval, swept);
-      auto found = search_candidate(context, swept, interval, config_.hold_required_s, config_.search);
+      auto found = search_candidate(context, swept, interval,
+                                    config_.required_hold(interval.seconds() * config_.intervals), config_.search);
       if (found) {
         if (!best_ || found->better_than(*best_)) offer(&*found, PlanReason::None);
         take(optimized(context, swept, std::move(*found)));

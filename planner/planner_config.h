@@ -1,6 +1,7 @@
 // The planner's numbers, in one place. Read from the scenario's `planner:` section by planner/app.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,7 @@ struct PlannerConfig {
   std::vector<double> duration_scales = {1.1, 1.35, 1.8, 2.6};  ///< T over the per-axis bound, tried in order
   double hold_required_s = 0.5;             ///< an end that stays clear this long is preferred to one that does not
   double hold_cap_s = 1.5;                  ///< how far the hold is followed
+  double hold_until_s = 60.0;               ///< a hold is not asked for later than this after t_s
   double stale_after_s = 0.3;               ///< predictions older than this are stale
   double velocity_share = 0.998;            ///< plans stay below this share of v_max
   HullBasis hull_basis = HullBasis::Minvo;  ///< of search and optimizer; the checker's is MINVO
@@ -59,6 +61,13 @@ struct PlannerConfig {
   bool publish_search = false;     ///< SEARCH_VIEW with every answer, for people; changes no answer
   SearchConfig search;
   OptimizationConfig optimization;
+
+  /// What an end that is reached so long after t_s should hold to be preferred, s. Where predictions widen with time, a
+  /// hold after a long plan asks for more than one after a short plan, and most of all for standing still: the bound
+  /// makes them equal.
+  [[nodiscard]] double required_hold(double end_s) const {
+    return std::clamp(hold_until_s - end_s, 0.0, hold_required_s);
+  }
 };
 
 }  // namespace tern

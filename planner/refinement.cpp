@@ -42,7 +42,8 @@ class Refinement {
         config_(context.config.optimization),
         obstacles_(obstacles),
         problem_(trajectory_problem(context, searched.trajectory)),
-        hold_required_(std::min(context.config.hold_required_s, searched.hold_s)),
+        required_(context.config.required_hold(searched.clear_s - searched.hold_s)),
+        hold_required_(std::min(required_, searched.hold_s)),
         stop_([&budget = context.budget] { return budget.expired(Stage::Optimization); }) {}
 
   /// With the planes fixed the problem is convex; the planes anew at its solution, and again.
@@ -95,7 +96,7 @@ class Refinement {
 
   std::optional<Candidate> certified(Duration interval, const Eigen::VectorXd& free_variables) {
     auto candidate = certify(context_, obstacles_, interval, control_points_of(free_variables, problem_),
-                             PlanOutcome::Optimized, context_.config.hold_required_s);
+                             PlanOutcome::Optimized, required_);
     if (!candidate || candidate->hold_s < hold_required_) return std::nullopt;
     return candidate;
   }
@@ -104,6 +105,7 @@ class Refinement {
   const OptimizationConfig& config_;
   SweptObstacles& obstacles_;
   TrajectoryProblem problem_;
+  double required_;  // to count as holding
   double hold_required_;
   StopFunction stop_;
 };

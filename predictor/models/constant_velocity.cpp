@@ -13,10 +13,27 @@ constexpr int kSimpsonIntervals = 48;
 constexpr double kLargestQuantile = 40.0;
 constexpr int kHalvings = 36;
 
+double crossing_rate(double xx, double xv, double vv) { return std::sqrt(std::max(0.0, xx * vv - xv * xv)) / xx; }
+
 double crossing_rate(const AxisFilter& start, double q, double t) {
   AxisFilter p = start;
   p.predict(t, q);
-  return std::sqrt(std::max(0.0, p.xx * p.vv - p.xv * p.xv)) / p.xx;
+  return crossing_rate(p.xx, p.xv, p.vv);
+}
+
+struct SimpsonNode {
+  double t, weight;  // s
+};
+
+// Simpson's rule on t = horizon·u³; at u = 0 dt/du = 0.
+std::vector<SimpsonNode> simpson(double horizon_s) {
+  std::vector<SimpsonNode> nodes;
+  for (int i = 1; i <= kSimpsonIntervals; ++i) {
+    const double u = static_cast<double>(i) / kSimpsonIntervals;
+    const double weight = i == kSimpsonIntervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0);
+    nodes.push_back({horizon_s * u * u * u, weight * 3.0 * horizon_s * u * u / (3.0 * kSimpsonIntervals)});
+  }
+  return nodes;
 }
 
 }  // namespace
@@ -24,7 +41,7 @@ double crossing_rate(const AxisFilter& start, double q, double t) {
 std::vector<Duration> piece_ends(const PredictionSpec& spec) {
   std::vector<Duration> ends{Duration{}};
   while (ends.back() < spec.horizon) {
-    const Duration length = std::max(spec.piece, Duration{ends.back().us / 4});
+    const Duration length = std::max(spec.piece, Duration::from_seconds(spec.piece_growth * ends.back().seconds()));
     ends.push_back(std::min(ends.back() + length, spec.horizon));
   }
   return ends;
@@ -36,12 +53,43 @@ double escape_probability(double z, double crossings) {
 
 double crossing_integral(const AxisFilter& filter, double q, double horizon_s) {
   double sum = 0.0;
-  for (int i = 1; i <= kSimpsonIntervals; ++i) {  // at u = 0 dt/du = 0
-    const double u = static_cast<double>(i) / kSimpsonIntervals;
-    const double weight = i == kSimpsonIntervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0);
-    sum += weight * crossing_rate(filter, q, horizon_s * u * u * u) * 3.0 * horizon_s * u * u;
+  for (const auto& [t, weight] : simpson(horizon_s)) sum += weight * crossing_rate(filter, q, t);
+  return sum;
+}
+
+AxisForecast forecast(const AxisFilter& filter, double q, const PredictionSpec& spec) {
+  AxisForecast result;
+  for (const Duration end : piece_ends(spec)) {
+    AxisFilter at = filter;
+    at.predict(end.seconds(), q);
+    result.mean.push_back(at.x);
+    result.sigma.push_back(std::sqrt(at.xx));
   }
-  return sum / (3.0 * kSimpsonIntervals);
+  result.crossings = crossing_integral(filter, q, spec.horizon.seconds());
+  result.speed = std::abs(filter.v);
+  return result;
+}
+
+SingerForecaster::SingerForecaster(const AccelerationModel& model, const PredictionSpec& spec) {
+  for (const Duration end : piece_ends(spec)) ends_.push_back(transition(model, end.seconds()));
+  for (const auto& [t, weight] : simpson(spec.horizon.seconds())) nodes_.push_back({transition(model, t), weight});
+}
+
+AxisForecast SingerForecaster::forecast(const SingerFilter& filter) const {
+  AxisForecast result;
+  for (const Transition& step : ends_) {
+    SingerFilter at = filter;
+    at.predict(step);
+    result.mean.push_back(at.state[0]);
+    result.sigma.push_back(std::sqrt(at.covariance(0, 0)));
+  }
+  for (const Node& node : nodes_) {
+    const Eigen::Matrix3d p = node.step.phi * filter.covariance * node.step.phi.transpose() + node.step.q;
+    result.crossings += node.weight * crossing_rate(p(0, 0), p(0, 1), p(1, 1));
+  }
+  result.speed = std::abs(filter.state[1]);
+  result.max_curvature = std::abs(filter.state[2]);
+  return result;
 }
 
 double quantile_for(double probability, double crossings) {
@@ -54,28 +102,25 @@ double quantile_for(double probability, double crossings) {
   return high;
 }
 
-AxisTube axis_tube(const AxisFilter& filter, double q, double probability, const PredictionSpec& spec) {
-  const double z = quantile_for(probability, crossing_integral(filter, q, spec.horizon.seconds()));
-  const double speed = std::max(spec.max_speed, std::abs(filter.v));
+AxisTube axis_tube(const AxisForecast& forecast, double probability, const PredictionSpec& spec) {
+  const double z = quantile_for(probability, forecast.crossings);
+  const double speed = std::max(spec.max_speed, forecast.speed);
+  const std::vector<Duration> ends = piece_ends(spec);
   AxisTube tube;
-  double low = 0.0, high = 0.0, before = 0.0;
-  for (const Duration end : piece_ends(spec)) {
-    const double t = end.seconds();
-    AxisFilter at = filter;
-    at.predict(t, q);
-    const double reach = z * std::sqrt(at.xx);
-    const bool first = end == Duration{};
-    high = first ? at.x + reach : std::min(at.x + reach, high + speed * (t - before));
-    low = first ? at.x - reach : std::max(at.x - reach, low - speed * (t - before));
+  double low = 0.0, high = 0.0;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const double reach = z * forecast.sigma[k];
+    const double step = k == 0 ? 0.0 : (ends[k] - ends[k - 1]).seconds();
+    high = k == 0 ? forecast.mean[k] + reach : std::min(forecast.mean[k] + reach, high + speed * step);
+    low = k == 0 ? forecast.mean[k] - reach : std::max(forecast.mean[k] - reach, low - speed * step);
     tube.centre.push_back(0.5 * (low + high));
-    tube.half.push_back(0.5 * (high - low));
-    before = t;
+    const double half = 0.5 * (high - low) + forecast.max_curvature * step * step / 8.0;
+    tube.half.push_back(k == 0 ? half : std::max(half, tube.half.back()));
   }
   return tube;
 }
 
-void predict_motion(const std::array<AxisFilter, 3>& axes, double q, UTime start, const PredictionSpec& spec,
-                    Track& track) {
+void predict_motion(const std::array<AxisForecast, 3>& axes, UTime start, const PredictionSpec& spec, Track& track) {
   const std::vector<Duration> ends = piece_ends(spec);
   const std::size_t pieces = ends.size() - 1;
   track.motion.start = start;
@@ -83,9 +128,9 @@ void predict_motion(const std::array<AxisFilter, 3>& axes, double q, UTime start
   track.alpha.assign(pieces, Vec3::Zero());
   track.top_speed = spec.max_speed;
   for (int axis = 0; axis < 3; ++axis) {
-    const AxisFilter& filter = axes[static_cast<std::size_t>(axis)];
-    const AxisTube tube = axis_tube(filter, q, (1.0 - spec.confidence) / 3.0, spec);
-    track.top_speed = std::max(track.top_speed, std::abs(filter.v));
+    const AxisForecast& forecast = axes[static_cast<std::size_t>(axis)];
+    const AxisTube tube = axis_tube(forecast, (1.0 - spec.confidence) / 3.0, spec);
+    track.top_speed = std::max(track.top_speed, forecast.speed);
     for (std::size_t k = 0; k < pieces; ++k) {
       CubicPiece& piece = track.motion.pieces[k];
       piece.duration = ends[k + 1] - ends[k];

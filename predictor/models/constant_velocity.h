@@ -7,18 +7,20 @@
 #include "core/base/time.h"
 #include "core/world/track.h"
 #include "predictor/models/axis_filter.h"
+#include "predictor/models/singer_filter.h"
 
 namespace tern {
 
 /// How far a filter's prediction looks, and how sure it is.
 struct PredictionSpec {
   Duration horizon{4'500'000};  ///< > 0
-  /// A piece is so long, or a quarter of the time before it if that is more: each piece carries its largest α, and α
-  /// grows like t^1.5 at most, so that this is at most 1.4 times its least; and few pieces (11 for the defaults) make
-  /// small messages.
-  Duration piece{250'000};   ///< > 0, ≤ horizon
-  double confidence = 0.99;  ///< in (0, 1): probability that a track keeps its α over all its pieces
-  double max_speed = 5.0;    ///< m/s per axis, > 0: nothing is believed to move faster
+  /// A piece is so long, or piece_growth times the time before it if that is more. Each piece carries its largest α,
+  /// and α grows like t^1.5 (t² with accelerations), so that with 0.25 this is at most 1.4 (1.6) times its least, and
+  /// few pieces (11 for the defaults) make small messages.
+  Duration piece{250'000};     ///< > 0, ≤ horizon
+  double piece_growth = 0.25;  ///< ≥ 0
+  double confidence = 0.99;    ///< in (0, 1): probability that a track keeps its α over all its pieces
+  double max_speed = 5.0;      ///< m/s per axis, > 0: nothing is believed to move faster
 };
 
 /// Where pieces begin and end: time since the prediction's start, ascending, from 0 to the horizon.
@@ -34,6 +36,32 @@ double escape_probability(double z, double crossings);
 /// ∫ √(det P(t))/P_xx(t) dt over [0, horizon_s], by Simpson's rule on t = horizon·u³ (the integrand falls like 1/t).
 double crossing_integral(const AxisFilter& filter, double q, double horizon_s);
 
+/// What one axis of an estimate says of the future.
+struct AxisForecast {
+  std::vector<double> mean;    ///< m, at the times of piece_ends
+  std::vector<double> sigma;   ///< m, standard deviation there
+  double crossings = 0.0;      ///< ∫ √(det P)/P_xx dt over the horizon, P of position and velocity
+  double speed = 0.0;          ///< |v| at the start, m/s
+  double max_curvature = 0.0;  ///< |mean''| is nowhere more, m/s²
+};
+
+AxisForecast forecast(const AxisFilter& filter, double q, const PredictionSpec& spec);
+
+/// The transitions that forecasts of one model need, made once for all tracks.
+class SingerForecaster {
+ public:
+  SingerForecaster(const AccelerationModel& model, const PredictionSpec& spec);
+  [[nodiscard]] AxisForecast forecast(const SingerFilter& filter) const;
+
+ private:
+  struct Node {
+    Transition step;  ///< from the start
+    double weight;    ///< of Simpson's rule, s
+  };
+  std::vector<Transition> ends_;
+  std::vector<Node> nodes_;
+};
+
 /// The least z with escape_probability(z, crossings) ≤ probability. @pre 0 < probability < 1, crossings ≥ 0.
 double quantile_for(double probability, double crossings);
 
@@ -47,12 +75,12 @@ struct AxisTube {
 ///   high(0) = x + zσ(0), high(t_k) = min(x + v t_k + z σ(t_k), high(t_{k−1}) + u (t_k − t_{k−1})), low alike;
 /// centre and half-width are of [low, high]. high is convex and low concave, so between two times the chords contain
 /// the region: a straight piece between the centres with the later half-width keeps the promise. Without the speed's
-/// limit the centre is the predicted line; where it bites on one side only, the centre bends to the other.
-AxisTube axis_tube(const AxisFilter& filter, double q, double probability, const PredictionSpec& spec);
+/// limit the centre is the predicted line; where it bites on one side only, the centre bends to the other. A mean that
+/// accelerates leaves a chord of length h in time by at most |a| h²/8, which half[k] contains.
+AxisTube axis_tube(const AxisForecast& forecast, double probability, const PredictionSpec& spec);
 
 /// The motion and α of an estimate whose state is that of `start`. Each axis gets a third of 1 − confidence.
 /// Sets motion, alpha and top_speed (max_speed, or the estimate's own speed if that is larger).
-void predict_motion(const std::array<AxisFilter, 3>& axes, double q, UTime start, const PredictionSpec& spec,
-                    Track& track);
+void predict_motion(const std::array<AxisForecast, 3>& axes, UTime start, const PredictionSpec& spec, Track& track);
 
 }  // namespace tern

@@ -28,11 +28,27 @@ std::array<AxisFilter, 3> start_filters(const Detection& detection, double speed
   return axes;
 }
 
-void predict_axes(std::array<AxisFilter, 3>& axes, double dt, double sigma) {
-  for (AxisFilter& axis : axes) axis.predict(dt, sigma * sigma);
+std::array<SingerFilter, 3> with_acceleration(const std::array<AxisFilter, 3>& axes, double sigma) {
+  std::array<SingerFilter, 3> result;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const AxisFilter& axis = axes[i];
+    result[i].state << axis.x, axis.v, 0.0;
+    result[i].covariance << axis.xx, axis.xv, 0.0, axis.xv, axis.vv, 0.0, 0.0, 0.0, sigma * sigma;
+  }
+  return result;
 }
 
-void update_axes(std::array<AxisFilter, 3>& axes, const Detection& detection) {
+std::array<AxisFilter, 3> without_acceleration(const std::array<SingerFilter, 3>& axes) {
+  std::array<AxisFilter, 3> result;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const Eigen::Matrix3d& p = axes[i].covariance;
+    result[i] = {axes[i].state[0], axes[i].state[1], p(0, 0), p(0, 1), p(1, 1)};
+  }
+  return result;
+}
+
+template <typename Filter>
+void update_axes(std::array<Filter, 3>& axes, const Detection& detection) {
   for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].update(detection.position[i], detection.variance[i]);
 }
 
@@ -84,19 +100,21 @@ Matching match(const std::vector<TrackedObject>& objects, const std::vector<Dete
   return matching;
 }
 
+bool is_out_of_range(const TrackedObject& object, const ObservationSet& observations) {
+  if (observations.range_m <= 0.0) return false;
+  Vec3 away;
+  for (int i = 0; i < 3; ++i) {
+    const double offset = std::abs(object.resting[static_cast<std::size_t>(i)].x - observations.sensor_position[i]);
+    away[i] = std::max(0.0, offset - object.half_extents[i]);
+  }
+  return away.norm() > observations.range_m - kRangeMargin;
+}
+
 bool comes_before(const ObservationSet& a, const ObservationSet& b) {
   return std::pair(a.at, a.sensor_id) < std::pair(b.at, b.sensor_id);
 }
 
 }  // namespace
-
-double mahalanobis2(const std::array<AxisFilter, 3>& axes, const Detection& detection) {
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    sum += axes[static_cast<std::size_t>(i)].distance2(detection.position[i], detection.variance[i]);
-  }
-  return sum;
-}
 
 bool Tracker::update(const ObservationSet& observations) {
   if (!steps_.empty() && observations.at + kReorderWindow < newest()) return false;
@@ -118,6 +136,12 @@ bool Tracker::update(const ObservationSet& observations) {
 Tracker::State Tracker::advanced(State state, const ObservationSet& observations) const {
   const UTime at = observations.at;
   predict_to(state, at);
+  for (TrackedObject& object : state.objects) {
+    if (at - object.last_seen > config_.coast && rests(object)) {
+      // Remembered: what is found there again belongs to it, not whatever a mover could have become.
+      object.moving = with_acceleration(object.resting, 0.0);
+    }
+  }
   const std::vector<Detection>& detections = observations.detections;
   const Matching matching = match(state.objects, detections);
   for (std::size_t o = 0; o < state.objects.size(); ++o) {
@@ -128,7 +152,7 @@ Tracker::State Tracker::advanced(State state, const ObservationSet& observations
     if (d != kNoDetection) take(object, detections[static_cast<std::size_t>(d)], at);
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
   }
-  std::erase_if(state.objects, [&](const TrackedObject& object) { return is_dead(object, at); });
+  std::erase_if(state.objects, [&](const TrackedObject& object) { return is_dead(object, observations); });
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (matching.taken[d]) continue;
     const std::int64_t given = detections[d].track_id;
@@ -143,9 +167,10 @@ Tracker::State Tracker::advanced(State state, const ObservationSet& observations
 
 void Tracker::predict_to(State& state, UTime at) const {
   const double dt = state.objects.empty() ? 0.0 : (at - state.at).seconds();
+  const Transition step = transition(config_.acceleration, dt);
   for (TrackedObject& object : state.objects) {
-    predict_axes(object.moving, dt, config_.sigma_acceleration);
-    predict_axes(object.resting, dt, kRestingSigma);
+    for (SingerFilter& axis : object.moving) axis.predict(step);
+    for (AxisFilter& axis : object.resting) axis.predict(dt, kRestingSigma * kRestingSigma);
   }
   state.at = at;
 }
@@ -164,7 +189,7 @@ void Tracker::take(TrackedObject& object, const Detection& detection, UTime at) 
     update_axes(object.moving, detection);
     update_axes(object.resting, detection);
     if (object.resting_average > kRestingLimit) {
-      object.resting = object.moving;
+      object.resting = without_acceleration(object.moving);
       object.resting_since = at;
       object.resting_average = 3.0;
     }
@@ -182,15 +207,18 @@ TrackedObject Tracker::born(const Detection& detection, UTime at, std::int64_t i
   object.resting_since = at;
   object.half_extents = detection.half_extents;
   // Uniform in ±max_speed has this variance.
-  object.moving = start_filters(detection, config_.prediction.max_speed * config_.prediction.max_speed / 3.0);
-  object.resting = object.moving;
+  object.resting = start_filters(detection, config_.prediction.max_speed * config_.prediction.max_speed / 3.0);
+  const AccelerationModel& model = config_.acceleration;
+  object.moving = with_acceleration(object.resting, model.time_s > 0.0 ? model.sigma : 0.0);
   object.confirmed = config_.confirm_hits <= 1;
   return object;
 }
 
-bool Tracker::is_dead(const TrackedObject& object, UTime at) const {
-  if (object.confirmed) return at - object.last_seen > config_.coast;
-  return object.age >= config_.confirm_window;
+bool Tracker::is_dead(const TrackedObject& object, const ObservationSet& observations) const {
+  if (!object.confirmed) return object.age >= config_.confirm_window;
+  const Duration unseen = observations.at - object.last_seen;
+  if (unseen <= config_.coast) return false;
+  return !(rests(object) && is_out_of_range(object, observations)) || unseen > config_.remember_rest;
 }
 
 bool Tracker::rests(const TrackedObject& object) const {
@@ -198,6 +226,16 @@ bool Tracker::rests(const TrackedObject& object) const {
   return std::all_of(object.resting.begin(), object.resting.end(), [](const AxisFilter& axis) {
     return std::abs(axis.v) <= std::max(kRestingSpeed, kRestingSpeedSigmas * std::sqrt(axis.vv));
   });
+}
+
+std::array<AxisForecast, 3> Tracker::forecast_of(const TrackedObject& object) const {
+  std::array<AxisForecast, 3> axes;
+  const bool resting = rests(object);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    axes[i] = resting ? forecast(object.resting[i], kRestingSigma * kRestingSigma, config_.prediction)
+                      : forecaster_.forecast(object.moving[i]);
+  }
+  return axes;
 }
 
 std::vector<Track> Tracker::predict(UTime now) const {
@@ -210,9 +248,7 @@ std::vector<Track> Tracker::predict(UTime now) const {
     track.id = object.id;
     track.kind = TrackKind::Estimated;
     track.half_extents = object.half_extents;
-    const bool resting = rests(object);
-    const double sigma = resting ? kRestingSigma : config_.sigma_acceleration;
-    predict_motion(resting ? object.resting : object.moving, sigma * sigma, state.at, config_.prediction, track);
+    predict_motion(forecast_of(object), state.at, config_.prediction, track);
     tracks.push_back(std::move(track));
   }
   return tracks;

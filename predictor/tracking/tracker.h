@@ -10,6 +10,7 @@
 #include "core/world/track.h"
 #include "predictor/models/axis_filter.h"
 #include "predictor/models/constant_velocity.h"
+#include "predictor/models/singer_filter.h"
 
 namespace tern {
 
@@ -30,17 +31,22 @@ inline constexpr double kRestingSigma = 0.01;
 /// deviations).
 inline constexpr double kRestingLimit = 5.3;
 inline constexpr double kRestingForgetting = 0.1;
+/// A remembered thing whose box is farther from the sensor than its range less this should not be seen, m: some σ and
+/// the vehicle's way within the sensor's frame.
+inline constexpr double kRangeMargin = 0.5;
 /// What rests has no speed beyond so many standard deviations per axis, or beyond kRestingSpeed m/s.
 inline constexpr double kRestingSpeedSigmas = 3.0;
 inline constexpr double kRestingSpeed = 0.05;
 
 struct TrackerConfig {
   PredictionSpec prediction;
-  double sigma_acceleration = 2.0;  ///< √ of the spectral density of white acceleration per axis, m/s^1.5, > 0
+  AccelerationModel acceleration;   ///< of what moves, per axis
   int confirm_hits = 3;             ///< a track is published once detected in so many …
   int confirm_window = 5;           ///< … of its first observation sets, hits ≤ window ≤ 32
   Duration coast{1'500'000};        ///< a confirmed track dies when not detected for longer
   Duration resting_after{600'000};  ///< a track that has been consistent with rest so long is predicted at rest
+  /// What rests and is out of the sensor's range outlives its last detection so long: the world goes on behind us.
+  Duration remember_rest{30'000'000};
 };
 
 /// One tracked thing, all at the time of the tracker's state.
@@ -51,7 +57,7 @@ struct TrackedObject {
   int age = 1;             ///< sets since birth, this one included
   UTime last_seen;
   Vec3 half_extents = Vec3::Zero();
-  std::array<AxisFilter, 3> moving;   ///< with sigma_acceleration
+  std::array<SingerFilter, 3> moving;
   std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
   UTime resting_since;
   double resting_average = 3.0;  ///< of its χ²₃, see kRestingLimit
@@ -67,7 +73,8 @@ struct TrackedObject {
 /// groups.
 class Tracker {
  public:
-  explicit Tracker(const TrackerConfig& config) : config_(config) {}
+  explicit Tracker(const TrackerConfig& config)
+      : config_(config), forecaster_(config.acceleration, config.prediction) {}
 
   /// @return false, and nothing changes, if the set is older than the newest by more than kReorderWindow.
   bool update(const ObservationSet& observations);
@@ -97,15 +104,24 @@ class Tracker {
   void predict_to(State& state, UTime at) const;
   void take(TrackedObject& object, const Detection& detection, UTime at) const;
   [[nodiscard]] TrackedObject born(const Detection& detection, UTime at, std::int64_t id) const;
-  [[nodiscard]] bool is_dead(const TrackedObject& object, UTime at) const;
+  [[nodiscard]] bool is_dead(const TrackedObject& object, const ObservationSet& observations) const;
   [[nodiscard]] bool rests(const TrackedObject& object) const;
+  [[nodiscard]] std::array<AxisForecast, 3> forecast_of(const TrackedObject& object) const;
 
   TrackerConfig config_;
+  SingerForecaster forecaster_;
   State before_steps_;
   std::deque<Step> steps_;  // ascending by (time, sensor), the newest kReorderWindow
 };
 
 /// Σ over axes of (z − x)²/S for the detection's position.
-double mahalanobis2(const std::array<AxisFilter, 3>& axes, const Detection& detection);
+template <typename Filter>
+double mahalanobis2(const std::array<Filter, 3>& axes, const Detection& detection) {
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    sum += axes[static_cast<std::size_t>(i)].distance2(detection.position[i], detection.variance[i]);
+  }
+  return sum;
+}
 
 }  // namespace tern

@@ -14,6 +14,10 @@ AxisFilter random_filter(Rng& rng) {
   return {rng.normal(), 2.0 * rng.normal(), xx, rng.uniform(0.0, 0.9) * std::sqrt(xx * vv), vv};
 }
 
+std::array<AxisForecast, 3> forecasts(const std::array<AxisFilter, 3>& axes, double q, const PredictionSpec& spec) {
+  return {forecast(axes[0], q, spec), forecast(axes[1], q, spec), forecast(axes[2], q, spec)};
+}
+
 TEST(PieceEnds, CoverTheHorizonWithPiecesThatGrow) {
   const std::vector<Duration> ends = piece_ends(PredictionSpec{});
   EXPECT_EQ(ends.size(), 12u);
@@ -80,7 +84,7 @@ TEST(AxisTube, GrowsNoFasterThanTheSpeedLimitAndNeverShrinks) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     Rng rng(seed);
     const AxisFilter filter = random_filter(rng);
-    const AxisTube tube = axis_tube(filter, rng.uniform(1e-4, 20.0), 0.01 / 3.0, spec);
+    const AxisTube tube = axis_tube(forecast(filter, rng.uniform(1e-4, 20.0), spec), 0.01 / 3.0, spec);
     const double speed = std::max(spec.max_speed, std::abs(filter.v));
     for (std::size_t k = 1; k < ends.size(); ++k) {
       const double dt = (ends[k] - ends[k - 1]).seconds();
@@ -97,7 +101,7 @@ TEST(PredictMotion, FollowsTheLineWhereNoSpeedLimitBites) {
   const std::array<AxisFilter, 3> axes{AxisFilter{1.0, 2.0, 0.01, 0.0, 0.1}, AxisFilter{0.0, -1.0, 0.01, 0.0, 0.1},
                                        AxisFilter{5.0, 0.0, 0.01, 0.0, 0.1}};
   Track track;
-  predict_motion(axes, 1.0, testing::at_seconds(10.0), spec, track);
+  predict_motion(forecasts(axes, 1.0, spec), testing::at_seconds(10.0), spec, track);
   EXPECT_EQ(track.motion.end(), testing::at_seconds(14.5));
   for (double t = 0.0; t <= 4.5; t += 0.1) {
     const Vec3 p = track.motion.sample(testing::at_seconds(10.0 + t)).p;
@@ -117,7 +121,7 @@ TEST(PredictMotion, PiecesContainTheRegionBetweenTheirEnds) {
     const double speed = std::max(spec.max_speed, std::abs(filter.v));
     const double z = quantile_for((1.0 - spec.confidence) / 3.0, crossing_integral(filter, q, 4.5));
     Track track;
-    predict_motion({filter, filter, filter}, q, UTime{}, spec, track);
+    predict_motion(forecasts({filter, filter, filter}, q, spec), UTime{}, spec, track);
     const double dt = 0.001;
     double high = filter.x + z * std::sqrt(filter.xx), low = filter.x - z * std::sqrt(filter.xx);
     for (int i = 0; i < 4500; ++i) {

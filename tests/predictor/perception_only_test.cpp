@@ -76,10 +76,30 @@ Tally fly(const std::string& generator, int obstacles, const TrackerConfig& conf
 
 double share(int part, int all) { return static_cast<double>(part) / all; }
 
-TEST(PerceptionOnly, SandoForestKeepsThePromise) {
+// The predictor of scenarios/sando_perception.yaml.
+TrackerConfig forest() {
   TrackerConfig config;
-  config.sigma_acceleration = 0.5;
-  config.prediction.max_speed = 2.5;
+  config.acceleration = {0.35, 1.5};
+  config.prediction.max_speed = 2.0;
+  config.prediction.confidence = 0.9;
+  config.prediction.horizon = Duration{2'500'000};
+  config.prediction.piece = Duration{100'000};
+  config.prediction.piece_growth = 0.12;
+  config.resting_after = Duration{400'000};
+  return config;
+}
+
+TEST(PerceptionOnly, SandoForestKeepsThePromiseOfItsScenario) {
+  const Tally tally = fly("sando_forest", 200, forest());
+  RecordProperty("kept", std::to_string(share(tally.kept, tally.tracks)));
+  EXPECT_GT(tally.tracks, 1000);
+  EXPECT_GE(share(tally.kept, tally.tracks), 0.9) << tally.kept << " of " << tally.tracks;
+  EXPECT_GE(share(tally.contained, tally.obstacles), 0.999) << tally.contained << " of " << tally.obstacles;
+}
+
+TEST(PerceptionOnly, SandoForestKeepsAHighPromiseToo) {
+  TrackerConfig config = forest();
+  config.prediction.confidence = 0.99;
   const Tally tally = fly("sando_forest", 200, config);
   RecordProperty("kept", std::to_string(share(tally.kept, tally.tracks)));
   EXPECT_GT(tally.tracks, 1000);

@@ -28,7 +28,7 @@ Path straight(const Vec3& p, const Vec3& v) {
 // For motions that hardly accelerate.
 TrackerConfig calm() {
   TrackerConfig config;
-  config.sigma_acceleration = 0.5;
+  config.acceleration.sigma = 0.5;
   return config;
 }
 
@@ -66,7 +66,7 @@ int kept(int seeds, const TrackerConfig& config, const std::function<Path(Rng&)>
 TEST(TrackerCoverage, WhiteAccelerationKeepsThePromisedConfidence) {
   for (const double confidence : {0.9, 0.99}) {
     TrackerConfig config;
-    config.sigma_acceleration = 1.0;
+    config.acceleration.sigma = 1.0;
     config.prediction.confidence = confidence;
     config.prediction.max_speed = 100.0;
     const int seeds = 2000;
@@ -102,12 +102,35 @@ TEST(TrackerCoverage, SwingingMotionWithinTheNoiseKeepsThePromisedConfidence) {
   EXPECT_GE(testing::wilson(hits, seeds).low, 0.99) << hits << " of " << seeds;
 }
 
+// Acceleration that goes on for a second: the Singer model's own process, integrated in small steps.
+TEST(TrackerCoverage, LastingAccelerationKeepsThePromisedConfidence) {
+  TrackerConfig config;
+  config.acceleration = {1.0, 1.0};
+  config.prediction.confidence = 0.9;
+  config.prediction.horizon = Duration{2'500'000};
+  config.prediction.max_speed = 20.0;
+  const int seeds = 1000;
+  const int hits = kept(seeds, config, [&](Rng& rng) -> Path {
+    constexpr double kStep = 0.005;
+    std::vector<Vec3> points{Vec3::Zero()};
+    Vec3 v = Vec3::Zero(), a(rng.normal(), rng.normal(), rng.normal());
+    const double fall = std::exp(-kStep), push = std::sqrt(1.0 - fall * fall);
+    while (static_cast<double>(points.size()) * kStep < 4.5) {
+      points.push_back(points.back() + kStep * v + 0.5 * kStep * kStep * a);
+      v += kStep * a;
+      for (int axis = 0; axis < 3; ++axis) a[axis] = fall * a[axis] + push * rng.normal();
+    }
+    return [points](double t) -> Vec3 { return points[static_cast<std::size_t>(t / kStep)]; };
+  });
+  EXPECT_GE(testing::wilson(hits, seeds).high, 0.9) << hits << " of " << seeds;
+}
+
 // BENCHMARKS "perception only": the movers of paper_corridor are the fiercest that the default is made for, those of
 // sando_forest calm beside them.
 TEST(TrackerCoverage, TrefoilsKeepThePromiseForOneSecond) {
   const auto share = [](const std::function<Path(Rng&)>& make, double sigma) {
     TrackerConfig config;
-    config.sigma_acceleration = sigma;
+    config.acceleration.sigma = sigma;
     config.prediction.horizon = Duration{1'000'000};
     return testing::wilson(kept(1000, config, make), 1000).low;
   };
@@ -225,6 +248,30 @@ TEST(Tracker, CoastsWithGrowingAlphaThenDies) {
   EXPECT_TRUE(tracker.predict(at_seconds(last + k / kRate)).empty());
 }
 
+// A pillar seen for 2 s; then the sensor, which sees 8 m far, stands at `eye_x` for 5 s and sees nothing.
+std::size_t tracks_left(double eye_x, const TrackerConfig& config) {
+  Rng rng(5);
+  Tracker tracker(config);
+  const double t = feed(tracker, {straight(Vec3(1.0, 0.0, 1.0), Vec3::Zero())}, 0.0, 2.0, rng);
+  double now = t;
+  for (; now < t + 5.0; now += 1.0 / kRate) {
+    ObservationSet empty = observations_at(now + 1.0 / kRate, {});
+    empty.range_m = 8.0;
+    empty.sensor_position = Vec3(eye_x, 0.0, 1.0);
+    tracker.update(empty);
+  }
+  return tracker.predict(at_seconds(now)).size();
+}
+
+TEST(Tracker, RemembersWhatRestsBeyondTheSensorsRange) {
+  TrackerConfig config;
+  EXPECT_EQ(tracks_left(10.0, config), 1u);
+  config.remember_rest = Duration{3'000'000};
+  EXPECT_EQ(tracks_left(10.0, config), 0u);
+}
+
+TEST(Tracker, ForgetsWhatRestedWhereTheSensorSeesThatItIsGone) { EXPECT_EQ(tracks_left(5.0, TrackerConfig{}), 0u); }
+
 TEST(Tracker, KeepsTracksWhenTheSensorFallsSilent) {
   Rng rng(6);
   Tracker tracker(TrackerConfig{});
@@ -284,8 +331,8 @@ TEST(Tracker, TakesObservationsOutOfOrderAsIfInOrder) {
     const TrackedObject &a = in_order.objects()[i], &b = out_of_order.objects()[i];
     EXPECT_EQ(a.id, b.id);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      EXPECT_EQ(a.moving[axis].x, b.moving[axis].x);
-      EXPECT_EQ(a.moving[axis].vv, b.moving[axis].vv);
+      EXPECT_EQ(a.moving[axis].state, b.moving[axis].state);
+      EXPECT_EQ(a.moving[axis].covariance, b.moving[axis].covariance);
     }
   }
   EXPECT_FALSE(out_of_order.update(observations_at(1.0, {})));
