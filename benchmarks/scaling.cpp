@@ -246,9 +246,9 @@ int main(int argc, char** argv) {
   app.add_option("--most-obstacles", most_obstacles, "Up to this many obstacles in the world");
   CLI11_PARSE(app, argc, argv);
   fmt::print("table,size,quantity,value\n");
+  tern::voxels(most_voxels);  // first: a child's peak begins at what this process has used
   tern::obstacles_in_the_world(most_obstacles);
   tern::obstacles_in_reach();
   tern::intervals(scenario);
-  tern::voxels(most_voxels);
   return 0;
 }
