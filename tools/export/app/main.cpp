@@ -1,0 +1,34 @@
+// tern-export: a recorded flight for other programs.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "tools/export/export_log.h"
+
+int main(int argc, char** argv) {
+  constexpr int kFailed = 2;
+  CLI::App app{
+      "Writes a recorded flight for other programs. Exit code: 0 written, 2 bad arguments or log, or not writable."};
+  tern::exporting::ExportOptions options;
+  app.add_option("LOG", options.log, "The log: a file (its parts are found), or the folder of flight.lcm")->required();
+  app.add_option("--csv", options.csv_folder, "Write tables to this folder: one per channel, one per list in it")
+      ->type_name("DIR");
+  app.add_option("--channel-suffix", options.suffix, "What the vehicle's channels end with")->type_name("S");
+  try {
+    app.parse(argc, argv);
+    const auto told = tern::exporting::export_log(options);
+    if (told) {
+      fmt::print("{}", *told);
+      return 0;
+    }
+    fmt::print(stderr, "tern-export: {}\n", told.error().message);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kFailed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "tern-export: {}\n", error.what());
+  }
+  return kFailed;
+}
