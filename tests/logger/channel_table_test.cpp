@@ -25,8 +25,8 @@ TEST(ChannelTable, KnowsEveryChannelOfTern) {
   for (const char* channel :
        {channels::kUavState, channels::kSetpoint, channels::kObstacleObservations, channels::kDeclaredMotions,
         channels::kPredictions, channels::kSemanticMap, channels::kGoal, channels::kHorizonRequest, channels::kPlan,
-        channels::kPlanTiming, channels::kSearchView, channels::kHeartbeat, channels::kConfiguration, channels::kObstacleTruth,
-        channels::kFlightResult}) {
+        channels::kPlanTiming, channels::kSearchView, channels::kHeartbeat, channels::kConfiguration,
+        channels::kObstacleTruth, channels::kFlightResult}) {
     EXPECT_NE(find_head_decoder(channel), nullptr) << channel;
   }
   EXPECT_EQ(find_head_decoder("SOMEONE_ELSES"), nullptr);
