@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <system_error>
 
 #include "tools/export/csv_files.h"
+#include "tools/export/foxglove.h"
+#include "tools/export/mcap_writer.h"
 
 namespace tern::exporting {
 namespace {
@@ -33,26 +37,41 @@ std::string shortfalls(const LogContents& contents) {
   return text;
 }
 
+void add(McapWriter& mcap, const LoggedMessage& message) {
+  const std::int64_t time_us = std::max<std::int64_t>(message.received_us, 0);  // MCAP knows no time before the epoch
+  mcap.add("/" + message.channel, message.type, &message_schema, time_us, message.fields);
+  if (const auto drawing = drawing_of(message)) {
+    mcap.add(drawing->topic, drawing->schema, &foxglove_schema, time_us, drawing->message);
+  }
+}
+
 }  // namespace
 
 Result<std::string> export_log(const ExportOptions& options) {
-  if (options.csv_folder.empty()) return fail("nothing to write: --csv DIR");
+  const bool to_csv = !options.csv_folder.empty(), to_mcap = !options.mcap_file.empty();
+  if (!to_csv && !to_mcap) return fail("nothing to write: --csv DIR, --mcap FILE or both");
   std::error_code error;
-  std::filesystem::create_directories(options.csv_folder, error);
+  if (to_csv) std::filesystem::create_directories(options.csv_folder, error);
   if (error) return fail(options.csv_folder + ": " + error.message());
 
   CsvFiles csv(options.csv_folder);
+  std::optional<McapWriter> mcap;
+  if (to_mcap) mcap.emplace(options.mcap_file);
   std::int64_t messages = 0;
   FlightLog log(options.suffix);
   on_every_channel(log, options.suffix, [&](const LoggedMessage& message) {
     ++messages;
-    csv.add(message);
+    if (to_csv) csv.add(message);
+    if (mcap) add(*mcap, message);
   });
   const auto contents = log.read(options.log);
   if (!contents) return tl::make_unexpected(contents.error());
   if (messages == 0) return fail(options.log + ": not one message of Tern's in it");
   if (const auto written = csv.finish(); !written) return tl::make_unexpected(written.error());
-  return fmt::format("{} messages: {}\n{}", messages, options.csv_folder, shortfalls(*contents));
+  if (mcap) {
+    if (const auto written = mcap->finish(); !written) return tl::make_unexpected(written.error());
+  }
+  return fmt::format("{} messages exported\n{}", messages, shortfalls(*contents));
 }
 
 }  // namespace tern::exporting

@@ -10,6 +10,7 @@ namespace tern::exporting {
 struct ExportOptions {
   std::string log;         ///< a file, or the folder of flight.lcm
   std::string csv_folder;  ///< made where it is missing; empty: no tables
+  std::string mcap_file;   ///< empty: none
   std::string suffix;      ///< what the vehicle's channels end with
 };
 

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   app.add_option("LOG", options.log, "The log: a file (its parts are found), or the folder of flight.lcm")->required();
   app.add_option("--csv", options.csv_folder, "Write tables to this folder: one per channel, one per list in it")
       ->type_name("DIR");
+  app.add_option("--mcap", options.mcap_file, "Write an MCAP file, as Foxglove opens it")->type_name("FILE");
   app.add_option("--channel-suffix", options.suffix, "What the vehicle's channels end with")->type_name("S");
   try {
     app.parse(argc, argv);

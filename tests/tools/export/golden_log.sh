@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# golden_log.sh TERN_EXPORT: a recorded flight exported; its MCAP file read by npm's @mcap/core, its tables by their heads.
+# Without node or npm it fails: what was not run was not tested (launch_scripts/test.sh installs them).
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+for program in node npm xz; do
+  command -v "$program" >/dev/null || { echo "$program is missing: the export was not tested" && exit 1; }
+done
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+xz -dkc "$here/../../replay/golden/crowd.lcm.xz" >"$work/flight.lcm"
+"$1" "$work/flight.lcm" --csv "$work/tables" --mcap "$work/flight.mcap"
+
+cp "$here"/{package.json,package-lock.json,check_mcap.mjs} "$work"
+(cd "$work" && npm ci --silent --no-audit --no-fund && node check_mcap.mjs flight.mcap) | tee "$work/topics"
+
+[[ $(head -1 "$work/tables/PLAN.control_points.csv") == 'message,index,x [m],y [m],z [m]' ]] || { echo "the head of a list" && exit 1; }
+plans=$(awk '$1 == "/PLAN" {print $3}' "$work/topics")
+rows=$(($(wc -l <"$work/tables/PLAN.csv") - 1))
+((plans > 0 && rows == plans)) || { echo "$rows rows of $plans plans" && exit 1; }

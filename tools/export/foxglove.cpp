@@ -1,0 +1,168 @@
+#include "tools/export/foxglove.h"
+
+#include <cmath>
+
+#include "core/splines/clamped_spline.h"
+
+namespace tern::exporting {
+namespace {
+
+constexpr int kSamplesPerInterval = 8;  // a cubic interval looks round
+constexpr std::int64_t kNoPlan = 4;     // plan_t.NO_PLAN
+constexpr char kFrame[] = "W";
+
+Json time_of(std::int64_t us) { return {{"sec", us / 1'000'000}, {"nsec", us % 1'000'000 * 1000}}; }
+
+Json pose(const Json& position, double yaw) {
+  return {{"position", position},
+          {"orientation", {{"x", 0.0}, {"y", 0.0}, {"z", std::sin(yaw / 2)}, {"w", std::cos(yaw / 2)}}}};
+}
+
+Json color(double r, double g, double b, double a) { return {{"r", r}, {"g", g}, {"b", b}, {"a", a}}; }
+
+Json scene(const LoggedMessage& message, const std::string& id, const Json& cubes, const Json& lines) {
+  Json entity{{"timestamp", time_of(message.received_us)},
+              {"frame_id", kFrame},
+              {"id", id},
+              {"lifetime", time_of(0)},
+              {"frame_locked", false}};
+  for (const char* list : {"metadata", "arrows", "spheres", "cylinders", "triangles", "texts", "models"}) {
+    entity[list] = Json::array();
+  }
+  entity["cubes"] = cubes;
+  entity["lines"] = lines;
+  Json update;
+  update["deletions"] = Json::array();
+  update["entities"] = Json::array({entity});
+  return update;
+}
+
+Json cubes_of(const Json& obstacles) {
+  Json cubes = Json::array();
+  for (const Json& obstacle : obstacles) {
+    Json size;
+    for (const char* axis : {"x", "y", "z"}) size[axis] = 2 * obstacle["half_extents"][axis].get<double>();
+    cubes.push_back(
+        {{"pose", pose(obstacle["position"], 0.0)},
+         {"size", size},
+         {"color", obstacle["moves"].get<bool>() ? color(0.88, 0.48, 0.12, 0.9) : color(0.55, 0.6, 0.65, 0.9)}});
+  }
+  return cubes;
+}
+
+Json line_along(const Json& control_points, double interval_s, const Json& its_color) {
+  Points points(3, static_cast<Eigen::Index>(control_points.size()));
+  for (Eigen::Index k = 0; k < points.cols(); ++k) {
+    const Json& p = control_points[static_cast<std::size_t>(k)];
+    points.col(k) << p["x"].get<double>(), p["y"].get<double>(), p["z"].get<double>();
+  }
+  const ClampedSpline spline(points, interval_s);
+  Json path = Json::array();
+  const int samples = spline.intervals() * kSamplesPerInterval;
+  for (int k = 0; k <= samples; ++k) {
+    const Vec3 p = spline.sample(spline.duration_s() * k / samples).p;
+    path.push_back({{"x", p.x()}, {"y", p.y()}, {"z", p.z()}});
+  }
+  Json line{{"type", 0}, {"thickness", 3.0}, {"scale_invariant", true}, {"color", its_color}};
+  line["pose"] = pose({{"x", 0.0}, {"y", 0.0}, {"z", 0.0}}, 0.0);
+  line["points"] = path;
+  line["colors"] = Json::array();
+  line["indices"] = Json::array();
+  return Json::array({line});
+}
+
+Json field_schema(const MessageField& field) {
+  Json schema;
+  if (message_types().contains(field.type)) {
+    schema = message_schema(field.type);
+  } else if (field.type == "double") {
+    schema["type"] = Json::array({"number", "null"});
+  } else {
+    const bool text = field.digest || field.form == MessageField::Form::Text;
+    schema["type"] = text ? "string" : field.type == "boolean" ? "boolean" : "integer";
+  }
+  if (field.form == MessageField::Form::List || field.form == MessageField::Form::FixedArray) {
+    schema = {{"type", "array"}, {"items", schema}};
+  }
+  if (!field.comment.empty()) schema["description"] = field.comment;
+  return schema;
+}
+
+Json object_schema(std::initializer_list<std::pair<const char*, Json>> fields) {
+  Json schema{{"type", "object"}, {"properties", Json::object()}};
+  for (const auto& [name, its_schema] : fields) schema["properties"][name] = its_schema;
+  return schema;
+}
+
+Json list_schema(const Json& items) { return {{"type", "array"}, {"items", items}}; }
+
+}  // namespace
+
+std::optional<Drawing> drawing_of(const LoggedMessage& message) {
+  const Json& m = message.fields;
+  if (message.channel.starts_with("UAV_STATE")) {
+    return Drawing{"/tern/uav",
+                   "foxglove.PoseInFrame",
+                   {{"timestamp", time_of(message.received_us)},
+                    {"frame_id", kFrame},
+                    {"pose", pose(m["motion"]["position"], m["yaw"].get<double>())}}};
+  }
+  const std::string scene_name = "foxglove.SceneUpdate";
+  if (message.type == "obstacle_truth_t") {
+    return Drawing{"/tern/obstacles", scene_name,
+                   scene(message, "obstacles " + m["batch"]["index"].dump(), cubes_of(m["obstacles"]), Json::array())};
+  }
+  if (message.type == "horizon_request_t") {
+    const double interval_s = m["committed_interval_us"].get<double>() * 1e-6;
+    const Json line = line_along(m["control_points"], interval_s, color(0.09, 0.2, 0.31, 1.0));
+    return Drawing{"/tern/committed", scene_name, scene(message, "committed", Json::array(), line)};
+  }
+  if (message.type == "plan_t" && m["outcome"].get<std::int64_t>() != kNoPlan) {
+    const double interval_s = m["interval_us"].get<double>() * 1e-6;
+    const Json line = line_along(m["control_points"], interval_s, color(0.25, 0.64, 0.3, 1.0));
+    return Drawing{"/tern/plan", scene_name, scene(message, "plan", Json::array(), line)};
+  }
+  return std::nullopt;
+}
+
+Json foxglove_schema(const std::string& name) {
+  const Json number{{"type", "number"}}, integer{{"type", "integer"}}, text{{"type", "string"}},
+      flag{{"type", "boolean"}};
+  const Json vector = object_schema({{"x", number}, {"y", number}, {"z", number}});
+  const Json quaternion = object_schema({{"x", number}, {"y", number}, {"z", number}, {"w", number}});
+  const Json its_pose = object_schema({{"position", vector}, {"orientation", quaternion}});
+  const Json time = object_schema({{"sec", integer}, {"nsec", integer}});
+  const Json its_color = object_schema({{"r", number}, {"g", number}, {"b", number}, {"a", number}});
+  Json schema = object_schema({{"timestamp", time}, {"frame_id", text}, {"pose", its_pose}});
+  if (name == "foxglove.SceneUpdate") {
+    const Json cube = object_schema({{"pose", its_pose}, {"size", vector}, {"color", its_color}});
+    const Json line = object_schema({{"type", integer},
+                                     {"pose", its_pose},
+                                     {"thickness", number},
+                                     {"scale_invariant", flag},
+                                     {"points", list_schema(vector)},
+                                     {"color", its_color},
+                                     {"colors", list_schema(its_color)},
+                                     {"indices", list_schema(integer)}});
+    const Json entity = object_schema({{"timestamp", time},
+                                       {"frame_id", text},
+                                       {"id", text},
+                                       {"lifetime", time},
+                                       {"frame_locked", flag},
+                                       {"cubes", list_schema(cube)},
+                                       {"lines", list_schema(line)}});
+    const Json deletion = object_schema({{"timestamp", time}, {"type", integer}, {"id", text}});
+    schema = object_schema({{"deletions", list_schema(deletion)}, {"entities", list_schema(entity)}});
+  }
+  schema["title"] = name;
+  return schema;
+}
+
+Json message_schema(const std::string& type) {
+  const MessageType& definition = message_types().at(type);
+  Json schema{{"title", type}, {"description", definition.comment}, {"type", "object"}, {"properties", Json::object()}};
+  for (const MessageField& field : definition.fields) schema["properties"][field.name] = field_schema(field);
+  return schema;
+}
+
+}  // namespace tern::exporting

@@ -1,0 +1,27 @@
+// What Foxglove's 3D panel draws of a flight, in its own well-known schemas.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/export/logged_messages.h"
+
+namespace tern::exporting {
+
+struct Drawing {
+  std::string topic;   ///< "/tern/uav", "/tern/obstacles", "/tern/committed", "/tern/plan"
+  std::string schema;  ///< "foxglove.PoseInFrame" or "foxglove.SceneUpdate"
+  Json message;
+};
+
+/// The vehicle's pose of UAV_STATE, the true obstacles as cubes, the committed path of a request and the path of a plan
+/// as lines. All in frame "W", at the time of receipt. Nothing for other messages, and for an answer without a plan.
+std::optional<Drawing> drawing_of(const LoggedMessage& message);
+
+/// The part of Foxglove's schema that drawing_of() uses.
+Json foxglove_schema(const std::string& name);
+
+/// The schema of one of Tern's message types (message_types.h), with its units and comments.
+Json message_schema(const std::string& type);
+
+}  // namespace tern::exporting
