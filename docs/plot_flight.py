@@ -1,21 +1,20 @@
 #!/usr/bin/env python3
 """Draws a recorded flight from above and from the side: plot_flight.py FLIGHT.lcm PICTURE.png
 
-Needs lcm-gen, python3-matplotlib and python3-yaml. Movers are shown as they were when the vehicle passed them.
+Needs python3-matplotlib, python3-yaml and the messages' Python types, which the build makes:
+PYTHONPATH=build/release/python python3 docs/plot_flight.py flights/last/flight.lcm flight.png. Movers are shown as they were when the vehicle passed them.
 """
 import math
 import pathlib
 import struct
-import subprocess
 import sys
-import tempfile
 
 import matplotlib.pyplot as plt
+import tern_msgs as msgs
 import yaml
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
 
-LCM_TYPES = sorted((pathlib.Path(__file__).resolve().parent.parent / "lcmtypes").glob("*.lcm"))
 INK, MOVER, STATIC = "#16324f", "#e07a1f", "#8d99a6"
 REGION, ROWS = {"attractive": "#3fa34d", "repulsive": "#d1495b"}, 2  # the way is cut into so many rows
 
@@ -33,10 +32,6 @@ def events(path):
 
 def read_flight(path):
     """Scenario, states (t, p, speed) while in motion, obstacles by id as (half-extents, [(t, p, moves)]); t in s."""
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(["lcm-gen", "-p", "--ppath", folder, *map(str, LCM_TYPES)], check=True)
-        sys.path.insert(0, folder)
-        import tern_msgs as msgs
     scenario, states, obstacles, xyz = None, [], {}, lambda v: (v.x, v.y, v.z)
     for channel, data in events(path):
         if channel == "UAV_STATE":
