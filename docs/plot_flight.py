@@ -2,7 +2,9 @@
 """Draws a recorded flight from above and from the side: plot_flight.py FLIGHT.lcm PICTURE.png
 
 Needs python3-matplotlib, python3-yaml and the messages' Python types, which the build makes:
-PYTHONPATH=build/release/python python3 docs/plot_flight.py flights/last/flight.lcm flight.png. Movers are shown as they were when the vehicle passed them.
+PYTHONPATH=build/release/python python3 docs/plot_flight.py FLIGHT.lcm PICTURE.png
+
+Movers are shown as they were when the vehicle passed them.
 """
 import math
 import pathlib
