@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# golden_log.sh TERN_EXPORT: a recorded flight exported; its MCAP file read by npm's @mcap/core, its tables by their heads.
+# flight_log.sh TERN_CAMPAIGN TERN_EXPORT SCENARIO: a flight recorded and exported; its MCAP file read by npm's @mcap/core,
+# its tables by their heads.
 # Without node or npm it fails: what was not run was not tested (launch_scripts/test.sh installs them).
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
-for program in node npm xz; do
+for program in node npm; do
   command -v "$program" >/dev/null || { echo "$program is missing: the export was not tested" && exit 1; }
 done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-xz -dkc "$here/../../replay/golden/crowd.lcm.xz" >"$work/flight.lcm"
-"$1" "$work/flight.lcm" --csv "$work/tables" --mcap "$work/flight.mcap"
+"$1" fly-one --world "$3" --seed 1 --charge counts --folder "$work" >/dev/null
+"$2" "$work/flight.lcm" --csv "$work/tables" --mcap "$work/flight.mcap"
 
 cp "$here"/{package.json,package-lock.json,check_mcap.mjs} "$work"
 (cd "$work" && npm ci --silent --no-audit --no-fund && node check_mcap.mjs flight.mcap) | tee "$work/topics"
@@ -19,3 +20,6 @@ cp "$here"/{package.json,package-lock.json,check_mcap.mjs} "$work"
 plans=$(awk '$1 == "/PLAN" {print $3}' "$work/topics")
 rows=$(($(wc -l <"$work/tables/PLAN.csv") - 1))
 ((plans > 0 && rows == plans)) || { echo "$rows rows of $plans plans" && exit 1; }
+for drawn in '/tern/uav foxglove.PoseInFrame' '/tern/obstacles foxglove.SceneUpdate' '/tern/committed foxglove.SceneUpdate'; do
+  grep -q "^$drawn [1-9]" "$work/topics" || { echo "no $drawn" && exit 1; }
+done
