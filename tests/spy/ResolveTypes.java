@@ -36,6 +36,7 @@ public class ResolveTypes {
     try {
       while (true) {
         Log.Event event = log.readNext();
+        if (event.channel.equals("LCM_SELF_TEST")) continue; // liblcm's own, from a process that opens the network
         counts.merge(event.channel + " " + typeOf(event), 1, Integer::sum);
       }
     } catch (EOFException end) {

@@ -2,7 +2,8 @@
 import http from 'node:http';
 import { join } from 'node:path';
 import {
-  end, eventually, expect, knownLog, onScreen, openPage, run, shows, start, startScene, startViewer, status, work,
+  atRest, end, eventually, expect, knownLog, onScreen, openPage, run, scrubTo, shows, start, startScene, startViewer,
+  status, work,
 } from './support.mjs';
 
 const OBSTACLES = 30; // of the known scene
@@ -65,12 +66,15 @@ await run({
   async what_is_picked_shows_its_messages() {
     const viewer = await startViewer('--log', await knownLog());
     const page = await openPage(viewer.url);
-    await page.evaluate(() => window.tern.send({ player: { play: false } }));
-    await page.click('[data-camera=free]');
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    // At the log's beginning, from above, whatever was played of it: there nothing hides the vehicle, no panel either.
+    await page.click('[data-camera=top]');
+    await page.evaluate(() => window.tern.send({ player: { play: false } }));
     await page.waitForFunction(() => window.tern.known.player?.playing === false);
-    const { vehicle } = await status(page);
-    const spot = await onScreen(page, vehicle);
+    await scrubTo(page, 0);
+    await shows(page, 'the vehicle at the start', (s) => s.vehicle[0] < 0.01);
+    const spot = await atRest(page, [0, 0, 1]);
+    await page.click('[data-camera=free]');
     await page.mouse.click(spot.x, spot.y);
     await eventually('the vehicle', async () => (await text(page, '#inspected')) === 'Vehicle');
     expect('its message', (await text(page, '#messages')).includes('UAV_STATE'));
@@ -97,13 +101,8 @@ await run({
     await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > first.vehicle[0] + 0.2);
     await page.click('#play');
     await page.waitForFunction(() => window.tern.known.player.playing === false);
-    const scrubTo = (share) =>
-      page.$eval('#scrub', (scrub, x) => {
-        scrub.value = x * scrub.max;
-        scrub.dispatchEvent(new Event('input'));
-      }, share);
     for (const share of [0.75, 0.1, 0.5]) {
-      await scrubTo(share);
+      await scrubTo(page, share);
       // 20 s at 1 m/s.
       await shows(page, `the vehicle at ${20 * share} m`, (s) => Math.abs(s.vehicle[0] - 20 * share) < 0.05);
     }

@@ -115,6 +115,27 @@ export function onScreen(page, point) {
   }, point);
 }
 
+/** Where a point of W is on the screen once the camera has come to rest: it follows smoothly. */
+export async function atRest(page, point) {
+  let at = await onScreen(page, point);
+  await eventually('the camera rests', async () => {
+    const { drawn } = await status(page);
+    await page.waitForFunction((before) => window.tern.counts.drawn > before, drawn);
+    const last = at;
+    at = await onScreen(page, point);
+    return Math.hypot(at.x - last.x, at.y - last.y) < 0.1;
+  });
+  return at;
+}
+
+/** Moves the log player's slider to a share of the log. */
+export function scrubTo(page, share) {
+  return page.$eval('#scrub', (scrub, x) => {
+    scrub.value = x * scrub.max;
+    scrub.dispatchEvent(new Event('input'));
+  }, share);
+}
+
 /** Runs one of the tests; its name is the claim. */
 export async function run(tests) {
   const name = process.argv[2];
