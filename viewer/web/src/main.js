@@ -5,6 +5,7 @@ import { Charts } from './charts.js';
 import * as hud from './hud.js';
 import { Inspector } from './inspector.js';
 import { Obstacles } from './obstacles.js';
+import { watchFreeArea } from './panels.js';
 import { Player } from './player.js';
 import { Proofs } from './proofs.js';
 import { Regions } from './regions.js';
@@ -18,6 +19,7 @@ const ON_DEMAND = ['hulls', 'planes', 'search']; // the bridge makes these only 
 
 const canvas = document.getElementById('view');
 const world = new World(canvas);
+watchFreeArea((area) => world.setFree(area));
 const regions = new Regions(world.scene);
 const trajectories = new Trajectories(world.scene);
 const proofs = new Proofs(world.scene);

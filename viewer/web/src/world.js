@@ -12,6 +12,9 @@ const SLOW_MS = 45;
 const FAST_MS = 18;
 const FEWEST_PIXELS = 0.4; // of the window's, per axis
 
+/** What a camera that follows shows around what it looks at, in window heights: the vehicle is within, 0.3 off the middle. */
+const SHOWN = { width: 0.72, height: 0.5 };
+
 /** Whether WebGL draws on the CPU: then it gets no more pixels than it can pay for. */
 function isSoftware() {
   const gl = document.createElement('canvas').getContext('webgl2');
@@ -65,8 +68,7 @@ export class World {
     this.floor = this.thrifty ? this.lineGround() : this.shadedGround();
     this.floor.renderOrder = -2;
     this.scene.add(this.floor);
-    this.resize();
-    window.addEventListener('resize', () => this.resize());
+    this.setFree({ left: 0, right: window.innerWidth, top: 0, bottom: window.innerHeight });
   }
 
   light() {
@@ -111,11 +113,18 @@ export class World {
     return grid;
   }
 
+  /** The part of the window that no panel covers, CSS pixels: what the camera looks at is in its middle. */
+  setFree(area) {
+    this.free = area;
+    this.resize();
+  }
+
   resize() {
-    this.renderer.setSize(window.innerWidth, window.innerHeight, false);
-    this.camera.aspect = window.innerWidth / window.innerHeight;
-    this.camera.updateProjectionMatrix();
-    this.resized?.(window.innerWidth, window.innerHeight);
+    const { innerWidth: width, innerHeight: height } = window;
+    const { left, right, top, bottom } = this.free;
+    this.renderer.setSize(width, height, false);
+    this.camera.zoom = Math.min(1, (right - left) / (SHOWN.width * height), (bottom - top) / (SHOWN.height * height));
+    this.camera.setViewOffset(width, height, (width - left - right) / 2, (height - top - bottom) / 2, width, height);
   }
 
   /** 'follow', 'top' (both go with the vehicle) or 'free'. */
