@@ -14,7 +14,7 @@ fly.sh [OPTION...]: installs what is missing, builds, starts Tern's processes, f
   --count N             the world's number of obstacles (default: the scenario's)
   --goal X,Y,Z          where to fly, metres (default: the scenario's)
   --semantics on|off    whether regions attract and repel
-  --set KEY=VALUE       any other value of the scenario, as planner.rate_hz=15; may be given often
+  --set KEY=VALUE       any other value of the scenario, as executor.rate_hz=15; may be given often
   --record DIR          where log, process logs and summary go (default flights/<UTC time>-<scenario>-<seed>)
   --summary FILE        write the summary as JSON there, too
   --lcm-url URL         the LCM network to use (default: this host only, on the first port that no other flight uses)

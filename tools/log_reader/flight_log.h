@@ -43,7 +43,7 @@ std::vector<std::string> log_parts(const std::string& path);
 ///
 ///     FlightLog log;
 ///     log.on<Plan>(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) { … });
-///     const Result<LogContents> contents = log.read("flights/last/flight.lcm");
+///     const Result<LogContents> contents = log.read("flight.lcm");
 ///
 /// Bounded memory: no more than one event is held (LogReader). Only what decode() accepts is handed over.
 class FlightLog {
