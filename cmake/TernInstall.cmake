@@ -1,4 +1,5 @@
-# `cmake --install`: the programs, and core/ as a package for others (find_package(tern); target tern::core).
+# `cmake --install`: the programs with tern-viewer's page, if it was built, and core/ as a package for others
+# (find_package(tern); target tern::core).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

@@ -2,12 +2,13 @@
 import http from 'node:http';
 import { join } from 'node:path';
 import {
-  atRest, end, eventually, expect, knownLog, onScreen, openPage, run, scrubTo, shows, start, startScene, startViewer,
-  status, work,
+  atRest, awaitPage, end, eventually, expect, knownLog, onScreen, openPage, run, scrubTo, shows, start, startScene,
+  startViewer, status, work,
 } from './support.mjs';
 
 const OBSTACLES = 30; // of the known scene
 const REGIONS = 2;
+const { TERN_BIN, TERN_BUILD } = process.env;
 const scripts = new URL('../../launch_scripts', import.meta.url).pathname;
 
 const text = (page, selector) => page.textContent(selector);
@@ -170,6 +171,34 @@ await run({
     expect('nobody sent a third', !/^goal 3 /m.test(scene.said));
   },
 
+  async the_vehicle_flies_to_where_a_page_clicks_and_rests_there() {
+    const record = join(work, 'flight');
+    const flight = start(`${scripts}/fly.sh`, [
+      '--no-install', '--isolated', '--view', '--allow-goals', '--record', record, '--scenario',
+      new URL('pillar.yaml', import.meta.url).pathname,
+    ]);
+    await eventually('the URL', () => /view +http/.test(flight.said) || flight.ended);
+    const page = await openPage(/view +(\S+)/.exec(flight.said)[1]);
+    await shows(page, 'the vehicle waits', (s) => s.vehicle && s.obstacles === 1);
+    await page.click('[data-camera=top]');
+    for (const goal of [[5, 0, 1], [4, -3, 1]]) { // behind the pillar; then beside
+      const spot = await atRest(page, goal);
+      await page.click('#goalmode');
+      await page.mouse.click(spot.x, spot.y);
+      await eventually('it is there', () =>
+        page.evaluate(([x, y]) => {
+          const { state, goal } = window.tern.known;
+          if (!goal || Math.hypot(goal.p[0] - x, goal.p[1] - y) > 0.1) return false;
+          return Math.hypot(...state.p.map((u, k) => goal.p[k] - u)) < 0.01 && Math.hypot(...state.v) < 0.001;
+        }, goal));
+      await shows(page, 'and seen there', (s) => Math.hypot(s.vehicle[0] - goal[0], s.vehicle[1] - goal[1]) < 0.12);
+    }
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+    await end(flight, 'SIGINT');
+    const audit = start(`${TERN_BIN}/tern-audit`, [join(record, 'flight.lcm')]);
+    expect(`the audit: ${audit.said}`, (await audit.gone) === 0);
+  },
+
   async malformed_messages_break_neither_page_nor_bridge() {
     startScene();
     const viewer = await startViewer();
@@ -259,6 +288,17 @@ await run({
     }
     const index = await request(url);
     expect('the page', index.status === 200 && index.body.includes('<title>Tern</title>'));
+  },
+
+  async an_installed_viewer_has_its_page() {
+    const prefix = join(work, 'prefix');
+    const install = start('cmake', ['--install', TERN_BUILD, '--prefix', prefix, '--component', 'programs']);
+    expect(`cmake --install: ${install.said}`, (await install.gone) === 0);
+    startScene();
+    const viewer = await awaitPage(start(join(prefix, 'bin/tern-viewer'), []));
+    const page = await openPage(viewer.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES && s.vehicle);
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
   },
 
   async an_isolated_flight_is_seen_from_outside() {

@@ -47,9 +47,11 @@ export async function end(process_, signal = 'SIGTERM') {
   return process_.gone;
 }
 
-/** tern-viewer with these options; `url` is where its page is. */
-export async function startViewer(...options) {
-  const viewer = start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, ...options]);
+/** tern-viewer with these options. */
+export const startViewer = (...options) => awaitPage(start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, ...options]));
+
+/** Waits until this tern-viewer listens; its `url` is where its page is. */
+export async function awaitPage(viewer) {
   await eventually('tern-viewer listens', () => /the page is at/.test(viewer.said) || viewer.ended);
   viewer.url = /the page is at (\S+)/.exec(viewer.said)?.[1] ?? fail(`tern-viewer: ${viewer.said}`);
   return viewer;

@@ -48,8 +48,9 @@ Result<PageFiles> load_page(const std::string& folder) {
 
 std::string default_page_folder() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return (program.parent_path().parent_path() / "viewer-page").string();
+  const fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
+  const fs::path installed = above / "share/tern/viewer-page";
+  return (fs::is_directory(installed, error) ? installed : above.parent_path() / "viewer-page").string();
 }
 
 }  // namespace tern

@@ -20,7 +20,9 @@ using PageFiles = std::map<std::string, PageFile, std::less<>>;
 /// file cannot be read or all together are more than 50 MB.
 Result<PageFiles> load_page(const std::string& folder);
 
-/// Where the page lies when nobody says: viewer-page beside the folder of this program.
+/// Where the page lies when nobody says. Of an installed program, PREFIX/bin/tern-viewer:
+/// PREFIX/share/tern/viewer-page; of one in a build tree, build/release/bin/tern-viewer: build/viewer-page, where
+/// view_page.sh builds it.
 std::string default_page_folder();
 
 }  // namespace tern

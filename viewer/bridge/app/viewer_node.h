@@ -17,7 +17,7 @@ namespace tern {
 
 struct ViewerOptions {
   std::string listen = "127.0.0.1";      ///< address, perhaps with :PORT; not read when TERN_LISTEN_FD names a socket
-  std::string page;                      ///< the built page's folder; empty: beside the programs
+  std::string page;                      ///< the built page's folder; empty: default_page_folder()
   std::vector<std::string> allow_hosts;  ///< names besides loopback by which browsers may call this host
   bool allow_goals = false;              ///< pages may send goals
   std::string log;                       ///< plays this log; empty: live
