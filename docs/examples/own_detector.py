@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""A detector of one's own: publishes a box that flies to and fro as OBSTACLE_OBSERVATIONS, 30 Hz, until Ctrl-C.
+
+Needs only the messages' Python types, which launch_scripts/build.sh python_types makes; LCM_DEFAULT_URL names the network:
+PYTHONPATH=build/release/python python3 docs/examples/own_detector.py
+"""
+import math
+import os
+import socket
+import struct
+import time
+import urllib.parse
+
+import tern_msgs as msgs
+
+
+def now_us():
+    return time.time_ns() // 1000
+
+
+class Bus:
+    """Sends LCM messages of at most 1400 bytes, which need no fragments. For more, and to receive, use LCM itself."""
+
+    def __init__(self, url):
+        parts = urllib.parse.urlsplit(url)
+        self.address, self.sent, self.packets = (parts.hostname, parts.port), {}, 0
+        self.epoch_us = now_us()  # new at each start
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        ttl = urllib.parse.parse_qs(parts.query).get("ttl", ["0"])[0]
+        self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, int(ttl))
+
+    def publish(self, channel, message):
+        self.sent[channel] = self.sent.get(channel, 0) + 1  # per channel, from 1
+        message.header.name.sender_epoch_us, message.header.name.sequence = self.epoch_us, self.sent[channel]
+        message.header.utime_us = now_us()
+        head = struct.pack(">II", 0x4C433032, self.packets) + channel.encode() + b"\0"
+        self.socket.sendto(head + message.encode(), self.address)
+        self.packets = (self.packets + 1) % 2**32
+
+
+def vec3(x, y, z):
+    v = msgs.vec3_t()
+    v.x, v.y, v.z = x, y, z
+    return v
+
+
+bus = Bus(os.environ.get("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667?ttl=0"))
+while True:
+    frame = msgs.observation_set_t()
+    frame.at_us = now_us()  # when the world was so, not when it is said
+    frame.sensor_id, frame.range, frame.sensor_position = 1, 0.0, vec3(0, 0, 1)
+    box = msgs.detection_t()
+    box.position = vec3(6, 2 * math.sin(frame.at_us * 1e-6), 1)  # centre, in W
+    box.half_extents, box.variance, box.track_id = vec3(0.4, 0.4, 0.4), vec3(1e-4, 1e-4, 1e-4), -1
+    frame.detections, frame.detection_count = [box], 1  # none seen: publish the empty list, not nothing
+    bus.publish("OBSTACLE_OBSERVATIONS", frame)
+    time.sleep(1 / 30)
