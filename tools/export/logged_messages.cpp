@@ -12,6 +12,7 @@
 #include "messages/obstacle_truth.h"
 #include "messages/plan.h"
 #include "messages/plan_timing.h"
+#include "messages/search_view.h"
 #include "messages/track_set.h"
 #include "messages/uav_state.h"
 #include "runtime/channels.h"
@@ -35,6 +36,7 @@ void on_every_channel(FlightLog& log, const std::string& suffix, std::function<v
   ask(channels::kHorizonRequest, "horizon_request_t", HorizonRequest{});
   ask(channels::kPlan, "plan_t", Plan{});
   ask(channels::kPlanTiming, "plan_timing_t", PlanTiming{});
+  ask(channels::kSearchView, "search_view_t", SearchView{});
   ask(channels::kHeartbeat, "heartbeat_t", Heartbeat{});
   ask(channels::kConfiguration, "configuration_t", ConfigurationReport{});
   ask(channels::kObstacleTruth, "obstacle_truth_t", ObstacleTruth{});
