@@ -59,8 +59,8 @@ class Judge final : public PlanObserver {
     const double way = problem.way.from(problem.start.p);
     j.found = found.found;
     j.best_found = best.found;
-    j.holds = found.hold_s >= problem.hold_required_s;
-    j.best_holds = best.hold_s >= problem.hold_required_s;
+    j.holds = lasts(found.hold_s, problem.hold_required_s);
+    j.best_holds = lasts(best.hold_s, problem.hold_required_s);
     j.progress = way - found.way_to_go;
     j.best_progress = way - best.way_to_go;
     judged.push_back(j);

@@ -67,7 +67,7 @@ std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& 
   const Vec3 end = control_points.col(control_points.cols() - 1);
   PairCounts pairs;
   c.hold_s = clear_time_at(obstacles, intervals, end, pairs);
-  c.holds = c.hold_s >= hold_required_s;
+  c.holds = lasts(c.hold_s, hold_required_s);
   const double duration_s = interval.seconds() * intervals;
   c.clear_s = duration_s + c.hold_s;
   c.arrival_s = worth_of(context, c.trajectory);
@@ -97,17 +97,22 @@ double worth_of(const AttemptContext& context, const TimedSpline& trajectory) {
   return arrival_s + metres / context.plan_limits.v_max.minCoeff();
 }
 
+void append_hold(std::vector<double>& times, double step, double hold_s) {
+  const double end = times.back();
+  for (int k = 1; (k - 1) * step < hold_s - 1e-9; ++k) times.push_back(end + std::min(k * step, hold_s));
+}
+
+bool is_followed(const AttemptContext& context, Duration interval) {
+  const Duration looks = interval * context.config.intervals + Duration::from_seconds(context.config.hold_cap_s);
+  return context.request.t_s + looks <= context.followed_until;
+}
+
 void sweep_horizon(const AttemptContext& context, Duration interval, SweptObstacles& swept) {
-  constexpr double kHoldStep = 0.1;  // s: coarser than Δt where Δt is short, so that a hold costs few hulls
   const double dt = interval.seconds();
   std::vector<double>& times = context.workspace.times;
   times.clear();
   for (int k = 0; k <= context.config.intervals; ++k) times.push_back(k * dt);
-  const double step = std::max(dt, kHoldStep);
-  const double end = times.back();
-  for (int k = 1; (k - 1) * step < context.config.hold_cap_s; ++k) {
-    times.push_back(end + std::min(k * step, context.config.hold_cap_s));
-  }
+  append_hold(times, std::max(dt, kHoldStep), context.config.hold_cap_s);
   const Box region = box_around(context.request.start.p, Vec3::Constant(context.config.sphere_radius_m));
   swept.assign(context.obstacles, context.request.body, context.request.t_s, times, region);
 }

@@ -44,7 +44,17 @@ struct AttemptContext {
   PlanObserver* observer;
   PlanStatistics& statistics;
   PlanWorkspace& workspace;
+  UTime followed_until = kFollowedForEver;  ///< no plan looks past this time (PredictionProducts)
 };
+
+/// Of holds, s: coarser than Δt where Δt is short, so that a hold costs few hulls.
+inline constexpr double kHoldStep = 0.1;
+
+/// Adds the times of a hold of hold_s after the last of `times`, s, a step apart.
+void append_hold(std::vector<double>& times, double step, double hold_s);
+
+/// Whether obstacles are known to the end of the hold after J intervals.
+bool is_followed(const AttemptContext& context, Duration interval);
 
 /// The obstacles of the horizon t_s … t_s + J Δt and of the hold after it.
 void sweep_horizon(const AttemptContext& context, Duration interval, SweptObstacles& swept);

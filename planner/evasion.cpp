@@ -113,6 +113,7 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
     context.fields = nullptr;
     context.local_goal = aim_at.point;
     context.way = {context.local_goal, 0.0};
+    if (!is_followed(context, aim_at.interval)) continue;
     SweptObstacles& swept = context.workspace.evasion;
     sweep_horizon(context, aim_at.interval, swept);
     auto found = search_candidate(context, swept, aim_at.interval, base.config.hold_cap_s, search);
@@ -120,14 +121,14 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
     if (!found) continue;
     found->outcome = PlanOutcome::Evade;
     found->arrival_s = worth_of(base, found->trajectory);
-    found->holds = found->hold_s >= base.config.required_hold(found->clear_s - found->hold_s);
+    found->holds = lasts(found->hold_s, base.config.required_hold(found->clear_s - found->hold_s));
     const bool by_time = aim == EvasionAim::LongestClear;
     if (!by_time && !found->holds) continue;
     const double worth = by_time ? found->clear_s : room_at_end(swept, base.config.intervals, found->trajectory);
     if (best && worth <= best_worth) continue;
     best = std::move(found);
     best_worth = worth;
-    if (by_time && best->hold_s >= base.config.hold_cap_s) return best;
+    if (by_time && lasts(best->hold_s, base.config.hold_cap_s)) return best;
   }
   return best;
 }

@@ -4,14 +4,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/optimization/barrier_solver.h"
 #include "planner/safety/swept_obstacles.h"
 #include "planner/search/search_memory.h"
 
 namespace tern {
 
 /// Give the same one to every call of a thread and, once it has seen requests as large, obstacles in reach, sweeps, the
-/// search's nodes, queue and closed set allocate nothing. A fresh one gives the same answers, byte for byte. Not for
-/// two calls at once.
+/// search's nodes, queue and closed set, and the convex problem and its solver allocate nothing. A fresh one gives the
+/// same answers, byte for byte. Not for two calls at once.
 struct PlanWorkspace {
   std::vector<PlanningObstacle> obstacles;  ///< in reach of this request
   std::vector<std::int32_t> found;          ///< of an index
@@ -20,6 +21,10 @@ struct PlanWorkspace {
   SweptObstacles horizon;                   ///< of the duration being tried
   SweptObstacles evasion, forecast;         ///< of one evasion, of all
   SearchMemory search;
+  std::vector<CertificatePlane> certificates;  ///< planes near a trajectory
+  std::vector<PlaneConstraint> planes;         ///< the same for a solver
+  ConvexProblem convex;
+  BarrierSolver barrier;
 };
 
 }  // namespace tern

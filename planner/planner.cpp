@@ -147,8 +147,9 @@ class Planning {
       }
     }
     const double moving_s = times.back();
-    for (double hold = 0.0; hold < config_.hold_cap_s - 1e-9; hold += kHoldStep)
-      times.push_back(moving_s + hold + kHoldStep);
+    const double followed_s = (world_.predictions->followed_until - request_.t_s).seconds();
+    if (moving_s > followed_s) return std::nullopt;
+    append_hold(times, kHoldStep, std::min(config_.hold_cap_s, followed_s - moving_s));
     SweptObstacles& swept = workspace_.committed;
     swept.assign(obstacles_, request_.body, request_.t_s, times, committed_box());
     CheckReport report = check_separation(pieces, swept);
@@ -160,7 +161,7 @@ class Planning {
     c.certificate = std::move(report.certificate);
     c.hold_s = clear_time_at(swept, static_cast<int>(pieces.size()), end, report.pairs);
     if (pieces.empty() && c.hold_s <= 0.0) return std::nullopt;
-    c.holds = c.hold_s >= config_.required_hold(moving_s);
+    c.holds = lasts(c.hold_s, config_.required_hold(moving_s));
     c.clear_s = moving_s + c.hold_s;
     return c;
   }
@@ -180,8 +181,9 @@ class Planning {
   AttemptContext make_context() {
     Limits reduced = request_.limits;
     reduced.v_max *= config_.velocity_share;
-    return {request_,         config_, obstacles_, semantics_in_reach(), reduced,   {},
-            request_.start.p, budget_, observer_,  answer_.statistics,   workspace_};
+    return {
+        request_,         config_, obstacles_, semantics_in_reach(), reduced,    {},
+        request_.start.p, budget_, observer_,  answer_.statistics,   workspace_, world_.predictions->followed_until};
   }
 
   /// The fields, if what they cost differs anywhere in the sphere. The mean distance of Eq. 3 differs everywhere.
@@ -220,6 +222,7 @@ class Planning {
       budget_.begin_attempt(attempt++);
       if (best_ && (enough() || budget_.expired(Stage::LocalGoal))) break;
       const Duration interval = interval_of(scale * least);
+      if (!is_followed(context, interval)) break;
       enter(Stage::Hulls);
       SweptObstacles& swept = workspace_.horizon;
       sweep_horizon(context, interval, swept);
@@ -327,8 +330,7 @@ class Planning {
 
   static constexpr double kNearLocalGoal = 1.0;  // m
   static constexpr double kSmoothnessPrice =
-      0.05;                                 // s: an optimized trajectory may arrive so much later than the search's
-  static constexpr double kHoldStep = 0.1;  // s
+      0.05;  // s: an optimized trajectory may arrive so much later than the search's
   static constexpr double kLeastInterval =
       0.02;  // s: below this Δt, rounding of accelerations q/Δt² eats the tolerances
 

@@ -39,8 +39,11 @@ struct OptimizationConfig {
   int max_iterations = 60;     ///< of the solver, per round
 };
 
+/// The most intervals J of a plan.
+inline constexpr int kMaxPlanIntervals = 12;
+
 struct PlannerConfig {
-  int intervals = 6;                                            ///< J, 4 … 12
+  int intervals = 6;                                            ///< J, 4 … kMaxPlanIntervals
   double sphere_radius_m = 4.0;                                 ///< r
   std::vector<double> duration_scales = {1.1, 1.35, 1.8, 2.6};  ///< T over the per-axis bound, tried in order
   double hold_required_s = 0.5;             ///< an end that stays clear this long is preferred to one that does not

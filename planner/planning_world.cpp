@@ -1,5 +1,6 @@
 #include "planner/planning_world.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/splines/piecewise_cubic.h"
@@ -32,7 +33,9 @@ PredictionProducts::PredictionProducts(TrackSet tracks) : set(std::move(tracks))
     if (track.kind != TrackKind::Static) {
       for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) piece_boxes.push_back(piece_box(track, k));
     }
-    boxes.push_back(track.bounds(from, track.motion.end() + kTrackBoxReach));
+    const UTime to = track.motion.end() + kTrackBoxReach;
+    if (track.kind != TrackKind::Static) followed_until = std::min(followed_until, to);
+    boxes.push_back(track.bounds(from, to));
     obstacles.push_back({track.id, &track, boxes.back(), 1.0,
                          std::span<const Box>(piece_boxes.data() + first, piece_boxes.size() - first)});
   }

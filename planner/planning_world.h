@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -19,6 +20,11 @@
 
 namespace tern {
 
+/// How far past its last piece a track's box is followed.
+inline constexpr Duration kTrackBoxReach{4'000'000};
+/// Where nothing moves.
+inline constexpr UTime kFollowedForEver{std::numeric_limits<std::int64_t>::max()};
+
 /// A complete prediction set with boxes around each track's motion, and an index over them: a plan costs what is in its
 /// reach, not what is in the world.
 struct PredictionProducts {
@@ -26,13 +32,12 @@ struct PredictionProducts {
   std::vector<Box> piece_boxes;             ///< of all moving tracks, one per piece of their motions
   std::vector<PlanningObstacle> obstacles;  ///< one per track; point into the two above, so this object does not move
   BoxIndex index;                           ///< over the obstacles' boxes
+  UTime followed_until = kFollowedForEver;  ///< the boxes hold each moving track until then: no plan looks farther
 
   explicit PredictionProducts(TrackSet tracks);
   PredictionProducts(const PredictionProducts&) = delete;
   PredictionProducts& operator=(const PredictionProducts&) = delete;
 };
-/// How far past its last piece a track's box is followed: no plan looks farther.
-inline constexpr Duration kTrackBoxReach{4'000'000};
 
 /// One version of the map.
 struct MapProducts {

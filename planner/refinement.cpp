@@ -9,10 +9,11 @@
 namespace tern {
 namespace {
 
-std::vector<CertificatePlane> near_planes(const AttemptContext& context, SweptObstacles& obstacles,
-                                          const TimedSpline& trajectory) {
+const std::vector<CertificatePlane>& near_planes(const AttemptContext& context, SweptObstacles& obstacles,
+                                                 const TimedSpline& trajectory) {
   const ClampedSpline spline = trajectory.spline();
-  std::vector<CertificatePlane> planes;
+  std::vector<CertificatePlane>& planes = context.workspace.certificates;
+  planes.clear();
   PairCounts counts;
   for (int j = 0; j < spline.intervals(); ++j) {
     separate_interval(obstacles, j, spline.power(j), counts, &planes, context.config.optimization.plane_reach_m,
@@ -53,12 +54,7 @@ class Refinement {
     for (int round = 0; round < config_.rounds; ++round) {
       enter_stage();
       if (stop_()) break;
-      std::vector<PlaneConstraint> planes;
-      for (const CertificatePlane& c : near_planes(context_, obstacles_, current)) planes.push_back(constraint_of(c));
-      const ConvexProblem convex = make_convex_problem(problem_, planes, current.control_points);
-      const auto solve = config_.solver == ConvexSolver::Barrier ? solve_by_barrier : solve_by_ipopt;
-      const ConvexSolution solution =
-          solve(convex, free_variables(current.control_points), config_.max_iterations, stop_);
+      const ConvexSolution solution = solve_convex(current);
       context_.statistics.solver_iterations += solution.iterations;
       ++context_.statistics.solver_calls;
       if (!solution.found) break;
@@ -76,14 +72,13 @@ class Refinement {
     if (stop_()) return std::nullopt;
     std::optional<Candidate> best;
     const JointProblem joint(problem_, gather_pairs(context_, obstacles_, from), from.control_points);
-    const ConvexSolution solution =
-        solve_joint(joint, config_.max_iterations, stop_, [&](const Eigen::VectorXd& free_variables) {
-          auto candidate = certified(from.interval, free_variables);
-          enter_stage();
-          if (!candidate) return false;
-          best = std::move(candidate);
-          return true;
-        });
+    const ConvexSolution solution = solve_joint(joint, config_.max_iterations, stop_, [&](const FreeVariables& x) {
+      auto candidate = certified(from.interval, x);
+      enter_stage();
+      if (!candidate) return false;
+      best = std::move(candidate);
+      return true;
+    });
     context_.statistics.solver_iterations += solution.iterations;
     ++context_.statistics.solver_calls;
     return best;
@@ -94,9 +89,19 @@ class Refinement {
     if (context_.observer != nullptr) context_.observer->enter(Stage::Optimization);
   }
 
-  std::optional<Candidate> certified(Duration interval, const Eigen::VectorXd& free_variables) {
-    auto candidate = certify(context_, obstacles_, interval, control_points_of(free_variables, problem_),
-                             PlanOutcome::Optimized, required_);
+  ConvexSolution solve_convex(const TimedSpline& from) {
+    PlanWorkspace& memory = context_.workspace;
+    memory.planes.clear();
+    for (const CertificatePlane& c : near_planes(context_, obstacles_, from)) memory.planes.push_back(constraint_of(c));
+    make_convex_problem(problem_, memory.planes, from.control_points, memory.convex);
+    const FreeVariables x0 = free_variables(from.control_points);
+    if (config_.solver == ConvexSolver::Ipopt) return solve_by_ipopt(memory.convex, x0, config_.max_iterations, stop_);
+    return memory.barrier.solve(memory.convex, x0, config_.max_iterations, stop_);
+  }
+
+  std::optional<Candidate> certified(Duration interval, const FreeVariables& x) {
+    auto candidate =
+        certify(context_, obstacles_, interval, control_points_of(x, problem_), PlanOutcome::Optimized, required_);
     if (!candidate || candidate->hold_s < hold_required_) return std::nullopt;
     return candidate;
   }

@@ -45,7 +45,7 @@ void read_optimization(ConfigSection section, OptimizationConfig& c) {
 
 PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& semantics) {
   PlannerConfig c;
-  c.intervals = static_cast<int>(section.integer("intervals", c.intervals, 4, 12));
+  c.intervals = static_cast<int>(section.integer("intervals", c.intervals, 4, kMaxPlanIntervals));
   c.sphere_radius_m = section.number("sphere_radius_m", c.sphere_radius_m, Range{0.1, 1000.0});
   c.duration_scales = section.numbers("duration_scales", c.duration_scales, Range{0.5, 20.0});
   if (c.duration_scales.empty()) throw section.error("duration_scales", "needs at least one number");

@@ -15,7 +15,11 @@ constexpr double kLeastStep = 1e-8;
 /// Symmetric positive definite systems by L Lᵀ, row-major, fixed order.
 class Cholesky {
  public:
-  explicit Cholesky(int n) : n_(n), l_(static_cast<std::size_t>(n * n), 0.0), inverse_(static_cast<std::size_t>(n)) {}
+  void resize(int n) {
+    n_ = n;
+    l_.assign(static_cast<std::size_t>(n * n), 0.0);
+    inverse_.resize(static_cast<std::size_t>(n));
+  }
 
   /// Row-major lower triangle to fill before factor().
   double* matrix() { return l_.data(); }
@@ -58,15 +62,20 @@ class Cholesky {
   }
 
  private:
-  int n_;
+  int n_ = 0;
   std::vector<double> l_, inverse_;
 };
 
 /// All constraints with their gradients, in y = x − x0. Rows are sparse and constant, sphere gradients follow y.
 class Constraints {
  public:
-  Constraints(const ConvexProblem& p, const Eigen::VectorXd& x0) : n_(p.variables()) {
-    for (Eigen::Index r = 0; r < p.rows.rows(); ++r) add_row(p, x0, r);
+  void assign(const ConvexProblem& p, const FreeVariables& x0) {
+    n_ = p.variables();
+    begin_.assign(1, 0);
+    for (std::vector<double>* v : {&value_, &weight_, &bound_}) v->clear();
+    column_.clear();
+    at_.clear();
+    for (int r = 0; r < p.row_count(); ++r) add_row(p, x0, r);
     linear_ = static_cast<int>(bound_.size());
     for (int k = 0; k < p.spheres(); ++k) add_sphere(p, x0, k);
   }
@@ -127,25 +136,26 @@ class Constraints {
  private:
   static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
-  void add_row(const ConvexProblem& p, const Eigen::VectorXd& x0, Eigen::Index r) {
+  void add_row(const ConvexProblem& p, const FreeVariables& x0, int r) {
+    const double* row = p.row(r);
     double square = 0.0;
     double at_x0 = 0.0;
     for (int c = 0; c < n_; ++c) {
-      square += p.rows(r, c) * p.rows(r, c);
-      at_x0 += p.rows(r, c) * x0[c];
+      square += row[c] * row[c];
+      at_x0 += row[c] * x0[c];
     }
     const double scale = square > 0.0 ? 1.0 / std::sqrt(square) : 1.0;
     for (int c = 0; c < n_; ++c) {
-      if (p.rows(r, c) != 0.0) push(c, scale * p.rows(r, c), 0.0);
+      if (row[c] != 0.0) push(c, scale * row[c], 0.0);
     }
     begin_.push_back(static_cast<int>(column_.size()));
-    bound_.push_back(scale * (p.bounds[r] - at_x0));
+    bound_.push_back(scale * (p.bounds[idx(r)] - at_x0));
   }
 
-  void add_sphere(const ConvexProblem& p, const Eigen::VectorXd& x0, int k) {
+  void add_sphere(const ConvexProblem& p, const FreeVariables& x0, int k) {
     radius_ = std::sqrt(p.sphere_radius2);
     for (int c = 0; c < n_; ++c) {
-      const double w = p.sphere_weights(k, c / 3);
+      const double w = p.sphere_weight(k, c);
       if (w != 0.0) push(c, 0.0, w);
     }
     begin_.push_back(static_cast<int>(column_.size()));
@@ -158,10 +168,10 @@ class Constraints {
     weight_.push_back(weight);
   }
 
-  int n_;
+  int n_ = 0;
   int linear_ = 0;
   double radius_ = 1.0;
-  std::vector<int> begin_{0};   ///< constraint i has the entries begin_[i] … begin_[i + 1] − 1
+  std::vector<int> begin_;      ///< constraint i has the entries begin_[i] … begin_[i + 1] − 1
   std::vector<int> column_;     ///< ascending within a constraint
   std::vector<double> value_;   ///< of the gradient
   std::vector<double> weight_;  ///< of W_k
@@ -169,22 +179,30 @@ class Constraints {
   std::vector<Vec3> at_;        ///< per sphere: W_k x0 + p_k
 };
 
-class Solver {
+}  // namespace
+
+/// One problem at a time, in y = x − x0.
+class BarrierSolver::Iteration {
  public:
-  Solver(const ConvexProblem& problem, const Eigen::VectorXd& x0)
-      : p_(problem),
-        x0_(x0),
-        n_(problem.variables()),
-        constraints_(problem, x0),
-        m_(constraints_.count()),
-        hessian_factor_(n_),
-        system_(n_) {
+  ConvexSolution solve(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
+                       const StopFunction& stop) {
+    problem_ = &problem;
+    x0_ = x0;
+    n_ = problem.variables();
+    constraints_.assign(problem, x0);
+    m_ = constraints_.count();
+    hessian_factor_.resize(n_);
+    system_.resize(n_);
+    lower_bound_ = -kNoBound;
+    solution_ = {};
     for (std::vector<double>* v : {&y_, &gradient0_, &gradient_, &dual_residual_, &step_, &work_})
-      v->resize(static_cast<std::size_t>(n_), 0.0);
+      v->assign(idx(n_), 0.0);
     for (std::vector<double>* v : {&c_, &slack_, &multiplier_, &slack_step_, &multiplier_step_, &complement_})
-      v->resize(static_cast<std::size_t>(m_), 0.0);
+      v->assign(idx(m_), 0.0);
+    return run(max_iterations, stop);
   }
 
+ private:
   ConvexSolution run(int max_iterations, const StopFunction& stop) {
     if (!prepare()) return fail();
     for (;;) {
@@ -196,7 +214,6 @@ class Solver {
     }
   }
 
- private:
   static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
   ConvexSolution fail() {
@@ -205,16 +222,16 @@ class Solver {
   }
 
   bool prepare() {
-    if (p_.worst_violation(x0_) <= 0.0) {
+    if (problem_->worst_violation(x0_) <= 0.0) {
       solution_.found = true;
       solution_.x = x0_;
-      solution_.objective = p_.objective(x0_);
+      solution_.objective = problem_->objective(x0_);
     }
     for (int r = 0; r < n_; ++r) {
-      double sum = p_.gradient[r];
+      double sum = problem_->gradient[r];
       for (int c = 0; c < n_; ++c) {
-        sum += p_.hessian(r, c) * x0_[c];
-        if (c <= r) hessian_factor_.matrix()[r * n_ + c] = p_.hessian(r, c);
+        sum += problem_->hessian(r, c) * x0_[c];
+        if (c <= r) hessian_factor_.matrix()[r * n_ + c] = problem_->hessian(r, c);
       }
       gradient0_[idx(r)] = sum;
     }
@@ -240,7 +257,7 @@ class Solver {
     constraints_.evaluate(y_, c_);
     for (int r = 0; r < n_; ++r) {
       double sum = gradient0_[idx(r)];
-      for (int c = 0; c < n_; ++c) sum += p_.hessian(r, c) * y_[idx(c)];
+      for (int c = 0; c < n_; ++c) sum += problem_->hessian(r, c) * y_[idx(c)];
       gradient_[idx(r)] = sum;
     }
     dual_residual_ = gradient_;
@@ -253,8 +270,8 @@ class Solver {
 
   /// Keeps y if it is the best point strictly inside, and the multipliers' bound if it is the highest.
   void harvest() {
-    const Eigen::VectorXd x = x0_ + Eigen::Map<const Eigen::VectorXd>(y_.data(), n_);
-    const double objective = p_.objective(x);
+    const FreeVariables x = x0_ + Eigen::Map<const Eigen::VectorXd>(y_.data(), n_);
+    const double objective = problem_->objective(x);
     tolerance_ = std::max(kGapShare * std::abs(objective), kGapAbsolute);
     double lagrangian = objective;
     double nearest = -1.0;
@@ -267,7 +284,7 @@ class Solver {
     for (const double w : work_) lagrangian -= 0.5 * w * w;
     lower_bound_ = std::max(lower_bound_, lagrangian);
     if (nearest <= -kStrictlyInside && (!solution_.found || objective < solution_.objective) &&
-        p_.worst_violation(x) <= 0.0) {
+        problem_->worst_violation(x) <= 0.0) {
       solution_.found = true;
       solution_.x = x;
       solution_.objective = objective;
@@ -280,7 +297,7 @@ class Solver {
   bool advance() {
     double* matrix = system_.matrix();
     for (int r = 0; r < n_; ++r) {
-      for (int c = 0; c <= r; ++c) matrix[r * n_ + c] = p_.hessian(r, c);
+      for (int c = 0; c <= r; ++c) matrix[r * n_ + c] = problem_->hessian(r, c);
     }
     double mu = 0.0;
     for (int i = 0; i < m_; ++i) {
@@ -347,11 +364,11 @@ class Solver {
   static constexpr double kFirstBarrierShare = 0.1;
   static constexpr double kLastBarrierShare = 0.3;
 
-  const ConvexProblem& p_;
-  const Eigen::VectorXd& x0_;
-  int n_;
+  const ConvexProblem* problem_ = nullptr;
+  FreeVariables x0_;
+  int n_ = 0;
   Constraints constraints_;
-  int m_;
+  int m_ = 0;
   double lower_bound_ = -kNoBound;  ///< of the optimum
   double tolerance_ = 0.0;          ///< of the gap, m²
   Cholesky hessian_factor_, system_;
@@ -360,11 +377,19 @@ class Solver {
   ConvexSolution solution_;
 };
 
-}  // namespace
+BarrierSolver::BarrierSolver() : iteration_(std::make_unique<Iteration>()) {}
+BarrierSolver::~BarrierSolver() = default;
+BarrierSolver::BarrierSolver(BarrierSolver&&) noexcept = default;
+BarrierSolver& BarrierSolver::operator=(BarrierSolver&&) noexcept = default;
 
-ConvexSolution solve_by_barrier(const ConvexProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
+ConvexSolution BarrierSolver::solve(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
+                                    const StopFunction& stop) {
+  return iteration_->solve(problem, x0, max_iterations, stop);
+}
+
+ConvexSolution solve_by_barrier(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                                 const StopFunction& stop) {
-  return Solver(problem, x0).run(max_iterations, stop);
+  return BarrierSolver().solve(problem, x0, max_iterations, stop);
 }
 
 }  // namespace tern

@@ -1,6 +1,8 @@
 // The convex problem of `alternating` by a dense primal-dual barrier method of our own: small, exact about its answer.
 #pragma once
 
+#include <memory>
+
 #include "planner/optimization/convex_problem.h"
 #include "planner/optimization/convex_solution.h"
 
@@ -25,8 +27,26 @@ inline constexpr double kGapAbsolute = 1e-8;  ///< m², objectives are in ω_g m
 ///     f(x) − f*  ≤  Σ λ_i (−c_i(x)) + ½ rᵀ H⁻¹ r,   r = ∇f(x) + Σ λ_i ∇c_i(x).
 ///
 /// One order of operations, no BLAS, no libm but sqrt: the same problem gives the same bits. O(rows · nonzeros² + n³)
-/// per step; allocates its arrays once. `solver_failed`: no pivot, or no step left before the gap closed.
-ConvexSolution solve_by_barrier(const ConvexProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
+/// per step. `solver_failed`: no pivot, or no step left before the gap closed.
+///
+/// Keeps its arrays: a problem that is no larger than those before it allocates nothing. Not for two calls at once.
+class BarrierSolver {
+ public:
+  BarrierSolver();
+  ~BarrierSolver();
+  BarrierSolver(BarrierSolver&&) noexcept;
+  BarrierSolver& operator=(BarrierSolver&&) noexcept;
+
+  ConvexSolution solve(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
+                       const StopFunction& stop);
+
+ private:
+  class Iteration;
+  std::unique_ptr<Iteration> iteration_;
+};
+
+/// The same by a solver that is made for it.
+ConvexSolution solve_by_barrier(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                                 const StopFunction& stop);
 
 }  // namespace tern

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tern {
 namespace {
@@ -12,19 +13,23 @@ constexpr double kLimitReach = 1.5;
 
 class Builder {
  public:
-  Builder(const TrajectoryProblem& problem, const Eigen::VectorXd& x0)
-      : problem_(problem), x0_(x0), curve_(problem), free_(problem.intervals - 2) {}
+  Builder(const TrajectoryProblem& problem, const FreeVariables& x0, ConvexProblem& out)
+      : problem_(problem), x0_(x0), curve_(problem), free_(problem.intervals - 2), out_(out) {
+    out.rows.clear();
+    out.bounds.clear();
+    out.sphere_weights.clear();
+    out.sphere_offsets.clear();
+  }
 
   /// direction·point ≤ limit; dropped when it does not depend on x, or when x0 is farther than `reach` from it.
   void add_row(const AffinePoint& point, const Vec3& direction, double limit, double reach) {
     if (point.fixed()) return;
-    Eigen::VectorXd row(3 * free_);
+    FreeVariables row(3 * free_);
     for (int i = 0; i < free_; ++i) row.segment<3>(3 * i) = point.weights[i] * direction;
     const double bound = limit - direction.dot(point.offset);
     const double at_x0 = row.dot(x0_);
     if (bound - at_x0 > reach) return;
-    rows_.push_back(std::move(row));
-    bounds_.push_back(std::max(bound, at_x0));
+    out_.add_row(row, std::max(bound, at_x0));
   }
 
   void add_symmetric(const AffinePoint& point, const Vec3& limits) {
@@ -69,95 +74,113 @@ class Builder {
     }
   }
 
-  void add_boxes_and_spheres(ConvexProblem& out) {
-    std::vector<AffinePoint> points;
+  void add_boxes_and_spheres() {
     for (int j = 0; j < problem_.intervals; ++j) {
-      for (AffinePoint& p : curve_.minvo(j)) {
+      for (const AffinePoint& p : curve_.minvo(j)) {
         if (p.fixed()) continue;
         add_box_rows(p);
         if (problem_.sphere_radius - (p.at(x0_) - problem_.start.p).norm() > problem_.reach) continue;
-        points.push_back(std::move(p));
+        out_.sphere_weights.insert(out_.sphere_weights.end(), p.weights.data(), p.weights.data() + p.weights.size());
+        out_.sphere_offsets.push_back(p.offset - problem_.start.p);
       }
     }
-    out.sphere_weights.resize(static_cast<Eigen::Index>(points.size()), free_);
-    out.sphere_offsets.resize(3, static_cast<Eigen::Index>(points.size()));
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      out.sphere_weights.row(static_cast<Eigen::Index>(k)) = points[k].weights.transpose();
-      out.sphere_offsets.col(static_cast<Eigen::Index>(k)) = points[k].offset - problem_.start.p;
-    }
-    out.sphere_radius2 = problem_.sphere_radius * problem_.sphere_radius;
+    out_.sphere_radius2 = problem_.sphere_radius * problem_.sphere_radius;
   }
 
-  void add_objective(ConvexProblem& out) const {
+  void add_objective() {
     const int n = 3 * free_;
-    out.hessian = Eigen::MatrixXd::Zero(n, n);
-    out.gradient = Eigen::VectorXd::Zero(n);
-    for (int j = 0; j < problem_.intervals; ++j) add_square(out, curve_.jerk(j), Vec3::Zero(), problem_.weight_jerk);
-    AffinePoint end{Eigen::VectorXd::Zero(free_), Vec3::Zero()};
+    out_.hessian.setZero(n, n);
+    out_.gradient.setZero(n);
+    out_.constant = 0.0;
+    for (int j = 0; j < problem_.intervals; ++j) add_square(curve_.jerk(j), Vec3::Zero(), problem_.weight_jerk);
+    AffinePoint end{FreeWeights::Zero(free_), Vec3::Zero()};
     end.weights[free_ - 1] = 1.0;
-    add_square(out, end, problem_.goal, problem_.weight_goal);
+    add_square(end, problem_.goal, problem_.weight_goal);
   }
 
-  void take_rows(ConvexProblem& out) const {
-    out.rows.resize(static_cast<Eigen::Index>(rows_.size()), 3 * free_);
-    out.bounds.resize(out.rows.rows());
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const auto r = static_cast<Eigen::Index>(i);
-      out.rows.row(r) = rows_[i].transpose();
-      out.bounds[r] = bounds_[i];
+  /// So that x0 is strictly inside.
+  void widen_bounds() {
+    for (int r = 0; r < out_.row_count(); ++r) {
+      double& bound = out_.bounds[static_cast<std::size_t>(r)];
+      bound = std::max(bound, out_.row_times(r, x0_) + kStartRoom);
     }
-    out.bounds = out.bounds.cwiseMax(out.rows * x0_ + Eigen::VectorXd::Constant(out.bounds.size(), kStartRoom)).eval();
-    for (int k = 0; k < out.spheres(); ++k) {
-      out.sphere_radius2 = std::max(out.sphere_radius2, out.sphere_point(k, x0_).squaredNorm() + kStartRoom);
+    for (int k = 0; k < out_.spheres(); ++k) {
+      out_.sphere_radius2 = std::max(out_.sphere_radius2, out_.sphere_point(k, x0_).squaredNorm() + kStartRoom);
     }
   }
 
  private:
   /// weight · ‖point − target‖².
-  void add_square(ConvexProblem& out, const AffinePoint& point, const Vec3& target, double weight) const {
+  void add_square(const AffinePoint& point, const Vec3& target, double weight) {
     const Vec3 offset = point.offset - target;
     for (int i = 0; i < free_; ++i) {
       for (int k = 0; k < free_; ++k) {
         const double h = 2.0 * weight * point.weights[i] * point.weights[k];
-        for (int axis = 0; axis < 3; ++axis) out.hessian(3 * i + axis, 3 * k + axis) += h;
+        for (int axis = 0; axis < 3; ++axis) out_.hessian(3 * i + axis, 3 * k + axis) += h;
       }
-      out.gradient.segment<3>(3 * i) += 2.0 * weight * point.weights[i] * offset;
+      out_.gradient.segment<3>(3 * i) += 2.0 * weight * point.weights[i] * offset;
     }
-    out.constant += weight * offset.squaredNorm();
+    out_.constant += weight * offset.squaredNorm();
   }
 
   const TrajectoryProblem& problem_;
-  const Eigen::VectorXd& x0_;
+  const FreeVariables& x0_;
   CurvePoints curve_;
   int free_;
-  std::vector<Eigen::VectorXd> rows_;
-  std::vector<double> bounds_;
+  ConvexProblem& out_;
 };
 
 }  // namespace
 
-Vec3 ConvexProblem::sphere_point(int k, const Eigen::VectorXd& x) const {
-  Vec3 p = sphere_offsets.col(k);
-  for (Eigen::Index i = 0; i < sphere_weights.cols(); ++i) p += sphere_weights(k, i) * x.segment<3>(3 * i);
+double ConvexProblem::row_times(int r, const FreeVariables& x) const {
+  const double* a = row(r);
+  double sum = 0.0;
+  for (Eigen::Index c = 0; c < x.size(); ++c) sum += a[c] * x[c];
+  return sum;
+}
+
+Vec3 ConvexProblem::sphere_point(int k, const FreeVariables& x) const {
+  Vec3 p = sphere_offsets[static_cast<std::size_t>(k)];
+  for (int c = 0; c < variables(); c += 3) p += sphere_weight(k, c) * x.segment<3>(c);
   return p;
 }
 
-double ConvexProblem::worst_violation(const Eigen::VectorXd& x) const {
-  double worst = rows.rows() > 0 ? (rows * x - bounds).maxCoeff() : 0.0;
-  for (int k = 0; k < spheres(); ++k) worst = std::max(worst, sphere_point(k, x).squaredNorm() - sphere_radius2);
+double ConvexProblem::objective(const FreeVariables& x) const {
+  FreeVariables curved(x.size());
+  curved.noalias() = hessian * x;
+  return 0.5 * x.dot(curved) + gradient.dot(x) + constant;
+}
+
+double ConvexProblem::worst_violation(const FreeVariables& x) const {
+  double worst = -std::numeric_limits<double>::infinity();
+  const auto take = [&worst](double violation) {
+    if (!std::isnan(worst) && !(violation <= worst)) worst = violation;
+  };
+  for (int r = 0; r < row_count(); ++r) take(row_times(r, x) - bounds[static_cast<std::size_t>(r)]);
+  for (int k = 0; k < spheres(); ++k) take(sphere_point(k, x).squaredNorm() - sphere_radius2);
   return worst;
+}
+
+void ConvexProblem::add_row(const FreeVariables& row, double bound) {
+  rows.insert(rows.end(), row.data(), row.data() + row.size());
+  bounds.push_back(bound);
+}
+
+void make_convex_problem(const TrajectoryProblem& problem, const std::vector<PlaneConstraint>& planes,
+                         const Points& initial_control_points, ConvexProblem& out) {
+  const FreeVariables x0 = free_variables(initial_control_points);
+  Builder builder(problem, x0, out);
+  builder.add_objective();
+  builder.add_limits();
+  builder.add_boxes_and_spheres();
+  builder.add_planes(planes);
+  builder.widen_bounds();
 }
 
 ConvexProblem make_convex_problem(const TrajectoryProblem& problem, const std::vector<PlaneConstraint>& planes,
                                   const Points& initial_control_points) {
   ConvexProblem out;
-  const Eigen::VectorXd x0 = free_variables(initial_control_points);
-  Builder builder(problem, x0);
-  builder.add_objective(out);
-  builder.add_limits();
-  builder.add_boxes_and_spheres(out);
-  builder.add_planes(planes);
-  builder.take_rows(out);
+  make_convex_problem(problem, planes, initial_control_points, out);
   return out;
 }
 

@@ -133,11 +133,11 @@ IpoptRun minimise_by_ipopt(const NonlinearProblem& problem, const Eigen::VectorX
   return {failed, nlp->iterations()};
 }
 
-ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
+ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                               const StopFunction& stop) {
   ConvexSolution best;
   const auto harvest = [&](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
-    if (problem.worst_violation(x) > 0.0) return;
+    if (!(problem.worst_violation(x) <= 0.0)) return;
     const double objective = problem.objective(x);
     if (best.found && objective >= best.objective) return;
     best.found = true;

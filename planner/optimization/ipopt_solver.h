@@ -22,7 +22,7 @@ IpoptRun minimise_by_ipopt(const NonlinearProblem& problem, const Eigen::VectorX
 
 /// The convex problem from x0; every feasible point that Ipopt evaluates is harvested, so that the answer is anytime.
 /// No certified gap.
-ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
+ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                               const StopFunction& stop);
 
 }  // namespace tern

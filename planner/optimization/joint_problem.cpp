@@ -71,7 +71,7 @@ Eigen::VectorXd JointProblem::gradient(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd JointProblem::constraints(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd points = x.head(free_variables());
+  const FreeVariables points = x.head(free_variables());
   Eigen::VectorXd c(bounds_.size());
   Eigen::Index row = base_.bounds().size();
   c.head(row) = base_.constraints(points);
@@ -86,7 +86,7 @@ Eigen::VectorXd JointProblem::constraints(const Eigen::VectorXd& x) const {
 }
 
 void JointProblem::jacobian(const Eigen::VectorXd& x, double* values) const {
-  const Eigen::VectorXd points = x.head(free_variables());
+  const FreeVariables points = x.head(free_variables());
   base_.jacobian(points, values);
   double* v = values + base_.jacobian_pattern().size();
   for (const Block& b : blocks_) {
@@ -134,7 +134,7 @@ ConvexSolution solve_joint(const JointProblem& problem, int max_iterations, cons
     const double objective = problem.objective(x);
     if (objective >= best.objective) return;
     if ((constraints - problem.bounds()).maxCoeff() > kJointTolerance) return;
-    const Eigen::VectorXd points = x.head(problem.free_variables());
+    const FreeVariables points = x.head(problem.free_variables());
     if (!certify(points)) return;
     best.found = true;
     best.x = points;

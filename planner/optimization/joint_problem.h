@@ -71,7 +71,7 @@ class JointProblem final : public NonlinearProblem {
 inline constexpr double kJointTolerance = 1e-6;
 
 /// Decides over a feasible point that is better than all before: true keeps it.
-using Certify = std::function<bool(const Eigen::VectorXd& free_variables)>;
+using Certify = std::function<bool(const FreeVariables& x)>;
 
 /// By Ipopt. Every point that it evaluates and that keeps all constraints to kJointTolerance is offered to `certify` if
 /// it costs less than the best kept so far, so that the answer is anytime. x: the free control points alone.

@@ -3,19 +3,19 @@
 namespace tern {
 
 ConvexAsNonlinear::ConvexAsNonlinear(const ConvexProblem& problem) : p_(problem) {
-  const auto rows = static_cast<int>(p_.rows.rows());
+  const int rows = p_.row_count();
   const int n = p_.variables();
   bounds_.resize(rows + p_.spheres());
-  bounds_.head(rows) = p_.bounds;
+  bounds_.head(rows) = Eigen::Map<const Eigen::VectorXd>(p_.bounds.data(), rows);
   bounds_.tail(p_.spheres()).setConstant(p_.sphere_radius2);
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < n; ++c) {
-      if (p_.rows(r, c) != 0.0) jacobian_pattern_.add(r, c);
+      if (p_.row(r)[c] != 0.0) jacobian_pattern_.add(r, c);
     }
   }
   for (int k = 0; k < p_.spheres(); ++k) {
     for (int c = 0; c < n; ++c) {
-      if (p_.sphere_weights(k, c / 3) != 0.0) jacobian_pattern_.add(rows + k, c);
+      if (p_.sphere_weight(k, c) != 0.0) jacobian_pattern_.add(rows + k, c);
     }
   }
   for (int r = 0; r < n; ++r) {
@@ -27,20 +27,20 @@ Eigen::VectorXd ConvexAsNonlinear::gradient(const Eigen::VectorXd& x) const { re
 
 Eigen::VectorXd ConvexAsNonlinear::constraints(const Eigen::VectorXd& x) const {
   Eigen::VectorXd c(bounds_.size());
-  c.head(p_.rows.rows()) = p_.rows * x;
-  for (int k = 0; k < p_.spheres(); ++k) c[p_.rows.rows() + k] = p_.sphere_point(k, x).squaredNorm();
+  for (int r = 0; r < p_.row_count(); ++r) c[r] = p_.row_times(r, x);
+  for (int k = 0; k < p_.spheres(); ++k) c[p_.row_count() + k] = p_.sphere_point(k, x).squaredNorm();
   return c;
 }
 
 void ConvexAsNonlinear::jacobian(const Eigen::VectorXd& x, double* values) const {
-  const auto rows = static_cast<int>(p_.rows.rows());
+  const int rows = p_.row_count();
   Points at(3, p_.spheres());
   for (int k = 0; k < p_.spheres(); ++k) at.col(k) = p_.sphere_point(k, x);
   for (std::size_t e = 0; e < jacobian_pattern_.size(); ++e) {
     const int row = jacobian_pattern_.rows[e];
     const int column = jacobian_pattern_.columns[e];
-    values[e] = row < rows ? p_.rows(row, column)
-                           : 2.0 * p_.sphere_weights(row - rows, column / 3) * at(column % 3, row - rows);
+    values[e] =
+        row < rows ? p_.row(row)[column] : 2.0 * p_.sphere_weight(row - rows, column) * at(column % 3, row - rows);
   }
 }
 
@@ -51,7 +51,7 @@ void ConvexAsNonlinear::hessian(const Eigen::VectorXd&, double factor, const dou
     const int column = hessian_pattern_.columns[e];
     double h = factor * p_.hessian(row, column);
     for (int k = 0; k < p_.spheres(); ++k) {
-      h += multipliers[p_.rows.rows() + k] * 2.0 * p_.sphere_weights(k, row / 3) * p_.sphere_weights(k, column / 3);
+      h += multipliers[p_.row_count() + k] * 2.0 * p_.sphere_weight(k, row) * p_.sphere_weight(k, column);
     }
     values[e] = h;
   }

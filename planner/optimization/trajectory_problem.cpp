@@ -1,6 +1,8 @@
 #include "planner/optimization/trajectory_problem.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace tern {
 namespace {
@@ -25,7 +27,7 @@ Eigen::Matrix4d to_part(double u0, double u1) {
 
 }  // namespace
 
-Vec3 AffinePoint::at(const Eigen::VectorXd& x) const {
+Vec3 AffinePoint::at(const FreeVariables& x) const {
   Vec3 p = offset;
   for (Eigen::Index i = 0; i < weights.size(); ++i) p += weights[i] * x.segment<3>(3 * i);
   return p;
@@ -35,10 +37,15 @@ CurvePoints::CurvePoints(const TrajectoryProblem& problem)
     : problem_(problem),
       basis_(spline_basis(problem.intervals)),
       free_(problem.intervals - 2),
-      start_(start_control_points(problem.start, problem.interval_s)) {}
+      start_(start_control_points(problem.start, problem.interval_s)) {
+  if (problem.intervals < 4 || problem.intervals > kMaxPlanIntervals) {
+    throw std::invalid_argument("CurvePoints: " + std::to_string(problem.intervals) + " intervals, not 4 to " +
+                                std::to_string(kMaxPlanIntervals));
+  }
+}
 
 AffinePoint CurvePoints::combination(int j, const Eigen::Vector4d& c) const {
-  AffinePoint p{Eigen::VectorXd::Zero(free_), Vec3::Zero()};
+  AffinePoint p{FreeWeights::Zero(free_), Vec3::Zero()};
   for (int k = 0; k < 4; ++k) {
     const int l = j + k;
     if (l < 3)
@@ -71,7 +78,7 @@ std::array<AffinePoint, 3> CurvePoints::velocity_hull(int j) const {
 }
 
 AffinePoint CurvePoints::velocity_control_point(int l) const {
-  AffinePoint p{Eigen::VectorXd::Zero(free_), Vec3::Zero()};
+  AffinePoint p{FreeWeights::Zero(free_), Vec3::Zero()};
   const double scale = 1.0 / problem_.interval_s;
   p.weights[std::min(l - 2, free_ - 1)] += scale;
   if (l < 3)
@@ -91,12 +98,12 @@ AffinePoint CurvePoints::jerk(int j) const {
   return scaled(combination(j, basis_.jerk(j)), 1.0 / (dt * dt * dt));
 }
 
-Eigen::VectorXd free_variables(const Points& control_points) {
+FreeVariables free_variables(const Points& control_points) {
   const Eigen::Index n = control_points.cols() - 5;
   return Eigen::Map<const Eigen::VectorXd>(control_points.data() + 9, 3 * n);
 }
 
-Points control_points_of(const Eigen::VectorXd& x, const TrajectoryProblem& problem) {
+Points control_points_of(const FreeVariables& x, const TrajectoryProblem& problem) {
   Points q(3, problem.intervals + 3);
   q.leftCols<3>() = start_control_points(problem.start, problem.interval_s);
   const Eigen::Index n = x.size() / 3;

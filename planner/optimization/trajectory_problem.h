@@ -42,19 +42,23 @@ inline double plane_margin(const TrajectoryProblem& problem) {
   return std::max(problem.clearance, kPlaneMargin) + kOptimizerMargin;
 }
 
+/// A number per free control point, and one per coordinate of each: x, y, z of q_3, then q_4 … They hold no heap.
+using FreeWeights = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxPlanIntervals - 2, 1>;
+using FreeVariables = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 * (kMaxPlanIntervals - 2), 1>;
+
 /// A point that is affine in the free control points: Σ_i weight_i q_{3+i} + offset, on each axis alike.
 struct AffinePoint {
-  Eigen::VectorXd weights;  ///< J − 2
+  FreeWeights weights;  ///< J − 2
   Vec3 offset = Vec3::Zero();
 
   [[nodiscard]] bool fixed() const { return weights.cwiseAbs().maxCoeff() < 1e-12; }  ///< the start decides it alone
-  [[nodiscard]] Vec3 at(const Eigen::VectorXd& x) const;
+  [[nodiscard]] Vec3 at(const FreeVariables& x) const;
 };
 
 /// Hull points and control points of the curve and its derivatives as affine points.
 class CurvePoints {
  public:
-  /// @param problem  kept by reference
+  /// @param problem  kept by reference. @throws std::invalid_argument unless 4 ≤ J ≤ kMaxPlanIntervals.
   explicit CurvePoints(const TrajectoryProblem& problem);
 
   [[nodiscard]] int free_points() const { return free_; }  ///< J − 2
@@ -79,8 +83,8 @@ class CurvePoints {
 };
 
 /// The free variables of control points (3×(J+3)), and back.
-Eigen::VectorXd free_variables(const Points& control_points);
-Points control_points_of(const Eigen::VectorXd& x, const TrajectoryProblem& problem);
+FreeVariables free_variables(const Points& control_points);
+Points control_points_of(const FreeVariables& x, const TrajectoryProblem& problem);
 
 /// Eq. 4's first term without its weight: Σ_j ‖jerk_j‖².
 double jerk_cost(const Points& control_points, double interval_s);

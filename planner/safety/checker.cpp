@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/splines/minvo.h"
+#include "core/world/message_limits.h"
 
 namespace tern {
 namespace {
@@ -78,8 +79,8 @@ CheckReport check_flight_box(const ClampedSpline& spline, const Body& body, cons
 }  // namespace
 
 const char* to_string(CheckFault fault) {
-  constexpr const char* kNames[] = {"none", "shape",       "start",  "velocity",   "acceleration",
-                                    "jerk", "not at rest", "sphere", "flight box", "not separated"};
+  constexpr const char* kNames[] = {"none",        "shape",  "start",      "velocity",      "acceleration",   "jerk",
+                                    "not at rest", "sphere", "flight box", "not separated", "too many planes"};
   return kNames[static_cast<int>(fault)];
 }
 
@@ -88,10 +89,13 @@ CheckReport check_separation(const std::vector<PowerCubic>& pieces, SweptObstacl
   for (std::size_t j = 0; j < pieces.size(); ++j) {
     const Separated result =
         separate_interval(obstacles, static_cast<int>(j), pieces[j], report.pairs, &report.certificate);
-    if (result.ok) continue;
-    report.fault = CheckFault::NotSeparated;
+    const bool fits = report.certificate.size() <= kMaxCertificatePlanes;
+    if (result.ok && fits) continue;
+    report.fault = result.ok ? CheckFault::TooManyPlanes : CheckFault::NotSeparated;
     report.interval = static_cast<int>(j);
     report.obstacle = result.blocker;
+    report.value = static_cast<double>(report.certificate.size());
+    report.limit = kMaxCertificatePlanes;
     report.certificate.clear();
     break;
   }
@@ -107,6 +111,7 @@ CheckReport check_plan(const TimedSpline& plan, const CheckDemands& demands, Swe
   if (auto r = check_sphere(spline, demands.start.p, demands.sphere_radius); !r.ok()) return r;
   if (auto r = check_flight_box(spline, obstacles.body(), demands.flight_box); !r.ok()) return r;
   std::vector<PowerCubic> pieces;
+  pieces.reserve(static_cast<std::size_t>(spline.intervals()));
   for (int j = 0; j < spline.intervals(); ++j) pieces.push_back(spline.power(j));
   return check_separation(pieces, obstacles);
 }

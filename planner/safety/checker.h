@@ -18,10 +18,11 @@ enum class CheckFault {
   Velocity,  ///< at its true extremum
   Acceleration,
   Jerk,
-  NotAtRest,     ///< does not end with q_{n-2} = q_{n-1} = q_n
-  Sphere,        ///< a MINVO point leaves S
-  FlightBox,     ///< the body leaves the flight box
-  NotSeparated,  ///< an obstacle is not separated from an interval
+  NotAtRest,      ///< does not end with q_{n-2} = q_{n-1} = q_n
+  Sphere,         ///< a MINVO point leaves S
+  FlightBox,      ///< the body leaves the flight box
+  NotSeparated,   ///< an obstacle is not separated from an interval
+  TooManyPlanes,  ///< the certificate does not fit into a plan (kMaxCertificatePlanes)
 };
 const char* to_string(CheckFault fault);
 

@@ -54,6 +54,9 @@ bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, 
 /// of the last clear interval minus the start of the first, s (0 when the first is not clear).
 double clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts);
 
+/// Whether a hold lasts as long as is asked. Holds are differences of times, so that a full one may round to just less.
+inline bool lasts(double hold_s, double required_s) { return hold_s >= required_s - 1e-9; }
+
 /// MINVO points of the part [u0, u1] of a cubic in powers of u.
 Points4 minvo_of(const PowerCubic& power, double u0, double u1);
 

@@ -32,11 +32,15 @@ Points minkowski_difference(const Points& cloud, const Points& vertices) {
   return sum;
 }
 
+/// Boxes along a part of a piece: what is accelerated more than β ≤ kBetaMax allows for with these gets a larger β.
+constexpr double kMostSteps = 256.0;
+
 /// Boxes along the part of a piece between local times a and b; half-extents grow by the sampling error β.
 void add_piece(std::vector<CentredBox>& out, const PowerCubic& cubic, double a, double b, const Vec3& half) {
   const Vec3 acceleration = max_abs_acceleration(cubic, a, b);
   const double span = b - a;
-  const int n = std::max(1, static_cast<int>(std::ceil(span * std::sqrt(acceleration.maxCoeff() / (8.0 * kBetaMax)))));
+  const double steps = std::ceil(span * std::sqrt(acceleration.maxCoeff() / (8.0 * kBetaMax)));
+  const int n = static_cast<int>(std::clamp(steps, 1.0, kMostSteps));
   const double h = span / n;
   const Vec3 grown_half = half + acceleration * (h * h / 8.0);
   for (int k = 0; k <= n; ++k) out.push_back({sample_cubic(cubic, a + h * k).p, grown_half});

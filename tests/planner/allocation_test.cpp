@@ -6,6 +6,7 @@
 #include "planner/plan_workspace.h"
 #include "planner/planner.h"
 #include "planner/search/semantic_a_star.h"
+#include "tests/planner/optimization/random_problems.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/plan_judge.h"
 
@@ -73,12 +74,30 @@ TEST(Allocation, SweepsAndSearchesAllocateNothingTheSecondTimeButTheResult) {
   EXPECT_GT(expansions, 1000);
 }
 
+TEST(Allocation, ConvexProblemsAndTheirSolverAllocateNothingOnceTheyHaveSeenOneAsLarge) {
+  ConvexProblem problem;
+  BarrierSolver solver;
+  const StopFunction never = [] { return false; };
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const test_support::Instance instance = test_support::random_instance(seed);
+    ConvexSolution solution;
+    const auto solve = [&] {
+      make_convex_problem(instance.problem, instance.planes, instance.initial, problem);
+      solution = solver.solve(problem, free_variables(instance.initial), 60, never);
+    };
+    solve();
+    const FreeVariables first = solution.x;
+    EXPECT_EQ(allocations_of(solve), 0) << "seed " << seed;
+    EXPECT_EQ(solution.x, first) << "seed " << seed;
+    EXPECT_EQ(solution.x, solve_by_barrier(instance.convex(), free_variables(instance.initial), 60, never).x);
+  }
+}
+
 // What is left: the answer's and the candidates' control points, certificates and paths, and CGAL's hulls.
-TEST(Allocation, AWorkspaceChangesNoAnswerAndWhatPlansAllocateDoesNotGrowWithTheSearch) {
-  constexpr long kOfAnAnswer = 150;
+TEST(Allocation, AWorkspaceChangesNoAnswerAndWhatPlansAllocateDoesNotGrowWithTheWork) {
+  constexpr long kOfAnAnswer = 60;
   constexpr long kOfAHull = 450;
   PlannerConfig config;
-  config.optimization.method = OptimizationMethod::SearchOnly;
   PlanWorkspace workspace;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Scene scene(seed);

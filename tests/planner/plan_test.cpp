@@ -280,6 +280,22 @@ TEST_F(PlannerAlone, ACommittedTrajectoryIsCheckedHoweverFarItGoes) {
   EXPECT_NE(second.outcome, PlanOutcome::KeepCommitted);
 }
 
+TEST_F(PlannerAlone, LooksNoFartherThanMoversAreFollowed) {
+  PlannerConfig config = quick();
+  config.duration_scales = {1.1, 8.0, 20.0};
+  request_.limits.v_max = Vec3::Constant(1.0);
+  for (const double predicted_s : {0.2, 1.0, 2.0, 5.0, 20.0}) {
+    const UTime from = request_.t_s;
+    const std::vector<Track> far = {straight_mover(1, Vec3(3, 40, 0), Vec3(0, -0.1, 0), 0.4, from, predicted_s)};
+    const UTime until = far[0].motion.end() + kTrackBoxReach;
+    const PlanningWorld world = world_of(far, go_to(Vec3(20, 0, 0)), request_, config);
+    const Plan plan = answer(request_, world, config);
+    EXPECT_LE(plan.trajectory.end() + plan.hold, until) << predicted_s;
+    EXPECT_EQ(fault_of(plan, request_, world, config), "") << predicted_s;
+    EXPECT_EQ(plan.outcome == PlanOutcome::Optimized, predicted_s >= 2.0) << predicted_s;
+  }
+}
+
 TEST_F(PlannerAlone, SaysRelaxedWhenTheStartLiesInsideAnInflatedBoxAndFliesOutOfIt) {
   Track near = straight_mover(1, request_.start.p + Vec3(0, 0.7, 0), Vec3::Zero(), 0.4, kStart, 8.0);
   near.alpha[0] = Vec3::Constant(0.4);

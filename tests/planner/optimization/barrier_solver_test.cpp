@@ -105,14 +105,10 @@ TEST(SolveByBarrier, ANumberThatIsNotFiniteIsAFailureAndTheFeasibleStartIsKept) 
 TEST(SolveByBarrier, WithoutAFeasiblePointThereIsNoAnswer) {
   const Instance instance = random_instance(2);
   ConvexProblem p = instance.convex();
-  const Eigen::Index n = p.rows.rows();
-  p.rows.conservativeResize(n + 2, Eigen::NoChange);
-  p.bounds.conservativeResize(n + 2);
-  p.rows.bottomRows(2).setZero();
-  p.rows(n, 0) = 1.0;
-  p.rows(n + 1, 0) = -1.0;
-  p.bounds[n] = free_variables(instance.initial)[0] - 0.01;
-  p.bounds[n + 1] = -p.bounds[n] - 0.02;
+  const FreeVariables first = FreeVariables::Unit(p.variables(), 0);
+  const double bound = free_variables(instance.initial)[0] - 0.01;
+  p.add_row(first, bound);
+  p.add_row(-first, -bound - 0.02);
   EXPECT_FALSE(solve_by_barrier(p, free_variables(instance.initial), kEnough, never).found);
 }
 

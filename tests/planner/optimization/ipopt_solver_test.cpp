@@ -24,7 +24,7 @@ TEST(IpoptDerivatives, GradientJacobianAndHessianMatchFiniteDifferences) {
     Rng rng(seed);
     Eigen::VectorXd x = free_variables(instance.initial);
     for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += rng.uniform(-0.5, 0.5);
-    Eigen::VectorXd multipliers(p.rows.rows() + p.spheres());
+    Eigen::VectorXd multipliers(p.row_count() + p.spheres());
     for (Eigen::Index i = 0; i < multipliers.size(); ++i) multipliers[i] = rng.uniform(-2.0, 2.0);
     const double factor = rng.uniform(0.0, 2.0);
     const ConvexAsNonlinear nonlinear(p);
@@ -58,8 +58,10 @@ TEST(IpoptDerivatives, ConstraintsAreTheRowsAndTheSquaredDistancesFromTheSpheres
   const ConvexProblem p = instance.convex();
   const Eigen::VectorXd x = free_variables(instance.initial);
   const Eigen::VectorXd constraints = ConvexAsNonlinear(p).constraints(x);
-  EXPECT_EQ(constraints.head(p.rows.rows()), p.rows * x);
-  EXPECT_LE((constraints.array().head(p.rows.rows()) - p.bounds.array()).maxCoeff(), 0.0);
+  for (int r = 0; r < p.row_count(); ++r) {
+    EXPECT_NEAR(constraints[r], Eigen::Map<const Eigen::VectorXd>(p.row(r), x.size()).dot(x), 1e-9);
+    EXPECT_LE(constraints[r], p.bounds[static_cast<std::size_t>(r)]);
+  }
   EXPECT_LE(constraints.tail(p.spheres()).maxCoeff(), p.sphere_radius2);
 }
 
@@ -194,14 +196,10 @@ TEST(SolveByIpopt, AFailureOfTheSolverIsToldAndTheFeasibleStartIsKept) {
 TEST(SolveByIpopt, WithoutAFeasiblePointThereIsNoAnswer) {
   const Instance instance = random_instance(2);
   ConvexProblem p = instance.convex();
-  const Eigen::Index n = p.rows.rows();
-  p.rows.conservativeResize(n + 2, Eigen::NoChange);
-  p.bounds.conservativeResize(n + 2);
-  p.rows.bottomRows(2).setZero();
-  p.rows(n, 0) = 1.0;
-  p.rows(n + 1, 0) = -1.0;
-  p.bounds[n] = free_variables(instance.initial)[0] - 0.01;
-  p.bounds[n + 1] = -p.bounds[n] - 0.02;
+  const FreeVariables first = FreeVariables::Unit(p.variables(), 0);
+  const double bound = free_variables(instance.initial)[0] - 0.01;
+  p.add_row(first, bound);
+  p.add_row(-first, -bound - 0.02);
   EXPECT_FALSE(solve_by_ipopt(p, free_variables(instance.initial), 60, never).found);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/world/message_limits.h"
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"
 
@@ -318,6 +319,24 @@ TEST_F(CheckPlan, GivesAPlaneForEveryPairWhoseBoxesOverlap) {
     EXPECT_TRUE(has) << "interval " << j;
   }
   EXPECT_FALSE(report.certificate.empty());
+}
+
+TEST_F(CheckPlan, RefusesACertificateThatNoPlanCanCarry) {
+  // Crumbs around the curve: each within its box, none on it.
+  std::vector<Track> crumbs;
+  Rng rng(3);
+  while (crumbs.size() < 3000) {
+    const Vec3 p = plan_.spline().sample(rng.uniform() * 1.5).p + random_vector(rng, 0.3);
+    crumbs.push_back(
+        standing_box(static_cast<std::int64_t>(crumbs.size()) + 1, box_around(p, Vec3::Constant(1e-3)), kStart));
+    if (!check({crumbs.back()}).ok() || check({crumbs.back()}).certificate.empty()) crumbs.pop_back();
+  }
+  const CheckReport report = check(crumbs);
+  EXPECT_EQ(report.fault, CheckFault::TooManyPlanes) << to_string(report.fault);
+  EXPECT_GT(report.value, kMaxCertificatePlanes);
+  EXPECT_TRUE(report.certificate.empty());
+  crumbs.resize(300);
+  EXPECT_TRUE(check(crumbs).ok());
 }
 
 TEST(CheckSeparation, JudgesAMotionUnderWayByItsPiecesAlone) {

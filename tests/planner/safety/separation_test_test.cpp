@@ -208,6 +208,23 @@ TEST(ClearTimeAt, TheBodyTouchesNothingAsLongAsItSays) {
   EXPECT_LT(cut, 290);
 }
 
+TEST(ClearTimeAt, AFullHoldLastsWhateverTheTimeBeforeIt) {
+  int less = 0;
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    Rng rng(seed);
+    const double duration = rng.uniform(0.1, 3.0);
+    const double hold = random_integer(rng, 1, 30) * 0.1;
+    const std::vector<double> times = {0.0, duration, duration + hold};
+    SweptObstacles swept({}, Body{}, kOrigin, times, kEverywhere);
+    PairCounts counts;
+    const double clear = clear_time_at(swept, 1, Vec3::Zero(), counts);
+    if (clear < hold) ++less;
+    ASSERT_TRUE(lasts(clear, hold)) << "seed " << seed;
+    ASSERT_FALSE(lasts(clear, hold + 1e-6)) << "seed " << seed;
+  }
+  EXPECT_GT(less, 100) << "rounding was not met";
+}
+
 TEST(MinvoOf, APartsPointsHoldThatPartOfTheCurve) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);

@@ -123,6 +123,27 @@ TEST(SweptObstacles, HullsHoldTheSweepAndExceedItByNoMoreThanBeta) {
   EXPECT_GT(checked, 50'000);
 }
 
+TEST(SweptObstacles, AnAbsurdAccelerationCostsAWiderHullNotMemory) {
+  Track track = straight_mover(1, Vec3::Zero(), Vec3::Zero(), 0.4, kOrigin, 1.0);
+  track.motion.pieces[0].coefficients.col(1).setConstant(1e9);  // half the acceleration, m/s²
+  const std::vector<Track> tracks = {track};
+  const auto obstacles = obstacles_of(tracks);
+  const Box everywhere(Vec3::Constant(-1e12), Vec3::Constant(1e12));
+  SweptObstacles swept(obstacles, Body{}, kOrigin, std::vector<double>{0.0, 0.5, 1.0}, everywhere);
+  ASSERT_EQ(swept.candidates(1).size(), 1u);
+  const Points& hull = swept.hull(1, swept.candidates(1)[0], 0, 1);
+  EXPECT_LT(hull.cols(), 5000);
+  for (int i = 0; i <= 1000; ++i) {
+    const double t = 0.5 + 0.5 * i / 1000;
+    const Vec3 p = Vec3::Constant(1e9 * t * t);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 d = Vec3::Unit(axis);
+      ASSERT_GE(support(hull, d), d.dot(p));
+      ASSERT_GE(support(hull, -d), -d.dot(p));
+    }
+  }
+}
+
 TEST(SweptObstacles, HullsHaveNoSuperfluousPoints) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Rng rng(seed);
