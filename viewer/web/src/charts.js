@@ -38,6 +38,10 @@ function chart(element, series, scaleY) {
   return plot;
 }
 
+function show(plot, data) {
+  if (plot.root.clientWidth > 0) plot.setData(data);
+}
+
 export class Charts {
   constructor() {
     const at = (id) => document.getElementById(id);
@@ -55,12 +59,12 @@ export class Charts {
       (_, low, high) => [0, Math.max(high ?? 0, 20) * 1.1]);
   }
 
-  /** @param chart  as FlightHistory::chart_json tells it */
+  /** Charts that a small window hides are left alone. @param chart  as FlightHistory::chart_json tells it */
   take({ motion, clearance, answers }) {
-    this.speed.setData([motion[0], motion[1]]);
-    this.clearance.setData(clearance);
+    show(this.speed, [motion[0], motion[1]]);
+    show(this.clearance, clearance);
     const [t, ms, allowed, outcome] = answers;
     const rows = Object.keys(outcomes).map((_, k) => ms.map((x, i) => (outcome[i] === k ? x : null)));
-    this.replan.setData([t, allowed.map((x) => (x > 0 ? x : null)), ...rows]);
+    show(this.replan, [t, allowed.map((x) => (x > 0 ? x : null)), ...rows]);
   }
 }

@@ -1,18 +1,25 @@
 // Numbers and words: the vehicle, the last answer, every process.
 
 const SILENT_S = 2.5; // processes say something twice a second
+const READ_MS = 100;
 
 const byId = (id) => document.getElementById(id);
 const fixed = (x, digits = 1) => (Number.isFinite(x) ? x.toFixed(digits) : '–');
 
-function chip(element, text, kind) {
-  element.textContent = text;
-  element.className = `chip ${kind}`;
+/** Every change is laid out and painted anew, even into the same. */
+function say(id, text) {
+  const element = byId(id);
+  if (element.textContent !== text) element.textContent = text;
+}
+
+function chip(id, text, kind) {
+  say(id, text);
+  byId(id).className = `chip ${kind}`;
 }
 
 export function showSession(session) {
-  chip(byId('mode'), session.mode, session.mode);
-  byId('name').textContent = session.name.split('/').slice(-2).join('/');
+  chip('mode', session.mode, session.mode);
+  say('name', session.name.split('/').slice(-2).join('/'));
   byId('name').title = session.name;
   const button = byId('goalmode');
   button.disabled = !session.goals;
@@ -20,27 +27,39 @@ export function showSession(session) {
 }
 
 export function showGone() {
-  chip(byId('mode'), 'bridge gone', 'gone');
+  chip('mode', 'bridge gone', 'gone');
 }
 
-export function showState(state, goal) {
-  byId('speed').textContent = fixed(Math.hypot(...state.v));
-  byId('acceleration').textContent = fixed(Math.hypot(...state.a));
-  byId('clearance').textContent = fixed(state.clearance, 2);
-  byId('position').textContent = state.p.map((x) => fixed(x)).join('  ');
-  byId('togoal').textContent = goal ? fixed(Math.hypot(...state.p.map((x, k) => goal.p[k] - x))) : '–';
+let waiting = null; // a state that is not shown yet, and the goal
+let shownAt = 0;
+
+export function takeState(state, goal) {
+  waiting = { state, goal };
+}
+
+/** Shows the newest state no more often than one can read. @param now  ms */
+export function draw(now) {
+  if (!waiting || now - shownAt < READ_MS) return;
+  const { state, goal } = waiting;
+  say('speed', fixed(Math.hypot(...state.v)));
+  say('acceleration', fixed(Math.hypot(...state.a)));
+  say('clearance', fixed(state.clearance, 2));
+  say('position', state.p.map((x) => fixed(x)).join('  '));
+  say('togoal', goal ? fixed(Math.hypot(...state.p.map((x, k) => goal.p[k] - x))) : '–');
+  waiting = null;
+  shownAt = now;
 }
 
 export function showPlan(plan) {
-  chip(byId('outcome'), plan.outcome, plan.outcome.split(' ')[0]);
-  byId('reason').textContent = plan.reason + (plan.relaxed ? ' relaxed' : '');
-  byId('hold').textContent = fixed(plan.hold_s, 2);
+  chip('outcome', plan.outcome, plan.outcome.split(' ')[0]);
+  say('reason', plan.reason + (plan.relaxed ? ' relaxed' : ''));
+  say('hold', fixed(plan.hold_s, 2));
 }
 
 export function showTiming(timing) {
   const { total_ms, allowed_ms } = timing;
-  byId('replan').textContent = fixed(total_ms) + (allowed_ms > 0 ? ` of ${fixed(allowed_ms, 0)} ms` : ' ms');
-  byId('work').textContent = `${timing.expansions} · ${timing.hulls}`;
+  say('replan', fixed(total_ms) + (allowed_ms > 0 ? ` of ${fixed(allowed_ms, 0)} ms` : ' ms'));
+  say('work', `${timing.expansions} · ${timing.hulls}`);
   const meter = byId('meter');
   const share = allowed_ms > 0 ? total_ms / allowed_ms : 0;
   meter.style.width = `${Math.min(100 * share, 100)}%`;
@@ -49,12 +68,12 @@ export function showTiming(timing) {
 
 export function showResult(result) {
   if (!result) return;
-  chip(byId('outcome'), result.outcome, result.outcome === 'reached' ? 'live' : 'bad');
-  byId('reason').textContent = `${fixed(result.flight_time_s)} s, ${fixed(result.path_length_m, 0)} m`;
+  chip('outcome', result.outcome, result.outcome === 'reached' ? 'live' : 'bad');
+  say('reason', `${fixed(result.flight_time_s)} s, ${fixed(result.path_length_m, 0)} m`);
 }
 
 export function showClock(seconds) {
-  byId('clock').textContent = `${seconds.toFixed(1)} s`;
+  say('clock', `${seconds.toFixed(1)} s`);
 }
 
 /** @param pick  is called with the name of a process that was clicked */

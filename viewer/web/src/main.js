@@ -24,7 +24,7 @@ const regions = new Regions(world.scene);
 const trajectories = new Trajectories(world.scene);
 const proofs = new Proofs(world.scene);
 const vehicle = new Vehicle(world.scene);
-const obstacles = new Obstacles(world.scene, vehicle.p);
+const obstacles = new Obstacles(world, vehicle.p);
 const charts = new Charts();
 const layers = { ...LAYERS };
 const known = {}; // the newest of each topic
@@ -68,7 +68,7 @@ const topics = {
     clock = { at_us: state.at_us, arrived_ms: performance.now() };
     trajectories.takeState(state);
     if (known.goal) world.head(state.p, known.goal.p);
-    hud.showState(state, known.goal);
+    hud.takeState(state, known.goal);
   },
   truth: (set) => (set ? obstacles.take(set) : obstacles.clear()),
   tracks(set) {
@@ -235,13 +235,15 @@ function draw(now) {
   const paused = known.player && !known.player.playing;
   const speed = paused ? 0 : (known.player?.speed ?? 1);
   const now_us = clock.at_us + (now - clock.arrived_ms) * 1e3 * speed;
-  obstacles.draw(now_us);
   vehicle.draw(now_us);
   trajectories.draw(now * 1e-3);
   const seconds = (now - last) * 1e-3;
   last = now;
   if (vehicle.state) world.follow(vehicle.p, seconds);
-  world.render(seconds);
+  world.aim(seconds);
+  obstacles.draw(now_us, world.camera);
+  world.render();
+  hud.draw(now);
   counts.drawn += 1;
   stream.drawn();
   requestAnimationFrame(draw);

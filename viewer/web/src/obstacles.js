@@ -1,4 +1,5 @@
-// Obstacles as instanced boxes, with a soft dark spot below each, so that one sees where it hovers.
+// Obstacles as instanced boxes, with a soft dark spot below each, so that one sees where it hovers. Only those in view
+// are given to the renderer: without a GPU it pays for every corner.
 import * as THREE from 'three';
 import { numbers } from './form.js';
 import { palette } from './palette.js';
@@ -20,7 +21,7 @@ function spotTexture() {
 }
 
 /** Faces a little darker within than at their edges: boxes keep their outline without lines. */
-function faceTexture() {
+function faceTexture(anisotropy) {
   const size = 128;
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = size;
@@ -32,8 +33,19 @@ function faceTexture() {
   const texture = new THREE.CanvasTexture(canvas);
   texture.colorSpace = THREE.SRGBColorSpace;
   texture.generateMipmaps = true;
-  texture.anisotropy = 4;
+  texture.anisotropy = anisotropy;
   return texture;
+}
+
+/** A box whose faces are lit as they will always be: boxes do not turn. */
+function litBox(world) {
+  const geometry = new THREE.BoxGeometry(1, 1, 1);
+  const { normal } = geometry.attributes;
+  const colors = [];
+  for (let k = 0; k < normal.count; ++k) {
+    colors.push(...world.lightOn(new THREE.Vector3().fromBufferAttribute(normal, k)).toArray());
+  }
+  return geometry.setAttribute('color', new THREE.Float32BufferAttribute(colors, 3));
 }
 
 /** Nothing hides the vehicle: what stands before it, as seen from the camera, is drawn as a sieve. */
@@ -58,33 +70,41 @@ function cutaway(material, vehicle) {
   return material;
 }
 
+/** Tells the renderer that the first `count` instances have changed. */
+function touch(attribute, count) {
+  attribute.clearUpdateRanges();
+  attribute.addUpdateRange(0, count * attribute.itemSize);
+  attribute.needsUpdate = true;
+}
+
 export class Obstacles {
   /** @param vehicle  where it is; kept */
-  constructor(scene, vehicle) {
-    const material = cutaway(new THREE.MeshLambertMaterial({ map: faceTexture() }), vehicle);
-    this.boxes = new THREE.InstancedMesh(new THREE.BoxGeometry(1, 1, 1), material, MOST);
+  constructor(world, vehicle) {
+    const faces = faceTexture(world.thrifty ? 1 : 4);
+    const material = cutaway(new THREE.MeshBasicMaterial({ map: faces, vertexColors: true }), vehicle);
+    this.boxes = new THREE.InstancedMesh(litBox(world), material, MOST);
+    this.boxes.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * MOST), 3);
     this.spots = new THREE.InstancedMesh(
       new THREE.PlaneGeometry(1, 1),
       new THREE.MeshBasicMaterial({ map: spotTexture(), transparent: true, depthWrite: false }), MOST);
     this.spots.renderOrder = -1;
     for (const mesh of [this.boxes, this.spots]) {
       mesh.frustumCulled = false;
-      mesh.count = 0;
       mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
-      scene.add(mesh);
+      world.scene.add(mesh);
     }
+    this.boxes.instanceColor.setUsage(THREE.DynamicDrawUsage);
     this.colors = { 0: new THREE.Color(palette.pillar), 1: new THREE.Color(palette.mover) };
     this.picked = new THREE.Color('#ffffff');
+    this.frustum = new THREE.Frustum();
+    this.sphere = new THREE.Sphere();
+    this.drawn = new Int32Array(MOST); // row in the set of each box that is drawn
     this.clear();
   }
 
   clear() {
     this.set = null;
-    this.boxes.count = this.spots.count = 0;
-  }
-
-  get count() {
-    return this.boxes.count;
+    this.count = this.boxes.count = this.spots.count = 0;
   }
 
   /**
@@ -96,54 +116,60 @@ export class Obstacles {
     numbers(set.moves, 1, n);
     for (const list of [set.p, set.v, set.h]) numbers(list, 3, n);
     this.set = set;
-    this.boxes.count = this.spots.count = Math.min(n, MOST);
-    this.recolor();
+    this.count = Math.min(n, MOST);
   }
 
   pick(id) {
     this.pickedId = id;
-    this.recolor();
-  }
-
-  recolor() {
-    for (let k = 0; k < this.boxes.count; ++k) {
-      const color = this.set.id[k] === this.pickedId ? this.picked : this.colors[this.set.moves[k]];
-      this.boxes.setColorAt(k, color);
-    }
-    if (this.boxes.instanceColor) this.boxes.instanceColor.needsUpdate = true;
   }
 
   /** @param now_us  the vehicle's clock */
-  draw(now_us) {
+  draw(now_us, camera) {
     if (!this.set) return;
     const dt = Math.min(Math.max((now_us - this.set.at_us) * 1e-6, 0), LONGEST_GUESS_S);
-    const { p, v, h } = this.set;
-    const box = this.boxes.instanceMatrix.array;
-    const spot = this.spots.instanceMatrix.array;
-    for (let k = 0; k < this.boxes.count; ++k) {
+    camera.updateMatrixWorld();
+    this.frustum.setFromProjectionMatrix(camera.matrixWorldInverse.clone().premultiply(camera.projectionMatrix));
+    this.boxes.count = this.spots.count = 0;
+    const { p, v } = this.set;
+    for (let k = 0; k < this.count; ++k) {
       const i = 3 * k;
-      const m = 16 * k;
-      const x = p[i] + v[i] * dt;
-      const y = p[i + 1] + v[i + 1] * dt;
-      const z = p[i + 2] + v[i + 2] * dt;
-      box[m] = 2 * h[i];
-      box[m + 5] = 2 * h[i + 1];
-      box[m + 10] = 2 * h[i + 2];
-      box[m + 12] = x;
-      box[m + 13] = y;
-      box[m + 14] = z;
-      box[m + 15] = 1;
-      const spread = 2.6 + 0.25 * Math.max(z - h[i + 2], 0);
-      spot[m] = spread * h[i];
-      spot[m + 5] = spread * h[i + 1];
-      spot[m + 10] = 1;
-      spot[m + 12] = x;
-      spot[m + 13] = y;
-      spot[m + 14] = 0.02;
-      spot[m + 15] = 1;
+      this.place(k, p[i] + v[i] * dt, p[i + 1] + v[i + 1] * dt, p[i + 2] + v[i + 2] * dt);
     }
-    this.boxes.instanceMatrix.needsUpdate = true;
-    this.spots.instanceMatrix.needsUpdate = true;
+    touch(this.boxes.instanceMatrix, this.boxes.count);
+    touch(this.boxes.instanceColor, this.boxes.count);
+    touch(this.spots.instanceMatrix, this.spots.count);
+  }
+
+  place(k, x, y, z) {
+    const [hx, hy, hz] = this.set.h.slice(3 * k, 3 * k + 3);
+    if (this.isSeen(x, y, z, Math.hypot(hx, hy, hz))) {
+      const color = this.set.id[k] === this.pickedId ? this.picked : this.colors[this.set.moves[k]];
+      color.toArray(this.boxes.instanceColor.array, 3 * this.boxes.count);
+      this.drawn[this.boxes.count] = k;
+      this.add(this.boxes, x, y, z, 2 * hx, 2 * hy, 2 * hz);
+    }
+    const spread = 2.6 + 0.25 * Math.max(z - hz, 0);
+    if (this.isSeen(x, y, 0.02, 0.5 * spread * Math.hypot(hx, hy))) {
+      this.add(this.spots, x, y, 0.02, spread * hx, spread * hy, 1);
+    }
+  }
+
+  isSeen(x, y, z, radius) {
+    this.sphere.center.set(x, y, z);
+    this.sphere.radius = radius;
+    return this.frustum.intersectsSphere(this.sphere);
+  }
+
+  add(mesh, x, y, z, width, depth, height) {
+    const matrix = mesh.instanceMatrix.array;
+    const m = 16 * mesh.count++;
+    matrix[m] = width;
+    matrix[m + 5] = depth;
+    matrix[m + 10] = height;
+    matrix[m + 12] = x;
+    matrix[m + 13] = y;
+    matrix[m + 14] = z;
+    matrix[m + 15] = 1;
   }
 
   /** The obstacle under a ray, {id, distance}, or nothing. */
@@ -151,6 +177,6 @@ export class Obstacles {
     if (!this.set) return null;
     this.boxes.computeBoundingSphere();
     const [first] = raycaster.intersectObject(this.boxes);
-    return first ? { id: this.set.id[first.instanceId], distance: first.distance } : null;
+    return first ? { id: this.set.id[this.drawn[first.instanceId]], distance: first.distance } : null;
   }
 }

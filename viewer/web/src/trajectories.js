@@ -10,23 +10,41 @@ const LONGEST_GAP_US = 500_000;
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
 const FACES = [0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3];
 
-/** A line of changing length, as wide as `width` pixels. */
+/** A line of changing length, as wide as `width` pixels. Its buffers grow, and are written again. */
 class Ribbon {
   constructor(scene, options) {
     this.material = new LineMaterial({ linewidth: 3, transparent: true, ...options });
     this.line = new Line2(new LineGeometry(), this.material);
     this.line.frustumCulled = false;
     this.line.visible = false;
+    this.room = 0; // segments
     scene.add(this.line);
   }
   /** @param positions, colors  flat, three numbers per point */
   set(positions, colors = null) {
-    this.line.visible = positions.length >= 6;
+    const segments = positions.length / 3 - 1;
+    this.line.visible = segments >= 1;
     if (!this.line.visible) return;
-    this.line.geometry.dispose(); // its buffers have one length for life
-    this.line.geometry = new LineGeometry();
-    this.line.geometry.setPositions(positions);
-    if (colors) this.line.geometry.setColors(colors);
+    if (segments > this.room) this.grow(2 * segments);
+    const { geometry } = this.line;
+    this.write(geometry.attributes.instanceStart.data, positions);
+    if (colors) this.write(geometry.attributes.instanceColorStart.data, colors);
+    geometry.instanceCount = segments;
+  }
+  grow(segments) {
+    this.room = segments;
+    this.line.geometry.dispose();
+    const geometry = (this.line.geometry = new LineGeometry());
+    geometry.setPositions(new Float32Array(3 * (segments + 1)));
+    geometry.setColors(new Float32Array(3 * (segments + 1)));
+  }
+  /** Both ends of every segment. */
+  write(buffer, rows) {
+    let to = 0;
+    for (let from = 0; from + 3 < rows.length; from += 3) for (let k = 0; k < 6; ++k) buffer.array[to++] = rows[from + k];
+    buffer.clearUpdateRanges();
+    buffer.addUpdateRange(0, to);
+    buffer.needsUpdate = true;
   }
 }
 
@@ -47,12 +65,16 @@ class Simplices {
     scene.add(this.group);
   }
   set(points) {
-    const simplices = points.length / 12;
+    if (this.positions?.array.length !== points.length) this.resize(points.length / 12);
+    this.positions.array.set(points);
+    this.positions.needsUpdate = true;
+  }
+  resize(simplices) {
     const index = (pattern) => Array.from({ length: simplices }, (_, j) => pattern.map((k) => 4 * j + k)).flat();
-    const positions = new THREE.Float32BufferAttribute(points, 3);
+    this.positions = new THREE.Float32BufferAttribute(12 * simplices, 3);
     for (const [mesh, pattern] of [[this.edges, EDGES], [this.faces, FACES], [this.corners, [0, 1, 2, 3]]]) {
       mesh.geometry.dispose();
-      mesh.geometry = new THREE.BufferGeometry().setAttribute('position', positions).setIndex(index(pattern));
+      mesh.geometry = new THREE.BufferGeometry().setAttribute('position', this.positions).setIndex(index(pattern));
     }
   }
 }

@@ -72,12 +72,25 @@ export class World {
   }
 
   light() {
-    this.scene.add(new THREE.HemisphereLight('#cfe2f7', '#2a2f38', 1.75));
+    const sky = new THREE.HemisphereLight('#cfe2f7', '#2a2f38', 1.75);
     const sun = new THREE.DirectionalLight('#fff1de', 2.3);
     sun.position.set(-7, -8, 12);
     const rim = new THREE.DirectionalLight('#5aa7ff', 0.7);
     rim.position.set(8, 10, 4);
-    this.scene.add(sun, rim);
+    this.lights = { sky, lamps: [sun, rim] };
+    this.scene.add(sky, sun, rim);
+  }
+
+  /** What these lights make of a white matt face with that normal: what MeshLambertMaterial would. */
+  lightOn(normal) {
+    const { sky, lamps } = this.lights;
+    const color = new THREE.Color().lerpColors(sky.groundColor, sky.color, 0.5 + 0.5 * normal.z);
+    color.multiplyScalar(sky.intensity);
+    for (const { color: own, intensity, position } of lamps) {
+      const share = Math.max(normal.dot(position) / position.length(), 0);
+      color.add(own.clone().multiplyScalar(share * intensity));
+    }
+    return color.multiplyScalar(1 / Math.PI);
   }
 
   /** A plane with lines every metre and every five, which fade with distance. */
@@ -179,9 +192,13 @@ export class World {
     this.resize();
   }
 
-  render(seconds) {
+  /** The camera is where this frame sees from. */
+  aim(seconds) {
     this.adapt(seconds);
     this.controls.update();
+  }
+
+  render() {
     const { target } = this.controls;
     this.floor.position.set(Math.round(target.x / 5) * 5, Math.round(target.y / 5) * 5, -0.02); // below what stands on it
     const { x, y } = this.camera.position;
