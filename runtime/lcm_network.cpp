@@ -71,7 +71,7 @@ Result<std::shared_ptr<lcm::LCM>> open_lcm(const std::string& url) {
     return fail(
         fmt::format("LCM cannot use {}. If this host has no multicast route, give it one: "
                     "`ip link set lo multicast on up; ip route add 224.0.0.0/4 dev lo` as root, or run inside "
-                    "`unshare -Urn` with the same two commands; see docs.",
+                    "`unshare -Urn` with the same two commands (docs/troubleshooting.md).",
                     url));
   }
   report_buffer(url);
