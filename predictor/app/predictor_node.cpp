@@ -31,7 +31,7 @@ void PredictorNode::on_declared(const TrackSet& batch) {
 }
 
 void PredictorNode::on_observations(const ObservationSet& observations) {
-  if (!tracker_.update(without_explained(observations, declared_))) {
+  if (tracker_.update(without_explained(observations, declared_)) != Taken::Yes) {
     return bus_.count_late(channels::kObstacleObservations);
   }
   have_input(observations.at);

@@ -110,17 +110,16 @@ bool is_out_of_range(const TrackedObject& object, const ObservationSet& observat
   return away.norm() > observations.range_m - kRangeMargin;
 }
 
-bool comes_before(const ObservationSet& a, const ObservationSet& b) {
-  return std::pair(a.at, a.sensor_id) < std::pair(b.at, b.sensor_id);
-}
+std::pair<UTime, std::int32_t> key(const ObservationSet& set) { return {set.at, set.sensor_id}; }
 
 }  // namespace
 
-bool Tracker::update(const ObservationSet& observations) {
-  if (!steps_.empty() && observations.at + kReorderWindow < newest()) return false;
+Taken Tracker::update(const ObservationSet& observations) {
+  if (!steps_.empty() && observations.at + kReorderWindow < newest()) return Taken::TooOld;
   const auto place =
-      std::upper_bound(steps_.begin(), steps_.end(), observations,
-                       [](const ObservationSet& a, const Step& b) { return comes_before(a, b.observations); });
+      std::lower_bound(steps_.begin(), steps_.end(), observations,
+                       [](const Step& a, const ObservationSet& b) { return key(a.observations) < key(b); });
+  if (place != steps_.end() && key(place->observations) == key(observations)) return Taken::Repeated;
   auto step = steps_.insert(place, Step{observations, {}});
   for (; step != steps_.end(); ++step) {
     const State& before = step == steps_.begin() ? before_steps_ : (step - 1)->after;
@@ -130,7 +129,7 @@ bool Tracker::update(const ObservationSet& observations) {
     before_steps_ = std::move(steps_.front().after);
     steps_.pop_front();
   }
-  return true;
+  return Taken::Yes;
 }
 
 Tracker::State Tracker::advanced(State state, const ObservationSet& observations) const {
@@ -146,10 +145,12 @@ Tracker::State Tracker::advanced(State state, const ObservationSet& observations
   const Matching matching = match(state.objects, detections);
   for (std::size_t o = 0; o < state.objects.size(); ++o) {
     TrackedObject& object = state.objects[o];
-    ++object.age;
-    object.hits <<= 1;
     const int d = matching.detection_of[o];
-    if (d != kNoDetection) take(object, detections[static_cast<std::size_t>(d)], at);
+    if (d != kNoDetection || object.last_seen_by == observations.sensor_id) {
+      ++object.age;
+      object.hits <<= 1;
+    }
+    if (d != kNoDetection) take(object, detections[static_cast<std::size_t>(d)], observations);
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
   }
   std::erase_if(state.objects, [&](const TrackedObject& object) { return is_dead(object, observations); });
@@ -158,7 +159,9 @@ Tracker::State Tracker::advanced(State state, const ObservationSet& observations
     const std::int64_t given = detections[d].track_id;
     const bool known = given != kNoTrackId && std::any_of(state.objects.begin(), state.objects.end(),
                                                           [&](const TrackedObject& o) { return o.id == given; });
-    if (!known) state.objects.push_back(born(detections[d], at, given == kNoTrackId ? state.next_id++ : given));
+    if (known) continue;
+    const std::int64_t id = given == kNoTrackId ? state.next_id++ : given;
+    state.objects.push_back(born(detections[d], observations, id));
   }
   std::sort(state.objects.begin(), state.objects.end(),
             [](const TrackedObject& a, const TrackedObject& b) { return a.id < b.id; });
@@ -175,13 +178,13 @@ void Tracker::predict_to(State& state, UTime at) const {
   state.at = at;
 }
 
-void Tracker::take(TrackedObject& object, const Detection& detection, UTime at) const {
+void Tracker::take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const {
   const double distance2 = mahalanobis2(object.moving, detection);
   if (distance2 > kJumpGate) {
-    const TrackedObject anew = born(detection, at, object.id);
+    const TrackedObject anew = born(detection, from, object.id);
     object.moving = anew.moving;
     object.resting = anew.resting;
-    object.resting_since = at;
+    object.resting_since = from.at;
     object.resting_average = anew.resting_average;
   } else {
     const double resting2 = mahalanobis2(object.resting, detection);
@@ -190,21 +193,23 @@ void Tracker::take(TrackedObject& object, const Detection& detection, UTime at) 
     update_axes(object.resting, detection);
     if (object.resting_average > kRestingLimit) {
       object.resting = without_acceleration(object.moving);
-      object.resting_since = at;
+      object.resting_since = from.at;
       object.resting_average = 3.0;
     }
   }
   const Vec3 shrunk = object.half_extents + kExtentShrink * (detection.half_extents - object.half_extents);
   object.half_extents = shrunk.cwiseMax(detection.half_extents);
-  object.last_seen = at;
+  object.last_seen = from.at;
+  object.last_seen_by = from.sensor_id;
   object.hits |= 1u;
 }
 
-TrackedObject Tracker::born(const Detection& detection, UTime at, std::int64_t id) const {
+TrackedObject Tracker::born(const Detection& detection, const ObservationSet& from, std::int64_t id) const {
   TrackedObject object;
   object.id = id;
-  object.last_seen = at;
-  object.resting_since = at;
+  object.last_seen = from.at;
+  object.last_seen_by = from.sensor_id;
+  object.resting_since = from.at;
   object.half_extents = detection.half_extents;
   // Uniform in ±max_speed has this variance.
   object.resting = start_filters(detection, config_.prediction.max_speed * config_.prediction.max_speed / 3.0);
@@ -215,10 +220,12 @@ TrackedObject Tracker::born(const Detection& detection, UTime at, std::int64_t i
 }
 
 bool Tracker::is_dead(const TrackedObject& object, const ObservationSet& observations) const {
-  if (!object.confirmed) return object.age >= config_.confirm_window;
   const Duration unseen = observations.at - object.last_seen;
+  const bool can_miss = object.last_seen_by == observations.sensor_id;
+  if (!object.confirmed) return can_miss ? object.age >= config_.confirm_window : unseen > kTentativeUnseen;
   if (unseen <= config_.coast) return false;
-  return !(rests(object) && is_out_of_range(object, observations)) || unseen > config_.remember_rest;
+  const bool is_missed = can_miss && !(rests(object) && is_out_of_range(object, observations));
+  return is_missed || unseen > config_.remember_rest;
 }
 
 bool Tracker::rests(const TrackedObject& object) const {

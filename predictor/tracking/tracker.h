@@ -31,6 +31,9 @@ inline constexpr double kRestingSigma = 0.01;
 /// deviations).
 inline constexpr double kRestingLimit = 5.3;
 inline constexpr double kRestingForgetting = 0.1;
+/// A tentative track is buried after so long without a detection even if the sensor that saw it sends no more sets: 15
+/// frames of a sensor at 10 Hz.
+inline constexpr Duration kTentativeUnseen{1'500'000};
 /// A remembered thing whose box is farther from the sensor than its range less this should not be seen, m: some σ and
 /// the vehicle's way within the sensor's frame.
 inline constexpr double kRangeMargin = 0.5;
@@ -42,10 +45,11 @@ struct TrackerConfig {
   PredictionSpec prediction;
   AccelerationModel acceleration;   ///< of what moves, per axis
   int confirm_hits = 3;             ///< a track is published once detected in so many …
-  int confirm_window = 5;           ///< … of its first observation sets, hits ≤ window ≤ 32
+  int confirm_window = 5;           ///< … of its first observation sets that count (Tracker), hits ≤ window ≤ 32
   Duration coast{1'500'000};        ///< a confirmed track dies when not detected for longer
   Duration resting_after{600'000};  ///< a track that has been consistent with rest so long is predicted at rest
-  /// What rests and is out of the sensor's range outlives its last detection so long: the world goes on behind us.
+  /// What rests and is out of the sensor's range, and what only a sensor saw that has fallen silent, outlives its last
+  /// detection so long: the world goes on behind us.
   Duration remember_rest{30'000'000};
 };
 
@@ -53,9 +57,10 @@ struct TrackerConfig {
 struct TrackedObject {
   std::int64_t id = 0;
   bool confirmed = false;
-  std::uint32_t hits = 1;  ///< bit k: detected in the set k sets ago
-  int age = 1;             ///< sets since birth, this one included
+  std::uint32_t hits = 1;  ///< bit k: detected in the set k sets ago, of those that count (Tracker)
+  int age = 1;             ///< sets since birth that count, this one included
   UTime last_seen;
+  std::int32_t last_seen_by = 0;  ///< sensor_id
   Vec3 half_extents = Vec3::Zero();
   std::array<SingerFilter, 3> moving;
   std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
@@ -63,10 +68,22 @@ struct TrackedObject {
   double resting_average = 3.0;  ///< of its χ²₃, see kRestingLimit
 };
 
+/// What became of an observation set.
+enum class Taken {
+  Yes,
+  TooOld,    ///< older than the newest by more than kReorderWindow
+  Repeated,  ///< there was a set of that sensor and time
+};
+
 /// Steps of one update, in this order: predict every track to the observation's time; match detections that have ids by
 /// id; match the others by the optimal assignment of Mahalanobis distances, first to confirmed tracks, what remains to
 /// tentative ones; update what is matched; count hits and misses, confirm (n of m), bury; start a tentative track from
 /// each detection that is left. Ids, sensors': one space for all sensors.
+///
+/// Only the sensor that saw a track last can miss it: sensors see different things at different rates, and that one of
+/// them does not see what another does says nothing. So a set counts in a track's age and hits if it holds a detection
+/// of it or is of that sensor, and a confirmed track dies by sets of that sensor; should the sensor be silent, the
+/// others' sets bury the track after kTentativeUnseen or, confirmed, after remember_rest.
 ///
 /// A pure function of the observations: sets that come out of order within kReorderWindow give the same tracks as in
 /// order of (time, sensor). Not thread-safe. A set of d detections and t tracks costs O(d·t) and the assignment's
@@ -76,8 +93,9 @@ class Tracker {
   explicit Tracker(const TrackerConfig& config)
       : config_(config), forecaster_(config.acceleration, config.prediction) {}
 
-  /// @return false, and nothing changes, if the set is older than the newest by more than kReorderWindow.
-  bool update(const ObservationSet& observations);
+  /// Nothing changes unless the answer is Yes. The tracker has no clock: a set from the future makes all others too
+  /// old.
+  Taken update(const ObservationSet& observations);
 
   /// The confirmed tracks predicted from `now` over the horizon, kind Estimated, by id ascending. Tracks whose
   /// detections have stopped altogether remain, with growing α. If `now` lies before the newest observation, that is
@@ -102,8 +120,8 @@ class Tracker {
   [[nodiscard]] const State& newest_state() const { return steps_.empty() ? before_steps_ : steps_.back().after; }
   [[nodiscard]] State advanced(State state, const ObservationSet& observations) const;
   void predict_to(State& state, UTime at) const;
-  void take(TrackedObject& object, const Detection& detection, UTime at) const;
-  [[nodiscard]] TrackedObject born(const Detection& detection, UTime at, std::int64_t id) const;
+  void take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
+  [[nodiscard]] TrackedObject born(const Detection& detection, const ObservationSet& from, std::int64_t id) const;
   [[nodiscard]] bool is_dead(const TrackedObject& object, const ObservationSet& observations) const;
   [[nodiscard]] bool rests(const TrackedObject& object) const;
   [[nodiscard]] std::array<AxisForecast, 3> forecast_of(const TrackedObject& object) const;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "tests/predictor/simulated_motion.h"
 
@@ -43,7 +45,7 @@ double feed(Tracker& tracker, const std::vector<Path>& paths, double from, doubl
     for (const Path& path : paths) {
       if (rng.uniform() >= dropout) detections.push_back(detection_of(path(t), kNoise, rng));
     }
-    EXPECT_TRUE(tracker.update(observations_at(t, detections)));
+    EXPECT_EQ(tracker.update(observations_at(t, detections)), Taken::Yes);
   }
   return t;
 }
@@ -325,7 +327,7 @@ TEST(Tracker, TakesObservationsOutOfOrderAsIfInOrder) {
   for (std::size_t k = 0; k < sets.size(); k += 6) {
     std::reverse(sets.begin() + static_cast<std::ptrdiff_t>(k), sets.begin() + static_cast<std::ptrdiff_t>(k + 6));
   }
-  for (const ObservationSet& set : sets) EXPECT_TRUE(out_of_order.update(set));
+  for (const ObservationSet& set : sets) EXPECT_EQ(out_of_order.update(set), Taken::Yes);
   ASSERT_EQ(in_order.objects().size(), out_of_order.objects().size());
   for (std::size_t i = 0; i < in_order.objects().size(); ++i) {
     const TrackedObject &a = in_order.objects()[i], &b = out_of_order.objects()[i];
@@ -335,7 +337,107 @@ TEST(Tracker, TakesObservationsOutOfOrderAsIfInOrder) {
       EXPECT_EQ(a.moving[axis].covariance, b.moving[axis].covariance);
     }
   }
-  EXPECT_FALSE(out_of_order.update(observations_at(1.0, {})));
+  EXPECT_EQ(out_of_order.update(observations_at(1.0, {})), Taken::TooOld);
+}
+
+ObservationSet frame(std::int32_t sensor, double t, std::vector<Detection> detections) {
+  ObservationSet set = observations_at(t, std::move(detections));
+  set.sensor_id = sensor;
+  return set;
+}
+
+constexpr std::int32_t kLidar = 1, kCamera = 2;
+// A lidar at 10 Hz and a camera at 30 Hz over [from, to); `see` says what a frame shows.
+void watch(Tracker& tracker, double from, double to,
+           const std::function<std::vector<Detection>(std::int32_t, double)>& see) {
+  for (int k = 0; from + k / 30.0 < to; ++k) {
+    const double t = from + k / 30.0;
+    if (k % 3 == 0) tracker.update(frame(kLidar, t, see(kLidar, t)));
+    tracker.update(frame(kCamera, t + 0.01, see(kCamera, t + 0.01)));
+  }
+}
+
+// Of something at rest that only one sensor sees.
+std::function<std::vector<Detection>(std::int32_t, double)> seen_only_by(std::int32_t sensor, Rng& rng) {
+  return [sensor, &rng](std::int32_t asked, double) {
+    return asked == sensor ? std::vector{detection_of(Vec3::Zero(), 0.01, rng)} : std::vector<Detection>{};
+  };
+}
+
+std::vector<Detection> nothing(std::int32_t, double) { return {}; }
+
+TEST(TrackerOfTwoSensors, PublishesWhatOnlyTheSlowerOneSees) {
+  Rng rng(10);
+  Tracker tracker(TrackerConfig{});
+  watch(tracker, 0.0, 0.25, seen_only_by(kLidar, rng));
+  ASSERT_EQ(tracker.predict(tracker.newest()).size(), 1u);
+  EXPECT_EQ(tracker.objects().size(), 1u);
+  EXPECT_EQ(tracker.objects().front().id, kFirstOwnTrackId);
+}
+
+TEST(TrackerOfTwoSensors, CountsTheDetectionsOfBoth) {
+  Rng rng(11);
+  Tracker tracker(TrackerConfig{});
+  watch(tracker, 0.0, 0.05, [&](std::int32_t, double) { return std::vector{detection_of(Vec3::Zero(), 0.01, rng)}; });
+  EXPECT_EQ(tracker.predict(tracker.newest()).size(), 1u);
+}
+
+TEST(TrackerOfTwoSensors, ForgetsAFalseAlarmOfASensorThatFellSilent) {
+  Rng rng(12);
+  Tracker tracker(TrackerConfig{});
+  tracker.update(frame(kLidar, 0.0, {detection_of(Vec3::Zero(), 0.01, rng)}));
+  for (int k = 1; k <= 60; ++k) tracker.update(frame(kCamera, k / kRate, {}));
+  EXPECT_TRUE(tracker.objects().empty());
+}
+
+TEST(TrackerOfTwoSensors, OnlyTheOneThatSawAThingFindsThatItIsGone) {
+  for (const bool lidar_lives : {true, false}) {
+    Rng rng(13);
+    Tracker tracker(TrackerConfig{});
+    watch(tracker, 0.0, 2.0, seen_only_by(kLidar, rng));
+    double alpha = 0.0;
+    for (double t = 2.0; t < 6.0; t += 1.0) {
+      if (lidar_lives) {
+        watch(tracker, t, t + 1.0, nothing);
+        continue;
+      }
+      for (int k = 0; k < 30; ++k) tracker.update(frame(kCamera, t + k / kRate, {}));
+      const std::vector<Track> tracks = tracker.predict(tracker.newest());
+      ASSERT_EQ(tracks.size(), 1u) << t;
+      EXPECT_GT(tracks[0].alpha.back().x(), alpha);
+      alpha = tracks[0].alpha.back().x();
+    }
+    EXPECT_EQ(tracker.predict(tracker.newest()).size(), lidar_lives ? 0u : 1u);
+    tracker.update(frame(kCamera, 32.1, {}));
+    EXPECT_TRUE(tracker.objects().empty());
+  }
+}
+
+TEST(TrackerOfTwoSensors, RangeIsThatOfTheOneThatSawIt) {
+  Rng rng(14);
+  Tracker tracker(TrackerConfig{});
+  watch(tracker, 0.0, 2.0, seen_only_by(kLidar, rng));
+  for (int k = 0; k < 100; ++k) {
+    ObservationSet gone_by = frame(kLidar, 2.0 + k / 10.0, {});
+    gone_by.range_m = 8.0;
+    gone_by.sensor_position = Vec3(10.0, 0.0, 0.0);
+    tracker.update(gone_by);
+    tracker.update(frame(kCamera, 2.01 + k / 10.0, {}));  // sees without limit, and never saw it
+  }
+  EXPECT_EQ(tracker.predict(tracker.newest()).size(), 1u);
+}
+
+TEST(Tracker, TakesASetOnce) {
+  Rng rng(15);
+  Tracker once(TrackerConfig{}), twice(TrackerConfig{});
+  for (int k = 0; k < 2; ++k) {
+    const ObservationSet set = observations_at(k / kRate, {detection_of(Vec3::Zero(), kNoise, rng)});
+    once.update(set);
+    EXPECT_EQ(twice.update(set), Taken::Yes);
+    EXPECT_EQ(twice.update(set), Taken::Repeated);
+  }
+  EXPECT_TRUE(twice.predict(twice.newest()).empty()) << "confirmed by two detections";
+  EXPECT_EQ(twice.objects().front().moving[0].covariance, once.objects().front().moving[0].covariance);
 }
 
 TEST(Tracker, GrowsExtentsAtOnceAndShrinksThemSlowly) {
