@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "core/world/message_limits.h"
+
 namespace tern {
 
 PredictorConfig read_predictor_config(ConfigSection section) {
@@ -35,6 +37,11 @@ PredictorConfig read_predictor_config(ConfigSection section) {
   if (tracker.confirm_hits > tracker.confirm_window) {
     throw section.error("confirm_hits", std::to_string(tracker.confirm_hits) + " is more than confirm_window, " +
                                             std::to_string(tracker.confirm_window));
+  }
+  const std::size_t pieces = piece_ends(prediction).size() - 1;
+  if (pieces > static_cast<std::size_t>(kMaxPiecesPerBatch)) {
+    throw section.error("piece_s", std::to_string(pieces) + " pieces up to horizon_s are more than a message takes, " +
+                                       std::to_string(kMaxPiecesPerBatch) + ": longer pieces, or piece_growth");
   }
   section.finish();
   return config;

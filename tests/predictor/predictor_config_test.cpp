@@ -64,5 +64,15 @@ TEST(PredictorConfig, RefusesWhatIsWrong) {
   expect_refused("rule", "  confirm_hits: 6\n", "confirm_window");
 }
 
+// A track of more pieces than a message takes would be left out of every set.
+TEST(PredictorConfig, RefusesMorePiecesThanAMessageTakes) {
+  const auto with_piece = [](double piece_s) {
+    return "  horizon_s: 23\n  piece_growth: 0\n  piece_s: " + std::to_string(piece_s) + "\n";
+  };
+  EXPECT_EQ(piece_ends(read("pieces", with_piece(0.05)).tracker.prediction).size(), 461u);
+  expect_refused("pieces", "  horizon_s: 30\n  piece_growth: 0\n  piece_s: 0.05\n", "600 pieces");
+  expect_refused("one_more", "  horizon_s: 23.01\n  piece_growth: 0\n  piece_s: 0.05\n", "piece_s");
+}
+
 }  // namespace
 }  // namespace tern
