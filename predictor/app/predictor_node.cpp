@@ -1,5 +1,7 @@
 #include "predictor/app/predictor_node.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -9,6 +11,11 @@
 #include "runtime/channels.h"
 
 namespace tern {
+namespace {
+
+constexpr const char* kDeclaredInput = "declared motions";
+
+}  // namespace
 
 PredictorNode::PredictorNode(Bus& bus, const PredictorConfig& config)
     : bus_(bus), config_(config), tracker_(config.tracker) {
@@ -23,22 +30,40 @@ PredictorNode::PredictorNode(Bus& bus, const PredictorConfig& config)
 }
 
 void PredictorNode::on_declared(const TrackSet& batch) {
+  if (is_ahead(channels::kDeclaredMotions, kDeclaredInput, batch.made_at)) return;
   auto batches = collector_.add(batch);
   if (!batches) return;
   TrackSet declared = join_batches(std::move(*batches));
   declared_ = std::move(declared.tracks);
-  have_input(declared.made_at);
+  have_input(kDeclaredInput, declared.made_at);
 }
 
 void PredictorNode::on_observations(const ObservationSet& observations) {
-  if (tracker_.update(without_explained(observations, declared_)) != Taken::Yes) {
-    return bus_.count_late(channels::kObstacleObservations);
+  const std::string input = fmt::format("obstacle observations of sensor {}", observations.sensor_id);
+  if (is_ahead(channels::kObstacleObservations, input, observations.at)) return;
+  const Taken taken = tracker_.update(without_explained(observations, declared_));
+  if (taken == Taken::Yes) return have_input(input, observations.at);
+  bus_.count_late(channels::kObstacleObservations);
+  if (taken == Taken::Repeated) {
+    const std::string text = input + ": two sets of one instant, the second is ignored (do two sensors have one id?)";
+    watch_.trouble("repeated", text, bus_.clock().now());
   }
-  have_input(observations.at);
 }
 
-void PredictorNode::have_input(UTime made_at) {
-  if (!made_at_) next_ = bus_.clock().now();
+bool PredictorNode::is_ahead(const char* channel, const std::string& input, UTime at) {
+  const UTime now = bus_.clock().now();
+  if (at <= now + kMostAhead) return false;
+  bus_.count_late(channel);
+  const std::string text =
+      fmt::format("{}: stamped {:.1f} s ahead of the predictor's clock, refused", input, (at - now).seconds());
+  watch_.trouble("ahead", text, now);
+  return true;
+}
+
+void PredictorNode::have_input(const std::string& input, UTime made_at) {
+  const UTime now = bus_.clock().now();
+  watch_.used(input, now);
+  if (!made_at_) next_ = now;
   made_at_ = made_at_ ? std::max(*made_at_, made_at) : made_at;
 }
 
@@ -63,14 +88,27 @@ void PredictorNode::publish(UTime now) {
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });
   set.confidence = estimated ? config_.tracker.prediction.confidence : 1.0;
   if (vehicle_) sort_by_reach(set.tracks, *vehicle_, now, config_.tracker.prediction.horizon);
-  bus_.publish_paced(channels::kPredictions, split_batches(set));
+  std::vector<TrackSet> batches = split_batches(set);
+  if (const std::int32_t left_out = batches.front().left_out; left_out > 0) {
+    const std::string text =
+        fmt::format("{} of {} tracks do not fit into a set: the farthest are left out", left_out, set.tracks.size());
+    watch_.trouble("left out", text, now);
+  }
+  bus_.publish_paced(channels::kPredictions, std::move(batches));
 }
 
 NodeHealth PredictorNode::health() const {
-  if (!made_at_ || bus_.clock().now() - *made_at_ > kInputsStopped) {
-    return {ProcessState::Waiting, "obstacle observations or declared motions"};
+  const UTime now = bus_.clock().now();
+  std::string text = watch_.silent(now);
+  if (!made_at_) {
+    text = "obstacle observations or declared motions";
+  } else if (text.empty() && now - *made_at_ > kInputsStopped) {
+    text = fmt::format("newer inputs (the newest is {:.1f} s old)", (now - *made_at_).seconds());
   }
-  return {ProcessState::Ready, ""};
+  const ProcessState state = text.empty() ? ProcessState::Ready : ProcessState::Waiting;
+  const std::string troubles = watch_.troubles(now);
+  if (!text.empty() && !troubles.empty()) text += "; ";
+  return {state, text + troubles};
 }
 
 }  // namespace tern

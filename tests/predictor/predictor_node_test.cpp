@@ -6,9 +6,11 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <string>
 
 #include "core/base/random.h"
 #include "messages/batching.h"
+#include "messages/heartbeat.h"
 #include "runtime/channels.h"
 #include "runtime/virtual_runner.h"
 #include "tests/predictor/simulated_motion.h"
@@ -39,6 +41,7 @@ class PredictorNodeTest : public ::testing::Test {
     runner_.start("tern-predictor", [&](Bus& bus) {
       auto node = std::make_unique<PredictorNode>(bus, config);
       node_ = node.get();
+      bus_ = &bus;
       return node;
     });
     runner_.observer().subscribe<TrackSet>(channels::kPredictions, [this](const TrackSet& batch) {
@@ -56,11 +59,23 @@ class PredictorNodeTest : public ::testing::Test {
     set.tracks = std::move(tracks);
     runner_.observer().publish_paced(channels::kDeclaredMotions, split_batches(set));
   }
-  void observe(std::vector<Detection> detections, Duration age = Duration{50'000}) {
+  void observe(std::vector<Detection> detections, Duration age = Duration{50'000}, std::int32_t sensor = 0) {
     ObservationSet set;
     set.at = runner_.now() - age;
+    set.sensor_id = sensor;
     set.detections = std::move(detections);
     runner_.observer().publish(channels::kObstacleObservations, set);
+  }
+  // Frames of a thing at rest at 30 Hz.
+  void watch_pillar(double seconds) {
+    for (int k = 0; k < static_cast<int>(seconds * 30); ++k) {
+      observe({testing::detection_of(Vec3(3, 0, 1), 0.02, rng_)});
+      run_for(1.0 / 30);
+    }
+  }
+  [[nodiscard]] std::int64_t late(const char* channel) const { return bus_->counters().at(channel).late; }
+  [[nodiscard]] bool says(const std::string& words) const {
+    return node_->health().waiting_for.find(words) != std::string::npos;
   }
   void say_vehicle_is_at(const Vec3& p) {
     UavState state;
@@ -70,7 +85,9 @@ class PredictorNodeTest : public ::testing::Test {
   }
 
   VirtualRunner runner_;
+  Rng rng_{1};
   PredictorNode* node_ = nullptr;
+  Bus* bus_ = nullptr;
   std::int64_t declared_sets_ = 0;
   BatchCollector<TrackSet> collector_;
   std::vector<TrackSet> sets_;
@@ -226,6 +243,8 @@ TEST_F(PredictorNodeTest, LeavesOutTheFarthestAndCountsThem) {
   }
   const TrackSet& set = sets_.back();
   EXPECT_GT(set.left_out, 0);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  EXPECT_TRUE(says(std::to_string(set.left_out) + " of 400 tracks do not fit")) << node_->health().waiting_for;
   ASSERT_EQ(set.tracks.size() + static_cast<std::size_t>(set.left_out), 400u);
   double farthest_in = 0.0, nearest_out = 1e9;
   std::set<std::int64_t> in;
@@ -243,8 +262,107 @@ TEST_F(PredictorNodeTest, CountsObservationsThatComeTooLate) {
   run_for(0.1);
   observe({}, Duration{600'000});
   run_for(0.1);
+  EXPECT_EQ(late(channels::kObstacleObservations), 1);
   EXPECT_EQ(node_->health().state, ProcessState::Ready);
   EXPECT_EQ(sets_.back().made_at, UTime{1'000'000});
+}
+
+TEST_F(PredictorNodeTest, ASensorWhoseClockIsFarAheadChangesNothing) {
+  start();
+  watch_pillar(1.0);
+  observe({}, Duration{-60'000'000}, 7);
+  watch_pillar(1.0);
+  EXPECT_EQ(late(channels::kObstacleObservations), 1) << "of the first sensor's sets none is late";
+  ASSERT_EQ(sets_.back().tracks.size(), 1u);
+  EXPECT_LE(sets_.back().made_at, runner_.now());
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  EXPECT_TRUE(says("sensor 7: stamped 60.0 s ahead")) << node_->health().waiting_for;
+  watch_pillar(6.0);
+  EXPECT_EQ(node_->health().waiting_for, "") << "it is over";
+}
+
+TEST_F(PredictorNodeTest, MotionsDeclaredInTheFutureDoNotMakeTheWorldYoung) {
+  start();
+  TrackSet set;
+  set.batch.set = 1;
+  set.made_at = runner_.now() + Duration{60'000'000};
+  runner_.observer().publish(channels::kDeclaredMotions, set);
+  run_for(0.1);
+  EXPECT_EQ(late(channels::kDeclaredMotions), 1);
+  EXPECT_TRUE(sets_.empty());
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_TRUE(says("declared motions: stamped 60.0 s ahead")) << node_->health().waiting_for;
+}
+
+TEST_F(PredictorNodeTest, TakesClocksThatAreATenthOfASecondAhead) {
+  start();
+  observe({}, Duration{-100'000});
+  run_for(0.1);
+  EXPECT_EQ(late(channels::kObstacleObservations), 0);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  observe({}, Duration{-100'001});
+  run_for(0.1);
+  EXPECT_EQ(late(channels::kObstacleObservations), 1);
+}
+
+TEST_F(PredictorNodeTest, NamesTheSensorThatFellSilentBesideDeclaredMotions) {
+  start();
+  watch_pillar(1.0);
+  for (int k = 0; k < 10; ++k) {
+    declare({mover(1, Vec3(20, 0, 0), Vec3(1, 0, 0), runner_.now())});
+    run_for(0.2);
+  }
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_TRUE(says("obstacle observations of sensor 0 (silent for 2.0 s)")) << node_->health().waiting_for;
+  EXPECT_FALSE(says("declared")) << node_->health().waiting_for;
+  EXPECT_LE(runner_.now() - sets_.back().made_at, Duration{300'000}) << "made_at is the newest input's";
+  watch_pillar(0.1);
+  declare({});
+  run_for(0.05);
+  EXPECT_EQ(node_->health().state, ProcessState::Ready) << node_->health().waiting_for;
+}
+
+TEST_F(PredictorNodeTest, NamesTheSensorThatFellSilentBesideAnother) {
+  start();
+  observe({}, Duration{}, 3);
+  watch_pillar(1.0);
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_TRUE(says("obstacle observations of sensor 3 (silent for 1.0 s)")) << node_->health().waiting_for;
+}
+
+TEST_F(PredictorNodeTest, OldFramesThatKeepComingAreNotSilence) {
+  start();
+  for (int k = 0; k < 30; ++k) {
+    observe({}, Duration{800'000});
+    run_for(1.0 / 30);
+  }
+  EXPECT_EQ(node_->health().state, ProcessState::Waiting);
+  EXPECT_FALSE(says("silent")) << node_->health().waiting_for;
+}
+
+TEST_F(PredictorNodeTest, AnySenderOfObservationsLeavesRoomInTheHeartbeat) {
+  start();
+  for (std::int32_t sensor = 0; sensor < 1000; ++sensor) {
+    observe({}, Duration{}, sensor);
+    observe({}, Duration{-60'000'000}, sensor);
+  }
+  Heartbeat newest;
+  runner_.observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& heard) { newest = heard; });
+  run_for(2.0);
+  EXPECT_EQ(newest.state, ProcessState::Waiting);
+  EXPECT_NE(newest.waiting_for.find("more"), std::string::npos) << newest.waiting_for;
+}
+
+TEST_F(PredictorNodeTest, CountsASetThatComesTwice) {
+  start();
+  observe({}, Duration{});
+  observe({}, Duration{}, 1);
+  run_for(0.1);
+  EXPECT_EQ(late(channels::kObstacleObservations), 0);
+  observe({}, Duration{100'000}, 1);
+  run_for(0.1);
+  EXPECT_EQ(late(channels::kObstacleObservations), 1);
+  EXPECT_TRUE(says("sensor 1: two sets of one instant")) << node_->health().waiting_for;
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+#include "predictor/app/input_watch.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace tern {
+
+void InputWatch::used(const std::string& input, UTime now) {
+  if (used_.size() >= kMaxInputs && !used_.contains(input)) return;
+  used_[input] = now;
+}
+
+void InputWatch::trouble(const std::string& kind, const std::string& text, UTime now) {
+  const auto [found, is_new] = troubles_.try_emplace(kind);
+  if (is_new || now - found->second.at > kTroubleSaid) spdlog::warn("{}", text);
+  found->second = {text, now};
+}
+
+std::string InputWatch::silent(UTime now) const {
+  std::string text;
+  std::size_t silent = 0;
+  for (const auto& [input, at] : used_) {
+    if (now - at <= kInputsStopped || ++silent > kMaxNamed) continue;
+    text += fmt::format("{}{} (silent for {:.1f} s)", text.empty() ? "" : ", ", input, (now - at).seconds());
+  }
+  if (silent > kMaxNamed) text += fmt::format(" and {} more", silent - kMaxNamed);
+  return text;
+}
+
+std::string InputWatch::troubles(UTime now) const {
+  std::string text;
+  for (const auto& [kind, trouble] : troubles_) {
+    if (now - trouble.at <= kTroubleSaid) text += (text.empty() ? "" : "; ") + trouble.text;
+  }
+  return text;
+}
+
+}  // namespace tern
