@@ -100,7 +100,8 @@ LiveView FlightWatch::live() const {
   if (!view.flying) return view;
   const Vec3& p = state_->motion.p;
   view.elapsed_s = (state_->at - first_request_->header.utime).seconds();
-  view.progress = std::clamp(1.0 - (goal_ - p).norm() / (goal_ - scenario_.uav.start).norm(), 0.0, 1.0);
+  const double way = (goal_ - scenario_.uav.start).norm();
+  view.progress = way > 0.0 ? std::clamp(1.0 - (goal_ - p).norm() / way, 0.0, 1.0) : 1.0;
   view.speed_mps = state_->motion.v.norm();
   view.nearest_m = nearest_obstacle();
   const Percentiles replan = percentiles(total_ms_);

@@ -54,6 +54,7 @@ std::string to_json(const FlightSummary& summary) {
   const auto& result = summary.result;
   const Json json = {
       {"outcome", to_string(summary.outcome)},
+      {"detail", summary.detail},
       {"scenario", summary.scenario},
       {"seed", summary.seed},
       {"count", summary.count},

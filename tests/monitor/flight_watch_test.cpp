@@ -147,6 +147,17 @@ TEST(FlightWatch, MeasuresProgressToANewGoal) {
   EXPECT_NEAR(watch.live().progress, 0.25, 1e-12);
 }
 
+TEST(FlightWatch, WhereTheGoalIsTheStartAllOfTheWayIsDone) {
+  FlightWatch watch(scenario(), kStart);
+  watch.hear(request(1), kStart);
+  watch.hear(state(Vec3(1, 0, 0), Vec3::Zero(), kStart));
+  Goal goal;
+  goal.id = 2;
+  goal.position = scenario().uav.start;
+  watch.hear(goal);
+  EXPECT_EQ(watch.live().progress, 1.0);
+}
+
 TEST(FlightWatch, SumsUpTimesOfTheStagesThatRan) {
   FlightWatch watch(scenario(), kStart);
   for (int i = 1; i <= 100; ++i) {

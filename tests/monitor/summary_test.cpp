@@ -46,7 +46,7 @@ TEST(Summary, HasExactlyTheKeysThatWerePromised) {
   const json summary = json::parse(to_json(flown()));
   EXPECT_THAT(keys(summary),
               testing::UnorderedElementsAre(
-                  "outcome", "scenario", "seed", "count", "flight_time_s", "first_entry_s", "path_length_m",
+                  "outcome", "detail", "scenario", "seed", "count", "flight_time_s", "first_entry_s", "path_length_m",
                   "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m", "limit_violations", "requests",
                   "answered_in_time", "plans", "replan_ms", "exposure", "messages", "restarts", "log", "version"));
   EXPECT_THAT(keys(summary["replan_ms"]),

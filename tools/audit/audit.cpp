@@ -103,6 +103,7 @@ std::string to_text(const Audit& audit, const FlightRecord& record) {
   std::string gaps;
   for (const std::string& what : audit.missing) gaps += fmt::format("  {}\n", what);
   for (const Check& check : audit.checks) {
+    if (check.verdict() == Verdict::NotChecked && check.unchecked.empty()) gaps += fmt::format("  {}\n", check.name);
     for (const auto& [what, n] : check.unchecked) gaps += fmt::format("  {}: {} ({})\n", check.name, what, n);
   }
   text += gaps.empty() ? "\nNothing was left unchecked.\n" : "\nCould not be checked, or only in part:\n" + gaps;
