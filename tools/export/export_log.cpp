@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <system_error>
 
+#include "messages/map_chunk.h"
+#include "runtime/channels.h"
 #include "tools/export/csv_files.h"
 #include "tools/export/foxglove.h"
 #include "tools/export/mcap_writer.h"
@@ -37,12 +40,25 @@ std::string shortfalls(const LogContents& contents) {
   return text;
 }
 
+/// MCAP knows no time before the epoch.
+std::int64_t mcap_time(std::int64_t received_us) { return std::max<std::int64_t>(received_us, 0); }
+
+void add(McapWriter& mcap, const Drawing& drawing, std::int64_t received_us) {
+  mcap.add(drawing.topic, drawing.schema, &foxglove_schema, mcap_time(received_us), drawing.message);
+}
+
 void add(McapWriter& mcap, const LoggedMessage& message) {
-  const std::int64_t time_us = std::max<std::int64_t>(message.received_us, 0);  // MCAP knows no time before the epoch
-  mcap.add("/" + message.channel, message.type, &message_schema, time_us, message.fields);
-  if (const auto drawing = drawing_of(message)) {
-    mcap.add(drawing->topic, drawing->schema, &foxglove_schema, time_us, drawing->message);
-  }
+  mcap.add("/" + message.channel, message.type, &message_schema, mcap_time(message.received_us), message.fields);
+  if (const auto drawing = drawing_of(message)) add(mcap, *drawing, message.received_us);
+}
+
+/// Draws each map once, when its last chunk has come. A chunk that contradicts the others is left out.
+void add_maps(FlightLog& log, McapWriter& mcap) {
+  log.on<MapChunk>(channels::kSemanticMap,
+                   [&mcap, maps = std::make_shared<MapAssembler>()](const MapChunk& chunk, std::int64_t received_us) {
+                     if (maps->add(chunk).value_or(false))
+                       add(mcap, drawing_of(maps->take(), received_us), received_us);
+                   });
 }
 
 }  // namespace
@@ -64,6 +80,7 @@ Result<std::string> export_log(const ExportOptions& options) {
     if (to_csv) csv.add(message);
     if (mcap) add(*mcap, message);
   });
+  if (mcap) add_maps(log, *mcap);
   const auto contents = log.read(options.log);
   if (!contents) return tl::make_unexpected(contents.error());
   if (messages == 0) return fail(options.log + ": not one message of Tern's in it");

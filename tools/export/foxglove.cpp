@@ -1,8 +1,12 @@
 #include "tools/export/foxglove.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/splines/clamped_spline.h"
+#include "tools/export/map_boxes.h"
 
 namespace tern::exporting {
 namespace {
@@ -20,15 +24,24 @@ Json pose(const Json& position, double yaw) {
 
 Json color(double r, double g, double b, double a) { return {{"r", r}, {"g", g}, {"b", b}, {"a", a}}; }
 
-Json scene(const LoggedMessage& message, const std::string& id, const Json& cubes, const Json& lines) {
-  Json entity{{"timestamp", time_of(message.received_us)},
+Json vector_of(const Vec3& p) { return {{"x", p.x()}, {"y", p.y()}, {"z", p.z()}}; }
+
+/// An entity of nothing yet.
+Json entity_of(std::int64_t received_us, const std::string& id) {
+  Json entity{{"timestamp", time_of(received_us)},
               {"frame_id", kFrame},
               {"id", id},
               {"lifetime", time_of(0)},
               {"frame_locked", false}};
-  for (const char* list : {"metadata", "arrows", "spheres", "cylinders", "triangles", "texts", "models"}) {
+  for (const char* list :
+       {"metadata", "arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"}) {
     entity[list] = Json::array();
   }
+  return entity;
+}
+
+Json scene(const LoggedMessage& message, const std::string& id, const Json& cubes, const Json& lines) {
+  Json entity = entity_of(message.received_us, id);
   entity["cubes"] = cubes;
   entity["lines"] = lines;
   Json update;
@@ -61,14 +74,50 @@ Json line_along(const Json& control_points, double interval_s, const Json& its_c
   const int samples = spline.intervals() * kSamplesPerInterval;
   for (int k = 0; k <= samples; ++k) {
     const Vec3 p = spline.sample(spline.duration_s() * k / samples).p;
-    path.push_back({{"x", p.x()}, {"y", p.y()}, {"z", p.z()}});
+    path.push_back(vector_of(p));
   }
   Json line{{"type", 0}, {"thickness", 3.0}, {"scale_invariant", true}, {"color", its_color}};
-  line["pose"] = pose({{"x", 0.0}, {"y", 0.0}, {"z", 0.0}}, 0.0);
+  line["pose"] = pose(vector_of(Vec3::Zero()), 0.0);
   line["points"] = path;
   line["colors"] = Json::array();
   line["indices"] = Json::array();
   return Json::array({line});
+}
+
+struct RegionLook {
+  const char* name;
+  Json color;
+};
+
+RegionLook look_of(VoxelLabel label) {
+  if (label == VoxelLabel::Attractive) return {"attractive", color(0.18, 0.84, 0.64, 0.25)};
+  if (label == VoxelLabel::Repulsive) return {"repulsive", color(1.0, 0.3, 0.43, 0.25)};
+  return {"occupied", color(0.48, 0.56, 0.64, 0.7)};
+}
+
+/// All voxels of one label and class: their boxes, and above them the name of the class.
+Json region(const VoxelMap& map, const std::vector<MapBox>& boxes, std::int64_t received_us) {
+  const RegionLook look = look_of(boxes.front().label);
+  const std::string& name = map.class_names.at(boxes.front().class_index);
+  Json entity = entity_of(received_us, name.empty() ? look.name : look.name + (": " + name));
+  Box all;
+  for (const MapBox& cells : boxes) {
+    const Box box(map.grid.box(cells.low).min(), map.grid.box(cells.high).max());
+    all.extend(box);
+    entity["cubes"].push_back(
+        {{"pose", pose(vector_of(box.center()), 0.0)}, {"size", vector_of(box.sizes())}, {"color", look.color}});
+  }
+  entity["metadata"] = {{{"key", "label"}, {"value", look.name}}, {{"key", "class"}, {"value", name}}};
+  if (!name.empty()) {
+    const Vec3 above(all.center().x(), all.center().y(), all.max().z() + 0.5);
+    entity["texts"] = Json::array({{{"pose", pose(vector_of(above), 0.0)},
+                                    {"billboard", true},
+                                    {"font_size", 14.0},
+                                    {"scale_invariant", true},
+                                    {"color", color(0.6, 0.6, 0.6, 1.0)},
+                                    {"text", name}}});
+  }
+  return entity;
 }
 
 Json field_schema(const MessageField& field) {
@@ -125,6 +174,17 @@ std::optional<Drawing> drawing_of(const LoggedMessage& message) {
   return std::nullopt;
 }
 
+Drawing drawing_of(const VoxelMap& map, std::int64_t received_us) {
+  constexpr int kDeleteAll = 1;  // foxglove.SceneEntityDeletion
+  std::map<std::pair<VoxelLabel, std::uint8_t>, std::vector<MapBox>> regions;
+  for (const MapBox& box : map_boxes(map)) regions[{box.label, box.class_index}].push_back(box);
+  Json update;
+  update["deletions"] = Json::array({{{"timestamp", time_of(received_us)}, {"type", kDeleteAll}, {"id", ""}}});
+  update["entities"] = Json::array();
+  for (const auto& [key, boxes] : regions) update["entities"].push_back(region(map, boxes, received_us));
+  return {"/tern/regions", "foxglove.SceneUpdate", update};
+}
+
 Json foxglove_schema(const std::string& name) {
   const Json number{{"type", "number"}}, integer{{"type", "integer"}}, text{{"type", "string"}},
       flag{{"type", "boolean"}};
@@ -144,13 +204,21 @@ Json foxglove_schema(const std::string& name) {
                                      {"color", its_color},
                                      {"colors", list_schema(its_color)},
                                      {"indices", list_schema(integer)}});
+    const Json words = object_schema({{"pose", its_pose},
+                                      {"billboard", flag},
+                                      {"font_size", number},
+                                      {"scale_invariant", flag},
+                                      {"color", its_color},
+                                      {"text", text}});
     const Json entity = object_schema({{"timestamp", time},
                                        {"frame_id", text},
                                        {"id", text},
                                        {"lifetime", time},
                                        {"frame_locked", flag},
+                                       {"metadata", list_schema(object_schema({{"key", text}, {"value", text}}))},
                                        {"cubes", list_schema(cube)},
-                                       {"lines", list_schema(line)}});
+                                       {"lines", list_schema(line)},
+                                       {"texts", list_schema(words)}});
     const Json deletion = object_schema({{"timestamp", time}, {"type", integer}, {"id", text}});
     schema = object_schema({{"deletions", list_schema(deletion)}, {"entities", list_schema(entity)}});
   }

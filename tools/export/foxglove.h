@@ -1,15 +1,17 @@
 // What Foxglove's 3D panel draws of a flight, in its own well-known schemas.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
+#include "core/world/voxel_map.h"
 #include "tools/export/logged_messages.h"
 
 namespace tern::exporting {
 
 struct Drawing {
-  std::string topic;   ///< "/tern/uav", "/tern/obstacles", "/tern/committed", "/tern/plan"
+  std::string topic;   ///< "/tern/uav", "/tern/obstacles", "/tern/committed", "/tern/plan", "/tern/regions"
   std::string schema;  ///< "foxglove.PoseInFrame" or "foxglove.SceneUpdate"
   Json message;
 };
@@ -17,6 +19,10 @@ struct Drawing {
 /// The vehicle's pose of UAV_STATE, the true obstacles as cubes, the committed path of a request and the path of a plan
 /// as lines. All in frame "W", at the time of receipt. Nothing for other messages, and for an answer without a plan.
 std::optional<Drawing> drawing_of(const LoggedMessage& message);
+
+/// A semantic map: an entity per label and class, of boxes (map_boxes.h), named by class in its text and its metadata
+/// ("label", "class"); it takes the place of the map before.
+Drawing drawing_of(const VoxelMap& map, std::int64_t received_us);
 
 /// The part of Foxglove's schema that drawing_of() uses.
 Json foxglove_schema(const std::string& name);

@@ -13,7 +13,11 @@ enum class Op : std::uint8_t {
   Schema = 0x03,
   Channel = 0x04,
   Message = 0x05,
+  Chunk = 0x06,
+  MessageIndex = 0x07,
+  ChunkIndex = 0x08,
   Statistics = 0x0B,
+  SummaryOffset = 0x0E,
   DataEnd = 0x0F,
 };
 
@@ -39,6 +43,12 @@ std::string record(Op op, const Fields& fields) {
   return whole.bytes + fields.bytes;
 }
 
+std::uint32_t crc_of(std::string_view bytes) {
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
+
 }  // namespace
 
 McapWriter::McapWriter(const std::string& path) : path_(path), file_(path, std::ios::binary) {
@@ -48,54 +58,105 @@ McapWriter::McapWriter(const std::string& path) : path_(path), file_(path, std::
 
 void McapWriter::write(std::string_view bytes) {
   file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  crc_.process_bytes(bytes.data(), bytes.size());
   size_ += bytes.size();
+}
+
+void McapWriter::Span::take(std::uint64_t ns) {
+  first_ns = messages == 0 ? ns : std::min(first_ns, ns);
+  last_ns = std::max(last_ns, ns);
+  ++messages;
 }
 
 void McapWriter::add(const std::string& topic, const std::string& schema_name, Json (*schema)(const std::string& name),
                      std::int64_t time_us, const Json& message) {
   const auto [known_schema, schema_is_new] =
       schemas_.try_emplace(schema_name, static_cast<std::uint16_t>(schemas_.size() + 1));
-  const std::size_t before = summary_.size();
   if (schema_is_new) {
-    summary_ += record(
-        Op::Schema,
-        Fields{}.integer(known_schema->second).text(schema_name).text("jsonschema").text(schema(schema_name).dump()));
+    const std::string text = schema(schema_name).dump();
+    const Fields fields = Fields{}.integer(known_schema->second).text(schema_name).text("jsonschema").text(text);
+    chunk_.records += record(Op::Schema, fields);
+    schema_records_ += record(Op::Schema, fields);
   }
   const auto [known, is_new] = topics_.try_emplace(topic, Topic{static_cast<std::uint16_t>(topics_.size())});
   if (is_new) {
-    summary_ +=
-        record(Op::Channel,
-               Fields{}.integer(known->second.id).integer(known_schema->second).text(topic).text("json").text(""));
+    const Fields fields =
+        Fields{}.integer(known->second.id).integer(known_schema->second).text(topic).text("json").text("");
+    chunk_.records += record(Op::Channel, fields);
+    channel_records_ += record(Op::Channel, fields);
   }
-  write(std::string_view(summary_).substr(before));
-
   const std::uint64_t ns = static_cast<std::uint64_t>(time_us) * 1000;
-  first_ns_ = messages_ == 0 ? ns : std::min(first_ns_, ns);
-  last_ns_ = std::max(last_ns_, ns);
-  ++messages_;
+  span_.take(ns);
+  chunk_.span.take(ns);
+  chunk_.index[known->second.id].emplace_back(ns, chunk_.records.size());
   Fields fields;
   fields.integer(known->second.id).integer(++known->second.messages).integer(ns).integer(ns);
   fields.bytes += message.dump();
-  write(record(Op::Message, fields));
+  chunk_.records += record(Op::Message, fields);
+  if (chunk_.records.size() > kChunkBytes) end_chunk();
+}
+
+void McapWriter::end_chunk() {
+  if (chunk_.span.messages == 0) return;
+  const std::uint64_t start = size_, bytes = chunk_.records.size();
+  Fields fields;
+  fields.integer(chunk_.span.first_ns).integer(chunk_.span.last_ns).integer(bytes).integer(crc_of(chunk_.records));
+  fields.text("").integer(bytes);
+  fields.bytes += chunk_.records;
+  write(record(Op::Chunk, fields));
+  const std::uint64_t length = size_ - start;
+
+  Fields where;  // each channel's index
+  for (const auto& [channel, messages] : chunk_.index) {
+    Fields entries;
+    for (const auto& [ns, offset] : messages) entries.integer(ns).integer(offset);
+    where.integer(channel).integer(size_);
+    write(record(Op::MessageIndex, Fields{}.integer(channel).text(entries.bytes)));
+  }
+  Fields index;
+  index.integer(chunk_.span.first_ns).integer(chunk_.span.last_ns).integer(start).integer(length).text(where.bytes);
+  index.integer(size_ - start - length).text("").integer(bytes).integer(bytes);
+  chunk_index_records_ += record(Op::ChunkIndex, index);
+  ++chunks_;
+  chunk_ = {};
 }
 
 std::string McapWriter::statistics() const {
   Fields counts;
   for (const auto& [name, topic] : topics_) counts.integer(topic.id).integer(std::uint64_t{topic.messages});
   Fields fields;
-  fields.integer(messages_).integer(static_cast<std::uint16_t>(schemas_.size()));
+  fields.integer(span_.messages).integer(static_cast<std::uint16_t>(schemas_.size()));
   fields.integer(static_cast<std::uint32_t>(topics_.size()));
-  for (int none = 0; none < 3; ++none) fields.integer(std::uint32_t{0});  // attachments, metadata, chunks
-  fields.integer(first_ns_).integer(last_ns_).text(counts.bytes);
+  fields.integer(std::uint32_t{0}).integer(std::uint32_t{0}).integer(chunks_);  // attachments, metadata
+  fields.integer(span_.first_ns).integer(span_.last_ns).text(counts.bytes);
   return record(Op::Statistics, fields);
 }
 
 Result<void> McapWriter::finish() {
-  write(record(Op::DataEnd, Fields{}.integer(std::uint32_t{0})));
+  end_chunk();
+  write(record(Op::DataEnd, Fields{}.integer(crc_.checksum())));
+  crc_.reset();
   const std::uint64_t summary_start = size_;
-  write(summary_);
-  write(statistics());
-  write(record(Op::Footer, Fields{}.integer(summary_start).integer(std::uint64_t{0}).integer(std::uint32_t{0})));
+  std::string offsets;
+  const auto write_group = [&](Op op, const std::string& records) {
+    if (records.empty()) return;
+    const std::uint64_t start = size_;
+    write(records);
+    offsets += record(Op::SummaryOffset,
+                      Fields{}.integer(static_cast<std::uint8_t>(op)).integer(start).integer(size_ - start));
+  };
+  write_group(Op::Schema, schema_records_);
+  write_group(Op::Channel, channel_records_);
+  write_group(Op::Statistics, statistics());
+  write_group(Op::ChunkIndex, chunk_index_records_);
+  const std::uint64_t offsets_start = size_;
+  write(offsets);
+
+  // The summary's checksum covers the footer up to itself.
+  const std::string footer =
+      record(Op::Footer, Fields{}.integer(summary_start).integer(offsets_start).integer(std::uint32_t{0}));
+  write(std::string_view(footer).substr(0, footer.size() - sizeof(std::uint32_t)));
+  write(Fields{}.integer(crc_.checksum()).bytes);
   write(kMagic);
   file_.close();
   if (!file_) return fail(path_ + ": cannot be written");

@@ -1,7 +1,8 @@
 // check_mcap.mjs FILE: reads an MCAP file by @mcap/core and holds it to what tern-export promises; prints its topics.
-import { McapStreamReader } from "@mcap/core";
+import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import assert from "node:assert/strict";
 import { createReadStream } from "node:fs";
+import { open } from "node:fs/promises";
 
 const schemas = new Map(), channels = new Map(), counts = new Map();
 let statistics, footer, last = 0n, drawn = 0;
@@ -39,4 +40,21 @@ assert(reader.done() && footer?.summaryStart > 0n, "the file has no proper end")
 assert.deepEqual([...statistics.channelMessageCounts].sort(), [...counts].sort());
 assert.equal(statistics.messageEndTime, last);
 assert(drawn > 0, "nothing for Foxglove to draw");
+
+// The same by its index, as Foxglove reads it.
+const file = await open(process.argv[2]);
+const readable = {
+  size: async () => BigInt((await file.stat()).size),
+  read: async (offset, size) => (await file.read(Buffer.alloc(Number(size)), 0, Number(size), Number(offset))).buffer,
+};
+const indexed = await McapIndexedReader.Initialize({ readable });
+const plans = [...channels.values()].find(({ topic }) => topic === "/PLAN");
+let found = 0n;
+for await (const message of indexed.readMessages({ topics: ["/PLAN"], validateCrcs: true })) {
+  assert.equal(message.channelId, plans.id);
+  found++;
+}
+assert.equal(found, counts.get(plans.id));
+await file.close();
+
 for (const { id, topic, schemaId } of channels.values()) console.log(`${topic} ${schemas.get(schemaId).title} ${counts.get(id)}`);

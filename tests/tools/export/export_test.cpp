@@ -1,0 +1,146 @@
+// What tern-export writes of a flight, and the maps in it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "tests/logger/temp_folder.h"
+#include "tests/support/recorded_flight.h"
+#include "tests/tools/export/mcap_file.h"
+#include "tools/export/export_log.h"
+#include "tools/export/foxglove.h"
+#include "tools/export/logged_messages.h"
+#include "tools/export/map_boxes.h"
+#include "tools/export/mcap_writer.h"
+
+namespace tern::exporting {
+namespace {
+
+using tern::testing::McapFile;
+using tern::testing::McapMessage;
+using tern::testing::parse_mcap;
+using tern::testing::read_mcap;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Key;
+
+/// One flight for all tests of this file.
+class ExportedFlight : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TempFolder;
+    tern::testing::record_flight(TERN_SCENARIO_FOLDER "/corridor_demo.yaml",
+                                 {"world.count=12", "uav.goal=[6, 0, 1]", "executor.rate_hz=10"}, log());
+    const auto told = export_log({.log = log(), .csv_folder = "", .mcap_file = mcap(), .suffix = ""});
+    ASSERT_TRUE(told) << told.error().message;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::string log() { return folder_->file("flight.lcm"); }
+  static std::string mcap() { return folder_->file("flight.mcap"); }
+
+  static inline TempFolder* folder_ = nullptr;
+};
+
+TEST_F(ExportedFlight, HoldsEveryMessageOfTheLogOnce) {
+  std::map<std::string, std::uint64_t> logged;
+  FlightLog reader("");
+  on_every_channel(reader, "", [&](const LoggedMessage& message) { ++logged["/" + message.channel]; });
+  ASSERT_TRUE(reader.read(log()));
+  McapFile file = read_mcap(mcap());
+  EXPECT_GT(file.chunks, 1);
+  std::map<std::string, std::uint64_t> exported;
+  for (const McapMessage& message : file.messages) {
+    EXPECT_EQ(message.sequence, ++exported[message.topic]) << message.topic;
+    EXPECT_LE(file.first_ns, message.log_ns);
+    EXPECT_GE(file.last_ns, message.log_ns);
+  }
+  EXPECT_EQ(file.counted, exported);
+  std::erase_if(exported, [](const auto& topic) { return topic.first.starts_with("/tern/"); });
+  EXPECT_EQ(exported, logged);
+}
+
+TEST_F(ExportedFlight, DrawsTheVehicleObstaclesPathsAndRegions) {
+  const McapFile file = read_mcap(mcap());
+  for (const char* topic : {"/tern/uav", "/tern/obstacles", "/tern/committed", "/tern/plan", "/tern/regions"}) {
+    EXPECT_THAT(file.counted, Contains(Key(topic)));
+  }
+  EXPECT_EQ(file.counted.at("/tern/uav"), file.counted.at("/UAV_STATE"));
+  EXPECT_EQ(file.counted.at("/tern/regions"), 1U) << "the map is sent again and again, and drawn once";
+  EXPECT_EQ(file.schemas.at("plan_t")["properties"]["outcome"]["type"], "integer");
+  EXPECT_EQ(file.schemas.at("foxglove.SceneUpdate")["title"], "foxglove.SceneUpdate");
+}
+
+TEST_F(ExportedFlight, NamesTheClassOfEachRegion) {
+  const McapFile file = read_mcap(mcap());
+  const auto found = std::find_if(file.messages.begin(), file.messages.end(),
+                                  [](const McapMessage& message) { return message.topic == "/tern/regions"; });
+  ASSERT_NE(found, file.messages.end());
+  std::map<std::string, std::string> labels;  // by class
+  for (const auto& entity : found->fields["entities"]) {
+    EXPECT_FALSE(entity["cubes"].empty());
+    labels[entity["metadata"][1]["value"]] = entity["metadata"][0]["value"];
+    EXPECT_EQ(entity["texts"][0]["text"], entity["metadata"][1]["value"]);
+  }
+  EXPECT_EQ(labels, (std::map<std::string, std::string>{{"texture", "attractive"}, {"water", "repulsive"}}));
+}
+
+TEST(McapReader, NoticesEveryChangedByteOfASmallFile) {
+  const TempFolder folder;
+  McapWriter writer(folder.file("a.mcap"));
+  for (int k = 0; k < 3; ++k) writer.add("/GOAL", "goal_t", &message_schema, k, Json{{"id", k}});
+  ASSERT_TRUE(writer.finish());
+  std::ifstream in(folder.file("a.mcap"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(parse_mcap(bytes).messages.size(), 3U);
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    std::string changed = bytes;
+    changed[k] = static_cast<char>(changed[k] ^ 0x10);
+    EXPECT_ANY_THROW(parse_mcap(changed)) << "byte " << k;
+  }
+}
+
+TEST(McapWriter, SaysWhenItCannotWrite) {
+  McapWriter writer("/nowhere/a.mcap");
+  const auto written = writer.finish();
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message, HasSubstr("/nowhere/a.mcap"));
+}
+
+RC_GTEST_PROP(MapBoxes, CoverTheLabelledVoxelsOnceAndNothingElse, ()) {
+  VoxelMap map;
+  for (int axis = 0; axis < 3; ++axis) map.grid.size[axis] = *rc::gen::inRange(1, 7);
+  const auto n = static_cast<std::size_t>(map.grid.voxels());
+  map.class_names = {"", "a"};
+  for (std::size_t k = 0; k < n; ++k) {
+    map.labels.push_back(*rc::gen::weightedElement<VoxelLabel>(
+        {{3, VoxelLabel::Free}, {6, VoxelLabel::Attractive}, {1, VoxelLabel::Occupied}}));
+    map.classes.push_back(*rc::gen::weightedElement<std::uint8_t>({{1, 0}, {5, 1}}));
+  }
+  std::vector<int> covered(n, 0);
+  for (const MapBox& box : map_boxes(map)) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const Eigen::Vector3i v = map.grid.cell(static_cast<std::int64_t>(k));
+      if (!((v.array() >= box.low.array()).all() && (v.array() <= box.high.array()).all())) continue;
+      ++covered[k];
+      RC_ASSERT(map.labels[k] == box.label);
+      RC_ASSERT(map.classes[k] == box.class_index);
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) RC_ASSERT(covered[k] == (map.labels[k] >= VoxelLabel::Occupied ? 1 : 0));
+}
+
+TEST(MapBoxes, ABlockIsOneBox) {
+  VoxelMap map;
+  map.grid.size = {30, 20, 10};
+  map.labels.assign(6000, VoxelLabel::Repulsive);
+  map.classes.assign(6000, 0);
+  map.class_names = {""};
+  EXPECT_EQ(map_boxes(map).size(), 1U);
+}
+
+}  // namespace
+}  // namespace tern::exporting
