@@ -409,8 +409,8 @@
     chart(strip, {
       height: 170,
       columns: [answers.t, ...present.map((k) => answers.outcome.map((o) => (o === k ? OUTCOMES.length - k : null)))],
-      series: present.map((k) => ({ label: `${OUTCOMES[k]} ${answers.outcome.filter((o) => o === k).length}`, colour: ["c3", "c1", "c6", "c2", "bad"][k], width: 0, paths: () => null,
-        points: { show: true, size: 5, fill: css(["c3", "c1", "c6", "c2", "bad"][k]), space: 0 }, value: (u, y, s, i) => (i == null || y == null ? "" : REASONS[answers.reason[i]]) })),
+      series: present.map((k) => ({ label: `${answers.outcome.filter((o) => o === k).length} ${OUTCOMES[k]}`, colour: ["c3", "c1", "c6", "c2", "bad"][k], width: 0, paths: () => null,
+        points: { show: true, size: 5, fill: css(["c3", "c1", "c6", "c2", "bad"][k]), space: 0 }, value: (u, y, s, i) => (i == null || y == null ? "–" : REASONS[answers.reason[i]]) })),
       range: () => [0.4, OUTCOMES.length + 0.6],
       axis: { size: 112, splits: () => [1, 2, 3, 4, 5], values: () => [...OUTCOMES].reverse(), grid: { show: false } },
     });
