@@ -5,10 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include "tests/viewer/known_scene.h"
 #include "viewer/bridge/flight_history.h"
 #include "viewer/bridge/predicted_hulls.h"
+#include "viewer/bridge/scene.h"
+#include "viewer/bridge/scene_json.h"
 #include "viewer/bridge/voxel_faces.h"
 
 namespace tern {
@@ -112,6 +115,40 @@ TEST(PredictedHulls, AreBoundedNearestFirst) {
   ASSERT_EQ(made.hulls.size(), 5U);
   EXPECT_EQ(made.left_out, support::kKnownMovers * plan.spline().intervals() - 5);
   EXPECT_LE(made.hulls.front().points.row(0).minCoeff(), 6.0);  // not one of those 18 m away
+}
+
+/// Where the planes of a plan are drawn.
+std::vector<Vec3> plane_places(const HorizonRequest& request, const Plan& plan) {
+  Scene scene;
+  scene.hear(request);
+  scene.hear(plan);
+  std::vector<Vec3> places;
+  const json told = json::parse(plan_json(scene, true));
+  for (const json& plane : told["planes"]) {
+    places.emplace_back(plane["at"][0], plane["at"][1], plane["at"][2]);
+  }
+  return places;
+}
+
+TEST(Planes, StandAtTheirPartOfTheirIntervalCountedFromTheRequestsStart) {
+  const support::KnownScene known(UTime{1'000'000'000});
+  HorizonRequest request = known.request(UTime{1'000'000'000}, 1);
+  Plan plan = known.plan(request);
+  const Plane plane = plan.certificate.front().plane;
+  plan.certificate = {{0, 0, 0, 1, plane}, {0, 0, 1, 2, plane}, {0, 1, 3, 4, plane}};
+  const auto expect_at = [&](const std::vector<double>& intervals) {
+    const std::vector<Vec3> places = plane_places(request, plan);
+    ASSERT_EQ(places.size(), intervals.size());
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Duration passed = Duration::from_seconds(intervals[k] * plan.trajectory.interval.seconds());
+      // As many digits as JsonWriter writes, and whole microseconds at 1 m/s.
+      EXPECT_NEAR((places[k] - plan.trajectory.sample(plan.trajectory.start + passed).p).norm(), 0.0, 2e-3) << k;
+    }
+  };
+  expect_at({0.5, 0.75, 1.875});
+  plan.outcome = PlanOutcome::KeepCommitted;  // of which 2.4 intervals have passed at t_s
+  request.t_s = plan.trajectory.start + Duration::from_seconds(2.4 * plan.trajectory.interval.seconds());
+  expect_at({2.7, 2.85, 3.875});
 }
 
 TEST(FlightHistory, TellsTheLastThirtySecondsAndTheWholePath) {

@@ -1,6 +1,8 @@
 #include "viewer/bridge/scene_json.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/predicted_hulls.h"
@@ -40,12 +42,23 @@ void write_trajectory(JsonWriter& json, const TimedSpline& trajectory) {
   write_minvo(json, trajectory);
 }
 
-void write_planes(JsonWriter& json, const Plan& plan) {
+/// Where the trajectory is in the middle of a plane's part of an interval. Intervals are counted from t_s
+/// (lcmtypes/certificate_plane_t.lcm).
+Vec3 place_of(const CertificatePlane& plane, const TimedSpline& trajectory, UTime t_s) {
+  const ClampedSpline spline = trajectory.spline();
+  const double passed = std::max((t_s - trajectory.start).seconds(), 0.0) / spline.interval_s();
+  const double from = plane.interval == 0 ? passed : std::floor(passed) + plane.interval;
+  const double to = std::floor(passed) + plane.interval + 1;
+  return spline.sample(spline.interval_s() * (from + (plane.part + 0.5) / plane.parts * (to - from))).p;
+}
+
+void write_planes(JsonWriter& json, const Plan& plan, UTime t_s) {
   json.begin_list();
   for (const CertificatePlane& c : plan.certificate) {
     json.begin_object().key("track").integer(c.track).key("interval").integer(c.interval);
     json.key("part").integer(c.part).key("parts").integer(c.parts);
-    json.key("n").vec3(c.plane.n).key("d").number(c.plane.d).end_object();
+    json.key("n").vec3(c.plane.n).key("d").number(c.plane.d);
+    json.key("at").vec3(place_of(c, plan.trajectory, t_s)).end_object();
   }
   json.end_list();
 }
@@ -139,9 +152,11 @@ std::string plan_json(const Scene& scene, bool planes) {
   json.key("radius").number(plan.sphere_radius).key("cost").number(plan.cost.total);
   json.key("certificate").integer(static_cast<std::int64_t>(plan.certificate.size()));
   if (plan.outcome != PlanOutcome::NoPlan) write_trajectory(json, plan.trajectory);
-  if (planes) {
+  // A plan that is kept is placed by the request; without it, by its beginning.
+  const bool has_request = scene.request() && scene.request()->id == plan.request_id;
+  if (planes && plan.outcome != PlanOutcome::NoPlan) {
     json.key("planes");
-    write_planes(json, plan);
+    write_planes(json, plan, has_request ? scene.request()->t_s : plan.trajectory.start);
   }
   return json.end_object().take();
 }

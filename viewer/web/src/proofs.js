@@ -1,7 +1,7 @@
 // What a plan stands on: predicted hulls per interval, the certificate's separating planes, the search's nodes.
 import * as THREE from 'three';
 import { ConvexHull } from 'three/addons/math/ConvexHull.js';
-import { numbers } from './form.js';
+import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const PATCH = 0.9; // half the side of a drawn plane, m
@@ -80,13 +80,7 @@ export class Proofs {
     const patches = [];
     const frames = [];
     const planes = (plan?.planes ?? []).filter((plane) => picked === undefined || plane.track === picked);
-    const samples = plan?.curve ? plan.curve.length / 4 - 1 : 0;
-    const intervals = plan?.minvo ? plan.minvo.length / 12 : 0;
-    for (const plane of planes) {
-      const share = (plane.interval + (plane.part + 0.5) / plane.parts) / Math.max(intervals, 1);
-      const middle = new THREE.Vector3().fromArray(plan.curve, 4 * Math.round(share * samples));
-      this.patch(plane, middle, patches, frames);
-    }
+    for (const plane of planes) this.patch(plane, new THREE.Vector3(...point(plane.at)), patches, frames);
     this.planeCount = planes.length;
     this.fill(this.patches, patches);
     this.fill(this.frames, frames);
