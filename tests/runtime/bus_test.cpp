@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "messages/goal.h"
 #include "messages/heartbeat.h"
@@ -298,6 +300,37 @@ TEST_F(BusTest, AHandlerMayPublishOnItsOwnChannel) {
   bus.publish(kChannel, goal(1));
   EXPECT_EQ(settle().lost, 0);
   EXPECT_EQ(heard.size(), 100U);
+}
+
+TEST_F(BusTest, ReceivedIsWhenAMessageCameInByTheBussClockHoweverLateItIsHandled) {
+  const WallClock system, skewed(Duration{-2'000'000});
+  Bus late(lcm, skewed, 2'000);
+  std::vector<UTime> received;
+  late.subscribe<Goal>(kChannel, [&](const Goal&) { received.push_back(late.received()); });
+  std::vector<std::pair<UTime, UTime>> sent;  // no sooner than, no later than
+  for (int i = 1; i <= 2; ++i) {
+    const UTime before = system.now();
+    bus.publish(kChannel, goal(i));
+    sent.emplace_back(before, system.now());
+    while (system.now() < sent.back().second + Duration{1'000}) {  // so that it is handled later
+    }
+  }
+  drain(*lcm, 1'000'000);
+  late.rethrow();
+  ASSERT_EQ(received.size(), 2U);
+  for (std::size_t i = 0; i < received.size(); ++i) {
+    EXPECT_GE(received[i], sent[i].first - Duration{2'000'000});
+    EXPECT_LE(received[i], sent[i].second - Duration{2'000'000});
+  }
+}
+
+TEST_F(BusTest, ReceivedIsNowOnAClockThatHasNothingToDoWithTheSystems) {
+  std::vector<UTime> received;
+  bus.subscribe<Goal>(kChannel, [&](const Goal&) { received.push_back(bus.received()); });
+  bus.publish(kChannel, goal(1));
+  clock.advance_to(UTime{6'000'000});
+  settle();
+  EXPECT_EQ(received, std::vector{UTime{6'000'000}});
 }
 
 TEST_F(BusTest, LosesNothingOfAHundredThousandMessagesInOneInstant) {
