@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/base/digest.h"
 
@@ -77,6 +78,13 @@ std::vector<MapChunk> to_chunks(const VoxelMap& map) {
 }
 
 Result<bool> MapAssembler::add(const MapChunk& chunk) {
+  const std::int64_t epoch_us = chunk.header.name.sender_epoch_us;
+  if (epoch_us < epoch_us_) {
+    if (std::exchange(told_of_earlier_, true)) return false;
+    return fail(fmt::format("chunks of a sender that started {:.1f} s before the one listened to: do two mappers run?",
+                            static_cast<double>(epoch_us_ - epoch_us) * 1e-6));
+  }
+  epoch_us_ = epoch_us;
   if (chunk.version == finished_version_) return false;
   if (chunk.version != map_.version) {
     map_ = VoxelMap{chunk.grid, {}, {}, chunk.class_names, chunk.version};

@@ -78,9 +78,11 @@ inline constexpr std::int64_t kMaxVoxels = 200'000'000;
 std::vector<MapChunk> to_chunks(const VoxelMap& map);
 
 /// Collects chunks in any order, of any version; a newer version (one not seen in progress) replaces an unfinished one.
+/// Of two senders the one that started last is listened to: chunks of both in turn would complete neither's map.
 class MapAssembler {
  public:
-  /// Takes a chunk. @return true when it completed a map, which `take` then gives.
+  /// Takes a chunk. @return true when it completed a map, which `take` then gives. The first chunk of an earlier sender
+  /// is an Error, what it sends after it is passed over.
   /// An inconsistent chunk (other grid, overlapping runs, wrong digest at the end) is an Error and discards that
   /// version.
   Result<bool> add(const MapChunk& chunk);
@@ -88,6 +90,8 @@ class MapAssembler {
 
  private:
   VoxelMap map_;
+  std::int64_t epoch_us_ = 0;  ///< of the sender that started last
+  bool told_of_earlier_ = false;
   std::uint64_t finished_version_ = 0;
   std::vector<bool> have_;
   int missing_ = 0;

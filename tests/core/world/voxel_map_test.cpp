@@ -103,6 +103,30 @@ TEST(MapAssembler, ANewerVersionReplacesAnUnfinishedOne) {
   expect_same(assembler.take(), second);
 }
 
+TEST(MapAssembler, OfTwoSendersListensToTheOneThatStartedLastAndSaysSoOnce) {
+  const auto chunks_of = [](std::uint64_t seed, std::int64_t epoch_us) {
+    std::vector<MapChunk> chunks = to_chunks(random_map(seed, {40, 30, 20}, 0.9));
+    for (MapChunk& chunk : chunks) chunk.header.name.sender_epoch_us = epoch_us;
+    return chunks;
+  };
+  const std::vector<MapChunk> first = chunks_of(1, 100), second = chunks_of(2, 200);
+  MapAssembler assembler;
+  int refused = 0;
+  int complete = 0;
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t k = 0; k < std::max(first.size(), second.size()); ++k) {
+      const Result<bool> earlier = assembler.add(first[k % first.size()]);
+      if (!earlier) ++refused;
+      if (earlier && *earlier) ADD_FAILURE() << "the earlier sender's map";
+      if (!assembler.add(second[k % second.size()]).value()) continue;
+      ++complete;
+      EXPECT_EQ(assembler.take().version, second[0].version);
+    }
+  }
+  EXPECT_EQ(complete, 1);
+  EXPECT_EQ(refused, 1);
+}
+
 TEST(MapAssembler, RefusesWhatContradictsItself) {
   const VoxelMap map = random_map(1, {40, 30, 20}, 0.9);
   const std::vector<MapChunk> chunks = to_chunks(map);
