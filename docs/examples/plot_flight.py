@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Reads a recorded flight and plots it: plot_speed.py FLIGHT.lcm PICTURE.png
+"""Reads a recorded flight and plots it: plot_flight.py FLIGHT.lcm PICTURE.png
 
 Needs python3-matplotlib, and the messages' Python types that the build makes:
-PYTHONPATH=build/release/python python3 docs/examples/plot_speed.py flights/.../flight.lcm flight.png
+PYTHONPATH=build/release/python python3 docs/examples/plot_flight.py flights/.../flight.lcm flight.png
 """
 import math
 import struct
@@ -21,21 +21,24 @@ def events(path):
             yield log.read(channel_bytes).decode(), log.read(data_bytes)
 
 
-times, xs, ys, speeds, replans = [], [], [], [], []
+states, obstacles, replans = [], {}, []
 for channel, data in events(sys.argv[1]):
     if channel == "UAV_STATE":
         state = tern_msgs.uav_state_t.decode(data)
-        v = state.motion.velocity
-        times.append(state.at_us * 1e-6)
-        xs.append(state.motion.position.x)
-        ys.append(state.motion.position.y)
-        speeds.append(math.hypot(v.x, v.y, v.z))
+        p, v = state.motion.position, state.motion.velocity
+        states.append((state.at_us * 1e-6, p.x, p.y, math.hypot(v.x, v.y, v.z)))
+    elif channel == "OBSTACLE_TRUTH":
+        obstacles.update((o.id, o) for o in tern_msgs.obstacle_truth_t.decode(data).obstacles)
     elif channel == "PLAN_TIMING":
         replans.append(tern_msgs.plan_timing_t.decode(data).cpu_ms)
 
-figure, (path, speed, replan) = plt.subplots(3, 1, figsize=(9, 8), layout="constrained")
-path.scatter(xs, ys, c=speeds, s=4)
-path.set(xlabel="x, m", ylabel="y, m", aspect="equal", title="the path, coloured by speed")
+times, xs, ys, speeds = zip(*states)
+figure, (path, speed, replan) = plt.subplots(3, 1, figsize=(11, 7), layout="constrained", height_ratios=[1, 2, 2])
+for o in obstacles.values():
+    corner = o.position.x - o.half_extents.x, o.position.y - o.half_extents.y
+    path.add_patch(plt.Rectangle(corner, 2 * o.half_extents.x, 2 * o.half_extents.y, fc="orange" if o.moves else "gray"))
+path.scatter(xs, ys, c=speeds, s=4, zorder=2)
+path.set(xlabel="x, m", ylabel="y, m", aspect="equal", title="the path, coloured by speed; obstacles as they were at last")
 speed.plot([t - times[0] for t in times], speeds)
 speed.set(xlabel="time, s", ylabel="speed, m/s")
 replan.hist(replans, bins=60)
