@@ -96,6 +96,12 @@ void start_log(const ProcessDescription& description, const std::string& level) 
   spdlog::set_level(spdlog::level::from_str(level));
 }
 
+/// Destructors would wait for the thread that is stuck, with SIGTERM blocked: nothing is destroyed.
+[[noreturn]] void end_at_once(int code) {
+  spdlog::default_logger()->flush();
+  std::_Exit(code);
+}
+
 int run(const Options& options, const ProcessDescription& description, const NodeFactory& make_node) {
   const std::int64_t epoch_us = WallClock().now().us;
   const WallClock clock(Duration{options.clock_offset_us});
@@ -117,6 +123,7 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   spdlog::info("{} runs", build_id());
   const int code = run_on_wall_clock(**lcm, host, stop.fd());
   spdlog::info("ends with exit code {}", code);
+  if (code == kExitStuck) end_at_once(code);
   return code;
 }
 

@@ -53,7 +53,8 @@ using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 /// start, then every 5 s) and HEARTBEAT (2 Hz), and runs until the node has finished, or SIGINT/SIGTERM (exit 0). Logs
 /// to stderr. The epoch is the wall clock's time at the start, without the offset.
 /// @return the exit code: the node's own, 0 after a signal, or kExit…. ConfigError and bad options: the message on
-/// stderr, exit 2.
+/// stderr, exit 2. A node that finishes with kExitStuck ends the process here and now, nothing is destroyed: one of its
+/// threads may never end.
 int run_process(int argc, char** argv, const ProcessDescription& description, const NodeFactory& make_node);
 
 /// Hosts one node: its heartbeat and configuration reports, its pacing. The same in a process and in virtual time.

@@ -17,8 +17,8 @@
 namespace tern {
 namespace {
 
-/// Preparations of the world are looked after this often.
-constexpr Duration kPrepareEvery{20'000};
+/// Workers are looked after this often, whether messages come or not.
+constexpr Duration kLookEvery{20'000};
 /// Shares of the time from arrival to the watchdog: after these, no new duration is tried, the search ends, the
 /// optimizer and evasion end.
 constexpr double kAttemptShare = 0.3;
@@ -67,17 +67,36 @@ PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& conf
 PlannerNode::~PlannerNode() = default;
 
 UTime PlannerNode::next_wakeup() const {
-  UTime next = bus_.clock().now() + kPrepareEvery;
+  UTime next = worker_ ? next_look_ : kNever;
   if (delayed_) next = std::min(next, delayed_->due);
   if (const auto watch = desk_.watch_time(); watch && has_watchdog()) next = std::min(next, *watch);
   return next;
 }
 
 void PlannerNode::step(UTime now) {
+  next_look_ = now + kLookEvery;
   intake_.prepare();
   if (delayed_) deliver_delayed(now);
-  if (has_watchdog()) desk_.watch(now);
+  if (has_watchdog()) watch(now);
   if (waiting_) start_planning(now);
+  if (worker_) look_after_workers(now);
+}
+
+/// The watchdog. What it has answered need not be planned any more.
+void PlannerNode::watch(UTime now) {
+  desk_.watch(now);
+  if (waiting_ && now >= waiting_->deadline - kWatchdogLead) waiting_.reset();
+}
+
+void PlannerNode::look_after_workers(UTime now) {
+  if (exit_code_) return;
+  auto failure = worker_->failure();
+  if (!failure) failure = intake_.failure();
+  const bool stuck = stuck_at_ && now >= *stuck_at_ && worker_->busy();
+  if (!failure && !stuck) return;
+  spdlog::critical("{}; this process ends so that it is started again",
+                   failure ? "internal error in a worker: " + *failure : "the worker has missed two deadlines");
+  exit_code_ = kExitStuck;
 }
 
 void PlannerNode::deliver_delayed(UTime now) {
@@ -96,22 +115,18 @@ NodeHealth PlannerNode::health() const {
   return {ProcessState::Waiting, missing};
 }
 
-std::optional<int> PlannerNode::finished() const {
-  if (!stuck_at_ || !worker_ || !worker_->busy() || bus_.clock().now() < *stuck_at_) return std::nullopt;
-  spdlog::critical("the worker has missed two deadlines; this process ends so that it is started again");
-  return kExitStuck;
-}
-
 void PlannerNode::on_request(const HorizonRequest& request) {
   const UTime now = bus_.clock().now();
-  if (request.header.name == last_request_) return;
-  last_request_ = request.header.name;
+  const MessageName name = request.header.name;
+  if (name.sender_epoch_us == last_request_.sender_epoch_us && name.sequence <= last_request_.sequence) return;
+  last_request_ = name;
   if (now >= request.deadline) return bus_.count_late(channels::kHorizonRequest);
   intake_.set_vehicle(request);
   desk_.open(request, now);
   waiting_ = request;
   waiting_since_ = now;
-  start_planning(now);
+  if (has_watchdog()) watch(now);
+  if (waiting_) start_planning(now);
 }
 
 void PlannerNode::start_planning(UTime now) {
@@ -124,7 +139,7 @@ void PlannerNode::start_planning(UTime now) {
   const bool taken = worker_->try_start(
       [this, request = *waiting_, world = intake_.snapshot(), arrived] { work(request, world, arrived); });
   if (!taken) return;
-  stuck_at_ = now + allowed * 2;
+  stuck_at_ = now + std::max(allowed * 2, kStuckAfter);
   waiting_.reset();
 }
 

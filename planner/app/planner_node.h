@@ -19,6 +19,10 @@
 
 namespace tern {
 
+/// A worker is not taken for stuck before this, however near the deadline its request came: a busy machine may keep it
+/// waiting, and a planner that starts anew has lost its map.
+inline constexpr Duration kStuckAfter{500'000};
+
 /// How a node spends time.
 struct PlannerExecution {
   /// Plan in a thread of its own, under the wall clock and the watchdog; else at once, in virtual time.
@@ -37,8 +41,9 @@ class PlannerNode final : public Node {
   [[nodiscard]] UTime next_wakeup() const override;
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
-  /// kExitStuck when the worker has missed two deadlines.
-  [[nodiscard]] std::optional<int> finished() const override;
+  /// kExitStuck when a worker is stuck (it has missed two deadlines, and been at it for kStuckAfter at least) or has
+  /// thrown.
+  [[nodiscard]] std::optional<int> finished() const override { return exit_code_; }
 
  private:
   void on_request(const HorizonRequest& request);
@@ -47,6 +52,8 @@ class PlannerNode final : public Node {
   void publish_search(std::int64_t request_id, std::vector<SearchViewNode> nodes);
   void work_in_virtual_time(const HorizonRequest& request, const PlanningWorld& world, UTime arrived);
   void deliver_delayed(UTime now);
+  void watch(UTime now);
+  void look_after_workers(UTime now);
   [[nodiscard]] bool has_watchdog() const { return execution_.threaded || execution_.charge_cpu; }
 
   Bus& bus_;
@@ -54,10 +61,12 @@ class PlannerNode final : public Node {
   PlannerExecution execution_;
   WorldIntake intake_;
   AnswerDesk desk_;
-  MessageName last_request_;               ///< a network may deliver a message twice
+  MessageName last_request_;               ///< the newest: a network may deliver a message twice, or late
   std::optional<HorizonRequest> waiting_;  ///< came in while the worker was busy
   UTime waiting_since_{};
-  std::optional<UTime> stuck_at_;  ///< two deadlines after what the worker is at
+  std::optional<UTime> stuck_at_;  ///< when what the worker is at has taken too long
+  UTime next_look_{};              ///< at the workers
+  std::optional<int> exit_code_;
   struct Delayed {
     std::vector<std::pair<UTime, Plan>> improvements;  ///< what stood on the way, and from when on
     std::size_t next = 0;                              ///< the first of them that the desk has not seen

@@ -1,8 +1,24 @@
 #include "planner/app/worker.h"
 
+#include <exception>
 #include <utility>
 
 namespace tern {
+namespace {
+
+/// @return what it threw, in words.
+std::optional<std::string> failure_of(const std::function<void()>& job) {
+  try {
+    job();
+  } catch (const std::exception& e) {
+    return e.what();
+  } catch (...) {
+    return "something that is no std::exception";
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 Worker::Worker() : thread_([this] { run(); }) {}
 
@@ -18,7 +34,7 @@ Worker::~Worker() {
 bool Worker::try_start(std::function<void()> job) {
   {
     const std::lock_guard lock(mutex_);
-    if (job_) return false;
+    if (job_ || failure_) return false;
     job_ = std::move(job);
   }
   changed_.notify_all();
@@ -30,15 +46,21 @@ bool Worker::busy() const {
   return static_cast<bool>(job_);
 }
 
+std::optional<std::string> Worker::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
 void Worker::run() {
   for (;;) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return stopping_ || job_; });
     if (stopping_) return;
     lock.unlock();
-    job_();
+    auto failure = failure_of(job_);
     lock.lock();
     job_ = nullptr;
+    failure_ = std::move(failure);
   }
 }
 

@@ -4,10 +4,13 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
 
 namespace tern {
 
+/// What a job throws ends it and the worker, which then takes no more: see failure().
 class Worker {
  public:
   Worker();
@@ -16,15 +19,18 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Starts the job if the worker is idle. @return false when it is busy; the job is then not taken.
+  /// Starts the job if the worker is idle. @return false when it is busy or has failed; the job is then not taken.
   bool try_start(std::function<void()> job);
   [[nodiscard]] bool busy() const;
+  /// What a job threw, in words.
+  [[nodiscard]] std::optional<std::string> failure() const;
 
  private:
   void run();
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::function<void()> job_;
+  std::optional<std::string> failure_;
   bool stopping_ = false;
   std::thread thread_;
 };

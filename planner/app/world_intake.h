@@ -29,6 +29,8 @@ class WorldIntake {
   void prepare();
   /// The vehicle as a request describes it: paths are made for its body and flight box from then on.
   void set_vehicle(const HorizonRequest& request);
+  /// What a preparation threw, in words: none is made any more.
+  [[nodiscard]] std::optional<std::string> failure() const { return worker_ ? worker_->failure() : std::nullopt; }
   /// Sets of which a batch was lost.
   [[nodiscard]] std::int64_t incomplete_sets() const { return batches_.incomplete(); }
 

@@ -1,120 +1,30 @@
 // Real processes over UDP multicast. Runs inside tests/support/hermetic.sh, which gives it a network of its own.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <lcm/lcm-cpp.hpp>
 
 #include "messages/configuration_report.h"
 #include "messages/goal.h"
-#include "messages/heartbeat.h"
 #include "runtime/channels.h"
-#include "runtime/lcm_network.h"
 #include "runtime/version.h"
 #include "runtime/wall_runner.h"
 #include "talker.h"
+#include "tests/support/child_process.h"
+#include "tests/support/network_end.h"
 
 namespace tern {
 namespace {
-
-/// How long a test waits for what must come; no test asserts a time.
-constexpr int kPatienceMs = 20'000;
-
-/// A child process with its stdout and stderr.
-class Child {
- public:
-  /// @param argv  the program first  @param ignore_sigint  as a script's background job has it
-  explicit Child(std::vector<std::string> argv, bool ignore_sigint = false) {
-    int pipe_fds[2];
-    if (pipe(pipe_fds) != 0) throw std::runtime_error("pipe");
-    pid_ = fork();
-    if (pid_ == 0) {
-      if (ignore_sigint) std::signal(SIGINT, SIG_IGN);
-      dup2(pipe_fds[1], STDOUT_FILENO);
-      dup2(pipe_fds[1], STDERR_FILENO);
-      close(pipe_fds[0]);
-      std::vector<char*> arguments;
-      for (std::string& argument : argv) arguments.push_back(argument.data());
-      arguments.push_back(nullptr);
-      execvp(arguments[0], arguments.data());
-      _exit(126);
-    }
-    close(pipe_fds[1]);
-    output_fd_ = pipe_fds[0];
-  }
-  ~Child() {
-    if (pid_ > 0) {
-      kill(pid_, SIGKILL);
-      waitpid(pid_, nullptr, 0);
-    }
-    close(output_fd_);
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  void signal(int number) const { kill(pid_, number); }
-
-  /// Waits for its end. @return the exit code, −signal if a signal ended it. `output` then holds all it said.
-  int wait() {
-    char buffer[4096];
-    pollfd fd{output_fd_, POLLIN, 0};
-    while (true) {
-      if (poll(&fd, 1, kPatienceMs) == 0) kill(pid_, SIGKILL);
-      const ssize_t n = read(output_fd_, buffer, sizeof(buffer));
-      if (n <= 0) break;
-      output.append(buffer, static_cast<std::size_t>(n));
-    }
-    int status = 0;
-    waitpid(pid_, &status, 0);
-    pid_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-
-  std::string output;
-
- private:
-  pid_t pid_ = 0;
-  int output_fd_ = -1;
-};
 
 std::vector<std::string> echo(std::vector<std::string> arguments = {}) {
   arguments.insert(arguments.begin(), TERN_ECHO_PROCESS);
   return arguments;
 }
 
-/// The test's own end of the network.
-class NetworkTest : public testing::Test {
+class NetworkTest : public testing::Test, protected NetworkEnd {
  protected:
   NetworkTest() {
-    auto opened = open_lcm(choose_lcm_url("", nullptr));
-    if (!opened) throw std::runtime_error(opened.error().message + " (run this test by tests/support/hermetic.sh)");
-    lcm = *opened;
-    bus = std::make_unique<Bus>(lcm, clock, clock.now().us);
-    bus->subscribe<Heartbeat>(channels::kHeartbeat, [this](const Heartbeat& h) { beats.push_back(h); });
     bus->subscribe<Goal>("GOAL_ANSWER", [this](const Goal& g) { answers.push_back(g); });
-  }
-
-  /// Handles messages until the condition holds. @return whether it did within kPatienceMs.
-  bool wait_for(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      pollfd fd{lcm->getFileno(), POLLIN, 0};
-      poll(&fd, 1, 100);
-      drain(*lcm, 1'000);
-      bus->rethrow();
-    }
-    return true;
-  }
-
-  /// Waits for a process that has not been heard before.
-  bool wait_until_ready() {
-    const std::int64_t last_epoch_us = beats.empty() ? 0 : beats.back().header.name.sender_epoch_us;
-    return wait_for([&] { return !beats.empty() && beats.back().header.name.sender_epoch_us > last_epoch_us; });
   }
 
   void send_goal(std::int64_t id) {
@@ -123,10 +33,6 @@ class NetworkTest : public testing::Test {
     bus->publish(channels::kGoal, goal);
   }
 
-  std::shared_ptr<lcm::LCM> lcm;
-  WallClock clock;
-  std::unique_ptr<Bus> bus;
-  std::vector<Heartbeat> beats;
   std::vector<Goal> answers;
 };
 

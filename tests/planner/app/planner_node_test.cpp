@@ -16,7 +16,8 @@ namespace {
 using namespace test_support;
 
 constexpr UTime kStart{50'000'000};
-const Vec3 kHome(0, 0, 1);
+/// Goals on opposite sides of home, so that a plan shows which of them it is for.
+const Vec3 kHome(0, 0, 1), kEast(6, 0, 1), kWest(-6, 0, 1);
 
 /// A planner node whose world, requests and time come from the test.
 class PlannerNodeTest : public ::testing::Test {
@@ -27,16 +28,34 @@ class PlannerNodeTest : public ::testing::Test {
     node_ = std::make_unique<PlannerNode>(bus_, uav, config, 42, execution);
   }
 
-  void tell_world(std::vector<Track> tracks = {}) {
+  void tell_predictions(std::vector<Track> tracks = {}) {
     TrackSet set;
     set.batch.set = ++sets_;
     set.made_at = clock_.now();
     set.tracks = std::move(tracks);
     for (const TrackSet& batch : split_batches(set)) answers_.bus().publish(channels::kPredictions, batch);
-    for (const MapChunk& chunk : to_chunks(test_support::free_map({8, 8, 8})))
-      answers_.bus().publish(channels::kSemanticMap, chunk);
-    answers_.bus().publish(channels::kGoal, support::go_to(Vec3(6, 0, 1)));
     answers_.hear();
+  }
+  void tell_map(const VoxelMap& map) {
+    for (const MapChunk& chunk : to_chunks(map)) answers_.bus().publish(channels::kSemanticMap, chunk);
+    answers_.hear();
+  }
+  /// @return the name that the message got.
+  MessageName tell_goal(std::int64_t id, const Vec3& position, GoalMode mode = GoalMode::Go) {
+    Goal goal;
+    goal.id = id;
+    goal.position = position;
+    goal.mode = mode;
+    const MessageName name = answers_.bus().publish(channels::kGoal, goal);
+    answers_.hear();
+    return name;
+  }
+  /// As pages send it.
+  MessageName tell_hold(std::int64_t id) { return tell_goal(id, Vec3::Zero(), GoalMode::Hold); }
+  void tell_world(std::vector<Track> tracks = {}) {
+    tell_predictions(std::move(tracks));
+    tell_map(test_support::free_map({8, 8, 8}));
+    tell_goal(1, kEast);
   }
   /// Until the map's fields and the goal's distances are ready.
   void prepare() {
@@ -53,6 +72,23 @@ class PlannerNodeTest : public ::testing::Test {
     answers_.bus().publish(channels::kHorizonRequest, request);
     answers_.hear();
     return request;
+  }
+  /// A request as the network delivers it, under any name; its id is its sequence number.
+  void deliver(const MessageName& name, UTime deadline) {
+    HorizonRequest request =
+        support::request_at(deadline + Duration{5'000}, support::resting_at(kHome, kStart - Duration{1'000'000}));
+    request.id = name.sequence;
+    request.header.name = name;
+    const Bytes bytes = encode(request);
+    lcm_->publish(channels::kHorizonRequest, bytes.data(), static_cast<unsigned>(bytes.size()));
+    answers_.hear();
+  }
+  /// In virtual time: what the vehicle that began at `epoch_us` is answered.
+  Plan answer_to(std::int64_t epoch_us, std::int64_t sequence) {
+    deliver({epoch_us, sequence}, clock_.now() + Duration{70'000});
+    at(clock_.now() + Duration{15'000});
+    EXPECT_FALSE(answers_.plans.empty());
+    return answers_.plans.empty() ? Plan() : answers_.plans.back();
   }
   void at(UTime t) {
     clock_.advance_to(t);
@@ -198,21 +234,65 @@ TEST_F(PlannerNodeTest, AnUnfinishedRequestIsAnsweredWhenTheNextOneComes) {
   EXPECT_EQ(count.at(2), 1);
 }
 
+TEST_F(PlannerNodeTest, ABusyMachineIsNoStuckWorker) {
+  start({true, Duration{}}, endless());
+  tell_world(crowd());
+  prepare();
+  tell_world(crowd());
+  // On its way for long: 6 ms are left of it, and two deadlines after it came the worker may still be at it.
+  deliver({5, 1}, clock_.now() + Duration{6'000});
+  at(clock_.now() + Duration{12'000});
+  EXPECT_FALSE(node_->finished());
+  EXPECT_EQ(answers_.plans.size(), 1u);
+}
+
+TEST_F(PlannerNodeTest, ARequestThatTheWatchdogAnsweredWhileItWaitedIsNotPlanned) {
+  PlannerConfig config = endless();
+  config.publish_search = true;
+  std::vector<std::int64_t> searched;
+  answers_.bus().subscribe<SearchView>(channels::kSearchView,
+                                       [&](const SearchView& view) { searched.push_back(view.request_id); });
+  start({true, Duration{}}, config);
+  tell_world(crowd());
+  prepare();
+  tell_world(crowd());
+  (void)ask(1);
+  const HorizonRequest second = ask(2);
+  at(second.deadline);
+  for (int k = 0; k < 10'000'000 && searched.empty(); ++k) {
+    answers_.hear();
+    std::this_thread::yield();
+  }
+  for (int k = 0; k < 3; ++k) at(clock_.now() + Duration{20'000});
+  node_.reset();  // the worker comes to its end
+  answers_.hear();
+  EXPECT_EQ(searched, std::vector<std::int64_t>{1});
+  EXPECT_EQ(answers_.per_request().at(2), 1);
+}
+
 TEST_F(PlannerNodeTest, ARequestHeardTwiceIsAnsweredOnce) {
   start({false, Duration{15'000}});
   tell_world();
   node_->step(clock_.now());
-  HorizonRequest request =
-      support::request_at(clock_.now() + Duration{75'000}, support::resting_at(kHome, kStart - Duration{1'000'000}));
-  request.header.name = {5, 1};
   // As a network that duplicates packets delivers it: the same bytes twice.
-  const Bytes bytes = encode(request);
-  for (int k = 0; k < 2; ++k)
-    lcm_->publish(channels::kHorizonRequest, bytes.data(), static_cast<unsigned>(bytes.size()));
-  answers_.hear();
+  for (int k = 0; k < 2; ++k) deliver({5, 1}, kStart + Duration{70'000});
   at(kStart + Duration{15'000});
   at(kStart + Duration{75'000});
   EXPECT_EQ(answers_.plans.size(), 1u);
+}
+
+TEST_F(PlannerNodeTest, ALateCopyOfAnOlderRequestDoesNotCloseTheNewest) {
+  start({false, Duration{15'000}});
+  tell_world();
+  node_->step(clock_.now());
+  for (const std::int64_t sequence : {1, 2, 1}) deliver({5, sequence}, kStart + Duration{70'000});
+  at(kStart + Duration{15'000});
+  at(kStart + Duration{30'000});
+  const auto count = answers_.per_request();
+  EXPECT_EQ(count.at(1), 1);
+  EXPECT_EQ(count.at(2), 1);
+  EXPECT_EQ(answers_.plans.back().request_id, 2);
+  EXPECT_EQ(answers_.plans.back().outcome, PlanOutcome::Optimized);
 }
 
 }  // namespace

@@ -1,0 +1,76 @@
+// A program that a test starts, hears and ends.
+#pragma once
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tern {
+
+/// How long a test waits for what must come; no test asserts a time.
+inline constexpr int kPatienceMs = 20'000;
+
+/// A child process with its stdout and stderr.
+class Child {
+ public:
+  /// @param argv  the program first  @param ignore_sigint  as a script's background job has it
+  explicit Child(std::vector<std::string> argv, bool ignore_sigint = false) {
+    int pipe_fds[2];
+    if (pipe(pipe_fds) != 0) throw std::runtime_error("pipe");
+    pid_ = fork();
+    if (pid_ == 0) {
+      if (ignore_sigint) std::signal(SIGINT, SIG_IGN);
+      dup2(pipe_fds[1], STDOUT_FILENO);
+      dup2(pipe_fds[1], STDERR_FILENO);
+      close(pipe_fds[0]);
+      std::vector<char*> arguments;
+      for (std::string& argument : argv) arguments.push_back(argument.data());
+      arguments.push_back(nullptr);
+      execvp(arguments[0], arguments.data());
+      _exit(126);
+    }
+    close(pipe_fds[1]);
+    output_fd_ = pipe_fds[0];
+  }
+  ~Child() {
+    if (pid_ > 0) {
+      kill(pid_, SIGKILL);
+      waitpid(pid_, nullptr, 0);
+    }
+    close(output_fd_);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  void signal(int number) const { kill(pid_, number); }
+
+  /// Waits for its end. @return the exit code, −signal if a signal ended it. `output` then holds all it said.
+  int wait() {
+    char buffer[4096];
+    pollfd fd{output_fd_, POLLIN, 0};
+    while (true) {
+      if (poll(&fd, 1, kPatienceMs) == 0) kill(pid_, SIGKILL);
+      const ssize_t n = read(output_fd_, buffer, sizeof(buffer));
+      if (n <= 0) break;
+      output.append(buffer, static_cast<std::size_t>(n));
+    }
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  std::string output;
+
+ private:
+  pid_t pid_ = 0;
+  int output_fd_ = -1;
+};
+
+}  // namespace tern
