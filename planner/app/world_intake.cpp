@@ -32,10 +32,25 @@ std::string WorldIntake::missing() const {
 }
 
 void WorldIntake::set_vehicle(const HorizonRequest& request) {
+  const std::int64_t run_us = request.header.name.sender_epoch_us;
+  if (vehicle_ != MessageName{} && run_us != vehicle_.sender_epoch_us) forget_before(run_us);
   body_half_ = request.body.half_extents();
   flight_box_ = request.flight_box;
   at_ = request.start.p;
   vehicle_ = request.header.name;
+}
+
+void WorldIntake::forget_before(std::int64_t run_us) {
+  spdlog::info("another vehicle asks: the former one's goal and static obstacles are forgotten");
+  statics_ = StaticTracks();
+  if (const auto predictions = snapshot().predictions) statics_.add(predictions->set);
+  const auto is_of_this_run = [&](const std::optional<Goal>& goal) {
+    return goal && (goal->header.name.sender_epoch_us == run_us || goal->header.utime.us > run_us);
+  };
+  if (is_of_this_run(newest_goal_)) return;
+  newest_goal_ = is_of_this_run(overruled_goal_) ? overruled_goal_ : std::nullopt;
+  publish(++goal_number_, nullptr);
+  hold();
 }
 
 void WorldIntake::on_predictions(const TrackSet& batch) {
@@ -58,8 +73,31 @@ void WorldIntake::on_map(const MapChunk& chunk) {
 }
 
 void WorldIntake::on_goal(const Goal& goal) {
-  if (newest_goal_ && goal.id < newest_goal_->id) return;
+  if (newest_goal_ && goal.id < newest_goal_->id) {
+    overruled_goal_ = goal;
+    return;
+  }
   newest_goal_ = goal;
+  ++goal_number_;
+  hold();
+}
+
+/// The way to the former goal stays as it is, for when that is the goal again.
+void WorldIntake::hold() {
+  if (!newest_goal_ || newest_goal_->mode == GoalMode::Go) return;
+  const auto known = snapshot().goal;
+  if (known && known->goal.id == newest_goal_->id && known->goal.mode == newest_goal_->mode) return;
+  GoalProducts products = known ? *known : GoalProducts();
+  products.goal = *newest_goal_;
+  publish(goal_number_, std::make_shared<const GoalProducts>(std::move(products)));
+}
+
+/// What was begun for an older goal, and is ready after a newer one was, is not used.
+void WorldIntake::publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal) {
+  const std::lock_guard lock(mutex_);
+  if (number < ready_number_) return;
+  ready_number_ = number;
+  ready_.goal = std::move(goal);
 }
 
 void WorldIntake::start(std::function<void()> job) {
@@ -74,21 +112,19 @@ void WorldIntake::prepare() {
     if (worker_ != nullptr) return;
   }
   const PlanningWorld world = snapshot();
-  if (!newest_goal_ || !world.map || !world.predictions) return;
+  if (!newest_goal_ || newest_goal_->mode != GoalMode::Go || !world.map || !world.predictions) return;
   const GoalFieldKey key{newest_goal_->position, world.map->version, statics_.digest(), body_half_, flight_box_};
-  if (world.goal && world.goal->key == key) {
+  if (world.goal && world.goal->field && world.goal->key == key) {
     const Goal& known = world.goal->goal;
     if (known.id == newest_goal_->id && known.mode == newest_goal_->mode) return;
-    const std::lock_guard lock(mutex_);
-    ready_.goal = std::make_shared<const GoalProducts>(
-        GoalProducts{*newest_goal_, key, world.goal->field, world.goal->made_from});
-    return;
+    return publish(goal_number_, std::make_shared<const GoalProducts>(
+                                     GoalProducts{*newest_goal_, key, world.goal->field, world.goal->made_from}));
   }
   const GoalFieldInputs names{key.map_version, statics_.epoch_us(), statics_.first_set(), key.statics, vehicle_};
-  start([this, goal = *newest_goal_, key, names, map = world.map, boxes = statics_.boxes(), at = at_] {
+  start([this, number = goal_number_, goal = *newest_goal_, key, names, map = world.map, boxes = statics_.boxes(),
+         at = at_] {
     auto field = std::make_shared<const GoalField>(make_goal_field(key, map, boxes, at));
-    const std::lock_guard lock(mutex_);
-    ready_.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names});
+    publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names}));
   });
 }
 

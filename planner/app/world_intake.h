@@ -17,7 +17,8 @@
 namespace tern {
 
 /// Subscribes PREDICTIONS, SEMANTIC_MAP and GOAL. A map's fields and a goal's distances take up to seconds: with a
-/// worker they are made in the background and used once they are ready, without one at once (virtual time).
+/// worker they are made in the background and used once they are ready, without one at once (virtual time). To hold or
+/// stop needs neither: such a goal counts from the moment it comes.
 class WorldIntake {
  public:
   WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background);
@@ -27,7 +28,9 @@ class WorldIntake {
   [[nodiscard]] std::string missing() const;
   /// Starts the preparation that the newest messages ask for, if none runs.
   void prepare();
-  /// The vehicle as a request describes it: paths are made for its body and flight box from then on.
+  /// The vehicle as a request describes it: paths are made for its body and flight box from then on. Another vehicle (a
+  /// new sender epoch) begins another flight: goals that were sent before it began, and static tracks that the former
+  /// one's planner was told of, are forgotten.
   void set_vehicle(const HorizonRequest& request);
   /// What a preparation threw, in words: none is made any more.
   [[nodiscard]] std::optional<std::string> failure() const { return worker_ ? worker_->failure() : std::nullopt; }
@@ -38,6 +41,9 @@ class WorldIntake {
   void on_predictions(const TrackSet& batch);
   void on_map(const MapChunk& chunk);
   void on_goal(const Goal& goal);
+  void forget_before(std::int64_t run_us);
+  void hold();
+  void publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal);
   void start(std::function<void()> job);
   void make_map(VoxelMap map);
 
@@ -47,13 +53,16 @@ class WorldIntake {
   StaticTracks statics_;
   std::optional<VoxelMap> pending_map_;
   std::optional<Goal> newest_goal_;
+  std::optional<Goal> overruled_goal_;  ///< the newest with a smaller id: another flight's, if there comes one
+  std::int64_t goal_number_ = 0;        ///< counts what newest_goal_ was
   Vec3 body_half_;
   Box flight_box_;
   Vec3 at_;
   MessageName vehicle_;  ///< the request that described it last; none: as configured
 
-  mutable std::mutex mutex_;  ///< guards ready_
+  mutable std::mutex mutex_;  ///< guards ready_ and ready_number_
   PlanningWorld ready_;
+  std::int64_t ready_number_ = 0;   ///< the goal_number_ of ready_.goal
   std::unique_ptr<Worker> worker_;  ///< null: at once. Last: its job uses the others
 };
 

@@ -7,8 +7,13 @@
 #include <optional>
 
 #include "logger/records/log_writer.h"
+#include "messages/goal.h"
 #include "messages/plan.h"
 #include "runtime/channels.h"
+#include "runtime/config.h"
+#include "runtime/scenario_file.h"
+#include "simulator/app/simulator_node.h"
+#include "simulator/worlds/world.h"
 #include "tests/logger/temp_folder.h"
 #include "tests/replay/golden_flights.h"
 #include "tools/log_reader/text_log.h"
@@ -66,7 +71,6 @@ class ReplayTest : public ::testing::Test {
     return replay_text(replay, false).find(words) != std::string::npos;
   }
 
- private:
   static TempFolder* folder_;
 };
 TempFolder* ReplayTest::folder_ = nullptr;
@@ -77,6 +81,54 @@ TEST_F(ReplayTest, OfAFlightWithRestartsGivesTheSameBytes) {
   EXPECT_EQ(all.count(Agreement::Identical), static_cast<std::int64_t>(all.plans.size())) << replay_text(all, false);
   EXPECT_EQ(replay_exit_code(all, false), 0);
   EXPECT_TRUE(text_has(all, "the same bytes"));
+}
+
+/// A page tells the vehicle to hold, then to fly on.
+void tell_goal(VirtualSystem& system, std::int64_t id, GoalMode mode, const Vec3& position) {
+  Goal goal;
+  goal.id = id;
+  goal.mode = mode;
+  goal.position = position;
+  system.runner().observer().publish(channels::kGoal, goal);
+}
+
+/// Another simulator, with another world and goal, beside the same predictor, mapper and planner.
+void fly_again(VirtualSystem& system) {
+  static const Scenario scenario = [] {
+    auto document = ConfigDocument::load(
+        std::string(TERN_SCENARIO_FOLDER) + "/closing_in.yaml",
+        {"world.obstacles=[{name: wall, centre: [-3, 0.2, 2], half_extents: [0.3, 2, 2]}]", "uav.goal=[-8, 0, 2]"});
+    return read_scenario(document);
+  }();
+  system.runner().stop("tern-simulator");
+  system.runner().start("tern-simulator", [](Bus& bus) {
+    return std::make_unique<SimulatorNode>(bus, scenario, make_world(scenario, "").value(), SimulatorConfig(),
+                                           ExecutorConfig());
+  });
+}
+
+TEST_F(ReplayTest, OfHoldingAndOfASecondFlightGivesTheSameBytes) {
+  const std::string path = folder_->file("two_flights.lcm");
+  record_virtually(
+      {std::string(TERN_SCENARIO_FOLDER) + "/closing_in.yaml",
+       {"world.obstacles=[{name: post, centre: [3, 0.2, 2], half_extents: [0.3, 0.3, 2]}]", "uav.goal=[8, 0, 2]"},
+       6.0,
+       {{1.5, [](VirtualSystem& system) { tell_goal(system, 2, GoalMode::Hold, Vec3::Zero()); }},
+        {3.0, [](VirtualSystem& system) { tell_goal(system, 3, GoalMode::Go, Vec3(8, 0, 2)); }},
+        {4.0, fly_again}}},
+      path);
+  const Replay all = replay(path);
+  EXPECT_EQ(all.count(Agreement::Identical), static_cast<std::int64_t>(all.plans.size())) << replay_text(all, false);
+  std::map<std::uint64_t, int> statics;
+  std::map<GoalMode, int> modes;
+  for (const RecordedPlan& recorded : all.inputs.plans) {
+    const PlanInputs& names = recorded.plan.inputs;
+    if (names.goal != MessageName{}) ++modes[all.inputs.goals.at(names.goal).mode];
+    if (recorded.plan.outcome == PlanOutcome::Optimized) ++statics[names.goal_field.statics];
+  }
+  EXPECT_GT(modes[GoalMode::Hold], 10);
+  EXPECT_EQ(statics.size(), 2U) << "one world each, none of both";
+  EXPECT_LT(all.inputs.plans.back().plan.trajectory.control_points(0, 7), -1.0) << "the second goal";
 }
 
 TEST_F(ReplayTest, AnAnswerThatIsNotThePlannersIsFoundWithItsStage) {

@@ -93,6 +93,10 @@ Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanIn
   const GoalFieldInputs& from = names.goal_field;
   const auto goal = inputs_.goals.find(names.goal);
   if (goal == inputs_.goals.end()) return fail("goal " + text(names.goal));
+  // The planner names the way to the goal before, which who holds or stops does not look at, or none.
+  if (goal->second.mode != GoalMode::Go) {
+    return std::make_shared<const GoalProducts>(GoalProducts{goal->second, {}, nullptr, from});
+  }
   const auto map = map_of(from.map_version, configuration);
   if (!map) return tl::make_unexpected(map.error());
   const auto statics = statics_.find(from.statics);

@@ -295,5 +295,114 @@ TEST_F(PlannerNodeTest, ALateCopyOfAnOlderRequestDoesNotCloseTheNewest) {
   EXPECT_EQ(answers_.plans.back().outcome, PlanOutcome::Optimized);
 }
 
+TEST_F(PlannerNodeTest, AHoldCountsAtTheNextRequestThoughAMapIsBeingMade) {
+  start({true, Duration{}});
+  tell_world();
+  prepare();
+  tell_map(test_support::free_map({100, 100, 40}));
+  tell_predictions();
+  node_->step(clock_.now());
+  const MessageName hold = tell_hold(2);
+  (void)ask(1);
+  until_heard(1);
+  ASSERT_EQ(answers_.plans.size(), 1u);
+  EXPECT_EQ(answers_.plans[0].inputs.goal, hold);
+  EXPECT_EQ(answers_.plans[0].outcome, PlanOutcome::KeepCommitted);
+  EXPECT_EQ(answers_.plans[0].reason, PlanReason::AtGoal);
+}
+
+TEST_F(PlannerNodeTest, AWayThatIsBeingMadeWhenAHoldComesDoesNotUndoIt) {
+  start({true, Duration{}});
+  tell_world();
+  prepare();
+  tell_goal(2, kWest);
+  node_->step(clock_.now());  // the way west is being made
+  const MessageName hold = tell_hold(3);
+  const VoxelMap next = test_support::free_map({9, 8, 8});
+  tell_map(next);
+  // The map is made after the way was: one after the other.
+  std::int64_t id = 0;
+  do {
+    tell_predictions();
+    (void)ask(++id);
+    until_heard(static_cast<std::size_t>(id));
+    ASSERT_EQ(answers_.plans.size(), static_cast<std::size_t>(id));
+    ASSERT_EQ(answers_.plans.back().inputs.goal, hold);
+    node_->step(clock_.now());
+  } while (answers_.plans.back().inputs.map_version != next.version);
+}
+
+TEST_F(PlannerNodeTest, AfterAHoldItFliesOn) {
+  start({false, Duration{15'000}});
+  tell_world();
+  node_->step(clock_.now());
+  tell_hold(2);
+  tell_goal(3, kEast);
+  node_->step(clock_.now());
+  const Plan plan = answer_to(5, 1);
+  EXPECT_EQ(plan.outcome, PlanOutcome::Optimized);
+  EXPECT_GT(plan.local_goal.x(), 1.0);
+}
+
+TEST_F(PlannerNodeTest, AHoldNeedsNoWay) {
+  start({false, Duration{15'000}});
+  tell_hold(2);
+  tell_world();  // its goal has a smaller id
+  node_->step(clock_.now());
+  EXPECT_EQ(node_->health().state, ProcessState::Ready);
+  EXPECT_EQ(answer_to(5, 1).reason, PlanReason::AtGoal);
+}
+
+/// A second flight while the planner runs on: the vehicle of the first one began at 5 µs.
+class SecondFlight : public PlannerNodeTest {
+ protected:
+  void fly_the_first(std::vector<Track> tracks = {}) {
+    start({false, Duration{15'000}});
+    tell_world(std::move(tracks));
+    tell_goal(7, kEast);
+    node_->step(clock_.now());
+    first_ = answer_to(5, 1);
+    clock_.advance_to(clock_.now() + Duration{1'000'000});
+    epoch_us_ = clock_.now().us;
+    clock_.advance_to(clock_.now() + Duration{1'000});
+    tell_predictions();
+  }
+  void expect_west(const Plan& plan) {
+    EXPECT_EQ(plan.outcome, PlanOutcome::Optimized);
+    EXPECT_LT(plan.local_goal.x(), -1.0);
+  }
+  Plan first_;
+  std::int64_t epoch_us_ = 0;
+};
+
+TEST_F(SecondFlight, DoesNotInheritTheGoal) {
+  fly_the_first();
+  EXPECT_EQ(answer_to(epoch_us_, 1).reason, PlanReason::StaleWorld);
+  EXPECT_EQ(node_->health().waiting_for, "a goal");
+  tell_goal(1, kWest);
+  node_->step(clock_.now());
+  expect_west(answer_to(epoch_us_, 2));
+}
+
+TEST_F(SecondFlight, KeepsItsOwnGoalThoughThatCameBeforeItsFirstRequest) {
+  fly_the_first();
+  tell_goal(1, kWest);
+  deliver({epoch_us_, 1}, clock_.now() + Duration{70'000});
+  node_->step(clock_.now());
+  (void)answer_to(epoch_us_, 2);
+  at(clock_.now() + Duration{15'000});
+  expect_west(answers_.plans.back());
+}
+
+TEST_F(SecondFlight, DoesNotGoAroundTheFirstOnesObstacles) {
+  fly_the_first({support::standing_box(4, Box(Vec3(2, -3, -3), Vec3(3, 3, 5)), kStart)});
+  tell_goal(7, kEast);
+  (void)answer_to(epoch_us_, 1);
+  const GoalFieldInputs from = answer_to(epoch_us_, 2).inputs.goal_field;
+  EXPECT_NE(first_.inputs.goal_field.statics, digest_of({}));
+  EXPECT_EQ(from.statics, digest_of({}));
+  EXPECT_EQ(from.statics_first_set, sets_);  // from there on a replay remembers, too
+}
+
 }  // namespace
 }  // namespace tern
