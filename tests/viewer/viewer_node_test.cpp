@@ -12,6 +12,7 @@
 #include "tests/viewer/known_scene.h"
 #include "viewer/bridge/app/listening_socket.h"
 #include "viewer/bridge/app/log_player.h"
+#include "viewer/bridge/own_goal.h"
 #include "viewer/bridge/scene_json.h"
 
 namespace tern {
@@ -155,6 +156,54 @@ TEST(Scene, TellsClearanceFromTheBodyToTheNearestBox) {
   EXPECT_NEAR(*scene.clearance(), nearest, 1e-9);
   scene.hear(known.request(kKnownLogStart, 1));
   EXPECT_NEAR(*scene.clearance(), nearest - 0.1, 1e-9);
+}
+
+/// A goal, and states of vehicles.
+class OwnGoalTest : public testing::Test {
+ protected:
+  static Goal goal(std::int64_t id) {
+    Goal goal;
+    goal.id = id;
+    goal.header.utime = kKnownLogStart;
+    return goal;
+  }
+  void hear_vehicle(std::int64_t epoch_us) {
+    UavState state;
+    state.header.name.sender_epoch_us = epoch_us;
+    scene_.hear(state);
+  }
+  bool is_sent_at(double seconds) {
+    return own_.due(scene_, kKnownLogStart + Duration::from_seconds(seconds)).has_value();
+  }
+  Scene scene_;
+  OwnGoal own_;
+};
+
+TEST_F(OwnGoalTest, IsRepeatedUntilANewerOneIsHeard) {
+  EXPECT_FALSE(is_sent_at(0.0));
+  own_.set(goal(2), scene_, kKnownLogStart);
+  EXPECT_TRUE(is_sent_at(0.0));
+  EXPECT_FALSE(is_sent_at(0.9));
+  EXPECT_TRUE(is_sent_at(1.0));
+  hear_vehicle(5);  // the first that is heard
+  scene_.hear(goal(2));
+  EXPECT_TRUE(is_sent_at(2.0));
+  scene_.hear(goal(3));
+  EXPECT_FALSE(is_sent_at(3.0));
+  EXPECT_FALSE(is_sent_at(4.0));
+}
+
+TEST_F(OwnGoalTest, IsNotSentToTheVehicleOfAnotherFlight) {
+  hear_vehicle(5);
+  own_.set(goal(2), scene_, kKnownLogStart);
+  scene_.hear(goal(2));
+  EXPECT_TRUE(is_sent_at(0.0));
+  hear_vehicle(kKnownLogStart.us + 500'000);
+  EXPECT_FALSE(is_sent_at(1.0));
+  EXPECT_FALSE(is_sent_at(2.0));
+  EXPECT_FALSE(scene_.goal());
+  scene_.hear(goal(1));
+  EXPECT_EQ(scene_.goal()->id, 1);
 }
 
 TEST(Scene, RemembersABoundedNumberOfProcesses) {

@@ -14,6 +14,13 @@ double ball_radius(const Body& body) { return body.vertices.colwise().norm().max
 }  // namespace
 
 void Scene::hear(const UavState& message) {
+  const std::int64_t epoch_us = message.header.name.sender_epoch_us;
+  const bool is_its_own =
+      goal_ && (goal_->header.name.sender_epoch_us == epoch_us || goal_->header.utime.us > epoch_us);
+  if (state_ && epoch_us != vehicle_us() && goal_ && !is_its_own) {
+    goal_.reset();
+    mark(Topic::Goal);
+  }
   state_ = message;
   if (history_ != nullptr) history_->add(message);
   for (const Topic topic : {Topic::State, Topic::Chart, Topic::Path}) mark(topic);

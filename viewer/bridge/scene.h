@@ -45,6 +45,8 @@ class Scene {
   /// @param history  is told of motion, clearances and answers; may be null
   explicit Scene(FlightHistory* history = nullptr) : history_(history) {}
 
+  /// A state of another vehicle (a new sender epoch) is another flight's: goals that were sent before it began are
+  /// forgotten.
   void hear(const UavState& message);
   void hear(const ObstacleTruth& complete_set);
   void hear(TrackSet complete_set);
@@ -61,6 +63,8 @@ class Scene {
   void clear();
 
   [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
+  /// The sender epoch of the vehicle's states; 0: none was heard.
+  [[nodiscard]] std::int64_t vehicle_us() const { return state_ ? state_->header.name.sender_epoch_us : 0; }
   [[nodiscard]] const std::optional<ObstacleTruth>& truth() const { return truth_; }
   [[nodiscard]] const std::optional<TrackSet>& tracks() const { return tracks_; }
   [[nodiscard]] const std::optional<HorizonRequest>& request() const { return request_; }

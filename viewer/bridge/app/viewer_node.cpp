@@ -18,7 +18,6 @@ namespace tern {
 namespace {
 
 constexpr Duration kStepPeriod{33'000};
-constexpr Duration kGoalPeriod{1'000'000};
 /// Hulls are of what may come as near as this to the plan, m; at most so many at a time (about 10 ms of work).
 constexpr double kHullReach = 2.0;
 constexpr int kMostHulls = 240;
@@ -169,8 +168,7 @@ void ViewerNode::obey(std::int64_t client, const GoalCommand& command, UTime now
     goal.id = (scene_.goal() ? scene_.goal()->id : 0) + 1;
     goal.mode = command.mode;
     goal.position = command.position;
-    own_goal_ = goal;
-    next_goal_ = now;
+    own_goal_.set(goal, scene_, now);
     repeat_goal(now);
     spdlog::info("a page sent goal {}: {:.2f}, {:.2f}, {:.2f}", goal.id, goal.position.x(), goal.position.y(),
                  goal.position.z());
@@ -187,10 +185,7 @@ void ViewerNode::forget_gone_pages() {
 }
 
 void ViewerNode::repeat_goal(UTime now) {
-  if (!own_goal_ || now < next_goal_) return;
-  next_goal_ = now + kGoalPeriod;
-  if (scene_.goal() && scene_.goal()->id > own_goal_->id) return own_goal_.reset();
-  bus_.publish(channels::kGoal, *own_goal_);
+  if (const auto goal = own_goal_.due(scene_, now)) bus_.publish(channels::kGoal, *goal);
 }
 
 void ViewerNode::post(UTime now) {

@@ -12,6 +12,7 @@
 #include "viewer/bridge/app/scene_intake.h"
 #include "viewer/bridge/app/web_server.h"
 #include "viewer/bridge/commands.h"
+#include "viewer/bridge/own_goal.h"
 
 namespace tern {
 
@@ -68,8 +69,8 @@ class ViewerNode final : public Node {
   std::unique_ptr<WebServer> server_;  ///< after the board that it reads
   std::map<std::int64_t, LayersCommand> layers_;
   LayersCommand wanted_;  ///< by any page
-  std::optional<Goal> own_goal_;
-  UTime next_step_, next_goal_{};
+  OwnGoal own_goal_;
+  UTime next_step_;
   std::array<UTime, kTopics> next_post_{};
 };
 

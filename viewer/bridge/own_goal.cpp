@@ -1,0 +1,25 @@
+#include "viewer/bridge/own_goal.h"
+
+namespace tern {
+namespace {
+
+constexpr Duration kGoalPeriod{1'000'000};
+
+}  // namespace
+
+void OwnGoal::set(const Goal& goal, const Scene& scene, UTime now) {
+  goal_ = goal;
+  vehicle_us_ = scene.vehicle_us();
+  next_ = now;
+}
+
+std::optional<Goal> OwnGoal::due(const Scene& scene, UTime now) {
+  if (!goal_ || now < next_) return std::nullopt;
+  next_ = now + kGoalPeriod;
+  if (vehicle_us_ == 0) vehicle_us_ = scene.vehicle_us();
+  const bool overruled = scene.goal() && scene.goal()->id > goal_->id;
+  if (overruled || scene.vehicle_us() != vehicle_us_) goal_.reset();
+  return goal_;
+}
+
+}  // namespace tern
