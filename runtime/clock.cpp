@@ -3,16 +3,47 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <limits>
 #include <stdexcept>
 
 #include "runtime/stopwatch.h"
 
 namespace tern {
+namespace {
 
-UTime WallClock::now() const {
-  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  return UTime{std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count()} + offset_;
+/// A thread may lose its core between two readings: of so many tries, or the first that took no longer than this, the
+/// shortest counts.
+constexpr int kTries = 20;
+constexpr std::int64_t kShortNs = 200;
+
+template <class C>
+std::int64_t read_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(C::now().time_since_epoch()).count();
 }
+
+/// How far the system's real-time clock is ahead of its steady one, ns.
+std::int64_t system_ahead_ns() {
+  std::int64_t ahead = 0, shortest = std::numeric_limits<std::int64_t>::max();
+  for (int k = 0; k < kTries && shortest > kShortNs; ++k) {
+    const std::int64_t before = read_ns<std::chrono::steady_clock>();
+    const std::int64_t system = read_ns<std::chrono::system_clock>();
+    const std::int64_t took = read_ns<std::chrono::steady_clock>() - before;
+    if (took >= shortest) continue;
+    shortest = took;
+    ahead = system - before - took / 2;
+  }
+  return ahead;
+}
+
+}  // namespace
+
+WallClock::WallClock(Duration offset) : offset_(offset), ahead_ns_(system_ahead_ns()) {}
+
+UTime WallClock::now() const { return UTime{(read_ns<std::chrono::steady_clock>() + ahead_ns_) / 1'000} + offset_; }
+
+UTime WallClock::at_system_time(std::int64_t unix_us) const { return UTime{unix_us} - drift() + offset_; }
+
+Duration WallClock::drift() const { return {(system_ahead_ns() - ahead_ns_) / 1'000}; }
 
 void VirtualClock::advance_to(UTime t) {
   if (t < now_) throw std::invalid_argument(fmt::format("VirtualClock: {} us is before now, {} us", t.us, now_.us));

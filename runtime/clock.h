@@ -10,21 +10,28 @@ namespace tern {
 class Clock {
  public:
   virtual ~Clock() = default;
+  /// Never goes back.
   [[nodiscard]] virtual UTime now() const = 0;
-  /// What this clock showed when the system's real-time clock showed `unix_us`, µs since the Unix epoch. A clock that
-  /// has nothing to do with the system's says now().
+  /// What this clock showed when the system's real-time clock showed `unix_us`, µs since the Unix epoch, lately: not
+  /// before that was set last. A clock that has nothing to do with the system's says now().
   [[nodiscard]] virtual UTime at_system_time(std::int64_t /*unix_us*/) const { return now(); }
+  /// How far the system's real-time clock has been set forward (negative: back) since this clock was made.
+  [[nodiscard]] virtual Duration drift() const { return {}; }
 };
 
-/// The system's real-time clock plus a fixed offset (`--clock-offset-us`, so that skew can be tested).
+/// The system's real-time clock when this was made, and from there on its steady one: what slews the one (chrony, PTP)
+/// slews the other, but who sets the system's clock does not set this. Plus a fixed offset (`--clock-offset-us`, so
+/// that skew can be tested). Thread-safe.
 class WallClock final : public Clock {
  public:
-  explicit WallClock(Duration offset = {}) : offset_(offset) {}
+  explicit WallClock(Duration offset = {});
   [[nodiscard]] UTime now() const override;
-  [[nodiscard]] UTime at_system_time(std::int64_t unix_us) const override { return UTime{unix_us} + offset_; }
+  [[nodiscard]] UTime at_system_time(std::int64_t unix_us) const override;
+  [[nodiscard]] Duration drift() const override;
 
  private:
   Duration offset_;
+  std::int64_t ahead_ns_;  ///< the system's clock, of the steady one, when this was made
 };
 
 /// Time that moves only when told to: tests and campaigns.

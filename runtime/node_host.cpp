@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -18,6 +19,8 @@ constexpr Duration kHeartbeatPeriod{500'000};
 constexpr Duration kConfigurationPeriod{5'000'000};
 /// Room for the last line of a text that is cut.
 constexpr std::size_t kCutLineBytes = 120;
+
+Duration magnitude(Duration d) { return d < Duration{} ? d * -1 : d; }
 
 }  // namespace
 
@@ -62,6 +65,23 @@ void NodeHost::step(UTime now) {
   bus_.send_due(now);
 }
 
+/// @return what is wrong with the clock, in words; into the log, too, when that is new.
+std::string NodeHost::say_drift() {
+  const Duration drift = bus_.clock().drift();
+  if (magnitude(drift) <= kSaidDrift) {
+    said_drift_ = {};
+    return "";
+  }
+  const std::string text =
+      fmt::format("the system's clock was set {} by {:.1f} ms: who starts now is apart by that; start all anew",
+                  drift < Duration{} ? "back" : "forward", magnitude(drift).seconds() * 1e3);
+  if (magnitude(drift - said_drift_) > kSaidDrift) {
+    spdlog::warn("{}", text);
+    said_drift_ = drift;
+  }
+  return text;
+}
+
 void NodeHost::publish_heartbeat() {
   const NodeHealth health = node_.health();
   Heartbeat message;
@@ -69,6 +89,11 @@ void NodeHost::publish_heartbeat() {
   message.build_id = build_id();
   message.state = health.state;
   message.waiting_for = health.waiting_for;
+  const std::string clock = say_drift();
+  const std::string separator = health.waiting_for.empty() ? "" : "; ";
+  if (message.waiting_for.size() + separator.size() + clock.size() <= kMaxWaitingText && !clock.empty()) {
+    message.waiting_for += separator + clock;
+  }
   message.channels = bus_.counters();
   bus_.publish(channels::kHeartbeat, message);
 }

@@ -57,6 +57,9 @@ using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 /// threads may never end.
 int run_process(int argc, char** argv, const ProcessDescription& description, const NodeFactory& make_node);
 
+/// A clock that the system's has left by more is said on HEARTBEAT and in the log.
+inline constexpr Duration kSaidDrift{10'000};
+
 /// Hosts one node: its heartbeat and configuration reports, its pacing. The same in a process and in virtual time.
 class NodeHost {
  public:
@@ -76,12 +79,14 @@ class NodeHost {
  private:
   void publish_heartbeat();
   void publish_configuration();
+  std::string say_drift();
   Bus& bus_;
   Node& node_;
   std::string process_, yaml_;
   UTime next_heartbeat_{}, next_configuration_{};
   std::int64_t stepped_deliveries_ = 0;
   bool said_finished_ = false;
+  Duration said_drift_{};
 };
 
 }  // namespace tern

@@ -16,7 +16,7 @@ namespace {
 
 /// A flood of messages shall not keep the node from its deadlines.
 constexpr int kMaxMessagesPerStep = 1'000;
-/// No longer sleep, so that a stepped system clock is noticed.
+/// No longer sleep: a node that waits for messages only says kNever.
 constexpr Duration kLongestSleep{1'000'000};
 
 /// Blocks until a descriptor is readable or the time has come. @return whether fds[1], the stop, is readable.
@@ -36,11 +36,10 @@ bool wait(pollfd (&fds)[2], Duration sleep) {
 int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
   const Clock& clock = host.bus().clock();
   pollfd fds[2] = {{lcm.getFileno(), POLLIN, 0}, {stop_fd, POLLIN, 0}};
-  UTime now = clock.now();
   while (true) {
     drain(lcm, kMaxMessagesPerStep);
     host.bus().rethrow();
-    now = std::max(now, clock.now());
+    const UTime now = clock.now();
     if (host.is_due(now)) host.step(now);
     if (const auto code = host.node().finished()) return *code;
     const UTime wakeup = host.next_wakeup();
