@@ -72,8 +72,8 @@ GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const M
 struct GoalProducts {
   Goal goal;
   GoalFieldKey key;
-  std::shared_ptr<const GoalField> field;
-  GoalFieldInputs made_from;  ///< what `field` was made from, as a plan names it
+  std::shared_ptr<const GoalField> field;  ///< null for a goal to hold or stop before there was a way to any
+  GoalFieldInputs made_from;               ///< what `field` was made from, as a plan names it
 };
 
 /// The snapshot of one planning call. A null member: not there yet.
