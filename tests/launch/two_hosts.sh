@@ -14,7 +14,7 @@ readonly SETTINGS=(--config "$work/scenario.yaml" --set uav.goal='[20,0,1]')
 # lay_cable: makes the ground, and a cable to it. Sets `ground` to what runs a command there.
 lay_cable() {
   local host
-  unshare --net sleep 600 &
+  unshare --net tail -f /dev/null &  # holds the namespace
   host=$!
   flights+=("$host")
   ground=(nsenter --net --target "$host" --)
