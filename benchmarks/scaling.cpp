@@ -160,6 +160,7 @@ void obstacles_in_reach() {
 
 /// Runs in a process of its own: its peak memory is that of this case.
 void in_a_child(const std::function<void()>& work) {
+  std::fflush(stdout);  // what waits there would be printed by the child, too
   const pid_t child = fork();
   if (child == 0) {
     work();
