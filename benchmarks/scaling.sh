@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # scaling.sh [FOLDER] [OPTION_OF_SCALING...]: how cost grows with obstacles, voxels and J; writes FOLDER/scaling.csv and
-# scaling.md (docs/results by default). Half a minute to ten, 4 GB for 10^8 voxels.
+# scaling.md (docs/results by default). Under a minute on an idle machine, 4 GB for 10^8 voxels.
 set -euo pipefail
 # shellcheck source=benchmarks/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
