@@ -115,8 +115,8 @@ void WorldIntake::prepare() {
   if (!newest_goal_ || newest_goal_->mode != GoalMode::Go || !world.map || !world.predictions) return;
   const GoalFieldKey key{newest_goal_->position, world.map->version, statics_.digest(), body_half_, flight_box_};
   if (world.goal && world.goal->field && world.goal->key == key) {
-    const Goal& known = world.goal->goal;
-    if (known.id == newest_goal_->id && known.mode == newest_goal_->mode) return;
+    // A repetition is named, too: plans name what a logger that joined late has heard.
+    if (world.goal->goal.header.name == newest_goal_->header.name) return;
     return publish(goal_number_, std::make_shared<const GoalProducts>(
                                      GoalProducts{*newest_goal_, key, world.goal->field, world.goal->made_from}));
   }
