@@ -86,7 +86,6 @@ void WorldIntake::on_goal(const Goal& goal) {
 void WorldIntake::hold() {
   if (!newest_goal_ || newest_goal_->mode == GoalMode::Go) return;
   const auto known = snapshot().goal;
-  if (known && known->goal.id == newest_goal_->id && known->goal.mode == newest_goal_->mode) return;
   GoalProducts products = known ? *known : GoalProducts();
   products.goal = *newest_goal_;
   publish(goal_number_, std::make_shared<const GoalProducts>(std::move(products)));

@@ -347,6 +347,22 @@ TEST_F(PlannerNodeTest, AfterAHoldItFliesOn) {
   EXPECT_GT(plan.local_goal.x(), 1.0);
 }
 
+TEST_F(PlannerNodeTest, APlanNamesTheNewestRepetitionOfItsGoal) {
+  // A logger that joins late has not heard the first: a log without it could not be replayed.
+  start({false, Duration{15'000}});
+  tell_world();
+  node_->step(clock_.now());
+  const MessageName first = answer_to(5, 1).inputs.goal;
+  tell_goal(1, kEast);
+  node_->step(clock_.now());
+  const MessageName second = answer_to(5, 2).inputs.goal;
+  EXPECT_EQ(second.sequence, first.sequence + 1);
+  tell_hold(2);
+  const MessageName hold = answer_to(5, 3).inputs.goal;
+  tell_hold(2);
+  EXPECT_EQ(answer_to(5, 4).inputs.goal.sequence, hold.sequence + 1);
+}
+
 TEST_F(PlannerNodeTest, AHoldNeedsNoWay) {
   start({false, Duration{15'000}});
   tell_hold(2);
