@@ -47,7 +47,7 @@ std::optional<RecordedProblem> problem_of(const HorizonRequest& request, const P
                                answer.local_goal, budget,   nullptr,
                                statistics,        workspace};
   SweptObstacles& swept = workspace.horizon;
-  sweep_horizon(context, answer.trajectory.interval, swept);
+  sweep_horizon(context, answer.trajectory.interval, config.hold_cap_s, swept);
   const auto searched =
       search_candidate(context, swept, answer.trajectory.interval, config.hold_required_s, config.search);
   if (!searched) return std::nullopt;

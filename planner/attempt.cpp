@@ -66,7 +66,7 @@ std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& 
   const int intervals = static_cast<int>(control_points.cols()) - 3;
   const Vec3 end = control_points.col(control_points.cols() - 1);
   PairCounts pairs;
-  c.hold_s = clear_time_at(obstacles, intervals, end, pairs);
+  c.hold_s = clear_time_at(obstacles, intervals, end, pairs).seconds;
   c.holds = lasts(c.hold_s, hold_required_s);
   const double duration_s = interval.seconds() * intervals;
   c.clear_s = duration_s + c.hold_s;
@@ -102,17 +102,17 @@ void append_hold(std::vector<double>& times, double step, double hold_s) {
   for (int k = 1; (k - 1) * step < hold_s - 1e-9; ++k) times.push_back(end + std::min(k * step, hold_s));
 }
 
-bool is_followed(const AttemptContext& context, Duration interval) {
-  const Duration looks = interval * context.config.intervals + Duration::from_seconds(context.config.hold_cap_s);
+bool is_followed(const AttemptContext& context, Duration interval, double hold_s) {
+  const Duration looks = interval * context.config.intervals + Duration::from_seconds(hold_s);
   return context.request.t_s + looks <= context.followed_until;
 }
 
-void sweep_horizon(const AttemptContext& context, Duration interval, SweptObstacles& swept) {
+void sweep_horizon(const AttemptContext& context, Duration interval, double hold_s, SweptObstacles& swept) {
   const double dt = interval.seconds();
   std::vector<double>& times = context.workspace.times;
   times.clear();
   for (int k = 0; k <= context.config.intervals; ++k) times.push_back(k * dt);
-  append_hold(times, std::max(dt, kHoldStep), context.config.hold_cap_s);
+  append_hold(times, std::max(dt, kHoldStep), hold_s);
   const Box region = box_around(context.request.start.p, Vec3::Constant(context.config.sphere_radius_m));
   swept.assign(context.obstacles, context.request.body, context.request.t_s, times, region);
 }

@@ -6,6 +6,7 @@
 
 #include "core/world/budget.h"
 #include "core/world/horizon.h"
+#include "planner/hold.h"
 #include "planner/plan_workspace.h"
 #include "planner/planner.h"
 #include "planner/safety/checker.h"
@@ -45,6 +46,7 @@ struct AttemptContext {
   PlanStatistics& statistics;
   PlanWorkspace& workspace;
   UTime followed_until = kFollowedForEver;  ///< no plan looks past this time (PredictionProducts)
+  HoldDemand hold = {};
 };
 
 /// Of holds, s: coarser than Δt where Δt is short, so that a hold costs few hulls.
@@ -53,11 +55,11 @@ inline constexpr double kHoldStep = 0.1;
 /// Adds the times of a hold of hold_s after the last of `times`, s, a step apart.
 void append_hold(std::vector<double>& times, double step, double hold_s);
 
-/// Whether obstacles are known to the end of the hold after J intervals.
-bool is_followed(const AttemptContext& context, Duration interval);
+/// Whether obstacles are known to the end of a hold of hold_s after J intervals.
+bool is_followed(const AttemptContext& context, Duration interval, double hold_s);
 
-/// The obstacles of the horizon t_s … t_s + J Δt and of the hold after it.
-void sweep_horizon(const AttemptContext& context, Duration interval, SweptObstacles& swept);
+/// The obstacles of the horizon t_s … t_s + J Δt and of a hold of hold_s after it.
+void sweep_horizon(const AttemptContext& context, Duration interval, double hold_s, SweptObstacles& swept);
 
 /// Searches at this Δt. Nothing: no leaf that the checker passes.
 /// @param hold_required_s  what the leaf's end should hold

@@ -5,6 +5,9 @@
 
 namespace tern {
 
+/// No plan has a shorter Δt, s: below it, rounding of accelerations q/Δt² eats the tolerances.
+inline constexpr double kLeastInterval = 0.02;
+
 /// The least time in which a double integrator gets from velocity v0 at 0 to rest at d, under |v| ≤ v_max and |a| ≤
 /// a_max, s. With s = sign(d − v0|v0|/(2a)) it accelerates by s·a to a peak of √(a|d| + v0²/2) or v_max, cruises, and
 /// brakes.

@@ -1,61 +1,85 @@
 #include "planner/evasion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "core/geometry/box.h"
+#include "core/world/message_limits.h"
 #include "planner/duration.h"
 
 namespace tern {
 namespace {
 
 constexpr int kMaxExpansions = 150;
-constexpr double kDurationScale = 1.5;
+/// Searches of one evasion.
+constexpr int kMostTries = 28;
+/// Stops lie this far away, in what vehicle and largest mover are wide together …
+constexpr double kWidths[] = {0.3, 0.6, 1.1, 2.0};
+/// … or, to get far away, in r.
+constexpr double kShares[] = {0.35, 0.8};
+constexpr double kFarthestShare = 0.9;
+constexpr double kForecastStep = 0.05;     // s
+constexpr double kLongestForecast = 20.0;  // s
 
-std::array<Vec3, 14> directions() {
-  std::array<Vec3, 14> d;
-  std::size_t n = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    d[n++] = Vec3::Unit(axis);
-    d[n++] = -Vec3::Unit(axis);
-  }
-  const double c = 1.0 / std::sqrt(3.0);
-  for (int k = 0; k < 8; ++k) {
-    d[n++] = Vec3((k & 1) != 0 ? c : -c, (k & 2) != 0 ? c : -c, (k & 4) != 0 ? c : -c);
-  }
-  return d;
+/// Faces, edges and corners of a cube, as unit vectors.
+const std::vector<Vec3>& directions() {
+  static const std::vector<Vec3> all = [] {
+    std::vector<Vec3> made;
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int z = -1; z <= 1; ++z) {
+          if (x != 0 || y != 0 || z != 0) made.push_back(Vec3(x, y, z).normalized());
+        }
+      }
+    }
+    return made;
+  }();
+  return all;
 }
 
 /// A stop to try.
-struct Aim {
+struct Stop {
   Vec3 point = Vec3::Zero();
   Duration interval;     ///< Δt of the way there
+  double way_s = 0.0;    ///< J Δt
   double clear_s = 0.0;  ///< forecast: when the way there, or resting there, first meets an obstacle's box
 };
 
-/// Where all aims are forecast: the sphere, long enough to reach the farthest of them and to hold there.
+/// How far away stops are tried, m.
+std::vector<double> distances(const AttemptContext& context) {
+  const double r = context.config.sphere_radius_m;
+  std::vector<double> all;
+  for (const double share : kShares) all.push_back(share * r);
+  for (const double widths : kWidths) {
+    const double distance = widths * context.hold.width;
+    if (distance > 0.0 && distance < kFarthestShare * r) all.push_back(distance);
+  }
+  return all;
+}
+
+/// Where all stops are forecast: the sphere, for so long.
 const SweptObstacles& sweep_forecast(const AttemptContext& context, double duration_s) {
-  constexpr double kStep = 0.1;  // s
   std::vector<double>& times = context.workspace.times;
   times.assign(1, 0.0);
-  while (times.back() < duration_s) times.push_back(times.back() + kStep);
+  append_hold(times, kForecastStep, std::min(duration_s, kLongestForecast));
   const Box region = box_around(context.request.start.p, Vec3::Constant(context.config.sphere_radius_m));
   SweptObstacles& swept = context.workspace.forecast;
   swept.assign(context.obstacles, context.request.body, context.request.t_s, times, region);
   return swept;
 }
 
-/// A smooth way from rest to rest at s of its duration, 0 … 1.
-double smooth(double s) { return s * s * (3.0 - 2.0 * s); }
-
-double forecast(const SweptObstacles& swept, const Vec3& from, const Vec3& to, double way_s) {
+/// A smooth way from the start to rest at the stop (a cubic in time), sampled once per step of the forecast.
+double forecast(const SweptObstacles& swept, const MotionSample& start, const Stop& stop) {
   for (int k = 0; k < swept.intervals(); ++k) {
     const double middle = 0.5 * (swept.time(k) + swept.time(k + 1));
-    const Vec3 p = from + smooth(std::min(1.0, middle / way_s)) * (to - from);
+    const double s = std::min(1.0, middle / stop.way_s);
+    const double reached = s * s * (3.0 - 2.0 * s);
+    const double carried = s * (1.0 - s) * (1.0 - s) * stop.way_s;
+    const Vec3 p = start.p + reached * (stop.point - start.p) + carried * start.v;
     for (const SweptObstacles::Candidate& candidate : swept.candidates(k)) {
       if (candidate.box.contains(p)) return swept.time(k);
     }
@@ -63,27 +87,34 @@ double forecast(const SweptObstacles& swept, const Vec3& from, const Vec3& to, d
   return swept.time(swept.intervals());
 }
 
-/// All aims, those first whose forecast is clear longest; of equals the nearer ones, then by direction.
-std::vector<Aim> ordered_aims(const AttemptContext& context) {
-  std::vector<Aim> aims;
+/// All stops within the flight box, those first whose forecast is clear longest; of equals the sooner ones, then by
+/// direction.
+std::vector<Stop> ordered_stops(const AttemptContext& context) {
+  const Box box = centre_box(context.request.flight_box, context.request.body);
+  std::vector<Stop> stops;
   double longest = 0.0;
-  for (const double share : {0.35, 0.8}) {
+  for (const double distance : distances(context)) {
     for (const Vec3& direction : directions()) {
-      Aim aim;
-      aim.point = context.request.start.p + direction * (share * context.config.sphere_radius_m);
-      const double duration = kDurationScale * least_duration(context.request.start, aim.point, context.plan_limits);
-      aim.interval = Duration{static_cast<std::int64_t>(std::ceil(duration / context.config.intervals * 1e6))};
-      longest = std::max(longest, duration);
-      aims.push_back(aim);
+      Stop stop;
+      stop.point = context.request.start.p + direction * distance;
+      if (!box.contains(stop.point)) continue;
+      const double least = least_duration(context.request.start, stop.point, context.plan_limits);
+      const double interval_s = std::max(kStopScale * least / context.config.intervals, kLeastInterval);
+      if (interval_s > kLongestInterval.seconds()) continue;
+      stop.interval = Duration{static_cast<std::int64_t>(std::ceil(interval_s * 1e6))};
+      stop.way_s = stop.interval.seconds() * context.config.intervals;
+      longest = std::max(longest, stop.way_s);
+      stops.push_back(stop);
     }
   }
-  const SweptObstacles& swept = sweep_forecast(context, longest + context.config.hold_cap_s);
-  for (Aim& aim : aims) {
-    aim.clear_s =
-        forecast(swept, context.request.start.p, aim.point, aim.interval.seconds() * context.config.intervals);
-  }
-  std::stable_sort(aims.begin(), aims.end(), [](const Aim& a, const Aim& b) { return a.clear_s > b.clear_s; });
-  return aims;
+  const SweptObstacles& swept =
+      sweep_forecast(context, std::max(longest + context.hold.cap_s, context.hold.predicted_s));
+  for (Stop& stop : stops) stop.clear_s = forecast(swept, context.request.start, stop);
+  std::stable_sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) {
+    return a.clear_s != b.clear_s ? a.clear_s > b.clear_s : a.way_s < b.way_s;
+  });
+  if (stops.size() > kMostTries) stops.resize(kMostTries);
+  return stops;
 }
 
 /// From the end point to the nearest obstacle's box in the first interval after the end, m.
@@ -106,29 +137,31 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
   // One plan may seek both aims; a budget's cuts are by attempt, so no attempt occurs twice.
   constexpr int kAttempts = 100;
   int attempt = kFirstEvasionAttempt + (aim == EvasionAim::GreatestClearance ? kAttempts : 0);
-  for (const Aim& aim_at : ordered_aims(base)) {
+  for (const Stop& stop : ordered_stops(base)) {
     base.budget.begin_attempt(attempt++);
     if (base.budget.expired(Stage::Search)) return best;
     AttemptContext context = base;
     context.fields = nullptr;
-    context.local_goal = aim_at.point;
+    context.local_goal = stop.point;
     context.way = {context.local_goal, 0.0};
-    if (!is_followed(context, aim_at.interval)) continue;
+    const double look_s = base.hold.cap_of_stop(stop.way_s);
+    if (!is_followed(context, stop.interval, look_s)) continue;
     SweptObstacles& swept = context.workspace.evasion;
-    sweep_horizon(context, aim_at.interval, swept);
-    auto found = search_candidate(context, swept, aim_at.interval, base.config.hold_cap_s, search);
+    sweep_horizon(context, stop.interval, look_s, swept);
+    auto found = search_candidate(context, swept, stop.interval, look_s, search);
     base.statistics.count(swept);
     if (!found) continue;
     found->outcome = PlanOutcome::Evade;
     found->arrival_s = worth_of(base, found->trajectory);
-    found->holds = lasts(found->hold_s, base.config.required_hold(found->clear_s - found->hold_s));
+    found->holds = lasts(found->hold_s, base.hold.required(stop.way_s));
     const bool by_time = aim == EvasionAim::LongestClear;
     if (!by_time && !found->holds) continue;
     const double worth = by_time ? found->clear_s : room_at_end(swept, base.config.intervals, found->trajectory);
     if (best && worth <= best_worth) continue;
+    const bool lasts_on = lasts(found->hold_s, look_s);
     best = std::move(found);
     best_worth = worth;
-    if (by_time && lasts(best->hold_s, base.config.hold_cap_s)) return best;
+    if (by_time && lasts_on) return best;
   }
   return best;
 }

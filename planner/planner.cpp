@@ -59,12 +59,14 @@ class Planning {
     choose_obstacles();
     committed_ = check_committed();
     offer(committed_ ? &*committed_ : nullptr, reason_of_fallback());
-    if (idle() && committed_ && committed_->holds) return finish(&*committed_, PlanReason::AtGoal);
+    if (idle() && committed_ && committed_->holds && !is_hit_at_rest_) {
+      return finish(&*committed_, PlanReason::AtGoal);
+    }
     AttemptContext context = make_context();
     const bool has_path = head_for_goal(context);
     if (!has_path) reason_ = PlanReason::GoalBlocked;
     if (answer_.plan.relaxed) gain_clearance(context);
-    if (has_path && !best_) try_durations(context);
+    if (has_path && !best_ && !idle()) try_durations(context);
     if (needs_evasion()) evade(context);
     return choose();
   }
@@ -116,6 +118,28 @@ class Planning {
     const StartClearance start = clear_start(obstacles_, request_.body, request_.start.p, request_.t_s);
     answer_.plan.relaxed = start.relaxed;
     start_collides_ = start.collides;
+    hold_ = hold_demand();
+  }
+
+  /// Of this vehicle, among what moves nearby.
+  [[nodiscard]] HoldDemand hold_demand() const {
+    HoldDemand hold{config_.hold_required_s, config_.hold_cap_s, config_.hold_until_s};
+    Vec3 largest = Vec3::Zero();
+    for (const PlanningObstacle& obstacle : obstacles_) {
+      if (!obstacle.moves()) continue;
+      largest = largest.cwiseMax(obstacle.track->half_extents);
+      hold.predicted_s = std::max(hold.predicted_s, (obstacle.track->motion.end() - request_.t_s).seconds());
+    }
+    if (largest.isZero(0.0)) return hold;
+    const Vec3 body = request_.body.half_extents();
+    hold.aside_s = time_to_step_aside(request_.limits, body, largest);
+    hold.width = (body + largest).maxCoeff();
+    return hold;
+  }
+
+  /// Whether its motion is promised, not estimated.
+  [[nodiscard]] static bool is_certain(const PlanningObstacle& obstacle) {
+    return obstacle.track == nullptr || obstacle.track->kind != TrackKind::Estimated;
   }
 
   /// Where the vehicle's centre may be from t_s on if nothing new is flown. It may lie far out of the sphere around the
@@ -149,7 +173,9 @@ class Planning {
     const double moving_s = times.back();
     const double followed_s = (world_.predictions->followed_until - request_.t_s).seconds();
     if (moving_s > followed_s) return std::nullopt;
-    append_hold(times, kHoldStep, std::min(config_.hold_cap_s, followed_s - moving_s));
+    const bool rests = pieces.empty();
+    const double look_s = rests ? hold_.cap_of_stop(0.0) : hold_.cap(moving_s);
+    append_hold(times, kHoldStep, std::min(look_s, followed_s - moving_s));
     SweptObstacles& swept = workspace_.committed;
     swept.assign(obstacles_, request_.body, request_.t_s, times, committed_box());
     CheckReport report = check_separation(pieces, swept);
@@ -159,10 +185,12 @@ class Planning {
     c.outcome = PlanOutcome::KeepCommitted;
     c.trajectory = committed;
     c.certificate = std::move(report.certificate);
-    c.hold_s = clear_time_at(swept, static_cast<int>(pieces.size()), end, report.pairs);
-    if (pieces.empty() && c.hold_s <= 0.0) return std::nullopt;
-    c.holds = lasts(c.hold_s, config_.required_hold(moving_s));
-    c.clear_s = moving_s + c.hold_s;
+    const ClearTime clear = clear_time_at(swept, static_cast<int>(pieces.size()), end, report.pairs);
+    if (rests && clear.seconds <= 0.0) return std::nullopt;
+    is_hit_at_rest_ = idle() && clear.blocker != nullptr && is_certain(*clear.blocker);
+    c.hold_s = std::min(clear.seconds, hold_.cap(moving_s));
+    c.holds = lasts(c.hold_s, hold_.required(moving_s));
+    c.clear_s = moving_s + clear.seconds;
     return c;
   }
 
@@ -181,9 +209,19 @@ class Planning {
   AttemptContext make_context() {
     Limits reduced = request_.limits;
     reduced.v_max *= config_.velocity_share;
-    return {
-        request_,         config_, obstacles_, semantics_in_reach(), reduced,    {},
-        request_.start.p, budget_, observer_,  answer_.statistics,   workspace_, world_.predictions->followed_until};
+    return {request_,
+            config_,
+            obstacles_,
+            semantics_in_reach(),
+            reduced,
+            {},
+            request_.start.p,
+            budget_,
+            observer_,
+            answer_.statistics,
+            workspace_,
+            world_.predictions->followed_until,
+            hold_};
   }
 
   /// The fields, if what they cost differs anywhere in the sphere. The mean distance of Eq. 3 differs everywhere.
@@ -222,12 +260,12 @@ class Planning {
       budget_.begin_attempt(attempt++);
       if (best_ && (enough() || budget_.expired(Stage::LocalGoal))) break;
       const Duration interval = interval_of(scale * least);
-      if (!is_followed(context, interval)) break;
+      const double end_s = interval.seconds() * config_.intervals;
+      if (!is_followed(context, interval, hold_.cap(end_s))) break;
       enter(Stage::Hulls);
       SweptObstacles& swept = workspace_.horizon;
-      sweep_horizon(context, interval, swept);
-      auto found = search_candidate(context, swept, interval,
-                                    config_.required_hold(interval.seconds() * config_.intervals), config_.search);
+      sweep_horizon(context, interval, hold_.cap(end_s), swept);
+      auto found = search_candidate(context, swept, interval, hold_.required(end_s), config_.search);
       if (found) {
         if (!best_ || found->better_than(*best_)) offer(&*found, PlanReason::None);
         take(optimized(context, swept, std::move(*found)));
@@ -260,7 +298,7 @@ class Planning {
 
   [[nodiscard]] bool needs_evasion() const {
     if (best_ && best_->holds) return false;
-    return !(committed_ && committed_->holds);
+    return !(committed_ && committed_->holds) || is_hit_at_rest_;
   }
 
   /// The start lies inside a hull: out of it first, to where there is most room.
@@ -331,8 +369,6 @@ class Planning {
   static constexpr double kNearLocalGoal = 1.0;  // m
   static constexpr double kSmoothnessPrice =
       0.05;  // s: an optimized trajectory may arrive so much later than the search's
-  static constexpr double kLeastInterval =
-      0.02;  // s: below this Δt, rounding of accelerations q/Δt² eats the tolerances
 
   const HorizonRequest& request_;
   const PlanningWorld& world_;
@@ -342,6 +378,8 @@ class Planning {
   PlanWorkspace& workspace_;
   std::vector<PlanningObstacle>& obstacles_;
   bool start_collides_ = false;
+  HoldDemand hold_;
+  bool is_hit_at_rest_ = false;  ///< the vehicle rests where it shall, and a motion that is promised comes through it
   std::optional<Candidate> committed_;
   std::optional<Candidate> best_;
   PlanReason reason_ = PlanReason::None;

@@ -1,7 +1,6 @@
 // The planner's numbers, in one place. Read from the scenario's `planner:` section by planner/app.
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,13 +63,6 @@ struct PlannerConfig {
   bool publish_search = false;     ///< SEARCH_VIEW with every answer, for people; changes no answer
   SearchConfig search;
   OptimizationConfig optimization;
-
-  /// What an end that is reached so long after t_s should hold to be preferred, s. Where predictions widen with time, a
-  /// hold after a long plan asks for more than one after a short plan, and most of all for standing still: the bound
-  /// makes them equal.
-  [[nodiscard]] double required_hold(double end_s) const {
-    return std::clamp(hold_until_s - end_s, 0.0, hold_required_s);
-  }
 };
 
 }  // namespace tern

@@ -43,7 +43,7 @@ class Refinement {
         config_(context.config.optimization),
         obstacles_(obstacles),
         problem_(trajectory_problem(context, searched.trajectory)),
-        required_(context.config.required_hold(searched.clear_s - searched.hold_s)),
+        required_(context.hold.required(searched.clear_s - searched.hold_s)),
         hold_required_(std::min(required_, searched.hold_s)),
         stop_([&budget = context.budget] { return budget.expired(Stage::Optimization); }) {}
 

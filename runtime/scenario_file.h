@@ -13,7 +13,7 @@ inline constexpr const char* kProcessSections[] = {"simulator", "executor", "pre
 
 /// The worlds that a seed can make (WorldSpec::generator).
 inline constexpr const char* kGenerators[] = {"none",          "paper_corridor", "paper_attract", "paper_repel",
-                                              "corridor_demo", "mader_corridor", "sando_forest"};
+                                              "corridor_demo", "mader_corridor", "sando_forest",  "step_aside"};
 
 /// Reads name, seed, world, uav, semantics, timeout_s (scenarios/README.md lists every key); process sections are left
 /// to their processes. A missing name is the file's name without folder and extension.

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "core/world/message_limits.h"
+#include "core/world/step_aside.h"
 #include "runtime/polygon.h"
 #include "runtime/scenario_file.h"
 
@@ -139,6 +141,9 @@ WorldSpec read_world(ConfigSection section) {
   if (world.generator == "none" && world.count > 0) {
     throw section.error("count", fmt::format("{} needs a generator, which is none", world.count));
   }
+  if (world.generator == "step_aside" && world.count > 0) {
+    throw section.error("count", fmt::format("{}: step_aside draws how many there are", world.count));
+  }
   std::set<std::string> names;
   for (const ConfigSection& entry : section.list("obstacles")) world.obstacles.push_back(read_obstacle(entry, names));
   for (const ConfigSection& entry : section.list("recorded")) world.recorded.push_back(read_recorded(entry));
@@ -155,8 +160,7 @@ Points box_corners(const Vec3& h) {
   return corners;
 }
 
-Body read_body(ConfigSection section) {
-  Body body;
+Body read_body(ConfigSection section, Body body) {
   const int shapes =
       (section.has("radius") ? 1 : 0) + (section.has("half_extents") ? 1 : 0) + (section.has("vertices") ? 1 : 0);
   if (shapes > 1) throw section.error("radius", "give one of radius, half_extents, vertices");
@@ -180,8 +184,8 @@ Body read_body(ConfigSection section) {
   return body;
 }
 
-UavSpec read_uav(ConfigSection section) {
-  UavSpec uav;
+/// @param uav  what holds where the section is silent
+UavSpec read_uav(ConfigSection section, UavSpec uav) {
   uav.start = section.vec3("start", uav.start, kPosition);
   uav.goal = section.vec3("goal", uav.goal, kPosition);
   ConfigSection limits = section.section("limits");
@@ -189,7 +193,7 @@ UavSpec read_uav(ConfigSection section) {
   uav.limits.a_max = limits.vec3_or_number("a_max", uav.limits.a_max, Range::positive(1e4));
   uav.limits.j_max = limits.vec3_or_number("j_max", uav.limits.j_max, Range::positive(kInfinity));
   limits.finish();
-  uav.body = read_body(section.section("body"));
+  uav.body = read_body(section.section("body"), uav.body);
   if (section.has("flight_box")) uav.flight_box = read_box(section.section("flight_box"));
   const Vec3 h = uav.body.half_extents();
   const auto check = [&](const char* key, const Vec3& p) {
@@ -204,6 +208,16 @@ UavSpec read_uav(ConfigSection section) {
   check("start", uav.start);
   check("goal", uav.goal);
   section.finish();
+  return uav;
+}
+
+/// step_aside draws the vehicle too.
+UavSpec default_uav(const Scenario& scenario) {
+  UavSpec uav;
+  if (scenario.world.generator != "step_aside") return uav;
+  StepAside drawn = draw_step_aside(scenario.seed, uav.start);
+  uav.limits = drawn.limits;
+  uav.body = std::move(drawn.body);
   return uav;
 }
 
@@ -314,7 +328,7 @@ Scenario read_scenario(ConfigDocument& document) {
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
   if (root.has("timeout_s")) scenario.timeout_s = root.required_number("timeout_s", Range::positive(1e6));
   scenario.world = read_world(root.section("world"));
-  scenario.uav = read_uav(root.section("uav"));
+  scenario.uav = read_uav(root.section("uav"), default_uav(scenario));
   scenario.semantics = read_semantics(root.section("semantics"));
   for (const char* section : kProcessSections) root.ignore(section);
   root.finish();

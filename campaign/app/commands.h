@@ -16,6 +16,7 @@ using Command = std::function<int()>;
 /// subcommand.
 void add_campaign(CLI::App& app, Command& chosen);
 void add_fly_one(CLI::App& app, Command& chosen);
+void add_judge_contacts(CLI::App& app, Command& chosen);
 void add_merge(CLI::App& app, Command& chosen);
 void add_summarize(CLI::App& app, Command& chosen);
 /// paper-6.1 and paper-6.2.

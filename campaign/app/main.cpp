@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   tern::Command chosen;
   tern::add_campaign(app, chosen);
   tern::add_fly_one(app, chosen);
+  tern::add_judge_contacts(app, chosen);
   tern::add_merge(app, chosen);
   tern::add_summarize(app, chosen);
   tern::add_paper(app, chosen);

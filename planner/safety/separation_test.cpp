@@ -196,7 +196,7 @@ bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, 
   return true;
 }
 
-double clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts) {
+ClearTime clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts) {
   for (int k = first; k < obstacles.intervals(); ++k) {
     for (const SweptObstacles::Candidate& candidate : obstacles.candidates(k)) {
       if (!candidate.box.contains(p)) {
@@ -206,10 +206,10 @@ double clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCo
       bool by_cache = false;
       const bool apart = obstacles.is_apart(k, candidate, p, 0, 1, &by_cache);
       ++(by_cache ? counts.by_cache : counts.by_plane);
-      if (!apart) return obstacles.time(k) - obstacles.time(first);
+      if (!apart) return {obstacles.time(k) - obstacles.time(first), &obstacles.obstacle(candidate)};
     }
   }
-  return obstacles.time(obstacles.intervals()) - obstacles.time(first);
+  return {obstacles.time(obstacles.intervals()) - obstacles.time(first), nullptr};
 }
 
 }  // namespace tern

@@ -50,9 +50,14 @@ Separated separate_interval(SweptObstacles& obstacles, int interval, const Power
 bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
               PairCounts& counts, HullForm form = {});
 
-/// How long the body at rest at p stays separated from every obstacle, from the start of interval `first` on: the end
-/// of the last clear interval minus the start of the first, s (0 when the first is not clear).
-double clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts);
+/// How long a body at rest stays separated from every obstacle.
+struct ClearTime {
+  double seconds = 0.0;                       ///< 0 when the first interval is not clear
+  const PlanningObstacle* blocker = nullptr;  ///< what ends it; null: clear as far as was looked
+};
+
+/// Of the body at rest at p, from the start of interval `first` on: to the end of the last clear interval.
+ClearTime clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts);
 
 /// Whether a hold lasts as long as is asked. Holds are differences of times, so that a full one may round to just less.
 inline bool lasts(double hold_s, double required_s) { return hold_s >= required_s - 1e-9; }

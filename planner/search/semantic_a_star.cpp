@@ -171,7 +171,7 @@ class Search {
 
   void consider_leaf(const Entry& entry, const Node& n) {
     Leaf leaf{entry.node, false, entry.band, entry.f, 0.0};
-    leaf.hold_s = clear_time_at(obstacles_, problem_.intervals, n.q, result_.pairs);
+    leaf.hold_s = clear_time_at(obstacles_, problem_.intervals, n.q, result_.pairs).seconds;
     leaf.holds = lasts(leaf.hold_s, problem_.hold_required_s);
     if (best_.node < 0) give_up_at_ = result_.expansions + config_.hold_expansions;
     if (leaf.better_than(best_)) best_ = leaf;

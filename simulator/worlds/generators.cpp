@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/random.h"
+#include "core/world/step_aside.h"
 #include "simulator/worlds/obstacle.h"
 
 namespace tern {
@@ -126,11 +127,12 @@ bool refused(const ObstacleSpec& o, const Vec3& start, const Vec3& goal) {
 
 Result<GeneratedObstacles> generate(const std::string& generator, int count, std::uint64_t seed, const Vec3& start,
                                     const Vec3& goal) {
+  if (generator == "step_aside") return GeneratedObstacles{draw_step_aside(seed, start).movers, 0};
   const Draw draw = find_generator(generator);
   if (draw == nullptr) {
     return fail(
         fmt::format("unknown generator '{}': paper_corridor, paper_attract, paper_repel, corridor_demo, "
-                    "mader_corridor, sando_forest or none",
+                    "mader_corridor, sando_forest, step_aside or none",
                     generator));
   }
   if (count < 0 || count > kMaxCount) return fail(fmt::format("count {}, not in [0, {}]", count, kMaxCount));

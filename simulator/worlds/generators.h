@@ -33,6 +33,8 @@ struct GeneratedObstacles {
 ///   U(2,4)/2),
 ///     s∈[4,6], φ∈[0,3]; static pillars 0.4×0.4×4 at z = 2; of the beams (0.4×0.4 m thick, 4 m long) the first half,
 ///     rounded down, lies along y, the others along x.
+///   step_aside: what core/world/step_aside.h draws for (seed, start); count and goal do not matter, nothing is
+///   refused.
 ///
 /// A draw is refused, and drawn again from where the stream stands, when the obstacle's box comes within
 /// kStartClearance of the start in the first kStartQuiet (sampled every 10 ms), when it is static and within

@@ -185,7 +185,7 @@ TEST(ClearTimeAt, TheBodyTouchesNothingAsLongAsItSays) {
     const int first = static_cast<int>(seed % 3);
     const Vec3 p = s.trajectory.control_points.col(0);
     PairCounts counts;
-    const double clear = clear_time_at(swept, first, p, counts);
+    const double clear = clear_time_at(swept, first, p, counts).seconds;
     const double whole = s.times.back() - swept.time(first);
     ASSERT_LE(clear, whole + 1e-12);
     if (clear > 0.0) {
@@ -217,7 +217,7 @@ TEST(ClearTimeAt, AFullHoldLastsWhateverTheTimeBeforeIt) {
     const std::vector<double> times = {0.0, duration, duration + hold};
     SweptObstacles swept({}, Body{}, kOrigin, times, kEverywhere);
     PairCounts counts;
-    const double clear = clear_time_at(swept, 1, Vec3::Zero(), counts);
+    const double clear = clear_time_at(swept, 1, Vec3::Zero(), counts).seconds;
     if (clear < hold) ++less;
     ASSERT_TRUE(lasts(clear, hold)) << "seed " << seed;
     ASSERT_FALSE(lasts(clear, hold + 1e-6)) << "seed " << seed;

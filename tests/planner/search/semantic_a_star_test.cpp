@@ -120,7 +120,7 @@ TEST(SemanticAStar, WhatItSaysOfItsLeafIsTrue) {
     EXPECT_EQ(result.way_to_go, s.problem.way.from(end));
     SweptObstacles swept = s.sweep();
     PairCounts counts;
-    EXPECT_EQ(result.hold_s, clear_time_at(swept, s.problem.intervals, end, counts));
+    EXPECT_EQ(result.hold_s, clear_time_at(swept, s.problem.intervals, end, counts).seconds);
   }
 }
 

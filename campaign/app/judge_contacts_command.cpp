@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "campaign/app/commands.h"
+#include "campaign/app/flight_options.h"
+#include "campaign/experiments/avoidable.h"
+#include "campaign/records/flight_book.h"
+#include "campaign/statistics/wilson.h"
+#include "runtime/config.h"
+#include "runtime/scenario_file.h"
+
+namespace tern {
+namespace {
+
+struct Options {
+  FlightOptions flight;
+  std::string flights;
+  int moves = MoveSearch{}.moves;
+};
+
+/// Whether the contact of this seed's flight could have been avoided by a vehicle that knew the truth.
+bool could_be_avoided(const FlightInputs& inputs, std::uint64_t seed, const MoveSearch& search) {
+  ConfigDocument document = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(seed));
+  const Scenario scenario = read_scenario(document);
+  const auto world = make_world(scenario, "");
+  if (!world) throw ConfigError(world.error().message);
+  const RestingVehicle vehicle{scenario.uav.start, scenario.uav.limits, scenario.uav.body, scenario.uav.flight_box};
+  return clear_moves(vehicle, *world, seed, search) > 0;
+}
+
+int judge(const Options& options) {
+  const FlightInputs inputs = inputs_of(options.flight);
+  const auto flights = read_flights(options.flights);
+  if (!flights) throw ConfigError(flights.error().message);
+  MoveSearch search;
+  search.moves = options.moves;
+  std::int64_t contacts = 0;
+  std::vector<std::uint64_t> avoidable;
+  for (const auto& [seed, record] : flights->records) {
+    if (record.result.outcome != FlightOutcome::Collision) continue;
+    ++contacts;
+    if (could_be_avoided(inputs, seed, search)) avoidable.push_back(seed);
+  }
+  const auto n = static_cast<std::int64_t>(flights->records.size());
+  const auto k = static_cast<std::int64_t>(avoidable.size());
+  const Interval interval = wilson_interval(k, n);
+  fmt::print("flights {}, contacts {}, of these avoidable {} ({:.3f} % of the flights [{:.3f}, {:.3f}])\n", n, contacts,
+             k, n > 0 ? 100.0 * static_cast<double>(k) / static_cast<double>(n) : 0.0, 100.0 * interval.low,
+             100.0 * interval.high);
+  for (const std::uint64_t seed : avoidable) fmt::print("avoidable: seed {}\n", seed);
+  return 0;
+}
+
+}  // namespace
+
+void add_judge_contacts(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "judge-contacts", "Of a vehicle that rests: which contacts of a campaign random moves would have avoided");
+  add_flight_options(*command, options->flight);
+  command->add_option("flights", options->flights, "What a campaign of this world wrote")
+      ->required()
+      ->type_name("FLIGHTS.csv");
+  command->add_option("--moves", options->moves, "Random moves per contact")
+      ->check(CLI::Range(1, 100'000'000))
+      ->capture_default_str();
+  command->callback([&chosen, options] { chosen = [options] { return judge(*options); }; });
+}
+
+}  // namespace tern

@@ -1,0 +1,28 @@
+#include "planner/hold.h"
+
+#include <algorithm>
+
+#include "planner/duration.h"
+
+namespace tern {
+
+double HoldDemand::required(double end_s) const {
+  const double to_step_aside = std::min(aside_s, predicted_s) - end_s;
+  return std::clamp(until_s - end_s, 0.0, std::max(required_s, to_step_aside));
+}
+
+double HoldDemand::cap(double end_s) const { return std::max(cap_s, required(end_s)); }
+
+double HoldDemand::cap_of_stop(double end_s) const { return std::max(cap(end_s), predicted_s - end_s); }
+
+double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec3& mover_half) {
+  double times[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 aside = Vec3::Unit(axis) * (body_half[axis] + mover_half[axis]);
+    times[axis] = kStopScale * least_duration(MotionSample{}, aside, limits);
+  }
+  std::sort(std::begin(times), std::end(times));
+  return times[1];
+}
+
+}  // namespace tern

@@ -1,0 +1,35 @@
+// The hold: how long an end of a plan must stay clear, and how far ahead that is looked at.
+#pragma once
+
+#include "core/world/vehicle.h"
+
+namespace tern {
+
+/// What one request asks of the ends of its plans. Times are seconds from t_s.
+struct HoldDemand {
+  double required_s = 0.5;   ///< an end that stays clear this long is preferred to one that does not
+  double cap_s = 1.5;        ///< how far a hold is followed
+  double until_s = 60.0;     ///< no hold is asked for later than this
+  double aside_s = 0.0;      ///< what this vehicle needs to step out of a mover's way (time_to_step_aside)
+  double predicted_s = 0.0;  ///< how far the predictions of what moves nearby reach
+  double width = 0.0;        ///< of vehicle and largest mover together: half-extents, added, m
+
+  /// What an end reached at `end_s` should hold to be preferred, s. Where predictions widen with time, a hold after a
+  /// long plan asks for more than one after a short plan, and most of all for standing still: `until_s` makes them
+  /// equal. Besides, the plan must stay clear for as long as this vehicle needs to step aside, from t_s on and as far
+  /// as predictions reach: an evasion that begins when that no longer holds still has its time.
+  [[nodiscard]] double required(double end_s) const;
+  /// How far the hold of an end reached at `end_s` is followed: never less than is asked for.
+  [[nodiscard]] double cap(double end_s) const;
+  /// How far the hold of a stop that is flown to step aside, or to wait, is followed: as far as predictions reach.
+  [[nodiscard]] double cap_of_stop(double end_s) const;
+};
+
+/// The least time in which this vehicle, at rest, leaves the way of a mover, s: from rest to rest over what both are
+/// wide (half-extents), along the second quickest axis (a mover may come along the quickest), times kStopScale.
+double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec3& mover_half);
+
+/// A spline of J intervals from rest to rest takes this much longer than the per-axis bound of least_duration().
+inline constexpr double kStopScale = 1.5;
+
+}  // namespace tern

@@ -1,0 +1,61 @@
+#include "planner/hold.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+
+#include "planner/duration.h"
+
+namespace tern {
+namespace {
+
+Limits limits_of(double v, double a, double j) { return {Vec3::Constant(v), Vec3::Constant(a), Vec3::Constant(j)}; }
+
+double drawn(int low, int high) { return *rc::gen::inRange(low, high) * 0.01; }
+
+TEST(TimeToStepAside, IsTheQuickestAxisThatAMoverAlongTheQuickestOneLeaves) {
+  Limits limits = limits_of(1.0, 1.0, std::numeric_limits<double>::infinity());
+  limits.v_max = Vec3(1.0, 2.0, 4.0);
+  const Vec3 half = Vec3::Constant(5.0);
+  const double by_y = kStopScale * least_duration(MotionSample{}, Vec3(0, 10, 0), limits);
+  EXPECT_DOUBLE_EQ(time_to_step_aside(limits, half, half), by_y);
+}
+
+RC_GTEST_PROP(TimeToStepAside, IsNeverLessForAGentlerVehicleOrAWiderMover, ()) {
+  const double v = drawn(5, 600);
+  const double a = drawn(10, 2000);
+  const double j = drawn(100, 20'000);
+  const Vec3 body = Vec3::Constant(drawn(0, 50));
+  const Vec3 mover(drawn(1, 200), drawn(1, 200), drawn(1, 200));
+  const double least = time_to_step_aside(limits_of(v, a, j), body, mover);
+  const double share = drawn(10, 100);
+  RC_ASSERT(time_to_step_aside(limits_of(share * v, a, j), body, mover) >= least - 1e-12);
+  RC_ASSERT(time_to_step_aside(limits_of(v, share * a, j), body, mover) >= least - 1e-12);
+  RC_ASSERT(time_to_step_aside(limits_of(v, a, j), body, 2.0 * mover) >= least - 1e-12);
+}
+
+RC_GTEST_PROP(HoldDemand, AsksForWhatTheVehicleNeedsAsFarAsPredictionsReach, ()) {
+  HoldDemand hold;
+  hold.aside_s = drawn(0, 800);
+  hold.predicted_s = drawn(0, 500);
+  const double end_s = drawn(0, 600);
+  const double required = hold.required(end_s);
+  RC_ASSERT(required >= hold.required_s);
+  if (required > hold.required_s) RC_ASSERT(end_s + required <= hold.predicted_s + 1e-12);
+  RC_ASSERT(end_s + required >= std::min(hold.aside_s, hold.predicted_s) - 1e-12);
+  RC_ASSERT(hold.cap(end_s) >= required);
+  RC_ASSERT(hold.cap_of_stop(end_s) >= hold.cap(end_s));
+}
+
+RC_GTEST_PROP(HoldDemand, AsksForNothingAfterItsEnd, ()) {
+  HoldDemand hold;
+  hold.until_s = drawn(0, 300);
+  hold.aside_s = drawn(0, 800);
+  hold.predicted_s = 4.5;
+  const double end_s = drawn(0, 600);
+  RC_ASSERT(hold.required(end_s) <= std::max(0.0, hold.until_s - end_s) + 1e-12);
+}
+
+}  // namespace
+}  // namespace tern
