@@ -25,15 +25,16 @@ constexpr double kFarthestShare = 0.9;
 constexpr double kForecastStep = 0.05;     // s
 constexpr double kLongestForecast = 20.0;  // s
 
-/// Faces, edges and corners of a cube, as unit vectors.
+constexpr std::size_t kFacesAndCorners = 14;
+
+/// Faces, corners and edges of a cube, in this order, as unit vectors.
 const std::vector<Vec3>& directions() {
   static const std::vector<Vec3> all = [] {
     std::vector<Vec3> made;
-    for (int x = -1; x <= 1; ++x) {
-      for (int y = -1; y <= 1; ++y) {
-        for (int z = -1; z <= 1; ++z) {
-          if (x != 0 || y != 0 || z != 0) made.push_back(Vec3(x, y, z).normalized());
-        }
+    for (const int axes : {1, 3, 2}) {
+      for (int k = 0; k < 27; ++k) {
+        const Vec3 direction(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+        if (static_cast<int>(direction.squaredNorm()) == axes) made.push_back(direction.normalized());
       }
     }
     return made;
@@ -49,11 +50,12 @@ struct Stop {
   double clear_s = 0.0;  ///< forecast: when the way there, or resting there, first meets an obstacle's box
 };
 
-/// How far away stops are tried, m.
-std::vector<double> distances(const AttemptContext& context) {
+/// How far away stops are tried, m. Room is sought far away only.
+std::vector<double> distances(const AttemptContext& context, EvasionAim aim) {
   const double r = context.config.sphere_radius_m;
   std::vector<double> all;
   for (const double share : kShares) all.push_back(share * r);
+  if (aim == EvasionAim::GreatestClearance) return all;
   for (const double widths : kWidths) {
     const double distance = widths * context.hold.width;
     if (distance > 0.0 && distance < kFarthestShare * r) all.push_back(distance);
@@ -89,14 +91,15 @@ double forecast(const SweptObstacles& swept, const MotionSample& start, const St
 
 /// All stops within the flight box, those first whose forecast is clear longest; of equals the sooner ones, then by
 /// direction.
-std::vector<Stop> ordered_stops(const AttemptContext& context) {
+std::vector<Stop> ordered_stops(const AttemptContext& context, EvasionAim aim) {
   const Box box = centre_box(context.request.flight_box, context.request.body);
   std::vector<Stop> stops;
   double longest = 0.0;
-  for (const double distance : distances(context)) {
-    for (const Vec3& direction : directions()) {
+  const std::size_t ways = aim == EvasionAim::GreatestClearance ? kFacesAndCorners : directions().size();
+  for (const double distance : distances(context, aim)) {
+    for (std::size_t k = 0; k < ways; ++k) {
       Stop stop;
-      stop.point = context.request.start.p + direction * distance;
+      stop.point = context.request.start.p + directions()[k] * distance;
       if (!box.contains(stop.point)) continue;
       const double least = least_duration(context.request.start, stop.point, context.plan_limits);
       const double interval_s = std::max(kStopScale * least / context.config.intervals, kLeastInterval);
@@ -137,7 +140,7 @@ std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim
   // One plan may seek both aims; a budget's cuts are by attempt, so no attempt occurs twice.
   constexpr int kAttempts = 100;
   int attempt = kFirstEvasionAttempt + (aim == EvasionAim::GreatestClearance ? kAttempts : 0);
-  for (const Stop& stop : ordered_stops(base)) {
+  for (const Stop& stop : ordered_stops(base, aim)) {
     base.budget.begin_attempt(attempt++);
     if (base.budget.expired(Stage::Search)) return best;
     AttemptContext context = base;

@@ -16,9 +16,11 @@ enum class EvasionAim {
   GreatestClearance,  ///< of the stops that hold, the one farthest from every obstacle's box: for a start inside a hull
 };
 
-/// Searches for stops in 14 directions around the vehicle (faces and corners of a cube) at two distances, each with as
-/// long a hold as is looked for; those first that by the obstacles' boxes stay clear longest, so that the first try is
-/// mostly the last. Ends early when the budget is spent. The outcome is Evade. Nothing: no certified stop was found.
+/// Tries up to 28 stops around the vehicle, from a fraction of what vehicle and largest mover are wide to 0.8 r away,
+/// in 26 directions (to gain room: 14 directions, 0.35 r and 0.8 r). A cheap forecast by the obstacles' boxes sorts
+/// them: what stays clear longest comes first, of equals the nearest. The first try usually succeeds. Each stop's hold
+/// is followed as far as predictions reach. Ends early when the budget is spent. The outcome is Evade.
+/// @return the best stop, or nullopt if none passed the checker
 std::optional<Candidate> find_evasion(const AttemptContext& context, EvasionAim aim);
 
 }  // namespace tern
