@@ -166,6 +166,13 @@ TEST_F(AuditOfALog, OfALoggerThatCameLateSaysSoAndBreaksNothing) {
   EXPECT_THAT(text(late), HasSubstr("lie before the log's first state or after its last"));
 }
 
+TEST_F(AuditOfALog, WithoutTheFirstRequestsDoesNotKnowWhatWasCommittedBefore) {
+  const Audit audited =
+      audit(with<HorizonRequest>(good(), channels::kHorizonRequest, [](const HorizonRequest& r) { return r.id > 4; }));
+  EXPECT_THAT(broken(audited), IsEmpty()) << text(audited);
+  EXPECT_EQ(audited.check("commitment").unchecked.count("setpoints from before the first request in the log"), 1U);
+}
+
 TEST_F(AuditOfALog, OfALoggerThatDiedBreaksNothing) {
   const std::string log = another_file();
   testing::copy_part_of_log(good(), log, 0, at_us(2.5));
