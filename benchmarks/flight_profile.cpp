@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "benchmarks/flight_recording.h"
+#include "core/base/percentiles.h"
 #include "planner/plan_workspace.h"
 #include "runtime/config.h"
 #include "runtime/stopwatch.h"
@@ -81,10 +82,8 @@ std::string percentiles(const std::vector<Cost>& costs, const Get& get) {
   std::vector<double> values;
   for (const Cost& c : costs) values.push_back(get(c));
   std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  max {:.3f}", at(0.5), at(0.9), at(0.99), values.back());
+  const auto at = [&](std::size_t percent) { return percentile_of_sorted(values, percent); };
+  return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  max {:.3f}", at(50), at(90), at(99), values.back());
 }
 
 void report(const std::vector<Cost>& costs, int worst) {

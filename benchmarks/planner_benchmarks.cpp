@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "benchmarks/flight_recording.h"
+#include "core/base/percentiles.h"
 #include "core/splines/minvo.h"
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/convex_problem.h"
@@ -42,10 +43,6 @@ const std::vector<Answered>& flight() {
   return moments;
 }
 
-double percentile(std::vector<double>& sorted, double share) {
-  return sorted[std::min(sorted.size() - 1, static_cast<std::size_t>(share * static_cast<double>(sorted.size())))];
-}
-
 /// plan() over the flight's requests; p50, p99, max in ms of the thread's CPU time, and how long the flight was.
 void plan_of_a_flight(benchmark::State& state) {
   std::vector<double> ms;
@@ -59,8 +56,8 @@ void plan_of_a_flight(benchmark::State& state) {
     }
   }
   std::sort(ms.begin(), ms.end());
-  state.counters["p50_ms"] = percentile(ms, 0.5);
-  state.counters["p99_ms"] = percentile(ms, 0.99);
+  state.counters["p50_ms"] = percentile_of_sorted(ms, 50);
+  state.counters["p99_ms"] = percentile_of_sorted(ms, 99);
   state.counters["max_ms"] = ms.back();
   state.counters["flight_s"] = recording().result.flight_time_s;
 }

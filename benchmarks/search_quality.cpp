@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "benchmarks/flight_recording.h"
+#include "core/base/percentiles.h"
 #include "planner/evasion.h"
 #include "planner/plan_workspace.h"
 #include "planner/search/semantic_a_star.h"
@@ -109,10 +110,8 @@ void report(const std::vector<Judged>& all) {
   }
   const auto percentiles = [](std::vector<double>& values) {
     std::sort(values.begin(), values.end());
-    const auto at = [&](double share) {
-      return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-    };
-    return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  max {:.3f}", at(0.5), at(0.9), at(0.99), values.back());
+    const auto at = [&](std::size_t percent) { return percentile_of_sorted(values, percent); };
+    return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  max {:.3f}", at(50), at(90), at(99), values.back());
   };
   fmt::print("searches {}; in {} of them 5 s find no leaf either\n", all.size(), without);
   fmt::print("within 5 % of the best: {} of {} ({:.1f} %); no leaf: {}; a leaf that does not hold: {}\n", good,

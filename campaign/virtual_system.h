@@ -25,9 +25,9 @@ const char* to_string(Charge charge);
 /// threads.
 class VirtualSystem {
  public:
-  /// @throws ConfigError for what run_process would refuse.
+  /// @param begin  when time begins, µs > 0. @throws ConfigError for what run_process would refuse.
   VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides,
-                Charge charge = Charge::Counts);
+                Charge charge = Charge::Counts, UTime begin = UTime{1'000'000});
   ~VirtualSystem();
 
   /// Kills "tern-predictor", "tern-mapper" or "tern-planner"; the next start() makes a new one that knows nothing.

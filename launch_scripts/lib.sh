@@ -110,6 +110,7 @@ write_failed_summary() {
   "limit_violations": null,
   "requests": 0,
   "answered_in_time": 0,
+  "second_answers": 0,
   "plans": { "optimized": 0, "search_only": 0, "keep_committed": 0, "evade": 0, "no_plan": 0 },
   "replan_ms": {
     "total": $percentiles,

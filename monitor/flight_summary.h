@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "core/base/percentiles.h"
 #include "core/world/flight_result.h"
 #include "core/world/horizon.h"
-#include "monitor/percentiles.h"
 #include "monitor/process_table.h"
 
 namespace tern {
@@ -29,7 +29,8 @@ struct FlightSummary {
   std::int64_t count = 0;              ///< obstacles of the world's generator
   std::optional<FlightResult> result;  ///< the referee's measures; nothing when it gave none
   std::int64_t requests = 0, answered_in_time = 0;
-  std::array<std::int64_t, kPlanOutcomes> plans = {};   ///< by PlanOutcome
+  std::int64_t second_answers = 0;                      ///< to requests that had their answer: two planners
+  std::array<std::int64_t, kPlanOutcomes> plans = {};   ///< first answers, by PlanOutcome
   std::array<std::int64_t, kPlanReasons> reasons = {};  ///< of the plans, by PlanReason; not in the JSON
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel
@@ -40,8 +41,8 @@ struct FlightSummary {
 
 /// One JSON object, two spaces of indent, with exactly the keys outcome, scenario, seed, count, flight_time_s,
 /// first_entry_s, path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m, limit_violations, requests,
-/// answered_in_time, plans, replan_ms, exposure, messages, restarts, log, version. What has no value (NaN, a measure
-/// that no referee gave) is null.
+/// answered_in_time, second_answers, plans, replan_ms, exposure, messages, restarts, log, version. What has no value
+/// (NaN, a measure that no referee gave) is null.
 std::string to_json(const FlightSummary& summary);
 
 /// The same for a person, at most 31 lines of at most 100 characters while there are at most 6 regions.

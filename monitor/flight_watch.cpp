@@ -40,11 +40,7 @@ void FlightWatch::hear(const HorizonRequest& request, UTime now) {
 }
 
 void FlightWatch::hear(const PlanTiming& timing) {
-  total_ms_.push_back(timing.total_ms);
-  if (timing.first_answer_ms > 0.0) first_answer_ms_.push_back(timing.first_answer_ms);
-  for (int k = 0; k < kStages; ++k) {
-    if (timing.stage_ms[k] > 0.0) stage_ms_[k].push_back(timing.stage_ms[k]);
-  }
+  if (timings_heard_.is_first(timing.header.name)) replan_.add(timing);
 }
 
 void FlightWatch::hear(const FlightResult& result, UTime now) {
@@ -104,7 +100,7 @@ LiveView FlightWatch::live() const {
   view.progress = way > 0.0 ? std::clamp(1.0 - (goal_ - p).norm() / way, 0.0, 1.0) : 1.0;
   view.speed_mps = state_->motion.v.norm();
   view.nearest_m = nearest_obstacle();
-  const Percentiles replan = percentiles(total_ms_);
+  const Percentiles replan = percentiles(replan_.total);
   view.replan_p50_ms = replan.p50;
   view.replan_p99_ms = replan.p99;
   view.requests = ledger_.requests();
@@ -114,7 +110,7 @@ LiveView FlightWatch::live() const {
 }
 
 FlightSummary FlightWatch::summary(const Ending& ending) const {
-  const auto stage = [this](Stage s) { return percentiles(stage_ms_[static_cast<int>(s)]); };
+  const auto stage = [this](Stage s) { return percentiles(replan_.stage[static_cast<int>(s)]); };
   FlightSummary summary;
   summary.outcome = ending.outcome;
   summary.detail = ending.detail;
@@ -124,14 +120,15 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   summary.result = result_;
   summary.requests = ledger_.requests();
   summary.answered_in_time = ledger_.answered_in_time();
+  summary.second_answers = ledger_.second_answers();
   for (int k = 0; k < kPlanOutcomes; ++k) {
     summary.plans[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanOutcome>(k));
   }
   for (int k = 0; k < kPlanReasons; ++k) {
     summary.reasons[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanReason>(k));
   }
-  summary.replan_ms = {percentiles(total_ms_), percentiles(first_answer_ms_), stage(Stage::Hulls),
-                       stage(Stage::Search),   stage(Stage::Optimization),    stage(Stage::Check)};
+  summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::Hulls),
+                       stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};
   summary.messages = processes_.messages();
   summary.restarts = processes_.restarts();
   return summary;

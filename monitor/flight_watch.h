@@ -10,9 +10,11 @@
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
 #include "core/world/observation.h"
+#include "core/world/replan_samples.h"
 #include "core/world/scenario.h"
 #include "core/world/vehicle.h"
 #include "monitor/flight_summary.h"
+#include "monitor/once.h"
 #include "monitor/process_table.h"
 #include "monitor/request_ledger.h"
 
@@ -88,7 +90,8 @@ class FlightWatch {
   std::optional<UTime> first_request_at_;
   std::optional<std::int64_t> world_epoch_us_;  ///< the simulator's when the first request was heard
   std::vector<TrueObstacle> obstacles_;
-  std::vector<double> total_ms_, first_answer_ms_, stage_ms_[kStages];
+  Once timings_heard_;
+  ReplanSamples replan_;
   std::optional<FlightResult> result_;
   UTime result_at_;
   std::string failure_;

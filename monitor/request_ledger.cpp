@@ -2,9 +2,19 @@
 
 namespace tern {
 
-void RequestLedger::add(const HorizonRequest& request) { deadlines_[request.id] = request.deadline; }
+void RequestLedger::add(const HorizonRequest& request) {
+  if (!requests_heard_.is_first(request.header.name)) return;
+  deadlines_[request.id] = request.deadline;
+  answered_.erase(request.id);  // the ids of an executor that started anew count from 1 again
+}
 
 void RequestLedger::add(const Plan& plan) {
+  if (!plans_heard_.is_first(plan.header.name)) return;
+  if (!answered_.insert(plan.request_id).second) {
+    ++second_answers_;
+    return;
+  }
+  if (answered_.size() > Once::kRemembered) answered_.erase(answered_.begin());
   ++plans_[static_cast<std::size_t>(plan.outcome)];
   ++reasons_[static_cast<std::size_t>(plan.reason)];
   last_reason_ = plan.reason;

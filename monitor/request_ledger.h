@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 
 #include "core/world/horizon.h"
+#include "monitor/once.h"
 
 namespace tern {
 
@@ -15,26 +17,30 @@ inline constexpr Duration kAnswerGrace{200'000};
 
 /// Matches PLAN with HORIZON_REQUEST by the request's id. A request is settled when its first answer came, or
 /// kAnswerGrace after its deadline; only settled ones are counted, so that the flight's end leaves no request half
-/// open.
+/// open. What the network delivers twice counts once.
 class RequestLedger {
  public:
   void add(const HorizonRequest& request);
-  /// The first answer settles its request; a further one, or one to an unknown request, is counted among the plans
-  /// only. In time: published (header.utime) by the deadline.
+  /// The first answer settles its request and is counted among the plans, as is an answer to a request that was not
+  /// heard. A further one (of a second planner, as a rule) is counted as such and nowhere else. In time: published
+  /// (header.utime) by the deadline.
   void add(const Plan& plan);
   /// The vehicle's clock has come so far.
   void advance(UTime vehicle_time);
 
   [[nodiscard]] std::int64_t requests() const { return settled_; }
   [[nodiscard]] std::int64_t answered_in_time() const { return in_time_; }
+  [[nodiscard]] std::int64_t second_answers() const { return second_answers_; }
   [[nodiscard]] std::int64_t plans(PlanOutcome outcome) const { return plans_[static_cast<std::size_t>(outcome)]; }
   [[nodiscard]] std::int64_t plans(PlanReason reason) const { return reasons_[static_cast<std::size_t>(reason)]; }
-  /// The newest plan's; None before the first one.
+  /// The newest first answer's; None before it.
   [[nodiscard]] PlanReason last_reason() const { return last_reason_; }
 
  private:
+  Once requests_heard_, plans_heard_;
   std::map<std::int64_t, UTime> deadlines_;  ///< of open requests, by id
-  std::int64_t settled_ = 0, in_time_ = 0;
+  std::set<std::int64_t> answered_;          ///< requests that have their answer, the newest
+  std::int64_t settled_ = 0, in_time_ = 0, second_answers_ = 0;
   std::array<std::int64_t, kPlanOutcomes> plans_ = {};
   std::array<std::int64_t, kPlanReasons> reasons_ = {};
   PlanReason last_reason_ = PlanReason::None;

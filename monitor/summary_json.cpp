@@ -68,6 +68,7 @@ std::string to_json(const FlightSummary& summary) {
       {"limit_violations", measure(result, &FlightResult::limit_violations)},
       {"requests", summary.requests},
       {"answered_in_time", summary.answered_in_time},
+      {"second_answers", summary.second_answers},
       {"plans", plans_by_outcome(summary)},
       {"replan_ms", to_json(summary.replan_ms)},
       {"exposure", exposure_by_region(result)},

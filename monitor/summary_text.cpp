@@ -57,8 +57,9 @@ std::string reason_line(const FlightSummary& s) {
 }
 
 std::string plan_lines(const FlightSummary& s) {
-  std::string text =
-      fmt::format("  requests      {} settled, {} answered in time\n  plans        ", s.requests, s.answered_in_time);
+  std::string text = fmt::format("  requests      {} settled, {} answered in time", s.requests, s.answered_in_time);
+  if (s.second_answers > 0) text += fmt::format("; {} second answers: are there two planners?", s.second_answers);
+  text += "\n  plans        ";
   for (int k = 0; k < kPlanOutcomes; ++k) {
     text += fmt::format(" {} {}", s.plans[static_cast<std::size_t>(k)], plan_outcome_key(static_cast<PlanOutcome>(k)));
     if (k + 1 < kPlanOutcomes) text += ",";

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/percentiles.h"
+
 namespace tern {
 
 Distribution describe(std::vector<double> numbers) {
@@ -11,11 +13,12 @@ Distribution describe(std::vector<double> numbers) {
   if (numbers.empty()) return {};
   std::sort(numbers.begin(), numbers.end());
   const std::size_t n = numbers.size();
-  const auto rank = [&](std::size_t percent) { return numbers[(n * percent + 99) / 100 - 1]; };
   Distribution d;
   d.count = static_cast<std::int64_t>(n);
   d.mean = std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(n);
-  d.p50 = rank(50), d.p95 = rank(95), d.p99 = rank(99);
+  d.p50 = percentile_of_sorted(numbers, 50);
+  d.p95 = percentile_of_sorted(numbers, 95);
+  d.p99 = percentile_of_sorted(numbers, 99);
   d.min = numbers.front(), d.max = numbers.back();
   return d;
 }

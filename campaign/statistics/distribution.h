@@ -18,8 +18,8 @@ struct Distribution {
   double max = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Percentiles by nearest rank, as tern-monitor's. Numbers that are NaN (a measure that a flight does not have) are
-/// left out. O(n log n).
+/// Percentiles by nearest rank (core/base/percentiles.h). Numbers that are NaN (a measure that a flight does not have)
+/// are left out. O(n log n).
 Distribution describe(std::vector<double> numbers);
 
 }  // namespace tern

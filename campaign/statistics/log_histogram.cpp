@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/base/percentiles.h"
+
 namespace tern {
 namespace {
 
@@ -34,11 +36,12 @@ void LogHistogram::merge(const LogHistogram& other) {
 }
 
 double LogHistogram::percentile(int percent) const {
-  const std::int64_t rank = (count_ * percent + 99) / 100;
+  const auto rank =
+      static_cast<std::int64_t>(nearest_rank(static_cast<std::size_t>(count_), static_cast<std::size_t>(percent)));
   std::int64_t passed = 0;
   for (const auto& [bin, count] : bins_) {
     passed += count;
-    if (passed >= rank) return std::clamp(std::pow(kBinRatio, bin + 0.5), least_, greatest_);
+    if (passed > rank) return std::clamp(std::pow(kBinRatio, bin + 0.5), least_, greatest_);
   }
   return greatest_;
 }

@@ -173,6 +173,17 @@ TEST(FlightWatch, SumsUpTimesOfTheStagesThatRan) {
   EXPECT_TRUE(std::isnan(times.hulls.max));
 }
 
+TEST(FlightWatch, RanksTheTimesOfAnAnswerThatWasDeliveredTwiceOnce) {
+  FlightWatch watch(scenario(), kStart);
+  for (int i = 1; i <= 4; ++i) {
+    PlanTiming timing;
+    timing.header.name = {9, i};
+    timing.total_ms = i;
+    for (int copy = 0; copy < (i == 4 ? 9 : 1); ++copy) watch.hear(timing);
+  }
+  EXPECT_EQ(watch.summary({}).replan_ms.total.p50, 2.0);
+}
+
 TEST(FlightWatch, SummaryNamesTheScenario) {
   const FlightSummary summary = FlightWatch(scenario(), kStart).summary({FlightOutcome::Failed, "why"});
   EXPECT_EQ(summary.scenario, "test");

@@ -38,14 +38,51 @@ TEST(RequestLedger, AnAnswerAfterTheDeadlineIsNot) {
   EXPECT_EQ(ledger.answered_in_time(), 0);
 }
 
-TEST(RequestLedger, ASecondAnswerChangesNothingButThePlans) {
+TEST(RequestLedger, ASecondAnswerIsCountedAsSuchAndNowhereElse) {
   RequestLedger ledger;
   ledger.add(request(1));
   ledger.add(plan(1, kDeadline));
   ledger.add(plan(1, kDeadline, PlanOutcome::Evade));
+  EXPECT_EQ(ledger.requests(), 1);
   EXPECT_EQ(ledger.answered_in_time(), 1);
   EXPECT_EQ(ledger.plans(PlanOutcome::Optimized), 1);
-  EXPECT_EQ(ledger.plans(PlanOutcome::Evade), 1);
+  EXPECT_EQ(ledger.plans(PlanOutcome::Evade), 0);
+  EXPECT_EQ(ledger.second_answers(), 1);
+}
+
+TEST(RequestLedger, OnANetworkThatDeliversEveryMessageTwiceCountsEachOnce) {
+  RequestLedger ledger;
+  for (std::int64_t id = 1; id <= 10; ++id) {
+    HorizonRequest asked = request(id);
+    asked.header.name = {7, id};
+    Plan answer = plan(id, kDeadline);
+    answer.header.name = {9, id};
+    for (int copy = 0; copy < 2; ++copy) ledger.add(asked);
+    for (int copy = 0; copy < 2; ++copy) ledger.add(answer);
+    ledger.add(asked);  // overtaken by its answer
+  }
+  ledger.advance(kDeadline + kAnswerGrace + Duration{1});
+  EXPECT_EQ(ledger.requests(), 10);
+  EXPECT_EQ(ledger.answered_in_time(), 10);
+  EXPECT_EQ(ledger.plans(PlanOutcome::Optimized), 10);
+  EXPECT_EQ(ledger.second_answers(), 0);
+}
+
+TEST(RequestLedger, OfTwoPlannersCountsAPlanPerRequest) {
+  RequestLedger ledger;
+  for (std::int64_t id = 1; id <= 10; ++id) {
+    HorizonRequest asked = request(id);
+    asked.header.name = {7, id};
+    ledger.add(asked);
+    for (const std::int64_t planner : {8, 9}) {
+      Plan answer = plan(id, kDeadline);
+      answer.header.name = {planner, id};
+      ledger.add(answer);
+    }
+  }
+  EXPECT_EQ(ledger.requests(), 10);
+  EXPECT_EQ(ledger.plans(PlanOutcome::Optimized), 10);
+  EXPECT_EQ(ledger.second_answers(), 10);
 }
 
 TEST(RequestLedger, AnOpenRequestIsNotCountedBeforeItsDeadlineHasLongPassed) {

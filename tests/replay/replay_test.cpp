@@ -183,6 +183,16 @@ TEST_F(ReplayTest, SaysWhatTheLogLacksAndReplaysTheRest) {
   }
 }
 
+TEST_F(ReplayTest, OfALogThatBeginsLaterSaysHowManyAnswersCameBefore) {
+  int count = 0;
+  const Replay rest =
+      replay(rewritten([&](LogEvent& event) { return event.channel != channels::kPlan || ++count > 3; }));
+  EXPECT_EQ(rest.missing(), 0);
+  EXPECT_EQ(rest.broken(), 0);
+  EXPECT_TRUE(text_has(rest, "PLAN: 3 answers were published before")) << replay_text(rest, false);
+  EXPECT_EQ(replay_exit_code(rest, false), 3);
+}
+
 TEST_F(ReplayTest, WithoutItsConfigurationNothingIsReplayedButTheLogIsRead) {
   const Replay rest = replay(rewritten([](LogEvent& event) { return event.channel != channels::kConfiguration; }));
   EXPECT_EQ(rest.missing(), static_cast<std::int64_t>(rest.plans.size()));

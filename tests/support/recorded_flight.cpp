@@ -18,12 +18,26 @@ LogWriter writer_of(const std::string& path) {
   return std::move(*writer);
 }
 
+/// Copies each event as often as `times` says of it.
+template <class Times>
+void copy_events(const std::vector<std::string>& from, const std::string& to, const Times& times) {
+  LogWriter writer = writer_of(to);
+  for (const std::string& log : from) {
+    auto reader = LogReader::open(log);
+    if (!reader) throw std::runtime_error(reader.error().message);
+    while (auto event = reader->next()) {
+      for (int left = times(*event); left > 0; --left) writer.append(event->channel, event->received_us, event->data);
+    }
+  }
+  if (const auto flushed = writer.flush(); !flushed) throw std::runtime_error(flushed.error().message);
+}
+
 }  // namespace
 
-void record_flight(const std::string& scenario_file, const std::vector<std::string>& overrides,
-                   const std::string& log) {
+void record_flight(const std::string& scenario_file, const std::vector<std::string>& overrides, const std::string& log,
+                   UTime start) {
   LogWriter writer = writer_of(log);
-  VirtualSystem system(scenario_file, overrides);
+  VirtualSystem system(scenario_file, overrides, Charge::Counts, start);
   VirtualRunner& runner = system.runner();
   runner.observer().listen([&](std::string_view channel, std::int64_t, std::span<const std::uint8_t> data) {
     writer.append(channel, runner.now().us, data);
@@ -36,14 +50,26 @@ void record_flight(const std::string& scenario_file, const std::vector<std::stri
 }
 
 void copy_log(const std::string& from, const std::string& to, const ChangeBytes& change) {
-  auto reader = LogReader::open(from);
-  if (!reader) throw std::runtime_error(reader.error().message);
-  LogWriter writer = writer_of(to);
-  while (auto event = reader->next()) {
-    change(event->channel, event->data);
-    if (!event->data.empty()) writer.append(event->channel, event->received_us, event->data);
-  }
-  if (const auto flushed = writer.flush(); !flushed) throw std::runtime_error(flushed.error().message);
+  copy_events({from}, to, [&](LogEvent& event) {
+    change(event.channel, event.data);
+    return event.data.empty() ? 0 : 1;
+  });
+}
+
+void copy_part_of_log(const std::string& from, const std::string& to, std::int64_t from_us, std::int64_t to_us) {
+  copy_events({from}, to, [&](const LogEvent& e) { return e.received_us >= from_us && e.received_us < to_us ? 1 : 0; });
+}
+
+void copy_log_without(const std::string& from, const std::string& to, std::int64_t from_us, std::int64_t to_us) {
+  copy_events({from}, to, [&](const LogEvent& e) { return e.received_us >= from_us && e.received_us < to_us ? 0 : 1; });
+}
+
+void copy_log_repeated(const std::string& from, const std::string& to, int times) {
+  copy_events({from}, to, [&](const LogEvent&) { return times; });
+}
+
+void join_logs(const std::vector<std::string>& from, const std::string& to) {
+  copy_events(from, to, [](const LogEvent&) { return 1; });
 }
 
 }  // namespace tern::testing

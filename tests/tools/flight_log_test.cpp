@@ -89,6 +89,21 @@ TEST_F(FlightLogTest, AnotherVehiclesChannelsAreForeign) {
   EXPECT_TRUE(contents.channels.at("GOAL_b").foreign);
 }
 
+TEST_F(FlightLogTest, HandsOverOnceWhatTheNetworkDeliveredTwice) {
+  for (int k = 1; k <= 3; ++k) {
+    for (int copy = 0; copy < 2; ++copy) write(channels::kGoal, encode(goal(k)));
+  }
+  write(channels::kGoal, encode(goal(2)));  // late
+  FlightLog log;
+  std::vector<std::int64_t> ids;
+  log.on<Goal>(channels::kGoal, [&](const Goal& g, std::int64_t) { ids.push_back(g.id); });
+  const LogContents contents = read(log);
+  EXPECT_EQ(ids, (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(contents.channels.at(channels::kGoal).messages, 7);
+  EXPECT_EQ(contents.channels.at(channels::kGoal).repeated, 4);
+  EXPECT_EQ(contents.channels.at(channels::kGoal).lost, 0);
+}
+
 TEST_F(FlightLogTest, SaysWhichPartCannotBeOpened) {
   FlightLog log;
   const auto contents = log.read(folder_.file("none.lcm"));

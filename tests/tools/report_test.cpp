@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "monitor/flight_watch.h"
 #include "tests/logger/temp_folder.h"
 #include "tests/support/recorded_flight.h"
 #include "tools/audit/app/load_flight.h"
@@ -123,6 +124,28 @@ TEST(Report, OfFiveMinutesAmong300MoversStaysUnder5MegabytesAndHidesNoExtreme) {
   const auto clearance = path["clearance"].get<std::vector<double>>();
   EXPECT_DOUBLE_EQ(*std::max_element(axis_speed.begin(), axis_speed.end()), 5.75);
   EXPECT_NEAR(*std::min_element(clearance.begin(), clearance.end()), 0.0625, 1e-3);
+}
+
+TEST(Report, HasThePercentilesOfTheMonitorsSummary) {
+  const FlightRecord record = long_flight();  // one answer in 13 ran no stage
+  const nlohmann::json costs = report_data(record, Audit{})["costs"];
+  Scenario scenario;
+  FlightWatch watch(scenario, UTime{});
+  for (const PlanTiming& t : record.timings) watch.hear(t);
+  const ReplanTimes times = watch.summary({}).replan_ms;
+  const std::pair<const char*, Percentiles> rows[] = {{"whole answer", times.total},
+                                                      {"hulls", times.hulls},
+                                                      {"search", times.search},
+                                                      {"optimization", times.optimization},
+                                                      {"check", times.check}};
+  for (const auto& [name, p] : rows) {
+    const auto row = std::find_if(costs.begin(), costs.end(), [n = name](const auto& c) { return c["name"] == n; });
+    ASSERT_NE(row, costs.end()) << name;
+    const auto ms = (*row)["ms"].get<std::vector<double>>();
+    const double expected[] = {p.p50, p.p95, p.p99, p.max};
+    ASSERT_EQ(ms.size(), std::size(expected));
+    for (std::size_t k = 0; k < ms.size(); ++k) EXPECT_NEAR(ms[k], expected[k], 5.1e-4) << name << " " << k;
+  }
 }
 
 TEST(Report, LetsNoTextOfALogBecomeMarkup) {

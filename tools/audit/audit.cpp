@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -12,9 +13,10 @@
 namespace tern::audit {
 namespace {
 
-/// The channels that an audit needs.
-constexpr const char* kNeeded[] = {"UAV_STATE",   "SETPOINT",       "HORIZON_REQUEST", "PLAN",
-                                   "PREDICTIONS", "OBSTACLE_TRUTH", "SEMANTIC_MAP"};
+/// The channels that an audit needs; of the others that it reads it says what was lost.
+constexpr const char* kNeeded[] = {"UAV_STATE",    "SETPOINT",    "HORIZON_REQUEST",
+                                   "PLAN",         "PREDICTIONS", "OBSTACLE_TRUTH",
+                                   "SEMANTIC_MAP", "GOAL",        "CONFIGURATION"};
 /// Findings of one check that the text lists.
 constexpr std::size_t kFindingsInText = 10;
 
@@ -33,19 +35,51 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
   }
   for (const char* name : kNeeded) {
     const auto channel = log.channels.find(name);
-    if (channel == log.channels.end() || channel->second.messages == 0) {
-      missing.push_back(fmt::format("no {}", name));
-      continue;
-    }
-    if (channel->second.lost > 0) {
-      missing.push_back(fmt::format("{}: {} messages lost, by their numbers", name, channel->second.lost));
-    }
+    if (channel == log.channels.end() || channel->second.messages == 0) missing.push_back(fmt::format("no {}", name));
+  }
+  for (const auto& [name, channel] : log.channels) {
+    if (channel.lost > 0) missing.push_back(fmt::format("{}: {} messages lost, by their numbers", name, channel.lost));
     std::int64_t refused = 0;
-    for (const std::int64_t n : channel->second.refused) refused += n;
+    for (const std::int64_t n : channel.refused) refused += n;
     if (refused > 0)
       missing.push_back(fmt::format("{}: {} messages refused (damaged, or another version)", name, refused));
   }
+  if (!record.requests.empty() && record.requests.front().id > 1) {
+    missing.push_back(
+        fmt::format("the log begins with request {}: those before it are not in it", record.requests.front().id));
+  }
   return missing;
+}
+
+/// What plans name besides request, predictions and map, which the checks look for themselves.
+std::vector<std::string> named_and_missing(const FlightRecord& record) {
+  std::map<std::string, std::int64_t> plans;
+  for (const Plan& plan : record.plans) {
+    const PlanInputs& names = plan.inputs;
+    if (names.goal != MessageName{} && !record.goal_names.contains(names.goal)) {
+      ++plans[fmt::format("GOAL {} of sender {}", names.goal.sequence, names.goal.sender_epoch_us)];
+    }
+    if (names.configuration_hash != 0 && !record.configuration_hashes.contains(names.configuration_hash)) {
+      ++plans[fmt::format(
+          "CONFIGURATION {:016x} of the planner (stale_after_s and unknown are taken to be the "
+          "defaults)",
+          names.configuration_hash)];
+    }
+  }
+  std::vector<std::string> missing;
+  for (const auto& [what, n] : plans) missing.push_back(fmt::format("{}: named by {} plans, not in the log", what, n));
+  return missing;
+}
+
+/// What the verdict alone does not say of a collision.
+std::string words(Collision collision) {
+  switch (collision) {
+    case Collision::None: return "";
+    case Collision::Agrees: return ": the referee saw a collision, and so does the log";
+    case Collision::CannotTell: return ", but the referee saw a collision: too close to tell from the log";
+    case Collision::Contradicts: return ": the referee saw a collision, the log contradicts it";
+  }
+  return "";
 }
 
 }  // namespace
@@ -53,6 +87,11 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
 const char* to_string(Verdict verdict) {
   constexpr std::array kNames{"held", "broken", "not checked"};
   return kNames[static_cast<std::size_t>(verdict)];
+}
+
+const char* to_string(Collision collision) {
+  constexpr std::array kNames{"none", "agrees", "cannot tell", "contradicts"};
+  return kNames[static_cast<std::size_t>(collision)];
 }
 
 Verdict Audit::verdict() const {
@@ -70,7 +109,9 @@ const Check& Audit::check(const std::string& name) const {
 Audit audit_flight(const FlightRecord& record) {
   Audit audit;
   audit.missing = what_is_missing(record);
-  audit.checks.push_back(check_clearance(record, audit.clearance));
+  for (std::string& what : named_and_missing(record)) audit.missing.push_back(std::move(what));
+  audit.missing.insert(audit.missing.end(), record.other_flights.begin(), record.other_flights.end());
+  audit.checks.push_back(check_clearance(record, audit));
   audit.checks.push_back(check_limits(record));
   audit.checks.push_back(check_continuity(record));
   audit.checks.push_back(check_commitment(record));
@@ -108,7 +149,7 @@ std::string to_text(const Audit& audit, const FlightRecord& record) {
   }
   text += gaps.empty() ? "\nNothing was left unchecked.\n" : "\nCould not be checked, or only in part:\n" + gaps;
   const std::string verdict = audit.verdict() == Verdict::Broken ? "BROKEN" : to_string(audit.verdict());
-  return text + "\n" + verdict + "\n";
+  return text + "\n" + verdict + words(audit.collision) + "\n";
 }
 
 nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
@@ -144,6 +185,7 @@ nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
   }
   return {{"log", record.path},
           {"verdict", to_string(audit.verdict())},
+          {"collision", to_string(audit.collision)},
           {"flight_s", (record.end() - record.zero()).seconds()},
           {"checks", checks},
           {"missing", audit.missing},

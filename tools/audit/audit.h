@@ -30,10 +30,25 @@ struct TrackCoverage {
   double worst_m = 0.0;             ///< farthest that the true box stood out of its promise; ≤ 0: never
 };
 
+/// The least clearance of the flight.
+struct Least {
+  bool known = false;            ///< there was an obstacle to be near to
+  double low = 0.0, high = 0.0;  ///< it lies between them, m
+  bool proven = false;      ///< low is a bound; false: between samples by interpolation, or without what is missing
+  bool touch_open = false;  ///< whether some obstacle was touched is too close to tell
+};
+
+/// What the referee saw of a collision, against what was recomputed.
+enum class Collision { None, Agrees, CannotTell, Contradicts };
+/// "none", "agrees", "cannot tell", "contradicts".
+const char* to_string(Collision collision);
+
 struct Audit {
   std::vector<Check> checks;
   std::vector<std::string> missing;  ///< what the log lacks, in words
   std::vector<ClearancePoint> clearance;
+  Least least;
+  Collision collision = Collision::None;
   std::vector<Coverage> coverage;
   std::vector<TrackCoverage> tracks;
   double promised_confidence = 1.0;  ///< the least that a prediction set said
@@ -49,11 +64,11 @@ std::string to_text(const Audit& audit, const FlightRecord& record);
 /// For programs. docs/after_the_flight.md lists the keys.
 nlohmann::json to_json(const Audit& audit, const FlightRecord& record);
 
-/// Euclidean distance from p (W) to a region, m; 0 inside.
+/// Signed distance from p (W) to a region, m: the Euclidean one outside, minus that to its border inside. 1-Lipschitz.
 double distance_to(const Region& region, const Vec3& p);
 
 // The checks, in files of their own.
-Check check_clearance(const FlightRecord& record, std::vector<ClearancePoint>& series);
+Check check_clearance(const FlightRecord& record, Audit& audit);
 Check check_limits(const FlightRecord& record);
 Check check_continuity(const FlightRecord& record);
 Check check_commitment(const FlightRecord& record);
@@ -62,6 +77,6 @@ Check check_holds(const FlightRecord& record);
 Check check_answers(const FlightRecord& record);
 Check check_predictions(const FlightRecord& record, Audit& audit);
 Check check_exposure(const FlightRecord& record);
-Check check_result(const FlightRecord& record, const Audit& audit);
+Check check_result(const FlightRecord& record, Audit& audit);
 
 }  // namespace tern::audit

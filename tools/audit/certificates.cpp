@@ -243,7 +243,7 @@ void for_each_case(const FlightRecord& record, Check& check, const Visit& visit)
 Check check_certificates(const FlightRecord& record) {
   Check check{.name = "certificates",
               .claim = "each plan is separated from all that was predicted, as its certificate says"};
-  const bool unknown = configured(record, "tern-planner", "unknown") == "obstacle";
+  const bool unknown = planner_configured(record, "unknown") == "obstacle";
   std::int64_t plans = 0, planes = 0, voxels = 0, relaxed = 0;
   for_each_case(record, check, [&](const PlanCase& plan) {
     CaseCheck one(plan, unknown, check);

@@ -11,14 +11,15 @@
 namespace tern::audit {
 namespace {
 
-/// The least clearance is found to this, m.
+/// The least is found to this, m: what a search passes over is not lower by more.
 constexpr double kResolution = 1e-4;
 /// A collision's verdict comes at the first touch; what follows shows how deep it was.
 constexpr Duration kAfterCollision{100'000};
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
+/// The least distance lies between them; the truth's distance from the recorded curves included.
 struct Closest {
-  double low = kFar, high = kFar;  ///< the least distance lies between them, errors of sampling included
+  double low = kFar, high = kFar;
   UTime at;
   std::int64_t obstacle = kNobody;  ///< nobody: none nearer than where the search began
 };
@@ -27,21 +28,35 @@ struct Closest {
 struct Encounter {
   const Body& body;
   Vec3 half;
-  Curve relative;      ///< vehicle − obstacle
-  double error = 0.0;  ///< of the samples between which it lies, m
+  Curve relative;  ///< vehicle − obstacle
+  Vec3 error;      ///< the truth is within relative ± error, m
   std::int64_t obstacle = kNobody;
+  UTime sure_from, sure_to;  ///< the flight surely lasted from and to here
 };
+
+/// The distance to a box whose centre is known to ± error only.
+Gap gap_within(const Encounter& e, const Vec3& p) {
+  const double low = body_gap(e.body, p, e.half + e.error).low;
+  const Vec3 core = e.half - e.error;
+  if ((core.array() >= 0.0).all()) return {low, body_gap(e.body, p, core).high};
+  return {low, body_gap(e.body, p, e.half).high + e.error.norm()};
+}
 
 /// Lowers `best` where [a, b] holds less, by halving: the curve strays from its middle by no more than its Bernstein
 /// points do, and the distance changes by no more than the curve.
 void search(const Encounter& e, double a, double b, Closest& best) {
   const double middle = 0.5 * (a + b);
   const Vec3 p = e.relative.p(middle);
-  const Gap gap = body_gap(e.body, p, e.half);
-  const double low = gap.low - e.error;
-  if (low < best.low) best = {low, gap.high + e.error, e.relative.from + Duration::from_seconds(middle), e.obstacle};
-  if (low - (bernstein_points(e.relative, a, b).colwise() - p).colwise().norm().maxCoeff() >= best.low - kResolution)
-    return;
+  const Gap gap = gap_within(e, p);
+  const UTime at = e.relative.from + Duration::from_seconds(middle);
+  if (at >= e.sure_from && at <= e.sure_to) best.high = std::min(best.high, gap.high);
+  if (gap.low < best.low) {
+    best.low = gap.low;
+    best.at = at;
+    best.obstacle = e.obstacle;
+  }
+  const double stray = (bernstein_points(e.relative, a, b).colwise() - p).colwise().norm().maxCoeff();
+  if (gap.low - stray >= best.low - kResolution) return;
   search(e, a, middle, best);
   search(e, middle, b, best);
 }
@@ -55,7 +70,7 @@ Curve difference(const Curve& a, const Curve& b, UTime from, UTime to) {
   return relative;
 }
 
-/// All that a flight and one obstacle have in common in time.
+/// All that a flight and one obstacle have in common in time, but for what of the vehicle is a hole.
 template <class Visit>
 void meet(const SampledMotion& vehicle, const SampledMotion& obstacle, const Window& window, const Visit& visit) {
   std::size_t k = 0;
@@ -65,10 +80,16 @@ void meet(const SampledMotion& vehicle, const SampledMotion& obstacle, const Win
       const Sampled& other = obstacle.spans[i];
       const UTime from = std::max({own.curve.from, other.curve.from, window.from});
       const UTime to = std::min({own.curve.to, other.curve.to, window.to});
-      if (from < to) visit(difference(own.curve, other.curve, from, to), own.error_m + other.error_m);
+      if (from < to && !own.hole) visit(own, other, difference(own.curve, other.curve, from, to));
     }
   }
 }
+
+/// What one obstacle came to: proven, and where it is known at its samples only, by interpolation between them too.
+struct Approach {
+  Closest proven, interpolated;
+  bool between_samples = true;  ///< proven there, too
+};
 
 struct Watch {
   const FlightRecord& record;
@@ -77,23 +98,44 @@ struct Watch {
   SampledMotion vehicle;
   std::vector<ClearancePoint>& series;
 
-  Closest watch(std::int64_t id, const ObstacleHistory& history, const Closest& nearest) {
-    Closest best;
+  Approach watch(std::int64_t id, const ObstacleHistory& history, const SampledMotion& motion, double nearest) {
+    Approach approach;
     // What stays farther than the nearest of all so far needs no exact minimum.
-    best.low = std::max(nearest.low, 0.0);
+    approach.proven.low = approach.interpolated.low = std::max(nearest, kResolution);
     const Vec3 half = largest_half_extents(history);
     std::size_t point = 0;
-    meet(vehicle, moved(history), window, [&](const Curve& relative, double error) {
-      const Encounter e{body, half, relative, error, id};
-      search(e, 0.0, relative.length_s(), best);
+    meet(vehicle, motion, window, [&](const Sampled& own, const Sampled& other, const Curve& relative) {
+      const Encounter e{body, half, relative, own.error + other.error, id, window.sure_from(), window.sure_to()};
+      search(e, 0.0, relative.length_s(), other.proven ? approach.proven : approach.interpolated);
+      if (!other.proven) approach.between_samples = false;
       while (point < series.size() && series[point].at < relative.from) ++point;
       for (; point < series.size() && series[point].at < relative.to; ++point) {
         const double gap = body_gap(body, relative.p((series[point].at - relative.from).seconds()), half).high;
         if (gap < series[point].clearance_m) series[point] = {series[point].at, gap, id};
       }
     });
-    best.low -= kResolution;
-    return best;
+    at_samples(id, history, approach.proven);
+    return approach;
+  }
+
+  /// The obstacle where it was recorded to be, against the vehicle.
+  void at_samples(std::int64_t id, const ObstacleHistory& history, Closest& best) const {
+    if (!history.moves) return;
+    std::size_t k = 0;
+    for (const ObstacleHistory::Sample& s : history.samples) {
+      while (k < vehicle.spans.size() && vehicle.spans[k].curve.to < s.at) ++k;
+      if (k == vehicle.spans.size() || s.at > window.sure_to()) return;
+      const Sampled& own = vehicle.spans[k];
+      if (own.hole || s.at < own.curve.from || s.at < window.sure_from()) continue;
+      const Encounter e{body, s.half_extents, own.curve, own.error, id, window.sure_from(), window.sure_to()};
+      const Gap gap = gap_within(e, own.curve.p((s.at - own.curve.from).seconds()) - s.p);
+      best.high = std::min(best.high, gap.high);
+      if (gap.low < best.low) {
+        best.low = gap.low;
+        best.at = s.at;
+        best.obstacle = id;
+      }
+    }
   }
 
   static Vec3 largest_half_extents(const ObstacleHistory& history) {
@@ -103,61 +145,129 @@ struct Watch {
   }
 };
 
-void judge(const FlightRecord& record, const Closest& c, Check& check) {
-  if (c.high < 0.0) {
-    check.fail({c.at, fmt::format("overlaps obstacle {} by {:.3f} m", c.obstacle, -c.high), 0, c.obstacle});
-  } else if (c.low < 0.0) {
-    ++check
-          .unchecked[fmt::format("whether obstacle {} was touched at {:.3f} s: sampled too coarsely to tell {:.4f} m "
-                                 "from 0",
-                                 c.obstacle, record.seconds(c.at), c.high)];
-  }
-}
-
 void count_holes(const SampledMotion& motion, const std::string& what, Check& check) {
   if (motion.hole_count == 0) return;
   check.unchecked[fmt::format("{}: {:.2f} s in holes", what, motion.holes.seconds())] += motion.hole_count;
 }
 
+/// Movers that came or went in flight: before its first sample and after its last an obstacle may have been there.
+std::int64_t count_passers(const FlightRecord& record, const Window& window) {
+  UTime first{INT64_MAX}, last{INT64_MIN};
+  for (const auto& [id, history] : record.truth) {
+    first = std::min(first, history.samples.front().at);
+    last = std::max(last, history.samples.back().at);
+  }
+  std::int64_t count = 0;
+  for (const auto& [id, history] : record.truth) {
+    const bool came = history.samples.front().at > std::max(first, window.from);
+    const bool went = history.samples.back().at < std::min(last, window.to);
+    count += history.moves && (came || went) ? 1 : 0;
+  }
+  return count;
+}
+
+/// What all obstacles came to.
+class Verdicts {
+ public:
+  Verdicts(const FlightRecord& record, Check& check) : record_(record), check_(check) {}
+
+  /// How near it came so far, for all that is known, m.
+  [[nodiscard]] double nearest() const { return std::min(proven_.low, interpolated_.low); }
+
+  void take(const Approach& a) {
+    ++check_.checked;
+    if (!a.between_samples) ++undeclared_;
+    proven_.high = std::min(proven_.high, a.proven.high);
+    if (a.proven.obstacle != kNobody && a.proven.low < proven_.low) lower(a.proven, proven_);
+    if (a.interpolated.obstacle != kNobody && a.interpolated.low < interpolated_.low)
+      lower(a.interpolated, interpolated_);
+    if (a.proven.high < 0.0) {
+      const Closest& c = a.proven;
+      check_.fail({c.at, fmt::format("overlaps obstacle {} by {:.3f} m", c.obstacle, -c.high), 0, c.obstacle});
+    } else if (a.proven.obstacle != kNobody && a.proven.low < kResolution) {
+      undecided(a.proven, "the log tells no better");
+    } else if (a.interpolated.obstacle != kNobody && a.interpolated.low < kResolution) {
+      undecided(a.interpolated, "by interpolation: its motion was not declared");
+    }
+  }
+
+  Least finish(bool whole) {
+    if (undeclared_ > 0)
+      check_.unchecked["obstacles between their samples: their motion was not declared, or not kept to"] = undeclared_;
+    Least least;
+    const bool near = proven_.obstacle != kNobody;
+    const Closest& closest = near && proven_.low <= interpolated_.low ? proven_ : interpolated_;
+    if (closest.obstacle == kNobody) return least;
+    least.known = true;
+    least.high = proven_.high;
+    least.proven = undeclared_ == 0 && whole;
+    least.low = nearest() - kResolution;
+    least.touch_open = undecided_ > 0;
+    say(least, closest);
+    return least;
+  }
+
+ private:
+  static void lower(const Closest& by, Closest& c) { c.low = by.low, c.at = by.at, c.obstacle = by.obstacle; }
+
+  void undecided(const Closest& c, const char* why) {
+    ++undecided_;
+    ++check_.unchecked[fmt::format("whether obstacle {} was touched at {:.3f} s: {:.4f} to {:.4f} m, {}", c.obstacle,
+                                   record_.seconds(c.at), c.low - kResolution, c.high, why)];
+  }
+
+  void say(const Least& least, const Closest& closest) {
+    check_.summary = fmt::format("least {:.4f} to {:.4f} m, to obstacle {} at {:.3f} s{}; {} obstacles{}", least.low,
+                                 least.high, closest.obstacle, record_.seconds(closest.at),
+                                 undeclared_ > 0 ? " (between samples by interpolation)" : "", check_.checked,
+                                 undecided_ > 0 ? fmt::format(", {} too close to tell", undecided_) : "");
+    check_.measures = {{least.proven ? "least_m_at_least" : "least_m_by_interpolation", least.low},
+                       {"least_m_at_most", least.high},
+                       {"least_obstacle", static_cast<double>(closest.obstacle)},
+                       {"least_at_s", record_.seconds(closest.at)},
+                       {"obstacles", static_cast<double>(check_.checked)}};
+  }
+
+  const FlightRecord& record_;
+  Check& check_;
+  Closest proven_, interpolated_;
+  std::int64_t undeclared_ = 0, undecided_ = 0;
+};
+
 }  // namespace
 
-Check check_clearance(const FlightRecord& record, std::vector<ClearancePoint>& series) {
+Check check_clearance(const FlightRecord& record, Audit& audit) {
   Check check{.name = "clearance", .claim = "the body stayed clear of every true obstacle, in continuous time"};
   if (record.requests.empty()) {
     check.unchecked["the body is not known: no HORIZON_REQUEST"] = 1;
     return check;
   }
-  Watch watch{record, record.requests.front().body, judged(record), flown(record), series};
+  Watch watch{record, record.requests.front().body, judged(record), flown(record), audit.clearance};
   const bool collided = !record.results.empty() && record.results.back().outcome == FlightOutcome::Collision;
   if (collided) watch.window.to = watch.window.to + kAfterCollision;
   count_holes(watch.vehicle, "UAV_STATE", check);
   for (const UavState& s : record.states) {
-    if (s.at >= watch.window.from && s.at <= watch.window.to) series.push_back({s.at, kFar, kNobody});
+    if (s.at >= watch.window.from && s.at <= watch.window.to) audit.clearance.push_back({s.at, kFar, kNobody});
   }
-  Closest nearest;
+  Verdicts verdicts(record, check);
   SampledMotion holes;
+  static const std::vector<DeclaredPiece> kNothing;
   for (const auto& [id, history] : record.truth) {
-    const SampledMotion motion = moved(history);
+    const auto declared = record.declared.find(id);
+    const SampledMotion motion = moved(history, declared == record.declared.end() ? kNothing : declared->second);
     holes.holes = holes.holes + motion.holes;
     holes.hole_count += motion.hole_count;
-    if (motion.spans.empty()) continue;
-    const Closest closest = watch.watch(id, history, nearest);
-    ++check.checked;
-    if (closest.obstacle == kNobody) continue;
-    judge(record, closest, check);
-    if (closest.low < nearest.low) nearest = closest;
+    if (!motion.spans.empty()) verdicts.take(watch.watch(id, history, motion, verdicts.nearest()));
   }
   count_holes(holes, "OBSTACLE_TRUTH", check);
   if (record.truth_left_out > 0) check.unchecked["obstacles that OBSTACLE_TRUTH left out"] = record.truth_left_out;
-  std::erase_if(series, [](const ClearancePoint& p) { return p.obstacle == kNobody; });
-  if (nearest.obstacle == kNobody) return check;
-  check.summary = fmt::format("least {:.4f} to {:.4f} m, to obstacle {} at {:.3f} s; {} obstacles", nearest.low,
-                              nearest.high, nearest.obstacle, record.seconds(nearest.at), check.checked);
-  check.measures = {{"least_m_at_least", nearest.low},
-                    {"least_m_at_most", nearest.high},
-                    {"least_obstacle", static_cast<double>(nearest.obstacle)},
-                    {"least_at_s", record.seconds(nearest.at)},
-                    {"obstacles", static_cast<double>(check.checked)}};
+  const std::int64_t passers = count_passers(record, watch.window);
+  if (passers > 0)
+    check.unchecked["obstacles that came or went in flight, up to a sample's time before or after"] = passers;
+  const bool whole =
+      watch.vehicle.hole_count == 0 && holes.hole_count == 0 && record.truth_left_out == 0 && passers == 0;
+  audit.least = verdicts.finish(whole);
+  std::erase_if(audit.clearance, [](const ClearancePoint& p) { return p.obstacle == kNobody; });
   return check;
 }
 

@@ -15,7 +15,7 @@ void adopt_last(const FlightRecord& record, const HorizonRequest& last, Commitme
         continue;
       }
       const bool flown = join_gap(s.motion, motion_at(curves, s.at)) <= kJoinTolerance;
-      if (flown) own.list.push_back({plan.trajectory, std::move(curves), plan.request_id, false});
+      if (flown) own.list.push_back({plan.trajectory, std::move(curves), plan.request_id, false, s.at});
       return;
     }
   }
@@ -44,8 +44,11 @@ std::vector<Commitments> commitments(const FlightRecord& record) {
     const bool gap = last[k] != nullptr && request.header.name.sequence != last[k]->header.name.sequence + 1;
     last[k] = &request;
     Commitments& own = all[k];
-    if (!own.list.empty() && same(own.list.back().spline, request.committed)) continue;
-    Commitment next{request.committed, curves_of(request.committed), 0, gap};
+    if (!own.list.empty() && same(own.list.back().spline, request.committed)) {
+      own.list.back().known_until = std::max(own.list.back().known_until, request.t_s);
+      continue;
+    }
+    Commitment next{request.committed, curves_of(request.committed), 0, gap, request.t_s};
     for (const Plan& plan : record.plans) {
       if (brings_trajectory(plan) && same(plan.trajectory, request.committed)) next.request = plan.request_id;
     }

@@ -14,6 +14,7 @@ struct Commitment {
   std::vector<Curve> curves;
   std::int64_t request = 0;  ///< of the plan that it is; 0: no plan in the log is this one
   bool after_gap = false;    ///< requests before it are missing: others may have been flown in between
+  UTime known_until;         ///< until then at least it was in force, if no later one in the list is
 };
 
 /// The trajectories that one executor flew, in order. Each request says which one was in force; what was adopted after

@@ -9,9 +9,10 @@
 
 namespace tern::audit {
 
-/// The text behind the last line `key: text` of a process's effective configuration, however deep it is indented. For
-/// keys that occur once; nothing when the process published none.
-std::optional<std::string> configured(const FlightRecord& record, std::string_view process, std::string_view key);
-std::optional<double> configured_number(const FlightRecord& record, std::string_view process, std::string_view key);
+/// The text behind the last line `key: text` of the planner's effective configuration, however deep it is indented. For
+/// keys that occur once. It is the configuration that plans name, whoever published it, else tern-planner's own;
+/// nothing when the log has neither.
+std::optional<std::string> planner_configured(const FlightRecord& record, std::string_view key);
+std::optional<double> planner_configured_number(const FlightRecord& record, std::string_view key);
 
 }  // namespace tern::audit

@@ -1,9 +1,10 @@
 #include "tools/audit/flight_record.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
-#include "messages/batching.h"
 #include "messages/configuration_report.h"
 #include "messages/flight_result.h"
 #include "messages/goal.h"
@@ -14,8 +15,8 @@
 #include "messages/plan_timing.h"
 #include "messages/track_set.h"
 #include "messages/uav_state.h"
-#include "runtime/batches.h"
 #include "runtime/channels.h"
+#include "tools/log_reader/track_sets.h"
 
 namespace tern::audit {
 namespace {
@@ -28,24 +29,42 @@ void put_in_order(std::vector<T>& items, const TimeOf& time_of) {
   items.erase(std::unique(items.begin(), items.end(), same), items.end());
 }
 
+/// What one sender of vehicle and world said: a simulator's start.
+struct Told {
+  std::vector<UavState> states, setpoints;
+  std::map<std::int64_t, ObstacleHistory> truth;
+  std::map<std::int64_t, std::vector<DeclaredPiece>> declared;
+  std::vector<FlightResult> results;
+  std::int64_t truth_left_out = 0;
+};
+
+/// The newest word holds from when it was given.
+void declare(const Track& track, UTime made_at, std::vector<DeclaredPiece>& pieces) {
+  while (!pieces.empty() && pieces.back().curve.from >= made_at) pieces.pop_back();
+  if (!pieces.empty()) pieces.back().curve.to = std::min(pieces.back().curve.to, made_at);
+  const std::vector<Curve> curves = curves_of(track.motion);
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    if (curves[k].to <= made_at) continue;
+    pieces.push_back({curves[k].cut(std::max(curves[k].from, made_at), curves[k].to), track.alpha[k]});
+  }
+}
+
 class Reading {
  public:
   explicit Reading(FlightRecord& record) : record_(record) {
-    keep(channels::kUavState, record.states);
-    keep(channels::kSetpoint, record.setpoints);
-    keep(channels::kHorizonRequest, record.requests);
-    keep(channels::kPlan, record.plans);
-    keep(channels::kPlanTiming, record.timings);
-    log_.on<ObstacleTruth>(channels::kObstacleTruth, [this](const ObstacleTruth& t, std::int64_t) { take(t); });
-    log_.on<TrackSet>(channels::kPredictions, [this](const TrackSet& batch, std::int64_t) { take(batch); });
+    keep<HorizonRequest>(channels::kHorizonRequest, record.requests);
+    keep<Plan>(channels::kPlan, record.plans);
+    keep<PlanTiming>(channels::kPlanTiming, record.timings);
+    tell<UavState>(channels::kUavState, [](Told& told, const UavState& s) { told.states.push_back(s); });
+    tell<UavState>(channels::kSetpoint, [](Told& told, const UavState& s) { told.setpoints.push_back(s); });
+    tell<ObstacleTruth>(channels::kObstacleTruth, take_truth);
+    tell<FlightResult>(channels::kFlightResult, take_result);
+    log_.on<TrackSet>(channels::kDeclaredMotions, [this](const TrackSet& batch, std::int64_t) { declared(batch); });
+    log_.on<TrackSet>(channels::kPredictions, [this](const TrackSet& batch, std::int64_t) { predicted(batch); });
     log_.on<MapChunk>(channels::kSemanticMap, [this](const MapChunk& chunk, std::int64_t) { take(chunk); });
     log_.on<Goal>(channels::kGoal, [this](const Goal& goal, std::int64_t) {
+      record_.goal_names.insert(goal.header.name);
       if (record_.goals.empty() || record_.goals.back().id != goal.id) record_.goals.push_back(goal);
-    });
-    log_.on<FlightResult>(channels::kFlightResult, [this](const FlightResult& result, std::int64_t) {
-      const auto& known = record_.results;
-      const bool repeated = !known.empty() && known.back().flight_time_s == result.flight_time_s;
-      if (!repeated) record_.results.push_back(result);
     });
     log_.on<ConfigurationReport>(channels::kConfiguration,
                                  [this](const ConfigurationReport& report, std::int64_t) { take(report); });
@@ -55,7 +74,8 @@ class Reading {
     auto contents = log_.read(record_.path);
     if (!contents) return tl::make_unexpected(contents.error());
     record_.contents = std::move(*contents);
-    record_.incomplete_predictions = batches_.incomplete();
+    record_.incomplete_predictions = predictions_.incomplete();
+    choose_flight();
     put_in_order(record_.states, [](const UavState& s) { return s.at; });
     put_in_order(record_.setpoints, [](const UavState& s) { return s.at; });
     for (auto& [id, history] : record_.truth) {
@@ -70,21 +90,39 @@ class Reading {
     log_.on<T>(channel, [&list](const T& message, std::int64_t) { list.push_back(message); });
   }
 
-  void take(const ObstacleTruth& truth) {
-    record_.truth_left_out = std::max<std::int64_t>(record_.truth_left_out, truth.left_out);
+  template <class T>
+  void tell(const char* channel, void (*put)(Told&, const T&)) {
+    log_.on<T>(channel, [this, put](const T& m, std::int64_t) { put(told_[m.header.name.sender_epoch_us], m); });
+  }
+
+  static void take_truth(Told& told, const ObstacleTruth& truth) {
+    told.truth_left_out = std::max<std::int64_t>(told.truth_left_out, truth.left_out);
     for (const TrueObstacle& o : truth.obstacles) {
-      ObstacleHistory& history = record_.truth[o.id];
+      ObstacleHistory& history = told.truth[o.id];
       history.moves = history.moves || o.moves;
       history.samples.push_back({truth.at, o.position, o.velocity, o.half_extents});
     }
   }
 
-  void take(const TrackSet& batch) {
-    auto set = batches_.add(batch);
+  static void take_result(Told& told, const FlightResult& result) {
+    const bool repeated = !told.results.empty() && told.results.back().flight_time_s == result.flight_time_s;
+    if (!repeated) told.results.push_back(result);
+  }
+
+  void declared(const TrackSet& batch) {
+    const auto set = declarations_.add(batch);
     if (!set) return;
-    TrackSet whole = join_batches(std::move(*set));
-    const MessageName name = whole.header.name;
-    record_.predictions.emplace(name, std::move(whole));
+    auto& by_id = told_[set->header.name.sender_epoch_us].declared;
+    for (const Track& track : set->tracks) {
+      if (track.kind != TrackKind::Static) declare(track, set->made_at, by_id[track.id]);
+    }
+  }
+
+  void predicted(const TrackSet& batch) {
+    auto whole = predictions_.add(batch);
+    if (!whole) return;
+    const MessageName name = whole->header.name;
+    record_.predictions.emplace(name, std::move(*whole));
   }
 
   void take(const MapChunk& chunk) {
@@ -96,6 +134,7 @@ class Reading {
   }
 
   void take(const ConfigurationReport& report) {
+    record_.configuration_hashes.insert(report.hash);
     for (ConfigurationReport& known : record_.configurations) {
       if (known.process != report.process) continue;
       known = report;
@@ -104,9 +143,82 @@ class Reading {
     record_.configurations.push_back(report);
   }
 
+  /// One kind of what was told, of the flight's own simulator. Where that one says nothing of the kind (vehicle,
+  /// executor and sensors are processes of their own), of everybody who has no flight of his own.
+  template <class T, class Merge>
+  T of_flight(std::int64_t epoch, T Told::*kind, const Merge& merge) {
+    T all;
+    for (auto& [sender, told] : told_) {
+      if (sender == epoch && !(told.*kind).empty()) return std::move(told.*kind);
+    }
+    for (auto& [sender, told] : told_) {
+      if (!others_.contains(sender)) merge(all, told.*kind);
+    }
+    return all;
+  }
+
+  void choose_flight() {
+    std::int64_t epoch = told_.empty() ? 0 : told_.begin()->first;
+    if (!record_.requests.empty()) epoch = record_.requests.front().header.name.sender_epoch_us;
+    name_others(epoch);
+    const auto append = [](auto& all, auto& more) { all.insert(all.end(), more.begin(), more.end()); };
+    record_.states = of_flight(epoch, &Told::states, append);
+    record_.setpoints = of_flight(epoch, &Told::setpoints, append);
+    record_.results = of_flight(epoch, &Told::results, append);
+    record_.truth = of_flight(epoch, &Told::truth, [&](auto& all, auto& more) {
+      for (auto& [id, history] : more) {
+        all[id].moves = all[id].moves || history.moves;
+        append(all[id].samples, history.samples);
+      }
+    });
+    record_.declared = of_flight(epoch, &Told::declared, [&](auto& all, auto& more) {
+      for (auto& [id, pieces] : more) append(all[id], pieces);
+    });
+    for (auto& [id, pieces] : record_.declared) {
+      std::stable_sort(pieces.begin(), pieces.end(),
+                       [](const DeclaredPiece& a, const DeclaredPiece& b) { return a.curve.from < b.curve.from; });
+    }
+    for (const auto& [sender, told] : told_) {
+      if (!others_.contains(sender)) record_.truth_left_out = std::max(record_.truth_left_out, told.truth_left_out);
+    }
+    forget_others();
+  }
+
+  /// Other executors' requests and other worlds, where this flight's simulator has a world of its own.
+  void name_others(std::int64_t epoch) {
+    std::map<std::int64_t, std::int64_t> requests;
+    for (const HorizonRequest& r : record_.requests) ++requests[r.header.name.sender_epoch_us];
+    const bool own_world = told_.contains(epoch) && !told_[epoch].truth.empty();
+    for (const auto& [sender, told] : told_) {
+      if (own_world && !told.truth.empty()) requests.try_emplace(sender, 0);
+    }
+    requests.erase(epoch);
+    for (const auto& [sender, count] : requests) {
+      others_.insert(sender);
+      record_.other_flights.push_back(
+          fmt::format("another flight: sender {} has a world of its own, {} requests: not audited", sender, count));
+    }
+  }
+
+  /// Requests of other executors and their answers.
+  void forget_others() {
+    if (others_.empty()) return;
+    // A timing names its request by the id alone, which both flights may have; but a planner sends one with each plan.
+    std::set<MessageName> foreign;
+    for (const Plan& p : record_.plans) {
+      if (others_.contains(p.inputs.request.sender_epoch_us)) foreign.insert(p.header.name);
+    }
+    std::erase_if(record_.timings, [&](const PlanTiming& t) { return foreign.contains(t.header.name); });
+    std::erase_if(record_.plans, [&](const Plan& p) { return others_.contains(p.inputs.request.sender_epoch_us); });
+    std::erase_if(record_.requests,
+                  [&](const HorizonRequest& r) { return others_.contains(r.header.name.sender_epoch_us); });
+  }
+
   FlightRecord& record_;
   FlightLog log_;
-  BatchCollector<TrackSet> batches_;
+  std::map<std::int64_t, Told> told_;  ///< by sender epoch
+  std::set<std::int64_t> others_;      ///< senders that have a flight of their own
+  RecordedSets declarations_, predictions_;
   MapAssembler assembler_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "core/world/region.h"
 #include "core/world/track.h"
 #include "core/world/voxel_map.h"
+#include "tools/audit/cubic.h"
 #include "tools/log_reader/flight_log.h"
 
 namespace tern::audit {
@@ -30,22 +32,37 @@ struct ObstacleHistory {
   bool moves = false;
 };
 
-/// What a log holds of a flight. Times are the vehicle's clock.
+/// What its owner promised of an obstacle: its centre within curve ± alpha (m, per axis) for as long as the curve
+/// lasts.
+struct DeclaredPiece {
+  Curve curve;
+  Vec3 alpha;
+};
+
+/// What a log holds of one flight. Times are the vehicle's clock.
+///
+/// A log may hold more than one: a simulator that starts anew brings another world, whose obstacles, vehicle and time
+/// have nothing to do with those before. The flight is the first one that asked for a horizon; the others are named.
 struct FlightRecord {
   std::string path;
   LogContents contents;
+  std::vector<std::string> other_flights;  ///< in words: whose messages were left out
 
   std::vector<UavState> states, setpoints;        ///< times strictly ascending
   std::map<std::int64_t, ObstacleHistory> truth;  ///< by obstacle
-  std::vector<HorizonRequest> requests;           ///< in the log's order, as all below
+  /// What was declared of each mover, by obstacle: the newest word at each time, without overlap, in order.
+  std::map<std::int64_t, std::vector<DeclaredPiece>> declared;
+  std::vector<HorizonRequest> requests;  ///< in the log's order, as all below
   std::vector<Plan> plans;
   std::vector<PlanTiming> timings;
   std::vector<Goal> goals;                          ///< each that differs from the one before
+  std::set<MessageName> goal_names;                 ///< of all, repetitions included
+  std::set<std::uint64_t> configuration_hashes;     ///< of all that were published
   std::map<MessageName, TrackSet> predictions;      ///< complete sets by the name that plans call them
   std::int64_t incomplete_predictions = 0;          ///< sets of which a batch is missing
   std::int64_t truth_left_out = 0;                  ///< most obstacles that a truth message says it left out
   std::map<std::uint64_t, VoxelMap> maps;           ///< complete ones, by version
-  std::vector<FlightResult> results;                ///< each that differs from the one before
+  std::vector<FlightResult> results;                ///< each that differs from the one before; its first message
   std::vector<ConfigurationReport> configurations;  ///< the last of each process
   std::vector<Region> regions;                      ///< the scenario's; filled by whoever can read configurations
   std::map<std::string, std::string> class_labels;  ///< what its classes are: "attractive", "repulsive", …

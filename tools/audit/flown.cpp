@@ -1,53 +1,225 @@
 #include "tools/audit/flown.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "tools/audit/commitment.h"
 
 namespace tern::audit {
 namespace {
 
-struct Knot {
-  UTime at;
-  Vec3 p, v;
+/// A vehicle slower than this may be where it was before: seen twice, it need not have stayed, m/s.
+constexpr double kMoving = 1e-3;
+/// A sample keeps to what was declared if it is not beyond α by more than rounding, m.
+constexpr double kRounding = 1e-6;
+/// FLIGHT_RESULT is repeated for so long; a later one of them tells that much less of when the first was.
+constexpr Duration kResultRepeated{1'200'000};
+
+Curve resting(const Vec3& p, UTime from, UTime to) {
+  Curve curve{from, to, {}};
+  for (int k = 0; k < 3; ++k) curve.axis[static_cast<std::size_t>(k)].c[0] = p[k];
+  return curve;
+}
+
+/// What the vehicle flew as far as its requests tell.
+class Committed {
+ public:
+  explicit Committed(const FlightRecord& record) {
+    std::vector<Commitments> all = commitments(record);
+    if (all.size() != 1) return;
+    list_ = std::move(all.front().list);
+    for (const UavState& s : record.states) see(s);
+  }
+
+  /// How far a state is from it, m; nothing if it is not on it, or nothing is known of that time.
+  [[nodiscard]] std::optional<double> off(const UavState& state) const {
+    const auto k = index_at(state.at);
+    if (!k || state.at > list_[*k].known_until || !is_on(state, *k)) return std::nullopt;
+    return (state.motion.p - motion_at(list_[*k].curves, state.at).p).cwiseAbs().maxCoeff();
+  }
+  /// Until when it is known without a gap, from t on. @pre it is known at t
+  [[nodiscard]] UTime known_until(UTime t) const {
+    std::size_t k = index_at(t).value();
+    while (k + 1 < list_.size() && list_[k].known_until >= list_[k + 1].spline.start) ++k;
+    return list_[k].known_until;
+  }
+  /// Since when it is known without a gap, up to t. @pre it is known at t
+  [[nodiscard]] UTime known_since(UTime t) const {
+    std::size_t k = index_at(t).value();
+    while (k > 0 && list_[k - 1].known_until >= list_[k].spline.start) --k;
+    return list_[k].spline.start;
+  }
+  /// Its curves over [from, to]. @pre it is known throughout
+  void append(UTime from, UTime to, double error, std::vector<Sampled>& spans) const {
+    while (from < to) {
+      const std::size_t k = index_at(from).value();
+      const UTime end = k + 1 < list_.size() ? std::min(to, list_[k + 1].spline.start) : to;
+      for (const Curve& c : list_[k].curves) add(c, std::max(from, c.from), std::min(end, c.to), error, spans);
+      const Curve& last = list_[k].curves.back();
+      if (end > last.to) {
+        const UTime rests = std::max(from, last.to);
+        spans.push_back({resting(last.p(last.length_s()), rests, end), Vec3::Constant(error)});
+      }
+      from = end;
+    }
+  }
+  [[nodiscard]] MotionSample at(UTime t) const { return motion_at(list_[index_at(t).value()].curves, t); }
+
+ private:
+  static void add(const Curve& curve, UTime from, UTime to, double error, std::vector<Sampled>& spans) {
+    if (from < to) spans.push_back({curve.cut(from, to), Vec3::Constant(error)});
+  }
+
+  [[nodiscard]] std::optional<std::size_t> index_at(UTime t) const {
+    const auto next = std::upper_bound(list_.begin(), list_.end(), t,
+                                       [](UTime x, const Commitment& c) { return x < c.spline.start; });
+    if (next == list_.begin()) return std::nullopt;
+    return static_cast<std::size_t>(next - list_.begin()) - 1;
+  }
+
+  [[nodiscard]] bool is_on(const UavState& state, std::size_t k) const {
+    return join_gap(state.motion, motion_at(list_[k].curves, state.at)) <= kJoinTolerance;
+  }
+
+  /// No trajectory comes back into force: where a vehicle in motion is on one, that one was in force until then.
+  void see(const UavState& state) {
+    const auto k = index_at(state.at);
+    if (!k || state.at <= list_[*k].known_until || !is_on(state, *k)) return;
+    const bool seen_lately = state.at - list_[*k].known_until <= kStateHole;
+    if (seen_lately || state.motion.v.norm() > kMoving) list_[*k].known_until = state.at;
+  }
+
+  std::vector<Commitment> list_;
 };
 
-SampledMotion connect(const std::vector<Knot>& knots, Duration hole) {
-  SampledMotion motion;
-  const auto change = [&](std::size_t k) { return (knots[k + 1].v - knots[k].v).norm(); };
-  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
-    const Knot& a = knots[k];
-    const Knot& b = knots[k + 1];
-    if (b.at - a.at > hole) {
-      motion.holes = motion.holes + (b.at - a.at);
-      ++motion.hole_count;
-      continue;
-    }
-    double largest = change(k);
-    if (k > 0) largest = std::max(largest, change(k - 1));
-    if (k + 2 < knots.size()) largest = std::max(largest, change(k + 1));
-    motion.spans.push_back({hermite(a.at, a.p, a.v, b.at, b.p, b.v), largest * (b.at - a.at).seconds() / 8.0});
-  }
-  return motion;
+/// The greatest acceleration that the vehicle had, per axis, m/s².
+Vec3 greatest_acceleration(const FlightRecord& record) {
+  Vec3 a = record.requests.empty() ? Vec3::Constant(std::numeric_limits<double>::infinity())
+                                   : record.requests.front().limits.a_max;
+  for (const UavState& s : record.states) a = a.cwiseMax(s.motion.a.cwiseAbs());
+  return a;
+}
+
+/// flown.h has the bounds.
+Sampled bridge(UTime from, const MotionSample& a, UTime to, const MotionSample& b, const Vec3& greatest) {
+  Sampled span{hermite(from, a.p, a.v, to, b.p, b.v)};
+  const double h = span.curve.length_s();
+  const Vec3 m = greatest + span.curve.a(0.0).cwiseAbs().cwiseMax(span.curve.a(h).cwiseAbs());
+  span.error = m * (h * h / 16.0);
+  span.speed_error = m.norm() * h / 4.0;
+  span.wander_m = m.sum() * h * h / 8.0;
+  span.hole = to - from > kStateHole;
+  return span;
 }
 
 }  // namespace
 
 SampledMotion flown(const FlightRecord& record) {
-  std::vector<Knot> knots;
-  for (const UavState& s : record.states) knots.push_back({s.at, s.motion.p, s.motion.v});
-  return connect(knots, kStateHole);
+  const Committed committed(record);
+  const Vec3 greatest = greatest_acceleration(record);
+  SampledMotion motion;
+  for (std::size_t k = 0; k + 1 < record.states.size(); ++k) {
+    const UavState& a = record.states[k];
+    const UavState& b = record.states[k + 1];
+    const auto off_a = committed.off(a);
+    const auto off_b = committed.off(b);
+    const UTime until = off_a ? std::min(b.at, committed.known_until(a.at)) : a.at;
+    const UTime since = off_b ? std::max(a.at, committed.known_since(b.at)) : b.at;
+    if (until >= since && off_a && off_b) {
+      committed.append(a.at, b.at, std::max(*off_a, *off_b), motion.spans);
+      continue;
+    }
+    if (off_a) committed.append(a.at, until, *off_a, motion.spans);
+    motion.spans.push_back(bridge(until, until > a.at ? committed.at(until) : a.motion, since,
+                                  since < b.at ? committed.at(since) : b.motion, greatest));
+    if (off_b) committed.append(since, b.at, *off_b, motion.spans);
+  }
+  for (const Sampled& span : motion.spans) {
+    if (!span.hole) continue;
+    motion.holes = motion.holes + (span.curve.to - span.curve.from);
+    ++motion.hole_count;
+  }
+  return motion;
 }
 
-SampledMotion moved(const ObstacleHistory& history) {
-  std::vector<Knot> knots;
-  for (const ObstacleHistory::Sample& s : history.samples) knots.push_back({s.at, s.p, s.v});
-  return connect(knots, history.moves ? kTruthHole : Duration{INT64_MAX / 2});
+namespace {
+
+using TrueSample = ObstacleHistory::Sample;
+
+bool keeps_to(const DeclaredPiece& piece, const TrueSample& s) {
+  const Vec3 off = s.p - piece.curve.p((s.at - piece.curve.from).seconds());
+  return ((off.cwiseAbs() - piece.alpha).array() <= kRounding).all();
+}
+
+/// What was declared over [a, b], if that is all of it and both samples keep to it. `first`: no earlier piece is
+/// needed.
+std::optional<std::vector<Sampled>> declared_between(const TrueSample& a, const TrueSample& b,
+                                                     const std::vector<DeclaredPiece>& pieces, std::size_t& first) {
+  while (first < pieces.size() && pieces[first].curve.to <= a.at) ++first;
+  std::vector<Sampled> spans;
+  UTime from = a.at;
+  for (std::size_t k = first; k < pieces.size() && from < b.at; ++k) {
+    const DeclaredPiece& piece = pieces[k];
+    if (piece.curve.to <= from) continue;
+    if (piece.curve.from > from) return std::nullopt;
+    const UTime to = std::min(piece.curve.to, b.at);
+    if ((from == a.at && !keeps_to(piece, a)) || (to == b.at && !keeps_to(piece, b))) return std::nullopt;
+    spans.push_back({piece.curve.cut(from, to), piece.alpha});
+    from = to;
+  }
+  if (from < b.at) return std::nullopt;
+  return spans;
+}
+
+bool rests(const ObstacleHistory& history, const TrueSample& a, const TrueSample& b) {
+  return !history.moves && a.p == b.p && a.v.isZero() && b.v.isZero();
+}
+
+}  // namespace
+
+SampledMotion moved(const ObstacleHistory& history, const std::vector<DeclaredPiece>& declared) {
+  SampledMotion motion;
+  std::size_t first = 0;
+  for (std::size_t k = 0; k + 1 < history.samples.size(); ++k) {
+    const TrueSample& a = history.samples[k];
+    const TrueSample& b = history.samples[k + 1];
+    if (rests(history, a, b)) {
+      const bool goes_on = k > 0 && rests(history, history.samples[k - 1], a);
+      if (goes_on) {
+        motion.spans.back().curve.to = b.at;
+      } else {
+        motion.spans.push_back({resting(a.p, a.at, b.at)});
+      }
+    } else if (const auto spans = declared_between(a, b, declared, first)) {
+      motion.spans.insert(motion.spans.end(), spans->begin(), spans->end());
+    } else if (b.at - a.at <= kTruthHole) {
+      Sampled span{hermite(a.at, a.p, a.v, b.at, b.p, b.v)};
+      span.proven = false;
+      motion.spans.push_back(span);
+    } else {
+      motion.holes = motion.holes + (b.at - a.at);
+      ++motion.hole_count;
+    }
+  }
+  return motion;
 }
 
 Window judged(const FlightRecord& record) {
-  Window window{record.zero(), record.end()};
-  if (record.results.empty() || record.requests.empty()) return window;
-  window.to = std::min(window.to, window.from + Duration::from_seconds(record.results.back().flight_time_s));
-  return window;
+  if (record.results.empty() || record.requests.empty()) return {record.zero(), record.end(), Duration{}};
+  const FlightResult& result = record.results.back();
+  const Duration time = Duration::from_seconds(result.flight_time_s);
+  UTime latest = result.header.utime;
+  if (record.requests.front().id == 1) latest = std::min(latest, record.requests.front().header.utime + time);
+  const bool is_first = result.header.name.sequence <= 1;
+  const UTime told = is_first ? result.header.utime : result.header.utime - kResultRepeated;
+  const auto after = std::upper_bound(record.states.begin(), record.states.end(), told,
+                                      [](UTime t, const UavState& s) { return t < s.at; });
+  const auto before = after - record.states.begin();
+  const UTime earliest = before >= 2 ? record.states[static_cast<std::size_t>(before) - 2].at : latest - time;
+  const Duration unsure = std::max(Duration{}, latest - std::min(earliest, latest));
+  return {latest - time - unsure, latest, unsure};
 }
 
 }  // namespace tern::audit

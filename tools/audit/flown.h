@@ -8,36 +8,53 @@
 
 namespace tern::audit {
 
-/// A motion between two samples.
-///
-/// The curve is the cubic through both samples' positions and velocities. Where each component of velocity is monotone
-/// between them, the true motion is a mixture of motions with one jump of velocity, and one of Δv at the share s of the
-/// span h leaves the cubic by 2 s²(1 − s)² h |Δv| at most: hence error = h |Δv| / 8, with the largest Δv of this and
-/// the neighbouring spans, so that an extremum of velocity within one span is covered by its neighbours.
+/// A motion over a stretch of time, and how far the truth may be from it.
 struct Sampled {
   Curve curve;
-  double error_m = 0.0;
+  Vec3 error = Vec3::Zero();  ///< the truth is within curve ± error at each instant, m per axis
+  double speed_error = 0.0;   ///< the true |v| is within |curve's v| ± this, m/s
+  double wander_m = 0.0;      ///< the true path is longer than the curve's by at most this, m
+  bool proven = true;         ///< false: nothing in the log bounds it; the curve is the interpolation of its ends
+  bool hole = false;          ///< of the vehicle: no state for longer than kStateHole, nothing says what was flown
 };
 
-/// States farther apart than this leave a hole.
+/// Without a state for longer than this the vehicle's motion is a hole, where the log does not tell what was flown.
 inline constexpr Duration kStateHole{50'000};
-/// Samples of a moving obstacle farther apart than this leave a hole (it may have vanished in between).
+/// Samples of a moving obstacle that nobody declared leave a hole if they are farther apart (it may have vanished).
 inline constexpr Duration kTruthHole{200'000};
 
 struct SampledMotion {
-  std::vector<Sampled> spans;  ///< in order; holes are left out
-  Duration holes;              ///< how long they are together
-  std::int64_t hole_count = 0;
+  std::vector<Sampled> spans;   ///< in order; an obstacle's holes are left out
+  Duration holes;               ///< how long they are together
+  std::int64_t hole_count = 0;  ///< how many
 };
 
+/// The vehicle from its first to its last state, without a gap.
+///
+/// Where the states at both ends lie on the committed trajectory (positions, velocities, accelerations to
+/// kJoinTolerance), and the log's requests tell what was committed in between, that trajectory is what was flown:
+/// exactly, however long no state was recorded. Elsewhere the curve is the cubic H through both ends' positions and
+/// velocities. It rests on the vehicle's acceleration limits A (and on the greatest acceleration recorded, if that is
+/// beyond them): e = p − H vanishes with its derivative at both ends, |e″| ≤ M = A + max |H″|, so that over a span h,
+/// per axis,
+///     |e| ≤ M h²/16,   |e′| ≤ M h/4,   ∫|e′| ≤ M h²/8,
+/// each attained by e″ = M, −M, M on the span's quarters [0, 1], [1, 3], [3, 4].
 SampledMotion flown(const FlightRecord& record);
-SampledMotion moved(const ObstacleHistory& history);
 
-/// The time that the referee judged, or all that was recorded: from the first request (the first state) to the verdict
-/// (the last state). After it the vehicle asks for no more plans, and answers for nothing.
+/// An obstacle between its samples. What its owner declared holds within its α, whatever the motion, where the samples
+/// at both ends keep to it. What nobody declared is only interpolated (proven = false). What does not move, rests.
+SampledMotion moved(const ObstacleHistory& history, const std::vector<DeclaredPiece>& declared);
+
+/// The time that the referee judged, or all that was recorded. After the verdict the vehicle asks for no more plans,
+/// and answers for nothing.
 struct Window {
-  UTime from, to;
+  UTime from, to;   ///< the flight lies within
+  Duration unsure;  ///< it began at most this after `from` and ended at most this before `to`: a step of the referee
+  [[nodiscard]] UTime sure_from() const { return from + unsure; }
+  [[nodiscard]] UTime sure_to() const { return to - unsure; }
 };
+/// The verdict came after the state before the last one that precedes FLIGHT_RESULT (each state is judged when it is
+/// published), no later than FLIGHT_RESULT, and no later than flight_time after the first request.
 Window judged(const FlightRecord& record);
 
 }  // namespace tern::audit

@@ -43,7 +43,7 @@ class CoverageCheck {
   }
 
   void set(const TrackSet& set) {
-    if (set.made_at < window_.from || record_.truth.empty()) return;
+    if (set.made_at < window_.sure_from() || set.made_at > window_.sure_to() || record_.truth.empty()) return;
     audit_.promised_confidence = std::min(audit_.promised_confidence, set.confidence);
     for (const Track& track : set.tracks) take(set, track);
   }
@@ -89,7 +89,7 @@ class CoverageCheck {
   }
 
   void take(const TrackSet& set, const Track& track) {
-    const UTime from = std::max({track.motion.start, set.made_at, window_.from});
+    const UTime from = std::max({track.motion.start, set.made_at, window_.sure_from()});
     const bool still = track.kind == TrackKind::Static;
     const UTime until =
         still ? set.made_at + Duration::from_seconds(kAhead[std::size(kAhead) - 1]) : track.motion.end();
@@ -99,7 +99,7 @@ class CoverageCheck {
       ghosts_.insert(track.id);
       return;
     }
-    const auto [first, last] = within(*truth, from, std::min(until, window_.to));
+    const auto [first, last] = within(*truth, from, std::min(until, window_.sure_to()));
     if (first == last) return;
     TrackCoverage& own = tracks_.try_emplace(track.id, TrackCoverage{track.id, obstacle, 0, 0, -1e9}).first->second;
     double worst = -1e9;
@@ -109,7 +109,7 @@ class CoverageCheck {
     const bool kept = worst <= kTolerance;
     const bool whole = truth->samples[last - 1].at + kTruthHole >= until;
     const bool promised = set.confidence >= 1.0 || track.kind == TrackKind::Declared;
-    if (!promised && set.made_at >= window_.from + kStart) {
+    if (!promised && set.made_at >= window_.sure_from() + kStart) {
       ++estimates_;
       sets_.insert(set.made_at.us);
     }
@@ -120,7 +120,7 @@ class CoverageCheck {
     own.kept += kept ? 1 : 0;
     ++promises_;
     promises_kept_ += kept ? 1 : 0;
-    if (promised || set.made_at < window_.from + kStart) return;
+    if (promised || set.made_at < window_.sure_from() + kStart) return;
     whole_.add(kept);
     horizon_s_ = std::max(horizon_s_, (until - set.made_at).seconds());
   }
@@ -153,7 +153,7 @@ class CoverageCheck {
       if (ahead_s < c.from_s || ahead_s >= c.to_s) continue;
       ++c.samples;
       c.kept += kept ? 1 : 0;
-      if (!estimated || set.made_at < window_.from + kStart) continue;
+      if (!estimated || set.made_at < window_.sure_from() + kStart) continue;
       instants_[k].add(kept);
     }
   }
@@ -195,7 +195,7 @@ class CoverageCheck {
         1.0, std::min(static_cast<double>(share.all), at_once * (1.0 + span_s / std::max(horizon_s, kForgotten))));
     const double least = c - kDeviations * std::sqrt(c * (1.0 - c) / independent);
     if (share.value() >= least) return;
-    check_.fail({window_.from,
+    check_.fail({window_.sure_from(),
                  fmt::format("{:.4f} of the {}; {:.4f} promised, {:.4f} is what chance allows ({:.0f} deviations, "
                              "{:.0f} independent ones)",
                              share.value(), what, c, least, kDeviations, independent)});

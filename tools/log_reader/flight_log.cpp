@@ -1,8 +1,11 @@
 #include "tools/log_reader/flight_log.h"
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
+#include <unordered_set>
 
+#include "core/base/digest.h"
 #include "logger/records/channel_table.h"
 #include "logger/records/log_writer.h"
 #include "tools/log_reader/text_log.h"
@@ -19,6 +22,8 @@ constexpr std::int64_t kMaxGap = 1'000'000'000;
 /// Channels beyond this are not told apart: damage that reads as names shall not eat memory.
 constexpr std::size_t kMaxChannels = 1'000;
 constexpr char kOtherChannels[] = "(others)";
+/// Messages of a channel among which a repetition is found: it comes within milliseconds.
+constexpr std::size_t kRemembered = 4096;
 
 using LastSequences = std::map<std::int64_t, std::int64_t>;  // by sender epoch
 
@@ -33,6 +38,26 @@ std::int64_t gap_before(LastSequences& last_sequences, const MessageName& name) 
   last->second = name.sequence;
   return gap;
 }
+
+/// The newest messages of a channel, by digest.
+class Recent {
+ public:
+  /// Whether these bytes were there before; from now on they are.
+  bool again(std::span<const std::uint8_t> bytes) {
+    const std::uint64_t name = digest({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (!known_.insert(name).second) return true;
+    order_.push_back(name);
+    if (order_.size() > kRemembered) {
+      known_.erase(order_.front());
+      order_.pop_front();
+    }
+    return false;
+  }
+
+ private:
+  std::unordered_set<std::uint64_t> known_;
+  std::deque<std::uint64_t> order_;
+};
 
 }  // namespace
 
@@ -52,6 +77,7 @@ struct FlightLog::Reading {
   std::string suffix;
   LogContents contents;
   std::map<std::string, LastSequences> last_sequences;
+  std::map<std::string, Recent> recent;
 
   LogChannel& channel_of(const std::string& name) {
     const auto found = contents.channels.find(name);
@@ -73,6 +99,10 @@ struct FlightLog::Reading {
     channel.bytes += static_cast<std::int64_t>(event.data.size());
     const auto found = handlers.find(event.channel);
     if (found == handlers.end()) return;
+    if (recent[event.channel].again(event.data)) {
+      ++channel.repeated;
+      return;
+    }
     bool is_first = true;
     for (const Handler& handler : found->second) {
       const auto header = handler(event.data, event.received_us);
@@ -98,7 +128,7 @@ void FlightLog::add(std::string_view channel, Handler handler) {
 }
 
 Result<LogContents> FlightLog::read(const std::string& path) {
-  Reading reading{handlers_, suffix_, {}, {}};
+  Reading reading{handlers_, suffix_, {}, {}, {}};
   reading.contents.parts = log_parts(path);
   for (const std::string& part : reading.contents.parts) {
     if (is_text_log(part)) {

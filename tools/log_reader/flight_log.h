@@ -23,7 +23,9 @@ struct LogChannel {
   std::int64_t messages = 0, bytes = 0;    ///< all of them
   std::int64_t refused[kRejections] = {};  ///< by Rejection; Fingerprint: another version of the message, or no message
   std::int64_t lost = 0;                   ///< gaps in its senders' sequence numbers
-  bool read = false;     ///< it was asked for: only then its messages were decoded, and refused and lost are known
+  std::int64_t repeated = 0;               ///< the same bytes again: a network that delivers a message more than once
+  bool read =
+      false;  ///< it was asked for: only then its messages were decoded, and refused, lost and repeated are known
   bool foreign = false;  ///< not one of Tern's channels
 };
 
@@ -45,7 +47,9 @@ std::vector<std::string> log_parts(const std::string& path);
 ///     log.on<Plan>(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) { … });
 ///     const Result<LogContents> contents = log.read("flight.lcm");
 ///
-/// Bounded memory: no more than one event is held (LogReader). Only what decode() accepts is handed over.
+/// Bounded memory: no more than one event is held (LogReader). Only what decode() accepts is handed over, and each
+/// message once, however often the network delivered it (of the newest 4096 of its channel; each message is another, by
+/// its name).
 class FlightLog {
  public:
   /// @param suffix  what the vehicle's channels end with, "" for none

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "messages/batching.h"
 #include "messages/configuration_report.h"
 #include "messages/goal.h"
 #include "messages/horizon_request.h"
@@ -11,11 +10,12 @@
 #include "messages/plan_timing.h"
 #include "messages/track_set.h"
 #include "runtime/channels.h"
+#include "tools/log_reader/track_sets.h"
 
 namespace tern {
 namespace {
 
-/// Sets and maps that never become complete are given up, the oldest first, when so many others are begun.
+/// Maps that never become complete are given up, the oldest first, when so many others are begun.
 constexpr std::size_t kMaxUnfinished = 32;
 
 /// A map of its own per version: a planner that restarted may use an older one than those that follow.
@@ -34,28 +34,6 @@ class Maps {
  private:
   std::map<std::uint64_t, VoxelMap>& complete_;
   std::map<std::uint64_t, MapAssembler> unfinished_;
-};
-
-/// Not the receivers' BatchCollector, which forgets a set as soon as a newer one begins: whichever set a planner had
-/// shall be found.
-class Sets {
- public:
-  std::optional<TrackSet> add(const TrackSet& batch) {
-    const std::pair key{batch.header.name.sender_epoch_us, batch.batch.set};
-    auto& parts = unfinished_[key];
-    parts.emplace(batch.batch.index, batch);
-    if (static_cast<std::int32_t>(parts.size()) < batch.batch.count) {
-      if (unfinished_.size() > kMaxUnfinished) unfinished_.erase(unfinished_.begin());
-      return std::nullopt;
-    }
-    std::vector<TrackSet> batches;
-    for (auto& [index, part] : parts) batches.push_back(std::move(part));
-    unfinished_.erase(key);
-    return join_batches(std::move(batches));
-  }
-
- private:
-  std::map<std::pair<std::int64_t, std::int64_t>, std::map<std::int32_t, TrackSet>> unfinished_;
 };
 
 using PlanKey = std::pair<std::int64_t, std::int64_t>;  // sender epoch, request id
@@ -98,7 +76,7 @@ Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::
 
 Result<LogContents> read_prediction_sets(const std::string& path, const std::string& suffix,
                                          const std::function<void(TrackSet)>& use) {
-  Sets sets;
+  RecordedSets sets;
   FlightLog log(suffix);
   log.on<TrackSet>(channels::kPredictions, [&](const TrackSet& batch, std::int64_t) {
     if (auto whole = sets.add(batch)) use(std::move(*whole));

@@ -116,11 +116,24 @@ std::int64_t Replay::broken() const {
 
 bool Replay::is_extract() const { return inputs.log.channels.contains(kExtractMark); }
 
+std::int64_t Replay::answers_before() const {
+  if (is_extract()) return 0;
+  std::map<std::int64_t, std::int64_t> first;  // by planner
+  for (const RecordedPlan& p : inputs.plans) {
+    const MessageName& name = p.plan.header.name;
+    const auto [known, is_new] = first.try_emplace(name.sender_epoch_us, name.sequence);
+    if (!is_new) known->second = std::min(known->second, name.sequence);
+  }
+  return std::accumulate(first.begin(), first.end(), std::int64_t{0}, [](std::int64_t sum, const auto& planner) {
+    return sum + std::max<std::int64_t>(0, planner.second - 1);
+  });
+}
+
 bool Replay::incomplete() const {
   const LogDamage& damage = inputs.log.damage;
   const auto answers = inputs.log.channels.find(channels::kPlan + suffix);
   const bool known = answers != inputs.log.channels.end();
-  return missing() > 0 || inputs.plans.empty() || damage.places > 0 || damage.missing > 0 ||
+  return missing() > 0 || answers_before() > 0 || inputs.plans.empty() || damage.places > 0 || damage.missing > 0 ||
          (known && answers->second.lost > 0 && !is_extract()) || (known && refused(answers->second) > 0);
 }
 

@@ -45,6 +45,8 @@ struct Replay {
   [[nodiscard]] std::int64_t broken() const;
   /// Whether the log is an extract (write_log): then gaps in its senders' numbers mean nothing.
   [[nodiscard]] bool is_extract() const;
+  /// Answers that planners numbered before the first one that the log has of them; 0 for an extract.
+  [[nodiscard]] std::int64_t answers_before() const;
   /// Whether the log lacks anything that a replay needs: inputs, answers that were lost, refused or damaged.
   [[nodiscard]] bool incomplete() const;
 };

@@ -50,6 +50,9 @@ std::string what_the_log_lacks(const Replay& replay) {
       if (channel.refused[r] > 0) text += fmt::format("  {}: {} messages {}\n", name, channel.refused[r], kRefusals[r]);
     }
   }
+  if (const std::int64_t n = replay.answers_before(); n > 0) {
+    text += fmt::format("  PLAN: {} answers were published before the first one in the log\n", n);
+  }
   if (!foreign.empty()) text += fmt::format("  not Tern's, passed over: {}\n", foreign);
   return text;
 }

@@ -6,6 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/base/percentiles.h"
+#include "core/world/replan_samples.h"
 #include "tools/report/map_runs.h"
 
 namespace tern::report {
@@ -189,29 +191,20 @@ json answers_to_json(const std::vector<Answer>& answers) {
   return result;
 }
 
-/// p50, p95, p99 and the largest of a stage, or of the whole answer.
-json percentiles(std::vector<double> values) {
-  if (values.empty()) return json::array();
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return rounded(values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
-  };
-  return {at(0.5), at(0.95), at(0.99), at(1.0)};
-}
+/// p50, p95, p99 and the largest.
+json to_json(const Percentiles& p) { return {rounded(p.p50), rounded(p.p95), rounded(p.p99), rounded(p.max)}; }
 
 json costs_of(const FlightRecord& record) {
   constexpr std::array kStageNames{"fallback", "local goal", "hulls", "search", "optimization", "check"};
+  ReplanSamples samples;
+  for (const PlanTiming& t : record.timings) samples.add(t);
   json costs = json::array();
-  const auto add = [&](const char* name, const auto& get) {
-    std::vector<double> values;
-    for (const PlanTiming& t : record.timings) values.push_back(get(t));
-    costs.push_back({{"name", name}, {"ms", percentiles(std::move(values))}});
+  const auto add = [&](const char* name, const std::vector<double>& ms) {
+    costs.push_back({{"name", name}, {"ms", ms.empty() ? json::array() : to_json(percentiles(ms))}});
   };
-  add("whole answer", [](const PlanTiming& t) { return t.total_ms; });
-  add("first certified", [](const PlanTiming& t) { return t.first_answer_ms; });
-  for (std::size_t k = 0; k < kStageNames.size(); ++k) {
-    add(kStageNames[k], [k](const PlanTiming& t) { return t.stage_ms[k]; });
-  }
+  add("whole answer", samples.total);
+  add("first certified", samples.first_answer);
+  for (std::size_t k = 0; k < kStageNames.size(); ++k) add(kStageNames[k], samples.stage[k]);
   return costs;
 }
 

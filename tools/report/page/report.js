@@ -39,6 +39,7 @@
     const body = rows.map((row) => el("tr", {}, ...row.map((cell, k) => el("td", columns[k][1] ? { class: "n" } : {}, cell))));
     parent.append(el("div", { class: "scroll" }, el("table", {}, el("thead", {}, head), el("tbody", {}, ...body))));
   };
+  const leastOf = (measures) => measures.least_m_at_least ?? measures.least_m_by_interpolation;
   const check = (name) => audit.checks.find((c) => c.name === name) || { measures: {} };
 
   // ---- head
@@ -47,6 +48,7 @@
     const outcome = result ? result.outcome : "no verdict";
     const tone = outcome === "reached" ? "good" : result ? "bad" : "warn";
     const verdict = { held: ["good", "audit held"], broken: ["bad", "audit broken"], "not checked": ["warn", "not audited"] }[audit.verdict];
+    if (audit.collision === "cannot tell") verdict.splice(0, 2, "warn", "audit " + audit.verdict + ", the collision too close to tell");
     const date = flight.recorded_us > 1e15 ? new Date(flight.recorded_us / 1000).toISOString().slice(0, 16).replace("T", " ") + " UTC, " : "";
     main.append(el("header", {}, el("div", { class: "kind" }, "Tern flight report"),
       el("h1", {}, flight.scenario || "flight", el("span", { class: "badge " + tone }, outcome), el("span", { class: "badge " + verdict[0] }, verdict[1])),
@@ -59,7 +61,7 @@
       [result ? fixed(result.path_m, 1) : "–", "m", "path"],
       [result ? fixed(result.mean_speed, 2) : "–", "m/s", "mean speed to the goal"],
       [fixed(most(path.speed), 2), "m/s", "top speed"],
-      [fixed(clearance.least_m_at_least, 3), "m", "least clearance, at least"],
+      [fixed(leastOf(clearance), 3), "m", clearance.least_m_at_least === undefined ? "least clearance, about" : "least clearance, at least"],
       [whole(answers.t.length), "", "plans asked for"],
       [fixed(total[0], 1) + " / " + fixed(total[2], 1), "ms", "replan p50 / p99"],
       [percent(check("predictions").measures.samples_kept_share, 2), "", "predictions kept"],
@@ -366,7 +368,7 @@
     const row = pair();
     const closest = check("clearance").measures;
     const note = closest.least_at_s == null ? "No true obstacle in the log." :
-      `To the surface of the nearest true obstacle, body included. Least: ${fixed(closest.least_m_at_least, 3)} to ${fixed(closest.least_m_at_most, 3)} m, to obstacle ${closest.least_obstacle} at ${fixed(closest.least_at_s, 2)} s. Above 3 m not shown.`;
+      `To the surface of the nearest true obstacle, body included. Least: ${fixed(leastOf(closest), 3)} to ${fixed(closest.least_m_at_most, 3)} m, to obstacle ${closest.least_obstacle} at ${fixed(closest.least_at_s, 2)} s. Above 3 m not shown.`;
     const box = card("Clearance, m", note, row);
     chart(box, {
       columns: [path.t, path.clearance], series: [{ label: "nearest obstacle", colour: "c1", fill: true, value: (u, y) => fixed(y, 3) }],

@@ -1,15 +1,13 @@
-#include "monitor/percentiles.h"
+#include "core/base/percentiles.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace tern {
 
 Percentiles percentiles(std::vector<double> samples) {
   if (samples.empty()) return {};
   const auto rank = [&samples](std::size_t percent) {
-    const std::size_t k = (samples.size() * percent + 99) / 100 - 1;
-    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(k);
+    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(nearest_rank(samples.size(), percent));
     std::nth_element(samples.begin(), at, samples.end());
     return *at;
   };

@@ -1,4 +1,4 @@
-#include "monitor/percentiles.h"
+#include "core/base/percentiles.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,0 +1,208 @@
+// The stated clearance holds between samples, whatever moves: against a slow look at the true motions.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "logger/records/log_writer.h"
+#include "messages/batching.h"
+#include "messages/horizon_request.h"
+#include "messages/obstacle_truth.h"
+#include "messages/track_set.h"
+#include "messages/uav_state.h"
+#include "runtime/channels.h"
+#include "simulator/referee/body_distance.h"
+#include "simulator/worlds/declared_motions.h"
+#include "simulator/worlds/world.h"
+#include "tests/logger/temp_folder.h"
+#include "tests/support/random_splines.h"
+#include "tools/audit/audit.h"
+
+namespace tern::audit {
+namespace {
+
+using support::random_integer;
+using support::random_vector;
+
+const UTime kZero{1'700'000'000'000'000};
+constexpr double kFlight = 2.0;  // s
+
+/// What is flown, what moves, and how well it is recorded.
+struct Case {
+  World world;
+  TimedSpline committed;  ///< by the requests
+  TimedSpline flown;      ///< the same, or not: a vehicle that strays
+  Body body;
+  bool declared = true;
+  double share_of_states = 1.0;
+};
+
+ObstacleSpec random_mover(Rng& rng) {
+  ObstacleSpec o;
+  o.centre = random_vector(rng, 3.0);
+  o.half_extents = Vec3::Constant(0.05) + random_vector(rng, 0.4).cwiseAbs();
+  const auto zigzag = [&](int points, double every_s) {
+    WaypointMotion m;
+    for (int k = 0; k < points; ++k) m.points.emplace_back(-0.3 + every_s * k, o.centre + random_vector(rng, 0.6));
+    return m;
+  };
+  switch (random_integer(rng, 0, 5)) {
+    case 0: o.motion = StaticMotion{}; break;
+    case 1: o.motion = TrefoilMotion{random_vector(rng, 1.5), rng.uniform(0.3, 2.0), rng.uniform(0.0, 6.0)}; break;
+    case 2: o.motion = WaveMotion{random_vector(rng, 2.0), rng.uniform(0.1, 1.0), rng.uniform(0.0, 6.0)}; break;
+    case 3: o.motion = LinearMotion{random_vector(rng, 4.0), rng.uniform(0.0, 1.0)}; break;
+    case 4: o.motion = zigzag(random_integer(rng, 20, 90), 0.0371); break;  // as a recording of people, but wilder
+    default: o.motion = zigzag(random_integer(rng, 3, 12), rng.uniform(0.02, 0.5)); break;
+  }
+  return o;
+}
+
+TimedSpline random_flight(Rng& rng) {
+  Points q(3, 13);
+  q.col(0) = random_vector(rng, 2.0);
+  for (int k = 1; k < q.cols(); ++k) q.col(k) = q.col(k - 1) + random_vector(rng, 0.8);
+  q.rightCols<3>().colwise() = Vec3(q.col(10));
+  return {kZero - Duration{100'000}, Duration{210'000}, q};
+}
+
+Case random_case(Rng& rng) {
+  Case c;
+  Scenario scenario;
+  for (int k = random_integer(rng, 1, 5); k > 0; --k) scenario.world.obstacles.push_back(random_mover(rng));
+  c.world = make_world(scenario, "").value();
+  c.committed = random_flight(rng);
+  c.flown = rng.uniform() < 0.5 ? c.committed : random_flight(rng);
+  c.body.radius = rng.uniform(0.05, 0.3);
+  c.declared = rng.uniform() < 0.8;
+  c.share_of_states = rng.uniform() < 0.5 ? 1.0 : rng.uniform(0.1, 1.0);
+  return c;
+}
+
+double largest_acceleration(const TimedSpline& spline) {
+  double a = 0.0;
+  for (double s = -0.1; s < kFlight + 0.5; s += 1e-3) {
+    a = std::max(a, spline.sample(kZero + Duration::from_seconds(s)).a.cwiseAbs().maxCoeff());
+  }
+  return a * 1.001 + 1e-6;  // piecewise linear: between these times by no more than that
+}
+
+/// The log of a case, as logger and simulator would have made it.
+class Recording {
+ public:
+  Recording(const Case& c, Rng& rng, const std::string& path) : writer_(*LogWriter::open(path, 0)) {
+    request(c, kZero, 1);
+    request(c, kZero + Duration{1'000'000}, 2);
+    for (Duration t{}; t.seconds() <= kFlight; t = t + Duration{10'000}) {
+      if (t.us > 0 && rng.uniform() > c.share_of_states) continue;
+      UavState state;
+      state.at = kZero + t;
+      state.motion = c.flown.sample(state.at);
+      write(channels::kUavState, state, state.at);
+      write(channels::kSetpoint, state, state.at);
+    }
+    for (Duration t{-33'333}; t.seconds() <= kFlight + 0.05; t = t + Duration{33'333}) truth(c, kZero + t);
+    if (!c.declared) return;
+    for (Duration t{-200'000}; t.seconds() <= kFlight; t = t + Duration{200'000}) declare(c, kZero + t);
+  }
+  ~Recording() { (void)writer_.flush(); }
+
+ private:
+  template <class T>
+  void write(const char* channel, T message, UTime at) {
+    message.header = {{1, ++sequences_[channel]}, at};
+    writer_.append(channel, at.us, encode(message));
+  }
+
+  void request(const Case& c, UTime at, std::int64_t id) {
+    HorizonRequest r;
+    r.id = id;
+    r.t_s = at + Duration{75'000};
+    r.deadline = at + Duration{60'000};
+    r.committed = c.committed;
+    r.start = c.committed.sample(r.t_s);
+    r.limits.v_max = Vec3::Constant(100.0);
+    r.limits.a_max = Vec3::Constant(largest_acceleration(c.flown));
+    r.limits.j_max = Vec3::Constant(INFINITY);
+    r.body = c.body;
+    r.flight_box = Box(Vec3::Constant(-100.0), Vec3::Constant(100.0));
+    write(channels::kHorizonRequest, r, at);
+  }
+
+  void truth(const Case& c, UTime at) {
+    ObstacleTruth truth;
+    truth.batch.set = ++truths_;
+    truth.at = at;
+    truth.obstacles = true_obstacles(c.world, (at - kZero).seconds());
+    for (const ObstacleTruth& batch : split_batches(truth)) write(channels::kObstacleTruth, batch, at);
+  }
+
+  void declare(const Case& c, UTime at) {
+    TrackSet set = declare_motions(c.world, kZero, at - Duration{100'000}, at + Duration{1'000'000});
+    set.batch.set = ++declarations_;
+    set.made_at = at;
+    for (const TrackSet& batch : split_batches(set)) write(channels::kDeclaredMotions, batch, at);
+  }
+
+  LogWriter writer_;
+  std::map<std::string, std::int64_t> sequences_;
+  std::int64_t truths_ = 0, declarations_ = 0;
+};
+
+/// The least clearance at instants 0.1 ms apart, and by how much it may be lower between them.
+struct Dense {
+  double least = INFINITY, slack = 0.0;
+};
+
+Dense look_densely(const Case& c, UTime from, UTime to) {
+  const BodyDistance distance(c.body);
+  Dense dense;
+  const Duration step{100};
+  for (UTime t = from; t <= to; t = t + step) {
+    const MotionSample vehicle = c.flown.sample(t);
+    for (const WorldObstacle& o : c.world.obstacles) {
+      const Vec3 p = vehicle.p - o.at((t - kZero).seconds()).p;
+      dense.least = std::min(dense.least, distance(p, o.half_extents()));
+      dense.slack = std::max(dense.slack, 0.5 * step.seconds() * (20.0 + o.bounds().speed.norm()));
+    }
+  }
+  return dense;
+}
+
+RC_GTEST_PROP(AuditClearance, LiesWithinItsBoundsWhateverMovesBetweenTheSamples, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const Case c = random_case(rng);
+  const TempFolder folder;
+  const std::string path = folder.file("flight.lcm");
+  { Recording recording(c, rng, path); }
+  const FlightRecord record = read_flight(path).value();
+  const Audit audit = audit_flight(record);
+  const Dense dense = look_densely(c, kZero, record.states.back().at);
+  RC_ASSERT(audit.least.known);
+  RC_LOG() << to_text(audit, record) << dense.least << "\n";
+  RC_ASSERT(audit.least.high >= dense.least - dense.slack - 1e-9);
+  if (audit.least.proven) RC_ASSERT(audit.least.low <= dense.least + 1e-9);
+  if (audit.check("clearance").broken > 0) RC_ASSERT(dense.least < 0.0);
+}
+
+/// What the property would not notice: that nothing is ever proven.
+TEST(AuditClearance, OfWhatIsDeclaredAndFlownAsCommittedIsProvenToTheDeclaredAlpha) {
+  int proven = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    Case c = random_case(rng);
+    c.declared = true;
+    c.flown = c.committed;
+    c.share_of_states = 0.3;
+    const TempFolder folder;
+    const std::string path = folder.file("flight.lcm");
+    { Recording recording(c, rng, path); }
+    const Audit audit = audit_flight(read_flight(path).value());
+    ASSERT_TRUE(audit.least.proven) << seed;
+    EXPECT_LE(audit.least.high - audit.least.low, 2.0 * std::sqrt(3.0) * kFitError + 2e-3) << seed;
+    ++proven;
+  }
+  EXPECT_EQ(proven, 20);
+}
+
+}  // namespace
+}  // namespace tern::audit

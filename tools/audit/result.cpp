@@ -1,0 +1,123 @@
+// Whether the referee's verdict agrees with what was recomputed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/audit/audit.h"
+#include "tools/audit/measures.h"
+
+namespace tern::audit {
+namespace {
+
+/// The referee's least clearance is attained, and at most so much above the true least, m (simulator/referee).
+constexpr double kClearanceOff = 1e-3;
+/// Rounding of two computations at coordinates of up to 1e5 m, m.
+constexpr double kRounding = 1e-6;
+/// The referee adds the path up by three-point Gauss sums over steps of 0.01 s. Where the speed is smooth over a step
+/// they are exact to this share of it …
+constexpr double kPathShare = 1e-4;
+/// … and where it falls to zero and rises again within a step, at a m/s², to 0.035 a h² (the error of that sum for
+/// |t| on [−h/2, h/2]).
+constexpr double kKink = 0.035;
+constexpr double kRefereeStep = 0.01;  // s
+/// Of the speed: rounding.
+constexpr double kSpeedShare = 1e-6;
+constexpr double kShown = 5e-3;
+
+std::string text(const Between& x) {
+  if (x.high - x.low < kShown) return fmt::format("{:.6g}", x.best);
+  return fmt::format("{:.6g} to {:.6g}", x.low, x.high);
+}
+
+class ResultCheck {
+ public:
+  ResultCheck(const FlightRecord& record, Audit& audit, Check& check)
+      : result_(record.results.back()), audit_(audit), check_(check), measures_(measure(record)) {
+    for (const UavState& s : record.states)
+      greatest_acceleration_ = std::max(greatest_acceleration_, s.motion.a.norm());
+  }
+
+  void run() {
+    collision();
+    if (audit_.least.known && std::isfinite(result_.min_clearance_m)) clearance();
+    agree("path length", result_.path_length_m, measures_.path_m, path_off());
+    agree("top speed", result_.top_speed_mps, measures_.top_speed, kRounding + kSpeedShare * measures_.top_speed.best);
+    if (measures_.unseen_s > 0.0) {
+      ++check_.unchecked[fmt::format("{:.2f} s of the flight lie before the log's first state or after its last",
+                                     measures_.unseen_s)];
+    }
+    check_.summary = fmt::format("{} after {:.2f} s and {} m{}{}", to_string(result_.outcome), result_.flight_time_s,
+                                 text(measures_.path_m), result_.detail.empty() ? "" : ": ", result_.detail);
+    check_.measures = {{"path_m", measures_.path_m.best}, {"top_speed_mps", measures_.top_speed.best}};
+    bounds("path_m", measures_.path_m);
+    bounds("top_speed_mps", measures_.top_speed);
+  }
+
+ private:
+  void fail(std::string what) { check_.fail({result_.header.utime, std::move(what)}); }
+
+  /// m; every stop, the flight's begin and end are two kinks each.
+  [[nodiscard]] double path_off() const {
+    const auto kinks = static_cast<double>(2 * (result_.stops + 2));
+    return kRounding + kPathShare * measures_.path_m.best +
+           kinks * kKink * greatest_acceleration_ * kRefereeStep * kRefereeStep;
+  }
+
+  void collision() {
+    ++check_.checked;
+    const Least& least = audit_.least;
+    const bool overlapped = audit_.check("clearance").broken > 0;
+    if (result_.outcome != FlightOutcome::Collision) {
+      if (overlapped) fail(fmt::format("says {}, but an obstacle was overlapped", to_string(result_.outcome)));
+      return;
+    }
+    const bool contradicted = least.known && least.proven && least.low > 0.0;
+    audit_.collision = overlapped ? Collision::Agrees : contradicted ? Collision::Contradicts : Collision::CannotTell;
+    if (contradicted) fail(fmt::format("says collision, but the least clearance is at least {:.4f} m", least.low));
+    if (audit_.collision == Collision::CannotTell) ++check_.unchecked["the collision that FLIGHT_RESULT tells of"];
+  }
+
+  void clearance() {
+    if (result_.outcome == FlightOutcome::Collision) return;  // until the end of the referee's step only
+    ++check_.checked;
+    const Least& least = audit_.least;
+    const double said = result_.min_clearance_m;
+    const bool too_low = least.proven && said < least.low - kRounding;
+    if (!least.proven) ++check_.unchecked["whether FLIGHT_RESULT's least clearance is too low"];
+    if (too_low || said > least.high + kClearanceOff) {
+      fail(fmt::format("says least clearance {:.4f} m, recomputed {:.4f} to {:.4f} m", said, least.low, least.high));
+    }
+  }
+
+  void agree(const char* what, double said, const Between& found, double off) {
+    ++check_.checked;
+    if (said >= found.low - off && said <= found.high + off) return;
+    fail(fmt::format("says {} {:.6g}, recomputed {}", what, said, text(found)));
+  }
+
+  void bounds(const std::string& name, const Between& x) {
+    check_.measures.emplace_back(name + "_at_least", x.low);
+    if (std::isfinite(x.high)) check_.measures.emplace_back(name + "_at_most", x.high);
+  }
+
+  const FlightResult& result_;
+  Audit& audit_;
+  Check& check_;
+  Measures measures_;
+  double greatest_acceleration_ = 0.0;  ///< m/s²
+};
+
+}  // namespace
+
+Check check_result(const FlightRecord& record, Audit& audit) {
+  Check check{.name = "result", .claim = "the referee's verdict agrees with what was recomputed"};
+  if (record.results.empty()) {
+    check.unchecked["the flight has no FLIGHT_RESULT"] = 1;
+    return check;
+  }
+  ResultCheck(record, audit, check).run();
+  return check;
+}
+
+}  // namespace tern::audit
