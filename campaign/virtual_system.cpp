@@ -38,8 +38,9 @@ struct VirtualSystem::Parts {
         planner(read_planner_config(document.root().section("planner"), scenario.semantics)) {}
 };
 
-VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides,
-                             Charge charge) {
+VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides, Charge charge,
+                             const std::optional<Key>& master) {
+  runner_.use_key(master);
   ConfigDocument document = ConfigDocument::load(scenario_file, overrides);
   parts_ = std::make_unique<Parts>(document, charge);
   const Scenario& scenario = parts_->scenario;
