@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <vector>
 
 #include "runtime/channels.h"
 
@@ -64,7 +65,8 @@ TEST(KeyRing, ReadsWhatItSpellsAndTheMasterKeyInBothForms) {
   const Key master = counting_key();
   const KeyRing planner = KeyRing::derive(master, "tern-planner");
   const std::string raw(reinterpret_cast<const char*>(master.bytes().data()), kKeyBytes);
-  for (const std::string& text : {planner.spell(), raw, to_hex(master), to_hex(master) + "\n"}) {
+  for (const std::string& text :
+       std::vector<std::string>{planner.spell(), raw, to_hex(master), to_hex(master) + "\n"}) {
     const auto read = KeyRing::parse(text, "tern-planner");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->spell(), planner.spell());
@@ -74,10 +76,10 @@ TEST(KeyRing, ReadsWhatItSpellsAndTheMasterKeyInBothForms) {
 TEST(KeyRing, RefusesWhatIsNoneAndSaysNothingOfItsContents) {
   const std::string good = KeyRing::derive(counting_key(), "tern-planner").spell();
   const std::string secret = kPlanKey;
-  for (const std::string& text :
-       {std::string(), std::string(31, 'a'), std::string(33, 'a'), secret + "0", "x" + secret.substr(1),
-        good.substr(0, good.size() - 2), good + "NOWHERE " + secret + "\n", good + "PLAN\n",
-        "tern keys 1\nadmiral\n" + good.substr(20), "tern keys 2\nplanner\n"}) {
+  for (const std::string& text : std::vector<std::string>{
+           std::string(), std::string(31, 'a'), std::string(33, 'a'), secret + "0", "x" + secret.substr(1),
+           good.substr(0, good.size() - 2), good + "NOWHERE " + secret + "\n", good + "PLAN\n",
+           "tern keys 1\nadmiral\n" + good.substr(20), "tern keys 2\nplanner\n"}) {
     const auto read = KeyRing::parse(text, "tern-planner");
     ASSERT_FALSE(read) << text;
     EXPECT_EQ(read.error().message.find(secret.substr(1, 16)), std::string::npos) << read.error().message;
