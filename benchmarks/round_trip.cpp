@@ -13,6 +13,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <vector>
 
+#include "core/base/digest.h"
 #include "messages/configuration_report.h"
 #include "runtime/bus.h"
 #include "runtime/lcm_network.h"
@@ -66,7 +67,7 @@ double cpu_us() {
   return us(usage.ru_utime) + us(usage.ru_stime);
 }
 
-Round fly(const std::optional<Key>& master, std::size_t bytes) {
+Round play(const std::optional<Key>& master, std::size_t bytes) {
   const pid_t child = fork();
   if (child == 0) answer(master);
   End end(master);
@@ -75,6 +76,7 @@ Round fly(const std::optional<Key>& master, std::size_t bytes) {
   ConfigurationReport message;
   message.process = "round-trip";
   message.yaml = std::string(bytes, 'x');
+  message.hash = digest(message.yaml);
   const auto trip = [&]() -> std::optional<double> {
     const std::int64_t before = answered;
     const UTime start = end.clock.now();
@@ -84,8 +86,7 @@ Round fly(const std::optional<Key>& master, std::size_t bytes) {
     }
     return static_cast<double>((end.clock.now() - start).us);
   };
-  while (!trip()) {
-  }
+  while (!trip()) continue;
   std::vector<double> times;
   const double cpu_before = cpu_us();
   while (times.size() < kPings) {
@@ -102,7 +103,7 @@ void measure(std::size_t bytes) {
   std::vector<double> values[2][3];
   for (int k = 0; k < kRounds; ++k) {
     for (const int with_keys : {0, 1}) {
-      const Round round = fly(with_keys == 1 ? std::optional(random_key()) : std::nullopt, bytes);
+      const Round round = play(with_keys == 1 ? std::optional(random_key()) : std::nullopt, bytes);
       for (const auto& [at, value] : {std::pair{0, round.p50_us}, {1, round.p99_us}, {2, round.cpu_us}}) {
         values[with_keys][at].push_back(value);
       }
