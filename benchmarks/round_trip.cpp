@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <lcm/lcm-cpp.hpp>
 #include <vector>
 
@@ -68,6 +69,7 @@ double cpu_us() {
 }
 
 Round play(const std::optional<Key>& master, std::size_t bytes) {
+  std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) answer(master);
   End end(master);

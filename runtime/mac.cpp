@@ -8,6 +8,12 @@
 namespace tern {
 namespace {
 
+/// Chooses the fastest code for this CPU, once.
+void start_sodium() {
+  static const bool kStarted = sodium_init() >= 0;
+  if (!kStarted) throw std::runtime_error("libsodium cannot start");
+}
+
 const std::uint8_t* bytes_of(std::string_view text) { return reinterpret_cast<const std::uint8_t*>(text.data()); }
 
 }  // namespace
@@ -20,7 +26,7 @@ Key::Key(std::span<const std::uint8_t> bytes) {
 Key::~Key() { wipe(bytes_); }
 
 Key random_key() {
-  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot start");
+  start_sodium();
   std::array<std::uint8_t, kKeyBytes> bytes;
   randombytes_buf(bytes.data(), bytes.size());
   const Key key(bytes);
@@ -29,6 +35,7 @@ Key random_key() {
 }
 
 Key derive_key(const Key& master, std::string_view label) {
+  start_sodium();
   std::array<std::uint8_t, kKeyBytes> bytes;
   crypto_generichash(bytes.data(), bytes.size(), bytes_of(label), label.size(), master.bytes().data(), kKeyBytes);
   const Key key(bytes);
@@ -37,6 +44,7 @@ Key derive_key(const Key& master, std::string_view label) {
 }
 
 Tag make_tag(const Key& key, std::string_view wire_name, std::span<const std::uint8_t> signed_bytes) {
+  start_sodium();
   const auto name_bytes = static_cast<std::uint8_t>(wire_name.size());
   crypto_generichash_state state;
   crypto_generichash_init(&state, key.bytes().data(), kKeyBytes, kTagBytes);

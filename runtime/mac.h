@@ -28,7 +28,8 @@ class Key {
   std::array<std::uint8_t, kKeyBytes> bytes_ = {};
 };
 
-/// From the kernel's random numbers. @throws std::runtime_error when libsodium cannot start.
+/// From the kernel's random numbers. Like all that makes keys and tags: @throws std::runtime_error when libsodium
+/// cannot start.
 Key random_key();
 
 /// BLAKE2b of `label`, 32 bytes, under `master`: who has it can find neither the master nor another label's key.

@@ -117,6 +117,17 @@ who_has_not_the_key_is_not_heard_and_harms_nobody() {
   expect "the planner says why" has_text 'PREDICTIONS: refused a message: unauthenticated' "$work/flight/tern-planner.log"
 }
 
+a_signed_flight_in_a_namespace_of_its_own_flies() {
+  start_flight flight --isolated --key
+  eventually "flies" 30 flies flight
+  [[ $(key_holders) == ' 5 keep_alive.sh ' ]] || fail "open keys: $(key_holders)"
+  expect "a command runs in its network" "$scripts/enter.sh" "$work/flight" -- true
+  end_flight "$flight"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+  expect "signed" has_text TMAC "$work/flight/flight.lcm"
+  ! grep -h 'unauthenticated' "$work/flight"/tern-*.log || fail "refused"
+}
+
 a_program_in_python_signs_what_it_says() {
   "$TERN_BIN/tern-key" new "$work/key"
   "$TERN_BIN/tern-predictor" --key-file "$work/key" --config "$scenario" >"$work/predictor.out" 2>&1 &
