@@ -39,8 +39,9 @@ struct VirtualSystem::Parts {
 };
 
 VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides, Charge charge,
-                             UTime begin)
+                             UTime begin, const std::optional<Key>& master)
     : runner_(begin) {
+  runner_.use_key(master);
   ConfigDocument document = ConfigDocument::load(scenario_file, overrides);
   parts_ = std::make_unique<Parts>(document, charge);
   const Scenario& scenario = parts_->scenario;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,12 @@ const char* to_string(Charge charge);
 /// threads.
 class VirtualSystem {
  public:
-  /// @param begin  when time begins, µs > 0. @throws ConfigError for what run_process would refuse.
+  /// @param begin   when time begins, µs > 0
+  /// @param master  the flight's key: every process signs and verifies; nothing: none does
+  /// @throws ConfigError for what run_process would refuse.
   VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides,
-                Charge charge = Charge::Counts, UTime begin = UTime{1'000'000});
+                Charge charge = Charge::Counts, UTime begin = UTime{1'000'000},
+                const std::optional<Key>& master = {});
   ~VirtualSystem();
 
   /// Kills "tern-predictor", "tern-mapper" or "tern-planner"; the next start() makes a new one that knows nothing.

@@ -14,6 +14,7 @@ find_package(GLPK REQUIRED)
 
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
+pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
 pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
 
 if(TERN_BUILD_TESTS)

@@ -18,6 +18,7 @@ fly.sh [OPTION...]: installs what is missing, builds, starts Tern's processes, f
   --record DIR          where log, process logs and summary go (default flights/<UTC time>-<scenario>-<seed>)
   --summary FILE        write the summary as JSON there, too
   --lcm-url URL         the LCM network to use (default: this host only, on the first port that no other flight uses)
+  --key [FILE]          sign every message: with a new key for this flight, or with that of FILE (mode 600; tern-key new FILE)
   --isolated            fly in a network namespace of its own; enter.sh gives a shell in it
   --view[=ADDRESS]      show the flight in the browser: builds the page (Node 18 or newer), prints its URL and opens it
                         (default 127.0.0.1, on the first free port from 8765)
@@ -37,6 +38,7 @@ readonly EXIT_BROKEN=4 # the audit's
 readonly LOGGER=tern-logger MONITOR=tern-monitor VIEWER=tern-viewer
 
 scenario=corridor_demo seed='' count='' record='' summary='' url='' isolated='' install=yes view='' audit='' report=''
+key='' # "new" or a file
 viewer_options=()
 settings=() # as --set KEY=VALUE ... for every process
 
@@ -54,6 +56,14 @@ parse() {
       --audit) audit=yes && continue ;;
       --report) report=yes && continue ;;
       --no-install) install='' && continue ;;
+      --key)
+        key=new
+        if [[ $# -gt 0 && $1 != -* ]]; then
+          key=$1
+          shift
+        fi
+        continue
+        ;;
       --help | -h) usage && exit 0 ;;
       --*=*) value=${option#*=} option=${option%%=*} ;;
       --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url)
@@ -80,6 +90,10 @@ parse() {
       --summary) summary=$value ;;
       --lcm-url) url=$value ;;
       --view) view=$value ;;
+      --key)
+        [[ -n $value ]] || die "--key=: no file (--help)"
+        key=$value
+        ;;
       *) die "unknown option $option (--help)" ;;
     esac
   done
@@ -95,6 +109,30 @@ install_and_build() {
 
 # Becomes this script with a listening socket, made before any namespace, so that browsers outside reach the page.
 listen_for_browsers() { exec "$TERN_BIN/tern-listen" "$view" "$0" "${arguments[@]}"; }
+
+# Becomes this script with an open file of keys for each process; TERN_KEY_FDS says which ("tern-planner=5 ...").
+take_keys() {
+  local file=()
+  [[ $key == new ]] || file=(--key "$key")
+  # Tried first: a summary says what went wrong, which an exec could not.
+  "$TERN_BIN/tern-key" hand "${file[@]}" -- true || die "no key to fly with"
+  exec "$TERN_BIN/tern-key" hand "${file[@]}" -- "$0" "${arguments[@]}"
+}
+
+# key_fd NAME: the descriptor of a process's keys, if there are keys.
+key_fd() {
+  [[ " ${TERN_KEY_FDS:-} " =~ \ $1=([0-9]+)\  ]] || return 0
+  printf '%s' "${BASH_REMATCH[1]}"
+}
+
+# close_keys [NAME]: all descriptors of keys but that process's.
+close_keys() {
+  local entry fd
+  for entry in ${TERN_KEY_FDS:-}; do
+    fd=${entry#*=}
+    [[ ${entry%=*} == "${1:-}" ]] || exec {fd}<&-
+  done
+}
 
 # Where the flight's files go; made, with its absolute path in `record`.
 make_record() {
@@ -150,6 +188,7 @@ announce() {
     say "  network  export LCM_DEFAULT_URL='$url'"
   fi
   [[ -z $view ]] || say "  view     $TERN_LISTEN_URL"
+  [[ -z $key ]] || say "  key      messages are signed"
 }
 
 declare -A names=() # of the running children, by pid; each leads a session and process group of its own
@@ -160,27 +199,40 @@ start() {
   shift
   printf '%q ' "$@" >>"$record/command"
   printf '\n' >>"$record/command"
-  if [[ -n ${TERN_LISTEN_FD:-} && $name != "$VIEWER" ]]; then
-    setpriv --pdeathsig TERM -- setsid -- "$@" </dev/null {TERN_LISTEN_FD}<&- &
-  else
-    setpriv --pdeathsig TERM -- setsid -- "$@" </dev/null &
-  fi
+  (
+    [[ -z ${TERN_LISTEN_FD:-} || $name == "$VIEWER" ]] || exec {TERN_LISTEN_FD}<&-
+    close_keys "$name"
+    exec setpriv --pdeathsig TERM -- setsid -- "$@" </dev/null
+  ) &
   names[$!]=$name
 }
 
+# options_for NAME: sets `options` to what every process is given.
+options_for() {
+  local fd
+  options=(--config "$scenario_file" "${settings[@]}" --lcm-url "$url")
+  [[ -z $key ]] && return
+  fd=$(key_fd "$1")
+  options+=(--key-fd "$fd")
+}
+
+# start_kept NAME OPTION...: started again when it dies.
+start_kept() {
+  local name=$1 options
+  shift
+  options_for "$name"
+  start "$name" "$TERN_ROOT/launch_scripts/keep_alive.sh" --log "$record/$name.log" -- "$TERN_BIN/$name" "${options[@]}" "$@"
+}
+
 start_all() {
-  local common=(--config "$scenario_file" "${settings[@]}" --lcm-url "$url") name
-  start "$LOGGER" "$TERN_ROOT/launch_scripts/keep_alive.sh" --log "$record/$LOGGER.log" -- \
-    "$TERN_BIN/$LOGGER" "${common[@]}" --record "$record/flight.lcm"
-  start "$MONITOR" "$TERN_BIN/$MONITOR" "${common[@]}" --summary "$record/summary.json" \
+  local name options
+  start_kept "$LOGGER" --record "$record/flight.lcm"
+  options_for "$MONITOR"
+  start "$MONITOR" "$TERN_BIN/$MONITOR" "${options[@]}" --summary "$record/summary.json" \
     --log "$record/flight.lcm" --failure-file "$record/failure" 2>"$record/$MONITOR.log"
-  if [[ -n $view ]]; then
-    start "$VIEWER" "$TERN_ROOT/launch_scripts/keep_alive.sh" --log "$record/$VIEWER.log" -- \
-      "$TERN_BIN/$VIEWER" "${common[@]}" --page "$TERN_PAGE" "${viewer_options[@]}"
-  fi
-  for name in "${OTHERS[@]}"; do
-    start "$name" "$TERN_ROOT/launch_scripts/keep_alive.sh" --log "$record/$name.log" -- "$TERN_BIN/$name" "${common[@]}"
-  done
+  [[ -z $view ]] || start_kept "$VIEWER" --page "$TERN_PAGE" "${viewer_options[@]}"
+  for name in "${OTHERS[@]}"; do start_kept "$name"; done
+  close_keys
 }
 
 # gave_up NAME CODE: a process ended that cannot be started again. Says why, once, and tells the monitor.
@@ -286,11 +338,15 @@ trap 'exit 130' INT
 trap 'exit 143' TERM
 trap 'exit 129' HUP
 scenario_file=$(find_scenario "$scenario")
-if [[ -z ${TERN_FLY_INSIDE:-}${TERN_LISTEN_FD:-} ]]; then
+if [[ -z ${TERN_FLY_INSIDE:-}${TERN_LISTEN_FD:-}${TERN_KEY_FDS:-} ]]; then
   install_and_build
   [[ -z $view ]] || listen_for_browsers
 fi
-[[ -z $view || -n ${TERN_FLY_INSIDE:-} ]] || open_page "$TERN_LISTEN_URL"
+if [[ -z ${TERN_FLY_INSIDE:-}${TERN_KEY_FDS:-} ]]; then
+  # No browser inherits a key.
+  [[ -z $view ]] || open_page "$TERN_LISTEN_URL"
+  [[ -z $key ]] || take_keys
+fi
 for program in "$LOGGER" "$MONITOR" "${OTHERS[@]}" ${audit:+tern-audit} ${report:+tern-report}; do
   [[ -x $TERN_BIN/$program ]] || die "$TERN_BIN/$program is not there"
 done
@@ -298,6 +354,7 @@ make_record
 choose_network
 announce
 outcome=$EXIT_FAILED
+export -n TERN_KEY_FDS
 start_all
 watch
 [[ -z $view ]] || say "  see it again: launch_scripts/view.sh --log $record/flight.lcm"

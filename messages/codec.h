@@ -19,7 +19,8 @@ template <class T>
 Bytes encode(const T& value);
 
 /// The value of exactly these bytes, or why they are refused. Checks, in this order: fingerprint; counts at their fixed
-/// offsets within limits; length exactly as the counts ask; numbers finite and in range; enumerations known; times in
+/// offsets within limits; length exactly as the counts ask (a trailer may follow: trailer.h, its tag is not checked
+/// here); numbers finite and in range; enumerations known; times in
 /// order; fields consistent. Never throws, allocates no more than the message's own size asks for.
 template <class T>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes);

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <exception>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -19,6 +18,7 @@
 #include "core/world/header.h"
 #include "core/world/health.h"
 #include "messages/codec.h"
+#include "messages/trailer.h"
 
 namespace tern::wire {
 
@@ -91,13 +91,13 @@ Bytes encode(M message, const Layout<M, E...>& layout) {
   return bytes;
 }
 
-/// Why bytes cannot be an M, judged by fingerprint, counts and length alone; nothing when they can. Allocates nothing
-/// beyond an empty message.
+/// How many of the bytes are an M, judged by fingerprint, counts and length alone: all, or all but one trailer; or why
+/// they cannot be one. Allocates nothing beyond an empty message.
 template <class M, class... E>
-std::optional<Rejection> refuse_form(std::span<const std::uint8_t> bytes, const Layout<M, E...>& layout) {
-  if (bytes.size() < kFingerprintBytes) return Rejection::Length;
-  if (read_integer<std::int64_t>(bytes, 0) != M::getHash()) return Rejection::Fingerprint;
-  if (bytes.size() < layout.head_bytes()) return Rejection::Length;
+tl::expected<std::size_t, Rejection> find_end(std::span<const std::uint8_t> bytes, const Layout<M, E...>& layout) {
+  if (bytes.size() < kFingerprintBytes) return tl::make_unexpected(Rejection::Length);
+  if (read_integer<std::int64_t>(bytes, 0) != M::getHash()) return tl::make_unexpected(Rejection::Fingerprint);
+  if (bytes.size() < layout.head_bytes()) return tl::make_unexpected(Rejection::Length);
   std::size_t offset = kFingerprintBytes;
   auto expected_bytes = static_cast<std::size_t>(M{}.getEncodedSize());
   bool counts_legal = true;
@@ -107,9 +107,12 @@ std::optional<Rejection> refuse_form(std::span<const std::uint8_t> bytes, const 
     counts_legal = counts_legal && count >= array.least && count <= array.most;
     if (counts_legal) expected_bytes += static_cast<std::size_t>(count) * array.element_bytes();
   });
-  if (!counts_legal) return Rejection::Count;
-  if (bytes.size() != expected_bytes || expected_bytes > kMaxMessageBytes) return Rejection::Length;
-  return std::nullopt;
+  if (!counts_legal) return tl::make_unexpected(Rejection::Count);
+  const bool has_trailer = bytes.size() == expected_bytes + kTrailerBytes && read_trailer(bytes);
+  if ((bytes.size() != expected_bytes && !has_trailer) || expected_bytes > kMaxMessageBytes) {
+    return tl::make_unexpected(Rejection::Length);
+  }
+  return expected_bytes;
 }
 
 /// Form first, then the generated decoder, then `from_lcm` for the fields. Never throws.
@@ -117,9 +120,10 @@ template <class T, class M, class... E>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes, const Layout<M, E...>& layout,
                                   tl::expected<T, Rejection> (*from_lcm)(const M&)) {
   try {
-    if (const auto reason = refuse_form(bytes, layout)) return tl::make_unexpected(*reason);
+    const auto end = find_end(bytes, layout);
+    if (!end) return tl::make_unexpected(end.error());
     M message{};
-    const auto size = static_cast<int>(bytes.size());
+    const auto size = static_cast<int>(*end);
     if (message.decode(bytes.data(), 0, size) != size) return tl::make_unexpected(Rejection::Length);
     return from_lcm(message);
   } catch (const std::exception&) {  // out of memory, or a check that a value's own class repeats

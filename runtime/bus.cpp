@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "core/world/message_limits.h"
+#include "runtime/authentication.h"
 #include "runtime/node.h"
 
 namespace tern {
@@ -56,21 +57,25 @@ struct Sender {
 
 struct Bus::Channel {
   State* state = nullptr;
-  std::string wire_name;
+  std::string name, wire_name;
   ChannelCounters counters;
   std::map<std::int64_t, Sender> senders;  ///< by epoch
   std::deque<RawHandler> handlers;
   lcm::Subscription* subscription = nullptr;
   bool counted = false;  ///< the message being delivered has been accepted or rejected by an earlier handler
+  ReplayGuard guard;     ///< with keys
   LogLimiter reject_log, send_log;
   std::deque<Encoder> unsent;
   UTime due = kNever;
 };
 
 struct Bus::State {
+  Bus* bus = nullptr;
   std::shared_ptr<lcm::LCM> lcm;
   std::string suffix;
-  mutable std::mutex mutex;  ///< guards `channels` (the map) and counters; held while a message is numbered and sent
+  std::optional<KeyRing> keys;
+  std::optional<Role> speaker;  ///< with keys: who sent the message being delivered
+  mutable std::mutex mutex;     ///< guards `channels` (the map) and counters; held while a message is numbered and sent
   std::map<std::string, Channel, std::less<>> channels;
   std::int64_t unsent = 0;
   std::int64_t deliveries = 0;
@@ -87,6 +92,7 @@ struct Bus::State {
     check_name(wire_name);
     Channel& made = channels[std::string(name)];
     made.state = this;
+    made.name = name;
     made.wire_name = wire_name;
     return made;
   }
@@ -94,11 +100,18 @@ struct Bus::State {
   static void on_message(const lcm::ReceiveBuffer* buffer, const std::string&, Channel* channel) {
     State& state = *channel->state;
     if (state.error) return;
-    ++state.deliveries;
     state.received_us = buffer->recv_utime;
     channel->counted = false;
-    const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
+    std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
     try {
+      if (state.keys) {
+        const auto authentic =
+            verify(bytes, *state.keys, channel->guard, channel->name, channel->wire_name, state.bus->received());
+        if (!authentic) return state.bus->reject(channel->name, authentic.error());
+        bytes = authentic->message;
+        state.speaker = authentic->role;
+      }
+      ++state.deliveries;
       for (const RawHandler& handler : channel->handlers) handler(bytes);
     } catch (...) {
       state.error = std::current_exception();
@@ -116,9 +129,12 @@ struct Bus::State {
   }
 };
 
-Bus::Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix)
+Bus::Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix,
+         std::optional<KeyRing> keys)
     : clock_(clock), epoch_us_(epoch_us), state_(std::make_unique<State>()) {
   check_name(suffix);
+  state_->bus = this;
+  state_->keys = std::move(keys);
   state_->lcm = std::move(lcm);
   state_->suffix = std::move(suffix);
 }
@@ -141,7 +157,8 @@ MessageName Bus::send(std::string_view name, const Encoder& encoder) {
   Channel& channel = state_->channel(name);
   const UTime now = clock_.now();
   const Header header{{epoch_us_, channel.counters.sent + 1}, now};
-  const Bytes bytes = encoder(header);
+  Bytes bytes = encoder(header);
+  if (state_->keys) sign(bytes, *state_->keys, name, channel.wire_name, header);
   ++channel.counters.sent;
   const int status = state_->lcm->publish(channel.wire_name, bytes.data(), static_cast<unsigned>(bytes.size()));
   if (status != 0) {
@@ -188,6 +205,9 @@ void Bus::send_due(UTime now) {
 void Bus::subscribe_raw(std::string_view name, RawHandler handler) {
   const std::scoped_lock lock(state_->mutex);
   Channel& channel = state_->channel(name);
+  if (state_->keys && state_->keys->find(name, state_->keys->role_on(name)) == nullptr) {
+    throw std::invalid_argument("no key to hear " + channel.name);
+  }
   channel.handlers.push_back(std::move(handler));
   if (channel.subscription != nullptr) return;
   channel.subscription = state_->lcm->subscribeFunction(channel.wire_name, &State::on_message, &channel);
@@ -208,6 +228,7 @@ void Bus::reject(const std::string& name, Rejection reason) {
   Channel& channel = state_->channel(name);
   if (std::exchange(channel.counted, true)) return;
   ++channel.counters.rejected[static_cast<int>(reason)];
+  if (reason == Rejection::Replayed) return;  // networks repeat datagrams: the counter says enough
   if (const auto times = channel.reject_log.admit(clock_.now())) {
     spdlog::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, to_string(reason),
                  *times);
@@ -230,6 +251,11 @@ void Bus::accept(const std::string& name, MessageName message) {
     const auto longest_ago = [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; };
     channel.senders.erase(std::min_element(channel.senders.begin(), channel.senders.end(), longest_ago));
   }
+}
+
+bool Bus::may_speak_for(std::string_view process) const {
+  const auto role = role_of_process(process);
+  return !state_->keys || !role || role == state_->speaker;
 }
 
 std::map<std::string, ChannelCounters> Bus::counters() const {
@@ -265,6 +291,8 @@ const char* to_string(Rejection reason) {
     case Rejection::Enumeration: return "enumeration";
     case Rejection::Time: return "time";
     case Rejection::Inconsistent: return "inconsistent";
+    case Rejection::Unauthenticated: return "unauthenticated";
+    case Rejection::Replayed: return "replayed";
   }
   return "unknown";
 }

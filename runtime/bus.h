@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include "core/world/health.h"
 #include "messages/codec.h"
 #include "runtime/clock.h"
+#include "runtime/keys.h"
 
 namespace lcm {
 class LCM;
@@ -40,13 +42,19 @@ inline constexpr int kListenCapacity = 50'000;
 /// in a sender's sequence numbers are counted as lost; the first message heard of a sender epoch begins its count, so
 /// neither a late joiner nor a sender's restart is loss. Messages of this bus's own epoch are delivered too (LCM loops
 /// back).
+///
+/// With keys every message that leaves is signed, and only what verifies comes in (authentication.h); the tag is off
+/// before anything is decoded. A HEARTBEAT or CONFIGURATION that names one of Tern's processes must come from that
+/// one's role. Without keys a trailer is passed over unread.
 class Bus {
  public:
   /// @param lcm  shared by all nodes of a process (memq:// delivers only within one instance)
   /// @param epoch_us  when the process started, > 0: the first half of every name it gives; no two buses may share it
   /// @param suffix  appended to every channel name ("" by default)
+  /// @param keys  what this end may say and hear; nothing: nobody's messages are signed or checked
   /// @throws std::invalid_argument if the suffix is not is_channel_name.
-  Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix = "");
+  Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix = "",
+      std::optional<KeyRing> keys = {});
   /// Unsubscribes. @pre not called from a handler
   ~Bus();
   Bus(const Bus&) = delete;
@@ -57,7 +65,8 @@ class Bus {
   static bool is_channel_name(std::string_view name);
 
   /// Sends now. Returns the name that the message got. Thread-safe: sequence numbers leave in order.
-  /// @throws std::invalid_argument when the message breaks its contract (see encode); nothing was sent, no number used.
+  /// @throws std::invalid_argument when the message breaks its contract (see encode), or there are keys but none for
+  /// this channel; nothing was sent, no number used.
   template <class T>
   MessageName publish(std::string_view channel, T message) {
     return send(channel, [&message](const Header& header) {
@@ -83,20 +92,24 @@ class Bus {
   /// Calls `handler` with every accepted message of the channel. Several handlers of one channel are called in the
   /// order of their subscription, and the message is counted once. What a handler throws is kept for rethrow(): nothing
   /// may unwind through LCM.
+  /// @throws std::invalid_argument when there are keys but none for this channel.
   template <class T>
   void subscribe(std::string_view channel, std::function<void(const T&)> handler) {
     subscribe_raw(channel, [this, handler = std::move(handler),
                             name = std::string(channel)](std::span<const std::uint8_t> bytes) {
       auto message = decode<T>(bytes);
       if (!message) return reject(name, message.error());
+      if constexpr (requires { message->process; }) {
+        if (!may_speak_for(message->process)) return reject(name, Rejection::Unauthenticated);
+      }
       accept(name, message->header.name);
       handler(*message);
     });
   }
 
-  /// Hands over every message of every channel as it came, unchecked and uncounted: what a recorder needs.
-  /// `received_us` is when the kernel took it from the network, µs since the Unix epoch. Channel names are the wire's,
-  /// with their suffixes.
+  /// Hands over every message of every channel as it came, trailer included, unchecked and uncounted: what a recorder
+  /// needs. `received_us` is when the kernel took it from the network, µs since the Unix epoch. Channel names are the
+  /// wire's, with their suffixes.
   using Listener =
       std::function<void(std::string_view wire_name, std::int64_t received_us, std::span<const std::uint8_t> bytes)>;
   /// One listener at most; kListenCapacity messages wait for it in LCM's queue at most.
@@ -108,7 +121,7 @@ class Bus {
   [[nodiscard]] std::map<std::string, ChannelCounters> counters() const;
   void count_late(std::string_view channel);      ///< a node found an accepted message too old to be used
   [[nodiscard]] std::int64_t unsent() const;      ///< paced messages that a newer set replaced before they left
-  [[nodiscard]] std::int64_t deliveries() const;  ///< messages that came in, accepted or not
+  [[nodiscard]] std::int64_t deliveries() const;  ///< messages that came in, accepted or not; with keys: that verified
   /// When the kernel took the newest delivered message from the network, by this bus's clock: a handler may run much
   /// later. @pre called from a handler
   [[nodiscard]] UTime received() const;
@@ -127,6 +140,8 @@ class Bus {
   void subscribe_raw(std::string_view channel, RawHandler handler);
   void reject(const std::string& channel, Rejection reason);
   void accept(const std::string& channel, MessageName name);
+  /// Whether who sent the message being delivered may give this as its process's name.
+  [[nodiscard]] bool may_speak_for(std::string_view process) const;
 
   const Clock& clock_;
   std::int64_t epoch_us_;
@@ -135,7 +150,7 @@ class Bus {
   std::unique_ptr<State> state_;
 };
 
-/// "length", "fingerprint", "count", "number", "enumeration", "time", "inconsistent".
+/// "length", "fingerprint", "count", "number", "enumeration", "time", "inconsistent", "unauthenticated", "replayed".
 const char* to_string(Rejection reason);
 
 }  // namespace tern

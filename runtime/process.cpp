@@ -52,6 +52,8 @@ struct Options {
   std::int64_t clock_offset_us = 0;
   std::string channel_suffix;
   std::string log_level = "info";
+  std::string key_file;
+  int key_fd = -1;
 };
 
 void declare(CLI::App& app, Options& options, const ProcessDescription& description) {
@@ -75,6 +77,13 @@ void declare(CLI::App& app, Options& options, const ProcessDescription& descript
   app.add_option("--log-level", options.log_level, "How much to say on stderr")
       ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
       ->capture_default_str();
+  auto* const key_file = app.add_option("--key-file", options.key_file,
+                                        "Sign and verify every message: a key, or this program's ring (mode 600)")
+                             ->type_name("FILE");
+  app.add_option("--key-fd", options.key_fd, "The same from an open file, not a pipe; closed when read")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(key_file);
   if (description.add_options) description.add_options(app);
 }
 
@@ -102,6 +111,14 @@ void start_log(const ProcessDescription& description, const std::string& level) 
   std::_Exit(code);
 }
 
+/// @throws ConfigError when keys were asked for and cannot be had.
+std::optional<KeyRing> read_keys(const Options& options, const std::string& process) {
+  if (options.key_file.empty() && options.key_fd < 0) return std::nullopt;
+  auto keys = options.key_fd < 0 ? read_key_file(options.key_file, process) : read_key_fd(options.key_fd, process);
+  if (!keys) throw ConfigError(keys.error().message);
+  return std::move(*keys);
+}
+
 int run(const Options& options, const ProcessDescription& description, const NodeFactory& make_node) {
   const std::int64_t epoch_us = WallClock().now().us;
   const WallClock clock(Duration{options.clock_offset_us});
@@ -110,17 +127,19 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   const ConfigSection section = description.section.empty() ? ConfigDocument::parse("", options.config).root()
                                                             : document.root().section(description.section);
 
+  const std::optional<KeyRing> keys = read_keys(options, description.name);
+
   const StopSignals stop;
   const auto lcm = open_lcm(choose_lcm_url(options.lcm_url, std::getenv("LCM_DEFAULT_URL")));
   if (!lcm) {
     spdlog::error("{}", lcm.error().message);
     return kExitNoNetwork;
   }
-  Bus bus(*lcm, clock, epoch_us, options.channel_suffix);
+  Bus bus(*lcm, clock, epoch_us, options.channel_suffix, keys);
   ProcessContext context{scenario, section, bus, document};
   const std::unique_ptr<Node> node = make_node(context);
   NodeHost host(bus, *node, description.name, document.effective());
-  spdlog::info("{} runs", build_id());
+  spdlog::info("{} runs{}", build_id(), keys ? ", signs and verifies messages" : "");
   const int code = run_on_wall_clock(**lcm, host, stop.fd());
   spdlog::info("ends with exit code {}", code);
   if (code == kExitStuck) end_at_once(code);

@@ -49,9 +49,9 @@ struct ProcessDescription {
 using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 
 /// Parses --help, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL, --clock-offset-us N, --channel-suffix S,
-/// --log-level L; loads the scenario (without --config: all defaults), makes the node, publishes CONFIGURATION (at
-/// start, then every 5 s) and HEARTBEAT (2 Hz), and runs until the node has finished, or SIGINT/SIGTERM (exit 0). Logs
-/// to stderr. The epoch is the wall clock's time at the start, without the offset.
+/// --log-level L, --key-file FILE, --key-fd N; loads the scenario (without --config: all defaults), makes the node,
+/// publishes CONFIGURATION (at start, then every 5 s) and HEARTBEAT (2 Hz), and runs until the node has finished, or
+/// SIGINT/SIGTERM (exit 0). Logs to stderr. The epoch is the wall clock's time at the start, without the offset.
 /// @return the exit code: the node's own, 0 after a signal, or kExit…. ConfigError and bad options: the message on
 /// stderr, exit 2. A node that finishes with kExitStuck ends the process here and now, nothing is destroyed: one of its
 /// threads may never end.

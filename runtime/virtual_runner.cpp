@@ -33,11 +33,21 @@ VirtualRunner::~VirtualRunner() = default;
 
 std::int64_t VirtualRunner::next_epoch() { return last_epoch_ = std::max(last_epoch_ + 1, clock_.now().us); }
 
+std::unique_ptr<Bus> VirtualRunner::make_bus(std::string_view process) {
+  std::optional<KeyRing> keys;
+  if (master_) keys = KeyRing::derive(*master_, process);
+  return std::make_unique<Bus>(lcm_, clock_, next_epoch(), "", std::move(keys));
+}
+
+void VirtualRunner::inject(const std::string& wire_name, std::span<const std::uint8_t> bytes) {
+  lcm_->publish(wire_name, bytes.data(), static_cast<unsigned>(bytes.size()));
+}
+
 Node& VirtualRunner::start(std::string process, const std::function<std::unique_ptr<Node>(Bus&)>& make,
                            const std::string& effective_yaml) {
   auto made = std::make_unique<Process>();
   made->name = std::move(process);
-  made->bus = std::make_unique<Bus>(lcm_, clock_, next_epoch());
+  made->bus = make_bus(made->name);
   made->node = make(*made->bus);
   made->host = std::make_unique<NodeHost>(*made->bus, *made->node, made->name, effective_yaml);
   processes_.push_back(std::move(made));
@@ -52,7 +62,7 @@ void VirtualRunner::stop(std::string_view process) {
 }
 
 Bus& VirtualRunner::observer() {
-  if (!observer_) observer_ = std::make_unique<Bus>(lcm_, clock_, next_epoch());
+  if (!observer_) observer_ = make_bus("observer");
   return *observer_;
 }
 

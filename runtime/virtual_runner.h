@@ -4,8 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/process.h"
@@ -43,6 +46,11 @@ class VirtualRunner {
   /// builds on it, their host. @return the node, which lives until stop() or the runner's end.
   Node& start(std::string process, const std::function<std::unique_ptr<Node>(Bus&)>& make,
               const std::string& effective_yaml = "");
+  /// Processes that start from now on, and an observer not yet made, have the keys that `master` gives them by their
+  /// names; nothing: no keys, as at first.
+  void use_key(std::optional<Key> master) { master_ = std::move(master); }
+  /// Puts bytes on the network, as somebody might who is none of the processes.
+  void inject(const std::string& wire_name, std::span<const std::uint8_t> bytes);
   /// Kills the process as SIGKILL would: node, unsent messages and subscriptions are gone. @pre not called from a
   /// handler or step().
   /// @throws std::invalid_argument when no process has this name.
@@ -64,12 +72,14 @@ class VirtualRunner {
   void settle();
   [[nodiscard]] UTime next_wakeup() const;
   std::int64_t next_epoch();
+  [[nodiscard]] std::unique_ptr<Bus> make_bus(std::string_view process);
 
   VirtualClock clock_;
   std::shared_ptr<lcm::LCM> lcm_;
   std::vector<std::unique_ptr<Process>> processes_;
   std::unique_ptr<Bus> observer_;
   std::int64_t last_epoch_ = 0;
+  std::optional<Key> master_;
 };
 
 }  // namespace tern

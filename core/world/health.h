@@ -20,8 +20,11 @@ enum class Rejection : std::uint8_t {
   Enumeration = 4,   ///< an unknown value of an enumeration
   Time = 5,          ///< times out of order, or absurd
   Inconsistent = 6,  ///< fields contradict each other
+  // With keys only (runtime/authentication.h):
+  Unauthenticated = 7,  ///< no tag, or none that its role's key gives
+  Replayed = 8,         ///< a tag that holds, of a message that came before, or too long ago
 };
-inline constexpr int kRejections = 7;
+inline constexpr int kRejections = 9;
 
 /// Counters of one channel as one process saw it.
 struct ChannelCounters {

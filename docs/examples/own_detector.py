@@ -2,26 +2,42 @@
 """A detector of one's own: publishes a box that flies to and fro as OBSTACLE_OBSERVATIONS, 30 Hz, until Ctrl-C.
 
 Needs only the messages' Python types, which launch_scripts/build.sh python_types makes; LCM_DEFAULT_URL names the network:
-PYTHONPATH=build/release/python python3 docs/examples/own_detector.py
+PYTHONPATH=build/release/python python3 docs/examples/own_detector.py [KEY_FILE]
+Of a flight with keys it must be given the key (fly.sh --key FILE).
 """
+import hashlib
 import math
 import os
 import socket
 import struct
+import sys
 import time
 import urllib.parse
 
 import tern_msgs as msgs
+
+VEHICLE = 1  # the role of sensors
 
 
 def now_us():
     return time.time_ns() // 1000
 
 
+def signed(master, role, channel, message, header, suffix=""):
+    """The message with the trailer of messages/trailer.h, for a channel that is one role's (runtime/roles.h)."""
+    name = header.name
+    head = struct.pack(">4sBBHqqq", b"TMAC", 1, role, 0, name.sender_epoch_us, name.sequence, header.utime_us)
+    key = hashlib.blake2b(b"tern key 1 " + channel.encode(), key=master, digest_size=32).digest()
+    wire_name = (channel + suffix).encode()
+    tagged = bytes([len(wire_name)]) + wire_name + message + head
+    return message + head + hashlib.blake2b(tagged, key=key, digest_size=16).digest()
+
+
 class Bus:
     """Sends LCM messages of at most 1400 bytes, which need no fragments. For more, and to receive, use LCM itself."""
 
-    def __init__(self, url):
+    def __init__(self, url, master=None):
+        self.master = master
         parts = urllib.parse.urlsplit(url)
         self.address, self.sent, self.packets = (parts.hostname, parts.port), {}, 0
         self.epoch_us = now_us()  # new at each start
@@ -34,7 +50,10 @@ class Bus:
         message.header.name.sender_epoch_us, message.header.name.sequence = self.epoch_us, self.sent[channel]
         message.header.utime_us = now_us()
         head = struct.pack(">II", 0x4C433032, self.packets) + channel.encode() + b"\0"
-        self.socket.sendto(head + message.encode(), self.address)
+        data = message.encode()
+        if self.master:
+            data = signed(self.master, VEHICLE, channel, data, message.header)
+        self.socket.sendto(head + data, self.address)
         self.packets = (self.packets + 1) % 2**32
 
 
@@ -44,7 +63,8 @@ def vec3(x, y, z):
     return v
 
 
-bus = Bus(os.environ.get("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667?ttl=0"))
+key = bytes.fromhex(open(sys.argv[1]).read()) if len(sys.argv) > 1 else None
+bus = Bus(os.environ.get("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667?ttl=0"), key)
 while True:
     frame = msgs.observation_set_t()
     frame.at_us = now_us()  # when the world was so, not when it is said

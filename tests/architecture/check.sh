@@ -53,6 +53,7 @@ one_folder CGAL '^CGAL/'
 one_folder GLPK '^glpk.h$'
 one_folder Ipopt '^(coin/)?Ip[A-Z].*[.]hpp$'
 one_folder Beast '^boost/beast'
+only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 
 # base <- geometry <- splines <- world <- process libraries <- apps.
 ours='^(core|messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|viewer|tools|tests)/'

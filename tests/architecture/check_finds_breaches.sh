@@ -40,6 +40,7 @@ planted planner/x.cpp '#include <chrono>\n'
 planted viewer/bridge/x.h '#include "messages/plan.h"\n'
 planted viewer/bridge/x.cpp '#include <boost/beast/core.hpp>\n' Beast
 planted planner/x.cpp '#include <glpk.h>\n' GLPK
+planted runtime/x.cpp '#include <sodium.h>\n'
 planted simulator/x.cpp '#include <CGAL/convex_hull_3.h>\n' CGAL
 planted simulator/x.cpp '#include <IpTNLP.hpp>\n' Ipopt
 planted tools/audit/x.cpp '#include "core/geometry/convex_hull.h"\n'

@@ -1,0 +1,47 @@
+// Who may speak on which channel, and who hears it: lcmtypes/README.md's table, as code.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace tern {
+
+/// A part in a flight. The numbers are on the wire (messages/trailer.h).
+enum class Role : std::uint8_t {
+  Vehicle = 1,  ///< tern-simulator, or sensors and autopilot bridge
+  Predictor = 2,
+  Planner = 3,
+  Mapper = 4,
+  Operator = 5,  ///< who says goals: tern-viewer, a mission; the vehicle repeats them
+  Observer = 6,  ///< tern-monitor, tern-logger, and any other process
+};
+inline constexpr Role kRoles[] = {Role::Vehicle, Role::Predictor, Role::Planner,
+                                  Role::Mapper,  Role::Operator,  Role::Observer};
+
+/// "vehicle", "predictor", "planner", "mapper", "operator", "observer".
+const char* to_string(Role role);
+/// The role of that name; nothing when there is none.
+std::optional<Role> role_named(std::string_view name);
+
+/// Whose channel it is; nothing for HEARTBEAT, CONFIGURATION and channels that are not Tern's: on these each role
+/// speaks for itself.
+/// @param channel  without a vehicle's suffix
+std::optional<Role> role_of(std::string_view channel);
+
+/// The role of one of Tern's processes ("tern-planner"); nothing for other names.
+std::optional<Role> role_of_process(std::string_view process);
+
+/// What one of Tern's processes takes part in, besides its own HEARTBEAT and CONFIGURATION.
+struct Part {
+  std::string_view process;
+  Role role;
+  std::vector<std::string_view> channels;  ///< that it says or hears and that are one role's
+  bool hears_reports;                      ///< HEARTBEAT or CONFIGURATION of others
+};
+
+/// All of Tern's processes.
+const std::vector<Part>& parts();
+
+}  // namespace tern

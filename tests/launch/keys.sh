@@ -1,0 +1,190 @@
+#!/usr/bin/env bash
+# keys.sh NAME: flights whose messages are signed. Environment: TERN_BIN, where the programs are.
+set -euo pipefail
+# shellcheck source=tests/launch/lib.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
+
+# Every key that is made of a master key's file, the master too: in bytes and in digits, a line of hexadecimal each.
+all_keys() {
+  python3 - "$1" <<'END'
+import hashlib, sys
+master = bytes.fromhex(open(sys.argv[1]).read())
+names = """UAV_STATE SETPOINT OBSTACLE_OBSERVATIONS DECLARED_MOTIONS HORIZON_REQUEST OBSTACLE_TRUTH FLIGHT_RESULT PREDICTIONS PLAN
+PLAN_TIMING SEARCH_VIEW SEMANTIC_MAP GOAL vehicle predictor planner mapper operator observer""".split()
+for key in [master] + [hashlib.blake2b(b"tern key 1 " + n.encode(), key=master, digest_size=32).digest() for n in names]:
+    print(key.hex())
+    print(key.hex().encode().hex())
+    print(key.hex().upper().encode().hex())
+END
+}
+
+# is_without_keys WHAT FILE...: none of all_keys occurs in what these files hold.
+is_without_keys() {
+  python3 - "$@" <<END || fail "a key is in $1"
+import sys
+keys = [bytes.fromhex(line) for line in open("$work/all_keys")]
+assert len(keys) == 60
+for name in sys.argv[2:]:
+    try:
+        data = open(name, "rb").read()
+    except OSError:
+        continue  # a process that has ended
+    if any(key in data for key in keys):
+        sys.exit(f"{name}")
+END
+}
+
+processes() { pgrep -f "$work/" || true; }
+
+# How many of the flight's processes hold an open file of keys, by the first program's name on each command line.
+key_holders() {
+  local pid
+  for pid in $(processes); do
+    readlink "/proc/$pid"/fd/* 2>/dev/null | grep -q '^/memfd:tern-keys' || continue
+    tr '\0' '\n' <"/proc/$pid/cmdline" | grep -m1 -oE '(keep_alive|fly)\.sh$|tern-[a-z]+$'
+  done | sort | uniq -c | tr -s ' \n' ' '
+}
+
+process_of() { pgrep -x -f "[^ ]*/$1 --config $work/.*" | head -n 1; }
+flies() { grep -qE ' [1-9]\.[0-9]+ m/s' "$work/$1.out"; }
+reached() {
+  local result=0
+  wait "$flight" || result=$?
+  cat "$work/$1.out"
+  [[ $result == 0 ]] || fail "exit code $result"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+}
+
+# summary FLIGHT EXPRESSION: of its summary, a dictionary s.
+summary() { python3 -c 'import json, sys
+s = json.load(open(sys.argv[1]))
+print(eval(sys.argv[2]))' "$work/$1/summary.json" "$2"; }
+
+a_signed_flight_reaches_its_goal_and_its_key_is_nowhere() {
+  "$TERN_BIN/tern-key" new "$work/key"
+  all_keys "$work/key" >"$work/all_keys"
+  start_flight flight --key "$work/key" --report
+  eventually "flies" 30 flies flight
+  local pid args=() environments=() keepers
+  for pid in $(processes); do args+=("/proc/$pid/cmdline") && environments+=("/proc/$pid/environ"); done
+  ((${#args[@]} >= 10)) || fail "only ${#args[@]} processes"
+  is_without_keys "a command line" "${args[@]}"
+  is_without_keys "an environment" "${environments[@]}"
+  keepers=$(key_holders)
+  [[ $keepers == ' 5 keep_alive.sh ' ]] || fail "open keys: $keepers"
+  kill -KILL "$(process_of tern-planner)"
+  reached flight
+  [[ $(summary flight 's["restarts"]') == 1 ]] || fail "the planner did not come back with its keys"
+  [[ $(summary flight 'sum(c["rejected"] for c in s["messages"].values())') == 0 ]] || fail "refused: $(cat "$work/flight/summary.json")"
+  expect "the logger reads what it records" has_text 'PLAN .* refused    0' "$work/flight/tern-logger.log"
+  is_without_keys "the record" "$work/flight"/* "$work/flight.out"
+  expect "messages are signed" has_text 'TMAC' "$work/flight/flight.lcm"
+  "$TERN_BIN/tern-audit" "$work/flight/flight.lcm" >"$work/audit" || true # its verdict is of the flight, not of the keys
+  expect "the audit reads plans" has_text 'held *certificates *[1-9][0-9]* plans' "$work/audit"
+  "$TERN_BIN/tern-replay" "$work/flight" || fail "the replay's exit code is $?"
+  "$TERN_BIN/tern-export" "$work/flight/flight.lcm" --csv "$work/csv" || fail "the export's exit code is $?"
+  PYTHONPATH=$TERN_BIN/../python python3 - "$work/flight/flight.lcm" <<'END' || fail "Python cannot read the log"
+import struct, sys, tern_msgs
+states = 0
+with open(sys.argv[1], "rb") as log:
+    while len(head := log.read(28)) == 28:
+        _, _, _, channel_bytes, data_bytes = struct.unpack(">IqqII", head)
+        channel, data = log.read(channel_bytes).decode(), log.read(data_bytes)
+        if channel == "UAV_STATE":
+            states += tern_msgs.uav_state_t.decode(data).at_us > 0 and data[-48:-44] == b"TMAC"
+assert states > 500, states
+END
+}
+
+who_has_not_the_key_is_not_heard_and_harms_nobody() {
+  start_flight flight --key
+  eventually "flies" 30 flies flight
+  local url stranger result name
+  url=$(env -i bash -c "source $work/flight/env.sh && echo \$LCM_DEFAULT_URL")
+  "$TERN_BIN/tern-key" new "$work/another.key"
+  for stranger in '' "--key-file $work/another.key"; do
+    for name in tern-predictor tern-planner tern-mapper tern-simulator; do
+      result=0
+      # shellcheck disable=SC2086  # an option and its value, or none
+      timeout 0.7 "$TERN_BIN/$name" --config "$root/scenarios/corridor_demo.yaml" --lcm-url "$url" $stranger \
+        >>"$work/strangers.out" 2>&1 || result=$?
+      [[ $result == 124 ]] || fail "$name ended with $result: $(cat "$work/strangers.out")"
+    done
+  done
+  reached flight
+  [[ $(summary flight 's["restarts"], s["outcome"]') == "(0, 'reached')" ]] || fail "$(cat "$work/flight/summary.json")"
+  [[ $(summary flight 's["messages"]["PREDICTIONS"]["rejected"] > 0') == True ]] || fail "nothing was refused"
+  expect "the planner says why" has_text 'PREDICTIONS: refused a message: unauthenticated' "$work/flight/tern-planner.log"
+}
+
+a_signed_flight_in_a_namespace_of_its_own_flies() {
+  start_flight flight --isolated --key
+  eventually "flies" 30 flies flight
+  [[ $(key_holders) == ' 5 keep_alive.sh ' ]] || fail "open keys: $(key_holders)"
+  expect "a command runs in its network" "$scripts/enter.sh" "$work/flight" -- true
+  end_flight "$flight"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+  expect "signed" has_text TMAC "$work/flight/flight.lcm"
+  ! grep -h 'unauthenticated' "$work/flight"/tern-*.log || fail "refused"
+}
+
+a_program_in_python_signs_what_it_says() {
+  "$TERN_BIN/tern-key" new "$work/key"
+  "$TERN_BIN/tern-predictor" --key-file "$work/key" --config "$scenario" >"$work/predictor.out" 2>&1 &
+  "$TERN_BIN/tern-logger" --key-file "$work/key" --config "$scenario" --record "$work/python.lcm" >"$work/logger.out" 2>&1 &
+  eventually "the predictor runs" 10 has_text 'signs and verifies' "$work/predictor.out"
+  export PYTHONPATH=$TERN_BIN/../python
+  python3 "$root/docs/examples/own_detector.py" "$work/key" >"$work/detector.out" 2>&1 &
+  eventually "observations are taken" 15 hears_observations
+  ! has_text refused "$work/predictor.out" || fail "$(cat "$work/predictor.out")"
+  python3 "$root/docs/examples/own_detector.py" >"$work/detector2.out" 2>&1 &
+  eventually "unsigned ones are not" 15 has_text 'OBSTACLE_OBSERVATIONS: refused a message: unauthenticated' "$work/predictor.out"
+}
+
+# Whether the predictor's heartbeats count observations as received.
+hears_observations() {
+  python3 - "$work/python.lcm" <<'END'
+import struct, sys, tern_msgs
+with open(sys.argv[1], "rb") as log:
+    while len(head := log.read(28)) == 28:
+        _, _, _, channel_bytes, data_bytes = struct.unpack(">IqqII", head)
+        channel, data = log.read(channel_bytes).decode(), log.read(data_bytes)
+        if channel != "HEARTBEAT":
+            continue
+        beat = tern_msgs.heartbeat_t.decode(data)
+        at = 0
+        for counters in beat.channels:
+            name, at = beat.channel_text[at : at + counters.name_length].decode(), at + counters.name_length
+            if name == "OBSTACLE_OBSERVATIONS" and counters.received > 5:
+                sys.exit(0)
+sys.exit(1)
+END
+}
+
+a_key_that_cannot_be_used_is_refused_by_name() {
+  "$TERN_BIN/tern-key" new "$work/key"
+  chmod 640 "$work/key"
+  [[ $(code "$scripts/fly.sh" --no-install --key "$work/key" --record "$work/r" --summary "$work/s.json") == 3 ]] || fail "exit code"
+  expect "mode and remedy" has_text "$work/key: mode 640: others than its owner can use it; chmod 600 $work/key" "$work/out"
+  expect "a summary" has_text '"outcome": "failed"' "$work/s.json"
+  [[ $(code "$TERN_BIN/tern-planner" --key-file "$work/key") == 2 ]] || fail "exit code of a process"
+  expect "mode" has_text "tern-planner: $work/key: mode 640" "$work/out"
+  [[ $(code "$scripts/fly.sh" --no-install --key "$work/none" --record "$work/r") == 3 ]] || fail "exit code without a file"
+  [[ $(code "$scripts/fly.sh" --no-install --key= --record "$work/r") == 3 ]] || fail "exit code of --key="
+  [[ $(code "$TERN_BIN/tern-planner" --key-fd 77) == 2 ]] || fail "exit code of a descriptor that is none"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+}
+
+tern_key_makes_files_of_mode_600_and_never_overwrites() {
+  umask 000
+  "$TERN_BIN/tern-key" new "$work/key"
+  "$TERN_BIN/tern-key" derive "$work/key" tern-planner "$work/planner.key"
+  [[ $(stat -c %a "$work/key" "$work/planner.key" | tr '\n' ' ') == '600 600 ' ]] || fail "$(ls -l "$work")"
+  [[ $(code "$TERN_BIN/tern-key" new "$work/key") == 2 ]] || fail "overwritten"
+  [[ $(code "$TERN_BIN/tern-key" derive "$work/key" tern-nobody "$work/x") == 2 ]] || fail "a process that is none"
+  [[ $(code "$TERN_BIN/tern-predictor" --key-file "$work/planner.key") == 2 ]] || fail "another's ring"
+  expect "whose it is" has_text 'is a ring for the planner, not for tern-predictor' "$work/out"
+  ! grep -qE "^(PREDICTIONS|PLAN|predictor) $(cat "$work/key")" "$work/planner.key" || fail "the master key is in a ring"
+}
+
+run_test "$1"
