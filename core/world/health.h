@@ -20,8 +20,11 @@ enum class Rejection : std::uint8_t {
   Enumeration = 4,   ///< an unknown value of an enumeration
   Time = 5,          ///< times out of order, or absurd
   Inconsistent = 6,  ///< fields contradict each other
+  Future = 7,        ///< it claims a time that the listener's clock is far from
+  Sender = 8,        ///< another sender is heard on this channel, or this one cannot have sent it
+  Repeated = 9,      ///< it came already
 };
-inline constexpr int kRejections = 7;
+inline constexpr int kRejections = 10;
 
 /// Counters of one channel as one process saw it.
 struct ChannelCounters {
