@@ -44,11 +44,11 @@ FlightSummary flown() {
 
 TEST(Summary, HasExactlyTheKeysThatWerePromised) {
   const json summary = json::parse(to_json(flown()));
-  EXPECT_THAT(keys(summary),
-              testing::UnorderedElementsAre(
-                  "outcome", "detail", "scenario", "seed", "count", "flight_time_s", "first_entry_s", "path_length_m",
-                  "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m", "limit_violations", "requests",
-                  "answered_in_time", "plans", "replan_ms", "exposure", "messages", "restarts", "log", "version"));
+  EXPECT_THAT(keys(summary), testing::UnorderedElementsAre(
+                                 "outcome", "detail", "scenario", "seed", "count", "flight_time_s", "first_entry_s",
+                                 "path_length_m", "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m",
+                                 "limit_violations", "requests", "answered_in_time", "plans", "replan_ms", "exposure",
+                                 "messages", "restarts", "beside", "log", "version"));
   EXPECT_THAT(keys(summary["replan_ms"]),
               testing::UnorderedElementsAre("total", "first_answer", "hulls", "search", "optimization", "check"));
   EXPECT_THAT(keys(summary["replan_ms"]["hulls"]), testing::UnorderedElementsAre("p50", "p95", "p99", "max"));
