@@ -123,6 +123,7 @@ write_failed_summary() {
   "exposure": {},
   "messages": {},
   "restarts": 0,
+  "beside": {},
   "log": null,
   "version": $(json_text "${version##* }")
 }

@@ -35,14 +35,15 @@ struct FlightSummary {
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel
   std::int64_t restarts = 0;
-  std::string log;      ///< path of the recording; empty: none
-  std::string version;  ///< build id
+  std::map<std::string, int> beside;  ///< processes of which several lived at a time, and how many at most
+  std::string log;                    ///< path of the recording; empty: none
+  std::string version;                ///< build id
 };
 
 /// One JSON object, two spaces of indent, with exactly the keys outcome, scenario, seed, count, flight_time_s,
 /// first_entry_s, path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m, limit_violations, requests,
-/// answered_in_time, second_answers, plans, replan_ms, exposure, messages, restarts, log, version. What has no value
-/// (NaN, a measure that no referee gave) is null.
+/// answered_in_time, second_answers, plans, replan_ms, exposure, messages, restarts, beside, log, version. What has no
+/// value (NaN, a measure that no referee gave) is null.
 std::string to_json(const FlightSummary& summary);
 
 /// The same for a person, at most 31 lines of at most 100 characters while there are at most 6 regions.

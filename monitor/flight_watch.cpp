@@ -20,7 +20,20 @@ double timeout_s(const Scenario& scenario) {
 FlightWatch::FlightWatch(const Scenario& scenario, UTime now)
     : scenario_(scenario), goal_(scenario.uav.goal), began_(now) {}
 
-void FlightWatch::hear(const Heartbeat& heartbeat, UTime now) { processes_.add(heartbeat, now); }
+void FlightWatch::hear(const Heartbeat& heartbeat, UTime now) {
+  processes_.add(heartbeat, now);
+  beat_ = now;
+  const bool of_result = result_ && heartbeat.process == kSimulatorProcess &&
+                         heartbeat.header.name.sender_epoch_us == result_->header.name.sender_epoch_us;
+  if (of_result && heartbeat.header.utime > result_->header.utime && heartbeat.state == ProcessState::Ready) {
+    result_.reset();
+  }
+}
+
+/// Of the simulator that the flight began with; before that, of the one that counts; 0: none.
+std::int64_t FlightWatch::simulator_epoch_us() const {
+  return world_epoch_us_ != 0 ? world_epoch_us_ : processes_.epoch_us(kSimulatorProcess);
+}
 
 void FlightWatch::hear(const UavState& state) {
   state_ = state;
@@ -33,10 +46,11 @@ void FlightWatch::hear(const Goal& goal) {
 
 void FlightWatch::hear(const HorizonRequest& request, UTime now) {
   ledger_.add(request);
-  if (first_request_) return;
+  const bool is_simulators = request.header.name.sender_epoch_us == processes_.epoch_us(kSimulatorProcess);
+  if (world_epoch_us_ != 0 || (first_request_ && !is_simulators)) return;
   first_request_ = request;
   first_request_at_ = now;
-  world_epoch_us_ = request.header.name.sender_epoch_us;
+  if (is_simulators) world_epoch_us_ = request.header.name.sender_epoch_us;
 }
 
 void FlightWatch::hear(const PlanTiming& timing) {
@@ -44,7 +58,7 @@ void FlightWatch::hear(const PlanTiming& timing) {
 }
 
 void FlightWatch::hear(const FlightResult& result, UTime now) {
-  if (result_) return;
+  if (result_ || result.header.name.sender_epoch_us != simulator_epoch_us()) return;
   result_ = result;
   result_at_ = now;
 }
@@ -55,12 +69,11 @@ void FlightWatch::fail(std::string detail) {
 
 std::optional<std::string> FlightWatch::failure(UTime now) const {
   if (!failure_.empty()) return failure_;
-  const UTime heard = processes_.heard(kSimulatorProcess).value_or(began_);
+  const UTime heard = processes_.heard(kSimulatorProcess, simulator_epoch_us()).value_or(began_);
   if (now - heard > kSimulatorSilence) {
     return fmt::format("{} was not heard for {:.0f} s", kSimulatorProcess, (now - heard).seconds());
   }
-  const auto epoch_us = processes_.epoch_us(kSimulatorProcess);
-  if (world_epoch_us_ && epoch_us && *epoch_us > *world_epoch_us_) {
+  if (processes_.epoch_us(kSimulatorProcess) != simulator_epoch_us() && now - heard > kWorldSilence) {
     return fmt::format("{} started anew during the flight: its world is lost", kSimulatorProcess);
   }
   const Duration limit = Duration::from_seconds(timeout_s(scenario_)) + kVerdictSlack;
@@ -92,6 +105,7 @@ double FlightWatch::nearest_obstacle() const {
 LiveView FlightWatch::live() const {
   LiveView view;
   view.waiting = processes_.waiting();
+  view.beside = processes_.beside_now(beat_);
   view.flying = first_request_ && state_;
   if (!view.flying) return view;
   const Vec3& p = state_->motion.p;
@@ -131,6 +145,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};
   summary.messages = processes_.messages();
   summary.restarts = processes_.restarts();
+  summary.beside = processes_.beside();
   return summary;
 }
 

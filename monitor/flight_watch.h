@@ -25,13 +25,16 @@ inline constexpr char kSimulatorProcess[] = "tern-simulator";
 inline constexpr Duration kSimulatorSilence{20'000'000};
 /// After the verdict every process has a last heartbeat to send, with its last counts.
 inline constexpr Duration kLastWords{600'000};
+/// Without a heartbeat of it for so long, a simulator that another one follows has ended: four may be lost.
+inline constexpr Duration kWorldSilence{2'500'000};
 /// The referee has this much longer than the scenario's own timeout to say something.
 inline constexpr Duration kVerdictSlack{60'000'000};
 
 /// What a live line shows.
 struct LiveView {
-  bool flying = false;     ///< a horizon was asked for; else the rest but `waiting` is meaningless
+  bool flying = false;     ///< a horizon was asked for; else the rest but `waiting` and `beside` is meaningless
   std::string waiting;     ///< who is not ready, and why
+  std::string beside;      ///< "2 tern-predictor": processes of which more than one live; empty when there is none
   double elapsed_s = 0.0;  ///< since the first request, vehicle's clock
   double progress = 0.0;   ///< of the straight distance from start to goal, 0 … 1
   double speed_mps = 0.0;
@@ -52,8 +55,10 @@ struct Ending {
 /// The flight ends kLastWords after FLIGHT_RESULT, with its outcome; before that it has failed when
 ///   fail() was called (the launcher knows of a process that cannot run),
 ///   the simulator was not heard for kSimulatorSilence, from the watch's beginning on,
-///   the simulator started anew after the first request: its world is lost,
+///   the simulator started anew after the first request, and the one that made it is silent: its world is lost,
 ///   the referee says nothing kVerdictSlack after the scenario's timeout.
+/// Verdict and loss of the world are those of the simulator that the flight began with, whoever else says so; a verdict
+/// that its own next heartbeat contradicts (it flies on) is dropped.
 class FlightWatch {
  public:
   /// @param now  the watcher's clock, as everywhere here unless the vehicle's is named
@@ -78,6 +83,7 @@ class FlightWatch {
 
  private:
   [[nodiscard]] double nearest_obstacle() const;
+  [[nodiscard]] std::int64_t simulator_epoch_us() const;
   [[nodiscard]] std::optional<std::string> failure(UTime now) const;
 
   Scenario scenario_;
@@ -88,7 +94,8 @@ class FlightWatch {
   std::optional<UavState> state_;
   std::optional<HorizonRequest> first_request_;
   std::optional<UTime> first_request_at_;
-  std::optional<std::int64_t> world_epoch_us_;  ///< the simulator's when the first request was heard
+  std::int64_t world_epoch_us_ = 0;  ///< the simulator's that made the first request; 0: none yet
+  UTime beat_;                       ///< when a heartbeat was heard last
   std::vector<TrueObstacle> obstacles_;
   Once timings_heard_;
   ReplanSamples replan_;

@@ -12,14 +12,17 @@ std::string number(double x, int digits) { return std::isnan(x) ? "-" : fmt::for
 }  // namespace
 
 std::string live_line(const LiveView& view) {
-  if (!view.flying) return "waiting for " + (view.waiting.empty() ? std::string("the simulator") : view.waiting);
+  const std::string beside = view.beside.empty() ? "" : "  at once: " + view.beside;
+  if (!view.flying) {
+    return "waiting for " + (view.waiting.empty() ? std::string("the simulator") : view.waiting) + beside;
+  }
   std::string line =
       fmt::format("{:6.1f} s  {:3.0f} %  {:5.2f} m/s  nearest {} m  replan {}/{} ms (p50/p99)  in time {}/{}",
                   view.elapsed_s, view.progress * 100.0, view.speed_mps, number(view.nearest_m, 2),
                   number(view.replan_p50_ms, 1), number(view.replan_p99_ms, 1), view.answered_in_time, view.requests);
   if (view.reason != PlanReason::None) line += fmt::format("  ({})", plan_reason_words(view.reason));
   if (!view.waiting.empty()) line += "  waiting for " + view.waiting;
-  return line;
+  return line + beside;
 }
 
 std::string fit(const std::string& text, std::size_t columns) {

@@ -1,6 +1,8 @@
 #include "monitor/process_table.h"
 
+#include <algorithm>
 #include <numeric>
+#include <vector>
 
 namespace tern {
 namespace {
@@ -12,33 +14,92 @@ constexpr std::size_t kMaxProcesses = 256;
 }  // namespace
 
 void ProcessTable::add(const Heartbeat& heartbeat, UTime now) {
+  forget_noise(now);
   if (!processes_.contains(heartbeat.process) && processes_.size() >= kMaxProcesses) return;
+  const std::int64_t epoch_us = heartbeat.header.name.sender_epoch_us;
   Process& process = processes_[heartbeat.process];
-  process.heard = now;
-  if (process.starts.size() < kMaxStarts) process.starts[heartbeat.header.name.sender_epoch_us] = heartbeat;
+  if (!process.starts.contains(epoch_us) && process.starts.size() >= kMaxStarts) return;
+  const auto [found, is_new] = process.starts.try_emplace(epoch_us);
+  Start& start = found->second;
+  if (is_new) start.first_heard = now;
+  start.newest = heartbeat;
+  start.heard = now;
+  ++start.beats;
+  const auto counting = process.starts.find(process.counts);
+  const bool silent = counting != process.starts.end() && now - counting->second.heard > kBeatSilence;
+  if (counting == process.starts.end() || (silent && start.beats > 1)) process.counts = epoch_us;
+  if (const int n = living(process, now); n > 1) beside_[heartbeat.process] = std::max(beside_[heartbeat.process], n);
 }
 
-std::optional<UTime> ProcessTable::heard(const std::string& process) const {
-  const auto found = processes_.find(process);
-  return found == processes_.end() ? std::nullopt : std::optional(found->second.heard);
+void ProcessTable::forget_noise(UTime now) {
+  for (auto& [name, process] : processes_) {
+    std::erase_if(process.starts, [now](const auto& start) {
+      return start.second.beats == 1 && now - start.second.heard > kBeatSilence;
+    });
+  }
+  std::erase_if(processes_, [](const auto& process) { return process.second.starts.empty(); });
 }
 
-std::optional<std::int64_t> ProcessTable::epoch_us(const std::string& process) const {
+/// Starts that were heard lately, and since the youngest of them began.
+int ProcessTable::living(const Process& process, UTime now) {
+  std::vector<const Start*> recent;
+  for (const auto& [epoch_us, start] : process.starts) {
+    if (start.beats > 1 && now - start.heard <= kBeatSilence) recent.push_back(&start);
+  }
+  UTime youngest = now - kBeatSilence;
+  for (const Start* start : recent) youngest = std::max(youngest, start->first_heard);
+  return static_cast<int>(
+      std::count_if(recent.begin(), recent.end(), [&](const Start* start) { return start->heard >= youngest; }));
+}
+
+std::string ProcessTable::beside_now(UTime now) const {
+  std::string text;
+  for (const auto& [name, process] : processes_) {
+    const int n = living(process, now);
+    if (n > 1) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + name;
+  }
+  return text;
+}
+
+std::optional<UTime> ProcessTable::heard(const std::string& process, std::int64_t epoch_us) const {
   const auto found = processes_.find(process);
-  return found == processes_.end() ? std::nullopt : std::optional(found->second.starts.rbegin()->first);
+  if (found == processes_.end()) return std::nullopt;
+  const auto start = found->second.starts.find(epoch_us);
+  return start == found->second.starts.end() ? std::nullopt : std::optional(start->second.heard);
+}
+
+std::int64_t ProcessTable::epoch_us(const std::string& process) const {
+  const auto found = processes_.find(process);
+  return found == processes_.end() ? 0 : found->second.counts;
+}
+
+/// In the order of their beginnings, each that began after the one before it was heard last came in its place.
+std::int64_t ProcessTable::restarts_of(const Process& process) {
+  std::vector<const Start*> starts;
+  for (const auto& [epoch_us, start] : process.starts) starts.push_back(&start);
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start* a, const Start* b) { return a->first_heard < b->first_heard; });
+  std::int64_t restarts = 0;
+  const Start* last = starts.front();
+  for (const Start* start : starts) {
+    if (start->first_heard <= last->heard) continue;
+    last = start;
+    ++restarts;
+  }
+  return restarts;
 }
 
 std::int64_t ProcessTable::restarts() const {
   std::int64_t restarts = 0;
-  for (const auto& [name, process] : processes_) restarts += static_cast<std::int64_t>(process.starts.size()) - 1;
+  for (const auto& [name, process] : processes_) restarts += restarts_of(process);
   return restarts;
 }
 
 std::map<std::string, MessageCount> ProcessTable::messages() const {
   std::map<std::string, MessageCount> messages;
   for (const auto& [name, process] : processes_) {
-    for (const auto& [epoch, heartbeat] : process.starts) {
-      for (const auto& [channel, counters] : heartbeat.channels) {
+    for (const auto& [epoch, start] : process.starts) {
+      for (const auto& [channel, counters] : start.newest.channels) {
         MessageCount& count = messages[channel];
         count.received += counters.received;
         count.rejected += std::accumulate(std::begin(counters.rejected), std::end(counters.rejected), std::int64_t{0});
@@ -52,7 +113,9 @@ std::map<std::string, MessageCount> ProcessTable::messages() const {
 std::string ProcessTable::waiting() const {
   std::string text;
   for (const auto& [name, process] : processes_) {
-    const Heartbeat& newest = process.starts.rbegin()->second;
+    const auto counting = process.starts.find(process.counts);
+    if (counting == process.starts.end()) continue;
+    const Heartbeat& newest = counting->second.newest;
     if (newest.state == ProcessState::Ready || newest.state == ProcessState::Finished) continue;
     text += (text.empty() ? "" : "; ") + name + ": " + (newest.waiting_for.empty() ? "starting" : newest.waiting_for);
   }

@@ -74,6 +74,7 @@ std::string to_json(const FlightSummary& summary) {
       {"exposure", exposure_by_region(result)},
       {"messages", messages_by_channel(summary)},
       {"restarts", summary.restarts},
+      {"beside", Json(summary.beside)},
       {"log", summary.log.empty() ? Json(nullptr) : Json(summary.log)},
       {"version", summary.version},
   };

@@ -1,5 +1,8 @@
 #include "planner/static_tracks.h"
 
+#include <algorithm>
+#include <set>
+
 #include "core/base/digest.h"
 
 namespace tern {
@@ -23,20 +26,20 @@ bool StaticTracks::add(const TrackSet& set) {
     changed = !by_id_.empty();
     by_id_.clear();
   }
+  std::set<std::int64_t> named;
   for (const Track& track : set.tracks) {
     if (track.kind != TrackKind::Static) continue;
     const Box box = track.bounds(track.motion.start, track.motion.start);
-    const auto [at, is_new] = by_id_.emplace(track.id, box);
-    if (is_new || (at->second.min() == box.min() && at->second.max() == box.max())) {
-      changed = changed || is_new;
-      continue;
-    }
-    at->second = box;
-    changed = true;
+    Known& known = by_id_[track.id];
+    changed = changed || known.sets == 0 || known.box.min() != box.min() || known.box.max() != box.max();
+    known = {box, std::min(known.sets + 1, kRememberedAfter)};
+    named.insert(track.id);
   }
-  if (!changed) return false;
+  const auto forgotten = std::erase_if(
+      by_id_, [&](const auto& entry) { return entry.second.sets < kRememberedAfter && !named.contains(entry.first); });
+  if (!changed && forgotten == 0) return false;
   boxes_.clear();
-  for (const auto& [id, box] : by_id_) boxes_.push_back(box);
+  for (const auto& [id, known] : by_id_) boxes_.push_back(known.box);
   digest_ = digest_of(boxes_);
   return true;
 }

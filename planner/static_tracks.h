@@ -11,9 +11,13 @@
 namespace tern {
 
 /// The static tracks of all prediction sets that one predictor sent since the first one heard: of each id the newest
-/// box. Another predictor (a new sender epoch) starts a new memory. Deterministic in the sets added.
+/// box. What fewer than kRememberedAfter sets have named is forgotten when the next one does not name it: a false track
+/// that came once bars no way for ever. Another predictor (a new sender epoch) starts a new memory. Deterministic in
+/// the sets added.
 class StaticTracks {
  public:
+  static constexpr int kRememberedAfter = 3;
+
   StaticTracks();
 
   /// @param set  complete. @return whether boxes() changed.
@@ -25,7 +29,11 @@ class StaticTracks {
   [[nodiscard]] std::int64_t first_set() const { return first_set_; }     ///< the first set of that predictor; 0: none
 
  private:
-  std::map<std::int64_t, Box> by_id_;
+  struct Known {
+    Box box;
+    int sets = 0;  ///< that named it, kRememberedAfter at most
+  };
+  std::map<std::int64_t, Known> by_id_;
   std::vector<Box> boxes_;
   std::uint64_t digest_;
   std::int64_t epoch_us_ = 0, first_set_ = 0;

@@ -61,7 +61,7 @@ struct Authentic {
 void sign(Bytes& message, const KeyRing& keys, std::string_view channel, std::string_view wire_name,
           const Header& header);
 
-/// Unauthenticated: no trailer, another role's channel, no key of that role, another tag. Replayed: kLongestOnItsWay,
+/// Unauthenticated: no trailer, another role's channel, no key of that role, another tag. Repeated: kLongestOnItsWay,
 /// or not new by `guard`. @param received  when the kernel took it
 tl::expected<Authentic, Rejection> verify(std::span<const std::uint8_t> bytes, const KeyRing& keys, ReplayGuard& guard,
                                           std::string_view channel, std::string_view wire_name, UTime received);

@@ -1,8 +1,10 @@
 // Collects the batches of a set; only complete sets are handed on.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,40 +13,64 @@
 
 namespace tern {
 
-/// Collects batches of T (with members `header` and `batch`) of one set at a time. A newer set of the same sender, or a
-/// newer sender, replaces an unfinished one, which is counted in incomplete().
+/// Collects batches of T (with members `header` and `batch`), of each sender by itself (whom to listen to is the bus's
+/// matter: SenderWatch). A newer set of a sender replaces an unfinished one, which is counted in incomplete().
+///
+/// Newer is what was sent later (header.utime, then the sequence number), not what has a larger number: so a set number
+/// that nobody else has used mutes no later set.
 template <class T>
 class BatchCollector {
  public:
-  /// @return the batches of the set in index order when `message` completed it. Batches of a sender epoch or a set
-  /// older than the newest seen are dropped, and so are those that contradict the set's count. Out-of-order arrival
-  /// within a set is fine; a repeated batch changes nothing.
+  /// Senders whose sets are collected; the one not heard longest is forgotten first.
+  static constexpr std::size_t kMaxSenders = 4;
+
+  /// @return the batches of the set in index order when `message` completed it. Batches that were sent before the set
+  /// at hand began are dropped, and so are those that contradict its count. Out-of-order arrival within a set is fine;
+  /// a repeated batch changes nothing.
   std::optional<std::vector<T>> add(const T& message) {
-    const std::pair key{message.header.name.sender_epoch_us, message.batch.set};
-    if (key < key_ || (key == key_ && missing_ == 0)) return std::nullopt;
-    if (key > key_) {
-      if (missing_ > 0) ++incomplete_;
-      key_ = key;
-      parts_.assign(static_cast<std::size_t>(message.batch.count), std::nullopt);
-      missing_ = message.batch.count;
+    Unfinished& set = of(message.header.name.sender_epoch_us);
+    const std::pair sent{message.header.utime, message.header.name.sequence};
+    if (message.batch.set != set.number) {
+      if (set.number != 0 && sent <= set.newest) return std::nullopt;
+      if (set.missing > 0) ++incomplete_;
+      set.number = message.batch.set;
+      set.parts.assign(static_cast<std::size_t>(message.batch.count), std::nullopt);
+      set.missing = message.batch.count;
     }
     const auto index = static_cast<std::size_t>(message.batch.index);
-    const bool fits = message.batch.count == static_cast<std::int32_t>(parts_.size()) && index < parts_.size();
-    if (!fits || parts_[index]) return std::nullopt;
-    parts_[index] = message;
-    if (--missing_ > 0) return std::nullopt;
-    std::vector<T> set;
-    for (auto& part : parts_) set.push_back(std::move(*part));
-    return set;
+    const bool fits = message.batch.count == static_cast<std::int32_t>(set.parts.size()) && index < set.parts.size();
+    if (set.missing == 0 || !fits || set.parts[index]) return std::nullopt;
+    set.newest = std::max(set.newest, sent);
+    set.parts[index] = message;
+    if (--set.missing > 0) return std::nullopt;
+    std::vector<T> whole;
+    for (auto& part : set.parts) whole.push_back(std::move(*part));
+    return whole;
   }
 
   [[nodiscard]] std::int64_t incomplete() const { return incomplete_; }
 
  private:
-  std::pair<std::int64_t, std::int64_t> key_{0, 0};
-  std::vector<std::optional<T>> parts_;
-  int missing_ = 0;
-  std::int64_t incomplete_ = 0;
+  struct Unfinished {
+    std::int64_t number = 0;                            ///< 0: none yet
+    std::pair<UTime, std::int64_t> newest{UTime{}, 0};  ///< of its batches: when sent, sequence
+    std::vector<std::optional<T>> parts;
+    int missing = 0;
+    std::int64_t heard = 0;
+  };
+
+  Unfinished& of(std::int64_t epoch_us) {
+    Unfinished& set = senders_[epoch_us];
+    set.heard = ++count_;
+    if (senders_.size() > kMaxSenders) {
+      const auto longest_ago = [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; };
+      senders_.erase(std::min_element(senders_.begin(), senders_.end(), longest_ago));
+    }
+    return set;
+  }
+
+  std::map<std::int64_t, Unfinished> senders_;  ///< by epoch
+  std::int64_t count_ = 0, incomplete_ = 0;
 };
 
 }  // namespace tern

@@ -15,16 +15,12 @@
 #include "core/world/message_limits.h"
 #include "runtime/authentication.h"
 #include "runtime/node.h"
+#include "runtime/sender_watch.h"
 
 namespace tern {
 namespace {
 
 constexpr Duration kLogInterval{1'000'000};
-/// Senders whose sequence a channel remembers; the one not heard longest is forgotten first, so that forged epochs cost
-/// no memory.
-constexpr std::size_t kMaxSenders = 64;
-/// A forged sequence number shall not overflow the sum: no honest gap is as long.
-constexpr std::int64_t kMaxGap = 1'000'000'000;
 
 void check_name(std::string_view name) {
   if (Bus::is_channel_name(name)) return;
@@ -48,22 +44,18 @@ class LogLimiter {
   std::int64_t pending_ = 0;
 };
 
-struct Sender {
-  std::int64_t last_sequence = 0;
-  std::int64_t heard = 0;  ///< the channel's count of deliveries when it was heard last
-};
-
 }  // namespace
 
 struct Bus::Channel {
   State* state = nullptr;
   std::string name, wire_name;
   ChannelCounters counters;
-  std::map<std::int64_t, Sender> senders;  ///< by epoch
+  SenderWatch senders;
   std::deque<RawHandler> handlers;
   lcm::Subscription* subscription = nullptr;
-  bool counted = false;  ///< the message being delivered has been accepted or rejected by an earlier handler
-  ReplayGuard guard;     ///< with keys
+  bool counted = false;   ///< the message being delivered has been accepted or rejected by an earlier handler …
+  bool admitted = false;  ///< … and which
+  ReplayGuard guard;      ///< with keys
   LogLimiter reject_log, send_log;
   std::deque<Encoder> unsent;
   UTime due = kNever;
@@ -75,7 +67,8 @@ struct Bus::State {
   std::string suffix;
   std::optional<KeyRing> keys;
   std::optional<Role> speaker;  ///< with keys: who sent the message being delivered
-  mutable std::mutex mutex;     ///< guards `channels` (the map) and counters; held while a message is numbered and sent
+  std::int64_t epoch_us = 0;
+  mutable std::mutex mutex;  ///< guards `channels` (the map) and counters; held while a message is numbered and sent
   std::map<std::string, Channel, std::less<>> channels;
   std::int64_t unsent = 0;
   std::int64_t deliveries = 0;
@@ -94,6 +87,7 @@ struct Bus::State {
     made.state = this;
     made.name = name;
     made.wire_name = wire_name;
+    made.senders = SenderWatch(speaker_silence(name), epoch_us);
     return made;
   }
 
@@ -137,6 +131,7 @@ Bus::Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_u
   state_->keys = std::move(keys);
   state_->lcm = std::move(lcm);
   state_->suffix = std::move(suffix);
+  state_->epoch_us = epoch_us;
 }
 
 Bus::~Bus() {
@@ -226,31 +221,48 @@ void Bus::listen(Listener listener) {
 void Bus::reject(const std::string& name, Rejection reason) {
   const std::scoped_lock lock(state_->mutex);
   Channel& channel = state_->channel(name);
-  if (std::exchange(channel.counted, true)) return;
+  channel.admitted = false;
+  if (!std::exchange(channel.counted, true)) count_refused(channel, reason);
+}
+
+/// @pre the mutex is held
+void Bus::count_refused(Channel& channel, Rejection reason) {
   ++channel.counters.rejected[static_cast<int>(reason)];
-  if (reason == Rejection::Replayed) return;  // networks repeat datagrams: the counter says enough
+  if (reason == Rejection::Repeated) return;  // what a network may do
   if (const auto times = channel.reject_log.admit(clock_.now())) {
     spdlog::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, to_string(reason),
                  *times);
   }
 }
 
-void Bus::accept(const std::string& name, MessageName message) {
+bool Bus::admits(const std::string& name, const MessageName& message, UTime claimed) {
   const std::scoped_lock lock(state_->mutex);
   Channel& channel = state_->channel(name);
-  if (std::exchange(channel.counted, true)) return;
-  ++channel.counters.received;
-  const auto [found, is_new] = channel.senders.try_emplace(message.sender_epoch_us);
-  Sender& sender = found->second;
-  if (!is_new && message.sequence > sender.last_sequence) {
-    channel.counters.lost += std::min(message.sequence - sender.last_sequence - 1, kMaxGap);
+  if (std::exchange(channel.counted, true)) return channel.admitted;
+  const auto refusal = channel.senders.judge(message, claimed, received(), channel.counters.sent);
+  channel.counters.lost = channel.senders.lost();
+  channel.admitted = !refusal;
+  if (refusal) {
+    count_refused(channel, *refusal);
+  } else {
+    ++channel.counters.received;
   }
-  sender.last_sequence = std::max(sender.last_sequence, message.sequence);
-  sender.heard = channel.counters.received;
-  if (channel.senders.size() > kMaxSenders) {
-    const auto longest_ago = [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; };
-    channel.senders.erase(std::min_element(channel.senders.begin(), channel.senders.end(), longest_ago));
+  return channel.admitted;
+}
+
+std::string Bus::sender_troubles() const {
+  const std::scoped_lock lock(state_->mutex);
+  const UTime now = clock_.now();
+  std::string text;
+  for (const auto& [name, channel] : state_->channels) {
+    const std::string separator = text.empty() ? "" : "; ";
+    if (channel.senders.has_rival(now)) {
+      text += fmt::format("{}{}: two senders, the one heard first is listened to", separator, name);
+    } else if (const auto ahead = channel.senders.ahead(now)) {
+      text += fmt::format("{}{}: stamped {:.1f} s ahead of this clock, refused", separator, name, ahead->seconds());
+    }
   }
+  return text;
 }
 
 bool Bus::may_speak_for(std::string_view process) const {
@@ -291,8 +303,10 @@ const char* to_string(Rejection reason) {
     case Rejection::Enumeration: return "enumeration";
     case Rejection::Time: return "time";
     case Rejection::Inconsistent: return "inconsistent";
+    case Rejection::Future: return "future";
+    case Rejection::Sender: return "sender";
+    case Rejection::Repeated: return "repeated";
     case Rejection::Unauthenticated: return "unauthenticated";
-    case Rejection::Replayed: return "replayed";
   }
   return "unknown";
 }

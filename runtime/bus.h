@@ -15,6 +15,7 @@
 
 #include "core/world/health.h"
 #include "messages/codec.h"
+#include "runtime/claimed_time.h"
 #include "runtime/clock.h"
 #include "runtime/keys.h"
 
@@ -37,11 +38,12 @@ inline constexpr int kListenCapacity = 50'000;
 /// One process's end of the LCM network. Not thread-safe but for publish() and counters() (a planner's worker publishes
 /// its answer).
 ///
-/// publish() fills in header.name and header.utime. subscribe() hands over only messages that decode exactly and pass
-/// validation; the others are counted by reason and logged at most once a second per channel, and change nothing. Gaps
-/// in a sender's sequence numbers are counted as lost; the first message heard of a sender epoch begins its count, so
-/// neither a late joiner nor a sender's restart is loss. Messages of this bus's own epoch are delivered too (LCM loops
-/// back).
+/// publish() fills in header.name and header.utime. subscribe() hands over only messages that decode exactly, pass
+/// validation, and come from who is heard on the channel, once and not from the future (SenderWatch); the others are
+/// counted by reason and logged at most once a second per channel, and change nothing. Gaps in a sender's sequence
+/// numbers are counted as lost until what is missing comes; the first message heard of a sender epoch begins its count,
+/// so neither a late joiner nor a sender's restart is loss. Messages of this bus's own epoch are delivered too (LCM
+/// loops back).
 ///
 /// With keys every message that leaves is signed, and only what verifies comes in (authentication.h); the tag is off
 /// before anything is decoded. A HEARTBEAT or CONFIGURATION that names one of Tern's processes must come from that
@@ -102,8 +104,7 @@ class Bus {
       if constexpr (requires { message->process; }) {
         if (!may_speak_for(message->process)) return reject(name, Rejection::Unauthenticated);
       }
-      accept(name, message->header.name);
-      handler(*message);
+      if (admits(name, message->header.name, claimed_time(*message))) handler(*message);
     });
   }
 
@@ -128,6 +129,9 @@ class Bus {
   /// Throws what a handler threw, if one did since the last call. Deliveries stop until then. Runners call it after a
   /// drain.
   void rethrow();
+  /// What is amiss with the senders that were heard lately, in words for HEARTBEAT: a second one beside the one that is
+  /// heard, a clock that is far ahead. Empty when nothing is.
+  [[nodiscard]] std::string sender_troubles() const;
   [[nodiscard]] const Clock& clock() const { return clock_; }
   [[nodiscard]] std::int64_t epoch_us() const { return epoch_us_; }
   [[nodiscard]] const std::string& suffix() const;  ///< of its channels' names on the wire
@@ -135,22 +139,24 @@ class Bus {
  private:
   using Encoder = std::function<Bytes(const Header&)>;
   using RawHandler = std::function<void(std::span<const std::uint8_t>)>;
+  struct Channel;
+  struct State;
   MessageName send(std::string_view channel, const Encoder& encoder);
   void send_paced(std::string_view channel, std::vector<Encoder> batches);
   void subscribe_raw(std::string_view channel, RawHandler handler);
   void reject(const std::string& channel, Rejection reason);
-  void accept(const std::string& channel, MessageName name);
+  bool admits(const std::string& channel, const MessageName& name, UTime claimed);
+  void count_refused(Channel& channel, Rejection reason);
   /// Whether who sent the message being delivered may give this as its process's name.
   [[nodiscard]] bool may_speak_for(std::string_view process) const;
 
   const Clock& clock_;
   std::int64_t epoch_us_;
-  struct Channel;
-  struct State;
   std::unique_ptr<State> state_;
 };
 
-/// "length", "fingerprint", "count", "number", "enumeration", "time", "inconsistent", "unauthenticated", "replayed".
+/// "length", "fingerprint", "count", "number", "enumeration", "time", "inconsistent", "future", "sender", "repeated",
+/// "unauthenticated".
 const char* to_string(Rejection reason);
 
 }  // namespace tern

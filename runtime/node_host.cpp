@@ -20,6 +20,13 @@ constexpr Duration kConfigurationPeriod{5'000'000};
 /// Room for the last line of a text that is cut.
 constexpr std::size_t kCutLineBytes = 120;
 
+/// If it still fits.
+void append(std::string& waiting_for, const std::string& trouble) {
+  const std::string separator = waiting_for.empty() ? "" : "; ";
+  if (trouble.empty() || waiting_for.size() + separator.size() + trouble.size() > kMaxWaitingText) return;
+  waiting_for += separator + trouble;
+}
+
 Duration magnitude(Duration d) { return d < Duration{} ? d * -1 : d; }
 
 }  // namespace
@@ -89,11 +96,7 @@ void NodeHost::publish_heartbeat() {
   message.build_id = build_id();
   message.state = health.state;
   message.waiting_for = health.waiting_for;
-  const std::string clock = say_drift();
-  const std::string separator = health.waiting_for.empty() ? "" : "; ";
-  if (message.waiting_for.size() + separator.size() + clock.size() <= kMaxWaitingText && !clock.empty()) {
-    message.waiting_for += separator + clock;
-  }
+  for (const std::string& trouble : {say_drift(), bus_.sender_troubles()}) append(message.waiting_for, trouble);
   message.channels = bus_.counters();
   bus_.publish(channels::kHeartbeat, message);
 }

@@ -66,6 +66,8 @@ class VirtualRunner {
   [[nodiscard]] const Clock& clock() const { return clock_; }
   /// A bus without a node, for a test or a recorder that listens and talks between runs; it has no heartbeat.
   Bus& observer();
+  /// The network itself, for a test that sends bytes of its own making.
+  [[nodiscard]] lcm::LCM& network() { return *lcm_; }
 
  private:
   struct Process;

@@ -20,11 +20,13 @@ enum class Rejection : std::uint8_t {
   Enumeration = 4,   ///< an unknown value of an enumeration
   Time = 5,          ///< times out of order, or absurd
   Inconsistent = 6,  ///< fields contradict each other
-  // With keys only (runtime/authentication.h):
-  Unauthenticated = 7,  ///< no tag, or none that its role's key gives
-  Replayed = 8,         ///< a tag that holds, of a message that came before, or too long ago
+  Future = 7,        ///< it claims a time that the listener's clock is far from
+  Sender = 8,        ///< another sender is heard on this channel, or this one cannot have sent it
+  Repeated = 9,      ///< it came already; with keys also: too long ago
+  /// With keys only (runtime/authentication.h): no tag, or none that its role's key gives.
+  Unauthenticated = 10,
 };
-inline constexpr int kRejections = 9;
+inline constexpr int kRejections = 11;
 
 /// Counters of one channel as one process saw it.
 struct ChannelCounters {

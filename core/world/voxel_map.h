@@ -77,12 +77,16 @@ inline constexpr std::int64_t kMaxVoxels = 200'000'000;
 /// Cuts a map into chunks (header empty). At least one chunk, even for an empty grid.
 std::vector<MapChunk> to_chunks(const VoxelMap& map);
 
+/// A sender of maps that has sent nothing for so long has ended: a map of one chunk comes once a second.
+inline constexpr Duration kMapSilence{2'500'000};
+
 /// Collects chunks in any order, of any version; a newer version (one not seen in progress) replaces an unfinished one.
-/// Of two senders the one that started last is listened to: chunks of both in turn would complete neither's map.
+/// Of two senders the one that was heard first is listened to until it has sent nothing for kMapSilence: chunks of both
+/// in turn would complete neither's map.
 class MapAssembler {
  public:
-  /// Takes a chunk. @return true when it completed a map, which `take` then gives. The first chunk of an earlier sender
-  /// is an Error, what it sends after it is passed over.
+  /// Takes a chunk. @return true when it completed a map, which `take` then gives. What another sender sends beside
+  /// the one that is listened to is passed over.
   /// An inconsistent chunk (other grid, overlapping runs, wrong digest at the end) is an Error and discards that
   /// version.
   Result<bool> add(const MapChunk& chunk);
@@ -90,8 +94,8 @@ class MapAssembler {
 
  private:
   VoxelMap map_;
-  std::int64_t epoch_us_ = 0;  ///< of the sender that started last
-  bool told_of_earlier_ = false;
+  std::int64_t epoch_us_ = 0;  ///< of the sender that is listened to
+  UTime heard_;                ///< when it sent its newest chunk, its clock
   std::uint64_t finished_version_ = 0;
   std::vector<bool> have_;
   int missing_ = 0;

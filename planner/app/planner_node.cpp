@@ -40,6 +40,12 @@ Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
   });
 }
 
+/// By when it was sent, which no one can forge far ahead; numbers only tell apart what was sent at one instant.
+bool is_newer(const Header& request, const Header& last) {
+  if (request.name.sender_epoch_us != last.name.sender_epoch_us) return true;
+  return std::pair(request.utime, request.name.sequence) > std::pair(last.utime, last.name.sequence);
+}
+
 /// plan(), and what it cost. `budget` and `stopwatch` were made for this call.
 std::pair<Plan, PlanTiming> timed_plan(const HorizonRequest& request, const PlanningWorld& world,
                                        const PlannerConfig& config, Budget& budget, PlanWorkspace& workspace,
@@ -117,9 +123,8 @@ NodeHealth PlannerNode::health() const {
 
 void PlannerNode::on_request(const HorizonRequest& request) {
   const UTime now = bus_.clock().now();
-  const MessageName name = request.header.name;
-  if (name.sender_epoch_us == last_request_.sender_epoch_us && name.sequence <= last_request_.sequence) return;
-  last_request_ = name;
+  if (!is_newer(request.header, last_request_)) return;
+  last_request_ = request.header;
   if (now >= request.deadline) return bus_.count_late(channels::kHorizonRequest);
   intake_.set_vehicle(request);
   desk_.open(request, now);

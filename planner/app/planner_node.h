@@ -61,7 +61,7 @@ class PlannerNode final : public Node {
   PlannerExecution execution_;
   WorldIntake intake_;
   AnswerDesk desk_;
-  MessageName last_request_;               ///< the newest: a network may deliver a message twice, or late
+  Header last_request_;                    ///< the newest: a network may deliver a message late
   std::optional<HorizonRequest> waiting_;  ///< came in while the worker was busy
   UTime waiting_since_{};
   std::optional<UTime> stuck_at_;  ///< when what the worker is at has taken too long

@@ -10,7 +10,7 @@
 namespace tern {
 
 WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background)
-    : config_(config), body_half_(uav.body.half_extents()), flight_box_(uav.flight_box), at_(uav.start) {
+    : bus_(bus), config_(config), body_half_(uav.body.half_extents()), flight_box_(uav.flight_box), at_(uav.start) {
   if (in_background) worker_ = std::make_unique<Worker>();
   bus.subscribe<TrackSet>(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
   bus.subscribe<MapChunk>(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
@@ -73,10 +73,14 @@ void WorldIntake::on_map(const MapChunk& chunk) {
 }
 
 void WorldIntake::on_goal(const Goal& goal) {
-  if (newest_goal_ && goal.id < newest_goal_->id) {
+  const UTime now = bus_.received();
+  const bool is_vehicles = goal.header.name.sender_epoch_us == vehicle_.sender_epoch_us;
+  const bool untaken = is_vehicles && now - goal_heard_ > kGoalTaken;
+  if (newest_goal_ && goal.id < newest_goal_->id && !untaken) {
     overruled_goal_ = goal;
     return;
   }
+  goal_heard_ = now;
   newest_goal_ = goal;
   ++goal_number_;
   hold();

@@ -16,9 +16,15 @@
 
 namespace tern {
 
+/// The vehicle hears a goal when the planner does, and repeats it from then on.
+inline constexpr Duration kGoalTaken{500'000};
+
 /// Subscribes PREDICTIONS, SEMANTIC_MAP and GOAL. A map's fields and a goal's distances take up to seconds: with a
 /// worker they are made in the background and used once they are ready, without one at once (virtual time). To hold or
 /// stop needs neither: such a goal counts from the moment it comes.
+///
+/// The goal with the largest id counts, but the vehicle knows best: what it repeats kGoalTaken after another one came
+/// is what it has taken.
 class WorldIntake {
  public:
   WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background);
@@ -47,12 +53,14 @@ class WorldIntake {
   void start(std::function<void()> job);
   void make_map(VoxelMap map);
 
+  Bus& bus_;
   PlannerConfig config_;
   BatchCollector<TrackSet> batches_;
   MapAssembler assembler_;
   StaticTracks statics_;
   std::optional<VoxelMap> pending_map_;
   std::optional<Goal> newest_goal_;
+  UTime goal_heard_;
   std::optional<Goal> overruled_goal_;  ///< the newest with a smaller id: another flight's, if there comes one
   std::int64_t goal_number_ = 0;        ///< counts what newest_goal_ was
   Vec3 body_half_;

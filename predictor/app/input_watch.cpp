@@ -6,8 +6,13 @@
 namespace tern {
 
 void InputWatch::used(const std::string& input, UTime now) {
+  std::erase_if(used_, [now](const auto& entry) {
+    return entry.second.times < kExpectedAfter && now - entry.second.last > kTroubleSaid;
+  });
   if (used_.size() >= kMaxInputs && !used_.contains(input)) return;
-  used_[input] = now;
+  Use& use = used_[input];
+  use.last = now;
+  ++use.times;
 }
 
 void InputWatch::trouble(const std::string& kind, const std::string& text, UTime now) {
@@ -19,9 +24,9 @@ void InputWatch::trouble(const std::string& kind, const std::string& text, UTime
 std::string InputWatch::silent(UTime now) const {
   std::string text;
   std::size_t silent = 0;
-  for (const auto& [input, at] : used_) {
-    if (now - at <= kInputsStopped || ++silent > kMaxNamed) continue;
-    text += fmt::format("{}{} (silent for {:.1f} s)", text.empty() ? "" : ", ", input, (now - at).seconds());
+  for (const auto& [input, use] : used_) {
+    if (use.times < kExpectedAfter || now - use.last <= kInputsStopped || ++silent > kMaxNamed) continue;
+    text += fmt::format("{}{} (silent for {:.1f} s)", text.empty() ? "" : ", ", input, (now - use.last).seconds());
   }
   if (silent > kMaxNamed) text += fmt::format(" and {} more", silent - kMaxNamed);
   return text;

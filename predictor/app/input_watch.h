@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -18,8 +19,11 @@ inline constexpr std::size_t kMaxInputs = 64;
 /// Silent inputs that are named, so that they fit into a heartbeat with all troubles; the others are counted.
 inline constexpr std::size_t kMaxNamed = 6;
 
-/// An input is named in words: "obstacle observations of sensor 2". None is ever forgotten: what was heard is expected.
-/// Not thread-safe.
+/// What was used less often is not expected to come again: a false sensor that was heard once is not missed.
+inline constexpr std::int64_t kExpectedAfter = 3;
+
+/// An input is named in words: "obstacle observations of sensor 2". What was used kExpectedAfter times is expected for
+/// ever. Not thread-safe.
 class InputWatch {
  public:
   /// A message of `input` was used.
@@ -38,7 +42,11 @@ class InputWatch {
     std::string text;
     UTime at;
   };
-  std::map<std::string, UTime> used_;  // when each was used last
+  struct Use {
+    UTime last;
+    std::int64_t times = 0;
+  };
+  std::map<std::string, Use> used_;
   std::map<std::string, Trouble> troubles_;
 };
 

@@ -30,7 +30,6 @@ PredictorNode::PredictorNode(Bus& bus, const PredictorConfig& config)
 }
 
 void PredictorNode::on_declared(const TrackSet& batch) {
-  if (is_ahead(channels::kDeclaredMotions, kDeclaredInput, batch.made_at)) return;
   auto batches = collector_.add(batch);
   if (!batches) return;
   TrackSet declared = join_batches(std::move(*batches));
@@ -40,7 +39,6 @@ void PredictorNode::on_declared(const TrackSet& batch) {
 
 void PredictorNode::on_observations(const ObservationSet& observations) {
   const std::string input = fmt::format("obstacle observations of sensor {}", observations.sensor_id);
-  if (is_ahead(channels::kObstacleObservations, input, observations.at)) return;
   const Taken taken = tracker_.update(without_explained(observations, declared_));
   if (taken == Taken::Yes) return have_input(input, observations.at);
   bus_.count_late(channels::kObstacleObservations);
@@ -48,16 +46,6 @@ void PredictorNode::on_observations(const ObservationSet& observations) {
     const std::string text = input + ": two sets of one instant, the second is ignored (do two sensors have one id?)";
     watch_.trouble("repeated", text, bus_.clock().now());
   }
-}
-
-bool PredictorNode::is_ahead(const char* channel, const std::string& input, UTime at) {
-  const UTime now = bus_.clock().now();
-  if (at <= now + kMostAhead) return false;
-  bus_.count_late(channel);
-  const std::string text =
-      fmt::format("{}: stamped {:.1f} s ahead of the predictor's clock, refused", input, (at - now).seconds());
-  watch_.trouble("ahead", text, now);
-  return true;
 }
 
 void PredictorNode::have_input(const std::string& input, UTime made_at) {

@@ -18,18 +18,15 @@
 
 namespace tern {
 
-/// No input may be stamped farther ahead of this process's clock: ten times what clocks may differ (docs/safety.md).
-inline constexpr Duration kMostAhead{100'000};
-
 /// Publishes a complete set of predictions each period from the first input on, for ever: when inputs stop, made_at
 /// stays and the α of what was tracked grows, so that the planner sees for itself how old the world is. A world without
 /// obstacles is an empty set. made_at is the newest of the declared set's made_at and the observations' times, as far
-/// as the model uses them. What is stamped more than kMostAhead in the future, too old or repeated is not used and
-/// counted as late.
+/// as the model uses them. What is too old or repeated is not used and counted as late; what is stamped in the future
+/// does not come through the bus.
 ///
 /// Waiting until there is an input, while the newest is older than kInputsStopped, and while one that was used is
-/// silent for so long: a dead sensor beside another input does not show in made_at. Troubles (an input from the future,
-/// a repeated one, tracks that do not fit into a set) are said on HEARTBEAT in any state.
+/// silent for so long: a dead sensor beside another input does not show in made_at. Troubles (a repeated input, tracks
+/// that do not fit into a set) are said on HEARTBEAT in any state.
 class PredictorNode final : public Node {
  public:
   PredictorNode(Bus& bus, const PredictorConfig& config);
@@ -41,8 +38,6 @@ class PredictorNode final : public Node {
  private:
   void on_declared(const TrackSet& batch);
   void on_observations(const ObservationSet& observations);
-  /// @return whether `at` is too far in the future; then it is counted and said.
-  bool is_ahead(const char* channel, const std::string& input, UTime at);
   void have_input(const std::string& input, UTime made_at);
   void publish(UTime now);
   [[nodiscard]] std::vector<Track> predictions(UTime now) const;

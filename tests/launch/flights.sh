@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# flights.sh NAME: whole flights through the real processes. Environment: TERN_BIN, where the programs are.
+# flights.sh NAME: whole flights through the real processes. Environment: TERN_BIN, where the programs are; TERN_NOISE, the program
+# that mutates traffic.
 set -euo pipefail
 # shellcheck source=tests/launch/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
@@ -91,6 +92,22 @@ without_predictions_nobody_flies_blind() {
   bring_back
   reached flight
   holds "restarts" "$(field flight restarts) == 1"
+}
+
+noise_on_the_network_passes_and_the_flight_goes_on() {
+  local result=0
+  start_flight flight
+  eventually "flies" 30 flies flight
+  (
+    # shellcheck source=/dev/null  # written by the flight
+    source "$work/flight/env.sh"
+    "$TERN_NOISE" 1 1000 3
+  )
+  wait "$flight" || result=$?
+  cat "$work/flight.out"
+  [[ $result == 0 && $(field flight outcome) == reached ]] || fail "exit code $result, $(field flight outcome)"
+  holds "clearance" "$(field flight min_clearance_m) >= 0"
+  [[ $(field flight restarts) == 0 ]] || fail "restarts"
 }
 
 a_killed_mapper_does_not_end_a_flight() {

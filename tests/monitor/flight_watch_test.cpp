@@ -45,12 +45,19 @@ Scenario scenario() {
   return scenario;
 }
 
+FlightResult verdict_of(std::int64_t simulator_epoch, FlightOutcome outcome) {
+  FlightResult result;
+  result.header = {{simulator_epoch, 1}, kStart};
+  result.outcome = outcome;
+  return result;
+}
+
 TEST(FlightWatch, TakesTheRefereesOutcomeAfterTheLastWords) {
   for (const FlightOutcome outcome :
        {FlightOutcome::Reached, FlightOutcome::Collision, FlightOutcome::Timeout, FlightOutcome::Failed}) {
     FlightWatch watch(scenario(), kStart);
-    FlightResult result;
-    result.outcome = outcome;
+    watch.hear(simulator(1), kStart);
+    FlightResult result = verdict_of(1, outcome);
     result.detail = "why";
     watch.hear(result, kStart + Duration{1'000});
     EXPECT_FALSE(watch.ending(kStart + Duration{1'000}));
@@ -76,19 +83,61 @@ TEST(FlightWatch, FailsWhenTheWorldIsLostMidway) {
   watch.hear(simulator(1), kStart);
   watch.hear(request(1), kStart);
   EXPECT_FALSE(watch.ending(kStart));
-  watch.hear(simulator(2), kStart);
-  const auto ending = watch.ending(kStart);
+  UTime now = kStart;
+  for (int k = 0; k < 5; ++k) watch.hear(simulator(2), now = now + Duration{500'000});
+  EXPECT_FALSE(watch.ending(now)) << "the first may still be heard";
+  watch.hear(simulator(2), now = now + Duration{500'000});
+  const auto ending = watch.ending(now);
   ASSERT_TRUE(ending);
   EXPECT_EQ(ending->outcome, FlightOutcome::Failed);
   EXPECT_NE(ending->detail.find("world is lost"), std::string::npos);
 }
 
+TEST(FlightWatch, ASecondSimulatorBesideTheFirstEndsNothing) {
+  FlightWatch watch(scenario(), kStart);
+  watch.hear(simulator(5), kStart);
+  watch.hear(request(5), kStart);
+  UTime now = kStart;
+  for (int k = 0; k < 20; ++k) {
+    now = now + Duration{500'000};
+    watch.hear(simulator(5), now);
+    watch.hear(simulator(9), now);
+    watch.hear(simulator(2), now);
+    EXPECT_FALSE(watch.ending(now));
+  }
+  EXPECT_EQ(watch.live().beside, "3 tern-simulator");
+  EXPECT_EQ(watch.summary({}).restarts, 0);
+}
+
+TEST(FlightWatch, TheVerdictIsThatOfTheSimulatorThatTheFlightBeganWith) {
+  FlightWatch watch(scenario(), kStart);
+  watch.hear(verdict_of(1, FlightOutcome::Reached), kStart);
+  EXPECT_FALSE(watch.ending(kStart + kLastWords)) << "there is no simulator yet";
+  watch.hear(simulator(5), kStart);
+  watch.hear(request(5), kStart);
+  watch.hear(verdict_of(9, FlightOutcome::Reached), kStart);
+  EXPECT_FALSE(watch.ending(kStart + kLastWords));
+  watch.hear(verdict_of(5, FlightOutcome::Timeout), kStart);
+  EXPECT_EQ(watch.ending(kStart + kLastWords)->outcome, FlightOutcome::Timeout);
+}
+
+TEST(FlightWatch, AVerdictIsDroppedWhenTheSimulatorFliesOn) {
+  FlightWatch watch(scenario(), kStart);
+  watch.hear(simulator(5), kStart);
+  watch.hear(request(5), kStart);
+  watch.hear(verdict_of(5, FlightOutcome::Reached), kStart);
+  Heartbeat next = simulator(5);
+  next.header.utime = kStart + Duration{400'000};
+  watch.hear(next, next.header.utime);
+  EXPECT_FALSE(watch.ending(kStart + kLastWords));
+}
+
 TEST(FlightWatch, ASimulatorThatStartsAnewBeforeTheFlightIsARestartOnly) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(simulator(1), kStart);
-  watch.hear(simulator(2), kStart);
-  watch.hear(request(2), kStart);
-  EXPECT_FALSE(watch.ending(kStart));
+  UTime now = kStart;
+  for (const std::int64_t epoch : {1, 1, 2, 2, 2, 2, 2}) watch.hear(simulator(epoch), now = now + Duration{500'000});
+  watch.hear(request(2), now);
+  EXPECT_FALSE(watch.ending(now));
   EXPECT_EQ(watch.summary({}).restarts, 1);
 }
 
@@ -110,9 +159,8 @@ TEST(FlightWatch, FailsForTheLaunchersFirstReason) {
 
 TEST(FlightWatch, AVerdictCountsMoreThanAFailureAfterIt) {
   FlightWatch watch(scenario(), kStart);
-  FlightResult result;
-  result.outcome = FlightOutcome::Reached;
-  watch.hear(result, kStart);
+  watch.hear(simulator(1), kStart);
+  watch.hear(verdict_of(1, FlightOutcome::Reached), kStart);
   watch.fail("a process ended");
   EXPECT_EQ(watch.ending(kStart + kLastWords)->outcome, FlightOutcome::Reached);
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "messages/flight_result.h"
+#include "messages/heartbeat.h"
 #include "runtime/channels.h"
 #include "runtime/virtual_runner.h"
 
@@ -37,6 +38,10 @@ TEST(Monitor, ExitCodeAndSummaryAreTheRefereesOutcome) {
     MonitorOptions options;
     options.summary_file = temp_file("summary");
     const RunResult result = run_monitor(options, [&](Bus& bus) {
+      Heartbeat simulator;
+      simulator.process = kSimulatorProcess;
+      simulator.state = ProcessState::Finished;
+      bus.publish(channels::kHeartbeat, simulator);
       FlightResult verdict;
       verdict.outcome = outcome;
       bus.publish(channels::kFlightResult, verdict);

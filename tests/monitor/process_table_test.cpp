@@ -14,13 +14,58 @@ Heartbeat beat(const std::string& process, std::int64_t epoch, std::int64_t rece
   return heartbeat;
 }
 
+constexpr Duration kBeat{500'000};
+
 TEST(ProcessTable, CountsStartsBeyondTheFirst) {
   ProcessTable table;
   EXPECT_EQ(table.restarts(), 0);
-  for (const std::int64_t epoch : {1, 1, 2, 2, 5}) table.add(beat("a", epoch), UTime{});
-  table.add(beat("b", 3), UTime{});
+  UTime now;
+  for (const std::int64_t epoch : {1, 1, 2, 2, 5, 5}) table.add(beat("a", epoch), now = now + kBeat);
+  table.add(beat("b", 3), now);
   EXPECT_EQ(table.restarts(), 2);
-  EXPECT_EQ(table.epoch_us("a"), 5);
+  EXPECT_TRUE(table.beside().empty());
+  EXPECT_EQ(table.beside_now(now), "");
+}
+
+TEST(ProcessTable, ASecondProcessBesideTheFirstIsSaidAndIsNoRestart) {
+  ProcessTable table;
+  UTime now;
+  for (int k = 0; k < 10; ++k) {
+    now = now + kBeat;
+    table.add(beat("a", 1), now);
+    if (3 <= k && k < 7) table.add(beat("a", 2), now);
+    EXPECT_EQ(table.beside_now(now), 4 <= k && k < 9 ? "2 a" : "") << k;
+  }
+  EXPECT_EQ(table.restarts(), 0);
+  EXPECT_EQ(table.epoch_us("a"), 1);
+  EXPECT_EQ(table.beside(), (std::map<std::string, int>{{"a", 2}}));
+  EXPECT_EQ(table.beside_now(now), "");
+}
+
+TEST(ProcessTable, AnotherStartCountsOnceTheFirstIsSilentAndItWasHeardTwice) {
+  ProcessTable table;
+  UTime now;
+  table.add(beat("a", 7), now);
+  table.add(beat("a", 7), now = now + kBeat);
+  table.add(beat("a", 9), now = now + kBeat);
+  EXPECT_EQ(table.epoch_us("a"), 7);
+  table.add(beat("a", 9), now = now + kBeatSilence);
+  EXPECT_EQ(table.epoch_us("a"), 9);
+  EXPECT_EQ(table.heard("a", 7), UTime{} + kBeat);
+}
+
+TEST(ProcessTable, WhatWasHeardOnceIsNoiseAndIsForgotten) {
+  ProcessTable table;
+  UTime now;
+  Heartbeat absurd = beat("tern-qlanner", 1, 1'000'000'000'000);
+  absurd.state = ProcessState::Waiting;
+  table.add(absurd, now);
+  table.add(beat("a", 99, 1'000'000'000'000), now);
+  for (int k = 0; k < 5; ++k) table.add(beat("a", 1, 30), now = now + kBeat);
+  EXPECT_EQ(table.waiting(), "");
+  EXPECT_EQ(table.restarts(), 0);
+  EXPECT_EQ(table.epoch_us("a"), 1);
+  EXPECT_EQ(table.messages().at("GOAL").received, 30);
 }
 
 TEST(ProcessTable, KeepsTheCountsOfAProcessThatDied) {
@@ -45,11 +90,12 @@ TEST(ProcessTable, AddsRejectionsOfEveryReason) {
 
 TEST(ProcessTable, RemembersWhenAProcessWasHeard) {
   ProcessTable table;
-  EXPECT_FALSE(table.heard("a"));
-  EXPECT_FALSE(table.epoch_us("a"));
+  EXPECT_FALSE(table.heard("a", 1));
+  EXPECT_EQ(table.epoch_us("a"), 0);
   table.add(beat("a", 1), UTime{10});
   table.add(beat("b", 1), UTime{20});
-  EXPECT_EQ(table.heard("a"), UTime{10});
+  EXPECT_EQ(table.heard("a", 1), UTime{10});
+  EXPECT_FALSE(table.heard("a", 2));
 }
 
 TEST(ProcessTable, SaysWhoWaitsForWhat) {

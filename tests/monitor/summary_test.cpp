@@ -49,7 +49,7 @@ TEST(Summary, HasExactlyTheKeysThatWerePromised) {
                                  "outcome", "detail", "scenario", "seed", "count", "flight_time_s", "first_entry_s",
                                  "path_length_m", "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m",
                                  "limit_violations", "requests", "answered_in_time", "second_answers", "plans",
-                                 "replan_ms", "exposure", "messages", "restarts", "log", "version"));
+                                 "replan_ms", "exposure", "messages", "restarts", "beside", "log", "version"));
   EXPECT_THAT(keys(summary["replan_ms"]),
               testing::UnorderedElementsAre("total", "first_answer", "hulls", "search", "optimization", "check"));
   EXPECT_THAT(keys(summary["replan_ms"]["hulls"]), testing::UnorderedElementsAre("p50", "p95", "p99", "max"));

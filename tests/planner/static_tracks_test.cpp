@@ -28,10 +28,19 @@ TrackSet set_of(std::int64_t epoch_us, std::int64_t number, std::vector<Track> t
 TEST(StaticTracks, RemembersWhatLaterSetsLeaveOut) {
   StaticTracks statics;
   EXPECT_TRUE(statics.add(set_of(5, 3, {box_at(1, 1.0), box_at(2, 2.0)})));
-  EXPECT_FALSE(statics.add(set_of(5, 4, {box_at(2, 2.0)})));
+  for (const int number : {4, 5}) EXPECT_FALSE(statics.add(set_of(5, number, {box_at(1, 1.0), box_at(2, 2.0)})));
+  EXPECT_FALSE(statics.add(set_of(5, 6, {box_at(2, 2.0)})));
   EXPECT_EQ(statics.boxes().size(), 2U);
   EXPECT_EQ(statics.epoch_us(), 5);
   EXPECT_EQ(statics.first_set(), 3);
+}
+
+TEST(StaticTracks, AFalseTrackThatCameOnceOrTwiceIsForgotten) {
+  StaticTracks statics;
+  statics.add(set_of(5, 1, {box_at(1, 1.0), box_at(9, 3.0)}));
+  statics.add(set_of(5, 2, {box_at(1, 1.0), box_at(9, 3.0)}));
+  EXPECT_TRUE(statics.add(set_of(5, 3, {box_at(1, 1.0)})));
+  EXPECT_EQ(statics.boxes().size(), 1U);
 }
 
 TEST(StaticTracks, TakesTheNewestBoxOfATrack) {
@@ -55,7 +64,7 @@ TEST(StaticTracks, AnotherPredictorStartsANewMemory) {
 TEST(StaticTracks, TheOrderOfFirstSightDoesNotMatter) {
   StaticTracks one, other;
   one.add(set_of(5, 1, {box_at(1, 1.0)}));
-  one.add(set_of(5, 2, {box_at(2, 2.0)}));
+  one.add(set_of(5, 2, {box_at(1, 1.0), box_at(2, 2.0)}));
   other.add(set_of(5, 1, {box_at(2, 2.0)}));
   other.add(set_of(5, 2, {box_at(1, 1.0), box_at(2, 2.0)}));
   EXPECT_EQ(one.digest(), other.digest());

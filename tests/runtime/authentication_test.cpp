@@ -99,11 +99,11 @@ TEST_F(SignedMessage, CountsOnceAndNotWhenItIsOld) {
   EXPECT_TRUE(check(message));
   const auto again = check(message);
   ASSERT_FALSE(again);
-  EXPECT_EQ(again.error(), Rejection::Replayed);
+  EXPECT_EQ(again.error(), Rejection::Repeated);
   ReplayGuard fresh;  // a receiver that has just started
   const auto late = verify(message, simulator, fresh, "PLAN", "PLAN", now + kLongestOnItsWay + Duration{1});
   ASSERT_FALSE(late);
-  EXPECT_EQ(late.error(), Rejection::Replayed);
+  EXPECT_EQ(late.error(), Rejection::Repeated);
   EXPECT_TRUE(verify(message, simulator, fresh, "PLAN", "PLAN", now + kLongestOnItsWay));
 }
 
@@ -214,10 +214,10 @@ TEST_F(KeyedBus, ADuplicatedDatagramCountsOnceAReorderedOneCounts) {
   std::vector<Bytes> said;
   overhear(said);
   for (int id = 1; id <= 3; ++id) viewer.publish(channels::kGoal, goal(id));
-  EXPECT_EQ(rejected(channels::kGoal, Rejection::Replayed), 0);
+  EXPECT_EQ(rejected(channels::kGoal, Rejection::Repeated), 0);
   for (const Bytes& bytes : std::vector<Bytes>(said))
     lcm->publish(channels::kGoal, bytes.data(), static_cast<unsigned>(bytes.size()));
-  EXPECT_EQ(rejected(channels::kGoal, Rejection::Replayed), 3);
+  EXPECT_EQ(rejected(channels::kGoal, Rejection::Repeated), 3);
   EXPECT_EQ(goals.size(), 3U);
 
   Bus late{lcm, clock, 6'000, "", ring("tern-simulator")};
@@ -240,7 +240,7 @@ TEST_F(KeyedBus, AMessageOfThisFlightSaidAgainLaterIsRefusedAlsoByWhoHasJustStar
   restarted.subscribe<Goal>(channels::kGoal, [](const Goal&) { ADD_FAILURE() << "heard"; });
   lcm->publish(channels::kGoal, said[0].data(), static_cast<unsigned>(said[0].size()));
   drain(*lcm, 100);
-  EXPECT_EQ(restarted.counters()[channels::kGoal].rejected[static_cast<int>(Rejection::Replayed)], 1);
+  EXPECT_EQ(restarted.counters()[channels::kGoal].rejected[static_cast<int>(Rejection::Repeated)], 1);
 }
 
 TEST_F(KeyedBus, NobodySpeaksForAnotherRolesProcessOnHeartbeat) {

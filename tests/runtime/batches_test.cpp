@@ -54,12 +54,34 @@ TEST(BatchCollector, ANewerSetReplacesAnUnfinishedOneAndCountsIt) {
   EXPECT_EQ(collector.incomplete(), 1);
 }
 
-TEST(BatchCollector, ARestartedSenderBeginsAnewAndTheOldOneIsNotHeardAgain) {
+TEST(BatchCollector, CollectsTheSetsOfEachSenderByThemselves) {
   BatchCollector<TrackSet> collector;
-  EXPECT_TRUE(collector.add(batch(1, 100, 0, 1)));
+  EXPECT_FALSE(collector.add(batch(1, 100, 0, 2)));
   EXPECT_TRUE(collector.add(batch(2, 1, 0, 1))) << "a smaller set number of a newer sender";
-  EXPECT_FALSE(collector.add(batch(1, 101, 0, 1)));
+  EXPECT_TRUE(collector.add(batch(1, 100, 1, 2))) << "the older one is not forgotten";
   EXPECT_EQ(collector.incomplete(), 0);
+}
+
+TEST(BatchCollector, AFarSetNumberMutesNoLaterSet) {
+  const auto at = [](UTime sent, std::int64_t set, std::int32_t count) {
+    TrackSet message = batch(1, set, 0, count);
+    message.header.utime = sent;
+    return message;
+  };
+  BatchCollector<TrackSet> collector;
+  EXPECT_TRUE(collector.add(at(UTime{100}, 7, 1)));
+  EXPECT_FALSE(collector.add(at(UTime{110}, std::int64_t{1} << 58, 2))) << "half a set, far ahead";
+  EXPECT_TRUE(collector.add(at(UTime{150}, 8, 1)));
+  EXPECT_FALSE(collector.add(at(UTime{100}, 7, 1))) << "an old one that comes again";
+}
+
+TEST(BatchCollector, ForgedSendersPushOutOnlyTheOnesNotHeardLongest) {
+  BatchCollector<TrackSet> collector;
+  for (std::int64_t epoch = 2; epoch < 1'000; ++epoch) {
+    EXPECT_FALSE(collector.add(batch(1, epoch, 0, 2)));
+    EXPECT_FALSE(collector.add(batch(epoch, 5, 0, 2)));
+    EXPECT_TRUE(collector.add(batch(1, epoch, 1, 2)));
+  }
 }
 
 TEST(BatchCollector, DropsABatchThatContradictsTheSetsCount) {

@@ -233,7 +233,7 @@ TEST(KeyedFlights, ReachTheirGoalAndFlyAsWithoutKeys) {
     EXPECT_EQ(ending->outcome, FlightOutcome::Reached) << ending->detail;
     expect_reached(flight->result());
     EXPECT_EQ(flight->refused(Rejection::Unauthenticated), 0);
-    EXPECT_EQ(flight->refused(Rejection::Replayed), 0);
+    EXPECT_EQ(flight->refused(Rejection::Repeated), 0);
   }
   ASSERT_EQ(with.heard.flown.size(), without.heard.flown.size());
   for (std::size_t k = 0; k < with.heard.flown.size(); ++k) {
@@ -276,7 +276,7 @@ TEST(KeyedFlights, TheirOwnMessagesSaidAgainChangeNotOneByteAndAreCounted) {
   ASSERT_TRUE(ending);
   EXPECT_EQ(ending->outcome, FlightOutcome::Reached) << ending->detail;
   EXPECT_EQ(flight.heard.flown, undisturbed().heard.flown);
-  EXPECT_GT(flight.refused(Rejection::Replayed), 0);
+  EXPECT_GT(flight.refused(Rejection::Repeated), 0);
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ namespace {
 
 constexpr const char* kAgreements[] = {"identical", "equivalent", "different"};
 constexpr const char* kRefusals[kRejections] = {
-    "of a wrong length",          "of another version",         "with a count out of range",
-    "with a number out of range", "with an unknown enumerator", "with times out of order",
-    "that contradict themselves", "without a tag that holds",   "that came before"};
+    "of a wrong length",          "of another version",      "with a count out of range",  "with a number out of range",
+    "with an unknown enumerator", "with times out of order", "that contradict themselves", "from the future",
+    "of another sender",          "that came already",       "without a tag that holds"};
 /// What LCM sends to itself at the start.
 constexpr char kLcmSelfTest[] = "LCM_SELF_TEST";
 /// So many lines about the first answer that differs, and about what is missing.

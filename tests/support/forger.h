@@ -1,0 +1,61 @@
+// Someone else on the network of a virtual flight, who hears everything and sends bytes of his own making.
+#pragma once
+
+#include <lcm/lcm-cpp.hpp>
+#include <map>
+#include <string>
+
+#include "messages/goal.h"
+#include "messages/horizon_request.h"
+#include "messages/plan.h"
+#include "messages/track_set.h"
+#include "messages/uav_state.h"
+#include "runtime/channels.h"
+#include "runtime/virtual_runner.h"
+
+namespace tern::testing {
+
+class Forger {
+ public:
+  /// Listens from now on: what it knows of a channel is what its true sender sent last.
+  explicit Forger(VirtualRunner& runner) : runner_(runner) {
+    learn<TrackSet>(channels::kPredictions);
+    learn<TrackSet>(channels::kDeclaredMotions);
+    learn<HorizonRequest>(channels::kHorizonRequest);
+    learn<Plan>(channels::kPlan);
+    learn<Goal>(channels::kGoal);
+    learn<UavState>(channels::kUavState);
+    runner.observer().subscribe<HorizonRequest>(channels::kHorizonRequest,
+                                                [this](const HorizonRequest& heard) { request_ = heard; });
+  }
+
+  /// The true sender's epoch, its next number, now: what nobody can tell from the truth.
+  [[nodiscard]] Header next(const std::string& channel) const {
+    const MessageName last = last_.at(channel);
+    return {{last.sender_epoch_us, last.sequence + 1}, runner_.now()};
+  }
+  /// A sender of its own that began a second ago.
+  [[nodiscard]] Header foreign(std::int64_t sequence = 1) const {
+    return {{runner_.now().us - 1'000'000, sequence}, runner_.now()};
+  }
+  [[nodiscard]] const HorizonRequest& newest_request() const { return request_; }
+
+  template <class T>
+  void send(const std::string& channel, T message, const Header& header) {
+    message.header = header;
+    const Bytes bytes = encode(message);
+    runner_.network().publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
+  }
+
+ private:
+  template <class T>
+  void learn(const std::string& channel) {
+    runner_.observer().subscribe<T>(channel, [this, channel](const T& m) { last_[channel] = m.header.name; });
+  }
+
+  VirtualRunner& runner_;
+  std::map<std::string, MessageName> last_;
+  HorizonRequest request_;
+};
+
+}  // namespace tern::testing
