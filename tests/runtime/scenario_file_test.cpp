@@ -86,6 +86,48 @@ TEST(ScenarioFile, LeavesProcessSectionsToTheirProcesses) {
   EXPECT_EQ(error_of("plannr: {}\n").rfind("a.yaml:1: plannr: unknown key", 0), 0U);
 }
 
+TEST(ScenarioFile, ListsEveryTopLevelKeyThatItKnows) {
+  EXPECT_EQ(error_of("plannr: {}\n"),
+            "a.yaml:1: plannr: unknown key (known here: executor, logger, mapper, name, planner, predictor, seed, "
+            "semantics, simulator, timeout_s, uav, world)");
+}
+
+TEST(ScenarioFile, CallsAMisspeltKeyUnknownBeforeItBlamesTheDefaultThatStandsInItsPlace) {
+  const auto starts = [](const std::string& yaml, const std::string& text) {
+    const std::string error = error_of(yaml);
+    EXPECT_EQ(error.rfind(text, 0), 0U) << error;
+  };
+  starts("uav:\n  start: [500, 0, 1]\n  gaol: [501, 0, 1]\n  flight_box: {min: [490, -9, 0], max: [520, 9, 5]}\n",
+         "a.yaml:3: uav.gaol: unknown key");
+  starts("world:\n  generatr: sando_forest\n  count: 3\n", "a.yaml:2: world.generatr: unknown key");
+  starts("semantics:\n  clases: {moss: attractive}\n  lambdas: {moss: 1}\n", "a.yaml:2: semantics.clases: unknown key");
+  starts(
+      "semantics:\n  clases: {moss: attractive}\n  regions: [{name: r, class: moss, ball: {centre: [0, 0, 0], radius: "
+      "1}}]\n",
+      "a.yaml:2: semantics.clases: unknown key");
+  starts("semantics:\n  regions:\n    - name: r\n      class: meadow\n      bal: {centre: [0, 0, 0], radius: 1}\n",
+         "a.yaml:5: semantics.regions[0].bal: unknown key");
+  starts("world:\n  recorded:\n    - file: a\n      colums: 8\n      y_column: 7\n",
+         "a.yaml:4: world.recorded[0].colums: unknown key");
+  starts(
+      "world:\n  obstacles:\n    - motion: waypoints\n      repeat: true\n      point: [[0, 1, 1, 1], [1, 1, 1, 1]]\n",
+      "a.yaml:5: world.obstacles[0].point: unknown key");
+}
+
+TEST(ScenarioFile, RefusesMoreCornersAndClassesThanItTakesTimeFor) {
+  std::string corners =
+      "semantics:\n  regions:\n    - name: r\n      class: meadow\n      prism:\n        z_min: 0\n        z_max: 1\n  "
+      "      corners: [";
+  for (int k = 0; k < 60'000; ++k) corners += "[" + std::to_string(k) + ", 0], ";
+  EXPECT_EQ(error_of(corners + "[0, 1]]\n"),
+            "a.yaml:8: semantics.regions[0].prism.corners: 60001 of them (limit 1000)");
+  for (const std::string key : {"classes", "lambdas"}) {
+    std::string classes = "semantics:\n  " + key + ":\n";
+    for (int k = 0; k < 60'000; ++k) classes += "    c" + std::to_string(k) + ": free\n";
+    EXPECT_EQ(error_of(classes), "a.yaml:60002: semantics." + key + ".c59999: 60000 classes (limit 255)");
+  }
+}
+
 TEST(ScenarioFile, TakesLimitsAsOneNumberOrThreeAndInfiniteJerk) {
   const Scenario s = read("uav: {limits: {v_max: 3.5, a_max: [20, 20, 9.6], j_max: inf}}\n");
   EXPECT_EQ(s.uav.limits.v_max, Vec3(3.5, 3.5, 3.5));
