@@ -308,9 +308,13 @@ TEST(Rejection, OfHeartbeat) {
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.state = static_cast<ProcessState>(5); }), "Enumeration");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.lost = -1; }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.rejected[6] = -1; }), "Number");
-  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.emplace("", ChannelCounters{}); }), "Number");
-  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.emplace(std::string(64, 'x'), ChannelCounters{}); }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels = {{"", ChannelCounters{}}}; }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels = {{std::string(64, 'x'), ChannelCounters{}}}; }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.waiting_for = "\xC3"; }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.echoes = {{0, {}, {}}}; }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.echoes = {{1, {kFarPast}, {}}}; }), "Time");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.echoes = {{1, {}, {kFarPast}}}; }), "Time");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.echoes = {{7, {}, {}}, {7, {}, {}}}; }), "Inconsistent");
   using Wire = tern_msgs::heartbeat_t;
   const auto after_wire = after_on_wire<Heartbeat, Wire>;
   EXPECT_EQ(after_wire([](Wire& m) { ++m.channels[0].name_length; }), "Inconsistent");
