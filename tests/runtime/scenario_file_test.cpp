@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 
 #include "random_scenario.h"
+#include "tests/messages/allocation_meter.h"
+#include "tests/support/fuzz_count.h"
 
 namespace tern {
 namespace {
@@ -73,6 +76,50 @@ TEST(ScenarioFile, TheReadmesExampleIsRead) {
   EXPECT_EQ(scenario.name, "courtyard");
   EXPECT_EQ(scenario.world.obstacles.size(), 3U);
   EXPECT_EQ(scenario.semantics.regions.size(), 2U);
+}
+
+/// Flips, overwrites, cuts out, doubles or cuts off some bytes, or puts in what YAML gives a meaning.
+std::string mutated(std::string text, Rng& rng) {
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(rng.uniform() * static_cast<double>(n)); };
+  constexpr const char* kPieces[] = {"&a ", "*a", "[",      "]",     "{",  "}",    ": ",    "- ", "\n",   "? ",
+                                     "| ",  "#",  "!!str ", "---\n", "\"", ".inf", "1e999", "\t", "<<: ", "%"};
+  for (std::size_t n = 1 + below(5); n > 0 && !text.empty(); --n) {
+    const std::size_t at = below(text.size());
+    const std::size_t length = std::min(1 + below(40), text.size() - at);
+    switch (below(6)) {
+      case 0: text[at] = static_cast<char>(below(256)); break;
+      case 1: text[at] = static_cast<char>(text[at] ^ (1 << below(8))); break;
+      case 2: text.erase(at, length); break;
+      case 3: text.insert(at, text, below(text.size()), length); break;
+      case 4: text.insert(at, kPieces[below(std::size(kPieces))]); break;
+      default:
+        if (rng.uniform() < 0.2) text.resize(at);
+    }
+  }
+  return text;
+}
+
+TEST(ScenarioFile, MutatedIsReadOrRefusedWithItsNameAndTakesLittle) {
+  std::vector<std::string> originals;
+  for (const auto& entry : std::filesystem::directory_iterator(TERN_SCENARIOS)) {
+    if (entry.path().extension() != ".yaml") continue;
+    std::ifstream stream(entry.path());
+    originals.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  }
+  std::sort(originals.begin(), originals.end());
+  Rng rng(7);
+  int was_read = 0;
+  const int count = support::fuzz_count(1'000);
+  for (int k = 0; k < count; ++k) {
+    const std::string yaml = mutated(originals[static_cast<std::size_t>(k) % originals.size()], rng);
+    const AllocationMeter meter;
+    const std::string error = error_of(yaml);
+    was_read += error.empty() ? 1 : 0;
+    ASSERT_TRUE(error.empty() || error.rfind("a.yaml", 0) == 0) << k << ": " << error;
+    ASSERT_LT(meter.peak(), std::size_t{20} << 20U) << k;
+  }
+  EXPECT_GT(was_read, 0);
+  EXPECT_LT(was_read, count);
 }
 
 TEST(ScenarioFile, AnEmptyFileIsAllDefaultsNamedAfterTheFile) {
