@@ -6,8 +6,9 @@ then counting up; world and faults follow from it, the moments only as well as t
 the programs are; TERN_CAMPAIGN_KEEP, a folder for the records of flights that went wrong (default: flights/fault_campaign).
 
 What must hold (docs/troubleshooting.md): the exit code fits what was done; nobody is left; every kill of a process that can be
-started again is one restart, and the summary counts them; tern-audit finds nothing broken in a flight without collision; tern-replay
-makes every answer again, but for what a dead or stopped logger did not hear. One line per flight; exit code 1 if anything is wrong.
+started again is one restart, and the summary counts them; tern-audit finds nothing broken but a collision, and requests without an
+answer, of which the summary tells, too; tern-replay makes every answer again, if there is any, but for what a dead or stopped logger
+did not hear. One line per flight; exit code 1 if anything is wrong.
 """
 import json
 import os
@@ -175,11 +176,17 @@ class Flight:
         (self.folder / "audit.txt").write_text(audit.stdout + audit.stderr)
         (self.folder / "replay.txt").write_text(replay.stdout + replay.stderr)
         self.audit = {0: "held", 1: "broken"}.get(audit.returncode, f"exit code {audit.returncode}")
-        if audit.returncode != 0 and not (audit.returncode == 1 and self.summary.get("outcome") == "collision"):
-            broken = [line.strip() for line in audit.stdout.splitlines() if "BROKEN" in line]
-            self.wrong.append(f"audit {self.audit}: {broken[0] if broken else audit.stderr.strip()}")
+        if audit.returncode not in (0, 1):
+            self.wrong.append(f"audit: exit code {audit.returncode}: {audit.stderr.strip()}")
+        # What the summary says, too, is a true finding: the collision; requests that a stopped planner did not answer.
+        unanswered = self.summary.get("answered_in_time", 0) < self.summary.get("requests", 0)
+        for line in re.findall(r"^ +BROKEN +(.*)", audit.stdout, re.MULTILINE):
+            is_true = self.summary.get("outcome") == "collision" or (line.startswith("answers ") and unanswered)
+            if not is_true:
+                self.wrong.append(f"audit: {line}")
         self.replay = {0: "whole", 3: "incomplete"}.get(replay.returncode, f"exit code {replay.returncode}")
-        if replay.returncode != 0 and not (replay.returncode == 3 and logger_hurt):
+        true_reason = logger_hurt or "no answers of a planner" in replay.stdout
+        if replay.returncode != 0 and not (replay.returncode == 3 and true_reason):
             self.wrong.append(f"replay {self.replay}")
 
     def check(self):
