@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "logger/records/log_format.h"
+
 namespace tern {
 namespace {
 

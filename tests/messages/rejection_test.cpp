@@ -317,7 +317,14 @@ TEST(Rejection, OfHeartbeat) {
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.echoes = {{7, {}, {}}, {7, {}, {}}}; }), "Inconsistent");
   using Wire = tern_msgs::heartbeat_t;
   const auto after_wire = after_on_wire<Heartbeat, Wire>;
-  EXPECT_EQ(after_wire([](Wire& m) { ++m.channels[0].name_length; }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) {
+              m.channels.resize(1);
+              m.channel_count = 1;
+              m.channels[0].name_length = 3;
+              m.channel_text = {'A', 'B'};
+              m.channel_text_count = 2;
+            }),
+            "Inconsistent");
   EXPECT_EQ(after_wire([](Wire& m) {
               m.channels.resize(2);
               m.channel_count = 2;

@@ -158,6 +158,8 @@ def main():
             if wrong and KEEP:
                 pathlib.Path(KEEP).mkdir(parents=True, exist_ok=True)
                 shutil.copy(log, pathlib.Path(KEEP) / f"seed-{seed}.lcm")
+            if (seed - first + 1) % 100 == 0:
+                print(f"{seed - first + 1} logs, {bad} ended badly", flush=True)
     print(f"{count} logs of {len(events)} messages, by {len(PROGRAMS)} programs each: {bad} ended badly")
     return 1 if bad else 0
 
