@@ -13,6 +13,7 @@ static_assert(Message::MAX_BUILD_ID_TEXT == kMaxBuildIdText);
 static_assert(Message::MAX_WAITING_TEXT == kMaxWaitingText);
 static_assert(Message::MAX_CHANNELS == kMaxHeartbeatChannels);
 static_assert(Message::MAX_CHANNEL_TEXT == kMaxHeartbeatChannels * kMaxChannelName);
+static_assert(Message::MAX_ECHOES == kMaxClockEchoes);
 static_assert(Message::FAILED == static_cast<int>(ProcessState::Failed));
 
 static_assert(sizeof(tern_msgs::channel_counters_t::rejected) == sizeof(ChannelCounters::rejected));
@@ -23,6 +24,7 @@ const wire::Layout kLayout{
     wire::Array{&Message::waiting_count, &Message::waiting_for, 0, kMaxWaitingText},
     wire::Array{&Message::channel_count, &Message::channels, 0, kMaxHeartbeatChannels},
     wire::Array{&Message::channel_text_count, &Message::channel_text, 0, kMaxHeartbeatChannels* kMaxChannelName},
+    wire::Array{&Message::echo_count, &Message::echoes, 0, kMaxClockEchoes},
 };
 
 tern_msgs::channel_counters_t to_lcm(const std::string& name, const ChannelCounters& counters) {
@@ -46,6 +48,12 @@ Message to_lcm(const Heartbeat& heartbeat) {
   for (const auto& [name, counters] : heartbeat.channels) {
     m.channels.push_back(to_lcm(name, counters));
     wire::append(m.channel_text, name);
+  }
+  for (const ClockEcho& echo : heartbeat.echoes) {
+    tern_msgs::clock_echo_t& e = m.echoes.emplace_back();
+    e.sender_epoch_us = echo.sender_epoch_us;
+    e.sent_us = echo.sent.us;
+    e.received_us = echo.received.us;
   }
   return m;
 }
@@ -76,6 +84,11 @@ tl::expected<Heartbeat, Rejection> from_lcm(const Message& m) {
     heartbeat.channels.emplace(std::move(name), read_counters(read, channel));
   }
   read.consistent(names.complete());
+  for (const tern_msgs::clock_echo_t& echo : m.echoes) {
+    const auto epoch_us = read.integer<std::int64_t>(echo.sender_epoch_us, 1, kMaxTimeUs);
+    read.consistent(heartbeat.echoes.empty() || heartbeat.echoes.back().sender_epoch_us < epoch_us);
+    heartbeat.echoes.push_back({epoch_us, read.time(echo.sent_us), read.time(echo.received_us)});
+  }
   return read.accept(std::move(heartbeat));
 }
 

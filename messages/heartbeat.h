@@ -8,8 +8,7 @@ namespace tern {
 
 template <>
 Bytes encode(const Heartbeat& value);
-/// Inconsistent: name lengths that do not sum to the names' bytes, channels that are not in ascending order of their
-/// names.
+/// Inconsistent: name lengths that do not sum to the names' bytes, channels or echoes that are not in ascending order.
 template <>
 tl::expected<Heartbeat, Rejection> decode(std::span<const std::uint8_t> bytes);
 

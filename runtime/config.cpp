@@ -11,7 +11,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <variant>
 
 #include "runtime/yaml_tree.h"
@@ -261,9 +260,7 @@ std::vector<std::vector<double>> ConfigSection::rows(std::string_view key, std::
   return result;
 }
 
-bool ConfigSection::has(std::string_view key) const {
-  return impl_->value != nullptr && impl_->value->find(key) != nullptr;
-}
+bool ConfigSection::has(std::string_view key) { return impl_->find(key) != nullptr; }
 
 double ConfigSection::required_number(std::string_view key, Range range) {
   impl_->require(key);
@@ -340,9 +337,10 @@ ConfigDocument ConfigDocument::load(const std::string& file, const std::vector<s
   if (file.empty()) return parse("", "(no file)", overrides);
   std::ifstream stream(file);
   if (!stream || std::filesystem::is_directory(file)) throw ConfigError(file + ": cannot be read");
-  std::stringstream text;
-  text << stream.rdbuf();
-  return parse(text.str(), file, overrides);
+  std::string text(kMaxYamlBytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return parse(text, file, overrides);
 }
 
 ConfigDocument ConfigDocument::parse(const std::string& yaml, const std::string& name,

@@ -55,7 +55,8 @@ class ConfigSection {
   std::vector<double> numbers(std::string_view key, std::vector<double> fallback, Range each = {});
   /// Rows of `columns` numbers each, [[1, 2], [3, 4]]; absent is empty.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns, Range each = {});
-  [[nodiscard]] bool has(std::string_view key) const;
+  /// Whether the key is given; marks it as known.
+  [[nodiscard]] bool has(std::string_view key);
   double required_number(std::string_view key, Range range = {});
   std::string required_text(std::string_view key);
   Vec3 required_vec3(std::string_view key, Range each = {});
@@ -66,7 +67,8 @@ class ConfigSection {
   void ignore(std::string_view key);
   /// @throws ConfigError at the first key that was neither read nor ignored; it lists the known ones.
   void finish() const;
-  /// A ConfigError that names this section's key: for rules between fields.
+  /// A ConfigError that names this section's key: for rules between fields, which come after finish(), so that a
+  /// misspelt key is called unknown and its default is not blamed.
   [[nodiscard]] ConfigError error(std::string_view key, const std::string& what) const;
 
   /// Made by ConfigDocument only: a default-constructed section may not be used.
@@ -82,7 +84,7 @@ class ConfigDocument {
  public:
   /// An override's path may name an entry of a list as in `world.obstacles[2].centre`; what is missing of the path is
   /// made; its value is YAML. Overrides are applied in their order. An empty file name is an empty document.
-  /// @throws ConfigError: no such file, not YAML, a key given twice, an override that is not key=value.
+  /// @throws ConfigError: no such file, one that parse_yaml refuses, an override that is not key=value.
   static ConfigDocument load(const std::string& file, const std::vector<std::string>& overrides);
   /// The same for YAML in memory; `name` stands where the file's name would.
   static ConfigDocument parse(const std::string& yaml, const std::string& name,

@@ -43,7 +43,13 @@ std::uint64_t configuration_hash(const std::string& effective_yaml) { return dig
 
 NodeHost::NodeHost(Bus& bus, Node& node, std::string process, const std::string& effective_yaml)
     : bus_(bus), node_(node), process_(std::move(process)), yaml_(reported_yaml(effective_yaml)) {
-  next_heartbeat_ = next_configuration_ = bus.clock().now();
+  last_heartbeat_ = next_heartbeat_ = next_configuration_ = bus.clock().now();
+  bus_.subscribe<Heartbeat>(channels::kHeartbeat, [this](const Heartbeat& m) { on_heartbeat(m.header); });
+}
+
+void NodeHost::on_heartbeat(const Header& header) {
+  if (header.name.sender_epoch_us == bus_.epoch_us() || !heard_.hear(header, bus_.received())) return;
+  next_heartbeat_ = std::min(next_heartbeat_, last_heartbeat_ + kHeartbeatSpacing);
 }
 
 UTime NodeHost::next_wakeup() const {
@@ -66,6 +72,7 @@ void NodeHost::step(UTime now) {
     publish_configuration();
   }
   if (next_heartbeat_ <= now) {
+    last_heartbeat_ = now;
     next_heartbeat_ = now + kHeartbeatPeriod;
     publish_heartbeat();
   }
@@ -98,6 +105,7 @@ void NodeHost::publish_heartbeat() {
   message.waiting_for = health.waiting_for;
   for (const std::string& trouble : {say_drift(), bus_.sender_troubles()}) append(message.waiting_for, trouble);
   message.channels = bus_.counters();
+  message.echoes = heard_.echoes(bus_.clock().now());
   bus_.publish(channels::kHeartbeat, message);
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/world/scenario.h"
 #include "runtime/bus.h"
+#include "runtime/clock_exchange.h"
 #include "runtime/config.h"
 #include "runtime/node.h"
 
@@ -60,7 +61,13 @@ int run_process(int argc, char** argv, const ProcessDescription& description, co
 /// A clock that the system's has left by more is said on HEARTBEAT and in the log.
 inline constexpr Duration kSaidDrift{10'000};
 
+/// Heartbeats that answer a new process leave at least this far apart, whoever comes.
+inline constexpr Duration kHeartbeatSpacing{50'000};
+
 /// Hosts one node: its heartbeat and configuration reports, its pacing. The same in a process and in virtual time.
+///
+/// A heartbeat tells back the newest ones heard of others. One of a process that was not heard lately is answered at
+/// once, so that both can compare their clocks a round trip after the later one has started.
 class NodeHost {
  public:
   /// @param effective_yaml  reported on CONFIGURATION, by reported_yaml
@@ -77,13 +84,15 @@ class NodeHost {
   [[nodiscard]] Bus& bus() const { return bus_; }
 
  private:
+  void on_heartbeat(const Header& header);
   void publish_heartbeat();
   void publish_configuration();
   std::string say_drift();
   Bus& bus_;
   Node& node_;
   std::string process_, yaml_;
-  UTime next_heartbeat_{}, next_configuration_{};
+  HeardClocks heard_;
+  UTime last_heartbeat_{}, next_heartbeat_{}, next_configuration_{};
   std::int64_t stepped_deliveries_ = 0;
   bool said_finished_ = false;
   Duration said_drift_{};

@@ -25,6 +25,9 @@ const Range kPhase = Range::within(1e4);
 /// Names travel in messages, which carry so many bytes of them.
 constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kMaxClassBytes = 32;
+constexpr int kMaxColumns = 100;
+/// Whether an outline crosses itself is asked of every two of its edges.
+constexpr std::size_t kMaxCorners = 1'000;
 static_assert(kMaxExposures * kMaxNameBytes <= kMaxRegionText && kMaxMapClasses * kMaxClassBytes <= kMaxMapClassText);
 
 void check_name(const ConfigSection& section, std::string_view key, const std::string& name, std::size_t most) {
@@ -49,11 +52,14 @@ Box read_box(ConfigSection section) {
   return box;
 }
 
+/// The last keys of an obstacle.
 WaypointMotion read_waypoints(ConfigSection& section) {
   WaypointMotion motion;
   motion.repeat = section.flag("repeat", motion.repeat);
   motion.vanish = section.flag("vanish", motion.vanish);
-  for (const std::vector<double>& row : section.rows("points", 4, kSeconds)) {
+  const std::vector<std::vector<double>> rows = section.rows("points", 4, kSeconds);
+  section.finish();
+  for (const std::vector<double>& row : rows) {
     const Vec3 p(row[1], row[2], row[3]);
     const std::size_t index = motion.points.size();
     if (p.cwiseAbs().maxCoeff() > kPosition.high) {
@@ -78,8 +84,8 @@ WaypointMotion read_waypoints(ConfigSection& section) {
 void read_motion(ConfigSection& section, ObstacleSpec& obstacle) {
   const std::string motion = section.choice("motion", "static", {"static", "trefoil", "wave", "linear", "waypoints"});
   if (motion == "waypoints") {
-    obstacle.motion = read_waypoints(section);
     if (section.has("centre")) throw section.error("centre", "is not used by motion waypoints");
+    obstacle.motion = read_waypoints(section);
     return;
   }
   obstacle.centre = section.required_vec3("centre", kPosition);
@@ -111,13 +117,11 @@ ObstacleSpec read_obstacle(ConfigSection section, std::set<std::string>& names) 
 RecordedTracksSpec read_recorded(ConfigSection section) {
   RecordedTracksSpec spec;
   spec.file = section.required_text("file");
-  if (spec.file.empty()) throw section.error("file", "is empty");
-  spec.columns = static_cast<int>(section.integer("columns", spec.columns, 4, 100));
-  std::set<int> used;
+  spec.columns = static_cast<int>(section.integer("columns", spec.columns, 4, kMaxColumns));
+  std::vector<std::pair<const char*, int>> columns;
   const auto column = [&](const char* key, int fallback) {
-    const int c = static_cast<int>(section.integer(key, fallback, 0, spec.columns - 1));
-    if (!used.insert(c).second) throw section.error(key, fmt::format("column {} is another key's column too", c));
-    return c;
+    columns.emplace_back(key, static_cast<int>(section.integer(key, fallback, 0, kMaxColumns - 1)));
+    return columns.back().second;
   };
   spec.id_column = column("id_column", spec.id_column);
   spec.frame_column = column("frame_column", spec.frame_column);
@@ -131,6 +135,12 @@ RecordedTracksSpec read_recorded(ConfigSection section) {
   spec.centre_z = section.number("centre_z", spec.centre_z, kPosition);
   spec.wait_for_clear_start = section.flag("wait_for_clear_start", spec.wait_for_clear_start);
   section.finish();
+  if (spec.file.empty()) throw section.error("file", "is empty");
+  std::set<int> used;
+  for (const auto& [key, c] : columns) {
+    if (c >= spec.columns) throw section.error(key, fmt::format("{} is out of range [0, {}]", c, spec.columns - 1));
+    if (!used.insert(c).second) throw section.error(key, fmt::format("column {} is another key's column too", c));
+  }
   return spec;
 }
 
@@ -138,16 +148,16 @@ WorldSpec read_world(ConfigSection section) {
   WorldSpec world;
   world.generator = section.choice("generator", world.generator, {std::begin(kGenerators), std::end(kGenerators)});
   world.count = static_cast<int>(section.integer("count", world.count, 0, 100'000));
+  std::set<std::string> names;
+  for (const ConfigSection& entry : section.list("obstacles")) world.obstacles.push_back(read_obstacle(entry, names));
+  for (const ConfigSection& entry : section.list("recorded")) world.recorded.push_back(read_recorded(entry));
+  section.finish();
   if (world.generator == "none" && world.count > 0) {
     throw section.error("count", fmt::format("{} needs a generator, which is none", world.count));
   }
   if (world.generator == "step_aside" && world.count > 0) {
     throw section.error("count", fmt::format("{}: step_aside draws how many there are", world.count));
   }
-  std::set<std::string> names;
-  for (const ConfigSection& entry : section.list("obstacles")) world.obstacles.push_back(read_obstacle(entry, names));
-  for (const ConfigSection& entry : section.list("recorded")) world.recorded.push_back(read_recorded(entry));
-  section.finish();
   return world;
 }
 
@@ -195,6 +205,7 @@ UavSpec read_uav(ConfigSection section, UavSpec uav) {
   limits.finish();
   uav.body = read_body(section.section("body"), uav.body);
   if (section.has("flight_box")) uav.flight_box = read_box(section.section("flight_box"));
+  section.finish();
   const Vec3 h = uav.body.half_extents();
   const auto check = [&](const char* key, const Vec3& p) {
     if (uav.flight_box.contains(box_around(p, h))) return;
@@ -207,7 +218,6 @@ UavSpec read_uav(ConfigSection section, UavSpec uav) {
   };
   check("start", uav.start);
   check("goal", uav.goal);
-  section.finish();
   return uav;
 }
 
@@ -230,6 +240,8 @@ PrismRegion read_prism(ConfigSection section) {
   section.finish();
   if (prism.corners.size() < 3)
     throw section.error("corners", fmt::format("{} of them (at least 3)", prism.corners.size()));
+  if (prism.corners.size() > kMaxCorners)
+    throw section.error("corners", fmt::format("{} of them (limit {})", prism.corners.size(), kMaxCorners));
   if (!is_simple_polygon(prism.corners)) throw section.error("corners", "the polygon touches or crosses itself");
   if (prism.z_min >= prism.z_max) throw section.error("z_max", "is not greater than z_min");
   return prism;
@@ -247,7 +259,10 @@ Region read_region(ConfigSection section, std::set<std::string>& names) {
   if (region.name.empty()) throw section.error("name", "is empty");
   region.class_name = section.required_text("class");
   const int shapes = (section.has("box") ? 1 : 0) + (section.has("ball") ? 1 : 0) + (section.has("prism") ? 1 : 0);
-  if (shapes != 1) throw section.error("name", fmt::format("{} shapes (give one of box, ball, prism)", shapes));
+  if (shapes != 1) {
+    section.finish();
+    throw section.error("name", fmt::format("{} shapes (give one of box, ball, prism)", shapes));
+  }
   if (section.has("box")) {
     region.shape = read_box(section.section("box"));
   } else if (section.has("ball")) {
@@ -267,7 +282,12 @@ decltype(SemanticsSpec::classes) read_classes(ConfigSection classes, bool is_giv
     for (const auto& [name, label] : SemanticsSpec{}.classes)
       result.emplace_back(name, classes.choice(name, label, labels));
   }
-  for (const std::string& name : classes.keys()) {
+  const std::vector<std::string> given = classes.keys();
+  // The map's class 0 is "none".
+  if (given.size() >= kMaxMapClasses) {
+    throw classes.error(given.back(), fmt::format("{} classes (limit {})", given.size(), kMaxMapClasses - 1));
+  }
+  for (const std::string& name : given) {
     check_name(classes, name, name, kMaxClassBytes);
     result.emplace_back(name, classes.choice(name, "", labels));
   }
@@ -275,13 +295,13 @@ decltype(SemanticsSpec::classes) read_classes(ConfigSection classes, bool is_giv
 }
 
 /// Class → λ of its own.
-decltype(SemanticsSpec::lambdas) read_lambdas(ConfigSection lambdas, const decltype(SemanticsSpec::classes)& classes) {
+decltype(SemanticsSpec::lambdas) read_lambdas(ConfigSection lambdas) {
   decltype(SemanticsSpec::lambdas) result;
-  for (const std::string& name : lambdas.keys()) {
-    const auto has_name = [&](const auto& c) { return c.first == name; };
-    if (std::none_of(classes.begin(), classes.end(), has_name)) {
-      throw lambdas.error(name, "is not one of semantics.classes");
-    }
+  const std::vector<std::string> given = lambdas.keys();
+  if (given.size() >= kMaxMapClasses) {
+    throw lambdas.error(given.back(), fmt::format("{} classes (limit {})", given.size(), kMaxMapClasses - 1));
+  }
+  for (const std::string& name : given) {
     result.emplace_back(name, lambdas.required_number(name, Range::at_least(0.0, 1e6)));
   }
   return result;
@@ -296,24 +316,26 @@ SemanticsSpec read_semantics(ConfigSection section) {
       section.number("lambda_repulsive", semantics.lambda_repulsive, Range::at_least(0.0, 1e6));
   semantics.cost = section.choice("cost", semantics.cost, {"exposure", "mean_distance"});
   semantics.classes = read_classes(section.section("classes"), section.has("classes"));
-  semantics.lambdas = read_lambdas(section.section("lambdas"), semantics.classes);
-  // The map's class 0 is "none".
-  if (semantics.classes.size() >= kMaxMapClasses) {
-    throw section.error("classes", fmt::format("{} of them (limit {})", semantics.classes.size(), kMaxMapClasses - 1));
+  ConfigSection lambdas = section.section("lambdas");
+  semantics.lambdas = read_lambdas(lambdas);
+  const std::vector<ConfigSection> regions = section.list("regions");
+  if (regions.size() > kMaxExposures) {
+    throw section.error("regions", fmt::format("{} of them (limit {})", regions.size(), kMaxExposures));
   }
   std::set<std::string> names;
-  for (const ConfigSection& entry : section.list("regions")) {
-    semantics.regions.push_back(read_region(entry, names));
-    const std::string& name = semantics.regions.back().class_name;
-    const auto has_name = [&](const auto& c) { return c.first == name; };
-    if (std::none_of(semantics.classes.begin(), semantics.classes.end(), has_name)) {
-      throw entry.error("class", fmt::format("{} is not one of semantics.classes", name));
-    }
-  }
-  if (semantics.regions.size() > kMaxExposures) {
-    throw section.error("regions", fmt::format("{} of them (limit {})", semantics.regions.size(), kMaxExposures));
-  }
+  for (const ConfigSection& entry : regions) semantics.regions.push_back(read_region(entry, names));
   section.finish();
+  const auto is_class = [&](const std::string& name) {
+    return std::any_of(semantics.classes.begin(), semantics.classes.end(),
+                       [&](const auto& c) { return c.first == name; });
+  };
+  for (const auto& [name, lambda] : semantics.lambdas) {
+    if (!is_class(name)) throw lambdas.error(name, "is not one of semantics.classes");
+  }
+  for (std::size_t k = 0; k < regions.size(); ++k) {
+    const std::string& name = semantics.regions[k].class_name;
+    if (!is_class(name)) throw regions[k].error("class", fmt::format("{} is not one of semantics.classes", name));
+  }
   return semantics;
 }
 

@@ -1,6 +1,7 @@
 #include "runtime/yaml_tree.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -8,7 +9,10 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
+#include <sstream>
+#include <unordered_map>
 
 #include "runtime/config.h"
 
@@ -18,44 +22,178 @@ namespace {
 /// Names the place of a YAML mark (which counts from 0).
 using Locate = std::function<std::string(const YAML::Mark&)>;
 
-/// Scenario files are shallow; a bomb of nested brackets or aliases is not.
-constexpr int kMaxDepth = 32;
+/// A file may hold texts with brackets that nobody closes; none holds so many.
+constexpr std::size_t kMaxOpenBrackets = 1'000;
 
-YamlValue convert(const YAML::Node& node, const Locate& locate, int depth) {
+struct Extent {
+  std::size_t values = 1;  ///< the value and all in it
+  std::size_t levels = 0;  ///< of nesting within it
+};
+
+Extent extent_of(const YamlValue& value) {
+  Extent extent;
+  const auto add = [&](const YamlValue& inner) {
+    const Extent part = extent_of(inner);
+    extent.values += part.values;
+    extent.levels = std::max(extent.levels, part.levels + 1);
+  };
+  for (const YamlValue& item : value.items) add(item);
+  for (const auto& entry : value.entries) add(entry.second);
+  return extent;
+}
+
+/// A value that has an anchor, for the aliases that repeat it.
+struct Anchored {
   YamlValue value;
-  value.where = locate(node.Mark());
-  if (depth > kMaxDepth) throw ConfigError(fmt::format("{}: nested deeper than {} levels", value.where, kMaxDepth));
-  if (node.IsScalar()) {
-    value.kind = YamlValue::Kind::Scalar;
-    value.scalar = node.Scalar();
-    value.quoted = node.Tag() == "!";
-  } else if (node.IsSequence()) {
-    value.kind = YamlValue::Kind::Sequence;
-    for (const YAML::Node& item : node) value.items.push_back(convert(item, locate, depth + 1));
-  } else if (node.IsMap()) {
-    value.kind = YamlValue::Kind::Mapping;
-    for (const auto& entry : node) {
-      const std::string where = locate(entry.first.Mark());
-      if (!entry.first.IsScalar()) throw ConfigError(where + ": a key must be a word");
-      const std::string key = entry.first.Scalar();
-      if (const YamlValue* first = value.find(key)) {
-        throw ConfigError(fmt::format("{}: key {} is given twice (first at {})", where, key, first->where));
-      }
-      value.entries.emplace_back(key, convert(entry.second, locate, depth + 1));
-      // A mapping below its key begins a line later, a value left out may lie anywhere: the key's line is what one
-      // looks for.
-      value.entries.back().second.where = where;
+  Extent extent;
+};
+
+/// Builds the value while the parser reads: a document is refused at the place where it breaks a limit, before any more
+/// of it is held.
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(const Locate& locate) : locate_(locate) {}
+
+  /// @pre a document was read whole
+  YamlValue take() { return std::move(document_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override { anchored_.clear(); }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    add(begin(mark, YamlValue::Kind::Null), anchor);
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& text) override {
+    YamlValue value = begin(mark, YamlValue::Kind::Scalar);
+    value.scalar = text;
+    value.quoted = tag == "!";
+    add(std::move(value), anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto found = anchored_.find(anchor);
+    const std::string where = locate_(mark);
+    if (found == anchored_.end()) throw ConfigError(where + ": an alias of what it stands in");
+    charge(found->second.extent, where);
+    add(found->second.value, YAML::NullAnchor);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open_.push_back({begin(mark, YamlValue::Kind::Sequence), anchor, {}, {}, {}});
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open_.push_back({begin(mark, YamlValue::Kind::Mapping), anchor, {}, {}, {}});
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  /// A list or mapping whose end has not been read.
+  struct Open {
+    YamlValue value;
+    YAML::anchor_t anchor;
+    std::unordered_map<std::string, std::string> keys;  ///< of a mapping: where each stands
+    std::optional<std::string> key;                     ///< whose value comes next
+    std::string key_where;
+  };
+
+  /// Before a value is held: that it may be.
+  void charge(const Extent& extent, const std::string& where) {
+    if (open_.size() + extent.levels > kMaxYamlDepth) {
+      throw ConfigError(fmt::format("{}: nested deeper than {} levels", where, kMaxYamlDepth));
+    }
+    values_ += extent.values;
+    if (values_ > kMaxYamlValues) {
+      throw ConfigError(fmt::format("{}: more than {} values, with those that aliases repeat", where, kMaxYamlValues));
     }
   }
-  return value;
+
+  YamlValue begin(const YAML::Mark& mark, YamlValue::Kind kind) {
+    YamlValue value;
+    value.kind = kind;
+    value.where = locate_(mark);
+    charge({}, value.where);
+    return value;
+  }
+
+  void close() {
+    Open closed = std::move(open_.back());
+    open_.pop_back();
+    add(std::move(closed.value), closed.anchor);
+  }
+
+  void add(YamlValue value, YAML::anchor_t anchor) {
+    if (anchor != YAML::NullAnchor) {
+      const Extent extent = extent_of(value);
+      charge(extent, value.where);
+      anchored_.insert_or_assign(anchor, Anchored{value, extent});
+    }
+    if (open_.empty()) return add_document(std::move(value));
+    Open& parent = open_.back();
+    if (parent.value.kind == YamlValue::Kind::Sequence) {
+      parent.value.items.push_back(std::move(value));
+    } else if (!parent.key) {
+      add_key(parent, value);
+    } else {
+      // A mapping below its key begins a line later, a value left out may lie anywhere: the key's line is what one
+      // looks for.
+      value.where = std::move(parent.key_where);
+      parent.value.entries.emplace_back(std::move(*parent.key), std::move(value));
+      parent.key.reset();
+    }
+  }
+
+  void add_document(YamlValue value) {
+    if (value.kind == YamlValue::Kind::Null) return;
+    if (document_.kind != YamlValue::Kind::Null)
+      throw ConfigError(value.where + ": a second YAML document begins here");
+    document_ = std::move(value);
+  }
+
+  static void add_key(Open& mapping, const YamlValue& key) {
+    if (key.kind != YamlValue::Kind::Scalar) throw ConfigError(key.where + ": a key must be a word");
+    const auto [first, is_new] = mapping.keys.emplace(key.scalar, key.where);
+    if (!is_new) {
+      throw ConfigError(fmt::format("{}: key {} is given twice (first at {})", key.where, key.scalar, first->second));
+    }
+    mapping.key = key.scalar;
+    mapping.key_where = key.where;
+  }
+
+  const Locate& locate_;
+  YamlValue document_;
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, Anchored> anchored_;
+  std::size_t values_ = 0;
+};
+
+/// The parser remembers every open bracket before it tells of the first: so this comes before it. Brackets in texts and
+/// comments count, too, which is why far more may be open than levels are allowed.
+void check_brackets(const std::string& text, const Locate& locate) {
+  std::size_t open = 0;
+  YAML::Mark mark;
+  for (const char c : text) {
+    if (c == '\n') ++mark.line;
+    if (c == '[' || c == '{') ++open;
+    if ((c == ']' || c == '}') && open > 0) --open;
+    if (open > kMaxOpenBrackets) {
+      throw ConfigError(fmt::format("{}: more than {} open brackets", locate(mark), kMaxOpenBrackets));
+    }
+  }
 }
 
 YamlValue parse_with(const std::string& text, const Locate& locate) {
+  if (text.size() > kMaxYamlBytes) {
+    throw ConfigError(fmt::format("{}: has more than {} bytes", locate(YAML::Mark()), kMaxYamlBytes));
+  }
+  check_brackets(text, locate);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) throw ConfigError(locate(documents[1].Mark()) + ": a second YAML document begins here");
-    if (documents.empty()) return {};
-    return convert(documents.front(), locate, 0);
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    TreeBuilder builder(locate);
+    while (parser.HandleNextDocument(builder)) {
+    }
+    return builder.take();
   } catch (const YAML::Exception& e) {
     throw ConfigError(fmt::format("{}: not YAML: {}", locate(e.mark), e.msg));
   }
@@ -88,6 +226,8 @@ std::vector<Step> parse_path(std::string_view path, const std::string& where) {
     const auto step = parse_step(path.substr(begin, end - begin));
     if (!step) throw ConfigError(fmt::format("{}: \"{}\" is not a path such as uav.limits.v_max", where, path));
     steps.push_back(*step);
+    if (steps.size() > kMaxYamlDepth)
+      throw ConfigError(fmt::format("{}: more than {} keys deep", where, kMaxYamlDepth));
     begin = end + 1;
   }
   return steps;

@@ -1,12 +1,19 @@
 // A YAML document as plain values that know where they stand; the only place that knows yaml-cpp.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace tern {
+
+/// What a document may be at most. The largest is read in under 100 MB and about a second; a path of ten thousand
+/// waypoints has 50,000 values in half a megabyte.
+inline constexpr std::size_t kMaxYamlBytes = std::size_t{4} << 20U;
+inline constexpr std::size_t kMaxYamlValues = 200'000;  ///< keys count, and what an alias repeats, each time
+inline constexpr std::size_t kMaxYamlDepth = 32;        ///< levels of nesting; scenario files are shallow
 
 /// One value of a document.
 struct YamlValue {
@@ -26,7 +33,8 @@ struct YamlValue {
 };
 
 /// Parses a document whose top is a mapping (or nothing, which is an empty one).
-/// @throws ConfigError for what is not YAML, a key given twice, a key that is not a scalar.
+/// Linear in the text's length and in the number of values; an alias is counted before it is repeated.
+/// @throws ConfigError for what is not YAML, a key given twice, a key that is not a scalar, a limit above broken.
 YamlValue parse_yaml(const std::string& text, const std::string& name);
 
 /// Applies "key.path=value" (the text after --set) to a document. @throws ConfigError naming the override.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/world/header.h"
 
@@ -37,6 +38,13 @@ struct ChannelCounters {
   std::int64_t late = 0;                    ///< accepted but too old to be used
 };
 
+/// The newest heartbeat heard of another process: by it that one compares the clocks (runtime/clock_exchange.h).
+struct ClockEcho {
+  std::int64_t sender_epoch_us = 0;  ///< that process
+  UTime sent;                        ///< its heartbeat's utime, its clock
+  UTime received;                    ///< own clock
+};
+
 struct Heartbeat {
   Header header;
   std::string process;  ///< "tern-planner"
@@ -44,6 +52,7 @@ struct Heartbeat {
   ProcessState state = ProcessState::Starting;
   std::string waiting_for;  ///< what it waits for, in words; empty when nothing
   std::map<std::string, ChannelCounters> channels;
+  std::vector<ClockEcho> echoes;  ///< by epoch ascending
 };
 
 struct ConfigurationReport {

@@ -36,6 +36,7 @@ inline constexpr int kMaxBudgetCuts = 256;
 inline constexpr int kMaxMapClasses = 256;     ///< class names of a map, the empty one included
 inline constexpr int kMaxMapClassText = 8192;  ///< bytes of all class names together
 inline constexpr int kMaxHeartbeatChannels = 64;
+inline constexpr int kMaxClockEchoes = 16;
 inline constexpr int kMaxChannelName = 63;     ///< bytes (LCM's own limit)
 inline constexpr int kMaxProcessText = 64;     ///< bytes
 inline constexpr int kMaxBuildIdText = 256;    ///< bytes

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "logger/records/log_format.h"
+
 namespace tern {
 namespace {
 
@@ -31,6 +33,10 @@ LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& 
   spdlog::info("writes {}", writer_.part_path());
   bus.listen([this](std::string_view channel, std::int64_t received_us, std::span<const std::uint8_t> data) {
     table_.add(channel, data);
+    if (data.size() > kLogMaxDataBytes) {
+      ++too_large_;
+      return;
+    }
     writer_.append(channel, received_us, data);
   });
 }
@@ -58,8 +64,8 @@ NodeHealth LoggerNode::health() const {
 
 void LoggerNode::report() const {
   const LogWriterCounters& counters = writer_.counters();
-  spdlog::info("{} messages, {:.1f} MB in {} file(s), {} not written", counters.written,
-               static_cast<double>(counters.bytes) * 1e-6, counters.parts, counters.unwritten);
+  spdlog::info("{} messages, {:.1f} MB in {} file(s), {} not written, {} too large for a log", counters.written,
+               static_cast<double>(counters.bytes) * 1e-6, counters.parts, counters.unwritten, too_large_);
   for (const auto& [channel, count] : table_.counts()) {
     spdlog::info("{:<24} received {:>8}  lost {:>6}  refused {:>4}  {:>9.3f} MB", channel, count.received, count.lost,
                  count.refused, static_cast<double>(count.bytes) * 1e-6);

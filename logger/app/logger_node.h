@@ -26,7 +26,8 @@ LoggerConfig read_logger_config(ConfigSection section);
 
 /// Writes every message as it came, with the kernel's time of receipt, and hands it to the kernel every kFlushPeriod.
 /// LCM's own receiving thread empties the socket meanwhile, so that a slow disk costs memory, not messages
-/// (Bus::listen). A disk that takes nothing makes it Failed, with the reason in waiting_for; it goes on trying.
+/// (Bus::listen). What is larger than any reader takes (kLogMaxDataBytes; only fragments can be) is counted and left
+/// out. A disk that takes nothing makes it Failed, with the reason in waiting_for; it goes on trying.
 class LoggerNode final : public Node {
  public:
   /// @param path  of the log; an existing folder means flight.lcm in it
@@ -51,6 +52,7 @@ class LoggerNode final : public Node {
   LogWriter writer_;
   ChannelTable table_;
   UTime next_flush_;
+  std::int64_t too_large_ = 0;
   std::string trouble_;  ///< why the last flush failed; empty when it did not
 };
 

@@ -51,7 +51,6 @@ PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& se
   if (c.duration_scales.empty()) throw section.error("duration_scales", "needs at least one number");
   c.hold_required_s = section.number("hold_required_s", c.hold_required_s, Range::at_least(0.0, 10.0));
   c.hold_cap_s = section.number("hold_cap_s", c.hold_cap_s, Range{0.1, 10.0});
-  if (c.hold_required_s > c.hold_cap_s) throw section.error("hold_required_s", "is more than hold_cap_s");
   c.hold_until_s = section.number("hold_until_s", c.hold_until_s, Range::at_least(0.0, 60.0));
   c.stale_after_s = section.number("stale_after_s", c.stale_after_s, Range::positive(10.0));
   c.velocity_share = section.number("velocity_share", c.velocity_share, Range{0.1, 1.0});
@@ -69,6 +68,7 @@ PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& se
   read_search(section.section("search"), c.search);
   read_optimization(section.section("optimization"), c.optimization);
   section.finish();
+  if (c.hold_required_s > c.hold_cap_s) throw section.error("hold_required_s", "is more than hold_cap_s");
   return c;
 }
 

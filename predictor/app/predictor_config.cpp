@@ -34,6 +34,7 @@ PredictorConfig read_predictor_config(ConfigSection section) {
       section.number("resting_after_s", tracker.resting_after.seconds(), Range::at_least(0.1, 1e6)));
   tracker.remember_rest = Duration::from_seconds(
       section.number("remember_rest_s", tracker.remember_rest.seconds(), Range::at_least(0.0, 1e6)));
+  section.finish();
   if (tracker.confirm_hits > tracker.confirm_window) {
     throw section.error("confirm_hits", std::to_string(tracker.confirm_hits) + " is more than confirm_window, " +
                                             std::to_string(tracker.confirm_window));
@@ -43,7 +44,6 @@ PredictorConfig read_predictor_config(ConfigSection section) {
     throw section.error("piece_s", std::to_string(pieces) + " pieces up to horizon_s are more than a message takes, " +
                                        std::to_string(kMaxPiecesPerBatch) + ": longer pieces, or piece_growth");
   }
-  section.finish();
   return config;
 }
 

@@ -45,7 +45,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, co
                              const ExecutorConfig& executor)
     : bus_(bus),
       config_(config),
-      gate_(config.wait_for, config.max_clock_skew),
+      gate_(config.wait_for, bus.epoch_us(), config.max_clock_skew),
       give_up_at_(bus.clock().now() + config.wait),
       executor_(scenario.uav, bus.clock().now(), executor),
       referee_(scenario, std::move(world)),

@@ -21,15 +21,21 @@ void StartGate::hear(const Heartbeat& heartbeat, UTime received) {
   heard.state = heartbeat.state;
   heard.waiting_for = heartbeat.waiting_for;
   heard.epoch_us = epoch_us;
-  heard.skew.add(heartbeat.header.utime, received);
+  for (const ClockEcho& echo : heartbeat.echoes) {
+    if (echo.sender_epoch_us == own_epoch_us_) heard.skew.add(echo, heartbeat.header.utime, received);
+  }
 }
 
 std::string StartGate::skew_of(const Heard& heard) const {
-  const Duration ahead = heard.skew.ahead().value_or(Duration{});
-  if (ahead <= max_skew_ && ahead * -1 <= max_skew_) return "";
-  return fmt::format("its clock is {:.1f} ms {} the vehicle's, more than {:g} ms: synchronize the hosts' clocks",
-                     milliseconds(ahead < Duration{} ? ahead * -1 : ahead), ahead < Duration{} ? "behind" : "ahead of",
-                     milliseconds(max_skew_));
+  const auto reading = heard.skew.reading();
+  if (!reading) return "";
+  const bool behind = reading->ahead < Duration{};
+  const Duration skew = behind ? reading->ahead * -1 : reading->ahead;
+  if (skew * 2 - reading->round_trip <= max_skew_ * 2) return "";
+  return fmt::format(
+      "its clock is {:.1f} ms {} the vehicle's, more than {:g} ms and half a round trip of {:.1f} ms: synchronize the "
+      "hosts' clocks",
+      milliseconds(skew), behind ? "behind" : "ahead of", milliseconds(max_skew_), milliseconds(reading->round_trip));
 }
 
 std::string StartGate::missing(UTime now) const {
@@ -44,6 +50,8 @@ std::string StartGate::missing(UTime now) const {
       append(text, name, skew);
     } else if (found->second.state != ProcessState::Ready) {
       append(text, name, found->second.waiting_for.empty() ? "not ready" : "waits for " + found->second.waiting_for);
+    } else if (!found->second.skew.reading()) {
+      append(text, name, "has not told a heartbeat back: its clock cannot be compared");
     }
   }
   return text;
@@ -62,8 +70,10 @@ std::string StartGate::clocks() const {
   for (const std::string& name : needed_) {
     const auto found = heard_.find(name);
     if (found == heard_.end()) continue;
-    const double ahead_ms = milliseconds(found->second.skew.ahead().value_or(Duration{}));
-    text += fmt::format("{}{} {:+.1f} ms", text.empty() ? "" : ", ", name, ahead_ms);
+    const auto reading = found->second.skew.reading();
+    if (!reading) continue;
+    text += fmt::format("{}{} {:+.1f} ms (round trip {:.1f} ms)", text.empty() ? "" : ", ", name,
+                        milliseconds(reading->ahead), milliseconds(reading->round_trip));
   }
   return text;
 }

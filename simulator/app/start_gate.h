@@ -8,7 +8,7 @@
 
 #include "core/base/time.h"
 #include "core/world/health.h"
-#include "runtime/clock_skew.h"
+#include "runtime/clock_exchange.h"
 
 namespace tern {
 
@@ -18,14 +18,17 @@ namespace tern {
 inline constexpr Duration kMaxClockSkew{10'000};
 
 /// Listens to heartbeats. A process is ready when its newest heartbeat says Ready, is at most kHeartbeatAge old, and
-/// its clock is within max_skew of the listener's.
+/// its clock was compared with the listener's and is not surely beyond max_skew: ahead or behind by more than max_skew
+/// and half the round trip, by which a measurement may be off. So no delay of the network, alike both ways or not, is
+/// taken for skew; but a skew that is smaller than half the round trip is not seen.
 class StartGate {
  public:
   /// Four heartbeats in a row (2 Hz) may be lost before a process counts as gone.
   static constexpr Duration kHeartbeatAge{2'500'000};
 
-  explicit StartGate(std::vector<std::string> needed, Duration max_skew = kMaxClockSkew)
-      : needed_(std::move(needed)), max_skew_(max_skew) {}
+  /// @param own_epoch_us  the listener's, by which others tell its heartbeats back
+  StartGate(std::vector<std::string> needed, std::int64_t own_epoch_us, Duration max_skew = kMaxClockSkew)
+      : needed_(std::move(needed)), own_epoch_us_(own_epoch_us), max_skew_(max_skew) {}
 
   /// @param received  when the network delivered it, the listener's clock
   void hear(const Heartbeat& heartbeat, UTime received);
@@ -33,10 +36,10 @@ class StartGate {
   /// Who is not ready, and what each is waiting for: "tern-planner (waits for a map), tern-mapper (not heard)". Empty
   /// when everyone is ready.
   [[nodiscard]] std::string missing(UTime now) const;
-  /// Whose clock is out of max_skew, by how much, and what to do, in the same form. Empty when all heard are within it.
+  /// Whose clock is surely beyond max_skew, by how much, and what to do, in the same form. Empty when nobody's is.
   [[nodiscard]] std::string skewed() const;
-  /// "tern-planner +0.3 ms, tern-mapper -0.1 ms": the clocks of the needed ones that were heard, against the
-  /// listener's.
+  /// "tern-planner +0.3 ms (round trip 0.2 ms), tern-mapper -0.1 ms (round trip 0.1 ms)": the needed ones' clocks that
+  /// were compared, against the listener's.
   [[nodiscard]] std::string clocks() const;
 
  private:
@@ -50,6 +53,7 @@ class StartGate {
   [[nodiscard]] std::string skew_of(const Heard& heard) const;
 
   std::vector<std::string> needed_;
+  std::int64_t own_epoch_us_;
   Duration max_skew_;
   std::map<std::string, Heard> heard_;
 };

@@ -15,17 +15,34 @@ namespace {
 constexpr UTime kNow{1'700'000'000'000'000};
 constexpr Duration kMs{1'000};
 
+constexpr std::int64_t kOwnEpoch = 77;
+
+/// A heartbeat that tells back one of the listener's, which went there, was answered and came, all at kNow.
 Heartbeat heartbeat(const std::string& process, ProcessState state, const std::string& waiting_for = "") {
   Heartbeat message;
   message.header = {{kNow.us, 1}, kNow};
   message.process = process;
   message.state = state;
   message.waiting_for = waiting_for;
+  message.echoes = {{kOwnEpoch - 1, UTime{1}, UTime{2}}, {kOwnEpoch, kNow, kNow}};
   return message;
 }
 
+/// The planner's heartbeat of an exchange that began at kNow, and when it comes; `ahead` is its clock's.
+struct Exchange {
+  Duration ahead, out, back;
+  [[nodiscard]] UTime received() const { return kNow + out + held + back; }
+  [[nodiscard]] Heartbeat message() const {
+    Heartbeat message = heartbeat("tern-planner", ProcessState::Ready);
+    message.echoes = {{kOwnEpoch, kNow, kNow + out + ahead}};
+    message.header.utime = kNow + out + held + ahead;
+    return message;
+  }
+  Duration held{123'000};
+};
+
 TEST(StartGate, OpensWhenEveryoneIsReadyAndSaysWhoIsNot) {
-  StartGate gate({"tern-planner", "tern-mapper"});
+  StartGate gate({"tern-planner", "tern-mapper"}, kOwnEpoch);
   EXPECT_EQ(gate.missing(kNow), "tern-planner (not heard), tern-mapper (not heard)");
   gate.hear(heartbeat("tern-mapper", ProcessState::Ready), kNow);
   gate.hear(heartbeat("tern-planner", ProcessState::Waiting, "a map"), kNow);
@@ -37,59 +54,89 @@ TEST(StartGate, OpensWhenEveryoneIsReadyAndSaysWhoIsNot) {
 }
 
 TEST(StartGate, ForgetsWhoIsNoLongerHeard) {
-  StartGate gate({"tern-planner"});
+  StartGate gate({"tern-planner"}, kOwnEpoch);
   gate.hear(heartbeat("tern-planner", ProcessState::Ready), kNow);
   EXPECT_TRUE(gate.open(kNow + StartGate::kHeartbeatAge));
   EXPECT_EQ(gate.missing(kNow + StartGate::kHeartbeatAge + kMs), "tern-planner (no longer heard)");
 }
 
 TEST(StartGate, IsClosedToAClockTooFarFromItsOwnAndSaysWhoseByHowMuchAndWhatToDo) {
-  Heartbeat message = heartbeat("tern-planner", ProcessState::Ready);
-  for (const auto& [skew_us, text] : std::map<std::int64_t, std::string>{
-           {-100'000,
-            "tern-planner (its clock is 100.0 ms behind the vehicle's, more than 10 ms: synchronize the hosts' "
-            "clocks)"},
-           {-10'001,
-            "tern-planner (its clock is 10.0 ms behind the vehicle's, more than 10 ms: synchronize the hosts' clocks)"},
-           {-10'000, ""},
-           {10'000, ""},
-           {12'500,
-            "tern-planner (its clock is 12.5 ms ahead of the vehicle's, more than 10 ms: synchronize the hosts' "
-            "clocks)"}}) {
-    StartGate gate({"tern-planner"});
-    message.header.utime = kNow + Duration{skew_us};
-    gate.hear(message, kNow);
-    EXPECT_EQ(gate.missing(kNow), text);
+  const std::string rest =
+      " the vehicle's, more than 10 ms and half a round trip of 0.4 ms: synchronize the hosts' clocks)";
+  for (const auto& [skew_us, text] :
+       std::map<std::int64_t, std::string>{{-100'000, "tern-planner (its clock is 100.0 ms behind" + rest},
+                                           {-10'201, "tern-planner (its clock is 10.2 ms behind" + rest},
+                                           {-10'200, ""},
+                                           {10'200, ""},
+                                           {12'500, "tern-planner (its clock is 12.5 ms ahead of" + rest}}) {
+    StartGate gate({"tern-planner"}, kOwnEpoch);
+    const Exchange exchange{Duration{skew_us}, Duration{200}, Duration{200}};
+    gate.hear(exchange.message(), exchange.received());
+    EXPECT_EQ(gate.missing(exchange.received()), text);
     EXPECT_EQ(gate.skewed(), text);
   }
 }
 
-TEST(StartGate, TakesADelayForSkewOnlyUntilAMessageComesFaster) {
-  StartGate gate({"tern-planner"});
-  const Heartbeat message = heartbeat("tern-planner", ProcessState::Ready);
-  gate.hear(message, kNow + kMs * 30);
-  EXPECT_FALSE(gate.open(kNow + kMs * 30));
-  gate.hear(message, kNow + kMs * 2);
-  gate.hear(message, kNow + kMs * 30);
-  EXPECT_TRUE(gate.open(kNow + kMs * 30));
-  EXPECT_EQ(gate.clocks(), "tern-planner -2.0 ms");
+TEST(StartGate, NeverTakesADelayForSkewHoweverItIsSharedBetweenTheWays) {
+  for (const std::int64_t out_ms : {0, 1, 10, 60, 500}) {
+    for (const std::int64_t back_ms : {0, 1, 10, 60, 500}) {
+      for (const std::int64_t skew_us : {-10'000, 0, 10'000}) {
+        StartGate gate({"tern-planner"}, kOwnEpoch);
+        const Exchange exchange{Duration{skew_us}, kMs * out_ms, kMs * back_ms};
+        gate.hear(exchange.message(), exchange.received());
+        EXPECT_TRUE(gate.open(exchange.received())) << gate.missing(exchange.received());
+      }
+    }
+  }
+}
+
+TEST(StartGate, TellsOffsetAndDelayApart) {
+  StartGate gate({"tern-planner"}, kOwnEpoch);
+  const Exchange exchange{kMs * 5, kMs * 10, kMs * 10};
+  gate.hear(exchange.message(), exchange.received());
+  EXPECT_EQ(gate.clocks(), "tern-planner +5.0 ms (round trip 20.0 ms)");
+}
+
+TEST(StartGate, BelievesTheExchangeOfTheShortestRoundTrip) {
+  StartGate gate({"tern-planner"}, kOwnEpoch);
+  for (const Exchange& exchange :
+       {Exchange{kMs * 20, kMs * 40, kMs}, Exchange{kMs * 20, kMs, kMs}, Exchange{kMs * 20, kMs, kMs * 40}}) {
+    gate.hear(exchange.message(), exchange.received());
+  }
+  EXPECT_EQ(gate.clocks(), "tern-planner +20.0 ms (round trip 2.0 ms)");
+  EXPECT_FALSE(gate.open(kNow));
+}
+
+TEST(StartGate, IsClosedToAClockThatCannotBeCompared) {
+  const std::string text = "tern-planner (has not told a heartbeat back: its clock cannot be compared)";
+  StartGate gate({"tern-planner"}, kOwnEpoch);
+  Heartbeat message = heartbeat("tern-planner", ProcessState::Ready);
+  message.echoes.pop_back();  // what it heard was another's
+  gate.hear(message, kNow);
+  EXPECT_EQ(gate.missing(kNow), text);
+  const Exchange impossible{{}, kMs * -1, {}};
+  gate.hear(impossible.message(), impossible.received());
+  EXPECT_EQ(gate.missing(kNow), text);
+  EXPECT_EQ(gate.clocks(), "");
+  EXPECT_EQ(gate.skewed(), "");
 }
 
 TEST(StartGate, NoticesAClockThatIsSetAndForgetsItWithItsProcess) {
-  StartGate gate({"tern-planner"});
-  Heartbeat message = heartbeat("tern-planner", ProcessState::Ready);
-  gate.hear(message, kNow);
-  message.header.utime = kNow - kMs * 50;
-  for (std::size_t k = 1; k < ClockSkew::kWindow; ++k) gate.hear(message, kNow);
+  StartGate gate({"tern-planner"}, kOwnEpoch);
+  const Exchange before{{}, Duration{200}, Duration{200}};
+  const Exchange after{kMs * -50, Duration{300}, Duration{300}};
+  gate.hear(before.message(), kNow + before.held);
+  for (std::size_t k = 1; k < ClockSkew::kWindow; ++k) gate.hear(after.message(), after.received());
   EXPECT_TRUE(gate.open(kNow));
-  gate.hear(message, kNow);
+  gate.hear(after.message(), after.received());
   EXPECT_FALSE(gate.open(kNow));
-  message.header = {{kNow.us + 1, 1}, kNow};
-  gate.hear(message, kNow);
+  Heartbeat anew = before.message();
+  ++anew.header.name.sender_epoch_us;
+  gate.hear(anew, before.received());
   EXPECT_TRUE(gate.open(kNow));
 }
 
-TEST(StartGate, OfNobodyIsOpen) { EXPECT_TRUE(StartGate({}).open(kNow)); }
+TEST(StartGate, OfNobodyIsOpen) { EXPECT_TRUE(StartGate({}, kOwnEpoch).open(kNow)); }
 
 TEST(Beat, KeepsItsPhaseAndSkipsWhatWasMissed) {
   EXPECT_EQ(next_beat(kNow, kMs * 10, kNow), kNow + kMs * 10);

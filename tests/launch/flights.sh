@@ -190,4 +190,62 @@ every_answer_replays_whoever_died_and_however_busy_the_cores_were() {
   holds "restarts" "$(field flight restarts) == 4"
 }
 
+# flood PORT CHANNEL: ten seconds of packets that crash the channel's subscribers, in this test's own namespace; sets `stream`.
+flood() {
+  python3 "$root/tests/launch/fragment_flood.py" 10 5 "$1" "$2" &
+  stream=$!
+  flights+=("$stream")
+}
+
+a_stream_of_packets_that_crash_lcm_ends_a_flight_truthfully() {
+  local stream port result=0
+  start_flight flight
+  eventually "flies" 30 flies flight
+  port=$(grep -oE ':[0-9]+' "$work/flight/env.sh" | tail -n 1)
+  flood "${port#:}" HEARTBEAT
+  wait "$flight" || result=$?
+  wait "$stream" || fail "no stream"
+  cat "$work/flight.out"
+  [[ $result == 3 ]] || fail "exit code $result"
+  [[ $(field flight outcome) == failed ]] || fail "outcome $(field flight outcome)"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+}
+
+a_stream_of_packets_that_crash_predictor_and_logger_costs_progress_only() {
+  local stream port
+  scenario=$root/tests/launch/pillars.yaml
+  start_flight flight --set timeout_s=60
+  port=$(grep -oE ':[0-9]+' "$work/flight/env.sh" | tail -n 1)
+  flood "${port#:}" DECLARED_MOTIONS
+  local result=0
+  wait "$flight" || result=$?
+  wait "$stream" || fail "no stream"
+  cat "$work/flight.out"
+  [[ $result == 0 && $(field flight outcome) == reached ]] || fail "exit code $result, $(field flight outcome)"
+  expect "the predictor died" has_text "tern-predictor ended with signal SEGV; restart 3" "$work/flight/tern-predictor.log"
+  expect "the logger died" has_text "tern-logger ended with signal SEGV; restart 3" "$work/flight/tern-logger.log"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+}
+
+after_a_stream_of_packets_that_crash_lcm_the_processes_fly() {
+  local stream process started=() scenario=$root/tests/launch/pillars.yaml
+  cp "$scenario" "$work/scenario.yaml"
+  flood 7667 HEARTBEAT # which every process hears
+  for process in tern-simulator tern-planner tern-predictor tern-mapper tern-logger; do
+    local options=(--config "$work/scenario.yaml")
+    [[ $process != tern-logger ]] || options+=(--record "$work/flight.lcm")
+    "$scripts/keep_alive.sh" --log "$work/$process.log" -- "$TERN_BIN/$process" "${options[@]}" &
+    started+=($!)
+  done
+  wait "$stream" || fail "no stream"
+  for process in tern-simulator tern-planner tern-predictor tern-mapper tern-logger; do
+    expect "$process died and was started again" has_text "$process ended with signal SEGV; restart 3" "$work/$process.log"
+  done
+  "$TERN_BIN/tern-monitor" --config "$work/scenario.yaml" --summary "$work/summary.json" || fail "the monitor's exit code is $?"
+  grep -h "ended with" "$work"/tern-*.log | sed 's/; restart.*//' | sort | uniq -c
+  kill -TERM "${started[@]}"
+  wait
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+}
+
 run_test "$1"

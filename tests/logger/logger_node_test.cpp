@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <lcm/lcm-cpp.hpp>
+
 #include "messages/goal.h"
 #include "runtime/channels.h"
 #include "runtime/virtual_runner.h"
@@ -60,6 +62,32 @@ TEST(Logger, RecordsEveryMessageOfEveryChannel) {
   }
   EXPECT_EQ(goals, 50);
   EXPECT_EQ(events, received);
+  EXPECT_EQ(reader->damage().bytes, 0);
+}
+
+/// Fragments can make a message of 256 MB, which LCM hands over.
+TEST(Logger, LeavesOutWhatNoReaderTakesAndTheLogStaysWhole) {
+  const TempFolder folder;
+  const std::string path = folder.file("a.lcm");
+  const auto lcm = std::make_shared<lcm::LCM>("memq://");
+  const VirtualClock clock(UTime{1});
+  Bus bus(lcm, clock, 1);
+  {
+    LoggerNode logger(bus, LoggerConfig{}, path);
+    for (const std::size_t bytes : {std::size_t{10}, kLogMaxDataBytes, kLogMaxDataBytes + 1, std::size_t{20}}) {
+      const std::vector<std::uint8_t> data(bytes);
+      lcm->publish("EXTRA", data.data(), static_cast<unsigned>(bytes));
+      lcm->handleTimeout(0);
+    }
+    bus.rethrow();
+    EXPECT_EQ(logger.table().counts().at("EXTRA").received, 4);
+    EXPECT_EQ(logger.counters().unwritten, 0);
+  }
+  auto reader = LogReader::open(path);
+  ASSERT_TRUE(reader);
+  std::vector<std::size_t> sizes;
+  while (const auto event = reader->next()) sizes.push_back(event->data.size());
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{10, kLogMaxDataBytes, 20}));
   EXPECT_EQ(reader->damage().bytes, 0);
 }
 

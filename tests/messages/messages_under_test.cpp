@@ -101,6 +101,7 @@ struct Words {
   void add(const Heartbeat& h) {
     (*this)(h.header, h.process, h.build_id, h.state, h.waiting_for, h.channels.size());
     for (const auto& [name, counters] : h.channels) (*this)(name, counters);
+    for (const ClockEcho& echo : h.echoes) (*this)(echo.sender_epoch_us, echo.sent, echo.received);
   }
   void add(const ConfigurationReport& r) { (*this)(r.header, r.process, r.build_id, r.platform, r.yaml, r.hash); }
   void add(const ObstacleTruth& t) { (*this)(t.header, t.batch, t.at, t.obstacles, t.left_out); }
@@ -175,9 +176,12 @@ std::vector<std::int32_t> array_sizes(const Plan& plan) {
 }
 template <>
 std::vector<std::int32_t> array_sizes(const Heartbeat& heartbeat) {
-  return {size_of(heartbeat.process), size_of(heartbeat.build_id), size_of(heartbeat.waiting_for),
+  return {size_of(heartbeat.process),
+          size_of(heartbeat.build_id),
+          size_of(heartbeat.waiting_for),
           size_of(heartbeat.channels),
-          text_bytes(heartbeat.channels, [](const auto& channel) { return channel.first; })};
+          text_bytes(heartbeat.channels, [](const auto& channel) { return channel.first; }),
+          size_of(heartbeat.echoes)};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const ConfigurationReport& report) {

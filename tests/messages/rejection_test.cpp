@@ -311,9 +311,20 @@ TEST(Rejection, OfHeartbeat) {
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels = {{"", ChannelCounters{}}}; }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels = {{std::string(64, 'x'), ChannelCounters{}}}; }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.waiting_for = "\xC3"; }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.echoes = {{0, {}, {}}}; }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.echoes = {{1, {kFarPast}, {}}}; }), "Time");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.echoes = {{1, {}, {kFarPast}}}; }), "Time");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.echoes = {{7, {}, {}}, {7, {}, {}}}; }), "Inconsistent");
   using Wire = tern_msgs::heartbeat_t;
   const auto after_wire = after_on_wire<Heartbeat, Wire>;
-  EXPECT_EQ(after_wire([](Wire& m) { ++m.channels[0].name_length; }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) {
+              m.channels.resize(1);
+              m.channel_count = 1;
+              m.channels[0].name_length = 3;
+              m.channel_text = {'A', 'B'};
+              m.channel_text_count = 2;
+            }),
+            "Inconsistent");
   EXPECT_EQ(after_wire([](Wire& m) {
               m.channels.resize(2);
               m.channel_count = 2;

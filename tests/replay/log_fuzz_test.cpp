@@ -18,6 +18,7 @@
 #include "messages/track_set.h"
 #include "runtime/channels.h"
 #include "tests/messages/allocation_meter.h"
+#include "tests/support/fuzz_count.h"
 #include "tests/support/random_splines.h"
 #include "tools/log_reader/flight_log.h"
 
@@ -26,7 +27,7 @@ namespace {
 
 using support::random_integer;
 
-constexpr int kMutations = 10'000;
+const int kMutations = support::fuzz_count(10'000);
 constexpr std::size_t kMostHeld = std::size_t{64} << 20U;  // bytes
 constexpr std::size_t kLogBytes = 20'000;                  // of the log: enough for every kind of message
 

@@ -1,6 +1,7 @@
 // The configuration is strict, and every refusal names file, line, key, value and limit.
 #include "runtime/config.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -12,6 +13,7 @@
 #include <limits>
 
 #include "runtime/yaml_tree.h"
+#include "tests/messages/allocation_meter.h"
 
 namespace tern {
 namespace {
@@ -185,6 +187,84 @@ TEST(Config, RefusesWhatIsNotOneMappingOfYaml) {
             "a.yaml:1: nested deeper than 32 levels");
 }
 
+/// The aliases of a billion laughs: ten of each of ten, `levels` deep.
+std::string alias_bomb(int levels) {
+  std::string yaml = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int k = 1; k < levels; ++k) {
+    const std::string alias = "*a" + std::to_string(k - 1);
+    yaml += "a" + std::to_string(k) + ": &a" + std::to_string(k) + " [" + alias;
+    for (int i = 1; i < 10; ++i) yaml += ", " + alias;
+    yaml += "]\n";
+  }
+  return yaml;
+}
+
+TEST(Yaml, RepeatsWhatAnAliasNames) {
+  ConfigSection root = root_of("a: &p [1, 2, 3]\nb: *p\nc: {d: *p}\ne: &t word\nf: *t\n");
+  EXPECT_EQ(root.vec3("b", Vec3::Zero()), Vec3(1, 2, 3));
+  EXPECT_EQ(root.section("c").vec3("d", Vec3::Zero()), Vec3(1, 2, 3));
+  EXPECT_EQ(root.text("f", ""), "word");
+  EXPECT_EQ(error_of("a: &p [1, 2]\nb: *p\n", [](ConfigSection& s) { s.vec3("b", Vec3::Zero()); }),
+            "a.yaml:2: b: a list of 2 is not a list of 3 numbers");
+}
+
+TEST(Yaml, AnAliasBombIsRefusedBeforeItIsExpanded) {
+  const auto nothing = [](ConfigSection&) {};
+  const AllocationMeter meter;
+  EXPECT_EQ(error_of(alias_bomb(9), nothing), "a.yaml:5: more than 200000 values, with those that aliases repeat");
+  EXPECT_EQ(error_of("a: &a [*a]\n", nothing), "a.yaml:1: an alias of what it stands in");
+  std::string deep = "k0: &k0 [x]\n";
+  for (int k = 1; k < 40; ++k) {
+    deep += fmt::format("k{}: &k{} [*k{}]\n", k, k, k - 1);
+  }
+  EXPECT_EQ(error_of(deep, nothing), "a.yaml:32: nested deeper than 32 levels");
+  EXPECT_LT(meter.peak(), std::size_t{100} << 20U);
+}
+
+TEST(Yaml, NestedAnchorsAreCountedAsOftenAsTheyAreHeld) {
+  std::string yaml = "a: ";
+  for (int k = 0; k < 30; ++k) yaml += fmt::format("&a{} [", k);
+  for (int k = 0; k < 20'000; ++k) yaml += "1, ";
+  yaml += std::string(30, ']');
+  const AllocationMeter meter;
+  EXPECT_EQ(error_of(yaml, [](ConfigSection&) {}), "a.yaml:1: more than 200000 values, with those that aliases repeat");
+  EXPECT_LT(meter.peak(), std::size_t{100} << 20U);
+}
+
+TEST(Yaml, RefusesWhatIsTooLargeBeforeItIsHeld) {
+  const auto nothing = [](ConfigSection&) {};
+  const AllocationMeter meter;
+  std::string yaml = "a: [0";
+  for (std::size_t k = 0; k < kMaxYamlValues; ++k) yaml += k % 10 == 0 ? ",\n0" : ", 0";
+  EXPECT_EQ(error_of(yaml + "]\n", nothing), "a.yaml:20001: more than 200000 values, with those that aliases repeat");
+  EXPECT_EQ(error_of("a: " + std::string(kMaxYamlBytes, 'x'), nothing), "a.yaml:1: has more than 4194304 bytes");
+  EXPECT_EQ(error_of("a: " + std::string(2'000'000, '['), nothing), "a.yaml:1: more than 1000 open brackets");
+  EXPECT_EQ(error_of("a: 1\nb: " + std::string(2'000'000, '{'), nothing), "a.yaml:2: more than 1000 open brackets");
+  EXPECT_LT(meter.peak(), std::size_t{100} << 20U);
+}
+
+TEST(Yaml, AFileWithoutEndIsRefusedByItsSize) {
+  EXPECT_EQ(error_of([] { ConfigDocument::load("/dev/zero", {}); }), "/dev/zero:1: has more than 4194304 bytes");
+}
+
+/// Every comparison of two keys would make 1.8e9 of them: nobody waits for that, and the test's time would end.
+TEST(Yaml, SixtyThousandUnknownKeysAreReadOnce) {
+  std::string yaml;
+  for (int k = 0; k < 60'000; ++k) yaml += fmt::format("unknown_{}: 1\n", k);
+  EXPECT_EQ(error_of(yaml, [](ConfigSection& s) { s.number("x", 0.0); }),
+            "a.yaml:1: unknown_0: unknown key (known here: x)");
+  EXPECT_EQ(error_of(yaml + "unknown_7: 2\n", [](ConfigSection&) {}),
+            "a.yaml:60001: key unknown_7 is given twice (first at a.yaml:8)");
+}
+
+TEST(Config, KnowsTheKeysThatItWasAskedFor) {
+  EXPECT_EQ(error_of("t: 1\n",
+                     [](ConfigSection& s) {
+                       if (s.has("time")) s.required_number("time");
+                     }),
+            "a.yaml:1: t: unknown key (known here: time)");
+}
+
 TEST(Config, RefusesAFileThatCannotBeRead) {
   EXPECT_EQ(error_of([] { ConfigDocument::load("/no/such/file.yaml", {}); }), "/no/such/file.yaml: cannot be read");
   EXPECT_EQ(error_of([] { ConfigDocument::load("/tmp", {}); }), "/tmp: cannot be read");
@@ -241,6 +321,9 @@ TEST(Override, ErrorsNameTheOverride) {
   EXPECT_EQ(error_of("", read, {"=1"}), "--set =1: \"\" is not a path such as uav.limits.v_max");
   EXPECT_EQ(error_of("", read, {"s..a=1"}), "--set s..a=1: \"s..a\" is not a path such as uav.limits.v_max");
   EXPECT_EQ(error_of("", read, {"s[x]=1"}), "--set s[x]=1: \"s[x]\" is not a path such as uav.limits.v_max");
+  std::string deep = "s";
+  for (int k = 0; k < 40; ++k) deep += ".s";
+  EXPECT_EQ(error_of("", read, {deep + "=1"}), "--set " + deep + "=1: more than 32 keys deep");
   EXPECT_EQ(error_of("s: 3", read, {"s.a=1"}), "--set s.a=1: a cannot be set: above it stands 3");
   EXPECT_EQ(error_of("", read, {"s[0]=1"}), "--set s[0]=1: s[0]: the list has 0 entries");
   EXPECT_EQ(error_of("", read, {"s.a="}), "--set s.a=: s.a: nothing is not a number");

@@ -1,12 +1,15 @@
 // A host reports its node's health and configuration, and paces.
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <lcm/lcm-cpp.hpp>
 
 #include "core/base/digest.h"
+#include "core/base/random.h"
 #include "core/world/message_limits.h"
 #include "messages/configuration_report.h"
 #include "messages/heartbeat.h"
+#include "runtime/clock_exchange.h"
 #include "runtime/lcm_network.h"
 #include "runtime/platform.h"
 #include "runtime/version.h"
@@ -45,6 +48,64 @@ TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFive
   EXPECT_EQ(reports[0].hash, configuration_hash("x: 1\n"));
 }
 
+TEST(NodeHost, TellsBackWhatItHeardAndAnswersANewProcessAtOnce) {
+  VirtualRunner runner(kStart);
+  std::vector<Heartbeat> beats;
+  runner.observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& h) { beats.push_back(h); });
+  const auto start = [&](const char* name) {
+    runner.start(name, [](Bus& bus) {
+      return std::make_unique<Talker>(bus, Talker::Options{"t", Duration{100'000}}, nullptr);
+    });
+  };
+  start("first");
+  runner.run(kStart + Duration{700'000});
+  beats.clear();
+  start("second");
+  runner.run(kStart + Duration{700'000} + kHeartbeatSpacing);
+  // The second beats as it starts, and tells the first one's back as soon as it has heard it.
+  ASSERT_EQ(beats.size(), 3U);
+  EXPECT_EQ(beats[1].process, "first");
+  EXPECT_EQ(beats[2].process, "second");
+  for (const auto& [heard, told] : {std::pair(0, 1), std::pair(1, 2)}) {
+    const Heartbeat& h = beats[static_cast<std::size_t>(heard)];
+    const Heartbeat& t = beats[static_cast<std::size_t>(told)];
+    ASSERT_EQ(t.echoes.size(), 1U);
+    EXPECT_EQ(t.echoes[0].sender_epoch_us, h.header.name.sender_epoch_us);
+    EXPECT_EQ(t.echoes[0].sent, h.header.utime);
+  }
+}
+
+TEST(HeardClocks, KeepsTheNewestOfEachForAWhileAndNoMoreThanAMessageHolds) {
+  HeardClocks heard;
+  EXPECT_TRUE(heard.hear({{5, 1}, UTime{10}}, UTime{100}));
+  EXPECT_FALSE(heard.hear({{5, 2}, UTime{20}}, UTime{200}));
+  ASSERT_EQ(heard.echoes(UTime{300}).size(), 1U);
+  EXPECT_EQ(heard.echoes(UTime{300})[0].sent, UTime{20});
+  const UTime later = UTime{201} + HeardClocks::kOldest;
+  EXPECT_TRUE(heard.echoes(later).empty());
+  EXPECT_TRUE(heard.hear({{5, 3}, UTime{30}}, later));
+  for (int k = 0; k < 1'000; ++k) heard.hear({{100 + k, 1}, UTime{40}}, later + Duration{k});
+  const std::vector<ClockEcho> echoes = heard.echoes(later + Duration{1'000});
+  ASSERT_EQ(echoes.size(), static_cast<std::size_t>(kMaxClockEchoes));
+  EXPECT_EQ(echoes.front().sender_epoch_us, 1'100 - kMaxClockEchoes);
+}
+
+/// Random clocks, ways and drifts of a window: what is said is never off by more than half the round trip that is said.
+RC_GTEST_PROP(ClockSkew, IsOffByHalfTheRoundTripAtMost, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const std::int64_t ahead = static_cast<std::int64_t>(rng.uniform(-1e6, 1e6));
+  ClockSkew skew;
+  for (int k = 0; k < 10; ++k) {
+    const auto some = [&](double most) { return Duration{static_cast<std::int64_t>(rng.uniform(0.0, most))}; };
+    const UTime sent{k * 500'000};
+    const UTime there = sent + some(1e5);
+    const UTime back = there + some(5e5);
+    skew.add({1, sent, there + Duration{ahead}}, back + Duration{ahead}, back + some(1e5));
+  }
+  const ClockReading reading = skew.reading().value();
+  RC_ASSERT(std::abs(reading.ahead.us - ahead) * 2 <= reading.round_trip.us + 1);
+}
+
 TEST(NodeHost, CutsAConfigurationThatNoMessageHoldsAndStillTellsTwoApart) {
   std::string yaml;
   while (yaml.size() < 100'000) yaml += "key: value\n";
@@ -70,7 +131,7 @@ class Pacer final : public Node {
   explicit Pacer(Bus& bus) : bus_(bus) {}
   [[nodiscard]] UTime next_wakeup() const override { return done_ ? kNever : kStart; }
   void step(UTime /*now*/) override {
-    done_ = true;
+    if (std::exchange(done_, true)) return;
     std::vector<Goal> goals(4);
     for (Goal& goal : goals) goal.id = 1;
     bus_.publish_paced(channels::kGoal, goals);

@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 
 #include "random_scenario.h"
+#include "tests/messages/allocation_meter.h"
+#include "tests/support/fuzz_count.h"
 
 namespace tern {
 namespace {
@@ -75,6 +78,50 @@ TEST(ScenarioFile, TheReadmesExampleIsRead) {
   EXPECT_EQ(scenario.semantics.regions.size(), 2U);
 }
 
+/// Flips, overwrites, cuts out, doubles or cuts off some bytes, or puts in what YAML gives a meaning.
+std::string mutated(std::string text, Rng& rng) {
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(rng.uniform() * static_cast<double>(n)); };
+  constexpr const char* kPieces[] = {"&a ", "*a", "[",      "]",     "{",  "}",    ": ",    "- ", "\n",   "? ",
+                                     "| ",  "#",  "!!str ", "---\n", "\"", ".inf", "1e999", "\t", "<<: ", "%"};
+  for (std::size_t n = 1 + below(5); n > 0 && !text.empty(); --n) {
+    const std::size_t at = below(text.size());
+    const std::size_t length = std::min(1 + below(40), text.size() - at);
+    switch (below(6)) {
+      case 0: text[at] = static_cast<char>(below(256)); break;
+      case 1: text[at] = static_cast<char>(text[at] ^ (1 << below(8))); break;
+      case 2: text.erase(at, length); break;
+      case 3: text.insert(at, text, below(text.size()), length); break;
+      case 4: text.insert(at, kPieces[below(std::size(kPieces))]); break;
+      default:
+        if (rng.uniform() < 0.2) text.resize(at);
+    }
+  }
+  return text;
+}
+
+TEST(ScenarioFile, MutatedIsReadOrRefusedWithItsNameAndTakesLittle) {
+  std::vector<std::string> originals;
+  for (const auto& entry : std::filesystem::directory_iterator(TERN_SCENARIOS)) {
+    if (entry.path().extension() != ".yaml") continue;
+    std::ifstream stream(entry.path());
+    originals.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  }
+  std::sort(originals.begin(), originals.end());
+  Rng rng(7);
+  int was_read = 0;
+  const int count = support::fuzz_count(1'000);
+  for (int k = 0; k < count; ++k) {
+    const std::string yaml = mutated(originals[static_cast<std::size_t>(k) % originals.size()], rng);
+    const AllocationMeter meter;
+    const std::string error = error_of(yaml);
+    was_read += error.empty() ? 1 : 0;
+    ASSERT_TRUE(error.empty() || error.rfind("a.yaml", 0) == 0) << k << ": " << error;
+    ASSERT_LT(meter.peak(), std::size_t{20} << 20U) << k;
+  }
+  EXPECT_GT(was_read, 0);
+  EXPECT_LT(was_read, count);
+}
+
 TEST(ScenarioFile, AnEmptyFileIsAllDefaultsNamedAfterTheFile) {
   Scenario defaults;
   defaults.name = "a";
@@ -84,6 +131,48 @@ TEST(ScenarioFile, AnEmptyFileIsAllDefaultsNamedAfterTheFile) {
 TEST(ScenarioFile, LeavesProcessSectionsToTheirProcesses) {
   EXPECT_EQ(error_of("planner: {anything: 1}\nsimulator: {}\npredictor:\n"), "");
   EXPECT_EQ(error_of("plannr: {}\n").rfind("a.yaml:1: plannr: unknown key", 0), 0U);
+}
+
+TEST(ScenarioFile, ListsEveryTopLevelKeyThatItKnows) {
+  EXPECT_EQ(error_of("plannr: {}\n"),
+            "a.yaml:1: plannr: unknown key (known here: executor, logger, mapper, name, planner, predictor, seed, "
+            "semantics, simulator, timeout_s, uav, world)");
+}
+
+TEST(ScenarioFile, CallsAMisspeltKeyUnknownBeforeItBlamesTheDefaultThatStandsInItsPlace) {
+  const auto starts = [](const std::string& yaml, const std::string& text) {
+    const std::string error = error_of(yaml);
+    EXPECT_EQ(error.rfind(text, 0), 0U) << error;
+  };
+  starts("uav:\n  start: [500, 0, 1]\n  gaol: [501, 0, 1]\n  flight_box: {min: [490, -9, 0], max: [520, 9, 5]}\n",
+         "a.yaml:3: uav.gaol: unknown key");
+  starts("world:\n  generatr: sando_forest\n  count: 3\n", "a.yaml:2: world.generatr: unknown key");
+  starts("semantics:\n  clases: {moss: attractive}\n  lambdas: {moss: 1}\n", "a.yaml:2: semantics.clases: unknown key");
+  starts(
+      "semantics:\n  clases: {moss: attractive}\n  regions: [{name: r, class: moss, ball: {centre: [0, 0, 0], radius: "
+      "1}}]\n",
+      "a.yaml:2: semantics.clases: unknown key");
+  starts("semantics:\n  regions:\n    - name: r\n      class: meadow\n      bal: {centre: [0, 0, 0], radius: 1}\n",
+         "a.yaml:5: semantics.regions[0].bal: unknown key");
+  starts("world:\n  recorded:\n    - file: a\n      colums: 8\n      y_column: 7\n",
+         "a.yaml:4: world.recorded[0].colums: unknown key");
+  starts(
+      "world:\n  obstacles:\n    - motion: waypoints\n      repeat: true\n      point: [[0, 1, 1, 1], [1, 1, 1, 1]]\n",
+      "a.yaml:5: world.obstacles[0].point: unknown key");
+}
+
+TEST(ScenarioFile, RefusesMoreCornersAndClassesThanItTakesTimeFor) {
+  std::string corners =
+      "semantics:\n  regions:\n    - name: r\n      class: meadow\n      prism:\n        z_min: 0\n        z_max: 1\n  "
+      "      corners: [";
+  for (int k = 0; k < 60'000; ++k) corners += "[" + std::to_string(k) + ", 0], ";
+  EXPECT_EQ(error_of(corners + "[0, 1]]\n"),
+            "a.yaml:8: semantics.regions[0].prism.corners: 60001 of them (limit 1000)");
+  for (const std::string key : {"classes", "lambdas"}) {
+    std::string classes = "semantics:\n  " + key + ":\n";
+    for (int k = 0; k < 60'000; ++k) classes += "    c" + std::to_string(k) + ": free\n";
+    EXPECT_EQ(error_of(classes), "a.yaml:60002: semantics." + key + ".c59999: 60000 classes (limit 255)");
+  }
 }
 
 TEST(ScenarioFile, TakesLimitsAsOneNumberOrThreeAndInfiniteJerk) {

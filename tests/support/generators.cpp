@@ -322,6 +322,11 @@ Heartbeat random_message(Rng& rng, Fill fill) {
   while (heartbeat.channels.size() < channels) {
     heartbeat.channels.emplace(text(rng, count(rng, fill, 1, kMaxChannelName)), counters(rng));
   }
+  const int echoes = count(rng, fill, 0, kMaxClockEchoes);
+  for (std::int64_t epoch_us = 0; std::ssize(heartbeat.echoes) < echoes;) {
+    epoch_us += integer(rng, 1, kMaxTimeUs / kMaxClockEchoes);
+    heartbeat.echoes.push_back({epoch_us, time(rng), time(rng)});
+  }
   return heartbeat;
 }
 

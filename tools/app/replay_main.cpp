@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 
 #include "runtime/config.h"
@@ -47,7 +48,7 @@ int main(int argc, char** argv) {
     return tern::replay_exit_code(*replay, what_if);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : tern::kExitBadConfiguration;
-  } catch (const tern::ConfigError& error) {
+  } catch (const std::exception& error) {
     fmt::print(stderr, "tern-replay: {}\n", error.what());
     return tern::kExitBadConfiguration;
   }

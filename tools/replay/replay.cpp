@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -47,8 +48,22 @@ class Replayer {
   void replay_those_of(const SetName& name) {
     const auto found = waiting_.find(name);
     if (found == waiting_.end()) return;
-    for (const std::size_t k : found->second) done_.push_back(replay(k));
+    for (const std::size_t k : found->second) done_.push_back(replay_or_say_why(k));
     waiting_.erase(found);
+  }
+
+  /// A planner that fails on what a log names answered otherwise then: that is a difference, and the rest is replayed.
+  ReplayedPlan replay_or_say_why(std::size_t index) {
+    try {
+      return replay(index);
+    } catch (const std::exception& e) {
+      ReplayedPlan failed;
+      failed.index = index;
+      failed.weaker = weaker_promise(inputs_, inputs_.plans[index].plan);
+      failed.difference.agreement = Agreement::Different;
+      failed.difference.parts = {{Stage::Fallback, fmt::format("planning it again failed: {}", e.what())}};
+      return failed;
+    }
   }
 
   ReplayedPlan replay(std::size_t index) {
