@@ -6,6 +6,7 @@
 
 #include "core/world/budget.h"
 #include "core/world/horizon.h"
+#include "planner/look_ahead.h"
 #include "planner/plan_workspace.h"
 #include "planner/planner.h"
 #include "planner/safety/checker.h"
@@ -44,7 +45,8 @@ struct AttemptContext {
   PlanObserver* observer;
   PlanStatistics& statistics;
   PlanWorkspace& workspace;
-  UTime followed_until = kFollowedForEver;  ///< no plan looks past this time (PredictionProducts)
+  LookAhead look;            ///< no plan looks past its followed_until
+  double goal_radius = 0.0;  ///< how far from the start the local goal may lie: near for who is slow (LocalAim), m
 };
 
 /// Of holds, s: coarser than Δt where Δt is short, so that a hold costs few hulls.
@@ -52,6 +54,10 @@ inline constexpr double kHoldStep = 0.1;
 
 /// Adds the times of a hold of hold_s after the last of `times`, s, a step apart.
 void append_hold(std::vector<double>& times, double step, double hold_s);
+
+/// Δt of J intervals that last duration_s together, rounded up to a microsecond and not below 20 ms, where rounding of
+/// accelerations q/Δt² would eat the tolerances. Nothing: it would exceed kLongestInterval.
+std::optional<Duration> interval_of(double duration_s, int intervals);
 
 /// Whether obstacles are known to the end of the hold after J intervals.
 bool is_followed(const AttemptContext& context, Duration interval);

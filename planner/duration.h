@@ -15,4 +15,9 @@ double least_time_to_rest(double d, double v0, double v_max, double a_max);
 /// or less where the acceleration does not build up that far), s.
 double least_duration(const MotionSample& start, const Vec3& to, const Limits& limits);
 
+/// What a plan's duration is counted from: least_duration(), but on no axis with a jerk limit more than it takes to
+/// stop and then to fly from rest to rest time-optimally. least_duration() overestimates gentle jerk by far, and is the
+/// better measure of progress, because it falls as soon as the vehicle moves, s.
+double planned_duration(const MotionSample& start, const Vec3& to, const Limits& limits);
+
 }  // namespace tern

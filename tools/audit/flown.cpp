@@ -1,6 +1,7 @@
 #include "tools/audit/flown.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tern::audit {
 namespace {
@@ -46,7 +47,9 @@ SampledMotion moved(const ObstacleHistory& history) {
 Window judged(const FlightRecord& record) {
   Window window{record.zero(), record.end()};
   if (record.results.empty() || record.requests.empty()) return window;
-  window.to = std::min(window.to, window.from + Duration::from_seconds(record.results.back().flight_time_s));
+  const double flight_time_s = record.results.back().flight_time_s;
+  if (std::isnan(flight_time_s)) return window;
+  window.to = std::min(window.to, window.from + Duration::from_seconds(flight_time_s));
   return window;
 }
 
