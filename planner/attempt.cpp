@@ -91,7 +91,7 @@ double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime
 
 double worth_of(const AttemptContext& context, const TimedSpline& trajectory) {
   const UTime from = context.request.t_s;
-  const double arrival_s = arrival_estimate(context.way, trajectory, from, context.plan_limits);
+  const double arrival_s = arrival_estimate(context.way, trajectory, from, context.pace);
   if (context.fields == nullptr || context.config.semantic_cost == SemanticCost::MeanDistance) return arrival_s;
   const SemanticGuide guide = guide_of(context);
   const ClampedSpline spline = trajectory.spline();

@@ -45,6 +45,7 @@ struct AttemptContext {
   PlanObserver* observer;
   PlanStatistics& statistics;
   PlanWorkspace& workspace;
+  Limits pace;               ///< the same, paced() over the way to the local goal: what arrivals are estimated by
   LookAhead look;            ///< no plan looks past its followed_until
   double goal_radius = 0.0;  ///< how far from the start the local goal may lie: near for who is slow (LocalAim), m
 };

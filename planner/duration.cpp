@@ -49,11 +49,25 @@ double least_duration(const MotionSample& start, const Vec3& to, const Limits& l
   return least;
 }
 
+Limits paced(const Limits& limits, double metres) {
+  constexpr double kGentle = 0.25;
+  constexpr double kLeastWay = 1e-4;  // m
+  Limits paced = limits;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double j = limits.j_max[axis];
+    if (!std::isfinite(j)) continue;
+    const double reached = 0.25 * j * std::cbrt(32.0 * std::max(metres, kLeastWay) / j);
+    if (reached < kGentle * limits.a_max[axis]) paced.a_max[axis] = reached;
+  }
+  return paced;
+}
+
 double planned_duration(const MotionSample& start, const Vec3& to, const Limits& limits) {
+  const Limits pace = paced(limits, (to - start.p).norm());
   double planned = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double d = to[axis] - start.p[axis];
-    double time = axis_duration(axis, start, d, limits);
+    double time = axis_duration(axis, start, d, pace);
     if (std::isfinite(limits.j_max[axis])) time = std::min(time, stop_and_go(axis, start, d, limits));
     planned = std::max(planned, time);
   }

@@ -16,8 +16,8 @@ constexpr double kShrink = 5.0 / 6.0;
 constexpr double kLeastRadius = 1e-4;
 /// Holds are not cut below this, s.
 constexpr double kLeastHold = 0.1;
-/// Of v_max: velocities that differ by less are one to the pruning of small steps.
-constexpr double kCoarseVelocity = 0.25;
+/// Of a step's mean speed: velocities that differ by less are one to its pruning.
+constexpr double kCoarseVelocity = 0.4;
 
 }  // namespace
 
@@ -75,12 +75,14 @@ LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, con
 
 double step_scale(double goal_radius) { return std::min(1.0, goal_radius / kFullStep); }
 
-SearchConfig scaled(SearchConfig search, double scale, const Limits& limits) {
-  if (scale >= 1.0) return search;
+SearchConfig scaled(SearchConfig search, double goal_radius, double least_s) {
+  const double scale = step_scale(goal_radius);
   search.band_m *= scale;
   search.cost_step_m *= scale;
   search.prune_position_m *= scale;
-  search.prune_velocity_mps = std::min(search.prune_velocity_mps, kCoarseVelocity * limits.v_max.maxCoeff());
+  if (scale < 1.0 || least_s > kFullStepTime) {
+    search.prune_velocity_mps = std::min(search.prune_velocity_mps, kCoarseVelocity * goal_radius / least_s);
+  }
   return search;
 }
 

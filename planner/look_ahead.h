@@ -51,8 +51,10 @@ LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, con
 inline constexpr double kFullStep = 2.0;
 /// By how much lengths shrink with a nearer local goal, (0, 1].
 double step_scale(double goal_radius);
-/// The search's lengths (bands, steps of cost, voxels that prune) for local goals at this radius, so that small steps
-/// are told apart as well as large ones. At kFullStep and beyond they are the configured ones.
-SearchConfig scaled(SearchConfig search, double scale, const Limits& limits);
+/// The search's lengths (bands, steps of cost, voxels that prune) for local goals at this radius, and its coarse
+/// velocity for a flight there of so many seconds, so that small and slow steps are told apart as well as large ones.
+/// At kFullStep and beyond, within kFullStepTime, they are the configured ones.
+inline constexpr double kFullStepTime = 4.0;  // s
+SearchConfig scaled(SearchConfig search, double goal_radius, double least_s);
 
 }  // namespace tern

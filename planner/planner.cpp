@@ -177,6 +177,7 @@ class Planning {
             observer_,
             answer_.statistics,
             workspace_,
+            reduced,
             look_,
             kLocalGoalShare * config_.sphere_radius_m};
   }
@@ -204,6 +205,7 @@ class Planning {
     const LocalAim aim = aim_along(*path, request_.start, context.plan_limits, context.goal_radius, look_, config_);
     context.goal_radius = aim.radius;
     context.local_goal = aim.goal;
+    context.pace = paced(context.plan_limits, (aim.goal - at).norm());
     context.way = way_along(*path, world_.goal->field->cost(), kBendIgnored * step_scale(aim.radius));
     answer_.plan.local_goal = context.local_goal;
     if (committed_) committed_->arrival_s = worth_of(context, committed_->trajectory);
@@ -215,7 +217,7 @@ class Planning {
   void try_durations(AttemptContext& context) {
     const double least = planned_duration(request_.start, context.local_goal, context.plan_limits);
     const double scale_of_lengths = step_scale(context.goal_radius);
-    const SearchConfig search = scaled(config_.search, scale_of_lengths, context.plan_limits);
+    const SearchConfig search = scaled(config_.search, context.goal_radius, least);
     int attempt = 0;
     for (const double scale : config_.duration_scales) {
       budget_.begin_attempt(attempt++);
@@ -239,11 +241,20 @@ class Planning {
   /// A longer duration is not tried when a leaf holds and comes near the local goal.
   [[nodiscard]] bool enough(double near) const { return best_->holds && best_->cost.distance_to_goal <= near; }
 
-  /// The optimizer's trajectory, where it neither gives up the leaf's hold nor much of its arrival; else the leaf.
+  /// The optimizer's trajectory, where it gives up neither the leaf's hold, nor much of its arrival, nor most of its
+  /// progress (to who crosses the sphere in less than kSmoothnessPrice, arrivals say little); else the leaf.
   Candidate optimized(AttemptContext& context, SweptObstacles& swept, Candidate leaf) {
     auto smooth = refine(context, swept, leaf);
     if (!smooth || (leaf.holds && !smooth->holds)) return leaf;
+    const double progress = progress_of(context, leaf);
+    if (progress > 0.0 && progress_of(context, *smooth) < kProgressKept * progress) return leaf;
     return smooth->arrival_s <= leaf.arrival_s + kSmoothnessPrice ? std::move(*smooth) : leaf;
+  }
+
+  /// By how much the way to go is shorter at the end, m.
+  [[nodiscard]] double progress_of(const AttemptContext& context, const Candidate& candidate) const {
+    const Points& q = candidate.trajectory.control_points;
+    return context.way.from(request_.start.p) - context.way.from(q.col(q.cols() - 1));
   }
 
   void take(Candidate candidate) {
@@ -323,6 +334,7 @@ class Planning {
   PlanAnswer finish_without(PlanReason reason) { return finish(nullptr, reason); }
 
   static constexpr double kNearLocalGoal = 1.0;  // m
+  static constexpr double kProgressKept = 0.5;
   static constexpr double kSmoothnessPrice =
       0.05;  // s: an optimized trajectory may arrive so much later than the search's
 

@@ -32,7 +32,7 @@ TEST(LegalScenario, EndsAtItsGoalOrWithAReasonThatIsTrue) {
     const VirtualFlight flight = fly_virtually(file.string(), {}, &watch);
     const FlightJudgement judgement = judge(legal, flight, watch);
     ++reasons[static_cast<std::size_t>(judgement.reason)];
-    EXPECT_EQ(judgement.fault, "") << "seed " << seed;
+    EXPECT_EQ(judgement.fault, "") << "seed " << seed << "\n" << legal.yaml;
   }
   std::filesystem::remove(file);
   for (int k = 0; k < kFlightReasons; ++k) {
