@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "core/world/message_limits.h"
+
 namespace tern {
 namespace {
 
 constexpr char kAxes[] = {'x', 'y', 'z'};
 constexpr int kLeastIntervals = 4;
-/// Far beyond any plan; keeps sums of times far from the end of int64.
-constexpr Duration kLongestInterval{60'000'000};
 
 Adoption check_form(const TimedSpline& trajectory, UTime t_s) {
   const auto intervals = trajectory.control_points.cols() - 3;

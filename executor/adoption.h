@@ -18,7 +18,8 @@ enum class Verdict : std::uint8_t {
   Late = 5,            ///< refused: after the deadline, before t_s: the request was closed
   TooLate = 6,         ///< refused: at or after t_s
   Stopped = 7,         ///< refused: the vehicle was told to stop (GoalMode::Stop) or has no mission
-  Shape = 8,          ///< refused: fewer than 4 intervals or too many, an interval not in (0, 60] s, numbers not finite
+  Shape =
+      8,  ///< refused: fewer than 4 intervals or too many, an interval not in (0, kLongestInterval], numbers not finite
   Start = 9,          ///< refused: does not start at t_s
   Join = 10,          ///< refused: position, velocity or acceleration leaves the committed trajectory at t_s
   End = 11,           ///< refused: does not end at rest

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "core/world/message_limits.h"
+
 namespace tern {
 namespace {
 
@@ -13,14 +15,14 @@ namespace {
 constexpr std::size_t kRemembered = 64;
 
 Duration checked_period(double rate_hz) {
-  if (!(rate_hz > 0.0 && rate_hz <= 1000.0)) {
-    throw std::invalid_argument("rate_hz " + std::to_string(rate_hz) + " is not in (0, 1000]");
+  if (!(rate_hz >= 1e-3 && rate_hz <= 1000.0)) {
+    throw std::invalid_argument("rate_hz " + std::to_string(rate_hz) + " is not in [0.001, 1000]");
   }
   return {static_cast<std::int64_t>(std::ceil(1e6 / rate_hz))};
 }
 
 Duration checked_lead(Duration lead) {
-  if (lead <= kDeadlineGap || lead > Duration{5'000'000}) {
+  if (lead <= kDeadlineLead || lead > Duration{5'000'000}) {
     throw std::invalid_argument("lead " + std::to_string(lead.us) + " us is not in (5000, 5000000]");
   }
   return lead;
@@ -70,7 +72,7 @@ std::optional<HorizonRequest> Executor::next_request(UTime now) {
   HorizonRequest request;
   request.id = ++counters_.requests;
   request.t_s = now + lead_;
-  request.deadline = request.t_s - kDeadlineGap;
+  request.deadline = request.t_s - kDeadlineLead;
   request.committed = committed_.in_force_at(request.t_s);
   request.start = committed_.sample(request.t_s);
   request.limits = limits_;

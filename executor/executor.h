@@ -13,12 +13,9 @@
 
 namespace tern {
 
-/// deadline = t_s − this: what an answer needs to be received, checked and spliced.
-inline constexpr Duration kDeadlineGap{5'000};
-
 struct ExecutorConfig {
-  double rate_hz = 20.0;  ///< requests per second at most, (0, 1000]
-  Duration lead{75'000};  ///< t_s of a request − now, > kDeadlineGap, ≤ 5 s
+  double rate_hz = 20.0;  ///< requests per second at most, [0.001, 1000]
+  Duration lead{75'000};  ///< t_s of a request − now, > kDeadlineLead, ≤ 5 s
 };
 
 /// Everything is counted; nothing is counted twice: requests = answered_in_time + unanswered + (0 or 1 outstanding).

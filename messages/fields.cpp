@@ -105,11 +105,6 @@ Vec3 FieldReader::vec3(const tern_msgs::vec3_t& v, double low, double high) {
   return {number(v.x, low, high), number(v.y, low, high), number(v.z, low, high)};
 }
 
-Vec3 FieldReader::limit_or_none(const tern_msgs::vec3_t& v, double high) {
-  const auto limit = [&](double x) { return x == kInfinity ? x : number(x, kAboveZero, high); };
-  return {limit(v.x), limit(v.y), limit(v.z)};
-}
-
 Points FieldReader::points(const std::vector<tern_msgs::vec3_t>& list, double limit) {
   Points result(3, static_cast<Eigen::Index>(list.size()));
   for (std::size_t i = 0; i < list.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = vec3(list[i], -limit, limit);

@@ -89,8 +89,6 @@ class FieldReader {
   Vec3 vec3(const tern_msgs::vec3_t& v, double low, double high);
   Vec3 position(const tern_msgs::vec3_t& v) { return vec3(v, -kMaxCoordinate, kMaxCoordinate); }
   Vec3 extents(const tern_msgs::vec3_t& v) { return vec3(v, 0.0, kMaxCoordinate); }
-  /// Each component within (0, high], or infinite: no limit.
-  Vec3 limit_or_none(const tern_msgs::vec3_t& v, double high);
   /// A column for each, components within ±limit.
   Points points(const std::vector<tern_msgs::vec3_t>& list, double limit);
   MotionSample motion(const tern_msgs::motion_t& m);

@@ -56,9 +56,9 @@ tl::expected<HorizonRequest, Rejection> from_lcm(const Message& m) {
   request.committed.interval = read.duration(m.committed_interval_us, kShortestInterval, kLongestInterval);
   request.committed.control_points = read.points(m.control_points, kMaxCoordinate);
   request.start = read.motion(m.start);
-  request.limits.v_max = read.vec3(m.v_max, wire::kAboveZero, kMaxSpeed);
-  request.limits.a_max = read.vec3(m.a_max, wire::kAboveZero, kMaxAcceleration);
-  request.limits.j_max = read.limit_or_none(m.j_max, kMaxJerk);
+  request.limits.v_max = read.vec3(m.v_max, kLeastLimit, kMostSpeedLimit);
+  request.limits.a_max = read.vec3(m.a_max, kLeastLimit, kMostAccelerationLimit);
+  request.limits.j_max = read.vec3(m.j_max, kLeastLimit, wire::kInfinity);
   request.body.radius = read.number(m.body_radius, 0.0, kMaxBodyExtent);
   request.body.vertices = read.points(m.body_vertices, kMaxBodyExtent);
   request.flight_box = Box(read.position(m.flight_box_min), read.position(m.flight_box_max));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/world/message_limits.h"
 #include "planner/duration.h"
 #include "planner/optimization/trajectory_problem.h"
 #include "planner/semantics/semantic_guide.h"
@@ -12,6 +13,8 @@ namespace {
 
 /// For how long a trajectory is taken to be flown before a better one follows, s.
 constexpr double kWhiles[] = {0.3, 0.8};
+
+constexpr double kLeastInterval = 0.02;  // s
 
 SemanticGuide guide_of(const AttemptContext& context) {
   return {*context.fields, context.config.semantic_cost, context.request.start.p, context.local_goal};
@@ -88,7 +91,7 @@ double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime
 
 double worth_of(const AttemptContext& context, const TimedSpline& trajectory) {
   const UTime from = context.request.t_s;
-  const double arrival_s = arrival_estimate(context.way, trajectory, from, context.plan_limits);
+  const double arrival_s = arrival_estimate(context.way, trajectory, from, context.pace);
   if (context.fields == nullptr || context.config.semantic_cost == SemanticCost::MeanDistance) return arrival_s;
   const SemanticGuide guide = guide_of(context);
   const ClampedSpline spline = trajectory.spline();
@@ -102,9 +105,15 @@ void append_hold(std::vector<double>& times, double step, double hold_s) {
   for (int k = 1; (k - 1) * step < hold_s - 1e-9; ++k) times.push_back(end + std::min(k * step, hold_s));
 }
 
+std::optional<Duration> interval_of(double duration_s, int intervals) {
+  const double dt = std::max(duration_s / intervals, kLeastInterval);
+  if (!(dt <= kLongestInterval.seconds())) return std::nullopt;
+  return Duration{static_cast<std::int64_t>(std::ceil(dt * 1e6))};
+}
+
 bool is_followed(const AttemptContext& context, Duration interval, double hold_s) {
   const Duration looks = interval * context.config.intervals + Duration::from_seconds(hold_s);
-  return context.request.t_s + looks <= context.followed_until;
+  return context.request.t_s + looks <= context.look.followed_until;
 }
 
 void sweep_horizon(const AttemptContext& context, Duration interval, double hold_s, SweptObstacles& swept) {

@@ -7,6 +7,7 @@
 #include "core/world/budget.h"
 #include "core/world/horizon.h"
 #include "planner/hold.h"
+#include "planner/look_ahead.h"
 #include "planner/plan_workspace.h"
 #include "planner/planner.h"
 #include "planner/safety/checker.h"
@@ -45,7 +46,9 @@ struct AttemptContext {
   PlanObserver* observer;
   PlanStatistics& statistics;
   PlanWorkspace& workspace;
-  UTime followed_until = kFollowedForEver;  ///< no plan looks past this time (PredictionProducts)
+  Limits pace;               ///< the same, paced() over the way to the local goal: what arrivals are estimated by
+  LookAhead look;            ///< no plan looks past its followed_until
+  double goal_radius = 0.0;  ///< how far from the start the local goal may lie: near for who is slow (LocalAim), m
   HoldDemand hold = {};
 };
 
@@ -54,6 +57,10 @@ inline constexpr double kHoldStep = 0.1;
 
 /// Adds the times of a hold of hold_s after the last of `times`, s, a step apart.
 void append_hold(std::vector<double>& times, double step, double hold_s);
+
+/// Δt of J intervals that last duration_s together, rounded up to a microsecond and not below 20 ms, where rounding of
+/// accelerations q/Δt² would eat the tolerances. Nothing: it would exceed kLongestInterval.
+std::optional<Duration> interval_of(double duration_s, int intervals);
 
 /// Whether obstacles are known to the end of a hold of hold_s after J intervals.
 bool is_followed(const AttemptContext& context, Duration interval, double hold_s);

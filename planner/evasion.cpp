@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/geometry/box.h"
-#include "core/world/message_limits.h"
 #include "planner/duration.h"
 
 namespace tern {
@@ -102,9 +101,9 @@ std::vector<Stop> ordered_stops(const AttemptContext& context, EvasionAim aim) {
       stop.point = context.request.start.p + directions()[k] * distance;
       if (!box.contains(stop.point)) continue;
       const double least = least_duration(context.request.start, stop.point, context.plan_limits);
-      const double interval_s = std::max(kStopScale * least / context.config.intervals, kLeastInterval);
-      if (interval_s > kLongestInterval.seconds()) continue;
-      stop.interval = Duration{static_cast<std::int64_t>(std::ceil(interval_s * 1e6))};
+      const auto interval = interval_of(kStopScale * least, context.config.intervals);
+      if (!interval) continue;
+      stop.interval = *interval;
       stop.way_s = stop.interval.seconds() * context.config.intervals;
       longest = std::max(longest, stop.way_s);
       stops.push_back(stop);

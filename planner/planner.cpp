@@ -9,7 +9,7 @@
 #include "planner/attempt.h"
 #include "planner/duration.h"
 #include "planner/evasion.h"
-#include "planner/global_path/local_goal.h"
+#include "planner/look_ahead.h"
 #include "planner/refinement.h"
 #include "planner/start_clearance.h"
 
@@ -24,15 +24,15 @@ constexpr double kBendIgnored = 0.15;
 
 /// Heads for the farthest corner of the path to which the straight line is hardly shorter: small bends around posts are
 /// the search's business, but the way into a window, out of a trap or around a region leads over its corners.
-WayToGo way_along(const std::vector<Vec3>& path, const TravelCost& cost) {
+WayToGo way_along(const std::vector<Vec3>& path, const TravelCost& cost, double bend_ignored) {
   std::size_t corner = 1;
   double length = 0.0;
   double along = 0.0;
   for (std::size_t k = 1; k < path.size(); ++k) {
     length += (path[k] - path[k - 1]).norm();
     along += cost(path[k - 1], path[k]);
-    const bool is_straight = length - (path[k] - path[0]).norm() <= kBendIgnored;
-    if (k == 1 || (is_straight && cost(path[0], path[k]) - along <= kBendIgnored)) corner = k;
+    const bool is_straight = length - (path[k] - path[0]).norm() <= bend_ignored;
+    if (k == 1 || (is_straight && cost(path[0], path[k]) - along <= bend_ignored)) corner = k;
   }
   WayToGo way{path[corner], 0.0};
   for (std::size_t k = corner + 1; k < path.size(); ++k) way.rest += (path[k] - path[k - 1]).norm();
@@ -41,11 +41,12 @@ WayToGo way_along(const std::vector<Vec3>& path, const TravelCost& cost) {
 
 class Planning {
  public:
-  Planning(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
-           PlanWorkspace& workspace, PlanObserver* observer)
+  Planning(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
+           const LookAhead& look, Budget& budget, PlanWorkspace& workspace, PlanObserver* observer)
       : request_(request),
         world_(world),
         config_(config),
+        look_(look),
         budget_(budget),
         observer_(observer),
         workspace_(workspace),
@@ -100,10 +101,7 @@ class Planning {
 
   /// Tracks and map boxes that can matter; α of those around the start scaled down where it must be.
   void choose_obstacles() {
-    const double reach = config_.sphere_radius_m + request_.body.half_extents().maxCoeff() + kBetaMax;
-    const Box sphere = box_around(request_.start.p, Vec3::Constant(reach));
-    const Box committed = grown(committed_box(), request_.body.half_extents() + Vec3::Constant(kBetaMax));
-    const Box region = sphere.merged(committed);
+    const Box region = planning_region(request_, config_);
     obstacles_.clear();
     std::vector<std::int32_t>& found = workspace_.found;
     world_.predictions->index.query(region, found);
@@ -142,18 +140,6 @@ class Planning {
     return obstacle.track == nullptr || obstacle.track->kind != TrackKind::Estimated;
   }
 
-  /// Where the vehicle's centre may be from t_s on if nothing new is flown. It may lie far out of the sphere around the
-  /// start.
-  [[nodiscard]] Box committed_box() const {
-    const ClampedSpline spline = request_.committed.spline();
-    const double from_s = (request_.t_s - request_.committed.start).seconds();
-    Box box(request_.start.p);
-    for (int j = 0; j < spline.intervals(); ++j) {
-      if ((j + 1) * spline.interval_s() >= from_s) box.extend(spline.position_bounds(j));
-    }
-    return box;
-  }
-
   /// The committed trajectory from t_s on and its end's hold, against this world.
   std::optional<Candidate> check_committed() {
     const TimedSpline& committed = request_.committed;
@@ -171,13 +157,12 @@ class Planning {
       }
     }
     const double moving_s = times.back();
-    const double followed_s = (world_.predictions->followed_until - request_.t_s).seconds();
-    if (moving_s > followed_s) return std::nullopt;
+    if (moving_s > look_.followed_s) return std::nullopt;
     const bool rests = pieces.empty();
     const double look_s = rests ? hold_.cap_of_stop(0.0) : hold_.cap(moving_s);
-    append_hold(times, kHoldStep, std::min(look_s, followed_s - moving_s));
+    append_hold(times, kHoldStep, std::min(look_s, look_.followed_s - moving_s));
     SweptObstacles& swept = workspace_.committed;
-    swept.assign(obstacles_, request_.body, request_.t_s, times, committed_box());
+    swept.assign(obstacles_, request_.body, request_.t_s, times, committed_box(request_));
     CheckReport report = check_separation(pieces, swept);
     count(report.pairs, swept);
     if (!report.ok()) return std::nullopt;
@@ -220,7 +205,9 @@ class Planning {
             observer_,
             answer_.statistics,
             workspace_,
-            world_.predictions->followed_until,
+            reduced,
+            look_,
+            kLocalGoalShare * config_.sphere_radius_m,
             hold_};
   }
 
@@ -244,8 +231,11 @@ class Planning {
     }
     const auto path = world_.goal->field->path_from(at);
     if (!path) return false;
-    context.way = way_along(*path, world_.goal->field->cost());
-    context.local_goal = local_goal(*path, at, kLocalGoalShare * config_.sphere_radius_m);
+    const LocalAim aim = aim_along(*path, request_.start, context.plan_limits, context.goal_radius, look_, config_);
+    context.goal_radius = aim.radius;
+    context.local_goal = aim.goal;
+    context.pace = paced(context.plan_limits, (aim.goal - at).norm());
+    context.way = way_along(*path, world_.goal->field->cost(), kBendIgnored * step_scale(aim.radius));
     answer_.plan.local_goal = context.local_goal;
     if (committed_) committed_->arrival_s = worth_of(context, committed_->trajectory);
     return true;
@@ -254,18 +244,21 @@ class Planning {
   /// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, each
   /// leaf optimized, the best kept.
   void try_durations(AttemptContext& context) {
-    const double least = least_duration(request_.start, context.local_goal, context.plan_limits);
+    const double least = planned_duration(request_.start, context.local_goal, context.plan_limits);
+    const double scale_of_lengths = step_scale(context.goal_radius);
+    const SearchConfig search = scaled(config_.search, context.goal_radius, least);
     int attempt = 0;
     for (const double scale : config_.duration_scales) {
       budget_.begin_attempt(attempt++);
-      if (best_ && (enough() || budget_.expired(Stage::LocalGoal))) break;
-      const Duration interval = interval_of(scale * least);
-      const double end_s = interval.seconds() * config_.intervals;
-      if (!is_followed(context, interval, hold_.cap(end_s))) break;
+      if (best_ && (enough(kNearLocalGoal * scale_of_lengths) || budget_.expired(Stage::LocalGoal))) break;
+      const std::optional<Duration> interval = interval_of(scale * least, config_.intervals);
+      if (!interval) break;
+      const double end_s = interval->seconds() * config_.intervals;
+      if (!is_followed(context, *interval, hold_.cap(end_s))) break;
       enter(Stage::Hulls);
       SweptObstacles& swept = workspace_.horizon;
-      sweep_horizon(context, interval, hold_.cap(end_s), swept);
-      auto found = search_candidate(context, swept, interval, hold_.required(end_s), config_.search);
+      sweep_horizon(context, *interval, hold_.cap(end_s), swept);
+      auto found = search_candidate(context, swept, *interval, hold_.required(end_s), search);
       if (found) {
         if (!best_ || found->better_than(*best_)) offer(&*found, PlanReason::None);
         take(optimized(context, swept, std::move(*found)));
@@ -276,24 +269,28 @@ class Planning {
   }
 
   /// A longer duration is not tried when a leaf holds and comes near the local goal.
-  [[nodiscard]] bool enough() const { return best_->holds && best_->cost.distance_to_goal <= kNearLocalGoal; }
+  [[nodiscard]] bool enough(double near) const { return best_->holds && best_->cost.distance_to_goal <= near; }
 
-  /// The optimizer's trajectory, where it neither gives up the leaf's hold nor much of its arrival; else the leaf.
+  /// The optimizer's trajectory, where it gives up neither the leaf's hold, nor much of its arrival, nor most of its
+  /// progress (to who crosses the sphere in less than kSmoothnessPrice, arrivals say little); else the leaf.
   Candidate optimized(AttemptContext& context, SweptObstacles& swept, Candidate leaf) {
     auto smooth = refine(context, swept, leaf);
     if (!smooth || (leaf.holds && !smooth->holds)) return leaf;
+    const double progress = progress_of(context, leaf);
+    if (progress > 0.0 && progress_of(context, *smooth) < kProgressKept * progress) return leaf;
     return smooth->arrival_s <= leaf.arrival_s + kSmoothnessPrice ? std::move(*smooth) : leaf;
+  }
+
+  /// By how much the way to go is shorter at the end, m.
+  [[nodiscard]] double progress_of(const AttemptContext& context, const Candidate& candidate) const {
+    const Points& q = candidate.trajectory.control_points;
+    return context.way.from(request_.start.p) - context.way.from(q.col(q.cols() - 1));
   }
 
   void take(Candidate candidate) {
     if (best_ && !candidate.better_than(*best_)) return;
     best_ = std::move(candidate);
     offer(&*best_, PlanReason::None);
-  }
-
-  [[nodiscard]] Duration interval_of(double duration_s) const {
-    const double dt = std::max(duration_s / config_.intervals, kLeastInterval);
-    return {static_cast<std::int64_t>(std::ceil(dt * 1e6))};
   }
 
   [[nodiscard]] bool needs_evasion() const {
@@ -367,12 +364,14 @@ class Planning {
   PlanAnswer finish_without(PlanReason reason) { return finish(nullptr, reason); }
 
   static constexpr double kNearLocalGoal = 1.0;  // m
+  static constexpr double kProgressKept = 0.5;
   static constexpr double kSmoothnessPrice =
       0.05;  // s: an optimized trajectory may arrive so much later than the search's
 
   const HorizonRequest& request_;
   const PlanningWorld& world_;
   const PlannerConfig& config_;
+  const LookAhead look_;
   Budget& budget_;
   PlanObserver* observer_;
   PlanWorkspace& workspace_;
@@ -390,7 +389,9 @@ class Planning {
 
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanWorkspace& workspace, PlanObserver* observer) {
-  return Planning(request, world, config, budget, workspace, observer).run();
+  const LookAhead look = world.predictions ? look_ahead(request, *world.predictions, config) : LookAhead{};
+  const std::optional<PlannerConfig> shorter = with_shorter_holds(config, look);
+  return Planning(request, world, shorter ? *shorter : config, look, budget, workspace, observer).run();
 }
 
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,

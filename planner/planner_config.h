@@ -12,14 +12,15 @@ namespace tern {
 enum class SemanticCost { MeanDistance, Exposure };
 
 struct SearchConfig {
-  int samples_xy = 3;               ///< velocity samples per horizontal axis and node, 2 … 15
-  int samples_z = 3;                ///< on the vertical axis, 2 … 15
-  int max_expansions = 1200;        ///< per attempt, 1 … 10⁷
-  int hold_expansions = 400;        ///< how many more are spent after the first leaf to find one that holds long enough
-  double lambda_g = 1.0;            ///< weight of the path's length, ≥ 0
-  double lambda_h = 1.0;            ///< weight of the way to go, ≥ 0
-  double band_m = 0.5;              ///< leaves whose way to go lies in one band make equal progress, m
-  double prune_position_m = 0.1;    ///< δ: nodes in one voxel of position, index and coarse velocity are one
+  int samples_xy = 3;             ///< velocity samples per horizontal axis and node, 2 … 15
+  int samples_z = 3;              ///< on the vertical axis, 2 … 15
+  int max_expansions = 1200;      ///< per attempt, 1 … 10⁷
+  int hold_expansions = 400;      ///< how many more are spent after the first leaf to find one that holds long enough
+  double lambda_g = 1.0;          ///< weight of the path's length, ≥ 0
+  double lambda_h = 1.0;          ///< weight of the way to go, ≥ 0
+  double band_m = 0.5;            ///< leaves whose way to go lies in one band make equal progress, m
+  double cost_step_m = 0.2;       ///< f only counts to this: on the way to a far goal almost every node has the same f
+  double prune_position_m = 0.1;  ///< δ: nodes in one voxel of position, index and coarse velocity are one
   double prune_velocity_mps = 1.5;  ///< the coarse velocity
 };
 

@@ -12,6 +12,9 @@ namespace {
 /// Paths keep this far from static obstacles, m, where that leaves a way: flights by hulls need a little room.
 constexpr double kPathSpacing = 0.02;
 
+/// What reaches the vehicle later than this does not reach it.
+constexpr Duration kEver{1'000'000'000'000};
+
 /// The track's box over one piece, as Track::bounds() has it.
 Box piece_box(const Track& track, std::size_t k) {
   const CubicPiece& piece = track.motion.pieces[k];
@@ -33,13 +36,29 @@ PredictionProducts::PredictionProducts(TrackSet tracks) : set(std::move(tracks))
     if (track.kind != TrackKind::Static) {
       for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) piece_boxes.push_back(piece_box(track, k));
     }
-    const UTime to = track.motion.end() + kTrackBoxReach;
-    if (track.kind != TrackKind::Static) followed_until = std::min(followed_until, to);
-    boxes.push_back(track.bounds(from, to));
+    if (track.kind != TrackKind::Static) {
+      Box box;
+      for (std::size_t k = first; k < piece_boxes.size(); ++k) box.extend(piece_boxes[k]);
+      movers_.push_back({box, track.motion.end(), track.top_speed});
+    }
+    boxes.push_back(track.bounds(from, track.motion.end() + kTrackBoxReach));
     obstacles.push_back({track.id, &track, boxes.back(), 1.0,
                          std::span<const Box>(piece_boxes.data() + first, piece_boxes.size() - first)});
   }
   index = BoxIndex(std::move(boxes));
+}
+
+Foresight PredictionProducts::foresight(const Box& region) const {
+  Foresight foresight;
+  for (const Mover& mover : movers_) {
+    const Vec3 gaps = (mover.box.min() - region.max()).cwiseMax(region.min() - mover.box.max());
+    const double gap = std::max(0.0, gaps.maxCoeff());
+    if (gap > mover.top_speed * kEver.seconds()) continue;
+    const Duration grows{gap > 0.0 ? static_cast<std::int64_t>(gap / mover.top_speed * 1e6) : 0};
+    foresight.predicted_until = std::min(foresight.predicted_until, mover.end + grows);
+    foresight.followed_until = std::min(foresight.followed_until, mover.end + std::max(grows, kTrackBoxReach));
+  }
+  return foresight;
 }
 
 MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)

@@ -20,10 +20,17 @@
 
 namespace tern {
 
-/// How far past its last piece a track's box is followed.
+/// How far past its last piece a track's box is followed where the vehicle may meet it. By then the box of what is
+/// faster than a metre per second fills the sphere; who needs longer takes smaller steps (LookAhead).
 inline constexpr Duration kTrackBoxReach{4'000'000};
 /// Where nothing moves.
 inline constexpr UTime kFollowedForEver{std::numeric_limits<std::int64_t>::max()};
+
+/// Until when movers are known within a region.
+struct Foresight {
+  UTime predicted_until = kFollowedForEver;  ///< from then on something may be there though no piece of a track says so
+  UTime followed_until = kFollowedForEver;   ///< until then the boxes of what is found there hold every track
+};
 
 /// A complete prediction set with boxes around each track's motion, and an index over them: a plan costs what is in its
 /// reach, not what is in the world.
@@ -32,11 +39,23 @@ struct PredictionProducts {
   std::vector<Box> piece_boxes;             ///< of all moving tracks, one per piece of their motions
   std::vector<PlanningObstacle> obstacles;  ///< one per track; point into the two above, so this object does not move
   BoxIndex index;                           ///< over the obstacles' boxes
-  UTime followed_until = kFollowedForEver;  ///< the boxes hold each moving track until then: no plan looks farther
 
   explicit PredictionProducts(TrackSet tracks);
   PredictionProducts(const PredictionProducts&) = delete;
   PredictionProducts& operator=(const PredictionProducts&) = delete;
+
+  /// A track counts where it can be: its pieces' box, which grows at its top speed from its last piece on. Tracks that
+  /// `index` does not find in the region reach it at followed_until at the earliest. O(tracks).
+  [[nodiscard]] Foresight foresight(const Box& region) const;
+
+ private:
+  /// A track that moves, as foresight() takes it.
+  struct Mover {
+    Box box;  ///< of all its pieces
+    UTime end;
+    double top_speed;
+  };
+  std::vector<Mover> movers_;
 };
 
 /// One version of the map.

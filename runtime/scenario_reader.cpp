@@ -199,9 +199,10 @@ UavSpec read_uav(ConfigSection section, UavSpec uav) {
   uav.start = section.vec3("start", uav.start, kPosition);
   uav.goal = section.vec3("goal", uav.goal, kPosition);
   ConfigSection limits = section.section("limits");
-  uav.limits.v_max = limits.vec3_or_number("v_max", uav.limits.v_max, Range::positive(1e3));
-  uav.limits.a_max = limits.vec3_or_number("a_max", uav.limits.a_max, Range::positive(1e4));
-  uav.limits.j_max = limits.vec3_or_number("j_max", uav.limits.j_max, Range::positive(kInfinity));
+  uav.limits.v_max = limits.vec3_or_number("v_max", uav.limits.v_max, Range::at_least(kLeastLimit, kMostSpeedLimit));
+  uav.limits.a_max =
+      limits.vec3_or_number("a_max", uav.limits.a_max, Range::at_least(kLeastLimit, kMostAccelerationLimit));
+  uav.limits.j_max = limits.vec3_or_number("j_max", uav.limits.j_max, Range::at_least(kLeastLimit, kInfinity));
   limits.finish();
   uav.body = read_body(section.section("body"), uav.body);
   if (section.has("flight_box")) uav.flight_box = read_box(section.section("flight_box"));

@@ -4,20 +4,15 @@
 #include <cmath>
 
 namespace tern {
-namespace {
 
-/// Time to reach speed v from rest and how far that takes, under acceleration a and jerk j.
-struct RampUp {
-  double time, distance;
-};
 RampUp ramp_up(double v, double a, double j) {
   if (!std::isfinite(j)) return {v / a, 0.5 * v * v / a};
   const double time = v * j >= a * a ? v / a + a / j : 2.0 * std::sqrt(v / j);
   return {time, 0.5 * v * time};
 }
 
-/// One axis: ramp up, cruise, ramp down; the peak speed by bisection where v_max is not reached.
-double axis_time(double distance, double v_max, double a, double j) {
+// Ramp up, cruise, ramp down; the peak speed by bisection where v_max is not reached.
+double rest_to_rest_s(double distance, double v_max, double a, double j) {
   if (distance <= 0.0) return 0.0;
   const RampUp full = ramp_up(v_max, a, j);
   if (2.0 * full.distance <= distance) return 2.0 * full.time + (distance - 2.0 * full.distance) / v_max;
@@ -30,12 +25,11 @@ double axis_time(double distance, double v_max, double a, double j) {
   return 2.0 * ramp_up(high, a, j).time;
 }
 
-}  // namespace
-
 double rest_to_rest_bound_s(const Vec3& from, const Vec3& to, const Limits& limits) {
   double bound = 0.0;
   for (int i = 0; i < 3; ++i) {
-    bound = std::max(bound, axis_time(std::abs(to[i] - from[i]), limits.v_max[i], limits.a_max[i], limits.j_max[i]));
+    bound =
+        std::max(bound, rest_to_rest_s(std::abs(to[i] - from[i]), limits.v_max[i], limits.a_max[i], limits.j_max[i]));
   }
   return bound;
 }

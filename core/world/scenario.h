@@ -99,6 +99,15 @@ struct Scenario {
   std::optional<double> timeout_s;  ///< default 3 × bound + 10 s
 };
 
+/// Time to reach speed v from rest, and how far that takes, under acceleration a and jerk j (may be infinite).
+struct RampUp {
+  double time, distance;  ///< s, m
+};
+RampUp ramp_up(double v, double a, double j);
+
+/// The time-optimal time of one axis from rest to rest over `distance` ≥ 0, s; j may be infinite.
+double rest_to_rest_s(double distance, double v_max, double a, double j);
+
 /// BENCHMARKS' bound: the per-axis time-optimal rest-to-rest time from start to goal, jerk included where it is
 /// limited, s.
 double rest_to_rest_bound_s(const Vec3& from, const Vec3& to, const Limits& limits);

@@ -10,7 +10,13 @@
 
 namespace tern {
 
-/// Largest magnitude per axis of W; every entry > 0. Jerk may be infinite (no limit).
+/// The ranges of limits, in scenarios and in messages. Below the least, m/s, m/s², m/s³, durations of plans and digits
+/// of positions end; what is gentler than that does not fly.
+inline constexpr double kLeastLimit = 1e-3;
+inline constexpr double kMostSpeedLimit = 1e3;         ///< of v_max, m/s
+inline constexpr double kMostAccelerationLimit = 1e4;  ///< of a_max, m/s²
+
+/// Largest magnitude per axis of W, each at least kLeastLimit. Jerk may be infinite (no limit).
 struct Limits {
   Vec3 v_max = Vec3::Constant(6.0);                                      ///< m/s
   Vec3 a_max = Vec3(20.0, 20.0, 10.0);                                   ///< m/s²

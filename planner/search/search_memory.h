@@ -22,7 +22,7 @@ struct SearchNode {
 
 /// An open node's place in the order of expansion: (band, f in steps, depth, f, index).
 struct SearchEntry {
-  int band;
+  std::int64_t band;
   int depth_left;
   std::int64_t f_step;
   double f;

@@ -14,15 +14,10 @@ namespace {
 using Node = SearchNode;
 using Entry = SearchEntry;
 
-/// f only counts to kCostStep: on the way to a far goal almost every node has the same f, and of equals the deepest is
-/// expanded first, so that the search dives instead of widening.
-constexpr double kCostStep = 0.2;  // m
-std::int64_t step_of(double f) { return static_cast<std::int64_t>(std::floor(f / kCostStep)); }
-
 struct Leaf {
   int node = -1;
   bool holds = false;
-  int band = 0;
+  std::int64_t band = 0;
   double f = 0.0;
   double hold_s = 0.0;
   [[nodiscard]] bool better_than(const Leaf& o) const {
@@ -33,10 +28,11 @@ struct Leaf {
 };
 
 /// Bands of the way to go: `width` wide, and ten times finer within the last one, so that the goal itself is reached.
-int band_of(double way_to_go, double width) {
-  constexpr int kFiner = 10;
-  const double bands = way_to_go / width;
-  return bands < 1.0 ? static_cast<int>(bands * kFiner) : kFiner - 1 + static_cast<int>(bands);
+std::int64_t band_of(double way_to_go, double width) {
+  constexpr std::int64_t kFiner = 10;
+  constexpr double kMostBands = 1e15;
+  const double bands = std::min(way_to_go / width, kMostBands);
+  return bands < 1.0 ? static_cast<std::int64_t>(bands * kFiner) : kFiner - 1 + static_cast<std::int64_t>(bands);
 }
 
 class Search {
@@ -78,6 +74,10 @@ class Search {
 
  private:
   static bool later(const Entry& a, const Entry& b) { return b.before(a); }
+  /// Of equals the deepest is expanded first, so that the search dives instead of widening.
+  [[nodiscard]] std::int64_t step_of(double f) const {
+    return static_cast<std::int64_t>(std::floor(f / config_.cost_step_m));
+  }
   [[nodiscard]] int leaf_index() const { return problem_.intervals; }  // n − 2 = J
   [[nodiscard]] Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
 
@@ -105,7 +105,7 @@ class Search {
     reachable = Box(low, high);
     double f = n.g + config_.lambda_h * problem_.way.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
-    const int band = band_of(problem_.way.from(reachable), config_.band_m);
+    const std::int64_t band = band_of(problem_.way.from(reachable), config_.band_m);
     open_.push_back({band, leaf_index() - n.l, step_of(f), f, static_cast<int>(nodes_.size())});
     std::push_heap(open_.begin(), open_.end(), later);
     nodes_.push_back(n);

@@ -5,6 +5,9 @@
 namespace tern {
 namespace {
 
+/// Of what happens again and again, Hz: periods stay far from the end of time.
+constexpr double kLeastRate = 1e-3;
+
 /// The words of a text that spaces or commas separate.
 std::vector<std::string> words_of(std::string text) {
   for (char& c : text) {
@@ -28,7 +31,7 @@ SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
     sensor.dropout = section.number("dropout", sensor.dropout, Range::at_least(0.0, 1.0));
     sensor.track_ids = section.flag("ids", sensor.track_ids);
   }
-  sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::positive(100.0));
+  sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::at_least(kLeastRate, 100.0));
   section.finish();
   return sensor;
 }
@@ -52,7 +55,7 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
 
 ExecutorConfig read_executor_config(ConfigSection section) {
   ExecutorConfig config;
-  config.rate_hz = section.number("rate_hz", config.rate_hz, Range::positive(100.0));
+  config.rate_hz = section.number("rate_hz", config.rate_hz, Range::at_least(kLeastRate, 100.0));
   config.lead = Duration::from_seconds(section.number("lead_s", config.lead.seconds(), Range::at_least(0.01, 2.0)));
   section.finish();
   return config;

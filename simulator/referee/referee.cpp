@@ -85,7 +85,8 @@ void Referee::end(FlightOutcome outcome, double t_s, std::string detail) {
 
 std::string Referee::describe(const Contact& contact, const Vec3& p) const {
   const std::string& name = world_.obstacles[static_cast<std::size_t>(contact.id)].spec().name;
-  return fmt::format("touched obstacle {}{} at {:.3f} s, position ({:.3f}, {:.3f}, {:.3f}) m", contact.id,
+  const char* how = contact.time_s > 0.0 ? "touched" : "the start lies in";
+  return fmt::format("{} obstacle {}{} at {:.3f} s, position ({:.3f}, {:.3f}, {:.3f}) m", how, contact.id,
                      name.empty() ? std::string() : fmt::format(" '{}'", name), contact.time_s, p.x(), p.y(), p.z());
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/world/message_limits.h"
 #include "tests/support/straight_plan.h"
 
 namespace tern {
@@ -240,7 +241,7 @@ TEST(Executor, ToldToStopItAdoptsNothingMoreAndComesToRest) {
 TEST(Executor, RefusesAConfigurationOutOfRange) {
   EXPECT_THROW(Executor(vehicle(), kZero, {.rate_hz = 0.0, .lead = kMs * 75}), std::invalid_argument);
   EXPECT_THROW(Executor(vehicle(), kZero, {.rate_hz = std::nan(""), .lead = kMs * 75}), std::invalid_argument);
-  EXPECT_THROW(Executor(vehicle(), kZero, {.rate_hz = 20.0, .lead = kDeadlineGap}), std::invalid_argument);
+  EXPECT_THROW(Executor(vehicle(), kZero, {.rate_hz = 20.0, .lead = kDeadlineLead}), std::invalid_argument);
 }
 
 /// The largest step of p, v and a from just before t to just after, beyond what the motion itself does in 2 µs.

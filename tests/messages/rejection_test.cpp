@@ -241,8 +241,16 @@ TEST(Rejection, OfHorizonRequest) {
   EXPECT_EQ(after<Request>([](auto& r) { r.start.a.z() += 2e-6; }), "Inconsistent");
   EXPECT_EQ(after<Request>([](auto& r) { r.start.j.z() += 1.0; }), "accepted");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.v_max.x() = kInfinity; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.v_max.x() = std::nextafter(kMostSpeedLimit, kInfinity); }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.a_max.x() = 0.0; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.a_max.x() = std::nextafter(kMostAccelerationLimit, kInfinity); }),
+            "Number");
+  for (Vec3 Limits::*limit : {&Limits::v_max, &Limits::a_max, &Limits::j_max}) {
+    EXPECT_EQ(after<Request>([&](auto& r) { (r.limits.*limit).y() = kLeastLimit; }), "accepted");
+    EXPECT_EQ(after<Request>([&](auto& r) { (r.limits.*limit).y() = std::nextafter(kLeastLimit, 0.0); }), "Number");
+  }
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.setConstant(kInfinity); }), "accepted");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.setConstant(1e300); }), "accepted");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.x() = -kInfinity; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.y() = kNaN; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.body.radius = -0.1; }), "Number");

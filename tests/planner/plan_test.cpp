@@ -286,14 +286,25 @@ TEST_F(PlannerAlone, LooksNoFartherThanMoversAreFollowed) {
   request_.limits.v_max = Vec3::Constant(1.0);
   for (const double predicted_s : {0.2, 1.0, 2.0, 5.0, 20.0}) {
     const UTime from = request_.t_s;
-    const std::vector<Track> far = {straight_mover(1, Vec3(3, 40, 0), Vec3(0, -0.1, 0), 0.4, from, predicted_s)};
-    const UTime until = far[0].motion.end() + kTrackBoxReach;
-    const PlanningWorld world = world_of(far, go_to(Vec3(20, 0, 0)), request_, config);
+    const std::vector<Track> near = {straight_mover(1, Vec3(3, 3.5, 1), Vec3(0, -0.1, 0), 0.4, from, predicted_s)};
+    const UTime until = near[0].motion.end() + kTrackBoxReach;
+    const PlanningWorld world = world_of(near, go_to(Vec3(20, 0, 1)), request_, config);
     const Plan plan = answer(request_, world, config);
     EXPECT_LE(plan.trajectory.end() + plan.hold, until) << predicted_s;
     EXPECT_EQ(fault_of(plan, request_, world, config), "") << predicted_s;
-    EXPECT_EQ(plan.outcome == PlanOutcome::Optimized, predicted_s >= 2.0) << predicted_s;
+    EXPECT_EQ(plan.outcome, PlanOutcome::Optimized) << predicted_s;
   }
+}
+
+TEST_F(PlannerAlone, AMoverThatCannotReachItDoesNotShortenItsPlans) {
+  request_.limits.v_max = Vec3::Constant(0.1);
+  const Goal goal = go_to(Vec3(20, 0, 1));
+  const Plan alone = answer(request_, world_of({}, goal, request_));
+  const std::vector<Track> far = {straight_mover(1, Vec3(0, 700, 1), Vec3(0, 1, 0), 0.4, request_.t_s, 1.0)};
+  const Plan plan = answer(request_, world_of(far, goal, request_));
+  EXPECT_EQ(plan.outcome, PlanOutcome::Optimized);
+  EXPECT_EQ(plan.trajectory.control_points, alone.trajectory.control_points);
+  EXPECT_GT(plan.trajectory.end() - plan.trajectory.start, Duration{30'000'000});
 }
 
 TEST_F(PlannerAlone, SaysRelaxedWhenTheStartLiesInsideAnInflatedBoxAndFliesOutOfIt) {

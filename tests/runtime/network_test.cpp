@@ -144,7 +144,7 @@ TEST(Process, BadOptionsAndConfigurationsExitWithTwoAndSayWhere) {
       {{"--set", "planner.period_s=0"},
        "tern-echo: --set planner.period_s=0: planner.period_s: 0 is out of range (0, 10]"},
       {{"--set", "planner.typo=0"}, "planner.typo: unknown key (known here: period_s)"},
-      {{"--set", "uav.limits.v_max=-3"}, "uav.limits.v_max: -3 is out of range (0, 1000]"},
+      {{"--set", "uav.limits.v_max=-3"}, "uav.limits.v_max: -3 is out of range [0.001, 1000]"},
       {{"--channel-suffix", ".*"}, ".*"},
   };
   for (const auto& [arguments, text] : cases) {

@@ -180,11 +180,13 @@ TEST(ScenarioFile, TakesLimitsAsOneNumberOrThreeAndInfiniteJerk) {
   EXPECT_EQ(s.uav.limits.v_max, Vec3(3.5, 3.5, 3.5));
   EXPECT_EQ(s.uav.limits.a_max, Vec3(20, 20, 9.6));
   EXPECT_EQ(s.uav.limits.j_max, Vec3::Constant(std::numeric_limits<double>::infinity()));
-  EXPECT_EQ(error_of("uav:\n  limits:\n    v_max: -3\n"), "a.yaml:3: uav.limits.v_max: -3 is out of range (0, 1000]");
-  EXPECT_EQ(error_of("uav:\n  limits:\n    v_max: inf\n"), "a.yaml:3: uav.limits.v_max: inf is out of range (0, 1000]");
+  EXPECT_EQ(error_of("uav:\n  limits:\n    v_max: -3\n"),
+            "a.yaml:3: uav.limits.v_max: -3 is out of range [0.001, 1000]");
+  EXPECT_EQ(error_of("uav:\n  limits:\n    v_max: inf\n"),
+            "a.yaml:3: uav.limits.v_max: inf is out of range [0.001, 1000]");
   EXPECT_EQ(error_of("uav:\n  limits:\n    a_max: [1, 0, 1]\n"),
-            "a.yaml:3: uav.limits.a_max[1]: 0 is out of range (0, 10000]");
-  EXPECT_EQ(error_of("uav:\n  limits:\n    j_max: 0\n"), "a.yaml:3: uav.limits.j_max: 0 is out of range (0, inf]");
+            "a.yaml:3: uav.limits.a_max[1]: 0 is out of range [0.001, 10000]");
+  EXPECT_EQ(error_of("uav:\n  limits:\n    j_max: 0\n"), "a.yaml:3: uav.limits.j_max: 0 is out of range [0.001, inf]");
 }
 
 TEST(ScenarioFile, ABoxBodyIsItsCorners) {
@@ -246,7 +248,7 @@ TEST(ScenarioFile, RefusesObstaclesThatLackWhatTheirMotionNeeds) {
             "a.yaml:3: world.obstacles[0].amplitude: is missing");
   EXPECT_EQ(obstacle_error("motion: waypoints\n"), "a.yaml:3: world.obstacles[0].points: has no point (at least 1)");
   EXPECT_EQ(obstacle_error("centre: [0, 0, 0]\n      half_extents: [1, 0, 1]\n"),
-            "a.yaml:4: world.obstacles[0].half_extents[1]: 0 is out of range (0, 10000]");
+            "a.yaml:4: world.obstacles[0].half_extents[1]: 0 is out of range [0.001, 10000]");
 }
 
 TEST(ScenarioFile, RefusesWaypointsOutOfOrderAndHalfRepeats) {

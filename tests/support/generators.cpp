@@ -236,10 +236,10 @@ HorizonRequest random_message(Rng& rng, Fill fill) {
   request.t_s = request.committed.start + Duration{integer(rng, 0, 130'000'000)};
   request.deadline = request.t_s - kDeadlineLead - Duration{random_integer(rng, 0, 1000)};
   request.start = request.committed.sample(request.t_s);
-  request.limits.v_max = vec3(rng, 1e-3, kMaxSpeed);
-  request.limits.a_max = vec3(rng, 1e-3, kMaxAcceleration);
+  request.limits.v_max = vec3(rng, kLeastLimit, kMostSpeedLimit);
+  request.limits.a_max = vec3(rng, kLeastLimit, kMostAccelerationLimit);
   request.limits.j_max =
-      flag(rng) ? vec3(rng, 1e-3, kMaxJerk) : Vec3::Constant(std::numeric_limits<double>::infinity());
+      flag(rng) ? vec3(rng, kLeastLimit, kMaxJerk) : Vec3::Constant(std::numeric_limits<double>::infinity());
   request.body.radius = number(rng, 0.0, kMaxBodyExtent);
   request.body.vertices = points(rng, count(rng, fill, 1, kMaxBodyVertices), kMaxBodyExtent);
   const Vec3 a = position(rng);

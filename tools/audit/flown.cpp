@@ -209,6 +209,7 @@ SampledMotion moved(const ObstacleHistory& history, const std::vector<DeclaredPi
 Window judged(const FlightRecord& record) {
   if (record.results.empty() || record.requests.empty()) return {record.zero(), record.end(), Duration{}};
   const FlightResult& result = record.results.back();
+  if (std::isnan(result.flight_time_s)) return {record.zero(), record.end(), Duration{}};
   const Duration time = Duration::from_seconds(result.flight_time_s);
   UTime latest = result.header.utime;
   if (record.requests.front().id == 1) latest = std::min(latest, record.requests.front().header.utime + time);

@@ -1,0 +1,89 @@
+#include "planner/look_ahead.h"
+
+#include <algorithm>
+
+#include "core/geometry/box.h"
+#include "core/world/message_limits.h"
+#include "planner/duration.h"
+#include "planner/global_path/local_goal.h"
+
+namespace tern {
+namespace {
+
+/// From one radius to the next smaller one.
+constexpr double kShrink = 5.0 / 6.0;
+/// No local goal is nearer, m: what the gentlest vehicle flies from rest to rest in kLeastHorizon is longer.
+constexpr double kLeastRadius = 1e-4;
+/// Holds are not cut below this, s.
+constexpr double kLeastHold = 0.1;
+/// Of a step's mean speed: velocities that differ by less are one to its pruning.
+constexpr double kCoarseVelocity = 0.4;
+
+}  // namespace
+
+Box committed_box(const HorizonRequest& request) {
+  const ClampedSpline spline = request.committed.spline();
+  const double from_s = (request.t_s - request.committed.start).seconds();
+  Box box(request.start.p);
+  for (int j = 0; j < spline.intervals(); ++j) {
+    if ((j + 1) * spline.interval_s() >= from_s) box.extend(spline.position_bounds(j));
+  }
+  return box;
+}
+
+Box planning_region(const HorizonRequest& request, const PlannerConfig& config) {
+  const double reach = config.sphere_radius_m + request.body.half_extents().maxCoeff() + kBetaMax;
+  const Box sphere = box_around(request.start.p, Vec3::Constant(reach));
+  const Box committed = grown(committed_box(request), request.body.half_extents() + Vec3::Constant(kBetaMax));
+  return sphere.merged(committed);
+}
+
+LookAhead look_ahead(const HorizonRequest& request, const PredictionProducts& predictions,
+                     const PlannerConfig& config) {
+  const Foresight foresight = predictions.foresight(planning_region(request, config));
+  LookAhead look;
+  look.followed_until = foresight.followed_until;
+  look.followed_s = (foresight.followed_until - request.t_s).seconds();
+  const double predicted_s = (foresight.predicted_until - request.t_s).seconds();
+  look.horizon_s = std::max(predicted_s, std::min(look.followed_s, kLeastHorizon));
+  return look;
+}
+
+std::optional<PlannerConfig> with_shorter_holds(const PlannerConfig& config, const LookAhead& look) {
+  const double longest_s = std::max(0.5 * look.horizon_s, kLeastHold);
+  if (config.hold_cap_s <= longest_s) return std::nullopt;
+  PlannerConfig shorter = config;
+  shorter.hold_cap_s = longest_s;
+  shorter.hold_required_s = std::min(config.hold_required_s, longest_s);
+  return shorter;
+}
+
+LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
+                   double largest_radius, const LookAhead& look, const PlannerConfig& config) {
+  const double held_s = std::min(look.horizon_s - config.hold_required_s, look.followed_s - config.hold_cap_s);
+  const double longest_s =
+      std::min(held_s, config.intervals * kLongestInterval.seconds()) / config.duration_scales.front();
+  LocalAim soonest;
+  for (double radius = largest_radius; radius >= std::min(kLeastRadius, largest_radius); radius *= kShrink) {
+    LocalAim aim{local_goal(path, start.p, radius), radius, 0.0};
+    aim.least_s = planned_duration(start, aim.goal, limits);
+    if (aim.least_s <= longest_s) return aim;
+    if (radius == largest_radius || aim.least_s < soonest.least_s) soonest = aim;
+  }
+  return soonest;
+}
+
+double step_scale(double goal_radius) { return std::min(1.0, goal_radius / kFullStep); }
+
+SearchConfig scaled(SearchConfig search, double goal_radius, double least_s) {
+  const double scale = step_scale(goal_radius);
+  search.band_m *= scale;
+  search.cost_step_m *= scale;
+  search.prune_position_m *= scale;
+  if (scale < 1.0 || least_s > kFullStepTime) {
+    search.prune_velocity_mps = std::min(search.prune_velocity_mps, kCoarseVelocity * goal_radius / least_s);
+  }
+  return search;
+}
+
+}  // namespace tern

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/box.h"
+#include "simulator/referee/body_distance.h"
+#include "simulator/worlds/world.h"
+#include "tests/support/legal_scenario.h"
+
+namespace tern::testing {
+namespace {
+
+/// Cells of a grid along its longest side.
+constexpr int kCells = 48;
+
+/// A breadth-first search over cubes: whether the centre gets from start to goal when every standing box is grown by
+/// the body's half-extents and by `slack`. Coarse, slow, and knows nothing of the planner's.
+bool way_exists(const Scenario& scenario, const std::vector<Box>& boxes, double slack_cells) {
+  const UavSpec& uav = scenario.uav;
+  Box all(uav.start.cwiseMin(uav.goal), uav.start.cwiseMax(uav.goal));
+  for (const Box& box : boxes) all.extend(box);
+  const Vec3 half = uav.body.half_extents();
+  all = grown(all, 2.0 * half + Vec3::Constant(1.0)).intersection(grown(uav.flight_box, -half));
+  const double side = std::max(1e-3, all.sizes().maxCoeff() / kCells);
+  const double slack = slack_cells * side;
+  const Eigen::Vector3i size = (all.sizes() / side).array().ceil().cast<int>().max(1);
+  const auto cell_of = [&](const Vec3& p) {
+    return Eigen::Vector3i(((p - all.min()) / side).array().floor().cast<int>())
+        .cwiseMax(0)
+        .cwiseMin(size.array().matrix() - Eigen::Vector3i::Ones());
+  };
+  const auto index = [&](const Eigen::Vector3i& c) {
+    return static_cast<std::size_t>(c.x() + size.x() * (c.y() + size.y() * c.z()));
+  };
+  const Eigen::Vector3i from = cell_of(uav.start);
+  const Eigen::Vector3i to = cell_of(uav.goal);
+  const auto is_free = [&](const Eigen::Vector3i& c) {
+    if (c == from || c == to) return true;
+    const Vec3 p = all.min() + side * (c.cast<double>() + Vec3::Constant(0.5));
+    return std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) {
+      const Box solid = grown(box, half + Vec3::Constant(slack));
+      return !solid.isEmpty() && solid.contains(p);
+    });
+  };
+  std::vector<bool> seen(static_cast<std::size_t>(size.prod()), false);
+  std::vector<Eigen::Vector3i> open{from};
+  seen[index(from)] = true;
+  while (!open.empty()) {
+    const Eigen::Vector3i c = open.back();
+    open.pop_back();
+    if (c == to) return true;
+    for (int k = 0; k < 6; ++k) {
+      Eigen::Vector3i next = c;
+      next[k / 2] += k % 2 == 0 ? 1 : -1;
+      if ((next.array() < 0).any() || (next.array() >= size.array()).any() || seen[index(next)]) continue;
+      seen[index(next)] = true;
+      if (is_free(next)) open.push_back(next);
+    }
+  }
+  return false;
+}
+
+/// Room for the hulls of small steps between what moves and the vehicle, m.
+constexpr double kNear = 1.0;
+
+/// Whether a mover comes near where the vehicle ended, or to the straight way that is left, within the last seconds or
+/// the next few.
+bool mover_holds_up(const Scenario& scenario, const World& world, const Vec3& at, double end_s) {
+  const Vec3 half = scenario.uav.body.half_extents();
+  const Vec3 rest = scenario.uav.goal - at;
+  for (const WorldObstacle& o : world.obstacles) {
+    if (!o.moves()) continue;
+    // What predictions say of it beyond their end grows at its top speed.
+    const double reach = kNear + half.norm() + 4.0 * o.bounds().speed.maxCoeff();
+    for (double t = std::max(0.0, end_s - 30.0); t <= end_s + 5.0; t += 0.1) {
+      const Vec3 c = o.at(t).p;
+      const double along =
+          rest.squaredNorm() > 0.0 ? std::clamp((c - at).dot(rest) / rest.squaredNorm(), 0.0, 1.0) : 0.0;
+      if (distance_to_box(at + along * rest, c, o.half_extents()) < reach) return true;
+    }
+  }
+  return false;
+}
+
+std::optional<std::string> fault_of_exchange(const VirtualFlight& flight) {
+  const ExecutorCounters& counters = flight.executor;
+  if (!flight.end.empty()) return flight.end;
+  if (counters.refused() > 0) return fmt::format("{} plans refused by the executor", counters.refused());
+  if (counters.unanswered > 0) return fmt::format("{} requests unanswered", counters.unanswered);
+  if (flight.result.limit_violations > 0) return fmt::format("{} limits broken", flight.result.limit_violations);
+  return std::nullopt;
+}
+
+}  // namespace
+
+void PromiseWatch::on_request(const HorizonRequest& request) {
+  if (!world_zero) world_zero = request.header.utime;
+  at = request.start.p;
+}
+
+void PromiseWatch::on_plan(const Plan& plan) {
+  last_reason = plan.reason;
+  if (plan.outcome != PlanOutcome::NoPlan) promised_until = plan.trajectory.end() + plan.hold;
+}
+
+const char* to_string(FlightReason reason) {
+  constexpr const char* kNames[] = {"reached",    "start in obstacle", "way blocked",
+                                    "way narrow", "held up",           "hit after its promise"};
+  return kNames[static_cast<int>(reason)];
+}
+
+FlightJudgement judge(const LegalScenario& legal, const VirtualFlight& flight, const PromiseWatch& watch) {
+  const Scenario& scenario = legal.scenario;
+  const FlightResult& result = flight.result;
+  if (const auto fault = fault_of_exchange(flight)) return {FlightReason::Reached, *fault};
+  if (result.outcome == FlightOutcome::Reached) return {};
+  if (result.outcome == FlightOutcome::Failed) return {FlightReason::Reached, "failed: " + result.detail};
+  const World world = make_world(scenario, "").value();
+  const BodyDistance distance(scenario.uav.body);
+  for (const WorldObstacle& o : world.obstacles) {
+    if (!o.present(0.0) || distance(scenario.uav.start - o.at(0.0).p, o.half_extents()) > 1e-6) continue;
+    return {FlightReason::StartInObstacle, ""};
+  }
+  const bool movers =
+      std::any_of(world.obstacles.begin(), world.obstacles.end(), [](const auto& o) { return o.moves(); });
+  if (result.outcome == FlightOutcome::Collision) {
+    const UTime at = *watch.world_zero + Duration::from_seconds(result.flight_time_s);
+    if (at <= watch.promised_until)
+      return {FlightReason::HitAfterPromise, "touched within a promise: " + result.detail};
+    return {FlightReason::HitAfterPromise, movers ? "" : "touched what stands: " + result.detail};
+  }
+  const std::vector<Box> boxes = static_boxes(world);
+  if (!way_exists(scenario, boxes, -1.0)) {
+    const bool said = watch.last_reason == PlanReason::GoalBlocked;
+    return {FlightReason::WayBlocked, said ? "" : "no way, and the planner did not say so"};
+  }
+  if (!way_exists(scenario, boxes, 1.0)) return {FlightReason::WayNarrow, ""};
+  if (watch.last_reason == PlanReason::GoalBlocked)
+    return {FlightReason::WayBlocked, "said blocked, but there is a way"};
+  if (movers && mover_holds_up(scenario, world, watch.at, result.flight_time_s)) return {FlightReason::HeldUp, ""};
+  return {FlightReason::HeldUp, "not reached: " + result.detail};
+}
+
+}  // namespace tern::testing

@@ -1,0 +1,45 @@
+// Whatever a scenario may legally say, its flight ends with the goal reached, or with a reason that is true.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/legal_scenario.h"
+#include "tests/support/watched_flight.h"
+
+namespace tern::testing {
+namespace {
+
+std::int64_t setting(const char* name, std::int64_t fallback) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? fallback : std::atoll(text);
+}
+
+/// More: TERN_LEGAL_SCENARIOS=10000, TERN_LEGAL_FIRST=1 before this executable.
+TEST(LegalScenario, EndsAtItsGoalOrWithAReasonThatIsTrue) {
+  const std::int64_t count = setting("TERN_LEGAL_SCENARIOS", 150);
+  const std::int64_t first = setting("TERN_LEGAL_FIRST", 1);
+  const std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) / fmt::format("legal_{}.yaml", ::getpid());
+  std::array<int, kFlightReasons> reasons{};
+  for (std::int64_t seed = first; seed < first + count; ++seed) {
+    const LegalScenario legal = legal_scenario(static_cast<std::uint64_t>(seed));
+    std::ofstream(file) << legal.yaml;
+    PromiseWatch watch;
+    const VirtualFlight flight = fly_virtually(file.string(), {}, &watch);
+    const FlightJudgement judgement = judge(legal, flight, watch);
+    ++reasons[static_cast<std::size_t>(judgement.reason)];
+    EXPECT_EQ(judgement.fault, "") << "seed " << seed << "\n" << legal.yaml;
+  }
+  std::filesystem::remove(file);
+  for (int k = 0; k < kFlightReasons; ++k) {
+    fmt::print("{}: {}\n", to_string(static_cast<FlightReason>(k)), reasons[static_cast<std::size_t>(k)]);
+  }
+  EXPECT_GE(reasons[static_cast<std::size_t>(FlightReason::Reached)] * 10, count * 8);
+}
+
+}  // namespace
+}  // namespace tern::testing
