@@ -134,7 +134,7 @@ def record_flight(work):
     """A second of the way, and its answers."""
     flight = [BIN / "tern-campaign", "fly-one", "--world", ROOT / "tests/campaign/short_hop.yaml", "--seed", "1", "--charge", "counts",
               "--folder", work / "flight"]
-    subprocess.run(flight, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(flight, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     events = read_events((work / "flight/flight.lcm").read_bytes())
     requests = [e for e in events if e[1] == b"HORIZON_REQUEST"]
     for _, _, data in requests:
