@@ -44,21 +44,23 @@ Gap gap_within(const Encounter& e, const Vec3& p) {
 
 /// Lowers `best` where [a, b] holds less, by halving: the curve strays from its middle by no more than its Bernstein
 /// points do, and the distance changes by no more than the curve.
-void search(const Encounter& e, double a, double b, Closest& best) {
+void search(const Encounter& e, double a, double b, Closest& best, int depth = 0) {
+  constexpr int kDeepest = 40;  // a nanosecond of a quarter of an hour: only numbers beyond reason come here
   const double middle = 0.5 * (a + b);
   const Vec3 p = e.relative.p(middle);
   const Gap gap = gap_within(e, p);
   const UTime at = e.relative.from + Duration::from_seconds(middle);
   if (at >= e.sure_from && at <= e.sure_to) best.high = std::min(best.high, gap.high);
-  if (gap.low < best.low) {
-    best.low = gap.low;
+  const double stray = (bernstein_points(e.relative, a, b).colwise() - p).colwise().norm().maxCoeff();
+  const double low = depth == kDeepest ? gap.low - stray : gap.low;
+  if (low < best.low) {
+    best.low = low;
     best.at = at;
     best.obstacle = e.obstacle;
   }
-  const double stray = (bernstein_points(e.relative, a, b).colwise() - p).colwise().norm().maxCoeff();
-  if (gap.low - stray >= best.low - kResolution) return;
-  search(e, a, middle, best);
-  search(e, middle, b, best);
+  if (depth == kDeepest || gap.low - stray >= best.low - kResolution) return;
+  search(e, a, middle, best, depth + 1);
+  search(e, middle, b, best, depth + 1);
 }
 
 Curve difference(const Curve& a, const Curve& b, UTime from, UTime to) {

@@ -157,6 +157,7 @@ bool keeps_to(const DeclaredPiece& piece, const TrueSample& s) {
 /// needed.
 std::optional<std::vector<Sampled>> declared_between(const TrueSample& a, const TrueSample& b,
                                                      const std::vector<DeclaredPiece>& pieces, std::size_t& first) {
+  if (b.at - a.at > kDeclaredHole) return std::nullopt;
   while (first < pieces.size() && pieces[first].curve.to <= a.at) ++first;
   std::vector<Sampled> spans;
   UTime from = a.at;

@@ -23,6 +23,9 @@ inline constexpr Duration kStateHole{50'000};
 /// Samples of a moving obstacle that nobody declared leave a hole if they are farther apart (it may have vanished).
 inline constexpr Duration kTruthHole{200'000};
 
+/// What was declared is not taken to bridge more than this without a sample.
+inline constexpr Duration kDeclaredHole{5'000'000};
+
 struct SampledMotion {
   std::vector<Sampled> spans;   ///< in order; an obstacle's holes are left out
   Duration holes;               ///< how long they are together
