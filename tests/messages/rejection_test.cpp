@@ -313,7 +313,11 @@ TEST(Rejection, OfHeartbeat) {
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.waiting_for = "\xC3"; }), "Number");
   using Wire = tern_msgs::heartbeat_t;
   const auto after_wire = after_on_wire<Heartbeat, Wire>;
-  EXPECT_EQ(after_wire([](Wire& m) { ++m.channels[0].name_length; }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) {
+              m.channel_text.push_back('x');
+              ++m.channel_text_count;
+            }),
+            "Inconsistent");
   EXPECT_EQ(after_wire([](Wire& m) {
               m.channels.resize(2);
               m.channel_count = 2;
