@@ -38,7 +38,7 @@ readonly EXIT_BROKEN=4 # the audit's
 readonly LOGGER=tern-logger MONITOR=tern-monitor VIEWER=tern-viewer
 
 scenario=corridor_demo seed='' count='' record='' summary='' url='' isolated='' install=yes view='' audit='' report=''
-key='' # "new" or a file
+key='' key_file='' # whether messages are signed, and whether by a file's key
 viewer_options=()
 settings=() # as --set KEY=VALUE ... for every process
 
@@ -57,12 +57,10 @@ parse() {
       --report) report=yes && continue ;;
       --no-install) install='' && continue ;;
       --key)
-        key=new
-        if [[ $# -gt 0 && $1 != -* ]]; then
-          key=$1
-          shift
-        fi
-        continue
+        key=yes
+        [[ $# -gt 0 && $1 != -* ]] || continue
+        value=$1
+        shift
         ;;
       --help | -h) usage && exit 0 ;;
       --*=*) value=${option#*=} option=${option%%=*} ;;
@@ -91,8 +89,8 @@ parse() {
       --lcm-url) url=$value ;;
       --view) view=$value ;;
       --key)
-        [[ -n $value ]] || die "--key=: no file (--help)"
-        key=$value
+        [[ -n $value ]] || die "--key: the file's name is empty (--help)"
+        key=yes key_file=$value
         ;;
       *) die "unknown option $option (--help)" ;;
     esac
@@ -113,7 +111,7 @@ listen_for_browsers() { exec "$TERN_BIN/tern-listen" "$view" "$0" "${arguments[@
 # Becomes this script with an open file of keys for each process; TERN_KEY_FDS says which ("tern-planner=5 ...").
 take_keys() {
   local file=()
-  [[ $key == new ]] || file=(--key "$key")
+  [[ -z $key_file ]] || file=(--key "$key_file")
   # Tried first: a summary says what went wrong, which an exec could not.
   "$TERN_BIN/tern-key" hand "${file[@]}" -- true || die "no key to fly with"
   exec "$TERN_BIN/tern-key" hand "${file[@]}" -- "$0" "${arguments[@]}"

@@ -26,7 +26,7 @@ int complain(const std::string& what) {
 
 std::string reason() { return std::strerror(errno); }
 
-/// All of the text into the descriptor, which is closed unless that fails.
+/// @return whether all of the text went into the descriptor. Its memory is overwritten.
 bool write_all(int fd, std::string text) {
   const bool ok = write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   wipe({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});

@@ -52,8 +52,8 @@ struct Options {
   std::int64_t clock_offset_us = 0;
   std::string channel_suffix;
   std::string log_level = "info";
-  std::string key_file;
-  int key_fd = -1;
+  std::optional<std::string> key_file;
+  std::optional<int> key_fd;
 };
 
 void declare(CLI::App& app, Options& options, const ProcessDescription& description) {
@@ -79,7 +79,8 @@ void declare(CLI::App& app, Options& options, const ProcessDescription& descript
       ->capture_default_str();
   auto* const key_file = app.add_option("--key-file", options.key_file,
                                         "Sign and verify every message: a key, or this program's ring (mode 600)")
-                             ->type_name("FILE");
+                             ->type_name("FILE")
+                             ->check([](const std::string& path) { return path.empty() ? "no file is named" : ""; });
   app.add_option("--key-fd", options.key_fd, "The same from an open file, not a pipe; closed when read")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
@@ -113,8 +114,8 @@ void start_log(const ProcessDescription& description, const std::string& level) 
 
 /// @throws ConfigError when keys were asked for and cannot be had.
 std::optional<KeyRing> read_keys(const Options& options, const std::string& process) {
-  if (options.key_file.empty() && options.key_fd < 0) return std::nullopt;
-  auto keys = options.key_fd < 0 ? read_key_file(options.key_file, process) : read_key_fd(options.key_fd, process);
+  if (!options.key_file && !options.key_fd) return std::nullopt;
+  auto keys = options.key_file ? read_key_file(*options.key_file, process) : read_key_fd(*options.key_fd, process);
   if (!keys) throw ConfigError(keys.error().message);
   return std::move(*keys);
 }
