@@ -55,12 +55,10 @@ std::optional<Rejection> SenderWatch::judge(const MessageName& name, UTime claim
   Sender& sender = sender_of(name.sender_epoch_us);
   const bool played_again = arrived - sender.at > kPlayedAgain && name.sequence <= sender.window.newest();
   if (played_again) sender.window.begin_anew();
+  const auto verdict = sender.window.add(name.sequence);
+  if (verdict == SequenceWindow::Verdict::Repeated) return Rejection::Repeated;
+  if (verdict == SequenceWindow::Verdict::Jump) return Rejection::Sender;
   sender.at = arrived;
-  switch (sender.window.add(name.sequence)) {
-    case SequenceWindow::Verdict::Repeated: return Rejection::Repeated;
-    case SequenceWindow::Verdict::Jump: return Rejection::Sender;
-    case SequenceWindow::Verdict::New: break;
-  }
   return std::nullopt;
 }
 

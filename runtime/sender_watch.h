@@ -52,7 +52,7 @@ class SenderWatch {
   struct Sender {
     SequenceWindow window;
     std::int64_t heard = 0;  ///< counts this channel's messages
-    UTime at;                ///< when it was heard last
+    UTime at;                ///< when a message of it was handed on last
   };
   /// Something that happens again and again.
   struct Repetition {

@@ -18,18 +18,20 @@ SequenceWindow::Verdict SequenceWindow::add(std::int64_t sequence) {
 }
 
 SequenceWindow::Verdict SequenceWindow::judge(std::int64_t sequence) {
-  if (newest_ == 0) {
-    newest_ = sequence;
-    seen_ = kAllSeen;
+  if (now_.newest == 0) {
+    now_.newest = sequence;
+    now_.seen = kAllSeen;
     return Verdict::New;
   }
-  const std::int64_t ahead = sequence - newest_;
-  if (-kRemembered < ahead && ahead <= 0) return judge_near(-ahead);
-  if (0 < ahead && ahead <= kShortGap) {
-    lost_ += ahead - 1;
-    newest_ = sequence;
-    seen_ = (seen_ << ahead) | 1U;
-    candidate_.reset();
+  if (former_ && sequence - former_->newest <= kShortGap && former_->newest - sequence < kRemembered) {
+    if (has_come(*former_, sequence)) return Verdict::Repeated;
+    now_ = *former_;
+    former_.reset();
+  }
+  const std::int64_t ahead = sequence - now_.newest;
+  if (ahead <= 0) return judge_near(-ahead);
+  if (ahead <= kShortGap) {
+    advance(ahead);
     return Verdict::New;
   }
   if (candidate_ == sequence) return Verdict::Repeated;
@@ -38,34 +40,42 @@ SequenceWindow::Verdict SequenceWindow::judge(std::int64_t sequence) {
     return Verdict::New;
   }
   candidate_ = sequence;
-  if (ahead < 0) return Verdict::Repeated;
   return ahead <= kLongestGap ? Verdict::New : Verdict::Jump;
 }
 
+bool SequenceWindow::has_come(const Numbering& numbering, std::int64_t sequence) {
+  const std::int64_t behind = numbering.newest - sequence;
+  return 0 <= behind && behind < kRemembered && (numbering.seen >> behind & 1U) != 0;
+}
+
 SequenceWindow::Verdict SequenceWindow::judge_near(std::int64_t behind) {
-  const std::uint64_t bit = std::uint64_t{1} << behind;
-  if ((seen_ & bit) != 0) return Verdict::Repeated;
-  seen_ |= bit;
-  --lost_;
+  if (behind >= kRemembered || has_come(now_, now_.newest - behind)) return Verdict::Repeated;
+  now_.seen |= std::uint64_t{1} << behind;
+  --now_.lost;
+  if (behind <= now_.gap) --now_.unsure;
   return Verdict::New;
 }
 
+void SequenceWindow::advance(std::int64_t ahead) {
+  now_.newest += ahead;
+  now_.seen = (now_.seen << ahead) | 1U;
+  now_.gap = now_.unsure = ahead - 1;
+  now_.lost += ahead - 1;
+  candidate_.reset();
+  if (former_ && ++continued_ >= kEstablished) former_.reset();
+}
+
 void SequenceWindow::begin_anew() {
-  newest_ = 0;
+  now_ = {.lost = now_.lost - now_.unsure};
   candidate_.reset();
   former_.reset();
 }
 
 void SequenceWindow::continue_at(std::int64_t candidate, std::int64_t sequence) {
-  const bool goes_on = former_ && candidate > *former_ && candidate - *former_ <= kRemembered;
-  const std::int64_t before = goes_on ? *former_ : newest_;
-  if (goes_on) lost_ -= counted_;
-  const std::int64_t missing = std::clamp<std::int64_t>(candidate - before - 1, 0, kMostLost);
-  lost_ += missing + (sequence - candidate - 1);
-  former_ = goes_on ? std::nullopt : std::optional(newest_);
-  counted_ = missing;
-  newest_ = sequence;
-  seen_ = kAllSeen;
+  if (!former_) former_ = now_;
+  continued_ = 0;
+  const std::int64_t missing = std::clamp<std::int64_t>(candidate - now_.newest - 1, 0, kMostLost);
+  now_ = {.newest = sequence, .seen = kAllSeen, .lost = now_.lost + missing + (sequence - candidate - 1)};
   candidate_.reset();
 }
 

@@ -8,10 +8,11 @@ namespace tern {
 
 /// The sequence numbers of one sender on one channel, in the order of arrival. Pure.
 ///
-/// An honest sender counts its messages by one. What is missing up to kShortGap ahead is lost until it comes after all
-/// (the newest kRemembered numbers are known one by one). What lies farther ahead, or behind all that is remembered, is
-/// believed to be the sender's numbering only when the next number continues it: one false number moves nothing. When
-/// the former numbering goes on after all, what was counted as lost because of the other is taken back.
+/// An honest sender counts its messages by one. What is missing up to kShortGap ahead is lost, once a later number has
+/// come, until it comes after all (the newest kRemembered numbers are known one by one). What lies farther ahead is
+/// believed to be the sender's numbering only when the next number continues it: one false number moves nothing. What
+/// lies behind all that is remembered is refused, until begin_anew(). The former numbering is remembered until the new
+/// one is established; its next number brings it back, and takes back what was counted as lost meanwhile.
 class SequenceWindow {
  public:
   static constexpr std::int64_t kRemembered = 64;
@@ -31,22 +32,29 @@ class SequenceWindow {
   /// The sender's numbers may begin anywhere again; what was lost stays counted.
   void begin_anew();
 
-  [[nodiscard]] std::int64_t newest() const { return newest_; }  ///< 0: none yet
+  [[nodiscard]] std::int64_t newest() const { return now_.newest; }  ///< 0: none yet
   /// 0 for a sender that was heard fewer than kEstablished times: it may be noise.
-  [[nodiscard]] std::int64_t lost() const { return heard_ < kEstablished ? 0 : lost_; }
+  [[nodiscard]] std::int64_t lost() const { return heard_ < kEstablished ? 0 : now_.lost - now_.unsure; }
 
  private:
+  struct Numbering {
+    std::int64_t newest = 0;  ///< 0: none yet
+    std::uint64_t seen = 0;   ///< bit k: newest − k has come
+    std::int64_t lost = 0;    ///< of this one and those that were believed before it
+    std::int64_t gap = 0;     ///< numbers that newest left out …
+    std::int64_t unsure = 0;  ///< … and that are missing still
+  };
   Verdict judge(std::int64_t sequence);
   Verdict judge_near(std::int64_t behind);
+  static bool has_come(const Numbering& numbering, std::int64_t sequence);
+  void advance(std::int64_t ahead);
   void continue_at(std::int64_t candidate, std::int64_t sequence);
 
-  std::int64_t newest_ = 0;
-  std::uint64_t seen_ = 0;  ///< bit k: newest_ − k has come
-  std::int64_t heard_ = 0;  ///< messages that were new
-  std::int64_t lost_ = 0;
+  Numbering now_;
+  std::int64_t heard_ = 0;                 ///< messages that were new
   std::optional<std::int64_t> candidate_;  ///< newest of another numbering
-  std::optional<std::int64_t> former_;     ///< newest of the numbering that was left …
-  std::int64_t counted_ = 0;               ///< … and what was counted as lost then
+  std::optional<Numbering> former_;
+  std::int64_t continued_ = 0;  ///< messages of this numbering since it replaced the former one
 };
 
 }  // namespace tern
