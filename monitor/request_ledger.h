@@ -13,6 +13,12 @@ namespace tern {
 /// other.
 inline constexpr Duration kAnswerGrace{200'000};
 
+/// What plans did not know of, because predictions or declared motions did not fit into their sets.
+struct LeftOut {
+  std::int64_t plans = 0;        ///< that rest on an incomplete set
+  std::int32_t most_tracks = 0;  ///< left out of one set
+};
+
 /// Matches PLAN with HORIZON_REQUEST by the request's id. A request is settled when its first answer came, or
 /// kAnswerGrace after its deadline; only settled ones are counted, so that the flight's end leaves no request half
 /// open.
@@ -31,6 +37,9 @@ class RequestLedger {
   [[nodiscard]] std::int64_t plans(PlanReason reason) const { return reasons_[static_cast<std::size_t>(reason)]; }
   /// The newest plan's; None before the first one.
   [[nodiscard]] PlanReason last_reason() const { return last_reason_; }
+  /// Tracks that the newest plan's predictions had left out.
+  [[nodiscard]] std::int32_t last_left_out() const { return last_left_out_; }
+  [[nodiscard]] const LeftOut& left_out() const { return left_out_; }
 
  private:
   std::map<std::int64_t, UTime> deadlines_;  ///< of open requests, by id
@@ -38,6 +47,8 @@ class RequestLedger {
   std::array<std::int64_t, kPlanOutcomes> plans_ = {};
   std::array<std::int64_t, kPlanReasons> reasons_ = {};
   PlanReason last_reason_ = PlanReason::None;
+  std::int32_t last_left_out_ = 0;
+  LeftOut left_out_;
 };
 
 }  // namespace tern
