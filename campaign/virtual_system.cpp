@@ -48,7 +48,7 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
   const SimulatorConfig config = read_simulator_config(document.root().section("simulator"), scenario.seed);
   const ExecutorConfig executor = read_executor_config(document.root().section("executor"));
   parts_->effective_yaml = document.effective();
-  auto world = make_world(scenario, data_folder(scenario.file, std::getenv("TERN_DATA")));
+  auto world = make_flyable_world(scenario, config, data_folder(scenario.file, std::getenv("TERN_DATA")));
   if (!world) throw ConfigError(scenario.file + ": world: " + world.error().message);
   simulator_ = static_cast<SimulatorNode*>(&runner_.start("tern-simulator", [&](Bus& bus) {
     return std::make_unique<SimulatorNode>(bus, scenario, std::move(*world), config, executor);

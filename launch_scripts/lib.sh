@@ -112,6 +112,7 @@ write_failed_summary() {
   "answered_in_time": 0,
   "second_answers": 0,
   "plans": { "optimized": 0, "search_only": 0, "keep_committed": 0, "evade": 0, "no_plan": 0 },
+  "left_out": { "plans": 0, "most_tracks": 0 },
   "replan_ms": {
     "total": $percentiles,
     "first_answer": $percentiles,

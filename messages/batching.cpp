@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/world/message_limits.h"
+#include "core/world/resampling.h"
 #include "messages/codec.h"
 #include "messages/obstacle_truth.h"
 #include "messages/track_set.h"
@@ -54,9 +55,8 @@ std::size_t encoded_bytes(std::size_t entries, std::size_t items_each) {
 template <class T>
 class Room {
  public:
-  template <class Entry>
-  bool take(const Entry& entry) {
-    const std::size_t items = Kind<T>::items(entry);
+  /// An entry with so many items.
+  bool take(std::size_t items) {
     const std::size_t bytes = bytes_ + per_entry() + items * per_item();
     if (entries_ + 1 > Kind<T>::kMostEntries || items_ + items > Kind<T>::kMostItems || bytes > kMaxMessageBytes)
       return false;
@@ -93,11 +93,12 @@ std::vector<T> split(const T& whole) {
   std::int32_t left_out = whole.left_out;
   bool full = false;
   for (const auto& entry : whole.*kEntries) {
-    if (full || !Room<T>().take(entry)) {
+    const std::size_t items = Kind<T>::items(entry);
+    if (full || !Room<T>().take(items)) {
       ++left_out;
       continue;
     }
-    if (!room.take(entry)) {
+    if (!room.take(items)) {
       full = batches.size() == kMaxBatches;
       if (full) {
         ++left_out;
@@ -105,7 +106,7 @@ std::vector<T> split(const T& whole) {
       }
       batches.push_back(head);
       room = Room<T>();
-      room.take(entry);
+      room.take(items);
     }
     (batches.back().*kEntries).push_back(entry);
   }
@@ -115,6 +116,73 @@ std::vector<T> split(const T& whole) {
     batches[i].left_out = left_out;
   }
   return batches;
+}
+
+/// Whether tracks of so many pieces all fit into a set, in this order.
+bool all_fit(const std::vector<std::size_t>& pieces) {
+  Room<TrackSet> room;
+  int batches = 1;
+  for (const std::size_t n : pieces) {
+    if (room.take(n)) continue;
+    room = Room<TrackSet>();
+    if (++batches > kMaxBatches || !room.take(n)) return false;
+  }
+  return true;
+}
+
+/// The largest share in [0, kMaxPiecesPerBatch] whose pieces (of share) all fit; 0 if no other does.
+template <class PiecesOf>
+std::size_t largest_share(const PiecesOf& pieces_of) {
+  std::size_t fits = 0;
+  std::size_t too_many = static_cast<std::size_t>(kMaxPiecesPerBatch) + 1;
+  while (fits + 1 < too_many) {
+    const std::size_t middle = (fits + too_many) / 2;
+    (all_fit(pieces_of(middle)) ? fits : too_many) = middle;
+  }
+  return fits;
+}
+
+std::vector<std::size_t> pieces_of(const TrackSet& set) {
+  std::vector<std::size_t> pieces;
+  pieces.reserve(set.tracks.size());
+  for (const Track& track : set.tracks) pieces.push_back(track.motion.pieces.size());
+  return pieces;
+}
+
+/// Of the tracks' pieces, what each may keep for a share: the nearer half may have twice as many, everyone has one.
+std::vector<std::size_t> shared_out(std::vector<std::size_t> pieces, std::size_t share) {
+  const auto most = static_cast<std::size_t>(kMaxPiecesPerBatch);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const std::size_t fair = 2 * k < pieces.size() ? 2 * share : share;
+    pieces[k] = std::min(pieces[k], std::clamp<std::size_t>(fair, 1, most));
+  }
+  return pieces;
+}
+
+/// Whether the numbers that resampling may have made larger are still within a message's ranges.
+bool is_legal(const Track& track) {
+  return std::all_of(track.alpha.begin(), track.alpha.end(),
+                     [](const Vec3& alpha) { return alpha.maxCoeff() <= kMaxCoordinate; }) &&
+         std::all_of(track.motion.pieces.begin(), track.motion.pieces.end(),
+                     [](const CubicPiece& piece) { return piece.duration <= kMaxSpan; });
+}
+
+/// The set with its tracks resampled so that all of them fit, as far as that is possible.
+TrackSet made_to_fit(const TrackSet& whole) {
+  const std::vector<std::size_t> own = pieces_of(whole);
+  const std::size_t share = largest_share([&](std::size_t s) { return shared_out(own, s); });
+  const std::vector<std::size_t> pieces = shared_out(own, share);
+  TrackSet set = whole;
+  set.tracks.clear();
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    Track track = resampled(whole.tracks[k], pieces[k]);
+    if (pieces[k] == own[k] || is_legal(track)) {
+      set.tracks.push_back(std::move(track));
+    } else {
+      ++set.left_out;
+    }
+  }
+  return set;
 }
 
 template <class T>
@@ -139,7 +207,18 @@ T join(std::vector<T> batches) {
 
 }  // namespace
 
-std::vector<TrackSet> split_batches(const TrackSet& whole) { return split(whole); }
+std::size_t pieces_for_each(std::size_t tracks, std::size_t single) {
+  return largest_share([&](std::size_t share) {
+    std::vector<std::size_t> pieces(tracks, std::max<std::size_t>(share, 1));
+    pieces.resize(tracks + single, 1);
+    return pieces;
+  });
+}
+
+std::vector<TrackSet> split_batches(const TrackSet& whole) {
+  return all_fit(pieces_of(whole)) ? split(whole) : split(made_to_fit(whole));
+}
+
 std::vector<ObstacleTruth> split_batches(const ObstacleTruth& whole) { return split(whole); }
 TrackSet join_batches(std::vector<TrackSet> batches) { return join(std::move(batches)); }
 ObstacleTruth join_batches(std::vector<ObstacleTruth> batches) { return join(std::move(batches)); }

@@ -58,6 +58,7 @@ void put(Message& m, const PlanInputs& inputs) {
   m.goal = wire::to_lcm(inputs.goal);
   m.predictions = wire::to_lcm(inputs.predictions);
   m.prediction_set = inputs.prediction_set;
+  m.left_out = inputs.left_out;
   m.map_version = static_cast<std::int64_t>(inputs.map_version);
   m.configuration_hash = static_cast<std::int64_t>(inputs.configuration_hash);
   m.planner_build = static_cast<std::int64_t>(inputs.planner_build);
@@ -105,6 +106,7 @@ PlanInputs read_inputs(wire::FieldReader& read, const Message& m) {
   inputs.goal = read.name(m.goal);
   inputs.predictions = read.name(m.predictions);
   inputs.prediction_set = read.counter(m.prediction_set);
+  inputs.left_out = read.integer(m.left_out, 0, std::numeric_limits<std::int32_t>::max());
   inputs.map_version = static_cast<std::uint64_t>(m.map_version);
   inputs.configuration_hash = static_cast<std::uint64_t>(m.configuration_hash);
   inputs.planner_build = static_cast<std::uint64_t>(m.planner_build);

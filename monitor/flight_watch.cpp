@@ -120,6 +120,7 @@ LiveView FlightWatch::live() const {
   view.requests = ledger_.requests();
   view.answered_in_time = ledger_.answered_in_time();
   view.reason = ledger_.last_reason();
+  view.left_out = ledger_.last_left_out();
   return view;
 }
 
@@ -141,6 +142,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   for (int k = 0; k < kPlanReasons; ++k) {
     summary.reasons[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanReason>(k));
   }
+  summary.left_out = ledger_.left_out();
   summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::Hulls),
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};
   summary.messages = processes_.messages();

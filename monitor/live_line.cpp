@@ -21,6 +21,7 @@ std::string live_line(const LiveView& view) {
                   view.elapsed_s, view.progress * 100.0, view.speed_mps, number(view.nearest_m, 2),
                   number(view.replan_p50_ms, 1), number(view.replan_p99_ms, 1), view.answered_in_time, view.requests);
   if (view.reason != PlanReason::None) line += fmt::format("  ({})", plan_reason_words(view.reason));
+  if (view.left_out > 0) line += fmt::format("  {} tracks left out", view.left_out);
   if (!view.waiting.empty()) line += "  waiting for " + view.waiting;
   return line + beside;
 }

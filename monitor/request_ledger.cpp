@@ -1,5 +1,7 @@
 #include "monitor/request_ledger.h"
 
+#include <algorithm>
+
 namespace tern {
 
 void RequestLedger::add(const HorizonRequest& request) {
@@ -18,6 +20,9 @@ void RequestLedger::add(const Plan& plan) {
   ++plans_[static_cast<std::size_t>(plan.outcome)];
   ++reasons_[static_cast<std::size_t>(plan.reason)];
   last_reason_ = plan.reason;
+  last_left_out_ = plan.inputs.left_out;
+  if (last_left_out_ > 0) ++left_out_.plans;
+  left_out_.most_tracks = std::max(left_out_.most_tracks, last_left_out_);
   const auto request = deadlines_.find(plan.request_id);
   if (request == deadlines_.end()) return;
   ++settled_;

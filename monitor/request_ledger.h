@@ -15,6 +15,12 @@ namespace tern {
 /// other.
 inline constexpr Duration kAnswerGrace{200'000};
 
+/// What plans did not know of, because predictions or declared motions did not fit into their sets.
+struct LeftOut {
+  std::int64_t plans = 0;        ///< that rest on an incomplete set
+  std::int32_t most_tracks = 0;  ///< left out of one set
+};
+
 /// Matches PLAN with HORIZON_REQUEST by the request's id. A request is settled when its first answer came, or
 /// kAnswerGrace after its deadline; only settled ones are counted, so that the flight's end leaves no request half
 /// open. What the network delivers twice counts once.
@@ -35,6 +41,9 @@ class RequestLedger {
   [[nodiscard]] std::int64_t plans(PlanReason reason) const { return reasons_[static_cast<std::size_t>(reason)]; }
   /// The newest first answer's; None before it.
   [[nodiscard]] PlanReason last_reason() const { return last_reason_; }
+  /// Tracks that the newest plan's predictions had left out.
+  [[nodiscard]] std::int32_t last_left_out() const { return last_left_out_; }
+  [[nodiscard]] const LeftOut& left_out() const { return left_out_; }
 
  private:
   Once requests_heard_, plans_heard_;
@@ -44,6 +53,8 @@ class RequestLedger {
   std::array<std::int64_t, kPlanOutcomes> plans_ = {};
   std::array<std::int64_t, kPlanReasons> reasons_ = {};
   PlanReason last_reason_ = PlanReason::None;
+  std::int32_t last_left_out_ = 0;
+  LeftOut left_out_;
 };
 
 }  // namespace tern

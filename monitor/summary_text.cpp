@@ -64,7 +64,11 @@ std::string plan_lines(const FlightSummary& s) {
     text += fmt::format(" {} {}", s.plans[static_cast<std::size_t>(k)], plan_outcome_key(static_cast<PlanOutcome>(k)));
     if (k + 1 < kPlanOutcomes) text += ",";
   }
-  return text + "\n" + reason_line(s);
+  text += "\n" + reason_line(s);
+  if (s.left_out.plans == 0) return text;
+  return text +
+         fmt::format("  left out      {} plans rest on incomplete predictions: up to {} tracks are not in them\n",
+                     s.left_out.plans, s.left_out.most_tracks);
 }
 
 std::string message_lines(const FlightSummary& s) {

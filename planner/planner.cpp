@@ -92,6 +92,7 @@ class Planning {
     if (world_.predictions) {
       p.inputs.predictions = world_.predictions->set.header.name;
       p.inputs.prediction_set = world_.predictions->set.batch.set;
+      p.inputs.left_out = world_.predictions->set.left_out;
     }
   }
 

@@ -82,6 +82,7 @@ struct GoalFieldInputs {
 struct PlanInputs {
   MessageName request, goal, predictions;
   std::int64_t prediction_set = 0;
+  std::int32_t left_out = 0;      ///< tracks that the predictions say they left out: the plan knows nothing of them
   std::uint64_t map_version = 0;  ///< digest of the map; 0: none
   std::uint64_t configuration_hash = 0;
   std::uint64_t planner_build = 0;  ///< digest of what plan() was compiled from

@@ -34,6 +34,7 @@ void PredictorNode::on_declared(const TrackSet& batch) {
   if (!batches) return;
   TrackSet declared = join_batches(std::move(*batches));
   declared_ = std::move(declared.tracks);
+  declared_left_out_ = declared.left_out;
   have_input(kDeclaredInput, declared.made_at);
 }
 
@@ -76,8 +77,14 @@ void PredictorNode::publish(UTime now) {
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });
   set.confidence = estimated ? config_.tracker.prediction.confidence : 1.0;
   if (vehicle_) sort_by_reach(set.tracks, *vehicle_, now, config_.tracker.prediction.horizon);
+  set.left_out = declared_left_out_;
   std::vector<TrackSet> batches = split_batches(set);
-  if (const std::int32_t left_out = batches.front().left_out; left_out > 0) {
+  if (declared_left_out_ > 0) {
+    watch_.trouble("declared left out",
+                   fmt::format("{} declared motions are not known: their owner left them out", declared_left_out_),
+                   now);
+  }
+  if (const std::int32_t left_out = batches.front().left_out - declared_left_out_; left_out > 0) {
     const std::string text =
         fmt::format("{} of {} tracks do not fit into a set: the farthest are left out", left_out, set.tracks.size());
     watch_.trouble("left out", text, now);

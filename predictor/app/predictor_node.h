@@ -47,6 +47,7 @@ class PredictorNode final : public Node {
   InputWatch watch_;
   BatchCollector<TrackSet> collector_;
   std::vector<Track> declared_;
+  std::int32_t declared_left_out_ = 0;
   Tracker tracker_;
   std::optional<Vec3> vehicle_;   // W, m
   std::optional<UTime> made_at_;  // none: no input yet

@@ -70,6 +70,47 @@ AxisForecast forecast(const AxisFilter& filter, double q, const PredictionSpec& 
   return result;
 }
 
+StartSpread start_spread(double still_s, const AccelerationModel& model, const PredictionSpec& spec) {
+  const auto added_at = [&](double t) -> StartSpread::Added {
+    if (t <= still_s) return {};
+    const Transition step = transition(model, t - still_s);
+    const Eigen::Vector3d pushed = model.time_s > 0.0 ? Eigen::Vector3d(model.sigma * step.phi.col(2))
+                                                      : Eigen::Vector3d(spec.speed_deviation() * step.phi.col(1));
+    const Eigen::Matrix3d moved = step.q + pushed * pushed.transpose();
+    return {moved(0, 0), moved(0, 1), moved(1, 1)};
+  };
+  StartSpread spread;
+  for (const Duration end : piece_ends(spec)) spread.ends.push_back(added_at(end.seconds()));
+  for (const auto& [t, weight] : simpson(spec.horizon.seconds())) spread.nodes.push_back(added_at(t));
+  return spread;
+}
+
+AxisForecast forecast_of_rest(const AxisFilter& filter, double q, const StartSpread& start,
+                              const PredictionSpec& spec) {
+  const auto covariance_at = [&](double t, const StartSpread::Added& added) {
+    AxisFilter at = filter;
+    at.predict(t, q);
+    at.xx += added.xx;
+    at.xv += added.xv;
+    at.vv += added.vv;
+    return at;
+  };
+  AxisForecast result;
+  const std::vector<Duration> ends = piece_ends(spec);
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const AxisFilter at = covariance_at(ends[k].seconds(), start.ends[k]);
+    result.mean.push_back(at.x);
+    result.sigma.push_back(std::sqrt(at.xx));
+  }
+  std::size_t k = 0;
+  for (const auto& [t, weight] : simpson(spec.horizon.seconds())) {
+    const AxisFilter at = covariance_at(t, start.nodes[k++]);
+    result.crossings += weight * crossing_rate(at.xx, at.xv, at.vv);
+  }
+  result.speed = std::abs(filter.v);
+  return result;
+}
+
 SingerForecaster::SingerForecaster(const AccelerationModel& model, const PredictionSpec& spec) {
   for (const Duration end : piece_ends(spec)) ends_.push_back(transition(model, end.seconds()));
   for (const auto& [t, weight] : simpson(spec.horizon.seconds())) nodes_.push_back({transition(model, t), weight});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <vector>
 
 #include "core/base/time.h"
@@ -21,6 +22,9 @@ struct PredictionSpec {
   double piece_growth = 0.25;  ///< ≥ 0
   double confidence = 0.99;    ///< in (0, 1): probability that a track keeps its α over all its pieces
   double max_speed = 5.0;      ///< m/s per axis, > 0: nothing is believed to move faster
+
+  /// Of a velocity of which nothing else is known, uniform in ±max_speed, m/s.
+  [[nodiscard]] double speed_deviation() const { return max_speed / std::numbers::sqrt3; }
 };
 
 /// Where pieces begin and end: time since the prediction's start, ascending, from 0 to the horizon.
@@ -46,6 +50,24 @@ struct AxisForecast {
 };
 
 AxisForecast forecast(const AxisFilter& filter, double q, const PredictionSpec& spec);
+
+/// What a start adds to the covariance of position and velocity, per axis, at the times of piece_ends and at those of
+/// the crossing integral. One serves all that may start at the same time.
+struct StartSpread {
+  struct Added {
+    double xx = 0.0, xv = 0.0, vv = 0.0;  ///< m², m²/s, m²/s²
+  };
+  std::vector<Added> ends, nodes;
+};
+
+/// Of what rests until `still_s` from now (before now, if negative) and then goes as the model says that things go:
+/// where accelerations last, from an acceleration of their stationary variance; where velocities do (constant
+/// velocity), at once with any of them, as what is seen for the first time. Who starts later is nearer to where it
+/// rested.
+StartSpread start_spread(double still_s, const AccelerationModel& model, const PredictionSpec& spec);
+
+/// Of what rests: the filter's covariance grows by q, and by the spread of its start.
+AxisForecast forecast_of_rest(const AxisFilter& filter, double q, const StartSpread& start, const PredictionSpec& spec);
 
 /// The transitions that forecasts of one model need, made once for all tracks.
 class SingerForecaster {

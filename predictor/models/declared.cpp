@@ -44,10 +44,9 @@ std::vector<Region> regions_at(const std::vector<Track>& declared, UTime at) {
   return regions;
 }
 
-bool is_explained(const std::vector<Region>& regions, std::int64_t id, const Vec3& position, const Vec3& margin) {
-  return std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
-    return region.id == id || grown(region.box, margin).contains(position);
-  });
+bool is_explained(const std::vector<Region>& regions, std::int64_t id, const Box& box, const Vec3& margin) {
+  return std::any_of(regions.begin(), regions.end(),
+                     [&](const Region& region) { return region.id == id || grown(region.box, margin).contains(box); });
 }
 
 }  // namespace
@@ -62,7 +61,7 @@ std::vector<Track> trimmed(const std::vector<Track>& declared, UTime now, Durati
 ObservationSet without_explained(ObservationSet observations, const std::vector<Track>& declared) {
   const std::vector<Region> regions = regions_at(declared, observations.at);
   std::erase_if(observations.detections, [&](const Detection& detection) {
-    return is_explained(regions, detection.track_id, detection.position,
+    return is_explained(regions, detection.track_id, box_around(detection.position, detection.half_extents),
                         kExplainedSigmas * detection.variance.cwiseSqrt());
   });
   return observations;
@@ -73,7 +72,8 @@ std::vector<Track> merged(std::vector<Track> declared, const std::vector<Track>&
   std::vector<Track> all;
   std::set<std::int64_t> replaced;
   for (const Track& track : estimated) {
-    if (is_explained(regions, track.id, track.motion.sample(now).p, Vec3::Zero())) continue;
+    if (is_explained(regions, track.id, box_around(track.motion.sample(now).p, track.half_extents), Vec3::Zero()))
+      continue;
     all.push_back(track);
     replaced.insert(track.id);
   }

@@ -150,7 +150,7 @@ Tracker::State Tracker::advanced(State state, const ObservationSet& observations
       ++object.age;
       object.hits <<= 1;
     }
-    if (d != kNoDetection) take(object, detections[static_cast<std::size_t>(d)], observations);
+    if (d != kNoDetection) take(object, detections[static_cast<std::size_t>(d)], observations, state.rest);
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
   }
   std::erase_if(state.objects, [&](const TrackedObject& object) { return is_dead(object, observations); });
@@ -176,6 +176,25 @@ void Tracker::predict_to(State& state, UTime at) const {
     for (AxisFilter& axis : object.resting) axis.predict(dt, kRestingSigma * kRestingSigma);
   }
   state.at = at;
+}
+
+void Tracker::take(TrackedObject& object, const Detection& detection, const ObservationSet& from,
+                   RestRecord& rest) const {
+  const bool rested = object.confirmed && rests(object);
+  const UTime seen = object.last_seen;
+  const std::array<AxisFilter, 3> stood = object.resting;
+  take(object, detection, from);
+  if (rested && object.resting_since == from.at) {
+    object.stood = stood;
+    // It may go at any speed now, as what is seen for the first time.
+    object.moving = born(detection, from, object.id).moving;
+  } else if (rested) {
+    rest.rested_s += (from.at - seen).seconds();
+    object.stood.reset();
+  } else if (object.stood && mahalanobis2(*object.stood, detection) > kJumpGate) {
+    ++rest.starts;
+    object.stood.reset();
+  }
 }
 
 void Tracker::take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const {
@@ -211,8 +230,8 @@ TrackedObject Tracker::born(const Detection& detection, const ObservationSet& fr
   object.last_seen_by = from.sensor_id;
   object.resting_since = from.at;
   object.half_extents = detection.half_extents;
-  // Uniform in ±max_speed has this variance.
-  object.resting = start_filters(detection, config_.prediction.max_speed * config_.prediction.max_speed / 3.0);
+  const double speed = config_.prediction.speed_deviation();
+  object.resting = start_filters(detection, speed * speed);
   const AccelerationModel& model = config_.acceleration;
   object.moving = with_acceleration(object.resting, model.time_s > 0.0 ? model.sigma : 0.0);
   object.confirmed = config_.confirm_hits <= 1;
@@ -235,19 +254,35 @@ bool Tracker::rests(const TrackedObject& object) const {
   });
 }
 
-std::array<AxisForecast, 3> Tracker::forecast_of(const TrackedObject& object) const {
+PredictionSpec Tracker::rest_spec() const {
+  PredictionSpec spec = config_.prediction;
+  spec.confidence += kStartShare * (1.0 - spec.confidence);
+  return spec;
+}
+
+const StartSpread& Tracker::spread_of(const TrackedObject& object, const State& state, Spreads& spreads) const {
+  const double trusted_s = trusted_rest_s(state.rest, kStartShare * (1.0 - config_.prediction.confidence));
+  const double still_s = std::min(trusted_s - (state.at - object.last_seen).seconds(), rest_spec().horizon.seconds());
+  const auto grid = static_cast<std::int64_t>(std::floor(still_s / kStartGrid));
+  const auto found = spreads.find(grid);
+  if (found != spreads.end()) return found->second;
+  const double from_s = kStartGrid * static_cast<double>(grid);
+  return spreads.emplace(grid, start_spread(from_s, config_.acceleration, rest_spec())).first->second;
+}
+
+void Tracker::predict_resting(const TrackedObject& object, UTime at, const StartSpread& start, Track& track) const {
+  const PredictionSpec spec = rest_spec();
   std::array<AxisForecast, 3> axes;
-  const bool resting = rests(object);
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    axes[i] = resting ? forecast(object.resting[i], kRestingSigma * kRestingSigma, config_.prediction)
-                      : forecaster_.forecast(object.moving[i]);
+    axes[i] = forecast_of_rest(object.resting[i], kRestingSigma * kRestingSigma, start, spec);
   }
-  return axes;
+  predict_motion(axes, at, spec, track);
 }
 
 std::vector<Track> Tracker::predict(UTime now) const {
   State state = newest_state();
   predict_to(state, std::max(now, state.at));
+  Spreads spreads;
   std::vector<Track> tracks;
   for (const TrackedObject& object : state.objects) {
     if (!object.confirmed) continue;
@@ -255,7 +290,13 @@ std::vector<Track> Tracker::predict(UTime now) const {
     track.id = object.id;
     track.kind = TrackKind::Estimated;
     track.half_extents = object.half_extents;
-    predict_motion(forecast_of(object), state.at, config_.prediction, track);
+    if (rests(object)) {
+      predict_resting(object, state.at, spread_of(object, state, spreads), track);
+    } else {
+      std::array<AxisForecast, 3> axes;
+      for (std::size_t i = 0; i < axes.size(); ++i) axes[i] = forecaster_.forecast(object.moving[i]);
+      predict_motion(axes, state.at, config_.prediction, track);
+    }
     tracks.push_back(std::move(track));
   }
   return tracks;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "core/world/observation.h"
@@ -11,6 +13,7 @@
 #include "predictor/models/axis_filter.h"
 #include "predictor/models/constant_velocity.h"
 #include "predictor/models/singer_filter.h"
+#include "predictor/tracking/rest_record.h"
 
 namespace tern {
 
@@ -37,6 +40,10 @@ inline constexpr Duration kTentativeUnseen{1'500'000};
 /// A remembered thing whose box is farther from the sensor than its range less this should not be seen, m: some σ and
 /// the vehicle's way within the sensor's frame.
 inline constexpr double kRangeMargin = 0.5;
+/// Of 1 − confidence, the share that is left to a start that the α of what rests does not contain.
+inline constexpr double kStartShare = 0.5;
+/// Starts are taken for so much earlier at most than they need be, s: then few spreads serve all tracks.
+inline constexpr double kStartGrid = 0.02;
 /// What rests has no speed beyond so many standard deviations per axis, or beyond kRestingSpeed m/s.
 inline constexpr double kRestingSpeedSigmas = 3.0;
 inline constexpr double kRestingSpeed = 0.05;
@@ -66,6 +73,9 @@ struct TrackedObject {
   std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
   UTime resting_since;
   double resting_average = 3.0;  ///< of its χ²₃, see kRestingLimit
+  /// Where it rested until the resting hypothesis failed. It has started once it is beyond kJumpGate of that; noise
+  /// alone comes back.
+  std::optional<std::array<AxisFilter, 3>> stood;
 };
 
 /// What became of an observation set.
@@ -104,6 +114,8 @@ class Tracker {
 
   /// All tracks, tentative ones too, by id ascending, at newest().
   [[nodiscard]] const std::vector<TrackedObject>& objects() const { return newest_state().objects; }
+  /// What was seen of things at rest, at newest().
+  [[nodiscard]] const RestRecord& rest() const { return newest_state().rest; }
   /// Time of the newest observation; 0 when there was none.
   [[nodiscard]] UTime newest() const { return steps_.empty() ? UTime{} : steps_.back().observations.at; }
 
@@ -112,6 +124,7 @@ class Tracker {
     UTime at;
     std::int64_t next_id = kFirstOwnTrackId;
     std::vector<TrackedObject> objects;
+    RestRecord rest;
   };
   struct Step {
     ObservationSet observations;
@@ -121,10 +134,14 @@ class Tracker {
   [[nodiscard]] State advanced(State state, const ObservationSet& observations) const;
   void predict_to(State& state, UTime at) const;
   void take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
+  void take(TrackedObject& object, const Detection& detection, const ObservationSet& from, RestRecord& rest) const;
   [[nodiscard]] TrackedObject born(const Detection& detection, const ObservationSet& from, std::int64_t id) const;
   [[nodiscard]] bool is_dead(const TrackedObject& object, const ObservationSet& observations) const;
   [[nodiscard]] bool rests(const TrackedObject& object) const;
-  [[nodiscard]] std::array<AxisForecast, 3> forecast_of(const TrackedObject& object) const;
+  using Spreads = std::map<std::int64_t, StartSpread>;  // by kStartGrid
+  [[nodiscard]] PredictionSpec rest_spec() const;
+  const StartSpread& spread_of(const TrackedObject& object, const State& state, Spreads& spreads) const;
+  void predict_resting(const TrackedObject& object, UTime at, const StartSpread& start, Track& track) const;
 
   TrackerConfig config_;
   SingerForecaster forecaster_;

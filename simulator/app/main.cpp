@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     const tern::Scenario& scenario = context.scenario;
     const auto config = tern::read_simulator_config(context.section, scenario.seed);
     const auto executor = tern::read_executor_config(context.document.root().section("executor"));
-    auto world = tern::make_world(scenario, tern::data_folder(scenario.file, std::getenv("TERN_DATA")));
+    auto world = tern::make_flyable_world(scenario, config, tern::data_folder(scenario.file, std::getenv("TERN_DATA")));
     if (!world) throw tern::ConfigError(scenario.file + ": world: " + world.error().message);
     return std::make_unique<tern::SimulatorNode>(context.bus, scenario, std::move(*world), config, executor);
   });

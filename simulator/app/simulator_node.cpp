@@ -185,7 +185,7 @@ NodeHealth SimulatorNode::health() const {
   if (!world_zero_) return {ProcessState::Waiting, gate_.missing(bus_.clock().now())};
   if (!goal_) return {ProcessState::Waiting, "a goal"};
   if (const std::string skewed = gate_.skewed(); !skewed.empty()) return {ProcessState::Waiting, skewed};
-  return {ProcessState::Ready, ""};
+  return {ProcessState::Ready, broadcast_.trouble()};
 }
 
 std::optional<int> SimulatorNode::finished() const {

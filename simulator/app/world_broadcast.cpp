@@ -1,10 +1,15 @@
 #include "simulator/app/world_broadcast.h"
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/world/message_limits.h"
 #include "messages/batching.h"
 #include "messages/observation_set.h"
 #include "messages/obstacle_truth.h"
@@ -45,7 +50,49 @@ void sort_by_reach(std::vector<Track>& tracks, const Vec3& vehicle, UTime from, 
   tracks = std::move(sorted);
 }
 
+/// Why the world's motions cannot be declared; empty: they can.
+std::string undeclarable(const World& world) {
+  const PresentAtOnce present = most_present(world, kDeclaredPast);
+  if (pieces_for_each(present.moving, present.resting) == 0) {
+    return fmt::format(
+        "{} obstacles at once, more than the {} that DECLARED_MOTIONS holds (simulator.declare: false leaves them to "
+        "the sensor)",
+        present.moving + present.resting, kMaxBatches * kMaxTracksPerBatch);
+  }
+  for (const WorldObstacle& o : world.obstacles) {
+    const double speed = o.bounds().speed.maxCoeff();
+    if (speed > kMaxSpeed) {
+      return fmt::format("obstacle {}{}: speed {} m/s, more than the {} m/s that DECLARED_MOTIONS holds", o.id(),
+                         o.spec().name.empty() ? "" : " '" + o.spec().name + "'", speed, kMaxSpeed);
+    }
+  }
+  return {};
+}
+
+CoarseMotions coarse_enough(const World& world) {
+  const PresentAtOnce present = most_present(world, kDeclaredPast);
+  const std::size_t pieces = pieces_for_each(present.moving, present.resting);
+  return coarse_motions(world, kDeclaredPast + kDeclaredAhead, std::max<std::size_t>(pieces, 1));
+}
+
+/// When who was absent at first appears, world time, ascending.
+std::vector<Duration> appearances_of(const World& world) {
+  std::vector<Duration> times;
+  for (const WorldObstacle& o : world.obstacles) {
+    if (std::isfinite(o.first_s())) times.push_back(Duration::from_seconds(o.first_s()));
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
 }  // namespace
+
+Result<World> make_flyable_world(const Scenario& scenario, const SimulatorConfig& config, const std::string& data_dir) {
+  auto world = make_world(scenario, data_dir);
+  if (!world || !config.declare) return world;
+  if (const std::string why = undeclarable(*world); !why.empty()) return fail(why);
+  return world;
+}
 
 WorldBroadcast::WorldBroadcast(Bus& bus, const World& world, const SimulatorConfig& config, UTime now)
     : bus_(bus),
@@ -54,7 +101,12 @@ WorldBroadcast::WorldBroadcast(Bus& bus, const World& world, const SimulatorConf
       config_(config),
       frames_zero_(now),
       next_declared_(now),
-      next_truth_(now) {}
+      next_truth_(now),
+      last_declared_(now) {
+  if (!config.declare) return;
+  coarse_ = coarse_enough(world);
+  appearances_ = appearances_of(world);
+}
 
 void WorldBroadcast::start(UTime world_zero, UTime now) {
   world_zero_ = world_zero;
@@ -64,14 +116,19 @@ void WorldBroadcast::start(UTime world_zero, UTime now) {
 
 UTime WorldBroadcast::next_wakeup() const {
   const UTime frame = frame_arrives(config_.sensor, frames_zero_, frame_);
-  return std::min({frame, next_truth_, config_.declare ? next_declared_ : frame});
+  return std::min({frame, next_truth_, config_.declare ? declared_due() : frame});
+}
+
+UTime WorldBroadcast::declared_due() const {
+  if (appearances_.empty()) return next_declared_;
+  return std::min(next_declared_, std::max(world_zero_ + appearances_.front(), last_declared_ + kDeclaredApart));
 }
 
 void WorldBroadcast::step(UTime now, const Executor& uav) {
   publish_observations(now, uav);
-  if (config_.declare && now >= next_declared_) {
+  if (config_.declare && now >= declared_due()) {
     publish_declared(now, uav.sample(now).p);
-    next_declared_ = next_beat(next_declared_, kDeclaredPeriod, now);
+    if (now >= next_declared_) next_declared_ = next_beat(next_declared_, kDeclaredPeriod, now);
   }
   if (now >= next_truth_) {
     publish_truth(now);
@@ -96,13 +153,24 @@ void WorldBroadcast::publish_observations(UTime now, const Executor& uav) {
 }
 
 void WorldBroadcast::publish_declared(UTime now, const Vec3& uav) {
-  TrackSet set = declare_motions(world_, world_zero_, now - kDeclaredPast, now + kDeclaredAhead);
+  TrackSet set = declare_motions(world_, world_zero_, now - kDeclaredPast, now + kDeclaredAhead, coarse_);
   // Whoever is not there yet promises nothing: before its motion begins a track is a box that grows into the past.
   std::erase_if(set.tracks, [now](const Track& track) { return track.motion.start > now; });
   set.batch.set = ++declared_set_;
   set.made_at = now;
   sort_by_reach(set.tracks, uav, now, now + kDeclaredAhead);
-  bus_.publish_paced(channels::kDeclaredMotions, split_batches(set));
+  std::vector<TrackSet> batches = split_batches(set);
+  say_left_out(batches.front().left_out, set.tracks.size());
+  bus_.publish_paced(channels::kDeclaredMotions, std::move(batches));
+  last_declared_ = now;
+  std::erase_if(appearances_, [&](Duration t) { return world_zero_ + t <= now; });
+}
+
+void WorldBroadcast::say_left_out(std::int32_t left_out, std::size_t of) {
+  const bool is_new = left_out > 0 && trouble_.empty();
+  trouble_.clear();
+  if (left_out > 0) trouble_ = fmt::format("{} of {} motions do not fit into DECLARED_MOTIONS", left_out, of);
+  if (is_new) spdlog::warn("{}: the farthest are left out", trouble_);
 }
 
 void WorldBroadcast::publish_truth(UTime now) {

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
+#include "core/base/result.h"
 #include "executor/executor.h"
 #include "runtime/bus.h"
 #include "simulator/app/simulator_config.h"
+#include "simulator/worlds/coarse_motions.h"
 #include "simulator/worlds/world.h"
 
 namespace tern {
@@ -15,7 +19,16 @@ inline constexpr Duration kDeclaredPast{100'000};
 /// … to this much after: t_s, the longest plan and its hold (3.5 s), and the age of a set that is still fresh.
 inline constexpr Duration kDeclaredAhead{4'500'000};
 
-/// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, DECLARED_MOTIONS at 5 Hz, OBSTACLE_TRUTH at 30 Hz.
+/// Sets of motions are at least this far apart, so that the batches of one have left before the next comes.
+inline constexpr Duration kDeclaredApart{20'000};
+
+/// The world of the scenario (make_world) if what moves in it can be declared, or if config.declare is false.
+/// @return an Error for the person who wrote the scenario: besides make_world's, more obstacles at once than a set of
+/// DECLARED_MOTIONS holds, or a faster one than a message may say.
+Result<World> make_flyable_world(const Scenario& scenario, const SimulatorConfig& config, const std::string& data_dir);
+
+/// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, DECLARED_MOTIONS at 5 Hz and when someone appears
+/// (kDeclaredApart later at most), OBSTACLE_TRUTH at 30 Hz. Motions with too many pieces are declared coarser.
 /// Until start() the world rests as it is at world time 0, and is declared so; after it, it rests until world_zero and
 /// is declared to move from there on.
 class WorldBroadcast {
@@ -26,12 +39,16 @@ class WorldBroadcast {
   [[nodiscard]] UTime next_wakeup() const;
   /// Publishes what is due; the sensor is where `uav` was when a frame was taken.
   void step(UTime now, const Executor& uav);
+  /// Motions that the newest declaration had to leave out, in words; empty: none.
+  [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
   void publish_observations(UTime now, const Executor& uav);
   void publish_declared(UTime now, const Vec3& uav);
+  void say_left_out(std::int32_t left_out, std::size_t of);
   void publish_truth(UTime now);
   void choose_epoch();
+  [[nodiscard]] UTime declared_due() const;
 
   Bus& bus_;
   const World& world_;
@@ -43,7 +60,11 @@ class WorldBroadcast {
   bool frames_rest_ = true;
   std::int64_t frame_ = 0;
   std::int64_t declared_set_ = 0, truth_set_ = 0;
+  CoarseMotions coarse_;
+  std::vector<Duration> appearances_;  // ascending world times, those that were declared are gone
+  std::string trouble_;
   UTime next_declared_, next_truth_;
+  UTime last_declared_;
 
   static constexpr UTime kFarFuture{3'999'999'999'000'000};
 };

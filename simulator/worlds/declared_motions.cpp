@@ -6,11 +6,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 namespace tern {
 namespace {
 
-constexpr std::int64_t kGridUnitUs = 10'000;
 constexpr std::int64_t kLongestPieceUs = 2'000'000;
 constexpr std::int64_t kEverUs = std::numeric_limits<std::int64_t>::max() / 4;
 
@@ -30,8 +30,9 @@ Duration floor_to(Duration t, Duration step) {
 
 class TrackMaker {
  public:
-  TrackMaker(const WorldObstacle& obstacle, UTime world_zero, Span wanted)
-      : obstacle_(obstacle), zero_(world_zero), wanted_(wanted) {}
+  /// @param coarse  may be null
+  TrackMaker(const WorldObstacle& obstacle, UTime world_zero, Span wanted, const CoarseMotion* coarse)
+      : obstacle_(obstacle), zero_(world_zero), wanted_(wanted), coarse_(coarse) {}
 
   /// Nothing if the obstacle is absent all the time.
   std::optional<Track> make() {
@@ -41,7 +42,7 @@ class TrackMaker {
     track_.top_speed = obstacle_.bounds().speed.maxCoeff();
     if (wanted_.from < Duration{}) straight({wanted_.from, std::min(wanted_.to, Duration{})}, Vec3::Zero());
     const Span later = {std::max(wanted_.from, Duration{}), wanted_.to};
-    if (!later.empty()) std::visit([&](const auto& m) { add(m, later); }, obstacle_.spec().motion);
+    if (!later.empty()) add(later);
     if (track_.motion.pieces.empty()) return std::nullopt;
     return std::move(track_);
   }
@@ -51,13 +52,17 @@ class TrackMaker {
   void straight(const Span& span, const Vec3& v) {
     const Span present = intersection(span, presence());
     if (present.empty()) return;
-    begin(present.from);
     CubicPiece piece;
     piece.duration = present.to - present.from;
     piece.coefficients.col(2) = v;
     piece.coefficients.col(3) = obstacle_.at(present.from.seconds()).p;
+    push(present.from, piece, Vec3::Constant(kFitRounding));
+  }
+
+  void push(Duration from, const CubicPiece& piece, const Vec3& alpha) {
+    begin(from);
     track_.motion.pieces.push_back(piece);
-    track_.alpha.emplace_back(Vec3::Constant(kFitRounding));
+    track_.alpha.push_back(alpha);
   }
 
   [[nodiscard]] Span presence() const {
@@ -67,8 +72,19 @@ class TrackMaker {
     return all;
   }
 
+  template <class Kind>
+  [[nodiscard]] const Kind* coarse() const {
+    return coarse_ == nullptr ? nullptr : std::get_if<Kind>(coarse_);
+  }
+
   void begin(Duration t) {
     if (track_.motion.pieces.empty()) track_.motion.start = zero_ + t;
+  }
+
+  /// The motion, once the world moves.
+  void add(const Span& span) {
+    if (const auto* places = coarse<Box>()) return somewhere_in(*places, span);
+    std::visit([&](const auto& m) { add(m, span); }, obstacle_.spec().motion);
   }
 
   void add(const StaticMotion&, const Span& span) { straight(span, Vec3::Zero()); }
@@ -88,8 +104,9 @@ class TrackMaker {
     } else {
       straight({span.from, std::min(span.to, first)}, Vec3::Zero());
     }
+    const auto* way = coarse<Track>();
     do {
-      segments(m, span, shift);
+      way != nullptr ? coarse_pieces(*way, span, shift) : segments(m, span, shift);
       shift = shift + (last - first);
     } while (m.repeat && first + shift < span.to);
     if (!m.repeat) straight({std::max(span.from, last), span.to}, Vec3::Zero());
@@ -106,10 +123,37 @@ class TrackMaker {
     }
   }
 
+  /// As segments(), of what they were resampled to.
+  void coarse_pieces(const Track& way, const Span& span, Duration shift) {
+    Duration begin = way.motion.start - UTime{} + shift;
+    for (std::size_t k = 0; k < way.motion.pieces.size(); ++k) {
+      CubicPiece piece = way.motion.pieces[k];
+      const Duration end = begin + piece.duration;
+      const Duration from = std::max(begin, Duration{});
+      if (!intersection({from, end}, span).empty()) {
+        if (from > begin) {
+          const double cut_s = (from - begin).seconds();
+          piece = {end - from, reparametrized(piece.coefficients, cut_s, cut_s + 1.0)};
+        }
+        push(from, piece, way.alpha[k] + Vec3::Constant(kFitRounding));
+      }
+      begin = end;
+    }
+  }
+
+  void somewhere_in(const Box& places, const Span& span) {
+    const Span present = intersection(span, presence());
+    if (present.empty()) return;
+    CubicPiece piece{present.to - present.from, PowerCubic::Zero()};
+    piece.coefficients.col(3) = places.center();
+    push(present.from, piece, 0.5 * places.sizes() + Vec3::Constant(kFitRounding));
+  }
+
   template <class Oscillation>
   void add(const Oscillation&, const Span& span) {
     if (!obstacle_.moves()) return straight(span, Vec3::Zero());
-    const Duration h = fit_piece(obstacle_.bounds());
+    const auto* coarser = coarse<Duration>();
+    const Duration h = coarser != nullptr ? *coarser : fit_piece(obstacle_.bounds());
     const Duration grid_from = floor_to(span.from, h);
     const int pieces = static_cast<int>((span.to - grid_from + h - Duration{1}).us / h.us);
     begin(grid_from);
@@ -127,6 +171,7 @@ class TrackMaker {
   const WorldObstacle& obstacle_;
   UTime zero_;
   Span wanted_;
+  const CoarseMotion* coarse_;
   Track track_;
 };
 
@@ -148,11 +193,12 @@ Track static_track(const WorldObstacle& obstacle, UTime from, UTime to) {
 
 Duration fit_piece(const ObstacleBounds& bounds) {
   const double h = std::pow(384.0 * kFitError / bounds.fourth.maxCoeff(), 0.25);
-  const double units = std::min(std::floor(h * 1e6 / kGridUnitUs), static_cast<double>(kLongestPieceUs / kGridUnitUs));
-  return Duration{kGridUnitUs * std::max<std::int64_t>(1, static_cast<std::int64_t>(units))};
+  const double units =
+      std::min(std::floor(h * 1e6 / kGridUnit.us), static_cast<double>(kLongestPieceUs / kGridUnit.us));
+  return kGridUnit * std::max<std::int64_t>(1, static_cast<std::int64_t>(units));
 }
 
-TrackSet declare_motions(const World& world, UTime world_zero, UTime from, UTime to) {
+TrackSet declare_motions(const World& world, UTime world_zero, UTime from, UTime to, const CoarseMotions& coarse) {
   if (!(from < to)) {
     throw std::invalid_argument("motions declared from " + std::to_string(from.us) + " us to " + std::to_string(to.us));
   }
@@ -163,7 +209,9 @@ TrackSet declare_motions(const World& world, UTime world_zero, UTime from, UTime
       set.tracks.push_back(static_track(o, from, to));
       continue;
     }
-    auto track = TrackMaker(o, world_zero, {from - world_zero, to - world_zero}).make();
+    const auto found = coarse.find(o.id());
+    const CoarseMotion* motion = found == coarse.end() ? nullptr : &found->second;
+    auto track = TrackMaker(o, world_zero, {from - world_zero, to - world_zero}, motion).make();
     if (track) set.tracks.push_back(std::move(*track));
   }
   return set;

@@ -3,6 +3,7 @@
 
 #include "core/base/time.h"
 #include "core/world/track.h"
+#include "simulator/worlds/coarse_motions.h"
 #include "simulator/worlds/world.h"
 
 namespace tern {
@@ -11,6 +12,9 @@ namespace tern {
 inline constexpr double kFitError = 5e-3;
 /// Added to α of everything that moves: rounding of the pieces' evaluation at up to 1e5 m from the origin, m.
 inline constexpr double kFitRounding = 1e-9;
+
+/// The grid of their joints: pieces are a multiple of it.
+inline constexpr Duration kGridUnit{10'000};
 
 /// Length of the Hermite pieces for a motion with these bounds: the longest multiple of 10 ms with
 /// h⁴/384 · max|p⁗| ≤ kFitError, from 10 ms to 2 s. 0.43 s for the paper's trefoils, about 1.3 s for SANDO's.
@@ -22,8 +26,10 @@ Duration fit_piece(const ObstacleBounds& bounds);
 /// world time (so that successive sets agree piece by piece), covering [from, to], α = hermite_error_bound per axis +
 /// kFitRounding. Linear and waypoint motions: their own straight pieces, α = kFitRounding. Before world_zero everything
 /// rests. A track of an obstacle that appears or vanishes covers only the time of its presence. top_speed is the
-/// largest axis' true bound. made_at = from, confidence 1, header and batch are empty. Pure; O(pieces).
+/// largest axis' true bound. Who is in `coarse` is declared as it says, with kFitRounding more: too fast to be followed
+/// means one piece at rest in the middle of its box, half the box being its α. made_at = from, confidence 1, header and
+/// batch are empty. Pure; O(pieces).
 /// @throws std::invalid_argument unless from < to.
-TrackSet declare_motions(const World& world, UTime world_zero, UTime from, UTime to);
+TrackSet declare_motions(const World& world, UTime world_zero, UTime from, UTime to, const CoarseMotions& coarse = {});
 
 }  // namespace tern

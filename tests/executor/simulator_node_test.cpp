@@ -254,6 +254,30 @@ TEST(SimulatorNode, WhatIsDeclaredHoldsFromTheDeclarationOn) {
   EXPECT_GT(checked, 1'000);
 }
 
+TEST(SimulatorNode, DeclaresWhoAppearsWhenItAppears) {
+  Scenario scenario = with_obstacle(empty_scenario(), far_trefoil());
+  const std::vector<double> appearances = {0.913, 1.117, 1.125};  // s; the last two nearer than sets may be
+  for (const double t : appearances) {
+    ObstacleSpec person;
+    person.motion = WaypointMotion{{{t, Vec3(5, 20, 1)}, {t + 3.0, Vec3(5, 25, 1)}}, false, true};
+    scenario = with_obstacle(scenario, person);
+  }
+  Flight flight(scenario);
+  std::map<std::int64_t, UTime> first;
+  flight.runner.observer().subscribe<TrackSet>(channels::kDeclaredMotions, [&](const TrackSet& batch) {
+    for (const Track& track : batch.tracks) first.try_emplace(track.id, flight.runner.now());
+  });
+  flight.start_planner();
+  flight.fly(kSecond * 3);
+  const UTime zero = *flight.simulator->world_zero();
+  for (std::size_t k = 0; k < appearances.size(); ++k) {
+    const UTime there = zero + Duration::from_seconds(appearances[k]);
+    const UTime said = first.at(static_cast<std::int64_t>(k) + 1);
+    EXPECT_GE(said, there);
+    EXPECT_LE((said - there).us, k == 2 ? kDeclaredApart.us : 0) << "obstacle " << k + 1;
+  }
+}
+
 TEST(SimulatorNode, PerceptionOnlyDeclaresNothing) {
   SimulatorConfig config;
   config.declare = false;

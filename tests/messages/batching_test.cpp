@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/world/message_limits.h"
 #include "tests/messages/messages_under_test.h"
@@ -50,6 +52,42 @@ void expect_legal_batches(const std::vector<T>& batches) {
   }
 }
 
+/// People who walk, at 120 frames/s, straight between frames.
+TrackSet walkers(int people, int pieces) {
+  TrackSet set;
+  set.header = {{12, 3}, {45}};
+  set.batch = {7, 0, 1};
+  const Duration frame{8'333};
+  for (int id = 0; id < people; ++id) {
+    Track track;
+    track.id = id;
+    track.half_extents = Vec3(0.25, 0.25, 1.0);
+    track.top_speed = 3.0;
+    track.alpha.resize(static_cast<std::size_t>(pieces), Vec3::Constant(1e-9));
+    const auto at = [id, frame](int k) {
+      const double t = (frame * k).seconds() + 0.1 * id;
+      return Vec3(1.3 * t - id, std::sin(1.1 * t), 1.0 + 0.03 * std::sin(12.0 * t));
+    };
+    for (int k = 0; k < pieces; ++k) {
+      CubicPiece piece{frame, PowerCubic::Zero()};
+      piece.coefficients.col(2) = (at(k + 1) - at(k)) / frame.seconds();
+      piece.coefficients.col(3) = at(k);
+      track.motion.pieces.push_back(piece);
+    }
+    set.tracks.push_back(std::move(track));
+  }
+  return set;
+}
+
+/// Whether the coarse track's box holds the track's box, at the ends, in the middle, and beyond both ends.
+void expect_contains(const Track& coarse, const Track& track) {
+  const Duration whole = track.motion.end() - track.motion.start;
+  for (int i = -2; i <= 22; ++i) {
+    const UTime t = track.motion.start + Duration{whole.us * i / 20};
+    ASSERT_TRUE(coarse.bounds(t, t).contains(track.bounds(t, t))) << "track " << track.id << " at " << i << "/20";
+  }
+}
+
 /// The whole set as it is after it was sent and joined: by id.
 TrackSet sorted(TrackSet set) {
   std::sort(set.tracks.begin(), set.tracks.end(), [](const Track& a, const Track& b) { return a.id < b.id; });
@@ -68,7 +106,7 @@ TEST(Batches, OfTracksJoinToTheWholeWhateverTheirSizes) {
 
 TEST(Batches, KeepTheFirstTracksAndCountTheOthersAsLeftOut) {
   Rng rng(10);
-  TrackSet whole = random_set(rng, 1500, 7);
+  TrackSet whole = random_set(rng, 2500, 1);
   whole.left_out = 5;
   const auto batches = split_batches(whole);
   expect_legal_batches(batches);
@@ -82,21 +120,63 @@ TEST(Batches, KeepTheFirstTracksAndCountTheOthersAsLeftOut) {
 
 TEST(Batches, FillTheirMessages) {
   Rng rng(11);
-  const auto batches = split_batches(random_set(rng, 1500, 7));
-  ASSERT_EQ(batches.size(), static_cast<std::size_t>(kMaxBatches));
-  for (const TrackSet& batch : batches)
-    EXPECT_GT(encode(batch).size(), static_cast<std::size_t>(kMaxMessageBytes) - 1000);
+  const auto many = split_batches(random_set(rng, 2500, 1));
+  ASSERT_EQ(many.size(), static_cast<std::size_t>(kMaxBatches));
+  for (const TrackSet& batch : many) EXPECT_EQ(batch.tracks.size(), static_cast<std::size_t>(kMaxTracksPerBatch));
+  const auto few = split_batches(walkers(100, 552));
+  ASSERT_EQ(few.size(), static_cast<std::size_t>(kMaxBatches));
+  for (std::size_t k = 0; k + 1 < few.size(); ++k)
+    EXPECT_GT(encode(few[k]).size(), static_cast<std::size_t>(kMaxMessageBytes) * 9 / 10);
 }
 
-TEST(Batches, LeaveOutATrackThatNoMessageHoldsButNotTheOnesAfterIt) {
+TEST(Batches, MakeTracksCoarserRatherThanLeaveThemOut) {
+  for (const auto& [people, pieces] : {std::pair{1, 10'000}, {12, 552}, {100, 552}, {600, 46}, {1800, 9}}) {
+    const TrackSet whole = walkers(people, pieces);
+    const auto batches = split_batches(whole);
+    expect_legal_batches(batches);
+    const TrackSet sent = join_batches(batches);
+    EXPECT_EQ(sent.left_out, 0);
+    ASSERT_EQ(sent.tracks.size(), whole.tracks.size());
+    for (std::size_t k = 0; k < sent.tracks.size(); ++k) expect_contains(sent.tracks[k], whole.tracks[k]);
+    EXPECT_GE(sent.tracks.front().motion.pieces.size(), sent.tracks.back().motion.pieces.size())
+        << "the first is finer";
+  }
+}
+
+TEST(Batches, MakeARecordingOfAHundredPeopleCoarserByLessThanACentimetre) {
+  for (const TrackSet& batch : split_batches(walkers(100, 552))) {
+    for (const Track& track : batch.tracks) {
+      for (const Vec3& alpha : track.alpha) EXPECT_LE(alpha.maxCoeff(), 0.01);
+    }
+  }
+}
+
+TEST(Batches, LeaveOutATrackWhoseCoarseNumbersNoMessageHoldsButNotTheOnesAfterIt) {
   Rng rng(12);
   TrackSet whole = random_set(rng, 3, 2);
   whole.tracks[1] = support::random_track(rng, 2, kMaxPiecesPerBatch + 1);
+  for (CubicPiece& piece : whole.tracks[1].motion.pieces) piece.duration = kMaxSpan;
   const auto batches = split_batches(whole);
   ASSERT_EQ(batches.size(), 1U);
+  expect_legal_batches(batches);
   EXPECT_EQ(batches[0].left_out, 1);
   ASSERT_EQ(batches[0].tracks.size(), 2U);
   EXPECT_EQ(batches[0].tracks[1].id, whole.tracks[2].id);
+}
+
+TEST(Batches, HoldAsManyPiecesForEachAsIsSaid) {
+  for (const auto& [tracks, single] :
+       {std::pair<std::size_t, std::size_t>{1, 0}, {7, 100}, {100, 0}, {100, 300}, {1900, 0}}) {
+    const std::size_t most = pieces_for_each(tracks, single);
+    ASSERT_GE(most, 1U);
+    TrackSet whole = walkers(static_cast<int>(tracks), static_cast<int>(most));
+    for (Track& one : walkers(static_cast<int>(single), 1).tracks) whole.tracks.push_back(std::move(one));
+    const auto batches = split_batches(whole);
+    EXPECT_EQ(batches[0].left_out, 0);
+    EXPECT_EQ(batches[0].tracks[0].motion.pieces.size(), most) << "as they were";
+  }
+  EXPECT_EQ(pieces_for_each(2500, 0), 0U);
+  EXPECT_EQ(pieces_for_each(1, 2500), 0U);
 }
 
 TEST(Batches, HoldTheLongestTrack) {

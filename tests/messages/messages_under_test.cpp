@@ -66,8 +66,8 @@ struct Words {
   void add(const PlanCost& c) { (*this)(c.distance_to_goal, c.jerk, c.attraction, c.repulsion, c.total); }
   void add(const PlanInputs& i) {
     const GoalFieldInputs& f = i.goal_field;
-    (*this)(i.request, i.goal, i.predictions, i.prediction_set, i.map_version, i.configuration_hash, i.planner_build,
-            f.map_version, f.statics_epoch_us, f.statics_first_set, f.statics, f.vehicle);
+    (*this)(i.request, i.goal, i.predictions, i.prediction_set, i.left_out, i.map_version, i.configuration_hash,
+            i.planner_build, f.map_version, f.statics_epoch_us, f.statics_first_set, f.statics, f.vehicle);
   }
   void add(const ChannelCounters& c) { (*this)(c.sent, c.received, c.rejected, c.lost, c.late); }
   void add(const TrueObstacle& o) { (*this)(o.id, o.position, o.velocity, o.half_extents, o.moves); }

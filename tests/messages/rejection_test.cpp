@@ -274,6 +274,7 @@ TEST(Rejection, OfPlan) {
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.goal.sequence = -1; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.predictions.sender_epoch_us = -1; }), "Time");
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.prediction_set = -1; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.left_out = -1; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.goal_field.statics_epoch_us = -1; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.goal_field.statics_first_set = -1; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.inputs.goal_field.vehicle.sequence = -1; }), "Number");

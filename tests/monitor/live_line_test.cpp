@@ -36,6 +36,14 @@ TEST(LiveLine, SaysWhatTheNewestPlanExcusesItselfWith) {
   EXPECT_TRUE(live_line(view).ends_with("(stale world)")) << live_line(view);
 }
 
+TEST(LiveLine, SaysThatTheNewestPlanDoesNotKnowAllTracks) {
+  LiveView view;
+  view.flying = true;
+  EXPECT_EQ(live_line(view).find("left out"), std::string::npos);
+  view.left_out = 12;
+  EXPECT_TRUE(live_line(view).ends_with("  12 tracks left out")) << live_line(view);
+}
+
 TEST(LiveLine, SaysWhoIsWaitedFor) {
   LiveView view;
   EXPECT_EQ(live_line(view), "waiting for the simulator");

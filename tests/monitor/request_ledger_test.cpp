@@ -107,6 +107,18 @@ TEST(RequestLedger, CountsReasonsAndKeepsTheNewest) {
   EXPECT_EQ(ledger.plans(PlanReason::StaleWorld), 1);
 }
 
+TEST(RequestLedger, CountsThePlansOfIncompleteSetsAndKeepsTheNewest) {
+  RequestLedger ledger;
+  for (const std::int32_t left_out : {0, 12, 3, 0}) {
+    Plan incomplete = plan(1, kDeadline);
+    incomplete.inputs.left_out = left_out;
+    ledger.add(incomplete);
+    EXPECT_EQ(ledger.last_left_out(), left_out);
+  }
+  EXPECT_EQ(ledger.left_out().plans, 2);
+  EXPECT_EQ(ledger.left_out().most_tracks, 12);
+}
+
 TEST(RequestLedger, AnAnswerToNobodySettlesNothing) {
   RequestLedger ledger;
   ledger.add(plan(7, kDeadline, PlanOutcome::NoPlan));

@@ -45,11 +45,12 @@ FlightSummary flown() {
 
 TEST(Summary, HasExactlyTheKeysThatWerePromised) {
   const json summary = json::parse(to_json(flown()));
-  EXPECT_THAT(keys(summary), testing::UnorderedElementsAre(
-                                 "outcome", "detail", "scenario", "seed", "count", "flight_time_s", "first_entry_s",
-                                 "path_length_m", "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m",
-                                 "limit_violations", "requests", "answered_in_time", "second_answers", "plans",
-                                 "replan_ms", "exposure", "messages", "restarts", "beside", "log", "version"));
+  EXPECT_THAT(keys(summary),
+              testing::UnorderedElementsAre("outcome", "detail", "scenario", "seed", "count", "flight_time_s",
+                                            "first_entry_s", "path_length_m", "mean_speed_mps", "top_speed_mps",
+                                            "stops", "min_clearance_m", "limit_violations", "requests",
+                                            "answered_in_time", "second_answers", "plans", "left_out", "replan_ms",
+                                            "exposure", "messages", "restarts", "beside", "log", "version"));
   EXPECT_THAT(keys(summary["replan_ms"]),
               testing::UnorderedElementsAre("total", "first_answer", "hulls", "search", "optimization", "check"));
   EXPECT_THAT(keys(summary["replan_ms"]["hulls"]), testing::UnorderedElementsAre("p50", "p95", "p99", "max"));
@@ -91,10 +92,21 @@ TEST(Summary, FitsOneScreen) {
   s.result->exposure.assign(6, s.result->exposure.front());
   for (int i = 0; i < 14; ++i) s.messages["CHANNEL_" + std::to_string(i)] = {1, 1, 1};
   s.reasons.fill(99);
+  s.left_out = {99'999, 99'999};
   std::istringstream text(to_text(s));
   int lines = 0;
   for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 100U) << line;
-  EXPECT_LE(lines, 31);
+  EXPECT_LE(lines, 32);
+}
+
+TEST(Summary, SaysThatPlansRestedOnAnIncompleteSet) {
+  FlightSummary s = flown();
+  EXPECT_EQ(to_text(s).find("left out"), std::string::npos);
+  EXPECT_EQ(json::parse(to_json(s))["left_out"], (json{{"plans", 0}, {"most_tracks", 0}}));
+  s.left_out = {130, 12};
+  EXPECT_NE(to_text(s).find("130 plans rest on incomplete predictions: up to 12 tracks are not in them"),
+            std::string::npos);
+  EXPECT_EQ(json::parse(to_json(s))["left_out"], (json{{"plans", 130}, {"most_tracks", 12}}));
 }
 
 TEST(Summary, TellsAPersonTheOutcomeFirst) {

@@ -91,17 +91,50 @@ TEST(WithoutExplained, DropsDetectionsOfDeclaredTracksOnly) {
   set.at = at_seconds(11.3);
   Detection inside, near, same_id, other;
   inside.position = centre + Vec3(0.4, 0.0, 0.0);
-  near.position = centre + Vec3(0.5, 0.0, 0.0);  // 0.4 + α 0.02 + 4 · 0.05
+  near.position = centre + Vec3(0.5, 0.0, 0.0);  // 0.4 + α 0.02 + 4 √2 · 0.05
   near.variance = Vec3::Constant(0.0025);
   same_id.position = centre + Vec3(30.0, 0.0, 0.0);
   same_id.track_id = 7;
-  other.position = centre + Vec3(0.7, 0.0, 0.0);
+  other.position = centre + Vec3(0.71, 0.0, 0.0);
   other.variance = Vec3::Constant(0.0025);
   other.track_id = 8;
   set.detections = {inside, near, same_id, other};
   const ObservationSet left = without_explained(set, {track});
   ASSERT_EQ(left.detections.size(), 1u);
   EXPECT_EQ(left.detections.front().track_id, 8);
+}
+
+// A person beside a declared robot.
+TEST(WithoutExplained, KeepsWhatSticksOutOfTheDeclaredBox) {
+  Track robot;
+  robot.id = 1;
+  robot.half_extents = Vec3(1.0, 1.0, 1.0);
+  robot.motion.start = at_seconds(10.0);
+  robot.motion.pieces = {CubicPiece{Duration{1'000'000}, PowerCubic::Zero()}};
+  robot.alpha = {Vec3::Constant(0.01)};
+  const auto is_dropped = [&](double y, double half) {
+    ObservationSet set;
+    set.at = at_seconds(10.5);
+    Detection person;
+    person.position = Vec3(0.0, y, 0.0);
+    person.half_extents = Vec3::Constant(half);
+    person.variance = Vec3::Constant(0.05 * 0.05);
+    set.detections = {person};
+    return without_explained(set, {robot}).detections.empty();
+  };
+  for (const double y : {0.9, 1.1, 1.3}) EXPECT_FALSE(is_dropped(y, 0.6)) << y;
+  EXPECT_TRUE(is_dropped(0.2, 0.6)) << "a part of the robot";
+  EXPECT_TRUE(is_dropped(0.2, 1.0)) << "the robot, seen 4 standard deviations beside where it is";
+  EXPECT_FALSE(is_dropped(0.0, 1.4)) << "larger than the robot";
+}
+
+TEST(Merged, KeepsAnEstimateThatSticksOutOfTheDeclaredBox) {
+  Rng rng(8);
+  const Track declared = random_track(rng, 5);
+  Track larger = declared;
+  larger.id = 99;
+  larger.half_extents += Vec3(0.2, 0.0, 0.0);
+  EXPECT_EQ(merged({declared}, {larger}, at_seconds(11.0)).size(), 2u);
 }
 
 TEST(Merged, DeclaredTracksWinAndIdsAscend) {

@@ -228,35 +228,65 @@ TEST_F(PredictorNodeTest, ThreeHundredTracksAreCompleteSetsPaced) {
   EXPECT_EQ(largest_gap_, kPacing);
 }
 
-TEST_F(PredictorNodeTest, LeavesOutTheFarthestAndCountsThem) {
+TEST_F(PredictorNodeTest, MakesTracksCoarserRatherThanLeaveThemOut) {
   start();
   std::vector<Detection> detections;
-  const Vec3 vehicle(100.0, 0.0, 1.0);
   for (int k = 0; k < 10; ++k) {
     Rng rng(static_cast<std::uint64_t>(k) + 1);
     detections.clear();
-    // 400 detections 40 m apart on two lines; a track that is watched for so short a time could move at 5 m/s for 4.5
-    // s.
-    for (int i = 0; i < 400; ++i) {
-      detections.push_back(testing::detection_of(Vec3(40.0 * (i / 2), 60.0 * (i % 2), 1.0), 0.02, rng, i));
-    }
-    say_vehicle_is_at(vehicle);
+    for (int i = 0; i < 400; ++i) detections.push_back(testing::detection_of(Vec3(20.0 * i, 0.0, 1.0), 0.02, rng, i));
     observe(detections, Duration{});
     run_for(0.033);
   }
+  EXPECT_EQ(sets_.back().tracks.size(), 400u);
+  EXPECT_EQ(sets_.back().left_out, 0);
+  EXPECT_EQ(node_->health().waiting_for, "");
+}
+
+TEST_F(PredictorNodeTest, LeavesOutTheFarthestAndCountsThem) {
+  start();
+  constexpr int kThings = 2400, kSensors = 4;
+  const auto place = [](int i) { return Vec3(40.0 * (i / 2), 60.0 * (i % 2), 1.0); };
+  const Vec3 vehicle(600.0, 0.0, 1.0);
+  for (int k = 0; k < 5; ++k) {
+    Rng rng(static_cast<std::uint64_t>(k) + 1);
+    say_vehicle_is_at(vehicle);
+    for (int sensor = 0; sensor < kSensors; ++sensor) {
+      std::vector<Detection> detections;
+      for (int i = sensor; i < kThings; i += kSensors)
+        detections.push_back(testing::detection_of(place(i), 0.02, rng, i));
+      observe(std::move(detections), Duration{}, sensor);
+    }
+    run_for(0.033);
+  }
+  run_for(0.05);
   const TrackSet& set = sets_.back();
   EXPECT_GT(set.left_out, 0);
   EXPECT_EQ(node_->health().state, ProcessState::Ready);
-  EXPECT_TRUE(says(std::to_string(set.left_out) + " of 400 tracks do not fit")) << node_->health().waiting_for;
-  ASSERT_EQ(set.tracks.size() + static_cast<std::size_t>(set.left_out), 400u);
+  EXPECT_TRUE(says(std::to_string(set.left_out) + " of 2400 tracks do not fit")) << node_->health().waiting_for;
+  ASSERT_EQ(set.tracks.size() + static_cast<std::size_t>(set.left_out), static_cast<std::size_t>(kThings));
   double farthest_in = 0.0, nearest_out = 1e9;
   std::set<std::int64_t> in;
   for (const Track& track : set.tracks) in.insert(track.id);
-  for (int i = 0; i < 400; ++i) {
-    const double distance = (Vec3(40.0 * (i / 2), 60.0 * (i % 2), 1.0) - vehicle).norm();
+  for (int i = 0; i < kThings; ++i) {
+    const double distance = (place(i) - vehicle).norm();
     (in.contains(i) ? farthest_in = std::max(farthest_in, distance) : nearest_out = std::min(nearest_out, distance));
   }
   EXPECT_LE(farthest_in, nearest_out + 2.0);
+}
+
+TEST_F(PredictorNodeTest, SaysWhatOwnersLeftOut) {
+  start();
+  TrackSet set;
+  set.batch.set = 1;
+  set.made_at = runner_.now();
+  set.left_out = 12;
+  set.tracks = {mover(1, Vec3::Zero(), Vec3(1, 0, 0), runner_.now())};
+  runner_.observer().publish_paced(channels::kDeclaredMotions, split_batches(set));
+  run_for(0.15);
+  ASSERT_FALSE(sets_.empty());
+  EXPECT_EQ(sets_.back().left_out, 12);
+  EXPECT_TRUE(says("12 declared motions are not known: their owner left them out")) << node_->health().waiting_for;
 }
 
 TEST_F(PredictorNodeTest, CountsObservationsThatComeTooLate) {

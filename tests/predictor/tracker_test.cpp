@@ -152,9 +152,13 @@ TEST(Tracker, PredictsWhatRestsAtRest) {
   Rng rng(1);
   Tracker tracker(TrackerConfig{});
   const Vec3 p(3.0, 1.0, 2.0);
-  const double t = feed(tracker, {straight(p, Vec3::Zero())}, 0.0, 3.0, rng);
+  // A thousand seconds of rest without a start, all together.
+  std::vector<Path> paths;
+  for (int k = 0; k < 50; ++k) paths.push_back(straight(p + Vec3(10.0 * k, 0.0, 0.0), Vec3::Zero()));
+  const double t = feed(tracker, paths, 0.0, 20.0, rng);
+  EXPECT_EQ(tracker.rest().starts, 0);
   const std::vector<Track> tracks = tracker.predict(at_seconds(t));
-  ASSERT_EQ(tracks.size(), 1u);
+  ASSERT_EQ(tracks.size(), 50u);
   EXPECT_EQ(tracks[0].kind, TrackKind::Estimated);
   const std::size_t first_second = tracks[0].motion.locate(at_seconds(t + 0.99)).index;
   EXPECT_LT(tracks[0].alpha[first_second].maxCoeff(), 0.2);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/base/random.h"
@@ -175,6 +176,60 @@ TEST(DeclaredMotions, AreFewEnoughForTheirMessages) {
     pieces += t.motion.pieces.size();
   }
   EXPECT_LE(pieces, 6u * 460u);
+}
+
+/// As `seconds` of a recording at `rate`, from `first_s` on.
+WaypointMotion recorded(double rate, double first_s, double seconds, bool repeat = false) {
+  WaypointMotion m;
+  m.repeat = repeat;
+  m.vanish = !repeat;
+  const int frames = static_cast<int>(seconds * rate);
+  for (int k = 0; k <= frames; ++k) {
+    const double t = k / rate;
+    m.points.emplace_back(first_s + t, Vec3(2.0 * std::sin(1.2 * t), 1.5 * std::cos(0.7 * t), 1.0));
+  }
+  if (repeat) m.points.back().second = m.points.front().second;
+  return m;
+}
+
+TEST(DeclaredMotions, TooFineForAMessageAreCoarserAndKeepTheirPromise) {
+  constexpr Duration kWindow{4'600'000};
+  std::vector<ObstacleSpec> specs = {moving(recorded(120.0, -3.0, 30.0)), moving(recorded(1000.0, 1.0, 10.0)),
+                                     moving(recorded(1000.0, -2.0, 9.0, true)),
+                                     moving(recorded(1000.0, 0.0, 2.0, true)),
+                                     moving(recorded(1e5, 0.0, 0.0005, true))};
+  for (const double slowness : {0.05, 0.02, 0.01, 0.001}) {
+    specs.push_back(moving(TrefoilMotion{Vec3(1, 0.5, 2), slowness, 1.0}));
+    specs.push_back(moving(WaveMotion{Vec3(0, 0, -1), slowness, 0.5}));
+  }
+  const World world = world_of(specs);
+  for (const std::size_t pieces : {1u, 2u, 20u, 100u, 460u}) {
+    const CoarseMotions coarse = coarse_motions(world, kWindow, pieces);
+    for (const double from_s : {-3.0, -0.1, 0.03, 1.7, 5.0, 8.9}) {
+      const UTime from = kZero + Duration::from_seconds(from_s);
+      const TrackSet set = declare_motions(world, kZero, from, from + kWindow, coarse);
+      EXPECT_EQ(set.tracks.size(), specs.size());
+      expect_promise_kept(world, set);
+      for (const Track& track : set.tracks) {
+        EXPECT_LE(track.motion.pieces.size(), 4 * pieces + 4) << track.id << " from " << from_s;
+        for (const Vec3& alpha : track.alpha)
+          EXPECT_LE(alpha.maxCoeff(), 3.1) << "little more than the reach of them all";
+      }
+    }
+  }
+}
+
+TEST(DeclaredMotions, ThatAreFewEnoughAreNotMadeCoarser) {
+  EXPECT_TRUE(coarse_motions(world_of(every_motion()), Duration{4'600'000}, 40).empty());
+  EXPECT_TRUE(coarse_motions(generated("paper_corridor", 100, 1), Duration{4'600'000}, 20).empty());
+}
+
+TEST(DeclaredMotions, CountWhoIsThereAtOnce) {
+  std::vector<ObstacleSpec> specs = every_motion();
+  for (int k = 0; k < 10; ++k) specs.push_back(moving(recorded(10.0, 3.0 * k, 2.0)));
+  const PresentAtOnce present = most_present(world_of(specs), Duration{100'000});
+  EXPECT_EQ(present.resting, 1u);
+  EXPECT_EQ(present.moving, 5u + 2u) << "the vanishing one of every_motion() and the first or second of the others";
 }
 
 TEST(DeclaredMotions, ThrowWithoutATimeToCover) {

@@ -267,6 +267,7 @@ Plan random_message(Rng& rng, Fill fill) {
                  name(rng),
                  name(rng),
                  integer(rng, 0, kMaxCounter),
+                 random_integer(rng, 0, 1000),
                  digest(text(rng, 8)),
                  digest(text(rng, 8)),
                  digest(text(rng, 8)),

@@ -63,6 +63,8 @@ class AnswerCheck {
     }
     ++check_.checked;
     if (set->second.batch.set != plan.inputs.prediction_set) fail(plan, "names predictions of another set");
+    if (set->second.left_out != plan.inputs.left_out) fail(plan, "says another number of left out tracks than they do");
+    if (plan.inputs.left_out > 0) ++check_.unchecked["plans on predictions that left tracks out"];
     const double age_s = (request.header.utime - set->second.made_at).seconds();
     oldest_s_ = std::max(oldest_s_, age_s);
     if (age_s > stale_after_)

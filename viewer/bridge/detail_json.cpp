@@ -86,7 +86,7 @@ void write_plan(JsonWriter& json, const Scene& scene) {
   json.key("cost_distance_to_goal_m").number(p.cost.distance_to_goal).key("cost_jerk").number(p.cost.jerk);
   json.key("cost_attraction").number(p.cost.attraction).key("cost_repulsion").number(p.cost.repulsion);
   json.key("from_request").text(to_text(p.inputs.request)).key("from_goal").text(to_text(p.inputs.goal));
-  json.key("from_predictions").text(to_text(p.inputs.predictions));
+  json.key("from_predictions").text(to_text(p.inputs.predictions)).key("left_out").integer(p.inputs.left_out);
   json.key("map_version").text(fmt::format("{:016x}", p.inputs.map_version));
   json.key("configuration").text(fmt::format("{:016x}", p.inputs.configuration_hash));
   json.key("planes").integer(static_cast<std::int64_t>(p.certificate.size()));
