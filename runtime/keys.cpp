@@ -104,9 +104,7 @@ KeyRing KeyRing::derive(const Key& master, std::string_view process) {
     if (!all && part.process != process) continue;
     for (const std::string_view channel : part.channels) add(channel);
   }
-  for (const Role role : kRoles) {
-    if (all || known->hears_reports || role == ring.role_) add(to_string(role));
-  }
+  for (const Role role : kRoles) add(to_string(role));
   return ring;
 }
 

@@ -33,12 +33,12 @@ std::optional<Role> role_of(std::string_view channel);
 /// The role of one of Tern's processes ("tern-planner"); nothing for other names.
 std::optional<Role> role_of_process(std::string_view process);
 
-/// What one of Tern's processes takes part in, besides its own HEARTBEAT and CONFIGURATION.
+/// What one of Tern's processes takes part in, besides HEARTBEAT and CONFIGURATION, which all say and hear (clocks are
+/// compared by heartbeats).
 struct Part {
   std::string_view process;
   Role role;
   std::vector<std::string_view> channels;  ///< that it says or hears and that are one role's
-  bool hears_reports;                      ///< HEARTBEAT or CONFIGURATION of others
 };
 
 /// All of Tern's processes.
