@@ -307,13 +307,17 @@ TEST(Rejection, OfPlanTiming) {
 TEST(Rejection, OfHeartbeat) {
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.state = static_cast<ProcessState>(5); }), "Enumeration");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.lost = -1; }), "Number");
-  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.rejected[6] = -1; }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.rejected[kRejections - 1] = -1; }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.emplace("", ChannelCounters{}); }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.emplace(std::string(64, 'x'), ChannelCounters{}); }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.waiting_for = "\xC3"; }), "Number");
   using Wire = tern_msgs::heartbeat_t;
   const auto after_wire = after_on_wire<Heartbeat, Wire>;
-  EXPECT_EQ(after_wire([](Wire& m) { ++m.channels[0].name_length; }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) {
+              std::fill(m.channel_text.begin(), m.channel_text.end(), std::uint8_t{'x'});
+              m.channels[0].name_length += m.channels[0].name_length < kMaxChannelName ? 1 : -1;
+            }),
+            "Inconsistent");
   EXPECT_EQ(after_wire([](Wire& m) {
               m.channels.resize(2);
               m.channel_count = 2;
