@@ -316,7 +316,7 @@ TEST(Rejection, OfPlanTiming) {
 TEST(Rejection, OfHeartbeat) {
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.state = static_cast<ProcessState>(5); }), "Enumeration");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.lost = -1; }), "Number");
-  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.rejected[6] = -1; }), "Number");
+  EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels.begin()->second.rejected[kRejections - 1] = -1; }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels = {{"", ChannelCounters{}}}; }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.channels = {{std::string(64, 'x'), ChannelCounters{}}}; }), "Number");
   EXPECT_EQ(after<Heartbeat>([](auto& h) { h.waiting_for = "\xC3"; }), "Number");
