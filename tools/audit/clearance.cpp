@@ -13,9 +13,19 @@ namespace {
 
 /// The least is found to this, m: what a search passes over is not lower by more.
 constexpr double kResolution = 1e-4;
+/// … and to this where it may be a touch: below kNearTouch, m.
+constexpr double kTouchResolution = 1e-6;
+constexpr double kNearTouch = 1e-3;
 /// A collision's verdict comes at the first touch; what follows shows how deep it was.
 constexpr Duration kAfterCollision{100'000};
 constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// Of a search whose least so far is `low`.
+double resolution(double low) { return low < kNearTouch ? kTouchResolution : kResolution; }
+
+/// What a search that found `low` at last may have passed over; what it passed over before it came under kNearTouch is
+/// not lower than kNearTouch − kResolution.
+double passed_over(double low) { return low < 0.5 * kNearTouch ? kTouchResolution : kResolution; }
 
 /// The least distance lies between them; the truth's distance from the recorded curves included.
 struct Closest {
@@ -58,7 +68,7 @@ void search(const Encounter& e, double a, double b, Closest& best, int depth = 0
     best.at = at;
     best.obstacle = e.obstacle;
   }
-  if (depth == kDeepest || gap.low - stray >= best.low - kResolution) return;
+  if (depth == kDeepest || gap.low - stray >= best.low - resolution(best.low)) return;
   search(e, a, middle, best, depth + 1);
   search(e, middle, b, best, depth + 1);
 }
@@ -186,9 +196,9 @@ class Verdicts {
     if (a.proven.high < 0.0) {
       const Closest& c = a.proven;
       check_.fail({c.at, fmt::format("overlaps obstacle {} by {:.3f} m", c.obstacle, -c.high), 0, c.obstacle});
-    } else if (a.proven.obstacle != kNobody && a.proven.low < kResolution) {
+    } else if (a.proven.obstacle != kNobody && a.proven.low < passed_over(a.proven.low)) {
       undecided(a.proven, "the log tells no better");
-    } else if (a.interpolated.obstacle != kNobody && a.interpolated.low < kResolution) {
+    } else if (a.interpolated.obstacle != kNobody && a.interpolated.low < passed_over(a.interpolated.low)) {
       undecided(a.interpolated, "by interpolation: its motion was not declared");
     }
   }
@@ -203,7 +213,7 @@ class Verdicts {
     least.known = true;
     least.high = proven_.high;
     least.proven = undeclared_ == 0 && whole;
-    least.low = nearest() - kResolution;
+    least.low = nearest() - passed_over(nearest());
     least.touch_open = undecided_ > 0;
     say(least, closest);
     return least;
@@ -214,8 +224,8 @@ class Verdicts {
 
   void undecided(const Closest& c, const char* why) {
     ++undecided_;
-    ++check_.unchecked[fmt::format("whether obstacle {} was touched at {:.3f} s: {:.4f} to {:.4f} m, {}", c.obstacle,
-                                   record_.seconds(c.at), c.low - kResolution, c.high, why)];
+    ++check_.unchecked[fmt::format("whether obstacle {} was touched at {:.3f} s: {:.6f} to {:.6f} m, {}", c.obstacle,
+                                   record_.seconds(c.at), c.low - passed_over(c.low), c.high, why)];
   }
 
   void say(const Least& least, const Closest& closest) {
