@@ -66,6 +66,10 @@ class Planning {
     if (!has_path) reason_ = PlanReason::GoalBlocked;
     if (answer_.plan.relaxed) gain_clearance(context);
     if (has_path && !best_) try_durations(context);
+    for (int k = 0; has_path && stuck(k); ++k) {
+      aim(context, context.goal_radius / kSmallerStep);
+      try_durations(context);
+    }
     if (needs_evasion()) evade(context);
     return choose();
   }
@@ -202,14 +206,26 @@ class Planning {
     }
     const auto path = world_.goal->field->path_from(at);
     if (!path) return false;
-    const LocalAim aim = aim_along(*path, request_.start, context.plan_limits, context.goal_radius, look_, config_);
+    path_ = *path;
+    aim(context, context.goal_radius);
+    return true;
+  }
+
+  /// Heads for the local goal at this radius, or nearer.
+  void aim(AttemptContext& context, double largest_radius) {
+    const LocalAim aim = aim_along(path_, request_.start, context.plan_limits, largest_radius, look_, config_);
     context.goal_radius = aim.radius;
     context.local_goal = aim.goal;
-    context.pace = paced(context.plan_limits, (aim.goal - at).norm());
-    context.way = way_along(*path, world_.goal->field->cost(), kBendIgnored * step_scale(aim.radius));
+    context.pace = paced(context.plan_limits, (aim.goal - request_.start.p).norm());
+    context.way = way_along(path_, world_.goal->field->cost(), kBendIgnored * step_scale(aim.radius));
     answer_.plan.local_goal = context.local_goal;
     if (committed_) committed_->arrival_s = worth_of(context, committed_->trajectory);
-    return true;
+  }
+
+  /// At rest on the way to a goal, with no plan for the steps tried so far: a smaller one may find a way.
+  [[nodiscard]] bool stuck(int smaller_steps) {
+    if (best_ || smaller_steps >= kSmallerSteps || request_.t_s < request_.committed.end()) return false;
+    return world_.goal->goal.mode == GoalMode::Go && !budget_.expired(Stage::LocalGoal);
   }
 
   /// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, each
@@ -218,9 +234,9 @@ class Planning {
     const double least = planned_duration(request_.start, context.local_goal, context.plan_limits);
     const double scale_of_lengths = step_scale(context.goal_radius);
     const SearchConfig search = scaled(config_.search, context.goal_radius, least);
-    int attempt = 0;
     for (const double scale : config_.duration_scales) {
-      budget_.begin_attempt(attempt++);
+      if (attempt_ == kFirstEvasionAttempt) break;
+      budget_.begin_attempt(attempt_++);
       if (best_ && (enough(kNearLocalGoal * scale_of_lengths) || budget_.expired(Stage::LocalGoal))) break;
       const std::optional<Duration> interval = interval_of(scale * least, config_.intervals);
       if (!interval || !is_followed(context, *interval)) break;
@@ -334,6 +350,8 @@ class Planning {
   PlanAnswer finish_without(PlanReason reason) { return finish(nullptr, reason); }
 
   static constexpr double kNearLocalGoal = 1.0;  // m
+  static constexpr int kSmallerSteps = 3;
+  static constexpr double kSmallerStep = 3.0;  ///< by this much smaller each
   static constexpr double kProgressKept = 0.5;
   static constexpr double kSmoothnessPrice =
       0.05;  // s: an optimized trajectory may arrive so much later than the search's
@@ -349,6 +367,8 @@ class Planning {
   bool start_collides_ = false;
   std::optional<Candidate> committed_;
   std::optional<Candidate> best_;
+  std::vector<Vec3> path_;  ///< to the goal
+  int attempt_ = 0;
   PlanReason reason_ = PlanReason::None;
   PlanAnswer answer_;
 };
