@@ -258,12 +258,13 @@ class Planning {
   [[nodiscard]] bool enough(double near) const { return best_->holds && best_->cost.distance_to_goal <= near; }
 
   /// The optimizer's trajectory, where it gives up neither the leaf's hold, nor much of its arrival, nor most of its
-  /// progress (to who crosses the sphere in less than kSmoothnessPrice, arrivals say little); else the leaf.
+  /// progress where intervals are short (to who crosses the sphere in a moment, arrivals say little); else the leaf.
   Candidate optimized(AttemptContext& context, SweptObstacles& swept, Candidate leaf) {
     auto smooth = refine(context, swept, leaf);
     if (!smooth || (leaf.holds && !smooth->holds)) return leaf;
     const double progress = progress_of(context, leaf);
-    if (progress > 0.0 && progress_of(context, *smooth) < kProgressKept * progress) return leaf;
+    const bool in_a_moment = leaf.trajectory.interval < kMoment;
+    if (in_a_moment && progress > 0.0 && progress_of(context, *smooth) < kProgressKept * progress) return leaf;
     return smooth->arrival_s <= leaf.arrival_s + kSmoothnessPrice ? std::move(*smooth) : leaf;
   }
 
@@ -353,6 +354,7 @@ class Planning {
   static constexpr int kSmallerSteps = 3;
   static constexpr double kSmallerStep = 3.0;  ///< by this much smaller each
   static constexpr double kProgressKept = 0.5;
+  static constexpr Duration kMoment{40'000};
   static constexpr double kSmoothnessPrice =
       0.05;  // s: an optimized trajectory may arrive so much later than the search's
 
