@@ -50,7 +50,7 @@ double least_duration(const MotionSample& start, const Vec3& to, const Limits& l
 }
 
 Limits paced(const Limits& limits, double metres) {
-  constexpr double kGentle = 0.25;
+  constexpr double kGentle = 0.1;
   constexpr double kLeastWay = 1e-4;  // m
   Limits paced = limits;
   for (int axis = 0; axis < 3; ++axis) {

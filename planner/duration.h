@@ -16,7 +16,7 @@ double least_time_to_rest(double d, double v0, double v_max, double a_max);
 double least_duration(const MotionSample& start, const Vec3& to, const Limits& limits);
 
 /// The limits by which progress is measured over flights of so many metres. Where jerk is so gentle that nowhere near
-/// a_max is reached on the way (less than a quarter), a_max is what is reached from rest to rest, j T/4 with T = (32
+/// a_max is reached on the way (less than a tenth), a_max is what is reached from rest to rest, j T/4 with T = (32
 /// d/j)^⅓: else braking would seem to take no time, and plans that overshoot would seem the best.
 Limits paced(const Limits& limits, double metres);
 

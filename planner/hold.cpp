@@ -25,4 +25,20 @@ double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec
   return times[1];
 }
 
+HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& config,
+                       const std::vector<PlanningObstacle>& obstacles) {
+  HoldDemand hold{config.hold_required_s, config.hold_cap_s, config.hold_until_s};
+  Vec3 largest = Vec3::Zero();
+  for (const PlanningObstacle& obstacle : obstacles) {
+    if (!obstacle.moves()) continue;
+    largest = largest.cwiseMax(obstacle.track->half_extents);
+    hold.predicted_s = std::max(hold.predicted_s, (obstacle.track->motion.end() - request.t_s).seconds());
+  }
+  if (largest.isZero(0.0)) return hold;
+  const Vec3 body = request.body.half_extents();
+  hold.aside_s = time_to_step_aside(request.limits, body, largest);
+  hold.width = (body + largest).maxCoeff();
+  return hold;
+}
+
 }  // namespace tern

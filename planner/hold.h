@@ -1,7 +1,11 @@
 // The hold: how long an end of a plan must stay clear, and how far ahead that is looked at.
 #pragma once
 
-#include "core/world/vehicle.h"
+#include <vector>
+
+#include "core/world/horizon.h"
+#include "planner/planner_config.h"
+#include "planner/safety/swept_obstacles.h"
 
 namespace tern {
 
@@ -28,6 +32,11 @@ struct HoldDemand {
 /// The least time in which this vehicle, at rest, leaves the way of a mover, s: from rest to rest over what both are
 /// wide (half-extents), along the second quickest axis (a mover may come along the quickest), times kStopScale.
 double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec3& mover_half);
+
+/// What the request asks for among these obstacles: the largest mover's size per axis, the predictions that reach
+/// farthest.
+HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& config,
+                       const std::vector<PlanningObstacle>& obstacles);
 
 /// A spline of J intervals from rest to rest takes this much longer than the per-axis bound of least_duration().
 inline constexpr double kStopScale = 1.5;

@@ -68,6 +68,10 @@ class Planning {
     if (!has_path) reason_ = PlanReason::GoalBlocked;
     if (answer_.plan.relaxed) gain_clearance(context);
     if (has_path && !best_ && !idle()) try_durations(context);
+    for (int k = 0; has_path && stuck(k); ++k) {
+      aim(context, context.goal_radius / kSmallerStep);
+      try_durations(context);
+    }
     if (needs_evasion()) evade(context);
     return choose();
   }
@@ -117,28 +121,7 @@ class Planning {
     const StartClearance start = clear_start(obstacles_, request_.body, request_.start.p, request_.t_s);
     answer_.plan.relaxed = start.relaxed;
     start_collides_ = start.collides;
-    hold_ = hold_demand();
-  }
-
-  /// Of this vehicle, among what moves nearby.
-  [[nodiscard]] HoldDemand hold_demand() const {
-    HoldDemand hold{config_.hold_required_s, config_.hold_cap_s, config_.hold_until_s};
-    Vec3 largest = Vec3::Zero();
-    for (const PlanningObstacle& obstacle : obstacles_) {
-      if (!obstacle.moves()) continue;
-      largest = largest.cwiseMax(obstacle.track->half_extents);
-      hold.predicted_s = std::max(hold.predicted_s, (obstacle.track->motion.end() - request_.t_s).seconds());
-    }
-    if (largest.isZero(0.0)) return hold;
-    const Vec3 body = request_.body.half_extents();
-    hold.aside_s = time_to_step_aside(request_.limits, body, largest);
-    hold.width = (body + largest).maxCoeff();
-    return hold;
-  }
-
-  /// Whether its motion is promised, not estimated.
-  [[nodiscard]] static bool is_certain(const PlanningObstacle& obstacle) {
-    return obstacle.track == nullptr || obstacle.track->kind != TrackKind::Estimated;
+    hold_ = hold_demand(request_, config_, obstacles_);
   }
 
   /// The committed trajectory from t_s on and its end's hold, against this world.
@@ -173,7 +156,7 @@ class Planning {
     c.certificate = std::move(report.certificate);
     const ClearTime clear = clear_time_at(swept, static_cast<int>(pieces.size()), end, report.pairs);
     if (rests && clear.seconds <= 0.0) return std::nullopt;
-    is_hit_at_rest_ = idle() && clear.blocker != nullptr && is_certain(*clear.blocker);
+    is_hit_at_rest_ = idle() && clear.blocker != nullptr && clear.blocker->is_promised();
     c.hold_s = std::min(clear.seconds, hold_.cap(moving_s));
     c.holds = lasts(c.hold_s, hold_.required(moving_s));
     c.clear_s = moving_s + clear.seconds;
@@ -232,14 +215,26 @@ class Planning {
     }
     const auto path = world_.goal->field->path_from(at);
     if (!path) return false;
-    const LocalAim aim = aim_along(*path, request_.start, context.plan_limits, context.goal_radius, look_, config_);
+    path_ = *path;
+    aim(context, context.goal_radius);
+    return true;
+  }
+
+  /// Heads for the local goal at this radius, or nearer.
+  void aim(AttemptContext& context, double largest_radius) {
+    const LocalAim aim = aim_along(path_, request_.start, context.plan_limits, largest_radius, look_, config_);
     context.goal_radius = aim.radius;
     context.local_goal = aim.goal;
-    context.pace = paced(context.plan_limits, (aim.goal - at).norm());
-    context.way = way_along(*path, world_.goal->field->cost(), kBendIgnored * step_scale(aim.radius));
+    context.pace = paced(context.plan_limits, (aim.goal - request_.start.p).norm());
+    context.way = way_along(path_, world_.goal->field->cost(), kBendIgnored * step_scale(aim.radius));
     answer_.plan.local_goal = context.local_goal;
     if (committed_) committed_->arrival_s = worth_of(context, committed_->trajectory);
-    return true;
+  }
+
+  /// At rest on the way to a goal, with no plan for the steps tried so far: a smaller one may find a way.
+  [[nodiscard]] bool stuck(int smaller_steps) {
+    if (best_ || smaller_steps >= kSmallerSteps || request_.t_s < request_.committed.end() || idle()) return false;
+    return world_.goal->goal.mode == GoalMode::Go && !budget_.expired(Stage::LocalGoal);
   }
 
   /// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, each
@@ -248,9 +243,9 @@ class Planning {
     const double least = planned_duration(request_.start, context.local_goal, context.plan_limits);
     const double scale_of_lengths = step_scale(context.goal_radius);
     const SearchConfig search = scaled(config_.search, context.goal_radius, least);
-    int attempt = 0;
     for (const double scale : config_.duration_scales) {
-      budget_.begin_attempt(attempt++);
+      if (attempt_ == kFirstEvasionAttempt) break;
+      budget_.begin_attempt(attempt_++);
       if (best_ && (enough(kNearLocalGoal * scale_of_lengths) || budget_.expired(Stage::LocalGoal))) break;
       const std::optional<Duration> interval = interval_of(scale * least, config_.intervals);
       if (!interval) break;
@@ -273,12 +268,13 @@ class Planning {
   [[nodiscard]] bool enough(double near) const { return best_->holds && best_->cost.distance_to_goal <= near; }
 
   /// The optimizer's trajectory, where it gives up neither the leaf's hold, nor much of its arrival, nor most of its
-  /// progress (to who crosses the sphere in less than kSmoothnessPrice, arrivals say little); else the leaf.
+  /// progress where intervals are short (to who crosses the sphere in a moment, arrivals say little); else the leaf.
   Candidate optimized(AttemptContext& context, SweptObstacles& swept, Candidate leaf) {
     auto smooth = refine(context, swept, leaf);
     if (!smooth || (leaf.holds && !smooth->holds)) return leaf;
     const double progress = progress_of(context, leaf);
-    if (progress > 0.0 && progress_of(context, *smooth) < kProgressKept * progress) return leaf;
+    const bool in_a_moment = leaf.trajectory.interval < kMoment;
+    if (in_a_moment && progress > 0.0 && progress_of(context, *smooth) < kProgressKept * progress) return leaf;
     return smooth->arrival_s <= leaf.arrival_s + kSmoothnessPrice ? std::move(*smooth) : leaf;
   }
 
@@ -365,7 +361,10 @@ class Planning {
   PlanAnswer finish_without(PlanReason reason) { return finish(nullptr, reason); }
 
   static constexpr double kNearLocalGoal = 1.0;  // m
+  static constexpr int kSmallerSteps = 3;
+  static constexpr double kSmallerStep = 3.0;  ///< by this much smaller each
   static constexpr double kProgressKept = 0.5;
+  static constexpr Duration kMoment{40'000};
   static constexpr double kSmoothnessPrice =
       0.05;  // s: an optimized trajectory may arrive so much later than the search's
 
@@ -382,6 +381,8 @@ class Planning {
   bool is_hit_at_rest_ = false;  ///< the vehicle rests where it shall, and a motion that is promised comes through it
   std::optional<Candidate> committed_;
   std::optional<Candidate> best_;
+  std::vector<Vec3> path_;  ///< to the goal
+  int attempt_ = 0;
   PlanReason reason_ = PlanReason::None;
   PlanAnswer answer_;
 };

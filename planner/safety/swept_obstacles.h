@@ -28,6 +28,8 @@ struct PlanningObstacle {
   std::span<const Box> piece_boxes = {};
 
   [[nodiscard]] bool moves() const { return track != nullptr && track->kind != TrackKind::Static; }
+  /// Whether where it will be is promised, not estimated.
+  [[nodiscard]] bool is_promised() const { return track == nullptr || track->kind != TrackKind::Estimated; }
 };
 
 /// Sweeps of obstacles over the intervals [times[k], times[k+1]], each perhaps split into 2 or 4 parts of equal time.

@@ -211,13 +211,15 @@ LegalScenario legal_scenario(std::uint64_t seed) {
   }
   uav.goal = uav.start + distance * direction;
   const double needed_s = distance / hopping_speed(uav.limits, knobs, direction, around);
-  scenario.timeout_s = std::min(3.0 * needed_s + 10.0, 900.0);
+  // A jerk limit costs hops more than the bound says; regions cost detours, perhaps along a slow axis.
+  const bool regions = toss(rng, 0.3);
+  scenario.timeout_s = (uav.limits.j_max.allFinite() || regions ? 8.0 : 3.0) * needed_s + 10.0;
   if (toss(rng, 0.4)) {
     uav.flight_box = grown(Box(uav.start.cwiseMin(uav.goal), uav.start.cwiseMax(uav.goal)),
                            uav.body.half_extents() + Vec3::Constant(log_uniform(rng, 0.1, 5.0)));
   }
   scenario.world.obstacles = random_obstacles(rng, uav, around);
-  if (toss(rng, 0.3)) add_regions(rng, scenario);
+  if (regions) add_regions(rng, scenario);
   legal.yaml = write_scenario(scenario) +
                fmt::format(
                    "planner: {{sphere_radius_m: {}, intervals: {}, hold_required_s: {}, hold_cap_s: {}}}\n"

@@ -20,7 +20,7 @@ std::int64_t setting(const char* name, std::int64_t fallback) {
 
 /// More: TERN_LEGAL_SCENARIOS=10000, TERN_LEGAL_FIRST=1 before this executable.
 TEST(LegalScenario, EndsAtItsGoalOrWithAReasonThatIsTrue) {
-  const std::int64_t count = setting("TERN_LEGAL_SCENARIOS", 150);
+  const std::int64_t count = setting("TERN_LEGAL_SCENARIOS", 60);
   const std::int64_t first = setting("TERN_LEGAL_FIRST", 1);
   const std::filesystem::path file =
       std::filesystem::path(::testing::TempDir()) / fmt::format("legal_{}.yaml", ::getpid());
