@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,7 +17,9 @@ namespace {
 
 constexpr int kMaxExpansions = 150;
 /// Searches of one evasion.
-constexpr int kMostTries = 28;
+constexpr int kMostTries = 40;
+/// Durations over least_duration(): at leisure, and as quick as a far stop can be flown.
+constexpr double kPaces[] = {kStopScale, 1.15};
 /// Stops lie this far away, in what vehicle and largest mover are wide together …
 constexpr double kWidths[] = {0.3, 0.6, 1.1, 2.0};
 /// … or, to get far away, in r.
@@ -46,6 +50,7 @@ struct Stop {
   Vec3 point = Vec3::Zero();
   Duration interval;     ///< Δt of the way there
   double way_s = 0.0;    ///< J Δt
+  bool hurries = false;  ///< the quicker pace: a search may well find it too quick
   double clear_s = 0.0;  ///< forecast: when the way there, or resting there, first meets an obstacle's box
 };
 
@@ -88,8 +93,21 @@ double forecast(const SweptObstacles& swept, const MotionSample& start, const St
   return swept.time(swept.intervals());
 }
 
-/// All stops within the flight box, those first whose forecast is clear longest; of equals the sooner ones, then by
-/// direction.
+/// Of equal forecasts those at leisure come first, then the sooner ones.
+bool comes_first(const Stop& a, const Stop& b) {
+  return std::make_tuple(-a.clear_s, a.hurries, a.way_s) < std::make_tuple(-b.clear_s, b.hurries, b.way_s);
+}
+
+/// The stop at this point and pace; nothing: outside the flight box, or too slow to be flown.
+std::optional<Stop> stop_at(const AttemptContext& context, const Box& box, const Vec3& point, double pace) {
+  if (!box.contains(point)) return std::nullopt;
+  const double least = least_duration(context.request.start, point, context.plan_limits);
+  const auto interval = interval_of(pace * least, context.config.intervals);
+  if (!interval) return std::nullopt;
+  return Stop{point, *interval, interval->seconds() * context.config.intervals, pace < kStopScale, 0.0};
+}
+
+/// All stops within the flight box, the best forecast first.
 std::vector<Stop> ordered_stops(const AttemptContext& context, EvasionAim aim) {
   const Box box = centre_box(context.request.flight_box, context.request.body);
   std::vector<Stop> stops;
@@ -97,24 +115,18 @@ std::vector<Stop> ordered_stops(const AttemptContext& context, EvasionAim aim) {
   const std::size_t ways = aim == EvasionAim::GreatestClearance ? kFacesAndCorners : directions().size();
   for (const double distance : distances(context, aim)) {
     for (std::size_t k = 0; k < ways; ++k) {
-      Stop stop;
-      stop.point = context.request.start.p + directions()[k] * distance;
-      if (!box.contains(stop.point)) continue;
-      const double least = least_duration(context.request.start, stop.point, context.plan_limits);
-      const auto interval = interval_of(kStopScale * least, context.config.intervals);
-      if (!interval) continue;
-      stop.interval = *interval;
-      stop.way_s = stop.interval.seconds() * context.config.intervals;
-      longest = std::max(longest, stop.way_s);
-      stops.push_back(stop);
+      for (const double pace : kPaces) {
+        const auto stop = stop_at(context, box, context.request.start.p + directions()[k] * distance, pace);
+        if (!stop) continue;
+        longest = std::max(longest, stop->way_s);
+        stops.push_back(*stop);
+      }
     }
   }
   const SweptObstacles& swept =
       sweep_forecast(context, std::max(longest + context.hold.cap_s, context.hold.predicted_s));
   for (Stop& stop : stops) stop.clear_s = forecast(swept, context.request.start, stop);
-  std::stable_sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) {
-    return a.clear_s != b.clear_s ? a.clear_s > b.clear_s : a.way_s < b.way_s;
-  });
+  std::stable_sort(stops.begin(), stops.end(), comes_first);
   if (stops.size() > kMostTries) stops.resize(kMostTries);
   return stops;
 }

@@ -16,10 +16,11 @@ enum class EvasionAim {
   GreatestClearance,  ///< of the stops that hold, the one farthest from every obstacle's box: for a start inside a hull
 };
 
-/// Tries up to 28 stops around the vehicle, from a fraction of what vehicle and largest mover are wide to 0.8 r away,
-/// in 26 directions (to gain room: 14 directions, 0.35 r and 0.8 r). A cheap forecast by the obstacles' boxes sorts
-/// them: what stays clear longest comes first, of equals the nearest. The first try usually succeeds. Each stop's hold
-/// is followed as far as predictions reach. Ends early when the budget is spent. The outcome is Evade.
+/// Tries up to 40 stops around the vehicle, from a fraction of what vehicle and largest mover are wide to 0.8 r away,
+/// in 26 directions, at leisure or in a hurry (to gain room: 14 directions, 0.35 r and 0.8 r). A cheap forecast by the
+/// obstacles' boxes sorts them: what stays clear longest comes first, of equals the nearest. The first try usually
+/// succeeds. Each stop's hold is followed as far as predictions reach. Ends early when the budget is spent. The outcome
+/// is Evade.
 /// @return the best stop, or nullopt if none passed the checker
 std::optional<Candidate> find_evasion(const AttemptContext& context, EvasionAim aim);
 

@@ -17,17 +17,19 @@ constexpr std::int64_t kSeveral = 3;
 constexpr Duration kPlayedAgain{2'500'000};
 
 constexpr Duration kSilence{1'000'000};
-/// The planner calls predictions of this age stale: it cannot wait longer for a predictor that was started anew.
-constexpr Duration kPredictionsSilence{300'000};
+/// The planner calls predictions of this age stale: it cannot wait longer for a predictor that was started anew. Nor can
+/// a vehicle in flight for a planner: plans are short.
+constexpr Duration kShortSilence{300'000};
 
 }  // namespace
 
 std::optional<Duration> speaker_silence(std::string_view channel) {
-  if (channel == channels::kPredictions) return kPredictionsSilence;
+  for (const char* one : {channels::kPredictions, channels::kPlan, channels::kPlanTiming, channels::kSearchView}) {
+    if (channel == one) return kShortSilence;
+  }
   if (channel == channels::kSemanticMap) return kMapSilence;
   for (const char* one : {channels::kUavState, channels::kSetpoint, channels::kDeclaredMotions,
-                          channels::kHorizonRequest, channels::kPlan, channels::kPlanTiming, channels::kSearchView,
-                          channels::kObstacleTruth, channels::kFlightResult}) {
+                          channels::kHorizonRequest, channels::kObstacleTruth, channels::kFlightResult}) {
     if (channel == one) return kSilence;
   }
   return std::nullopt;

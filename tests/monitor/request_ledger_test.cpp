@@ -109,8 +109,9 @@ TEST(RequestLedger, CountsReasonsAndKeepsTheNewest) {
 
 TEST(RequestLedger, CountsThePlansOfIncompleteSetsAndKeepsTheNewest) {
   RequestLedger ledger;
+  std::int64_t id = 0;
   for (const std::int32_t left_out : {0, 12, 3, 0}) {
-    Plan incomplete = plan(1, kDeadline);
+    Plan incomplete = plan(++id, kDeadline);
     incomplete.inputs.left_out = left_out;
     ledger.add(incomplete);
     EXPECT_EQ(ledger.last_left_out(), left_out);

@@ -80,7 +80,7 @@ TEST(SpeakerSilence, SensorsGoalsAndReportsMayComeFromSeveral) {
        {channels::kObstacleObservations, channels::kGoal, channels::kHeartbeat, channels::kConfiguration}) {
     EXPECT_FALSE(speaker_silence(channel)) << channel;
   }
-  for (const char* channel : {channels::kPlan, channels::kHorizonRequest, channels::kFlightResult}) {
+  for (const char* channel : {channels::kDeclaredMotions, channels::kHorizonRequest, channels::kFlightResult}) {
     EXPECT_EQ(speaker_silence(channel), Duration{1'000'000}) << channel;
   }
 }

@@ -34,6 +34,10 @@ bool can_step_aside(const Vehicle& v, const World& world, const Vec3& start, dou
   vehicle.flight_box = Box(Vec3(-50, -50, 0), Vec3(50, 50, 100));
   MoveSearch search;
   search.until_s = until_s;
+  // A motion is known 4.5 s ahead.
+  const WorldObstacle& box = world.obstacles.front();
+  const double touches_s = (8.0 - box.half_extents().y() - 0.1) / box.bounds().speed.y();
+  search.earliest_s = std::max(search.earliest_s, touches_s - 4.5 + search.earliest_s);
   return clear_moves(vehicle, world, 1, search) > 0;
 }
 
@@ -65,7 +69,8 @@ TEST_P(StepAsideOf, OneBoxWheneverRandomMovesFindAWayOut) {
 
 INSTANTIATE_TEST_SUITE_P(Vehicles, StepAsideOf,
                          ::testing::Values(Vehicle{6, 20, INFINITY}, Vehicle{2, 2, 5}, Vehicle{1.5, 3, INFINITY},
-                                           Vehicle{1, 1, 5}, Vehicle{0.5, 1, 10}));
+                                           Vehicle{1, 1, 5}, Vehicle{0.5, 1, 10}),
+                         [](const auto& vehicle) { return fmt::format("Of{}cmps", vehicle.param.v_max * 100); });
 
 TEST(StepAside, TouchesNothingThatRandomMovesAvoidIn40DrawnEncounters) {
   const Vec3 start(0, 0, 50);
