@@ -30,8 +30,7 @@ class VirtualSystem {
   /// @param master  the flight's key: every process signs and verifies; nothing: none does
   /// @throws ConfigError for what run_process would refuse.
   VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides,
-                Charge charge = Charge::Counts, UTime begin = UTime{1'000'000},
-                const std::optional<Key>& master = {});
+                Charge charge = Charge::Counts, UTime begin = UTime{1'000'000}, const std::optional<Key>& master = {});
   ~VirtualSystem();
 
   /// Kills "tern-predictor", "tern-mapper" or "tern-planner"; the next start() makes a new one that knows nothing.

@@ -17,8 +17,8 @@ constexpr std::int64_t kSeveral = 3;
 constexpr Duration kPlayedAgain{2'500'000};
 
 constexpr Duration kSilence{1'000'000};
-/// The planner calls predictions of this age stale: it cannot wait longer for a predictor that was started anew. Nor can
-/// a vehicle in flight for a planner: plans are short.
+/// The planner calls predictions of this age stale: it cannot wait longer for a predictor that was started anew. Nor
+/// can a vehicle in flight for a planner: plans are short.
 constexpr Duration kShortSilence{300'000};
 
 }  // namespace
