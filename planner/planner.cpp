@@ -311,6 +311,15 @@ class Planning {
     offer(&*best_, PlanReason::None);
   }
 
+  /// A vehicle at rest gains nothing by waiting: a plan that promises to arrive no later, and gets nearer, is flown.
+  /// (Arrivals are counted per axis: where one axis is slow, those of a plan that begins gently and of rest are equal.)
+  [[nodiscard]] bool sets_out() const {
+    const bool rests = request_.t_s >= request_.committed.end();
+    if (!rests || best_->holds != committed_->holds || best_->arrival_s > committed_->arrival_s + kSameArrival)
+      return false;
+    return best_->cost.distance_to_goal < (answer_.plan.local_goal - request_.start.p).norm() - kSameArrival;
+  }
+
   [[nodiscard]] PlanReason reason_of_nothing() const {
     if (start_collides_) return PlanReason::StartInCollision;
     return budget_.cuts().empty() ? PlanReason::Infeasible : PlanReason::OutOfTime;
@@ -332,7 +341,7 @@ class Planning {
       if (committed_) return finish(&*committed_, reason_);
       return finish_without(reason_ == PlanReason::None ? PlanReason::Infeasible : reason_);
     }
-    if (committed_ && best_->outcome != PlanOutcome::Evade && !best_->better_than(*committed_)) {
+    if (committed_ && best_->outcome != PlanOutcome::Evade && !best_->better_than(*committed_) && !sets_out()) {
       return finish(&*committed_, PlanReason::WorsePlan);
     }
     return finish(&*best_, PlanReason::None);
@@ -364,6 +373,7 @@ class Planning {
   static constexpr int kSmallerSteps = 3;
   static constexpr double kSmallerStep = 3.0;  ///< by this much smaller each
   static constexpr double kProgressKept = 0.5;
+  static constexpr double kSameArrival = 1e-6;  // s; m for distances
   static constexpr Duration kMoment{40'000};
   static constexpr double kSmoothnessPrice =
       0.05;  // s: an optimized trajectory may arrive so much later than the search's
