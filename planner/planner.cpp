@@ -311,13 +311,14 @@ class Planning {
     offer(&*best_, PlanReason::None);
   }
 
-  /// A vehicle at rest gains nothing by waiting: a plan that promises to arrive no later, and gets nearer, is flown.
-  /// (Arrivals are counted per axis: where one axis is slow, those of a plan that begins gently and of rest are equal.)
+  /// A vehicle at rest gains nothing by waiting: a plan that gets nearer is flown even if it is estimated to arrive as
+  /// late, or later by what smoothness may cost. (Arrivals are counted per axis: where one axis is slow, those of rest
+  /// and of a plan that begins gently are equal.)
   [[nodiscard]] bool sets_out() const {
     const bool rests = request_.t_s >= request_.committed.end();
-    if (!rests || best_->holds != committed_->holds || best_->arrival_s > committed_->arrival_s + kSameArrival)
-      return false;
-    return best_->cost.distance_to_goal < (answer_.plan.local_goal - request_.start.p).norm() - kSameArrival;
+    if (!rests || best_->holds != committed_->holds) return false;
+    if (best_->arrival_s > committed_->arrival_s + kSmoothnessPrice) return false;
+    return best_->cost.distance_to_goal < (answer_.plan.local_goal - request_.start.p).norm() - kNearer;
   }
 
   [[nodiscard]] PlanReason reason_of_nothing() const {
@@ -373,7 +374,7 @@ class Planning {
   static constexpr int kSmallerSteps = 3;
   static constexpr double kSmallerStep = 3.0;  ///< by this much smaller each
   static constexpr double kProgressKept = 0.5;
-  static constexpr double kSameArrival = 1e-6;  // s; m for distances
+  static constexpr double kNearer = 1e-6;  // m
   static constexpr Duration kMoment{40'000};
   static constexpr double kSmoothnessPrice =
       0.05;  // s: an optimized trajectory may arrive so much later than the search's
