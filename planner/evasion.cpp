@@ -18,7 +18,8 @@ namespace {
 constexpr int kMaxExpansions = 150;
 /// Searches of one evasion.
 constexpr int kMostTries = 40;
-/// Durations over least_duration(): at leisure, and as quick as a far stop can be flown.
+/// Durations over least_duration(): at leisure, and as quick as a far stop can be flown. To hurry far away pays where
+/// motion is promised; among estimated movers, whose boxes grow, it leads into what is not yet known.
 constexpr double kPaces[] = {kStopScale, 1.15};
 /// Stops lie this far away, in what vehicle and largest mover are wide together …
 constexpr double kWidths[] = {0.3, 0.6, 1.1, 2.0};
@@ -117,7 +118,7 @@ std::vector<Stop> ordered_stops(const AttemptContext& context, EvasionAim aim) {
     for (std::size_t k = 0; k < ways; ++k) {
       for (const double pace : kPaces) {
         const auto stop = stop_at(context, box, context.request.start.p + directions()[k] * distance, pace);
-        if (!stop) continue;
+        if (!stop || (stop->hurries && !context.hold.promised)) continue;
         longest = std::max(longest, stop->way_s);
         stops.push_back(*stop);
       }

@@ -31,6 +31,7 @@ HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& confi
   Vec3 largest = Vec3::Zero();
   for (const PlanningObstacle& obstacle : obstacles) {
     if (!obstacle.moves()) continue;
+    hold.promised = hold.promised && obstacle.is_promised();
     largest = largest.cwiseMax(obstacle.track->half_extents);
     hold.predicted_s = std::max(hold.predicted_s, (obstacle.track->motion.end() - request.t_s).seconds());
   }

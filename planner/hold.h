@@ -16,6 +16,7 @@ struct HoldDemand {
   double until_s = 60.0;     ///< no hold is asked for later than this
   double aside_s = 0.0;      ///< what this vehicle needs to step out of a mover's way (time_to_step_aside)
   double predicted_s = 0.0;  ///< how far the predictions of what moves nearby reach
+  bool promised = true;      ///< all that moves nearby is promised, nothing estimated
   double width = 0.0;        ///< of vehicle and largest mover together: half-extents, added, m
 
   /// What an end reached at `end_s` should hold to be preferred, s. Where predictions widen with time, a hold after a
