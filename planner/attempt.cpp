@@ -11,8 +11,14 @@
 namespace tern {
 namespace {
 
-/// For how long a trajectory is taken to be flown before a better one follows, s.
-constexpr double kWhiles[] = {0.3, 0.8};
+/// For how long a trajectory is taken to be flown before a better one follows, s; where a step takes minutes, this
+/// share of it: nothing better follows within a second.
+struct While {
+  double least_s;
+  double share;
+  [[nodiscard]] double of(double step_s) const { return std::max(least_s, share * step_s); }
+};
+constexpr While kWhiles[] = {{0.3, 0.15}, {0.8, 0.4}};
 
 constexpr double kLeastInterval = 0.02;  // s
 
@@ -78,11 +84,13 @@ std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& 
   return c;
 }
 
-double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits) {
+double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits,
+                        double step_s) {
   const ClampedSpline spline = trajectory.spline();
   const double offset_s = (from - trajectory.start).seconds();
   double sum = 0.0;
-  for (const double while_s : kWhiles) {
+  for (const While& shall : kWhiles) {
+    const double while_s = shall.of(step_s);
     const MotionSample at = spline.sample(offset_s + while_s);
     sum += while_s + least_duration(at, way.point, limits) + way.rest / limits.v_max.minCoeff();
   }
@@ -91,12 +99,14 @@ double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime
 
 double worth_of(const AttemptContext& context, const TimedSpline& trajectory) {
   const UTime from = context.request.t_s;
-  const double arrival_s = arrival_estimate(context.way, trajectory, from, context.pace);
+  const double arrival_s = arrival_estimate(context.way, trajectory, from, context.pace, context.step_s);
   if (context.fields == nullptr || context.config.semantic_cost == SemanticCost::MeanDistance) return arrival_s;
   const SemanticGuide guide = guide_of(context);
   const ClampedSpline spline = trajectory.spline();
   double metres = 0.0;
-  for (const double while_s : kWhiles) metres += 0.5 * guide.of(spline, (from - trajectory.start).seconds(), while_s);
+  for (const While& shall : kWhiles) {
+    metres += 0.5 * guide.of(spline, (from - trajectory.start).seconds(), shall.of(context.step_s));
+  }
   return arrival_s + metres / context.plan_limits.v_max.minCoeff();
 }
 

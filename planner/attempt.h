@@ -50,6 +50,7 @@ struct AttemptContext {
   LookAhead look;            ///< no plan looks past its followed_until
   double goal_radius = 0.0;  ///< how far from the start the local goal may lie: near for who is slow (LocalAim), m
   HoldDemand hold = {};
+  double step_s = 0.0;  ///< planned_duration() to the local goal
 };
 
 /// Of holds, s: coarser than Δt where Δt is short, so that a hold costs few hulls.
@@ -81,8 +82,10 @@ std::optional<Candidate> certify(const AttemptContext& context, SweptObstacles& 
 /// When the goal would be reached if the trajectory were flown for a while and the rest time-optimally, per axis: the
 /// mean over two such whiles. Comparing ends instead would favour short plans, because every plan brakes at its end and
 /// hardly one is flown so far.
-/// @param from  the time on the trajectory that counts as 0
-double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits);
+/// @param from    the time on the trajectory that counts as 0
+/// @param step_s  the least time to the local goal: the whiles are no shorter than a share of it, s
+double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits,
+                        double step_s);
 
 /// The arrival estimate from t_s on, plus the exposure cost over the same whiles and ahead (SemanticGuide), as if those
 /// metres were flown at v_max, s: the same exchange of metres for metres as in the search. The mean distance stays out:

@@ -225,6 +225,7 @@ class Planning {
     const LocalAim aim = aim_along(path_, request_.start, context.plan_limits, largest_radius, look_, config_);
     context.goal_radius = aim.radius;
     context.local_goal = aim.goal;
+    context.step_s = aim.least_s;
     context.pace = paced(context.plan_limits, (aim.goal - request_.start.p).norm());
     context.way = way_along(path_, world_.goal->field->cost(), kBendIgnored * step_scale(aim.radius));
     answer_.plan.local_goal = context.local_goal;

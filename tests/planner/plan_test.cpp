@@ -130,7 +130,7 @@ TEST(Planner, WhatABudgetCutReplaysToTheSameBytes) {
     const auto s = static_cast<std::int64_t>(seed);
     Budget live([s](int attempt, Stage stage, std::int64_t count) {
       if (stage == Stage::LocalGoal) return attempt >= 1 + s % 4;
-      if (stage == Stage::Search) return count >= 5 + (s * 7 + attempt * 13) % 150;
+      if (stage == Stage::Search) return count >= 5 + (s * 7 + attempt * 13) % 60;
       return count >= (s + attempt) % 30;
     });
     const Plan first = plan(d.request, d.world, d.config, live).plan;
