@@ -6,6 +6,7 @@
 #include <deque>
 #include <optional>
 
+#include "core/base/knobs.h"
 #include "core/world/goal.h"
 #include "core/world/scenario.h"
 #include "executor/adoption.h"
@@ -14,8 +15,14 @@
 namespace tern {
 
 struct ExecutorConfig {
-  double rate_hz = 20.0;  ///< requests per second at most, [0.001, 1000]
-  Duration lead{75'000};  ///< t_s of a request − now, > kDeadlineLead, ≤ 5 s
+  double rate_hz = 20.0;
+  Duration lead{75'000};  ///< > kDeadlineLead, ≤ 5 s
+
+  template <typename V>
+  void visit(V& v) {
+    v("rate_hz", rate_hz, Range{1e-3, 100.0}, "requests per second at most");
+    v("lead_s", lead, Range{0.01, 2.0}, "t_s − the time of the request, s; the planner has this less 5 ms");
+  }
 };
 
 /// Everything is counted; nothing is counted twice: requests = answered_in_time + unanswered + (0 or 1 outstanding).

@@ -23,11 +23,13 @@ struct Record {
   struct Entry;
   std::vector<Entry> entries;
   void write(std::string& out, int indent) const;
+  void list(std::vector<Knob>& knobs, const std::string& above) const;
 };
 using RecordPtr = std::shared_ptr<Record>;
 struct Record::Entry {
   std::string key;
   std::variant<std::string, RecordPtr, std::vector<RecordPtr>> value;
+  Knob knob = {};  ///< of a value that is text; its path is made when it is asked for
 };
 
 void Record::write(std::string& out, int indent) const {
@@ -45,6 +47,19 @@ void Record::write(std::string& out, int indent) const {
         out += std::string(static_cast<std::size_t>(indent) + 2, ' ') + (item->entries.empty() ? "- {}\n" : "-\n");
         item->write(out, indent + 4);
       }
+    }
+  }
+}
+
+void Record::list(std::vector<Knob>& knobs, const std::string& above) const {
+  for (const Entry& entry : entries) {
+    const std::string path = above + entry.key;
+    if (const auto* section = std::get_if<RecordPtr>(&entry.value)) {
+      (*section)->list(knobs, path + ".");
+    } else if (const auto* items = std::get_if<std::vector<RecordPtr>>(&entry.value)) {
+      if (!items->empty()) items->front()->list(knobs, path + "[].");
+    } else {
+      knobs.push_back({path, entry.knob.fallback, entry.knob.range, entry.knob.meaning});
     }
   }
 }
@@ -117,14 +132,21 @@ struct ConfigSection::Impl {
     return *found;
   }
 
-  void note(std::string_view key, std::string rendered) {
+  /// @param knob  without a path
+  void note(std::string_view key, std::string rendered, Knob knob = {}) {
     for (Record::Entry& entry : record->entries) {
       if (entry.key == key) {
         entry.value = std::move(rendered);
         return;
       }
     }
-    record->entries.push_back({std::string(key), std::move(rendered)});
+    record->entries.push_back({std::string(key), std::move(rendered), std::move(knob)});
+  }
+
+  void note_required(std::string_view key) const {
+    for (Record::Entry& entry : record->entries) {
+      if (entry.key == key) entry.knob.fallback = "required";
+    }
   }
 
   double number(std::string_view key, const YamlValue& v, const Range& range) const {
@@ -170,14 +192,15 @@ struct ConfigSection::Impl {
   }
 };
 
-double ConfigSection::number(std::string_view key, double fallback, Range range) {
+double ConfigSection::number(std::string_view key, double fallback, Range range, std::string_view meaning) {
   const YamlValue* v = impl_->find(key);
   const double result = v != nullptr ? impl_->number(key, *v, range) : fallback;
-  impl_->note(key, yaml_number(result));
+  impl_->note(key, yaml_number(result), {"", yaml_number(fallback), describe(range), std::string(meaning)});
   return result;
 }
 
-std::int64_t ConfigSection::integer(std::string_view key, std::int64_t fallback, std::int64_t low, std::int64_t high) {
+std::int64_t ConfigSection::integer(std::string_view key, std::int64_t fallback, std::int64_t low, std::int64_t high,
+                                    std::string_view meaning) {
   std::int64_t result = fallback;
   if (const YamlValue* v = impl_->find(key)) {
     const char* const end = v->scalar.data() + v->scalar.size();
@@ -189,40 +212,45 @@ std::int64_t ConfigSection::integer(std::string_view key, std::int64_t fallback,
       throw impl_->error(key, v, fmt::format("{} is out of range [{}, {}]", v->describe(), low, high));
     }
   }
-  impl_->note(key, fmt::format("{}", result));
+  impl_->note(key, fmt::format("{}", result),
+              {"", fmt::format("{}", fallback), fmt::format("[{}, {}]", low, high), std::string(meaning)});
   return result;
 }
 
-bool ConfigSection::flag(std::string_view key, bool fallback) {
+bool ConfigSection::flag(std::string_view key, bool fallback, std::string_view meaning) {
   bool result = fallback;
   if (const YamlValue* v = impl_->find(key)) {
     const bool word = v->kind == YamlValue::Kind::Scalar && !v->quoted && (v->scalar == "true" || v->scalar == "false");
     if (!word) throw impl_->error(key, v, v->describe() + " is not true or false");
     result = v->scalar == "true";
   }
-  impl_->note(key, result ? "true" : "false");
+  impl_->note(key, result ? "true" : "false", {"", fallback ? "true" : "false", "", std::string(meaning)});
   return result;
 }
 
-std::string ConfigSection::text(std::string_view key, std::string fallback) {
+std::string ConfigSection::text(std::string_view key, std::string fallback, std::string_view meaning) {
   const YamlValue* v = impl_->find(key);
-  std::string result = v != nullptr ? impl_->text(key, *v) : std::move(fallback);
-  impl_->note(key, yaml_text(result));
+  std::string result = v != nullptr ? impl_->text(key, *v) : fallback;
+  impl_->note(key, yaml_text(result), {"", yaml_text(fallback), "", std::string(meaning)});
   return result;
 }
 
-std::string ConfigSection::choice(std::string_view key, std::string fallback, const std::vector<std::string>& words) {
-  std::string result = text(key, std::move(fallback));
+std::string ConfigSection::choice(std::string_view key, std::string fallback, const std::vector<std::string>& words,
+                                  std::string_view meaning) {
+  const YamlValue* v = impl_->find(key);
+  std::string result = v != nullptr ? impl_->text(key, *v) : fallback;
+  impl_->note(key, yaml_text(result),
+              {"", yaml_text(fallback), fmt::format("{}", fmt::join(words, ", ")), std::string(meaning)});
   if (std::find(words.begin(), words.end(), result) == words.end()) {
     throw error(key, fmt::format("{} is not one of {}", result, fmt::join(words, ", ")));
   }
   return result;
 }
 
-Vec3 ConfigSection::vec3(std::string_view key, const Vec3& fallback, Range each) {
+Vec3 ConfigSection::vec3(std::string_view key, const Vec3& fallback, Range each, std::string_view meaning) {
   const YamlValue* v = impl_->find(key);
   const Vec3 result = v != nullptr ? impl_->vec3(key, *v, each) : fallback;
-  impl_->note(key, to_yaml(result));
+  impl_->note(key, to_yaml(result), {"", to_yaml(fallback), describe(each) + " each", std::string(meaning)});
   return result;
 }
 
@@ -234,10 +262,11 @@ Vec3 ConfigSection::vec3_or_number(std::string_view key, const Vec3& fallback, R
   return result;
 }
 
-std::vector<double> ConfigSection::numbers(std::string_view key, std::vector<double> fallback, Range each) {
+std::vector<double> ConfigSection::numbers(std::string_view key, std::vector<double> fallback, Range each,
+                                           std::string_view meaning) {
   const YamlValue* v = impl_->find(key);
-  std::vector<double> result = v != nullptr ? impl_->numbers(key, *v, each) : std::move(fallback);
-  impl_->note(key, to_yaml(result));
+  const std::vector<double> result = v != nullptr ? impl_->numbers(key, *v, each) : fallback;
+  impl_->note(key, to_yaml(result), {"", to_yaml(fallback), describe(each) + " each", std::string(meaning)});
   return result;
 }
 
@@ -264,17 +293,23 @@ bool ConfigSection::has(std::string_view key) { return impl_->find(key) != nullp
 
 double ConfigSection::required_number(std::string_view key, Range range) {
   impl_->require(key);
-  return number(key, 0.0, range);
+  const double value = number(key, 0.0, range);
+  impl_->note_required(key);
+  return value;
 }
 
-std::string ConfigSection::required_text(std::string_view key) {
+std::string ConfigSection::required_text(std::string_view key, std::string_view meaning) {
   impl_->require(key);
-  return text(key, "");
+  std::string value = text(key, "", meaning);
+  impl_->note_required(key);
+  return value;
 }
 
-Vec3 ConfigSection::required_vec3(std::string_view key, Range each) {
+Vec3 ConfigSection::required_vec3(std::string_view key, Range each, std::string_view meaning) {
   impl_->require(key);
-  return vec3(key, Vec3::Zero(), each);
+  const Vec3 value = vec3(key, Vec3::Zero(), each, meaning);
+  impl_->note_required(key);
+  return value;
 }
 
 ConfigSection ConfigSection::section(std::string_view key) {
@@ -364,6 +399,12 @@ std::string ConfigDocument::effective() const {
   std::string out;
   impl_->root->record->write(out, 0);
   return out;
+}
+
+std::vector<Knob> ConfigDocument::knobs() const {
+  std::vector<Knob> knobs;
+  impl_->root->record->list(knobs, "");
+  return knobs;
 }
 
 const std::string& ConfigDocument::file() const { return impl_->file; }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -11,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/knobs.h"
 #include "core/base/result.h"
+#include "core/base/time.h"
 #include "core/base/types.h"
 
 namespace tern {
@@ -22,16 +23,12 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A closed or open interval of allowed numbers. Infinity (written `inf`) is allowed only where `high` is infinite and
-/// `low` is not, as in Range::positive(infinity); NaN never.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;  ///< low itself is not allowed
-  static Range positive(double high = 1e9) { return {0.0, high, true}; }
-  static Range at_least(double low, double high = 1e9) { return {low, high}; }
-  /// Any finite number up to a magnitude.
-  static Range within(double magnitude) { return {-magnitude, magnitude}; }
+/// A key that was read, as a user is told of it.
+struct Knob {
+  std::string path;      ///< "planner.search.band_m"
+  std::string fallback;  ///< its default, as YAML; "required"
+  std::string range;     ///< "[0, 10]", "free, obstacle"; "" of flags and texts
+  std::string meaning;   ///< with the unit; "" where its reader says none
 };
 
 /// One mapping of a YAML file. Every read names its default, so that the effective configuration can be written out
@@ -43,23 +40,29 @@ struct Range {
 /// written so.
 class ConfigSection {
  public:
-  double number(std::string_view key, double fallback, Range range = {});
-  std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t low, std::int64_t high);
-  bool flag(std::string_view key, bool fallback);
-  std::string text(std::string_view key, std::string fallback);
+  double number(std::string_view key, double fallback, Range range = {}, std::string_view meaning = {});
+  std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t low, std::int64_t high,
+                       std::string_view meaning = {});
+  bool flag(std::string_view key, bool fallback, std::string_view meaning = {});
+  std::string text(std::string_view key, std::string fallback, std::string_view meaning = {});
   /// One of the words.
-  std::string choice(std::string_view key, std::string fallback, const std::vector<std::string>& words);
-  Vec3 vec3(std::string_view key, const Vec3& fallback, Range each = {});
+  std::string choice(std::string_view key, std::string fallback, const std::vector<std::string>& words,
+                     std::string_view meaning = {});
+  Vec3 vec3(std::string_view key, const Vec3& fallback, Range each = {}, std::string_view meaning = {});
   /// Three numbers, or one number that stands for all three.
   Vec3 vec3_or_number(std::string_view key, const Vec3& fallback, Range each = {});
-  std::vector<double> numbers(std::string_view key, std::vector<double> fallback, Range each = {});
+  std::vector<double> numbers(std::string_view key, std::vector<double> fallback, Range each = {},
+                              std::string_view meaning = {});
   /// Rows of `columns` numbers each, [[1, 2], [3, 4]]; absent is empty.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns, Range each = {});
+  /// Reads every knob of a struct (core/base/knobs.h) and finishes.
+  template <typename Config>
+  void read(Config& config);
   /// Whether the key is given; marks it as known.
   [[nodiscard]] bool has(std::string_view key);
   double required_number(std::string_view key, Range range = {});
-  std::string required_text(std::string_view key);
-  Vec3 required_vec3(std::string_view key, Range each = {});
+  std::string required_text(std::string_view key, std::string_view meaning = {});
+  Vec3 required_vec3(std::string_view key, Range each = {}, std::string_view meaning = {});
   ConfigSection section(std::string_view key);            ///< an absent mapping is an empty one
   std::vector<ConfigSection> list(std::string_view key);  ///< of mappings; absent is empty
   std::vector<std::string> keys() const;                  ///< in file order (for open tables such as classes)
@@ -92,11 +95,63 @@ class ConfigDocument {
   ConfigSection root();
   /// All values that were read, defaults included, as YAML, in the order of reading: published on CONFIGURATION.
   [[nodiscard]] std::string effective() const;
+  /// All keys that were read, in the order of reading; of a list those of its first entry.
+  [[nodiscard]] std::vector<Knob> knobs() const;
   [[nodiscard]] const std::string& file() const;
 
  private:
   struct Impl;
   std::shared_ptr<Impl> impl_;
 };
+
+/// What a struct's visit() calls: reads each knob, whose default is the member's value.
+class KnobReader {
+ public:
+  explicit KnobReader(ConfigSection section) : section_(std::move(section)) {}
+  void operator()(std::string_view key, double& value, Range range, std::string_view meaning) {
+    value = section_.number(key, value, range, meaning);
+  }
+  void operator()(std::string_view key, int& value, Range range, std::string_view meaning) {
+    value = static_cast<int>(section_.integer(key, value, static_cast<std::int64_t>(range.low),
+                                              static_cast<std::int64_t>(range.high), meaning));
+  }
+  /// In seconds.
+  void operator()(std::string_view key, Duration& value, Range range, std::string_view meaning) {
+    value = Duration::from_seconds(section_.number(key, value.seconds(), range, meaning));
+  }
+  void operator()(std::string_view key, bool& value, std::string_view meaning) {
+    value = section_.flag(key, value, meaning);
+  }
+  void operator()(std::string_view key, std::vector<double>& value, Range each, std::string_view meaning) {
+    value = section_.numbers(key, std::move(value), each, meaning);
+  }
+  template <typename E>
+  void operator()(std::string_view key, E& value, const KnobWords<E>& words, std::string_view meaning) {
+    std::vector<std::string> names;
+    std::string fallback;
+    for (const auto& [name, meant] : words) {
+      names.emplace_back(name);
+      if (meant == value) fallback = name;
+    }
+    const std::string chosen = section_.choice(key, fallback, names, meaning);
+    for (const auto& [name, meant] : words) {
+      if (chosen == name) value = meant;
+    }
+  }
+  template <typename Config>
+  void operator()(std::string_view key, Config& config) {
+    section_.section(key).read(config);
+  }
+
+ private:
+  ConfigSection section_;
+};
+
+template <typename Config>
+void ConfigSection::read(Config& config) {
+  KnobReader reader(*this);
+  config.visit(reader);
+  finish();
+}
 
 }  // namespace tern

@@ -54,10 +54,14 @@ struct Options {
   std::string log_level = "info";
   std::optional<std::string> key_file;
   std::optional<int> key_fd;
+  bool help_config = false;
 };
 
 void declare(CLI::App& app, Options& options, const ProcessDescription& description) {
   app.set_version_flag("--version", fmt::format("{} {}", description.name, build_id()));
+  if (description.read_sections) {
+    app.add_flag("--help-config", options.help_config, "Say every key of this process in the scenario file, and end");
+  }
   app.add_option("--config", options.config, "Scenario file (YAML); without it, all defaults")->type_name("FILE");
   app.add_option("--set", options.overrides,
                  "Override a value of the scenario file, as uav.limits.v_max=3 (repeatable)")
@@ -120,6 +124,21 @@ std::optional<KeyRing> read_keys(const Options& options, const std::string& proc
   return std::move(*keys);
 }
 
+/// The tables of keys that READMEs show.
+void print_knobs(const ProcessDescription& description) {
+  ConfigDocument document = ConfigDocument::parse(description.example, "");
+  description.read_sections(document);
+  std::string section;
+  for (const Knob& knob : document.knobs()) {
+    const std::size_t dot = knob.path.find('.');
+    if (knob.path.substr(0, dot) != section) {
+      section = knob.path.substr(0, dot);
+      fmt::print("| key of `{}:` | default | range | meaning |\n|---|---|---|---|\n", section);
+    }
+    fmt::print("| `{}` | {} | {} | {} |\n", knob.path.substr(dot + 1), knob.fallback, knob.range, knob.meaning);
+  }
+}
+
 int run(const Options& options, const ProcessDescription& description, const NodeFactory& make_node) {
   const std::int64_t epoch_us = WallClock().now().us;
   const WallClock clock(Duration{options.clock_offset_us});
@@ -154,6 +173,10 @@ int run_process(int argc, char** argv, const ProcessDescription& description, co
   CLI::App app(description.summary, description.name);
   declare(app, options, description);
   if (const auto code = parse(app, argc, argv)) return *code;
+  if (options.help_config) {
+    print_knobs(description);
+    return 0;
+  }
   start_log(description, options.log_level);
   try {
     return run(options, description, make_node);

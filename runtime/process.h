@@ -45,11 +45,15 @@ struct ProcessDescription {
   std::string section;                              ///< "planner": its key in the scenario file; "" if it has none
   std::string summary;                              ///< one line for --help
   std::function<void(CLI::App&)> add_options = {};  ///< options besides the common ones
+  /// Reads every section that is this process's, for --help-config. Nothing: it has none.
+  std::function<void(ConfigDocument&)> read_sections = {};
+  std::string example = {};  ///< a scenario that makes every key known, where some depend on another
 };
 
 using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 
-/// Parses --help, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL, --clock-offset-us N, --channel-suffix S,
+/// Parses --help, --help-config, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL, --clock-offset-us N,
+/// --channel-suffix S,
 /// --log-level L, --key-file FILE, --key-fd N; loads the scenario (without --config: all defaults), makes the node,
 /// publishes CONFIGURATION (at start, then every 5 s) and HEARTBEAT (2 Hz), and runs until the node has finished, or
 /// SIGINT/SIGTERM (exit 0). Logs to stderr. The epoch is the wall clock's time at the start, without the offset.

@@ -23,7 +23,9 @@ LogWriter open_writer(std::string path, std::int64_t rotate_bytes) {
 
 LoggerConfig read_logger_config(ConfigSection section) {
   LoggerConfig config;
-  config.rotate_bytes = section.integer("rotate_mb", 1'000, 0, 1'000'000) * 1'000'000;
+  config.rotate_bytes = section.integer("rotate_mb", 1'000, 0, 1'000'000,
+                                        "a part of the log of so many MB is followed by the next; 0: never") *
+                        1'000'000;
   section.finish();
   return config;
 }

@@ -11,12 +11,15 @@ int main(int argc, char** argv) {
       .name = "tern-logger",
       .section = "logger",
       .summary = "Records every message of every channel in a log that LCM's tools open",
-      .add_options = [&path](CLI::App& app) {
-        app.add_option("--record", path,
-                       "The log to write, or the folder for flight.lcm; never overwritten: a part is added")
-            ->type_name("PATH")
-            ->capture_default_str();
-      }};
+      .add_options =
+          [&path](CLI::App& app) {
+            app.add_option("--record", path,
+                           "The log to write, or the folder for flight.lcm; never overwritten: a part is added")
+                ->type_name("PATH")
+                ->capture_default_str();
+          },
+      .read_sections =
+          [](tern::ConfigDocument& document) { tern::read_logger_config(document.root().section("logger")); }};
   return tern::run_process(
       argc, argv, description, [&path](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
         return std::make_unique<tern::LoggerNode>(context.bus, tern::read_logger_config(context.section), path);

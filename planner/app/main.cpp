@@ -3,11 +3,17 @@
 
 #include "planner/app/config_reader.h"
 #include "planner/app/planner_node.h"
+#include "planner/planner_config.h"
 #include "runtime/process.h"
 
 int main(int argc, char** argv) {
-  const tern::ProcessDescription description{"tern-planner", "planner",
-                                             "Plans collision-free trajectories and certifies every one of them."};
+  const tern::ProcessDescription description{
+      .name = "tern-planner",
+      .section = "planner",
+      .summary = "Plans collision-free trajectories and certifies every one of them.",
+      .read_sections = [](tern::ConfigDocument& document) {
+        tern::read_planner_config(document.root().section("planner"), {});
+      }};
   return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::PlannerConfig config = tern::read_planner_config(context.section, context.scenario.semantics);
     const std::uint64_t hash = tern::configuration_hash(context.document.effective());

@@ -59,8 +59,8 @@ void PredictorNode::have_input(const std::string& input, UTime made_at) {
 void PredictorNode::step(UTime now) {
   if (now < next_) return;
   publish(now);
-  next_ = next_ + config_.period;
-  if (next_ <= now) next_ = now + config_.period;  // what was missed is not made up for
+  next_ = next_ + config_.period();
+  if (next_ <= now) next_ = now + config_.period();  // what was missed is not made up for
 }
 
 std::vector<Track> PredictorNode::predictions(UTime now) const {

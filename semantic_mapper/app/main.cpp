@@ -1,10 +1,14 @@
 #include "runtime/process.h"
+#include "semantic_mapper/app/mapper_config.h"
 #include "semantic_mapper/app/mapper_node.h"
 
 int main(int argc, char** argv) {
   const tern::ProcessDescription description{
       .name = "tern-mapper",
       .section = "mapper",
-      .summary = "Labels voxels from regions and point clouds and publishes the map: SEMANTIC_MAP"};
+      .summary = "Labels voxels from regions and point clouds and publishes the map: SEMANTIC_MAP",
+      .read_sections =
+          [](tern::ConfigDocument& document) { tern::read_mapper_config(document.root().section("mapper")); },
+      .example = "mapper: {extents: {min: [0, 0, 0], max: [1, 1, 1]}, sources: [{file: town.las}]}"};
   return tern::run_process(argc, argv, description, tern::make_mapper_node);
 }

@@ -22,7 +22,7 @@ std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection class
   const auto read = [&](const std::string& name, const std::string& fallback) {
     if (class_numbers(name).empty())
       throw classes.error(name, "is no class or group of classes (see semantic_mapper/README.md)");
-    result.emplace_back(name, *label_from(classes.choice(name, fallback, kLabelWords)));
+    result.emplace_back(name, *label_from(classes.choice(name, fallback, kLabelWords, "what such points mean")));
   };
   if (!is_given) {
     for (const auto& [name, label] : kDefaultClasses) read(name, label);
@@ -36,7 +36,7 @@ std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection class
 std::vector<std::string> read_class_list(ConfigSection& section, const char* key) {
   std::vector<std::string> names;
   std::string word;
-  for (const char c : section.text(key, "") + ',') {
+  for (const char c : section.text(key, "", "classes that stand on solid columns, as \"building, tower\"") + ',') {
     if (c != ',' && c != ' ') {
       word += c;
       continue;
@@ -51,22 +51,32 @@ std::vector<std::string> read_class_list(ConfigSection& section, const char* key
 CloudSource read_source(ConfigSection section) {
   CloudSource source;
   source.section = section;
-  source.file = section.required_text("file");
+  source.file =
+      section.required_text("file", "absolute, beside the scenario, or in `TERN_DATA` (else `../shared/data`)");
   if (source.file.empty()) throw section.error("file", "is empty");
   const bool is_ply = std::filesystem::path(source.file).extension() == ".ply";
-  source.format =
-      section.choice("format", is_ply ? "ply" : "las", {"las", "ply"}) == "ply" ? CloudFormat::Ply : CloudFormat::Las;
-  source.frame.origin = section.vec3("origin", source.frame.origin, kFileCoordinate);
-  source.frame.metres_per_unit = section.number("metres_per_unit", source.frame.metres_per_unit, Range::positive(1e6));
-  source.min_points = static_cast<int>(section.integer("min_points", source.min_points, 1, 1'000'000));
-  source.point_radius = section.number("point_radius_m", source.point_radius, Range::at_least(0.0, 10.0));
+  source.format = section.choice("format", is_ply ? "ply" : "las", {"las", "ply"}, "by the name, if not given") == "ply"
+                      ? CloudFormat::Ply
+                      : CloudFormat::Las;
+  source.frame.origin = section.vec3("origin", source.frame.origin, kFileCoordinate,
+                                     "subtracted from the file's coordinates, in its units");
+  source.frame.metres_per_unit =
+      section.number("metres_per_unit", source.frame.metres_per_unit, Range::positive(1e6), "0.3048 for feet");
+  source.min_points = static_cast<int>(
+      section.integer("min_points", source.min_points, 1, 1'000'000, "marks of one label that a voxel needs"));
+  source.point_radius =
+      section.number("point_radius_m", source.point_radius, Range::at_least(0.0, 10.0),
+                     "a point marks the voxels whose centre is this near, m: closes gaps of sparse scans");
   source.fill_below = read_class_list(section, "fill_below");
   section.finish();
   return source;
 }
 
 Box read_extents(ConfigSection section) {
-  const Box box(section.required_vec3("min", kPosition), section.required_vec3("max", kPosition));
+  const Box box(section.required_vec3("min", kPosition,
+                                      "of the map, m; without `extents` the bounds of all sources, and the flight box "
+                                      "if that takes at most 8 million voxels"),
+                section.required_vec3("max", kPosition, "of the map, m"));
   section.finish();
   if (!(box.min().array() < box.max().array()).all())
     throw section.error("max", "is not greater than min on every axis");
@@ -84,10 +94,14 @@ std::optional<VoxelLabel> label_from(const std::string& word) {
 
 MapperConfig read_mapper_config(ConfigSection section) {
   MapperConfig config;
-  config.resolution = section.number("resolution_m", config.resolution, Range{0.01, 100.0});
+  config.resolution = section.number("resolution_m", config.resolution, Range{0.01, 100.0},
+                                     "side of a voxel, m; at most 2·10⁸ voxels in all");
   if (section.has("extents")) config.extents = read_extents(section.section("extents"));
-  config.background = *label_from(section.choice("background", "free", {"free", "unknown"}));
-  config.voxelize_obstacles = section.flag("voxelize_obstacles", config.voxelize_obstacles);
+  config.background =
+      *label_from(section.choice("background", "free", {"free", "unknown"}, "label of voxels that nothing speaks of"));
+  config.voxelize_obstacles = section.flag(
+      "voxelize_obstacles", config.voxelize_obstacles,
+      "the scenario's listed static obstacles become occupied (the planner gets their exact boxes anyway)");
   config.classes = read_classes(section.section("classes"), section.has("classes"));
   for (const ConfigSection& source : section.list("sources")) config.sources.push_back(read_source(source));
   section.finish();

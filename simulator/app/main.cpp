@@ -10,7 +10,13 @@ int main(int argc, char** argv) {
   const tern::ProcessDescription description{
       .name = "tern-simulator",
       .section = "simulator",
-      .summary = "Flies a scenario's vehicle through its world: sensors, executor, referee; ends with FLIGHT_RESULT"};
+      .summary = "Flies a scenario's vehicle through its world: sensors, executor, referee; ends with FLIGHT_RESULT",
+      .read_sections =
+          [](tern::ConfigDocument& document) {
+            tern::read_simulator_config(document.root().section("simulator"), 0);
+            tern::read_executor_config(document.root().section("executor"));
+          },
+      .example = "simulator: {sensor: {mode: noisy}}"};
   return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::Scenario& scenario = context.scenario;
     const auto config = tern::read_simulator_config(context.section, scenario.seed);

@@ -20,18 +20,25 @@ std::vector<std::string> words_of(std::string text) {
 }
 
 SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
-  const std::string mode = section.choice("mode", "truth", {"truth", "noisy"});
   SensorConfig sensor;
   sensor.seed = seed;
+  sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::at_least(kLeastRate, 100.0), "frames per second");
+  const std::string mode =
+      section.choice("mode", "truth", {"truth", "noisy"},
+                     "`truth`: everything at once, with ids; `noisy`: by the keys below, which `truth` does not know");
   if (mode == "noisy") {
-    sensor = perception_only(seed);
-    sensor.range_m = section.number("range_m", sensor.range_m, Range::at_least(0.0, 1e5));
-    sensor.sigma_m = Vec3::Constant(section.number("sigma_m", sensor.sigma_m.x(), Range::at_least(0.0, 100.0)));
-    sensor.latency_s = section.number("latency_s", sensor.latency_s, Range::at_least(0.0, 2.0));
-    sensor.dropout = section.number("dropout", sensor.dropout, Range::at_least(0.0, 1.0));
-    sensor.track_ids = section.flag("ids", sensor.track_ids);
+    const SensorConfig noisy = perception_only(seed);
+    sensor.range_m =
+        section.number("range_m", noisy.range_m, Range::at_least(0.0, 1e5),
+                       "sees boxes whose nearest point is this near, also behind others, m; 0: without limit");
+    sensor.sigma_m = Vec3::Constant(section.number("sigma_m", noisy.sigma_m.x(), Range::at_least(0.0, 100.0),
+                                                   "standard deviation of the position per axis, m"));
+    sensor.latency_s = section.number("latency_s", noisy.latency_s, Range::at_least(0.0, 2.0),
+                                      "a frame arrives this much after the world was so, s");
+    sensor.dropout =
+        section.number("dropout", noisy.dropout, Range::at_least(0.0, 1.0), "probability that a detection is missing");
+    sensor.track_ids = section.flag("ids", noisy.track_ids, "the sensor says which obstacle it sees");
   }
-  sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::at_least(kLeastRate, 100.0));
   section.finish();
   return sensor;
 }
@@ -40,14 +47,21 @@ SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
 
 SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed) {
   SimulatorConfig config;
-  config.declare = section.flag("declare", config.declare);
-  const std::string needed = section.text("wait_for", "tern-predictor, tern-mapper, tern-planner");
+  config.declare = section.flag("declare", config.declare, "publish DECLARED_MOTIONS; false: perception only");
+  const std::string needed = section.text("wait_for", "tern-predictor, tern-mapper, tern-planner",
+                                          "processes that world time waits for, separated by spaces or commas; `none`");
   config.wait_for = needed == "none" ? std::vector<std::string>{} : words_of(needed);
-  config.wait = Duration::from_seconds(section.number("wait_s", config.wait.seconds(), Range::positive(3600.0)));
+  config.wait = Duration::from_seconds(
+      section.number("wait_s", config.wait.seconds(), Range::positive(3600.0), "for so long, s"));
   config.max_clock_skew = Duration::from_seconds(
-      section.number("max_clock_skew_s", config.max_clock_skew.seconds(), Range::positive(10.0)));
-  config.send_goal = section.flag("send_goal", config.send_goal);
-  config.min_flight_s = section.number("min_flight_s", config.min_flight_s, Range::at_least(0.0, 1e5));
+      section.number("max_clock_skew_s", config.max_clock_skew.seconds(), Range::positive(10.0),
+                     "a process of `wait_for` whose clock is farther from the vehicle's is not ready, s"));
+  config.send_goal =
+      section.flag("send_goal", config.send_goal,
+                   "send the scenario's goal as id 1; false: the mission waits for a GOAL of someone else");
+  config.min_flight_s =
+      section.number("min_flight_s", config.min_flight_s, Range::at_least(0.0, 1e5),
+                     "an arrival counts only from this world time on, s: a vehicle that guards a place");
   config.sensor = read_sensor(section.section("sensor"), seed);
   section.finish();
   return config;
@@ -55,9 +69,7 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
 
 ExecutorConfig read_executor_config(ConfigSection section) {
   ExecutorConfig config;
-  config.rate_hz = section.number("rate_hz", config.rate_hz, Range::at_least(kLeastRate, 100.0));
-  config.lead = Duration::from_seconds(section.number("lead_s", config.lead.seconds(), Range::at_least(0.01, 2.0)));
-  section.finish();
+  section.read(config);
   return config;
 }
 

@@ -30,7 +30,7 @@ void expect_refused(const std::string& name, const std::string& lines, const std
 TEST(PredictorConfig, HasDefaults) {
   const PredictorConfig config = read("defaults", "  {}\n");
   EXPECT_EQ(config.model, PredictorModel::Both);
-  EXPECT_EQ(config.period, Duration{50'000});
+  EXPECT_EQ(config.period(), Duration{50'000});
   EXPECT_EQ(config.tracker.prediction.horizon, Duration{4'500'000});
   EXPECT_EQ(config.tracker.prediction.confidence, 0.99);
 }
@@ -43,7 +43,7 @@ TEST(PredictorConfig, ReadsItsKeys) {
            "  confirm_window: 4\n  coast_s: 1\n  resting_after_s: 2\n"
            "  acceleration_time_s: 1.5\n  piece_growth: 0.1\n  remember_rest_s: 7\n");
   EXPECT_EQ(config.model, PredictorModel::ConstantVelocity);
-  EXPECT_EQ(config.period, Duration{100'000});
+  EXPECT_EQ(config.period(), Duration{100'000});
   EXPECT_EQ(config.tracker.prediction.piece, Duration{500'000});
   EXPECT_EQ(config.tracker.prediction.max_speed, 2.0);
   EXPECT_EQ(config.tracker.acceleration.sigma, 0.5);
