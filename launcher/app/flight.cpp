@@ -14,6 +14,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "launcher/app/supervisor.h"
@@ -39,9 +40,14 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string last_line(std::string text) {
+std::string without_end(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
+  return text;
+}
+
+std::string last_line(const std::string& text) {
+  const std::string lines = without_end(text);
+  return lines.substr(lines.rfind('\n') + 1);
 }
 
 /// The number that the overrides give a key, if they do.
@@ -65,75 +71,108 @@ void write_failure(const FlightOptions& options, const std::string& reason, cons
   std::ofstream(file) << to_json(summary);
 }
 
-class Flight {
- public:
-  explicit Flight(const FlightOptions& options) : options_(options) {}
-  int fly();
-
- private:
-  [[nodiscard]] Result<void> prepare();
-  [[nodiscard]] Result<void> make_record(std::uint64_t seed);
-  int watch_over();
-  int supervise(const sigset_t& signals);
-  [[nodiscard]] Result<std::map<std::string, int>> hold_keys() const;
-  void announce(const std::vector<SupervisedProcess>& processes) const;
-  /// What it means for the flight that a process is gone. @return the exit code, or nullopt if the monitor has the word
-  std::optional<int> verdict(const ProcessGone& gone);
-  int give_up(const std::string& why);
-  [[nodiscard]] int look_back(int code) const;
-  void sum_up(int code) const;
-
-  const FlightOptions& options_;
-  fs::path record_;     ///< empty until it is made
-  std::string reason_;  ///< why the flight failed, unless RECORD/failure says it
-};
-
-int Flight::fly() {
-  const auto ready = prepare();
-  int code = ready ? watch_over() : give_up(ready.error().message);
-  if (options_.view_fd && code < kExitSignalled) {
-    say("  see it again: launch_scripts/view.sh --log {}/flight.lcm", record_.string());
-  }
-  if (code < kExitFailed && fs::exists(record_ / "flight.lcm")) code = look_back(code);
-  if (code > kExitSignalled) say("\nEnded by a signal; what was recorded: {}", record_.string());
-  sum_up(code);
-  return code;
+/// The scenario's seed, for the folder's name; 1 if it cannot be read.
+std::uint64_t seed_of(const FlightOptions& options) try {
+  ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
+  return read_scenario(document).seed;
+} catch (const ConfigError&) {
+  return 1;
 }
 
-Result<void> Flight::prepare() {
-  try {
-    ConfigDocument document = ConfigDocument::load(options_.scenario, options_.overrides);
-    return make_record(read_scenario(document).seed);
-  } catch (const ConfigError& e) {
-    const auto made = make_record(1);
-    return made ? fail(e.what()) : made;
-  }
-}
-
-Result<void> Flight::make_record(std::uint64_t seed) {
-  fs::path folder = options_.record;
+/// @return the flight's folder, made
+Result<fs::path> make_record(const FlightOptions& options) {
+  fs::path folder = options.record;
   if (folder.empty()) {
     const auto now = fmt::gmtime(std::time(nullptr));
-    const std::string name = fs::path(options_.scenario).stem();
-    folder = fs::path(options_.flights) / fmt::format("{:%Y%m%dT%H%M%SZ}-{}-{}", now, name, seed);
+    const std::string name = fs::path(options.scenario).stem();
+    folder = fs::path(options.flights) / fmt::format("{:%Y%m%dT%H%M%SZ}-{}-{}", now, name, seed_of(options));
   }
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return fail(fmt::format("{} cannot be made: {}", folder.string(), error.message()));
   if (fs::exists(folder / "command")) return fail(fmt::format("{} holds a flight already", folder.string()));
-  record_ = fs::canonical(folder);
-  for (const char* left : {"failure", "summary.json"}) fs::remove(record_ / left);  // of a flight that could not begin
-  return {};
+  for (const char* left : {"failure", "summary.json"}) fs::remove(folder / left);  // of a flight that could not begin
+  return fs::canonical(folder);
 }
 
-int Flight::watch_over() {
+/// Says why the flight has failed, once, and tells the monitor.
+int give_up(const fs::path& record, const std::string& why) {
+  const fs::path file = record / "failure", fresh = record / "failure.new";
+  if (fs::exists(file)) return kExitFailed;
+  fmt::print(stderr, "tern-launch: {}\n", why);
+  std::ofstream(fresh) << why << '\n';
+  fs::rename(fresh, file);  // whole as soon as it is there
+  return kExitFailed;
+}
+
+/// @return by process, an open file of its keys; empty if the flight is unsigned
+std::map<std::string, int> hold_keys(const FlightOptions& options) {
+  std::map<std::string, int> fds;
+  if (!options.key) return fds;
+  const Result<Key> master = options.key->empty() ? random_key() : read_master_key(*options.key);
+  if (!master) throw std::runtime_error(master.error().message);
+  for (const Part& part : parts()) {
+    const auto fd = hold_in_memory(KeyRing::derive(*master, part.process));
+    if (!fd) throw std::runtime_error(fd.error().message);
+    fds.emplace(part.process, *fd);
+  }
+  return fds;
+}
+
+void announce(const FlightOptions& options, const fs::path& record, const std::vector<SupervisedProcess>& processes) {
+  std::ofstream(record / "env.sh") << fmt::format("export LCM_DEFAULT_URL='{}'\n", options.lcm_url);
+  std::ofstream commands(record / "command");
+  commands << options.typed << '\n';
+  for (const SupervisedProcess& process : processes) commands << shell_line(process.child.command) << '\n';
+  say("Flight of {}\n  record   {}", options.scenario, record.string());
+  if (options.namespace_flags.empty()) {
+    say("  network  export LCM_DEFAULT_URL='{}'", options.lcm_url);
+  } else {
+    std::ofstream(record / "namespace") << getpid() << ' ' << options.namespace_flags << '\n';
+    say("  network  its own namespace; a shell in it: launch_scripts/enter.sh {}", record.string());
+  }
+  if (options.view_fd) say("  view     {}", options.view_url);
+  if (options.key) say("  key      messages are signed");
+}
+
+/// What an event means for the flight. @return the exit code, or nullopt if the monitor has yet to judge
+std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event) {
+  if (event.process.empty()) return event.code;
+  const bool is_judge = event.process == kMonitor, has_summary = fs::exists(record / "summary.json");
+  if (is_judge ? !has_summary : event.code != 0) {
+    const std::string words = last_line(text_of(record / (event.process + ".log")));
+    give_up(record, fmt::format("{} ended with exit code {}: {}", event.process, event.code, words));
+  }
+  return is_judge ? std::optional(judged(event.code, has_summary)) : std::nullopt;
+}
+
+int supervise(const FlightOptions& options, const fs::path& record, const sigset_t& signals) try {
+  ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
+  (void)read_scenario(document);  // refused once, not by each process
+  auto processes = flight_processes(options, record, hold_keys(options));
+  announce(options, record, processes);
+  Supervisor supervisor(signals);
+  for (SupervisedProcess& process : processes) {
+    process.child.error = open_log(record / (process.name + ".log"));
+    if (process.name != kMonitor) process.child.out = process.child.error;
+    supervisor.start(process);
+  }
+  std::optional<int> code;
+  while (!code) code = verdict(record, supervisor.wait());
+  supervisor.stop(kLogger);
+  return *code;
+} catch (const std::exception& e) {
+  return give_up(record, e.what());
+}
+
+int watch_over(const FlightOptions& options, const fs::path& record) {
   const sigset_t signals = block_signals();
   const pid_t self = getpid(), child = fork();
-  if (child < 0) return give_up("no process can be made");
+  if (child < 0) return give_up(record, "no process can be made");
   if (child == 0) {
     setsid();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    const int code = getppid() == self ? supervise(signals) : kExitFailed;
+    const int code = getppid() == self ? supervise(options, record, signals) : kExitFailed;
     std::fflush(nullptr);
     _exit(code);
   }
@@ -144,113 +183,47 @@ int Flight::watch_over() {
   }
   kill(-child, SIGKILL);  // the group's number is taken as long as the child has not been waited for
   const ProcessEnd end = await_child(child);
-  return end.signal == 0 ? end.exit_code : give_up(fmt::format("tern-launch ended with {}", to_text(end)));
+  return end.signal == 0 ? end.exit_code : give_up(record, fmt::format("tern-launch ended with {}", to_text(end)));
 }
 
-int Flight::supervise(const sigset_t& signals) try {
-  const auto keys = hold_keys();
-  if (!keys) return give_up(keys.error().message);
-  auto processes = flight_processes(options_, record_, *keys);
-  announce(processes);
-  Supervisor supervisor(signals);
-  for (SupervisedProcess& process : processes) {
-    process.child.error = open_log(record_ / (process.name + ".log"));
-    if (process.name != kMonitor) process.child.out = process.child.error;
-    supervisor.start(process);
+/// What was asked for after the flight, from its log. @return the exit code after it
+int look_back(const FlightOptions& options, const fs::path& record, int code) {
+  const auto run = [&](std::vector<std::string> command, int out) {
+    command.front() = options.programs + "/" + command.front();
+    return shell_code(await_child(start_child({.command = std::move(command), .out = out, .own_group = true})));
+  };
+  const std::string log = record / "flight.lcm", audit = record / "audit.txt";
+  if (options.audit) {
+    code = audited(code, run({"tern-audit", log, "--json", record / "audit.json"}, open_log(audit)));
+    say("\n{}", without_end(text_of(audit)));
   }
-  std::optional<int> code;
-  while (!code) {
-    const auto event = supervisor.wait();
-    if (const auto* gone = std::get_if<ProcessGone>(&event)) code = verdict(*gone);
-    if (const auto* signal = std::get_if<SignalCame>(&event)) code = kExitSignalled + signal->number;
-  }
-  supervisor.stop(kLogger);
-  return *code;
-} catch (const std::exception& e) {
-  return give_up(e.what());
-}
-
-Result<std::map<std::string, int>> Flight::hold_keys() const {
-  std::map<std::string, int> fds;
-  if (!options_.key) return fds;
-  const Result<Key> master = options_.key->empty() ? random_key() : read_master_key(*options_.key);
-  if (!master) return tl::unexpected(master.error());
-  for (const Part& part : parts()) {
-    const auto fd = hold_in_memory(KeyRing::derive(*master, part.process));
-    if (!fd) return tl::unexpected(fd.error());
-    fds.emplace(part.process, *fd);
-  }
-  return fds;
-}
-
-void Flight::announce(const std::vector<SupervisedProcess>& processes) const {
-  std::ofstream(record_ / "env.sh") << fmt::format("export LCM_DEFAULT_URL='{}'\n", options_.lcm_url);
-  std::ofstream commands(record_ / "command");
-  commands << options_.typed << '\n';
-  for (const SupervisedProcess& process : processes) commands << shell_line(process.child.command) << '\n';
-  say("Flight of {}\n  record   {}", options_.scenario, record_.string());
-  if (options_.namespace_flags.empty()) {
-    say("  network  export LCM_DEFAULT_URL='{}'", options_.lcm_url);
-  } else {
-    std::ofstream(record_ / "namespace") << getpid() << ' ' << options_.namespace_flags << '\n';
-    say("  network  its own namespace; a shell in it: launch_scripts/enter.sh {}", record_.string());
-  }
-  if (options_.view_fd) say("  view     {}", options_.view_url);
-  if (options_.key) say("  key      messages are signed");
-}
-
-std::optional<int> Flight::verdict(const ProcessGone& gone) {
-  const bool is_judge = gone.name == kMonitor, has_summary = fs::exists(record_ / "summary.json");
-  if (is_judge ? !has_summary : gone.code != 0) {
-    const std::string words = last_line(text_of(record_ / (gone.name + ".log")));
-    give_up(fmt::format("{} ended with exit code {}: {}", gone.name, gone.code, words));
-  }
-  return is_judge ? std::optional(judged(gone.code, has_summary)) : std::nullopt;
-}
-
-int Flight::give_up(const std::string& why) {
-  const fs::path file = record_ / "failure", fresh = record_ / "failure.new";
-  if (!record_.empty() && fs::exists(file)) return kExitFailed;
-  fmt::print(stderr, "tern-launch: {}\n", why);
-  reason_ = why;
-  if (record_.empty()) return kExitFailed;
-  std::ofstream(fresh) << why << '\n';
-  fs::rename(fresh, file);  // the monitor reads it as soon as it is there
-  return kExitFailed;
-}
-
-int Flight::look_back(int code) const {
-  const std::string log = record_ / "flight.lcm";
-  if (options_.audit) {
-    ChildProcess audit{.command = {options_.programs + "/tern-audit", log, "--json", record_ / "audit.json"}};
-    audit.out = open_log(record_ / "audit.txt");
-    audit.own_group = true;
-    code = audited(code, shell_code(await_child(start_child(audit))));
-    say("\n{}", text_of(record_ / "audit.txt"));
-  }
-  if (options_.report) {
-    ChildProcess report{.command = {options_.programs + "/tern-report", log, "-o", record_ / "report.html"}};
-    report.own_group = true;
-    if (shell_code(await_child(start_child(report))) != 0) code = kExitFailed;
-  }
+  if (options.report && run({"tern-report", log, "-o", record / "report.html"}, STDOUT_FILENO) != 0) return kExitFailed;
   return code;
-}
-
-void Flight::sum_up(int code) const {
-  const fs::path own = record_ / "summary.json";
-  if (!record_.empty() && fs::exists(own)) {
-    if (!options_.summary.empty()) fs::copy_file(own, options_.summary, fs::copy_options::overwrite_existing);
-  } else if (code == kExitFailed) {
-    const std::string said = record_.empty() ? "" : last_line(text_of(record_ / "failure"));
-    const std::string& reason = said.empty() ? reason_ : said;
-    if (!record_.empty()) write_failure(options_, reason, own);
-    if (!options_.summary.empty()) write_failure(options_, reason, options_.summary);
-  }
 }
 
 }  // namespace
 
-int fly(const FlightOptions& options) { return Flight(options).fly(); }
+int fly(const FlightOptions& options) {
+  const auto record = make_record(options);
+  if (!record) {
+    summarize_failure(options, record.error().message);
+    throw std::runtime_error(record.error().message);
+  }
+  int code = watch_over(options, *record);
+  if (options.view_fd && code < kExitSignalled) {
+    say("  see it again: launch_scripts/view.sh --log {}/flight.lcm", record->string());
+  }
+  if (code < kExitFailed && fs::exists(*record / "flight.lcm")) code = look_back(options, *record, code);
+  if (code > kExitSignalled) say("\nEnded by a signal; what was recorded: {}", record->string());
+  const fs::path summary = *record / "summary.json";
+  if (code == kExitFailed && !fs::exists(summary)) {
+    write_failure(options, last_line(text_of(*record / "failure")), summary);
+  }
+  if (!options.summary.empty() && fs::exists(summary)) {
+    fs::copy_file(summary, options.summary, fs::copy_options::overwrite_existing);
+  }
+  return code;
+}
 
 void summarize_failure(const FlightOptions& options, const std::string& reason) {
   if (!options.summary.empty()) write_failure(options, reason, options.summary);

@@ -61,39 +61,27 @@ void Supervisor::run(Kept& kept) {
   kept.pid = start_child(kept.process.child);
 }
 
-Duration Supervisor::start_due() {
-  Duration pause = kLongPause;
-  for (Kept& kept : kept_) {
-    if (kept.due && *kept.due <= clock_.now()) run(kept);
-    if (kept.due) pause = std::min(pause, *kept.due - clock_.now());
-  }
-  return pause;
-}
-
-std::variant<ProcessGone, SignalCame> Supervisor::wait() {
-  while (gone_.empty()) {
-    const int signal = next_signal(signals_, start_due());
-    if (signal != 0 && signal != SIGCHLD) return SignalCame{signal};
+SupervisorEvent Supervisor::wait() {
+  while (true) {
+    Duration pause = kLongPause;
     for (Kept& kept : kept_) {
-      if (!kept.pid) continue;
-      if (const auto end = poll_child(*kept.pid)) on_end(kept, *end);
+      if (const auto end = kept.pid ? poll_child(*kept.pid) : std::nullopt) {
+        kept.pid.reset();
+        if (!kept.process.restarted || is_final(*end)) return {kept.process.name, shell_code(*end)};
+        plan_restart(kept, *end);
+      }
+      if (kept.due && *kept.due <= clock_.now()) run(kept);
+      if (kept.due) pause = std::min(pause, *kept.due - clock_.now());
     }
+    const int signal = next_signal(signals_, pause);
+    if (signal != 0 && signal != SIGCHLD) return {"", kExitSignalled + signal};
   }
-  ProcessGone gone = std::move(gone_.front());
-  gone_.erase(gone_.begin());
-  return gone;
 }
 
-void Supervisor::on_end(Kept& kept, const ProcessEnd& end) {
-  kept.pid.reset();
-  const std::string& name = kept.process.name;
-  if (!kept.process.restarted || is_final(end)) {
-    gone_.push_back({name, shell_code(end)});
-    return;
-  }
+void Supervisor::plan_restart(Kept& kept, const ProcessEnd& end) {
   const Duration delay = kept.backoff.next(clock_.now() - kept.started);
   kept.due = clock_.now() + delay;
-  dprintf(kept.process.child.error, "tern-launch: %s ended with %s; restart %d in %d ms\n", name.c_str(),
+  dprintf(kept.process.child.error, "tern-launch: %s ended with %s; restart %d in %d ms\n", kept.process.name.c_str(),
           to_text(end).c_str(), ++kept.restarts, static_cast<int>(delay.us / 1000));
 }
 
@@ -133,10 +121,9 @@ int keep_alive(const std::vector<std::string>& command, const std::string& log) 
   if (!log.empty()) child.out = child.error = open_log(log);
   Supervisor supervisor(signals);
   supervisor.start({std::filesystem::path(command.front()).filename(), child});
-  const auto event = supervisor.wait();
-  if (const auto* gone = std::get_if<ProcessGone>(&event)) return gone->code;
+  const SupervisorEvent event = supervisor.wait();
   supervisor.stop("");
-  return 0;
+  return event.process.empty() ? 0 : event.code;
 }
 
 }  // namespace tern

@@ -4,7 +4,6 @@
 #include <csignal>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "launcher/flight_processes.h"
@@ -17,13 +16,9 @@ namespace tern {
 /// jobs. Children start with none blocked. @return the blocked ones
 sigset_t block_signals();
 
-/// A process that is gone for good; the code is a shell's.
-struct ProcessGone {
-  std::string name;
-  int code = 0;
-};
-struct SignalCame {
-  int number = 0;
+struct SupervisorEvent {
+  std::string process;  ///< which is gone for good; empty: a signal came
+  int code = 0;         ///< its exit code, or 128 + n for signal n
 };
 
 /// Not thread-safe; its process stays single-threaded.
@@ -36,7 +31,7 @@ class Supervisor {
   /// that asks for absurd memory ends the process, not the machine.
   void start(SupervisedProcess process);
   /// Keeps all running until one is gone for good or a signal comes. Restarts are said on the process's standard error.
-  std::variant<ProcessGone, SignalCame> wait();
+  SupervisorEvent wait();
   /// Ends all within 2 s: SIGTERM to all but `last`, SIGKILL to those that are left after 1 s, then the same to `last`,
   /// which hears the others out. Signals that come meanwhile stay pending.
   void stop(const std::string& last);
@@ -51,14 +46,12 @@ class Supervisor {
     int restarts = 0;
   };
   void run(Kept& kept);
-  Duration start_due();
-  void on_end(Kept& kept, const ProcessEnd& end);
+  void plan_restart(Kept& kept, const ProcessEnd& end);
   void end(const std::vector<Kept*>& group, Duration patience);
 
   sigset_t signals_;
   WallClock clock_;
   std::vector<Kept> kept_;
-  std::vector<ProcessGone> gone_;  ///< not yet told
 };
 
 /// Runs a command, and runs it again when it dies. @param log  file for all that is said; empty: where this process
