@@ -148,6 +148,21 @@ a_killed_launcher_leaves_no_orphan() {
   eventually "nobody is left" 5 nobody_left
 }
 
+a_killed_supervisor_fails_the_flight_and_leaves_no_orphan_of_an_orphan() {
+  with_stubborn_planner
+  rm "$work/bin/tern-planner"
+  printf '#!/bin/sh\n"%s" &\nwait\n' "$work/stubborn" >"$work/bin/tern-planner" # which is not told when its parent dies
+  chmod +x "$work/bin/tern-planner"
+  start_flight flight --summary "$work/s.json"
+  eventually "the planner's child" 10 test -s "$work/stubborn.pid"
+  local result=0
+  kill -KILL "$(pgrep -P "$flight" -x tern-launch)"
+  wait "$flight" || result=$?
+  [[ $result == 3 ]] || fail "exit code $result"
+  eventually "nobody is left" 5 nobody_left
+  expect "a summary says why" has_text '"detail": "tern-launch ended with signal KILL"' "$work/s.json"
+}
+
 two_flights_take_two_ports() {
   start_flight one --set name=flight_of_one
   start_flight two --set name=flight_of_two
