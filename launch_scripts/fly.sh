@@ -68,7 +68,7 @@ parse() {
       --scenario) scenario=$value ;;
       --view) view=$value ;;
       --lcm-url) url=$value ;;
-      --set | --record | --summary) flight+=("$option=$value") ;;
+      --set | --record | --summary) [[ -z $value ]] || flight+=("$option=$value") ;;
       --seed) flight+=("--set=seed=$value") ;;
       --count) flight+=("--set=world.count=$value") ;;
       --goal)
