@@ -94,7 +94,7 @@ FlightRecord make_record(const FlightSummary& summary, const ExecutorCounters& e
                          const CampaignIdentity& identity) {
   FlightRecord record;
   record.identity = identity;
-  record.seed = summary.seed;
+  record.seed = summary.seed.value_or(0);
   record.result = summary.result.value_or(unjudged(summary.outcome, summary.detail));
   record.result.outcome = summary.outcome;
   record.result.detail = summary.detail;

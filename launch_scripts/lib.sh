@@ -10,17 +10,18 @@ readonly TERN_BIN TERN_BIN_GIVEN
 # The built page of tern-viewer.
 readonly TERN_PAGE=${TERN_PAGE:-$TERN_ROOT/build/viewer-page}
 
-# Exit code of a flight that the system itself could not fly.
-readonly EXIT_FAILED=3
 readonly FIRST_PORT=7667
 readonly LAST_PORT=7766
 readonly LCM_GROUP=239.255.76.67
+readonly MULTICAST_ON_LO="ip link set lo up && ip route add 224.0.0.0/4 dev lo"
 
 say() { printf '%s\n' "$*"; }
 
+# die TEXT: ends the script with exit code 3: the system itself failed. Calls on_death TEXT before, where a script has one.
 die() {
   printf '%s: %s\n' "$(basename "$0")" "$*" >&2
-  exit "$EXIT_FAILED"
+  if declare -F on_death >/dev/null; then on_death "$*"; fi
+  exit 3
 }
 
 # Builds the programs unless the environment says where they are.
@@ -55,8 +56,7 @@ find_scenario() {
 namespace_flags() {
   local flags
   for flags in -Urn -n; do
-    # shellcheck disable=SC2016  # the inner shell expands it
-    if unshare "$flags" sh -c 'ip link set lo up && ip route add 224.0.0.0/4 dev lo' 2>/dev/null; then
+    if unshare "$flags" sh -c "$MULTICAST_ON_LO" 2>/dev/null; then
       printf '%s' "$flags"
       return
     fi
@@ -80,59 +80,8 @@ lock_port() {
   die "all ports from $FIRST_PORT to $LAST_PORT are taken by flights"
 }
 
-json_text() {
-  local text=${1//\\/\\\\}
-  text=${text//\"/\\\"}
-  printf '"%s"' "${text//[[:cntrl:]]/ }"
-}
-
-# write_failed_summary FILE SCENARIO SEED COUNT: what the monitor would write of a flight that it could not watch. An empty value
-# is null.
-write_failed_summary() {
-  local file=$1 scenario=${2:-} seed=${3:-} count=${4:-} version percentiles
-  [[ $seed =~ ^[0-9]+$ ]] || seed=null
-  [[ $count =~ ^[0-9]+$ ]] || count=null
-  version=$("$TERN_BIN/tern-monitor" --version 2>/dev/null) || version=unknown
-  percentiles='{ "p50": null, "p95": null, "p99": null, "max": null }'
-  cat >"$file" <<END
-{
-  "outcome": "failed",
-  "scenario": $(json_text "$scenario"),
-  "seed": $seed,
-  "count": $count,
-  "flight_time_s": null,
-  "first_entry_s": null,
-  "path_length_m": null,
-  "mean_speed_mps": null,
-  "top_speed_mps": null,
-  "stops": null,
-  "min_clearance_m": null,
-  "limit_violations": null,
-  "requests": 0,
-  "answered_in_time": 0,
-  "second_answers": 0,
-  "plans": { "optimized": 0, "search_only": 0, "keep_committed": 0, "evade": 0, "no_plan": 0 },
-  "left_out": { "plans": 0, "most_tracks": 0 },
-  "replan_ms": {
-    "total": $percentiles,
-    "first_answer": $percentiles,
-    "hulls": $percentiles,
-    "search": $percentiles,
-    "optimization": $percentiles,
-    "check": $percentiles
-  },
-  "exposure": {},
-  "messages": {},
-  "restarts": 0,
-  "beside": {},
-  "log": null,
-  "version": $(json_text "${version##* }")
-}
-END
-}
-
-# open_page URL: in the user's browser, where there is a display.
+# open_page URL: in the user's browser, where there is a display. The browser is no child of this script.
 open_page() {
   [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] && command -v xdg-open >/dev/null || return 0
-  setsid xdg-open "$1" </dev/null >/dev/null 2>&1 &
+  (setsid xdg-open "$1" </dev/null >/dev/null 2>&1 &)
 }

@@ -1,7 +1,1 @@
-#!/usr/bin/env bash
-# monitor.sh [OPTION...]: runs tern-monitor alone; the options are its own (--help lists them).
-set -euo pipefail
-# shellcheck source=launch_scripts/lib.sh
-source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
-
-exec_process tern-monitor "$@"
+run.sh

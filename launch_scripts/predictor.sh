@@ -1,7 +1,1 @@
-#!/usr/bin/env bash
-# predictor.sh [OPTION...]: runs tern-predictor alone; the options are its own (--help lists them).
-set -euo pipefail
-# shellcheck source=launch_scripts/lib.sh
-source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
-
-exec_process tern-predictor "$@"
+run.sh

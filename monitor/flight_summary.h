@@ -26,8 +26,8 @@ struct FlightSummary {
   FlightOutcome outcome = FlightOutcome::Failed;
   std::string detail;  ///< why, in words; may be empty
   std::string scenario;
-  std::uint64_t seed = 0;
-  std::int64_t count = 0;              ///< obstacles of the world's generator
+  std::optional<std::uint64_t> seed;   ///< nothing when the scenario could not be read
+  std::optional<std::int64_t> count;   ///< obstacles of the world's generator; the same
   std::optional<FlightResult> result;  ///< the referee's measures; nothing when it gave none
   std::int64_t requests = 0, answered_in_time = 0;
   std::int64_t second_answers = 0;                      ///< to requests that had their answer: two planners
@@ -42,7 +42,7 @@ struct FlightSummary {
   std::string version;                ///< build id
 };
 
-/// One JSON object, two spaces of indent, with exactly the keys outcome, scenario, seed, count, flight_time_s,
+/// One JSON object, two spaces of indent, with exactly the keys outcome, detail, scenario, seed, count, flight_time_s,
 /// first_entry_s, path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m, limit_violations, requests,
 /// answered_in_time, second_answers, plans, left_out, replan_ms, exposure, messages, restarts, beside, log, version.
 /// What has no value (NaN, a measure that no referee gave) is null.

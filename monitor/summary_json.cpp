@@ -25,6 +25,11 @@ Json measure(const std::optional<FlightResult>& result, T FlightResult::*field) 
   return result ? Json((*result).*field) : Json(nullptr);
 }
 
+template <class T>
+Json known(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
 Json plans_by_outcome(const FlightSummary& summary) {
   Json plans = Json::object();
   for (int k = 0; k < kPlanOutcomes; ++k) {
@@ -56,8 +61,8 @@ std::string to_json(const FlightSummary& summary) {
       {"outcome", to_string(summary.outcome)},
       {"detail", summary.detail},
       {"scenario", summary.scenario},
-      {"seed", summary.seed},
-      {"count", summary.count},
+      {"seed", known(summary.seed)},
+      {"count", known(summary.count)},
       {"flight_time_s", measure(result, &FlightResult::flight_time_s)},
       {"first_entry_s", measure(result, &FlightResult::first_entry_s)},
       {"path_length_m", measure(result, &FlightResult::path_length_m)},

@@ -117,7 +117,8 @@ const char* plan_reason_words(PlanReason reason) {
 
 std::string to_text(const FlightSummary& s) {
   std::string text = fmt::format("{}{}{}\n", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
-  text += fmt::format("  scenario      {}, seed {}, {} obstacles\n", s.scenario, s.seed, s.count);
+  text +=
+      fmt::format("  scenario      {}, seed {}, {} obstacles\n", s.scenario, s.seed.value_or(0), s.count.value_or(0));
   if (s.result) text += flight_lines(*s.result);
   text += plan_lines(s);
   text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -158,6 +159,17 @@ Result<KeyRing> read_key_fd(int fd, std::string_view process) {
   const auto read = read_all(fd, what);
   close(fd);
   return ring_of(read, what, process);
+}
+
+Result<int> hold_in_memory(const KeyRing& ring) {
+  SecretText secret;
+  secret.text = ring.spell();
+  const int fd = memfd_create("tern-keys", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  if (fd < 0 || write(fd, secret.text.data(), secret.text.size()) != std::ssize(secret.text) ||
+      fcntl(fd, F_ADD_SEALS, F_SEAL_WRITE | F_SEAL_GROW | F_SEAL_SHRINK | F_SEAL_SEAL) != 0) {
+    return fail(fmt::format("a file of keys in memory: {}", std::strerror(errno)));
+  }
+  return fd;
 }
 
 Result<Key> read_master_key(const std::string& path) {

@@ -48,6 +48,10 @@ Result<KeyRing> read_key_file(const std::string& path, std::string_view process)
 /// closes it. A pipe is refused: a process that is started again would find it empty.
 Result<KeyRing> read_key_fd(int fd, std::string_view process);
 
+/// Writes a ring into a sealed file in memory without a name, for read_key_fd of a program that inherits it. @return
+/// its descriptor, close-on-exec.
+Result<int> hold_in_memory(const KeyRing& ring);
+
 /// A master key of a file, as above but for rings.
 Result<Key> read_master_key(const std::string& path);
 

@@ -3,9 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -15,31 +12,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/child_process.h"
+
 namespace tern {
-namespace {
-
-constexpr int kNotExecuted = 127;
-
-/// Between fork and exec, in the child. Only what is allowed there: no memory is taken.
-[[noreturn]] void become(char* const* arguments, int out, const char* error_file, pid_t parent, rlim_t cpu_limit_s) {
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(kNotExecuted);  // it died before the kernel knew
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  const int null = open("/dev/null", O_RDONLY);
-  const int error = open(error_file, O_WRONLY | O_CREAT | O_APPEND, 0644);
-  const rlimit limit{cpu_limit_s, cpu_limit_s + 5};
-  if (dup2(null, STDIN_FILENO) < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(error, STDERR_FILENO) < 0) {
-    _exit(kNotExecuted);
-  }
-  setrlimit(RLIMIT_CPU, &limit);
-  execv(arguments[0], arguments);
-  _exit(kNotExecuted);
-}
-
-}  // namespace
 
 ProcessPool::~ProcessPool() { kill_all(); }
 
@@ -47,19 +22,12 @@ void ProcessPool::start(std::uint64_t key, const std::vector<std::string>& comma
                         std::int64_t cpu_limit_s) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(fmt::format("pipe: {}", std::strerror(errno)));
-  std::vector<char*> arguments;
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  const pid_t parent = getpid();
-  const pid_t pid = fork();
-  if (pid == 0) become(arguments.data(), ends[1], error_file.c_str(), parent, static_cast<rlim_t>(cpu_limit_s));
+  const int error = open_log(error_file);
+  ChildProcess child{.command = command, .out = ends[1], .error = error, .own_group = true};
+  child.cpu_limit_s = static_cast<std::uint64_t>(cpu_limit_s);
+  children_[key] = {start_child(child), ends[0], {}};
   close(ends[1]);
-  if (pid < 0) {
-    close(ends[0]);
-    throw std::runtime_error(fmt::format("fork: {}", std::strerror(errno)));
-  }
-  setpgid(pid, pid);  // here and in the child: whoever comes first
-  children_[key] = {pid, ends[0], {}};
+  close(error);
 }
 
 std::vector<std::uint64_t> ProcessPool::keys() const {
@@ -70,12 +38,9 @@ std::vector<std::uint64_t> ProcessPool::keys() const {
 
 FinishedProcess ProcessPool::reap(std::uint64_t key, Child& child) {
   close(child.fd);
-  int status = 0;
-  while (waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
-  }
-  FinishedProcess finished{key, std::move(child.output), std::nullopt, 0};
-  if (WIFEXITED(status)) finished.exit_code = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) finished.signal = WTERMSIG(status);
+  const ProcessEnd end = await_child(child.pid);
+  FinishedProcess finished{key, std::move(child.output), end.exit_code, end.signal};
+  if (end.signal != 0) finished.exit_code.reset();
   return finished;
 }
 

@@ -56,16 +56,20 @@ one_folder Beast '^boost/beast'
 only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 
 # base <- geometry <- splines <- world <- process libraries <- apps.
-ours='^(core|messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|viewer|tools|tests)/'
+ours='^(core|messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/'
 never '^core/base/' "^core/(geometry|splines|world)/" 'base stands on nothing'
 never '^core/geometry/' '^core/(splines|world)/' 'geometry stands on base'
 never '^core/splines/' '^core/world/' 'splines stand on base and geometry'
-never '^core/' '^(messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|viewer|tools|tests)/' \
+never '^core/' '^(messages|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'core stands on itself'
-never '^messages/' '^(runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|viewer|tools|tests)/' \
+never '^messages/' '^(runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'messages stand on core'
-never '^runtime/' '^(planner|predictor|executor|simulator|semantic_mapper|logger|monitor|campaign|viewer|tools|tests)/' \
+never '^runtime/' '^(planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'runtime stands on core and messages'
+
+# Who starts the others knows how to sum up for a monitor that cannot, no messages and no other process.
+never '^launcher/' '^(messages|planner|predictor|executor|simulator|semantic_mapper|logger|campaign|viewer|tools|tests)/' \
+  'the launcher stands on core, runtime and the summary'
 
 # A process library knows its own folder, core, and for a recorder what messages are called.
 for process in planner predictor executor simulator semantic_mapper logger monitor viewer/bridge; do

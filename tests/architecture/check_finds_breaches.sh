@@ -6,7 +6,7 @@ root=$(dirname "$(dirname "$here")")
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 cd "$root"
-find core messages runtime planner predictor executor simulator semantic_mapper logger monitor viewer \
+find core messages runtime planner predictor executor simulator semantic_mapper logger monitor launcher viewer \
   -type f \( -name '*.h' -o -name '*.cpp' \) -exec cp --parents {} "$copy" \;
 
 "$here/check.sh" "$copy"
@@ -30,6 +30,7 @@ planted core/world/x.h '#include "messages/plan.h"\n'
 planted messages/x.h '#include "runtime/bus.h"\n'
 planted runtime/x.h '#include "planner/planner.h"\n'
 planted planner/x.h '#include "runtime/bus.h"\n'
+planted launcher/app/x.h '#include "messages/plan.h"\n'
 planted planner/x.h '#include "planner/app/planner_node.h"\n'
 planted planner/x.h '#include "predictor/tracking/tracker.h"\n'
 planted planner/app/x.h '#include "predictor/app/predictor_node.h"\n'

@@ -34,7 +34,7 @@ MOST_FLIGHT_S = 120.0
 
 
 def draw_faults(rng):
-    """[(seconds after the log has begun, process, "KILL" | "STOP" | "KEEPER", seconds stopped)], by time."""
+    """[(seconds after the log has begun, process, "KILL" | "STOP" | "SUPERVISOR", seconds stopped)], by time."""
     faults = []
     for _ in range(rng.randint(1, 4)):
         moment = rng.uniform(0.0, LONGEST_MOMENT_S)
@@ -45,7 +45,7 @@ def draw_faults(rng):
         elif rng.random() < 0.7:
             faults.append((moment, rng.choice(FINAL), "KILL", 0.0))
         else:
-            faults.append((moment, rng.choice(RESTARTABLE), "KEEPER", 0.0))
+            faults.append((moment, "tern-launch", "SUPERVISOR", 0.0))
     return sorted(faults)
 
 
@@ -64,14 +64,8 @@ def processes_of(folder):
     return found
 
 
-def find(folder, name, keeper):
-    for pid, arguments in processes_of(folder).items():
-        is_keeper = any(a.endswith("/keep_alive.sh") for a in arguments)
-        if keeper and is_keeper and any(a.endswith("/" + name) for a in arguments):
-            return pid
-        if not keeper and arguments[0].endswith("/" + name):
-            return pid
-    return None
+def find(folder, name):
+    return next((pid for pid, arguments in processes_of(folder).items() if arguments[0].endswith("/" + name)), None)
 
 
 class Flight:
@@ -87,6 +81,10 @@ class Flight:
         except OSError:
             return ""
 
+    def supervisor(self):
+        """Who restarts the processes."""
+        return int((self.text("namespace").split() or [0])[0]) or None
+
     def is_flying(self):
         return re.search(r" [1-9]\.[0-9]+ m/s", self.output.read_text(errors="replace")) is not None
 
@@ -98,7 +96,7 @@ class Flight:
             return False
 
     def strike(self, name, what, length):
-        pid = find(self.folder, name, what == "KEEPER")
+        pid = find(self.folder, name) if what != "SUPERVISOR" else self.supervisor()
         if pid is None:
             return  # between two lives, or the flight is over
         flying = self.is_flying()
@@ -136,7 +134,7 @@ class Flight:
         self.ended = time.monotonic()
 
     def check_exit_code(self):
-        fatal = [d for d in self.done if d[1] == "KEEPER" or (d[0] in FINAL and d[1] == "KILL" and (d[3] or d[0] == "tern-monitor"))]
+        fatal = [d for d in self.done if d[1] == "SUPERVISOR" or (d[0] in FINAL and d[1] == "KILL" and (d[3] or d[0] == "tern-monitor"))]
         late = [d for d in fatal if self.ended - d[4] <= LAST_WORDS_S]
         if self.code not in (0, 1, 2, 3):
             self.wrong.append(f"exit code {self.code}")
@@ -155,7 +153,7 @@ class Flight:
 
     def check_restarts(self):
         logs = "".join(self.text(f"{name}.log") for name in RESTARTABLE + ["tern-simulator"])
-        causes = re.findall(r"keep_alive\.sh: (\S+) ended with (.*); restart", logs)
+        causes = re.findall(r"tern-launch: (\S+) ended with (.*); restart", logs)
         kills = [d for d in self.done if d[1] == "KILL" and d[0] != "tern-monitor"]
         by_signal = sum(cause == "signal KILL" for _, cause in causes)
         if by_signal != len(kills):
@@ -168,13 +166,13 @@ class Flight:
             if cause != "signal KILL" and (name, cause) != ("tern-planner", "exit code 70"):
                 self.wrong.append(f"{name} ended with {cause}")
         unheard = sum(self.ended - d[4] <= LAST_WORDS_S for d in kills)
-        watched = self.summary.get("log") is not None  # else fly.sh wrote it, in place of a monitor that died
+        watched = self.summary.get("log") is not None  # else tern-launch wrote it, in place of a monitor that died
         counted = self.summary.get("restarts")
         if watched and not len(causes) - unheard <= counted <= len(causes):
             self.wrong.append(f"the summary counts {counted} restarts of {len(causes)}")
 
     def check_log(self):
-        logger_hurt = any(d[0] == "tern-logger" for d in self.done)
+        logger_hurt = any(d[0] == "tern-logger" or d[1] == "SUPERVISOR" for d in self.done)
         run = lambda tool: subprocess.run([BIN / tool, self.record / "flight.lcm"], capture_output=True, text=True)
         audit, replay = run("tern-audit"), run("tern-replay")
         (self.folder / "audit.txt").write_text(audit.stdout + audit.stderr)
@@ -183,7 +181,8 @@ class Flight:
         if audit.returncode not in (0, 1):
             self.wrong.append(f"audit: exit code {audit.returncode}: {audit.stderr.strip()}")
         # What the summary says, too, is a true finding: the collision; requests that a stopped planner did not answer.
-        unanswered = self.summary.get("answered_in_time", 0) < self.summary.get("requests", 0)
+        watched = self.summary.get("log") is not None
+        unanswered = not watched or self.summary.get("answered_in_time", 0) < self.summary.get("requests", 0)
         for line in re.findall(r"^ +BROKEN +(.*)", audit.stdout, re.MULTILINE):
             is_true = self.summary.get("outcome") == "collision" or (line.startswith("answers ") and unanswered)
             if not is_true:

@@ -42,8 +42,7 @@ reached() {
   replays "$1"
 }
 
-# The keeper of a process of this test's flights, and the process.
-keeper_of() { pgrep -f "keep_alive.sh.*$work/.*/$1 " | head -n 1; }
+# A process of this test's flights.
 process_of() { pgrep -x -f "[^ ]*/$1 --config $work/.*" | head -n 1; }
 
 # says FLIGHT TEXT: the monitor's newest line has it.
@@ -53,13 +52,13 @@ flies() { grep -qE ' [1-9]\.[0-9]+ m/s' "$work/$1.out"; }
 runs() { [[ -n $(process_of "$1") ]]; }
 is_larger() { (($(stat -c %s "$1") > $2)); }
 
-# keep_down PROCESS: kills it and holds its keeper, so that it stays away until bring_back.
+# keep_down PROCESS: kills it and holds the flight's supervisor, so that it stays away until bring_back.
 keep_down() {
-  keeper=$(keeper_of "$1")
-  kill -STOP "$keeper"
+  supervisor=$(pgrep -P "$flight" -x tern-launch)
+  kill -STOP "$supervisor"
   kill -KILL "$(process_of "$1")"
 }
-bring_back() { kill -CONT "$keeper"; }
+bring_back() { kill -CONT "$supervisor"; }
 
 a_flight_reaches_its_goal() {
   start_flight flight

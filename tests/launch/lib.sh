@@ -7,7 +7,7 @@ work=$(mktemp -d)
 flights=() # pids of flights that this test started
 cleanup() {
   local pid
-  # A failed test may leave a keeper stopped, which hears of nothing else, or cores busy.
+  # A failed test may leave a supervisor stopped, which hears of nothing else, or cores busy.
   for pid in "${flights[@]}" $(jobs -p) $(pgrep -f "$work/" || true); do kill -KILL "$pid" 2>/dev/null || true; done
   rm -rf "$work"
 }

@@ -110,11 +110,12 @@ fly_refuses_bad_options() {
 
 fly_summarizes_what_it_could_not_fly() {
   local keys
-  keys='outcome scenario seed count flight_time_s first_entry_s path_length_m mean_speed_mps top_speed_mps stops'
+  keys='outcome detail scenario seed count flight_time_s first_entry_s path_length_m mean_speed_mps top_speed_mps stops'
   keys+=' min_clearance_m limit_violations requests answered_in_time second_answers plans left_out replan_ms exposure messages restarts beside log version'
   [[ $(code "$scripts/fly.sh" --no-install --scenario nowhere --seed 4 --summary "$work/s.json") == 3 ]] || fail "exit code"
   [[ $(grep -oE '^  "[a-z_]+"' "$work/s.json" | tr -d ' "' | tr '\n' ' ') == "$keys " ]] || fail "keys: $(cat "$work/s.json")"
   expect "the seed" has_text '"seed": 4,' "$work/s.json"
+  expect "the reason" has_text '"detail": "no scenario nowhere; there are: ' "$work/s.json"
 }
 
 # A folder of programs like TERN_BIN, with a planner that no signal but SIGKILL ends.
@@ -145,6 +146,21 @@ a_killed_launcher_leaves_no_orphan() {
   eventually "the planner" 10 test -s "$work/stubborn.pid"
   kill -KILL "$flight"
   eventually "nobody is left" 5 nobody_left
+}
+
+a_killed_supervisor_fails_the_flight_and_leaves_no_orphan_of_an_orphan() {
+  with_stubborn_planner
+  rm "$work/bin/tern-planner"
+  printf '#!/bin/sh\n"%s" &\nwait\n' "$work/stubborn" >"$work/bin/tern-planner" # which is not told when its parent dies
+  chmod +x "$work/bin/tern-planner"
+  start_flight flight --summary "$work/s.json"
+  eventually "the planner's child" 10 test -s "$work/stubborn.pid"
+  local result=0
+  kill -KILL "$(pgrep -P "$flight" -x tern-launch)"
+  wait "$flight" || result=$?
+  [[ $result == 3 ]] || fail "exit code $result"
+  eventually "nobody is left" 5 nobody_left
+  expect "a summary says why" has_text '"detail": "tern-launch ended with signal KILL"' "$work/s.json"
 }
 
 two_flights_take_two_ports() {

@@ -75,9 +75,13 @@ TEST(Summary, WhatHasNoValueIsNull) {
   EXPECT_TRUE(json::parse(to_json(s))["first_entry_s"].is_null());
   EXPECT_TRUE(json::parse(to_json(s))["replan_ms"]["search"]["p50"].is_null());
   s.result.reset();
+  s.seed.reset();
+  s.count.reset();
   const json unjudged = json::parse(to_json(s));
   EXPECT_TRUE(unjudged["flight_time_s"].is_null());
   EXPECT_TRUE(unjudged["stops"].is_null());
+  EXPECT_TRUE(unjudged["seed"].is_null());
+  EXPECT_TRUE(unjudged["count"].is_null());
   EXPECT_EQ(unjudged["exposure"], json::object());
 }
 

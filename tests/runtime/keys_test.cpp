@@ -131,6 +131,17 @@ TEST_F(KeyFiles, AreReadFromADescriptorFromTheirBeginningAsOftenAsAProcessStarts
   EXPECT_EQ(fcntl(held, F_GETFD), -1) << "it is closed";
 }
 
+TEST(KeyRing, HeldInMemoryIsReadBackAndCannotBeChanged) {
+  const KeyRing ring = KeyRing::derive(counting_key(), "tern-planner");
+  const auto fd = hold_in_memory(ring);
+  ASSERT_TRUE(fd);
+  EXPECT_EQ(fcntl(*fd, F_GETFD), FD_CLOEXEC);
+  EXPECT_EQ(write(*fd, "x", 1), -1);
+  const auto read = read_key_fd(*fd, "tern-planner");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->spell(), ring.spell());
+}
+
 TEST_F(KeyFiles, APipeIsRefusedSinceItCanBeReadOnceOnly) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);

@@ -43,7 +43,7 @@ TEST_F(BrokenPlanner, AnErrorInTheWorkerIsSaidAndEndsTheProcessWith70) {
 }
 
 TEST_F(BrokenPlanner, IsStartedAgainHoweverItBroke) {
-  Child keeper({TERN_KEEP_ALIVE, "--", TERN_BROKEN_PLANNER});
+  Child keeper({TERN_LAUNCH, "keep", "--", TERN_BROKEN_PLANNER});
   for (const std::int64_t id : {kNeverAnswered, kThrows}) {
     ASSERT_TRUE(wait_until_ready());
     ask(id);

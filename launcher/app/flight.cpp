@@ -1,0 +1,232 @@
+#include "launcher/app/flight.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "launcher/app/supervisor.h"
+#include "launcher/rules.h"
+#include "monitor/flight_summary.h"
+#include "runtime/keys.h"
+#include "runtime/scenario_file.h"
+#include "runtime/version.h"
+
+namespace tern {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class... T>
+void say(fmt::format_string<T...> format, T&&... values) {
+  fmt::print("{}\n", fmt::format(format, std::forward<T>(values)...));
+  std::fflush(stdout);
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string without_end(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+std::string last_line(const std::string& text) {
+  const std::string lines = without_end(text);
+  return lines.substr(lines.rfind('\n') + 1);
+}
+
+/// The number that the overrides give a key, if they do.
+std::optional<std::int64_t> overridden(const FlightOptions& options, const std::string& key) {
+  std::optional<std::int64_t> number;
+  for (const std::string& value : options.overrides) {
+    const std::string digits = value.starts_with(key + "=") ? value.substr(key.size() + 1) : "";
+    if (digits.empty() || digits.size() > 18 || digits.find_first_not_of("0123456789") != std::string::npos) continue;
+    number = std::stoll(digits);
+  }
+  return number;
+}
+
+void write_failure(const FlightOptions& options, const std::string& reason, const fs::path& file) {
+  FlightSummary summary;
+  summary.detail = reason;
+  summary.scenario = fs::path(options.scenario).stem();
+  summary.seed = overridden(options, "seed");
+  summary.count = overridden(options, "world.count");
+  summary.version = build_id();
+  std::ofstream(file) << to_json(summary);
+}
+
+/// The scenario's seed, for the folder's name; 1 if it cannot be read.
+std::uint64_t seed_of(const FlightOptions& options) try {
+  ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
+  return read_scenario(document).seed;
+} catch (const ConfigError&) {
+  return 1;
+}
+
+/// @return the flight's folder, made
+Result<fs::path> make_record(const FlightOptions& options) {
+  fs::path folder = options.record;
+  if (folder.empty()) {
+    const auto now = fmt::gmtime(std::time(nullptr));
+    const std::string name = fs::path(options.scenario).stem();
+    folder = fs::path(options.flights) / fmt::format("{:%Y%m%dT%H%M%SZ}-{}-{}", now, name, seed_of(options));
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return fail(fmt::format("{} cannot be made: {}", folder.string(), error.message()));
+  if (fs::exists(folder / "command")) return fail(fmt::format("{} holds a flight already", folder.string()));
+  for (const char* left : {"failure", "summary.json"}) fs::remove(folder / left);  // of a flight that could not begin
+  return fs::canonical(folder);
+}
+
+/// Says why the flight has failed, once, and tells the monitor.
+int give_up(const fs::path& record, const std::string& why) {
+  const fs::path file = record / "failure", fresh = record / "failure.new";
+  if (fs::exists(file)) return kExitFailed;
+  fmt::print(stderr, "tern-launch: {}\n", why);
+  std::ofstream(fresh) << why << '\n';
+  fs::rename(fresh, file);  // whole as soon as it is there
+  return kExitFailed;
+}
+
+/// @return by process, an open file of its keys; empty if the flight is unsigned
+std::map<std::string, int> hold_keys(const FlightOptions& options) {
+  std::map<std::string, int> fds;
+  if (!options.key) return fds;
+  const Result<Key> master = options.key->empty() ? random_key() : read_master_key(*options.key);
+  if (!master) throw std::runtime_error(master.error().message);
+  for (const Part& part : parts()) {
+    const auto fd = hold_in_memory(KeyRing::derive(*master, part.process));
+    if (!fd) throw std::runtime_error(fd.error().message);
+    fds.emplace(part.process, *fd);
+  }
+  return fds;
+}
+
+void announce(const FlightOptions& options, const fs::path& record, const std::vector<SupervisedProcess>& processes) {
+  std::ofstream(record / "env.sh") << fmt::format("export LCM_DEFAULT_URL='{}'\n", options.lcm_url);
+  std::ofstream commands(record / "command");
+  commands << options.typed << '\n';
+  for (const SupervisedProcess& process : processes) commands << shell_line(process.child.command) << '\n';
+  say("Flight of {}\n  record   {}", options.scenario, record.string());
+  if (options.namespace_flags.empty()) {
+    say("  network  export LCM_DEFAULT_URL='{}'", options.lcm_url);
+  } else {
+    std::ofstream(record / "namespace") << getpid() << ' ' << options.namespace_flags << '\n';
+    say("  network  its own namespace; a shell in it: launch_scripts/enter.sh {}", record.string());
+  }
+  if (options.view_fd) say("  view     {}", options.view_url);
+  if (options.key) say("  key      messages are signed");
+}
+
+/// What an event means for the flight. @return the exit code, or nullopt if the monitor has yet to judge
+std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event) {
+  if (event.process.empty()) return event.code;
+  const bool is_judge = event.process == kMonitor, has_summary = fs::exists(record / "summary.json");
+  if (is_judge ? !has_summary : event.code != 0) {
+    const std::string words = last_line(text_of(record / (event.process + ".log")));
+    give_up(record, fmt::format("{} ended with exit code {}: {}", event.process, event.code, words));
+  }
+  return is_judge ? std::optional(judged(event.code, has_summary)) : std::nullopt;
+}
+
+int supervise(const FlightOptions& options, const fs::path& record, const sigset_t& signals) try {
+  ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
+  (void)read_scenario(document);  // refused once, not by each process
+  auto processes = flight_processes(options, record, hold_keys(options));
+  announce(options, record, processes);
+  Supervisor supervisor(signals);
+  for (SupervisedProcess& process : processes) {
+    process.child.error = open_log(record / (process.name + ".log"));
+    if (process.name != kMonitor) process.child.out = process.child.error;
+    supervisor.start(process);
+  }
+  std::optional<int> code;
+  while (!code) code = verdict(record, supervisor.wait());
+  supervisor.stop(kLogger);
+  return *code;
+} catch (const std::exception& e) {
+  return give_up(record, e.what());
+}
+
+int watch_over(const FlightOptions& options, const fs::path& record) {
+  const sigset_t signals = block_signals();
+  const pid_t self = getpid(), child = fork();
+  if (child < 0) return give_up(record, "no process can be made");
+  if (child == 0) {
+    setsid();
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    const int code = getppid() == self ? supervise(options, record, signals) : kExitFailed;
+    std::fflush(nullptr);
+    _exit(code);
+  }
+  siginfo_t ended{};
+  while (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid != child) {
+    const int number = sigwaitinfo(&signals, nullptr);
+    if (number > 0 && number != SIGCHLD) kill(child, number);
+  }
+  kill(-child, SIGKILL);  // the group's number is taken as long as the child has not been waited for
+  const ProcessEnd end = await_child(child);
+  return end.signal == 0 ? end.exit_code : give_up(record, fmt::format("tern-launch ended with {}", to_text(end)));
+}
+
+/// What was asked for after the flight, from its log. @return the exit code after it
+int look_back(const FlightOptions& options, const fs::path& record, int code) {
+  const auto run = [&](std::vector<std::string> command, int out) {
+    command.front() = options.programs + "/" + command.front();
+    return shell_code(await_child(start_child({.command = std::move(command), .out = out, .own_group = true})));
+  };
+  const std::string log = record / "flight.lcm", audit = record / "audit.txt";
+  if (options.audit) {
+    code = audited(code, run({"tern-audit", log, "--json", record / "audit.json"}, open_log(audit)));
+    say("\n{}", without_end(text_of(audit)));
+  }
+  if (options.report && run({"tern-report", log, "-o", record / "report.html"}, STDOUT_FILENO) != 0) return kExitFailed;
+  return code;
+}
+
+}  // namespace
+
+int fly(const FlightOptions& options) {
+  const auto record = make_record(options);
+  if (!record) {
+    summarize_failure(options, record.error().message);
+    throw std::runtime_error(record.error().message);
+  }
+  int code = watch_over(options, *record);
+  if (options.view_fd && code < kExitSignalled) {
+    say("  see it again: launch_scripts/view.sh --log {}/flight.lcm", record->string());
+  }
+  if (code < kExitFailed && fs::exists(*record / "flight.lcm")) code = look_back(options, *record, code);
+  if (code > kExitSignalled) say("\nEnded by a signal; what was recorded: {}", record->string());
+  const fs::path summary = *record / "summary.json";
+  if (code == kExitFailed && !fs::exists(summary)) {
+    write_failure(options, last_line(text_of(*record / "failure")), summary);
+  }
+  if (!options.summary.empty() && fs::exists(summary)) {
+    fs::copy_file(summary, options.summary, fs::copy_options::overwrite_existing);
+  }
+  return code;
+}
+
+void summarize_failure(const FlightOptions& options, const std::string& reason) {
+  if (!options.summary.empty()) write_failure(options, reason, options.summary);
+}
+
+}  // namespace tern

@@ -1,0 +1,57 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "launcher/app/flight.h"
+#include "launcher/app/supervisor.h"
+#include "launcher/rules.h"
+#include "runtime/version.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Starts processes, keeps them running, and ends them", "tern-launch");
+  app.set_version_flag("--version", std::string("tern-launch ") + tern::build_id());
+  app.require_subcommand(1);
+
+  tern::FlightOptions options;
+  std::string failed, log;
+  std::vector<std::string> command;
+  CLI::App& fly = *app.add_subcommand("fly", "Fly a scenario; launch_scripts/fly.sh calls this");
+  fly.add_option("--programs", options.programs, "The folder of Tern's programs")->required();
+  fly.add_option("--config", options.scenario, "Scenario file")->required();
+  fly.add_option("--set", options.overrides, "As of every process")->allow_extra_args(false);
+  fly.option_defaults()->take_last();
+  fly.add_option("--lcm-url", options.lcm_url, "LCM network");
+  fly.add_option("--namespace", options.namespace_flags, "The flags of unshare that made its network namespace");
+  fly.add_option("--record", options.record, "The flight's folder (default: a new one in --flights)");
+  fly.add_option("--flights", options.flights, "The folder of records");
+  fly.add_option("--summary", options.summary, "Write the summary there, too");
+  fly.add_option("--typed", options.typed, "What the user typed, for the record");
+  fly.add_flag(
+      "--new-key", [&](std::int64_t) { options.key = ""; }, "Sign every message, with a new key");
+  fly.add_option("--key-file", options.key, "Sign every message, with the master key of this file");
+  fly.add_option("--view-fd", options.view_fd, "A listening socket (tern-listen): tern-viewer shows the flight there");
+  fly.add_option("--view-url", options.view_url, "That socket's URL");
+  fly.add_option("--page", options.page, "The folder of tern-viewer's page");
+  fly.add_flag("--allow-goals", options.allow_goals, "The page may send goals");
+  fly.add_flag("--audit", options.audit, "Recompute the flight when it has ended");
+  fly.add_flag("--report", options.report, "Draw the flight when it has ended");
+  fly.add_option("--failed", failed, "Do not fly: write the summary of a flight that could not begin, for this reason");
+  CLI::App& keep = *app.add_subcommand("keep", "Run COMMAND, and run it again when it dies")->prefix_command();
+  keep.add_option("--log", log, "File for all that is said (default: standard output and error)");
+  keep.add_option("COMMAND", command)->required();
+
+  try {
+    app.parse(argc, argv);
+    if (keep) return tern::keep_alive(command, log);
+    if (failed.empty()) return tern::fly(options);
+    tern::summarize_failure(options, failed);
+    return 0;
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : keep ? 2 : tern::kExitFailed;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "tern-launch: %s\n", e.what());
+    return tern::kExitFailed;
+  }
+}

@@ -1,0 +1,129 @@
+#include "launcher/app/supervisor.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+namespace tern {
+namespace {
+
+/// Together less than the 2 s within which a flight ends.
+constexpr Duration kPatience{1'000'000}, kLastPatience{600'000};
+constexpr Duration kLongPause{3'600'000'000};
+constexpr std::uint64_t kMemoryLimitKb = 4'000'000;
+
+std::optional<std::uint64_t> memory_limit_bytes() {
+  const char* const text = std::getenv("TERN_MEMORY_LIMIT_KB");
+  const std::uint64_t kb = text == nullptr ? kMemoryLimitKb : std::strtoull(text, nullptr, 10);
+  return kb == 0 ? std::nullopt : std::optional(kb * 1024);
+}
+
+/// @return the next of these signals, or 0 if none comes in that time.
+int next_signal(const sigset_t& signals, Duration wait) {
+  const std::int64_t us = std::max<std::int64_t>(wait.us, 0);
+  const timespec time{us / 1'000'000, us % 1'000'000 * 1000};
+  return std::max(sigtimedwait(&signals, nullptr, &time), 0);
+}
+
+sigset_t set_of(int signal) {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, signal);
+  return set;
+}
+
+}  // namespace
+
+sigset_t block_signals() {
+  std::signal(SIGCHLD, SIG_DFL);
+  sigset_t signals = set_of(SIGCHLD);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    sigaction(number, nullptr, &action);
+    if (action.sa_handler != SIG_IGN) sigaddset(&signals, number);
+  }
+  sigprocmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
+void Supervisor::start(SupervisedProcess process) {
+  process.child.memory_limit_bytes = memory_limit_bytes();
+  kept_.emplace_back().process = std::move(process);
+  run(kept_.back());
+}
+
+void Supervisor::run(Kept& kept) {
+  kept.due.reset();
+  kept.started = clock_.now();
+  kept.pid = start_child(kept.process.child);
+}
+
+SupervisorEvent Supervisor::wait() {
+  while (true) {
+    Duration pause = kLongPause;
+    for (Kept& kept : kept_) {
+      if (const auto end = kept.pid ? poll_child(*kept.pid) : std::nullopt) {
+        kept.pid.reset();
+        if (!kept.process.restarted || is_final(*end)) return {kept.process.name, shell_code(*end)};
+        plan_restart(kept, *end);
+      }
+      if (kept.due && *kept.due <= clock_.now()) run(kept);
+      if (kept.due) pause = std::min(pause, *kept.due - clock_.now());
+    }
+    const int signal = next_signal(signals_, pause);
+    if (signal != 0 && signal != SIGCHLD) return {"", kExitSignalled + signal};
+  }
+}
+
+void Supervisor::plan_restart(Kept& kept, const ProcessEnd& end) {
+  const Duration delay = kept.backoff.next(clock_.now() - kept.started);
+  kept.due = clock_.now() + delay;
+  dprintf(kept.process.child.error, "tern-launch: %s ended with %s; restart %d in %d ms\n", kept.process.name.c_str(),
+          to_text(end).c_str(), ++kept.restarts, static_cast<int>(delay.us / 1000));
+}
+
+void Supervisor::stop(const std::string& last) {
+  std::vector<Kept*> others, one;
+  for (Kept& kept : kept_) (kept.process.name == last ? one : others).push_back(&kept);
+  end(others, kPatience);
+  end(one, kLastPatience);
+}
+
+void Supervisor::end(const std::vector<Kept*>& group, Duration patience) {
+  const UTime deadline = clock_.now() + patience;
+  for (Kept* kept : group) {
+    kept->due.reset();
+    if (kept->pid) kill(*kept->pid, SIGTERM);
+  }
+  const auto all_ended = [&] {
+    bool all = true;
+    for (Kept* kept : group) {
+      if (kept->pid && poll_child(*kept->pid)) kept->pid.reset();
+      all = all && !kept->pid;
+    }
+    return all;
+  };
+  while (!all_ended() && clock_.now() < deadline) next_signal(set_of(SIGCHLD), deadline - clock_.now());
+  for (Kept* kept : group) {
+    if (!kept->pid) continue;
+    kill(*kept->pid, SIGKILL);
+    (void)await_child(*kept->pid);
+    kept->pid.reset();
+  }
+}
+
+int keep_alive(const std::vector<std::string>& command, const std::string& log) {
+  const sigset_t signals = block_signals();
+  ChildProcess child{.command = command};
+  if (!log.empty()) child.out = child.error = open_log(log);
+  Supervisor supervisor(signals);
+  supervisor.start({std::filesystem::path(command.front()).filename(), child});
+  const SupervisorEvent event = supervisor.wait();
+  supervisor.stop("");
+  return event.process.empty() ? 0 : event.code;
+}
+
+}  // namespace tern

@@ -1,0 +1,62 @@
+// Processes that are started, started again when they die, and ended.
+#pragma once
+
+#include <csignal>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "launcher/flight_processes.h"
+#include "launcher/rules.h"
+#include "runtime/clock.h"
+
+namespace tern {
+
+/// Blocks SIGCHLD, and SIGINT, SIGTERM and SIGHUP but for those that are ignored, as a shell has it for background
+/// jobs. Children start with none blocked. @return the blocked ones
+sigset_t block_signals();
+
+struct SupervisorEvent {
+  std::string process;  ///< which is gone for good; empty: a signal came
+  int code = 0;         ///< its exit code, or 128 + n for signal n
+};
+
+/// Not thread-safe; its process stays single-threaded.
+class Supervisor {
+ public:
+  /// @param signals  of block_signals
+  explicit Supervisor(const sigset_t& signals) : signals_(signals) {}
+
+  /// Each process gets at most TERN_MEMORY_LIMIT_KB of address space (by default 4 GB; 0: no limit), so that a message
+  /// that asks for absurd memory ends the process, not the machine.
+  void start(SupervisedProcess process);
+  /// Keeps all running until one is gone for good or a signal comes. Restarts are said on the process's standard error.
+  SupervisorEvent wait();
+  /// Ends all within 2 s: SIGTERM to all but `last`, SIGKILL to those that are left after 1 s, then the same to `last`,
+  /// which hears the others out. Signals that come meanwhile stay pending.
+  void stop(const std::string& last);
+
+ private:
+  struct Kept {
+    SupervisedProcess process;
+    std::optional<pid_t> pid;  ///< while it runs
+    UTime started;             ///< lately
+    std::optional<UTime> due;  ///< the next start
+    Backoff backoff;
+    int restarts = 0;
+  };
+  void run(Kept& kept);
+  void plan_restart(Kept& kept, const ProcessEnd& end);
+  void end(const std::vector<Kept*>& group, Duration patience);
+
+  sigset_t signals_;
+  WallClock clock_;
+  std::vector<Kept> kept_;
+};
+
+/// Runs a command, and runs it again when it dies. @param log  file for all that is said; empty: where this process
+/// says it  @return the command's exit code when another run cannot mend it; 0 after SIGTERM, SIGINT or SIGHUP: the
+/// command gets SIGTERM then, and SIGKILL 1 s later
+int keep_alive(const std::vector<std::string>& command, const std::string& log);
+
+}  // namespace tern

@@ -1,0 +1,47 @@
+// Which processes a flight has, and with which options.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/child_process.h"
+
+namespace tern {
+
+struct FlightOptions {
+  std::string programs;                ///< the folder of Tern's programs
+  std::string scenario;                ///< file
+  std::vector<std::string> overrides;  ///< of the scenario's values, KEY=VALUE
+  std::string lcm_url;
+  std::string namespace_flags;         ///< of unshare(1), by which the flight's network was made; empty: the host's
+  std::string record;                  ///< folder for log, process logs and summary; empty: a new one in `flights`
+  std::string flights;                 ///< folder of records
+  std::string summary;                 ///< file to which the summary goes, too; empty: none
+  std::string typed;                   ///< the command that the user typed, for the record
+  std::optional<std::string> key;      ///< sign messages, with the master key of this file; empty: with a new one
+  std::optional<int> view_fd;          ///< a listening socket for tern-viewer; none: no viewer
+  std::string view_url, page;          ///< that socket's URL; the folder of the built page
+  bool allow_goals = false;            ///< the page may send goals
+  bool audit = false, report = false;  ///< look back when it has ended
+};
+
+struct SupervisedProcess {
+  std::string name;  ///< "tern-planner"
+  ChildProcess child;
+  bool restarted = true;  ///< when it dies, unless that cannot help (is_final)
+};
+
+inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor";
+
+/// The processes of a flight in the order of their start: who records and who judges come first, so that they miss
+/// nothing. All are restarted but the monitor, whose judgement rests on all that it heard.
+/// @param record  the flight's folder  @param key_fds  by process, an open file of its keys; empty: unsigned
+std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, const std::string& record,
+                                                const std::map<std::string, int>& key_fds);
+
+/// Words as a line that a shell reads back as these words.
+std::string shell_line(const std::vector<std::string>& words);
+
+}  // namespace tern

@@ -1,0 +1,71 @@
+#include "launcher/flight_processes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace tern {
+namespace {
+
+using Words = std::vector<std::string>;
+
+FlightOptions demo() {
+  FlightOptions options;
+  options.programs = "bin";
+  options.scenario = "demo.yaml";
+  options.lcm_url = "udpm://";
+  options.overrides = {"seed=2", "uav.goal=[1,2,3]"};
+  return options;
+}
+
+Words names(const std::vector<SupervisedProcess>& processes) {
+  Words names;
+  for (const SupervisedProcess& p : processes) names.push_back(p.name);
+  return names;
+}
+
+TEST(FlightProcesses, BeginWithWhoRecordsAndWhoJudges) {
+  FlightOptions options = demo();
+  EXPECT_EQ(names(flight_processes(options, "r", {})),
+            (Words{"tern-logger", "tern-monitor", "tern-simulator", "tern-predictor", "tern-mapper", "tern-planner"}));
+  options.view_fd = 7;
+  EXPECT_EQ(names(flight_processes(options, "r", {}))[2], "tern-viewer");
+}
+
+TEST(FlightProcesses, AreAllRestartedButTheMonitor) {
+  for (const SupervisedProcess& p : flight_processes(demo(), "r", {})) {
+    EXPECT_EQ(p.restarted, p.name != "tern-monitor") << p.name;
+  }
+}
+
+TEST(FlightProcesses, AllGetScenarioOverridesAndNetwork) {
+  const Words common = {"--config", "demo.yaml",        "--set",     "seed=2",
+                        "--set",    "uav.goal=[1,2,3]", "--lcm-url", "udpm://"};
+  for (const SupervisedProcess& p : flight_processes(demo(), "r", {})) {
+    const Words& words = p.child.command;
+    EXPECT_EQ(words.front(), "bin/" + p.name);
+    ASSERT_GE(words.size(), common.size() + 1);
+    EXPECT_TRUE(std::equal(common.begin(), common.end(), words.begin() + 1)) << shell_line(words);
+  }
+}
+
+TEST(FlightProcesses, InheritTheirOwnKeysAndTheViewerTheSocket) {
+  FlightOptions options = demo();
+  options.view_fd = 9;
+  const std::map<std::string, int> keys = {{"tern-planner", 5}, {"tern-viewer", 6}};
+  for (const SupervisedProcess& p : flight_processes(options, "r", keys)) {
+    const bool has_key = keys.count(p.name) == 1;
+    std::vector<int> expected;
+    if (has_key) expected.push_back(keys.at(p.name));
+    if (p.name == "tern-viewer") expected.push_back(9);
+    EXPECT_EQ(p.child.inherited, expected) << p.name;
+    EXPECT_EQ(std::count(p.child.command.begin(), p.child.command.end(), "--key-fd"), has_key ? 1 : 0) << p.name;
+  }
+}
+
+TEST(ShellLine, QuotesWhatAShellWouldTakeApart) {
+  EXPECT_EQ(shell_line({"a", "b c", "it's", ""}), R"('a' 'b c' 'it'\''s' '')");
+}
+
+}  // namespace
+}  // namespace tern
