@@ -21,7 +21,9 @@ enum class EvasionAim {
 /// obstacles' boxes sorts them: what stays clear longest comes first, of equals the nearest. The first try usually
 /// succeeds. Each stop's hold is followed as far as predictions reach. Ends early when the budget is spent. The outcome
 /// is Evade.
+/// @param heading  by which arrivals are estimated
 /// @return the best stop, or nullopt if none passed the checker
-std::optional<Candidate> find_evasion(const AttemptContext& context, EvasionAim aim);
+std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& heading, EvasionAim aim,
+                                      PlanTools& tools);
 
 }  // namespace tern

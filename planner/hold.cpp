@@ -5,6 +5,12 @@
 #include "planner/duration.h"
 
 namespace tern {
+namespace {
+
+/// Holds are not cut below this, s.
+constexpr double kLeastHold = 0.1;
+
+}  // namespace
 
 double HoldDemand::required(double end_s) const {
   const double to_step_aside = std::min(aside_s, predicted_s) - end_s;
@@ -26,8 +32,10 @@ double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec
 }
 
 HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& config,
-                       const std::vector<PlanningObstacle>& obstacles) {
-  HoldDemand hold{config.hold_required_s, config.hold_cap_s, config.hold_until_s};
+                       const std::vector<PlanningObstacle>& obstacles, double horizon_s) {
+  const double longest_s = std::max(0.5 * horizon_s, kLeastHold);
+  HoldDemand hold{std::min(config.hold_required_s, longest_s), std::min(config.hold_cap_s, longest_s),
+                  config.hold_until_s};
   Vec3 largest = Vec3::Zero();
   for (const PlanningObstacle& obstacle : obstacles) {
     if (!obstacle.moves()) continue;

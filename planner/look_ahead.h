@@ -1,10 +1,10 @@
 // How far ahead one request looks: how long plans and holds may be, and how far the local goal may lie.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/world/horizon.h"
+#include "planner/hold.h"
 #include "planner/planner_config.h"
 #include "planner/planning_world.h"
 
@@ -29,10 +29,6 @@ struct LookAhead {
 inline constexpr double kLeastHorizon = 3.0;  // s
 LookAhead look_ahead(const HorizonRequest& request, const PredictionProducts& predictions, const PlannerConfig& config);
 
-/// The same configuration with holds of at most half the horizon, so that flying has the other half. Nothing: it asks
-/// for no longer ones.
-std::optional<PlannerConfig> with_shorter_holds(const PlannerConfig& config, const LookAhead& look);
-
 /// Where a plan heads.
 struct LocalAim {
   Vec3 goal = Vec3::Zero();  ///< s_g^temp: the last point of the path in the ball of this radius about the start, W
@@ -40,12 +36,16 @@ struct LocalAim {
   double least_s = 0.0;      ///< planned_duration() to it
 };
 
-/// The local goal at `largest_radius`, or, where the first duration to it and the hold after it do not fit into the
-/// horizon, or Δt would exceed kLongestInterval, at the next smaller of radii that shrink by a sixth which does. Where
-/// none does (the start is too fast to stop so soon), the one that is reached first.
+/// The local goal goes by the first duration: how long planned_duration() may be, so that this and the hold after it
+/// fit into the horizon, and Δt does not exceed kLongestInterval, s.
+double longest_first_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config);
+
+/// The local goal at `largest_radius`, or, where planned_duration() to it is longer than longest_s, at the next smaller
+/// of radii that shrink by a sixth which is not. Where none is (the start is too fast to stop so soon), the one that is
+/// reached first.
 /// @pre path is not empty
 LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
-                   double largest_radius, const LookAhead& look, const PlannerConfig& config);
+                   double largest_radius, double longest_s);
 
 /// Local goals at least this far away are as far as the search's lengths were chosen for, m.
 inline constexpr double kFullStep = 2.0;

@@ -46,6 +46,16 @@ RC_GTEST_PROP(HoldDemand, AsksForWhatTheVehicleNeedsAsFarAsPredictionsReach, ())
   RC_ASSERT(hold.cap_of_stop(end_s) >= hold.cap(end_s));
 }
 
+TEST(HoldDemand, TakesHalfTheHorizonAtMost) {
+  PlannerConfig config;
+  EXPECT_EQ(hold_demand(HorizonRequest{}, config, {}, 3.0).cap_s, config.hold_cap_s);
+  config.hold_required_s = config.hold_cap_s = 10.0;
+  const HoldDemand shorter = hold_demand(HorizonRequest{}, config, {}, 4.3);
+  EXPECT_EQ(shorter.cap_s, 2.15);
+  EXPECT_EQ(shorter.required_s, 2.15);
+  EXPECT_EQ(hold_demand(HorizonRequest{}, config, {}, 1e9).cap_s, 10.0);
+}
+
 RC_GTEST_PROP(HoldDemand, AsksForNothingAfterItsEnd, ()) {
   HoldDemand hold;
   hold.until_s = drawn(0, 300);
