@@ -187,6 +187,21 @@ void gather_planes(benchmark::State& state) {
 }
 BENCHMARK(gather_planes)->Unit(benchmark::kMicrosecond);
 
+/// What the answer solves.
+HorizonProblem problem_of(const Answered& m) {
+  Limits reduced = m.request.limits;
+  reduced.v_max *= recording().config.velocity_share;
+  return {m.request.start,
+          6,
+          m.answer.trajectory.interval,
+          m.request.limits,
+          reduced,
+          4.0,
+          centre_box(m.request.flight_box, m.request.body),
+          m.request.body.radius,
+          HullBasis::Minvo};
+}
+
 /// The checker with its hulls made, and what it costs per pair (boxes included).
 void check_a_plan(benchmark::State& state) {
   const auto moments = planned();
@@ -196,8 +211,7 @@ void check_a_plan(benchmark::State& state) {
   for (auto _ : state) {
     const std::size_t i = k++ % moments.size();
     const Answered& m = *moments[i];
-    const CheckReport report =
-        check_plan(m.answer.trajectory, {m.request.start, m.request.limits, m.request.flight_box, 4.0}, swept[i]);
+    const CheckReport report = check_plan(m.answer.trajectory, problem_of(m), swept[i]);
     pairs += report.pairs.by_box + report.pairs.by_plane;
   }
   state.counters["per_pair"] =
@@ -215,13 +229,7 @@ void search(benchmark::State& state) {
   for (auto _ : state) {
     const Answered& m = *moments[k++ % moments.size()];
     sweep(m.world.predictions->obstacles, m, swept);
-    SearchProblem problem;
-    problem.start = m.request.start;
-    problem.interval_s = m.answer.trajectory.interval.seconds();
-    problem.true_v_max = m.request.limits.v_max;
-    problem.limits.v_max *= 0.99;
-    problem.sphere_centre = m.request.start.p;
-    problem.centre_box = centre_box(m.request.flight_box, m.request.body);
+    SearchProblem problem{problem_of(m)};
     problem.way.point = m.answer.local_goal;
     Budget budget = Budget::unlimited();
     expansions += semantic_a_star(problem, recording().config.search, swept, budget, memory).expansions;
@@ -231,13 +239,7 @@ void search(benchmark::State& state) {
 BENCHMARK(search)->Unit(benchmark::kMillisecond);
 
 ConvexProblem convex_problem_of(const Answered& m) {
-  TrajectoryProblem problem;
-  problem.start = m.request.start;
-  problem.interval_s = m.answer.trajectory.interval.seconds();
-  problem.limits = m.request.limits;
-  problem.limits.v_max *= recording().config.velocity_share;
-  problem.centre_box = centre_box(m.request.flight_box, m.request.body);
-  problem.clearance = m.request.body.radius;
+  TrajectoryProblem problem{problem_of(m)};
   problem.goal = m.answer.local_goal;
   problem.weight_jerk = OptimizationConfig{}.weight_jerk;
   std::vector<PlaneConstraint> planes;

@@ -23,11 +23,6 @@ void add_semantics(const SemanticGuide* guide, SearchProblem& problem) {
   problem.pointwise = [guide](const Vec3& q) { return guide->ahead(q); };
 }
 
-CheckDemands demands_of(const Attempt& attempt) {
-  const HorizonRequest& request = attempt.near.request;
-  return {request.start, request.limits, request.flight_box, attempt.problem.sphere_radius};
-}
-
 PlanCost cost_of(const Attempt& attempt, const TimedSpline& trajectory) {
   PlanCost cost;
   const Points& q = trajectory.control_points;
@@ -79,20 +74,10 @@ void sweep_horizon(const Attempt& attempt, std::vector<double>& times, SweptObst
 std::optional<Candidate> search_candidate(const Attempt& attempt, const SearchConfig& config, SweptObstacles& swept,
                                           PlanTools& tools) {
   tools.log.enter(Stage::Search);
-  const HorizonProblem& horizon = attempt.problem;
-  SearchProblem problem;
-  problem.start = horizon.start;
-  problem.intervals = horizon.intervals;
-  problem.interval_s = horizon.interval_s();
-  problem.limits = horizon.plan_limits;
-  problem.true_v_max = horizon.limits.v_max;
-  problem.sphere_centre = horizon.start.p;
-  problem.sphere_radius = horizon.sphere_radius;
-  problem.centre_box = horizon.centre_box;
+  SearchProblem problem{attempt.problem};
   problem.way = attempt.heading.way;
   problem.hold_required_s = attempt.hold_required_s;
   problem.keep_nodes = tools.log.wants_search_nodes();
-  problem.hull_basis = horizon.hull_basis;
   std::optional<SemanticGuide> guide;
   if (attempt.heading.fields != nullptr)
     add_semantics(&guide.emplace(guide_of(attempt.near, attempt.heading)), problem);
@@ -110,7 +95,7 @@ std::optional<Candidate> certify(const Attempt& attempt, const Points& control_p
   c.outcome = outcome;
   c.trajectory = {attempt.near.request.t_s, attempt.problem.interval, control_points};
   log.enter(Stage::Check);
-  CheckReport report = check_plan(c.trajectory, demands_of(attempt), swept);
+  CheckReport report = check_plan(c.trajectory, attempt.problem, swept);
   log.statistics.pairs += report.pairs;
   if (!report.ok()) return std::nullopt;
   c.certificate = std::move(report.certificate);

@@ -150,17 +150,8 @@ Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept,
 }
 
 TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf) {
-  const HorizonProblem& horizon = attempt.problem;
   const PlannerConfig& config = attempt.near.config;
-  TrajectoryProblem problem;
-  problem.start = horizon.start;
-  problem.intervals = horizon.intervals;
-  problem.interval_s = horizon.interval_s();
-  problem.limits = horizon.plan_limits;
-  problem.sphere_radius = horizon.sphere_radius;
-  problem.centre_box = horizon.centre_box;
-  problem.clearance = horizon.clearance;
-  problem.hull_basis = horizon.hull_basis;
+  TrajectoryProblem problem{attempt.problem};
   problem.weight_jerk = config.optimization.weight_jerk;
   problem.weight_goal = config.optimization.weight_goal;
   problem.reach = config.optimization.plane_reach_m;

@@ -46,11 +46,10 @@ struct Scene {
       tracks.push_back(random_mover(rng, k, Box(Vec3(0.8, -3, -2), Vec3(5, 3, 2)), kNow, 3.0));
     }
     obstacles = obstacles_of(tracks);
-    problem.interval_s = 0.25;
-    problem.true_v_max = problem.limits.v_max;
+    problem.interval = Duration{250'000};
     problem.centre_box = Box(Vec3(-4, -4, -4), Vec3(4, 4, 4));
     problem.way.point = Vec3(3.9, 0, 0);
-    for (int k = 0; k <= 12; ++k) times.push_back(k * problem.interval_s);
+    for (int k = 0; k <= 12; ++k) times.push_back(k * problem.interval_s());
   }
 };
 

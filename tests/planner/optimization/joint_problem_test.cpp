@@ -81,7 +81,7 @@ TEST(SolveJoint, EveryOfferedPointHoldsEveryHullOff) {
     const JointProblem p(problem, instance.pairs(), instance.initial);
     const auto certify = [&](const Eigen::VectorXd& x) {
       ++offered;
-      const ClampedSpline spline(control_points_of(x, problem), problem.interval_s);
+      const ClampedSpline spline(control_points_of(x, problem), problem.interval_s());
       for (const SeparatedPair& pair : instance.pairs()) {
         const Points points = minvo_of(spline.power(pair.plane.interval), pair.plane.u0, pair.plane.u1);
         EXPECT_GE(distance(pair.hull, points), problem.clearance - 2.0 * kJointTolerance) << "seed " << seed;
