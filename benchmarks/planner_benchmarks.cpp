@@ -138,7 +138,7 @@ void for_each_candidate(benchmark::State& state, const Work& work) {
 /// One sweep of a moving obstacle over an interval, as boxes.
 void swept_samples(benchmark::State& state) {
   for_each_candidate(state, [](SweptObstacles& swept, int j, const SweptObstacles::Candidate& candidate) {
-    benchmark::DoNotOptimize(swept.sweep(j, candidate, 0, 1).data());
+    benchmark::DoNotOptimize(swept.sweep(candidate, {j}).boxes.data());
   });
 }
 BENCHMARK(swept_samples)->Unit(benchmark::kMicrosecond);
@@ -146,7 +146,7 @@ BENCHMARK(swept_samples)->Unit(benchmark::kMicrosecond);
 /// One hull of a moving obstacle, by CGAL.
 void swept_hull(benchmark::State& state) {
   for_each_candidate(state, [](SweptObstacles& swept, int j, const SweptObstacles::Candidate& candidate) {
-    benchmark::DoNotOptimize(swept.hull(j, candidate, 0, 1).data());
+    benchmark::DoNotOptimize(swept.hull(candidate, {j}).data());
   });
 }
 BENCHMARK(swept_hull)->Unit(benchmark::kMicrosecond);
@@ -170,7 +170,7 @@ void separation_in_flight(benchmark::State& state) {
 }
 BENCHMARK(separation_in_flight)->Unit(benchmark::kMicrosecond);
 
-/// The planes that the optimizer starts from: all within a metre, hulls made already.
+/// The planes that the optimizer starts from: all within a metre, made from sweeps.
 void gather_planes(benchmark::State& state) {
   const auto moments = planned();
   std::vector<SweptObstacles> swept = sweeps_of(moments);
@@ -181,7 +181,7 @@ void gather_planes(benchmark::State& state) {
     const std::size_t i = k++ % moments.size();
     const ClampedSpline spline = moments[i]->answer.trajectory.spline();
     planes.clear();
-    for (int j = 0; j < spline.intervals(); ++j) separate_interval(swept[i], j, spline.power(j), pairs, &planes, 1.0);
+    find_planes(swept[i], spline, HullBasis::Minvo, 1.0, pairs, planes);
     benchmark::DoNotOptimize(planes.data());
   }
 }

@@ -5,7 +5,7 @@
 
 #include "core/world/budget.h"
 #include "core/world/horizon.h"
-#include "planner/safety/separation_test.h"
+#include "planner/safety/interval_separation.h"
 
 namespace tern {
 

@@ -14,27 +14,22 @@ namespace {
 
 const std::vector<CertificatePlane>& near_planes(const Attempt& attempt, const TimedSpline& trajectory,
                                                  SweptObstacles& swept, PlanTools& tools) {
-  const ClampedSpline spline = trajectory.spline();
   std::vector<CertificatePlane>& planes = tools.memory.certificates;
   planes.clear();
-  PairCounts counts;
-  for (int j = 0; j < spline.intervals(); ++j) {
-    separate_interval(swept, j, spline.power(j), counts, &planes, attempt.near.config.optimization.plane_reach_m,
-                      {attempt.problem.hull_basis, spline.intervals()});
-  }
-  tools.log.statistics.pairs += counts;
+  find_planes(swept, trajectory.spline(), attempt.problem.hull_basis, attempt.near.config.optimization.plane_reach_m,
+              tools.log.statistics.pairs, planes);
   return planes;
 }
 
 PlaneConstraint constraint_of(const CertificatePlane& c) {
-  const double parts = c.parts;
-  return {c.interval, c.part / parts, (c.part + 1) / parts, c.plane};
+  const TimePart part{c.interval, c.part, c.parts};
+  return {c.interval, part.u0(), part.u1(), c.plane};
 }
 
 const Points& hull_of(SweptObstacles& obstacles, const CertificatePlane& plane) {
   for (const SweptObstacles::Candidate& candidate : obstacles.candidates(plane.interval)) {
     if (obstacles.obstacle(candidate).id == plane.track)
-      return obstacles.hull(plane.interval, candidate, plane.part, plane.parts);
+      return obstacles.hull(candidate, {plane.interval, plane.part, plane.parts});
   }
   throw std::logic_error("hull_of: a plane of an obstacle that is not in its interval");
 }

@@ -88,7 +88,7 @@ CheckReport check_separation(const std::vector<PowerCubic>& pieces, SweptObstacl
   CheckReport report;
   for (std::size_t j = 0; j < pieces.size(); ++j) {
     const Separated result =
-        separate_interval(obstacles, static_cast<int>(j), pieces[j], report.pairs, &report.certificate);
+        separate_interval(obstacles, static_cast<int>(j), pieces[j], report.pairs, report.certificate);
     const bool fits = report.certificate.size() <= kMaxCertificatePlanes;
     if (result.ok && fits) continue;
     report.fault = result.ok ? CheckFault::TooManyPlanes : CheckFault::NotSeparated;

@@ -7,7 +7,7 @@
 
 #include "core/world/horizon.h"
 #include "planner/horizon_problem.h"
-#include "planner/safety/separation_test.h"
+#include "planner/safety/interval_separation.h"
 #include "planner/safety/swept_obstacles.h"
 
 namespace tern {

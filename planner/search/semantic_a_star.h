@@ -9,7 +9,7 @@
 #include "core/world/search_view.h"
 #include "planner/horizon_problem.h"
 #include "planner/planner_config.h"
-#include "planner/safety/separation_test.h"
+#include "planner/safety/interval_separation.h"
 #include "planner/safety/swept_obstacles.h"
 #include "planner/search/search_memory.h"
 

@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/random.h"
-#include "planner/safety/separation_test.h"
 #include "tests/planner/optimization/random_problems.h"
 
 namespace tern {
@@ -99,7 +98,7 @@ void expect_within(const Instance& instance, const Eigen::VectorXd& x, std::uint
     ASSERT_TRUE(grown(p.centre_box, Vec3::Constant(kRounding)).contains(box)) << "seed " << seed;
   }
   for (const PlaneConstraint& c : instance.planes) {
-    const Points4 points = minvo_of(spline.power(c.interval), c.u0, c.u1);
+    const Points4 points = spline.minvo(c.interval, c.u0, c.u1);
     for (int k = 0; k < 4; ++k) {
       ASSERT_LE(c.plane.signed_distance(points.col(k)), -std::max(p.clearance, kPlaneMargin) + 1e-12)
           << "seed " << seed;

@@ -5,7 +5,6 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "planner/safety/separation_test.h"
 #include "tests/planner/optimization/random_problems.h"
 
 namespace tern {
@@ -149,7 +148,7 @@ TEST(SolveByIpopt, WithPlanesTheCurveStaysOnItsSide) {
     const ClampedSpline spline(control_points_of(solution.x, instance.problem), instance.problem.interval_s());
     for (const PlaneConstraint& c : instance.planes) {
       ++planes;
-      const Points4 points = minvo_of(spline.power(c.interval), c.u0, c.u1);
+      const Points4 points = spline.minvo(c.interval, c.u0, c.u1);
       for (int k = 0; k < 4; ++k) {
         ASSERT_LE(c.plane.signed_distance(points.col(k)), -std::max(instance.problem.clearance, kPlaneMargin) + 1e-12)
             << "seed " << seed;

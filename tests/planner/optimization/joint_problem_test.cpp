@@ -6,7 +6,6 @@
 
 #include "core/geometry/distance.h"
 #include "planner/optimization/barrier_solver.h"
-#include "planner/safety/separation_test.h"
 #include "tests/planner/optimization/random_problems.h"
 
 namespace tern {
@@ -83,7 +82,7 @@ TEST(SolveJoint, EveryOfferedPointHoldsEveryHullOff) {
       ++offered;
       const ClampedSpline spline(control_points_of(x, problem), problem.interval_s());
       for (const SeparatedPair& pair : instance.pairs()) {
-        const Points points = minvo_of(spline.power(pair.plane.interval), pair.plane.u0, pair.plane.u1);
+        const Points points = spline.minvo(pair.plane.interval, pair.plane.u0, pair.plane.u1);
         EXPECT_GE(distance(pair.hull, points), problem.clearance - 2.0 * kJointTolerance) << "seed " << seed;
       }
       return true;
