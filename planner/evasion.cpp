@@ -57,11 +57,11 @@ struct Stop {
 };
 
 /// How far away stops are tried, m. Room is sought far away only.
-std::vector<double> distances(const Surroundings& near, EvasionAim aim) {
+std::vector<double> distances(const Surroundings& near, Phase phase) {
   const double r = near.config.sphere_radius_m;
   std::vector<double> all;
   for (const double share : kShares) all.push_back(share * r);
-  if (aim == EvasionAim::GreatestClearance) return all;
+  if (phase == Phase::Room) return all;
   for (const double widths : kWidths) {
     const double distance = widths * near.hold.width;
     if (distance > 0.0 && distance < kFarthestShare * r) all.push_back(distance);
@@ -110,12 +110,12 @@ std::optional<Stop> stop_at(const Surroundings& near, const Box& box, const Vec3
 }
 
 /// All stops within the flight box, the best forecast first.
-std::vector<Stop> ordered_stops(const Surroundings& near, EvasionAim aim, PlanWorkspace& memory) {
+std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorkspace& memory) {
   const Box box = centre_box(near.request.flight_box, near.request.body);
   std::vector<Stop> stops;
   double longest = 0.0;
-  const std::size_t ways = aim == EvasionAim::GreatestClearance ? kFacesAndCorners : directions().size();
-  for (const double distance : distances(near, aim)) {
+  const std::size_t ways = phase == Phase::Room ? kFacesAndCorners : directions().size();
+  for (const double distance : distances(near, phase)) {
     for (std::size_t k = 0; k < ways; ++k) {
       for (const double pace : kPaces) {
         const auto stop = stop_at(near, box, near.request.start.p + directions()[k] * distance, pace);
@@ -145,18 +145,13 @@ double room_at_end(const SweptObstacles& swept, int intervals, const TimedSpline
 
 }  // namespace
 
-std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& heading, EvasionAim aim,
-                                      PlanTools& tools) {
+std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& heading, Phase phase, PlanTools& tools) {
   SearchConfig search = near.config.search;
   search.max_expansions = kMaxExpansions;
   std::optional<Candidate> best;
   double best_worth = 0.0;
-  // One plan may seek both aims; a budget's cuts are by attempt, so no attempt occurs twice.
-  constexpr int kAttempts = 100;
-  int number = kFirstEvasionAttempt + (aim == EvasionAim::GreatestClearance ? kAttempts : 0);
-  for (const Stop& stop : ordered_stops(near, aim, tools.memory)) {
-    tools.budget.begin_attempt(number++);
-    if (tools.budget.expired(Stage::Search)) return best;
+  for (const Stop& stop : ordered_stops(near, phase, tools.memory)) {
+    if (!tools.budget.begin_attempt(phase) || tools.budget.expired(Stage::Search)) return best;
     const Heading there{{stop.point, 0.0, stop.way_s}, {stop.point, 0.0}, heading.pace, nullptr};
     const double look_s = near.hold.cap_of_stop(stop.way_s);
     if (!is_followed(near, stop.interval, look_s)) continue;
@@ -169,7 +164,7 @@ std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& h
     found->outcome = PlanOutcome::Evade;
     found->arrival_s = worth_of(near, heading, found->trajectory);
     found->holds = lasts(found->hold_s, near.hold.required(stop.way_s));
-    const bool by_time = aim == EvasionAim::LongestClear;
+    const bool by_time = phase == Phase::Evasion;
     if (!by_time && !found->holds) continue;
     const double worth = by_time ? found->clear_s : room_at_end(swept, near.config.intervals, found->trajectory);
     if (best && worth <= best_worth) continue;

@@ -68,14 +68,12 @@ bool is_enough(const std::optional<Candidate>& best, const Heading& heading, Bud
 }
 
 /// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, each leaf
-/// optimized, the best kept. @param attempt  the first one's number in the budget, raised. @return why there is no plan
-PlanReason try_durations(const Surroundings& near, const Heading& heading, int& attempt, StandingAnswer& standing,
-                         PlanTools& tools) {
+/// optimized, the best kept. @return why there is no plan
+PlanReason try_durations(const Surroundings& near, const Heading& heading, StandingAnswer& standing, PlanTools& tools) {
   const PlannerConfig& config = near.config;
   const SearchConfig search = scaled(config.search, heading.local.radius, heading.local.least_s);
   for (const double scale : config.duration_scales) {
-    if (attempt == kFirstEvasionAttempt) break;
-    tools.budget.begin_attempt(attempt++);
+    if (!tools.budget.begin_attempt(Phase::Durations)) break;
     if (is_enough(standing.best(), heading, tools.budget)) break;
     const std::optional<Duration> interval = interval_of(scale * heading.local.least_s, config.intervals);
     if (!interval) break;
@@ -101,7 +99,7 @@ bool needs_evasion(const StandingAnswer& standing, const Fallback& fallback) {
 
 /// The reachable stop that stays clear longest, if that is longer than what stands.
 void evade(const Surroundings& near, const Heading& heading, StandingAnswer& standing, PlanTools& tools) {
-  auto found = find_evasion(near, heading, EvasionAim::LongestClear, tools);
+  auto found = find_evasion(near, heading, Phase::Evasion, tools);
   const double best_s = standing.best() ? standing.best()->clear_s : 0.0;
   const double committed_s = standing.committed() ? standing.committed()->clear_s : 0.0;
   if (found && found->clear_s > std::max(best_s, committed_s)) standing.replace(std::move(found));
@@ -136,14 +134,13 @@ PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const
     return ahead;
   };
   Heading heading = goes ? head(kLocalGoalShare * config.sphere_radius_m) : heading_nowhere(near);
-  if (near.start.relaxed) standing.replace(find_evasion(near, heading, EvasionAim::GreatestClearance, tools));
+  if (near.start.relaxed) standing.replace(find_evasion(near, heading, Phase::Room, tools));
   PlanReason reason = path ? PlanReason::None : PlanReason::GoalBlocked;
-  int attempt = 0;
-  if (path && !rests && !standing.best()) reason = try_durations(near, heading, attempt, standing, tools);
+  if (path && !rests && !standing.best()) reason = try_durations(near, heading, standing, tools);
   const bool may_creep = goes && !rests && is_at_rest(request);
   for (int k = 0; may_creep && k < kSmallerSteps && !standing.best() && !budget.expired(Stage::LocalGoal); ++k) {
     heading = head(heading.local.radius / kSmallerStep);
-    reason = try_durations(near, heading, attempt, standing, tools);
+    reason = try_durations(near, heading, standing, tools);
   }
   if (needs_evasion(standing, fallback)) evade(near, heading, standing, tools);
   return {standing.chosen(reason), log.statistics};

@@ -138,7 +138,7 @@ TEST(SemanticAStar, ABudgetCutReplaysToTheSameBits) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const Scene s = random_scene(seed);
     for (const std::int64_t n : {0, 3, 17, 90}) {
-      Budget live([n](int, Stage stage, std::int64_t count) { return stage == Stage::Search && count >= n; });
+      Budget live([n](const BudgetCut& here) { return here.stage == Stage::Search && here.count >= n; });
       SweptObstacles swept = s.sweep();
       const SearchResult first = semantic_a_star(s.problem, SearchConfig{}, swept, live);
       ASSERT_LE(live.cuts().size(), 1u);
