@@ -45,7 +45,7 @@ std::optional<RecordedProblem> problem_of(const HorizonRequest& request, const P
   Limits limits = request.limits;
   limits.v_max *= config.velocity_share;
   const Surroundings near{request, config, world.predictions->obstacles, {}, {}, {}, limits, nullptr};
-  const Heading heading{{answer.local_goal, 0.0, 0.0}, {answer.local_goal, 0.0}, limits, nullptr};
+  const Heading heading{{answer.local_goal, 0.0, 0.0}, {answer.local_goal, 0.0}, 0.0, limits, nullptr};
   const Attempt attempt{near, heading, horizon_problem(near, answer.trajectory.interval), config.hold_cap_s,
                         config.hold_required_s};
   sweep_horizon(attempt, memory.times, memory.horizon);

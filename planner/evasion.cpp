@@ -152,7 +152,7 @@ std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& h
   double best_worth = 0.0;
   for (const Stop& stop : ordered_stops(near, phase, tools.memory)) {
     if (!tools.budget.begin_attempt(phase) || tools.budget.expired(Stage::Search)) return best;
-    const Heading there{{stop.point, 0.0, stop.way_s}, {stop.point, 0.0}, heading.pace, nullptr};
+    const Heading there{{stop.point, 0.0, stop.way_s}, {stop.point, 0.0}, heading.step_s, heading.pace, nullptr};
     const double look_s = near.hold.cap_of_stop(stop.way_s);
     if (!is_followed(near, stop.interval, look_s)) continue;
     const Attempt attempt{near, there, horizon_problem(near, stop.interval), look_s, look_s};

@@ -1,5 +1,7 @@
 #include "planner/heading.h"
 
+#include <algorithm>
+
 #include "planner/duration.h"
 #include "planner/tuning.h"
 
@@ -21,13 +23,17 @@ WayToGo way_along(const std::vector<Vec3>& path, const TravelCost& cost, double 
   return way;
 }
 
+double length_of(const While& shall, const Heading& heading) {
+  return std::max(shall.least_s, shall.share * heading.step_s);
+}
+
 }  // namespace
 
 Heading heading_nowhere(const Surroundings& near) {
   const Vec3& at = near.request.start.p;
   const LocalAim local{at, kLocalGoalShare * near.config.sphere_radius_m,
                        planned_duration(near.request.start, at, near.plan_limits)};
-  return {local, {at, 0.0}, near.plan_limits, near.fields};
+  return {local, {at, 0.0}, 0.0, near.plan_limits, near.fields};
 }
 
 Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, double largest_radius,
@@ -35,7 +41,7 @@ Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, dou
   const MotionSample& start = near.request.start;
   const LocalAim local = aim_along(path, start, near.plan_limits, largest_radius,
                                    longest_first_duration(near.look, near.hold, near.config));
-  return {local, way_along(path, cost, kBendIgnored * step_scale(local.radius)),
+  return {local, way_along(path, cost, kBendIgnored * step_scale(local.radius)), local.least_s,
           paced(near.plan_limits, (local.goal - start.p).norm()), near.fields};
 }
 
@@ -43,25 +49,28 @@ SemanticGuide guide_of(const Surroundings& near, const Heading& heading) {
   return {*heading.fields, near.config.semantic_cost, near.request.start.p, heading.local.goal};
 }
 
-double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits) {
+double arrival_estimate(const Heading& heading, const TimedSpline& trajectory, UTime from) {
   const ClampedSpline spline = trajectory.spline();
   const double offset_s = (from - trajectory.start).seconds();
   double sum = 0.0;
-  for (const double while_s : kWhiles) {
+  for (const While& shall : kWhiles) {
+    const double while_s = length_of(shall, heading);
     const MotionSample at = spline.sample(offset_s + while_s);
-    sum += while_s + least_duration(at, way.point, limits) + way.rest / limits.v_max.minCoeff();
+    sum += while_s + least_duration(at, heading.way.point, heading.pace) +
+           heading.way.rest / heading.pace.v_max.minCoeff();
   }
   return 0.5 * sum;
 }
 
 double worth_of(const Surroundings& near, const Heading& heading, const TimedSpline& trajectory) {
   const UTime from = near.request.t_s;
-  const double arrival_s = arrival_estimate(heading.way, trajectory, from, heading.pace);
+  const double arrival_s = arrival_estimate(heading, trajectory, from);
   if (heading.fields == nullptr || near.config.semantic_cost == SemanticCost::MeanDistance) return arrival_s;
   const SemanticGuide guide = guide_of(near, heading);
   const ClampedSpline spline = trajectory.spline();
   double metres = 0.0;
-  for (const double while_s : kWhiles) metres += 0.5 * guide.of(spline, (from - trajectory.start).seconds(), while_s);
+  const double offset_s = (from - trajectory.start).seconds();
+  for (const While& shall : kWhiles) metres += 0.5 * guide.of(spline, offset_s, length_of(shall, heading));
   return arrival_s + metres / near.plan_limits.v_max.minCoeff();
 }
 

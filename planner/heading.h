@@ -11,9 +11,10 @@
 namespace tern {
 
 struct Heading {
-  LocalAim local;  ///< the local goal
-  WayToGo way;     ///< to the goal, for ranking
-  Limits pace;     ///< what arrivals are estimated by: the plan's limits, paced() over the way to the local goal
+  LocalAim local;       ///< the local goal
+  WayToGo way;          ///< to the goal, for ranking
+  double step_s = 0.0;  ///< planned_duration() to the local goal; 0: it heads nowhere
+  Limits pace;          ///< what arrivals are estimated by: the plan's limits, paced() over the way to the local goal
   const SemanticFields* fields = nullptr;  ///< what is weighed on the way; null: no semantics
 };
 
@@ -34,7 +35,7 @@ SemanticGuide guide_of(const Surroundings& near, const Heading& heading);
 /// mean over two such whiles. Comparing ends instead would favour short plans, because every plan brakes at its end and
 /// hardly one is flown so far.
 /// @param from  the time on the trajectory that counts as 0
-double arrival_estimate(const WayToGo& way, const TimedSpline& trajectory, UTime from, const Limits& limits);
+double arrival_estimate(const Heading& heading, const TimedSpline& trajectory, UTime from);
 
 /// The arrival estimate from t_s on, plus the exposure cost over the same whiles and ahead (SemanticGuide), as if those
 /// metres were flown at v_max, s: the same exchange of metres for metres as in the search. The mean distance stays out:

@@ -21,8 +21,13 @@ inline constexpr double kSmallerStep = 3.0;
 
 // What a trajectory is worth.
 
-/// For how long a trajectory is taken to be flown before a better one follows, s.
-inline constexpr double kWhiles[] = {0.3, 0.8};
+/// For how long a trajectory is taken to be flown before a better one follows, s; where a step takes minutes, this
+/// share of it: nothing better follows within a second.
+struct While {
+  double least_s;
+  double share;
+};
+inline constexpr While kWhiles[] = {{0.3, 0.15}, {0.8, 0.4}};
 /// An optimized trajectory may arrive so much later than the search's, and one that sets out than waiting, s.
 inline constexpr double kSmoothnessPrice = 0.05;
 /// Where Δt is shorter than this, s, arrivals say little …

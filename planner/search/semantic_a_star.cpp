@@ -14,6 +14,9 @@ namespace {
 using Node = SearchNode;
 using Entry = SearchEntry;
 
+/// A share of r that is surely within S, with what the curve bulges.
+constexpr double kWithinSphere = 0.97;
+
 struct Leaf {
   int node = -1;
   bool holds = false;
@@ -35,6 +38,11 @@ std::int64_t band_of(double way_to_go, double width) {
   return bands < 1.0 ? static_cast<std::int64_t>(bands * kFiner) : kFiner - 1 + static_cast<std::int64_t>(bands);
 }
 
+/// No point of S has less way to go.
+double way_from_sphere(const SearchProblem& problem) {
+  return std::max(0.0, (problem.way.point - problem.start.p).norm() - problem.sphere_radius) + problem.way.rest;
+}
+
 class Search {
  public:
   Search(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles, Budget& budget,
@@ -45,6 +53,8 @@ class Search {
         budget_(budget),
         dt_(problem.interval_s()),
         basis_(spline_basis(problem.intervals)),
+        least_way_(way_from_sphere(problem)),
+        aim_(problem.way.point),
         reach_(memory.reach),
         nodes_(memory.nodes),
         open_(memory.open),
@@ -107,7 +117,7 @@ class Search {
     reachable = Box(low, high);
     double f = n.g + config_.lambda_h * problem_.way.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
-    const std::int64_t band = band_of(problem_.way.from(reachable), config_.band_m);
+    const std::int64_t band = band_of(std::max(problem_.way.from(reachable), least_way_), config_.band_m);
     open_.push_back({band, leaf_index() - n.l, step_of(f), f, static_cast<int>(nodes_.size())});
     std::push_heap(open_.begin(), open_.end(), later);
     nodes_.push_back(n);
@@ -187,6 +197,7 @@ class Search {
       if (n.l == 2) bound_first_peak(axis, range[static_cast<std::size_t>(axis)]);
       if (range[static_cast<std::size_t>(axis)].empty()) return;
     }
+    if (n.l == 2) aim_within_sphere(n, range);
     add_child(index, n, aimed_velocity(n, range));
     const auto sample = [](const AxisReach::Interval& r, int k, int count) {
       return r.low + (r.high - r.low) * k / (count - 1);
@@ -216,11 +227,22 @@ class Search {
     }
   }
 
+  [[nodiscard]] bool in_sphere(const Vec3& q) const {
+    return (q - problem_.start.p).squaredNorm() <= problem_.sphere_radius * problem_.sphere_radius;
+  }
+
+  /// Where the first step to a goal outside S may already leave S, children aim at where the way leaves it.
+  void aim_within_sphere(const Node& root, const std::array<AxisReach::Interval, 3>& range) {
+    const Vec3 to_goal = problem_.way.point - problem_.start.p;
+    if (in_sphere(problem_.way.point) || in_sphere(root.q + aimed_velocity(root, range) * dt_)) return;
+    aim_ = problem_.start.p + to_goal * (kWithinSphere * problem_.sphere_radius / to_goal.norm());
+  }
+
   /// The velocity that, braking in time, comes to the goal: what is left of the way over what is left of the steps.
   [[nodiscard]] Vec3 aimed_velocity(const Node& n, const std::array<AxisReach::Interval, 3>& range) const {
     const int steps = leaf_index() - n.l;
     const double share = steps == 1 ? 1.0 : steps - 0.5;
-    Vec3 v = (problem_.way.point - n.q) / (dt_ * share);
+    Vec3 v = (aim_ - n.q) / (dt_ * share);
     for (int axis = 0; axis < 3; ++axis) {
       const auto& r = range[static_cast<std::size_t>(axis)];
       v[axis] = std::clamp(v[axis], r.low, r.high);
@@ -231,7 +253,7 @@ class Search {
   void add_child(int index, const Node& n, const Vec3& v) {
     Node child;
     child.q = n.q + v * dt_;
-    if ((child.q - problem_.start.p).squaredNorm() > problem_.sphere_radius * problem_.sphere_radius) return;
+    if (!in_sphere(child.q)) return;
     if (!problem_.centre_box.contains(child.q)) return;
     child.v = v;
     child.a = (v - n.v) / dt_;
@@ -275,8 +297,10 @@ class Search {
   const SearchConfig& config_;
   SweptObstacles& obstacles_;
   Budget& budget_;
-  double dt_;
+  const double dt_;
   const SplineBasis& basis_;
+  const double least_way_;  ///< to go from anywhere in S, m
+  Vec3 aim_;                ///< where one child of each node aims
   std::array<AxisReach, 3>& reach_;
   std::vector<Node>& nodes_;
   std::vector<Entry>& open_;

@@ -11,7 +11,8 @@
 #include "core/world/observation.h"
 #include "core/world/track.h"
 #include "predictor/models/axis_filter.h"
-#include "predictor/models/constant_velocity.h"
+#include "predictor/models/forecast.h"
+#include "predictor/models/promise.h"
 #include "predictor/models/singer_filter.h"
 #include "predictor/tracking/rest_record.h"
 

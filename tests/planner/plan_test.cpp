@@ -131,7 +131,7 @@ TEST(Planner, WhatABudgetCutReplaysToTheSameBytes) {
     Budget live([s](const BudgetCut& here) {
       const int attempt = static_cast<int>(here.phase) * kMostAttempts + here.attempt;
       if (here.stage == Stage::LocalGoal) return attempt >= 1 + s % 4;
-      if (here.stage == Stage::Search) return here.count >= 5 + (s * 7 + attempt * 13) % 150;
+      if (here.stage == Stage::Search) return here.count >= 5 + (s * 7 + attempt * 13) % 60;
       return here.count >= (s + attempt) % 30;
     });
     const Plan first = plan(d.request, d.world, d.config, live).plan;

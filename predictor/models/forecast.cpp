@@ -1,18 +1,13 @@
-#include "predictor/models/constant_velocity.h"
+#include "predictor/models/forecast.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tern {
 namespace {
 
 // Simpson's nodes of crossing_integral: relative error below 1e-3 against adaptive quadrature (see its test).
 constexpr int kSimpsonIntervals = 48;
-// Halvings of [0, kLargestQuantile]: to 1e-9.
-constexpr double kLargestQuantile = 40.0;
-constexpr int kHalvings = 36;
-
 double crossing_rate(double xx, double xv, double vv) { return std::sqrt(std::max(0.0, xx * vv - xv * xv)) / xx; }
 
 double crossing_rate(const AxisFilter& start, double q, double t) {
@@ -37,19 +32,6 @@ std::vector<SimpsonNode> simpson(double horizon_s) {
 }
 
 }  // namespace
-
-std::vector<Duration> piece_ends(const PredictionSpec& spec) {
-  std::vector<Duration> ends{Duration{}};
-  while (ends.back() < spec.horizon) {
-    const Duration length = std::max(spec.piece, Duration::from_seconds(spec.piece_growth * ends.back().seconds()));
-    ends.push_back(std::min(ends.back() + length, spec.horizon));
-  }
-  return ends;
-}
-
-double escape_probability(double z, double crossings) {
-  return std::erfc(z / std::numbers::sqrt2) + std::exp(-0.5 * z * z) * crossings / std::numbers::pi;
-}
 
 double crossing_integral(const AxisFilter& filter, double q, double horizon_s) {
   double sum = 0.0;
@@ -131,55 +113,6 @@ AxisForecast SingerForecaster::forecast(const SingerFilter& filter) const {
   result.speed = std::abs(filter.state[1]);
   result.max_curvature = std::abs(filter.state[2]);
   return result;
-}
-
-double quantile_for(double probability, double crossings) {
-  double low = 0.0;
-  double high = kLargestQuantile;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (escape_probability(middle, crossings) <= probability ? high : low) = middle;
-  }
-  return high;
-}
-
-AxisTube axis_tube(const AxisForecast& forecast, double probability, const PredictionSpec& spec) {
-  const double z = quantile_for(probability, forecast.crossings);
-  const double speed = std::max(spec.max_speed, forecast.speed);
-  const std::vector<Duration> ends = piece_ends(spec);
-  AxisTube tube;
-  double low = 0.0, high = 0.0;
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const double reach = z * forecast.sigma[k];
-    const double step = k == 0 ? 0.0 : (ends[k] - ends[k - 1]).seconds();
-    high = k == 0 ? forecast.mean[k] + reach : std::min(forecast.mean[k] + reach, high + speed * step);
-    low = k == 0 ? forecast.mean[k] - reach : std::max(forecast.mean[k] - reach, low - speed * step);
-    tube.centre.push_back(0.5 * (low + high));
-    const double half = 0.5 * (high - low) + forecast.max_curvature * step * step / 8.0;
-    tube.half.push_back(k == 0 ? half : std::max(half, tube.half.back()));
-  }
-  return tube;
-}
-
-void predict_motion(const std::array<AxisForecast, 3>& axes, UTime start, const PredictionSpec& spec, Track& track) {
-  const std::vector<Duration> ends = piece_ends(spec);
-  const std::size_t pieces = ends.size() - 1;
-  track.motion.start = start;
-  track.motion.pieces.assign(pieces, CubicPiece{});
-  track.alpha.assign(pieces, Vec3::Zero());
-  track.top_speed = spec.max_speed;
-  for (int axis = 0; axis < 3; ++axis) {
-    const AxisForecast& forecast = axes[static_cast<std::size_t>(axis)];
-    const AxisTube tube = axis_tube(forecast, (1.0 - spec.confidence) / 3.0, spec);
-    track.top_speed = std::max(track.top_speed, forecast.speed);
-    for (std::size_t k = 0; k < pieces; ++k) {
-      CubicPiece& piece = track.motion.pieces[k];
-      piece.duration = ends[k + 1] - ends[k];
-      piece.coefficients(axis, 2) = (tube.centre[k + 1] - tube.centre[k]) / piece.duration.seconds();
-      piece.coefficients(axis, 3) = tube.centre[k];
-      track.alpha[k][axis] = tube.half[k + 1];
-    }
-  }
 }
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-#include "predictor/models/constant_velocity.h"
+#include "predictor/models/forecast.h"
 
 #include <gtest/gtest.h>
 

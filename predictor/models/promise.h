@@ -1,4 +1,4 @@
-// What a constant-velocity estimate promises: a predicted line and an α that holds over the whole horizon.
+// What a predicted track promises: an α about a motion that holds at all times up to the horizon, on all axes at once.
 #pragma once
 
 #include <array>
@@ -7,8 +7,6 @@
 
 #include "core/base/time.h"
 #include "core/world/track.h"
-#include "predictor/models/axis_filter.h"
-#include "predictor/models/singer_filter.h"
 
 namespace tern {
 
@@ -30,16 +28,6 @@ struct PredictionSpec {
 /// Where pieces begin and end: time since the prediction's start, ascending, from 0 to the horizon.
 std::vector<Duration> piece_ends(const PredictionSpec& spec);
 
-/// P[the error leaves ±z σ(t) at any time in [0, horizon]] ≤ this, for one axis (a bound by Rice's formula):
-///   erfc(z/√2) + e^{−z²/2}/π · ∫ √(det P(t))/P_xx(t) dt.
-/// The first term is the error's start outside, the second the expected number of its outcrossings: ν = e(t)/σ(t) is a
-/// Gaussian process of variance 1 whose derivative has variance det P/P_xx², since σσ̇ = P_xv.
-/// S. O. Rice, "Mathematical analysis of random noise", 1945, §3.3.
-double escape_probability(double z, double crossings);
-
-/// ∫ √(det P(t))/P_xx(t) dt over [0, horizon_s], by Simpson's rule on t = horizon·u³ (the integrand falls like 1/t).
-double crossing_integral(const AxisFilter& filter, double q, double horizon_s);
-
 /// What one axis of an estimate says of the future.
 struct AxisForecast {
   std::vector<double> mean;    ///< m, at the times of piece_ends
@@ -49,40 +37,12 @@ struct AxisForecast {
   double max_curvature = 0.0;  ///< |mean''| is nowhere more, m/s²
 };
 
-AxisForecast forecast(const AxisFilter& filter, double q, const PredictionSpec& spec);
-
-/// What a start adds to the covariance of position and velocity, per axis, at the times of piece_ends and at those of
-/// the crossing integral. One serves all that may start at the same time.
-struct StartSpread {
-  struct Added {
-    double xx = 0.0, xv = 0.0, vv = 0.0;  ///< m², m²/s, m²/s²
-  };
-  std::vector<Added> ends, nodes;
-};
-
-/// Of what rests until `still_s` from now (before now, if negative) and then goes as the model says that things go:
-/// where accelerations last, from an acceleration of their stationary variance; where velocities do (constant
-/// velocity), at once with any of them, as what is seen for the first time. Who starts later is nearer to where it
-/// rested.
-StartSpread start_spread(double still_s, const AccelerationModel& model, const PredictionSpec& spec);
-
-/// Of what rests: the filter's covariance grows by q, and by the spread of its start.
-AxisForecast forecast_of_rest(const AxisFilter& filter, double q, const StartSpread& start, const PredictionSpec& spec);
-
-/// The transitions that forecasts of one model need, made once for all tracks.
-class SingerForecaster {
- public:
-  SingerForecaster(const AccelerationModel& model, const PredictionSpec& spec);
-  [[nodiscard]] AxisForecast forecast(const SingerFilter& filter) const;
-
- private:
-  struct Node {
-    Transition step;  ///< from the start
-    double weight;    ///< of Simpson's rule, s
-  };
-  std::vector<Transition> ends_;
-  std::vector<Node> nodes_;
-};
+/// P[the error leaves ±z σ(t) at any time in [0, horizon]] ≤ this, for one axis (a bound by Rice's formula):
+///   erfc(z/√2) + e^{−z²/2}/π · ∫ √(det P(t))/P_xx(t) dt.
+/// The first term is the error's start outside, the second the expected number of its outcrossings: ν = e(t)/σ(t) is a
+/// Gaussian process of variance 1 whose derivative has variance det P/P_xx², since σσ̇ = P_xv.
+/// S. O. Rice, "Mathematical analysis of random noise", 1945, §3.3.
+double escape_probability(double z, double crossings);
 
 /// The least z with escape_probability(z, crossings) ≤ probability. @pre 0 < probability < 1, crossings ≥ 0.
 double quantile_for(double probability, double crossings);
