@@ -10,11 +10,10 @@
 #include "planner/safety/checker.h"
 #include "planner/search/semantic_a_star.h"
 #include "planner/semantics/semantic_guide.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {
-
-constexpr double kLeastInterval = 0.02;  // s
 
 /// Semantics enter Eq. 2 summed along the path and by what is expected of the rest. The guide must outlive the problem
 /// (by pointer: a function that holds more allocates).

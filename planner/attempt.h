@@ -37,9 +37,6 @@ struct Attempt {
   double hold_required_s = 0.0;  ///< what its end must hold to count as holding
 };
 
-/// Of holds, s: coarser than Δt where Δt is short, so that a hold costs few hulls.
-inline constexpr double kHoldStep = 0.1;
-
 /// Adds the times of a hold of hold_s after the last of `times`, s, a step apart.
 void append_hold(std::vector<double>& times, double step, double hold_s);
 

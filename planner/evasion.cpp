@@ -12,23 +12,10 @@
 #include "core/geometry/box.h"
 #include "planner/duration.h"
 #include "planner/plan_workspace.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {
-
-constexpr int kMaxExpansions = 150;
-/// Searches of one evasion.
-constexpr int kMostTries = 40;
-/// Durations over least_duration(): at leisure, and as quick as a far stop can be flown. To hurry far away pays where
-/// motion is promised; among estimated movers, whose boxes grow, it leads into what is not yet known.
-constexpr double kPaces[] = {kStopScale, 1.15};
-/// Stops lie this far away, in what vehicle and largest mover are wide together …
-constexpr double kWidths[] = {0.3, 0.6, 1.1, 2.0};
-/// … or, to get far away, in r.
-constexpr double kShares[] = {0.35, 0.8};
-constexpr double kFarthestShare = 0.9;
-constexpr double kForecastStep = 0.05;     // s
-constexpr double kLongestForecast = 20.0;  // s
 
 constexpr std::size_t kFacesAndCorners = 14;
 
@@ -60,11 +47,11 @@ struct Stop {
 std::vector<double> distances(const Surroundings& near, Phase phase) {
   const double r = near.config.sphere_radius_m;
   std::vector<double> all;
-  for (const double share : kShares) all.push_back(share * r);
+  for (const double share : kStopShares) all.push_back(share * r);
   if (phase == Phase::Room) return all;
-  for (const double widths : kWidths) {
+  for (const double widths : kStopWidths) {
     const double distance = widths * near.hold.width;
-    if (distance > 0.0 && distance < kFarthestShare * r) all.push_back(distance);
+    if (distance > 0.0 && distance < kFarthestWidthShare * r) all.push_back(distance);
   }
   return all;
 }
@@ -117,7 +104,7 @@ std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorks
   const std::size_t ways = phase == Phase::Room ? kFacesAndCorners : directions().size();
   for (const double distance : distances(near, phase)) {
     for (std::size_t k = 0; k < ways; ++k) {
-      for (const double pace : kPaces) {
+      for (const double pace : kStopPaces) {
         const auto stop = stop_at(near, box, near.request.start.p + directions()[k] * distance, pace);
         if (!stop || (stop->hurries && !near.hold.promised)) continue;
         longest = std::max(longest, stop->way_s);
@@ -129,7 +116,7 @@ std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorks
       sweep_forecast(near, std::max(longest + near.hold.cap_s, near.hold.predicted_s), memory);
   for (Stop& stop : stops) stop.clear_s = forecast(swept, near.request.start, stop);
   std::stable_sort(stops.begin(), stops.end(), comes_first);
-  if (stops.size() > kMostTries) stops.resize(kMostTries);
+  if (stops.size() > kMostStops) stops.resize(kMostStops);
   return stops;
 }
 
@@ -147,7 +134,7 @@ double room_at_end(const SweptObstacles& swept, int intervals, const TimedSpline
 
 std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& heading, Phase phase, PlanTools& tools) {
   SearchConfig search = near.config.search;
-  search.max_expansions = kMaxExpansions;
+  search.max_expansions = kStopExpansions;
   std::optional<Candidate> best;
   double best_worth = 0.0;
   for (const Stop& stop : ordered_stops(near, phase, tools.memory)) {

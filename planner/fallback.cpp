@@ -6,6 +6,7 @@
 #include "core/splines/piecewise_cubic.h"
 #include "planner/plan_workspace.h"
 #include "planner/safety/checker.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {

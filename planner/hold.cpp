@@ -3,14 +3,9 @@
 #include <algorithm>
 
 #include "planner/duration.h"
+#include "planner/tuning.h"
 
 namespace tern {
-namespace {
-
-/// Holds are not cut below this, s.
-constexpr double kLeastHold = 0.1;
-
-}  // namespace
 
 double HoldDemand::required(double end_s) const {
   const double to_step_aside = std::min(aside_s, predicted_s) - end_s;

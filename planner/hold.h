@@ -39,7 +39,4 @@ double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec
 HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& config,
                        const std::vector<PlanningObstacle>& obstacles, double horizon_s);
 
-/// A spline of J intervals from rest to rest takes this much longer than the per-axis bound of least_duration().
-inline constexpr double kStopScale = 1.5;
-
 }  // namespace tern

@@ -26,7 +26,6 @@ struct LookAhead {
 
 /// The horizon is as long as movers are predicted within the planning region. It is at least kLeastHorizon, or as long
 /// as they are followed: where predictions are short, boxes that grow stand for them.
-inline constexpr double kLeastHorizon = 3.0;  // s
 LookAhead look_ahead(const HorizonRequest& request, const PredictionProducts& predictions, const PlannerConfig& config);
 
 /// Where a plan heads.
@@ -47,14 +46,11 @@ double longest_first_duration(const LookAhead& look, const HoldDemand& hold, con
 LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
                    double largest_radius, double longest_s);
 
-/// Local goals at least this far away are as far as the search's lengths were chosen for, m.
-inline constexpr double kFullStep = 2.0;
-/// By how much lengths shrink with a nearer local goal, (0, 1].
+/// By how much lengths shrink with a local goal nearer than kFullStep, (0, 1].
 double step_scale(double goal_radius);
 /// The search's lengths (bands, steps of cost, voxels that prune) for local goals at this radius, and its coarse
 /// velocity for a flight there of so many seconds, so that small and slow steps are told apart as well as large ones.
 /// At kFullStep and beyond, within kFullStepTime, they are the configured ones.
-inline constexpr double kFullStepTime = 4.0;  // s
 SearchConfig scaled(SearchConfig search, double goal_radius, double least_s);
 
 }  // namespace tern

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/tuning.h"
+
 namespace tern {
 namespace {
-
-/// Limits farther away than this share of themselves are left out: an axis that x0 leaves at rest may go to half its
-/// limit.
-constexpr double kLimitReach = 1.5;
 
 class Builder {
  public:

@@ -88,7 +88,7 @@ TEST(Allocation, ConvexProblemsAndTheirSolverAllocateNothingOnceTheyHaveSeenOneA
     const FreeVariables first = solution.x;
     EXPECT_EQ(allocations_of(solve), 0) << "seed " << seed;
     EXPECT_EQ(solution.x, first) << "seed " << seed;
-    EXPECT_EQ(solution.x, solve_by_barrier(instance.convex(), free_variables(instance.initial), 60, never).x);
+    EXPECT_EQ(solution.x, BarrierSolver().solve(instance.convex(), free_variables(instance.initial), 60, never).x);
   }
 }
 

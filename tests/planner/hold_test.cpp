@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "planner/duration.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "planner/planner.h"
+#include "planner/tuning.h"
 #include "tests/support/plan_judge.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/voxel_maps.h"

@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "tests/planner/optimization/dense_derivatives.h"
 #include "tests/planner/optimization/random_problems.h"
 
 namespace tern {

@@ -6,6 +6,7 @@
 
 #include "core/geometry/distance.h"
 #include "planner/optimization/barrier_solver.h"
+#include "tests/planner/optimization/dense_derivatives.h"
 #include "tests/planner/optimization/random_problems.h"
 
 namespace tern {
@@ -99,7 +100,7 @@ TEST(SolveJoint, WithPlanesFreeToTurnTheCostIsLower) {
     const Instance instance = random_instance(seed);
     const JointProblem p(instance.problem, instance.pairs(), instance.initial);
     const ConvexSolution joint = solve_joint(p, kEnough, never, anything);
-    const ConvexSolution fixed = solve_by_barrier(instance.convex(), free_variables(instance.initial), 60, never);
+    const ConvexSolution fixed = BarrierSolver().solve(instance.convex(), free_variables(instance.initial), 60, never);
     if (!joint.found) continue;
     ++solved;
     EXPECT_LE(joint.objective, fixed.objective * 1.02 + 1e-4) << "seed " << seed;
