@@ -138,7 +138,7 @@ void for_each_candidate(benchmark::State& state, const Work& work) {
 /// One sweep of a moving obstacle over an interval, as boxes.
 void swept_samples(benchmark::State& state) {
   for_each_candidate(state, [](SweptObstacles& swept, int j, const SweptObstacles::Candidate& candidate) {
-    benchmark::DoNotOptimize(swept.sweep(j, candidate, 0, 1).data());
+    benchmark::DoNotOptimize(swept.sweep(candidate, {j}).boxes.data());
   });
 }
 BENCHMARK(swept_samples)->Unit(benchmark::kMicrosecond);
@@ -146,7 +146,7 @@ BENCHMARK(swept_samples)->Unit(benchmark::kMicrosecond);
 /// One hull of a moving obstacle, by CGAL.
 void swept_hull(benchmark::State& state) {
   for_each_candidate(state, [](SweptObstacles& swept, int j, const SweptObstacles::Candidate& candidate) {
-    benchmark::DoNotOptimize(swept.hull(j, candidate, 0, 1).data());
+    benchmark::DoNotOptimize(swept.hull(candidate, {j}).data());
   });
 }
 BENCHMARK(swept_hull)->Unit(benchmark::kMicrosecond);
@@ -170,7 +170,7 @@ void separation_in_flight(benchmark::State& state) {
 }
 BENCHMARK(separation_in_flight)->Unit(benchmark::kMicrosecond);
 
-/// The planes that the optimizer starts from: all within a metre, hulls made already.
+/// The planes that the optimizer starts from: all within a metre, made from sweeps.
 void gather_planes(benchmark::State& state) {
   const auto moments = planned();
   std::vector<SweptObstacles> swept = sweeps_of(moments);
@@ -181,11 +181,26 @@ void gather_planes(benchmark::State& state) {
     const std::size_t i = k++ % moments.size();
     const ClampedSpline spline = moments[i]->answer.trajectory.spline();
     planes.clear();
-    for (int j = 0; j < spline.intervals(); ++j) separate_interval(swept[i], j, spline.power(j), pairs, &planes, 1.0);
+    find_planes(swept[i], spline, HullBasis::Minvo, 1.0, pairs, planes);
     benchmark::DoNotOptimize(planes.data());
   }
 }
 BENCHMARK(gather_planes)->Unit(benchmark::kMicrosecond);
+
+/// What the answer solves.
+HorizonProblem problem_of(const Answered& m) {
+  Limits reduced = m.request.limits;
+  reduced.v_max *= recording().config.velocity_share;
+  return {m.request.start,
+          6,
+          m.answer.trajectory.interval,
+          m.request.limits,
+          reduced,
+          4.0,
+          centre_box(m.request.flight_box, m.request.body),
+          m.request.body.radius,
+          HullBasis::Minvo};
+}
 
 /// The checker with its hulls made, and what it costs per pair (boxes included).
 void check_a_plan(benchmark::State& state) {
@@ -196,8 +211,7 @@ void check_a_plan(benchmark::State& state) {
   for (auto _ : state) {
     const std::size_t i = k++ % moments.size();
     const Answered& m = *moments[i];
-    const CheckReport report =
-        check_plan(m.answer.trajectory, {m.request.start, m.request.limits, m.request.flight_box, 4.0}, swept[i]);
+    const CheckReport report = check_plan(m.answer.trajectory, problem_of(m), swept[i]);
     pairs += report.pairs.by_box + report.pairs.by_plane;
   }
   state.counters["per_pair"] =
@@ -215,13 +229,7 @@ void search(benchmark::State& state) {
   for (auto _ : state) {
     const Answered& m = *moments[k++ % moments.size()];
     sweep(m.world.predictions->obstacles, m, swept);
-    SearchProblem problem;
-    problem.start = m.request.start;
-    problem.interval_s = m.answer.trajectory.interval.seconds();
-    problem.true_v_max = m.request.limits.v_max;
-    problem.limits.v_max *= 0.99;
-    problem.sphere_centre = m.request.start.p;
-    problem.centre_box = centre_box(m.request.flight_box, m.request.body);
+    SearchProblem problem{problem_of(m)};
     problem.way.point = m.answer.local_goal;
     Budget budget = Budget::unlimited();
     expansions += semantic_a_star(problem, recording().config.search, swept, budget, memory).expansions;
@@ -231,13 +239,7 @@ void search(benchmark::State& state) {
 BENCHMARK(search)->Unit(benchmark::kMillisecond);
 
 ConvexProblem convex_problem_of(const Answered& m) {
-  TrajectoryProblem problem;
-  problem.start = m.request.start;
-  problem.interval_s = m.answer.trajectory.interval.seconds();
-  problem.limits = m.request.limits;
-  problem.limits.v_max *= recording().config.velocity_share;
-  problem.centre_box = centre_box(m.request.flight_box, m.request.body);
-  problem.clearance = m.request.body.radius;
+  TrajectoryProblem problem{problem_of(m)};
   problem.goal = m.answer.local_goal;
   problem.weight_jerk = OptimizationConfig{}.weight_jerk;
   std::vector<PlaneConstraint> planes;
@@ -272,7 +274,10 @@ void solve(benchmark::State& state, const Solve& by) {
   state.counters["iterations"] =
       benchmark::Counter(static_cast<double>(iterations), benchmark::Counter::kAvgIterations);
 }
-void solve_barrier(benchmark::State& state) { solve(state, solve_by_barrier); }
+void solve_barrier(benchmark::State& state) {
+  BarrierSolver solver;
+  solve(state, [&](const auto&... arguments) { return solver.solve(arguments...); });
+}
 void solve_ipopt(benchmark::State& state) { solve(state, solve_by_ipopt); }
 BENCHMARK(solve_barrier)->Unit(benchmark::kMicrosecond);
 BENCHMARK(solve_ipopt)->Unit(benchmark::kMicrosecond);

@@ -1,5 +1,6 @@
 #include "benchmarks/recorded_problems.h"
 
+#include "planner/plan_workspace.h"
 #include "simulator/worlds/declared_motions.h"
 #include "simulator/worlds/world.h"
 #include "tests/support/plan_judge.h"
@@ -37,22 +38,22 @@ Scenario scenario_of(const std::string& world, std::uint64_t seed) {
 std::optional<RecordedProblem> problem_of(const HorizonRequest& request, const PlanningWorld& world, const Plan& answer,
                                           const PlannerConfig& config) {
   if (answer.outcome != PlanOutcome::Optimized && answer.outcome != PlanOutcome::SearchOnly) return std::nullopt;
+  PlanWorkspace memory;
+  PlanLog log(nullptr);
+  Budget budget = Budget::unlimited();
+  PlanTools tools{budget, memory, log};
   Limits limits = request.limits;
   limits.v_max *= config.velocity_share;
-  Budget budget = Budget::unlimited();
-  PlanStatistics statistics;
-  PlanWorkspace workspace;
-  const AttemptContext context{request,           config,   world.predictions->obstacles,
-                               nullptr,           limits,   {answer.local_goal, 0.0},
-                               answer.local_goal, budget,   nullptr,
-                               statistics,        workspace};
-  SweptObstacles& swept = workspace.horizon;
-  sweep_horizon(context, answer.trajectory.interval, config.hold_cap_s, swept);
-  const auto searched =
-      search_candidate(context, swept, answer.trajectory.interval, config.hold_required_s, config.search);
-  if (!searched) return std::nullopt;
-  return RecordedProblem{trajectory_problem(context, searched->trajectory),
-                         gather_pairs(context, swept, searched->trajectory), searched->trajectory.control_points};
+  const Surroundings near{request, config, world.predictions->obstacles, {}, {}, {}, limits, nullptr};
+  const Heading heading{{answer.local_goal, 0.0, 0.0}, {answer.local_goal, 0.0}, 0.0, limits, nullptr};
+  const Attempt attempt{near, heading, horizon_problem(near, answer.trajectory.interval), config.hold_cap_s,
+                        config.hold_required_s};
+  sweep_horizon(attempt, memory.times, memory.horizon);
+  const auto leaf = search_candidate(attempt, config.search, memory.horizon, tools);
+  if (!leaf) return std::nullopt;
+  const Points& initial = leaf->trajectory.control_points;
+  return RecordedProblem{trajectory_problem(attempt, initial),
+                         gather_pairs(attempt, leaf->trajectory, memory.horizon, tools), initial};
 }
 
 }  // namespace

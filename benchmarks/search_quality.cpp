@@ -10,7 +10,6 @@
 
 #include "benchmarks/flight_recording.h"
 #include "core/base/percentiles.h"
-#include "planner/evasion.h"
 #include "planner/plan_workspace.h"
 #include "planner/search/semantic_a_star.h"
 #include "runtime/config.h"
@@ -54,7 +53,7 @@ class Judge final : public PlanObserver {
     unlimited.max_expansions = std::numeric_limits<int>::max();
     unlimited.hold_expansions = std::numeric_limits<int>::max() / 2;
     const double began = thread_cpu_ms();
-    Budget budget([&](int, Stage, std::int64_t) { return thread_cpu_ms() - began > kLongSearchMs; });
+    Budget budget([&](const BudgetCut&) { return thread_cpu_ms() - began > kLongSearchMs; });
     const SearchResult best = semantic_a_star(problem, unlimited, obstacles, budget, memory_);
     j.long_ms = thread_cpu_ms() - began;
     const double way = problem.way.from(problem.start.p);
@@ -82,7 +81,7 @@ void judge_flight(const FlightRecording& flight, std::size_t every, std::vector<
   PlanWorkspace workspace;
   for (std::size_t k = 0; k < flight.moments.size(); k += every) {
     Judge judge(config);
-    Budget budget([](int attempt, Stage, std::int64_t) { return attempt >= kFirstEvasionAttempt; });
+    Budget budget([](const BudgetCut& here) { return here.phase != Phase::Durations; });
     plan(flight.moments[k].request, flight.moments[k].world, config, budget, workspace, &judge);
     all.insert(all.end(), judge.judged.begin(), judge.judged.end());
   }

@@ -27,7 +27,7 @@ struct Comparison {
     const Eigen::VectorXd x0 = free_variables(recorded.initial);
     const auto never = [] { return false; };
     const double begin = thread_cpu_ms();
-    const ConvexSolution barrier = solve_by_barrier(problem, x0, kIterations, never);
+    const ConvexSolution barrier = BarrierSolver().solve(problem, x0, kIterations, never);
     const double between = thread_cpu_ms();
     const ConvexSolution ipopt = solve_by_ipopt(problem, x0, kIterations, never);
     barrier_ms.push_back(between - begin);

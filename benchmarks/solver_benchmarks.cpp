@@ -58,7 +58,7 @@ BENCHMARK(make_problem)->Unit(benchmark::kMicrosecond);
 
 void barrier(benchmark::State& state) {
   run(state, [](const RecordedProblem& p, const ConvexProblem& convex) {
-    return solve_by_barrier(convex, free_variables(p.initial), 60, never);
+    return BarrierSolver().solve(convex, free_variables(p.initial), 60, never);
   });
 }
 BENCHMARK(barrier)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
@@ -79,7 +79,7 @@ BENCHMARK(joint)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
 
 void joint_from_alternating(benchmark::State& state) {
   run(state, [](const RecordedProblem& p, const ConvexProblem& convex) {
-    const ConvexSolution first = solve_by_barrier(convex, free_variables(p.initial), 60, never);
+    const ConvexSolution first = BarrierSolver().solve(convex, free_variables(p.initial), 60, never);
     const Points from = control_points_of(first.x, p.trajectory);
     const ConvexSolution second = solve_joint(JointProblem(p.trajectory, p.pairs, from), 60, never, anything);
     return second.found ? second : first;

@@ -37,12 +37,37 @@ tern_msgs::certificate_plane_t to_lcm(const CertificatePlane& plane) {
   return m;
 }
 
-tern_msgs::budget_cut_t to_lcm(const BudgetCut& cut) {
+// A cut's attempt counts through the phases, kMostAttempts each. The watchdog's answer stands last, as an attempt of
+// its own whose count is Plan::standing.
+constexpr std::int32_t kWatchdogAttempt = -1;
+
+tern_msgs::budget_cut_t cut_to_lcm(std::int32_t attempt, Stage stage, std::int64_t count) {
   tern_msgs::budget_cut_t m{};
-  m.attempt = cut.attempt;
-  m.stage = wire::to_int8(cut.stage);
-  m.count = cut.count;
+  m.attempt = attempt;
+  m.stage = wire::to_int8(stage);
+  m.count = count;
   return m;
+}
+
+void put_cuts(Message& m, const Plan& plan) {
+  for (const BudgetCut& cut : plan.cuts) {
+    m.cuts.push_back(cut_to_lcm(static_cast<int>(cut.phase) * kMostAttempts + cut.attempt, cut.stage, cut.count));
+  }
+  if (plan.standing) m.cuts.push_back(cut_to_lcm(kWatchdogAttempt, Stage::Check, *plan.standing));
+}
+
+void read_cuts(wire::FieldReader& read, const Message& m, Plan& plan) {
+  for (const auto& cut : m.cuts) {
+    const bool is_last = &cut == &m.cuts.back();
+    const int attempt = read.integer(cut.attempt, is_last ? kWatchdogAttempt : 0, kPhases * kMostAttempts - 1);
+    const Stage stage = read.enumeration(cut.stage, Stage::Check);
+    const std::int64_t count = read.counter(cut.count);
+    if (attempt == kWatchdogAttempt) {
+      plan.standing = count;
+    } else {
+      plan.cuts.push_back({static_cast<Phase>(attempt / kMostAttempts), attempt % kMostAttempts, stage, count});
+    }
+  }
 }
 
 void put(Message& m, const PlanCost& cost) {
@@ -85,7 +110,7 @@ Message to_lcm(const Plan& plan) {
   put(m, plan.inputs);
   m.control_points = wire::to_lcm(plan.trajectory.control_points);
   for (const CertificatePlane& plane : plan.certificate) m.planes.push_back(to_lcm(plane));
-  for (const BudgetCut& cut : plan.cuts) m.cuts.push_back(to_lcm(cut));
+  put_cuts(m, plan);
   return m;
 }
 
@@ -151,10 +176,7 @@ tl::expected<Plan, Rejection> from_lcm(const Message& m) {
   const auto intervals = static_cast<std::int16_t>(m.control_point_count - 3);
   plan.certificate.reserve(m.planes.size());
   for (const auto& plane : m.planes) plan.certificate.push_back(read_plane(read, plane, intervals));
-  for (const auto& cut : m.cuts) {
-    plan.cuts.push_back({read.integer(cut.attempt, -1, std::numeric_limits<std::int32_t>::max()),
-                         read.enumeration(cut.stage, Stage::Check), read.counter(cut.count)});
-  }
+  read_cuts(read, m, plan);
   return read.accept(std::move(plan));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/world/scenario.h"
+#include "planner/tuning.h"
 
 namespace tern {
 
@@ -50,14 +51,12 @@ double least_duration(const MotionSample& start, const Vec3& to, const Limits& l
 }
 
 Limits paced(const Limits& limits, double metres) {
-  constexpr double kGentle = 0.1;
-  constexpr double kLeastWay = 1e-4;  // m
   Limits paced = limits;
   for (int axis = 0; axis < 3; ++axis) {
     const double j = limits.j_max[axis];
     if (!std::isfinite(j)) continue;
     const double reached = 0.25 * j * std::cbrt(32.0 * std::max(metres, kLeastWay) / j);
-    if (reached < kGentle * limits.a_max[axis]) paced.a_max[axis] = reached;
+    if (reached < kGentleShare * limits.a_max[axis]) paced.a_max[axis] = reached;
   }
   return paced;
 }

@@ -11,23 +11,11 @@
 
 #include "core/geometry/box.h"
 #include "planner/duration.h"
+#include "planner/plan_workspace.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {
-
-constexpr int kMaxExpansions = 150;
-/// Searches of one evasion.
-constexpr int kMostTries = 40;
-/// Durations over least_duration(): at leisure, and as quick as a far stop can be flown. To hurry far away pays where
-/// motion is promised; among estimated movers, whose boxes grow, it leads into what is not yet known.
-constexpr double kPaces[] = {kStopScale, 1.15};
-/// Stops lie this far away, in what vehicle and largest mover are wide together …
-constexpr double kWidths[] = {0.3, 0.6, 1.1, 2.0};
-/// … or, to get far away, in r.
-constexpr double kShares[] = {0.35, 0.8};
-constexpr double kFarthestShare = 0.9;
-constexpr double kForecastStep = 0.05;     // s
-constexpr double kLongestForecast = 20.0;  // s
 
 constexpr std::size_t kFacesAndCorners = 14;
 
@@ -56,26 +44,26 @@ struct Stop {
 };
 
 /// How far away stops are tried, m. Room is sought far away only.
-std::vector<double> distances(const AttemptContext& context, EvasionAim aim) {
-  const double r = context.config.sphere_radius_m;
+std::vector<double> distances(const Surroundings& near, Phase phase) {
+  const double r = near.config.sphere_radius_m;
   std::vector<double> all;
-  for (const double share : kShares) all.push_back(share * r);
-  if (aim == EvasionAim::GreatestClearance) return all;
-  for (const double widths : kWidths) {
-    const double distance = widths * context.hold.width;
-    if (distance > 0.0 && distance < kFarthestShare * r) all.push_back(distance);
+  for (const double share : kStopShares) all.push_back(share * r);
+  if (phase == Phase::Room) return all;
+  for (const double widths : kStopWidths) {
+    const double distance = widths * near.hold.width;
+    if (distance > 0.0 && distance < kFarthestWidthShare * r) all.push_back(distance);
   }
   return all;
 }
 
 /// Where all stops are forecast: the sphere, for so long.
-const SweptObstacles& sweep_forecast(const AttemptContext& context, double duration_s) {
-  std::vector<double>& times = context.workspace.times;
+const SweptObstacles& sweep_forecast(const Surroundings& near, double duration_s, PlanWorkspace& memory) {
+  std::vector<double>& times = memory.times;
   times.assign(1, 0.0);
   append_hold(times, kForecastStep, std::min(duration_s, kLongestForecast));
-  const Box region = box_around(context.request.start.p, Vec3::Constant(context.config.sphere_radius_m));
-  SweptObstacles& swept = context.workspace.forecast;
-  swept.assign(context.obstacles, context.request.body, context.request.t_s, times, region);
+  const Box region = box_around(near.request.start.p, Vec3::Constant(near.config.sphere_radius_m));
+  SweptObstacles& swept = memory.forecast;
+  swept.assign(near.obstacles, near.request.body, near.request.t_s, times, region);
   return swept;
 }
 
@@ -100,35 +88,35 @@ bool comes_first(const Stop& a, const Stop& b) {
 }
 
 /// The stop at this point and pace; nothing: outside the flight box, or too slow to be flown.
-std::optional<Stop> stop_at(const AttemptContext& context, const Box& box, const Vec3& point, double pace) {
+std::optional<Stop> stop_at(const Surroundings& near, const Box& box, const Vec3& point, double pace) {
   if (!box.contains(point)) return std::nullopt;
-  const double least = least_duration(context.request.start, point, context.plan_limits);
-  const auto interval = interval_of(pace * least, context.config.intervals);
+  const double least = least_duration(near.request.start, point, near.plan_limits);
+  const auto interval = interval_of(pace * least, near.config.intervals);
   if (!interval) return std::nullopt;
-  return Stop{point, *interval, interval->seconds() * context.config.intervals, pace < kStopScale, 0.0};
+  return Stop{point, *interval, interval->seconds() * near.config.intervals, pace < kStopScale, 0.0};
 }
 
 /// All stops within the flight box, the best forecast first.
-std::vector<Stop> ordered_stops(const AttemptContext& context, EvasionAim aim) {
-  const Box box = centre_box(context.request.flight_box, context.request.body);
+std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorkspace& memory) {
+  const Box box = centre_box(near.request.flight_box, near.request.body);
   std::vector<Stop> stops;
   double longest = 0.0;
-  const std::size_t ways = aim == EvasionAim::GreatestClearance ? kFacesAndCorners : directions().size();
-  for (const double distance : distances(context, aim)) {
+  const std::size_t ways = phase == Phase::Room ? kFacesAndCorners : directions().size();
+  for (const double distance : distances(near, phase)) {
     for (std::size_t k = 0; k < ways; ++k) {
-      for (const double pace : kPaces) {
-        const auto stop = stop_at(context, box, context.request.start.p + directions()[k] * distance, pace);
-        if (!stop || (stop->hurries && !context.hold.promised)) continue;
+      for (const double pace : kStopPaces) {
+        const auto stop = stop_at(near, box, near.request.start.p + directions()[k] * distance, pace);
+        if (!stop || (stop->hurries && !near.hold.promised)) continue;
         longest = std::max(longest, stop->way_s);
         stops.push_back(*stop);
       }
     }
   }
   const SweptObstacles& swept =
-      sweep_forecast(context, std::max(longest + context.hold.cap_s, context.hold.predicted_s));
-  for (Stop& stop : stops) stop.clear_s = forecast(swept, context.request.start, stop);
+      sweep_forecast(near, std::max(longest + near.hold.cap_s, near.hold.predicted_s), memory);
+  for (Stop& stop : stops) stop.clear_s = forecast(swept, near.request.start, stop);
   std::stable_sort(stops.begin(), stops.end(), comes_first);
-  if (stops.size() > kMostTries) stops.resize(kMostTries);
+  if (stops.size() > kMostStops) stops.resize(kMostStops);
   return stops;
 }
 
@@ -144,34 +132,28 @@ double room_at_end(const SweptObstacles& swept, int intervals, const TimedSpline
 
 }  // namespace
 
-std::optional<Candidate> find_evasion(const AttemptContext& base, EvasionAim aim) {
-  SearchConfig search = base.config.search;
-  search.max_expansions = kMaxExpansions;
+std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& heading, Phase phase, PlanTools& tools) {
+  SearchConfig search = near.config.search;
+  search.max_expansions = kStopExpansions;
   std::optional<Candidate> best;
   double best_worth = 0.0;
-  // One plan may seek both aims; a budget's cuts are by attempt, so no attempt occurs twice.
-  constexpr int kAttempts = 100;
-  int attempt = kFirstEvasionAttempt + (aim == EvasionAim::GreatestClearance ? kAttempts : 0);
-  for (const Stop& stop : ordered_stops(base, aim)) {
-    base.budget.begin_attempt(attempt++);
-    if (base.budget.expired(Stage::Search)) return best;
-    AttemptContext context = base;
-    context.fields = nullptr;
-    context.local_goal = stop.point;
-    context.way = {context.local_goal, 0.0};
-    const double look_s = base.hold.cap_of_stop(stop.way_s);
-    if (!is_followed(context, stop.interval, look_s)) continue;
-    SweptObstacles& swept = context.workspace.evasion;
-    sweep_horizon(context, stop.interval, look_s, swept);
-    auto found = search_candidate(context, swept, stop.interval, look_s, search);
-    base.statistics.count(swept);
+  for (const Stop& stop : ordered_stops(near, phase, tools.memory)) {
+    if (!tools.budget.begin_attempt(phase) || tools.budget.expired(Stage::Search)) return best;
+    const Heading there{{stop.point, 0.0, stop.way_s}, {stop.point, 0.0}, heading.step_s, heading.pace, nullptr};
+    const double look_s = near.hold.cap_of_stop(stop.way_s);
+    if (!is_followed(near, stop.interval, look_s)) continue;
+    const Attempt attempt{near, there, horizon_problem(near, stop.interval), look_s, look_s};
+    SweptObstacles& swept = tools.memory.evasion;
+    sweep_horizon(attempt, tools.memory.times, swept);
+    auto found = search_candidate(attempt, search, swept, tools);
+    tools.log.statistics.count(swept);
     if (!found) continue;
     found->outcome = PlanOutcome::Evade;
-    found->arrival_s = worth_of(base, found->trajectory);
-    found->holds = lasts(found->hold_s, base.hold.required(stop.way_s));
-    const bool by_time = aim == EvasionAim::LongestClear;
+    found->arrival_s = worth_of(near, heading, found->trajectory);
+    found->holds = lasts(found->hold_s, near.hold.required(stop.way_s));
+    const bool by_time = phase == Phase::Evasion;
     if (!by_time && !found->holds) continue;
-    const double worth = by_time ? found->clear_s : room_at_end(swept, base.config.intervals, found->trajectory);
+    const double worth = by_time ? found->clear_s : room_at_end(swept, near.config.intervals, found->trajectory);
     if (best && worth <= best_worth) continue;
     const bool lasts_on = lasts(found->hold_s, look_s);
     best = std::move(found);

@@ -7,21 +7,15 @@
 
 namespace tern {
 
-/// Evasion's tries are numbered from here in the budget's counts, after the durations: a gate gives them time of their
-/// own, because evasion is needed just when the search has spent its time in vain.
-inline constexpr int kFirstEvasionAttempt = 100;
-
-enum class EvasionAim {
-  LongestClear,       ///< the stop that stays clear longest; the first that does to the hold's cap ends the search
-  GreatestClearance,  ///< of the stops that hold, the one farthest from every obstacle's box: for a start inside a hull
-};
-
 /// Tries up to 40 stops around the vehicle, from a fraction of what vehicle and largest mover are wide to 0.8 r away,
 /// in 26 directions, at leisure or in a hurry (to gain room: 14 directions, 0.35 r and 0.8 r). A cheap forecast by the
 /// obstacles' boxes sorts them: what stays clear longest comes first, of equals the nearest. The first try usually
 /// succeeds. Each stop's hold is followed as far as predictions reach. Ends early when the budget is spent. The outcome
 /// is Evade.
+/// @param phase    Evasion: the stop that stays clear longest; the first that does to the hold's cap ends the search.
+///                 Room, for a start inside a hull: of the stops that hold, the one farthest from every obstacle's box
+/// @param heading  by which arrivals are estimated
 /// @return the best stop, or nullopt if none passed the checker
-std::optional<Candidate> find_evasion(const AttemptContext& context, EvasionAim aim);
+std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& heading, Phase phase, PlanTools& tools);
 
 }  // namespace tern

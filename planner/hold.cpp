@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/duration.h"
+#include "planner/tuning.h"
 
 namespace tern {
 
@@ -26,8 +27,10 @@ double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec
 }
 
 HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& config,
-                       const std::vector<PlanningObstacle>& obstacles) {
-  HoldDemand hold{config.hold_required_s, config.hold_cap_s, config.hold_until_s};
+                       const std::vector<PlanningObstacle>& obstacles, double horizon_s) {
+  const double longest_s = std::max(0.5 * horizon_s, kLeastHold);
+  HoldDemand hold{std::min(config.hold_required_s, longest_s), std::min(config.hold_cap_s, longest_s),
+                  config.hold_until_s};
   Vec3 largest = Vec3::Zero();
   for (const PlanningObstacle& obstacle : obstacles) {
     if (!obstacle.moves()) continue;

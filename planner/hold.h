@@ -35,11 +35,8 @@ struct HoldDemand {
 double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec3& mover_half);
 
 /// What the request asks for among these obstacles: the largest mover's size per axis, the predictions that reach
-/// farthest.
+/// farthest. Configured holds take half the horizon at most, so that flying has the other half.
 HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& config,
-                       const std::vector<PlanningObstacle>& obstacles);
-
-/// A spline of J intervals from rest to rest takes this much longer than the per-axis bound of least_duration().
-inline constexpr double kStopScale = 1.5;
+                       const std::vector<PlanningObstacle>& obstacles, double horizon_s);
 
 }  // namespace tern

@@ -6,21 +6,9 @@
 #include "core/world/message_limits.h"
 #include "planner/duration.h"
 #include "planner/global_path/local_goal.h"
+#include "planner/tuning.h"
 
 namespace tern {
-namespace {
-
-/// From one radius to the next smaller one.
-constexpr double kShrink = 5.0 / 6.0;
-/// No local goal is nearer, m: what the gentlest vehicle flies from rest to rest in kLeastHorizon is longer.
-constexpr double kLeastRadius = 1e-4;
-/// Holds are not cut below this, s.
-constexpr double kLeastHold = 0.1;
-/// Of a step's mean speed: velocities that differ by less are one to its pruning.
-constexpr double kCoarseVelocity = 0.4;
-
-}  // namespace
-
 Box committed_box(const HorizonRequest& request) {
   const ClampedSpline spline = request.committed.spline();
   const double from_s = (request.t_s - request.committed.start).seconds();
@@ -49,22 +37,15 @@ LookAhead look_ahead(const HorizonRequest& request, const PredictionProducts& pr
   return look;
 }
 
-std::optional<PlannerConfig> with_shorter_holds(const PlannerConfig& config, const LookAhead& look) {
-  const double longest_s = std::max(0.5 * look.horizon_s, kLeastHold);
-  if (config.hold_cap_s <= longest_s) return std::nullopt;
-  PlannerConfig shorter = config;
-  shorter.hold_cap_s = longest_s;
-  shorter.hold_required_s = std::min(config.hold_required_s, longest_s);
-  return shorter;
+double longest_first_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config) {
+  const double held_s = std::min(look.horizon_s - hold.required_s, look.followed_s - hold.cap_s);
+  return std::min(held_s, config.intervals * kLongestInterval.seconds()) / config.duration_scales.front();
 }
 
 LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
-                   double largest_radius, const LookAhead& look, const PlannerConfig& config) {
-  const double held_s = std::min(look.horizon_s - config.hold_required_s, look.followed_s - config.hold_cap_s);
-  const double longest_s =
-      std::min(held_s, config.intervals * kLongestInterval.seconds()) / config.duration_scales.front();
+                   double largest_radius, double longest_s) {
   LocalAim soonest;
-  for (double radius = largest_radius; radius >= std::min(kLeastRadius, largest_radius); radius *= kShrink) {
+  for (double radius = largest_radius; radius >= std::min(kLeastRadius, largest_radius); radius *= kRadiusShrink) {
     LocalAim aim{local_goal(path, start.p, radius), radius, 0.0};
     aim.least_s = planned_duration(start, aim.goal, limits);
     if (aim.least_s <= longest_s) return aim;
@@ -81,7 +62,7 @@ SearchConfig scaled(SearchConfig search, double goal_radius, double least_s) {
   search.cost_step_m *= scale;
   search.prune_position_m *= scale;
   if (scale < 1.0 || least_s > kFullStepTime) {
-    search.prune_velocity_mps = std::min(search.prune_velocity_mps, kCoarseVelocity * goal_radius / least_s);
+    search.prune_velocity_mps = std::min(search.prune_velocity_mps, kCoarseVelocityShare * goal_radius / least_s);
   }
   return search;
 }

@@ -1,10 +1,10 @@
 // How far ahead one request looks: how long plans and holds may be, and how far the local goal may lie.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/world/horizon.h"
+#include "planner/hold.h"
 #include "planner/planner_config.h"
 #include "planner/planning_world.h"
 
@@ -26,12 +26,7 @@ struct LookAhead {
 
 /// The horizon is as long as movers are predicted within the planning region. It is at least kLeastHorizon, or as long
 /// as they are followed: where predictions are short, boxes that grow stand for them.
-inline constexpr double kLeastHorizon = 3.0;  // s
 LookAhead look_ahead(const HorizonRequest& request, const PredictionProducts& predictions, const PlannerConfig& config);
-
-/// The same configuration with holds of at most half the horizon, so that flying has the other half. Nothing: it asks
-/// for no longer ones.
-std::optional<PlannerConfig> with_shorter_holds(const PlannerConfig& config, const LookAhead& look);
 
 /// Where a plan heads.
 struct LocalAim {
@@ -40,21 +35,22 @@ struct LocalAim {
   double least_s = 0.0;      ///< planned_duration() to it
 };
 
-/// The local goal at `largest_radius`, or, where the first duration to it and the hold after it do not fit into the
-/// horizon, or Δt would exceed kLongestInterval, at the next smaller of radii that shrink by a sixth which does. Where
-/// none does (the start is too fast to stop so soon), the one that is reached first.
+/// The local goal goes by the first duration: how long planned_duration() may be, so that this and the hold after it
+/// fit into the horizon, and Δt does not exceed kLongestInterval, s.
+double longest_first_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config);
+
+/// The local goal at `largest_radius`, or, where planned_duration() to it is longer than longest_s, at the next smaller
+/// of radii that shrink by a sixth which is not. Where none is (the start is too fast to stop so soon), the one that is
+/// reached first.
 /// @pre path is not empty
 LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
-                   double largest_radius, const LookAhead& look, const PlannerConfig& config);
+                   double largest_radius, double longest_s);
 
-/// Local goals at least this far away are as far as the search's lengths were chosen for, m.
-inline constexpr double kFullStep = 2.0;
-/// By how much lengths shrink with a nearer local goal, (0, 1].
+/// By how much lengths shrink with a local goal nearer than kFullStep, (0, 1].
 double step_scale(double goal_radius);
 /// The search's lengths (bands, steps of cost, voxels that prune) for local goals at this radius, and its coarse
 /// velocity for a flight there of so many seconds, so that small and slow steps are told apart as well as large ones.
 /// At kFullStep and beyond, within kFullStepTime, they are the configured ones.
-inline constexpr double kFullStepTime = 4.0;  // s
 SearchConfig scaled(SearchConfig search, double goal_radius, double least_s);
 
 }  // namespace tern

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/world/horizon.h"
 #include "planner/optimization/barrier_solver.h"
 #include "planner/safety/swept_obstacles.h"
 #include "planner/search/search_memory.h"

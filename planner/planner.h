@@ -3,41 +3,11 @@
 
 #include "core/world/budget.h"
 #include "core/world/horizon.h"
+#include "planner/plan_log.h"
 #include "planner/planner_config.h"
 #include "planner/planning_world.h"
-#include "planner/safety/separation_test.h"
 
 namespace tern {
-
-struct PlanWorkspace;
-struct SearchProblem;
-struct SearchResult;
-
-/// Is told what plan() does while it does it: for timing, and so that a watchdog always has an answer.
-class PlanObserver {
- public:
-  virtual ~PlanObserver() = default;
-  virtual void enter(Stage stage) = 0;               ///< work of this stage begins
-  virtual void answer(const Plan& best_so_far) = 0;  ///< a (better) answer stands; the first is the fallback
-  /// A search has ended: for those who judge searches.
-  virtual void searched(const SearchProblem&, SweptObstacles&, const SearchResult&) {}
-  /// Whether the nodes of searches shall be kept for searched(); asked before each.
-  [[nodiscard]] virtual bool wants_search_nodes() const { return false; }
-};
-
-/// What the answer cost in things that can be counted (times are the observer's).
-struct PlanStatistics {
-  std::int64_t expansions = 0;
-  std::int64_t hulls = 0;           ///< made by CGAL
-  std::int64_t pairs_by_index = 0;  ///< pairs of obstacle and interval dropped because they cannot reach the vehicle
-  PairCounts pairs;
-  std::int64_t solver_calls = 0, solver_iterations = 0;
-
-  void count(const SweptObstacles& swept) {
-    hulls += swept.hulls_made();
-    pairs_by_index += swept.pairs_out_of_reach();
-  }
-};
 
 struct PlanAnswer {
   Plan plan;  ///< header empty

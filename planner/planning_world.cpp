@@ -5,12 +5,10 @@
 
 #include "core/splines/piecewise_cubic.h"
 #include "planner/global_path/box_cover.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {
-
-/// Paths keep this far from static obstacles, m, where that leaves a way: flights by hulls need a little room.
-constexpr double kPathSpacing = 0.02;
 
 /// What reaches the vehicle later than this does not reach it.
 constexpr Duration kEver{1'000'000'000'000};

@@ -20,9 +20,6 @@
 
 namespace tern {
 
-/// How far past its last piece a track's box is followed where the vehicle may meet it. By then the box of what is
-/// faster than a metre per second fills the sphere; who needs longer takes smaller steps (LookAhead).
-inline constexpr Duration kTrackBoxReach{4'000'000};
 /// Where nothing moves.
 inline constexpr UTime kFollowedForEver{std::numeric_limits<std::int64_t>::max()};
 

@@ -2,65 +2,60 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/ipopt_solver.h"
+#include "planner/plan_workspace.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {
 
-const std::vector<CertificatePlane>& near_planes(const AttemptContext& context, SweptObstacles& obstacles,
-                                                 const TimedSpline& trajectory) {
-  const ClampedSpline spline = trajectory.spline();
-  std::vector<CertificatePlane>& planes = context.workspace.certificates;
+const std::vector<CertificatePlane>& near_planes(const Attempt& attempt, const TimedSpline& trajectory,
+                                                 SweptObstacles& swept, PlanTools& tools) {
+  std::vector<CertificatePlane>& planes = tools.memory.certificates;
   planes.clear();
-  PairCounts counts;
-  for (int j = 0; j < spline.intervals(); ++j) {
-    separate_interval(obstacles, j, spline.power(j), counts, &planes, context.config.optimization.plane_reach_m,
-                      {context.config.hull_basis, spline.intervals()});
-  }
-  context.statistics.pairs += counts;
+  find_planes(swept, trajectory.spline(), attempt.problem.hull_basis, attempt.near.config.optimization.plane_reach_m,
+              tools.log.statistics.pairs, planes);
   return planes;
 }
 
 PlaneConstraint constraint_of(const CertificatePlane& c) {
-  const double parts = c.parts;
-  return {c.interval, c.part / parts, (c.part + 1) / parts, c.plane};
+  const TimePart part{c.interval, c.part, c.parts};
+  return {c.interval, part.u0(), part.u1(), c.plane};
 }
 
 const Points& hull_of(SweptObstacles& obstacles, const CertificatePlane& plane) {
   for (const SweptObstacles::Candidate& candidate : obstacles.candidates(plane.interval)) {
     if (obstacles.obstacle(candidate).id == plane.track)
-      return obstacles.hull(plane.interval, candidate, plane.part, plane.parts);
+      return obstacles.hull(candidate, {plane.interval, plane.part, plane.parts});
   }
   throw std::logic_error("hull_of: a plane of an obstacle that is not in its interval");
 }
 
+/// Eq. 4 for one leaf, by either method.
 class Refinement {
  public:
-  Refinement(const AttemptContext& context, SweptObstacles& obstacles, const Candidate& searched)
-      : context_(context),
-        config_(context.config.optimization),
-        obstacles_(obstacles),
-        problem_(trajectory_problem(context, searched.trajectory)),
-        required_(context.hold.required(searched.clear_s - searched.hold_s)),
-        hold_required_(std::min(required_, searched.hold_s)),
-        stop_([&budget = context.budget] { return budget.expired(Stage::Optimization); }) {}
+  Refinement(const Attempt& attempt, const Candidate& leaf, SweptObstacles& swept, PlanTools& tools)
+      : attempt_(attempt),
+        config_(attempt.near.config.optimization),
+        swept_(swept),
+        tools_(tools),
+        problem_(trajectory_problem(attempt, leaf.trajectory.control_points)),
+        hold_required_(std::min(attempt.hold_required_s, leaf.hold_s)),
+        stop_([&budget = tools.budget] { return budget.expired(Stage::Optimization); }) {}
 
   /// With the planes fixed the problem is convex; the planes anew at its solution, and again.
   std::optional<Candidate> alternating(const TimedSpline& from) {
     std::optional<Candidate> best;
-    TimedSpline current = from;
     for (int round = 0; round < config_.rounds; ++round) {
-      enter_stage();
+      tools_.log.enter(Stage::Optimization);
       if (stop_()) break;
-      const ConvexSolution solution = solve_convex(current);
-      context_.statistics.solver_iterations += solution.iterations;
-      ++context_.statistics.solver_calls;
+      const ConvexSolution solution = counted(solve_convex(best ? best->trajectory : from));
       if (!solution.found) break;
-      auto candidate = certified(current.interval, solution.x);
+      auto candidate = certified(solution.x);
       if (!candidate) break;
-      current = candidate->trajectory;
       best = std::move(candidate);
     }
     return best;
@@ -68,94 +63,104 @@ class Refinement {
 
   /// Points and planes together.
   std::optional<Candidate> joint(const TimedSpline& from) {
-    enter_stage();
+    tools_.log.enter(Stage::Optimization);
     if (stop_()) return std::nullopt;
     std::optional<Candidate> best;
-    const JointProblem joint(problem_, gather_pairs(context_, obstacles_, from), from.control_points);
-    const ConvexSolution solution = solve_joint(joint, config_.max_iterations, stop_, [&](const FreeVariables& x) {
-      auto candidate = certified(from.interval, x);
-      enter_stage();
+    const JointProblem joint(problem_, gather_pairs(attempt_, from, swept_, tools_), from.control_points);
+    counted(solve_joint(joint, config_.max_iterations, stop_, [&](const FreeVariables& x) {
+      auto candidate = certified(x);
+      tools_.log.enter(Stage::Optimization);
       if (!candidate) return false;
       best = std::move(candidate);
       return true;
-    });
-    context_.statistics.solver_iterations += solution.iterations;
-    ++context_.statistics.solver_calls;
+    }));
     return best;
   }
 
  private:
-  void enter_stage() {
-    if (context_.observer != nullptr) context_.observer->enter(Stage::Optimization);
+  ConvexSolution counted(ConvexSolution solution) {
+    tools_.log.statistics.solver_iterations += solution.iterations;
+    ++tools_.log.statistics.solver_calls;
+    return solution;
   }
 
   ConvexSolution solve_convex(const TimedSpline& from) {
-    PlanWorkspace& memory = context_.workspace;
+    PlanWorkspace& memory = tools_.memory;
     memory.planes.clear();
-    for (const CertificatePlane& c : near_planes(context_, obstacles_, from)) memory.planes.push_back(constraint_of(c));
+    for (const CertificatePlane& c : near_planes(attempt_, from, swept_, tools_)) {
+      memory.planes.push_back(constraint_of(c));
+    }
     make_convex_problem(problem_, memory.planes, from.control_points, memory.convex);
     const FreeVariables x0 = free_variables(from.control_points);
     if (config_.solver == ConvexSolver::Ipopt) return solve_by_ipopt(memory.convex, x0, config_.max_iterations, stop_);
     return memory.barrier.solve(memory.convex, x0, config_.max_iterations, stop_);
   }
 
-  std::optional<Candidate> certified(Duration interval, const FreeVariables& x) {
-    auto candidate =
-        certify(context_, obstacles_, interval, control_points_of(x, problem_), PlanOutcome::Optimized, required_);
+  std::optional<Candidate> certified(const FreeVariables& x) {
+    auto candidate = certify(attempt_, control_points_of(x, problem_), PlanOutcome::Optimized, swept_, tools_.log);
     if (!candidate || candidate->hold_s < hold_required_) return std::nullopt;
     return candidate;
   }
 
-  const AttemptContext& context_;
+  const Attempt& attempt_;
   const OptimizationConfig& config_;
-  SweptObstacles& obstacles_;
+  SweptObstacles& swept_;
+  PlanTools& tools_;
   TrajectoryProblem problem_;
-  double required_;  // to count as holding
   double hold_required_;
   StopFunction stop_;
 };
 
-}  // namespace
-
-std::optional<Candidate> refine(const AttemptContext& context, SweptObstacles& obstacles, const Candidate& searched) {
-  Refinement refinement(context, obstacles, searched);
-  switch (context.config.optimization.method) {
+/// @return nullopt if the method is SearchOnly, or no iterate is better that the checker passes and that holds as long
+/// as was required (or as the leaf did)
+std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf, SweptObstacles& swept,
+                                   PlanTools& tools) {
+  Refinement refinement(attempt, leaf, swept, tools);
+  switch (attempt.near.config.optimization.method) {
     case OptimizationMethod::SearchOnly: return std::nullopt;
-    case OptimizationMethod::Alternating: return refinement.alternating(searched.trajectory);
-    case OptimizationMethod::Joint: return refinement.joint(searched.trajectory);
+    case OptimizationMethod::Alternating: return refinement.alternating(leaf.trajectory);
+    case OptimizationMethod::Joint: return refinement.joint(leaf.trajectory);
     case OptimizationMethod::AlternatingThenJoint: break;
   }
-  auto first = refinement.alternating(searched.trajectory);
-  auto second = refinement.joint(first ? first->trajectory : searched.trajectory);
+  auto first = refinement.alternating(leaf.trajectory);
+  auto second = refinement.joint(first ? first->trajectory : leaf.trajectory);
   return second ? second : first;
 }
 
-TrajectoryProblem trajectory_problem(const AttemptContext& context, const TimedSpline& searched) {
-  const OptimizationConfig& config = context.config.optimization;
-  TrajectoryProblem problem;
-  problem.start = context.request.start;
-  problem.intervals = context.config.intervals;
-  problem.interval_s = searched.interval.seconds();
-  problem.limits = context.plan_limits;
-  problem.sphere_radius = context.config.sphere_radius_m;
-  problem.centre_box = centre_box(context.request.flight_box, context.request.body);
-  problem.clearance = context.request.body.radius;
-  problem.weight_jerk = config.weight_jerk;
-  problem.weight_goal = config.weight_goal;
-  problem.reach = config.plane_reach_m;
-  problem.hull_basis = context.config.hull_basis;
-  const Points& leaf = searched.control_points;
-  const Vec3 end = leaf.col(leaf.cols() - 1);
-  const bool arrives = context.way.from(end) <= context.config.search.band_m;
-  problem.goal = context.fields != nullptr && !arrives ? end : context.local_goal;
+/// By how much the way to go is shorter at the end, m.
+double progress_of(const Attempt& attempt, const Candidate& candidate) {
+  const WayToGo& way = attempt.heading.way;
+  return way.from(attempt.problem.start.p) - way.from(candidate.trajectory.control_points.rightCols<1>());
+}
+
+}  // namespace
+
+Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools) {
+  auto smooth = optimized(attempt, leaf, swept, tools);
+  if (!smooth || (leaf.holds && !smooth->holds)) return leaf;
+  const double progress = progress_of(attempt, leaf);
+  const bool in_a_moment = attempt.problem.interval < kMoment;
+  if (in_a_moment && progress > 0.0 && progress_of(attempt, *smooth) < kProgressKept * progress) return leaf;
+  return smooth->arrival_s <= leaf.arrival_s + kSmoothnessPrice ? std::move(*smooth) : leaf;
+}
+
+TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf) {
+  const PlannerConfig& config = attempt.near.config;
+  TrajectoryProblem problem{attempt.problem};
+  problem.weight_jerk = config.optimization.weight_jerk;
+  problem.weight_goal = config.optimization.weight_goal;
+  problem.reach = config.optimization.plane_reach_m;
+  const Vec3 end = leaf.rightCols<1>();
+  const bool arrives = attempt.heading.way.from(end) <= config.search.band_m;
+  problem.goal = attempt.heading.fields != nullptr && !arrives ? end : attempt.heading.local.goal;
   return problem;
 }
 
-std::vector<SeparatedPair> gather_pairs(const AttemptContext& context, SweptObstacles& obstacles,
-                                        const TimedSpline& trajectory) {
+std::vector<SeparatedPair> gather_pairs(const Attempt& attempt, const TimedSpline& trajectory, SweptObstacles& swept,
+                                        PlanTools& tools) {
   std::vector<SeparatedPair> pairs;
-  for (const CertificatePlane& c : near_planes(context, obstacles, trajectory)) {
-    pairs.push_back({constraint_of(c), hull_of(obstacles, c)});
+  for (const CertificatePlane& c : near_planes(attempt, trajectory, swept, tools)) {
+    pairs.push_back({constraint_of(c), hull_of(swept, c)});
   }
   return pairs;
 }

@@ -9,17 +9,18 @@
 
 namespace tern {
 
-/// Optimizes a search result by the configured method, within the budget's stage Optimization. Nothing: the method is
-/// SearchOnly, or no iterate is better that the checker passes and that holds as long as was required (or as `searched`
-/// did).
-std::optional<Candidate> refine(const AttemptContext& context, SweptObstacles& obstacles, const Candidate& searched);
+/// Optimizes a leaf by the configured method, within the budget's stage Optimization. An optimized trajectory may give
+/// up neither the leaf's hold, nor much of its arrival, nor most of its progress where intervals are short: to who
+/// crosses the sphere in a moment, arrivals say little.
+/// @return the best such trajectory that the checker passes, else the leaf
+Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools);
 
-/// Eq. 4 for a search result. Its goal is the local goal; with semantics the leaf's own end, which stands where it does
-/// on purpose, unless that is in the last band.
-TrajectoryProblem trajectory_problem(const AttemptContext& context, const TimedSpline& searched);
+/// Eq. 4 for a leaf. Its goal is the local goal; with semantics the leaf's own end, which stands where it does on
+/// purpose, unless that is in the last band.
+TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf);
 
 /// Planes of widest margin, and hulls, for every pair near the trajectory: they leave the optimizer the most room.
-std::vector<SeparatedPair> gather_pairs(const AttemptContext& context, SweptObstacles& obstacles,
-                                        const TimedSpline& trajectory);
+std::vector<SeparatedPair> gather_pairs(const Attempt& attempt, const TimedSpline& trajectory, SweptObstacles& swept,
+                                        PlanTools& tools);
 
 }  // namespace tern

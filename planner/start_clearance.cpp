@@ -5,13 +5,11 @@
 #include "core/geometry/box.h"
 #include "core/geometry/distance.h"
 #include "core/geometry/separation.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {
 
-/// An α that is scaled leaves this much room at the start, m: more than touching, because the first interval's hull
-/// moves on.
-constexpr double kStartSlack = 1e-3;
 /// Halvings of the scale: α of a metre to a micrometre.
 constexpr int kHalvings = 20;
 

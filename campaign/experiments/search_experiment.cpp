@@ -69,7 +69,7 @@ std::vector<SearchSegment> segments_of(const TimedSpline& trajectory, const Pred
   for (int j = 0; j < spline.intervals(); ++j) {
     SearchSegment segment;
     segment.curve_hull = spline.minvo(j);
-    segment.obstacle_hull = swept.hull(j, swept.candidates(j).at(0), 0, 1);
+    segment.obstacle_hull = swept.hull(swept.candidates(j).at(0), {j});
     if (const auto apart = separate(segment.obstacle_hull, segment.curve_hull, body.radius)) {
       segment.plane = apart->plane;
       segment.gap_m = apart->gap;

@@ -33,25 +33,10 @@ Vertex support(const Points& a, const Points& b, const Vec3& v) {
 }  // namespace
 
 ShortestVector shortest_vector(const Points& a, const Points& b, double enough) {
-  Simplex simplex;
-  simplex.vertices[0] = support(a, b, a.col(0) - b.col(0));
-  simplex.size = 1;
-  Nearest nearest = nearest_of(simplex);
-  double lowest_height = -std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMaxSteps && nearest.norm2 > enough * enough; ++step) {
-    const Vertex vertex = support(a, b, nearest.v);
-    lowest_height = nearest.v.dot(vertex.w);
-    if (nearest.norm2 - lowest_height <= kRelativeProgress * nearest.norm2 || contains(simplex, vertex)) break;
-    Simplex grown = simplex;
-    grown.vertices[static_cast<std::size_t>(grown.size++)] = vertex;
-    const Nearest next = nearest_of(grown);
-    if (next.size == 0) return {};
-    if (!(next.norm2 < nearest.norm2)) break;
-    simplex = face_of(grown, next);
-    nearest = next;
-    lowest_height = -std::numeric_limits<double>::infinity();
-  }
-  return {nearest.v, lowest_height / std::sqrt(nearest.norm2), proven_distance(simplex, nearest)};
+  const auto support_along = [&](const Vec3& v) { return support(a, b, v); };
+  const Descent d = descend(support_along, support(a, b, a.col(0) - b.col(0)), enough, kNoProof);
+  if (d.overlaps) return {};
+  return {d.nearest.v, d.lowest / std::sqrt(d.nearest.norm2), proven_distance(d.simplex, d.nearest)};
 }
 
 double distance(const Points& a, const Points& b) { return shortest_vector(a, b, 0.0).upper; }

@@ -1,5 +1,4 @@
-// The simplex of a Gilbert–Johnson–Keerthi descent and its point nearest to the origin. A part of distance.cpp and
-// swept_boxes.cpp.
+// Gilbert, Johnson and Keerthi's descent over support points. A part of distance.cpp and swept_boxes.cpp.
 #pragma once
 
 #include <array>
@@ -126,6 +125,45 @@ inline bool contains(const Simplex& s, const Vertex& vertex) {
     if (other.i == vertex.i && other.j == vertex.j) return true;
   }
   return false;
+}
+
+struct Descent {
+  Simplex simplex;  // its face nearest to the origin
+  Nearest nearest;
+  double lowest =
+      -std::numeric_limits<double>::infinity();  // v·w of the support point across nearest.v, if one was asked
+  bool overlaps = false;                         // the origin is inside
+  bool is_farther = false;                       // proven: farther than `proof`
+};
+
+// For descend(): no proof of a distance ends it.
+inline constexpr double kNoProof = std::numeric_limits<double>::infinity();
+
+// Descends from one support point of A − B until A and B are known to be no farther apart than `enough`, or proven to
+// be farther apart than `proof`, or as far as rounding allows. m. support(v): the point of A − B that is lowest along
+// v.
+template <class Support>
+Descent descend(const Support& support, const Vertex& first, double enough, double proof) {
+  Descent d;
+  d.simplex.vertices[0] = first;
+  d.simplex.size = 1;
+  d.nearest = nearest_of(d.simplex);
+  for (int step = 0; step < kMaxSteps && d.nearest.norm2 > enough * enough; ++step) {
+    const Vertex vertex = support(d.nearest.v);
+    d.lowest = d.nearest.v.dot(vertex.w);
+    d.is_farther = d.lowest > 0.0 && d.lowest * d.lowest > proof * proof * d.nearest.norm2;
+    if (d.is_farther) break;
+    if (d.nearest.norm2 - d.lowest <= kRelativeProgress * d.nearest.norm2 || contains(d.simplex, vertex)) break;
+    Simplex grown = d.simplex;
+    grown.vertices[static_cast<std::size_t>(grown.size++)] = vertex;
+    const Nearest next = nearest_of(grown);
+    d.overlaps = next.size == 0;
+    if (d.overlaps || !(next.norm2 < d.nearest.norm2)) break;
+    d.simplex = face_of(grown, next);
+    d.nearest = next;
+    d.lowest = -std::numeric_limits<double>::infinity();
+  }
+  return d;
 }
 
 }  // namespace tern::gjk

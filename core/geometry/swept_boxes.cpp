@@ -13,13 +13,13 @@ namespace {
 using namespace gjk;
 
 /// The support points of A − B.
-class Pair {
+class Difference {
  public:
-  Pair(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points, const Points& vertices)
+  Difference(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points, const Points& vertices)
       : boxes_(boxes), points_(points.data()), count_(points.cols()), vertices_(vertices) {}
 
   /// The point of A − B lowest along v.
-  [[nodiscard]] Vertex support(const Vec3& v) const {
+  [[nodiscard]] Vertex operator()(const Vec3& v) const {
     Vertex vertex;
     const Eigen::Index box = lowest_box(v);
     const CentredBox& lowest = boxes_[static_cast<std::size_t>(box)];
@@ -91,57 +91,28 @@ class Pair {
 /// Twice the rounding error of n·p + d in units of |p|₁ + |d|, as in separate().
 constexpr double kPlaneRounding = 8 * std::numeric_limits<double>::epsilon();
 
-/// Descends from the simplex of one vertex until A and B are proven to be no farther apart than limit, or, when any
-/// proof will do, farther; else to the end. Leaves in v the direction of the proof, or the shortest vector.
-Apart descend(const Pair& pair, Simplex simplex, double limit, bool any_proof, Vec3& v) {
-  Nearest nearest = nearest_of(simplex);
-  for (int step = 0; step < kMaxSteps && nearest.norm2 > limit * limit; ++step) {
-    const Vertex vertex = pair.support(nearest.v);
-    const double height = nearest.v.dot(vertex.w);
-    if (any_proof && height > 0.0 && height * height > limit * limit * nearest.norm2) {
-      v = nearest.v;
-      return Apart::Yes;
-    }
-    if (nearest.norm2 - height <= kRelativeProgress * nearest.norm2 || contains(simplex, vertex)) break;
-    Simplex grown = simplex;
-    grown.vertices[static_cast<std::size_t>(grown.size++)] = vertex;
-    const Nearest next = nearest_of(grown);
-    if (next.size == 0) return Apart::No;
-    if (!(next.norm2 < nearest.norm2)) break;
-    simplex = face_of(grown, next);
-    nearest = next;
-  }
-  v = nearest.v;
-  return proven_distance(simplex, nearest) <= limit ? Apart::No : Apart::Doubt;
-}
-
 }  // namespace
 
 Apart is_apart(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points, const Points& vertices,
                double clearance, Vec3& direction) {
   const double limit = clearance + kTouchingTolerance;
-  const Pair pair(boxes, points, vertices);
-  Simplex simplex;
-  simplex.vertices[0] = pair.support(direction);
-  simplex.size = 1;
-  if (direction.dot(simplex[0]) > limit * direction.norm()) return Apart::Yes;
-  Vec3 v;
-  const Apart apart = descend(pair, simplex, limit, true, v);
-  if (apart == Apart::Yes) direction = v;
-  return apart;
+  const Difference difference(boxes, points, vertices);
+  const Vertex first = difference(direction);
+  if (direction.dot(first.w) > limit * direction.norm()) return Apart::Yes;
+  const Descent d = descend(difference, first, limit, limit);
+  if (d.is_farther) direction = d.nearest.v;
+  if (d.is_farther) return Apart::Yes;
+  return d.overlaps || proven_distance(d.simplex, d.nearest) <= limit ? Apart::No : Apart::Doubt;
 }
 
 std::optional<Separation> separate_sweep(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,
                                          const Points& vertices, double clearance) {
   const double demanded = clearance + kTouchingTolerance - kPlaneMargin;
-  const Pair pair(boxes, points, vertices);
-  Simplex simplex;
-  simplex.vertices[0] = pair.support(boxes[0].centre - points.col(0));
-  simplex.size = 1;
-  Vec3 v;
-  if (descend(pair, simplex, demanded, false, v) == Apart::No) return std::nullopt;
-  const Vec3 n = v / v.norm();
-  const Pair::Slab slab = pair.slab(n);
+  const Difference difference(boxes, points, vertices);
+  const Descent d = descend(difference, difference(boxes[0].centre - points.col(0)), demanded, kNoProof);
+  if (d.overlaps || proven_distance(d.simplex, d.nearest) <= demanded) return std::nullopt;
+  const Vec3 n = d.nearest.v / d.nearest.v.norm();
+  const Difference::Slab slab = difference.slab(n);
   const double doubt = kPlaneRounding * slab.reach;
   const double gap = slab.lowest_a - slab.highest_b - 2 * doubt;
   if (!(gap >= demanded)) return std::nullopt;

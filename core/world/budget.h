@@ -9,44 +9,51 @@
 
 namespace tern {
 
-/// Every loop that time may end asks `expired(stage)` once per turn. What asked how often is counted per (attempt,
-/// stage); where the gate said stop is kept as a BudgetCut. A replay's gate stops at exactly those counts.
+/// Every loop that time may end asks `expired(stage)` once per turn. What asked how often is counted per attempt and
+/// stage; where the gate said stop is kept as a BudgetCut. A replay's gate stops at exactly those counts.
 class Budget {
  public:
-  /// @return true when the loop must end. Called with how often the loop has asked before, from 0.
-  using Gate = std::function<bool(int attempt, Stage stage, std::int64_t count)>;
+  /// @return true when the loop must end here: its count is how often it has asked before, from 0.
+  using Gate = std::function<bool(const BudgetCut& here)>;
 
   explicit Budget(Gate gate) : gate_(std::move(gate)) {}
 
   /// Never ends anything: the loops' own limits do.
   static Budget unlimited() {
-    return Budget([](int, Stage, std::int64_t) { return false; });
+    return Budget([](const BudgetCut&) { return false; });
   }
   /// Ends loops where the cuts say.
   static Budget replay(std::vector<BudgetCut> cuts) {
-    return Budget([cuts = std::move(cuts)](int attempt, Stage stage, std::int64_t count) {
+    return Budget([cuts = std::move(cuts)](const BudgetCut& here) {
       for (const BudgetCut& cut : cuts) {
-        if (cut.attempt == attempt && cut.stage == stage) return count >= cut.count;
+        if (cut.phase == here.phase && cut.attempt == here.attempt && cut.stage == here.stage) {
+          return here.count >= cut.count;
+        }
       }
       return false;
     });
   }
 
-  /// Starts attempt k (a duration, a local goal): counts begin anew.
-  void begin_attempt(int attempt) {
-    attempt_ = attempt;
+  /// Starts the next attempt of a phase: counts begin anew. @return false: it has had kMostAttempts
+  bool begin_attempt(Phase phase) {
+    int& begun = begun_[static_cast<std::size_t>(phase)];
+    if (begun == kMostAttempts) return false;
+    phase_ = phase;
+    attempt_ = begun++;
     for (int s = 0; s < kStages; ++s) counts_[s] = 0, spent_[s] = false;
+    return true;
   }
 
   bool expired(Stage stage) {
     const auto s = static_cast<std::size_t>(stage);
     if (spent_[s]) return true;
-    if (!gate_(attempt_, stage, counts_[s])) {
+    const BudgetCut here{phase_, attempt_, stage, counts_[s]};
+    if (!gate_(here)) {
       ++counts_[s];
       return false;
     }
     spent_[s] = true;
-    cuts_.push_back({attempt_, stage, counts_[s]});
+    cuts_.push_back(here);
     return true;
   }
 
@@ -54,7 +61,9 @@ class Budget {
 
  private:
   Gate gate_;
+  Phase phase_ = Phase::Durations;
   int attempt_ = 0;
+  int begun_[kPhases] = {};
   std::int64_t counts_[kStages] = {};
   bool spent_[kStages] = {};
   std::vector<BudgetCut> cuts_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/types.h"
@@ -43,9 +44,21 @@ inline constexpr int kPlanReasons = 9;
 enum class Stage : std::uint8_t { Fallback = 0, LocalGoal = 1, Hulls = 2, Search = 3, Optimization = 4, Check = 5 };
 inline constexpr int kStages = 6;
 
+/// What an attempt of a plan is for. Phases have a budget each: evasion is needed just when the durations have spent
+/// theirs in vain.
+enum class Phase : std::uint8_t {
+  Durations = 0,  ///< to the local goal
+  Evasion = 1,    ///< to the stop that stays clear longest
+  Room = 2,       ///< out of a hull, to where there is most room
+};
+inline constexpr int kPhases = 3;
+/// The most attempts of a phase.
+inline constexpr int kMostAttempts = 100;
+
 /// Where a budget cut a loop: what a replay needs instead of a clock.
 struct BudgetCut {
-  std::int32_t attempt = 0;  ///< which try (duration, local goal) of this plan; −1: the watchdog cut it all
+  Phase phase = Phase::Durations;
+  std::int32_t attempt = 0;  ///< which one of its phase, 0 … kMostAttempts − 1
   Stage stage = Stage::Fallback;
   std::int64_t count = 0;  ///< how often the loop had asked when the budget was found spent
 };
@@ -104,6 +117,9 @@ struct Plan {
   PlanInputs inputs;
   std::vector<CertificatePlane> certificate;
   std::vector<BudgetCut> cuts;
+  /// Of an answer that the watchdog gave: how many had come to stand by then. It sent the last of them, or, of none,
+  /// one of its own. Nothing: the planner was done.
+  std::optional<std::int64_t> standing;
 };
 
 /// PLAN_TIMING: what one answer cost.

@@ -54,10 +54,9 @@ std::optional<UTime> AnswerDesk::watch_time() const {
   return open_->watch_at;
 }
 
-/// The answer that stands says which improvement it was: attempt −1, counted in Stage::Check. A replay takes that one.
 void AnswerDesk::send_standing(UTime now) {
   Plan plan = std::move(open_->standing);
-  plan.cuts.push_back({-1, Stage::Check, open_->improvements});
+  plan.standing = open_->improvements;
   PlanTiming timing;
   timing.request_id = plan.request_id;
   timing.total_ms = (now - open_->arrived).seconds() * 1e3;

@@ -10,7 +10,6 @@
 #include "core/geometry/separation_lp.h"
 #include "messages/search_view.h"
 #include "planner/app/plan_stopwatch.h"
-#include "planner/evasion.h"
 #include "runtime/channels.h"
 #include "runtime/process.h"
 
@@ -31,11 +30,10 @@ Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
     return arrived + Duration{static_cast<std::int64_t>(share * static_cast<double>((watch_at - arrived).us))};
   };
   return Budget([&clock, attempts = at(kAttemptShare), search = at(kSearchShare),
-                 optimization = at(kOptimizationShare)](int attempt, Stage stage, std::int64_t) {
+                 optimization = at(kOptimizationShare)](const BudgetCut& here) {
     const UTime now = clock.now();
-    if (attempt >= kFirstEvasionAttempt) return now >= optimization;
-    if (stage == Stage::Search) return now >= search;
-    if (stage == Stage::Optimization) return now >= optimization;
+    if (here.phase != Phase::Durations || here.stage == Stage::Optimization) return now >= optimization;
+    if (here.stage == Stage::Search) return now >= search;
     return now >= attempts;
   });
 }

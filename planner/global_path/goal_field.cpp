@@ -172,40 +172,4 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
   }
 }
 
-double GoalField::distance(const Vec3& p) const {
-  if (!goal_free_) return kInfinity;
-  const Vec3 inside = p.cwiseMax(grid_.low()).cwiseMin(grid_.high());
-  const Cell cell = grid_.cell(inside);
-  // Weight and node offset of the lower and upper line of the cell, per axis.
-  double weight[3][2];
-  std::size_t offset[3][2];
-  std::size_t stride = 1;
-  for (int i = 0; i < 3; ++i) {
-    const GridAxis& axis = grid_.axis[i];
-    const int upper = std::min(cell[i] + 1, axis.size() - 1);
-    const double side = axis[upper] - axis[cell[i]];
-    weight[i][1] = side > 0.0 ? (inside[i] - axis[cell[i]]) / side : 0.0;
-    weight[i][0] = 1.0 - weight[i][1];
-    offset[i][0] = stride * static_cast<std::size_t>(cell[i]);
-    offset[i][1] = stride * static_cast<std::size_t>(upper);
-    stride *= static_cast<std::size_t>(axis.size());
-  }
-  double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const int x = corner & 1;
-    const int y = (corner >> 1) & 1;
-    const int z = corner >> 2;
-    sum += weight[0][x] * weight[1][y] * weight[2][z] * to_go_[offset[0][x] + offset[1][y] + offset[2][z]];
-  }
-  return (p - inside).norm() + (sum < kInfinity ? sum : distance_by_nearest(inside, cell));
-}
-
-/// Where a corner of the cell is not reached: by way of the best one that is.
-double GoalField::distance_by_nearest(const Vec3& p, const Cell& cell) const {
-  double best = kInfinity;
-  grid_.for_neighbours(
-      cell, 0, 1, [&](std::int32_t node) { best = std::min(best, to_go(node) + (grid_.position(node) - p).norm()); });
-  return best;
-}
-
 }  // namespace tern

@@ -57,10 +57,6 @@ class GoalField {
   /// about 10 µs, with a TravelCost some 100.
   [[nodiscard]] std::optional<std::vector<Vec3>> path_from(const Vec3& start) const;
 
-  /// Metres of way (TravelCost) to go from p, by interpolation between grid nodes; infinite where no node around p
-  /// reaches the goal. Outside the region searched: the distance to it, plus what is to go from there. About 50 ns.
-  [[nodiscard]] double distance(const Vec3& p) const;
-
   [[nodiscard]] const Vec3& goal() const { return goal_; }
   [[nodiscard]] const TravelCost& cost() const { return cost_; }
   [[nodiscard]] const BoxIndex& obstacles() const { return obstacles_; }
@@ -77,7 +73,6 @@ class GoalField {
   [[nodiscard]] double to_go(std::int32_t node) const;
   [[nodiscard]] std::int32_t first_turn(const Vec3& start) const;
   void tighten(std::vector<Vec3>& path) const;
-  [[nodiscard]] double distance_by_nearest(const Vec3& p, const Cell& cell) const;
 
   Vec3 goal_ = Vec3::Zero();
   Box flight_box_;

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "planner/tuning.h"
+
 namespace tern {
 namespace {
 
-constexpr double kFirstSlack = 0.1;        ///< m
 constexpr double kStrictlyInside = 1e-10;  ///< m: beyond the rounding of positions 10 km from the origin
-constexpr double kStepShare = 0.995;       ///< of the way to the nearest bound
-constexpr double kLeastStep = 1e-8;
 
 /// Symmetric positive definite systems by L Lᵀ, row-major, fixed order.
 class Cholesky {
@@ -361,8 +360,6 @@ class BarrierSolver::Iteration {
   }
 
   static constexpr double kNoBound = 1e300;
-  static constexpr double kFirstBarrierShare = 0.1;
-  static constexpr double kLastBarrierShare = 0.3;
 
   const ConvexProblem* problem_ = nullptr;
   FreeVariables x0_;
@@ -385,11 +382,6 @@ BarrierSolver& BarrierSolver::operator=(BarrierSolver&&) noexcept = default;
 ConvexSolution BarrierSolver::solve(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                                     const StopFunction& stop) {
   return iteration_->solve(problem, x0, max_iterations, stop);
-}
-
-ConvexSolution solve_by_barrier(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
-                                const StopFunction& stop) {
-  return BarrierSolver().solve(problem, x0, max_iterations, stop);
 }
 
 }  // namespace tern

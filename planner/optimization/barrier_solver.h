@@ -45,8 +45,4 @@ class BarrierSolver {
   std::unique_ptr<Iteration> iteration_;
 };
 
-/// The same by a solver that is made for it.
-ConvexSolution solve_by_barrier(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
-                                const StopFunction& stop);
-
 }  // namespace tern

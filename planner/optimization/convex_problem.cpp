@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/tuning.h"
+
 namespace tern {
 namespace {
-
-/// Limits farther away than this share of themselves are left out: an axis that x0 leaves at rest may go to half its
-/// limit.
-constexpr double kLimitReach = 1.5;
 
 class Builder {
  public:
@@ -53,12 +51,12 @@ class Builder {
   void add_limits() {
     for (int j = 0; j < problem_.intervals; ++j) {
       if (j < 2) {
-        add_symmetric(curve_.velocity_control_point(j + 2), problem_.limits.v_max);
+        add_symmetric(curve_.velocity_control_point(j + 2), problem_.plan_limits.v_max);
       } else {
-        for (const AffinePoint& p : curve_.velocity_hull(j)) add_symmetric(p, problem_.limits.v_max);
+        for (const AffinePoint& p : curve_.velocity_hull(j)) add_symmetric(p, problem_.plan_limits.v_max);
       }
-      if (j + 1 < problem_.intervals) add_symmetric(curve_.acceleration_at_end(j), problem_.limits.a_max);
-      add_symmetric(curve_.jerk(j), problem_.limits.j_max);
+      if (j + 1 < problem_.intervals) add_symmetric(curve_.acceleration_at_end(j), problem_.plan_limits.a_max);
+      add_symmetric(curve_.jerk(j), problem_.plan_limits.j_max);
     }
   }
 

@@ -57,21 +57,4 @@ void ConvexAsNonlinear::hessian(const Eigen::VectorXd&, double factor, const dou
   }
 }
 
-DenseDerivatives dense_derivatives(const NonlinearProblem& problem, const Eigen::VectorXd& x, double factor,
-                                   const Eigen::VectorXd& multipliers) {
-  const SparsePattern& j = problem.jacobian_pattern();
-  const SparsePattern& h = problem.hessian_pattern();
-  std::vector<double> values(std::max(j.size(), h.size()));
-  DenseDerivatives d{Eigen::MatrixXd::Zero(problem.bounds().size(), x.size()),
-                     Eigen::MatrixXd::Zero(x.size(), x.size())};
-  problem.jacobian(x, values.data());
-  for (std::size_t e = 0; e < j.size(); ++e) d.jacobian(j.rows[e], j.columns[e]) += values[e];
-  problem.hessian(x, factor, multipliers.data(), values.data());
-  for (std::size_t e = 0; e < h.size(); ++e) {
-    d.lagrangian_hessian(h.rows[e], h.columns[e]) += values[e];
-    if (h.rows[e] != h.columns[e]) d.lagrangian_hessian(h.columns[e], h.rows[e]) += values[e];
-  }
-  return d;
-}
-
 }  // namespace tern

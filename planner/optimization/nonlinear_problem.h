@@ -57,12 +57,4 @@ class ConvexAsNonlinear final : public NonlinearProblem {
   SparsePattern jacobian_pattern_, hessian_pattern_;
 };
 
-/// The derivatives at x as dense matrices, for tests.
-struct DenseDerivatives {
-  Eigen::MatrixXd jacobian;
-  Eigen::MatrixXd lagrangian_hessian;  ///< both triangles
-};
-DenseDerivatives dense_derivatives(const NonlinearProblem& problem, const Eigen::VectorXd& x, double factor,
-                                   const Eigen::VectorXd& multipliers);
-
 }  // namespace tern

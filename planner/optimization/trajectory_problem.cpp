@@ -33,11 +33,11 @@ Vec3 AffinePoint::at(const FreeVariables& x) const {
   return p;
 }
 
-CurvePoints::CurvePoints(const TrajectoryProblem& problem)
+CurvePoints::CurvePoints(const HorizonProblem& problem)
     : problem_(problem),
       basis_(spline_basis(problem.intervals)),
       free_(problem.intervals - 2),
-      start_(start_control_points(problem.start, problem.interval_s)) {
+      start_(start_control_points(problem.start, problem.interval_s())) {
   if (problem.intervals < 4 || problem.intervals > kMaxPlanIntervals) {
     throw std::invalid_argument("CurvePoints: " + std::to_string(problem.intervals) + " intervals, not 4 to " +
                                 std::to_string(kMaxPlanIntervals));
@@ -73,13 +73,13 @@ std::array<AffinePoint, 4> CurvePoints::hull(int j, double u0, double u1) const 
 
 std::array<AffinePoint, 3> CurvePoints::velocity_hull(int j) const {
   const Eigen::Matrix<double, 4, 3> weights =
-      velocity_hull_of_interval(basis_, problem_.hull_basis, j) / problem_.interval_s;
+      velocity_hull_of_interval(basis_, problem_.hull_basis, j) / problem_.interval_s();
   return {combination(j, weights.col(0)), combination(j, weights.col(1)), combination(j, weights.col(2))};
 }
 
 AffinePoint CurvePoints::velocity_control_point(int l) const {
   AffinePoint p{FreeWeights::Zero(free_), Vec3::Zero()};
-  const double scale = 1.0 / problem_.interval_s;
+  const double scale = 1.0 / problem_.interval_s();
   p.weights[std::min(l - 2, free_ - 1)] += scale;
   if (l < 3)
     p.offset = -scale * start_.col(l);
@@ -89,12 +89,12 @@ AffinePoint CurvePoints::velocity_control_point(int l) const {
 }
 
 AffinePoint CurvePoints::acceleration_at_end(int j) const {
-  const double dt = problem_.interval_s;
+  const double dt = problem_.interval_s();
   return scaled(combination(j, basis_.acceleration_ends(j).col(1)), 1.0 / (dt * dt));
 }
 
 AffinePoint CurvePoints::jerk(int j) const {
-  const double dt = problem_.interval_s;
+  const double dt = problem_.interval_s();
   return scaled(combination(j, basis_.jerk(j)), 1.0 / (dt * dt * dt));
 }
 
@@ -103,9 +103,9 @@ FreeVariables free_variables(const Points& control_points) {
   return Eigen::Map<const Eigen::VectorXd>(control_points.data() + 9, 3 * n);
 }
 
-Points control_points_of(const FreeVariables& x, const TrajectoryProblem& problem) {
+Points control_points_of(const FreeVariables& x, const HorizonProblem& problem) {
   Points q(3, problem.intervals + 3);
-  q.leftCols<3>() = start_control_points(problem.start, problem.interval_s);
+  q.leftCols<3>() = start_control_points(problem.start, problem.interval_s());
   const Eigen::Index n = x.size() / 3;
   q.middleCols(3, n) = Eigen::Map<const Points>(x.data(), 3, n);
   q.col(n + 3) = q.col(n + 2);

@@ -5,8 +5,7 @@
 #include <array>
 
 #include "core/geometry/separation.h"
-#include "core/splines/hull_basis.h"
-#include "core/world/horizon.h"
+#include "planner/horizon_problem.h"
 #include "planner/planner_config.h"
 
 namespace tern {
@@ -18,18 +17,10 @@ struct PlaneConstraint {
   Plane plane;
 };
 
-/// What Eq. 4 needs; the free variables are q_3 … q_{n-2}, with q_{n-2} = q_{n-1} = q_n.
-struct TrajectoryProblem {
-  MotionSample start;
-  int intervals = 6;                            ///< J
-  double interval_s = 0.2;                      ///< Δt
-  Limits limits;                                ///< v_max already reduced to the share that plans may use
-  double sphere_radius = 4.0;                   ///< S about the start
-  Box centre_box;                               ///< flight box for the centre
-  double clearance = 0.0;                       ///< radius of a spherical body, m
+/// What Eq. 4 needs besides, with plan_limits; the free variables are q_3 … q_{n-2}, with q_{n-2} = q_{n-1} = q_n.
+struct TrajectoryProblem : HorizonProblem {
   Vec3 goal = Vec3::Zero();                     ///< s_g^temp
   double weight_jerk = 0.0, weight_goal = 1.0;  ///< ω_u, ω_g
-  HullBasis hull_basis = HullBasis::Minvo;      ///< of planes and velocity bounds
   double reach = 1e9;  ///< constraints on position farther than this from x0 are left out, m; the checker sees all
 };
 
@@ -38,7 +29,7 @@ struct TrajectoryProblem {
 inline constexpr double kOptimizerMargin = 5e-6;
 
 /// How far beyond its plane the curve must stay: at −this or less.
-inline double plane_margin(const TrajectoryProblem& problem) {
+inline double plane_margin(const HorizonProblem& problem) {
   return std::max(problem.clearance, kPlaneMargin) + kOptimizerMargin;
 }
 
@@ -59,7 +50,7 @@ struct AffinePoint {
 class CurvePoints {
  public:
   /// @param problem  kept by reference. @throws std::invalid_argument unless 4 ≤ J ≤ kMaxPlanIntervals.
-  explicit CurvePoints(const TrajectoryProblem& problem);
+  explicit CurvePoints(const HorizonProblem& problem);
 
   [[nodiscard]] int free_points() const { return free_; }  ///< J − 2
   /// Σ_k c_k q_{j+k}: a combination of the four control points of interval j.
@@ -76,7 +67,7 @@ class CurvePoints {
   [[nodiscard]] AffinePoint jerk(int j) const;                 ///< m/s³
 
  private:
-  const TrajectoryProblem& problem_;
+  const HorizonProblem& problem_;
   const SplineBasis& basis_;
   int free_;
   Points3 start_;
@@ -84,7 +75,7 @@ class CurvePoints {
 
 /// The free variables of control points (3×(J+3)), and back.
 FreeVariables free_variables(const Points& control_points);
-Points control_points_of(const FreeVariables& x, const TrajectoryProblem& problem);
+Points control_points_of(const FreeVariables& x, const HorizonProblem& problem);
 
 /// Eq. 4's first term without its weight: Σ_j ‖jerk_j‖².
 double jerk_cost(const Points& control_points, double interval_s);

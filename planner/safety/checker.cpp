@@ -60,16 +60,16 @@ CheckReport check_sphere(const ClampedSpline& spline, const Vec3& centre, double
   return {};
 }
 
-CheckReport check_flight_box(const ClampedSpline& spline, const Body& body, const Box& flight_box) {
-  const Vec3 half = body.half_extents() - Vec3::Constant(kBoxTolerance);
+CheckReport check_centre_box(const ClampedSpline& spline, const Box& centre_box) {
+  const Box allowed = grown(centre_box, Vec3::Constant(kBoxTolerance));
   for (int j = 0; j < spline.intervals(); ++j) {
-    const Box swept = grown(spline.position_bounds(j), half);
+    const Box held = spline.position_bounds(j);
     for (int axis = 0; axis < 3; ++axis) {
-      if (swept.min()[axis] < flight_box.min()[axis]) {
-        return fault(CheckFault::FlightBox, j, axis, swept.min()[axis], flight_box.min()[axis]);
+      if (held.min()[axis] < allowed.min()[axis]) {
+        return fault(CheckFault::FlightBox, j, axis, held.min()[axis], centre_box.min()[axis]);
       }
-      if (swept.max()[axis] > flight_box.max()[axis]) {
-        return fault(CheckFault::FlightBox, j, axis, swept.max()[axis], flight_box.max()[axis]);
+      if (held.max()[axis] > allowed.max()[axis]) {
+        return fault(CheckFault::FlightBox, j, axis, held.max()[axis], centre_box.max()[axis]);
       }
     }
   }
@@ -88,7 +88,7 @@ CheckReport check_separation(const std::vector<PowerCubic>& pieces, SweptObstacl
   CheckReport report;
   for (std::size_t j = 0; j < pieces.size(); ++j) {
     const Separated result =
-        separate_interval(obstacles, static_cast<int>(j), pieces[j], report.pairs, &report.certificate);
+        separate_interval(obstacles, static_cast<int>(j), pieces[j], report.pairs, report.certificate);
     const bool fits = report.certificate.size() <= kMaxCertificatePlanes;
     if (result.ok && fits) continue;
     report.fault = result.ok ? CheckFault::TooManyPlanes : CheckFault::NotSeparated;
@@ -102,14 +102,14 @@ CheckReport check_separation(const std::vector<PowerCubic>& pieces, SweptObstacl
   return report;
 }
 
-CheckReport check_plan(const TimedSpline& plan, const CheckDemands& demands, SweptObstacles& obstacles) {
+CheckReport check_plan(const TimedSpline& plan, const HorizonProblem& problem, SweptObstacles& obstacles) {
   if (!has_shape(plan)) return fault(CheckFault::Shape, -1, -1, static_cast<double>(plan.control_points.cols()), 7.0);
   const ClampedSpline spline = plan.spline();
-  if (auto r = check_start(spline, demands.start); !r.ok()) return r;
-  if (auto r = check_limits(spline, demands.limits); !r.ok()) return r;
+  if (auto r = check_start(spline, problem.start); !r.ok()) return r;
+  if (auto r = check_limits(spline, problem.limits); !r.ok()) return r;
   if (!spline.ends_at_rest()) return fault(CheckFault::NotAtRest, spline.intervals() - 1, -1, 0.0, 0.0);
-  if (auto r = check_sphere(spline, demands.start.p, demands.sphere_radius); !r.ok()) return r;
-  if (auto r = check_flight_box(spline, obstacles.body(), demands.flight_box); !r.ok()) return r;
+  if (auto r = check_sphere(spline, problem.start.p, problem.sphere_radius); !r.ok()) return r;
+  if (auto r = check_centre_box(spline, problem.centre_box); !r.ok()) return r;
   std::vector<PowerCubic> pieces;
   pieces.reserve(static_cast<std::size_t>(spline.intervals()));
   for (int j = 0; j < spline.intervals(); ++j) pieces.push_back(spline.power(j));

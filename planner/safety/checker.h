@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "core/world/horizon.h"
-#include "planner/safety/separation_test.h"
+#include "planner/horizon_problem.h"
+#include "planner/safety/interval_separation.h"
 #include "planner/safety/swept_obstacles.h"
 
 namespace tern {
@@ -38,17 +39,10 @@ struct CheckReport {
   [[nodiscard]] bool ok() const { return fault == CheckFault::None; }
 };
 
-/// What a plan must satisfy.
-struct CheckDemands {
-  MotionSample start;          ///< of the request
-  Limits limits;               ///< with kLimitTolerance, at the true extrema
-  Box flight_box;              ///< the whole body stays inside (to kBoxTolerance)
-  double sphere_radius = 4.0;  ///< S is centred at the start
-};
-
-/// Checks a new plan against everything. @param obstacles  origin t_s, its first J intervals are the plan's, and it
+/// Checks a new plan against everything: the limits with kLimitTolerance at the true extrema, the centre's box to
+/// kBoxTolerance. @param obstacles  origin t_s, its first J intervals are the plan's, and it
 /// holds every obstacle that can touch the sphere: not only those that a solver saw.
-CheckReport check_plan(const TimedSpline& plan, const CheckDemands& demands, SweptObstacles& obstacles);
+CheckReport check_plan(const TimedSpline& plan, const HorizonProblem& problem, SweptObstacles& obstacles);
 
 /// Checks only Eq. 1 for a motion already committed to: pieces in powers of u, one per interval of `obstacles`.
 CheckReport check_separation(const std::vector<PowerCubic>& pieces, SweptObstacles& obstacles);

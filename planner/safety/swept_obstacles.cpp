@@ -6,7 +6,6 @@
 
 #include "core/geometry/box.h"
 #include "core/geometry/convex_hull.h"
-#include "core/geometry/separation.h"
 
 namespace tern {
 namespace {
@@ -205,17 +204,17 @@ void SweptObstacles::add_track(int index, const Box& region) {
   }
 }
 
-SweptObstacles::Span SweptObstacles::span(int interval, int part, int parts) const {
-  const double from = time(interval);
-  const double to = time(interval + 1);
-  const double step = (to - from) / parts;
-  return {from + part * step, part + 1 == parts ? to : from + (part + 1) * step};
+SweptObstacles::Span SweptObstacles::span(const TimePart& part) const {
+  const double from = time(part.interval);
+  const double to = time(part.interval + 1);
+  const double step = (to - from) / part.of;
+  return {from + part.index * step, part.is_last() ? to : from + (part.index + 1) * step};
 }
 
-const Box& SweptObstacles::part_box(int interval, const Candidate& candidate, int part, int parts) {
-  Box& box = part_of(candidate, part, parts).box;
+const Box& SweptObstacles::part_box(const Candidate& candidate, const TimePart& part) {
+  Box& box = part_of(candidate, part).box;
   if (box.isEmpty()) {
-    const Span s = span(interval, part, parts);
+    const Span s = span(part);
     box = sweep_box(obstacle(candidate), body_half_, origin_, s.from, s.to);
   }
   return box;
@@ -230,59 +229,37 @@ SweptObstacles::Slot& SweptObstacles::slot_of(const Candidate& candidate) {
   return made_[static_cast<std::size_t>(at)];
 }
 
-SweptObstacles::Part& SweptObstacles::part_of(const Candidate& candidate, int part, int parts) {
-  const int within = obstacle(candidate).moves() ? parts - 1 + part : 0;
-  return slot_of(candidate).parts[static_cast<std::size_t>(within)];
+SweptObstacles::Part& SweptObstacles::part_of(const Candidate& candidate, const TimePart& part) {
+  return slot_of(candidate).parts[obstacle(candidate).moves() ? part.slot() : 0];
 }
 
-SweptObstacles::Part& SweptObstacles::swept_part_of(int interval, const Candidate& candidate, int part, int parts) {
-  Part& made = part_of(candidate, part, parts);
+SweptObstacles::Part& SweptObstacles::swept_part_of(const Candidate& candidate, const TimePart& part) {
+  Part& made = part_of(candidate, part);
   if (made.first < 0) {
     made.first = static_cast<int>(boxes_.size());
-    make_sweep(obstacle(candidate), span(interval, part, parts));
+    make_sweep(obstacle(candidate), span(part));
     made.count = static_cast<int>(boxes_.size()) - made.first;
   }
   return made;
 }
 
-std::span<const CentredBox> SweptObstacles::sweep(int interval, const Candidate& candidate, int part, int parts) {
-  const Part& made = swept_part_of(interval, candidate, part, parts);
-  return {&boxes_[static_cast<std::size_t>(made.first)], static_cast<std::size_t>(made.count)};
+SweptObstacles::Sweep SweptObstacles::sweep(const Candidate& candidate, const TimePart& part) {
+  Part& made = swept_part_of(candidate, part);
+  return {boxes_of(made), made.direction};
 }
 
-const Points& SweptObstacles::hull(int interval, const Candidate& candidate, int part, int parts) {
-  Part& made = swept_part_of(interval, candidate, part, parts);
+const Points& SweptObstacles::hull(const Candidate& candidate, const TimePart& part) {
+  Part& made = swept_part_of(candidate, part);
   if (made.hull < 0) {
     made.hull = static_cast<int>(hulls_used_++);
     if (hulls_.size() < hulls_used_) hulls_.emplace_back();
-    const std::span boxes(&boxes_[static_cast<std::size_t>(made.first)], static_cast<std::size_t>(made.count));
+    const std::span<const CentredBox> boxes = boxes_of(made);
     const bool is_box = !obstacle(candidate).moves() && body_is_box_;
     hulls_[static_cast<std::size_t>(made.hull)] =
         is_box ? Points(box_corners(box_around(boxes[0].centre, boxes[0].half))) : make_hull(boxes);
     hulls_made_ += is_box ? 0 : 1;
   }
   return hulls_[static_cast<std::size_t>(made.hull)];
-}
-
-bool SweptObstacles::is_apart(int interval, const Candidate& candidate, const Eigen::Ref<const Points>& points,
-                              int part, int parts, bool* by_cache) {
-  Part& made = swept_part_of(interval, candidate, part, parts);
-  const std::span boxes(&boxes_[static_cast<std::size_t>(made.first)], static_cast<std::size_t>(made.count));
-  const bool known = !made.direction.isZero(0.0);
-  if (!known) made.direction = boxes[0].centre - points.col(0);
-  if (made.direction.isZero(0.0)) made.direction = Vec3::UnitX();
-  const Vec3 before = made.direction;
-  const Apart apart =
-      tern::is_apart(boxes, points, body_is_box_ ? no_vertices_ : body_.vertices, body_.radius, made.direction);
-  if (by_cache != nullptr) *by_cache = known && apart == Apart::Yes && made.direction == before;
-  if (apart != Apart::Doubt) return apart == Apart::Yes;
-  return separate(hull(interval, candidate, part, parts), points, body_.radius).has_value();
-}
-
-std::optional<Separation> SweptObstacles::plane(int interval, const Candidate& candidate,
-                                                const Eigen::Ref<const Points>& points, int part, int parts) {
-  return separate_sweep(sweep(interval, candidate, part, parts), points, body_is_box_ ? no_vertices_ : body_.vertices,
-                        body_.radius);
 }
 
 const CentredBox& SweptObstacles::at_quarter(int interval, const Candidate& candidate, int k) {
@@ -296,7 +273,7 @@ const CentredBox& SweptObstacles::at_quarter(int interval, const Candidate& cand
       if (o.moves()) {
         box = box_at(*o.track, o.alpha_scale, box_half_, origin_, from + i * step);
       } else {
-        box = sweep(interval, candidate, 0, 1)[0];
+        box = sweep(candidate, {interval}).boxes[0];
       }
     }
     slot.has_quarters = true;

@@ -5,13 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/geometry/swept_boxes.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
+#include "planner/safety/time_part.h"
 
 namespace tern {
 
@@ -32,7 +32,8 @@ struct PlanningObstacle {
   [[nodiscard]] bool is_promised() const { return track == nullptr || track->kind != TrackKind::Estimated; }
 };
 
-/// Sweeps of obstacles over the intervals [times[k], times[k+1]], each perhaps split into 2 or 4 parts of equal time.
+/// Sweeps of obstacles over the intervals [times[k], times[k+1]] and their parts (TimePart): what there is, not what is
+/// asked of it (interval_separation.h).
 ///
 /// C_ij = conv of V_i^o ⊕ (−V^U) ⊕ box(α_ij) ⊕ box(β_ij) along the predicted motion (paper §3.2). A sphere's radius is
 /// not in the hull: it is the clearance that separation asks for. β: within a cubic piece |ξ''| ≤ a per axis, and the
@@ -73,43 +74,39 @@ class SweptObstacles {
   [[nodiscard]] const std::vector<Candidate>& candidates(int interval) const {
     return candidates_[static_cast<std::size_t>(interval)];
   }
-  /// The boxes whose convex hull is C_ij (for a body that is neither a sphere nor a box: without the body) over part
-  /// `part` of `parts` (1, 2, 4) of the interval. Valid until the next call.
-  std::span<const CentredBox> sweep(int interval, const Candidate& candidate, int part, int parts);
+  /// The boxes whose convex hull is C_ij (for a body that is neither a sphere nor a box: without the body) over a part.
+  /// Both are valid until the next call.
+  struct Sweep {
+    std::span<const CentredBox> boxes;
+    Vec3& last_direction;  ///< memory of who asks whether something is apart: what separated it last; zero: none yet
+  };
+  Sweep sweep(const Candidate& candidate, const TimePart& part);
   /// The extreme points of C_ij over that part. Valid until the next assign().
-  const Points& hull(int interval, const Candidate& candidate, int part, int parts);
+  const Points& hull(const Candidate& candidate, const TimePart& part);
   /// As Candidate::box, of that part alone.
-  const Box& part_box(int interval, const Candidate& candidate, int part, int parts);
-  /// Is the curve's part more than the body's radius (and kTouchingTolerance) away from the sweep? As separate() of the
-  /// hull and the points would say, but for rounding.
-  /// @param points  MINVO points of the part, or one point at rest
-  bool is_apart(int interval, const Candidate& candidate, const Eigen::Ref<const Points>& points, int part, int parts,
-                bool* by_cache = nullptr);
-  /// The plane of widest margin between sweep and points, made from the sweep itself: for a solver, not to be
-  /// published.
-  std::optional<Separation> plane(int interval, const Candidate& candidate, const Eigen::Ref<const Points>& points,
-                                  int part, int parts);
+  const Box& part_box(const Candidate& candidate, const TimePart& part);
   /// Where the obstacle's box (with α, without β) is at the quarter k of the interval, k = 0 … 4. A curve whose point
   /// of that time comes nearer than the radius is separated in no part. Not for bodies that are neither spheres nor
   /// boxes.
+  static constexpr int kQuarters = 5;
   const CentredBox& at_quarter(int interval, const Candidate& candidate, int k);
+
+  /// Memory of who asks, too: the candidate that blocked a curve in this interval last; −1: none yet.
+  int& last_blocker(int interval) { return last_blocker_[static_cast<std::size_t>(interval)]; }
 
   [[nodiscard]] const PlanningObstacle& obstacle(const Candidate& c) const {
     return (*obstacles_)[static_cast<std::size_t>(c.obstacle)];
   }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] bool body_is_round_or_box() const { return body_is_box_; }
+  /// What the sweeps lack of the body: its vertices where it is neither a sphere nor a box, else none.
+  [[nodiscard]] const Points& vertices_to_add() const { return body_is_box_ ? no_vertices_ : body_.vertices; }
   /// By CGAL: what stands still needs none.
   [[nodiscard]] std::int64_t hulls_made() const { return hulls_made_; }
   /// Pairs of obstacle and interval that were dropped because they cannot reach the region.
   [[nodiscard]] std::int64_t pairs_out_of_reach() const { return out_of_reach_; }
-  /// The candidate of an interval that blocked a curve last: whoever tests many curves asks it first. Memory of the
-  /// caller's; −1 after assign().
-  int& last_blocker(int interval) { return last_blocker_[static_cast<std::size_t>(interval)]; }
 
  private:
-  static constexpr int kPartsPerSlot = 1 + 2 + 4;
-  static constexpr int kQuarters = 5;
   struct Span {
     double from, to;
   };
@@ -117,22 +114,25 @@ class SweptObstacles {
   struct Part {
     int first = -1, count = 0;      ///< its boxes in boxes_; −1: not made yet
     int hull = -1;                  ///< its hull in hulls_
-    Vec3 direction = Vec3::Zero();  ///< that separated it last
+    Vec3 direction = Vec3::Zero();  ///< Sweep::last_direction
     Box box;                        ///< part_box(); empty: not made yet
   };
   /// What is kept of one candidate, once it is more than a box.
   struct Slot {
-    std::array<Part, kPartsPerSlot> parts;
+    std::array<Part, TimePart::kSlots> parts;
     std::array<CentredBox, kQuarters> quarters;
     bool has_quarters = false;
   };
 
   void add_track(int index, const Box& region);
   void add_static(int index, const Box& region);
-  [[nodiscard]] Span span(int interval, int part, int parts) const;
+  [[nodiscard]] Span span(const TimePart& part) const;
   Slot& slot_of(const Candidate& candidate);
-  Part& part_of(const Candidate& candidate, int part, int parts);
-  Part& swept_part_of(int interval, const Candidate& candidate, int part, int parts);
+  Part& part_of(const Candidate& candidate, const TimePart& part);
+  Part& swept_part_of(const Candidate& candidate, const TimePart& part);
+  [[nodiscard]] std::span<const CentredBox> boxes_of(const Part& made) const {
+    return {&boxes_[static_cast<std::size_t>(made.first)], static_cast<std::size_t>(made.count)};
+  }
   void make_sweep(const PlanningObstacle& obstacle, Span span);
   [[nodiscard]] Points make_hull(std::span<const CentredBox> boxes) const;
 

@@ -40,7 +40,7 @@ std::int64_t band_of(double way_to_go, double width) {
 
 /// No point of S has less way to go.
 double way_from_sphere(const SearchProblem& problem) {
-  return std::max(0.0, (problem.way.point - problem.sphere_centre).norm() - problem.sphere_radius) + problem.way.rest;
+  return std::max(0.0, (problem.way.point - problem.start.p).norm() - problem.sphere_radius) + problem.way.rest;
 }
 
 class Search {
@@ -51,6 +51,7 @@ class Search {
         config_(config),
         obstacles_(obstacles),
         budget_(budget),
+        dt_(problem.interval_s()),
         basis_(spline_basis(problem.intervals)),
         least_way_(way_from_sphere(problem)),
         aim_(problem.way.point),
@@ -62,8 +63,9 @@ class Search {
     open_.clear();
     closed_.clear();
     for (int axis = 0; axis < 3; ++axis) {
-      reach_[static_cast<std::size_t>(axis)].assign(problem.intervals, problem.interval_s, problem.limits.v_max[axis],
-                                                    problem.limits.a_max[axis], problem.limits.j_max[axis]);
+      reach_[static_cast<std::size_t>(axis)].assign(problem.intervals, problem.interval_s(),
+                                                    problem.plan_limits.v_max[axis], problem.plan_limits.a_max[axis],
+                                                    problem.plan_limits.j_max[axis]);
     }
   }
 
@@ -92,11 +94,11 @@ class Search {
   [[nodiscard]] Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
 
   void push_root() {
-    const Points3 q = start_control_points(problem_.start, problem_.interval_s);
+    const Points3 q = start_control_points(problem_.start, dt_);
     start_ = q;
     Node root;
     root.q = q.col(2);
-    root.v = problem_.start.v + problem_.start.a * (0.5 * problem_.interval_s);  // v_1
+    root.v = problem_.start.v + problem_.start.a * (0.5 * dt_);  // v_1
     root.a = problem_.start.a;
     root.l = 2;
     root.g = config_.lambda_g * ((q.col(1) - q.col(0)).norm() + (q.col(2) - q.col(1)).norm());
@@ -169,7 +171,7 @@ class Search {
   bool curve_clear(int j, const Points4& q) {
     const Points4 minvo = q * basis_.position_minvo(j);
     const double r2 = problem_.sphere_radius * problem_.sphere_radius;
-    if ((minvo.colwise() - problem_.sphere_centre).colwise().squaredNorm().maxCoeff() > r2) return false;
+    if ((minvo.colwise() - problem_.start.p).colwise().squaredNorm().maxCoeff() > r2) return false;
     const PowerCubic power = q * basis_.power(j);
     const Box hull(minvo.rowwise().minCoeff(), minvo.rowwise().maxCoeff());
     if (!problem_.centre_box.contains(hull) && !problem_.centre_box.contains(cubic_bounds(power, 0.0, 1.0)))
@@ -214,9 +216,9 @@ class Search {
   /// Where the start drives v_1 beyond the limit, the velocity's peak inside interval 0 hangs on v_2: with Bézier
   /// velocities v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it stays within v_max exactly if b_2 ≥ b_1²/b_0.
   void bound_first_peak(int axis, AxisReach::Interval& v2) const {
-    const double limit = problem_.true_v_max[axis];
+    const double limit = problem_.limits.v_max[axis];
     for (const double sign : {1.0, -1.0}) {
-      const double v1 = sign * (problem_.start.v[axis] + 0.5 * problem_.interval_s * problem_.start.a[axis]);
+      const double v1 = sign * (problem_.start.v[axis] + 0.5 * dt_ * problem_.start.a[axis]);
       if (v1 <= limit) continue;
       const double b0 = std::max(limit - sign * problem_.start.v[axis], 1e-12);
       const double most = 2.0 * (limit - (v1 - limit) * (v1 - limit) / b0) - v1;
@@ -226,21 +228,21 @@ class Search {
   }
 
   [[nodiscard]] bool in_sphere(const Vec3& q) const {
-    return (q - problem_.sphere_centre).squaredNorm() <= problem_.sphere_radius * problem_.sphere_radius;
+    return (q - problem_.start.p).squaredNorm() <= problem_.sphere_radius * problem_.sphere_radius;
   }
 
   /// Where the first step to a goal outside S may already leave S, children aim at where the way leaves it.
   void aim_within_sphere(const Node& root, const std::array<AxisReach::Interval, 3>& range) {
-    const Vec3 to_goal = problem_.way.point - problem_.sphere_centre;
-    if (in_sphere(problem_.way.point) || in_sphere(root.q + aimed_velocity(root, range) * problem_.interval_s)) return;
-    aim_ = problem_.sphere_centre + to_goal * (kWithinSphere * problem_.sphere_radius / to_goal.norm());
+    const Vec3 to_goal = problem_.way.point - problem_.start.p;
+    if (in_sphere(problem_.way.point) || in_sphere(root.q + aimed_velocity(root, range) * dt_)) return;
+    aim_ = problem_.start.p + to_goal * (kWithinSphere * problem_.sphere_radius / to_goal.norm());
   }
 
   /// The velocity that, braking in time, comes to the goal: what is left of the way over what is left of the steps.
   [[nodiscard]] Vec3 aimed_velocity(const Node& n, const std::array<AxisReach::Interval, 3>& range) const {
     const int steps = leaf_index() - n.l;
     const double share = steps == 1 ? 1.0 : steps - 0.5;
-    Vec3 v = (aim_ - n.q) / (problem_.interval_s * share);
+    Vec3 v = (aim_ - n.q) / (dt_ * share);
     for (int axis = 0; axis < 3; ++axis) {
       const auto& r = range[static_cast<std::size_t>(axis)];
       v[axis] = std::clamp(v[axis], r.low, r.high);
@@ -250,11 +252,11 @@ class Search {
 
   void add_child(int index, const Node& n, const Vec3& v) {
     Node child;
-    child.q = n.q + v * problem_.interval_s;
+    child.q = n.q + v * dt_;
     if (!in_sphere(child.q)) return;
     if (!problem_.centre_box.contains(child.q)) return;
     child.v = v;
-    child.a = (v - n.v) / problem_.interval_s;
+    child.a = (v - n.v) / dt_;
     child.parent = index;
     child.l = n.l + 1;
     child.g = n.g + config_.lambda_g * (child.q - n.q).norm();
@@ -265,7 +267,7 @@ class Search {
   /// Position, index and coarse velocity in one key. Marked only once a node has passed its collision test, so that a
   /// blocked node never closes the only way.
   [[nodiscard]] std::uint64_t key(const Node& n) const {
-    const Vec3 p = (n.q - problem_.sphere_centre) / config_.prune_position_m;
+    const Vec3 p = (n.q - problem_.start.p) / config_.prune_position_m;
     const Vec3 v = n.v / config_.prune_velocity_mps;
     std::uint64_t k = static_cast<std::uint64_t>(n.l);
     for (int axis = 0; axis < 3; ++axis) {
@@ -295,6 +297,7 @@ class Search {
   const SearchConfig& config_;
   SweptObstacles& obstacles_;
   Budget& budget_;
+  const double dt_;
   const SplineBasis& basis_;
   const double least_way_;  ///< to go from anywhere in S, m
   Vec3 aim_;                ///< where one child of each node aims
@@ -303,7 +306,7 @@ class Search {
   std::vector<Entry>& open_;
   KeySet& closed_;
   Points3 start_;
-  std::vector<std::int32_t> kept_;  ///< by node: its index in the result\'s, −1: none
+  std::vector<std::int32_t> kept_;  ///< by node: its index in the result's, −1: none
   Leaf best_;
   std::int64_t give_up_at_ = 0;  ///< when a leaf that holds has not followed the first leaf by then
   SearchResult result_;

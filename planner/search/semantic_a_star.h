@@ -7,9 +7,9 @@
 
 #include "core/world/budget.h"
 #include "core/world/search_view.h"
-#include "core/world/vehicle.h"
+#include "planner/horizon_problem.h"
 #include "planner/planner_config.h"
-#include "planner/safety/separation_test.h"
+#include "planner/safety/interval_separation.h"
 #include "planner/safety/swept_obstacles.h"
 #include "planner/search/search_memory.h"
 
@@ -27,21 +27,14 @@ struct WayToGo {
 /// The semantic share of a step between two control points, ≥ 0 or signed; added to f (Eq. 2). Empty: no semantics.
 using StepCost = std::function<double(const Vec3& from, const Vec3& to)>;
 
-struct SearchProblem {
-  MotionSample start;
-  int intervals = 6;               ///< J
-  double interval_s = 0.2;         ///< Δt
-  Limits limits;                   ///< v_max already reduced to the share that plans may use
-  Vec3 true_v_max = Vec3::Zero();  ///< the whole of it: where the start moves faster than the share allows, m/s
-  Vec3 sphere_centre = Vec3::Zero();
-  double sphere_radius = 4.0;  ///< S
-  Box centre_box;              ///< the flight box for the vehicle's centre
-  WayToGo way;
-  StepCost accumulated;                          ///< summed along the path (exposure)
-  std::function<double(const Vec3&)> pointwise;  ///< of a node alone: λ_att C_att − λ_rep C_rep (mean_distance)
+/// From the start to a leaf that comes as near to the goal as it can, by plan_limits. Where the start moves faster than
+/// those allow, the first velocities may too, up to limits.v_max.
+struct SearchProblem : HorizonProblem {
+  WayToGo way = {};
+  StepCost accumulated = {};                          ///< summed along the path (exposure)
+  std::function<double(const Vec3&)> pointwise = {};  ///< of a node alone: λ_att C_att − λ_rep C_rep (mean_distance)
   double hold_required_s = 0.5;
-  bool keep_nodes = false;                  ///< for people; changes nothing else
-  HullBasis hull_basis = HullBasis::Minvo;  ///< of the collision tests
+  bool keep_nodes = false;  ///< for people; changes nothing else
 };
 
 struct SearchResult {

@@ -69,12 +69,10 @@ class SemanticFields {
   /// Are there voxels whose λ is positive?
   [[nodiscard]] bool weighs() const { return !influence_.isEmpty(); }
 
-  /// Outside this box a metre's exposure cost is base_rate(). Empty when nothing weighs.
+  /// Outside this box a metre's exposure cost is λ*, the strongest attraction. Empty when nothing weighs.
   [[nodiscard]] const Box& influence() const { return influence_; }
   /// Does the exposure cost differ anywhere in the box?
   [[nodiscard]] bool varies_in(const Box& box) const;
-  /// λ*: what a metre far from every region costs.
-  [[nodiscard]] double base_rate() const { return strongest_attraction_; }
 
   /// What regions of the label cost per metre at p, ≥ 0.
   [[nodiscard]] double exposure_cost(VoxelLabel label, const Vec3& p) const;

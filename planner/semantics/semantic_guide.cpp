@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/tuning.h"
+
 namespace tern {
-namespace {
-
-/// Chords of this much time stand for the curve: they leave it by a_max·kChord²/8, centimetres.
-constexpr double kChord = 0.1;  // s
-
-}  // namespace
-
 double SemanticGuide::along(const Vec3& a, const Vec3& b) const {
   return cost_ == SemanticCost::Exposure ? fields_->exposure_cost(a, b) : 0.0;
 }

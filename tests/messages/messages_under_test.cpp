@@ -62,7 +62,7 @@ struct Words {
   }
   void add(const VoxelRun& r) { (*this)(r.label, r.class_index, r.length); }
   void add(const CertificatePlane& p) { (*this)(p.track, p.interval, p.part, p.parts, p.plane.n, p.plane.d); }
-  void add(const BudgetCut& c) { (*this)(c.attempt, c.stage, c.count); }
+  void add(const BudgetCut& c) { (*this)(c.phase, c.attempt, c.stage, c.count); }
   void add(const PlanCost& c) { (*this)(c.distance_to_goal, c.jerk, c.attraction, c.repulsion, c.total); }
   void add(const PlanInputs& i) {
     const GoalFieldInputs& f = i.goal_field;
@@ -89,7 +89,7 @@ struct Words {
   }
   void add(const Plan& p) {
     (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.relaxed, p.local_goal, p.sphere_radius,
-            p.cost, p.inputs, p.certificate, p.cuts);
+            p.cost, p.inputs, p.certificate, p.cuts, p.standing.value_or(-1));
   }
   void add(const SearchViewNode& n) { (*this)(n.position, n.parent); }
   void add(const SearchView& v) { (*this)(v.header, v.request_id, v.left_out, v.nodes); }

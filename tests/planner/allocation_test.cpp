@@ -46,11 +46,10 @@ struct Scene {
       tracks.push_back(random_mover(rng, k, Box(Vec3(0.8, -3, -2), Vec3(5, 3, 2)), kNow, 3.0));
     }
     obstacles = obstacles_of(tracks);
-    problem.interval_s = 0.25;
-    problem.true_v_max = problem.limits.v_max;
+    problem.interval = Duration{250'000};
     problem.centre_box = Box(Vec3(-4, -4, -4), Vec3(4, 4, 4));
     problem.way.point = Vec3(3.9, 0, 0);
-    for (int k = 0; k <= 12; ++k) times.push_back(k * problem.interval_s);
+    for (int k = 0; k <= 12; ++k) times.push_back(k * problem.interval_s());
   }
 };
 
@@ -89,7 +88,7 @@ TEST(Allocation, ConvexProblemsAndTheirSolverAllocateNothingOnceTheyHaveSeenOneA
     const FreeVariables first = solution.x;
     EXPECT_EQ(allocations_of(solve), 0) << "seed " << seed;
     EXPECT_EQ(solution.x, first) << "seed " << seed;
-    EXPECT_EQ(solution.x, solve_by_barrier(instance.convex(), free_variables(instance.initial), 60, never).x);
+    EXPECT_EQ(solution.x, BarrierSolver().solve(instance.convex(), free_variables(instance.initial), 60, never).x);
   }
 }
 

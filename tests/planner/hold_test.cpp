@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "planner/duration.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {
@@ -44,6 +45,16 @@ RC_GTEST_PROP(HoldDemand, AsksForWhatTheVehicleNeedsAsFarAsPredictionsReach, ())
   RC_ASSERT(end_s + required >= std::min(hold.aside_s, hold.predicted_s) - 1e-12);
   RC_ASSERT(hold.cap(end_s) >= required);
   RC_ASSERT(hold.cap_of_stop(end_s) >= hold.cap(end_s));
+}
+
+TEST(HoldDemand, TakesHalfTheHorizonAtMost) {
+  PlannerConfig config;
+  EXPECT_EQ(hold_demand(HorizonRequest{}, config, {}, 3.0).cap_s, config.hold_cap_s);
+  config.hold_required_s = config.hold_cap_s = 10.0;
+  const HoldDemand shorter = hold_demand(HorizonRequest{}, config, {}, 4.3);
+  EXPECT_EQ(shorter.cap_s, 2.15);
+  EXPECT_EQ(shorter.required_s, 2.15);
+  EXPECT_EQ(hold_demand(HorizonRequest{}, config, {}, 1e9).cap_s, 10.0);
 }
 
 RC_GTEST_PROP(HoldDemand, AsksForNothingAfterItsEnd, ()) {

@@ -68,16 +68,17 @@ TEST(LocalAim, FitsIntoTheHorizonWhereAnyDoesAndIsNoNearerThanItMust) {
     MotionSample start;
     start.p = random_vector(rng, 5.0);
     const std::vector<Vec3> path{start.p, start.p + random_vector(rng, 9.0), start.p + random_vector(rng, 2000.0)};
-    PlannerConfig config;
+    const PlannerConfig config;
+    const HoldDemand hold;
     const double radius = 0.1 * std::pow(1e4, rng.uniform());
     const LookAhead look = looking(rng.uniform(3.0, 5.0), rng.uniform(7.0, 9.0));
-    const LocalAim aim = aim_along(path, start, limits, radius, look, config);
-    const double room_s = std::min(look.horizon_s - config.hold_required_s, look.followed_s - config.hold_cap_s);
+    const LocalAim aim = aim_along(path, start, limits, radius, longest_first_duration(look, hold, config));
+    const double room_s = std::min(look.horizon_s - hold.required_s, look.followed_s - hold.cap_s);
     EXPECT_LE(config.duration_scales.front() * aim.least_s, room_s) << "seed " << seed;
     EXPECT_GT(aim.radius, 0.0);
     EXPECT_LE((aim.goal - start.p).norm(), aim.radius * (1.0 + 1e-9));
     if (aim.radius == radius) continue;
-    const LocalAim farther = aim_along(path, start, limits, 1.2001 * aim.radius, looking(1e9, 1e9), config);
+    const LocalAim farther = aim_along(path, start, limits, 1.2001 * aim.radius, 1e9);
     EXPECT_GT(config.duration_scales.front() * farther.least_s, 0.99 * room_s) << "seed " << seed;
   }
 }
@@ -86,21 +87,10 @@ TEST(LocalAim, KeepsIntervalsWithinTheLongestWhereNothingMoves) {
   Limits limits;
   limits.v_max = Vec3::Constant(0.01);
   PlannerConfig config;
-  const LocalAim aim =
-      aim_along({Vec3::Zero(), Vec3(50, 0, 0)}, MotionSample{}, limits, 4.0, looking(1e9, 1e9), config);
+  const double longest_s = longest_first_duration(looking(1e9, 1e9), HoldDemand{}, config);
+  const LocalAim aim = aim_along({Vec3::Zero(), Vec3(50, 0, 0)}, MotionSample{}, limits, 4.0, longest_s);
   EXPECT_LE(config.duration_scales.front() * aim.least_s, config.intervals * kLongestInterval.seconds());
   EXPECT_GT(aim.radius, 2.0);
-}
-
-TEST(Holds, TakeHalfTheHorizonAtMost) {
-  PlannerConfig config;
-  EXPECT_FALSE(with_shorter_holds(config, looking(3.0, 7.0)));
-  config.hold_required_s = config.hold_cap_s = 10.0;
-  const auto shorter = with_shorter_holds(config, looking(4.3, 8.3));
-  ASSERT_TRUE(shorter);
-  EXPECT_EQ(shorter->hold_cap_s, 2.15);
-  EXPECT_EQ(shorter->hold_required_s, 2.15);
-  EXPECT_FALSE(with_shorter_holds(config, looking(1e9, 1e9)));
 }
 
 TEST(PlannedDuration, UnderGentleJerkIsNoMoreThanStoppingAndFlyingOn) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "planner/planner.h"
+#include "planner/tuning.h"
 #include "tests/support/plan_judge.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/voxel_maps.h"
@@ -128,10 +129,11 @@ TEST(Planner, WhatABudgetCutReplaysToTheSameBytes) {
   for (std::uint64_t seed = 701; seed <= 740; ++seed) {
     const Draw d = random_draw(seed);
     const auto s = static_cast<std::int64_t>(seed);
-    Budget live([s](int attempt, Stage stage, std::int64_t count) {
-      if (stage == Stage::LocalGoal) return attempt >= 1 + s % 4;
-      if (stage == Stage::Search) return count >= 5 + (s * 7 + attempt * 13) % 60;
-      return count >= (s + attempt) % 30;
+    Budget live([s](const BudgetCut& here) {
+      const int attempt = static_cast<int>(here.phase) * kMostAttempts + here.attempt;
+      if (here.stage == Stage::LocalGoal) return attempt >= 1 + s % 4;
+      if (here.stage == Stage::Search) return here.count >= 5 + (s * 7 + attempt * 13) % 60;
+      return here.count >= (s + attempt) % 30;
     });
     const Plan first = plan(d.request, d.world, d.config, live).plan;
     EXPECT_EQ(fault_of(first, d.request, d.world, d.config), "") << "seed " << seed;
@@ -236,7 +238,7 @@ TEST_F(PlannerAlone, KeepsWhatIsCommittedWhenNothingBetterIsFound) {
 }
 
 TEST_F(PlannerAlone, KeepsWhatIsCommittedWhenTimeIsUpAndSaysWhy) {
-  Budget none([](int, Stage, std::int64_t) { return true; });
+  Budget none([](const BudgetCut&) { return true; });
   const Plan got = plan(request_, world_of({}, goal_, request_), quick(), none).plan;
   EXPECT_EQ(got.outcome, PlanOutcome::KeepCommitted);
   EXPECT_EQ(got.reason, PlanReason::OutOfTime);

@@ -291,7 +291,7 @@ TEST_F(ReplanTest, ABudgetThatEndsAnywhereIsReplayedByItsCounts) {
   int cut = 0;
   for_each_problem([&](const PlanProblem& problem, const Plan& recorded) {
     for (const std::int64_t turns : {0, 1, 7, 60}) {
-      Budget budget([turns](int, Stage, std::int64_t count) { return count >= turns; });
+      Budget budget([turns](const BudgetCut& here) { return here.count >= turns; });
       Plan live = plan(problem.request, problem.world, problem.config, budget).plan;
       live.header = recorded.header;
       cut += live.cuts.empty() ? 0 : 1;
@@ -318,7 +318,7 @@ TEST_F(ReplanTest, TheWatchdogsAnswerIsTheImprovementThatItSent) {
     for (std::size_t k = 0; k < answers.all.size(); ++k) {
       Plan sent = answers.all[k];
       sent.header = recorded.header;
-      sent.cuts.push_back({-1, Stage::Check, static_cast<std::int64_t>(k) + 1});
+      sent.standing = static_cast<std::int64_t>(k) + 1;
       EXPECT_EQ(encode(replan(problem, sent).plan), encode(sent));
     }
   });

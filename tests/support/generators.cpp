@@ -277,8 +277,10 @@ Plan random_message(Rng& rng, Fill fill) {
   for (int i = 0; i < planes; ++i) plan.certificate.push_back(plane(rng, n - 3));
   const int cuts = count(rng, fill, 0, kMaxBudgetCuts);
   for (int i = 0; i < cuts; ++i) {
-    plan.cuts.push_back({random_integer(rng, 0, 1000), enumerator(rng, Stage::Check), integer(rng, 0, kMaxCounter)});
+    plan.cuts.push_back({enumerator(rng, Phase::Room), random_integer(rng, 0, kMostAttempts - 1),
+                         enumerator(rng, Stage::Check), integer(rng, 0, kMaxCounter)});
   }
+  if (cuts < kMaxBudgetCuts && rng.uniform() < 0.3) plan.standing = integer(rng, 0, kMaxCounter);
   return plan;
 }
 

@@ -19,8 +19,12 @@ std::string fault_of_new(const Plan& plan, const HorizonRequest& request,
   std::vector<double> times;
   for (int k = 0; k <= intervals; ++k) times.push_back(k * plan.trajectory.interval.seconds());
   SweptObstacles swept(obstacles, request.body, request.t_s, times, Box(Vec3::Constant(-1e5), Vec3::Constant(1e5)));
-  const CheckReport report =
-      check_plan(plan.trajectory, {request.start, request.limits, request.flight_box, config.sphere_radius_m}, swept);
+  HorizonProblem problem;
+  problem.start = request.start;
+  problem.limits = request.limits;
+  problem.sphere_radius = config.sphere_radius_m;
+  problem.centre_box = centre_box(request.flight_box, request.body);
+  const CheckReport report = check_plan(plan.trajectory, problem, swept);
   if (report.ok()) return "";
   return fmt::format("the checker: {}, interval {}, axis {}, {} against {}, obstacle {}", to_string(report.fault),
                      report.interval, report.axis, report.value, report.limit, report.obstacle);

@@ -7,6 +7,7 @@
 #include "core/geometry/box.h"
 #include "core/geometry/distance.h"
 #include "planner/search/axis_reach.h"
+#include "planner/tuning.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/voxel_maps.h"
 

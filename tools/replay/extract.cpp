@@ -161,8 +161,10 @@ std::string in_words(const Plan& plan, const Extract& extract) {
   const Vec3& g = plan.local_goal;
   text += fmt::format(" to local goal ({:.3f}, {:.3f}, {:.3f}) m\n", g.x(), g.y(), g.z());
   for (const BudgetCut& cut : plan.cuts) {
-    text += fmt::format("#   cut: attempt {}, {}, after {}\n", cut.attempt, to_string(cut.stage), cut.count);
+    text += fmt::format("#   cut: {} {}, {}, after {}\n", to_string(cut.phase), cut.attempt, to_string(cut.stage),
+                        cut.count);
   }
+  if (plan.standing) text += fmt::format("#   the watchdog sent answer {}\n", *plan.standing);
   return text;
 }
 

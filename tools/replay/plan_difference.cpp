@@ -16,10 +16,12 @@ constexpr const char* kReasons[kPlanReasons] = {"none",         "infeasible",  "
                                                 "at goal"};
 constexpr const char* kStageNames[kStages] = {"fallback", "local goal", "hulls", "search", "optimization", "check"};
 
+constexpr const char* kPhaseNames[kPhases] = {"attempt", "evasion", "room"};
+
 std::string text(const Vec3& v) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x(), v.y(), v.z()); }
 
 std::string text(const BudgetCut& cut) {
-  return fmt::format("attempt {}, {}, after {}", cut.attempt, to_string(cut.stage), cut.count);
+  return fmt::format("{} {}, {}, after {}", to_string(cut.phase), cut.attempt, to_string(cut.stage), cut.count);
 }
 
 /// The largest distance between the trajectories at one time: at their control points where those belong to the same
@@ -44,6 +46,7 @@ class Comparison {
 
   std::vector<PartDifference> run() {
     compare_cuts();
+    compare_standing();
     note_numbers(Stage::Hulls, "relaxed", static_cast<int>(a_.relaxed), static_cast<int>(b_.relaxed));
     if (a_.local_goal != b_.local_goal) {
       add(Stage::LocalGoal, fmt::format("local goal: {}, now {}", text(a_.local_goal), text(b_.local_goal)));
@@ -70,10 +73,18 @@ class Comparison {
     for (std::size_t k = 0; k < std::max(a_.cuts.size(), b_.cuts.size()); ++k) {
       const BudgetCut* a = k < a_.cuts.size() ? &a_.cuts[k] : nullptr;
       const BudgetCut* b = k < b_.cuts.size() ? &b_.cuts[k] : nullptr;
-      if (a && b && a->attempt == b->attempt && a->stage == b->stage && a->count == b->count) continue;
+      if (a && b && a->phase == b->phase && a->attempt == b->attempt && a->stage == b->stage && a->count == b->count)
+        continue;
       add((a ? a : b)->stage,
           fmt::format("the budget cut {}: {}, now {}", k, a ? text(*a) : "none", b ? text(*b) : "none"));
       return;
+    }
+  }
+
+  void compare_standing() {
+    const auto text = [](const Plan& p) { return p.standing ? fmt::format("answer {}", *p.standing) : "none"; };
+    if (a_.standing != b_.standing) {
+      add(Stage::Check, fmt::format("the watchdog's: {}, now {}", text(a_), text(b_)));
     }
   }
 
@@ -156,6 +167,7 @@ PlanDifference difference_of(const Plan& recorded, const Plan& again, const Plan
 
 const char* to_string(PlanOutcome outcome) { return kOutcomes[static_cast<std::size_t>(outcome)]; }
 const char* to_string(PlanReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }
+const char* to_string(Phase phase) { return kPhaseNames[static_cast<std::size_t>(phase)]; }
 const char* to_string(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }
 
 }  // namespace tern

@@ -42,5 +42,6 @@ const char* to_string(PlanOutcome outcome);
 const char* to_string(PlanReason reason);
 /// "fallback", "local goal", "hulls", "search", "optimization", "check".
 const char* to_string(Stage stage);
+const char* to_string(Phase phase);
 
 }  // namespace tern

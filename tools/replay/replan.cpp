@@ -8,12 +8,6 @@
 namespace tern {
 namespace {
 
-/// The cut that says that the watchdog answered, and with which improvement.
-const BudgetCut* watchdog_cut(const Plan& plan) {
-  const bool is_last = !plan.cuts.empty() && plan.cuts.back().attempt == -1;
-  return is_last ? &plan.cuts.back() : nullptr;
-}
-
 /// Keeps the k-th answer that stands.
 class KthAnswer final : public PlanObserver {
  public:
@@ -29,11 +23,11 @@ class KthAnswer final : public PlanObserver {
   Plan kept_;
 };
 
-Plan as_watchdog(const PlanProblem& problem, const BudgetCut& cut, std::vector<BudgetCut> before) {
-  if (cut.count == 0) return unanswered(problem.request);
-  KthAnswer observer(cut.count);
-  Budget recorded = Budget::replay(std::move(before));
-  plan(problem.request, problem.world, problem.config, recorded, &observer);
+Plan as_watchdog(const PlanProblem& problem, const Plan& recorded) {
+  if (*recorded.standing == 0) return unanswered(problem.request);
+  KthAnswer observer(*recorded.standing);
+  Budget budget = Budget::replay(recorded.cuts);
+  plan(problem.request, problem.world, problem.config, budget, &observer);
   return observer.take();
 }
 
@@ -41,13 +35,11 @@ Plan as_watchdog(const PlanProblem& problem, const BudgetCut& cut, std::vector<B
 
 Replanned replan(const PlanProblem& problem, const Plan& recorded) {
   Replanned again;
-  std::vector<BudgetCut> cuts = recorded.cuts;
-  if (const BudgetCut* cut = watchdog_cut(recorded)) {
-    cuts.pop_back();
-    again.plan = as_watchdog(problem, *cut, std::move(cuts));
-    again.plan.cuts.push_back(*cut);
+  if (recorded.standing) {
+    again.plan = as_watchdog(problem, recorded);
+    again.plan.standing = recorded.standing;
   } else {
-    Budget budget = Budget::replay(std::move(cuts));
+    Budget budget = Budget::replay(recorded.cuts);
     PlanAnswer answer = plan(problem.request, problem.world, problem.config, budget);
     again.plan = std::move(answer.plan);
     again.statistics = answer.statistics;

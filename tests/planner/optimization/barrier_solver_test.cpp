@@ -17,7 +17,7 @@ constexpr int kEnough = 60;  // iterations
 bool never() { return false; }
 
 ConvexSolution solve(const Instance& instance) {
-  return solve_by_barrier(instance.convex(), free_variables(instance.initial), kEnough, never);
+  return BarrierSolver().solve(instance.convex(), free_variables(instance.initial), kEnough, never);
 }
 
 TEST(SolveByBarrier, FindsIpoptsOptimumToATenThousandth) {
@@ -53,9 +53,9 @@ TEST(SolveByBarrier, NoFeasiblePointIsBetterByMoreThanTheGapOfAnyIterate) {
     const Instance instance = random_instance(seed);
     const ConvexProblem p = instance.convex();
     const Eigen::VectorXd x0 = free_variables(instance.initial);
-    const ConvexSolution optimum = solve_by_barrier(p, x0, kEnough, never);
+    const ConvexSolution optimum = BarrierSolver().solve(p, x0, kEnough, never);
     for (int n = 1; n < optimum.iterations; ++n) {
-      const ConvexSolution early = solve_by_barrier(p, x0, n, never);
+      const ConvexSolution early = BarrierSolver().solve(p, x0, n, never);
       if (early.gap < 0.0) continue;
       ASSERT_LE(early.objective - early.gap, optimum.objective + 1e-9) << "seed " << seed << " after " << n;
     }
@@ -70,7 +70,7 @@ TEST(SolveByBarrier, StoppedAtAnyIterationItHasAFeasibleAnswer) {
     double last = p.objective(x0);
     for (int n = 0; n < 16; ++n) {
       int asked = 0;
-      const ConvexSolution stopped = solve_by_barrier(p, x0, kEnough, [&] { return asked++ >= n; });
+      const ConvexSolution stopped = BarrierSolver().solve(p, x0, kEnough, [&] { return asked++ >= n; });
       ASSERT_TRUE(stopped.found) << "seed " << seed << " after " << n;
       ASSERT_LE(stopped.iterations, n);
       ASSERT_LE(p.worst_violation(stopped.x), 0.0);
@@ -85,8 +85,8 @@ TEST(SolveByBarrier, AsksOncePerStepSoThatAReplayStopsAtTheSameIterate) {
   const ConvexProblem p = instance.convex();
   const Eigen::VectorXd x0 = free_variables(instance.initial);
   int asked = 0;
-  const ConvexSolution stopped = solve_by_barrier(p, x0, kEnough, [&] { return asked++ >= 6; });
-  const ConvexSolution counted = solve_by_barrier(p, x0, 6, never);
+  const ConvexSolution stopped = BarrierSolver().solve(p, x0, kEnough, [&] { return asked++ >= 6; });
+  const ConvexSolution counted = BarrierSolver().solve(p, x0, 6, never);
   EXPECT_EQ(stopped.iterations, 6);
   EXPECT_EQ(stopped.x, counted.x);
 }
@@ -96,7 +96,7 @@ TEST(SolveByBarrier, ANumberThatIsNotFiniteIsAFailureAndTheFeasibleStartIsKept) 
   ConvexProblem p = instance.convex();
   const Eigen::VectorXd x0 = free_variables(instance.initial);
   p.hessian(0, 0) = INFINITY;
-  const ConvexSolution solution = solve_by_barrier(p, x0, kEnough, never);
+  const ConvexSolution solution = BarrierSolver().solve(p, x0, kEnough, never);
   EXPECT_TRUE(solution.solver_failed);
   ASSERT_TRUE(solution.found);
   EXPECT_EQ(solution.x, x0);
@@ -109,7 +109,7 @@ TEST(SolveByBarrier, WithoutAFeasiblePointThereIsNoAnswer) {
   const double bound = free_variables(instance.initial)[0] - 0.01;
   p.add_row(first, bound);
   p.add_row(-first, -bound - 0.02);
-  EXPECT_FALSE(solve_by_barrier(p, free_variables(instance.initial), kEnough, never).found);
+  EXPECT_FALSE(BarrierSolver().solve(p, free_variables(instance.initial), kEnough, never).found);
 }
 
 TEST(SolveByBarrier, AStartOutsideIsLedIn) {
@@ -121,7 +121,7 @@ TEST(SolveByBarrier, AStartOutsideIsLedIn) {
     Eigen::VectorXd away = free_variables(instance.initial);
     for (Eigen::Index i = 0; i < away.size(); ++i) away[i] += (i % 2 == 0 ? 0.3 : -0.3);
     if (p.worst_violation(away) > 0.0) ++outside;
-    const ConvexSolution solution = solve_by_barrier(p, away, kEnough, never);
+    const ConvexSolution solution = BarrierSolver().solve(p, away, kEnough, never);
     ASSERT_TRUE(solution.found) << "seed " << seed;
     ASSERT_NEAR(solution.objective, reference.objective, 1e-4 * reference.objective + 1e-6) << "seed " << seed;
   }

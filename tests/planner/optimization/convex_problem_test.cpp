@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/random.h"
-#include "planner/safety/separation_test.h"
 #include "tests/planner/optimization/random_problems.h"
 
 namespace tern {
@@ -26,7 +25,7 @@ TEST(ConvexProblem, FreeVariablesAndControlPointsAreTheSameThing) {
     ASSERT_EQ(x.size(), 3 * (instance.problem.intervals - 2));
     const Points back = control_points_of(x, instance.problem);
     ASSERT_LE((back - instance.initial).cwiseAbs().maxCoeff(), 1e-12) << "seed " << seed;
-    ASSERT_TRUE(ClampedSpline(back, instance.problem.interval_s).ends_at_rest());
+    ASSERT_TRUE(ClampedSpline(back, instance.problem.interval_s()).ends_at_rest());
   }
 }
 
@@ -37,13 +36,13 @@ TEST(ConvexProblem, TheObjectiveIsEquation4) {
     const ConvexProblem convex = instance.convex();
     Rng rng(seed);
     const Eigen::VectorXd x = free_variables(instance.initial) + random_step(rng, convex.variables(), 1.0);
-    const ClampedSpline spline(control_points_of(x, p), p.interval_s);
+    const ClampedSpline spline(control_points_of(x, p), p.interval_s());
     double jerk = 0.0;
-    for (int j = 0; j < p.intervals; ++j) jerk += spline.sample((j + 0.5) * p.interval_s).j.squaredNorm();
+    for (int j = 0; j < p.intervals; ++j) jerk += spline.sample((j + 0.5) * p.interval_s()).j.squaredNorm();
     const double expected =
         p.weight_jerk * jerk + p.weight_goal * (spline.control_points().rightCols<1>() - p.goal).squaredNorm();
     ASSERT_NEAR(convex.objective(x), expected, 1e-7 * (1.0 + expected)) << "seed " << seed;
-    ASSERT_NEAR(jerk_cost(spline.control_points(), p.interval_s), jerk, 1e-7 * (1.0 + jerk)) << "seed " << seed;
+    ASSERT_NEAR(jerk_cost(spline.control_points(), p.interval_s()), jerk, 1e-7 * (1.0 + jerk)) << "seed " << seed;
   }
 }
 
@@ -67,8 +66,8 @@ TEST(ConvexProblem, TheInitialPointIsAlwaysStrictlyInside) {
 TEST(ConvexProblem, TheInitialPointIsStrictlyInsideEvenWhereItBreaksBounds) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Instance instance = random_instance(seed);
-    instance.problem.limits.v_max *= 0.9;
-    instance.problem.limits.a_max *= 0.9;
+    instance.problem.plan_limits.v_max *= 0.9;
+    instance.problem.plan_limits.a_max *= 0.9;
     instance.problem.centre_box = grown(instance.problem.centre_box, Vec3::Constant(-0.01));
     instance.problem.sphere_radius *= 0.8;
     ASSERT_LT(instance.convex().worst_violation(free_variables(instance.initial)), -0.5 * kStartRoom)
@@ -79,8 +78,8 @@ TEST(ConvexProblem, TheInitialPointIsStrictlyInsideEvenWhereItBreaksBounds) {
 /// What holds of every x within the problem's bounds, judged by the spline itself.
 void expect_within(const Instance& instance, const Eigen::VectorXd& x, std::uint64_t seed) {
   const TrajectoryProblem& p = instance.problem;
-  const ClampedSpline spline(control_points_of(x, p), p.interval_s);
-  const ClampedSpline before(instance.initial, p.interval_s);
+  const ClampedSpline spline(control_points_of(x, p), p.interval_s());
+  const ClampedSpline before(instance.initial, p.interval_s());
   constexpr double kRounding = 1e-7 + kStartRoom;
   for (int j = 0; j < p.intervals; ++j) {
     const MotionBounds now = motion_bounds(spline, j);
@@ -88,9 +87,9 @@ void expect_within(const Instance& instance, const Eigen::VectorXd& x, std::uint
     for (int axis = 0; axis < 3; ++axis) {
       // The start's own acceleration is not a variable; bounds that the initial point breaks are its own.
       ASSERT_LE(now.a_max[axis],
-                std::max({p.limits.a_max[axis], was.a_max[axis], std::abs(p.start.a[axis])}) + kRounding)
+                std::max({p.plan_limits.a_max[axis], was.a_max[axis], std::abs(p.start.a[axis])}) + kRounding)
           << "seed " << seed;
-      ASSERT_LE(now.j_max[axis], std::max(p.limits.j_max[axis], was.j_max[axis]) + 1e-4) << "seed " << seed;
+      ASSERT_LE(now.j_max[axis], std::max(p.plan_limits.j_max[axis], was.j_max[axis]) + 1e-4) << "seed " << seed;
     }
     const Points4 points = spline.minvo(j);
     ASSERT_LE((points.colwise() - p.start.p).colwise().norm().maxCoeff(), p.sphere_radius + kRounding)
@@ -99,7 +98,7 @@ void expect_within(const Instance& instance, const Eigen::VectorXd& x, std::uint
     ASSERT_TRUE(grown(p.centre_box, Vec3::Constant(kRounding)).contains(box)) << "seed " << seed;
   }
   for (const PlaneConstraint& c : instance.planes) {
-    const Points4 points = minvo_of(spline.power(c.interval), c.u0, c.u1);
+    const Points4 points = spline.minvo(c.interval, c.u0, c.u1);
     for (int k = 0; k < 4; ++k) {
       ASSERT_LE(c.plane.signed_distance(points.col(k)), -std::max(p.clearance, kPlaneMargin) + 1e-12)
           << "seed " << seed;

@@ -5,7 +5,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "planner/safety/separation_test.h"
+#include "tests/planner/optimization/dense_derivatives.h"
 #include "tests/planner/optimization/random_problems.h"
 
 namespace tern {
@@ -67,10 +67,10 @@ TEST(IpoptDerivatives, ConstraintsAreTheRowsAndTheSquaredDistancesFromTheSpheres
 
 /// Oracle: Eq. 4 without constraints as linear least squares, its residuals read off the spline.
 Eigen::VectorXd residuals(const TrajectoryProblem& p, const Eigen::VectorXd& x) {
-  const ClampedSpline spline(control_points_of(x, p), p.interval_s);
+  const ClampedSpline spline(control_points_of(x, p), p.interval_s());
   Eigen::VectorXd r(3 * p.intervals + 3);
   for (int j = 0; j < p.intervals; ++j) {
-    r.segment<3>(3 * j) = std::sqrt(p.weight_jerk) * spline.sample((j + 0.5) * p.interval_s).j;
+    r.segment<3>(3 * j) = std::sqrt(p.weight_jerk) * spline.sample((j + 0.5) * p.interval_s()).j;
   }
   r.tail<3>() = std::sqrt(p.weight_goal) * (spline.control_points().rightCols<1>() - p.goal);
   return r;
@@ -91,7 +91,7 @@ TEST(SolveByIpopt, InAnEmptyWorldFindsTheClosedFormLeastSquaresAnswer) {
     p.start.p *= 0.1;
     instance.initial = control_points_of(p.start.p.replicate(p.intervals - 2, 1), p);
     p.goal = p.start.p + 0.2 * (p.goal - instance.initial.col(0));
-    p.limits.v_max = p.limits.a_max = p.limits.j_max = Vec3::Constant(1e6);
+    p.plan_limits.v_max = p.plan_limits.a_max = p.plan_limits.j_max = Vec3::Constant(1e6);
     p.sphere_radius = 1e3;
     p.centre_box = Box(Vec3::Constant(-1e4), Vec3::Constant(1e4));
     const ConvexSolution solution = solve_by_ipopt(instance.convex(), free_variables(instance.initial), 200, never);
@@ -146,10 +146,10 @@ TEST(SolveByIpopt, WithPlanesTheCurveStaysOnItsSide) {
     if (instance.planes.empty()) continue;
     const ConvexSolution solution = solve_by_ipopt(instance.convex(), free_variables(instance.initial), 60, never);
     ASSERT_TRUE(solution.found);
-    const ClampedSpline spline(control_points_of(solution.x, instance.problem), instance.problem.interval_s);
+    const ClampedSpline spline(control_points_of(solution.x, instance.problem), instance.problem.interval_s());
     for (const PlaneConstraint& c : instance.planes) {
       ++planes;
-      const Points4 points = minvo_of(spline.power(c.interval), c.u0, c.u1);
+      const Points4 points = spline.minvo(c.interval, c.u0, c.u1);
       for (int k = 0; k < 4; ++k) {
         ASSERT_LE(c.plane.signed_distance(points.col(k)), -std::max(instance.problem.clearance, kPlaneMargin) + 1e-12)
             << "seed " << seed;

@@ -6,7 +6,7 @@
 
 #include "core/geometry/distance.h"
 #include "planner/optimization/barrier_solver.h"
-#include "planner/safety/separation_test.h"
+#include "tests/planner/optimization/dense_derivatives.h"
 #include "tests/planner/optimization/random_problems.h"
 
 namespace tern {
@@ -81,9 +81,9 @@ TEST(SolveJoint, EveryOfferedPointHoldsEveryHullOff) {
     const JointProblem p(problem, instance.pairs(), instance.initial);
     const auto certify = [&](const Eigen::VectorXd& x) {
       ++offered;
-      const ClampedSpline spline(control_points_of(x, problem), problem.interval_s);
+      const ClampedSpline spline(control_points_of(x, problem), problem.interval_s());
       for (const SeparatedPair& pair : instance.pairs()) {
-        const Points points = minvo_of(spline.power(pair.plane.interval), pair.plane.u0, pair.plane.u1);
+        const Points points = spline.minvo(pair.plane.interval, pair.plane.u0, pair.plane.u1);
         EXPECT_GE(distance(pair.hull, points), problem.clearance - 2.0 * kJointTolerance) << "seed " << seed;
       }
       return true;
@@ -100,7 +100,7 @@ TEST(SolveJoint, WithPlanesFreeToTurnTheCostIsLower) {
     const Instance instance = random_instance(seed);
     const JointProblem p(instance.problem, instance.pairs(), instance.initial);
     const ConvexSolution joint = solve_joint(p, kEnough, never, anything);
-    const ConvexSolution fixed = solve_by_barrier(instance.convex(), free_variables(instance.initial), 60, never);
+    const ConvexSolution fixed = BarrierSolver().solve(instance.convex(), free_variables(instance.initial), 60, never);
     if (!joint.found) continue;
     ++solved;
     EXPECT_LE(joint.objective, fixed.objective * 1.02 + 1e-4) << "seed " << seed;

@@ -25,7 +25,7 @@ struct Instance {
 
 /// Box obstacles beside the initial way, each separated from those intervals and parts that it lies near.
 inline void add_planes(Rng& rng, Instance& instance) {
-  const ClampedSpline spline(instance.initial, instance.problem.interval_s);
+  const ClampedSpline spline(instance.initial, instance.problem.interval_s());
   for (int i = 0; i < 6; ++i) {
     const Vec3 near = spline.sample(rng.uniform() * spline.duration_s()).p + support::random_vector(rng, 1.0);
     const Points box = box_corners(Box(near, near + Vec3::Constant(0.3)));
@@ -49,15 +49,15 @@ inline Instance random_instance(std::uint64_t seed) {
     Instance instance;
     TrajectoryProblem& p = instance.problem;
     p.intervals = support::random_integer(rng, 4, 9);
-    p.interval_s = rng.uniform(0.1, 0.35);
-    p.limits.v_max *= 0.99;
-    if (rng.uniform() < 0.3) p.limits.j_max = Vec3::Constant(rng.uniform(60.0, 300.0));
+    p.interval = Duration::from_seconds(rng.uniform(0.1, 0.35));
+    p.plan_limits.v_max *= 0.99;
+    if (rng.uniform() < 0.3) p.plan_limits.j_max = Vec3::Constant(rng.uniform(60.0, 300.0));
     p.start.p = support::random_vector(rng, 50.0);
     if (rng.uniform() < 0.7) {
       p.start.v = support::random_vector(rng, 4.0);
       p.start.a = support::random_vector(rng, 4.0);
     }
-    const auto way = support::random_way_to_rest(rng, p.start, p.limits, p.intervals, p.interval_s);
+    const auto way = support::random_way_to_rest(rng, p.start, p.plan_limits, p.intervals, p.interval_s());
     if (!way) continue;
     instance.initial = *way;
     p.clearance = rng.uniform() < 0.5 ? 0.1 : 0.0;
@@ -66,7 +66,7 @@ inline Instance random_instance(std::uint64_t seed) {
     p.centre_box = Box(Vec3::Constant(-1e4), Vec3::Constant(1e4));
     double farthest = 0.0;
     Box held;
-    const ClampedSpline spline(instance.initial, p.interval_s);
+    const ClampedSpline spline(instance.initial, p.interval_s());
     for (int j = 0; j < p.intervals; ++j) {
       const Points4 points = spline.minvo(j);
       farthest = std::max(farthest, (points.colwise() - p.start.p).colwise().norm().maxCoeff());

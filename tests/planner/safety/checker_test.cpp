@@ -18,7 +18,7 @@ constexpr UTime kStart{50'000'000};
 constexpr int kIntervals = 6;
 const Box kEverywhere(Vec3::Constant(-1e4), Vec3::Constant(1e4));
 
-/// A good plan that moves on every axis, and demands that it just meets; each test breaks one thing.
+/// A good plan that moves on every axis, and a problem that it just solves; each test breaks one thing.
 class CheckPlan : public ::testing::Test {
  protected:
   CheckPlan() {
@@ -34,9 +34,9 @@ class CheckPlan : public ::testing::Test {
       plan_.control_points.col(l + 1) = plan_.control_points.col(l) + velocities[l - 2] * plan_.interval.seconds();
     }
     plan_.control_points.col(7) = plan_.control_points.col(8) = plan_.control_points.col(6);
-    demands_.start = start_;
-    demands_.limits.j_max = Vec3::Constant(100.0);
-    demands_.flight_box = kEverywhere;
+    problem_.start = start_;
+    problem_.limits.j_max = Vec3::Constant(100.0);
+    problem_.centre_box = kEverywhere;
   }
 
   CheckReport check(const std::vector<Track>& tracks = {}) const {
@@ -44,7 +44,7 @@ class CheckPlan : public ::testing::Test {
     std::vector<double> times;
     for (int k = 0; k <= kIntervals; ++k) times.push_back(k * 0.25);
     SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
-    return check_plan(plan_, demands_, swept);
+    return check_plan(plan_, problem_, swept);
   }
   void expect_fault(CheckFault fault, int axis) const {
     const CheckReport report = check();
@@ -61,7 +61,7 @@ class CheckPlan : public ::testing::Test {
 
   MotionSample start_;
   TimedSpline plan_;
-  CheckDemands demands_;
+  HorizonProblem problem_;
   Body body_;
 };
 
@@ -99,65 +99,65 @@ TEST_F(CheckPlan, RefusesNumbersThatOverflow) {
 
 TEST_F(CheckPlan, RefusesAStartElsewhere) {
   for (int axis = 0; axis < 3; ++axis) {
-    demands_.start = start_;
-    demands_.start.p[axis] += 2.0 * kJoinTolerance;
+    problem_.start = start_;
+    problem_.start.p[axis] += 2.0 * kJoinTolerance;
     expect_fault(CheckFault::Start, axis);
-    demands_.start.p[axis] = start_.p[axis] - 0.5 * kJoinTolerance;
+    problem_.start.p[axis] = start_.p[axis] - 0.5 * kJoinTolerance;
     EXPECT_TRUE(check().ok());
   }
 }
 
 TEST_F(CheckPlan, RefusesAStartWithAnotherVelocity) {
   for (int axis = 0; axis < 3; ++axis) {
-    demands_.start = start_;
-    demands_.start.v[axis] -= 2.0 * kJoinTolerance;
+    problem_.start = start_;
+    problem_.start.v[axis] -= 2.0 * kJoinTolerance;
     expect_fault(CheckFault::Start, axis);
-    demands_.start.v[axis] = start_.v[axis] + 0.5 * kJoinTolerance;
+    problem_.start.v[axis] = start_.v[axis] + 0.5 * kJoinTolerance;
     EXPECT_TRUE(check().ok());
   }
 }
 
 TEST_F(CheckPlan, RefusesAStartWithAnotherAcceleration) {
   for (int axis = 0; axis < 3; ++axis) {
-    demands_.start = start_;
-    demands_.start.a[axis] += 2.0 * kJoinTolerance;
+    problem_.start = start_;
+    problem_.start.a[axis] += 2.0 * kJoinTolerance;
     expect_fault(CheckFault::Start, axis);
-    demands_.start.a[axis] = start_.a[axis] - 0.5 * kJoinTolerance;
+    problem_.start.a[axis] = start_.a[axis] - 0.5 * kJoinTolerance;
     EXPECT_TRUE(check().ok());
   }
 }
 
 TEST_F(CheckPlan, RefusesAStartThatIsNotANumber) {
-  demands_.start.a.y() = std::nan("");
+  problem_.start.a.y() = std::nan("");
   expect_fault(CheckFault::Start, 1);
 }
 
 TEST_F(CheckPlan, RefusesVelocityBeyondItsLimitOnEachAxis) {
   for (int axis = 0; axis < 3; ++axis) {
-    demands_.limits = Limits{};
-    demands_.limits.v_max[axis] = bounds().v_max[axis] / kBeyond;
+    problem_.limits = Limits{};
+    problem_.limits.v_max[axis] = bounds().v_max[axis] / kBeyond;
     expect_fault(CheckFault::Velocity, axis);
-    demands_.limits.v_max[axis] = bounds().v_max[axis] / kWithin;
+    problem_.limits.v_max[axis] = bounds().v_max[axis] / kWithin;
     EXPECT_TRUE(check().ok());
   }
 }
 
 TEST_F(CheckPlan, RefusesAccelerationBeyondItsLimitOnEachAxis) {
   for (int axis = 0; axis < 3; ++axis) {
-    demands_.limits = Limits{};
-    demands_.limits.a_max[axis] = bounds().a_max[axis] / kBeyond;
+    problem_.limits = Limits{};
+    problem_.limits.a_max[axis] = bounds().a_max[axis] / kBeyond;
     expect_fault(CheckFault::Acceleration, axis);
-    demands_.limits.a_max[axis] = bounds().a_max[axis] / kWithin;
+    problem_.limits.a_max[axis] = bounds().a_max[axis] / kWithin;
     EXPECT_TRUE(check().ok());
   }
 }
 
 TEST_F(CheckPlan, RefusesJerkBeyondItsLimitOnEachAxis) {
   for (int axis = 0; axis < 3; ++axis) {
-    demands_.limits = Limits{};
-    demands_.limits.j_max[axis] = bounds().j_max[axis] / kBeyond;
+    problem_.limits = Limits{};
+    problem_.limits.j_max[axis] = bounds().j_max[axis] / kBeyond;
     expect_fault(CheckFault::Jerk, axis);
-    demands_.limits.j_max[axis] = bounds().j_max[axis] / kWithin;
+    problem_.limits.j_max[axis] = bounds().j_max[axis] / kWithin;
     EXPECT_TRUE(check().ok());
   }
 }
@@ -167,11 +167,11 @@ TEST_F(CheckPlan, RefusesAVelocityThatPeaksInsideAnInterval) {
   double at_knots = 0.0;
   plan_.control_points = start_.p.replicate(1, kIntervals + 3);
   plan_.control_points(0, 4) += 1.0;
-  demands_.start = plan_.spline().sample(0.0);
-  demands_.limits.a_max = demands_.limits.j_max = Vec3::Constant(1e6);
+  problem_.start = plan_.spline().sample(0.0);
+  problem_.limits.a_max = problem_.limits.j_max = Vec3::Constant(1e6);
   for (int j = 0; j <= kIntervals; ++j) at_knots = std::max(at_knots, std::abs(plan_.spline().sample(0.25 * j).v.x()));
   ASSERT_LT(at_knots, 0.999 * bounds().v_max.x());
-  demands_.limits.v_max.x() = 0.5 * (at_knots + bounds().v_max.x());
+  problem_.limits.v_max.x() = 0.5 * (at_knots + bounds().v_max.x());
   expect_fault(CheckFault::Velocity, 0);
 }
 
@@ -189,9 +189,9 @@ TEST_F(CheckPlan, RefusesToLeaveTheSphere) {
   for (int j = 0; j < kIntervals; ++j) {
     farthest = std::max(farthest, (plan_.spline().minvo(j).colwise() - start_.p).colwise().norm().maxCoeff());
   }
-  demands_.sphere_radius = farthest / kBeyond;
+  problem_.sphere_radius = farthest / kBeyond;
   expect_fault(CheckFault::Sphere, -1);
-  demands_.sphere_radius = farthest / kWithin;
+  problem_.sphere_radius = farthest / kWithin;
   EXPECT_TRUE(check().ok());
 }
 
@@ -203,11 +203,13 @@ TEST_F(CheckPlan, RefusesABodyOutsideTheFlightBoxThroughEachOfItsSides) {
       for (const bool upper : {false, true}) {
         const auto side = [&](Box& box) -> double& { return upper ? box.max()[axis] : box.min()[axis]; };
         const double inwards = upper ? -1.0 : 1.0;
-        demands_.flight_box = kEverywhere;
-        side(demands_.flight_box) = upper ? tight.max()[axis] : tight.min()[axis];
+        Box flight_box = kEverywhere;
+        side(flight_box) = upper ? tight.max()[axis] : tight.min()[axis];
+        problem_.centre_box = grown(flight_box, -body_.half_extents());
         EXPECT_TRUE(check().ok());
-        side(demands_.flight_box) += inwards * 2.0 * kBoxTolerance;
-        ASSERT_TRUE(demands_.flight_box.contains(curve_box()));
+        side(flight_box) += inwards * 2.0 * kBoxTolerance;
+        ASSERT_TRUE(flight_box.contains(curve_box()));
+        problem_.centre_box = grown(flight_box, -body_.half_extents());
         expect_fault(CheckFault::FlightBox, axis);
       }
     }
@@ -255,7 +257,7 @@ TEST_F(CheckPlan, RefusesEachPairOfMapBoxAndInterval) {
         {-1, nullptr, box_around(there + Vec3(0, 5, 0), Vec3::Constant(0.2)), 1.0},
         {-2, nullptr, box_around(there, Vec3::Constant(0.001)), 1.0}};
     SweptObstacles swept(obstacles, body_, kStart, {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5}, kEverywhere);
-    const CheckReport report = check_plan(plan_, demands_, swept);
+    const CheckReport report = check_plan(plan_, problem_, swept);
     EXPECT_EQ(report.fault, CheckFault::NotSeparated);
     EXPECT_EQ(report.obstacle, -2);
   }
@@ -278,9 +280,9 @@ TEST_F(CheckPlan, NeverPassesAPlanThatDenseSamplingSeesCollide) {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     Rng rng(seed);
     plan_ = random_trajectory(rng, Vec3::Zero(), kStart, Limits{}, kIntervals);
-    demands_.start = MotionSample{};
-    demands_.sphere_radius = 20.0;
-    demands_.limits = Limits{};
+    problem_.start = MotionSample{};
+    problem_.sphere_radius = 20.0;
+    problem_.limits = Limits{};
     body_ = body_of(kBodyKinds[seed % 3]);
     std::vector<Track> tracks;
     for (int id = 1; id <= 6; ++id) {
@@ -291,7 +293,7 @@ TEST_F(CheckPlan, NeverPassesAPlanThatDenseSamplingSeesCollide) {
     std::vector<double> times;
     for (int k = 0; k <= kIntervals; ++k) times.push_back(k * plan_.interval.seconds());
     SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
-    const CheckReport report = check_plan(plan_, demands_, swept);
+    const CheckReport report = check_plan(plan_, problem_, swept);
     ASSERT_TRUE(report.ok() || report.fault == CheckFault::NotSeparated)
         << to_string(report.fault) << " at seed " << seed;
     if (!report.ok()) continue;
@@ -308,7 +310,7 @@ TEST_F(CheckPlan, GivesAPlaneForEveryPairWhoseBoxesOverlap) {
   std::vector<double> times;
   for (int k = 0; k <= kIntervals; ++k) times.push_back(k * 0.25);
   SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
-  const CheckReport report = check_plan(plan_, demands_, swept);
+  const CheckReport report = check_plan(plan_, problem_, swept);
   ASSERT_TRUE(report.ok());
   for (int j = 0; j < kIntervals; ++j) {
     const Points4 points = plan_.spline().minvo(j);

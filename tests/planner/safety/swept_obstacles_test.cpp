@@ -72,7 +72,7 @@ void for_each_hull(const Case& c, Check&& check) {
       for (int part = 0; part < parts; ++part) {
         const double step = (swept.time(k + 1) - swept.time(k)) / parts;
         const double from = swept.time(k) + part * step;
-        check(swept.hull(k, swept.candidates(k)[0], part, parts), from, from + step);
+        check(swept.hull(swept.candidates(k)[0], {k, part, parts}), from, from + step);
       }
     }
   }
@@ -131,7 +131,7 @@ TEST(SweptObstacles, AnAbsurdAccelerationCostsAWiderHullNotMemory) {
   const Box everywhere(Vec3::Constant(-1e12), Vec3::Constant(1e12));
   SweptObstacles swept(obstacles, Body{}, kOrigin, std::vector<double>{0.0, 0.5, 1.0}, everywhere);
   ASSERT_EQ(swept.candidates(1).size(), 1u);
-  const Points& hull = swept.hull(1, swept.candidates(1)[0], 0, 1);
+  const Points& hull = swept.hull(swept.candidates(1)[0], {1, 0, 1});
   EXPECT_LT(hull.cols(), 5000);
   for (int i = 0; i <= 1000; ++i) {
     const double t = 0.5 + 0.5 * i / 1000;
@@ -161,10 +161,10 @@ TEST(SweptObstacles, CandidateAndPartBoxesHoldTheHullGrownByTheBall) {
       const SweptObstacles::Candidate& candidate = swept.candidates(k)[0];
       for (const int parts : {1, 2, 4}) {
         for (int part = 0; part < parts; ++part) {
-          const Points& hull = swept.hull(k, candidate, part, parts);
+          const Points& hull = swept.hull(candidate, {k, part, parts});
           const Vec3 ball = Vec3::Constant(c.body.radius - kRounding);
           const Box needed = grown(Box(hull.rowwise().minCoeff(), hull.rowwise().maxCoeff()), ball);
-          ASSERT_TRUE(swept.part_box(k, candidate, part, parts).contains(needed)) << "seed " << seed;
+          ASSERT_TRUE(swept.part_box(candidate, {k, part, parts}).contains(needed)) << "seed " << seed;
           ASSERT_TRUE(candidate.box.contains(needed)) << "seed " << seed;
         }
       }
@@ -197,10 +197,10 @@ TEST(SweptObstacles, BeforeItsFirstPieceAndAfterItsLastATrackIsAGrowingBox) {
   const std::vector<Track> tracks{track};
   const auto obstacles = obstacles_of(tracks);
   SweptObstacles swept(obstacles, Body{}, kOrigin, {0.25, 0.5, 2.5, 3.0}, kEverywhere);
-  const Points& before = swept.hull(0, swept.candidates(0)[0], 0, 1);
+  const Points& before = swept.hull(swept.candidates(0)[0], {0, 0, 1});
   EXPECT_NEAR(support(before, Vec3(1, 0, 0)), 1.0 + 0.5 + 2.0 * 0.75, kRounding);
   EXPECT_NEAR(support(before, Vec3(0, 0, -1)), 0.5 + 2.0 * 0.75, kRounding);
-  const Points& after = swept.hull(2, swept.candidates(2)[0], 0, 1);
+  const Points& after = swept.hull(swept.candidates(2)[0], {2, 0, 1});
   EXPECT_NEAR(support(after, Vec3(1, 0, 0)), 3.0 + 0.5 + 2.0, kRounding);
   EXPECT_NEAR(support(after, Vec3(0, 1, 0)), 0.5 + 2.0, kRounding);
 }
@@ -215,8 +215,8 @@ TEST(SweptObstacles, BoxesOfTheMapAndStaticTracksHaveOneHullForAllTime) {
     for (int k = 0; k < 3; ++k) {
       ASSERT_EQ(swept.candidates(k).size(), 2u);
       for (const auto& candidate : swept.candidates(k)) {
-        const Points& hull = swept.hull(k, candidate, k, 4);
-        EXPECT_EQ(&hull, &swept.hull(0, swept.candidates(0)[static_cast<std::size_t>(candidate.obstacle)], 0, 1));
+        const Points& hull = swept.hull(candidate, {k, k, 4});
+        EXPECT_EQ(&hull, &swept.hull(swept.candidates(0)[static_cast<std::size_t>(candidate.obstacle)], {0, 0, 1}));
         for (int axis = 0; axis < 3; ++axis) {
           const Vec3 d = Vec3::Unit(axis);
           EXPECT_NEAR(support(hull, d), swept.obstacle(candidate).box.max()[axis] + support(-body.vertices, d),
@@ -233,9 +233,9 @@ TEST(SweptObstacles, AHullDependsOnNothingButItsOwnInputs) {
   const Case c = random_case(rng);
   SweptObstacles forward(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
   SweptObstacles backward(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
-  for (int k = backward.intervals() - 1; k >= 0; --k) (void)backward.hull(k, backward.candidates(k)[0], 1, 2);
+  for (int k = backward.intervals() - 1; k >= 0; --k) (void)backward.hull(backward.candidates(k)[0], {k, 1, 2});
   for (int k = 0; k < forward.intervals(); ++k) {
-    EXPECT_EQ(forward.hull(k, forward.candidates(k)[0], 1, 2), backward.hull(k, backward.candidates(k)[0], 1, 2));
+    EXPECT_EQ(forward.hull(forward.candidates(k)[0], {k, 1, 2}), backward.hull(backward.candidates(k)[0], {k, 1, 2}));
   }
 }
 

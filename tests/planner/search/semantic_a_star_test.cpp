@@ -26,11 +26,10 @@ struct Scene {
   std::vector<PlanningObstacle> obstacles;
   Body body;
   SearchProblem problem;
-  CheckDemands demands;
 
   [[nodiscard]] SweptObstacles sweep() const {
     std::vector<double> times;
-    for (int k = 0; k <= problem.intervals; ++k) times.push_back(k * problem.interval_s);
+    for (int k = 0; k <= problem.intervals; ++k) times.push_back(k * problem.interval_s());
     const double end = times.back();
     for (double hold = 0.1; hold < kHold + 1e-9; hold += 0.1) times.push_back(end + hold);
     return {obstacles, body, kStart, std::move(times), box_around(problem.start.p, Vec3::Constant(kRadius))};
@@ -42,7 +41,7 @@ struct Scene {
   }
   [[nodiscard]] CheckReport check(const SearchResult& result) const {
     SweptObstacles swept = sweep();
-    return check_plan({kStart, Duration::from_seconds(problem.interval_s), result.control_points}, demands, swept);
+    return check_plan({kStart, problem.interval, result.control_points}, problem, swept);
   }
 };
 
@@ -51,13 +50,11 @@ Scene scene_from(const MotionSample& start, double interval_s, const Vec3& goal,
   s.tracks = std::move(tracks);
   s.obstacles = obstacles_of(s.tracks);
   s.problem.start = start;
-  s.problem.interval_s = interval_s;
-  s.problem.true_v_max = s.problem.limits.v_max;
-  s.problem.limits.v_max *= 0.99;
-  s.problem.sphere_centre = start.p;
+  s.problem.interval = Duration::from_seconds(interval_s);
+  s.problem.plan_limits.v_max *= 0.99;
+  s.problem.sphere_radius = kRadius;
   s.problem.centre_box = kOpen;
   s.problem.way.point = goal;
-  s.demands = {start, Limits{}, kOpen, kRadius};
   return s;
 }
 
@@ -77,15 +74,12 @@ Scene random_scene(std::uint64_t seed) {
                        std::move(tracks));
   s.body = body_of(kBodyKinds[random_integer(rng, 0, 2)]);
   s.problem.intervals = random_integer(rng, 4, 8);
-  s.problem.limits = limits;
-  s.problem.true_v_max = limits.v_max;
-  s.problem.limits.v_max *= 0.99;
+  s.problem.limits = s.problem.plan_limits = limits;
+  s.problem.plan_limits.v_max *= 0.99;
   s.problem.way.rest = rng.uniform(0.0, 3.0);
-  s.demands.limits = limits;
   if (rng.uniform() < 0.5) {
-    s.demands.flight_box =
-        box_around(start.p, Vec3(rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0)));
-    s.problem.centre_box = centre_box(s.demands.flight_box, s.body);
+    const Vec3 half(rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0));
+    s.problem.centre_box = centre_box(box_around(start.p, half), s.body);
   }
   return s;
 }
@@ -144,7 +138,7 @@ TEST(SemanticAStar, ABudgetCutReplaysToTheSameBits) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const Scene s = random_scene(seed);
     for (const std::int64_t n : {0, 3, 17, 90}) {
-      Budget live([n](int, Stage stage, std::int64_t count) { return stage == Stage::Search && count >= n; });
+      Budget live([n](const BudgetCut& here) { return here.stage == Stage::Search && here.count >= n; });
       SweptObstacles swept = s.sweep();
       const SearchResult first = semantic_a_star(s.problem, SearchConfig{}, swept, live);
       ASSERT_LE(live.cuts().size(), 1u);

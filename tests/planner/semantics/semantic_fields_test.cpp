@@ -129,7 +129,6 @@ TEST(SemanticFields, WhatIsMissedOfTheStrongestAttractionIsTheCost) {
   options.lambda_attractive = 3.0;
   options.class_lambdas = {{"moss", 1.0}};
   const SemanticFields fields(four_classes(), options);
-  EXPECT_DOUBLE_EQ(fields.base_rate(), 3.0);
   EXPECT_NEAR(fields.exposure_cost(VoxelLabel::Attractive, Vec3(3, 2.5, 1.5)), 0.0, 1e-6) << "in the mural";
   EXPECT_NEAR(fields.exposure_cost(VoxelLabel::Attractive, Vec3(3, 1.01, 1.5)), 2.0, 0.05) << "in the moss";
   EXPECT_DOUBLE_EQ(fields.exposure_cost(VoxelLabel::Attractive, Vec3(3, 9, 1.5)), 3.0);

@@ -1,4 +1,4 @@
-#include "planner/safety/separation_test.h"
+#include "planner/safety/interval_separation.h"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +45,12 @@ Scene random_scene(std::uint64_t seed) {
   return s;
 }
 
+bool is_separated(SweptObstacles& swept, int interval, const PowerCubic& power) {
+  PairCounts counts;
+  std::vector<CertificatePlane> planes;
+  return separate_interval(swept, interval, power, counts, planes).ok;
+}
+
 TEST(SeparateInterval, NeverCertifiesACollisionFoundByDenseSampling) {
   int passed = 0;
   int met = 0;
@@ -53,8 +59,7 @@ TEST(SeparateInterval, NeverCertifiesACollisionFoundByDenseSampling) {
     const ClampedSpline spline = s.trajectory.spline();
     SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
     for (int j = 0; j < spline.intervals(); ++j) {
-      PairCounts counts;
-      const bool ok = separate_interval(swept, j, spline.power(j), counts, nullptr).ok;
+      const bool ok = is_separated(swept, j, spline.power(j));
       const UTime from = kOrigin + s.trajectory.interval * j;
       const double gap =
           least_gap(s.trajectory, s.body, s.obstacles, from, from + s.trajectory.interval, Duration{5'000});
@@ -77,12 +82,10 @@ TEST(SeparateInterval, PassesWhateverStaysWellClear) {
     for (int j = 0; j < spline.intervals(); ++j) {
       double least = INFINITY;
       for (const auto& candidate : swept.candidates(j))
-        least = std::min(least, distance(swept.hull(j, candidate, 0, 1), spline.minvo(j)));
-      PairCounts counts;
+        least = std::min(least, distance(swept.hull(candidate, {j, 0, 1}), spline.minvo(j)));
       if (least <= s.body.radius + 2.0 * kTouchingTolerance) continue;
       ++clear;
-      ASSERT_TRUE(separate_interval(swept, j, spline.power(j), counts, nullptr).ok)
-          << "seed " << seed << ", interval " << j;
+      ASSERT_TRUE(is_separated(swept, j, spline.power(j))) << "seed " << seed << ", interval " << j;
     }
   }
   EXPECT_GT(clear, 200);
@@ -95,26 +98,27 @@ TEST(SeparateInterval, EveryPlaneHoldsTheHullOnOneSideAndThePartOnTheOther) {
     const Scene s = random_scene(seed);
     const ClampedSpline spline = s.trajectory.spline();
     SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
-    for (int j = 0; j < spline.intervals(); ++j) {
-      PairCounts counts;
-      std::vector<CertificatePlane> planes;
-      if (!separate_interval(swept, j, spline.power(j), counts, &planes, seed % 2 == 0 ? 0.0 : 1.0).ok) continue;
-      for (const CertificatePlane& c : planes) {
-        ++planes_seen;
-        split += c.parts > 1 ? 1 : 0;
-        ASSERT_EQ(c.interval, j);
-        ASSERT_NEAR(c.plane.n.norm(), 1.0, 1e-12);
-        const auto& candidates = swept.candidates(j);
-        const auto of = std::find_if(candidates.begin(), candidates.end(),
-                                     [&](const auto& candidate) { return swept.obstacle(candidate).id == c.track; });
-        ASSERT_NE(of, candidates.end());
-        const Points& hull = swept.hull(j, *of, c.part, c.parts);
-        for (Eigen::Index k = 0; k < hull.cols(); ++k) ASSERT_GE(c.plane.signed_distance(hull.col(k)), 0.0);
-        const Points4 curve =
-            minvo_of(spline.power(j), static_cast<double>(c.part) / c.parts, (c.part + 1.0) / c.parts);
-        for (int k = 0; k < 4; ++k) {
-          ASSERT_LE(c.plane.signed_distance(curve.col(k)), -std::max(s.body.radius, kPlaneMargin)) << "seed " << seed;
-        }
+    PairCounts counts;
+    std::vector<CertificatePlane> planes;
+    if (seed % 2 == 0) {
+      for (int j = 0; j < spline.intervals(); ++j) separate_interval(swept, j, spline.power(j), counts, planes);
+    } else {
+      find_planes(swept, spline, HullBasis::Minvo, 1.0, counts, planes);
+    }
+    for (const CertificatePlane& c : planes) {
+      const TimePart part{c.interval, c.part, c.parts};
+      ++planes_seen;
+      split += part.of > 1 ? 1 : 0;
+      ASSERT_NEAR(c.plane.n.norm(), 1.0, 1e-12);
+      const auto& candidates = swept.candidates(part.interval);
+      const auto of = std::find_if(candidates.begin(), candidates.end(),
+                                   [&](const auto& candidate) { return swept.obstacle(candidate).id == c.track; });
+      ASSERT_NE(of, candidates.end());
+      const Points& hull = swept.hull(*of, part);
+      for (Eigen::Index k = 0; k < hull.cols(); ++k) ASSERT_GE(c.plane.signed_distance(hull.col(k)), 0.0);
+      const Points4 curve = spline.minvo(part.interval, part.u0(), part.u1());
+      for (int k = 0; k < 4; ++k) {
+        ASSERT_LE(c.plane.signed_distance(curve.col(k)), -std::max(s.body.radius, kPlaneMargin)) << "seed " << seed;
       }
     }
   }
@@ -132,8 +136,7 @@ TEST(IsClear, SaysWhatSeparateIntervalSays) {
     SweptObstacles planes(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
     SweptObstacles asked(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
     for (int j = 0; j < spline.intervals(); ++j) {
-      PairCounts ignored;
-      const bool ok = separate_interval(planes, j, spline.power(j), ignored, nullptr).ok;
+      const bool ok = is_separated(planes, j, spline.power(j));
       // A second time: what the first has left in memory changes nothing.
       for (int k = 0; k < 2; ++k) {
         ASSERT_EQ(is_clear(asked, j, spline.power(j), spline.minvo(j), counts), ok) << "seed " << seed << ", " << j;
@@ -156,10 +159,9 @@ TEST(SeparateInterval, SplitsTheIntervalInTimeWhereOnePlaneDoesNotDo) {
   PowerCubic along_x = PowerCubic::Zero();
   along_x.col(2) = Vec3(3, 0, 0);
   along_x.col(3) = Vec3(-1.5, 0, 0);
-  PairCounts counts;
-  EXPECT_LT(distance(swept.hull(0, swept.candidates(0)[0], 0, 1), minvo_of(along_x, 0.0, 1.0)), 1e-9);
-  EXPECT_LT(distance(swept.hull(0, swept.candidates(0)[0], 0, 2), minvo_of(along_x, 0.0, 0.5)), 1e-9);
-  EXPECT_TRUE(separate_interval(swept, 0, along_x, counts, nullptr).ok);
+  EXPECT_LT(distance(swept.hull(swept.candidates(0)[0], {0, 0, 1}), minvo_points(along_x)), 1e-9);
+  EXPECT_LT(distance(swept.hull(swept.candidates(0)[0], {0, 0, 2}), HullForm{}.points(0, along_x, 0.0, 0.5)), 1e-9);
+  EXPECT_TRUE(is_separated(swept, 0, along_x));
 }
 
 TEST(SeparateInterval, NamesWhatBlocks) {
@@ -168,11 +170,12 @@ TEST(SeparateInterval, NamesWhatBlocks) {
   const auto obstacles = obstacles_of(tracks);
   SweptObstacles swept(obstacles, Body{}, kOrigin, {0.0, 0.5}, kEverywhere);
   PairCounts counts;
-  const Separated result = separate_interval(swept, 0, PowerCubic::Zero(), counts, nullptr);
+  std::vector<CertificatePlane> planes;
+  const Separated result = separate_interval(swept, 0, PowerCubic::Zero(), counts, planes);
   EXPECT_TRUE(result.ok);
   PowerCubic there = PowerCubic::Zero();
   there.col(3) = Vec3(0.4, 0, 0);
-  const Separated blocked = separate_interval(swept, 0, there, counts, nullptr);
+  const Separated blocked = separate_interval(swept, 0, there, counts, planes);
   EXPECT_FALSE(blocked.ok);
   EXPECT_EQ(blocked.blocker, 8);
 }
@@ -200,7 +203,7 @@ TEST(ClearTimeAt, TheBodyTouchesNothingAsLongAsItSays) {
       while (swept.time(k) - swept.time(first) < clear - 1e-9) ++k;
       double nearest = INFINITY;
       for (const auto& candidate : swept.candidates(k))
-        nearest = std::min(nearest, distance(swept.hull(k, candidate, 0, 1), Points(p)));
+        nearest = std::min(nearest, distance(swept.hull(candidate, {k, 0, 1}), Points(p)));
       ASSERT_LE(nearest, s.body.radius + 2.0 * kTouchingTolerance) << "seed " << seed;
     }
   }
@@ -225,13 +228,13 @@ TEST(ClearTimeAt, AFullHoldLastsWhateverTheTimeBeforeIt) {
   EXPECT_GT(less, 100) << "rounding was not met";
 }
 
-TEST(MinvoOf, APartsPointsHoldThatPartOfTheCurve) {
+TEST(HullForm, APartsPointsHoldThatPartOfTheCurve) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
     const PowerCubic cubic = random_cubic(rng);
     const double u0 = rng.uniform() < 0.3 ? 0.0 : rng.uniform(0.0, 0.9);
     const double u1 = rng.uniform() < 0.3 ? 1.0 : rng.uniform(u0 + 0.05, 1.0);
-    const Points4 points = minvo_of(cubic, u0, u1);
+    const Points4 points = HullForm{}.points(0, cubic, u0, u1);
     for (int i = 0; i <= 20; ++i) {
       const Vec3 p = sample_cubic(cubic, u0 + (u1 - u0) * i / 20).p;
       ASSERT_LE(distance(points, Points(p)), 1e-9) << "seed " << seed;

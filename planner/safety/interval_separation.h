@@ -35,17 +35,21 @@ struct Separated {
 /// Eq. 1 for one interval: is the curve (powers of u ∈ [0, 1] over the whole interval) separated from every obstacle?
 ///
 /// A pair whose boxes are disjoint needs no plane. Otherwise a plane must hold the MINVO points of the whole interval,
-/// or of both its halves, or of the quarters of a half that fails. @param planes  if not null, gets every plane that
-/// was needed.
-/// @param reach  m: boxes nearer than this count as overlapping, so that near obstacles get their planes too. Such
-/// planes are for a solver: made from the sweeps, without hulls. At 0 they are a certificate's, made from (hull,
-/// points).
-/// @param form   whose hull points stand for the curve: the checker takes the tightest, MINVO.
+/// or of both its halves, or of the quarters of a half that fails. Planes are made from (hull, points), so that anyone
+/// can make them again. @param planes  gets every plane that was needed
 Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
-                            std::vector<CertificatePlane>* planes, double reach = 0.0, HullForm form = {});
+                            std::vector<CertificatePlane>& planes);
 
-/// The same question for those who ask it of many curves: no planes, no hulls, only yes or no, the same but for
-/// rounding within kTouchingTolerance of touching. What blocked the interval last is asked first.
+/// Planes for a solver, by the same splitting: of every obstacle whose boxes come nearer than `reach`, m, to the
+/// spline's, made from the sweeps, without hulls. In each interval they end at the first obstacle that is not
+/// separated.
+/// @param basis   whose hull points stand for the curve
+/// @param planes  gets them
+void find_planes(SweptObstacles& obstacles, const ClampedSpline& spline, HullBasis basis, double reach,
+                 PairCounts& counts, std::vector<CertificatePlane>& planes);
+
+/// The question of separate_interval() for those who ask it of many curves: no planes, no hulls, only yes or no, the
+/// same but for rounding within kTouchingTolerance of touching. What blocked the interval last is asked first.
 /// @param points  the curve's hull points (of `form`, MINVO) over the whole interval
 bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
               PairCounts& counts, HullForm form = {});
@@ -61,8 +65,5 @@ ClearTime clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, Pai
 
 /// Whether a hold lasts as long as is asked. Holds are differences of times, so that a full one may round to just less.
 inline bool lasts(double hold_s, double required_s) { return hold_s >= required_s - 1e-9; }
-
-/// MINVO points of the part [u0, u1] of a cubic in powers of u.
-Points4 minvo_of(const PowerCubic& power, double u0, double u1);
 
 }  // namespace tern

@@ -1,0 +1,61 @@
+#include "planner/fallback.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/splines/piecewise_cubic.h"
+#include "planner/plan_workspace.h"
+#include "planner/safety/checker.h"
+#include "planner/tuning.h"
+
+namespace tern {
+namespace {
+
+/// What is left of the motion from t_s on, and the ends of its pieces, from 0.
+std::vector<PowerCubic> remaining_pieces(const HorizonRequest& request, std::vector<double>& times) {
+  const TimedSpline& committed = request.committed;
+  std::vector<PowerCubic> pieces;
+  times.assign(1, 0.0);
+  if (request.t_s >= committed.end()) return pieces;
+  const PiecewiseCubic motion = remaining_motion(committed.spline(), committed.start, request.t_s);
+  UTime t = request.t_s;
+  for (const CubicPiece& piece : motion.pieces) {
+    pieces.push_back(reparametrized(piece.coefficients, 0.0, piece.duration.seconds()));
+    t = t + piece.duration;
+    times.push_back((t - request.t_s).seconds());
+  }
+  return pieces;
+}
+
+}  // namespace
+
+Fallback check_committed(const Surroundings& near, bool rests_where_it_shall, PlanTools& tools) {
+  const HorizonRequest& request = near.request;
+  std::vector<double>& times = tools.memory.times;
+  const std::vector<PowerCubic> pieces = remaining_pieces(request, times);
+  const double moving_s = times.back();
+  if (moving_s > near.look.followed_s) return {};
+  const bool rests = pieces.empty();
+  const double look_s = rests ? near.hold.cap_of_stop(0.0) : near.hold.cap(moving_s);
+  append_hold(times, kHoldStep, std::min(look_s, near.look.followed_s - moving_s));
+  SweptObstacles& swept = tools.memory.committed;
+  swept.assign(near.obstacles, request.body, request.t_s, times, committed_box(request));
+  CheckReport report = check_separation(pieces, swept);
+  tools.log.statistics.pairs += report.pairs;
+  tools.log.statistics.count(swept);
+  if (!report.ok()) return {};
+  const Vec3 end = request.committed.control_points.rightCols<1>();
+  const ClearTime clear = clear_time_at(swept, static_cast<int>(pieces.size()), end, report.pairs);
+  if (rests && clear.seconds <= 0.0) return {};
+  Candidate c;
+  c.outcome = PlanOutcome::KeepCommitted;
+  c.trajectory = request.committed;
+  c.certificate = std::move(report.certificate);
+  c.hold_s = std::min(clear.seconds, near.hold.cap(moving_s));
+  c.holds = lasts(c.hold_s, near.hold.required(moving_s));
+  c.clear_s = moving_s + clear.seconds;
+  const bool is_hit = clear.blocker != nullptr && clear.blocker->is_promised();
+  return {std::move(c), rests_where_it_shall && is_hit};
+}
+
+}  // namespace tern

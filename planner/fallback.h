@@ -1,0 +1,19 @@
+// The committed trajectory against these predictions: what stands before anything new is found.
+#pragma once
+
+#include <optional>
+
+#include "planner/attempt.h"
+
+namespace tern {
+
+struct Fallback {
+  std::optional<Candidate> committed;  ///< nullopt: it is not clear, or not known to its end; its arrival is not set
+  /// The vehicle rests where it shall, and a motion that is promised comes through it.
+  bool is_hit_at_rest = false;
+};
+
+/// From t_s on, with the hold of its end. @param rests_where_it_shall  nothing to do but to stay clear
+Fallback check_committed(const Surroundings& near, bool rests_where_it_shall, PlanTools& tools);
+
+}  // namespace tern

@@ -1,0 +1,45 @@
+// Where the plans of one request head, and when a trajectory gets there.
+#pragma once
+
+#include <vector>
+
+#include "planner/look_ahead.h"
+#include "planner/search/semantic_a_star.h"
+#include "planner/semantics/semantic_guide.h"
+#include "planner/surroundings.h"
+
+namespace tern {
+
+struct Heading {
+  LocalAim local;       ///< the local goal
+  WayToGo way;          ///< to the goal, for ranking
+  double step_s = 0.0;  ///< planned_duration() to the local goal; 0: it heads nowhere
+  Limits pace;          ///< what arrivals are estimated by: the plan's limits, paced() over the way to the local goal
+  const SemanticFields* fields = nullptr;  ///< what is weighed on the way; null: no semantics
+};
+
+/// Stays where it is: for who shall hold or stop, or knows no path.
+Heading heading_nowhere(const Surroundings& near);
+
+/// Along a path around static obstacles, with the local goal at the largest radius that aim_along() allows. The way
+/// leads to the farthest corner of the path to which the straight line is hardly longer, or dearer: small bends around
+/// posts are the search's business, but the way into a window, out of a trap or around a region leads over its corners.
+/// @pre path is not empty
+Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, double largest_radius,
+                      const Surroundings& near);
+
+/// What regions cost on the way to the local goal. @pre fields is not null
+SemanticGuide guide_of(const Surroundings& near, const Heading& heading);
+
+/// When the goal would be reached if the trajectory were flown for a while and the rest time-optimally, per axis: the
+/// mean over two such whiles. Comparing ends instead would favour short plans, because every plan brakes at its end and
+/// hardly one is flown so far.
+/// @param from  the time on the trajectory that counts as 0
+double arrival_estimate(const Heading& heading, const TimedSpline& trajectory, UTime from);
+
+/// The arrival estimate from t_s on, plus the exposure cost over the same whiles and ahead (SemanticGuide), as if those
+/// metres were flown at v_max, s: the same exchange of metres for metres as in the search. The mean distance stays out:
+/// it has no measure of its own that seconds could be given for (flights of paper_repel took 0.3 s longer with it).
+double worth_of(const Surroundings& near, const Heading& heading, const TimedSpline& trajectory);
+
+}  // namespace tern

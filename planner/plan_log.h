@@ -1,0 +1,69 @@
+// What plan() tells while it plans: to a watchdog, to clocks, to those who count.
+#pragma once
+
+#include <cstdint>
+
+#include "core/world/budget.h"
+#include "core/world/horizon.h"
+#include "planner/safety/interval_separation.h"
+
+namespace tern {
+
+struct PlanWorkspace;
+struct SearchProblem;
+struct SearchResult;
+
+/// Is told what plan() does while it does it: for timing, and so that a watchdog always has an answer.
+class PlanObserver {
+ public:
+  virtual ~PlanObserver() = default;
+  virtual void enter(Stage stage) = 0;               ///< work of this stage begins
+  virtual void answer(const Plan& best_so_far) = 0;  ///< a (better) answer stands; the first is the fallback
+  /// A search has ended: for those who judge searches.
+  virtual void searched(const SearchProblem&, SweptObstacles&, const SearchResult&) {}
+  /// Whether the nodes of searches shall be kept for searched(); asked before each.
+  [[nodiscard]] virtual bool wants_search_nodes() const { return false; }
+};
+
+/// What an answer cost in things that can be counted (times are the observer's).
+struct PlanStatistics {
+  std::int64_t expansions = 0;
+  std::int64_t hulls = 0;           ///< made by CGAL
+  std::int64_t pairs_by_index = 0;  ///< pairs of obstacle and interval dropped because they cannot reach the vehicle
+  PairCounts pairs;
+  std::int64_t solver_calls = 0, solver_iterations = 0;
+
+  void count(const SweptObstacles& swept) {
+    hulls += swept.hulls_made();
+    pairs_by_index += swept.pairs_out_of_reach();
+  }
+};
+
+/// The statistics of one call, and its observer if there is one.
+class PlanLog {
+ public:
+  explicit PlanLog(PlanObserver* observer) : observer_(observer) {}
+
+  void enter(Stage stage) {
+    if (observer_ != nullptr) observer_->enter(stage);
+  }
+  void searched(const SearchProblem& problem, SweptObstacles& obstacles, const SearchResult& result) {
+    if (observer_ != nullptr) observer_->searched(problem, obstacles, result);
+  }
+  [[nodiscard]] bool wants_search_nodes() const { return observer_ != nullptr && observer_->wants_search_nodes(); }
+  [[nodiscard]] PlanObserver* observer() { return observer_; }
+
+  PlanStatistics statistics;
+
+ private:
+  PlanObserver* observer_;
+};
+
+/// What the steps of one call change besides what they return.
+struct PlanTools {
+  Budget& budget;
+  PlanWorkspace& memory;
+  PlanLog& log;
+};
+
+}  // namespace tern

@@ -1,0 +1,238 @@
+#include "planner/safety/interval_separation.h"
+
+#include <array>
+#include <optional>
+
+#include "core/geometry/separation.h"
+#include "core/splines/piecewise_cubic.h"
+
+namespace tern {
+namespace {
+
+Box box_of(const Points4& points) { return {points.rowwise().minCoeff(), points.rowwise().maxCoeff()}; }
+
+using Candidate = SweptObstacles::Candidate;
+
+/// Is the curve's part more than the body's radius (and kTouchingTolerance) away from the sweep? As separate() of the
+/// hull and the points would say, but for rounding.
+/// @param points  hull points of the part, or one point at rest
+/// @param by_cache  whether the direction that separated the part last did so again
+bool is_apart(SweptObstacles& obstacles, const Candidate& candidate, const Eigen::Ref<const Points>& points,
+              const TimePart& part, bool& by_cache) {
+  const auto [boxes, direction] = obstacles.sweep(candidate, part);
+  const bool known = !direction.isZero(0.0);
+  if (!known) direction = boxes[0].centre - points.col(0);
+  if (direction.isZero(0.0)) direction = Vec3::UnitX();
+  const Vec3 before = direction;
+  const double radius = obstacles.body().radius;
+  const Apart apart = is_apart(boxes, points, obstacles.vertices_to_add(), radius, direction);
+  by_cache = known && apart == Apart::Yes && direction == before;
+  if (apart != Apart::Doubt) return apart == Apart::Yes;
+  return separate(obstacles.hull(candidate, part), points, radius).has_value();
+}
+
+bool is_apart(SweptObstacles& obstacles, const Candidate& candidate, const Eigen::Ref<const Points>& points,
+              const TimePart& part, PairCounts& counts) {
+  bool by_cache = false;
+  const bool apart = is_apart(obstacles, candidate, points, part, by_cache);
+  ++(by_cache ? counts.by_cache : counts.by_plane);
+  return apart;
+}
+
+/// A plane for a certificate, from the hull, which is only made where there is a plane.
+std::optional<Separation> certificate_plane(SweptObstacles& obstacles, const Candidate& candidate,
+                                            const Points4& points, const TimePart& part) {
+  bool by_cache = false;
+  if (!is_apart(obstacles, candidate, points, part, by_cache)) return std::nullopt;
+  return separate(obstacles.hull(candidate, part), points, obstacles.body().radius);
+}
+
+/// A plane for a solver, not to be published.
+std::optional<Separation> solver_plane(SweptObstacles& obstacles, const Candidate& candidate, const Points4& points,
+                                       const TimePart& part) {
+  return separate_sweep(obstacles.sweep(candidate, part).boxes, points, obstacles.vertices_to_add(),
+                        obstacles.body().radius);
+}
+
+/// One interval of a curve against all obstacles, split in time where one plane does not do.
+struct Splitting {
+  using PlaneMaker = std::optional<Separation> (*)(SweptObstacles&, const Candidate&, const Points4&, const TimePart&);
+
+  SweptObstacles& obstacles;
+  const PowerCubic& power;
+  HullForm form;
+  double reach;  ///< boxes nearer than this count as overlapping, m
+  PlaneMaker make_plane;
+  PairCounts& counts;
+  std::vector<CertificatePlane>& planes;
+
+  Separated separate(int interval) {
+    const TimePart whole{interval};
+    const Points4 points = points_of(whole);
+    const Box box = grown(box_of(points), Vec3::Constant(reach));
+    for (const Candidate& candidate : obstacles.candidates(interval)) {
+      if (!box.intersects(candidate.box)) {
+        ++counts.by_box;
+      } else if (!separated(candidate, points, whole)) {
+        return {false, obstacles.obstacle(candidate).id};
+      }
+    }
+    return {};
+  }
+
+ private:
+  bool separated(const Candidate& candidate, const Points4& points, const TimePart& part) {
+    ++counts.by_plane;
+    if (const auto found = make_plane(obstacles, candidate, points, part)) {
+      planes.push_back({obstacles.obstacle(candidate).id, static_cast<std::int16_t>(part.interval),
+                        static_cast<std::int8_t>(part.index), static_cast<std::int8_t>(part.of), found->plane});
+      return true;
+    }
+    if (!part.has_halves()) return false;
+    for (const TimePart& half : {part.half(0), part.half(1)}) {
+      const Points4 of_half = points_of(half);
+      if (!grown(box_of(of_half), Vec3::Constant(reach)).intersects(obstacles.part_box(candidate, half))) {
+        ++counts.by_box;
+      } else if (!separated(candidate, of_half, half)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] Points4 points_of(const TimePart& part) const {
+    return form.points(part.interval, power, part.u0(), part.u1());
+  }
+};
+
+/// A curve over one interval: the hull points of its parts, and its points at the quarters, when first needed.
+class Curve {
+ public:
+  Curve(const PowerCubic& power, const Points4& points, HullForm form) : power_(power), form_(form) {
+    parts_[0] = {points, box_of(points)};
+    made_[0] = true;
+  }
+  struct Part {
+    Points4 points;
+    Box box;
+  };
+  const Part& part(const TimePart& part) {
+    const std::size_t at = part.slot();
+    if (!made_[at]) {
+      const Points4 points = form_.points(part.interval, power_, part.u0(), part.u1());
+      parts_[at] = {points, box_of(points)};
+      made_[at] = true;
+    }
+    return parts_[at];
+  }
+  Vec3 at_quarter(int k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (!has_quarter_[at]) quarters_[at] = sample_cubic(power_, 0.25 * k).p;
+    has_quarter_[at] = true;
+    return quarters_[at];
+  }
+
+ private:
+  const PowerCubic& power_;
+  HullForm form_;
+  std::array<Part, TimePart::kSlots> parts_;
+  std::array<Vec3, SweptObstacles::kQuarters> quarters_;
+  std::array<bool, TimePart::kSlots> made_{};
+  std::array<bool, SweptObstacles::kQuarters> has_quarter_{};
+};
+
+/// Yes or no for one curve.
+class ClearTest {
+ public:
+  ClearTest(SweptObstacles& obstacles, int interval, Curve& curve, PairCounts& counts)
+      : obstacles_(obstacles), interval_(interval), curve_(curve), counts_(counts) {}
+
+  bool clear_of(const Candidate& candidate) {
+    const TimePart whole{interval_};
+    if (!curve_.part(whole).box.intersects(candidate.box)) {
+      ++counts_.by_box;
+      return true;
+    }
+    return !touches(candidate) && part_clear(candidate, whole);
+  }
+
+ private:
+  /// At one of five instants: most of what blocks is found so.
+  bool touches(const Candidate& candidate) {
+    if (!obstacles_.body_is_round_or_box()) return false;
+    const double radius2 = obstacles_.body().radius * obstacles_.body().radius;
+    for (int k = 0; k < SweptObstacles::kQuarters; ++k) {
+      const CentredBox& box = obstacles_.at_quarter(interval_, candidate, k);
+      const Vec3 outside = ((curve_.at_quarter(k) - box.centre).cwiseAbs() - box.half).cwiseMax(0.0);
+      if (outside.squaredNorm() > radius2) continue;
+      ++counts_.by_instant;
+      return true;
+    }
+    return false;
+  }
+
+  bool part_clear(const Candidate& candidate, const TimePart& part) {
+    if (is_apart(obstacles_, candidate, curve_.part(part).points, part, counts_)) return true;
+    if (!part.has_halves()) return false;
+    for (const TimePart& half : {part.half(0), part.half(1)}) {
+      if (!curve_.part(half).box.intersects(obstacles_.part_box(candidate, half))) {
+        ++counts_.by_box;
+      } else if (!part_clear(candidate, half)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  SweptObstacles& obstacles_;
+  int interval_;
+  Curve& curve_;
+  PairCounts& counts_;
+};
+
+}  // namespace
+
+Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
+                            std::vector<CertificatePlane>& planes) {
+  return Splitting{obstacles, power, HullForm{}, 0.0, &certificate_plane, counts, planes}.separate(interval);
+}
+
+void find_planes(SweptObstacles& obstacles, const ClampedSpline& spline, HullBasis basis, double reach,
+                 PairCounts& counts, std::vector<CertificatePlane>& planes) {
+  for (int j = 0; j < spline.intervals(); ++j) {
+    const PowerCubic power = spline.power(j);
+    Splitting{obstacles, power, {basis, spline.intervals()}, reach, &solver_plane, counts, planes}.separate(j);
+  }
+}
+
+bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
+              PairCounts& counts, HullForm form) {
+  Curve curve(power, points, form);
+  ClearTest test(obstacles, interval, curve, counts);
+  const auto& candidates = obstacles.candidates(interval);
+  int& last = obstacles.last_blocker(interval);
+  if (last >= 0 && !test.clear_of(candidates[static_cast<std::size_t>(last)])) return false;
+  for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
+    if (k == last || test.clear_of(candidates[static_cast<std::size_t>(k)])) continue;
+    last = k;
+    return false;
+  }
+  return true;
+}
+
+ClearTime clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts) {
+  for (int k = first; k < obstacles.intervals(); ++k) {
+    for (const Candidate& candidate : obstacles.candidates(k)) {
+      if (!candidate.box.contains(p)) {
+        ++counts.by_box;
+        continue;
+      }
+      if (!is_apart(obstacles, candidate, p, {k}, counts)) {
+        return {obstacles.time(k) - obstacles.time(first), &obstacles.obstacle(candidate)};
+      }
+    }
+  }
+  return {obstacles.time(obstacles.intervals()) - obstacles.time(first), nullptr};
+}
+
+}  // namespace tern

@@ -1,0 +1,71 @@
+#include "planner/standing_answer.h"
+
+#include <utility>
+
+#include "planner/tuning.h"
+
+namespace tern {
+
+StandingAnswer::StandingAnswer(const Surroundings& near, Plan blank, std::optional<Candidate> committed,
+                               PlanTools& tools)
+    : near_(near), blank_(std::move(blank)), committed_(std::move(committed)), tools_(tools) {
+  if (PlanObserver* observer = tools_.log.observer()) {
+    observer->answer(kept(near.start.collides ? PlanReason::StartInCollision : PlanReason::OutOfTime));
+  }
+}
+
+void StandingAnswer::head_for(const Heading& heading) {
+  blank_.local_goal = heading.local.goal;
+  if (committed_) committed_->arrival_s = worth_of(near_, heading, committed_->trajectory);
+}
+
+void StandingAnswer::announce(const Candidate& leaf) {
+  if (!best_ || leaf.better_than(*best_)) tell(leaf);
+}
+
+void StandingAnswer::take(Candidate candidate) {
+  if (!best_ || candidate.better_than(*best_)) replace(std::move(candidate));
+}
+
+void StandingAnswer::replace(std::optional<Candidate> evasion) {
+  if (!evasion) return;
+  best_ = std::move(evasion);
+  tell(*best_);
+}
+
+void StandingAnswer::tell(const Candidate& candidate) {
+  PlanObserver* observer = tools_.log.observer();
+  if (observer == nullptr || (committed_ && !candidate.better_than(*committed_))) return;
+  observer->answer(filled(&candidate, PlanReason::None));
+}
+
+Plan StandingAnswer::chosen(PlanReason reason) const {
+  if (!best_) return kept(!committed_ && reason == PlanReason::None ? PlanReason::Infeasible : reason);
+  const bool is_worse = committed_ && best_->outcome != PlanOutcome::Evade && !best_->better_than(*committed_);
+  return is_worse && !sets_out() ? kept(PlanReason::WorsePlan) : filled(&*best_, PlanReason::None);
+}
+
+/// A vehicle at rest gains nothing by waiting: a plan that gets nearer is flown even if it is estimated to arrive as
+/// late, or later by what smoothness may cost. (Arrivals are counted per axis: where one axis is slow, those of rest
+/// and of a plan that begins gently are equal.)
+bool StandingAnswer::sets_out() const {
+  const bool rests = near_.request.t_s >= near_.request.committed.end();
+  if (!rests || best_->holds != committed_->holds) return false;
+  if (best_->arrival_s > committed_->arrival_s + kSmoothnessPrice) return false;
+  return best_->cost.distance_to_goal < (blank_.local_goal - near_.request.start.p).norm() - kNearer;
+}
+
+Plan StandingAnswer::filled(const Candidate* candidate, PlanReason reason) const {
+  Plan plan = blank_;
+  plan.reason = reason;
+  plan.cuts = tools_.budget.cuts();
+  if (candidate == nullptr) return plan;
+  plan.outcome = candidate->outcome;
+  plan.trajectory = candidate->trajectory;
+  plan.hold = Duration::from_seconds(candidate->hold_s);
+  plan.cost = candidate->cost;
+  plan.certificate = candidate->certificate;
+  return plan;
+}
+
+}  // namespace tern

@@ -1,0 +1,45 @@
+// The best so far of one request: what plan() answers in the end, and the watchdog until then.
+#pragma once
+
+#include <optional>
+
+#include "planner/attempt.h"
+
+namespace tern {
+
+/// Tells the log's observer of every answer that comes to stand.
+class StandingAnswer {
+ public:
+  /// What is committed stands, or no plan. @param blank  what every answer to the request says
+  StandingAnswer(const Surroundings& near, Plan blank, std::optional<Candidate> committed, PlanTools& tools);
+
+  [[nodiscard]] const std::optional<Candidate>& committed() const { return committed_; }
+  /// What is new.
+  [[nodiscard]] const std::optional<Candidate>& best() const { return best_; }
+
+  /// From now on, plans head there, and what is committed is judged by that.
+  void head_for(const Heading& heading);
+  /// A leaf stands while it is optimized, if it is better than the best; the best stays what it is.
+  void announce(const Candidate& leaf);
+  /// Takes what is better than the best.
+  void take(Candidate candidate);
+  /// Takes an evasion, if there is one, whatever stood.
+  void replace(std::optional<Candidate> evasion);
+
+  /// The choice. @param reason  why there is nothing new, if there is not
+  [[nodiscard]] Plan chosen(PlanReason reason) const;
+  /// What is committed, or no plan.
+  [[nodiscard]] Plan kept(PlanReason reason) const { return filled(committed_ ? &*committed_ : nullptr, reason); }
+
+ private:
+  void tell(const Candidate& candidate);
+  [[nodiscard]] bool sets_out() const;
+  [[nodiscard]] Plan filled(const Candidate* candidate, PlanReason reason) const;
+
+  const Surroundings& near_;
+  Plan blank_;
+  std::optional<Candidate> committed_, best_;
+  PlanTools& tools_;
+};
+
+}  // namespace tern

@@ -1,0 +1,70 @@
+#include "planner/surroundings.h"
+
+#include "core/geometry/box.h"
+#include "planner/plan_workspace.h"
+
+namespace tern {
+namespace {
+
+/// Tracks and map boxes that can matter.
+void find_obstacles(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
+                    PlanWorkspace& memory) {
+  const Box region = planning_region(request, config);
+  memory.obstacles.clear();
+  world.predictions->index.query(region, memory.found);
+  for (const std::int32_t k : memory.found) {
+    memory.obstacles.push_back(world.predictions->obstacles[static_cast<std::size_t>(k)]);
+  }
+  world.map->occupied.query(region, memory.found);
+  for (const std::int32_t k : memory.found) {
+    const Box& box = world.map->occupied.boxes()[static_cast<std::size_t>(k)];
+    memory.obstacles.push_back({-1 - static_cast<std::int64_t>(k), nullptr, box, 1.0});
+  }
+}
+
+/// The fields, if what they cost differs anywhere in the sphere. The mean distance of Eq. 3 differs everywhere.
+const SemanticFields* semantics_in_reach(const HorizonRequest& request, const SemanticFields& fields,
+                                         const PlannerConfig& config) {
+  if (!config.semantics) return nullptr;
+  const Box sphere = box_around(request.start.p, Vec3::Constant(config.sphere_radius_m));
+  const bool differs = config.semantic_cost == SemanticCost::MeanDistance ? fields.weighs() : fields.varies_in(sphere);
+  return differs ? &fields : nullptr;
+}
+
+}  // namespace
+
+Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
+                          PlanWorkspace& memory) {
+  find_obstacles(request, world, config, memory);
+  const StartClearance start = clear_start(memory.obstacles, request.body, request.start.p, request.t_s);
+  const LookAhead look = look_ahead(request, *world.predictions, config);
+  Limits plan_limits = request.limits;
+  plan_limits.v_max *= config.velocity_share;
+  return {request,
+          config,
+          memory.obstacles,
+          start,
+          look,
+          hold_demand(request, config, memory.obstacles, look.horizon_s),
+          plan_limits,
+          semantics_in_reach(request, world.map->fields, config)};
+}
+
+HorizonProblem horizon_problem(const Surroundings& near, Duration interval) {
+  return {near.request.start,
+          near.config.intervals,
+          interval,
+          near.request.limits,
+          near.plan_limits,
+          near.config.sphere_radius_m,
+          centre_box(near.request.flight_box, near.request.body),
+          near.request.body.radius,
+          near.config.hull_basis};
+}
+
+bool is_followed(const Surroundings& near, Duration interval, double hold_s) {
+  const Duration looks = interval * near.config.intervals + Duration::from_seconds(hold_s);
+  return near.request.t_s + looks <= near.look.followed_until;
+}
+
+}  // namespace tern

@@ -1,0 +1,117 @@
+// The planner's tuning numbers: chosen by experiment, neither derived nor knobs. Tolerances stand where they are
+// defined.
+#pragma once
+
+#include "core/base/types.h"
+
+namespace tern {
+
+// ---- Durations (duration.h, attempt.h)
+
+/// Below this Δt rounding of accelerations q/Δt² would eat the tolerances, s.
+inline constexpr double kLeastInterval = 0.02;
+/// A spline of J intervals from rest to rest takes this much longer than the per-axis bound of least_duration().
+inline constexpr double kStopScale = 1.5;
+/// Jerk is gentle where less than this share of a_max is reached on the way …
+inline constexpr double kGentleShare = 0.1;
+/// … which counts as no shorter than this, m.
+inline constexpr double kLeastWay = 1e-4;
+
+// ---- How far ahead (look_ahead.h, hold.h, planning_world.h)
+
+/// The horizon is at least this long where movers are followed so far, s.
+inline constexpr double kLeastHorizon = 3.0;
+/// How far past its last piece a track's box is followed where the vehicle may meet it. By then the box of what is
+/// faster than a metre per second fills the sphere; who needs longer takes smaller steps (LookAhead).
+inline constexpr Duration kTrackBoxReach{4'000'000};
+/// Holds are followed in such steps, s, where Δt is shorter: so that a hold costs few hulls.
+inline constexpr double kHoldStep = 0.1;
+/// The horizon does not cut holds below this, s.
+inline constexpr double kLeastHold = 0.1;
+
+// ---- The local goal and the way to it (heading.h, look_ahead.h, planner.cpp)
+
+/// The sphere's border is left to rounding and to MINVO points that bulge: local goals lie this far inside, as a share
+/// of r.
+inline constexpr double kLocalGoalShare = 0.985;
+/// From one radius of the local goal to the next smaller one.
+inline constexpr double kRadiusShrink = 5.0 / 6.0;
+/// No local goal is nearer, m: what the gentlest vehicle flies from rest to rest in kLeastHorizon is longer.
+inline constexpr double kLeastRadius = 1e-4;
+/// Static obstacles are grown by this for paths, m: flights by hulls need a little room.
+inline constexpr double kPathSpacing = 0.02;
+/// A path that is longer than the straight line, or cheaper, by no more than this counts as straight, m.
+inline constexpr double kBendIgnored = 0.15;
+/// At rest on the way to a goal and without a plan: how many smaller steps are tried, and by what they shrink.
+inline constexpr int kSmallerSteps = 3;
+inline constexpr double kSmallerStep = 3.0;
+
+// ---- The search's lengths for near local goals (look_ahead.h)
+
+/// Local goals at least this far away, m, and flights there of at most so many seconds are what the search's lengths
+/// were chosen for.
+inline constexpr double kFullStep = 2.0;
+inline constexpr double kFullStepTime = 4.0;
+/// Of a step's mean speed: velocities that differ by less are one to its pruning.
+inline constexpr double kCoarseVelocityShare = 0.4;
+
+// ---- What a trajectory is worth (heading.h, refinement.h, standing_answer.h, planner.cpp)
+
+/// For how long a trajectory is taken to be flown before a better one follows, s; where a step takes minutes, this
+/// share of it: nothing better follows within a second.
+struct While {
+  double least_s;
+  double share;
+};
+inline constexpr While kWhiles[] = {{0.3, 0.15}, {0.8, 0.4}};
+/// Chords of this much time stand for the curve in semantic costs: they leave it by a_max·kChord²/8, centimetres, s.
+inline constexpr double kChord = 0.1;
+/// An optimized trajectory may arrive so much later than the search's, and one that sets out than waiting, s.
+inline constexpr double kSmoothnessPrice = 0.05;
+/// Where Δt is shorter than this arrivals say little …
+inline constexpr Duration kMoment{40'000};
+/// … and an optimized trajectory keeps this share of the leaf's progress at least.
+inline constexpr double kProgressKept = 0.5;
+/// A plan that sets out ends nearer to the local goal by this, m.
+inline constexpr double kNearer = 1e-6;
+/// No longer duration is tried once an end that holds lies this near the local goal, m.
+inline constexpr double kNearLocalGoal = 1.0;
+
+// ---- Evasion (evasion.h)
+
+/// Stops that are searched for at most, and nodes expanded for each.
+inline constexpr int kMostStops = 40;
+inline constexpr int kStopExpansions = 150;
+/// Durations over least_duration(): at leisure, and as quick as a far stop can be flown. To hurry far away pays where
+/// motion is promised; among estimated movers, whose boxes grow, it leads into what is not yet known.
+inline constexpr double kStopPaces[] = {kStopScale, 1.15};
+/// Stops lie this far away, in what vehicle and largest mover are wide together, but within a share of r …
+inline constexpr double kStopWidths[] = {0.3, 0.6, 1.1, 2.0};
+inline constexpr double kFarthestWidthShare = 0.9;
+/// … or, to get far away, in r.
+inline constexpr double kStopShares[] = {0.35, 0.8};
+/// The forecast's steps, and how far it reaches at most, s.
+inline constexpr double kForecastStep = 0.05;
+inline constexpr double kLongestForecast = 20.0;
+
+// ---- A start inside a hull (start_clearance.h)
+
+/// An α that is scaled leaves this much room at the start, m: more than touching, because the first interval's hull
+/// moves on.
+inline constexpr double kStartSlack = 1e-3;
+
+// ---- Eq. 4 (convex_problem.h, barrier_solver.h)
+
+/// Limits farther away than this share of themselves are left out: an axis that x0 leaves at rest may go to half its
+/// limit.
+inline constexpr double kLimitReach = 1.5;
+/// The barrier method's first slacks are no less, m.
+inline constexpr double kFirstSlack = 0.1;
+/// How much of the way to the nearest bound a step goes, and the step below which it has failed.
+inline constexpr double kStepShare = 0.995;
+inline constexpr double kLeastStep = 1e-8;
+/// The first barrier, of what there is to gain, and the last, of the tolerance: shared among the constraints.
+inline constexpr double kFirstBarrierShare = 0.1;
+inline constexpr double kLastBarrierShare = 0.3;
+
+}  // namespace tern
