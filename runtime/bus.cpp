@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "core/world/message_limits.h"
+#include "core/world/names.h"
 #include "runtime/authentication.h"
 #include "runtime/node.h"
 #include "runtime/sender_watch.h"
@@ -292,23 +293,6 @@ UTime Bus::received() const { return clock_.at_system_time(state_->received_us);
 
 void Bus::rethrow() {
   if (state_->error) std::rethrow_exception(std::exchange(state_->error, nullptr));
-}
-
-const char* to_string(Rejection reason) {
-  switch (reason) {
-    case Rejection::Length: return "length";
-    case Rejection::Fingerprint: return "fingerprint";
-    case Rejection::Count: return "count";
-    case Rejection::Number: return "number";
-    case Rejection::Enumeration: return "enumeration";
-    case Rejection::Time: return "time";
-    case Rejection::Inconsistent: return "inconsistent";
-    case Rejection::Future: return "future";
-    case Rejection::Sender: return "sender";
-    case Rejection::Repeated: return "repeated";
-    case Rejection::Unauthenticated: return "unauthenticated";
-  }
-  return "unknown";
 }
 
 }  // namespace tern

@@ -155,8 +155,4 @@ class Bus {
   std::unique_ptr<State> state_;
 };
 
-/// "length", "fingerprint", "count", "number", "enumeration", "time", "inconsistent", "future", "sender", "repeated",
-/// "unauthenticated".
-const char* to_string(Rejection reason);
-
 }  // namespace tern

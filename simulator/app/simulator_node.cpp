@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/world/names.h"
 #include "messages/flight_result.h"
 #include "messages/goal.h"
 #include "messages/heartbeat.h"

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/world/names.h"
 #include "messages/flight_result.h"
 #include "messages/heartbeat.h"
 #include "runtime/channels.h"

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/world/names.h"
 #include "logger/records/log_writer.h"
 #include "messages/batching.h"
 #include "messages/configuration_report.h"

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/world/names.h"
 #include "planner/planner_build.h"
 #include "runtime/channels.h"
 #include "runtime/platform.h"

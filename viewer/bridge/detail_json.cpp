@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/world/names.h"
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/scene_json.h"
 
@@ -51,9 +52,8 @@ void write_obstacle(JsonWriter& json, const Scene& scene, std::int64_t id) {
   if (const auto& tracks = scene.tracks()) {
     const auto t = std::find_if(tracks->tracks.begin(), tracks->tracks.end(), has_id);
     if (t != tracks->tracks.end()) {
-      constexpr std::array<const char*, 3> kKinds = {"static", "declared", "estimated"};
       begin_message(json, "PREDICTIONS", tracks->header).key("set").integer(tracks->batch.set);
-      json.key("id").integer(id).key("kind").text(kKinds.at(static_cast<std::size_t>(t->kind)));
+      json.key("id").integer(id).key("kind").text(to_string(t->kind));
       json.key("confidence").number(tracks->confidence).key("half_extents_m").vec3(t->half_extents);
       json.key("top_speed_mps").number(t->top_speed).key("start_us").integer(t->motion.start.us).key("pieces");
       write_pieces(json, *t);
@@ -63,11 +63,9 @@ void write_obstacle(JsonWriter& json, const Scene& scene, std::int64_t id) {
 }
 
 void write_timing(JsonWriter& json, const PlanTiming& t) {
-  constexpr std::array<const char*, kStages> kStageNames = {"fallback_ms", "local_goal_ms",   "hulls_ms",
-                                                            "search_ms",   "optimization_ms", "check_ms"};
   begin_message(json, "PLAN_TIMING", t.header).key("request").integer(t.request_id).key("total_ms").number(t.total_ms);
   json.key("first_answer_ms").number(t.first_answer_ms).key("cpu_ms").number(t.cpu_ms);
-  for (std::size_t k = 0; k < kStages; ++k) json.key(kStageNames[k]).number(t.stage_ms[k]);
+  for (int k = 0; k < kStages; ++k) json.key(key(static_cast<Stage>(k)) + "_ms").number(t.stage_ms[k]);
   json.key("expansions").integer(t.expansions).key("hulls").integer(t.hulls);
   json.key("pairs_by_box").integer(t.pairs_by_box).key("pairs_by_plane").integer(t.pairs_by_plane);
   json.key("pairs_by_lp").integer(t.pairs_by_lp).key("solver_iterations").integer(t.solver_iterations);
@@ -111,12 +109,11 @@ void write_goal(JsonWriter& json, const Scene& scene) {
 
 void write_map(JsonWriter& json, const Scene& scene) {
   if (!scene.map()) return;
-  constexpr std::array<const char*, kVoxelLabels> kLabels = {"unknown", "free", "occupied", "attractive", "repulsive"};
   const SeenMap& map = *scene.map();
   json.begin_object().key("channel").text("SEMANTIC_MAP").key("version").text(fmt::format("{:016x}", map.version));
   json.key("origin_m").vec3(map.grid.origin).key("resolution_m").number(map.grid.resolution).key("size");
   json.begin_list().integer(map.grid.size.x()).integer(map.grid.size.y()).integer(map.grid.size.z()).end_list();
-  for (std::size_t k = 0; k < kVoxelLabels; ++k) json.key(kLabels[k]).integer(map.voxels[k]);
+  for (std::size_t k = 0; k < kVoxelLabels; ++k) json.key(kWords<VoxelLabel>[k]).integer(map.voxels[k]);
   json.key("classes").begin_list();
   for (const std::string& name : map.class_names) json.text(name);
   json.end_list().end_object();
