@@ -1,6 +1,5 @@
 #include "logger/records/channel_table.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "messages/configuration_report.h"
@@ -20,11 +19,6 @@
 
 namespace tern {
 namespace {
-
-/// A sender's forged epochs cost no memory beyond this; its oldest are forgotten first.
-constexpr std::size_t kMaxSenders = 64;
-/// A forged sequence number shall not overflow the sum.
-constexpr std::int64_t kMaxGap = 1'000'000'000;
 
 template <class T>
 tl::expected<Header, Rejection> head_of(std::span<const std::uint8_t> bytes) {
@@ -55,7 +49,7 @@ HeadDecoder find_head_decoder(std::string_view channel) {
   return found == kDecoders.end() ? nullptr : found->second;
 }
 
-void ChannelTable::add(std::string_view name, std::span<const std::uint8_t> data) {
+void ChannelTable::add(std::string_view name, UTime received, std::span<const std::uint8_t> data) {
   auto found = channels_.find(name);
   if (found == channels_.end()) {
     found = channels_.emplace(std::string(name), Channel{}).first;
@@ -70,12 +64,8 @@ void ChannelTable::add(std::string_view name, std::span<const std::uint8_t> data
     ++channel.count.refused;
     return;
   }
-  const auto [last, is_new] = channel.last_sequence.try_emplace(head->name.sender_epoch_us, head->name.sequence);
-  if (!is_new && head->name.sequence > last->second) {
-    channel.count.lost += std::min(head->name.sequence - last->second - 1, kMaxGap);
-    last->second = head->name.sequence;
-  }
-  if (channel.last_sequence.size() > kMaxSenders) channel.last_sequence.erase(channel.last_sequence.begin());
+  channel.losses.add(head->name, received);
+  channel.count.lost = channel.losses.lost();
 }
 
 std::map<std::string, ChannelCount> ChannelTable::counts() const {

@@ -59,22 +59,31 @@ TEST_F(FlightLogTest, AFolderMeansTheFlightInIt) {
 }
 
 TEST_F(FlightLogTest, CountsWhatIsLostForeignOrOfAnotherVersion) {
-  write(channels::kGoal, encode(goal(1)));
-  write(channels::kGoal, encode(goal(4)));
+  for (const int k : {3, 6, 7, 8, 9}) write(channels::kGoal, encode(goal(k)));
   write(channels::kGoal, encode(UavState{}));
   write("CAMERA", Bytes(1'000));
   FlightLog log;
   int seen = 0;
   log.on<Goal>(channels::kGoal, [&](const Goal&, std::int64_t) { ++seen; });
   const LogContents contents = read(log);
-  EXPECT_EQ(seen, 2);
+  EXPECT_EQ(seen, 5);
   const LogChannel& goals = contents.channels.at(channels::kGoal);
-  EXPECT_EQ(goals.messages, 3);
+  EXPECT_EQ(goals.messages, 6);
   EXPECT_EQ(goals.lost, 2);
+  EXPECT_EQ(goals.before_first, 2);
   EXPECT_EQ(goals.refused[static_cast<int>(Rejection::Fingerprint)], 1);
   EXPECT_TRUE(goals.read);
   EXPECT_FALSE(goals.foreign);
   EXPECT_TRUE(contents.channels.at("CAMERA").foreign);
+}
+
+TEST_F(FlightLogTest, AForgedNumberIsNoLoss) {
+  for (const int k : {1, 2, 3, 1'000'000, 4, 5, 6}) write(channels::kGoal, encode(goal(k)));
+  FlightLog log;
+  log.on<Goal>(channels::kGoal, [](const Goal&, std::int64_t) {});
+  const LogChannel goals = read(log).channels.at(channels::kGoal);
+  EXPECT_EQ(goals.lost, 0);
+  EXPECT_EQ(goals.before_first, 0);
 }
 
 TEST_F(FlightLogTest, AnotherVehiclesChannelsAreForeign) {

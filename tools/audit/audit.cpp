@@ -39,6 +39,9 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
   }
   for (const auto& [name, channel] : log.channels) {
     if (channel.lost > 0) missing.push_back(fmt::format("{}: {} messages lost, by their numbers", name, channel.lost));
+    if (channel.before_first > 0) {
+      missing.push_back(fmt::format("{}: the log lacks the first {} messages", name, channel.before_first));
+    }
     std::int64_t refused = 0;
     for (const std::int64_t n : channel.refused) refused += n;
     if (refused > 0)

@@ -227,7 +227,7 @@ class Reading {
 std::int64_t FlightRecord::unread(const std::string& channel) const {
   const auto found = contents.channels.find(channel);
   if (found == contents.channels.end()) return 0;
-  std::int64_t sum = found->second.lost;
+  std::int64_t sum = found->second.lost + found->second.before_first;
   for (const std::int64_t n : found->second.refused) sum += n;
   return sum;
 }

@@ -13,6 +13,7 @@
 #include "core/base/result.h"
 #include "core/world/header.h"
 #include "core/world/health.h"
+#include "core/world/message_losses.h"
 #include "messages/codec.h"
 #include "tools/log_reader/log_reader.h"
 
@@ -22,7 +23,8 @@ namespace tern {
 struct LogChannel {
   std::int64_t messages = 0, bytes = 0;    ///< all of them
   std::int64_t refused[kRejections] = {};  ///< by Rejection; Fingerprint: another version of the message, or no message
-  std::int64_t lost = 0;                   ///< gaps in its senders' sequence numbers
+  std::int64_t lost = 0;                   ///< by its senders' numbers (MessageLosses)
+  std::int64_t before_first = 0;           ///< what its senders had sent before the first message that the log has
   std::int64_t repeated = 0;               ///< the same bytes again: a network that delivers a message more than once
   bool read =
       false;  ///< it was asked for: only then its messages were decoded, and refused, lost and repeated are known
