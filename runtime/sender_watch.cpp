@@ -1,30 +1,19 @@
 #include "runtime/sender_watch.h"
 
-#include "core/world/voxel_map.h"
-#include "runtime/channels.h"
+#include "messages/channels.h"
 
 namespace tern {
 namespace {
 
 /// What comes once or twice is noise, and not said.
 constexpr std::int64_t kSeveral = 3;
-constexpr Duration kSilence{1'000'000};
-/// The planner calls predictions of this age stale: it cannot wait longer for a predictor that was started anew. Nor
-/// can a vehicle in flight for a planner: plans are short.
-constexpr Duration kShortSilence{300'000};
 
 }  // namespace
 
 std::optional<Duration> speaker_silence(std::string_view channel) {
-  for (const char* one : {channels::kPredictions, channels::kPlan, channels::kPlanTiming, channels::kSearchView}) {
-    if (channel == one) return kShortSilence;
-  }
-  if (channel == channels::kSemanticMap) return kMapSilence;
-  for (const char* one : {channels::kUavState, channels::kSetpoint, channels::kDeclaredMotions,
-                          channels::kHorizonRequest, channels::kObstacleTruth, channels::kFlightResult}) {
-    if (channel == one) return kSilence;
-  }
-  return std::nullopt;
+  std::optional<Duration> silence;
+  visit_channel(channel, [&silence](const auto& known) { silence = known.silence; });
+  return silence;
 }
 
 void SenderWatch::Repetition::add(UTime now) {

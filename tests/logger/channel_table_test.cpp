@@ -1,9 +1,8 @@
-#include "logger/records/channel_table.h"
+#include "logger/channel_table.h"
 
 #include <gtest/gtest.h>
 
-#include "messages/goal.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 
 namespace tern {
 namespace {
@@ -31,13 +30,7 @@ std::vector<Bytes> goals(std::int64_t epoch, const std::vector<std::int64_t>& nu
 }
 
 TEST(ChannelTable, KnowsEveryChannelOfTern) {
-  for (const char* channel :
-       {channels::kUavState, channels::kSetpoint, channels::kObstacleObservations, channels::kDeclaredMotions,
-        channels::kPredictions, channels::kSemanticMap, channels::kGoal, channels::kHorizonRequest, channels::kPlan,
-        channels::kPlanTiming, channels::kSearchView, channels::kHeartbeat, channels::kConfiguration,
-        channels::kObstacleTruth, channels::kFlightResult}) {
-    EXPECT_NE(find_head_decoder(channel), nullptr) << channel;
-  }
+  for_each_channel([](const auto& channel) { EXPECT_NE(find_head_decoder(channel.name), nullptr) << channel.name; });
   EXPECT_EQ(find_head_decoder("SOMEONE_ELSES"), nullptr);
 }
 

@@ -8,9 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/world/names.h"
-#include "messages/flight_result.h"
-#include "messages/heartbeat.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/virtual_runner.h"
 
 namespace tern {

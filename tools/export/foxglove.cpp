@@ -146,7 +146,7 @@ Json list_schema(const Json& items) { return {{"type", "array"}, {"items", items
 
 std::optional<Drawing> drawing_of(const LoggedMessage& message) {
   const Json& m = message.fields;
-  if (message.channel.starts_with("UAV_STATE")) {
+  if (message.channel.starts_with(channels::kUavState.name)) {
     return Drawing{"/tern/uav",
                    "foxglove.PoseInFrame",
                    {{"timestamp", time_of(message.received_us)},

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/world/names.h"
-#include "messages/plan.h"
+#include "messages/codec.h"
 
 namespace tern {
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "core/world/names.h"
+#include "messages/channels.h"
 #include "planner/planner_build.h"
-#include "runtime/channels.h"
 #include "runtime/platform.h"
 #include "tools/replay/extract.h"
 

@@ -1,4 +1,4 @@
-#include "tools/log_reader/flight_log.h"
+#include "flight_log/flight_log.h"
 
 #include <algorithm>
 #include <deque>
@@ -6,9 +6,8 @@
 #include <unordered_set>
 
 #include "core/base/digest.h"
-#include "logger/records/channel_table.h"
-#include "logger/records/log_writer.h"
-#include "tools/log_reader/text_log.h"
+#include "flight_log/log_writer.h"
+#include "flight_log/text_log.h"
 
 namespace tern {
 namespace {
@@ -67,8 +66,9 @@ struct FlightLog::Reading {
     const bool room = contents.channels.size() < kMaxChannels || handlers.contains(name);
     LogChannel& channel = contents.channels[room ? name : kOtherChannels];
     channel.read = handlers.contains(name);
-    channel.foreign =
-        !name.ends_with(suffix) || find_head_decoder(name.substr(0, name.size() - suffix.size())) == nullptr;
+    const auto nothing = [](const auto&) {};
+    channel.foreign = !name.ends_with(suffix) ||
+                      !visit_channel(std::string_view(name).substr(0, name.size() - suffix.size()), nothing);
     return channel;
   }
 

@@ -17,7 +17,7 @@ namespace tern {
 /// Reads the head of the message that Tern sends on a channel; refuses what the channel's receivers would refuse.
 using HeadDecoder = tl::expected<Header, Rejection> (*)(std::span<const std::uint8_t>);
 
-/// The decoder of one of Tern's channels (runtime/channels.h); nullptr for a channel that is not Tern's.
+/// The decoder of one of Tern's channels (messages/channels.h); nullptr for a channel that is not Tern's.
 /// @param channel  without a vehicle's suffix
 HeadDecoder find_head_decoder(std::string_view channel);
 
@@ -38,13 +38,13 @@ class ChannelTable {
   [[nodiscard]] std::map<std::string, ChannelCount> counts() const;
 
  private:
-  struct Channel {
+  struct Entry {
     ChannelCount count;
     HeadDecoder decode = nullptr;
     MessageLosses losses;
   };
   std::string suffix_;
-  std::map<std::string, Channel, std::less<>> channels_;
+  std::map<std::string, Entry, std::less<>> channels_;
 };
 
 }  // namespace tern

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,8 +15,8 @@
 #include "core/world/header.h"
 #include "core/world/health.h"
 #include "core/world/message_losses.h"
+#include "flight_log/log_reader.h"
 #include "messages/codec.h"
-#include "tools/log_reader/log_reader.h"
 
 namespace tern {
 
@@ -46,7 +47,7 @@ std::vector<std::string> log_parts(const std::string& path);
 /// Hands a log's messages to those who ask for their channels, in the log's order.
 ///
 ///     FlightLog log;
-///     log.on<Plan>(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) { … });
+///     log.on(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) { … });
 ///     const Result<LogContents> contents = log.read("flight.lcm");
 ///
 /// Bounded memory: no more than one event is held (LogReader). Only what decode() accepts is handed over, and each
@@ -59,8 +60,9 @@ class FlightLog {
 
   /// Several handlers of one channel are called in the order of their asking.
   template <class T>
-  void on(std::string_view channel, std::function<void(const T&, std::int64_t received_us)> handler) {
-    add(channel,
+  void on(const Channel<T>& channel,
+          std::type_identity_t<std::function<void(const T&, std::int64_t received_us)>> handler) {
+    add(channel.name,
         [handler = std::move(handler)](std::span<const std::uint8_t> bytes,
                                        std::int64_t received_us) -> tl::expected<Header, Rejection> {
           const auto message = decode<T>(bytes);
