@@ -13,15 +13,13 @@
 
 #include "benchmarks/flight_recording.h"
 #include "core/base/percentiles.h"
+#include "core/world/names.h"
 #include "planner/plan_workspace.h"
 #include "runtime/config.h"
 #include "runtime/stopwatch.h"
 
 namespace tern {
 namespace {
-
-constexpr const char* kStageNames[kStages] = {"fallback", "local_goal", "hulls", "search", "optimization", "check"};
-constexpr const char* kOutcomeNames[kPlanOutcomes] = {"optimized", "search only", "keep", "evade", "none"};
 
 /// Thread CPU time by stage and until the first new trajectory.
 class CpuObserver final : public PlanObserver {
@@ -94,7 +92,7 @@ void report(const std::vector<Cost>& costs, int worst) {
   for (std::size_t s = 0; s < kStages; ++s) {
     double stage = 0.0;
     for (const Cost& c : costs) stage += c.stage_ms[s];
-    fmt::print("{:13} {:5.1f} %  {}\n", kStageNames[s], 100.0 * stage / total,
+    fmt::print("{:13} {:5.1f} %  {}\n", key(static_cast<Stage>(s)), 100.0 * stage / total,
                percentiles(costs, [s](const Cost& c) { return c.stage_ms[s]; }));
   }
   std::vector<const Cost*> dearest;
@@ -107,8 +105,8 @@ void report(const std::vector<Cost>& costs, int worst) {
     fmt::print(
         "request {:4} {:7.2f} ms first {:7.2f}: {} reason {} relaxed {} hold {:.2f}; {} expansions, {} hulls, {} "
         "boxes, {} planes\n",
-        c->request, c->total_ms, c->first_ms, kOutcomeNames[static_cast<int>(p.outcome)], static_cast<int>(p.reason),
-        p.relaxed, p.hold.seconds(), s.expansions, s.hulls, s.pairs.by_box, s.pairs.by_plane + s.pairs.by_cache);
+        c->request, c->total_ms, c->first_ms, to_string(p.outcome), static_cast<int>(p.reason), p.relaxed,
+        p.hold.seconds(), s.expansions, s.hulls, s.pairs.by_box, s.pairs.by_plane + s.pairs.by_cache);
   }
 }
 

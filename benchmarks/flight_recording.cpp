@@ -1,9 +1,9 @@
 #include "benchmarks/flight_recording.h"
 
 #include "campaign/virtual_system.h"
+#include "messages/channels.h"
 #include "planner/app/config_reader.h"
 #include "planner/app/world_intake.h"
-#include "runtime/channels.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 #include "simulator/app/simulator_node.h"
@@ -24,7 +24,7 @@ FlightRecording record_flight(const std::string& scenario_file, const std::vecto
   VirtualRunner& runner = system.runner();
   Bus& bus = runner.observer();
   WorldIntake intake(bus, recording.config, recording.scenario.uav, false);
-  bus.subscribe<HorizonRequest>(channels::kHorizonRequest, [&](const HorizonRequest& request) {
+  bus.subscribe(channels::kHorizonRequest, [&](const HorizonRequest& request) {
     intake.set_vehicle(request);
     intake.prepare();
     recording.moments.push_back({request, intake.snapshot()});

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/base/digest.h"
-#include "messages/configuration_report.h"
+#include "messages/codec.h"
 #include "runtime/bus.h"
 #include "runtime/lcm_network.h"
 
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kRounds = 9, kPings = 1'000;
 constexpr int kPeriodUs = 2'000, kPatienceMs = 1'000;
-constexpr char kPing[] = "PING", kPong[] = "PONG";
+constexpr Channel<ConfigurationReport> kPing{"PING"}, kPong{"PONG"};
 
 struct End {
   explicit End(const std::optional<Key>& master) {
@@ -48,7 +48,7 @@ struct End {
 
 [[noreturn]] void answer(const std::optional<Key>& master) {
   End end(master);
-  end.bus->subscribe<ConfigurationReport>(kPing, [&](const ConfigurationReport& m) { end.bus->publish(kPong, m); });
+  end.bus->subscribe(kPing, [&](const ConfigurationReport& m) { end.bus->publish(kPong, m); });
   while (true) end.hear();
 }
 
@@ -74,7 +74,7 @@ Round play(const std::optional<Key>& master, std::size_t bytes) {
   if (child == 0) answer(master);
   End end(master);
   std::int64_t answered = 0;
-  end.bus->subscribe<ConfigurationReport>(kPong, [&](const ConfigurationReport&) { ++answered; });
+  end.bus->subscribe(kPong, [&](const ConfigurationReport&) { ++answered; });
   ConfigurationReport message;
   message.process = "round-trip";
   message.yaml = std::string(bytes, 'x');

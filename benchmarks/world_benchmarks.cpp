@@ -7,11 +7,7 @@
 #include "benchmarks/flight_recording.h"
 #include "campaign/virtual_system.h"
 #include "messages/batching.h"
-#include "messages/horizon_request.h"
-#include "messages/map_chunk.h"
-#include "messages/plan.h"
-#include "messages/track_set.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 
 namespace tern {
 namespace {
@@ -30,7 +26,7 @@ const Traffic& traffic() {
     VirtualSystem system(scenario, {});
     MapAssembler assembler;
     bool complete = false;
-    system.runner().observer().subscribe<MapChunk>(channels::kSemanticMap, [&](const MapChunk& chunk) {
+    system.runner().observer().subscribe(channels::kSemanticMap, [&](const MapChunk& chunk) {
       if (complete) return;
       t.chunks.push_back(chunk);
       complete = assembler.add(chunk).value_or(false);

@@ -10,16 +10,9 @@
 #include <fstream>
 #include <utility>
 
-#include "logger/records/log_writer.h"
-#include "messages/flight_result.h"
-#include "messages/goal.h"
-#include "messages/heartbeat.h"
-#include "messages/horizon_request.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/uav_state.h"
-#include "monitor/flight_watch.h"
-#include "runtime/channels.h"
+#include "flight_log/log_writer.h"
+#include "messages/codec.h"
+#include "monitor/app/hear_flight.h"
 #include "simulator/app/simulator_node.h"
 
 namespace tern {
@@ -55,25 +48,13 @@ void write_text(const std::string& path, const std::string& text) {
   if (!out.flush()) throw CannotRecord(path + ": cannot be written");
 }
 
-/// Everything on the bus, on its way into the log, the watch and the observer.
+/// Everything on the bus, on its way into the watch, the times and the observer.
 void subscribe(Bus& bus, FlightWatch& watch, FlightTimes& times, FlightObserver* observer) {
-  const Clock& clock = bus.clock();
-  bus.subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& m) { watch.hear(m, clock.now()); });
-  bus.subscribe<UavState>(channels::kUavState, [&](const UavState& m) { watch.hear(m); });
-  bus.subscribe<Goal>(channels::kGoal, [&](const Goal& m) { watch.hear(m); });
-  bus.subscribe<HorizonRequest>(channels::kHorizonRequest, [&clock, &watch, observer](const HorizonRequest& m) {
-    watch.hear(m, clock.now());
-    if (observer != nullptr) observer->on_request(m);
-  });
-  bus.subscribe<Plan>(channels::kPlan, [&watch, observer](const Plan& m) {
-    watch.hear(m);
-    if (observer != nullptr) observer->on_plan(m);
-  });
-  bus.subscribe<PlanTiming>(channels::kPlanTiming, [&](const PlanTiming& m) {
-    watch.hear(m);
-    add(times, m);
-  });
-  bus.subscribe<FlightResult>(channels::kFlightResult, [&](const FlightResult& m) { watch.hear(m, clock.now()); });
+  hear_flight(bus, watch);
+  bus.subscribe(channels::kPlanTiming, [&times](const PlanTiming& m) { add(times, m); });
+  if (observer == nullptr) return;
+  bus.subscribe(channels::kHorizonRequest, [observer](const HorizonRequest& m) { observer->on_request(m); });
+  bus.subscribe(channels::kPlan, [observer](const Plan& m) { observer->on_plan(m); });
 }
 
 /// Runs until the watch has its verdict.

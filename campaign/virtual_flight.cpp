@@ -1,7 +1,7 @@
 #include "campaign/virtual_flight.h"
 
 #include "campaign/virtual_system.h"
-#include "runtime/channels.h"
+#include "messages/channels.h"
 #include "simulator/app/simulator_node.h"
 
 namespace tern {
@@ -18,15 +18,15 @@ VirtualFlight fly_virtually(const std::string& scenario_file, const std::vector<
   VirtualRunner& runner = system.runner();
   VirtualFlight flight;
   Bus& bus = runner.observer();
-  bus.subscribe<Plan>(channels::kPlan, [&](const Plan& plan) {
+  bus.subscribe(channels::kPlan, [&](const Plan& plan) {
     ++flight.outcomes[static_cast<std::size_t>(plan.outcome)];
     ++flight.reasons[static_cast<std::size_t>(plan.reason)];
     if (observer != nullptr) observer->on_plan(plan);
   });
-  bus.subscribe<HorizonRequest>(channels::kHorizonRequest, [&](const HorizonRequest& request) {
+  bus.subscribe(channels::kHorizonRequest, [&](const HorizonRequest& request) {
     if (observer != nullptr) observer->on_request(request);
   });
-  bus.subscribe<PlanTiming>(channels::kPlanTiming, [&](const PlanTiming& t) { flight.timings.push_back(t); });
+  bus.subscribe(channels::kPlanTiming, [&](const PlanTiming& t) { flight.timings.push_back(t); });
   const SimulatorNode& simulator = system.simulator();
   const RunResult run = runner.run(runner.now() + kLongestFlight, [&] { return simulator.result().has_value(); });
   if (simulator.result()) flight.result = *simulator.result();

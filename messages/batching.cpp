@@ -9,8 +9,6 @@
 #include "core/world/message_limits.h"
 #include "core/world/resampling.h"
 #include "messages/codec.h"
-#include "messages/obstacle_truth.h"
-#include "messages/track_set.h"
 
 namespace tern {
 namespace {

@@ -1,6 +1,5 @@
-#include "messages/configuration_report.h"
-
 #include "core/base/digest.h"
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/configuration_t.hpp"

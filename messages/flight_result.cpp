@@ -1,7 +1,6 @@
-#include "messages/flight_result.h"
-
 #include <cmath>
 
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/flight_result_t.hpp"

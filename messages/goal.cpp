@@ -1,5 +1,4 @@
-#include "messages/goal.h"
-
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/goal_t.hpp"

@@ -1,5 +1,4 @@
-#include "messages/heartbeat.h"
-
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/heartbeat_t.hpp"

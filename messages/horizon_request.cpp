@@ -1,5 +1,4 @@
-#include "messages/horizon_request.h"
-
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/horizon_request_t.hpp"

@@ -1,5 +1,4 @@
-#include "messages/map_chunk.h"
-
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/map_chunk_t.hpp"

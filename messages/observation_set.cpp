@@ -1,5 +1,4 @@
-#include "messages/observation_set.h"
-
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/observation_set_t.hpp"

@@ -1,5 +1,4 @@
-#include "messages/obstacle_truth.h"
-
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/obstacle_truth_t.hpp"

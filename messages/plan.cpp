@@ -1,8 +1,7 @@
-#include "messages/plan.h"
-
 #include <cmath>
 
 #include "core/world/voxel_map.h"
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/plan_t.hpp"

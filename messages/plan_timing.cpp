@@ -1,5 +1,4 @@
-#include "messages/plan_timing.h"
-
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/plan_timing_t.hpp"

@@ -1,5 +1,4 @@
-#include "messages/search_view.h"
-
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/search_view_t.hpp"

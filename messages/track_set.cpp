@@ -1,5 +1,4 @@
-#include "messages/track_set.h"
-
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/track_set_t.hpp"

@@ -23,7 +23,7 @@ inline constexpr std::size_t kTrailerBytes = kTrailerHeadBytes + kTagBytes;
 using Tag = std::array<std::uint8_t, kTagBytes>;
 
 struct Trailer {
-  std::uint8_t role = 0;  ///< runtime/roles.h
+  std::uint8_t role = 0;  ///< as Role (channels.h)
   MessageName name;       ///< as in the message's header
   UTime utime;            ///< as in the message's header
   Tag tag = {};

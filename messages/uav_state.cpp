@@ -1,7 +1,6 @@
-#include "messages/uav_state.h"
-
 #include <numbers>
 
+#include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
 #include "tern_msgs/uav_state_t.hpp"

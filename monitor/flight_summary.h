@@ -51,10 +51,4 @@ std::string to_json(const FlightSummary& summary);
 /// The same for a person, at most 32 lines of at most 100 characters while there are at most 6 regions.
 std::string to_text(const FlightSummary& summary);
 
-/// "optimized", "search_only", "keep_committed", "evade", "no_plan".
-const char* plan_outcome_key(PlanOutcome outcome);
-
-/// "stale world" and so on, in words; "" for None.
-const char* plan_reason_words(PlanReason reason);
-
 }  // namespace tern

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/world/names.h"
+
 namespace tern {
 namespace {
 
@@ -20,7 +22,7 @@ std::string live_line(const LiveView& view) {
       fmt::format("{:6.1f} s  {:3.0f} %  {:5.2f} m/s  nearest {} m  replan {}/{} ms (p50/p99)  in time {}/{}",
                   view.elapsed_s, view.progress * 100.0, view.speed_mps, number(view.nearest_m, 2),
                   number(view.replan_p50_ms, 1), number(view.replan_p99_ms, 1), view.answered_in_time, view.requests);
-  if (view.reason != PlanReason::None) line += fmt::format("  ({})", plan_reason_words(view.reason));
+  if (view.reason != PlanReason::None) line += fmt::format("  ({})", to_string(view.reason));
   if (view.left_out > 0) line += fmt::format("  {} tracks left out", view.left_out);
   if (!view.waiting.empty()) line += "  waiting for " + view.waiting;
   return line + beside;

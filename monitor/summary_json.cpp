@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "core/world/names.h"
 #include "monitor/flight_summary.h"
 
 namespace tern {
@@ -33,7 +34,7 @@ Json known(const std::optional<T>& value) {
 Json plans_by_outcome(const FlightSummary& summary) {
   Json plans = Json::object();
   for (int k = 0; k < kPlanOutcomes; ++k) {
-    plans[plan_outcome_key(static_cast<PlanOutcome>(k))] = summary.plans[static_cast<std::size_t>(k)];
+    plans[key(static_cast<PlanOutcome>(k))] = summary.plans[static_cast<std::size_t>(k)];
   }
   return plans;
 }

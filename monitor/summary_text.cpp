@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/world/names.h"
 #include "monitor/flight_summary.h"
 
 namespace tern {
@@ -51,7 +52,7 @@ std::string reason_line(const FlightSummary& s) {
   std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text = "  because      ";
   for (std::size_t k = 0; k < std::min(reasons.size(), kListedReasons); ++k) {
-    text += fmt::format("{} {} {}", k == 0 ? "" : ",", reasons[k].first, plan_reason_words(reasons[k].second));
+    text += fmt::format("{} {} {}", k == 0 ? "" : ",", reasons[k].first, to_string(reasons[k].second));
   }
   return text + (reasons.size() > kListedReasons ? ", …\n" : "\n");
 }
@@ -61,7 +62,7 @@ std::string plan_lines(const FlightSummary& s) {
   if (s.second_answers > 0) text += fmt::format("; {} second answers: are there two planners?", s.second_answers);
   text += "\n  plans        ";
   for (int k = 0; k < kPlanOutcomes; ++k) {
-    text += fmt::format(" {} {}", s.plans[static_cast<std::size_t>(k)], plan_outcome_key(static_cast<PlanOutcome>(k)));
+    text += fmt::format(" {} {}", s.plans[static_cast<std::size_t>(k)], key(static_cast<PlanOutcome>(k)));
     if (k + 1 < kPlanOutcomes) text += ",";
   }
   text += "\n" + reason_line(s);
@@ -88,32 +89,6 @@ std::string message_lines(const FlightSummary& s) {
 }
 
 }  // namespace
-
-const char* plan_outcome_key(PlanOutcome outcome) {
-  switch (outcome) {
-    case PlanOutcome::Optimized: return "optimized";
-    case PlanOutcome::SearchOnly: return "search_only";
-    case PlanOutcome::KeepCommitted: return "keep_committed";
-    case PlanOutcome::Evade: return "evade";
-    case PlanOutcome::NoPlan: return "no_plan";
-  }
-  return "no_plan";
-}
-
-const char* plan_reason_words(PlanReason reason) {
-  switch (reason) {
-    case PlanReason::None: return "";
-    case PlanReason::Infeasible: return "infeasible";
-    case PlanReason::OutOfTime: return "out of time";
-    case PlanReason::StartInCollision: return "start in collision";
-    case PlanReason::GoalBlocked: return "goal blocked";
-    case PlanReason::StaleWorld: return "stale world";
-    case PlanReason::SolverFailure: return "solver failure";
-    case PlanReason::WorsePlan: return "worse plan";
-    case PlanReason::AtGoal: return "at goal";
-  }
-  return "";
-}
 
 std::string to_text(const FlightSummary& s) {
   std::string text = fmt::format("{}{}{}\n", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);

@@ -9,8 +9,6 @@
 namespace tern {
 namespace {
 
-/// Senders that a channel remembers: many more than restart within kLongestOnItsWay.
-constexpr std::size_t kMaxSenders = 64;
 constexpr std::int64_t kWindow = 64;
 
 }  // namespace
@@ -28,16 +26,6 @@ bool ReplayWindow::admit(std::int64_t sequence) {
   if ((seen_ & bit) != 0) return false;
   seen_ |= bit;
   return true;
-}
-
-bool ReplayGuard::admit(std::pair<Role, std::int64_t> sender, std::int64_t sequence) {
-  Sender& known = senders_[sender];
-  known.heard = ++heard_;
-  if (senders_.size() > kMaxSenders) {
-    const auto longest_ago = [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; };
-    senders_.erase(std::min_element(senders_.begin(), senders_.end(), longest_ago));
-  }
-  return known.window.admit(sequence);
 }
 
 void sign(Bytes& message, const KeyRing& keys, std::string_view channel, std::string_view wire_name,
@@ -62,7 +50,7 @@ tl::expected<Authentic, Rejection> verify(std::span<const std::uint8_t> bytes, c
   }
   const MessageName& name = trailer->name;
   const bool too_old = trailer->utime < received - kLongestOnItsWay;
-  if (too_old || name.sequence < 1 || !guard.admit({role, name.sender_epoch_us}, name.sequence)) {
+  if (too_old || name.sequence < 1 || !guard.heard({role, name.sender_epoch_us}).admit(name.sequence)) {
     return tl::make_unexpected(Rejection::Repeated);
   }
   return Authentic{bytes.first(bytes.size() - kTrailerBytes), role};

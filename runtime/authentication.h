@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -13,6 +12,7 @@
 
 #include "core/world/header.h"
 #include "core/world/health.h"
+#include "core/world/recent_senders.h"
 #include "messages/codec.h"
 #include "runtime/keys.h"
 
@@ -24,7 +24,8 @@ namespace tern {
 inline constexpr Duration kLongestOnItsWay{2'000'000};
 
 /// Which numbers of one sender have come: the highest, and the 64 up to it. So messages may overtake each other by 63
-/// places and still count once each.
+/// places and still count once each. SequenceWindow is no substitute: it forgets a number that no next one confirmed,
+/// which is right against noise and wrong against replay. Here each number is true, since its tag was.
 class ReplayWindow {
  public:
   /// @return whether the number is new: higher than all, or within the window and not yet seen. Then it is seen.
@@ -36,20 +37,8 @@ class ReplayWindow {
   std::uint64_t seen_ = 0;  ///< bit k: highest_ − k
 };
 
-/// What has come on one channel, by sender.
-class ReplayGuard {
- public:
-  bool admit(std::pair<Role, std::int64_t> sender, std::int64_t sequence);
-
- private:
-  struct Sender {
-    ReplayWindow window;
-    std::int64_t heard = 0;
-  };
-  std::map<std::pair<Role, std::int64_t>, Sender>
-      senders_;  ///< by role and epoch; the one not heard longest goes first
-  std::int64_t heard_ = 0;
-};
+/// What has come on one channel, by role and epoch of the sender.
+using ReplayGuard = RecentSenders<std::pair<Role, std::int64_t>, ReplayWindow>;
 
 struct Authentic {
   std::span<const std::uint8_t> message;  ///< without its trailer

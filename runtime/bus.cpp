@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "core/world/message_limits.h"
+#include "core/world/names.h"
 #include "runtime/authentication.h"
 #include "runtime/node.h"
 #include "runtime/sender_watch.h"
@@ -46,7 +47,7 @@ class LogLimiter {
 
 }  // namespace
 
-struct Bus::Channel {
+struct Bus::Line {
   State* state = nullptr;
   std::string name, wire_name;
   ChannelCounters counters;
@@ -69,7 +70,7 @@ struct Bus::State {
   std::optional<Role> speaker;  ///< with keys: who sent the message being delivered
   std::int64_t epoch_us = 0;
   mutable std::mutex mutex;  ///< guards `channels` (the map) and counters; held while a message is numbered and sent
-  std::map<std::string, Channel, std::less<>> channels;
+  std::map<std::string, Line, std::less<>> channels;
   std::int64_t unsent = 0;
   std::int64_t deliveries = 0;
   std::int64_t received_us = 0;  ///< the system's clock when the message being delivered came in
@@ -78,12 +79,12 @@ struct Bus::State {
   lcm::Subscription* listening = nullptr;
 
   /// @pre the mutex is held
-  Channel& channel(std::string_view name) {
+  Line& channel(std::string_view name) {
     const auto found = channels.find(name);
     if (found != channels.end()) return found->second;
     const std::string wire_name = std::string(name) + suffix;
     check_name(wire_name);
-    Channel& made = channels[std::string(name)];
+    Line& made = channels[std::string(name)];
     made.state = this;
     made.name = name;
     made.wire_name = wire_name;
@@ -91,7 +92,7 @@ struct Bus::State {
     return made;
   }
 
-  static void on_message(const lcm::ReceiveBuffer* buffer, const std::string&, Channel* channel) {
+  static void on_message(const lcm::ReceiveBuffer* buffer, const std::string&, Line* channel) {
     State& state = *channel->state;
     if (state.error) return;
     state.received_us = buffer->recv_utime;
@@ -149,7 +150,7 @@ bool Bus::is_channel_name(std::string_view name) {
 
 MessageName Bus::send(std::string_view name, const Encoder& encoder) {
   const std::scoped_lock lock(state_->mutex);
-  Channel& channel = state_->channel(name);
+  Line& channel = state_->channel(name);
   const UTime now = clock_.now();
   const Header header{{epoch_us_, channel.counters.sent + 1}, now};
   Bytes bytes = encoder(header);
@@ -165,7 +166,7 @@ MessageName Bus::send(std::string_view name, const Encoder& encoder) {
 }
 
 void Bus::send_paced(std::string_view name, std::vector<Encoder> batches) {
-  Channel* channel = nullptr;
+  Line* channel = nullptr;
   {
     const std::scoped_lock lock(state_->mutex);
     channel = &state_->channel(name);
@@ -199,7 +200,7 @@ void Bus::send_due(UTime now) {
 
 void Bus::subscribe_raw(std::string_view name, RawHandler handler) {
   const std::scoped_lock lock(state_->mutex);
-  Channel& channel = state_->channel(name);
+  Line& channel = state_->channel(name);
   if (state_->keys && state_->keys->find(name, state_->keys->role_on(name)) == nullptr) {
     throw std::invalid_argument("no key to hear " + channel.name);
   }
@@ -220,13 +221,13 @@ void Bus::listen(Listener listener) {
 
 void Bus::reject(const std::string& name, Rejection reason) {
   const std::scoped_lock lock(state_->mutex);
-  Channel& channel = state_->channel(name);
+  Line& channel = state_->channel(name);
   channel.admitted = false;
   if (!std::exchange(channel.counted, true)) count_refused(channel, reason);
 }
 
 /// @pre the mutex is held
-void Bus::count_refused(Channel& channel, Rejection reason) {
+void Bus::count_refused(Line& channel, Rejection reason) {
   ++channel.counters.rejected[static_cast<int>(reason)];
   if (reason == Rejection::Repeated) return;  // what a network may do
   if (const auto times = channel.reject_log.admit(clock_.now())) {
@@ -237,7 +238,7 @@ void Bus::count_refused(Channel& channel, Rejection reason) {
 
 bool Bus::admits(const std::string& name, const MessageName& message, UTime claimed) {
   const std::scoped_lock lock(state_->mutex);
-  Channel& channel = state_->channel(name);
+  Line& channel = state_->channel(name);
   if (std::exchange(channel.counted, true)) return channel.admitted;
   const auto refusal = channel.senders.judge(message, claimed, received(), channel.counters.sent);
   channel.counters.lost = channel.senders.lost();
@@ -277,7 +278,7 @@ std::map<std::string, ChannelCounters> Bus::counters() const {
   return counters;
 }
 
-void Bus::count_late(std::string_view name) {
+void Bus::count_late_on(std::string_view name) {
   const std::scoped_lock lock(state_->mutex);
   ++state_->channel(name).counters.late;
 }
@@ -292,23 +293,6 @@ UTime Bus::received() const { return clock_.at_system_time(state_->received_us);
 
 void Bus::rethrow() {
   if (state_->error) std::rethrow_exception(std::exchange(state_->error, nullptr));
-}
-
-const char* to_string(Rejection reason) {
-  switch (reason) {
-    case Rejection::Length: return "length";
-    case Rejection::Fingerprint: return "fingerprint";
-    case Rejection::Count: return "count";
-    case Rejection::Number: return "number";
-    case Rejection::Enumeration: return "enumeration";
-    case Rejection::Time: return "time";
-    case Rejection::Inconsistent: return "inconsistent";
-    case Rejection::Future: return "future";
-    case Rejection::Sender: return "sender";
-    case Rejection::Repeated: return "repeated";
-    case Rejection::Unauthenticated: return "unauthenticated";
-  }
-  return "unknown";
 }
 
 }  // namespace tern

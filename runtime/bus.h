@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -70,8 +71,8 @@ class Bus {
   /// @throws std::invalid_argument when the message breaks its contract (see encode), or there are keys but none for
   /// this channel; nothing was sent, no number used.
   template <class T>
-  MessageName publish(std::string_view channel, T message) {
-    return send(channel, [&message](const Header& header) {
+  MessageName publish(const Channel<T>& channel, std::type_identity_t<T> message) {
+    return send(channel.name, [&message](const Header& header) {
       message.header = header;
       return encode(message);
     });
@@ -80,7 +81,7 @@ class Bus {
   /// Sends the first now and the others kPacing apart (by send_due, which the runner calls). Replaces what is still
   /// unsent of an earlier set on this channel, counted in unsent(). Names and times are given when a batch leaves.
   template <class T>
-  void publish_paced(std::string_view channel, std::vector<T> batches) {
+  void publish_paced(const Channel<T>& channel, std::type_identity_t<std::vector<T>> batches) {
     std::vector<Encoder> encoders;
     for (T& batch : batches) {
       encoders.push_back([message = std::move(batch)](const Header& header) mutable {
@@ -88,7 +89,7 @@ class Bus {
         return encode(message);
       });
     }
-    send_paced(channel, std::move(encoders));
+    send_paced(channel.name, std::move(encoders));
   }
 
   /// Calls `handler` with every accepted message of the channel. Several handlers of one channel are called in the
@@ -96,9 +97,9 @@ class Bus {
   /// may unwind through LCM.
   /// @throws std::invalid_argument when there are keys but none for this channel.
   template <class T>
-  void subscribe(std::string_view channel, std::function<void(const T&)> handler) {
-    subscribe_raw(channel, [this, handler = std::move(handler),
-                            name = std::string(channel)](std::span<const std::uint8_t> bytes) {
+  void subscribe(const Channel<T>& channel, std::type_identity_t<std::function<void(const T&)>> handler) {
+    subscribe_raw(channel.name, [this, handler = std::move(handler),
+                                 name = std::string(channel.name)](std::span<const std::uint8_t> bytes) {
       auto message = decode<T>(bytes);
       if (!message) return reject(name, message.error());
       if constexpr (requires { message->process; }) {
@@ -120,7 +121,11 @@ class Bus {
   void send_due(UTime now);              ///< sends what is due, at most one message per channel
   /// A copy, by channel name without suffix. Thread-safe.
   [[nodiscard]] std::map<std::string, ChannelCounters> counters() const;
-  void count_late(std::string_view channel);      ///< a node found an accepted message too old to be used
+  /// A node found an accepted message too old to be used.
+  template <class T>
+  void count_late(const Channel<T>& channel) {
+    count_late_on(channel.name);
+  }
   [[nodiscard]] std::int64_t unsent() const;      ///< paced messages that a newer set replaced before they left
   [[nodiscard]] std::int64_t deliveries() const;  ///< messages that came in, accepted or not; with keys: that verified
   /// When the kernel took the newest delivered message from the network, by this bus's clock: a handler may run much
@@ -139,14 +144,15 @@ class Bus {
  private:
   using Encoder = std::function<Bytes(const Header&)>;
   using RawHandler = std::function<void(std::span<const std::uint8_t>)>;
-  struct Channel;
+  struct Line;
   struct State;
   MessageName send(std::string_view channel, const Encoder& encoder);
   void send_paced(std::string_view channel, std::vector<Encoder> batches);
   void subscribe_raw(std::string_view channel, RawHandler handler);
   void reject(const std::string& channel, Rejection reason);
   bool admits(const std::string& channel, const MessageName& name, UTime claimed);
-  void count_refused(Channel& channel, Rejection reason);
+  void count_late_on(std::string_view channel);
+  void count_refused(Line& line, Rejection reason);
   /// Whether who sent the message being delivered may give this as its process's name.
   [[nodiscard]] bool may_speak_for(std::string_view process) const;
 
@@ -154,9 +160,5 @@ class Bus {
   std::int64_t epoch_us_;
   std::unique_ptr<State> state_;
 };
-
-/// "length", "fingerprint", "count", "number", "enumeration", "time", "inconsistent", "future", "sender", "repeated",
-/// "unauthenticated".
-const char* to_string(Rejection reason);
 
 }  // namespace tern

@@ -5,9 +5,7 @@
 
 #include "core/base/digest.h"
 #include "core/world/message_limits.h"
-#include "messages/configuration_report.h"
-#include "messages/heartbeat.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/platform.h"
 #include "runtime/process.h"
 #include "runtime/version.h"
@@ -44,7 +42,7 @@ std::uint64_t configuration_hash(const std::string& effective_yaml) { return dig
 NodeHost::NodeHost(Bus& bus, Node& node, std::string process, const std::string& effective_yaml)
     : bus_(bus), node_(node), process_(std::move(process)), yaml_(reported_yaml(effective_yaml)) {
   last_heartbeat_ = next_heartbeat_ = next_configuration_ = bus.clock().now();
-  bus_.subscribe<Heartbeat>(channels::kHeartbeat, [this](const Heartbeat& m) { on_heartbeat(m.header); });
+  bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& m) { on_heartbeat(m.header); });
 }
 
 void NodeHost::on_heartbeat(const Header& header) {

@@ -1,28 +1,21 @@
 #include "runtime/roles.h"
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
-#include "runtime/channels.h"
-
 namespace tern {
 namespace {
 
 using namespace channels;
 
-constexpr std::pair<std::string_view, Role> kOwners[] = {
-    {kUavState, Role::Vehicle},        {kSetpoint, Role::Vehicle},       {kObstacleObservations, Role::Vehicle},
-    {kDeclaredMotions, Role::Vehicle}, {kHorizonRequest, Role::Vehicle}, {kObstacleTruth, Role::Vehicle},
-    {kFlightResult, Role::Vehicle},    {kPredictions, Role::Predictor},  {kPlan, Role::Planner},
-    {kPlanTiming, Role::Planner},      {kSearchView, Role::Planner},     {kSemanticMap, Role::Mapper},
-    {kGoal, Role::Operator},
-};
+template <class... T>
+std::vector<std::string_view> names_of(const Channel<T>&... channel) {
+  return {channel.name...};
+}
 
-std::vector<std::string_view> all_channels() {
-  std::vector<std::string_view> all;
-  for (const auto& [channel, role] : kOwners) all.push_back(channel);
-  return all;
+std::vector<std::string_view> all_owned() {
+  std::vector<std::string_view> names;
+  for_each_channel([&names](const auto& channel) {
+    if (channel.owner) names.push_back(channel.name);
+  });
+  return names;
 }
 
 }  // namespace
@@ -47,28 +40,24 @@ std::optional<Role> role_named(std::string_view name) {
 }
 
 std::optional<Role> role_of(std::string_view channel) {
-  for (const auto& [name, role] : kOwners) {
-    if (name == channel) return role;
-  }
-  return std::nullopt;
+  std::optional<Role> role;
+  visit_channel(channel, [&role](const auto& known) { role = known.owner; });
+  return role;
 }
 
 const std::vector<Part>& parts() {
   static const std::vector<Part> kParts = {
-      {"tern-simulator",
-       Role::Vehicle,
-       {kUavState, kSetpoint, kObstacleObservations, kDeclaredMotions, kHorizonRequest, kObstacleTruth, kFlightResult,
-        kGoal, kPlan}},
-      {"tern-predictor", Role::Predictor, {kObstacleObservations, kDeclaredMotions, kUavState, kPredictions}},
-      {"tern-planner",
-       Role::Planner,
-       {kHorizonRequest, kPredictions, kSemanticMap, kGoal, kPlan, kPlanTiming, kSearchView}},
-      {"tern-mapper", Role::Mapper, {kSemanticMap}},
+      {"tern-simulator", Role::Vehicle,
+       names_of(kUavState, kSetpoint, kObstacleObservations, kDeclaredMotions, kHorizonRequest, kObstacleTruth,
+                kFlightResult, kGoal, kPlan)},
+      {"tern-predictor", Role::Predictor, names_of(kObstacleObservations, kDeclaredMotions, kUavState, kPredictions)},
+      {"tern-planner", Role::Planner,
+       names_of(kHorizonRequest, kPredictions, kSemanticMap, kGoal, kPlan, kPlanTiming, kSearchView)},
+      {"tern-mapper", Role::Mapper, names_of(kSemanticMap)},
       {"tern-logger", Role::Observer, {}},
-      {"tern-monitor",
-       Role::Observer,
-       {kUavState, kSetpoint, kGoal, kHorizonRequest, kPlan, kPlanTiming, kObstacleTruth, kFlightResult}},
-      {"tern-viewer", Role::Operator, all_channels()},
+      {"tern-monitor", Role::Observer,
+       names_of(kUavState, kSetpoint, kGoal, kHorizonRequest, kPlan, kPlanTiming, kObstacleTruth, kFlightResult)},
+      {"tern-viewer", Role::Operator, all_owned()},
   };
   return kParts;
 }

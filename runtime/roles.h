@@ -1,22 +1,14 @@
-// Who may speak on which channel, and who hears it: lcmtypes/README.md's table, as code.
+// Who may speak on which channel, and who hears it: by the table of channels.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "messages/channels.h"
+
 namespace tern {
 
-/// A part in a flight. The numbers are on the wire (messages/trailer.h).
-enum class Role : std::uint8_t {
-  Vehicle = 1,  ///< tern-simulator, or sensors and autopilot bridge
-  Predictor = 2,
-  Planner = 3,
-  Mapper = 4,
-  Operator = 5,  ///< who says goals: tern-viewer, a mission; the vehicle repeats them
-  Observer = 6,  ///< tern-monitor, tern-logger, and any other process
-};
 inline constexpr Role kRoles[] = {Role::Vehicle, Role::Predictor, Role::Planner,
                                   Role::Mapper,  Role::Operator,  Role::Observer};
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/world/message_limits.h"
+#include "core/world/names.h"
 #include "core/world/step_aside.h"
 #include "runtime/polygon.h"
 #include "runtime/scenario_file.h"
@@ -277,7 +278,7 @@ Region read_region(ConfigSection section, std::set<std::string>& names) {
 
 /// Class → label; without the key, the default table (whose labels are then noted as the effective ones).
 decltype(SemanticsSpec::classes) read_classes(ConfigSection classes, bool is_given) {
-  const std::vector<std::string> labels = {"unknown", "free", "occupied", "attractive", "repulsive"};
+  const std::vector<std::string> labels(kWords<VoxelLabel>.begin(), kWords<VoxelLabel>.end());
   decltype(SemanticsSpec::classes) result;
   if (!is_given) {
     for (const auto& [name, label] : SemanticsSpec{}.classes)

@@ -1,15 +1,13 @@
 // Who is heard on a channel: one sender at a time, each message once, nothing from the future.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string_view>
 
 #include "core/world/header.h"
 #include "core/world/health.h"
-#include "core/world/sequence_window.h"
+#include "core/world/message_losses.h"
 
 namespace tern {
 
@@ -42,18 +40,13 @@ class SenderWatch {
   std::optional<Rejection> judge(const MessageName& name, UTime claimed, UTime arrived, std::int64_t own_sent);
 
   /// Messages that every sender that was heard has sent and that did not come.
-  [[nodiscard]] std::int64_t lost() const;
+  [[nodiscard]] std::int64_t lost() const { return losses_.lost(); }
   /// Whether another sender than the speaker has spoken several times, and lately.
   [[nodiscard]] bool has_rival(UTime now) const;
   /// How far ahead of the listener's clock messages were stamped, if several were lately.
   [[nodiscard]] std::optional<Duration> ahead(UTime now) const;
 
  private:
-  struct Sender {
-    SequenceWindow window;
-    std::int64_t heard = 0;  ///< counts this channel's messages
-    UTime at;                ///< when a message of it was handed on last
-  };
   /// Something that happens again and again.
   struct Repetition {
     std::int64_t times = 0;
@@ -62,12 +55,10 @@ class SenderWatch {
     [[nodiscard]] bool lasts(UTime now) const;
   };
   [[nodiscard]] bool may_speak(std::int64_t epoch_us, UTime now);
-  Sender& sender_of(std::int64_t epoch_us);
 
   std::optional<Duration> silence_;
   std::int64_t own_epoch_us_;
-  std::map<std::int64_t, Sender> senders_;  ///< by epoch
-  std::int64_t count_ = 0, lost_by_forgotten_ = 0;
+  MessageLosses losses_;
   std::int64_t speaker_ = 0, rival_ = 0;  ///< epochs; 0: none
   UTime speaker_at_;
   Repetition rivalry_, future_;

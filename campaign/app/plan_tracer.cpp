@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "core/world/names.h"
 #include "monitor/flight_summary.h"
 
 namespace tern {
@@ -14,7 +15,7 @@ void PlanTracer::on_plan(const Plan& p) {
   const MotionSample& s = request_.start;
   const auto text = [](const Vec3& v) { return fmt::format("{:.2f} {:.2f} {:.2f}", v.x(), v.y(), v.z()); };
   fmt::print(stderr, "{:.3f} p {} v {} {} reason {} lasts {:.2f} ends {} goal {} hold {:.2f}{}\n",
-             static_cast<double>(request_.t_s.us) * 1e-6, text(s.p), text(s.v), plan_outcome_key(p.outcome),
+             static_cast<double>(request_.t_s.us) * 1e-6, text(s.p), text(s.v), key(p.outcome),
              static_cast<int>(p.reason), p.trajectory.interval.seconds() * static_cast<double>(q.cols() - 3), text(end),
              text(p.local_goal), p.hold.seconds(), p.relaxed ? " relaxed" : "");
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "campaign/experiments/svg.h"
+#include "core/world/names.h"
 
 namespace tern {
 namespace {
@@ -22,7 +23,7 @@ std::string colour_of(const std::string& method) {
 
 bool attracts(const Scenario& scenario, const Region& region) {
   for (const auto& [name, label] : scenario.semantics.classes) {
-    if (name == region.class_name) return label == "attractive";
+    if (name == region.class_name) return label == to_string(VoxelLabel::Attractive);
   }
   return false;
 }

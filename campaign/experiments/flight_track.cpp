@@ -5,7 +5,7 @@
 
 #include "campaign/virtual_system.h"
 #include "core/world/vehicle.h"
-#include "runtime/channels.h"
+#include "messages/channels.h"
 #include "runtime/config.h"
 #include "runtime/data_folder.h"
 #include "simulator/app/simulator_node.h"
@@ -28,7 +28,7 @@ FlightTrack fly_and_track(const std::string& scenario_file, const std::vector<st
   VirtualRunner& runner = system.runner();
   const SimulatorNode& simulator = system.simulator();
   UTime next{0};
-  runner.observer().subscribe<UavState>(channels::kUavState, [&](const UavState& state) {
+  runner.observer().subscribe(channels::kUavState, [&](const UavState& state) {
     if (!simulator.world_zero() || state.at < next) return;
     track.points.push_back({(state.at - *simulator.world_zero()).seconds(), state.motion.p, state.motion.v.norm()});
     next = state.at + kStep;

@@ -12,6 +12,7 @@
 #include "campaign/flight_inputs.h"
 #include "campaign/virtual_flight.h"
 #include "campaign/workers/process_pool.h"
+#include "core/world/names.h"
 #include "planner/planner_build.h"
 #include "runtime/config.h"
 
@@ -28,13 +29,6 @@ const SemanticWorld& world_of(const std::string& scenario) {
     if (world.scenario == scenario) return world;
   }
   throw std::invalid_argument("no semantic world " + scenario);
-}
-
-FlightOutcome outcome_of(const std::string& word) {
-  for (const FlightOutcome o : {FlightOutcome::Reached, FlightOutcome::Collision, FlightOutcome::Timeout}) {
-    if (word == to_string(o)) return o;
-  }
-  return FlightOutcome::Failed;
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -187,7 +181,7 @@ Result<SemanticFlight> parse_semantic_flight(const std::string& line) {
   try {
     SemanticFlight f;
     f.flown = {cells[0], cells[1], std::stod(cells[2]), std::stoull(cells[3])};
-    f.outcome = outcome_of(cells[4]);
+    f.outcome = named<FlightOutcome>(cells[4]).value_or(FlightOutcome::Failed);
     f.flight_time_s = std::stod(cells[5]);
     f.path_length_m = std::stod(cells[6]);
     f.min_clearance_m = std::stod(cells[7]);

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/world/names.h"
+
 namespace tern {
 namespace {
 
@@ -46,8 +48,7 @@ void add_counts(CampaignSummary& s, const Records& all) {
     s.requests += r->requests;
     s.deadlines_missed += r->requests - r->answered_in_time;
     s.answers_refused += r->answers_refused;
-    for (std::size_t k = 0; k < kPlanOutcomes; ++k)
-      s.plans[plan_outcome_key(static_cast<PlanOutcome>(k))] += r->plans[k];
+    for (std::size_t k = 0; k < kPlanOutcomes; ++k) s.plans[key(static_cast<PlanOutcome>(k))] += r->plans[k];
   }
 }
 

@@ -11,16 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/world/names.h"
+
 namespace tern {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array kReasonKeys = {"none",         "infeasible",  "out_of_time",    "start_in_collision",
-                                    "goal_blocked", "stale_world", "solver_failure", "worse_plan",
-                                    "at_goal"};
-static_assert(kReasonKeys.size() == kPlanReasons);
 
 std::string write(const std::string& text) { return text; }
 std::string write(std::int64_t number) { return fmt::format("{}", number); }
@@ -63,11 +61,9 @@ bool read(const std::string& cell, double& value) {
 }
 
 bool read(const std::string& cell, FlightOutcome& value) {
-  for (const auto outcome :
-       {FlightOutcome::Reached, FlightOutcome::Collision, FlightOutcome::Timeout, FlightOutcome::Failed}) {
-    if (cell == to_string(outcome)) return value = outcome, true;
-  }
-  return false;
+  const auto outcome = named<FlightOutcome>(cell);
+  value = outcome.value_or(value);
+  return outcome.has_value();
 }
 
 bool read(const std::string& cell, std::vector<Exposure>& value) try {
@@ -135,11 +131,10 @@ void add_answers(std::vector<Column>& columns) {
   columns.push_back(column("answers_late", &R::answers_late));
   columns.push_back(column("answers_refused", &R::answers_refused));
   for (std::size_t k = 0; k < kPlanOutcomes; ++k) {
-    const char* key = plan_outcome_key(static_cast<PlanOutcome>(k));
-    columns.push_back(column_at(fmt::format("plans_{}", key), &R::plans, k));
+    columns.push_back(column_at("plans_" + key(static_cast<PlanOutcome>(k)), &R::plans, k));
   }
   for (std::size_t k = 0; k < kPlanReasons; ++k) {
-    columns.push_back(column_at(fmt::format("reasons_{}", kReasonKeys[k]), &R::reasons, k));
+    columns.push_back(column_at("reasons_" + key(static_cast<PlanReason>(k)), &R::reasons, k));
   }
 }
 

@@ -11,8 +11,6 @@
 namespace tern {
 
 enum class FlightOutcome : std::uint8_t { Reached = 0, Collision = 1, Timeout = 2, Failed = 3 };
-/// "reached", "collision", "timeout", "failed".
-const char* to_string(FlightOutcome outcome);
 
 /// Seconds and metres inside one region, and within 1 m of it.
 struct Exposure {

@@ -12,6 +12,7 @@ constexpr std::int64_t kMostLost = 1'000'000'000;
 }  // namespace
 
 SequenceWindow::Verdict SequenceWindow::add(std::int64_t sequence) {
+  least_ = least_ == 0 ? sequence : std::min(least_, sequence);
   const Verdict verdict = judge(sequence);
   if (verdict == Verdict::New) ++heard_;
   return verdict;

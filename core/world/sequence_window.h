@@ -35,6 +35,8 @@ class SequenceWindow {
   [[nodiscard]] std::int64_t newest() const { return now_.newest; }  ///< 0: none yet
   /// 0 for a sender that was heard fewer than kEstablished times: it may be noise.
   [[nodiscard]] std::int64_t lost() const { return heard_ < kEstablished ? 0 : now_.lost - now_.unsure; }
+  /// How many numbers lie below the least that came: senders count from 1. 0 for a sender that may be noise.
+  [[nodiscard]] std::int64_t before_first() const { return heard_ < kEstablished ? 0 : least_ - 1; }
 
  private:
   struct Numbering {
@@ -52,6 +54,7 @@ class SequenceWindow {
 
   Numbering now_;
   std::int64_t heard_ = 0;                 ///< messages that were new
+  std::int64_t least_ = 0;                 ///< of all numbers that came; 0: none yet
   std::optional<std::int64_t> candidate_;  ///< newest of another numbering
   std::optional<Numbering> former_;
   std::int64_t continued_ = 0;  ///< messages of this numbering since it replaced the former one

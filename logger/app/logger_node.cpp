@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "logger/records/log_format.h"
+#include "flight_log/log_format.h"
 
 namespace tern {
 namespace {
@@ -34,7 +34,7 @@ LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& 
     : writer_(open_writer(path, config.rotate_bytes)), table_(bus.suffix()), next_flush_(bus.clock().now()) {
   spdlog::info("writes {}", writer_.part_path());
   bus.listen([this](std::string_view channel, std::int64_t received_us, std::span<const std::uint8_t> data) {
-    table_.add(channel, data);
+    table_.add(channel, UTime{received_us}, data);
     if (data.size() > kLogMaxDataBytes) {
       ++too_large_;
       return;

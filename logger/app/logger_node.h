@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "logger/records/channel_table.h"
-#include "logger/records/log_writer.h"
+#include "flight_log/log_writer.h"
+#include "logger/channel_table.h"
 #include "runtime/bus.h"
 #include "runtime/config.h"
 #include "runtime/node.h"

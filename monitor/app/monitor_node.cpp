@@ -6,17 +6,9 @@
 #include <iterator>
 #include <utility>
 
-#include "messages/configuration_report.h"
-#include "messages/flight_result.h"
-#include "messages/goal.h"
-#include "messages/heartbeat.h"
-#include "messages/horizon_request.h"
-#include "messages/obstacle_truth.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/uav_state.h"
+#include "messages/codec.h"
+#include "monitor/app/hear_flight.h"
 #include "monitor/live_line.h"
-#include "runtime/channels.h"
 #include "runtime/version.h"
 
 namespace tern {
@@ -36,16 +28,8 @@ MonitorNode::MonitorNode(Bus& bus, const Scenario& scenario, MonitorOptions opti
 }
 
 void MonitorNode::subscribe() {
-  const Clock& clock = bus_.clock();
-  bus_.subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& m) { watch_.hear(m, clock.now()); });
-  bus_.subscribe<UavState>(channels::kUavState, [&](const UavState& m) { watch_.hear(m); });
-  bus_.subscribe<Goal>(channels::kGoal, [&](const Goal& m) { watch_.hear(m); });
-  bus_.subscribe<HorizonRequest>(channels::kHorizonRequest,
-                                 [&](const HorizonRequest& m) { watch_.hear(m, clock.now()); });
-  bus_.subscribe<Plan>(channels::kPlan, [&](const Plan& m) { watch_.hear(m); });
-  bus_.subscribe<PlanTiming>(channels::kPlanTiming, [&](const PlanTiming& m) { watch_.hear(m); });
-  bus_.subscribe<FlightResult>(channels::kFlightResult, [&](const FlightResult& m) { watch_.hear(m, clock.now()); });
-  bus_.subscribe<ObstacleTruth>(channels::kObstacleTruth, [this](const ObstacleTruth& m) {
+  hear_flight(bus_, watch_);
+  bus_.subscribe(channels::kObstacleTruth, [this](const ObstacleTruth& m) {
     const auto batches = truth_.add(m);
     if (!batches) return;
     std::vector<TrueObstacle> obstacles;
@@ -55,8 +39,8 @@ void MonitorNode::subscribe() {
     watch_.hear(std::move(obstacles));
   });
   // Nothing to learn from these but whether they arrive.
-  bus_.subscribe<UavState>(channels::kSetpoint, [](const UavState&) {});
-  bus_.subscribe<ConfigurationReport>(channels::kConfiguration, [](const ConfigurationReport&) {});
+  bus_.subscribe(channels::kSetpoint, [](const UavState&) {});
+  bus_.subscribe(channels::kConfiguration, [](const ConfigurationReport&) {});
 }
 
 void MonitorNode::step(UTime now) {

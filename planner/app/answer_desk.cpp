@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "messages/channels.h"
 #include "planner/planner_build.h"
-#include "runtime/channels.h"
 
 namespace tern {
 

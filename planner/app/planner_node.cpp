@@ -8,7 +8,7 @@
 
 #include "core/geometry/separation.h"
 #include "core/geometry/separation_lp.h"
-#include "messages/search_view.h"
+#include "messages/codec.h"
 #include "planner/app/plan_stopwatch.h"
 #include "runtime/channels.h"
 #include "runtime/process.h"
@@ -64,7 +64,7 @@ PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& conf
       execution_(execution),
       intake_(bus, config, uav, execution.threaded),
       desk_(bus, configuration_hash) {
-  bus.subscribe<HorizonRequest>(channels::kHorizonRequest, [this](const HorizonRequest& r) { on_request(r); });
+  bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& r) { on_request(r); });
   if (execution.threaded) worker_ = std::make_unique<Worker>();
 }
 

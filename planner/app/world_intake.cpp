@@ -5,16 +5,16 @@
 #include <utility>
 
 #include "messages/batching.h"
-#include "runtime/channels.h"
+#include "messages/channels.h"
 
 namespace tern {
 
 WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background)
     : bus_(bus), config_(config), body_half_(uav.body.half_extents()), flight_box_(uav.flight_box), at_(uav.start) {
   if (in_background) worker_ = std::make_unique<Worker>();
-  bus.subscribe<TrackSet>(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
-  bus.subscribe<MapChunk>(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
-  bus.subscribe<Goal>(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
+  bus.subscribe(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
+  bus.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
+  bus.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
 }
 
 PlanningWorld WorldIntake::snapshot() const {

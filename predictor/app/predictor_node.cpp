@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "messages/batching.h"
+#include "messages/channels.h"
 #include "predictor/models/declared.h"
 #include "predictor/tracking/priority.h"
-#include "runtime/channels.h"
 
 namespace tern {
 namespace {
@@ -20,13 +20,13 @@ constexpr const char* kDeclaredInput = "declared motions";
 PredictorNode::PredictorNode(Bus& bus, const PredictorConfig& config)
     : bus_(bus), config_(config), tracker_(config.tracker) {
   if (config_.model != PredictorModel::ConstantVelocity) {
-    bus_.subscribe<TrackSet>(channels::kDeclaredMotions, [this](const TrackSet& batch) { on_declared(batch); });
+    bus_.subscribe(channels::kDeclaredMotions, [this](const TrackSet& batch) { on_declared(batch); });
   }
   if (config_.model != PredictorModel::Declared) {
-    bus_.subscribe<ObservationSet>(channels::kObstacleObservations,
-                                   [this](const ObservationSet& observations) { on_observations(observations); });
+    bus_.subscribe(channels::kObstacleObservations,
+                   [this](const ObservationSet& observations) { on_observations(observations); });
   }
-  bus_.subscribe<UavState>(channels::kUavState, [this](const UavState& state) { vehicle_ = state.motion.p; });
+  bus_.subscribe(channels::kUavState, [this](const UavState& state) { vehicle_ = state.motion.p; });
 }
 
 void PredictorNode::on_declared(const TrackSet& batch) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/world/names.h"
 #include "runtime/data_folder.h"
 #include "semantic_mapper/sources/class_names.h"
 #include "semantic_mapper/sources/las.h"
@@ -79,7 +80,7 @@ CloudLayer load_cloud(const CloudSource& source, const Scenario& scenario, const
 VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const char* environment) {
   MapSources sources;
   for (const auto& [name, word] : scenario.semantics.classes) {
-    sources.region_classes.emplace_back(name, *label_from(word));
+    sources.region_classes.emplace_back(name, *named<VoxelLabel>(word));
   }
   for (const Region& region : scenario.semantics.regions) {
     for (const auto& [name, label] : sources.region_classes) {

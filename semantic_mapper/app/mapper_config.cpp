@@ -3,12 +3,13 @@
 #include <filesystem>
 
 #include "core/world/message_limits.h"
+#include "core/world/names.h"
 #include "semantic_mapper/sources/class_names.h"
 
 namespace tern {
 namespace {
 
-const std::vector<std::string> kLabelWords{"unknown", "free", "occupied", "attractive", "repulsive"};
+const std::vector<std::string> kLabelWords(kWords<VoxelLabel>.begin(), kWords<VoxelLabel>.end());
 /// Files count from far away, in whatever unit.
 const Range kFileCoordinate = Range::within(1e9);
 const Range kPosition = Range::within(1e5);
@@ -22,7 +23,7 @@ std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection class
   const auto read = [&](const std::string& name, const std::string& fallback) {
     if (class_numbers(name).empty())
       throw classes.error(name, "is no class or group of classes (see semantic_mapper/README.md)");
-    result.emplace_back(name, *label_from(classes.choice(name, fallback, kLabelWords, "what such points mean")));
+    result.emplace_back(name, *named<VoxelLabel>(classes.choice(name, fallback, kLabelWords, "what such points mean")));
   };
   if (!is_given) {
     for (const auto& [name, label] : kDefaultClasses) read(name, label);
@@ -85,20 +86,13 @@ Box read_extents(ConfigSection section) {
 
 }  // namespace
 
-std::optional<VoxelLabel> label_from(const std::string& word) {
-  for (std::size_t i = 0; i < kLabelWords.size(); ++i) {
-    if (word == kLabelWords[i]) return static_cast<VoxelLabel>(i);
-  }
-  return std::nullopt;
-}
-
 MapperConfig read_mapper_config(ConfigSection section) {
   MapperConfig config;
   config.resolution = section.number("resolution_m", config.resolution, Range{0.01, 100.0},
                                      "side of a voxel, m; at most 2·10⁸ voxels in all");
   if (section.has("extents")) config.extents = read_extents(section.section("extents"));
   config.background =
-      *label_from(section.choice("background", "free", {"free", "unknown"}, "label of voxels that nothing speaks of"));
+      *named<VoxelLabel>(section.choice("background", "free", {"free", "unknown"}, "label of voxels that nothing speaks of"));
   config.voxelize_obstacles = section.flag(
       "voxelize_obstacles", config.voxelize_obstacles,
       "the scenario's listed static obstacles become occupied (the planner gets their exact boxes anyway)");

@@ -36,7 +36,4 @@ struct MapperConfig {
 /// Reads and finishes the section; README.md is the table of keys. @throws ConfigError.
 MapperConfig read_mapper_config(ConfigSection section);
 
-/// "unknown", "free", "occupied", "attractive", "repulsive"; nothing for other words.
-std::optional<VoxelLabel> label_from(const std::string& word);
-
 }  // namespace tern

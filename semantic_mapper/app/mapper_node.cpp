@@ -8,8 +8,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "messages/map_chunk.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "semantic_mapper/app/load_map.h"
 
 namespace tern {

@@ -7,13 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "messages/flight_result.h"
-#include "messages/goal.h"
-#include "messages/heartbeat.h"
-#include "messages/horizon_request.h"
-#include "messages/plan.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
+#include "core/world/names.h"
+#include "messages/codec.h"
 #include "simulator/app/beat.h"
 
 namespace tern {
@@ -56,9 +51,9 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, co
   referee_.set_earliest_arrival(config.min_flight_s);
   referee_.set_goal(std::nullopt);
   if (config.send_goal) take_goal(scenario_goal(scenario));
-  bus_.subscribe<Goal>(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
-  bus_.subscribe<Plan>(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
-  bus_.subscribe<Heartbeat>(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
+  bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
+  bus_.subscribe(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
+  bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
 }
 
 UTime SimulatorNode::next_wakeup() const {

@@ -11,10 +11,7 @@
 
 #include "core/world/message_limits.h"
 #include "messages/batching.h"
-#include "messages/observation_set.h"
-#include "messages/obstacle_truth.h"
-#include "messages/track_set.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "simulator/app/beat.h"
 #include "simulator/worlds/declared_motions.h"
 

@@ -6,7 +6,7 @@ root=$(dirname "$(dirname "$here")")
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 cd "$root"
-find core messages runtime planner predictor executor simulator semantic_mapper logger monitor launcher viewer \
+find core messages flight_log runtime planner predictor executor simulator semantic_mapper logger monitor launcher viewer \
   -type f \( -name '*.h' -o -name '*.cpp' \) -exec cp --parents {} "$copy" \;
 
 "$here/check.sh" "$copy"
@@ -28,7 +28,9 @@ planted core/base/x.h '#include "core/world/track.h"\n'
 planted core/geometry/x.h '#include "core/splines/minvo.h"\n'
 planted core/world/x.h '#include "messages/plan.h"\n'
 planted messages/x.h '#include "runtime/bus.h"\n'
+planted flight_log/x.h '#include "runtime/bus.h"\n'
 planted runtime/x.h '#include "planner/planner.h"\n'
+planted viewer/bridge/app/x.h '#include "tools/replay/replay.h"\n'
 planted planner/x.h '#include "runtime/bus.h"\n'
 planted launcher/app/x.h '#include "messages/plan.h"\n'
 planted planner/x.h '#include "planner/app/planner_node.h"\n'

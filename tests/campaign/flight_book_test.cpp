@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "tests/campaign/some_flights.h"
-#include "tests/logger/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace tern {
 namespace {

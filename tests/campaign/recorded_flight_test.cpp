@@ -4,12 +4,10 @@
 
 #include <map>
 
-#include "messages/horizon_request.h"
-#include "messages/plan.h"
-#include "runtime/channels.h"
+#include "flight_log/flight_log.h"
+#include "messages/codec.h"
 #include "runtime/config.h"
-#include "tests/logger/temp_folder.h"
-#include "tools/log_reader/flight_log.h"
+#include "tests/support/temp_folder.h"
 
 namespace tern {
 namespace {
@@ -43,11 +41,11 @@ TEST(RecordedFlight, TheLogHoldsEveryRequestWithItsAnswerInVirtualTime) {
   std::map<std::int64_t, int> answers;
   std::int64_t requests = 0;
   FlightLog log;
-  log.on<HorizonRequest>(channels::kHorizonRequest, [&](const HorizonRequest& r, std::int64_t received_us) {
+  log.on(channels::kHorizonRequest, [&](const HorizonRequest& r, std::int64_t received_us) {
     ++requests;
     EXPECT_EQ(received_us, r.header.utime.us);
   });
-  log.on<Plan>(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) {
+  log.on(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) {
     ++answers[plan.request_id];
     EXPECT_EQ(received_us, plan.header.utime.us);
   });

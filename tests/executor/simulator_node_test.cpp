@@ -10,16 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "messages/flight_result.h"
-#include "messages/goal.h"
-#include "messages/horizon_request.h"
-#include "messages/observation_set.h"
-#include "messages/obstacle_truth.h"
-#include "messages/plan.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
+#include "messages/codec.h"
 #include "runtime/batches.h"
-#include "runtime/channels.h"
 #include "runtime/process.h"
 #include "runtime/virtual_runner.h"
 #include "tests/support/stub_planner.h"
@@ -54,16 +46,15 @@ struct Flight {
   explicit Flight(const Scenario& scenario, SimulatorConfig config = {}, ExecutorConfig executor = {}) {
     config.wait_for = {"tern-planner"};
     Bus& ear = runner.observer();
-    ear.subscribe<HorizonRequest>(channels::kHorizonRequest,
-                                  [this](const HorizonRequest& m) { requests.push_back(m); });
-    ear.subscribe<Plan>(channels::kPlan, [this](const Plan& m) { plans.push_back({m, runner.now()}); });
-    ear.subscribe<UavState>(channels::kUavState, [this](const UavState& m) { states.push_back(m); });
-    ear.subscribe<FlightResult>(channels::kFlightResult, [this](const FlightResult& m) { results.push_back(m); });
-    ear.subscribe<ObstacleTruth>(channels::kObstacleTruth, [this](const ObstacleTruth& m) { truths.push_back(m); });
-    ear.subscribe<ObservationSet>(channels::kObstacleObservations, [this](const ObservationSet& m) {
+    ear.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { requests.push_back(m); });
+    ear.subscribe(channels::kPlan, [this](const Plan& m) { plans.push_back({m, runner.now()}); });
+    ear.subscribe(channels::kUavState, [this](const UavState& m) { states.push_back(m); });
+    ear.subscribe(channels::kFlightResult, [this](const FlightResult& m) { results.push_back(m); });
+    ear.subscribe(channels::kObstacleTruth, [this](const ObstacleTruth& m) { truths.push_back(m); });
+    ear.subscribe(channels::kObstacleObservations, [this](const ObservationSet& m) {
       observations.push_back({m, runner.now()});
     });
-    ear.subscribe<Goal>(channels::kGoal, [this](const Goal& m) { goals.push_back(m); });
+    ear.subscribe(channels::kGoal, [this](const Goal& m) { goals.push_back(m); });
     World world = make_world(scenario, "").value();
     runner.start("tern-simulator", [&](Bus& bus) -> std::unique_ptr<Node> {
       auto node = std::make_unique<SimulatorNode>(bus, scenario, std::move(world), config, executor);
@@ -228,7 +219,7 @@ TEST(SimulatorNode, WhatIsDeclaredHoldsFromTheDeclarationOn) {
   Flight flight(scenario);
   BatchCollector<TrackSet> collector;
   std::vector<TrackSet> declared;
-  flight.runner.observer().subscribe<TrackSet>(channels::kDeclaredMotions, [&](const TrackSet& batch) {
+  flight.runner.observer().subscribe(channels::kDeclaredMotions, [&](const TrackSet& batch) {
     if (auto set = collector.add(batch)) declared.push_back(std::move(set->front()));
   });
   flight.fly(kSecond);
@@ -264,7 +255,7 @@ TEST(SimulatorNode, DeclaresWhoAppearsWhenItAppears) {
   }
   Flight flight(scenario);
   std::map<std::int64_t, UTime> first;
-  flight.runner.observer().subscribe<TrackSet>(channels::kDeclaredMotions, [&](const TrackSet& batch) {
+  flight.runner.observer().subscribe(channels::kDeclaredMotions, [&](const TrackSet& batch) {
     for (const Track& track : batch.tracks) first.try_emplace(track.id, flight.runner.now());
   });
   flight.start_planner();
@@ -283,7 +274,7 @@ TEST(SimulatorNode, PerceptionOnlyDeclaresNothing) {
   config.declare = false;
   Flight flight(with_obstacle(empty_scenario(), far_trefoil()), config);
   int declared = 0;
-  flight.runner.observer().subscribe<TrackSet>(channels::kDeclaredMotions, [&](const TrackSet&) { ++declared; });
+  flight.runner.observer().subscribe(channels::kDeclaredMotions, [&](const TrackSet&) { ++declared; });
   flight.start_planner();
   flight.fly(kSecond * 2);
   EXPECT_EQ(declared, 0);

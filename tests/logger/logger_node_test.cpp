@@ -4,11 +4,10 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "messages/goal.h"
-#include "runtime/channels.h"
+#include "flight_log/log_reader.h"
+#include "messages/codec.h"
 #include "runtime/virtual_runner.h"
-#include "tests/logger/temp_folder.h"
-#include "tools/log_reader/log_reader.h"
+#include "tests/support/temp_folder.h"
 
 namespace tern {
 namespace {
@@ -40,7 +39,7 @@ TEST(Logger, RecordsEveryMessageOfEveryChannel) {
     Goal goal;
     goal.id = i + 1;
     sender.publish(channels::kGoal, goal);
-    sender.publish("EXTRA", goal);
+    sender.publish(Channel<Goal>{"EXTRA"}, goal);
     runner.run(runner.now() + Duration{50'000});
   }
   EXPECT_EQ(logger.table().counts().at("GOAL").received, 50);
@@ -55,7 +54,7 @@ TEST(Logger, RecordsEveryMessageOfEveryChannel) {
   std::int64_t events = 0, goals = 0;
   while (const auto event = reader->next()) {
     ++events;
-    if (event->channel != channels::kGoal) continue;
+    if (event->channel != channels::kGoal.name) continue;
     const auto goal = decode<Goal>(event->data);
     ASSERT_TRUE(goal);
     EXPECT_EQ(goal->id, ++goals);

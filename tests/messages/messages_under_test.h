@@ -6,19 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "messages/configuration_report.h"
-#include "messages/flight_result.h"
-#include "messages/goal.h"
-#include "messages/heartbeat.h"
-#include "messages/horizon_request.h"
-#include "messages/map_chunk.h"
-#include "messages/observation_set.h"
-#include "messages/obstacle_truth.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/search_view.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
+#include "messages/codec.h"
 
 namespace tern {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "messages/goal.h"
+#include "messages/codec.h"
 #include "tests/messages/messages_under_test.h"
 #include "tests/support/generators.h"
 

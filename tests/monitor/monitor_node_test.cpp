@@ -7,9 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "messages/flight_result.h"
-#include "messages/heartbeat.h"
-#include "runtime/channels.h"
+#include "core/world/names.h"
+#include "messages/codec.h"
 #include "runtime/virtual_runner.h"
 
 namespace tern {

@@ -1,10 +1,9 @@
-#include "messages/plan.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "messages/codec.h"
 #include "planner/planner.h"
 #include "planner/tuning.h"
 #include "tests/support/plan_judge.h"

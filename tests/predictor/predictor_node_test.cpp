@@ -10,8 +10,7 @@
 
 #include "core/base/random.h"
 #include "messages/batching.h"
-#include "messages/heartbeat.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/virtual_runner.h"
 #include "tests/predictor/simulated_motion.h"
 
@@ -44,7 +43,7 @@ class PredictorNodeTest : public ::testing::Test {
       bus_ = &bus;
       return node;
     });
-    runner_.observer().subscribe<TrackSet>(channels::kPredictions, [this](const TrackSet& batch) {
+    runner_.observer().subscribe(channels::kPredictions, [this](const TrackSet& batch) {
       ++batches_;
       largest_gap_ = std::max(largest_gap_, batch.batch.index == 0 ? Duration{} : runner_.now() - last_batch_);
       last_batch_ = runner_.now();
@@ -191,7 +190,7 @@ TEST_F(PredictorNodeTest, EachModelListensOnlyToItsOwn) {
     config.model = model;
     runner.start("tern-predictor", [&](Bus& bus) { return std::make_unique<PredictorNode>(bus, config); });
     std::set<TrackKind> kinds;
-    runner.observer().subscribe<TrackSet>(channels::kPredictions, [&](const TrackSet& batch) {
+    runner.observer().subscribe(channels::kPredictions, [&](const TrackSet& batch) {
       for (const Track& track : batch.tracks) kinds.insert(track.kind);
     });
     Rng rng(2);
@@ -295,7 +294,7 @@ TEST_F(PredictorNodeTest, CountsObservationsThatComeTooLate) {
   run_for(0.1);
   observe({}, Duration{600'000});
   run_for(0.1);
-  EXPECT_EQ(late(channels::kObstacleObservations), 1);
+  EXPECT_EQ(late(channels::kObstacleObservations.name), 1);
   EXPECT_EQ(node_->health().state, ProcessState::Ready);
   EXPECT_EQ(sets_.back().made_at, UTime{1'000'000});
 }
@@ -305,8 +304,8 @@ TEST_F(PredictorNodeTest, ASensorWhoseClockIsFarAheadChangesNothing) {
   watch_pillar(1.0);
   for (int k = 0; k < 3; ++k) observe({}, Duration{-60'000'000}, 7);
   watch_pillar(1.0);
-  EXPECT_EQ(late(channels::kObstacleObservations), 0) << "of the first sensor's sets none is late";
-  EXPECT_EQ(refused(channels::kObstacleObservations, Rejection::Future), 3);
+  EXPECT_EQ(late(channels::kObstacleObservations.name), 0) << "of the first sensor's sets none is late";
+  EXPECT_EQ(refused(channels::kObstacleObservations.name, Rejection::Future), 3);
   ASSERT_EQ(sets_.back().tracks.size(), 1u);
   EXPECT_LE(sets_.back().made_at, runner_.now());
   EXPECT_EQ(node_->health().state, ProcessState::Ready);
@@ -323,7 +322,7 @@ TEST_F(PredictorNodeTest, MotionsDeclaredInTheFutureDoNotMakeTheWorldYoung) {
   set.made_at = runner_.now() + Duration{60'000'000};
   runner_.observer().publish(channels::kDeclaredMotions, set);
   run_for(0.1);
-  EXPECT_EQ(refused(channels::kDeclaredMotions, Rejection::Future), 1);
+  EXPECT_EQ(refused(channels::kDeclaredMotions.name, Rejection::Future), 1);
   EXPECT_TRUE(sets_.empty());
   EXPECT_EQ(node_->health().state, ProcessState::Waiting);
 }
@@ -332,11 +331,11 @@ TEST_F(PredictorNodeTest, TakesClocksThatAreATenthOfASecondAhead) {
   start();
   observe({}, Duration{-100'000});
   run_for(0.1);
-  EXPECT_EQ(refused(channels::kObstacleObservations, Rejection::Future), 0);
+  EXPECT_EQ(refused(channels::kObstacleObservations.name, Rejection::Future), 0);
   EXPECT_EQ(node_->health().state, ProcessState::Ready);
   observe({}, Duration{-100'001});
   run_for(0.1);
-  EXPECT_EQ(refused(channels::kObstacleObservations, Rejection::Future), 1);
+  EXPECT_EQ(refused(channels::kObstacleObservations.name, Rejection::Future), 1);
 }
 
 TEST_F(PredictorNodeTest, NamesTheSensorThatFellSilentBesideDeclaredMotions) {
@@ -390,7 +389,7 @@ TEST_F(PredictorNodeTest, AnySenderOfObservationsLeavesRoomInTheHeartbeat) {
     }
   }
   Heartbeat newest;
-  runner_.observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& heard) { newest = heard; });
+  runner_.observer().subscribe(channels::kHeartbeat, [&](const Heartbeat& heard) { newest = heard; });
   run_for(2.0);
   EXPECT_EQ(newest.state, ProcessState::Waiting);
   EXPECT_NE(newest.waiting_for.find("more"), std::string::npos) << newest.waiting_for;
@@ -401,10 +400,10 @@ TEST_F(PredictorNodeTest, CountsASetThatComesTwice) {
   observe({}, Duration{});
   observe({}, Duration{}, 1);
   run_for(0.1);
-  EXPECT_EQ(late(channels::kObstacleObservations), 0);
+  EXPECT_EQ(late(channels::kObstacleObservations.name), 0);
   observe({}, Duration{100'000}, 1);
   run_for(0.1);
-  EXPECT_EQ(late(channels::kObstacleObservations), 1);
+  EXPECT_EQ(late(channels::kObstacleObservations.name), 1);
   EXPECT_TRUE(says("sensor 1: two sets of one instant")) << node_->health().waiting_for;
 }
 

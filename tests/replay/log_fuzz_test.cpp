@@ -9,18 +9,11 @@
 #include <string>
 
 #include "core/base/random.h"
-#include "messages/configuration_report.h"
-#include "messages/goal.h"
-#include "messages/horizon_request.h"
-#include "messages/map_chunk.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/track_set.h"
-#include "runtime/channels.h"
+#include "flight_log/flight_log.h"
+#include "messages/codec.h"
 #include "tests/messages/allocation_meter.h"
 #include "tests/support/fuzz_count.h"
 #include "tests/support/random_splines.h"
-#include "tools/log_reader/flight_log.h"
 
 namespace tern {
 namespace {
@@ -77,11 +70,6 @@ class MemoryFile {
   int fd_;
 };
 
-template <class T>
-void count(FlightLog& log, const char* channel, std::int64_t& messages) {
-  log.on<T>(channel, [&messages](const T&, std::int64_t) { ++messages; });
-}
-
 TEST(LogFuzz, TenThousandMutationsNeitherCrashNorTakeMemory) {
   std::ifstream file(TERN_GOLDEN_LOG, std::ios::binary);
   std::string whole((std::istreambuf_iterator<char>(file)), {});
@@ -90,13 +78,9 @@ TEST(LogFuzz, TenThousandMutationsNeitherCrashNorTakeMemory) {
   const MemoryFile memory;
   std::int64_t messages = 0;
   FlightLog log;
-  count<HorizonRequest>(log, channels::kHorizonRequest, messages);
-  count<TrackSet>(log, channels::kPredictions, messages);
-  count<Goal>(log, channels::kGoal, messages);
-  count<MapChunk>(log, channels::kSemanticMap, messages);
-  count<Plan>(log, channels::kPlan, messages);
-  count<PlanTiming>(log, channels::kPlanTiming, messages);
-  count<ConfigurationReport>(log, channels::kConfiguration, messages);
+  for_each_channel([&]<class T>(const Channel<T>& channel) {
+    log.on(channel, [&messages](const T&, std::int64_t) { ++messages; });
+  });
   Rng rng(1);
   for (int k = 0; k < kMutations; ++k) {
     std::string damaged = whole;

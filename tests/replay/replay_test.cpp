@@ -6,17 +6,15 @@
 #include <map>
 #include <optional>
 
-#include "logger/records/log_writer.h"
-#include "messages/goal.h"
-#include "messages/plan.h"
-#include "runtime/channels.h"
+#include "flight_log/log_writer.h"
+#include "flight_log/text_log.h"
+#include "messages/codec.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 #include "simulator/app/simulator_node.h"
 #include "simulator/worlds/world.h"
-#include "tests/logger/temp_folder.h"
 #include "tests/replay/golden_flights.h"
-#include "tools/log_reader/text_log.h"
+#include "tests/support/temp_folder.h"
 #include "tools/replay/extract.h"
 #include "tools/replay/replan.h"
 #include "tools/replay/replay_report.h"
@@ -134,7 +132,7 @@ TEST_F(ReplayTest, OfHoldingAndOfASecondFlightGivesTheSameBytes) {
 TEST_F(ReplayTest, AnAnswerThatIsNotThePlannersIsFoundWithItsStage) {
   int count = 0;
   const std::string path = rewritten([&](LogEvent& event) {
-    if (event.channel != channels::kPlan) return true;
+    if (event.channel != channels::kPlan.name) return true;
     Plan plan = *decode<Plan>(event.data);
     if (plan.outcome != PlanOutcome::Optimized || ++count != 5) return true;
     plan.trajectory.control_points(0, 4) += 1e-5;
@@ -151,7 +149,7 @@ TEST_F(ReplayTest, AnAnswerThatIsNotThePlannersIsFoundWithItsStage) {
 TEST_F(ReplayTest, AnswersThatAreNotTheSameBytesButAgreeKeepTheWeakerPromiseOnly) {
   const auto changed = [&](std::uint64_t build) {
     return replay(rewritten([&](LogEvent& event) {
-      if (event.channel != channels::kPlan) return true;
+      if (event.channel != channels::kPlan.name) return true;
       Plan plan = *decode<Plan>(event.data);
       plan.trajectory.control_points(0, 4) += 1e-9;
       plan.inputs.planner_build += build;
@@ -168,10 +166,10 @@ TEST_F(ReplayTest, AnswersThatAreNotTheSameBytesButAgreeKeepTheWeakerPromiseOnly
 
 TEST_F(ReplayTest, SaysWhatTheLogLacksAndReplaysTheRest) {
   // A map and a goal are repeated: only without all of them are they missing.
-  const std::map<std::string, int> kept{{channels::kHorizonRequest, 4},
-                                        {channels::kPredictions, 4},
-                                        {channels::kGoal, 1'000},
-                                        {channels::kSemanticMap, 1'000}};
+  const std::map<std::string, int> kept{{channels::kHorizonRequest.name, 4},
+                                        {channels::kPredictions.name, 4},
+                                        {channels::kGoal.name, 1'000},
+                                        {channels::kSemanticMap.name, 1'000}};
   for (const auto& [channel, every] : kept) {
     int count = 0;
     const Replay rest = replay(rewritten(
@@ -186,7 +184,7 @@ TEST_F(ReplayTest, SaysWhatTheLogLacksAndReplaysTheRest) {
 TEST_F(ReplayTest, OfALogThatBeginsLaterSaysHowManyAnswersCameBefore) {
   int count = 0;
   const Replay rest =
-      replay(rewritten([&](LogEvent& event) { return event.channel != channels::kPlan || ++count > 3; }));
+      replay(rewritten([&](LogEvent& event) { return event.channel != channels::kPlan.name || ++count > 3; }));
   EXPECT_EQ(rest.missing(), 0);
   EXPECT_EQ(rest.broken(), 0);
   EXPECT_TRUE(text_has(rest, "PLAN: 3 answers were published before")) << replay_text(rest, false);
@@ -194,7 +192,7 @@ TEST_F(ReplayTest, OfALogThatBeginsLaterSaysHowManyAnswersCameBefore) {
 }
 
 TEST_F(ReplayTest, WithoutItsConfigurationNothingIsReplayedButTheLogIsRead) {
-  const Replay rest = replay(rewritten([](LogEvent& event) { return event.channel != channels::kConfiguration; }));
+  const Replay rest = replay(rewritten([](LogEvent& event) { return event.channel != channels::kConfiguration.name; }));
   EXPECT_EQ(rest.missing(), static_cast<std::int64_t>(rest.plans.size()));
   EXPECT_TRUE(text_has(rest, "not in the log: configuration ")) << replay_text(rest, false);
 }
@@ -212,8 +210,8 @@ TEST_F(ReplayTest, ATruncatedOrDamagedLogIsReplayedAsFarAsItGoes) {
 TEST_F(ReplayTest, MessagesOfAnotherVersionAreCountedAndForeignChannelsPassedOver) {
   int count = 0;
   const Replay rest = replay(rewritten([&](LogEvent& event) {
-    if (event.channel == channels::kUavState) event.channel = "CAMERA";
-    if (event.channel == channels::kPlan && ++count % 2 == 0) event.data[0] ^= 1U;
+    if (event.channel == channels::kUavState.name) event.channel = "CAMERA";
+    if (event.channel == channels::kPlan.name && ++count % 2 == 0) event.data[0] ^= 1U;
     return true;
   }));
   EXPECT_EQ(rest.broken(), 0);

@@ -10,9 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "messages/goal.h"
-#include "messages/heartbeat.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/lcm_network.h"
 #include "runtime/node.h"
 #include "runtime/sender_watch.h"
@@ -20,7 +18,7 @@
 namespace tern {
 namespace {
 
-constexpr char kChannel[] = "GOAL";
+constexpr const auto& kChannel = channels::kGoal;
 
 Goal goal(std::int64_t id) {
   Goal g;
@@ -28,11 +26,24 @@ Goal goal(std::int64_t id) {
   return g;
 }
 
+template <class T, class Handler>
+concept MaySubscribe = requires(Bus& end, const Channel<T>& channel, Handler handler) {
+  end.subscribe(channel, handler);
+};
+template <class T, class Message>
+concept MayPublish = requires(Bus& end, const Channel<T>& channel, Message message) {
+  end.publish(channel, message);
+};
+
+// What does not belong on a channel does not compile.
+static_assert(MaySubscribe<Plan, void (*)(const Plan&)> && !MaySubscribe<Plan, void (*)(const Goal&)>);
+static_assert(MayPublish<Plan, Plan> && !MayPublish<Plan, Goal>);
+
 /// A network within the test: `bus` listens; arrive() plays remote senders, which give names of their own making.
 class BusTest : public testing::Test {
  protected:
   void listen() {
-    bus.subscribe<Goal>(kChannel, [this](const Goal& g) { heard.push_back(g); });
+    bus.subscribe(kChannel, [this](const Goal& g) { heard.push_back(g); });
   }
 
   void arrive(std::int64_t epoch_us, std::int64_t sequence) {
@@ -41,12 +52,14 @@ class BusTest : public testing::Test {
     arrive_bytes(encode(g));
   }
 
-  void arrive_bytes(const Bytes& bytes) { lcm->publish(kChannel, bytes.data(), static_cast<unsigned>(bytes.size())); }
+  void arrive_bytes(const Bytes& bytes) {
+    lcm->publish(kChannel.name, bytes.data(), static_cast<unsigned>(bytes.size()));
+  }
 
   ChannelCounters settle() {
     drain(*lcm, 1'000'000);
     bus.rethrow();
-    return bus.counters()[kChannel];
+    return bus.counters()[kChannel.name];
   }
 
   std::shared_ptr<lcm::LCM> lcm = std::make_shared<lcm::LCM>("memq://");
@@ -70,7 +83,7 @@ TEST_F(BusTest, NamesMessagesBySenderEpochAndAscendingSequence) {
 
 TEST_F(BusTest, CountsSequencesPerChannel) {
   bus.publish(kChannel, goal(1));
-  EXPECT_EQ(bus.publish("GOAL_2", goal(1)).sequence, 1);
+  EXPECT_EQ(bus.publish(Channel<Goal>{"GOAL_2"}, goal(1)).sequence, 1);
 }
 
 TEST_F(BusTest, ItsOwnMessagesAreDeliveredAndAreNoLoss) {
@@ -207,8 +220,8 @@ TEST_F(BusTest, LateMessagesAreCountedBesideReceivedOnes) {
 
 TEST_F(BusTest, SeveralHandlersOfAChannelAreCalledInOrderAndTheMessageIsCountedOnce) {
   std::string order;
-  bus.subscribe<Goal>(kChannel, [&](const Goal&) { order += "a"; });
-  bus.subscribe<Goal>(kChannel, [&](const Goal&) { order += "b"; });
+  bus.subscribe(kChannel, [&](const Goal&) { order += "a"; });
+  bus.subscribe(kChannel, [&](const Goal&) { order += "b"; });
   arrive(50, 1);
   arrive(50, 2);
   arrive(50, 2);
@@ -219,7 +232,7 @@ TEST_F(BusTest, SeveralHandlersOfAChannelAreCalledInOrderAndTheMessageIsCountedO
 }
 
 TEST_F(BusTest, WhatAHandlerThrowsComesOutOfRethrowAndStopsDeliveriesUntilThen) {
-  bus.subscribe<Goal>(kChannel, [&](const Goal& g) {
+  bus.subscribe(kChannel, [&](const Goal& g) {
     heard.push_back(g);
     if (g.header.name.sequence == 1) throw std::runtime_error("handler");
   });
@@ -246,26 +259,27 @@ TEST_F(BusTest, AMessageThatBreaksItsContractUsesNoNumber) {
 TEST_F(BusTest, TheSuffixKeepsVehiclesApartAndCountersPlain) {
   Bus second(lcm, clock, 2'000, "_2");
   int count = 0;
-  second.subscribe<Goal>(kChannel, [&](const Goal&) { ++count; });
+  second.subscribe(kChannel, [&](const Goal&) { ++count; });
   bus.publish(kChannel, goal(1));
   settle();
   EXPECT_EQ(count, 0);
   second.publish(kChannel, goal(1));
   settle();
   EXPECT_EQ(count, 1);
-  EXPECT_EQ(second.counters().count(kChannel), 1U);
+  EXPECT_EQ(second.counters().count(kChannel.name), 1U);
 }
 
 TEST_F(BusTest, RefusesNamesThatAreRegularExpressionsOrTooLong) {
   EXPECT_THROW(Bus(lcm, clock, 1, ".*"), std::invalid_argument);
-  EXPECT_THROW(bus.publish(std::string(64, 'x'), goal(1)), std::invalid_argument);
+  const std::string too_long(64, 'x');
+  EXPECT_THROW(bus.publish(Channel<Goal>{too_long.c_str()}, goal(1)), std::invalid_argument);
 }
 
 TEST_F(BusTest, ADestroyedBusHearsNothing) {
   int count = 0;
   {
     Bus gone(lcm, clock, 2'000);
-    gone.subscribe<Goal>(kChannel, [&](const Goal&) { ++count; });
+    gone.subscribe(kChannel, [&](const Goal&) { ++count; });
     bus.publish(kChannel, goal(1));
   }
   settle();
@@ -313,7 +327,7 @@ TEST_F(BusTest, ANewerPacedSetReplacesTheUnsentRestWithoutAGap) {
 TEST_F(BusTest, AnEmptyPacedSetSendsNothing) {
   bus.publish_paced(kChannel, std::vector<Goal>{});
   EXPECT_EQ(bus.next_due(), kNever);
-  EXPECT_EQ(bus.counters()[kChannel].sent, 0);
+  EXPECT_EQ(bus.counters()[kChannel.name].sent, 0);
 }
 
 TEST_F(BusTest, PublishesFromSeveralThreadsInSequence) {
@@ -334,7 +348,7 @@ TEST_F(BusTest, PublishesFromSeveralThreadsInSequence) {
 }
 
 TEST_F(BusTest, AHandlerMayPublishOnItsOwnChannel) {
-  bus.subscribe<Goal>(kChannel, [&](const Goal& g) {
+  bus.subscribe(kChannel, [&](const Goal& g) {
     heard.push_back(g);
     if (g.id < 100) bus.publish(kChannel, goal(g.id + 1));
   });
@@ -347,7 +361,7 @@ TEST_F(BusTest, ReceivedIsWhenAMessageCameInByTheBussClockHoweverLateItIsHandled
   const WallClock system, skewed(Duration{-2'000'000});
   Bus late(lcm, skewed, 2'000);
   std::vector<UTime> received;
-  late.subscribe<Goal>(kChannel, [&](const Goal&) { received.push_back(late.received()); });
+  late.subscribe(kChannel, [&](const Goal&) { received.push_back(late.received()); });
   std::vector<std::pair<UTime, UTime>> sent;  // no sooner than, no later than
   for (int i = 1; i <= 2; ++i) {
     const UTime before = system.now();
@@ -367,7 +381,7 @@ TEST_F(BusTest, ReceivedIsWhenAMessageCameInByTheBussClockHoweverLateItIsHandled
 
 TEST_F(BusTest, ReceivedIsNowOnAClockThatHasNothingToDoWithTheSystems) {
   std::vector<UTime> received;
-  bus.subscribe<Goal>(kChannel, [&](const Goal&) { received.push_back(bus.received()); });
+  bus.subscribe(kChannel, [&](const Goal&) { received.push_back(bus.received()); });
   bus.publish(kChannel, goal(1));
   clock.advance_to(UTime{6'000'000});
   settle();

@@ -3,8 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <stdexcept>
 
-#include "messages/goal.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/process.h"
 
 namespace tern {
@@ -13,12 +12,12 @@ namespace {
 class EchoNode final : public Node {
  public:
   explicit EchoNode(Bus& bus) {
-    bus.subscribe<Goal>(channels::kGoal, [this, &bus](const Goal& goal) {
+    bus.subscribe(channels::kGoal, [this, &bus](const Goal& goal) {
       if (goal.id == 666) throw std::runtime_error("asked to break");
       if (goal.id == 777) finished_ = 7;
       Goal answer = goal;
       ++answer.id;
-      bus.publish("GOAL_ANSWER", answer);
+      bus.publish(Channel<Goal>{"GOAL_ANSWER"}, answer);
     });
   }
   [[nodiscard]] UTime next_wakeup() const override { return kNever; }

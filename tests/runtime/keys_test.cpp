@@ -12,7 +12,7 @@
 #include <numeric>
 #include <vector>
 
-#include "runtime/channels.h"
+#include "messages/channels.h"
 
 namespace tern {
 namespace {
@@ -33,16 +33,17 @@ TEST(Keys, RandomOnesDiffer) { EXPECT_NE(to_hex(random_key()), to_hex(random_key
 TEST(KeyRing, GivesAProcessTheKeysOfWhatItSaysAndHearsAlone) {
   const KeyRing predictor = KeyRing::derive(counting_key(), "tern-predictor");
   EXPECT_EQ(predictor.role(), Role::Predictor);
-  for (const char* channel : {channels::kPredictions, channels::kObstacleObservations, channels::kHeartbeat}) {
+  for (const char* channel :
+       {channels::kPredictions.name, channels::kObstacleObservations.name, channels::kHeartbeat.name}) {
     EXPECT_NE(predictor.find(channel, predictor.role_on(channel)), nullptr) << channel;
   }
-  for (const char* channel :
-       {channels::kPlan, channels::kHorizonRequest, channels::kGoal, channels::kSemanticMap, channels::kFlightResult}) {
+  for (const char* channel : {channels::kPlan.name, channels::kHorizonRequest.name, channels::kGoal.name,
+                              channels::kSemanticMap.name, channels::kFlightResult.name}) {
     EXPECT_EQ(predictor.find(channel, predictor.role_on(channel)), nullptr) << channel;
   }
-  EXPECT_NE(predictor.find(channels::kHeartbeat, Role::Vehicle), nullptr) << "clocks are compared by heartbeats";
+  EXPECT_NE(predictor.find(channels::kHeartbeat.name, Role::Vehicle), nullptr) << "clocks are compared by heartbeats";
   const KeyRing logger = KeyRing::derive(counting_key(), "tern-logger");
-  EXPECT_EQ(logger.find(channels::kUavState, Role::Vehicle), nullptr) << "it records what it need not believe";
+  EXPECT_EQ(logger.find(channels::kUavState.name, Role::Vehicle), nullptr) << "it records what it need not believe";
 }
 
 TEST(KeyRing, OnlyWhoHearsAPlanHoldsItsKey) {
@@ -50,14 +51,14 @@ TEST(KeyRing, OnlyWhoHearsAPlanHoldsItsKey) {
     const KeyRing ring = KeyRing::derive(counting_key(), part.process);
     const bool hears = part.process == "tern-planner" || part.process == "tern-simulator" ||
                        part.process == "tern-monitor" || part.process == "tern-viewer";
-    EXPECT_EQ(ring.find(channels::kPlan, Role::Planner) != nullptr, hears) << part.process;
+    EXPECT_EQ(ring.find(channels::kPlan.name, Role::Planner) != nullptr, hears) << part.process;
   }
 }
 
 TEST(KeyRing, AnotherRolesChannelHasNoKeyForThisRole) {
   const KeyRing all = KeyRing::derive(counting_key(), "my-own-program");
-  EXPECT_EQ(all.find(channels::kPlan, Role::Vehicle), nullptr);
-  EXPECT_NE(all.find(channels::kPlan, Role::Planner), nullptr);
+  EXPECT_EQ(all.find(channels::kPlan.name, Role::Vehicle), nullptr);
+  EXPECT_NE(all.find(channels::kPlan.name, Role::Planner), nullptr);
   EXPECT_NE(all.find("MY_OWN_CHANNEL", Role::Vehicle), nullptr);
 }
 

@@ -4,9 +4,7 @@
 #include <csignal>
 #include <lcm/lcm-cpp.hpp>
 
-#include "messages/configuration_report.h"
-#include "messages/goal.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/version.h"
 #include "runtime/wall_runner.h"
 #include "talker.h"
@@ -24,7 +22,7 @@ std::vector<std::string> echo(std::vector<std::string> arguments = {}) {
 class NetworkTest : public testing::Test, protected NetworkEnd {
  protected:
   NetworkTest() {
-    bus->subscribe<Goal>("GOAL_ANSWER", [this](const Goal& g) { answers.push_back(g); });
+    bus->subscribe(Channel<Goal>{"GOAL_ANSWER"}, [this](const Goal& g) { answers.push_back(g); });
   }
 
   void send_goal(std::int64_t id) {
@@ -38,7 +36,7 @@ class NetworkTest : public testing::Test, protected NetworkEnd {
 
 TEST_F(NetworkTest, AProcessBeatsReportsAnswersAndEndsWithZeroOnSigterm) {
   std::vector<ConfigurationReport> reports;
-  bus->subscribe<ConfigurationReport>(channels::kConfiguration, [&](const auto& r) { reports.push_back(r); });
+  bus->subscribe(channels::kConfiguration, [&](const auto& r) { reports.push_back(r); });
   Child child(echo({"--set", "planner.period_s=2.5", "--set", "uav.start=[1,2,3]"}));
   ASSERT_TRUE(wait_until_ready());
   EXPECT_EQ(beats.back().process, "tern-echo");
@@ -68,7 +66,7 @@ TEST_F(NetworkTest, AFinishedNodeGivesItsExitCodeAndARestartedOneIsNoLoss) {
     EXPECT_EQ(child.wait(), 7) << child.output;
   }
   EXPECT_TRUE(wait_for([&] { return answers.size() == 2; }));
-  EXPECT_EQ(bus->counters()[channels::kHeartbeat].lost, 0);
+  EXPECT_EQ(bus->counters()[channels::kHeartbeat.name].lost, 0);
 }
 
 TEST_F(NetworkTest, AnErrorInAHandlerEndsTheProcessWith70) {
@@ -84,10 +82,10 @@ TEST_F(NetworkTest, GarbageOnItsChannelsDoesNotHarmAProcess) {
   ASSERT_TRUE(wait_until_ready());
   for (unsigned size : {0U, 1U, 8U, 100U, 60'000U}) {
     const Bytes garbage(size, 0xff);
-    lcm->publish(channels::kGoal, garbage.data(), size);
+    lcm->publish(channels::kGoal.name, garbage.data(), size);
   }
   const auto refused = [&] {
-    const auto found = beats.back().channels.find(channels::kGoal);
+    const auto found = beats.back().channels.find(channels::kGoal.name);
     if (found == beats.back().channels.end()) return false;
     std::int64_t sum = 0;
     for (const std::int64_t n : found->second.rejected) sum += n;
@@ -110,7 +108,7 @@ TEST_F(NetworkTest, TheSuffixMovesAProcessToOtherChannels) {
   Child child(echo({"--channel-suffix", "_2"}));
   Bus second(lcm, clock, clock.now().us + 1, "_2");
   int count = 0;
-  second.subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat&) { ++count; });
+  second.subscribe(channels::kHeartbeat, [&](const Heartbeat&) { ++count; });
   EXPECT_TRUE(wait_for([&] { return count > 0; }));
   EXPECT_TRUE(beats.empty());
 }

@@ -7,8 +7,7 @@
 #include "core/base/digest.h"
 #include "core/base/random.h"
 #include "core/world/message_limits.h"
-#include "messages/configuration_report.h"
-#include "messages/heartbeat.h"
+#include "messages/codec.h"
 #include "runtime/clock_exchange.h"
 #include "runtime/lcm_network.h"
 #include "runtime/platform.h"
@@ -25,9 +24,8 @@ TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFive
   VirtualRunner runner(kStart);
   std::vector<Heartbeat> beats;
   std::vector<ConfigurationReport> reports;
-  runner.observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& h) { beats.push_back(h); });
-  runner.observer().subscribe<ConfigurationReport>(channels::kConfiguration,
-                                                   [&](const ConfigurationReport& r) { reports.push_back(r); });
+  runner.observer().subscribe(channels::kHeartbeat, [&](const Heartbeat& h) { beats.push_back(h); });
+  runner.observer().subscribe(channels::kConfiguration, [&](const ConfigurationReport& r) { reports.push_back(r); });
   runner.start(
       "tern-test",
       [](Bus& bus) {
@@ -39,7 +37,7 @@ TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFive
   EXPECT_EQ(beats.back().process, "tern-test");
   EXPECT_EQ(beats.back().build_id, build_id());
   EXPECT_EQ(beats.back().state, ProcessState::Ready);
-  EXPECT_EQ(beats.back().channels.at(channels::kGoal).sent, 101);
+  EXPECT_EQ(beats.back().channels.at(channels::kGoal.name).sent, 101);
   ASSERT_EQ(reports.size(), 3U);
   EXPECT_EQ(reports[0].header.utime, kStart);
   EXPECT_EQ(reports[0].yaml, "x: 1\n");
@@ -51,7 +49,7 @@ TEST(NodeHost, BeatsTwiceASecondAndReportsItsConfigurationAtTheStartAndEveryFive
 TEST(NodeHost, TellsBackWhatItHeardAndAnswersANewProcessAtOnce) {
   VirtualRunner runner(kStart);
   std::vector<Heartbeat> beats;
-  runner.observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& h) { beats.push_back(h); });
+  runner.observer().subscribe(channels::kHeartbeat, [&](const Heartbeat& h) { beats.push_back(h); });
   const auto start = [&](const char* name) {
     runner.start(name, [](Bus& bus) {
       return std::make_unique<Talker>(bus, Talker::Options{"t", Duration{100'000}}, nullptr);
@@ -147,8 +145,7 @@ TEST(NodeHost, WakesForPacedMessages) {
   VirtualRunner runner(kStart);
   runner.start("pacer", [](Bus& bus) { return std::make_unique<Pacer>(bus); });
   std::vector<std::int64_t> times;
-  runner.observer().subscribe<Goal>(channels::kGoal,
-                                    [&](const Goal& g) { times.push_back((g.header.utime - kStart).us); });
+  runner.observer().subscribe(channels::kGoal, [&](const Goal& g) { times.push_back((g.header.utime - kStart).us); });
   runner.run(kStart + Duration{100'000});
   EXPECT_EQ(times, (std::vector<std::int64_t>{0, 2'000, 4'000, 6'000}));
 }

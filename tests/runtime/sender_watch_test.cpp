@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "runtime/channels.h"
+#include "messages/channels.h"
 
 namespace tern {
 namespace {
@@ -30,7 +30,7 @@ class SenderWatchTest : public testing::Test {
   }
 
   UTime now = kStart;
-  SenderWatch watch{speaker_silence(channels::kPredictions)};
+  SenderWatch watch{speaker_silence(channels::kPredictions.name)};
   std::map<std::int64_t, std::int64_t> sent;
 };
 
@@ -76,11 +76,12 @@ TEST_F(SenderWatchTest, ALogThatIsPlayedAgainIsHeardAgain) {
 }
 
 TEST(SpeakerSilence, SensorsGoalsAndReportsMayComeFromSeveral) {
-  for (const char* channel :
-       {channels::kObstacleObservations, channels::kGoal, channels::kHeartbeat, channels::kConfiguration}) {
+  for (const char* channel : {channels::kObstacleObservations.name, channels::kGoal.name, channels::kHeartbeat.name,
+                              channels::kConfiguration.name}) {
     EXPECT_FALSE(speaker_silence(channel)) << channel;
   }
-  for (const char* channel : {channels::kDeclaredMotions, channels::kHorizonRequest, channels::kFlightResult}) {
+  for (const char* channel :
+       {channels::kDeclaredMotions.name, channels::kHorizonRequest.name, channels::kFlightResult.name}) {
     EXPECT_EQ(speaker_silence(channel), Duration{1'000'000}) << channel;
   }
 }

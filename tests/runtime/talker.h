@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "messages/goal.h"
+#include "messages/codec.h"
 #include "runtime/bus.h"
-#include "runtime/channels.h"
 #include "runtime/node.h"
 
 namespace tern {
@@ -26,7 +25,7 @@ class Talker final : public Node {
         options_(std::move(options)),
         journal_(journal),
         next_(options_.period.us > 0 ? bus.clock().now() : kNever) {
-    bus_.subscribe<Goal>(channels::kGoal, [this](const Goal& goal) {
+    bus_.subscribe(channels::kGoal, [this](const Goal& goal) {
       ++heard_;
       write("hears " + std::to_string(goal.id) + " of " + std::to_string(goal.header.name.sender_epoch_us));
     });

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "messages/heartbeat.h"
+#include "messages/codec.h"
 #include "talker.h"
 
 namespace tern {
@@ -76,13 +76,13 @@ TEST(VirtualRunner, LosesNothingInALongBusySecond) {
   add(runner, {"a", Duration{20}}, nullptr);
   const Talker& listener = add(runner, {"b"}, nullptr);
   std::int64_t lost = 0;
-  runner.observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& h) {
+  runner.observer().subscribe(channels::kHeartbeat, [&](const Heartbeat& h) {
     for (const auto& [name, counters] : h.channels) lost += counters.lost;
   });
   runner.run(kStart + kSecond);
   EXPECT_EQ(listener.heard(), 50'001);
   EXPECT_EQ(lost, 0);
-  EXPECT_EQ(runner.observer().counters()[channels::kHeartbeat].lost, 0);
+  EXPECT_EQ(runner.observer().counters()[channels::kHeartbeat.name].lost, 0);
 }
 
 TEST(VirtualRunner, ReturnsWhenTheConditionHolds) {
@@ -98,7 +98,7 @@ TEST(VirtualRunner, ReturnsWhenANodeHasFinishedWithItsCode) {
   VirtualRunner runner(kStart);
   add(runner, {"a", Duration{10'000}, 3}, nullptr);
   std::vector<ProcessState> states;
-  runner.observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& h) { states.push_back(h.state); });
+  runner.observer().subscribe(channels::kHeartbeat, [&](const Heartbeat& h) { states.push_back(h.state); });
   const RunResult result = runner.run(kStart + kSecond);
   EXPECT_EQ(result.end, RunEnd::Finished);
   EXPECT_EQ(result.process, "a");
@@ -111,8 +111,7 @@ TEST(VirtualRunner, AStoppedProcessIsSilentAndARestartedOneHasANewerEpoch) {
   VirtualRunner runner(kStart);
   add(runner, {"a", Duration{10'000}}, nullptr);
   std::vector<std::int64_t> epochs;
-  runner.observer().subscribe<Goal>(channels::kGoal,
-                                    [&](const Goal& g) { epochs.push_back(g.header.name.sender_epoch_us); });
+  runner.observer().subscribe(channels::kGoal, [&](const Goal& g) { epochs.push_back(g.header.name.sender_epoch_us); });
   runner.run(kStart);
   runner.stop("a");
   runner.run(kStart + kSecond);
@@ -121,7 +120,7 @@ TEST(VirtualRunner, AStoppedProcessIsSilentAndARestartedOneHasANewerEpoch) {
   runner.run(kStart + kSecond);
   ASSERT_EQ(epochs.size(), 2U);
   EXPECT_GT(epochs[1], epochs[0]);
-  EXPECT_EQ(runner.observer().counters()[channels::kGoal].lost, 0);
+  EXPECT_EQ(runner.observer().counters()[channels::kGoal.name].lost, 0);
   EXPECT_THROW(runner.stop("nobody"), std::invalid_argument);
 }
 
@@ -129,7 +128,7 @@ TEST(VirtualRunner, AStoppedProcessIsSilentAndARestartedOneHasANewerEpoch) {
 class Echo final : public Node {
  public:
   explicit Echo(Bus& bus) {
-    bus.subscribe<Goal>(channels::kGoal, [&bus](const Goal& goal) {
+    bus.subscribe(channels::kGoal, [&bus](const Goal& goal) {
       Goal next = goal;
       ++next.id;
       bus.publish(channels::kGoal, next);
@@ -155,7 +154,7 @@ TEST(VirtualRunner, DeliversAnAnswerToAnAnswerInTheSameInstant) {
   VirtualRunner runner(kStart);
   runner.start("echo", [](Bus& bus) { return std::make_unique<Echo>(bus); });
   int count = 0;
-  runner.observer().subscribe<Goal>(channels::kGoal, [&](const Goal&) {
+  runner.observer().subscribe(channels::kGoal, [&](const Goal&) {
     if (++count == 100) throw std::runtime_error("a hundred");
   });
   Goal goal;

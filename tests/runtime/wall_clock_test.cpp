@@ -8,8 +8,7 @@
 #include <chrono>
 #include <lcm/lcm-cpp.hpp>
 
-#include "messages/heartbeat.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/lcm_network.h"
 #include "runtime/wall_runner.h"
 
@@ -87,7 +86,7 @@ TEST_F(WallClockTest, ANodeDoesNotStandStillWhenTheSystemsClockIsSetBack) {
 
 TEST_F(WallClockTest, AHeartbeatSaysThatTheSystemsClockWasSet) {
   std::vector<std::string> said;
-  bus_.subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& h) { said.push_back(h.waiting_for); });
+  bus_.subscribe(channels::kHeartbeat, [&](const Heartbeat& h) { said.push_back(h.waiting_for); });
   TwentySteps node(bus_);
   for (const time_t seconds : {0, -5}) {
     set_forward_s = seconds;

@@ -5,8 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "messages/map_chunk.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/virtual_runner.h"
 #include "tests/support/voxel_maps.h"
 
@@ -23,7 +22,7 @@ class MapperNodeTest : public ::testing::Test {
 
   void start(const VoxelMap& map) {
     runner_.start("tern-mapper", [&](Bus& bus) { return std::make_unique<MapperNode>(bus, map); });
-    runner_.observer().subscribe<MapChunk>(channels::kSemanticMap, [this](const MapChunk& chunk) {
+    runner_.observer().subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) {
       arrivals_.push_back({runner_.now(), chunk});
       const auto done = assembler_.add(chunk);
       ASSERT_TRUE(done);
@@ -83,7 +82,7 @@ TEST_F(MapperNodeTest, ALateJoinerGetsASmallMapWithinTwoSeconds) {
   runner_.run(runner_.now() + Duration{5'333'000});
   MapAssembler late;
   std::optional<UTime> done;
-  runner_.observer().subscribe<MapChunk>(channels::kSemanticMap, [&](const MapChunk& chunk) {
+  runner_.observer().subscribe(channels::kSemanticMap, [&](const MapChunk& chunk) {
     if (late.add(chunk).value()) done = runner_.now();
   });
   const UTime joined = runner_.now();

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "logger/records/log_writer.h"
+#include "flight_log/log_writer.h"
 
 namespace tern::testing {
 

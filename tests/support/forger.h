@@ -5,12 +5,7 @@
 #include <map>
 #include <string>
 
-#include "messages/goal.h"
-#include "messages/horizon_request.h"
-#include "messages/plan.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/virtual_runner.h"
 
 namespace tern::testing {
@@ -19,14 +14,13 @@ class Forger {
  public:
   /// Listens from now on: what it knows of a channel is what its true sender sent last.
   explicit Forger(VirtualRunner& runner) : runner_(runner) {
-    learn<TrackSet>(channels::kPredictions);
-    learn<TrackSet>(channels::kDeclaredMotions);
-    learn<HorizonRequest>(channels::kHorizonRequest);
-    learn<Plan>(channels::kPlan);
-    learn<Goal>(channels::kGoal);
-    learn<UavState>(channels::kUavState);
-    runner.observer().subscribe<HorizonRequest>(channels::kHorizonRequest,
-                                                [this](const HorizonRequest& heard) { request_ = heard; });
+    learn(channels::kPredictions);
+    learn(channels::kDeclaredMotions);
+    learn(channels::kHorizonRequest);
+    learn(channels::kPlan);
+    learn(channels::kGoal);
+    learn(channels::kUavState);
+    runner.observer().subscribe(channels::kHorizonRequest, [this](const HorizonRequest& heard) { request_ = heard; });
   }
 
   /// The true sender's epoch, its next number, now: what nobody can tell from the truth.
@@ -49,8 +43,8 @@ class Forger {
 
  private:
   template <class T>
-  void learn(const std::string& channel) {
-    runner_.observer().subscribe<T>(channel, [this, channel](const T& m) { last_[channel] = m.header.name; });
+  void learn(const Channel<T>& channel) {
+    runner_.observer().subscribe(channel, [this, name = channel.name](const T& m) { last_[name] = m.header.name; });
   }
 
   VirtualRunner& runner_;

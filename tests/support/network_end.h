@@ -10,9 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "messages/heartbeat.h"
+#include "messages/codec.h"
 #include "runtime/bus.h"
-#include "runtime/channels.h"
 #include "runtime/lcm_network.h"
 #include "tests/support/child_process.h"
 
@@ -24,7 +23,7 @@ struct NetworkEnd {
     if (!opened) throw std::runtime_error(opened.error().message + " (run this test by tests/support/hermetic.sh)");
     lcm = *opened;
     bus = std::make_unique<Bus>(lcm, clock, clock.now().us);
-    bus->subscribe<Heartbeat>(channels::kHeartbeat, [this](const Heartbeat& h) { beats.push_back(h); });
+    bus->subscribe(channels::kHeartbeat, [this](const Heartbeat& h) { beats.push_back(h); });
   }
 
   /// Handles messages until the condition holds. @return whether it did within kPatienceMs.

@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 #include "campaign/virtual_system.h"
-#include "logger/records/log_writer.h"
+#include "flight_log/log_reader.h"
+#include "flight_log/log_writer.h"
 #include "simulator/app/simulator_node.h"
-#include "tools/log_reader/log_reader.h"
 
 namespace tern::testing {
 namespace {

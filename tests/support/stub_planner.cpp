@@ -1,17 +1,14 @@
 #include "tests/support/stub_planner.h"
 
-#include "messages/goal.h"
-#include "messages/horizon_request.h"
-#include "messages/plan.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 
 namespace tern {
 
 StubPlannerNode::StubPlannerNode(Bus& bus, const StubPlannerOptions& options) : bus_(bus), options_(options) {
-  bus_.subscribe<Goal>(channels::kGoal, [this](const Goal& goal) {
+  bus_.subscribe(channels::kGoal, [this](const Goal& goal) {
     if (!goal_ || goal.id > goal_->id) goal_ = goal;
   });
-  bus_.subscribe<HorizonRequest>(channels::kHorizonRequest, [this](const HorizonRequest& request) {
+  bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& request) {
     pending_.push_back({request, bus_.clock().now() + options_.delay});
   });
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/world/names.h"
+
 namespace tern::testing {
 
 std::string scenario_file(const std::string& name) { return std::string(TERN_SCENARIO_FOLDER) + "/" + name + ".yaml"; }

@@ -10,7 +10,7 @@
 
 #include "core/base/random.h"
 #include "runtime/config.h"
-#include "tests/logger/temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tests/support/watched_flight.h"
 
 namespace tern::testing {

@@ -2,8 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "campaign/virtual_system.h"
-#include "messages/plan.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "tests/support/watched_flight.h"
 
 namespace tern::testing {
@@ -13,7 +12,7 @@ namespace {
 std::vector<Bytes> plans_of(const std::string& cost) {
   VirtualSystem system(scenario_file("corridor_demo"), {"seed=3", "semantics.cost=" + cost});
   std::vector<Bytes> plans;
-  system.runner().observer().subscribe<Plan>(channels::kPlan, [&](const Plan& plan) { plans.push_back(encode(plan)); });
+  system.runner().observer().subscribe(channels::kPlan, [&](const Plan& plan) { plans.push_back(encode(plan)); });
   system.runner().run(system.runner().now() + Duration::from_seconds(7.0));
   return plans;
 }

@@ -8,8 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/virtual_system.h"
-#include "messages/flight_result.h"
-#include "messages/heartbeat.h"
+#include "messages/codec.h"
 #include "monitor/app/monitor_node.h"
 #include "predictor/app/predictor_node.h"
 #include "simulator/app/simulator_node.h"
@@ -39,7 +38,7 @@ class ForgedMessages : public ::testing::Test {
     runner().start("tern-monitor",
                    [&](Bus& bus) { return std::make_unique<MonitorNode>(bus, system_.scenario(), options); });
     Bus& bus = runner().observer();
-    bus.subscribe<Plan>(channels::kPlan, [this](const Plan& plan) { plans_.push_back(plan); });
+    bus.subscribe(channels::kPlan, [this](const Plan& plan) { plans_.push_back(plan); });
     runner().run(runner().now() + Duration::from_seconds(20.0),
                  [this] { return simulator().world_zero().has_value(); });
     fly(2.3);
@@ -98,20 +97,20 @@ class ForgedMessages : public ::testing::Test {
 TEST_F(ForgedMessages, AnEmptyWorldFromTheFutureIsNotBelieved) {
   TrackSet world = empty_world();
   world.made_at = runner().now() + Duration{1'000'000'000'000};
-  forger_.send(channels::kPredictions, world, {{3'999'999'999'999'999, 1}, runner().now()});
-  forger_.send(channels::kPredictions, world, forger_.foreign());
-  forger_.send(channels::kPredictions, world, forger_.next(channels::kPredictions));
+  forger_.send(channels::kPredictions.name, world, {{3'999'999'999'999'999, 1}, runner().now()});
+  forger_.send(channels::kPredictions.name, world, forger_.foreign());
+  forger_.send(channels::kPredictions.name, world, forger_.next(channels::kPredictions.name));
   expect_undisturbed();
 }
 
 TEST_F(ForgedMessages, AnEmptyWorldOfAnotherPredictorIsNotBelieved) {
-  forger_.send(channels::kPredictions, empty_world(kFar), forger_.foreign());
-  forger_.send(channels::kPredictions, empty_world(kFar, 2), forger_.foreign(2));
+  forger_.send(channels::kPredictions.name, empty_world(kFar), forger_.foreign());
+  forger_.send(channels::kPredictions.name, empty_world(kFar, 2), forger_.foreign(2));
   expect_undisturbed();
 }
 
 TEST_F(ForgedMessages, HalfASetOfTheTruePredictorDelaysTheWorldByOneSet) {
-  forger_.send(channels::kPredictions, empty_world(kFar, 2), forger_.next(channels::kPredictions));
+  forger_.send(channels::kPredictions.name, empty_world(kFar, 2), forger_.next(channels::kPredictions.name));
   expect_undisturbed();
 }
 
@@ -121,7 +120,7 @@ TEST_F(ForgedMessages, AWorldOfTheTruePredictorIsBelievedUntilTheNextSet) {
   const UTime lied = runner().now();
   TrackSet lie = empty_world(kFar);
   lie.batch.set = 123'456'789;
-  forger_.send(channels::kPredictions, lie, forger_.next(channels::kPredictions));
+  forger_.send(channels::kPredictions.name, lie, forger_.next(channels::kPredictions.name));
   fly(1.0);
   for (const Plan& plan : plans_) {
     const bool later = plan.header.utime > lied + Duration{150'000};
@@ -131,21 +130,21 @@ TEST_F(ForgedMessages, AWorldOfTheTruePredictorIsBelievedUntilTheNextSet) {
 }
 
 TEST_F(ForgedMessages, AFarSequenceMutesNoTrueRequest) {
-  Header header = forger_.next(channels::kHorizonRequest);
+  Header header = forger_.next(channels::kHorizonRequest.name);
   header.name.sequence = kFar;
-  forger_.send(channels::kHorizonRequest, forger_.newest_request(), header);
+  forger_.send(channels::kHorizonRequest.name, forger_.newest_request(), header);
   expect_undisturbed();
 }
 
 TEST_F(ForgedMessages, ARequestOfTheTrueExecutorMutesNoneForLong) {
-  Header header = forger_.next(channels::kHorizonRequest);
+  Header header = forger_.next(channels::kHorizonRequest.name);
   header.name.sequence += 7;
   header.utime = header.utime + Duration{100'000};
   HorizonRequest request = forger_.newest_request();
   request.id = kFar;
   request.t_s = header.utime + Duration{75'000};
   request.deadline = request.t_s - Duration{5'000};
-  forger_.send(channels::kHorizonRequest, request, header);
+  forger_.send(channels::kHorizonRequest.name, request, header);
   EXPECT_EQ(fly_to_the_goal(), 0);
   EXPECT_LE(simulator().executor().counters().unanswered, 4);
 }
@@ -158,7 +157,7 @@ TEST_F(ForgedMessages, APlanOfAnotherPlannerIsNotAdopted) {
     plan.request_id = asked.id + ahead;
     plan.outcome = PlanOutcome::Optimized;
     plan.trajectory = asked.committed;
-    forger_.send(channels::kPlan, plan, forger_.foreign(1 + ahead));
+    forger_.send(channels::kPlan.name, plan, forger_.foreign(1 + ahead));
   }
   fly(0.001);
   EXPECT_EQ(simulator().executor().counters().of(Verdict::Adopted), adopted);
@@ -166,23 +165,25 @@ TEST_F(ForgedMessages, APlanOfAnotherPlannerIsNotAdopted) {
 }
 
 TEST_F(ForgedMessages, AStopFromTheFutureStopsNobody) {
-  forger_.send(channels::kGoal, goal(std::numeric_limits<std::int64_t>::max(), GoalMode::Stop), forger_.foreign(1));
-  forger_.send(channels::kGoal, goal(kFar, GoalMode::Stop), forger_.foreign(2));
-  forger_.send(channels::kGoal, goal(kFar, GoalMode::Stop), forger_.next(channels::kGoal));
+  forger_.send(channels::kGoal.name, goal(std::numeric_limits<std::int64_t>::max(), GoalMode::Stop),
+               forger_.foreign(1));
+  forger_.send(channels::kGoal.name, goal(kFar, GoalMode::Stop), forger_.foreign(2));
+  forger_.send(channels::kGoal.name, goal(kFar, GoalMode::Stop), forger_.next(channels::kGoal.name));
   expect_undisturbed();
 }
 
 TEST_F(ForgedMessages, AStopOfNowIsBelievedAndALaterGoalIsHeardAfterIt) {
   // Anyone may send goals: only keys tell who.
-  forger_.send(channels::kGoal, goal(runner().now().us, GoalMode::Stop), forger_.foreign());
+  forger_.send(channels::kGoal.name, goal(runner().now().us, GoalMode::Stop), forger_.foreign());
   fly(3.0);
   EXPECT_EQ(speed(), 0.0);
-  forger_.send(channels::kGoal, goal(runner().now().us, GoalMode::Go, system_.scenario().uav.goal), forger_.foreign(2));
+  forger_.send(channels::kGoal.name, goal(runner().now().us, GoalMode::Go, system_.scenario().uav.goal),
+               forger_.foreign(2));
   EXPECT_EQ(fly_to_the_goal(), 0);
 }
 
 TEST_F(ForgedMessages, AGoalInTheVehiclesNameIsGoneWhenTheVehicleRepeatsItsOwn) {
-  forger_.send(channels::kGoal, goal(77, GoalMode::Go, Vec3(1e6, 1e6, 1e6)), forger_.next(channels::kGoal));
+  forger_.send(channels::kGoal.name, goal(77, GoalMode::Go, Vec3(1e6, 1e6, 1e6)), forger_.next(channels::kGoal.name));
   EXPECT_EQ(fly_to_the_goal(), 0);
   EXPECT_LT(simulator().result()->flight_time_s, 18.0);
 }
@@ -190,16 +191,16 @@ TEST_F(ForgedMessages, AGoalInTheVehiclesNameIsGoneWhenTheVehicleRepeatsItsOwn) 
 TEST_F(ForgedMessages, AVerdictOfAnotherSimulatorEndsNothing) {
   FlightResult result;
   result.outcome = FlightOutcome::Reached;
-  forger_.send(channels::kFlightResult, result, forger_.foreign());
+  forger_.send(channels::kFlightResult.name, result, forger_.foreign());
   expect_undisturbed();
 }
 
 TEST_F(ForgedMessages, AVerdictInTheSimulatorsNameIsDroppedWhenItFliesOn) {
   FlightResult result;
   result.outcome = FlightOutcome::Collision;
-  Header header = forger_.next(channels::kUavState);
+  Header header = forger_.next(channels::kUavState.name);
   header.name.sequence = 1;
-  forger_.send(channels::kFlightResult, result, header);
+  forger_.send(channels::kFlightResult.name, result, header);
   fly_to_the_goal();
   EXPECT_EQ(summary()["outcome"], "reached");
 }
@@ -208,29 +209,29 @@ TEST_F(ForgedMessages, AHeartbeatOfAnotherSimulatorEndsNothing) {
   Heartbeat heartbeat;
   heartbeat.process = kSimulatorProcess;
   heartbeat.state = ProcessState::Ready;
-  forger_.send(channels::kHeartbeat, heartbeat, forger_.foreign());
-  forger_.send(channels::kHeartbeat, heartbeat, {{3'999'999'999'999'999, 1}, runner().now()});
+  forger_.send(channels::kHeartbeat.name, heartbeat, forger_.foreign());
+  forger_.send(channels::kHeartbeat.name, heartbeat, {{3'999'999'999'999'999, 1}, runner().now()});
   heartbeat.channels["GOAL"].lost = kFar;
-  forger_.send(channels::kHeartbeat, heartbeat, {{5, 1}, UTime{3'999'999'999'999'999}});
+  forger_.send(channels::kHeartbeat.name, heartbeat, {{5, 1}, UTime{3'999'999'999'999'999}});
   expect_undisturbed();
 }
 
 TEST_F(ForgedMessages, MotionsOfAnotherOwnerAreNotDeclared) {
   TrackSet world = empty_world(kFar);
-  forger_.send(channels::kDeclaredMotions, world, {{3'999'999'999'999'999, 1}, runner().now()});
-  forger_.send(channels::kDeclaredMotions, world, forger_.foreign(1));
+  forger_.send(channels::kDeclaredMotions.name, world, {{3'999'999'999'999'999, 1}, runner().now()});
+  forger_.send(channels::kDeclaredMotions.name, world, forger_.foreign(1));
   world.tracks.resize(1);
   world.tracks[0].id = 1;
   world.tracks[0].half_extents = Vec3::Constant(1e5);
   world.tracks[0].motion = {runner().now(), {CubicPiece{Duration{5'000'000}, PowerCubic::Zero()}}};
   world.tracks[0].alpha.assign(1, Vec3::Zero());
-  forger_.send(channels::kDeclaredMotions, world, forger_.foreign(2));
+  forger_.send(channels::kDeclaredMotions.name, world, forger_.foreign(2));
   expect_undisturbed();
 }
 
 TEST_F(ForgedMessages, MotionsInTheTrueOwnersNameLastUntilItsNextSet) {
   TrackSet world = empty_world(kFar);
-  forger_.send(channels::kDeclaredMotions, world, forger_.next(channels::kDeclaredMotions));
+  forger_.send(channels::kDeclaredMotions.name, world, forger_.next(channels::kDeclaredMotions.name));
   EXPECT_EQ(fly_to_the_goal(), 0);
 }
 
@@ -240,7 +241,8 @@ TEST_F(ForgedMessages, RequestsOfOtherExecutorsTakeNoGoalAway) {
     request.id = 1'000 + k;
     request.t_s = runner().now() + Duration{75'000};
     request.deadline = request.t_s - Duration{5'000};
-    forger_.send(channels::kHorizonRequest, request, {{k % 2 == 0 ? 5 : runner().now().us, k + 1}, runner().now()});
+    forger_.send(channels::kHorizonRequest.name, request,
+                 {{k % 2 == 0 ? 5 : runner().now().us, k + 1}, runner().now()});
     fly(0.01);
   }
   expect_undisturbed();
@@ -248,7 +250,7 @@ TEST_F(ForgedMessages, RequestsOfOtherExecutorsTakeNoGoalAway) {
 
 TEST_F(ForgedMessages, ASecondPredictorForAWhileBlindsNobody) {
   Heartbeat planner;
-  runner().observer().subscribe<Heartbeat>(channels::kHeartbeat, [&](const Heartbeat& heard) {
+  runner().observer().subscribe(channels::kHeartbeat, [&](const Heartbeat& heard) {
     if (heard.process == "tern-planner" && !heard.waiting_for.empty()) planner = heard;
   });
   runner().start("second", [](Bus& bus) { return std::make_unique<PredictorNode>(bus, PredictorConfig()); });

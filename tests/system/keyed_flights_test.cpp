@@ -5,16 +5,10 @@
 #include <functional>
 
 #include "campaign/virtual_system.h"
-#include "messages/flight_result.h"
-#include "messages/goal.h"
-#include "messages/heartbeat.h"
-#include "messages/horizon_request.h"
-#include "messages/plan.h"
-#include "messages/track_set.h"
+#include "messages/codec.h"
 #include "messages/trailer.h"
 #include "monitor/flight_watch.h"
 #include "runtime/authentication.h"
-#include "runtime/channels.h"
 #include "simulator/app/simulator_node.h"
 #include "tests/support/watched_flight.h"
 
@@ -60,11 +54,11 @@ TrackSet empty_set(const char* channel, const Overheard& true_ones, UTime now, s
 }
 
 std::vector<Forged> forged_plan(const Overheard& true_ones, UTime now) {
-  HorizonRequest request = true_ones.last<HorizonRequest>(channels::kHorizonRequest);
+  HorizonRequest request = true_ones.last<HorizonRequest>(channels::kHorizonRequest.name);
   request.header.name.sequence = kHuge;
-  Plan plan = true_ones.last<Plan>(channels::kPlan);
+  Plan plan = true_ones.last<Plan>(channels::kPlan.name);
   plan.header = {{plan.header.name.sender_epoch_us, plan.header.name.sequence + 1}, now};
-  return {{channels::kHorizonRequest, encode(request)}, {channels::kPlan, encode(plan)}};
+  return {{channels::kHorizonRequest.name, encode(request)}, {channels::kPlan.name, encode(plan)}};
 }
 
 Bytes goal_bytes(GoalMode mode, std::int64_t id, const Vec3& position, UTime now) {
@@ -80,30 +74,30 @@ std::vector<Attack> attacks() {
   return {
       {"empty predictions from the future",
        [](const Overheard& o, UTime now) -> std::vector<Forged> {
-         TrackSet set = empty_set(channels::kPredictions, o, now, 3'999'999'999'999'999);
+         TrackSet set = empty_set(channels::kPredictions.name, o, now, 3'999'999'999'999'999);
          set.made_at = now + Duration{1'000'000'000'000};
-         return {{channels::kPredictions, encode(set)}};
+         return {{channels::kPredictions.name, encode(set)}};
        }},
       {"half a set of predictions",
        [](const Overheard& o, UTime now) -> std::vector<Forged> {
-         const auto epoch = o.last<TrackSet>(channels::kPredictions).header.name.sender_epoch_us;
-         TrackSet set = empty_set(channels::kPredictions, o, now, epoch);
+         const auto epoch = o.last<TrackSet>(channels::kPredictions.name).header.name.sender_epoch_us;
+         TrackSet set = empty_set(channels::kPredictions.name, o, now, epoch);
          set.batch.count = 2;
-         return {{channels::kPredictions, encode(set)}};
+         return {{channels::kPredictions.name, encode(set)}};
        }},
       {"no declared motions",
        [](const Overheard& o, UTime now) -> std::vector<Forged> {
-         return {{channels::kDeclaredMotions, encode(empty_set(channels::kDeclaredMotions, o, now, now.us))}};
+         return {{channels::kDeclaredMotions.name, encode(empty_set(channels::kDeclaredMotions.name, o, now, now.us))}};
        }},
       {"a request of a huge number, and a plan", forged_plan},
       {"stop for ever",
        [](const Overheard&, UTime now) -> std::vector<Forged> {
-         return {
-             {channels::kGoal, goal_bytes(GoalMode::Stop, std::numeric_limits<std::int64_t>::max(), {0, 0, 0}, now)}};
+         return {{channels::kGoal.name,
+                  goal_bytes(GoalMode::Stop, std::numeric_limits<std::int64_t>::max(), {0, 0, 0}, now)}};
        }},
       {"a goal that cannot be reached",
        [](const Overheard&, UTime now) -> std::vector<Forged> {
-         return {{channels::kGoal, goal_bytes(GoalMode::Go, now.us, {1e6, 1e6, 1e6}, now)}};
+         return {{channels::kGoal.name, goal_bytes(GoalMode::Go, now.us, {1e6, 1e6, 1e6}, now)}};
        }},
       {"reached",
        [](const Overheard&, UTime now) -> std::vector<Forged> {
@@ -111,7 +105,7 @@ std::vector<Attack> attacks() {
          result.header = {{now.us, 1}, now};
          result.outcome = FlightOutcome::Reached;
          result.min_clearance_m = 1.0;
-         return {{channels::kFlightResult, encode(result)}};
+         return {{channels::kFlightResult.name, encode(result)}};
        }},
       {"a simulator that starts anew",
        [](const Overheard&, UTime now) -> std::vector<Forged> {
@@ -119,13 +113,13 @@ std::vector<Attack> attacks() {
          beat.header = {{now.us, 1}, now};
          beat.process = "tern-simulator";
          beat.state = ProcessState::Ready;
-         return {{channels::kHeartbeat, encode(beat)}};
+         return {{channels::kHeartbeat.name, encode(beat)}};
        }},
       {"requests of another vehicle",
        [](const Overheard& o, UTime now) -> std::vector<Forged> {
-         HorizonRequest request = o.last<HorizonRequest>(channels::kHorizonRequest);
+         HorizonRequest request = o.last<HorizonRequest>(channels::kHorizonRequest.name);
          request.header = {{now.us, 1}, now};
-         return {{channels::kHorizonRequest, encode(request)}};
+         return {{channels::kHorizonRequest.name, encode(request)}};
        }},
   };
 }
@@ -141,13 +135,13 @@ class KeyedFlight {
     bus.listen([this](std::string_view channel, std::int64_t, std::span<const std::uint8_t> data) {
       if (forging_) return;
       Bytes bytes(data.begin(), data.end());
-      if (channel == channels::kPlan || channel == channels::kUavState) heard.flown.emplace_back(channel, bytes);
+      if (channel == channels::kPlan.name || channel == channels::kUavState.name)
+        heard.flown.emplace_back(channel, bytes);
       heard.newest.insert_or_assign(std::string(channel), std::move(bytes));
     });
-    bus.subscribe<Heartbeat>(channels::kHeartbeat, [this](const Heartbeat& m) { watch_.hear(m, now()); });
-    bus.subscribe<HorizonRequest>(channels::kHorizonRequest,
-                                  [this](const HorizonRequest& m) { watch_.hear(m, now()); });
-    bus.subscribe<FlightResult>(channels::kFlightResult, [this](const FlightResult& m) { watch_.hear(m, now()); });
+    bus.subscribe(channels::kHeartbeat, [this](const Heartbeat& m) { watch_.hear(m, now()); });
+    bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { watch_.hear(m, now()); });
+    bus.subscribe(channels::kFlightResult, [this](const FlightResult& m) { watch_.hear(m, now()); });
   }
 
   [[nodiscard]] UTime now() { return system_.runner().now(); }
@@ -265,8 +259,9 @@ TEST(KeyedFlights, TheirOwnMessagesSaidAgainChangeNotOneByteAndAreCounted) {
   for (int k = 0; k < 8; ++k) {
     std::vector<Forged> again;
     static const std::vector<const char*> kChannels = {
-        channels::kPredictions, channels::kHorizonRequest,       channels::kPlan,           channels::kGoal,
-        channels::kHeartbeat,   channels::kObstacleObservations, channels::kDeclaredMotions};
+        channels::kPredictions.name,    channels::kHorizonRequest.name, channels::kPlan.name,
+        channels::kGoal.name,           channels::kHeartbeat.name,      channels::kObstacleObservations.name,
+        channels::kDeclaredMotions.name};
     const Overheard then = flight.heard;
     flight.fly(Duration{400'000});
     for (const char* channel : kChannels) again.push_back({channel, then.newest.at(channel)});

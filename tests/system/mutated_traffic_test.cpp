@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/virtual_system.h"
+#include "messages/channels.h"
 #include "monitor/app/monitor_node.h"
-#include "runtime/channels.h"
 #include "simulator/app/simulator_node.h"
 #include "tests/support/traffic_mutator.h"
 #include "tests/support/watched_flight.h"
@@ -66,7 +66,7 @@ TEST_P(MutatedTraffic, TheFlightReachesItsGoalAndItsCountersAreTrue) {
   ASSERT_EQ(noise->left(), 0);
   runner.stop("noise");
   std::vector<Plan> plans;
-  runner.observer().subscribe<Plan>(channels::kPlan, [&](const Plan& plan) { plans.push_back(plan); });
+  runner.observer().subscribe(channels::kPlan, [&](const Plan& plan) { plans.push_back(plan); });
   const UTime quiet = runner.now() + Duration{2'000'000};
   const RunResult end = runner.run(runner.now() + Duration{100'000'000});
   EXPECT_EQ(end.process, "tern-monitor");

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "campaign/virtual_system.h"
-#include "runtime/channels.h"
+#include "messages/channels.h"
 #include "simulator/app/simulator_node.h"
 #include "tests/support/watched_flight.h"
 
@@ -25,9 +25,8 @@ class Restarts : public ::testing::Test {
       : system_(scenario_file("paper_corridor"),
                 {"world.generator=none", "world.count=0", kObstacles, "executor.rate_hz=10"}) {
     Bus& bus = system_.runner().observer();
-    bus.subscribe<HorizonRequest>(channels::kHorizonRequest,
-                                  [this](const HorizonRequest& r) { exchange_.on_request(r); });
-    bus.subscribe<Plan>(channels::kPlan, [this](const Plan& plan) { exchange_.on_plan(plan); });
+    bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& r) { exchange_.on_request(r); });
+    bus.subscribe(channels::kPlan, [this](const Plan& plan) { exchange_.on_plan(plan); });
     system_.runner().run(now() + Duration::from_seconds(20.0), [this] { return simulator().world_zero().has_value(); });
   }
 

@@ -4,18 +4,14 @@
 
 #include <cmath>
 
-#include "logger/records/log_writer.h"
+#include "flight_log/log_writer.h"
 #include "messages/batching.h"
-#include "messages/horizon_request.h"
-#include "messages/obstacle_truth.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "simulator/referee/body_distance.h"
 #include "simulator/worlds/declared_motions.h"
 #include "simulator/worlds/world.h"
-#include "tests/logger/temp_folder.h"
 #include "tests/support/random_splines.h"
+#include "tests/support/temp_folder.h"
 #include "tools/audit/audit.h"
 
 namespace tern::audit {
@@ -97,8 +93,8 @@ class Recording {
       UavState state;
       state.at = kZero + t;
       state.motion = c.flown.sample(state.at);
-      write(channels::kUavState, state, state.at);
-      write(channels::kSetpoint, state, state.at);
+      write(channels::kUavState.name, state, state.at);
+      write(channels::kSetpoint.name, state, state.at);
     }
     for (Duration t{-33'333}; t.seconds() <= kFlight + 0.05; t = t + Duration{33'333}) truth(c, kZero + t);
     if (!c.declared) return;
@@ -125,7 +121,7 @@ class Recording {
     r.limits.j_max = Vec3::Constant(INFINITY);
     r.body = c.body;
     r.flight_box = Box(Vec3::Constant(-100.0), Vec3::Constant(100.0));
-    write(channels::kHorizonRequest, r, at);
+    write(channels::kHorizonRequest.name, r, at);
   }
 
   void truth(const Case& c, UTime at) {
@@ -133,14 +129,14 @@ class Recording {
     truth.batch.set = ++truths_;
     truth.at = at;
     truth.obstacles = true_obstacles(c.world, (at - kZero).seconds());
-    for (const ObstacleTruth& batch : split_batches(truth)) write(channels::kObstacleTruth, batch, at);
+    for (const ObstacleTruth& batch : split_batches(truth)) write(channels::kObstacleTruth.name, batch, at);
   }
 
   void declare(const Case& c, UTime at) {
     TrackSet set = declare_motions(c.world, kZero, at - Duration{100'000}, at + Duration{1'000'000});
     set.batch.set = ++declarations_;
     set.made_at = at;
-    for (const TrackSet& batch : split_batches(set)) write(channels::kDeclaredMotions, batch, at);
+    for (const TrackSet& batch : split_batches(set)) write(channels::kDeclaredMotions.name, batch, at);
   }
 
   LogWriter writer_;

@@ -7,16 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "messages/configuration_report.h"
-#include "messages/flight_result.h"
-#include "messages/goal.h"
-#include "messages/horizon_request.h"
-#include "messages/plan.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
-#include "tests/logger/temp_folder.h"
+#include "messages/codec.h"
 #include "tests/support/recorded_flight.h"
+#include "tests/support/temp_folder.h"
 #include "tools/audit/app/load_flight.h"
 #include "tools/audit/audit.h"
 #include "tools/audit/flown.h"
@@ -106,7 +99,7 @@ void expect_same(const Audit& a, const Audit& b) {
 
 TEST_F(AuditOfALog, WithoutStatesForASecondKnowsTheMotionByWhatWasCommitted) {
   const std::string log = with<UavState>(
-      good(), channels::kUavState, [](const UavState& s) { return s.at.us < at_us(2.0) || s.at.us > at_us(3.0); });
+      good(), channels::kUavState.name, [](const UavState& s) { return s.at.us < at_us(2.0) || s.at.us > at_us(3.0); });
   const Audit whole = audit(good());
   const Audit gap = audit(log);
   EXPECT_THAT(broken(gap), IsEmpty()) << text(gap);
@@ -132,7 +125,7 @@ TEST_F(AuditOfALog, OfALoggerThatWasAwayBoundsWhatItMissedAndBreaksNothing) {
 TEST_F(AuditOfALog, OfALoggerThatWasAwayStillFindsARefereeThatErrsByMoreThanTheGapExplains) {
   const std::string log = another_file();
   testing::copy_log_without(good(), log, at_us(2.0), at_us(2.6));
-  const std::string lying = with<FlightResult>(log, channels::kFlightResult, [](FlightResult& r) {
+  const std::string lying = with<FlightResult>(log, channels::kFlightResult.name, [](FlightResult& r) {
     r.path_length_m += 6.0;
     return true;
   });
@@ -141,7 +134,8 @@ TEST_F(AuditOfALog, OfALoggerThatWasAwayStillFindsARefereeThatErrsByMoreThanTheG
 
 TEST_F(AuditOfALog, OfABusyMachineWithRareStatesBreaksNothing) {
   int k = 0;
-  const std::string log = with<UavState>(good(), channels::kUavState, [&](const UavState&) { return ++k % 11 == 0; });
+  const std::string log =
+      with<UavState>(good(), channels::kUavState.name, [&](const UavState&) { return ++k % 11 == 0; });
   EXPECT_THAT(broken(audit(log)), IsEmpty());
 }
 
@@ -150,7 +144,7 @@ TEST_F(AuditOfALog, WithoutRequestsAndStatesInTurnBreaksNothing) {
     int k = phase;
     const std::string log = another_file();
     copy_log(good(), log, [&](std::string_view channel, std::vector<std::uint8_t>& bytes) {
-      if (channel != channels::kConfiguration && ++k % 3 == 0) bytes.clear();
+      if (channel != channels::kConfiguration.name && ++k % 3 == 0) bytes.clear();
     });
     const Audit lossy = audit(log);
     EXPECT_THAT(broken(lossy), IsEmpty()) << text(lossy);
@@ -167,8 +161,8 @@ TEST_F(AuditOfALog, OfALoggerThatCameLateSaysSoAndBreaksNothing) {
 }
 
 TEST_F(AuditOfALog, WithoutTheFirstRequestsDoesNotKnowWhatWasCommittedBefore) {
-  const Audit audited =
-      audit(with<HorizonRequest>(good(), channels::kHorizonRequest, [](const HorizonRequest& r) { return r.id > 4; }));
+  const Audit audited = audit(
+      with<HorizonRequest>(good(), channels::kHorizonRequest.name, [](const HorizonRequest& r) { return r.id > 4; }));
   EXPECT_THAT(broken(audited), IsEmpty()) << text(audited);
   EXPECT_EQ(audited.check("commitment").unchecked.count("setpoints from before the first request in the log"), 1U);
 }
@@ -191,7 +185,7 @@ TEST_F(AuditOfALog, FromANetworkThatDeliversEveryMessageTwiceIsTheSame) {
 TEST_F(AuditOfALog, OfTwoPlannersCountsTheAnswersOfTheSecondAsSuch) {
   const std::string second = another_file(), both = another_file();
   copy_log(good(), second, [](std::string_view channel, std::vector<std::uint8_t>& bytes) {
-    if (channel != channels::kPlan) return bytes.clear();
+    if (channel != channels::kPlan.name) return bytes.clear();
     auto plan = decode<Plan>(bytes).value();
     plan.header.name.sender_epoch_us += 17;
     bytes = encode(plan);
@@ -206,7 +200,7 @@ TEST_F(AuditOfALog, OfTwoPlannersCountsTheAnswersOfTheSecondAsSuch) {
 TEST_F(AuditOfALog, OfAPlannerThatAnswersTwiceIsBroken) {
   const std::string second = another_file(), both = another_file();
   copy_log(good(), second, [](std::string_view channel, std::vector<std::uint8_t>& bytes) {
-    if (channel != channels::kPlan) return bytes.clear();
+    if (channel != channels::kPlan.name) return bytes.clear();
     auto plan = decode<Plan>(bytes).value();
     plan.header.name.sequence += 10'000;
     bytes = encode(plan);
@@ -239,11 +233,11 @@ TEST_F(AuditOfALog, WithTheWorldOfARestartedSimulatorJudgesTheFirstFlightAndName
 }
 
 TEST_F(AuditOfALog, NamesAGoalThatPlansNameAndNobodyRecorded) {
-  const Audit audited = audit(without<Goal>(channels::kGoal));
+  const Audit audited = audit(without<Goal>(channels::kGoal.name));
   EXPECT_THAT(audited.missing, Contains("no GOAL"));
   EXPECT_THAT(audited.missing, Contains(HasSubstr("not in the log")));
   const std::string log =
-      with<Goal>(good(), channels::kGoal, [](const Goal& g) { return g.header.name.sequence != 2; });
+      with<Goal>(good(), channels::kGoal.name, [](const Goal& g) { return g.header.name.sequence != 2; });
   const Audit lost = audit(log);
   EXPECT_THAT(lost.missing, Contains(HasSubstr("GOAL: 1 messages lost")));
   EXPECT_THAT(text(lost), Not(HasSubstr("Nothing was left unchecked")));
@@ -253,7 +247,7 @@ TEST_F(AuditOfALog, NamesAGoalThatPlansNameAndNobodyRecorded) {
 TEST_F(AuditOfALog, NamesAConfigurationThatTheLoggerMissed) {
   const std::uint64_t named = record_->plans.front().inputs.configuration_hash;
   const Audit audited = audit(with<ConfigurationReport>(
-      good(), channels::kConfiguration, [named](const ConfigurationReport& r) { return r.hash != named; }));
+      good(), channels::kConfiguration.name, [named](const ConfigurationReport& r) { return r.hash != named; }));
   const std::string hash = [&] {
     std::ostringstream out;
     out << std::hex << named;
@@ -265,7 +259,7 @@ TEST_F(AuditOfALog, NamesAConfigurationThatTheLoggerMissed) {
 }
 
 TEST_F(AuditOfALog, WithoutDeclaredMotionsStatesTheClearanceAtTheSamples) {
-  const Audit audited = audit(without<TrackSet>(channels::kDeclaredMotions));
+  const Audit audited = audit(without<TrackSet>(channels::kDeclaredMotions.name));
   EXPECT_THAT(broken(audited), IsEmpty());
   EXPECT_FALSE(audited.least.proven);
   EXPECT_THAT(audited.check("clearance").summary, HasSubstr("between samples by interpolation"));
@@ -283,8 +277,8 @@ std::string colliding(FlightResult& r) {
 }
 
 TEST_F(AuditOfALog, OfACollisionThatItCannotTellSaysSoInTheVerdict) {
-  const std::string undeclared = without<TrackSet>(channels::kDeclaredMotions);
-  const std::string log = with<FlightResult>(undeclared, channels::kFlightResult, [](FlightResult& r) {
+  const std::string undeclared = without<TrackSet>(channels::kDeclaredMotions.name);
+  const std::string log = with<FlightResult>(undeclared, channels::kFlightResult.name, [](FlightResult& r) {
     colliding(r);
     return true;
   });
@@ -297,11 +291,11 @@ TEST_F(AuditOfALog, OfACollisionThatItCannotTellSaysSoInTheVerdict) {
 }
 
 TEST_F(AuditOfALog, OfACollisionThatTheLogContradictsIsBroken) {
-  const std::string far = with<HorizonRequest>(good(), channels::kHorizonRequest, [](HorizonRequest& r) {
+  const std::string far = with<HorizonRequest>(good(), channels::kHorizonRequest.name, [](HorizonRequest& r) {
     r.body.radius = 1e-6;  // so small a body passed surely clear
     return true;
   });
-  const std::string log = with<FlightResult>(far, channels::kFlightResult, [](FlightResult& r) {
+  const std::string log = with<FlightResult>(far, channels::kFlightResult.name, [](FlightResult& r) {
     colliding(r);
     return true;
   });

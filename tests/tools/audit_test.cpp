@@ -9,14 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "messages/flight_result.h"
-#include "messages/obstacle_truth.h"
-#include "messages/plan.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
-#include "tests/logger/temp_folder.h"
+#include "messages/codec.h"
 #include "tests/support/recorded_flight.h"
+#include "tests/support/temp_folder.h"
 #include "tools/audit/app/load_flight.h"
 
 namespace tern::audit {
@@ -96,7 +91,7 @@ TEST_F(AuditedFlight, WithAShiftedPlaneNamesItsObstacleAndRequest) {
   const std::int64_t request = plan_with_planes().request_id;
   const std::int64_t obstacle = plan_with_planes().certificate[0].track;
   for (const double shift : {3.0, -3.0}) {
-    const Audit audit = audit_with<Plan>(channels::kPlan, [&](Plan& plan) {
+    const Audit audit = audit_with<Plan>(channels::kPlan.name, [&](Plan& plan) {
       if (plan.request_id == request) plan.certificate[0].plane.d += shift;
       return true;
     });
@@ -107,7 +102,7 @@ TEST_F(AuditedFlight, WithAShiftedPlaneNamesItsObstacleAndRequest) {
 }
 
 TEST_F(AuditedFlight, WithPlanesLeftOutNamesThePairsThatNothingSeparates) {
-  const Audit audit = audit_with<Plan>(channels::kPlan, [&](Plan& plan) {
+  const Audit audit = audit_with<Plan>(channels::kPlan.name, [&](Plan& plan) {
     plan.certificate.clear();
     return true;
   });
@@ -118,7 +113,7 @@ TEST_F(AuditedFlight, WithPlanesLeftOutNamesThePairsThatNothingSeparates) {
 
 TEST_F(AuditedFlight, WithATamperedControlPointNamesThatPlan) {
   const Plan& flown = plan_with_planes();
-  const Audit audit = audit_with<Plan>(channels::kPlan, [&](Plan& plan) {
+  const Audit audit = audit_with<Plan>(channels::kPlan.name, [&](Plan& plan) {
     if (plan.request_id == flown.request_id) plan.trajectory.control_points.col(4).z() += 1.0;
     return true;
   });
@@ -133,7 +128,7 @@ TEST_F(AuditedFlight, WithATamperedControlPointNamesThatPlan) {
 
 TEST_F(AuditedFlight, WithATrajectoryThatDoesNotJoinNamesTheSplice) {
   const std::int64_t request = plan_with_planes().request_id;
-  const Audit audit = audit_with<Plan>(channels::kPlan, [&](Plan& plan) {
+  const Audit audit = audit_with<Plan>(channels::kPlan.name, [&](Plan& plan) {
     if (plan.request_id == request) plan.trajectory.control_points.col(0).x() += 1e-5;
     return true;
   });
@@ -144,7 +139,7 @@ TEST_F(AuditedFlight, WithATrajectoryThatDoesNotJoinNamesTheSplice) {
 TEST_F(AuditedFlight, WithAnObstacleMovedIntoTheWayNamesThatObstacle) {
   const UavState middle = record_->states[record_->states.size() / 2];
   const std::int64_t obstacle = audit_flight(*record_).clearance[200].obstacle;
-  const Audit audit = audit_with<ObstacleTruth>(channels::kObstacleTruth, [&](ObstacleTruth& truth) {
+  const Audit audit = audit_with<ObstacleTruth>(channels::kObstacleTruth.name, [&](ObstacleTruth& truth) {
     for (TrueObstacle& o : truth.obstacles) {
       if (o.id == obstacle && std::abs((truth.at - middle.at).seconds()) < 0.2) o.position = middle.motion.p;
     }
@@ -157,7 +152,7 @@ TEST_F(AuditedFlight, WithAnObstacleMovedIntoTheWayNamesThatObstacle) {
 
 TEST_F(AuditedFlight, WithADelayedAnswerNamesThatRequest) {
   const std::int64_t request = plan_with_planes().request_id;
-  const Audit audit = audit_with<Plan>(channels::kPlan, [&](Plan& plan) {
+  const Audit audit = audit_with<Plan>(channels::kPlan.name, [&](Plan& plan) {
     if (plan.request_id == request) plan.header.utime = plan.header.utime + Duration{80'000};
     return true;
   });
@@ -169,7 +164,7 @@ TEST_F(AuditedFlight, WithADelayedAnswerNamesThatRequest) {
 
 TEST_F(AuditedFlight, WithAShrunkAlphaNamesTheObstacleThatLeavesIt) {
   std::int64_t obstacle = kNobody;
-  const Audit audit = audit_with<TrackSet>(channels::kPredictions, [&](TrackSet& set) {
+  const Audit audit = audit_with<TrackSet>(channels::kPredictions.name, [&](TrackSet& set) {
     for (Track& track : set.tracks) {
       if (track.kind == TrackKind::Static) continue;
       if (obstacle == kNobody) obstacle = track.id;
@@ -184,7 +179,7 @@ TEST_F(AuditedFlight, WithAShrunkAlphaNamesTheObstacleThatLeavesIt) {
 }
 
 TEST_F(AuditedFlight, WithHoldsThatPromiseMuchNamesWhoMayReachTheEnd) {
-  const Audit audit = audit_with<Plan>(channels::kPlan, [&](Plan& plan) {
+  const Audit audit = audit_with<Plan>(channels::kPlan.name, [&](Plan& plan) {
     plan.hold = Duration{4'000'000};
     return true;
   });
@@ -193,7 +188,7 @@ TEST_F(AuditedFlight, WithHoldsThatPromiseMuchNamesWhoMayReachTheEnd) {
 
 TEST_F(AuditedFlight, WithASetpointOffTheTrajectoryNamesItsInstant) {
   const UTime at = record_->setpoints[300].at;
-  const Audit audit = audit_with<UavState>(channels::kSetpoint, [&](UavState& state) {
+  const Audit audit = audit_with<UavState>(channels::kSetpoint.name, [&](UavState& state) {
     if (state.at == at) state.motion.p.x() += 1e-4;
     return true;
   });
@@ -203,7 +198,7 @@ TEST_F(AuditedFlight, WithASetpointOffTheTrajectoryNamesItsInstant) {
 
 TEST_F(AuditedFlight, WithAStateBeyondALimitNamesTheLimit) {
   const UTime at = record_->states[300].at;
-  const Audit audit = audit_with<UavState>(channels::kUavState, [&](UavState& state) {
+  const Audit audit = audit_with<UavState>(channels::kUavState.name, [&](UavState& state) {
     if (state.at == at) state.motion.a.z() = 10.1;
     return true;
   });
@@ -213,7 +208,7 @@ TEST_F(AuditedFlight, WithAStateBeyondALimitNamesTheLimit) {
 
 TEST_F(AuditedFlight, WithARefereeThatErrsNamesTheMeasure) {
   const auto audit_result = [&](const std::function<void(FlightResult&)>& change) {
-    return audit_with<FlightResult>(channels::kFlightResult, [&](FlightResult& result) {
+    return audit_with<FlightResult>(channels::kFlightResult.name, [&](FlightResult& result) {
       change(result);
       return true;
     });
@@ -225,7 +220,7 @@ TEST_F(AuditedFlight, WithARefereeThatErrsNamesTheMeasure) {
 
 TEST_F(AuditedFlight, WithAnAnswerTakenAwaySaysThatItWasLostAndBreaksNothing) {
   const std::int64_t request = plan_with_planes().request_id;
-  const Audit audit = audit_with<Plan>(channels::kPlan, [&](Plan& plan) { return plan.request_id != request; });
+  const Audit audit = audit_with<Plan>(channels::kPlan.name, [&](Plan& plan) { return plan.request_id != request; });
   EXPECT_THAT(broken(audit), ElementsAre());
   EXPECT_THAT(audit.missing, ElementsAre("PLAN: 1 messages lost, by their numbers"));
   EXPECT_EQ(audit.check("answers").unchecked.size(), 1U);
@@ -233,7 +228,7 @@ TEST_F(AuditedFlight, WithAnAnswerTakenAwaySaysThatItWasLostAndBreaksNothing) {
 }
 
 TEST_F(AuditedFlight, WithoutPredictionsSaysWhatCouldNotBeChecked) {
-  const Audit audit = audit_with<TrackSet>(channels::kPredictions, [](TrackSet&) { return false; });
+  const Audit audit = audit_with<TrackSet>(channels::kPredictions.name, [](TrackSet&) { return false; });
   EXPECT_THAT(broken(audit), ElementsAre());
   EXPECT_EQ(audit.check("certificates").verdict(), Verdict::NotChecked);
   EXPECT_EQ(audit.check("predictions").verdict(), Verdict::NotChecked);
@@ -250,7 +245,7 @@ TEST_F(AuditedFlight, ProgramSaysByItsExitCodeWhetherItHeld) {
   EXPECT_EQ(run_program(good() + " --json " + json), 0);
   EXPECT_EQ(nlohmann::json::parse(std::ifstream(json))["verdict"], "held");
   const std::string late = folder_->file("late.lcm");
-  copy_log_with<Plan>(good(), late, channels::kPlan, [](Plan& plan) {
+  copy_log_with<Plan>(good(), late, channels::kPlan.name, [](Plan& plan) {
     plan.header.utime = plan.header.utime + Duration{80'000};
     return true;
   });

@@ -8,8 +8,8 @@
 #include <regex>
 
 #include "monitor/flight_watch.h"
-#include "tests/logger/temp_folder.h"
 #include "tests/support/recorded_flight.h"
+#include "tests/support/temp_folder.h"
 #include "tools/audit/app/load_flight.h"
 #include "tools/report/report_data.h"
 

@@ -1,18 +1,10 @@
 #include "tests/viewer/known_log.h"
 
 #include <map>
+#include <type_traits>
 
-#include "logger/records/log_writer.h"
-#include "messages/goal.h"
-#include "messages/heartbeat.h"
-#include "messages/horizon_request.h"
-#include "messages/map_chunk.h"
-#include "messages/obstacle_truth.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
+#include "flight_log/log_writer.h"
+#include "messages/codec.h"
 #include "tests/viewer/known_scene.h"
 
 namespace tern::support {
@@ -22,9 +14,9 @@ class Recorder {
  public:
   explicit Recorder(const std::string& path) : writer_(std::move(*LogWriter::open(path, 0))) {}
   template <class T>
-  void publish(const char* channel, T message, UTime now) {
-    message.header = {{kKnownLogStart.us, ++sequences_[channel]}, now};
-    writer_.append(channel, now.us, encode(message));
+  void publish(const Channel<T>& channel, std::type_identity_t<T> message, UTime now) {
+    message.header = {{kKnownLogStart.us, ++sequences_[channel.name]}, now};
+    writer_.append(channel.name, now.us, encode(message));
   }
 
  private:

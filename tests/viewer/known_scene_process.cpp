@@ -5,17 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "messages/goal.h"
-#include "messages/heartbeat.h"
-#include "messages/horizon_request.h"
-#include "messages/map_chunk.h"
-#include "messages/obstacle_truth.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/search_view.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/process.h"
 #include "tests/viewer/known_log.h"
 #include "tests/viewer/known_scene.h"
@@ -26,7 +16,7 @@ namespace {
 class KnownSceneNode final : public Node {
  public:
   explicit KnownSceneNode(Bus& bus) : bus_(bus), scene_(bus.clock().now()), next_(bus.clock().now()) {
-    bus.subscribe<Goal>(channels::kGoal, [](const Goal& goal) {
+    bus.subscribe(channels::kGoal, [](const Goal& goal) {
       std::printf("goal %lld %.3f %.3f %.3f\n", static_cast<long long>(goal.id), goal.position.x(), goal.position.y(),
                   goal.position.z());
       std::fflush(stdout);

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/logger/temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tests/viewer/known_log.h"
 #include "tests/viewer/known_scene.h"
 #include "viewer/bridge/app/listening_socket.h"

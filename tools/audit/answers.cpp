@@ -72,7 +72,7 @@ class AnswerCheck {
   }
 
   void unanswered() {
-    std::int64_t unread = record_.unread("PLAN");
+    std::int64_t unread = record_.unread(channels::kPlan.name);
     for (const HorizonRequest& r : record_.requests) {
       if (answers_.contains(r.header.name)) continue;
       if (r.deadline >= record_.end()) {

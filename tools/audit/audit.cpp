@@ -9,14 +9,17 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <tuple>
+
+#include "messages/channels.h"
 
 namespace tern::audit {
 namespace {
 
 /// The channels that an audit needs; of the others that it reads it says what was lost.
-constexpr const char* kNeeded[] = {"UAV_STATE",    "SETPOINT",    "HORIZON_REQUEST",
-                                   "PLAN",         "PREDICTIONS", "OBSTACLE_TRUTH",
-                                   "SEMANTIC_MAP", "GOAL",        "CONFIGURATION"};
+constexpr std::tuple kNeeded{channels::kUavState,    channels::kSetpoint,    channels::kHorizonRequest,
+                             channels::kPlan,        channels::kPredictions, channels::kObstacleTruth,
+                             channels::kSemanticMap, channels::kGoal,        channels::kConfiguration};
 /// Findings of one check that the text lists.
 constexpr std::size_t kFindingsInText = 10;
 
@@ -33,12 +36,17 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
   if (names.size() < record.requests.size()) {
     missing.push_back("requests of the same name occur twice: are the log's parts of different flights?");
   }
-  for (const char* name : kNeeded) {
-    const auto channel = log.channels.find(name);
-    if (channel == log.channels.end() || channel->second.messages == 0) missing.push_back(fmt::format("no {}", name));
-  }
+  const auto look_for = [&](const auto& needed) {
+    const auto channel = log.channels.find(needed.name);
+    const bool there = channel != log.channels.end() && channel->second.messages > 0;
+    if (!there) missing.push_back(fmt::format("no {}", needed.name));
+  };
+  for_each_channel(look_for, kNeeded);
   for (const auto& [name, channel] : log.channels) {
     if (channel.lost > 0) missing.push_back(fmt::format("{}: {} messages lost, by their numbers", name, channel.lost));
+    if (channel.before_first > 0) {
+      missing.push_back(fmt::format("{}: the log lacks the first {} messages", name, channel.before_first));
+    }
     std::int64_t refused = 0;
     for (const std::int64_t n : channel.refused) refused += n;
     if (refused > 0)

@@ -257,7 +257,7 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
   Watch watch{record, record.requests.front().body, judged(record), flown(record), audit.clearance};
   const bool collided = !record.results.empty() && record.results.back().outcome == FlightOutcome::Collision;
   if (collided) watch.window.to = watch.window.to + kAfterCollision;
-  count_holes(watch.vehicle, "UAV_STATE", check);
+  count_holes(watch.vehicle, channels::kUavState.name, check);
   for (const UavState& s : record.states) {
     if (s.at >= watch.window.from && s.at <= watch.window.to) audit.clearance.push_back({s.at, kFar, kNobody});
   }
@@ -271,7 +271,7 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
     holes.hole_count += motion.hole_count;
     if (!motion.spans.empty()) verdicts.take(watch.watch(id, history, motion, verdicts.nearest()));
   }
-  count_holes(holes, "OBSTACLE_TRUTH", check);
+  count_holes(holes, channels::kObstacleTruth.name, check);
   if (record.truth_left_out > 0) check.unchecked["obstacles that OBSTACLE_TRUTH left out"] = record.truth_left_out;
   const std::int64_t passers = count_passers(record, watch.window);
   if (passers > 0)

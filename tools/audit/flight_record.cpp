@@ -5,18 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "messages/configuration_report.h"
-#include "messages/flight_result.h"
-#include "messages/goal.h"
-#include "messages/horizon_request.h"
-#include "messages/map_chunk.h"
-#include "messages/obstacle_truth.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
-#include "tools/log_reader/track_sets.h"
+#include "flight_log/track_sets.h"
+#include "messages/codec.h"
 
 namespace tern::audit {
 namespace {
@@ -52,22 +42,21 @@ void declare(const Track& track, UTime made_at, std::vector<DeclaredPiece>& piec
 class Reading {
  public:
   explicit Reading(FlightRecord& record) : record_(record) {
-    keep<HorizonRequest>(channels::kHorizonRequest, record.requests);
-    keep<Plan>(channels::kPlan, record.plans);
-    keep<PlanTiming>(channels::kPlanTiming, record.timings);
-    tell<UavState>(channels::kUavState, [](Told& told, const UavState& s) { told.states.push_back(s); });
-    tell<UavState>(channels::kSetpoint, [](Told& told, const UavState& s) { told.setpoints.push_back(s); });
-    tell<ObstacleTruth>(channels::kObstacleTruth, take_truth);
-    tell<FlightResult>(channels::kFlightResult, take_result);
-    log_.on<TrackSet>(channels::kDeclaredMotions, [this](const TrackSet& batch, std::int64_t) { declared(batch); });
-    log_.on<TrackSet>(channels::kPredictions, [this](const TrackSet& batch, std::int64_t) { predicted(batch); });
-    log_.on<MapChunk>(channels::kSemanticMap, [this](const MapChunk& chunk, std::int64_t) { take(chunk); });
-    log_.on<Goal>(channels::kGoal, [this](const Goal& goal, std::int64_t) {
+    keep(channels::kHorizonRequest, record.requests);
+    keep(channels::kPlan, record.plans);
+    keep(channels::kPlanTiming, record.timings);
+    tell(channels::kUavState, [](Told& told, const UavState& s) { told.states.push_back(s); });
+    tell(channels::kSetpoint, [](Told& told, const UavState& s) { told.setpoints.push_back(s); });
+    tell(channels::kObstacleTruth, take_truth);
+    tell(channels::kFlightResult, take_result);
+    log_.on(channels::kDeclaredMotions, [this](const TrackSet& batch, std::int64_t) { declared(batch); });
+    log_.on(channels::kPredictions, [this](const TrackSet& batch, std::int64_t) { predicted(batch); });
+    log_.on(channels::kSemanticMap, [this](const MapChunk& chunk, std::int64_t) { take(chunk); });
+    log_.on(channels::kGoal, [this](const Goal& goal, std::int64_t) {
       record_.goal_names.insert(goal.header.name);
       if (record_.goals.empty() || record_.goals.back().id != goal.id) record_.goals.push_back(goal);
     });
-    log_.on<ConfigurationReport>(channels::kConfiguration,
-                                 [this](const ConfigurationReport& report, std::int64_t) { take(report); });
+    log_.on(channels::kConfiguration, [this](const ConfigurationReport& report, std::int64_t) { take(report); });
   }
 
   Result<void> run() {
@@ -86,13 +75,13 @@ class Reading {
 
  private:
   template <class T>
-  void keep(const char* channel, std::vector<T>& list) {
-    log_.on<T>(channel, [&list](const T& message, std::int64_t) { list.push_back(message); });
+  void keep(const Channel<T>& channel, std::vector<T>& list) {
+    log_.on(channel, [&list](const T& message, std::int64_t) { list.push_back(message); });
   }
 
   template <class T>
-  void tell(const char* channel, void (*put)(Told&, const T&)) {
-    log_.on<T>(channel, [this, put](const T& m, std::int64_t) { put(told_[m.header.name.sender_epoch_us], m); });
+  void tell(const Channel<T>& channel, void (*put)(Told&, const std::type_identity_t<T>&)) {
+    log_.on(channel, [this, put](const T& m, std::int64_t) { put(told_[m.header.name.sender_epoch_us], m); });
   }
 
   static void take_truth(Told& told, const ObstacleTruth& truth) {
@@ -227,7 +216,7 @@ class Reading {
 std::int64_t FlightRecord::unread(const std::string& channel) const {
   const auto found = contents.channels.find(channel);
   if (found == contents.channels.end()) return 0;
-  std::int64_t sum = found->second.lost;
+  std::int64_t sum = found->second.lost + found->second.before_first;
   for (const std::int64_t n : found->second.refused) sum += n;
   return sum;
 }

@@ -16,8 +16,8 @@
 #include "core/world/region.h"
 #include "core/world/track.h"
 #include "core/world/voxel_map.h"
+#include "flight_log/flight_log.h"
 #include "tools/audit/cubic.h"
-#include "tools/log_reader/flight_log.h"
 
 namespace tern::audit {
 

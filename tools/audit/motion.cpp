@@ -216,8 +216,8 @@ Check check_commitment(const FlightRecord& record) {
   Check check{.name = "commitment",
               .claim = "what was commanded is the committed trajectory, and that is a logged plan"};
   const std::vector<Commitments> all = commitments(record);
-  const bool plans_unread = record.unread("PLAN") > 0;
-  const bool requests_unread = record.unread("HORIZON_REQUEST") > 0;
+  const bool plans_unread = record.unread(channels::kPlan.name) > 0;
+  const bool requests_unread = record.unread(channels::kHorizonRequest.name) > 0;
   for (const Commitments& own : all) {
     for (std::size_t k = 1; k < own.list.size(); ++k) {
       ++check.checked;

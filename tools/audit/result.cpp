@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/world/names.h"
 #include "tools/audit/audit.h"
 #include "tools/audit/measures.h"
 

@@ -9,8 +9,7 @@
 #include <optional>
 #include <system_error>
 
-#include "messages/map_chunk.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "tools/export/csv_files.h"
 #include "tools/export/foxglove.h"
 #include "tools/export/mcap_writer.h"
@@ -54,11 +53,10 @@ void add(McapWriter& mcap, const LoggedMessage& message) {
 
 /// Draws each map once, when its last chunk has come. A chunk that contradicts the others is left out.
 void add_maps(FlightLog& log, McapWriter& mcap) {
-  log.on<MapChunk>(channels::kSemanticMap,
-                   [&mcap, maps = std::make_shared<MapAssembler>()](const MapChunk& chunk, std::int64_t received_us) {
-                     if (maps->add(chunk).value_or(false))
-                       add(mcap, drawing_of(maps->take(), received_us), received_us);
-                   });
+  log.on(channels::kSemanticMap,
+         [&mcap, maps = std::make_shared<MapAssembler>()](const MapChunk& chunk, std::int64_t received_us) {
+           if (maps->add(chunk).value_or(false)) add(mcap, drawing_of(maps->take(), received_us), received_us);
+         });
 }
 
 }  // namespace

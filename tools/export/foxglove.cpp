@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/splines/clamped_spline.h"
+#include "core/world/names.h"
 #include "tools/export/map_boxes.h"
 
 namespace tern::exporting {
@@ -84,30 +85,26 @@ Json line_along(const Json& control_points, double interval_s, const Json& its_c
   return Json::array({line});
 }
 
-struct RegionLook {
-  const char* name;
-  Json color;
-};
-
-RegionLook look_of(VoxelLabel label) {
-  if (label == VoxelLabel::Attractive) return {"attractive", color(0.18, 0.84, 0.64, 0.25)};
-  if (label == VoxelLabel::Repulsive) return {"repulsive", color(1.0, 0.3, 0.43, 0.25)};
-  return {"occupied", color(0.48, 0.56, 0.64, 0.7)};
+Json color_of(VoxelLabel label) {
+  if (label == VoxelLabel::Attractive) return color(0.18, 0.84, 0.64, 0.25);
+  if (label == VoxelLabel::Repulsive) return color(1.0, 0.3, 0.43, 0.25);
+  return color(0.48, 0.56, 0.64, 0.7);
 }
 
 /// All voxels of one label and class: their boxes, and above them the name of the class.
 Json region(const VoxelMap& map, const std::vector<MapBox>& boxes, std::int64_t received_us) {
-  const RegionLook look = look_of(boxes.front().label);
+  const std::string label = to_string(boxes.front().label);
   const std::string& name = map.class_names.at(boxes.front().class_index);
-  Json entity = entity_of(received_us, name.empty() ? look.name : look.name + (": " + name));
+  Json entity = entity_of(received_us, name.empty() ? label : label + ": " + name);
   Box all;
   for (const MapBox& cells : boxes) {
     const Box box(map.grid.box(cells.low).min(), map.grid.box(cells.high).max());
     all.extend(box);
-    entity["cubes"].push_back(
-        {{"pose", pose(vector_of(box.center()), 0.0)}, {"size", vector_of(box.sizes())}, {"color", look.color}});
+    entity["cubes"].push_back({{"pose", pose(vector_of(box.center()), 0.0)},
+                               {"size", vector_of(box.sizes())},
+                               {"color", color_of(boxes.front().label)}});
   }
-  entity["metadata"] = {{{"key", "label"}, {"value", look.name}}, {{"key", "class"}, {"value", name}}};
+  entity["metadata"] = {{{"key", "label"}, {"value", label}}, {{"key", "class"}, {"value", name}}};
   if (!name.empty()) {
     const Vec3 above(all.center().x(), all.center().y(), all.max().z() + 0.5);
     entity["texts"] = Json::array({{{"pose", pose(vector_of(above), 0.0)},
@@ -149,7 +146,7 @@ Json list_schema(const Json& items) { return {{"type", "array"}, {"items", items
 
 std::optional<Drawing> drawing_of(const LoggedMessage& message) {
   const Json& m = message.fields;
-  if (message.channel.starts_with("UAV_STATE")) {
+  if (message.channel.starts_with(channels::kUavState.name)) {
     return Drawing{"/tern/uav",
                    "foxglove.PoseInFrame",
                    {{"timestamp", time_of(message.received_us)},

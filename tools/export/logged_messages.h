@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "flight_log/flight_log.h"
 #include "tools/export/message_json.h"
-#include "tools/log_reader/flight_log.h"
 
 namespace tern::exporting {
 

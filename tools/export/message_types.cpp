@@ -1,6 +1,5 @@
 #include "tools/export/message_types.h"
 
-#include <array>
 #include <cctype>
 #include <regex>
 #include <sstream>
@@ -9,31 +8,14 @@ namespace tern::exporting {
 
 namespace {
 
-constexpr std::array kUnits{"m", "m/s", "m/s^2", "m/s^3", "rad", "s", "m^2", "kB", "m^2/s^5", "m^2/s^6", "ms", "us"};
-
-bool name_says_unit(const std::string& name) {
-  return name.ends_with("_us") || name.ends_with("_ms") || name.ends_with("_kb");
-}
-
-/// The first of a comment's parts ("centre, W, m, each |.| <= 1e6") that is a unit; "m/s per axis" is one.
-std::string unit_in(const std::string& comment) {
-  std::istringstream parts(comment);
-  for (std::string part; std::getline(parts, part, ',');) {
-    part.erase(0, part.find_first_not_of(' '));
-    for (const std::string unit : kUnits) {
-      if (part == unit || part.starts_with(unit + " per ")) return unit;
-    }
-  }
-  return "";
-}
-
 MessageField field_of(const std::smatch& match) {
   MessageField field;
   field.type = match[1];
   field.name = match[2];
   field.comment = match[4];
-  field.digest = field.type == "int64_t" && field.comment.find("unsigned") != std::string::npos;
-  if (!name_says_unit(field.name)) field.unit = unit_in(field.comment);
+  if (field.comment.starts_with('[')) field.unit = field.comment.substr(1, field.comment.find(']') - 1);
+  field.digest = field.unit == "digest";
+  if (field.digest) field.unit = "";
   const std::string size = match[3];
   if (size.empty()) return field;
   if (std::isdigit(static_cast<unsigned char>(size.front())) != 0) {

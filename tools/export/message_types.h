@@ -15,11 +15,11 @@ struct MessageField {
   std::string name;
   std::string type;     ///< an LCM primitive, or the name of another MessageType
   std::string comment;  ///< as the definition has it
-  std::string unit;     ///< "m/s^2"; empty when it has none, the name says it (_us), or the type's own fields say it
+  std::string unit;     ///< "m/s^2", in brackets before the comment; empty: none, or the name (_us) or the type says it
   Form form = Form::Value;
   int size = 0;         ///< of a FixedArray
   std::string count;    ///< the field that counts a List or a Text (UTF-8 bytes)
-  bool digest = false;  ///< an int64_t that carries 64 unsigned bits
+  bool digest = false;  ///< an int64_t that carries 64 unsigned bits: "[digest]" before the comment
 };
 
 struct MessageType {

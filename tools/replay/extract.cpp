@@ -9,17 +9,11 @@
 #include <string_view>
 #include <utility>
 
-#include "logger/records/log_writer.h"
+#include "core/world/names.h"
+#include "flight_log/log_writer.h"
+#include "flight_log/text_log.h"
 #include "messages/batching.h"
-#include "messages/configuration_report.h"
-#include "messages/goal.h"
-#include "messages/horizon_request.h"
-#include "messages/map_chunk.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/track_set.h"
-#include "runtime/channels.h"
-#include "tools/log_reader/text_log.h"
+#include "messages/codec.h"
 
 namespace tern {
 namespace {
@@ -110,8 +104,8 @@ class ExtractWriter {
 
  private:
   template <class T>
-  void put(const char* channel, const T& message) {
-    sink_({0, now_us_, channel, encode(message)});
+  void put(const Channel<T>& channel, const T& message) {
+    sink_({0, now_us_, channel.name, encode(message)});
   }
 
   /// One for each planner process, because a process's platform decides what is promised.

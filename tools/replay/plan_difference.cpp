@@ -5,18 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "messages/plan.h"
+#include "core/world/names.h"
+#include "messages/codec.h"
 
 namespace tern {
 namespace {
-
-constexpr const char* kOutcomes[kPlanOutcomes] = {"optimized", "search only", "keep committed", "evade", "no plan"};
-constexpr const char* kReasons[kPlanReasons] = {"none",         "infeasible",  "out of time",    "start in collision",
-                                                "goal blocked", "stale world", "solver failure", "worse plan",
-                                                "at goal"};
-constexpr const char* kStageNames[kStages] = {"fallback", "local goal", "hulls", "search", "optimization", "check"};
-
-constexpr const char* kPhaseNames[kPhases] = {"attempt", "evasion", "room"};
 
 std::string text(const Vec3& v) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x(), v.y(), v.z()); }
 
@@ -164,10 +157,5 @@ PlanDifference difference_of(const Plan& recorded, const Plan& again, const Plan
   difference.agreement = equivalent ? Agreement::Equivalent : Agreement::Different;
   return difference;
 }
-
-const char* to_string(PlanOutcome outcome) { return kOutcomes[static_cast<std::size_t>(outcome)]; }
-const char* to_string(PlanReason reason) { return kReasons[static_cast<std::size_t>(reason)]; }
-const char* to_string(Phase phase) { return kPhaseNames[static_cast<std::size_t>(phase)]; }
-const char* to_string(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }
 
 }  // namespace tern

@@ -36,12 +36,4 @@ struct PlanDifference {
 PlanDifference difference_of(const Plan& recorded, const Plan& again, const PlanTiming* recorded_work,
                              const PlanStatistics* work);
 
-/// "optimized", "search only", "keep committed", "evade", "no plan".
-const char* to_string(PlanOutcome outcome);
-/// "none", "infeasible", "out of time" …
-const char* to_string(PlanReason reason);
-/// "fallback", "local goal", "hulls", "search", "optimization", "check".
-const char* to_string(Stage stage);
-const char* to_string(Phase phase);
-
 }  // namespace tern

@@ -2,15 +2,8 @@
 
 #include <utility>
 
-#include "messages/configuration_report.h"
-#include "messages/goal.h"
-#include "messages/horizon_request.h"
-#include "messages/map_chunk.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/track_set.h"
-#include "runtime/channels.h"
-#include "tools/log_reader/track_sets.h"
+#include "flight_log/track_sets.h"
+#include "messages/codec.h"
 
 namespace tern {
 namespace {
@@ -52,19 +45,18 @@ Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::
   Maps maps(inputs.maps);
   std::map<PlanKey, PlanTiming> timings;
   FlightLog log(suffix);
-  log.on<HorizonRequest>(channels::kHorizonRequest, [&](const HorizonRequest& request, std::int64_t) {
-    inputs.requests.emplace(request.header.name, request);
-  });
-  log.on<Goal>(channels::kGoal, [&](const Goal& goal, std::int64_t) { inputs.goals.emplace(goal.header.name, goal); });
-  log.on<MapChunk>(channels::kSemanticMap, [&](const MapChunk& chunk, std::int64_t) { maps.add(chunk); });
-  log.on<ConfigurationReport>(channels::kConfiguration, [&](const ConfigurationReport& report, std::int64_t) {
+  log.on(channels::kHorizonRequest,
+         [&](const HorizonRequest& request, std::int64_t) { inputs.requests.emplace(request.header.name, request); });
+  log.on(channels::kGoal, [&](const Goal& goal, std::int64_t) { inputs.goals.emplace(goal.header.name, goal); });
+  log.on(channels::kSemanticMap, [&](const MapChunk& chunk, std::int64_t) { maps.add(chunk); });
+  log.on(channels::kConfiguration, [&](const ConfigurationReport& report, std::int64_t) {
     inputs.configurations.emplace(report.hash, report);
     inputs.platforms.emplace(report.header.name.sender_epoch_us, report.platform);
   });
-  log.on<Plan>(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) {
+  log.on(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) {
     inputs.plans.push_back({plan, received_us, std::nullopt});
   });
-  log.on<PlanTiming>(channels::kPlanTiming, [&](const PlanTiming& timing, std::int64_t) {
+  log.on(channels::kPlanTiming, [&](const PlanTiming& timing, std::int64_t) {
     timings[{timing.header.name.sender_epoch_us, timing.request_id}] = timing;
   });
   auto contents = log.read(path);
@@ -78,7 +70,7 @@ Result<LogContents> read_prediction_sets(const std::string& path, const std::str
                                          const std::function<void(TrackSet)>& use) {
   RecordedSets sets;
   FlightLog log(suffix);
-  log.on<TrackSet>(channels::kPredictions, [&](const TrackSet& batch, std::int64_t) {
+  log.on(channels::kPredictions, [&](const TrackSet& batch, std::int64_t) {
     if (auto whole = sets.add(batch)) use(std::move(*whole));
   });
   return log.read(path);

@@ -15,7 +15,7 @@
 #include "core/world/horizon.h"
 #include "core/world/track.h"
 #include "core/world/voxel_map.h"
-#include "tools/log_reader/flight_log.h"
+#include "flight_log/flight_log.h"
 
 namespace tern {
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "messages/channels.h"
 #include "planner/planner_build.h"
-#include "runtime/channels.h"
 #include "runtime/platform.h"
 #include "tools/replay/extract.h"
 #include "tools/replay/replan.h"
@@ -146,7 +146,7 @@ std::int64_t Replay::answers_before() const {
 
 bool Replay::incomplete() const {
   const LogDamage& damage = inputs.log.damage;
-  const auto answers = inputs.log.channels.find(channels::kPlan + suffix);
+  const auto answers = inputs.log.channels.find(channels::kPlan.name + suffix);
   const bool known = answers != inputs.log.channels.end();
   return missing() > 0 || answers_before() > 0 || inputs.plans.empty() || damage.places > 0 || damage.missing > 0 ||
          (known && answers->second.lost > 0 && !is_extract()) || (known && refused(answers->second) > 0);

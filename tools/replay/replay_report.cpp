@@ -7,8 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/world/names.h"
+#include "messages/channels.h"
 #include "planner/planner_build.h"
-#include "runtime/channels.h"
 #include "runtime/platform.h"
 #include "tools/replay/extract.h"
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/percentiles.h"
+#include "core/world/names.h"
 #include "core/world/replan_samples.h"
 #include "tools/report/map_runs.h"
 
@@ -172,21 +173,22 @@ std::vector<Answer> answers_of(const FlightRecord& record) {
 
 json answers_to_json(const std::vector<Answer>& answers) {
   const std::size_t share = std::max<std::size_t>(1, (answers.size() + kMostAnswers - 1) / kMostAnswers);
-  Columns columns{"t",        "deadline",   "total", "outcome", "reason",       "watchdog",
-                  "fallback", "local_goal", "hulls", "search",  "optimization", "check"};
+  Columns columns{"t", "deadline", "total", "outcome", "reason", "watchdog"};
+  std::vector<json> stages(kStages, json::array());
   for (std::size_t from = 0; from < answers.size(); from += share) {
     const auto last = answers.begin() + static_cast<std::ptrdiff_t>(std::min(from + share, answers.size()));
     const Answer& a = *std::max_element(answers.begin() + static_cast<std::ptrdiff_t>(from), last,
                                         [](const Answer& x, const Answer& y) { return x.total_ms() < y.total_ms(); });
     const double outcome = a.plan == nullptr ? NAN : static_cast<double>(a.plan->outcome);
     const double reason = a.plan == nullptr ? NAN : static_cast<double>(a.plan->reason);
-    const double* ms = a.timing == nullptr ? nullptr : a.timing->stage_ms;
-    const auto stage = [ms](int k) { return ms == nullptr ? NAN : ms[k]; };
     columns.add({a.t, a.deadline_ms, a.timing == nullptr ? NAN : a.timing->total_ms, outcome, reason,
-                 a.timing != nullptr && a.timing->from_watchdog ? 1.0 : 0.0, stage(0), stage(1), stage(2), stage(3),
-                 stage(4), stage(5)});
+                 a.timing != nullptr && a.timing->from_watchdog ? 1.0 : 0.0});
+    for (std::size_t k = 0; k < stages.size(); ++k) {
+      stages[k].push_back(a.timing == nullptr ? json() : json(rounded(a.timing->stage_ms[k])));
+    }
   }
   json result = columns.take();
+  result["stages"] = stages;
   result["share"] = share;
   return result;
 }
@@ -195,7 +197,6 @@ json answers_to_json(const std::vector<Answer>& answers) {
 json to_json(const Percentiles& p) { return {rounded(p.p50), rounded(p.p95), rounded(p.p99), rounded(p.max)}; }
 
 json costs_of(const FlightRecord& record) {
-  constexpr std::array kStageNames{"fallback", "local goal", "hulls", "search", "optimization", "check"};
   ReplanSamples samples;
   for (const PlanTiming& t : record.timings) samples.add(t);
   json costs = json::array();
@@ -204,7 +205,7 @@ json costs_of(const FlightRecord& record) {
   };
   add("whole answer", samples.total);
   add("first certified", samples.first_answer);
-  for (std::size_t k = 0; k < kStageNames.size(); ++k) add(kStageNames[k], samples.stage[k]);
+  for (std::size_t k = 0; k < kStages; ++k) add(kWords<Stage>[k], samples.stage[k]);
   return costs;
 }
 
@@ -260,6 +261,7 @@ json report_data(const FlightRecord& record, const Audit& audit) {
           {"regions", regions_of(record)},
           {"map", map_runs(record, kMostMapRuns)},
           {"answers", answers_to_json(answers_of(record))},
+          {"names", {{"outcomes", kWords<PlanOutcome>}, {"reasons", kWords<PlanReason>}, {"stages", kWords<Stage>}}},
           {"costs", costs_of(record)},
           {"log", log_of(record)},
           {"audit", audit::to_json(audit, record)}};

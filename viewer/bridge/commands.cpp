@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/world/message_limits.h"
+#include "core/world/names.h"
 
 namespace tern {
 namespace {
@@ -107,11 +108,13 @@ Command player(const json& value) {
 }
 
 GoalCommand goal(const json& value) {
-  constexpr std::array<std::pair<const char*, GoalMode>, 3> kModes = {
-      {{"go", GoalMode::Go}, {"hold", GoalMode::Hold}, {"stop", GoalMode::Stop}}};
   only_members(value, {"mode", "position"});
   GoalCommand command;
-  if (value.contains("mode")) command.mode = choice(value["mode"], kModes);
+  if (value.contains("mode")) {
+    const auto mode = named<GoalMode>(text(value["mode"]));
+    check(mode.has_value(), "unknown mode");
+    command.mode = *mode;
+  }
   if (command.mode != GoalMode::Go) return command;
   check(value.contains("position") && value["position"].is_array() && value["position"].size() == 3,
         "a goal needs a position of three numbers");

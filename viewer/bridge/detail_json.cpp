@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/world/names.h"
+#include "messages/channels.h"
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/scene_json.h"
 
@@ -14,15 +16,16 @@ std::string to_text(const MessageName& name) {
 }
 
 /// {"channel": …, "name": …, "published_us": …, then what the caller writes; end_object() is the caller's, too.
-JsonWriter& begin_message(JsonWriter& json, const char* channel, const Header& header) {
-  json.begin_object().key("channel").text(channel).key("name").text(to_text(header.name));
-  return json.key("published_us").integer(header.utime.us);
+template <class T>
+JsonWriter& begin_message(JsonWriter& json, const Channel<T>& channel, const T& message) {
+  json.begin_object().key("channel").text(channel.name).key("name").text(to_text(message.header.name));
+  return json.key("published_us").integer(message.header.utime.us);
 }
 
 void write_vehicle(JsonWriter& json, const Scene& scene) {
   if (!scene.state()) return;
   const UavState& s = *scene.state();
-  begin_message(json, "UAV_STATE", s.header).key("at_us").integer(s.at.us).key("position_m").vec3(s.motion.p);
+  begin_message(json, channels::kUavState, s).key("at_us").integer(s.at.us).key("position_m").vec3(s.motion.p);
   json.key("velocity_mps").vec3(s.motion.v).key("acceleration_mps2").vec3(s.motion.a);
   json.key("jerk_mps3").vec3(s.motion.j).key("yaw_rad").number(s.yaw).end_object();
 }
@@ -43,7 +46,7 @@ void write_obstacle(JsonWriter& json, const Scene& scene, std::int64_t id) {
   if (const auto& truth = scene.truth()) {
     const auto o = std::find_if(truth->obstacles.begin(), truth->obstacles.end(), has_id);
     if (o != truth->obstacles.end()) {
-      begin_message(json, "OBSTACLE_TRUTH", truth->header).key("id").integer(id).key("at_us").integer(truth->at.us);
+      begin_message(json, channels::kObstacleTruth, *truth).key("id").integer(id).key("at_us").integer(truth->at.us);
       json.key("position_m").vec3(o->position).key("velocity_mps").vec3(o->velocity);
       json.key("half_extents_m").vec3(o->half_extents).key("moves").flag(o->moves).end_object();
     }
@@ -51,9 +54,8 @@ void write_obstacle(JsonWriter& json, const Scene& scene, std::int64_t id) {
   if (const auto& tracks = scene.tracks()) {
     const auto t = std::find_if(tracks->tracks.begin(), tracks->tracks.end(), has_id);
     if (t != tracks->tracks.end()) {
-      constexpr std::array<const char*, 3> kKinds = {"static", "declared", "estimated"};
-      begin_message(json, "PREDICTIONS", tracks->header).key("set").integer(tracks->batch.set);
-      json.key("id").integer(id).key("kind").text(kKinds.at(static_cast<std::size_t>(t->kind)));
+      begin_message(json, channels::kPredictions, *tracks).key("set").integer(tracks->batch.set);
+      json.key("id").integer(id).key("kind").text(to_string(t->kind));
       json.key("confidence").number(tracks->confidence).key("half_extents_m").vec3(t->half_extents);
       json.key("top_speed_mps").number(t->top_speed).key("start_us").integer(t->motion.start.us).key("pieces");
       write_pieces(json, *t);
@@ -63,11 +65,9 @@ void write_obstacle(JsonWriter& json, const Scene& scene, std::int64_t id) {
 }
 
 void write_timing(JsonWriter& json, const PlanTiming& t) {
-  constexpr std::array<const char*, kStages> kStageNames = {"fallback_ms", "local_goal_ms",   "hulls_ms",
-                                                            "search_ms",   "optimization_ms", "check_ms"};
-  begin_message(json, "PLAN_TIMING", t.header).key("request").integer(t.request_id).key("total_ms").number(t.total_ms);
+  begin_message(json, channels::kPlanTiming, t).key("request").integer(t.request_id).key("total_ms").number(t.total_ms);
   json.key("first_answer_ms").number(t.first_answer_ms).key("cpu_ms").number(t.cpu_ms);
-  for (std::size_t k = 0; k < kStages; ++k) json.key(kStageNames[k]).number(t.stage_ms[k]);
+  for (int k = 0; k < kStages; ++k) json.key(key(static_cast<Stage>(k)) + "_ms").number(t.stage_ms[k]);
   json.key("expansions").integer(t.expansions).key("hulls").integer(t.hulls);
   json.key("pairs_by_box").integer(t.pairs_by_box).key("pairs_by_plane").integer(t.pairs_by_plane);
   json.key("pairs_by_lp").integer(t.pairs_by_lp).key("solver_iterations").integer(t.solver_iterations);
@@ -77,7 +77,7 @@ void write_timing(JsonWriter& json, const PlanTiming& t) {
 void write_plan(JsonWriter& json, const Scene& scene) {
   if (!scene.plan()) return;
   const Plan& p = *scene.plan();
-  begin_message(json, "PLAN", p.header).key("request").integer(p.request_id);
+  begin_message(json, channels::kPlan, p).key("request").integer(p.request_id);
   json.key("outcome").text(to_string(p.outcome)).key("reason").text(to_string(p.reason));
   json.key("start_us").integer(p.trajectory.start.us).key("interval_s").number(p.trajectory.interval.seconds());
   json.key("intervals").integer(p.trajectory.control_points.cols() - 3).key("hold_s").number(p.hold.seconds());
@@ -97,7 +97,7 @@ void write_plan(JsonWriter& json, const Scene& scene) {
 void write_request(JsonWriter& json, const Scene& scene) {
   if (!scene.request()) return;
   const HorizonRequest& r = *scene.request();
-  begin_message(json, "HORIZON_REQUEST", r.header).key("id").integer(r.id).key("t_s_us").integer(r.t_s.us);
+  begin_message(json, channels::kHorizonRequest, r).key("id").integer(r.id).key("t_s_us").integer(r.t_s.us);
   json.key("deadline_us").integer(r.deadline.us).key("start_m").vec3(r.start.p).key("start_mps").vec3(r.start.v);
   json.key("v_max_mps").vec3(r.limits.v_max).key("a_max_mps2").vec3(r.limits.a_max);
   json.key("j_max_mps3").vec3(r.limits.j_max).key("body_radius_m").number(r.body.radius);
@@ -106,17 +106,20 @@ void write_request(JsonWriter& json, const Scene& scene) {
 
 void write_goal(JsonWriter& json, const Scene& scene) {
   if (!scene.goal()) return;
-  begin_message(json, "GOAL", scene.goal()->header).key("goal").raw(goal_json(scene)).end_object();
+  begin_message(json, channels::kGoal, *scene.goal()).key("goal").raw(goal_json(scene)).end_object();
 }
 
 void write_map(JsonWriter& json, const Scene& scene) {
   if (!scene.map()) return;
-  constexpr std::array<const char*, kVoxelLabels> kLabels = {"unknown", "free", "occupied", "attractive", "repulsive"};
   const SeenMap& map = *scene.map();
-  json.begin_object().key("channel").text("SEMANTIC_MAP").key("version").text(fmt::format("{:016x}", map.version));
+  json.begin_object()
+      .key("channel")
+      .text(channels::kSemanticMap.name)
+      .key("version")
+      .text(fmt::format("{:016x}", map.version));
   json.key("origin_m").vec3(map.grid.origin).key("resolution_m").number(map.grid.resolution).key("size");
   json.begin_list().integer(map.grid.size.x()).integer(map.grid.size.y()).integer(map.grid.size.z()).end_list();
-  for (std::size_t k = 0; k < kVoxelLabels; ++k) json.key(kLabels[k]).integer(map.voxels[k]);
+  for (std::size_t k = 0; k < kVoxelLabels; ++k) json.key(kWords<VoxelLabel>[k]).integer(map.voxels[k]);
   json.key("classes").begin_list();
   for (const std::string& name : map.class_names) json.text(name);
   json.end_list().end_object();
@@ -126,7 +129,7 @@ void write_process(JsonWriter& json, const Scene& scene, const std::string& name
   const auto found = scene.processes().find(name);
   if (found == scene.processes().end()) return;
   const Heartbeat& h = found->second.heartbeat;
-  begin_message(json, "HEARTBEAT", h.header).key("build").text(h.build_id).key("state").text(to_string(h.state));
+  begin_message(json, channels::kHeartbeat, h).key("build").text(h.build_id).key("state").text(to_string(h.state));
   json.key("waiting_for").text(h.waiting_for).key("channels").begin_object();
   for (const auto& [channel, c] : h.channels) {
     std::int64_t refused = 0;
@@ -136,14 +139,14 @@ void write_process(JsonWriter& json, const Scene& scene, const std::string& name
   }
   json.end_object().end_object();
   if (const auto& report = found->second.configuration) {
-    begin_message(json, "CONFIGURATION", report->header).key("hash").text(fmt::format("{:016x}", report->hash));
+    begin_message(json, channels::kConfiguration, *report).key("hash").text(fmt::format("{:016x}", report->hash));
     json.key("yaml").text(report->yaml).end_object();
   }
 }
 
 void write_result(JsonWriter& json, const Scene& scene) {
   if (!scene.result()) return;
-  begin_message(json, "FLIGHT_RESULT", scene.result()->header).key("result").raw(result_json(scene)).end_object();
+  begin_message(json, channels::kFlightResult, *scene.result()).key("result").raw(result_json(scene)).end_object();
 }
 
 std::string title_of(const PickCommand& pick) {

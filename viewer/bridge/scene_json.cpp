@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/world/names.h"
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/predicted_hulls.h"
 
@@ -64,24 +65,6 @@ void write_planes(JsonWriter& json, const Plan& plan, UTime t_s) {
 }
 
 }  // namespace
-
-const char* to_string(PlanOutcome outcome) {
-  constexpr std::array<const char*, kPlanOutcomes> kNames = {"optimized", "search only", "keep committed", "evade",
-                                                             "no plan"};
-  return kNames.at(static_cast<std::size_t>(outcome));
-}
-
-const char* to_string(PlanReason reason) {
-  constexpr std::array<const char*, kPlanReasons> kNames = {
-      "",           "infeasible", "out of time", "start in collision", "goal blocked", "stale world", "solver failure",
-      "worse plan", "at goal"};
-  return kNames.at(static_cast<std::size_t>(reason));
-}
-
-const char* to_string(ProcessState state) {
-  constexpr std::array<const char*, 5> kNames = {"starting", "waiting", "ready", "finished", "failed"};
-  return kNames.at(static_cast<std::size_t>(state));
-}
 
 std::string state_json(const Scene& scene) {
   if (!scene.state()) return kNothing;
@@ -232,10 +215,9 @@ std::string health_json(const Scene& scene, UTime now) {
 
 std::string goal_json(const Scene& scene) {
   if (!scene.goal()) return kNothing;
-  constexpr std::array<const char*, 3> kModes = {"go", "hold", "stop"};
   const Goal& goal = *scene.goal();
   JsonWriter json;
-  json.begin_object().key("id").integer(goal.id).key("mode").text(kModes.at(static_cast<std::size_t>(goal.mode)));
+  json.begin_object().key("id").integer(goal.id).key("mode").text(to_string(goal.mode));
   return json.key("p").vec3(goal.position).end_object().take();
 }
 

@@ -29,8 +29,4 @@ std::string result_json(const Scene& scene);
 /// All that was heard of one thing, for people: {"title": …, "messages": [{"channel": …, fields …}]}.
 std::string detail_json(const Scene& scene, const PickCommand& pick);
 
-const char* to_string(PlanOutcome outcome);
-const char* to_string(PlanReason reason);
-const char* to_string(ProcessState state);
-
 }  // namespace tern

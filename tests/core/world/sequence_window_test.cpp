@@ -115,6 +115,14 @@ TEST(SequenceWindow, CopiesOfOldMessagesAreRepetitionsInWhateverOrderTheyCome) {
   EXPECT_EQ(window.lost(), 0);
 }
 
+TEST(SequenceWindow, TellsWhatWasSentBeforeTheFirstThatCame) {
+  SequenceWindow window;
+  for (const int k : {8, 7, 9, 10}) window.add(k);
+  EXPECT_EQ(window.before_first(), 0) << "it may be noise";
+  for (const int k : {11, 12}) window.add(k);
+  EXPECT_EQ(window.before_first(), 6);
+}
+
 TEST(SequenceWindow, NumbersMayBeginAnewWhenTheSenderDoes) {
   SequenceWindow window = heard_up_to(1'000);
   window.begin_anew();

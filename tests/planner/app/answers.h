@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "runtime/bus.h"
-#include "runtime/channels.h"
 #include "runtime/lcm_network.h"
 
 namespace tern::test_support {
@@ -28,8 +27,8 @@ class SharedClock final : public Clock {
 class Answers {
  public:
   Answers(const std::shared_ptr<lcm::LCM>& lcm, const Clock& clock) : lcm_(lcm), bus_(lcm, clock, 999) {
-    bus_.subscribe<Plan>(channels::kPlan, [this](const Plan& plan) { plans.push_back(plan); });
-    bus_.subscribe<PlanTiming>(channels::kPlanTiming, [this](const PlanTiming& timing) { timings.push_back(timing); });
+    bus_.subscribe(channels::kPlan, [this](const Plan& plan) { plans.push_back(plan); });
+    bus_.subscribe(channels::kPlanTiming, [this](const PlanTiming& timing) { timings.push_back(timing); });
   }
 
   void hear() {

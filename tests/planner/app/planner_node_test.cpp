@@ -80,7 +80,7 @@ class PlannerNodeTest : public ::testing::Test {
     request.id = name.sequence;
     request.header.name = name;
     const Bytes bytes = encode(request);
-    lcm_->publish(channels::kHorizonRequest, bytes.data(), static_cast<unsigned>(bytes.size()));
+    lcm_->publish(channels::kHorizonRequest.name, bytes.data(), static_cast<unsigned>(bytes.size()));
     answers_.hear();
   }
   /// In virtual time: what the vehicle that began at `epoch_us` is answered.
@@ -154,8 +154,8 @@ TEST_F(PlannerNodeTest, ALateRequestIsCountedAndNotAnswered) {
   answers_.hear();
   at(kStart + Duration{100'000});
   EXPECT_TRUE(answers_.plans.empty());
-  EXPECT_EQ(bus_.counters().at(channels::kHorizonRequest).late, 1);
-  EXPECT_EQ(bus_.counters().at(channels::kHorizonRequest).received, 1);
+  EXPECT_EQ(bus_.counters().at(channels::kHorizonRequest.name).late, 1);
+  EXPECT_EQ(bus_.counters().at(channels::kHorizonRequest.name).received, 1);
 }
 
 /// A search that never ends by itself within the test: only the clock can end it.
@@ -250,8 +250,7 @@ TEST_F(PlannerNodeTest, ARequestThatTheWatchdogAnsweredWhileItWaitedIsNotPlanned
   PlannerConfig config = endless();
   config.publish_search = true;
   std::vector<std::int64_t> searched;
-  answers_.bus().subscribe<SearchView>(channels::kSearchView,
-                                       [&](const SearchView& view) { searched.push_back(view.request_id); });
+  answers_.bus().subscribe(channels::kSearchView, [&](const SearchView& view) { searched.push_back(view.request_id); });
   start({true, Duration{}}, config);
   tell_world(crowd());
   prepare();

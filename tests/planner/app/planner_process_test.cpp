@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "messages/horizon_request.h"
+#include "messages/codec.h"
 #include "runtime/process.h"
 #include "tests/support/network_end.h"
 #include "tests/support/planner_worlds.h"

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/logger/temp_folder.h"
 #include "tests/support/recorded_flight.h"
+#include "tests/support/temp_folder.h"
 #include "tests/tools/export/mcap_file.h"
 #include "tools/export/export_log.h"
 #include "tools/export/foxglove.h"

@@ -2,9 +2,7 @@
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const { flight, path, obstacles, regions, answers, audit } = data;
-  const OUTCOMES = ["optimized", "search only", "keep committed", "evade", "no plan"];
-  const REASONS = ["none", "infeasible", "out of time", "start in collision", "goal blocked", "stale world", "solver failure", "worse plan", "at goal"];
-  const STAGES = [["fallback", "fallback"], ["local_goal", "local goal"], ["hulls", "hulls"], ["search", "search"], ["optimization", "optimization"], ["check", "check"]];
+  const { outcomes: OUTCOMES, reasons: REASONS, stages: STAGES } = data.names;
   const STAGE_COLOURS = ["c6", "c3", "c4", "c1", "c2", "c5"];
   const PRINT_WIDTH = 660;
   let printing = false;
@@ -394,7 +392,7 @@
     const deadline = above ? `The deadline, ${fixed(shortest, 0)} ms after each request, lies above the chart: the slowest answer took ${percent(slowest / shortest, 0)} of it.` : "Dashed: the time that it had until its deadline.";
     const box = card("Replan time by stage, ms", `Wall time of each answer, stacked by stage. ${deadline}${shared}`);
     const sums = STAGES.map(() => []);
-    answers.t.forEach((_, i) => { let sum = 0; STAGES.forEach(([key], k) => { sum += answers[key][i] || 0; sums[k].push(answers[key][i] == null ? null : sum); }); });
+    answers.t.forEach((_, i) => { let sum = 0; answers.stages.forEach((ms, k) => { sum += ms[i] || 0; sums[k].push(ms[i] == null ? null : sum); }); });
     const order = STAGES.map((_, k) => k).reverse(); // the largest sum first, the others over it
     const stepped = uPlot.paths.stepped({ align: 1 });
     chart(box, {
@@ -402,8 +400,8 @@
       columns: [answers.t, answers.deadline, answers.total, ...order.map((k) => sums[k])],
       series: [{ label: "deadline", colour: "bad", dash: [6, 4], value: (u, y) => fixed(y, 1) },
         { label: "whole answer", colour: "ink", width: 1, paths: stepped },
-        ...order.map((k) => ({ label: STAGES[k][1], colour: STAGE_COLOURS[k], fill: true, opaque: true, width: 0, paths: stepped,
-          value: (u, y, s, i) => fixed(i == null ? null : answers[STAGES[k][0]][i], 2) }))],
+        ...order.map((k) => ({ label: STAGES[k], colour: STAGE_COLOURS[k], fill: true, opaque: true, width: 0, paths: stepped,
+          value: (u, y, s, i) => fixed(i == null ? null : answers.stages[k][i], 2) }))],
       range: above ? upTo(answers.total, 1.15) : upTo(answers.deadline.concat(answers.total)),
     });
     const strip = card("Plan outcomes", "One mark per answer.");

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "core/world/message_limits.h"
-#include "messages/map_chunk.h"
-#include "runtime/channels.h"
-#include "tools/log_reader/flight_log.h"
+#include "flight_log/flight_log.h"
+#include "messages/codec.h"
 #include "viewer/bridge/json_writer.h"
 
 namespace tern {
@@ -20,16 +20,17 @@ constexpr std::size_t kMostChannels = 256;
 
 /// How many of a channel's newest messages a jump needs, so that a complete set or every process is among them.
 std::size_t messages_needed(std::string_view channel) {
-  if (channel == channels::kObstacleTruth || channel == channels::kPredictions) return 2 * kMaxBatches;
-  if (channel == channels::kHeartbeat || channel == channels::kConfiguration) return 64;
+  if (channel == channels::kObstacleTruth.name || channel == channels::kPredictions.name) return 2 * kMaxBatches;
+  if (channel == channels::kHeartbeat.name || channel == channels::kConfiguration.name) return 64;
   return 1;
 }
 
 /// What the whole flight's charts and path are drawn from.
 bool makes_history(std::string_view channel) {
-  constexpr const char* kChannels[] = {channels::kUavState, channels::kObstacleTruth, channels::kHorizonRequest,
-                                       channels::kPlan, channels::kPlanTiming};
-  return std::find(std::begin(kChannels), std::end(kChannels), channel) != std::end(kChannels);
+  constexpr std::tuple kHistory{channels::kUavState, channels::kObstacleTruth, channels::kHorizonRequest,
+                                channels::kPlan, channels::kPlanTiming};
+  return visit_channel(
+      channel, [](const auto&) {}, kHistory);
 }
 
 /// Adds what one file of the log holds.
@@ -130,7 +131,7 @@ void LogPlayer::seek(UTime t, Scene& scene, SceneIntake& intake) {
   intake.restart();
   for (std::size_t c = 0; c < index_.channels.size(); ++c) {
     const int channel = static_cast<int>(c);
-    if (index_.channels[c] == channels::kSemanticMap) {
+    if (index_.channels[c] == channels::kSemanticMap.name) {
       feed_map(next_, channel, scene, intake);
     } else {
       feed_newest(next_, channel, messages_needed(index_.channels[c]), intake);
@@ -139,7 +140,7 @@ void LogPlayer::seek(UTime t, Scene& scene, SceneIntake& intake) {
 }
 
 void LogPlayer::step(int plans, Scene& scene, SceneIntake& intake) {
-  const auto found = std::find(index_.channels.begin(), index_.channels.end(), channels::kPlan);
+  const auto found = std::find(index_.channels.begin(), index_.channels.end(), channels::kPlan.name);
   if (found == index_.channels.end()) return;
   const auto& plans_at = by_channel_[static_cast<std::size_t>(found - index_.channels.begin())];
   const auto time_of = [&](std::uint32_t entry) { return index_.entries[entry].received; };

@@ -1,55 +1,38 @@
 #include "viewer/bridge/app/scene_intake.h"
 
+#include <tuple>
 #include <type_traits>
 
 #include "messages/batching.h"
-#include "messages/configuration_report.h"
-#include "messages/flight_result.h"
-#include "messages/goal.h"
-#include "messages/heartbeat.h"
-#include "messages/horizon_request.h"
-#include "messages/map_chunk.h"
-#include "messages/obstacle_truth.h"
-#include "messages/plan.h"
-#include "messages/plan_timing.h"
-#include "messages/search_view.h"
-#include "messages/track_set.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 
 namespace tern {
 
-/// Calls visit(channel, std::type_identity<message>) for each channel that the page shows.
-template <class Visit>
-void SceneIntake::for_each_channel(Visit&& visit) {
-  visit(channels::kUavState, std::type_identity<UavState>());
-  visit(channels::kObstacleTruth, std::type_identity<ObstacleTruth>());
-  visit(channels::kPredictions, std::type_identity<TrackSet>());
-  visit(channels::kHorizonRequest, std::type_identity<HorizonRequest>());
-  visit(channels::kPlan, std::type_identity<Plan>());
-  visit(channels::kPlanTiming, std::type_identity<PlanTiming>());
-  visit(channels::kSearchView, std::type_identity<SearchView>());
-  visit(channels::kSemanticMap, std::type_identity<MapChunk>());
-  visit(channels::kGoal, std::type_identity<Goal>());
-  visit(channels::kFlightResult, std::type_identity<FlightResult>());
-  visit(channels::kHeartbeat, std::type_identity<Heartbeat>());
-  visit(channels::kConfiguration, std::type_identity<ConfigurationReport>());
-}
+namespace {
+
+using namespace channels;
+
+/// What the page shows.
+constexpr std::tuple kShown{kUavState,   kObstacleTruth, kPredictions, kHorizonRequest, kPlan,      kPlanTiming,
+                            kSearchView, kSemanticMap,   kGoal,        kFlightResult,   kHeartbeat, kConfiguration};
+
+}  // namespace
 
 void SceneIntake::subscribe(Bus& bus) {
-  for_each_channel([&]<class T>(const char* channel, std::type_identity<T>) {
-    bus.subscribe<T>(channel, [this, &bus](const T& message) { take(message, bus.clock().now()); });
-  });
+  const auto hear = [this, &bus]<class T>(const Channel<T>& channel) {
+    bus.subscribe(channel, [this, &bus](const T& message) { take(message, bus.clock().now()); });
+  };
+  for_each_channel(hear, kShown);
 }
 
 bool SceneIntake::hear(std::string_view channel, std::span<const std::uint8_t> bytes, UTime at) {
   bool accepted = true;
-  for_each_channel([&]<class T>(const char* name, std::type_identity<T>) {
-    if (channel != name) return;
+  const auto read = [&]<class T>(const Channel<T>&) {
     const auto message = decode<T>(bytes);
     accepted = message.has_value();
     if (accepted) take(*message, at);
-  });
+  };
+  visit_channel(channel, read, kShown);
   return accepted;
 }
 

@@ -27,8 +27,6 @@ class SceneIntake {
   [[nodiscard]] const std::string& map_trouble() const { return map_trouble_; }
 
  private:
-  template <class Visit>
-  static void for_each_channel(Visit&& visit);
   template <class T>
   void take(const T& message, UTime at);
 

@@ -6,8 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "messages/goal.h"
-#include "runtime/channels.h"
+#include "messages/codec.h"
 #include "runtime/config.h"
 #include "runtime/version.h"
 #include "viewer/bridge/app/listening_socket.h"

@@ -51,11 +51,10 @@ export class Charts {
     this.clearance = chart(
       at('chart-clearance'), [line('clearance', palette.attractive, { fill: 'rgba(47,214,163,0.10)' })],
       (_, low, high) => [Math.min(low ?? 0, 0), Math.max(high ?? 0, 1) * 1.1]);
-    const dot = (name) => ({
-      label: name, width: 0, paths: () => null, points: { show: true, size: 4, width: 0, fill: outcomes[name] } });
+    const dot = (fill) => ({ width: 0, paths: () => null, points: { show: true, size: 4, width: 0, fill } });
     this.replan = chart(
       at('chart-replan'),
-      [line('allowed', 'rgba(255,93,115,0.7)', { dash: [5, 4], width: 1 }), ...Object.keys(outcomes).map(dot)],
+      [line('allowed', 'rgba(255,93,115,0.7)', { dash: [5, 4], width: 1 }), ...outcomes.map(dot)],
       (_, low, high) => [0, Math.max(high ?? 0, 20) * 1.1]);
   }
 
@@ -64,7 +63,7 @@ export class Charts {
     show(this.speed, [motion[0], motion[1]]);
     show(this.clearance, clearance);
     const [t, ms, allowed, outcome] = answers;
-    const rows = Object.keys(outcomes).map((_, k) => ms.map((x, i) => (outcome[i] === k ? x : null)));
+    const rows = outcomes.map((_, k) => ms.map((x, i) => (outcome[i] === k ? x : null)));
     show(this.replan, [t, allowed.map((x) => (x > 0 ? x : null)), ...rows]);
   }
 }

@@ -52,7 +52,7 @@ export function draw(now) {
 
 export function showPlan(plan) {
   chip('outcome', plan.outcome, plan.outcome.split(' ')[0]);
-  say('reason', plan.reason + (plan.relaxed ? ' relaxed' : ''));
+  say('reason', (plan.reason === 'none' ? '' : plan.reason) + (plan.relaxed ? ' relaxed' : ''));
   say('hold', fixed(plan.hold_s, 2));
 }
 

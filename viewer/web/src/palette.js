@@ -18,14 +18,8 @@ export const palette = {
   vehicle: '#f2f7fb',
 };
 
-/** By outcome, as the bridge names it. */
-export const outcomes = {
-  optimized: '#3ddc97',
-  'search only': '#5cd6ff',
-  'keep committed': '#8fa3b8',
-  evade: '#ffb454',
-  'no plan': '#ff5d73',
-};
+/** By outcome: optimized, search only, kept, evasion, none. */
+export const outcomes = ['#3ddc97', '#5cd6ff', '#8fa3b8', '#ffb454', '#ff5d73'];
 
 // Slow to fast: indigo, blue, teal, green, yellow, white-hot.
 const stops = ['#4d4fc4', '#2d86e0', '#22b8c9', '#46d98a', '#d8e35a', '#fff3b0'].map((c) => new Color(c));

@@ -1,4 +1,4 @@
-#include "tools/log_reader/flight_log.h"
+#include "flight_log/flight_log.h"
 
 #include <algorithm>
 #include <deque>
@@ -6,38 +6,19 @@
 #include <unordered_set>
 
 #include "core/base/digest.h"
-#include "logger/records/channel_table.h"
-#include "logger/records/log_writer.h"
-#include "tools/log_reader/text_log.h"
+#include "flight_log/log_writer.h"
+#include "flight_log/text_log.h"
 
 namespace tern {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Forged epochs cost no memory beyond this; the oldest are forgotten first.
-constexpr std::size_t kMaxSenders = 64;
-/// A forged sequence number shall not overflow the sum.
-constexpr std::int64_t kMaxGap = 1'000'000'000;
 /// Channels beyond this are not told apart: damage that reads as names shall not eat memory.
 constexpr std::size_t kMaxChannels = 1'000;
 constexpr char kOtherChannels[] = "(others)";
 /// Messages of a channel among which a repetition is found: it comes within milliseconds.
 constexpr std::size_t kRemembered = 4096;
-
-using LastSequences = std::map<std::int64_t, std::int64_t>;  // by sender epoch
-
-std::int64_t gap_before(LastSequences& last_sequences, const MessageName& name) {
-  const auto [last, is_new] = last_sequences.try_emplace(name.sender_epoch_us, name.sequence);
-  if (is_new) {
-    if (last_sequences.size() > kMaxSenders) last_sequences.erase(last_sequences.begin());
-    return 0;
-  }
-  if (name.sequence <= last->second) return 0;
-  const std::int64_t gap = std::min(name.sequence - last->second - 1, kMaxGap);
-  last->second = name.sequence;
-  return gap;
-}
 
 /// The newest messages of a channel, by digest.
 class Recent {
@@ -76,7 +57,7 @@ struct FlightLog::Reading {
   const std::map<std::string, std::vector<Handler>>& handlers;
   std::string suffix;
   LogContents contents;
-  std::map<std::string, LastSequences> last_sequences;
+  std::map<std::string, MessageLosses> losses;
   std::map<std::string, Recent> recent;
 
   LogChannel& channel_of(const std::string& name) {
@@ -85,8 +66,9 @@ struct FlightLog::Reading {
     const bool room = contents.channels.size() < kMaxChannels || handlers.contains(name);
     LogChannel& channel = contents.channels[room ? name : kOtherChannels];
     channel.read = handlers.contains(name);
-    channel.foreign =
-        !name.ends_with(suffix) || find_head_decoder(name.substr(0, name.size() - suffix.size())) == nullptr;
+    const auto nothing = [](const auto&) {};
+    channel.foreign = !name.ends_with(suffix) ||
+                      !visit_channel(std::string_view(name).substr(0, name.size() - suffix.size()), nothing);
     return channel;
   }
 
@@ -111,7 +93,10 @@ struct FlightLog::Reading {
         ++channel.refused[static_cast<std::size_t>(header.error())];
         return;
       }
-      channel.lost += gap_before(last_sequences[event.channel], header->name);
+      MessageLosses& numbers = losses[event.channel];
+      numbers.add(header->name, UTime{event.received_us});
+      channel.lost = numbers.lost();
+      channel.before_first = numbers.before_first();
     }
   }
 

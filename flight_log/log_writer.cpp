@@ -1,4 +1,4 @@
-#include "logger/records/log_writer.h"
+#include "flight_log/log_writer.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "logger/records/log_format.h"
+#include "flight_log/log_format.h"
 
 namespace tern {
 namespace {

@@ -1,4 +1,4 @@
-#include "logger/records/log_writer.h"
+#include "flight_log/log_writer.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,9 +9,9 @@
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
 
-#include "logger/records/log_format.h"
-#include "tests/logger/temp_folder.h"
-#include "tools/log_reader/log_reader.h"
+#include "flight_log/log_format.h"
+#include "flight_log/log_reader.h"
+#include "tests/support/temp_folder.h"
 
 namespace tern {
 namespace {

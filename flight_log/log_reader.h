@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "logger/records/log_format.h"
+#include "flight_log/log_format.h"
 
 namespace tern {
 

@@ -1,4 +1,4 @@
-#include "tools/log_reader/log_reader.h"
+#include "flight_log/log_reader.h"
 
 #include <fmt/format.h>
 

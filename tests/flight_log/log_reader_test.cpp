@@ -1,4 +1,4 @@
-#include "tools/log_reader/log_reader.h"
+#include "flight_log/log_reader.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "logger/records/log_writer.h"
-#include "tests/logger/temp_folder.h"
+#include "flight_log/log_writer.h"
+#include "tests/support/temp_folder.h"
 
 namespace tern {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/log_reader/text_log.h"
+#include "flight_log/text_log.h"
 
 #include <fmt/format.h>
 

@@ -1,14 +1,12 @@
-#include "tools/log_reader/flight_log.h"
+#include "flight_log/flight_log.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "logger/records/log_writer.h"
-#include "messages/goal.h"
-#include "messages/uav_state.h"
-#include "runtime/channels.h"
-#include "tests/logger/temp_folder.h"
+#include "flight_log/log_writer.h"
+#include "messages/codec.h"
+#include "tests/support/temp_folder.h"
 
 namespace tern {
 namespace {
@@ -36,13 +34,13 @@ class FlightLogTest : public ::testing::Test {
 };
 
 TEST_F(FlightLogTest, HandsOverMessagesInTheLogsOrderThroughAllParts) {
-  write(channels::kGoal, encode(goal(1)));
+  write(channels::kGoal.name, encode(goal(1)));
   next_part();
-  write(channels::kGoal, encode(goal(2)));
-  write(channels::kGoal, encode(goal(3)));
+  write(channels::kGoal.name, encode(goal(2)));
+  write(channels::kGoal.name, encode(goal(3)));
   FlightLog log;
   std::vector<std::int64_t> ids, times;
-  log.on<Goal>(channels::kGoal, [&](const Goal& g, std::int64_t received_us) {
+  log.on(channels::kGoal, [&](const Goal& g, std::int64_t received_us) {
     ids.push_back(g.id);
     times.push_back(received_us);
   });
@@ -59,22 +57,31 @@ TEST_F(FlightLogTest, AFolderMeansTheFlightInIt) {
 }
 
 TEST_F(FlightLogTest, CountsWhatIsLostForeignOrOfAnotherVersion) {
-  write(channels::kGoal, encode(goal(1)));
-  write(channels::kGoal, encode(goal(4)));
-  write(channels::kGoal, encode(UavState{}));
+  for (const int k : {3, 6, 7, 8, 9}) write(channels::kGoal.name, encode(goal(k)));
+  write(channels::kGoal.name, encode(UavState{}));
   write("CAMERA", Bytes(1'000));
   FlightLog log;
   int seen = 0;
-  log.on<Goal>(channels::kGoal, [&](const Goal&, std::int64_t) { ++seen; });
+  log.on(channels::kGoal, [&](const Goal&, std::int64_t) { ++seen; });
   const LogContents contents = read(log);
-  EXPECT_EQ(seen, 2);
-  const LogChannel& goals = contents.channels.at(channels::kGoal);
-  EXPECT_EQ(goals.messages, 3);
+  EXPECT_EQ(seen, 5);
+  const LogChannel& goals = contents.channels.at(channels::kGoal.name);
+  EXPECT_EQ(goals.messages, 6);
   EXPECT_EQ(goals.lost, 2);
+  EXPECT_EQ(goals.before_first, 2);
   EXPECT_EQ(goals.refused[static_cast<int>(Rejection::Fingerprint)], 1);
   EXPECT_TRUE(goals.read);
   EXPECT_FALSE(goals.foreign);
   EXPECT_TRUE(contents.channels.at("CAMERA").foreign);
+}
+
+TEST_F(FlightLogTest, AForgedNumberIsNoLoss) {
+  for (const int k : {1, 2, 3, 1'000'000, 4, 5, 6}) write(channels::kGoal.name, encode(goal(k)));
+  FlightLog log;
+  log.on(channels::kGoal, [](const Goal&, std::int64_t) {});
+  const LogChannel goals = read(log).channels.at(channels::kGoal.name);
+  EXPECT_EQ(goals.lost, 0);
+  EXPECT_EQ(goals.before_first, 0);
 }
 
 TEST_F(FlightLogTest, AnotherVehiclesChannelsAreForeign) {
@@ -82,7 +89,7 @@ TEST_F(FlightLogTest, AnotherVehiclesChannelsAreForeign) {
   write("GOAL_b", encode(goal(1)));
   FlightLog log("_a");
   int seen = 0;
-  log.on<Goal>(channels::kGoal, [&](const Goal&, std::int64_t) { ++seen; });
+  log.on(channels::kGoal, [&](const Goal&, std::int64_t) { ++seen; });
   const LogContents contents = read(log);
   EXPECT_EQ(seen, 1);
   EXPECT_FALSE(contents.channels.at("GOAL_a").foreign);
@@ -91,17 +98,17 @@ TEST_F(FlightLogTest, AnotherVehiclesChannelsAreForeign) {
 
 TEST_F(FlightLogTest, HandsOverOnceWhatTheNetworkDeliveredTwice) {
   for (int k = 1; k <= 3; ++k) {
-    for (int copy = 0; copy < 2; ++copy) write(channels::kGoal, encode(goal(k)));
+    for (int copy = 0; copy < 2; ++copy) write(channels::kGoal.name, encode(goal(k)));
   }
-  write(channels::kGoal, encode(goal(2)));  // late
+  write(channels::kGoal.name, encode(goal(2)));  // late
   FlightLog log;
   std::vector<std::int64_t> ids;
-  log.on<Goal>(channels::kGoal, [&](const Goal& g, std::int64_t) { ids.push_back(g.id); });
+  log.on(channels::kGoal, [&](const Goal& g, std::int64_t) { ids.push_back(g.id); });
   const LogContents contents = read(log);
   EXPECT_EQ(ids, (std::vector<std::int64_t>{1, 2, 3}));
-  EXPECT_EQ(contents.channels.at(channels::kGoal).messages, 7);
-  EXPECT_EQ(contents.channels.at(channels::kGoal).repeated, 4);
-  EXPECT_EQ(contents.channels.at(channels::kGoal).lost, 0);
+  EXPECT_EQ(contents.channels.at(channels::kGoal.name).messages, 7);
+  EXPECT_EQ(contents.channels.at(channels::kGoal.name).repeated, 4);
+  EXPECT_EQ(contents.channels.at(channels::kGoal.name).lost, 0);
 }
 
 TEST_F(FlightLogTest, SaysWhichPartCannotBeOpened) {

@@ -7,14 +7,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/world/header.h"
 #include "core/world/health.h"
+#include "core/world/message_losses.h"
+#include "flight_log/log_reader.h"
 #include "messages/codec.h"
-#include "tools/log_reader/log_reader.h"
 
 namespace tern {
 
@@ -22,7 +24,8 @@ namespace tern {
 struct LogChannel {
   std::int64_t messages = 0, bytes = 0;    ///< all of them
   std::int64_t refused[kRejections] = {};  ///< by Rejection; Fingerprint: another version of the message, or no message
-  std::int64_t lost = 0;                   ///< gaps in its senders' sequence numbers
+  std::int64_t lost = 0;                   ///< by its senders' numbers (MessageLosses)
+  std::int64_t before_first = 0;           ///< what its senders had sent before the first message that the log has
   std::int64_t repeated = 0;               ///< the same bytes again: a network that delivers a message more than once
   bool read =
       false;  ///< it was asked for: only then its messages were decoded, and refused, lost and repeated are known
@@ -44,7 +47,7 @@ std::vector<std::string> log_parts(const std::string& path);
 /// Hands a log's messages to those who ask for their channels, in the log's order.
 ///
 ///     FlightLog log;
-///     log.on<Plan>(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) { … });
+///     log.on(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) { … });
 ///     const Result<LogContents> contents = log.read("flight.lcm");
 ///
 /// Bounded memory: no more than one event is held (LogReader). Only what decode() accepts is handed over, and each
@@ -57,8 +60,9 @@ class FlightLog {
 
   /// Several handlers of one channel are called in the order of their asking.
   template <class T>
-  void on(std::string_view channel, std::function<void(const T&, std::int64_t received_us)> handler) {
-    add(channel,
+  void on(const Channel<T>& channel,
+          std::type_identity_t<std::function<void(const T&, std::int64_t received_us)>> handler) {
+    add(channel.name,
         [handler = std::move(handler)](std::span<const std::uint8_t> bytes,
                                        std::int64_t received_us) -> tl::expected<Header, Rejection> {
           const auto message = decode<T>(bytes);

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
-#include "logger/records/log_format.h"
+#include "flight_log/log_format.h"
 
 namespace tern {
 
