@@ -10,7 +10,7 @@
 #include "core/geometry/separation_lp.h"
 #include "messages/codec.h"
 #include "planner/app/plan_stopwatch.h"
-#include "runtime/channels.h"
+#include "messages/channels.h"
 #include "runtime/process.h"
 
 namespace tern {

@@ -1,4 +1,4 @@
-// Semantic A* over control points (paper §4, Algorithm 1, its slips mended: docs/planner.md).
+// Semantic A* over control points (paper §4, Algorithm 1, its slips mended: docs/paper_gaps.md).
 #pragma once
 
 #include <cstdint>

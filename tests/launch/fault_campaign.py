@@ -136,11 +136,13 @@ class Flight:
     def check_exit_code(self):
         fatal = [d for d in self.done if d[1] == "SUPERVISOR" or (d[0] in FINAL and d[1] == "KILL" and (d[3] or d[0] == "tern-monitor"))]
         late = [d for d in fatal if self.ended - d[4] <= LAST_WORDS_S]
+        # Killed as the flight begins: it is started again if nothing was flown yet, and that is a matter of milliseconds.
+        at_begin = any(d[0] == "tern-simulator" and d[1] == "KILL" for d in self.done)
         if self.code not in (0, 1, 2, 3):
             self.wrong.append(f"exit code {self.code}")
         elif fatal and self.code != 3 and not late:
             self.wrong.append(f"exit code {self.code} though {fatal[0][0]} was lost")
-        elif not fatal and self.code == 3:
+        elif not fatal and not at_begin and self.code == 3:
             self.wrong.append("exit code 3: " + (self.text("failure").strip() or self.summary.get("detail", "no summary")))
 
     def check_nobody_left(self):
