@@ -42,14 +42,19 @@ struct ExecutorCounters {
 ///
 /// One request is outstanding at most; the next one goes out after its answer or its deadline, at no more than rate_hz.
 /// An answer is in time when now ≤ deadline; from then on the request is closed. Nothing is asked before begin()'s
-/// time, without a mode, or in mode Stop. At rest it goes on asking: a vehicle at rest must be able to evade.
+/// time, after pause(), without a mode, or in mode Stop. At rest it goes on asking: a vehicle at rest must be able to
+/// evade.
 class Executor {
  public:
   /// At rest at uav.start from `now` on. @throws std::invalid_argument when config is out of its ranges.
   Executor(const UavSpec& uav, UTime now, const ExecutorConfig& config = {});
+  /// At the measured state, and from there to rest (braking_trajectory). The same @throws.
+  Executor(const UavSpec& uav, const UavState& measured, const ExecutorConfig& config = {});
 
-  /// The mission may ask from `go` on.
+  /// The vehicle follows: the mission may ask from `go` on.
   void begin(UTime go) { go_ = go; }
+  /// It no longer does. What is committed stays so.
+  void pause() { go_.reset(); }
   /// What the newest goal wants; nothing: no goal yet.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
 
@@ -61,8 +66,10 @@ class Executor {
   Adoption consider(const Plan& plan, UTime now);
 
   [[nodiscard]] MotionSample sample(UTime t) const { return committed_.sample(t); }
+  /// The same, at a joint with the jerk of what follows: the cubic that begins at t.
+  [[nodiscard]] MotionSample leaving(UTime t) const;
   [[nodiscard]] const CommittedTrajectory& committed() const { return committed_; }
-  /// The committed curve between two times, for the referee (see CommittedTrajectory::pieces).
+  /// The committed curve between two times (see CommittedTrajectory::pieces).
   [[nodiscard]] PiecewiseCubic pieces(UTime from, UTime to) const { return committed_.pieces(from, to); }
   /// No one will ask for times before t any more.
   void forget_before(UTime t) { committed_.forget_before(t); }

@@ -48,7 +48,7 @@ SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
 SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed) {
   SimulatorConfig config;
   config.declare = section.flag("declare", config.declare, "publish DECLARED_MOTIONS; false: perception only");
-  const std::string needed = section.text("wait_for", "tern-predictor, tern-mapper, tern-planner",
+  const std::string needed = section.text("wait_for", "tern-executor, tern-predictor, tern-mapper, tern-planner",
                                           "processes that world time waits for, separated by spaces or commas; `none`");
   config.wait_for = needed == "none" ? std::vector<std::string>{} : words_of(needed);
   config.wait = Duration::from_seconds(
@@ -64,12 +64,6 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
                      "an arrival counts only from this world time on, s: a vehicle that guards a place");
   config.sensor = read_sensor(section.section("sensor"), seed);
   section.finish();
-  return config;
-}
-
-ExecutorConfig read_executor_config(ConfigSection section) {
-  ExecutorConfig config;
-  section.read(config);
   return config;
 }
 

@@ -10,10 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "executor/app/executor_node.h"
 #include "messages/codec.h"
 #include "runtime/batches.h"
 #include "runtime/process.h"
 #include "runtime/virtual_runner.h"
+#include "simulator/vehicle/perfect_vehicle.h"
 #include "tests/support/stub_planner.h"
 
 namespace tern {
@@ -41,10 +43,11 @@ ObstacleSpec far_trefoil() {
   return obstacle;
 }
 
-/// A flight of the simulator and a stub planner; what was said on the way.
+/// A flight of the simulator, an executor and a stub planner; what was said on the way.
 struct Flight {
-  explicit Flight(const Scenario& scenario, SimulatorConfig config = {}, ExecutorConfig executor = {}) {
-    config.wait_for = {"tern-planner"};
+  explicit Flight(const Scenario& scenario, SimulatorConfig config = {}, ExecutorConfig executor_config = {})
+      : uav_(scenario.uav), executor_config_(executor_config) {
+    config.wait_for = {"tern-executor", "tern-planner"};
     Bus& ear = runner.observer();
     ear.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { requests.push_back(m); });
     ear.subscribe(channels::kPlan, [this](const Plan& m) { plans.push_back({m, runner.now()}); });
@@ -57,8 +60,18 @@ struct Flight {
     ear.subscribe(channels::kGoal, [this](const Goal& m) { goals.push_back(m); });
     World world = make_world(scenario, "").value();
     runner.start("tern-simulator", [&](Bus& bus) -> std::unique_ptr<Node> {
-      auto node = std::make_unique<SimulatorNode>(bus, scenario, std::move(world), config, executor);
+      auto vehicle = std::make_unique<PerfectVehicle>(scenario.uav, bus.clock().now());
+      auto node = std::make_unique<SimulatorNode>(bus, scenario, std::move(world), std::move(vehicle), config);
       simulator = node.get();
+      return node;
+    });
+    start_executor();
+  }
+
+  void start_executor() {
+    runner.start("tern-executor", [&](Bus& bus) -> std::unique_ptr<Node> {
+      auto node = std::make_unique<ExecutorNode>(bus, uav_, executor_config_);
+      executor = node.get();
       return node;
     });
   }
@@ -79,6 +92,7 @@ struct Flight {
   };
   VirtualRunner runner{kStart};
   SimulatorNode* simulator = nullptr;
+  ExecutorNode* executor = nullptr;
   std::vector<HorizonRequest> requests;
   std::vector<Answer> plans;
   std::vector<UavState> states;
@@ -86,6 +100,10 @@ struct Flight {
   std::vector<ObstacleTruth> truths;
   std::vector<Observed> observations;
   std::vector<Goal> goals;
+
+ private:
+  UavSpec uav_;
+  ExecutorConfig executor_config_;
 };
 
 TEST(SimulatorNode, FliesToTheGoalWithEveryRequestAnsweredOnceAndInTime) {
@@ -109,7 +127,7 @@ TEST(SimulatorNode, FliesToTheGoalWithEveryRequestAnsweredOnceAndInTime) {
   EXPECT_GT(flight.requests.size(), 50U);
   EXPECT_EQ(answers.size(), flight.requests.size());
   for (const auto& [id, count] : answers) EXPECT_EQ(count, 1) << "request " << id;
-  const ExecutorCounters& counters = flight.simulator->executor().counters();
+  const ExecutorCounters counters = flight.executor->counters();
   EXPECT_EQ(counters.answered_in_time, counters.requests);
   EXPECT_EQ(counters.refused(), 0);
 }
@@ -290,7 +308,7 @@ TEST(SimulatorNode, APlannerThatDiesStopsTheVehicleAndItsReturnBringsItHome) {
   const MotionSample resting = flight.states.back().motion;
   EXPECT_EQ(resting.v, Vec3::Zero());
   EXPECT_GT((resting.p - empty_scenario().uav.goal).norm(), 1.0);
-  EXPECT_GT(flight.simulator->executor().counters().unanswered, 40);
+  EXPECT_GT(flight.executor->counters().unanswered, 40);
   flight.start_planner();
   flight.fly();
   ASSERT_FALSE(flight.results.empty());
@@ -306,7 +324,7 @@ TEST(SimulatorNode, LateAndRepeatedAnswersAreCountedAndFlyNowhere) {
   ASSERT_FALSE(flight.results.empty());
   EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Timeout);
   EXPECT_EQ(flight.states.back().motion.p, empty_scenario().uav.start);
-  const ExecutorCounters& counters = flight.simulator->executor().counters();
+  const ExecutorCounters counters = flight.executor->counters();
   EXPECT_EQ(counters.answered_in_time, 0);
   EXPECT_EQ(counters.of(Verdict::Late), counters.answered_twice());
   EXPECT_GT(counters.late(), 100);

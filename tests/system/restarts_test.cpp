@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "campaign/virtual_system.h"
+#include "executor/app/executor_node.h"
 #include "messages/channels.h"
 #include "simulator/app/simulator_node.h"
 #include "tests/support/watched_flight.h"
@@ -32,7 +33,7 @@ class Restarts : public ::testing::Test {
 
   [[nodiscard]] UTime now() { return system_.runner().now(); }
   [[nodiscard]] const SimulatorNode& simulator() { return system_.simulator(); }
-  [[nodiscard]] const Executor& executor() { return simulator().executor(); }
+  [[nodiscard]] const Executor& executor() { return *system_.executor().executor(); }
   void fly(double seconds) { system_.runner().run(now() + Duration::from_seconds(seconds)); }
   void fly_to_the_end() {
     system_.runner().run(now() + Duration::from_seconds(100.0), [this] { return simulator().result().has_value(); });
