@@ -23,8 +23,8 @@ enum class Charge {
 /// "counts", "cpu".
 const char* to_string(Charge charge);
 
-/// Simulator, executor, predictor, mapper and planner of one scenario file on a VirtualRunner, all started. The planner has no
-/// threads.
+/// Simulator, executor, predictor, mapper and planner of one scenario file on a VirtualRunner, all started. The planner
+/// has no threads.
 class VirtualSystem {
  public:
   /// @param begin   when time begins, µs > 0
@@ -34,7 +34,8 @@ class VirtualSystem {
                 Charge charge = Charge::Counts, UTime begin = UTime{1'000'000}, const std::optional<Key>& master = {});
   ~VirtualSystem();
 
-  /// Kills "tern-executor", "tern-predictor", "tern-mapper" or "tern-planner"; the next start() makes a new one that knows nothing.
+  /// Kills "tern-executor", "tern-predictor", "tern-mapper" or "tern-planner"; the next start() makes a new one that
+  /// knows nothing.
   /// @throws std::invalid_argument for other names.
   void stop(const std::string& process);
   void start(const std::string& process);

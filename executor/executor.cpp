@@ -59,6 +59,23 @@ Executor::Executor(const UavSpec& uav, const UavState& measured, const ExecutorC
       lead_(checked_lead(config.lead)),
       committed_(stopping(measured, uav.limits)) {}
 
+void Executor::rejoin(const UavState& measured) {
+  if (outstanding_) {
+    ++counters_.unanswered;
+    close(false);
+  }
+  committed_ = stopping(measured, limits_);
+}
+
+Limits Executor::limits_for(const TimedSpline& committed) const {
+  const auto widened = [](const Vec3& limit, const Vec3& needed) {
+    return Vec3((needed.array() > limit.array() * (1.0 + kLimitTolerance)).select(needed, limit));
+  };
+  const MotionBounds bounds = motion_bounds(committed.spline());
+  return {widened(limits_.v_max, bounds.v_max), widened(limits_.a_max, bounds.a_max),
+          widened(limits_.j_max, bounds.j_max)};
+}
+
 void Executor::close(bool answered) {
   closed_.push_back({outstanding_->id, outstanding_->t_s, answered});
   if (closed_.size() > kRemembered) closed_.pop_front();
@@ -88,9 +105,10 @@ std::optional<HorizonRequest> Executor::next_request(UTime now) {
   request.deadline = request.t_s - kDeadlineLead;
   request.committed = committed_.in_force_at(request.t_s);
   request.start = committed_.sample(request.t_s);
-  request.limits = limits_;
+  request.limits = limits_for(request.committed);
   request.body = body_;
   request.flight_box = flight_box_;
+  request.tube = tube_;
   last_request_ = now;
   outstanding_ = request;
   return request;

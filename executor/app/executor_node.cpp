@@ -28,6 +28,7 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
     : bus_(bus),
       uav_(uav),
       config_(config),
+      tube_(config.tube_m),
       next_setpoint_(bus.clock().now()),
       next_goal_(next_setpoint_),
       next_refusal_log_(next_setpoint_) {
@@ -37,8 +38,9 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
   bus_.subscribe(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
 }
 
-void ExecutorNode::on_state(const UavState& state) {
-  if (executor_) return;
+void ExecutorNode::on_state(const UavState& state) { executor_ ? watch(state) : wait_for_rest(state); }
+
+void ExecutorNode::wait_for_rest(const UavState& state) {
   if (!(state.motion.v.norm() <= kStillSpeed)) {
     still_since_.reset();
     return;
@@ -47,9 +49,35 @@ void ExecutorNode::on_state(const UavState& state) {
   if (state.at - *still_since_ >= kStillFor) begin(state);
 }
 
+void ExecutorNode::watch(const UavState& state) {
+  if (state.at < last_setpoint_ - kRemembered) return;
+  const Vec3 error = (state.motion.p - executor_->sample(state.at).p).cwiseAbs();
+  if (!following_) {
+    if (error.maxCoeff() > kRejoinBeyond) rejoin(state);
+    return;
+  }
+  const Vec3 promised = executor_->tube();
+  tube_.add(error, state.at);
+  executor_->set_tube(tube_.width(sigma_));
+  const bool outside = ((error - promised).array() > kJoinTolerance).any();
+  if (outside && !outside_) {
+    ++exits_;
+    spdlog::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
+                 error.x(), error.y(), error.z(), exits_);
+  }
+  outside_ = outside;
+  if (outside && error.maxCoeff() > kRejoinBeyond) rejoin(state);
+}
+
+void ExecutorNode::rejoin(const UavState& state) {
+  executor_->rejoin(state);
+  last_setpoint_ = std::max(last_setpoint_, state.at);
+}
+
 void ExecutorNode::begin(const UavState& state) {
   const Vec3& p = state.motion.p;
   executor_.emplace(uav_, state, config_);
+  executor_->set_tube(tube_.width(sigma_));
   if (goal_) executor_->set_mode(goal_->mode);
   if (following_) executor_->begin(bus_.clock().now());
   yaw_ = state.yaw;
@@ -58,6 +86,7 @@ void ExecutorNode::begin(const UavState& state) {
 }
 
 void ExecutorNode::on_status(const VehicleStatus& status) {
+  sigma_ = status.position_sigma;
   if (status.following == following_) return;
   following_ = status.following;
   spdlog::info("the vehicle {}", following_ ? "follows" : "does not follow: " + status.why_not);

@@ -13,9 +13,7 @@ int main(int argc, char** argv) {
       .section = "simulator",
       .summary = "The world of a scenario, its sensors and its vehicle, and the referee; ends with FLIGHT_RESULT",
       .read_sections =
-          [](tern::ConfigDocument& document) {
-            tern::read_simulator_config(document.root().section("simulator"), 0);
-          },
+          [](tern::ConfigDocument& document) { tern::read_simulator_config(document.root().section("simulator"), 0); },
       .example = "simulator: {sensor: {mode: noisy}}"};
   return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::Scenario& scenario = context.scenario;

@@ -40,6 +40,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
       referee_(scenario, std::move(world), vehicle_->judged_limits()),
       broadcast_(bus, referee_.world(), config, bus.clock().now()),
       next_state_(bus.clock().now()),
+      next_truth_(next_state_),
       next_goal_(next_state_),
       next_status_(next_state_) {
   referee_.set_earliest_arrival(config.min_flight_s);
@@ -114,8 +115,13 @@ void SimulatorNode::take_goal(const Goal& goal) {
 
 void SimulatorNode::publish_state(UTime now) {
   bus_.publish(channels::kUavState, vehicle_->estimate(now));
-  const UavState truth = vehicle_->true_state();
-  if (truth.at <= now) bus_.publish(channels::kVehicleTruth, truth);
+  UavState truth = vehicle_->true_state();
+  const UTime end = std::min(now, truth.at);
+  for (; next_truth_ <= end; next_truth_ = next_truth_ + kStatePeriod) {
+    truth.at = next_truth_;
+    truth.motion = vehicle_->truth().sample(next_truth_);
+    bus_.publish(channels::kVehicleTruth, truth);
+  }
 }
 
 std::string SimulatorNode::why_not_flying(UTime now) const {

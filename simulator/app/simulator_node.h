@@ -70,7 +70,7 @@ class SimulatorNode final : public Node {
   int exit_code_ = 0;
   int results_left_ = 0;
   bool said_skewed_ = false;
-  UTime next_state_, next_goal_, next_status_, next_result_ = kNever;
+  UTime next_state_, next_truth_, next_goal_, next_status_, next_result_ = kNever;
 };
 
 }  // namespace tern

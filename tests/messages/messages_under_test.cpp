@@ -89,7 +89,7 @@ struct Words {
   }
   void add(const HorizonRequest& r) {
     (*this)(r.header, r.id, r.t_s, r.deadline, r.committed, r.start, r.limits.v_max, r.limits.a_max, r.limits.j_max,
-            r.body.vertices, r.body.radius, r.flight_box);
+            r.body.vertices, r.body.radius, r.flight_box, r.tube);
   }
   void add(const Plan& p) {
     (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.relaxed, p.local_goal, p.sphere_radius,
