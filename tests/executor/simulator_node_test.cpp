@@ -317,6 +317,66 @@ TEST(SimulatorNode, APlannerThatDiesStopsTheVehicleAndItsReturnBringsItHome) {
   EXPECT_EQ(flight.results.back().stops, 1);
 }
 
+TEST(SimulatorNode, AnExecutorThatDiesLeavesAVehicleThatRestsAndItsReturnBringsItHome) {
+  for (const int died_ms : {1'500, 2'003, 2'061}) {
+    Flight flight(empty_scenario());
+    flight.start_planner();
+    flight.fly(Duration{died_ms * 1'000});
+    EXPECT_GT(flight.states.back().motion.v.norm(), 1.0);
+    const Vec3 end = flight.requests.back().committed.control_points.rightCols<1>();
+    flight.runner.stop("tern-executor");
+    flight.fly(kSecond * 5);
+    EXPECT_EQ(flight.states.back().motion.v, Vec3::Zero());
+    EXPECT_LT((flight.states.back().motion.p - end).norm(), 1e-6);
+    flight.start_executor();
+    flight.fly();
+    ASSERT_FALSE(flight.results.empty());
+    EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached) << flight.results.back().detail;
+    EXPECT_EQ(flight.results.back().limit_violations, 0);
+    EXPECT_EQ(flight.results.back().stops, 1);
+  }
+}
+
+TEST(SimulatorNode, NothingIsAskedWhileTheVehicleDoesNotFollow) {
+  Flight flight(empty_scenario());
+  std::vector<VehicleStatus> statuses;
+  flight.runner.observer().subscribe(channels::kVehicleStatus, [&](const VehicleStatus& m) { statuses.push_back(m); });
+  flight.fly(kSecond * 2);
+  ASSERT_FALSE(statuses.empty());
+  EXPECT_EQ(statuses.back().why_not, "world time has not begun");
+  EXPECT_TRUE(flight.requests.empty());
+  flight.start_planner();
+  flight.fly();
+  EXPECT_EQ(statuses.back().why_not, "the flight has ended");
+  const UTime zero = *flight.simulator->world_zero();
+  for (const VehicleStatus& status : statuses) {
+    if (status.why_not == "the flight has ended") {
+      EXPECT_LE(flight.requests.back().header.utime, status.at);
+    } else {
+      EXPECT_EQ(status.following, status.at >= zero);
+    }
+  }
+  EXPECT_EQ(flight.requests.front().header.utime, zero);
+}
+
+TEST(SimulatorNode, TheTruthOfAPerfectVehicleIsItsSetpointsAndItsState) {
+  Flight flight(empty_scenario());
+  std::map<UTime, Vec3> commanded, truth;
+  Bus& ear = flight.runner.observer();
+  ear.subscribe(channels::kSetpoint, [&](const UavState& m) { commanded[m.at] = m.motion.p; });
+  ear.subscribe(channels::kVehicleTruth, [&](const UavState& m) { truth[m.at] = m.motion.p; });
+  flight.start_planner();
+  flight.fly();
+  int compared = 0;
+  for (const UavState& state : flight.states) {
+    if (!truth.contains(state.at) || !commanded.contains(state.at)) continue;
+    EXPECT_LT((truth[state.at] - commanded[state.at]).norm(), 1e-9);
+    EXPECT_LT((truth[state.at] - state.motion.p).norm(), 1e-6);
+    ++compared;
+  }
+  EXPECT_GT(compared, 500);
+}
+
 TEST(SimulatorNode, LateAndRepeatedAnswersAreCountedAndFlyNowhere) {
   Flight flight(empty_scenario());
   flight.start_planner({.delay = Duration{72'000}, .answers = 2, .plan = {}});

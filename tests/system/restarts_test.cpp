@@ -102,6 +102,32 @@ TEST_F(Restarts, WithoutAPlannerTheVehicleComesToRestUntilItIsBack) {
   EXPECT_LE(counters.requests - counters.answered_in_time - counters.unanswered, 1);
 }
 
+TEST_F(Restarts, WithoutAnExecutorTheVehicleFliesWhatWasCommittedToItsEnd) {
+  fly_midway();
+  const Vec3 end = committed_end();
+  const std::size_t requests = exchange_.requests.size();
+  system_.stop("tern-executor");
+  fly(kLongEnough);
+  const MotionHistory& truth = simulator().vehicle().truth();
+  EXPECT_LT((truth.sample(truth.end()).p - end).norm(), 1e-9);
+  EXPECT_EQ(exchange_.requests.size(), requests);
+  exchange_ = Exchange();
+  system_.start("tern-executor");
+  fly_to_the_end();
+  EXPECT_EQ(simulator().result()->stops, 1);
+  expect_answered_once_and_in_time(executor().counters(), exchange_);
+}
+
+TEST_F(Restarts, AnExecutorThatIsBackAtOnceWaitsForTheVehicleToRest) {
+  fly_midway();
+  const Vec3 end = committed_end();
+  system_.stop("tern-executor");
+  system_.start("tern-executor");
+  while (system_.executor().executor() == nullptr) fly(0.01);
+  EXPECT_LT((executor().sample(executor().committed().end()).p - end).norm(), 0.05);
+  fly_to_the_end();
+}
+
 TEST_F(Restarts, APlannerThatHasTheMapDoesNotMissTheMapper) {
   fly_midway();
   system_.stop("tern-mapper");
