@@ -118,7 +118,7 @@ struct Plan {
   std::vector<CertificatePlane> certificate;
   std::vector<BudgetCut> cuts;
   /// Of an answer that the watchdog gave: how many had come to stand by then. It sent the last of them, or, of none,
-  /// one of its own. Nothing: the planner was done.
+  /// one of its own. nullopt: the planner was done.
   std::optional<std::int64_t> standing;
 };
 
