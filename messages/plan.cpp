@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/world/track.h"
 #include "core/world/voxel_map.h"
 #include "messages/codec.h"
 #include "messages/fields.h"
@@ -102,6 +103,9 @@ Message to_lcm(const Plan& plan) {
   m.start_us = plan.trajectory.start.us;
   m.interval_us = plan.trajectory.interval.us;
   m.hold_us = plan.hold.us;
+  m.confidence = plan.confidence;
+  m.level = static_cast<std::int8_t>(plan.level);
+  m.alpha_scale = plan.alpha_scale;
   m.relaxed = plan.relaxed;
   m.local_goal = wire::to_lcm(plan.local_goal);
   m.sphere_radius = plan.sphere_radius;
@@ -167,6 +171,10 @@ tl::expected<Plan, Rejection> from_lcm(const Message& m) {
   plan.trajectory.interval = read.duration(m.interval_us, kShortestInterval, kLongestInterval);
   plan.trajectory.control_points = read.points(m.control_points, kMaxCoordinate);
   plan.hold = read.duration(m.hold_us, Duration{0}, kMaxSpan);
+  plan.confidence = read.number(m.confidence, 0.0, 1.0);
+  plan.level = read.integer<int>(m.level, 0, kLevels - 1);
+  plan.alpha_scale = read.number(m.alpha_scale, 0.0, 1.0);
+  if (plan.alpha_scale < 1.0) read.consistent(plan.level == kLevels - 1 && plan.confidence == 0.0);
   plan.relaxed = read.flag(m.relaxed);
   plan.local_goal = read.position(m.local_goal);
   plan.sphere_radius = read.number(m.sphere_radius, 0.0, kMaxCoordinate);
