@@ -9,10 +9,10 @@
 
 namespace tern {
 
-inline constexpr Role kRoles[] = {Role::Vehicle, Role::Predictor, Role::Planner,
-                                  Role::Mapper,  Role::Operator,  Role::Observer};
+inline constexpr Role kRoles[] = {Role::Vehicle,  Role::Predictor, Role::Planner, Role::Mapper,
+                                  Role::Operator, Role::Observer,  Role::Executor};
 
-/// "vehicle", "predictor", "planner", "mapper", "operator", "observer".
+/// "vehicle", "predictor", "planner", "mapper", "operator", "observer", "executor".
 const char* to_string(Role role);
 /// @return the role of that name, or nullopt if there is none.
 std::optional<Role> role_named(std::string_view name);

@@ -10,7 +10,7 @@ all_keys() {
 import hashlib, sys
 master = bytes.fromhex(open(sys.argv[1]).read())
 names = """UAV_STATE SETPOINT OBSTACLE_OBSERVATIONS DECLARED_MOTIONS HORIZON_REQUEST OBSTACLE_TRUTH FLIGHT_RESULT PREDICTIONS PLAN
-PLAN_TIMING SEARCH_VIEW SEMANTIC_MAP GOAL vehicle predictor planner mapper operator observer""".split()
+PLAN_TIMING SEARCH_VIEW SEMANTIC_MAP GOAL vehicle predictor planner mapper operator observer executor""".split()
 for key in [master] + [hashlib.blake2b(b"tern key 1 " + n.encode(), key=master, digest_size=32).digest() for n in names]:
     print(key.hex())
     print(key.hex().encode().hex())

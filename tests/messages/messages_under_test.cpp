@@ -79,6 +79,10 @@ struct Words {
   void add(const Exposure& e) { (*this)(e.region, e.seconds, e.metres, e.near_seconds, e.near_metres); }
 
   void add(const UavState& s) { (*this)(s.header, s.at, s.motion, s.yaw); }
+  void add(const VehicleStatus& s) {
+    (*this)(s.header, s.at, s.armed, s.following, s.landed, s.mode, s.why_not, s.battery.value_or(-1.0), s.estimator,
+            s.position_sigma, s.resets);
+  }
   void add(const Goal& g) { (*this)(g.header, g.id, g.mode, g.position); }
   void add(const ObservationSet& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.detections);
@@ -125,6 +129,7 @@ std::vector<std::uint64_t> words_of(const T& value) {
   return words.words;
 }
 template std::vector<std::uint64_t> words_of(const UavState&);
+template std::vector<std::uint64_t> words_of(const VehicleStatus&);
 template std::vector<std::uint64_t> words_of(const ObservationSet&);
 template std::vector<std::uint64_t> words_of(const TrackSet&);
 template std::vector<std::uint64_t> words_of(const MapChunk&);
@@ -195,6 +200,10 @@ std::vector<std::int32_t> array_sizes(const ConfigurationReport& report) {
 template <>
 std::vector<std::int32_t> array_sizes(const ObstacleTruth& truth) {
   return {size_of(truth.obstacles)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const VehicleStatus& status) {
+  return {size_of(status.mode), size_of(status.why_not)};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const FlightResult& result) {

@@ -398,6 +398,24 @@ TEST(Rejection, OfObstacleTruth) {
             "Enumeration");
 }
 
+TEST(Rejection, OfVehicleStatus) {
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.at.us = kFarPast; }), "Time");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.battery = 1.1; }), "Number");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.battery = kNaN; }), "Number");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.battery.reset(); }), "accepted");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.estimator = static_cast<EstimatorHealth>(3); }), "Enumeration");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.position_sigma.y() = -0.1; }), "Number");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.resets = -1; }), "Number");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.mode = "\xC3"; }), "Number");
+  const auto following = [](bool armed, const char* why_not) {
+    return after<VehicleStatus>([&](VehicleStatus& s) { s.following = true, s.armed = armed, s.why_not = why_not; });
+  };
+  EXPECT_EQ(following(true, ""), "accepted");
+  EXPECT_EQ(following(false, ""), "Inconsistent");
+  EXPECT_EQ(following(true, "a pilot flies"), "Inconsistent");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.following = false, s.why_not.clear(); }), "Inconsistent");
+}
+
 TEST(Rejection, OfFlightResult) {
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.outcome = static_cast<FlightOutcome>(4); }), "Enumeration");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.first_entry_s = kNaN; }), "accepted");

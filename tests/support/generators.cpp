@@ -364,6 +364,23 @@ ObstacleTruth random_message(Rng& rng, Fill fill) {
 }
 
 template <>
+VehicleStatus random_message(Rng& rng, Fill fill) {
+  VehicleStatus status;
+  status.header = header(rng);
+  status.at = time(rng);
+  status.following = fill == Fill::Mixed && flag(rng);
+  status.armed = status.following || flag(rng);
+  status.landed = flag(rng);
+  status.mode = text(rng, count(rng, fill, 0, kMaxModeText));
+  if (!status.following) status.why_not = text(rng, count(rng, fill, 1, kMaxWhyText));
+  if (flag(rng)) status.battery = number(rng, 0.0, 1.0);
+  status.estimator = enumerator(rng, EstimatorHealth::Lost);
+  status.position_sigma = extents(rng);
+  status.resets = integer(rng, 0, kMaxCounter);
+  return status;
+}
+
+template <>
 FlightResult random_message(Rng& rng, Fill fill) {
   FlightResult result;
   result.header = header(rng);
