@@ -310,12 +310,9 @@ TEST(Rejection, OfPlan) {
   EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].parts = 3; }), "Inconsistent");
   EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].part = p.certificate[1].parts; }), "Inconsistent");
   EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].stage = static_cast<Stage>(kStages); }), "Enumeration");
-  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = -2; }), "Number");
-  EXPECT_EQ(after<Plan>([](auto& p) {
-              p.cuts[0].phase = Phase::Room;
-              p.cuts[0].attempt = kMostAttempts;
-            }),
-            "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].phase = static_cast<Phase>(kPhases); }), "Enumeration");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = -1; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = kMostAttempts; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.standing = -1; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].count = -1; }), "Number");
   EXPECT_EQ(after_flag_of_two<Plan>([](Plan& p, bool flag) { p.relaxed = flag; }), "Enumeration");
