@@ -8,15 +8,6 @@
 #include <utility>
 
 namespace tern {
-namespace {
-
-double timeout_s(const Scenario& scenario) {
-  const UavSpec& uav = scenario.uav;
-  return scenario.timeout_s.value_or(3.0 * rest_to_rest_bound_s(uav.start, uav.goal, uav.limits) + 10.0);
-}
-
-}  // namespace
-
 FlightWatch::FlightWatch(const Scenario& scenario, UTime now)
     : scenario_(scenario), goal_(scenario.uav.goal), began_(now) {}
 
@@ -76,7 +67,7 @@ std::optional<std::string> FlightWatch::failure(UTime now) const {
   if (processes_.epoch_us(kSimulatorProcess) != simulator_epoch_us() && now - heard > kWorldSilence) {
     return fmt::format("{} started anew during the flight: its world is lost", kSimulatorProcess);
   }
-  const Duration limit = Duration::from_seconds(timeout_s(scenario_)) + kVerdictSlack;
+  const Duration limit = Duration::from_seconds(flight_timeout_s(scenario_)) + kVerdictSlack;
   if (first_request_at_ && now - *first_request_at_ > limit) {
     return fmt::format("no verdict {:.0f} s after the first request", limit.seconds());
   }

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/world/message_limits.h"
+#include "core/world/track_order.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
 #include "runtime/beat.h"
@@ -33,18 +33,6 @@ World at_rest_at_zero(const World& world) {
     resting.obstacles.push_back(WorldObstacle::make(obstacle.id(), std::move(spec)).value());
   }
   return resting;
-}
-
-/// Those that come nearest to the vehicle within the horizon first.
-void sort_by_reach(std::vector<Track>& tracks, const Vec3& vehicle, UTime from, UTime to) {
-  std::vector<std::tuple<double, std::int64_t, std::size_t>> keys;
-  for (std::size_t k = 0; k < tracks.size(); ++k) {
-    keys.emplace_back(tracks[k].bounds(from, to).exteriorDistance(vehicle), tracks[k].id, k);
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<Track> sorted;
-  for (const auto& key : keys) sorted.push_back(std::move(tracks[std::get<2>(key)]));
-  tracks = std::move(sorted);
 }
 
 /// Why the world's motions cannot be declared; empty: they can.
@@ -155,7 +143,7 @@ void WorldBroadcast::publish_declared(UTime now, const Vec3& uav) {
   std::erase_if(set.tracks, [now](const Track& track) { return track.motion.start > now; });
   set.batch.set = ++declared_set_;
   set.made_at = now;
-  sort_by_reach(set.tracks, uav, now, now + kDeclaredAhead);
+  sort_by_reach(set.tracks, uav, now, kDeclaredAhead);
   std::vector<TrackSet> batches = split_batches(set);
   say_left_out(batches.front().left_out, set.tracks.size());
   bus_.publish_paced(channels::kDeclaredMotions, std::move(batches));

@@ -32,7 +32,7 @@ class Referee {
   Referee(const Referee&) = delete;
   Referee& operator=(const Referee&) = delete;
 
-  /// From here on the flight shall end at `goal` (W, m; the scenario's at first); nothing: nowhere, as while it holds.
+  /// From here on the flight shall end at `goal` (W, m; the scenario's at first); nullopt: nowhere, as while it holds.
   void set_goal(const std::optional<Vec3>& goal);
   /// An arrival counts only from this world time on, s: for a vehicle that guards the place where it is.
   void set_earliest_arrival(double t_s) { earliest_arrival_s_ = t_s; }

@@ -1,5 +1,6 @@
 #include "tests/messages/messages_under_test.h"
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <string>
@@ -44,6 +45,10 @@ struct Words {
     for (const E& item : list) add(item);
   }
   template <class E, std::size_t n>
+  void add(const std::array<E, n>& list) {
+    for (const E& item : list) add(item);
+  }
+  template <class E, std::size_t n>
   void add(const E (&list)[n]) {
     for (const E& item : list) add(item);
   }
@@ -58,7 +63,7 @@ struct Words {
   void add(const Detection& d) { (*this)(d.position, d.half_extents, d.variance, d.track_id); }
   void add(const CubicPiece& p) { (*this)(p.duration, p.coefficients); }
   void add(const Track& t) {
-    (*this)(t.id, t.kind, t.half_extents, t.motion.start, t.motion.pieces, t.alpha, t.top_speed);
+    (*this)(t.id, t.kind, t.half_extents, t.motion.start, t.motion.pieces, t.alpha, t.top_speed, t.shares);
   }
   void add(const VoxelRun& r) { (*this)(r.label, r.class_index, r.length); }
   void add(const CertificatePlane& p) { (*this)(p.track, p.interval, p.part, p.parts, p.plane.n, p.plane.d); }
@@ -92,8 +97,8 @@ struct Words {
             r.body.vertices, r.body.radius, r.flight_box, r.tube);
   }
   void add(const Plan& p) {
-    (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.relaxed, p.local_goal, p.sphere_radius,
-            p.cost, p.inputs, p.certificate, p.cuts, p.standing.value_or(-1));
+    (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.confidence, p.level, p.alpha_scale,
+            p.relaxed, p.local_goal, p.sphere_radius, p.cost, p.inputs, p.certificate, p.cuts, p.standing.value_or(-1));
   }
   void add(const SearchViewNode& n) { (*this)(n.position, n.parent); }
   void add(const SearchView& v) { (*this)(v.header, v.request_id, v.left_out, v.nodes); }
