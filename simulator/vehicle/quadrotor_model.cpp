@@ -1,4 +1,4 @@
-#include "simulator/vehicle/quadrotor_vehicle.h"
+#include "simulator/vehicle/quadrotor_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,8 @@ FlightControllerSpec QuadrotorConfig::controller_for(const QuadrotorSpec& body) 
   return gains;
 }
 
-QuadrotorVehicle::QuadrotorVehicle(const QuadrotorConfig& config, const WindSpec& wind, const EstimatorSpec& estimator,
-                                   std::uint64_t seed, const Vec3& start, double ground_z, UTime now)
+QuadrotorModel::QuadrotorModel(const QuadrotorConfig& config, const WindSpec& wind, const EstimatorSpec& estimator,
+                               std::uint64_t seed, const Vec3& start, double ground_z, UTime now)
     : config_(config),
       wind_(wind, seed ^ kWindSeed),
       estimator_(estimator, seed ^ kEstimatorSeed),
@@ -36,7 +36,7 @@ QuadrotorVehicle::QuadrotorVehicle(const QuadrotorConfig& config, const WindSpec
   start_.motion.p = start;
 }
 
-FlightCommand QuadrotorVehicle::commanded() const {
+FlightCommand QuadrotorModel::commanded() const {
   const UavState& newest = command_ ? *command_ : start_;
   FlightCommand command;
   command.motion = newest.motion;
@@ -51,7 +51,7 @@ FlightCommand QuadrotorVehicle::commanded() const {
   return command;
 }
 
-FlightEstimate QuadrotorVehicle::believed() const {
+FlightEstimate QuadrotorModel::believed() const {
   FlightEstimate e;
   e.p = state_.p + estimator_.position_error();
   e.v = state_.v + estimator_.velocity_error();
@@ -61,7 +61,7 @@ FlightEstimate QuadrotorVehicle::believed() const {
   return e;
 }
 
-void QuadrotorVehicle::step_once() {
+void QuadrotorModel::step_once() {
   const double dt = kVehicleStep.seconds();
   Rotors rotors;
   rotors.fill(config_.body.least_thrust * config_.body.largest_thrust());
@@ -77,14 +77,14 @@ void QuadrotorVehicle::step_once() {
   time_ = time_ + kVehicleStep;
 }
 
-void QuadrotorVehicle::advance(UTime now) {
+void QuadrotorModel::advance(UTime now) {
   while (time_ + kVehicleStep <= now) {
     step_once();
     if (latency_ > Duration{}) unsaid_.push_back(estimate());
   }
 }
 
-VehicleTruth QuadrotorVehicle::truth() const {
+VehicleTruth QuadrotorModel::truth() const {
   VehicleTruth truth;
   truth.at = time_;
   truth.motion.p = state_.p;
@@ -96,7 +96,7 @@ VehicleTruth QuadrotorVehicle::truth() const {
   return truth;
 }
 
-UavState QuadrotorVehicle::estimate() const {
+UavState QuadrotorModel::estimate() const {
   const FlightEstimate believed_now = believed();
   UavState state;
   state.at = time_;
@@ -107,7 +107,7 @@ UavState QuadrotorVehicle::estimate() const {
   return state;
 }
 
-std::optional<UavState> QuadrotorVehicle::said_estimate() {
+std::optional<UavState> QuadrotorModel::said_estimate() {
   if (latency_ <= Duration{}) return estimate();
   while (unsaid_.size() > 1 && unsaid_[1].at <= time_ - latency_) unsaid_.pop_front();
   if (unsaid_.empty() || unsaid_.front().at > time_ - latency_) return std::nullopt;

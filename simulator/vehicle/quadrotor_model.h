@@ -49,13 +49,13 @@ struct VehicleTruth {
 /// `now`: between two calls the newest command holds, its motion carried on by its own acceleration and jerk (at most
 /// kHeldFor, then at rest where that ended). Without any command it keeps its start. Deterministic from the seed and
 /// the commands. A step costs about a microsecond.
-class QuadrotorVehicle {
+class QuadrotorModel {
  public:
   /// A command is carried on no longer than this: then it holds that place.
   static constexpr Duration kHeldFor{100'000};
 
-  QuadrotorVehicle(const QuadrotorConfig& config, const WindSpec& wind, const EstimatorSpec& estimator,
-                   std::uint64_t seed, const Vec3& start, double ground_z, UTime now);
+  QuadrotorModel(const QuadrotorConfig& config, const WindSpec& wind, const EstimatorSpec& estimator,
+                 std::uint64_t seed, const Vec3& start, double ground_z, UTime now);
 
   /// The newest setpoint; `at` is its time.
   void command(const UavState& setpoint) { command_ = setpoint; }
