@@ -17,9 +17,9 @@
 #include "semantic_mapper/app/load_map.h"
 #include "semantic_mapper/app/mapper_config.h"
 #include "semantic_mapper/app/mapper_node.h"
+#include "simulator/app/make_vehicle.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/app/simulator_node.h"
-#include "simulator/vehicle/perfect_vehicle.h"
 
 namespace tern {
 
@@ -55,7 +55,7 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
   auto world = make_flyable_world(scenario, config, data_folder(scenario.file, std::getenv("TERN_DATA")));
   if (!world) throw ConfigError(scenario.file + ": world: " + world.error().message);
   simulator_ = static_cast<SimulatorNode*>(&runner_.start("tern-simulator", [&](Bus& bus) {
-    auto vehicle = std::make_unique<PerfectVehicle>(scenario.uav, bus.clock().now());
+    auto vehicle = make_vehicle(scenario, config, bus.clock().now());
     return std::make_unique<SimulatorNode>(bus, scenario, std::move(*world), std::move(vehicle), config);
   }));
   for (const char* process : {"tern-executor", "tern-predictor", "tern-mapper", "tern-planner"}) start(process);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/config.h"
 #include "simulator/app/start_gate.h"
 #include "simulator/sensors/sensor.h"
+#include "simulator/vehicle/quadrotor_vehicle.h"
 
 namespace tern {
 
@@ -20,6 +22,7 @@ struct SimulatorConfig {
   bool send_goal = true;      ///< send the scenario's goal; false: the mission waits for a GOAL of someone else
   double min_flight_s = 0.0;  ///< an arrival counts only from this world time on, ≥ 0 (a vehicle that guards a place)
   SensorConfig sensor;
+  std::optional<QuadrotorFlight> quadrotor;  ///< nullopt: the perfect vehicle
 };
 
 /// Reads and finishes the section. `seed` seeds the sensor's noise. @throws ConfigError.
