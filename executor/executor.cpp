@@ -144,6 +144,7 @@ Adoption Executor::consider(const Plan& plan, UTime now) {
   close_expired(now);
   Adoption result = judge(plan, now);
   ++counters_.verdicts[static_cast<std::size_t>(result.verdict)];
+  if (result.verdict == Verdict::Unflyable) ++counters_.breaches[static_cast<std::size_t>(result.breach)];
   return result;
 }
 

@@ -36,8 +36,10 @@ struct ExecutorCounters {
   std::int64_t answered_in_time = 0;                  ///< whatever the answer's verdict
   std::int64_t unanswered = 0;                        ///< closed by their deadline
   std::array<std::int64_t, kVerdicts> verdicts = {};  ///< plans by Verdict; late, twice, unknown ones among them
+  std::array<std::int64_t, kBreaches> breaches = {};  ///< of the unflyable ones, by Breach
 
   [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
+  [[nodiscard]] std::int64_t of(Breach breach) const { return breaches[static_cast<std::size_t>(breach)]; }
   [[nodiscard]] std::int64_t late() const { return of(Verdict::Late) + of(Verdict::TooLate); }
   [[nodiscard]] std::int64_t answered_twice() const { return of(Verdict::AnsweredTwice); }
   [[nodiscard]] std::int64_t refused() const;

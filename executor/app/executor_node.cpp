@@ -114,7 +114,7 @@ void ExecutorNode::on_plan(const Plan& plan) {
   ++refusals_unsaid_;
   if (now < next_refusal_log_) return;
   spdlog::warn("refused the plan for request {}: {} ({}); {} refused since the last word", plan.request_id,
-               to_string(adoption.verdict), adoption.detail, refusals_unsaid_);
+               to_string(adoption), adoption.detail, refusals_unsaid_);
   refusals_unsaid_ = 0;
   next_refusal_log_ = now + kRefusalLogPeriod;
 }
@@ -168,6 +168,10 @@ void ExecutorNode::log_counters() const {
   for (int k = 0; k < kVerdicts; ++k) {
     const auto verdict = static_cast<Verdict>(k);
     if (counters.of(verdict) > 0) spdlog::info("plans {}: {}", to_string(verdict), counters.of(verdict));
+  }
+  for (int k = 0; k < kBreaches; ++k) {
+    const auto breach = static_cast<Breach>(k);
+    if (counters.of(breach) > 0) spdlog::info("  of these for {}: {}", to_string(breach), counters.of(breach));
   }
 }
 

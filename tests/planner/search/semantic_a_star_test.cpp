@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/world/flyable.h"
 #include "planner/duration.h"
 #include "planner/safety/checker.h"
 #include "tests/support/planner_worlds.h"
@@ -99,8 +100,7 @@ TEST(SemanticAStar, NeverReturnsALeafThatTheCheckerRejects) {
     ++found;
     ASSERT_EQ(result.control_points.cols(), s.problem.intervals + 3);
     const CheckReport report = s.check(result);
-    ASSERT_TRUE(report.ok()) << "seed " << seed << ": " << to_string(report.fault) << " in interval " << report.interval
-                             << ", axis " << report.axis << ": " << report.value << " against " << report.limit;
+    ASSERT_TRUE(report.ok()) << "seed " << seed << ": " << report.text() << " in interval " << report.interval;
   }
   EXPECT_GT(found, 150);
 }
