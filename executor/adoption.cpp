@@ -1,5 +1,6 @@
 #include "executor/adoption.h"
 
+#include "core/world/body.h"
 #include "core/world/names.h"
 
 namespace tern {
@@ -15,8 +16,8 @@ const char* to_string(const Adoption& adoption) {
 }
 
 Adoption check_trajectory(const TimedSpline& trajectory, const HorizonRequest& request) {
-  const BreachReport report =
-      breach_of(trajectory, request.t_s, request.start, request.limits, centre_box(request.flight_box, request.body));
+  const BreachReport report = breach_of(trajectory, request.t_s, request.start, request.limits,
+                                        centre_box(request.flight_box, grown(request.body, request.tube)));
   if (report.ok()) return {Verdict::Adopted, {}};
   return {Verdict::Unflyable, report.text(), report.breach};
 }

@@ -14,15 +14,20 @@ namespace {
 constexpr std::int64_t kStepUs = 10'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+UavSpec with_limits(UavSpec uav, const Limits& limits) {
+  uav.limits = limits;
+  return uav;
+}
+
 }  // namespace
 
-Referee::Referee(const Scenario& scenario, World world)
+Referee::Referee(const Scenario& scenario, World world, const Limits& judged)
     : uav_(scenario.uav),
       goal_(scenario.uav.goal),
       world_(std::move(world)),
       timeout_s_(flight_timeout_s(scenario)),
       clearance_(world_, uav_.body),
-      limits_(uav_, BodyDistance(uav_.body).bounds()),
+      limits_(with_limits(uav_, judged), BodyDistance(uav_.body).bounds()),
       measures_(scenario.semantics.regions) {}
 
 void Referee::advance(Duration start, const CubicPiece& piece) {

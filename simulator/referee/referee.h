@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "core/base/time.h"
 #include "core/world/flight_result.h"
@@ -23,7 +25,10 @@ namespace tern {
 /// costs microseconds.
 class Referee {
  public:
-  Referee(const Scenario& scenario, World world);
+  /// @param judged  the limits beyond which the true motion counts as a violation
+  Referee(const Scenario& scenario, World world, const Limits& judged);
+  /// The scenario's own limits.
+  Referee(const Scenario& scenario, World world) : Referee(scenario, std::move(world), scenario.uav.limits) {}
   Referee(const Referee&) = delete;
   Referee& operator=(const Referee&) = delete;
 

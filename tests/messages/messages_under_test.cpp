@@ -94,7 +94,7 @@ struct Words {
   }
   void add(const HorizonRequest& r) {
     (*this)(r.header, r.id, r.t_s, r.deadline, r.committed, r.start, r.limits.v_max, r.limits.a_max, r.limits.j_max,
-            r.body.vertices, r.body.radius, r.flight_box);
+            r.body.vertices, r.body.radius, r.flight_box, r.tube);
     const Dynamics d = r.limits.dynamics.value_or(Dynamics{0.0, 0.0, 0.0, 0.0});
     (*this)(d.thrust_min, d.thrust_max, d.tilt_max_deg, d.body_rate_max_deg_s);
   }

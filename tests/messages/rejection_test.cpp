@@ -241,6 +241,8 @@ TEST(Rejection, OfMapChunk) {
 
 TEST(Rejection, OfHorizonRequest) {
   using Request = HorizonRequest;
+  EXPECT_EQ(after<Request>([](auto& r) { r.tube.z() = -1e-9; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.tube.x() = kNaN; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.id = -1; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.t_s.us = kFarPast; }), "Time");
   EXPECT_EQ(after<Request>([](auto& r) { r.deadline = r.t_s - Duration{4'999}; }), "Time");

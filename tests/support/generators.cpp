@@ -252,6 +252,7 @@ HorizonRequest random_message(Rng& rng, Fill fill) {
   const Vec3 a = position(rng);
   const Vec3 b = position(rng);
   request.flight_box = Box(a.cwiseMin(b), a.cwiseMax(b));
+  request.tube = vec3(rng, 0.0, kMaxBodyExtent);
   return request;
 }
 
