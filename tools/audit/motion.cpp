@@ -115,7 +115,6 @@ class LimitCheck {
     check_.fail({at, fmt::format("{} is {:.7g} {}", what, share, of), request});
   }
 
-  void inside(UTime at, const HorizonRequest& request, const Box& positions) {
   /// @param off  what the position may be off these, m
   void inside(UTime at, const HorizonRequest& request, const Box& positions, const Vec3& off) {
     for (int axis = 0; axis < 3; ++axis) {
