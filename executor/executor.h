@@ -11,6 +11,7 @@
 #include "core/world/scenario.h"
 #include "executor/adoption.h"
 #include "executor/committed_trajectory.h"
+#include "executor/heading.h"
 #include "executor/tube.h"
 
 namespace tern {
@@ -19,6 +20,7 @@ struct ExecutorConfig {
   double rate_hz = 20.0;
   Duration lead{75'000};  ///< > kDeadlineLead, ≤ 5 s
   double tube_m = 0.0;    ///< [0, kWidestTube]
+  HeadingConfig heading = {};
 
   template <typename V>
   void visit(V& v) {
@@ -27,6 +29,7 @@ struct ExecutorConfig {
     v("tube_m", tube_m, Range{0.0, kWidestTube},
       "requests promise that the vehicle is at most this far off its setpoints, m per axis; more where more is "
       "measured");
+    v("heading", heading);
   }
 };
 

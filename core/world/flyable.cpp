@@ -54,30 +54,6 @@ BreachReport limit_breach(const ClampedSpline& spline, const Limits& limits) {
   return over(Breach::Jerk, "|j| {2} = {0:.9g} beyond {1:.9g}", most.j_max, limits.j_max);
 }
 
-BreachReport dynamics_breach(const ClampedSpline& spline, const Dynamics& dynamics) {
-  constexpr double kMore = 1.0 + kLimitTolerance;
-  constexpr double kLess = 1.0 - kLimitTolerance;
-  const double slope = tilt_slope(dynamics.tilt_max_deg);
-  for (int j = 0; j < spline.intervals(); ++j) {
-    const ThrustBounds b = thrust_bounds(spline, j);
-    if (!(b.least >= dynamics.thrust_min * kLess))
-      return {Breach::Thrust, "thrust {0:.9g} below {1:.9g}", b.least, dynamics.thrust_min, -1, j};
-    if (!(b.most <= dynamics.thrust_max * kMore))
-      return {Breach::Thrust, "thrust {0:.9g} beyond {1:.9g}", b.most, dynamics.thrust_max, -1, j};
-    if (!(b.slope <= slope * kMore))
-      return {Breach::Tilt,
-              "tilt {0:.9g} deg beyond {1:.9g}",
-              to_degrees(std::atan(b.slope)),
-              dynamics.tilt_max_deg,
-              -1,
-              j};
-    const double rate = to_degrees(b.body_rate);
-    if (!(rate <= dynamics.body_rate_max_deg_s * kMore))
-      return {Breach::BodyRate, "body rate {0:.9g} deg/s beyond {1:.9g}", rate, dynamics.body_rate_max_deg_s, -1, j};
-  }
-  return {};
-}
-
 BreachReport box_breach(const ClampedSpline& spline, const Box& centre_box) {
   Box swept;
   for (int j = 0; j < spline.intervals(); ++j) swept.extend(spline.position_bounds(j));
@@ -101,6 +77,30 @@ Box centre_box(const Box& flight_box, const Body& body) {
   return {flight_box.min() - low, flight_box.max() - high};
 }
 
+BreachReport breach_of(const ClampedSpline& spline, const Dynamics& dynamics) {
+  constexpr double kMore = 1.0 + kLimitTolerance;
+  constexpr double kLess = 1.0 - kLimitTolerance;
+  const double slope = tilt_slope(dynamics.tilt_max_deg);
+  for (int j = 0; j < spline.intervals(); ++j) {
+    const ThrustBounds b = thrust_bounds(spline, j);
+    if (!(b.least >= dynamics.thrust_min * kLess))
+      return {Breach::Thrust, "thrust {0:.9g} below {1:.9g}", b.least, dynamics.thrust_min, -1, j};
+    if (!(b.most <= dynamics.thrust_max * kMore))
+      return {Breach::Thrust, "thrust {0:.9g} beyond {1:.9g}", b.most, dynamics.thrust_max, -1, j};
+    if (!(b.slope <= slope * kMore))
+      return {Breach::Tilt,
+              "tilt {0:.9g} deg beyond {1:.9g}",
+              to_degrees(std::atan(b.slope)),
+              dynamics.tilt_max_deg,
+              -1,
+              j};
+    const double rate = to_degrees(b.body_rate);
+    if (!(rate <= dynamics.body_rate_max_deg_s * kMore))
+      return {Breach::BodyRate, "body rate {0:.9g} deg/s beyond {1:.9g}", rate, dynamics.body_rate_max_deg_s, -1, j};
+  }
+  return {};
+}
+
 BreachReport breach_of(const TimedSpline& trajectory, UTime t_s, const MotionSample& start, const Limits& limits,
                        const Box& centre_box) {
   if (auto r = shape_breach(trajectory); !r.ok()) return r;
@@ -112,7 +112,7 @@ BreachReport breach_of(const TimedSpline& trajectory, UTime t_s, const MotionSam
   if (!spline.ends_at_rest()) return {Breach::End, "the last three control points differ"};
   if (auto r = limit_breach(spline, limits); !r.ok()) return r;
   if (limits.dynamics) {
-    if (auto r = dynamics_breach(spline, *limits.dynamics); !r.ok()) return r;
+    if (auto r = breach_of(spline, *limits.dynamics); !r.ok()) return r;
   }
   return box_breach(spline, centre_box);
 }

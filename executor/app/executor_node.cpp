@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/world/names.h"
 #include "messages/codec.h"
@@ -19,8 +18,6 @@ constexpr Duration kRemembered{1'000'000};
 /// A vehicle that was slower for so long stands, or hovers.
 constexpr double kStillSpeed = 0.3;
 constexpr Duration kStillFor{200'000};
-/// Below this the velocity has no direction worth a yaw, m/s.
-constexpr double kYawSpeed = 0.05;
 
 }  // namespace
 
@@ -81,7 +78,7 @@ void ExecutorNode::begin(const UavState& state) {
   executor_->set_tube(tube_.width(sigma_, state.at));
   if (goal_) executor_->set_mode(goal_->mode);
   if (following_) executor_->begin(bus_.clock().now());
-  yaw_ = state.yaw;
+  heading_.emplace(state.yaw, state.at, config_.heading);
   publish_setpoint(state.at);
   spdlog::info("begins with the vehicle at ({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
 }
@@ -157,9 +154,7 @@ void ExecutorNode::publish_setpoint(UTime at) {
   UavState setpoint;
   setpoint.at = at;
   setpoint.motion = executor_->leaving(at);
-  const Vec3& v = setpoint.motion.v;
-  if (v.head<2>().norm() > kYawSpeed) yaw_ = std::atan2(v.y(), v.x());
-  setpoint.yaw = yaw_;
+  setpoint.yaw = heading_->follow(setpoint.motion.v, at);
   bus_.publish(channels::kSetpoint, setpoint);
   last_setpoint_ = at;
 }
