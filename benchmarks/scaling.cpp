@@ -14,10 +14,10 @@
 
 #include "benchmarks/flight_recording.h"
 #include "core/base/random.h"
+#include "core/world/track_order.h"
 #include "messages/batching.h"
 #include "planner/plan_workspace.h"
 #include "predictor/models/declared.h"
-#include "predictor/tracking/priority.h"
 #include "runtime/stopwatch.h"
 
 namespace tern {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/world/body.h"
 #include "core/world/message_limits.h"
 
 namespace tern {
@@ -98,7 +99,7 @@ Adoption check_trajectory(const TimedSpline& trajectory, const HorizonRequest& r
   if (!spline.ends_at_rest()) return {Verdict::End, "the last three control points differ"};
   result = check_limits(motion_bounds(spline), request.limits);
   if (is_refusal(result.verdict)) return result;
-  return check_flight_box(spline, request.body, request.flight_box);
+  return check_flight_box(spline, grown(request.body, request.tube), request.flight_box);
 }
 
 }  // namespace tern

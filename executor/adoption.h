@@ -43,8 +43,8 @@ struct Adoption {
 
 /// Whether `trajectory` may be flown after `request`: form (J ≥ 4), start at t_s, joining request.start within
 /// kJoinTolerance, ending at rest, |v|, |a|, |j| within limits·(1 + kLimitTolerance) at their true extrema, the body
-/// within the flight box to kBoxTolerance (true extrema too). The first rule broken is named, in that order.
-/// Verdict::Adopted when all hold. O(J).
+/// and its tube within the flight box to kBoxTolerance (true extrema too). The first rule broken is named, in that
+/// order. Verdict::Adopted when all hold. O(J).
 Adoption check_trajectory(const TimedSpline& trajectory, const HorizonRequest& request);
 
 }  // namespace tern

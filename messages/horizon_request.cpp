@@ -29,6 +29,7 @@ Message to_lcm(const HorizonRequest& request) {
   m.body_radius = request.body.radius;
   m.flight_box_min = wire::to_lcm(request.flight_box.min());
   m.flight_box_max = wire::to_lcm(request.flight_box.max());
+  m.tube = wire::to_lcm(request.tube);
   m.committed_start_us = request.committed.start.us;
   m.committed_interval_us = request.committed.interval.us;
   m.control_points = wire::to_lcm(request.committed.control_points);
@@ -61,6 +62,7 @@ tl::expected<HorizonRequest, Rejection> from_lcm(const Message& m) {
   request.body.radius = read.number(m.body_radius, 0.0, kMaxBodyExtent);
   request.body.vertices = read.points(m.body_vertices, kMaxBodyExtent);
   request.flight_box = Box(read.position(m.flight_box_min), read.position(m.flight_box_max));
+  request.tube = read.vec3(m.tube, 0.0, kMaxBodyExtent);
   read.consistent(!request.flight_box.isEmpty());
   read.in_order(request.deadline <= request.t_s - kDeadlineLead);
   read.in_order(request.committed.start <= request.t_s);

@@ -8,15 +8,6 @@
 #include <utility>
 
 namespace tern {
-namespace {
-
-double timeout_s(const Scenario& scenario) {
-  const UavSpec& uav = scenario.uav;
-  return scenario.timeout_s.value_or(3.0 * rest_to_rest_bound_s(uav.start, uav.goal, uav.limits) + 10.0);
-}
-
-}  // namespace
-
 FlightWatch::FlightWatch(const Scenario& scenario, UTime now)
     : scenario_(scenario), goal_(scenario.uav.goal), began_(now) {}
 
@@ -46,11 +37,11 @@ void FlightWatch::hear(const Goal& goal) {
 
 void FlightWatch::hear(const HorizonRequest& request, UTime now) {
   ledger_.add(request);
-  const bool is_simulators = request.header.name.sender_epoch_us == processes_.epoch_us(kSimulatorProcess);
-  if (world_epoch_us_ != 0 || (first_request_ && !is_simulators)) return;
+  const bool is_executors = request.header.name.sender_epoch_us == processes_.epoch_us(kExecutorProcess);
+  if (world_epoch_us_ != 0 || (first_request_ && !is_executors)) return;
   first_request_ = request;
   first_request_at_ = now;
-  if (is_simulators) world_epoch_us_ = request.header.name.sender_epoch_us;
+  if (is_executors) world_epoch_us_ = processes_.epoch_us(kSimulatorProcess);
 }
 
 void FlightWatch::hear(const PlanTiming& timing) {
@@ -76,7 +67,7 @@ std::optional<std::string> FlightWatch::failure(UTime now) const {
   if (processes_.epoch_us(kSimulatorProcess) != simulator_epoch_us() && now - heard > kWorldSilence) {
     return fmt::format("{} started anew during the flight: its world is lost", kSimulatorProcess);
   }
-  const Duration limit = Duration::from_seconds(timeout_s(scenario_)) + kVerdictSlack;
+  const Duration limit = Duration::from_seconds(flight_timeout_s(scenario_)) + kVerdictSlack;
   if (first_request_at_ && now - *first_request_at_ > limit) {
     return fmt::format("no verdict {:.0f} s after the first request", limit.seconds());
   }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/splines/piecewise_cubic.h"
-#include "planner/global_path/box_cover.h"
+#include "core/world/box_cover.h"
 #include "planner/tuning.h"
 
 namespace tern {

@@ -11,58 +11,12 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <variant>
 
+#include "runtime/config_record.h"
 #include "runtime/yaml_tree.h"
 
 namespace tern {
 namespace {
-
-/// What was read of a section, rendered, in the order of reading.
-struct Record {
-  struct Entry;
-  std::vector<Entry> entries;
-  void write(std::string& out, int indent) const;
-  void list(std::vector<Knob>& knobs, const std::string& above) const;
-};
-using RecordPtr = std::shared_ptr<Record>;
-struct Record::Entry {
-  std::string key;
-  std::variant<std::string, RecordPtr, std::vector<RecordPtr>> value;
-  Knob knob = {};  ///< of a value that is text; its path is made when it is asked for
-};
-
-void Record::write(std::string& out, int indent) const {
-  for (const Entry& entry : entries) {
-    const std::string head = std::string(static_cast<std::size_t>(indent), ' ') + yaml_text(entry.key) + ":";
-    if (const auto* text = std::get_if<std::string>(&entry.value)) {
-      out += head + " " + *text + "\n";
-    } else if (const auto* section = std::get_if<RecordPtr>(&entry.value)) {
-      out += head + ((*section)->entries.empty() ? " {}\n" : "\n");
-      (*section)->write(out, indent + 2);
-    } else {
-      const auto& items = std::get<std::vector<RecordPtr>>(entry.value);
-      out += head + (items.empty() ? " []\n" : "\n");
-      for (const RecordPtr& item : items) {
-        out += std::string(static_cast<std::size_t>(indent) + 2, ' ') + (item->entries.empty() ? "- {}\n" : "-\n");
-        item->write(out, indent + 4);
-      }
-    }
-  }
-}
-
-void Record::list(std::vector<Knob>& knobs, const std::string& above) const {
-  for (const Entry& entry : entries) {
-    const std::string path = above + entry.key;
-    if (const auto* section = std::get_if<RecordPtr>(&entry.value)) {
-      (*section)->list(knobs, path + ".");
-    } else if (const auto* items = std::get_if<std::vector<RecordPtr>>(&entry.value)) {
-      if (!items->empty()) items->front()->list(knobs, path + "[].");
-    } else {
-      knobs.push_back({path, entry.knob.fallback, entry.knob.range, entry.knob.meaning});
-    }
-  }
-}
 
 std::string to_yaml(const std::vector<double>& values) {
   std::vector<std::string> parts;
@@ -109,7 +63,7 @@ struct ConfigSection::Impl {
   std::string path;                           ///< "uav.limits"; "" at the top
   std::string where;                          ///< for messages about what is missing
   std::set<std::string, std::less<>> known;
-  RecordPtr record = std::make_shared<Record>();
+  ConfigRecordPtr record = std::make_shared<ConfigRecord>();
   std::map<std::string, std::shared_ptr<Impl>, std::less<>> sections;
   std::map<std::string, std::vector<std::shared_ptr<Impl>>, std::less<>> lists;
 
@@ -134,7 +88,7 @@ struct ConfigSection::Impl {
 
   /// @param knob  without a path
   void note(std::string_view key, std::string rendered, Knob knob = {}) {
-    for (Record::Entry& entry : record->entries) {
+    for (ConfigRecord::Entry& entry : record->entries) {
       if (entry.key == key) {
         entry.value = std::move(rendered);
         return;
@@ -144,7 +98,7 @@ struct ConfigSection::Impl {
   }
 
   void note_required(std::string_view key) const {
-    for (Record::Entry& entry : record->entries) {
+    for (ConfigRecord::Entry& entry : record->entries) {
       if (entry.key == key) entry.knob.fallback = "required";
     }
   }
@@ -324,7 +278,7 @@ ConfigSection ConfigSection::section(std::string_view key) {
 std::vector<ConfigSection> ConfigSection::list(std::string_view key) {
   auto [found, is_new] = impl_->lists.try_emplace(std::string(key));
   if (is_new) {
-    std::vector<RecordPtr> records;
+    std::vector<ConfigRecordPtr> records;
     const YamlValue* v = impl_->find(key);
     if (v != nullptr && v->kind != YamlValue::Kind::Sequence && v->kind != YamlValue::Kind::Null) {
       throw impl_->error(key, v, v->describe() + " is not a list");

@@ -14,6 +14,7 @@
 #include "core/base/result.h"
 #include "core/base/time.h"
 #include "core/base/types.h"
+#include "runtime/config_record.h"
 
 namespace tern {
 
@@ -21,14 +22,6 @@ namespace tern {
 /// command line "--set uav.limits.v_max=-3: uav.limits.v_max: -3 is out of range (0, 1000]".
 class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
-};
-
-/// A key that was read, as a user is told of it.
-struct Knob {
-  std::string path;      ///< "planner.search.band_m"
-  std::string fallback;  ///< its default, as YAML; "required"
-  std::string range;     ///< "[0, 10]", "free, obstacle"; "" of flags and texts
-  std::string meaning;   ///< with the unit; "" where its reader says none
 };
 
 /// One mapping of a YAML file. Every read names its default, so that the effective configuration can be written out

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/geometry/box.h"
 #include "core/world/message_limits.h"
 #include "core/world/names.h"
 #include "core/world/step_aside.h"
@@ -162,21 +163,13 @@ WorldSpec read_world(ConfigSection section) {
   return world;
 }
 
-/// The corners of the box of half-extents h about 0.
-Points box_corners(const Vec3& h) {
-  Points corners(3, 8);
-  for (int k = 0; k < 8; ++k) {
-    corners.col(k) = Vec3((k & 1) != 0 ? h.x() : -h.x(), (k & 2) != 0 ? h.y() : -h.y(), (k & 4) != 0 ? h.z() : -h.z());
-  }
-  return corners;
-}
-
 Body read_body(ConfigSection section, Body body) {
   const int shapes =
       (section.has("radius") ? 1 : 0) + (section.has("half_extents") ? 1 : 0) + (section.has("vertices") ? 1 : 0);
   if (shapes > 1) throw section.error("radius", "give one of radius, half_extents, vertices");
   if (section.has("half_extents")) {
-    body.vertices = box_corners(section.required_vec3("half_extents", Range::positive(100.0)));
+    const Vec3 half = section.required_vec3("half_extents", Range::positive(100.0));
+    body.vertices = box_corners(Box(-half, half));
     body.radius = 0.0;
   } else if (section.has("vertices")) {
     const auto rows = section.rows("vertices", 3, Range::within(100.0));

@@ -12,6 +12,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/track.h"
+#include "core/world/vehicle_status.h"
 #include "core/world/voxel_map.h"
 
 namespace tern {
@@ -42,6 +43,8 @@ inline constexpr std::array<const char*, kVoxelLabels> kWords<VoxelLabel>{"unkno
                                                                           "repulsive"};
 template <>
 inline constexpr std::array<const char*, 5> kWords<ProcessState>{"starting", "waiting", "ready", "finished", "failed"};
+template <>
+inline constexpr std::array<const char*, kEstimatorHealths> kWords<EstimatorHealth>{"good", "degraded", "lost"};
 template <>
 inline constexpr std::array<const char*, kRejections> kWords<Rejection>{
     "length",       "fingerprint", "count",  "number",   "enumeration",    "time",

@@ -34,4 +34,9 @@ double rest_to_rest_bound_s(const Vec3& from, const Vec3& to, const Limits& limi
   return bound;
 }
 
+double flight_timeout_s(const Scenario& scenario) {
+  const UavSpec& uav = scenario.uav;
+  return scenario.timeout_s.value_or(3.0 * rest_to_rest_bound_s(uav.start, uav.goal, uav.limits) + 10.0);
+}
+
 }  // namespace tern

@@ -96,8 +96,11 @@ struct Scenario {
   WorldSpec world;
   UavSpec uav;
   SemanticsSpec semantics;
-  std::optional<double> timeout_s;  ///< default 3 × bound + 10 s
+  std::optional<double> timeout_s;  ///< flight_timeout_s() has the default
 };
+
+/// When a flight has taken too long, world time, s: timeout_s, or 3 × bound + 10 s.
+double flight_timeout_s(const Scenario& scenario);
 
 /// Time to reach speed v from rest, and how far that takes, under acceleration a and jerk j (may be infinite).
 struct RampUp {

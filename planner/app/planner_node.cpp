@@ -8,9 +8,9 @@
 
 #include "core/geometry/separation.h"
 #include "core/geometry/separation_lp.h"
+#include "messages/channels.h"
 #include "messages/codec.h"
 #include "planner/app/plan_stopwatch.h"
-#include "messages/channels.h"
 #include "runtime/process.h"
 
 namespace tern {

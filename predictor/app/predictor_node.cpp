@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/world/track_order.h"
 #include "messages/batching.h"
 #include "messages/channels.h"
 #include "predictor/models/declared.h"
-#include "predictor/tracking/priority.h"
 
 namespace tern {
 namespace {

@@ -91,8 +91,8 @@ MapperConfig read_mapper_config(ConfigSection section) {
   config.resolution = section.number("resolution_m", config.resolution, Range{0.01, 100.0},
                                      "side of a voxel, m; at most 2·10⁸ voxels in all");
   if (section.has("extents")) config.extents = read_extents(section.section("extents"));
-  config.background =
-      *named<VoxelLabel>(section.choice("background", "free", {"free", "unknown"}, "label of voxels that nothing speaks of"));
+  config.background = *named<VoxelLabel>(
+      section.choice("background", "free", {"free", "unknown"}, "label of voxels that nothing speaks of"));
   config.voxelize_obstacles = section.flag(
       "voxelize_obstacles", config.voxelize_obstacles,
       "the scenario's listed static obstacles become occupied (the planner gets their exact boxes anyway)");

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/world/message_limits.h"
+#include "core/world/track_order.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
-#include "simulator/app/beat.h"
+#include "runtime/beat.h"
 #include "simulator/worlds/declared_motions.h"
 
 namespace tern {
@@ -33,18 +33,6 @@ World at_rest_at_zero(const World& world) {
     resting.obstacles.push_back(WorldObstacle::make(obstacle.id(), std::move(spec)).value());
   }
   return resting;
-}
-
-/// Those that come nearest to the vehicle within the horizon first.
-void sort_by_reach(std::vector<Track>& tracks, const Vec3& vehicle, UTime from, UTime to) {
-  std::vector<std::tuple<double, std::int64_t, std::size_t>> keys;
-  for (std::size_t k = 0; k < tracks.size(); ++k) {
-    keys.emplace_back(tracks[k].bounds(from, to).exteriorDistance(vehicle), tracks[k].id, k);
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<Track> sorted;
-  for (const auto& key : keys) sorted.push_back(std::move(tracks[std::get<2>(key)]));
-  tracks = std::move(sorted);
 }
 
 /// Why the world's motions cannot be declared; empty: they can.
@@ -121,10 +109,10 @@ UTime WorldBroadcast::declared_due() const {
   return std::min(next_declared_, std::max(world_zero_ + appearances_.front(), last_declared_ + kDeclaredApart));
 }
 
-void WorldBroadcast::step(UTime now, const Executor& uav) {
+void WorldBroadcast::step(UTime now, const MotionHistory& uav) {
   publish_observations(now, uav);
   if (config_.declare && now >= declared_due()) {
-    publish_declared(now, uav.sample(now).p);
+    publish_declared(now, uav.sample(std::min(now, uav.end())).p);
     if (now >= next_declared_) next_declared_ = next_beat(next_declared_, kDeclaredPeriod, now);
   }
   if (now >= next_truth_) {
@@ -140,9 +128,9 @@ void WorldBroadcast::choose_epoch() {
   frame_ = 0;
 }
 
-void WorldBroadcast::publish_observations(UTime now, const Executor& uav) {
+void WorldBroadcast::publish_observations(UTime now, const MotionHistory& uav) {
   for (choose_epoch(); frame_arrives(config_.sensor, frames_zero_, frame_) <= now; choose_epoch()) {
-    const Vec3 eye = uav.sample(frame_taken(config_.sensor, frames_zero_, frame_)).p;
+    const Vec3 eye = uav.sample(std::min(frame_taken(config_.sensor, frames_zero_, frame_), uav.end())).p;
     const World& seen = frames_rest_ ? resting_ : world_;
     bus_.publish(channels::kObstacleObservations, observe(seen, config_.sensor, frames_zero_, frame_, eye));
     ++frame_;
@@ -155,7 +143,7 @@ void WorldBroadcast::publish_declared(UTime now, const Vec3& uav) {
   std::erase_if(set.tracks, [now](const Track& track) { return track.motion.start > now; });
   set.batch.set = ++declared_set_;
   set.made_at = now;
-  sort_by_reach(set.tracks, uav, now, now + kDeclaredAhead);
+  sort_by_reach(set.tracks, uav, now, kDeclaredAhead);
   std::vector<TrackSet> batches = split_batches(set);
   say_left_out(batches.front().left_out, set.tracks.size());
   bus_.publish_paced(channels::kDeclaredMotions, std::move(batches));

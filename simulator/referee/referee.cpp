@@ -14,19 +14,20 @@ namespace {
 constexpr std::int64_t kStepUs = 10'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-double default_timeout_s(const UavSpec& uav) {
-  return 3.0 * rest_to_rest_bound_s(uav.start, uav.goal, uav.limits) + 10.0;
+UavSpec with_limits(UavSpec uav, const Limits& limits) {
+  uav.limits = limits;
+  return uav;
 }
 
 }  // namespace
 
-Referee::Referee(const Scenario& scenario, World world)
+Referee::Referee(const Scenario& scenario, World world, const Limits& judged)
     : uav_(scenario.uav),
       goal_(scenario.uav.goal),
       world_(std::move(world)),
-      timeout_s_(scenario.timeout_s ? *scenario.timeout_s : default_timeout_s(scenario.uav)),
+      timeout_s_(flight_timeout_s(scenario)),
       clearance_(world_, uav_.body),
-      limits_(uav_, BodyDistance(uav_.body).bounds()),
+      limits_(with_limits(uav_, judged), BodyDistance(uav_.body).bounds()),
       measures_(scenario.semantics.regions) {}
 
 void Referee::advance(Duration start, const CubicPiece& piece) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "core/base/time.h"
 #include "core/world/flight_result.h"
@@ -23,11 +25,14 @@ namespace tern {
 /// costs microseconds.
 class Referee {
  public:
-  Referee(const Scenario& scenario, World world);
+  /// @param judged  the limits beyond which the true motion counts as a violation
+  Referee(const Scenario& scenario, World world, const Limits& judged);
+  /// The scenario's own limits.
+  Referee(const Scenario& scenario, World world) : Referee(scenario, std::move(world), scenario.uav.limits) {}
   Referee(const Referee&) = delete;
   Referee& operator=(const Referee&) = delete;
 
-  /// From here on the flight shall end at `goal` (W, m; the scenario's at first); nothing: nowhere, as while it holds.
+  /// From here on the flight shall end at `goal` (W, m; the scenario's at first); nullopt: nowhere, as while it holds.
   void set_goal(const std::optional<Vec3>& goal);
   /// An arrival counts only from this world time on, s: for a vehicle that guards the place where it is.
   void set_earliest_arrival(double t_s) { earliest_arrival_s_ = t_s; }

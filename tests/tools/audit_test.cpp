@@ -192,13 +192,15 @@ TEST_F(AuditedFlight, WithASetpointOffTheTrajectoryNamesItsInstant) {
     if (state.at == at) state.motion.p.x() += 1e-4;
     return true;
   });
-  EXPECT_THAT(broken(audit), ElementsAre("commitment"));
-  EXPECT_THAT(audit.check("commitment").findings, ElementsAre(Field(&Finding::at, at)));
+  EXPECT_THAT(broken(audit), ElementsAre("commitment", "tube"));
+  for (const char* check : {"commitment", "tube"}) {
+    EXPECT_THAT(audit.check(check).findings, ElementsAre(Field(&Finding::at, at))) << check;
+  }
 }
 
 TEST_F(AuditedFlight, WithAStateBeyondALimitNamesTheLimit) {
   const UTime at = record_->states[300].at;
-  const Audit audit = audit_with<UavState>(channels::kUavState.name, [&](UavState& state) {
+  const Audit audit = audit_with<UavState>(channels::kVehicleTruth.name, [&](UavState& state) {
     if (state.at == at) state.motion.a.z() = 10.1;
     return true;
   });

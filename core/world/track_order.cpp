@@ -1,4 +1,4 @@
-#include "predictor/tracking/priority.h"
+#include "core/world/track_order.h"
 
 #include <algorithm>
 #include <tuple>

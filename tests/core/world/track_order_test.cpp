@@ -1,8 +1,6 @@
-#include "predictor/tracking/priority.h"
+#include "core/world/track_order.h"
 
 #include <gtest/gtest.h>
-
-#include "tests/predictor/simulated_motion.h"
 
 namespace tern {
 namespace {
