@@ -435,6 +435,7 @@ TEST(Rejection, OfFlightResult) {
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.first_entry_s = kInfinity; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.flight_time_s = -1.0; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.min_clearance_m = -2e7; }), "Number");
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.min_map_clearance_m = 2e7; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.stops = -1; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.exposure[0].metres = kNaN; }), "Number");
   using Wire = tern_msgs::flight_result_t;

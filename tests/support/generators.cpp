@@ -398,6 +398,7 @@ FlightResult random_message(Rng& rng, Fill fill) {
   result.mean_speed_mps = measure(rng, 0.0, kMaxSpeed);
   result.top_speed_mps = measure(rng, 0.0, kMaxSpeed);
   result.min_clearance_m = measure(rng, -1e7, 1e7);
+  result.min_map_clearance_m = measure(rng, -1e7, 1e7);
   result.jerk_integral = measure(rng, 0.0, 1e300);
   result.stops = integer(rng, 0, kMaxCounter);
   result.limit_violations = integer(rng, 0, kMaxCounter);
