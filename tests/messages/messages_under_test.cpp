@@ -95,6 +95,8 @@ struct Words {
   void add(const HorizonRequest& r) {
     (*this)(r.header, r.id, r.t_s, r.deadline, r.committed, r.start, r.limits.v_max, r.limits.a_max, r.limits.j_max,
             r.body.vertices, r.body.radius, r.flight_box, r.tube);
+    const Dynamics d = r.limits.dynamics.value_or(Dynamics{0.0, 0.0, 0.0, 0.0});
+    (*this)(d.thrust_min, d.thrust_max, d.tilt_max_deg, d.body_rate_max_deg_s);
   }
   void add(const Plan& p) {
     (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.confidence, p.level, p.alpha_scale,

@@ -242,6 +242,11 @@ HorizonRequest random_message(Rng& rng, Fill fill) {
   request.limits.a_max = vec3(rng, kLeastLimit, kMostAccelerationLimit);
   request.limits.j_max =
       flag(rng) ? vec3(rng, kLeastLimit, kMaxJerk) : Vec3::Constant(std::numeric_limits<double>::infinity());
+  if (flag(rng)) {
+    const auto within = [&rng](const Range& range) { return number(rng, range.low, range.high); };
+    request.limits.dynamics = Dynamics{within(Dynamics::kThrustMin), within(Dynamics::kThrustMax),
+                                       within(Dynamics::kTilt), within(Dynamics::kBodyRate)};
+  }
   request.body.radius = number(rng, 0.0, kMaxBodyExtent);
   request.body.vertices = points(rng, count(rng, fill, 1, kMaxBodyVertices), kMaxBodyExtent);
   const Vec3 a = position(rng);
