@@ -37,6 +37,8 @@ class ExecutorNode final : public Node {
 
   /// nullptr until the vehicle was found at rest.
   [[nodiscard]] const Executor* executor() const { return executor_ ? &*executor_ : nullptr; }
+  /// How often the vehicle has left its tube.
+  [[nodiscard]] std::int64_t exits() const { return exits_; }
   /// All zero until then.
   [[nodiscard]] ExecutorCounters counters() const { return executor_ ? executor_->counters() : ExecutorCounters(); }
 
