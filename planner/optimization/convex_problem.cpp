@@ -10,6 +10,8 @@
 namespace tern {
 namespace {
 
+/// A reach: x0 may be as far from the row as it will.
+constexpr double kAlways = std::numeric_limits<double>::infinity();
 /// Of x0's own jerk: it lies strictly inside.
 constexpr double kJerkRoom = 1.001;
 
@@ -76,7 +78,7 @@ class Builder {
         AffinePoint thrust = curve_.acceleration_at_end(j);
         thrust.offset.z() += kGravity;
         after = std::max(set.floor, kThrustKept * thrust.at(x0_).z());
-        add_row(thrust, -Vec3::UnitZ(), -after, kLimitReach * kGravity);
+        add_row(thrust, -Vec3::UnitZ(), -after, kAlways);
         add_tilt(thrust, set.slope);
         add_ball(thrust, set.ceiling);
       }
@@ -151,7 +153,7 @@ class Builder {
       for (int signs = 0; signs < 4; ++signs) {
         const Vec3 direction((signs & 1) != 0 ? -side.x() : side.x(), (signs & 2) != 0 ? -side.y() : side.y(),
                              side.z());
-        add_row(thrust, direction, 0.0, kLimitReach * slope * kGravity);
+        add_row(thrust, direction, 0.0, kAlways);
       }
     }
   }
