@@ -490,7 +490,9 @@ TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {
     SimulatorConfig config;
     config.quadrotor.emplace();
     disturbance.apply(*config.quadrotor);
-    Flight flight(gentle_scenario(), config, {.tube_m = 0.25});
+    ExecutorConfig executor;
+    executor.tube_m = 0.25;
+    Flight flight(gentle_scenario(), config, executor);
     flight.start_planner();
     flight.fly();
     ASSERT_FALSE(flight.results.empty());
