@@ -4,14 +4,13 @@
 #include <cmath>
 #include <vector>
 
-#include "core/world/vehicle.h"
-
 namespace tern {
 namespace {
 
 constexpr double kSigmas = 3.0;
 /// Of the largest error, while there are too few seconds for the quantile.
 constexpr double kFewFactor = 1.5;
+constexpr double kWider = 1.5;
 
 }  // namespace
 
@@ -31,12 +30,14 @@ double Tube::quantile(int axis) const {
   return rank > errors.size() ? kFewFactor * errors.back() : errors[rank - 1];
 }
 
-Vec3 Tube::width(const Vec3& sigma) const {
+Vec3 Tube::width(const Vec3& sigma, UTime now) const {
+  const double wider = left_ && now - *left_ < kWidened ? kWider : 1.0;
   Vec3 width;
   for (int axis = 0; axis < 3; ++axis) {
     const double measured = quantile(axis) + kSigmas * sigma[axis];
-    const double steps = measured > kJoinTolerance ? std::ceil(measured / kTubeStep) : 0.0;
-    width[axis] = std::clamp(steps * kTubeStep, floor_m_, kWidestTube);
+    const double steps = measured >= kNothing ? std::ceil(measured / kTubeStep) : 0.0;
+    const double whole = std::max(steps * kTubeStep, floor_m_) * wider;
+    width[axis] = std::clamp(std::ldexp(whole, -halvings_), floor_m_, kWidestTube);
   }
   return width;
 }

@@ -54,16 +54,17 @@ void ExecutorNode::watch(const UavState& state) {
     return;
   }
   const Vec3 promised = executor_->tube();
-  tube_.add(error, state.at);
-  executor_->set_tube(tube_.width(sigma_));
-  const bool outside = ((error - promised).array() > kJoinTolerance).any();
+  const bool outside = ((error - promised).array() > kNothing).any();
+  const bool lost = outside && error.maxCoeff() > kRejoinBeyond;
+  lost ? tube_.left(state.at) : tube_.add(error, state.at);
+  executor_->set_tube(tube_.width(sigma_, state.at));
   if (outside && !outside_) {
     ++exits_;
     spdlog::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
                  error.x(), error.y(), error.z(), exits_);
   }
   outside_ = outside;
-  if (outside && error.maxCoeff() > kRejoinBeyond) rejoin(state);
+  if (lost) rejoin(state);
 }
 
 void ExecutorNode::rejoin(const UavState& state) {
@@ -74,7 +75,7 @@ void ExecutorNode::rejoin(const UavState& state) {
 void ExecutorNode::begin(const UavState& state) {
   const Vec3& p = state.motion.p;
   executor_.emplace(uav_, state, config_);
-  executor_->set_tube(tube_.width(sigma_));
+  executor_->set_tube(tube_.width(sigma_, state.at));
   if (goal_) executor_->set_mode(goal_->mode);
   if (following_) executor_->begin(bus_.clock().now());
   heading_.emplace(state.yaw, state.at, config_.heading);
@@ -106,6 +107,8 @@ void ExecutorNode::on_plan(const Plan& plan) {
   if (!executor_) return;
   const UTime now = bus_.clock().now();
   const Adoption adoption = executor_->consider(plan, now);
+  if (adoption.verdict == Verdict::Adopted) tube_.flown();
+  if (adoption.verdict == Verdict::NoPlan && plan.reason == PlanReason::StartInCollision) tube_.blocked();
   if (!is_refusal(adoption.verdict)) return;
   if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
   ++refusals_unsaid_;
