@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/world/vehicle.h"
 #include "core/world/vehicle_status.h"
