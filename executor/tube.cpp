@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/world/vehicle.h"
-
 namespace tern {
 namespace {
 
@@ -37,7 +35,7 @@ Vec3 Tube::width(const Vec3& sigma, UTime now) const {
   Vec3 width;
   for (int axis = 0; axis < 3; ++axis) {
     const double measured = quantile(axis) + kSigmas * sigma[axis];
-    const double steps = measured > kJoinTolerance ? std::ceil(measured / kTubeStep) : 0.0;
+    const double steps = measured >= kNothing ? std::ceil(measured / kTubeStep) : 0.0;
     const double whole = std::max(steps * kTubeStep, floor_m_) * wider;
     width[axis] = std::clamp(std::ldexp(whole, -halvings_), floor_m_, kWidestTube);
   }

@@ -14,10 +14,13 @@ namespace tern {
 /// No tube is wider, m: a vehicle that is farther off does not follow.
 inline constexpr double kWidestTube = 2.0;
 
+/// An error of less is none, m: rounding, and a trajectory that the vehicle has not heard of yet.
+inline constexpr double kNothing = 1e-3;
+
 /// The tube from what was measured, per axis: the split-conformal quantile of the largest errors of the last two
 /// minutes' seconds (errors of neighbouring instants are alike, those of whole seconds nearly exchangeable), plus three
 /// standard deviations of the estimate that the errors were measured by. Rounded up to kTubeStep, so that it changes
-/// seldom; 0 while nothing but rounding was measured. Never under the floor, never over kWidestTube.
+/// seldom; 0 while no error reached kNothing. Never under the floor, never over kWidestTube.
 ///
 /// A vehicle that was pushed out and got a new trajectory (left) tells of an event, not of its tracking: such errors
 /// are not for add(); for kWidened the tube is half as wide again. Where the planner finds the start in collision with

@@ -57,7 +57,7 @@ void ExecutorNode::watch(const UavState& state) {
     return;
   }
   const Vec3 promised = executor_->tube();
-  const bool outside = ((error - promised).array() > kJoinTolerance).any();
+  const bool outside = ((error - promised).array() > kNothing).any();
   const bool lost = outside && error.maxCoeff() > kRejoinBeyond;
   lost ? tube_.left(state.at) : tube_.add(error, state.at);
   executor_->set_tube(tube_.width(sigma_, state.at));

@@ -15,7 +15,7 @@ constexpr UTime kNow{1'000'000'000};
 TEST(Tube, OfAPerfectVehicleIsNothing) {
   Tube tube(0.0);
   EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Zero());
-  for (int k = 0; k < 1000; ++k) tube.add(Vec3::Constant(1e-12), UTime{k * kBeat.us});
+  for (int k = 0; k < 1000; ++k) tube.add(Vec3::Constant(1e-4), UTime{k * kBeat.us});
   EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Zero());
 }
 
