@@ -64,7 +64,7 @@ bool MavlinkNode::alone(UTime now) const {
 
 void MavlinkNode::exchange(UTime now) {
   const std::uint64_t time = signature_time(now.us);
-  while (const auto bytes = link_->receive()) {
+  while (const auto bytes = link_->receive(now)) {
     for (const Frame& frame : parser_.push(*bytes, time)) bridge_.hear(frame, now);
     if (link_->datagrams()) parser_.drop_rest();
   }

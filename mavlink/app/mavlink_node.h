@@ -7,7 +7,7 @@
 
 #include "core/world/goal.h"
 #include "core/world/scenario.h"
-#include "mavlink/app/link.h"
+#include "mavlink/link/link.h"
 #include "mavlink/bridge.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"

@@ -18,9 +18,9 @@ struct SimulatedAutopilotConfig {
   double velocity_d = 0.2;
   Duration answer_after{100'000};
   Duration busy_for{2'000'000};
-  QuadrotorConfig quadrotor;
+  QuadrotorConfig quadrotor;  ///< this and the next two are those of the section `simulator`
   WindSpec wind;
-  EstimatorSpec estimator{.position_sigma_m = 0.02, .velocity_sigma = 0.02};
+  EstimatorSpec estimator;
 
   template <typename V>
   void visit(V& v) {
@@ -28,9 +28,6 @@ struct SimulatedAutopilotConfig {
     v("answer_after_s", answer_after, Range{0.0, 2.0}, "acknowledgements come this late, s");
     v("busy_s", busy_for, Range{0.0, 60.0}, "so long after its start it rejects commands for the moment, s");
     v("velocity_d", velocity_d, Range{0.0, 2.0}, "MPC_XY_VEL_D_ACC: acceleration against all of its own, share");
-    v("quadrotor", quadrotor);
-    v("wind", wind);
-    v("estimator", estimator);
   }
 };
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "mavlink/app/link.h"
+#include "mavlink/link/link.h"
 #include "mavlink/sim/simulated_autopilot.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"

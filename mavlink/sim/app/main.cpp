@@ -24,6 +24,10 @@ int main(int argc, char** argv) {
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     SimulatedAutopilotConfig config;
     context.section.read(config);
+    tern::ConfigSection simulator = context.document.root().section("simulator");
+    simulator.section("quadrotor").read(config.quadrotor);
+    simulator.section("wind").read(config.wind);
+    simulator.section("estimator").read(config.estimator);
     auto link = open_link(url);
     if (!link) throw tern::ConfigError("--connect " + link.error().message);
     return std::make_unique<AutopilotSimNode>(context.bus, std::move(*link), config, context.scenario.seed);

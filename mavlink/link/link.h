@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/base/time.h"
 #include "mavlink/frame.h"
 
 namespace tern::mavlink {
@@ -16,7 +17,7 @@ class Link {
  public:
   virtual ~Link() = default;
   /// The next bytes that have come. @return nullopt if there are none
-  virtual std::optional<Bytes> receive() = 0;
+  virtual std::optional<Bytes> receive(UTime now) = 0;
   virtual void send(std::span<const std::uint8_t> bytes) = 0;
   /// Whether each portion is a whole number of frames.
   [[nodiscard]] virtual bool datagrams() const = 0;

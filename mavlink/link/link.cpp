@@ -1,4 +1,4 @@
-#include "mavlink/app/link.h"
+#include "mavlink/link/link.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -11,7 +11,6 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <cstring>
 #include <map>
 #include <utility>
@@ -21,9 +20,8 @@
 namespace tern::mavlink {
 namespace {
 
-using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t kLargest = 65'536;
-constexpr auto kPeerSilence = std::chrono::seconds(3);
+constexpr Duration kPeerSilence{3'000'000};
 constexpr std::uint8_t kAutopilotComponent = 1, kInvalidAutopilot = 8;
 
 class Descriptor {
@@ -56,7 +54,7 @@ class UdpLink final : public Link {
   UdpLink(Descriptor socket, std::optional<sockaddr_in> peer)
       : socket_(std::move(socket)), peer_(peer), fixed_(peer.has_value()) {}
 
-  std::optional<Bytes> receive() override {
+  std::optional<Bytes> receive(UTime now) override {
     Bytes bytes(kLargest);
     while (true) {
       sockaddr_in from{};
@@ -65,11 +63,11 @@ class UdpLink final : public Link {
           recvfrom(socket_.get(), bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
       if (n < 0) return std::nullopt;
       const auto portion = std::span(bytes).first(static_cast<std::size_t>(n));
-      if (!is_peer(from, portion)) {
+      if (!is_peer(from, portion, now)) {
         ++strangers_;
         continue;
       }
-      last_ = SteadyClock::now();
+      last_ = now;
       bytes.resize(static_cast<std::size_t>(n));
       return bytes;
     }
@@ -84,11 +82,11 @@ class UdpLink final : public Link {
   [[nodiscard]] std::int64_t strangers() const override { return strangers_; }
 
  private:
-  bool is_peer(const sockaddr_in& from, std::span<const std::uint8_t> bytes) {
+  bool is_peer(const sockaddr_in& from, std::span<const std::uint8_t> bytes, UTime now) {
     if (fixed_) return true;
     const bool same = peer_ && from.sin_port == peer_->sin_port && from.sin_addr.s_addr == peer_->sin_addr.s_addr;
     if (same) return true;
-    if ((peer_ && SteadyClock::now() - last_ < kPeerSilence) || !introduces_autopilot(bytes)) return false;
+    if ((peer_ && now - last_ < kPeerSilence) || !introduces_autopilot(bytes)) return false;
     peer_ = from;
     return true;
   }
@@ -96,14 +94,14 @@ class UdpLink final : public Link {
   Descriptor socket_;
   std::optional<sockaddr_in> peer_;
   bool fixed_;
-  SteadyClock::time_point last_;
+  UTime last_;
   std::int64_t strangers_ = 0;
 };
 
 class SerialLink final : public Link {
  public:
   explicit SerialLink(Descriptor port) : port_(std::move(port)) {}
-  std::optional<Bytes> receive() override {
+  std::optional<Bytes> receive(UTime) override {
     Bytes bytes(4096);
     const ssize_t n = read(port_.get(), bytes.data(), bytes.size());
     if (n <= 0) return std::nullopt;
