@@ -71,9 +71,12 @@ Limits Executor::limits_for(const TimedSpline& committed) const {
   const auto widened = [](const Vec3& limit, const Vec3& needed) {
     return Vec3((needed.array() > limit.array() * (1.0 + kLimitTolerance)).select(needed, limit));
   };
-  const MotionBounds bounds = motion_bounds(committed.spline());
-  return {widened(limits_.v_max, bounds.v_max), widened(limits_.a_max, bounds.a_max),
-          widened(limits_.j_max, bounds.j_max)};
+  const ClampedSpline spline = committed.spline();
+  const MotionBounds bounds = motion_bounds(spline);
+  Limits limits{widened(limits_.v_max, bounds.v_max), widened(limits_.a_max, bounds.a_max),
+                widened(limits_.j_max, bounds.j_max)};
+  if (limits_.dynamics && breach_of(spline, *limits_.dynamics).ok()) limits.dynamics = limits_.dynamics;
+  return limits;
 }
 
 void Executor::close(bool answered) {
@@ -144,6 +147,7 @@ Adoption Executor::consider(const Plan& plan, UTime now) {
   close_expired(now);
   Adoption result = judge(plan, now);
   ++counters_.verdicts[static_cast<std::size_t>(result.verdict)];
+  if (result.verdict == Verdict::Unflyable) ++counters_.breaches[static_cast<std::size_t>(result.breach)];
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "core/world/scenario.h"
 #include "executor/adoption.h"
 #include "executor/committed_trajectory.h"
+#include "executor/heading.h"
 #include "executor/tube.h"
 
 namespace tern {
@@ -19,6 +20,7 @@ struct ExecutorConfig {
   double rate_hz = 20.0;
   Duration lead{75'000};  ///< > kDeadlineLead, ≤ 5 s
   double tube_m = 0.0;    ///< [0, kWidestTube]
+  HeadingConfig heading = {};
 
   template <typename V>
   void visit(V& v) {
@@ -27,6 +29,7 @@ struct ExecutorConfig {
     v("tube_m", tube_m, Range{0.0, kWidestTube},
       "requests promise that the vehicle is at most this far off its setpoints, m per axis; more where more is "
       "measured");
+    v("heading", heading);
   }
 };
 
@@ -36,8 +39,10 @@ struct ExecutorCounters {
   std::int64_t answered_in_time = 0;                  ///< whatever the answer's verdict
   std::int64_t unanswered = 0;                        ///< closed by their deadline
   std::array<std::int64_t, kVerdicts> verdicts = {};  ///< plans by Verdict; late, twice, unknown ones among them
+  std::array<std::int64_t, kBreaches> breaches = {};  ///< of the unflyable ones, by Breach
 
   [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
+  [[nodiscard]] std::int64_t of(Breach breach) const { return breaches[static_cast<std::size_t>(breach)]; }
   [[nodiscard]] std::int64_t late() const { return of(Verdict::Late) + of(Verdict::TooLate); }
   [[nodiscard]] std::int64_t answered_twice() const { return of(Verdict::AnsweredTwice); }
   [[nodiscard]] std::int64_t refused() const;

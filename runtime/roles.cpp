@@ -50,7 +50,7 @@ const std::vector<Part>& parts() {
   static const std::vector<Part> kParts = {
       {"tern-simulator", Role::Vehicle,
        names_of(kUavState, kSetpoint, kVehicleStatus, kObstacleObservations, kDeclaredMotions, kHorizonRequest,
-                kObstacleTruth, kVehicleTruth, kFlightResult, kGoal)},
+                kObstacleTruth, kVehicleTruth, kFlightResult, kGoal, kSemanticMap)},
       {"tern-executor", Role::Executor, names_of(kUavState, kVehicleStatus, kGoal, kPlan, kHorizonRequest, kSetpoint)},
       {"tern-mavlink", Role::Vehicle,
        names_of(kUavState, kSetpoint, kVehicleStatus, kVehicleTruth, kHorizonRequest, kFlightResult, kGoal)},

@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/world/names.h"
 #include "messages/codec.h"
@@ -19,8 +18,6 @@ constexpr Duration kRemembered{1'000'000};
 /// A vehicle that was slower for so long stands, or hovers.
 constexpr double kStillSpeed = 0.3;
 constexpr Duration kStillFor{200'000};
-/// Below this the velocity has no direction worth a yaw, m/s.
-constexpr double kYawSpeed = 0.05;
 
 }  // namespace
 
@@ -81,7 +78,7 @@ void ExecutorNode::begin(const UavState& state) {
   executor_->set_tube(tube_.width(sigma_, state.at));
   if (goal_) executor_->set_mode(goal_->mode);
   if (following_) executor_->begin(bus_.clock().now());
-  yaw_ = state.yaw;
+  heading_.emplace(state.yaw, state.at, config_.heading);
   publish_setpoint(state.at);
   spdlog::info("begins with the vehicle at ({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
 }
@@ -117,7 +114,7 @@ void ExecutorNode::on_plan(const Plan& plan) {
   ++refusals_unsaid_;
   if (now < next_refusal_log_) return;
   spdlog::warn("refused the plan for request {}: {} ({}); {} refused since the last word", plan.request_id,
-               to_string(adoption.verdict), adoption.detail, refusals_unsaid_);
+               to_string(adoption), adoption.detail, refusals_unsaid_);
   refusals_unsaid_ = 0;
   next_refusal_log_ = now + kRefusalLogPeriod;
 }
@@ -157,9 +154,7 @@ void ExecutorNode::publish_setpoint(UTime at) {
   UavState setpoint;
   setpoint.at = at;
   setpoint.motion = executor_->leaving(at);
-  const Vec3& v = setpoint.motion.v;
-  if (v.head<2>().norm() > kYawSpeed) yaw_ = std::atan2(v.y(), v.x());
-  setpoint.yaw = yaw_;
+  setpoint.yaw = heading_->follow(setpoint.motion.v, at);
   bus_.publish(channels::kSetpoint, setpoint);
   last_setpoint_ = at;
 }
@@ -171,6 +166,10 @@ void ExecutorNode::log_counters() const {
   for (int k = 0; k < kVerdicts; ++k) {
     const auto verdict = static_cast<Verdict>(k);
     if (counters.of(verdict) > 0) spdlog::info("plans {}: {}", to_string(verdict), counters.of(verdict));
+  }
+  for (int k = 0; k < kBreaches; ++k) {
+    const auto breach = static_cast<Breach>(k);
+    if (counters.of(breach) > 0) spdlog::info("  of these for {}: {}", to_string(breach), counters.of(breach));
   }
 }
 

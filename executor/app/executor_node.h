@@ -37,6 +37,8 @@ class ExecutorNode final : public Node {
 
   /// nullptr until the vehicle was found at rest.
   [[nodiscard]] const Executor* executor() const { return executor_ ? &*executor_ : nullptr; }
+  /// How often the vehicle has left its tube.
+  [[nodiscard]] std::int64_t exits() const { return exits_; }
   /// All zero until then.
   [[nodiscard]] ExecutorCounters counters() const { return executor_ ? executor_->counters() : ExecutorCounters(); }
 
@@ -64,7 +66,7 @@ class ExecutorNode final : public Node {
   Vec3 sigma_ = Vec3::Zero();  // of the estimate, m
   std::int64_t exits_ = 0;     // how often the vehicle has left its tube
   bool outside_ = false;
-  double yaw_ = 0.0;  // rad, along the last horizontal velocity
+  std::optional<Heading> heading_;  ///< once the executor has begun
   UTime last_setpoint_;
   UTime next_setpoint_, next_goal_;
   UTime next_refusal_log_;

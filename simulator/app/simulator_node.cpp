@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/world/box_cover.h"
 #include "core/world/names.h"
 #include "messages/codec.h"
 #include "runtime/beat.h"
@@ -19,6 +20,7 @@ constexpr Duration kGoalPeriod{1'000'000};
 constexpr Duration kResultPeriod{200'000};
 constexpr int kResults = 6;
 constexpr Duration kCountdown{300'000};
+constexpr const char* kMapperProcess = "tern-mapper";
 
 UTime whole_ms(UTime t) { return {(t.us + 999) / 1'000 * 1'000}; }
 
@@ -44,10 +46,12 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
       next_truth_(next_state_),
       next_goal_(next_state_),
       next_status_(next_state_) {
+  needs_map_ = std::find(config.wait_for.begin(), config.wait_for.end(), kMapperProcess) != config.wait_for.end();
   referee_.set_earliest_arrival(config.min_flight_s);
   referee_.set_goal(std::nullopt);
   if (config.send_goal) take_goal(scenario_goal(scenario));
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
+  bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { vehicle_->hear(setpoint); });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->hear(m.committed); });
   if (config.external) hear_external_vehicle();
@@ -85,8 +89,13 @@ void SimulatorNode::step(UTime now) {
   }
 }
 
+std::string SimulatorNode::missing(UTime now) const {
+  std::string missing = gate_.missing(now);
+  return missing.empty() && needs_map_ ? "its map, for the referee" : missing;
+}
+
 void SimulatorNode::wait_for_processes(UTime now) {
-  const std::string missing = gate_.missing(now);
+  const std::string missing = this->missing(now);
   if (missing.empty()) {
     world_zero_ = whole_ms(now + kCountdown);
     next_status_ = std::min(next_status_, *world_zero_);
@@ -107,6 +116,16 @@ void SimulatorNode::on_heartbeat(const Heartbeat& heartbeat) {
   const std::string skewed = gate_.skewed();
   if (!skewed.empty() && !said_skewed_) spdlog::error("{}", skewed);
   said_skewed_ = !skewed.empty();
+}
+
+void SimulatorNode::on_map(const MapChunk& chunk) {
+  const Result<bool> complete = map_.add(chunk);
+  if (!complete) return spdlog::error("map {:016x}: {}", chunk.version, complete.error().message);
+  if (!*complete) return;
+  if (const auto taken = referee_.set_map(cover_with_boxes(map_.take(), false)); !taken) {
+    return spdlog::error("map {:016x} is not judged: {}", chunk.version, taken.error().message);
+  }
+  needs_map_ = false;
 }
 
 void SimulatorNode::on_goal(const Goal& goal) {
@@ -170,7 +189,7 @@ void SimulatorNode::end_flight(const FlightResult& result, int exit_code, UTime 
 
 NodeHealth SimulatorNode::health() const {
   if (result_) return {exit_code_ == 0 ? ProcessState::Finished : ProcessState::Failed, ""};
-  if (!world_zero_) return {ProcessState::Waiting, gate_.missing(bus_.clock().now())};
+  if (!world_zero_) return {ProcessState::Waiting, missing(bus_.clock().now())};
   if (!goal_) return {ProcessState::Waiting, "a goal"};
   if (const std::string skewed = gate_.skewed(); !skewed.empty()) return {ProcessState::Waiting, skewed};
   return {ProcessState::Ready, broadcast_.trouble()};

@@ -9,6 +9,7 @@
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
+#include "core/world/voxel_map.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
 #include "simulator/app/simulator_config.h"
@@ -22,7 +23,8 @@ namespace tern {
 inline constexpr int kExitNotReady = 3;  ///< a process that the flight needs was not ready in time
 
 /// A flight has three parts.
-///   Waiting: everything rests and is declared so, until every process of config.wait_for says Ready. After config.wait
+///   Waiting: everything rests and is declared so, until every process of config.wait_for says Ready, and the map of
+///     a mapper among them is here: the referee judges its occupied voxels too. After config.wait
 ///     the flight has failed, FLIGHT_RESULT names who is missing, and the exit code is kExitNotReady.
 ///   Flying: from world zero on (0.3 s after the last process was ready, a whole ms) the world moves, VEHICLE_STATUS
 ///     says that the vehicle follows, upon which the executor asks for horizons, and the referee watches.
@@ -50,7 +52,9 @@ class SimulatorNode final : public Node {
   void hear_external_vehicle();
   void on_heartbeat(const Heartbeat& heartbeat);
   void on_goal(const Goal& goal);
+  void on_map(const MapChunk& chunk);
   void take_goal(const Goal& goal);
+  [[nodiscard]] std::string missing(UTime now) const;
   void wait_for_processes(UTime now);
   void publish_state(UTime now);
   void publish_status(UTime now);
@@ -64,6 +68,8 @@ class SimulatorNode final : public Node {
   UTime give_up_at_;
   std::unique_ptr<Vehicle> vehicle_;
   Referee referee_;
+  MapAssembler map_;
+  bool needs_map_ = false;    ///< the flight waits for a mapper, whose map the referee has not got yet
   WorldBroadcast broadcast_;  // of the referee's world
   std::optional<Goal> goal_;
   std::optional<UTime> world_zero_;

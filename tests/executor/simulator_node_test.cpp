@@ -15,7 +15,7 @@
 #include "runtime/batches.h"
 #include "runtime/process.h"
 #include "runtime/virtual_runner.h"
-#include "simulator/vehicle/perfect_vehicle.h"
+#include "simulator/app/make_vehicle.h"
 #include "tests/support/stub_planner.h"
 
 namespace tern {
@@ -60,7 +60,7 @@ struct Flight {
     ear.subscribe(channels::kGoal, [this](const Goal& m) { goals.push_back(m); });
     World world = make_world(scenario, "").value();
     runner.start("tern-simulator", [&](Bus& bus) -> std::unique_ptr<Node> {
-      auto vehicle = std::make_unique<PerfectVehicle>(scenario.uav, bus.clock().now());
+      auto vehicle = make_vehicle(scenario, config, bus.clock().now());
       auto node = std::make_unique<SimulatorNode>(bus, scenario, std::move(world), std::move(vehicle), config);
       simulator = node.get();
       return node;
@@ -456,6 +456,49 @@ TEST(SimulatorNode, AGuardedPlaceIsReachedWhenTheMinimumFlightIsOver) {
   ASSERT_FALSE(flight.results.empty());
   EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached);
   EXPECT_NEAR(flight.results.back().flight_time_s, 3.0, 0.011);
+}
+
+/// A quadrotor of the camera class, which is asked for what it can fly.
+Scenario gentle_scenario() {
+  Scenario scenario = empty_scenario();
+  scenario.uav.limits = {Vec3(5, 5, 2), Vec3(5, 5, 3), Vec3::Constant(30.0)};
+  return scenario;
+}
+
+struct Disturbance {
+  const char* name;
+  void (*apply)(QuadrotorFlight&);
+  bool leaves;  ///< its tube
+};
+
+TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {
+  const Disturbance disturbances[] = {
+      {"still air", [](QuadrotorFlight&) {}, false},
+      {"wind of 8 m/s with gusts", [](QuadrotorFlight& f) { f.wind.speed = 8.0; }, false},
+      {"a gust of 15 m/s", [](QuadrotorFlight& f) { f.wind.burst = 15.0, f.wind.burst_at_s = 3.0; }, true},
+      {"an estimate that jumps by 0.6 m",
+       [](QuadrotorFlight& f) { f.estimator.jump_m = 0.6, f.estimator.jump_at_s = 3.0; }, true},
+      {"a controller three times too soft",
+       [](QuadrotorFlight& f) {
+         f.quadrotor.controller.position_p /= 3.0;
+         f.quadrotor.controller.velocity_p /= 3.0;
+         f.quadrotor.controller.velocity_i /= 3.0;
+       },
+       true}};
+  for (const Disturbance& disturbance : disturbances) {
+    SCOPED_TRACE(disturbance.name);
+    SimulatorConfig config;
+    config.quadrotor.emplace();
+    disturbance.apply(*config.quadrotor);
+    Flight flight(gentle_scenario(), config, {.tube_m = 0.25});
+    flight.start_planner();
+    flight.fly();
+    ASSERT_FALSE(flight.results.empty());
+    EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached) << flight.results.back().detail;
+    EXPECT_EQ(flight.results.back().limit_violations, 0);
+    EXPECT_EQ(flight.executor->exits() > 0, disturbance.leaves) << flight.executor->exits();
+    EXPECT_EQ(flight.executor->counters().refused(), 0);
+  }
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace tern::audit {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using testing::copy_log_with;
 using ::testing::Each;
 using ::testing::ElementsAre;
@@ -123,6 +124,17 @@ TEST_F(AuditedFlight, WithATamperedControlPointNamesThatPlan) {
   for (const Check& check : audit.checks) {
     for (const Finding& f : check.findings)
       EXPECT_TRUE(f.request == flown.request_id || f.at == flown.trajectory.start);
+  }
+}
+
+TEST_F(AuditedFlight, OfAMultirotorThatCannotFlyItNamesThrustTiltAndBodyRate) {
+  const Audit audit = audit_with<HorizonRequest>(channels::kHorizonRequest.name, [&](HorizonRequest& request) {
+    request.limits.dynamics = Dynamics{9.0, 10.5, 1.0, 1.0};
+    return true;
+  });
+  EXPECT_THAT(broken(audit), Contains("limits"));
+  for (const char* what : {"thrust is", "tilt is", "body rate is"}) {
+    EXPECT_THAT(audit.check("limits").findings, Contains(Field(&Finding::what, HasSubstr(what))));
   }
 }
 

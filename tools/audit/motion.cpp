@@ -13,6 +13,7 @@ namespace {
 constexpr char kAxes[] = {'x', 'y', 'z'};
 /// Extrema are enclosed to this share of the limit: well under kLimitTolerance.
 constexpr double kExtremumShare = 1e-8;
+constexpr double kDegrees = 180.0 / M_PI;
 /// Rounding of a derivative computed in two ways, m, m/s, m/s²; a join is accepted up to kJoinTolerance itself.
 constexpr double kJoinRounding = 1e-8;
 
@@ -48,6 +49,7 @@ class LimitCheck {
         demand(plan.trajectory.start, request.id, q, axis, value);
       }
     }
+    if (l.dynamics) dynamics(plan.trajectory.start, request.id, *l.dynamics, curves);
     Box box;
     for (const Curve& c : curves) {
       Vec3 low, high;
@@ -84,6 +86,33 @@ class LimitCheck {
     if (value <= q.limit[axis] * (1.0 + kLimitTolerance + 2.0 * kExtremumShare)) return;
     check_.fail(
         {at, fmt::format("{} {} {:.6g} {} beyond {:.6g}", q.name, kAxes[axis], value, q.unit, q.limit[axis]), request});
+  }
+
+  /// Thrust, tilt and body rates of a multirotor: |f|² is a parabola in time, j constant. Where |f| is least the body
+  /// turns fastest.
+  void dynamics(UTime at, std::int64_t request, const Dynamics& d, const std::vector<Curve>& curves) {
+    const Vec3 up(0.0, 0.0, kGravity);
+    for (const Curve& c : curves) {
+      const Vec3 first = c.a(0.0) + up;
+      const Vec3 last = c.a(c.length_s()) + up;
+      const Vec3 j = c.j(0.0);
+      const double vertex = j.isZero(0.0) ? 0.0 : std::clamp(-first.dot(j) / j.squaredNorm(), 0.0, c.length_s());
+      const Vec3 lowest = first + vertex * j;
+      const Vec3 z = lowest.normalized();
+      const double tilt = std::acos(std::min(first.normalized().z(), last.normalized().z()));
+      require(at, request, "thrust", d.thrust_min / lowest.norm(), "below the least allowed, as a share");
+      require(at, request, "thrust", std::max(first.norm(), last.norm()) / d.thrust_max, "of the largest allowed");
+      require(at, request, "tilt", tilt * kDegrees / d.tilt_max_deg, "of the largest allowed");
+      require(at, request, "body rate", (j - j.dot(z) * z).norm() / lowest.norm() * kDegrees / d.body_rate_max_deg_s,
+              "of the largest allowed");
+    }
+  }
+
+  /// @param share  of the limit
+  void require(UTime at, std::int64_t request, const char* what, double share, const char* of) {
+    ++check_.checked;
+    if (share <= 1.0 + kLimitTolerance + 2.0 * kExtremumShare) return;
+    check_.fail({at, fmt::format("{} is {:.7g} {}", what, share, of), request});
   }
 
   /// @param off  what the position may be off these, m
