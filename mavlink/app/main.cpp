@@ -16,8 +16,7 @@ int main(int argc, char** argv) {
       .add_options =
           [&](CLI::App& app) {
             app.add_option("--connect", url,
-                           "udp://ADDRESS:PORT (listens), udpout://ADDRESS:PORT, serial:///dev/NAME:BAUD")
-                ->required();
+                           "udp://ADDRESS:PORT (listens), udpout://ADDRESS:PORT, serial:///dev/NAME:BAUD");
             app.add_option("--signing-key", key_file, "Sign MAVLink's frames by this secret (32 bytes, mode 600)");
           },
       .read_sections =
@@ -36,6 +35,7 @@ int main(int argc, char** argv) {
       std::copy(secret->bytes().begin(), secret->bytes().end(), key->secret.begin());
       key->sha256 = tern::sha256;
     }
+    if (url.empty()) throw tern::ConfigError("--connect URL is needed");
     auto link = open_link(url);
     if (!link) throw tern::ConfigError("--connect " + link.error().message);
     return std::make_unique<MavlinkNode>(context.bus, std::move(*link), context.scenario.uav, config, key);

@@ -249,6 +249,26 @@ TEST(Bridge, ABridgeStartedAnewInFlightGoesOn) {
   EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
 }
 
+TEST(Bridge, StartedAnewItLeavesAVehicleInSomebodysHands) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.ground_station(switch_to(3));
+  flight.bridge = Bridge(flight.config, FlightInMemory::uav(), flight.now);
+  flight.run(10.0);
+  EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
+  EXPECT_EQ(flight.autopilot.mode(), "POSCTL");
+}
+
+TEST(Bridge, DoesNotArmForAFlightThatIsUnderWay) {
+  FlightInMemory flight;
+  flight.bridge.flight_is_under_way();
+  flight.run(8.0);
+  EXPECT_EQ(flight.bridge.stage(), Stage::Ready);
+  EXPECT_FALSE(flight.autopilot.armed());
+  flight.bridge.told_to_fly();
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
+}
+
 TEST(Bridge, StrangersChangeNothing) {
   FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
@@ -263,7 +283,9 @@ TEST(Bridge, StrangersChangeNothing) {
 }
 
 TEST(Bridge, TellsTheTruthOfASimulator) {
-  FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, {.estimator = {.drift_m = 0.5}});
+  SimulatedAutopilotConfig drifting;
+  drifting.estimator.drift_m = 0.5;
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, drifting);
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   flight.run(3.0);
   ASSERT_TRUE(flight.bridge.truth());

@@ -205,7 +205,6 @@ TEST_F(MavlinkProcesses, OutliveAShortCutAndStandBackAfterALongOne) {
 
 TEST_F(MavlinkProcesses, GiveWayToAPilotAndFlyAgainWhenTold) {
   start_bridge();
-  say_goal(1);
   ASSERT_TRUE(until_following()) << status.why_not;
   say_goal(1);
   run_ms(50);

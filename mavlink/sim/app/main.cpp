@@ -13,8 +13,7 @@ int main(int argc, char** argv) {
       .summary = "An autopilot with a quadrotor of its own behind MAVLink, in PX4's manners",
       .add_options =
           [&](CLI::App& app) {
-            app.add_option("--connect", url, "udpout://ADDRESS:PORT of the bridge, or another end of a link")
-                ->required();
+            app.add_option("--connect", url, "udpout://ADDRESS:PORT of the bridge, or another end of a link");
           },
       .read_sections =
           [](tern::ConfigDocument& document) {
@@ -28,6 +27,7 @@ int main(int argc, char** argv) {
     simulator.section("quadrotor").read(config.quadrotor);
     simulator.section("wind").read(config.wind);
     simulator.section("estimator").read(config.estimator);
+    if (url.empty()) throw tern::ConfigError("--connect URL is needed");
     auto link = open_link(url);
     if (!link) throw tern::ConfigError("--connect " + link.error().message);
     return std::make_unique<AutopilotSimNode>(context.bus, std::move(*link), config, context.scenario.seed);
