@@ -9,6 +9,7 @@
 #include "core/world/names.h"
 #include "messages/codec.h"
 #include "runtime/beat.h"
+#include "simulator/vehicle/external_vehicle.h"
 
 namespace tern {
 namespace {
@@ -53,6 +54,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { vehicle_->hear(setpoint); });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->hear(m.committed); });
+  if (config.external) hear_external_vehicle();
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
 }
 
@@ -60,18 +62,25 @@ UTime SimulatorNode::next_wakeup() const {
   return std::min({next_state_, next_goal_, next_status_, next_result_, broadcast_.next_wakeup()});
 }
 
+void SimulatorNode::hear_external_vehicle() {
+  auto& external = dynamic_cast<ExternalVehicle&>(*vehicle_);
+  bus_.subscribe(channels::kVehicleTruth, [&external](const UavState& state) { external.hear_truth(state); });
+  bus_.subscribe(channels::kUavState, [&external](const UavState& state) { external.hear_estimate(state); });
+}
+
 void SimulatorNode::step(UTime now) {
   if (!world_zero_ && !result_) wait_for_processes(now);
   if (now >= next_state_) {
     vehicle_->advance(now);
-    publish_state(now);
+    if (!config_.external) publish_state(now);
     judge(now);
     next_state_ = next_beat(next_state_, kStatePeriod, now);
   }
   broadcast_.step(now, vehicle_->truth());
-  if (now >= next_status_) publish_status(now);
+  if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
-    if (goal_) bus_.publish(channels::kGoal, *goal_);
+    // Nobody shall fly an external vehicle before world time begins.
+    if (goal_ && (!config_.external || (world_zero_ && now >= *world_zero_))) bus_.publish(channels::kGoal, *goal_);
     next_goal_ = next_beat(next_goal_, kGoalPeriod, now);
   }
   if (now >= next_result_) {

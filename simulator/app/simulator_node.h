@@ -49,6 +49,7 @@ class SimulatorNode final : public Node {
   [[nodiscard]] std::optional<UTime> world_zero() const { return world_zero_; }
 
  private:
+  void hear_external_vehicle();
   void on_heartbeat(const Heartbeat& heartbeat);
   void on_goal(const Goal& goal);
   void on_map(const MapChunk& chunk);
