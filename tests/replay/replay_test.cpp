@@ -267,6 +267,31 @@ TEST_F(ReplayTest, OtherSettingsSayWhatTheyChange) {
   EXPECT_NE(replay_text(what_if, true).find("other trajectories"), std::string::npos);
 }
 
+TEST_F(ReplayTest, RefusesSettingsThatCannotTakeEffect) {
+  for (const char* setting : {"uav.limits.v_max=4", "semantics.regions=[]", "semantics={}", "seed=3", "plannerx.a=1",
+                              "predictor.confidence=0.9"}) {
+    ReplayOptions options;
+    options.other.settings = {"planner.hold_required_s=1", setting};
+    EXPECT_THROW((void)replay_log(log(), options), ConfigError) << setting;
+  }
+  for (const char* setting :
+       {"semantics.lambda_attractive=3", "semantics.lambdas.texture=1", "semantics.cost=exposure"}) {
+    EXPECT_NO_THROW((OtherSettings{"", {setting}}.check())) << setting;
+  }
+}
+
+TEST_F(ReplayTest, RefusesAChoiceOfNoAnswer) {
+  ReplayOptions options;
+  options.request = 100'000;
+  const auto none = replay_log(log(), options);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("no answer is chosen"), std::string::npos) << none.error().message;
+  options.request.reset();
+  options.from_s = 3.0;
+  options.to_s = 2.0;
+  EXPECT_FALSE(replay_log(log(), options));
+}
+
 /// Problems of the log, solved anew.
 class ReplanTest : public ReplayTest {
  protected:
