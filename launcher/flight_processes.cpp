@@ -1,5 +1,7 @@
 #include "launcher/flight_processes.h"
 
+#include <algorithm>
+
 namespace tern {
 
 std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, const std::string& record,
@@ -20,7 +22,8 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
   };
   const std::string log = record + "/flight.lcm";
   add(kLogger, {"--record", log});
-  add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure"})
+  add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure",
+                 "--command", options.typed})
       .restarted = false;
   if (options.view_fd) {
     ChildProcess& viewer = add("tern-viewer", {"--page", options.page}).child;
@@ -28,6 +31,9 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
     if (options.allow_goals) viewer.command.emplace_back("--allow-goals");
   }
   for (const char* name : {"tern-simulator", "tern-predictor", "tern-mapper", "tern-planner"}) add(name, {});
+  const auto simulator = std::find_if(processes.begin(), processes.end(),
+                                      [](const SupervisedProcess& p) { return p.name == "tern-simulator"; });
+  simulator->child.command.emplace_back("--recorded");
   return processes;
 }
 

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <memory>
 
@@ -7,19 +8,25 @@
 #include "simulator/app/simulator_node.h"
 
 int main(int argc, char** argv) {
+  bool recorded = false;
   const tern::ProcessDescription description{
       .name = "tern-simulator",
       .section = "simulator",
       .summary = "Flies a scenario's vehicle through its world: sensors, executor, referee; ends with FLIGHT_RESULT",
+      .add_options =
+          [&recorded](CLI::App& app) {
+            app.add_flag("--recorded", recorded, "Wait for tern-logger, too: it shall hold all that a replay needs");
+          },
       .read_sections =
           [](tern::ConfigDocument& document) {
             tern::read_simulator_config(document.root().section("simulator"), 0);
             tern::read_executor_config(document.root().section("executor"));
           },
       .example = "simulator: {sensor: {mode: noisy}}"};
-  return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+  return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::Scenario& scenario = context.scenario;
-    const auto config = tern::read_simulator_config(context.section, scenario.seed);
+    auto config = tern::read_simulator_config(context.section, scenario.seed);
+    if (recorded) config.wait_for.emplace_back(tern::kRecorder);
     const auto executor = tern::read_executor_config(context.document.root().section("executor"));
     auto world = tern::make_flyable_world(scenario, config, tern::data_folder(scenario.file, std::getenv("TERN_DATA")));
     if (!world) throw tern::ConfigError(scenario.file + ": world: " + world.error().message);

@@ -71,8 +71,10 @@ void SimulatorNode::step(UTime now) {
     next_state_ = next_beat(next_state_, kStatePeriod, now);
   }
   if (now >= next_goal_) {
-    if (goal_) bus_.publish(channels::kGoal, *goal_);
-    next_goal_ = next_beat(next_goal_, kGoalPeriod, now);
+    // Plans name the GOAL that was heard first: the log must have it.
+    const bool is_kept = world_zero_ || gate_.records(now);
+    if (goal_ && is_kept) bus_.publish(channels::kGoal, *goal_);
+    next_goal_ = next_beat(next_goal_, is_kept ? kGoalPeriod : kStatePeriod, now);
   }
   if (now >= next_result_) {
     if (results_left_ > 0) bus_.publish(channels::kFlightResult, *result_);
