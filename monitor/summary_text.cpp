@@ -26,6 +26,17 @@ std::string row(std::string_view name, const Percentiles& p) {
   return fmt::format("  {:<14}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}\n", name, p.p50, p.p95, p.p99, p.max);
 }
 
+/// One number where the axes agree.
+std::string per_axis(const Vec3& v) {
+  if (v.x() == v.y() && v.x() == v.z()) return std::isinf(v.x()) ? "none" : fmt::format("{:g}", v.x());
+  return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z());
+}
+
+std::string settings_line(const FlownSettings& s) {
+  return fmt::format("  flown with    λ {:g} to, {:g} away; v_max {}, a_max {}, j_max {} (SI)\n", s.lambda_attractive,
+                     s.lambda_repulsive, per_axis(s.limits.v_max), per_axis(s.limits.a_max), per_axis(s.limits.j_max));
+}
+
 std::string flight_lines(const FlightResult& r) {
   std::string text;
   text +=
@@ -94,6 +105,7 @@ std::string to_text(const FlightSummary& s) {
   std::string text = fmt::format("{}{}{}\n", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
   text +=
       fmt::format("  scenario      {}, seed {}, {} obstacles\n", s.scenario, s.seed.value_or(0), s.count.value_or(0));
+  if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);
   text += plan_lines(s);
   text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");
