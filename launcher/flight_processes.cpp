@@ -1,5 +1,7 @@
 #include "launcher/flight_processes.h"
 
+#include <algorithm>
+
 namespace tern {
 namespace {
 
@@ -45,7 +47,8 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
   }
   const std::string log = record + "/flight.lcm";
   add(kLogger, {"--record", log});
-  add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure"})
+  add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure",
+                 "--command", options.typed})
       .restarted = false;
   for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"})
     add(name, {});
@@ -54,6 +57,9 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
     const std::string place = options.autopilot.substr(options.autopilot.find("//"));
     add("tern-autopilot-sim", {"--connect", "udpout:" + place}).restarted = false;
   }
+  const auto simulator = std::find_if(processes.begin(), processes.end(),
+                                      [](const SupervisedProcess& p) { return p.name == "tern-simulator"; });
+  simulator->child.command.emplace_back("--recorded");
   return processes;
 }
 

@@ -36,6 +36,17 @@ std::string obstacles_met(const FlightSummary& s) {
   return text;
 }
 
+/// One number where the axes agree.
+std::string per_axis(const Vec3& v) {
+  if (v.x() == v.y() && v.x() == v.z()) return std::isinf(v.x()) ? "none" : fmt::format("{:g}", v.x());
+  return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z());
+}
+
+std::string settings_line(const FlownSettings& s) {
+  return fmt::format("  flown with    λ {:g} to, {:g} away; v_max {}, a_max {}, j_max {} (SI)\n", s.lambda_attractive,
+                     s.lambda_repulsive, per_axis(s.limits.v_max), per_axis(s.limits.a_max), per_axis(s.limits.j_max));
+}
+
 std::string flight_lines(const FlightResult& r) {
   std::string text;
   text +=
@@ -107,6 +118,7 @@ std::string message_lines(const FlightSummary& s) {
 std::string to_text(const FlightSummary& s) {
   std::string text = fmt::format("{}{}{}\n", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
   text += fmt::format("  scenario      {}, seed {}{}\n", s.scenario, s.seed.value_or(0), obstacles_met(s));
+  if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);
   text += plan_lines(s);
   text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");

@@ -6,12 +6,16 @@
 
 namespace tern {
 
-void add_flight_options(CLI::App& app, FlightOptions& options) {
+void add_world_options(CLI::App& app, FlightOptions& options) {
   app.add_option("--world", options.world, "Scenario: a file, or a name in scenarios/")->type_name("NAME|FILE");
   app.add_option("--count", options.count, "Number of obstacles (world.count)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--set", options.settings, "Override key=value (repeatable)")->type_name("KEY=VALUE")->take_all();
+}
+
+void add_flight_options(CLI::App& app, FlightOptions& options) {
+  add_world_options(app, options);
   app.add_option("--charge", options.charge, "What planning takes of virtual time: its thread's CPU time, or 15 ms")
       ->check(CLI::IsMember({"cpu", "counts"}))
       ->capture_default_str();
@@ -35,6 +39,7 @@ FlightInputs inputs_of(const FlightOptions& options) {
   inputs.charge = options.charge == "cpu" ? Charge::Cpu : Charge::Counts;
   for (const std::string& setting : options.settings) {
     if (setting.starts_with("seed=")) throw ConfigError("--set " + setting + ": seeds are set by --seeds or --seed");
+    if (setting.starts_with("logger.")) throw ConfigError("--set " + setting + ": no tern-logger runs in virtual time");
   }
   return inputs;
 }

@@ -104,10 +104,16 @@ void add_paper(CLI::App& app, Command& chosen) {
     command->add_option("--out", options->out, "Folder for the files")->type_name("DIR")->capture_default_str();
   }
   alone->add_option("--set", options->settings, "Override key=value (repeatable)")->type_name("KEY=VALUE");
-  flights->add_option("--seeds", options->seeds, "Seeds 1 to N of each (default 100, with --sweep 10)")->type_name("N");
-  flights->add_option("--jobs", options->jobs, "Flights at once")->check(CLI::Range(1, 10'000))->capture_default_str();
-  flights->add_flag("--sweep", options->sweep, "λ from 0 to 8 with each method instead");
-  flights->add_option("--one", options->one, "Fly WORLD,METHOD,LAMBDA,SEED in this process: one line of CSV");
+  auto* const seeds =
+      flights->add_option("--seeds", options->seeds, "Seeds 1 to N of each (default 100, with --sweep 10)")
+          ->type_name("N");
+  auto* const jobs = flights->add_option("--jobs", options->jobs, "Flights at once");
+  jobs->check(CLI::Range(1, 10'000))->capture_default_str();
+  auto* const sweep = flights->add_flag("--sweep", options->sweep, "λ from 0 to 8 with each method instead");
+  flights->add_option("--one", options->one, "Fly WORLD,METHOD,LAMBDA,SEED in this process: one line of CSV")
+      ->excludes(seeds)
+      ->excludes(jobs)
+      ->excludes(sweep);
   alone->callback([&chosen, options] { chosen = [options] { return search(*options); }; });
   flights->callback([&chosen, options] { chosen = [options] { return corridor(*options); }; });
 }

@@ -69,6 +69,7 @@ void write_failure(const FlightOptions& options, const std::string& reason, cons
   summary.scenario = fs::path(options.scenario).stem();
   summary.seed = overridden(options, "seed");
   summary.count = overridden(options, "world.count");
+  summary.command = options.typed;
   summary.version = build_id();
   std::ofstream(file) << to_json(summary);
 }

@@ -81,9 +81,12 @@ void SimulatorNode::step(UTime now) {
   broadcast_.step(now, vehicle_->truth());
   if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
-    // Nobody shall fly an external vehicle before world time begins.
-    if (goal_ && (!config_.external || (world_zero_ && now >= *world_zero_))) bus_.publish(channels::kGoal, *goal_);
-    next_goal_ = next_beat(next_goal_, kGoalPeriod, now);
+    // Nobody shall fly an external vehicle before world time begins, and plans name the GOAL that was heard first: the
+    // log must have it.
+    const bool is_kept =
+        world_zero_ ? !config_.external || now >= *world_zero_ : !config_.external && gate_.records(now);
+    if (goal_ && is_kept) bus_.publish(channels::kGoal, *goal_);
+    next_goal_ = next_beat(next_goal_, is_kept ? kGoalPeriod : kStatePeriod, now);
   }
   if (now >= next_result_) {
     if (results_left_ > 0) bus_.publish(channels::kFlightResult, *result_);

@@ -55,6 +55,12 @@ TEST(FlightProcesses, AreAllRestartedButTheMonitor) {
   }
 }
 
+TEST(FlightProcesses, TellTheSimulatorThatTheLoggerRecords) {
+  for (const SupervisedProcess& p : flight_processes(demo(), "r", {})) {
+    EXPECT_EQ(std::count(p.child.command.begin(), p.child.command.end(), "--recorded"), p.name == "tern-simulator");
+  }
+}
+
 TEST(FlightProcesses, AllGetScenarioOverridesAndNetwork) {
   const Words common = {"--config", "demo.yaml",        "--set",     "seed=2",
                         "--set",    "uav.goal=[1,2,3]", "--lcm-url", "udpm://"};
