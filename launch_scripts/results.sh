@@ -40,7 +40,7 @@ while (($#)); do
   esac
 done
 
-for name in $only; do grep -q "^$name " <<<"$CAMPAIGNS" || die "no campaign $name"; done
+for name in $only; do grep -q "^$name " <<<"$campaigns" || die "no campaign $name"; done
 build_programs
 mkdir -p "$out"
 while read -r name scenario count seeds settings; do

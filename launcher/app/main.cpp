@@ -45,7 +45,6 @@ int main(int argc, char** argv) {
   CLI::App& keep = *app.add_subcommand("keep", "Run COMMAND, and run it again when it dies")->prefix_command();
   keep.add_option("--log", log, "File for all that is said (default: standard output and error)");
   keep.add_option("COMMAND", command)->required();
-
   try {
     app.parse(argc, argv);
     if (keep) return tern::keep_alive(command, log);
