@@ -21,7 +21,9 @@ fly.sh [OPTION...]: installs what is missing, builds, starts Tern's processes, f
   --isolated            fly in a network namespace of its own; enter.sh gives a shell in it
   --view[=ADDRESS]      show the flight in the browser: builds the page (Node 18 or newer), prints its URL and opens it
                         (default 127.0.0.1, on the first free port from 8765)
-  --allow-goals         that page may send goals
+  --view-wait SECONDS   the flight waits so long for the first page that looks (default 30); when it has ended, the page plays
+                        it until Ctrl-C
+  --allow-goals         that page may send goals: the vehicle flies from goal to goal until Ctrl-C
   --audit               recompute the flight from its log when it has ended (tern-audit); writes audit.txt and audit.json
   --report              draw the flight when it has ended (tern-report); writes report.html
   --no-install          do not look for missing packages
@@ -47,7 +49,12 @@ parse() {
     shift
     case $option in
       --isolated) isolated=yes && continue ;;
-      --allow-goals | --audit | --report) flight+=("$option") && continue ;;
+      --audit | --report) flight+=("$option") && continue ;;
+      --allow-goals)
+        # Before the user's own values, which win.
+        flight=("${flight[@]:0:3}" --set=simulator.min_flight_s=100000 --set=timeout_s=1000000 "${flight[@]:3}" "$option")
+        continue
+        ;;
       --no-install) install='' && continue ;;
       --view) view=127.0.0.1 && continue ;;
       --help | -h) usage && exit 0 ;;
@@ -57,7 +64,7 @@ parse() {
         shift
         ;;
       --*=*) value=${option#*=} option=${option%%=*} ;;
-      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url)
+      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url | --view-wait)
         [[ $# -gt 0 ]] || die "$option needs a value (--help)"
         value=$1
         shift
@@ -69,6 +76,10 @@ parse() {
       --view) view=$value ;;
       --lcm-url) url=$value ;;
       --set | --record | --summary) [[ -z $value ]] || flight+=("$option=$value") ;;
+      --view-wait)
+        [[ $value =~ ^[0-9]+$ ]] || die "--view-wait $value: not whole seconds"
+        flight+=("--view-wait=$value")
+        ;;
       --seed) flight+=("--set=seed=$value") ;;
       --count) flight+=("--set=world.count=$value") ;;
       --goal)

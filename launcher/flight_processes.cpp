@@ -18,15 +18,19 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
     words.insert(words.end(), more.begin(), more.end());
     return process;
   };
+  if (options.view_fd) {
+    ChildProcess& viewer = add(kViewer, {"--page", options.page}).child;
+    viewer.inherited.push_back(*options.view_fd);
+    if (options.allow_goals) viewer.command.emplace_back("--allow-goals");
+    if (options.looked_fd) {
+      viewer.inherited.push_back(*options.looked_fd);
+      viewer.command.insert(viewer.command.end(), {"--looked-fd", std::to_string(*options.looked_fd)});
+    }
+  }
   const std::string log = record + "/flight.lcm";
   add(kLogger, {"--record", log});
   add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure"})
       .restarted = false;
-  if (options.view_fd) {
-    ChildProcess& viewer = add("tern-viewer", {"--page", options.page}).child;
-    viewer.inherited.push_back(*options.view_fd);
-    if (options.allow_goals) viewer.command.emplace_back("--allow-goals");
-  }
   for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"}) add(name, {});
   return processes;
 }

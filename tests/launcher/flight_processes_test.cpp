@@ -24,12 +24,12 @@ Words names(const std::vector<SupervisedProcess>& processes) {
   return names;
 }
 
-TEST(FlightProcesses, BeginWithWhoRecordsAndWhoJudges) {
+TEST(FlightProcesses, BeginWithTheViewerThenWhoRecordsAndWhoJudges) {
   FlightOptions options = demo();
   EXPECT_EQ(names(flight_processes(options, "r", {})),
             (Words{"tern-logger", "tern-monitor", "tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"}));
   options.view_fd = 7;
-  EXPECT_EQ(names(flight_processes(options, "r", {}))[2], "tern-viewer");
+  EXPECT_EQ(names(flight_processes(options, "r", {}))[0], "tern-viewer");
 }
 
 TEST(FlightProcesses, AreAllRestartedButTheMonitor) {
