@@ -33,7 +33,7 @@ const obstacles = new Obstacles(world, vehicle.p);
 const ghost = new Ghost(world.scene);
 const layers = {};
 const known = {}; // the newest of each topic
-const counts = { frames: 0, drawn: 0, malformed: 0, connections: 0, dropped: 0, goals: [] };
+const counts = { frames: 0, drawn: 0, malformed: 0, connections: 0, dropped: 0, goals: [], modes: [] };
 let clock = { at_us: 0, arrived_ms: 0 }; // the vehicle's clock when its last state came
 let stream = null;
 const send = (command) => stream?.send(command);
@@ -57,6 +57,7 @@ const flightTime = (at_us) => (at_us - (known.player?.begin_us ?? known.chart?.b
 const topics = {
   session(session) {
     if (known.session && (known.session.epoch !== session.epoch || known.session.mode !== session.mode)) forget();
+    counts.modes.push(session.mode);
     hud.showSession(session);
     if (session.mode === 'live') player.take(null);
   },
