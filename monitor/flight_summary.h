@@ -43,7 +43,8 @@ struct FlightSummary {
 };
 
 /// One JSON object, two spaces of indent, with exactly the keys outcome, detail, scenario, seed, count, flight_time_s,
-/// first_entry_s, path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m, limit_violations, requests,
+/// first_entry_s, path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m, limit_violations,
+/// contacts_moving, contacts_at_rest, obstacles, obstacles_left_out, requests,
 /// answered_in_time, second_answers, plans, left_out, replan_ms, exposure, messages, restarts, beside, log, version.
 /// What has no value (NaN, a measure that no referee gave) is null.
 std::string to_json(const FlightSummary& summary);

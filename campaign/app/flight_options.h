@@ -18,9 +18,10 @@ struct FlightOptions {
   std::vector<std::string> settings;  ///< key=value
   std::string charge = "cpu";
   std::string audit;
+  bool oracle = false;  ///< motions declared, whatever the scenario says
 };
 
-/// --world, --count, --set, --charge, --audit.
+/// --world, --count, --set, --charge, --audit, --oracle.
 void add_flight_options(CLI::App& app, FlightOptions& options);
 
 /// @throws ConfigError when there is no such world, or a setting sets the seed.

@@ -503,5 +503,28 @@ TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {
   }
 }
 
+TEST(SimulatorNode, WithoutASensorObservesNothing) {
+  SimulatorConfig config;
+  config.sensor.present = false;
+  Flight flight(with_obstacle(empty_scenario(), far_trefoil()), config);
+  flight.start_planner();
+  flight.fly();
+  EXPECT_TRUE(flight.observations.empty());
+  EXPECT_FALSE(flight.truths.empty());
+  EXPECT_EQ(flight.results.front().obstacles, 1);
+}
+
+TEST(SimulatorNode, NeverShowsWhoAppearsBesideTheVehicle) {
+  ObstacleSpec person;
+  person.motion = WaypointMotion{{{0.5, Vec3(1, 2, 1)}, {60.0, Vec3(1, 2, 1)}}, false, true, 3.0};
+  Flight flight(with_obstacle(empty_scenario(), person));
+  flight.start_planner();
+  flight.fly();
+  for (const ObstacleTruth& truth : flight.truths) EXPECT_TRUE(truth.obstacles.empty());
+  for (const auto& [set, at] : flight.observations) EXPECT_TRUE(set.detections.empty());
+  EXPECT_EQ(flight.results.front().obstacles_left_out, 1);
+  EXPECT_EQ(flight.results.front().outcome, FlightOutcome::Reached) << flight.results.front().detail;
+}
+
 }  // namespace
 }  // namespace tern

@@ -48,7 +48,8 @@ TEST(Summary, HasExactlyTheKeysThatWerePromised) {
   EXPECT_THAT(keys(summary),
               testing::UnorderedElementsAre("outcome", "detail", "scenario", "seed", "count", "flight_time_s",
                                             "first_entry_s", "path_length_m", "mean_speed_mps", "top_speed_mps",
-                                            "stops", "min_clearance_m", "limit_violations", "requests",
+                                            "stops", "min_clearance_m", "limit_violations", "contacts_moving",
+                                            "contacts_at_rest", "obstacles", "obstacles_left_out", "requests",
                                             "answered_in_time", "second_answers", "plans", "left_out", "replan_ms",
                                             "exposure", "messages", "restarts", "beside", "log", "version"));
   EXPECT_THAT(keys(summary["replan_ms"]),
