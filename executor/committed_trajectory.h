@@ -29,6 +29,7 @@ class CommittedTrajectory {
   [[nodiscard]] PiecewiseCubic pieces(UTime from, UTime to) const;
   /// From here on it rests.
   [[nodiscard]] UTime end() const { return segments_.back().timed.end(); }
+  [[nodiscard]] UTime newest_start() const { return segments_.back().timed.start; }
   [[nodiscard]] std::size_t segments() const { return segments_.size(); }
 
   /// Forgets the segments that are no longer in force at t; earlier times are then answered wrongly.

@@ -12,7 +12,7 @@ namespace tern {
 namespace {
 
 constexpr std::size_t kReadBytes = 1U << 18U;
-/// A damaged number shall not overflow the sum.
+/// A damaged number must not overflow the sum.
 constexpr std::int64_t kMaxMissing = 1'000'000'000;
 
 std::uint64_t read_big_endian(const std::uint8_t* bytes, int count) {

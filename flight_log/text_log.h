@@ -17,7 +17,7 @@ inline constexpr std::string_view kTextLogHead = "# tern text log 1";
 /// "CHANNEL µs hexadecimal-data"
 std::string text_line(const LogEvent& event);
 
-/// The event of a line; nothing when it is none.
+/// @return the event of a line, or nullopt if it is none.
 std::optional<LogEvent> event_of_line(std::string_view line);
 
 /// Whether a file begins with kTextLogHead.

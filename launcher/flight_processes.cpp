@@ -30,7 +30,8 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
     viewer.inherited.push_back(*options.view_fd);
     if (options.allow_goals) viewer.command.emplace_back("--allow-goals");
   }
-  for (const char* name : {"tern-simulator", "tern-predictor", "tern-mapper", "tern-planner"}) add(name, {});
+  for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"})
+    add(name, {});
   const auto simulator = std::find_if(processes.begin(), processes.end(),
                                       [](const SupervisedProcess& p) { return p.name == "tern-simulator"; });
   simulator->child.command.emplace_back("--recorded");

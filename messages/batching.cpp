@@ -13,7 +13,13 @@
 namespace tern {
 namespace {
 
-/// What a batch of T holds: its list, the flat items that an entry brings besides itself, and when the set was so.
+/// The flat items that an entry brings besides itself.
+struct Load {
+  std::size_t items = 0;
+  bool has_shares = false;  ///< each brings its shares of α, too
+};
+
+/// What a batch of T holds: its list, what an entry brings, and when the set was so.
 template <class T>
 struct Kind;
 
@@ -23,11 +29,13 @@ struct Kind<TrackSet> {
   static constexpr auto kTime = &TrackSet::made_at;
   static constexpr std::size_t kMostEntries = kMaxTracksPerBatch;
   static constexpr std::size_t kMostItems = kMaxPiecesPerBatch;
-  static std::size_t items(const Track& track) { return track.motion.pieces.size(); }
-  static Track example(std::size_t pieces) {
+  static Load load(const Track& track) { return {track.motion.pieces.size(), track.kind == TrackKind::Estimated}; }
+  static Track example(const Load& load) {
     Track track;
-    track.motion.pieces.resize(pieces);
-    track.alpha.resize(pieces, Vec3::Zero());
+    track.kind = load.has_shares ? TrackKind::Estimated : TrackKind::Declared;
+    track.motion.pieces.resize(load.items);
+    track.alpha.resize(load.items, Vec3::Zero());
+    if (load.has_shares) track.shares.resize(load.items);
     return track;
   }
 };
@@ -38,14 +46,14 @@ struct Kind<ObstacleTruth> {
   static constexpr auto kTime = &ObstacleTruth::at;
   static constexpr std::size_t kMostEntries = kMaxObstaclesPerBatch;
   static constexpr std::size_t kMostItems = 0;
-  static std::size_t items(const TrueObstacle&) { return 0; }
-  static TrueObstacle example(std::size_t) { return {}; }
+  static Load load(const TrueObstacle&) { return {}; }
+  static TrueObstacle example(const Load&) { return {}; }
 };
 
 template <class T>
-std::size_t encoded_bytes(std::size_t entries, std::size_t items_each) {
+std::size_t encoded_bytes(std::size_t entries, const Load& each) {
   T set;
-  (set.*Kind<T>::kEntries).assign(entries, Kind<T>::example(items_each));
+  (set.*Kind<T>::kEntries).assign(entries, Kind<T>::example(each));
   return encode(set).size();
 }
 
@@ -53,29 +61,29 @@ std::size_t encoded_bytes(std::size_t entries, std::size_t items_each) {
 template <class T>
 class Room {
  public:
-  /// An entry with so many items.
-  bool take(std::size_t items) {
-    const std::size_t bytes = bytes_ + per_entry() + items * per_item();
-    if (entries_ + 1 > Kind<T>::kMostEntries || items_ + items > Kind<T>::kMostItems || bytes > kMaxMessageBytes)
+  bool take(const Load& load) {
+    const std::size_t bytes = bytes_ + per_entry() + load.items * (load.has_shares ? per_item(true) : per_item(false));
+    if (entries_ + 1 > Kind<T>::kMostEntries || items_ + load.items > Kind<T>::kMostItems || bytes > kMaxMessageBytes)
       return false;
     ++entries_;
-    items_ += items;
+    items_ += load.items;
     bytes_ = bytes;
     return true;
   }
 
  private:
   static std::size_t empty() {
-    static const std::size_t bytes = encoded_bytes<T>(0, 0);
+    static const std::size_t bytes = encoded_bytes<T>(0, {});
     return bytes;
   }
   static std::size_t per_entry() {
-    static const std::size_t bytes = encoded_bytes<T>(1, 0) - empty();
+    static const std::size_t bytes = encoded_bytes<T>(1, {}) - empty();
     return bytes;
   }
-  static std::size_t per_item() {
-    static const std::size_t bytes = encoded_bytes<T>(1, 1) - encoded_bytes<T>(1, 0);
-    return bytes;
+  static std::size_t per_item(bool has_shares) {
+    static const std::size_t alone = encoded_bytes<T>(1, {1, false}) - encoded_bytes<T>(1, {});
+    static const std::size_t shared = encoded_bytes<T>(1, {1, true}) - encoded_bytes<T>(1, {});
+    return has_shares ? shared : alone;
   }
 
   std::size_t entries_ = 0, items_ = 0, bytes_ = empty();
@@ -91,12 +99,12 @@ std::vector<T> split(const T& whole) {
   std::int32_t left_out = whole.left_out;
   bool full = false;
   for (const auto& entry : whole.*kEntries) {
-    const std::size_t items = Kind<T>::items(entry);
-    if (full || !Room<T>().take(items)) {
+    const Load load = Kind<T>::load(entry);
+    if (full || !Room<T>().take(load)) {
       ++left_out;
       continue;
     }
-    if (!room.take(items)) {
+    if (!room.take(load)) {
       full = batches.size() == kMaxBatches;
       if (full) {
         ++left_out;
@@ -104,7 +112,7 @@ std::vector<T> split(const T& whole) {
       }
       batches.push_back(head);
       room = Room<T>();
-      room.take(items);
+      room.take(load);
     }
     (batches.back().*kEntries).push_back(entry);
   }
@@ -117,44 +125,44 @@ std::vector<T> split(const T& whole) {
 }
 
 /// Whether tracks of so many pieces all fit into a set, in this order.
-bool all_fit(const std::vector<std::size_t>& pieces) {
+bool all_fit(const std::vector<Load>& tracks) {
   Room<TrackSet> room;
   int batches = 1;
-  for (const std::size_t n : pieces) {
-    if (room.take(n)) continue;
+  for (const Load& track : tracks) {
+    if (room.take(track)) continue;
     room = Room<TrackSet>();
-    if (++batches > kMaxBatches || !room.take(n)) return false;
+    if (++batches > kMaxBatches || !room.take(track)) return false;
   }
   return true;
 }
 
-/// The largest share in [0, kMaxPiecesPerBatch] whose pieces (of share) all fit; 0 if no other does.
-template <class PiecesOf>
-std::size_t largest_share(const PiecesOf& pieces_of) {
+/// The largest share in [0, kMaxPiecesPerBatch] whose loads (of share) all fit; 0 if no other does.
+template <class LoadsOf>
+std::size_t largest_share(const LoadsOf& loads_of) {
   std::size_t fits = 0;
   std::size_t too_many = static_cast<std::size_t>(kMaxPiecesPerBatch) + 1;
   while (fits + 1 < too_many) {
     const std::size_t middle = (fits + too_many) / 2;
-    (all_fit(pieces_of(middle)) ? fits : too_many) = middle;
+    (all_fit(loads_of(middle)) ? fits : too_many) = middle;
   }
   return fits;
 }
 
-std::vector<std::size_t> pieces_of(const TrackSet& set) {
-  std::vector<std::size_t> pieces;
-  pieces.reserve(set.tracks.size());
-  for (const Track& track : set.tracks) pieces.push_back(track.motion.pieces.size());
-  return pieces;
+std::vector<Load> loads_of(const TrackSet& set) {
+  std::vector<Load> loads;
+  loads.reserve(set.tracks.size());
+  for (const Track& track : set.tracks) loads.push_back(Kind<TrackSet>::load(track));
+  return loads;
 }
 
 /// Of the tracks' pieces, what each may keep for a share: the nearer half may have twice as many, everyone has one.
-std::vector<std::size_t> shared_out(std::vector<std::size_t> pieces, std::size_t share) {
+std::vector<Load> shared_out(std::vector<Load> loads, std::size_t share) {
   const auto most = static_cast<std::size_t>(kMaxPiecesPerBatch);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const std::size_t fair = 2 * k < pieces.size() ? 2 * share : share;
-    pieces[k] = std::min(pieces[k], std::clamp<std::size_t>(fair, 1, most));
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const std::size_t fair = 2 * k < loads.size() ? 2 * share : share;
+    loads[k].items = std::min(loads[k].items, std::clamp<std::size_t>(fair, 1, most));
   }
-  return pieces;
+  return loads;
 }
 
 /// Whether the numbers that resampling may have made larger are still within a message's ranges.
@@ -167,14 +175,14 @@ bool is_legal(const Track& track) {
 
 /// The set with its tracks resampled so that all of them fit, as far as that is possible.
 TrackSet made_to_fit(const TrackSet& whole) {
-  const std::vector<std::size_t> own = pieces_of(whole);
+  const std::vector<Load> own = loads_of(whole);
   const std::size_t share = largest_share([&](std::size_t s) { return shared_out(own, s); });
-  const std::vector<std::size_t> pieces = shared_out(own, share);
+  const std::vector<Load> loads = shared_out(own, share);
   TrackSet set = whole;
   set.tracks.clear();
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    Track track = resampled(whole.tracks[k], pieces[k]);
-    if (pieces[k] == own[k] || is_legal(track)) {
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    Track track = resampled(whole.tracks[k], loads[k].items);
+    if (loads[k].items == own[k].items || is_legal(track)) {
       set.tracks.push_back(std::move(track));
     } else {
       ++set.left_out;
@@ -207,14 +215,14 @@ T join(std::vector<T> batches) {
 
 std::size_t pieces_for_each(std::size_t tracks, std::size_t single) {
   return largest_share([&](std::size_t share) {
-    std::vector<std::size_t> pieces(tracks, std::max<std::size_t>(share, 1));
-    pieces.resize(tracks + single, 1);
-    return pieces;
+    std::vector<Load> loads(tracks, Load{std::max<std::size_t>(share, 1)});
+    loads.resize(tracks + single, Load{1});
+    return loads;
   });
 }
 
 std::vector<TrackSet> split_batches(const TrackSet& whole) {
-  return all_fit(pieces_of(whole)) ? split(whole) : split(made_to_fit(whole));
+  return all_fit(loads_of(whole)) ? split(whole) : split(made_to_fit(whole));
 }
 
 std::vector<ObstacleTruth> split_batches(const ObstacleTruth& whole) { return split(whole); }

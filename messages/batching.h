@@ -22,8 +22,8 @@ namespace tern {
 std::vector<TrackSet> split_batches(const TrackSet& whole);
 std::vector<ObstacleTruth> split_batches(const ObstacleTruth& whole);
 
-/// The most pieces, up to kMaxPiecesPerBatch, that each of `tracks` tracks may have so that one set holds them all
-/// beside `single` tracks of one piece; 0 when even with one piece each they are too many. O(tracks).
+/// The most pieces, up to kMaxPiecesPerBatch, that each of `tracks` declared tracks may have so that one set holds them
+/// all beside `single` tracks of one piece; 0 when even with one piece each they are too many. O(tracks).
 std::size_t pieces_for_each(std::size_t tracks, std::size_t single);
 
 /// The set again, sorted by id; header and set number of the first batch, batch 0 of 1. Where batches disagree (an

@@ -16,6 +16,7 @@
 #include "core/world/search_view.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
+#include "core/world/vehicle_status.h"
 #include "core/world/voxel_map.h"
 
 namespace tern {
@@ -28,6 +29,7 @@ enum class Role : std::uint8_t {
   Mapper = 4,
   Operator = 5,  ///< who says goals: tern-viewer, a mission; the vehicle repeats them
   Observer = 6,  ///< tern-monitor, tern-logger, and any other process
+  Executor = 7,  ///< tern-executor: what the vehicle shall fly
 };
 
 enum class Scope : std::uint8_t {
@@ -51,7 +53,7 @@ namespace channels {
 
 inline constexpr Duration kSilence{1'000'000};
 /// The planner calls predictions of this age stale: it cannot wait longer for a predictor that was started anew. Nor
-/// can a vehicle in flight for a planner: plans are short.
+/// can a vehicle in flight for a planner or an executor: plans are short.
 inline constexpr Duration kShortSilence{300'000};
 inline constexpr auto kAnyone = std::nullopt;
 inline constexpr bool kLatched = true, kStream = false;
@@ -60,7 +62,9 @@ inline constexpr bool kLatched = true, kStream = false;
 inline constexpr Channel<UavState> kUavState{
     "UAV_STATE", Scope::Vehicle, "100 Hz", kStream, Role::Vehicle, kSilence};
 inline constexpr Channel<UavState> kSetpoint{
-    "SETPOINT", Scope::Vehicle, "100 Hz", kStream, Role::Vehicle, kSilence};
+    "SETPOINT", Scope::Vehicle, "100 Hz", kStream, Role::Executor, kShortSilence};
+inline constexpr Channel<VehicleStatus> kVehicleStatus{
+    "VEHICLE_STATUS", Scope::Vehicle, "10 Hz, and at once when it changes", kLatched, Role::Vehicle, kSilence};
 inline constexpr Channel<ObservationSet> kObstacleObservations{
     "OBSTACLE_OBSERVATIONS", Scope::Vehicle, "30 Hz", kStream, Role::Vehicle, kAnyone};
 inline constexpr Channel<TrackSet> kDeclaredMotions{
@@ -72,7 +76,7 @@ inline constexpr Channel<MapChunk> kSemanticMap{
 inline constexpr Channel<Goal> kGoal{
     "GOAL", Scope::Vehicle, "on demand, repeated at 1 Hz", kLatched, Role::Operator, kAnyone};
 inline constexpr Channel<HorizonRequest> kHorizonRequest{
-    "HORIZON_REQUEST", Scope::Vehicle, "10–20 Hz", kStream, Role::Vehicle, kSilence};
+    "HORIZON_REQUEST", Scope::Vehicle, "10–20 Hz", kStream, Role::Executor, kShortSilence};
 inline constexpr Channel<Plan> kPlan{
     "PLAN", Scope::Vehicle, "one per request", kStream, Role::Planner, kShortSilence};
 inline constexpr Channel<PlanTiming> kPlanTiming{
@@ -86,14 +90,16 @@ inline constexpr Channel<ConfigurationReport> kConfiguration{
     "CONFIGURATION", Scope::Vehicle, "at start, 0.2 Hz", kLatched, kAnyone, kAnyone};
 inline constexpr Channel<ObstacleTruth> kObstacleTruth{
     "OBSTACLE_TRUTH", Scope::Shared, "30 Hz", kStream, Role::Vehicle, kSilence};
+inline constexpr Channel<UavState> kVehicleTruth{
+    "VEHICLE_TRUTH", Scope::Vehicle, "100 Hz", kStream, Role::Vehicle, kSilence};
 inline constexpr Channel<FlightResult> kFlightResult{
     "FLIGHT_RESULT", Scope::Vehicle, "at the end", kLatched, Role::Vehicle, kSilence};
 // clang-format on
 
-inline constexpr std::tuple kAll{
-    kUavState,       kSetpoint, kObstacleObservations, kDeclaredMotions, kPredictions, kSemanticMap,   kGoal,
-    kHorizonRequest, kPlan,     kPlanTiming,           kSearchView,      kHeartbeat,   kConfiguration, kObstacleTruth,
-    kFlightResult};
+inline constexpr std::tuple kAll{kUavState,     kSetpoint,    kVehicleStatus, kObstacleObservations, kDeclaredMotions,
+                                 kPredictions,  kSemanticMap, kGoal,          kHorizonRequest,       kPlan,
+                                 kPlanTiming,   kSearchView,  kHeartbeat,     kConfiguration,        kObstacleTruth,
+                                 kVehicleTruth, kFlightResult};
 
 }  // namespace channels
 

@@ -32,6 +32,8 @@ inline constexpr const char* kLcmType = nullptr;
 template <>
 inline constexpr const char* kLcmType<UavState> = "uav_state_t";
 template <>
+inline constexpr const char* kLcmType<VehicleStatus> = "vehicle_status_t";
+template <>
 inline constexpr const char* kLcmType<ObservationSet> = "observation_set_t";
 template <>
 inline constexpr const char* kLcmType<TrackSet> = "track_set_t";
@@ -60,6 +62,12 @@ template <>
 Bytes encode(const UavState& value);
 template <>
 tl::expected<UavState, Rejection> decode(std::span<const std::uint8_t> bytes);
+
+template <>
+Bytes encode(const VehicleStatus& value);
+/// Inconsistent: following though not armed; following with a reason why not, or not following without one.
+template <>
+tl::expected<VehicleStatus, Rejection> decode(std::span<const std::uint8_t> bytes);
 
 template <>
 Bytes encode(const ObservationSet& value);

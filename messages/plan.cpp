@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/world/track.h"
 #include "core/world/voxel_map.h"
 #include "messages/codec.h"
 #include "messages/fields.h"
@@ -36,37 +37,20 @@ tern_msgs::certificate_plane_t to_lcm(const CertificatePlane& plane) {
   return m;
 }
 
-// A cut's attempt counts through the phases, kMostAttempts each. The watchdog's answer stands last, as an attempt of
-// its own whose count is Plan::standing.
-constexpr std::int32_t kWatchdogAttempt = -1;
-
-tern_msgs::budget_cut_t cut_to_lcm(std::int32_t attempt, Stage stage, std::int64_t count) {
+tern_msgs::budget_cut_t to_lcm(const BudgetCut& cut) {
   tern_msgs::budget_cut_t m{};
-  m.attempt = attempt;
-  m.stage = wire::to_int8(stage);
-  m.count = count;
+  m.phase = wire::to_int8(cut.phase);
+  m.attempt = cut.attempt;
+  m.stage = wire::to_int8(cut.stage);
+  m.count = cut.count;
   return m;
 }
 
-void put_cuts(Message& m, const Plan& plan) {
-  for (const BudgetCut& cut : plan.cuts) {
-    m.cuts.push_back(cut_to_lcm(static_cast<int>(cut.phase) * kMostAttempts + cut.attempt, cut.stage, cut.count));
-  }
-  if (plan.standing) m.cuts.push_back(cut_to_lcm(kWatchdogAttempt, Stage::Check, *plan.standing));
-}
-
-void read_cuts(wire::FieldReader& read, const Message& m, Plan& plan) {
-  for (const auto& cut : m.cuts) {
-    const bool is_last = &cut == &m.cuts.back();
-    const int attempt = read.integer(cut.attempt, is_last ? kWatchdogAttempt : 0, kPhases * kMostAttempts - 1);
-    const Stage stage = read.enumeration(cut.stage, Stage::Check);
-    const std::int64_t count = read.counter(cut.count);
-    if (attempt == kWatchdogAttempt) {
-      plan.standing = count;
-    } else {
-      plan.cuts.push_back({static_cast<Phase>(attempt / kMostAttempts), attempt % kMostAttempts, stage, count});
-    }
-  }
+BudgetCut read_cut(wire::FieldReader& read, const tern_msgs::budget_cut_t& m) {
+  const Phase phase = read.enumeration(m.phase, Phase::Room);
+  const int attempt = read.integer(m.attempt, 0, kMostAttempts - 1);
+  const Stage stage = read.enumeration(m.stage, Stage::Check);
+  return {phase, attempt, stage, read.counter(m.count)};
 }
 
 void put(Message& m, const PlanCost& cost) {
@@ -102,6 +86,11 @@ Message to_lcm(const Plan& plan) {
   m.start_us = plan.trajectory.start.us;
   m.interval_us = plan.trajectory.interval.us;
   m.hold_us = plan.hold.us;
+  m.confidence = plan.confidence;
+  m.level = static_cast<std::int8_t>(plan.level);
+  m.alpha_scale = plan.alpha_scale;
+  m.from_watchdog = plan.standing.has_value();
+  m.standing = plan.standing.value_or(0);
   m.relaxed = plan.relaxed;
   m.local_goal = wire::to_lcm(plan.local_goal);
   m.sphere_radius = plan.sphere_radius;
@@ -109,7 +98,7 @@ Message to_lcm(const Plan& plan) {
   put(m, plan.inputs);
   m.control_points = wire::to_lcm(plan.trajectory.control_points);
   for (const CertificatePlane& plane : plan.certificate) m.planes.push_back(to_lcm(plane));
-  put_cuts(m, plan);
+  for (const BudgetCut& cut : plan.cuts) m.cuts.push_back(to_lcm(cut));
   return m;
 }
 
@@ -167,6 +156,16 @@ tl::expected<Plan, Rejection> from_lcm(const Message& m) {
   plan.trajectory.interval = read.duration(m.interval_us, kShortestInterval, kLongestInterval);
   plan.trajectory.control_points = read.points(m.control_points, kMaxCoordinate);
   plan.hold = read.duration(m.hold_us, Duration{0}, kMaxSpan);
+  plan.confidence = read.number(m.confidence, 0.0, 1.0);
+  plan.level = read.integer<int>(m.level, 0, kLevels - 1);
+  plan.alpha_scale = read.number(m.alpha_scale, 0.0, 1.0);
+  if (plan.alpha_scale < 1.0) read.consistent(plan.level == kLevels - 1 && plan.confidence == 0.0);
+  const std::int64_t standing = read.counter(m.standing);
+  if (read.flag(m.from_watchdog)) {
+    plan.standing = standing;
+  } else {
+    read.consistent(standing == 0);
+  }
   plan.relaxed = read.flag(m.relaxed);
   plan.local_goal = read.position(m.local_goal);
   plan.sphere_radius = read.number(m.sphere_radius, 0.0, kMaxCoordinate);
@@ -175,7 +174,7 @@ tl::expected<Plan, Rejection> from_lcm(const Message& m) {
   const auto intervals = static_cast<std::int16_t>(m.control_point_count - 3);
   plan.certificate.reserve(m.planes.size());
   for (const auto& plane : m.planes) plan.certificate.push_back(read_plane(read, plane, intervals));
-  read_cuts(read, m, plan);
+  for (const auto& cut : m.cuts) plan.cuts.push_back(read_cut(read, cut));
   return read.accept(std::move(plan));
 }
 

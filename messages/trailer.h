@@ -29,7 +29,7 @@ struct Trailer {
   Tag tag = {};
 };
 
-/// The trailer that these bytes end with; nothing when they end with none, or with one of another version. Bytes that
+/// @return the trailer that these bytes end with, or nullopt if there is none, or one of another version. Bytes that
 /// are no trailer look like one with a probability of 2⁻⁶⁴.
 std::optional<Trailer> read_trailer(std::span<const std::uint8_t> bytes);
 

@@ -36,7 +36,7 @@ struct FlightSummary {
   std::optional<std::uint64_t> seed;  ///< nothing when the scenario could not be read
   std::optional<std::int64_t> count;  ///< obstacles of the world's generator; the same
   std::optional<FlownSettings> settings;
-  std::optional<FlightResult> result;  ///< the referee's measures; nothing when it gave none
+  std::optional<FlightResult> result;  ///< the referee's measures; nullopt if it gave none
   std::int64_t requests = 0, answered_in_time = 0;
   std::int64_t second_answers = 0;                      ///< to requests that had their answer: two planners
   std::array<std::int64_t, kPlanOutcomes> plans = {};   ///< first answers, by PlanOutcome

@@ -7,7 +7,7 @@
 namespace tern {
 namespace {
 
-/// Starts of one process that are remembered; a forged heartbeat shall not fill the memory.
+/// Starts of one process that are remembered; a forged heartbeat must not fill the memory.
 constexpr std::size_t kMaxStarts = 10'000;
 constexpr std::size_t kMaxProcesses = 256;
 

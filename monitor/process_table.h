@@ -31,7 +31,7 @@ class ProcessTable {
   /// The start of a process that counts: the one that was heard first, until it has been silent for kBeatSilence. 0: it
   /// was never heard.
   [[nodiscard]] std::int64_t epoch_us(const std::string& process) const;
-  /// When a start of a process was heard last; nothing if never.
+  /// @return when a start of a process was heard last, or nullopt if never.
   [[nodiscard]] std::optional<UTime> heard(const std::string& process, std::int64_t epoch_us) const;
   /// Starts beyond the first, over all processes. A start that ended before its second heartbeat was not seen; one that
   /// was heard while an earlier one lived is no restart.

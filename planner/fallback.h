@@ -9,7 +9,7 @@ namespace tern {
 
 struct Fallback {
   std::optional<Candidate> committed;  ///< nullopt: it is not clear, or not known to its end; its arrival is not set
-  /// The vehicle rests where it shall, and a motion that is promised comes through it.
+  /// The vehicle rests where it was told to, and a promised motion comes through it.
   bool is_hit_at_rest = false;
 };
 

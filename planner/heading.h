@@ -18,7 +18,7 @@ struct Heading {
   const SemanticFields* fields = nullptr;  ///< what is weighed on the way; null: no semantics
 };
 
-/// Stays where it is: for who shall hold or stop, or knows no path.
+/// Stays where it is: for a vehicle that is told to hold or stop, or knows no path.
 Heading heading_nowhere(const Surroundings& near);
 
 /// Along a path around static obstacles, with the local goal at the largest radius that aim_along() allows. The way

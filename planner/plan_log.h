@@ -21,7 +21,7 @@ class PlanObserver {
   virtual void answer(const Plan& best_so_far) = 0;  ///< a (better) answer stands; the first is the fallback
   /// A search has ended: for those who judge searches.
   virtual void searched(const SearchProblem&, SweptObstacles&, const SearchResult&) {}
-  /// Whether the nodes of searches shall be kept for searched(); asked before each.
+  /// Whether the nodes of searches are kept for searched(); asked before each.
   [[nodiscard]] virtual bool wants_search_nodes() const { return false; }
 };
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/splines/piecewise_cubic.h"
-#include "planner/global_path/box_cover.h"
+#include "core/world/box_cover.h"
 #include "planner/tuning.h"
 
 namespace tern {
@@ -70,8 +70,6 @@ MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
   fields = SemanticFields(map, options);
   weighs_paths = config.semantic_path && fields.weighs();
 }
-
-Box centre_box(const Box& flight_box, const Body& body) { return grown(flight_box, -body.half_extents()); }
 
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const std::vector<Box>& static_boxes, const Vec3& start) {

@@ -77,6 +77,13 @@ inline constexpr double kNearer = 1e-6;
 /// No longer duration is tried once an end that holds lies this near the local goal, m.
 inline constexpr double kNearLocalGoal = 1.0;
 
+// ---- A multirotor's thrust (safety/thrust_set.h, search/step_reach.h, optimization/convex_problem.h)
+
+/// Plans lower the thrust's vertical part by at most this share of g; half of it where rest must remain reachable.
+inline constexpr double kThrustDip = 0.5;
+/// In Eq. 4 that part keeps this share of what the search's result has at each knot, so that jerk may be bounded by it.
+inline constexpr double kThrustKept = 0.8;
+
 // ---- Evasion (evasion.h)
 
 /// Stops that are searched for at most, and nodes expanded for each.

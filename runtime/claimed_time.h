@@ -9,6 +9,7 @@
 #include "core/world/observation.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
+#include "core/world/vehicle_status.h"
 
 namespace tern {
 
@@ -26,6 +27,7 @@ inline UTime claimed_time(const TrackSet& m) { return std::max(claimed_time(m.he
 inline UTime claimed_time(const ObservationSet& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const ObstacleTruth& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const UavState& m) { return std::max(claimed_time(m.header), m.at); }
+inline UTime claimed_time(const VehicleStatus& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const HorizonRequest& m) { return std::max(claimed_time(m.header), m.t_s - kMostLead); }
 /// An id counts from 1, or is the time when the goal was set: then a later one is always larger.
 inline UTime claimed_time(const Goal& m) { return std::max(claimed_time(m.header), UTime{m.id}); }

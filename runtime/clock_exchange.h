@@ -77,7 +77,7 @@ class ClockSkew {
     if (readings_.size() > kWindow) readings_.pop_front();
   }
 
-  /// Nothing before the first exchange.
+  /// @return nullopt before the first exchange.
   [[nodiscard]] std::optional<ClockReading> reading() const {
     if (readings_.empty()) return std::nullopt;
     return *std::min_element(readings_.begin(), readings_.end(),

@@ -92,7 +92,7 @@ void declare(CLI::App& app, Options& options, const ProcessDescription& descript
   if (description.add_options) description.add_options(app);
 }
 
-/// Parses; @return the exit code when the process shall end now (help, version, a mistake).
+/// Parses; @return the exit code if the process ends now (help, version, a mistake).
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);

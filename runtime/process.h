@@ -45,7 +45,7 @@ struct ProcessDescription {
   std::string section;                              ///< "planner": its key in the scenario file; "" if it has none
   std::string summary;                              ///< one line for --help
   std::function<void(CLI::App&)> add_options = {};  ///< options besides the common ones
-  /// Reads every section that is this process's, for --help-config. Nothing: it has none.
+  /// Reads every section that is this process's, for --help-config. Empty: it has none.
   std::function<void(ConfigDocument&)> read_sections = {};
   std::string example = {};  ///< a scenario that makes every key known, where some depend on another
 };

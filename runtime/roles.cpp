@@ -28,6 +28,7 @@ const char* to_string(Role role) {
     case Role::Mapper: return "mapper";
     case Role::Operator: return "operator";
     case Role::Observer: return "observer";
+    case Role::Executor: return "executor";
   }
   return "unknown";
 }
@@ -48,15 +49,17 @@ std::optional<Role> role_of(std::string_view channel) {
 const std::vector<Part>& parts() {
   static const std::vector<Part> kParts = {
       {"tern-simulator", Role::Vehicle,
-       names_of(kUavState, kSetpoint, kObstacleObservations, kDeclaredMotions, kHorizonRequest, kObstacleTruth,
-                kFlightResult, kGoal, kPlan)},
+       names_of(kUavState, kSetpoint, kVehicleStatus, kObstacleObservations, kDeclaredMotions, kHorizonRequest,
+                kObstacleTruth, kVehicleTruth, kFlightResult, kGoal, kSemanticMap)},
+      {"tern-executor", Role::Executor, names_of(kUavState, kVehicleStatus, kGoal, kPlan, kHorizonRequest, kSetpoint)},
       {"tern-predictor", Role::Predictor, names_of(kObstacleObservations, kDeclaredMotions, kUavState, kPredictions)},
       {"tern-planner", Role::Planner,
        names_of(kHorizonRequest, kPredictions, kSemanticMap, kGoal, kPlan, kPlanTiming, kSearchView)},
       {"tern-mapper", Role::Mapper, names_of(kSemanticMap)},
       {"tern-logger", Role::Observer, {}},
       {"tern-monitor", Role::Observer,
-       names_of(kUavState, kSetpoint, kGoal, kHorizonRequest, kPlan, kPlanTiming, kObstacleTruth, kFlightResult)},
+       names_of(kUavState, kSetpoint, kVehicleStatus, kGoal, kHorizonRequest, kPlan, kPlanTiming, kObstacleTruth,
+                kVehicleTruth, kFlightResult)},
       {"tern-viewer", Role::Operator, all_owned()},
   };
   return kParts;

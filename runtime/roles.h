@@ -9,12 +9,12 @@
 
 namespace tern {
 
-inline constexpr Role kRoles[] = {Role::Vehicle, Role::Predictor, Role::Planner,
-                                  Role::Mapper,  Role::Operator,  Role::Observer};
+inline constexpr Role kRoles[] = {Role::Vehicle,  Role::Predictor, Role::Planner, Role::Mapper,
+                                  Role::Operator, Role::Observer,  Role::Executor};
 
-/// "vehicle", "predictor", "planner", "mapper", "operator", "observer".
+/// "vehicle", "predictor", "planner", "mapper", "operator", "observer", "executor".
 const char* to_string(Role role);
-/// The role of that name; nothing when there is none.
+/// @return the role of that name, or nullopt if there is none.
 std::optional<Role> role_named(std::string_view name);
 
 /// Whose channel it is; nothing for HEARTBEAT, CONFIGURATION and channels that are not Tern's: on these each role

@@ -18,7 +18,7 @@ inline constexpr Duration kMostAhead{100'000};
 /// happened for so long.
 inline constexpr Duration kSenderTroubleSaid{2'000'000};
 
-/// How long the sender that is heard on a channel must be silent before another one is heard. Nothing: any number may
+/// How long the sender that is heard on a channel must be silent before another one is heard. nullopt: any number may
 /// speak at a time (OBSTACLE_OBSERVATIONS, GOAL, HEARTBEAT, CONFIGURATION, and channels that Tern does not know).
 std::optional<Duration> speaker_silence(std::string_view channel);
 
@@ -34,7 +34,7 @@ class SenderWatch {
   explicit SenderWatch(std::optional<Duration> silence = {}, std::int64_t own_epoch_us = 0)
       : silence_(silence), own_epoch_us_(own_epoch_us) {}
 
-  /// Why a message is refused; nothing when it is to be handed on.
+  /// @return why a message is refused, or nullopt if it is to be handed on.
   /// @param claimed  the newest time that the message says has been (claimed_time)   @param arrived  listener's clock
   /// @param own_sent  how many messages the listener itself has sent on this channel
   std::optional<Rejection> judge(const MessageName& name, UTime claimed, UTime arrived, std::int64_t own_sent);

@@ -14,7 +14,7 @@
 namespace tern {
 namespace {
 
-/// A flood of messages shall not keep the node from its deadlines.
+/// A flood of messages must not keep the node from its deadlines.
 constexpr int kMaxMessagesPerStep = 1'000;
 /// No longer sleep: a node that waits for messages only says kNever.
 constexpr Duration kLongestSleep{1'000'000};

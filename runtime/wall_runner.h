@@ -7,7 +7,7 @@ namespace tern {
 
 /// Waits for messages, the node's next wakeup (to the microsecond that the kernel's timers give) or a signal, and
 /// steps.
-/// @param stop_fd  readable when the process shall end (a signalfd, a pipe); −1: none
+/// @param stop_fd  readable when the process is to end (a signalfd, a pipe); −1: none
 /// @return the node's exit code when it has finished, 0 when stop_fd became readable.
 /// @throws what a handler or the node threw; std::runtime_error when polling or LCM fails.
 int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd);

@@ -14,10 +14,11 @@ void PlanTracer::on_plan(const Plan& p) {
   const Vec3 end = q.col(q.cols() - 1);
   const MotionSample& s = request_.start;
   const auto text = [](const Vec3& v) { return fmt::format("{:.2f} {:.2f} {:.2f}", v.x(), v.y(), v.z()); };
-  fmt::print(stderr, "{:.3f} p {} v {} {} reason {} lasts {:.2f} ends {} goal {} hold {:.2f}{}\n",
+  fmt::print(stderr, "{:.3f} p {} v {} {} reason {} lasts {:.2f} ends {} goal {} hold {:.2f} confidence {:.2f}{}{}\n",
              static_cast<double>(request_.t_s.us) * 1e-6, text(s.p), text(s.v), key(p.outcome),
              static_cast<int>(p.reason), p.trajectory.interval.seconds() * static_cast<double>(q.cols() - 3), text(end),
-             text(p.local_goal), p.hold.seconds(), p.relaxed ? " relaxed" : "");
+             text(p.local_goal), p.hold.seconds(), p.confidence,
+             p.alpha_scale < 1.0 ? fmt::format(" alpha x {:.2f}", p.alpha_scale) : "", p.relaxed ? " relaxed" : "");
 }
 
 }  // namespace tern

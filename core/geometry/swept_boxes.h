@@ -43,8 +43,8 @@ Apart is_apart(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>
 
 /// The plane of widest margin, as separate() of the hull's vertices would give it but for rounding, without the hull:
 /// n·x + d ≥ 0 on all boxes ⊕ (−vertices), ≤ −max(clearance, kPlaneMargin) on all points, verified on every one.
-/// Nothing when they are not more than clearance + kTouchingTolerance apart, or in doubt. Arguments of is_apart().
-/// About 0.2 µs.
+/// @return nullopt if they are not more than clearance + kTouchingTolerance apart, or in doubt. Arguments of
+/// is_apart(). About 0.2 µs.
 std::optional<Separation> separate_sweep(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,
                                          const Points& vertices, double clearance);
 

@@ -23,6 +23,9 @@ struct HorizonRequest {
   Limits limits;
   Body body;
   Box flight_box;  ///< the whole body stays inside, W
+  /// The tube: what the vehicle's true position may be off the commanded one per axis while it flies the plan, m, ≥ 0.
+  /// The planner keeps the body clear by it.
+  Vec3 tube = Vec3::Zero();
 };
 
 enum class PlanOutcome : std::uint8_t { Optimized = 0, SearchOnly = 1, KeepCommitted = 2, Evade = 3, NoPlan = 4 };
@@ -110,7 +113,13 @@ struct Plan {
   PlanReason reason = PlanReason::None;
   TimedSpline trajectory;  ///< starts at t_s unless KeepCommitted (then the committed one); meaningless for NoPlan
   Duration hold;           ///< how long after its end the end point stays clear of every predicted mover, ≤ the cap
-  bool relaxed = false;    ///< the start lay inside a hull and α was scaled to the largest clear value
+  /// What the trajectory is certified at: the boxes of estimated tracks with their α at `level`, times `alpha_scale`;
+  /// of what is declared or static all of it, always. Confidence: that each one of those tracks stays within its box;
+  /// 1 where nothing is estimated; 0 below the last level (there is no number for a scaled α), and for NoPlan.
+  double confidence = 0.0;
+  int level = 0;                   ///< into kConfidenceLevels; 0: what the predictions promise
+  double alpha_scale = 1.0;        ///< [0, 1]; below 1 only at the last level
+  bool relaxed = false;            ///< the start lay inside a hull and α was scaled to the largest clear value
   Vec3 local_goal = Vec3::Zero();  ///< W
   double sphere_radius = 0.0;      ///< r, m
   PlanCost cost;
@@ -118,7 +127,7 @@ struct Plan {
   std::vector<CertificatePlane> certificate;
   std::vector<BudgetCut> cuts;
   /// Of an answer that the watchdog gave: how many had come to stand by then. It sent the last of them, or, of none,
-  /// one of its own. Nothing: the planner was done.
+  /// one of its own. nullopt: the planner was done.
   std::optional<std::int64_t> standing;
 };
 

@@ -46,6 +46,8 @@ inline constexpr int kMaxPlatformText = 1024;  ///< bytes
 inline constexpr int kMaxWaitingText = 1024;   ///< bytes
 inline constexpr int kMaxYamlText = 50'000;    ///< bytes
 inline constexpr int kMaxDetailText = 2048;    ///< bytes
+inline constexpr int kMaxModeText = 64;        ///< bytes
+inline constexpr int kMaxWhyText = 256;        ///< bytes
 inline constexpr int kMaxExposures = 256;      ///< regions in a FlightResult
 inline constexpr int kMaxRegionText = 16'384;  ///< bytes of all region names together
 

@@ -8,10 +8,12 @@
 #include <string_view>
 
 #include "core/world/flight_result.h"
+#include "core/world/flyable.h"
 #include "core/world/goal.h"
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/track.h"
+#include "core/world/vehicle_status.h"
 #include "core/world/voxel_map.h"
 
 namespace tern {
@@ -43,9 +45,16 @@ inline constexpr std::array<const char*, kVoxelLabels> kWords<VoxelLabel>{"unkno
 template <>
 inline constexpr std::array<const char*, 5> kWords<ProcessState>{"starting", "waiting", "ready", "finished", "failed"};
 template <>
+inline constexpr std::array<const char*, kEstimatorHealths> kWords<EstimatorHealth>{"good", "degraded", "lost"};
+template <>
 inline constexpr std::array<const char*, kRejections> kWords<Rejection>{
     "length",       "fingerprint", "count",  "number",   "enumeration",    "time",
     "inconsistent", "future",      "sender", "repeated", "unauthenticated"};
+
+template <>
+inline constexpr std::array<const char*, kBreaches> kWords<Breach>{
+    "none",   "shape", "start",     "join",       "end",    "velocity",      "acceleration",   "jerk",
+    "thrust", "tilt",  "body rate", "flight box", "sphere", "not separated", "too many planes"};
 
 template <class E>
 concept Named = !kWords<E>.empty();

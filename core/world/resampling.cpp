@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -161,15 +162,37 @@ class Merger {
     Track result = track_;
     result.motion.pieces.clear();
     result.alpha.clear();
+    result.shares.clear();
     for (std::size_t at = 0; at != kNone; at = runs_[at].next) {
       result.motion.pieces.push_back(runs_[at].fit);
       result.alpha.push_back(alpha_of(runs_[at]));
+      if (!track_.shares.empty()) result.shares.push_back(shares_of(runs_[at], result.alpha.back()));
     }
     return result;
   }
 
   [[nodiscard]] Vec3 alpha_of(const Run& run) const {
     if (run.first == run.last) return track_.alpha[run.first];
+    return alpha_at(run, 0);
+  }
+
+  /// What the run's α holds at each level, as shares of its α at the first.
+  [[nodiscard]] AlphaShares shares_of(const Run& run, const Vec3& alpha) const {
+    if (run.first == run.last) return track_.shares[run.first];
+    AlphaShares shares{};
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      const Vec3 at_level = alpha_at(run, static_cast<int>(k) + 1);
+      double share = 0.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (at_level[axis] > 0.0) share = std::max(share, at_level[axis] / alpha[axis]);
+      }
+      const float up = std::nextafter(static_cast<float>(share), 2.0F);
+      shares[k] = std::min(up, k == 0 ? 1.0F : shares[k - 1]);
+    }
+    return shares;
+  }
+
+  [[nodiscard]] Vec3 alpha_at(const Run& run, int level) const {
     constexpr double kUnit = kResamplingUlps * std::numeric_limits<double>::epsilon();
     const PowerCubic& q = run.fit.coefficients;
     const Vec3 terms = magnitude(q, run.fit.duration.seconds());
@@ -178,8 +201,9 @@ class Merger {
     for (std::size_t k = run.first; k <= run.last; ++k) {
       const CubicPiece& original = track_.motion.pieces[k];
       const double h = original.duration.seconds();
-      const Vec3 rounding = kUnit * (terms + magnitude(original.coefficients, h) + track_.alpha[k]);
-      alpha = alpha.cwiseMax(track_.alpha[k] + deviation(q, original.coefficients, since.seconds(), h) + rounding);
+      const Vec3 own = track_.share_at(k, level) * track_.alpha[k];
+      const Vec3 rounding = kUnit * (terms + magnitude(original.coefficients, h) + own);
+      alpha = alpha.cwiseMax(own + deviation(q, original.coefficients, since.seconds(), h) + rounding);
       since = since + original.duration;
     }
     return alpha;

@@ -23,6 +23,7 @@ namespace tern {
 ///   α': once the runs stand, per axis and exactly, max over the original pieces k of a run of
 ///     α_k + max over k's time of |q − p_k|, from the extrema of the cubic q − p_k, plus kResamplingUlps of the largest
 ///     term.
+/// At each level of confidence the same holds, α and α' at that level (Track::shares).
 /// A fit whose coefficients a message could not hold (message_limits.h) gives way to the constant of least squares.
 ///
 /// Pure; O(n log n) for n pieces. @throws std::invalid_argument unless most ≥ 1 and the track has a piece.

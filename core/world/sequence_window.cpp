@@ -6,7 +6,7 @@ namespace tern {
 namespace {
 
 constexpr std::uint64_t kAllSeen = ~std::uint64_t{0};
-/// A false sequence number shall not overflow the sum: no honest gap is as long.
+/// A false sequence number must not overflow the sum: no honest gap is as long.
 constexpr std::int64_t kMostLost = 1'000'000'000;
 
 }  // namespace

@@ -31,7 +31,7 @@ class AnswerDesk {
   bool answer(const Plan& plan, const PlanTiming& timing);
   /// Sends what stands when the watchdog's time has come.
   void watch(UTime now);
-  /// When watch() wants to be called; nothing when no request is open.
+  /// @return when watch() wants to be called, or nullopt if no request is open.
   [[nodiscard]] std::optional<UTime> watch_time() const;
 
  private:

@@ -52,7 +52,7 @@ class GoalField {
                          const GoalFieldOptions& options = {});
 
   /// A taut piecewise-linear path (no vertex could be pulled to a cheaper place) from start to the goal, both included,
-  /// clear of every box; nothing when there is none. A start inside boxes is allowed to leave them: the first segment
+  /// clear of every box; nullopt if there is none. A start inside boxes is allowed to leave them: the first segment
   /// passes over the boxes that contain it. A few percent longer than the shortest at most in simple cases (tested);
   /// about 10 µs, with a TravelCost some 100.
   [[nodiscard]] std::optional<std::vector<Vec3>> path_from(const Vec3& start) const;

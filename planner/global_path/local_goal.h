@@ -1,4 +1,4 @@
-// Where this plan shall head: the point at which the path leaves the planning sphere S (paper §4).
+// The local goal: the point at which the path leaves the planning sphere S (paper §4).
 #pragma once
 
 #include <vector>

@@ -14,7 +14,7 @@ namespace tern {
 inline constexpr Duration kInputsStopped{300'000};
 /// HEARTBEAT, at 2 Hz, tells of a trouble until it has not happened for so long.
 inline constexpr Duration kTroubleSaid{5'000'000};
-/// Inputs that are watched; forged sensors shall not fill the memory.
+/// Inputs that are watched; forged sensors must not fill the memory.
 inline constexpr std::size_t kMaxInputs = 64;
 /// Silent inputs that are named, so that they fit into a heartbeat with all troubles; the others are counted.
 inline constexpr std::size_t kMaxNamed = 6;

@@ -21,6 +21,7 @@ Track trimmed_track(const Track& track, UTime now, UTime until) {
   Track kept = track;
   kept.motion.start = first.start;
   kept.motion.pieces.assign(track.motion.pieces.begin() + from, track.motion.pieces.begin() + to);
+  if (!track.shares.empty()) kept.shares.assign(track.shares.begin() + from, track.shares.begin() + to);
   kept.alpha.assign(track.alpha.begin() + from, track.alpha.begin() + to);
   return kept;
 }

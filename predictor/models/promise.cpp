@@ -9,6 +9,18 @@ namespace {
 // Halvings of [0, kLargestQuantile]: to 1e-9.
 constexpr double kLargestQuantile = 40.0;
 constexpr int kHalvings = 36;
+constexpr std::size_t kLowerLevels = kConfidenceLevels.size() - 1;
+
+/// Where the axis is at a lower level, as a share of α about the promised centre line, if that is more than the share.
+void raise_shares(const AxisTube& promised, const AxisTube& lower, std::size_t level,
+                  std::vector<AlphaShares>& shares) {
+  const auto shift = [&](std::size_t k) { return std::abs(lower.centre[k] - promised.centre[k]); };
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const double half = lower.half[k + 1] + std::max(shift(k), shift(k + 1));
+    const auto share = static_cast<float>(std::min(1.0, half / promised.half[k + 1]));
+    for (std::size_t l = 0; l <= level; ++l) shares[k][l] = std::max(shares[k][l], share);
+  }
+}
 
 }  // namespace
 
@@ -59,10 +71,15 @@ void predict_motion(const std::array<AxisForecast, 3>& axes, UTime start, const 
   track.motion.start = start;
   track.motion.pieces.assign(pieces, CubicPiece{});
   track.alpha.assign(pieces, Vec3::Zero());
+  track.shares.assign(pieces, AlphaShares{});
   track.top_speed = spec.max_speed;
   for (int axis = 0; axis < 3; ++axis) {
     const AxisForecast& forecast = axes[static_cast<std::size_t>(axis)];
     const AxisTube tube = axis_tube(forecast, (1.0 - spec.confidence) / 3.0, spec);
+    for (std::size_t level = 0; level < kLowerLevels; ++level) {
+      const double confidence = confidence_at(spec.confidence, static_cast<int>(level) + 1);
+      raise_shares(tube, axis_tube(forecast, (1.0 - confidence) / 3.0, spec), level, track.shares);
+    }
     track.top_speed = std::max(track.top_speed, forecast.speed);
     for (std::size_t k = 0; k < pieces; ++k) {
       CubicPiece& piece = track.motion.pieces[k];

@@ -62,7 +62,8 @@ struct AxisTube {
 AxisTube axis_tube(const AxisForecast& forecast, double probability, const PredictionSpec& spec);
 
 /// The motion and α of an estimate whose state is that of `start`. Each axis gets a third of 1 − confidence.
-/// Sets motion, alpha and top_speed (max_speed, or the estimate's own speed if that is larger).
+/// Sets motion, alpha, shares (the same formula at the lower levels of confidence, about the same centre) and top_speed
+/// (max_speed, or the estimate's own speed if that is larger).
 void predict_motion(const std::array<AxisForecast, 3>& axes, UTime start, const PredictionSpec& spec, Track& track);
 
 }  // namespace tern

@@ -24,7 +24,7 @@ struct PointFrame {
   Vec3 origin = Vec3::Zero();    ///< file's units
   double metres_per_unit = 1.0;  ///< > 0
 
-  /// Nothing when the result is not finite or farther than kMaxCoordinate from W's origin on an axis.
+  /// @return nullopt if the result is not finite or farther than kMaxCoordinate from W's origin on an axis.
   [[nodiscard]] std::optional<Vec3> to_world(const Vec3& p_file) const;
 };
 

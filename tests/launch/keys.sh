@@ -10,7 +10,7 @@ all_keys() {
 import hashlib, sys
 master = bytes.fromhex(open(sys.argv[1]).read())
 names = """UAV_STATE SETPOINT OBSTACLE_OBSERVATIONS DECLARED_MOTIONS HORIZON_REQUEST OBSTACLE_TRUTH FLIGHT_RESULT PREDICTIONS PLAN
-PLAN_TIMING SEARCH_VIEW SEMANTIC_MAP GOAL vehicle predictor planner mapper operator observer""".split()
+PLAN_TIMING SEARCH_VIEW SEMANTIC_MAP GOAL vehicle predictor planner mapper operator observer executor""".split()
 for key in [master] + [hashlib.blake2b(b"tern key 1 " + n.encode(), key=master, digest_size=32).digest() for n in names]:
     print(key.hex())
     print(key.hex().encode().hex())
@@ -105,7 +105,7 @@ who_has_not_the_key_is_not_heard_and_harms_nobody() {
   url=$(env -i bash -c "source $work/flight/env.sh && echo \$LCM_DEFAULT_URL")
   "$TERN_BIN/tern-key" new "$work/another.key"
   for stranger in '' "--key-file $work/another.key"; do
-    for name in tern-predictor tern-planner tern-mapper tern-simulator; do
+    for name in tern-predictor tern-planner tern-mapper tern-executor tern-simulator; do
       result=0
       # shellcheck disable=SC2086  # an option and its value, or none
       timeout 0.7 "$TERN_BIN/$name" --config "$root/scenarios/corridor_demo.yaml" --lcm-url "$url" $stranger \

@@ -27,7 +27,7 @@ Words names(const std::vector<SupervisedProcess>& processes) {
 TEST(FlightProcesses, BeginWithWhoRecordsAndWhoJudges) {
   FlightOptions options = demo();
   EXPECT_EQ(names(flight_processes(options, "r", {})),
-            (Words{"tern-logger", "tern-monitor", "tern-simulator", "tern-predictor", "tern-mapper", "tern-planner"}));
+            (Words{"tern-logger", "tern-monitor", "tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"}));
   options.view_fd = 7;
   EXPECT_EQ(names(flight_processes(options, "r", {}))[2], "tern-viewer");
 }

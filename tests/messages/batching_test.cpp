@@ -143,6 +143,17 @@ TEST(Batches, MakeTracksCoarserRatherThanLeaveThemOut) {
   }
 }
 
+TEST(Batches, HoldAHundredEstimatedTracksAsTheyAre) {
+  TrackSet whole = walkers(100, 20);
+  for (Track& track : whole.tracks) {
+    track.kind = TrackKind::Estimated;
+    track.shares.assign(track.alpha.size(), {0.9F, 0.8F, 0.7F, 0.5F});
+  }
+  const auto batches = split_batches(whole);
+  expect_legal_batches(batches);
+  EXPECT_EQ(words_of(join_batches(batches)), words_of(sorted(whole)));
+}
+
 TEST(Batches, MakeARecordingOfAHundredPeopleCoarserByLessThanACentimetre) {
   for (const TrackSet& batch : split_batches(walkers(100, 552))) {
     for (const Track& track : batch.tracks) {

@@ -1,5 +1,6 @@
 #include "tests/messages/messages_under_test.h"
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <string>
@@ -44,6 +45,10 @@ struct Words {
     for (const E& item : list) add(item);
   }
   template <class E, std::size_t n>
+  void add(const std::array<E, n>& list) {
+    for (const E& item : list) add(item);
+  }
+  template <class E, std::size_t n>
   void add(const E (&list)[n]) {
     for (const E& item : list) add(item);
   }
@@ -58,7 +63,7 @@ struct Words {
   void add(const Detection& d) { (*this)(d.position, d.half_extents, d.variance, d.track_id); }
   void add(const CubicPiece& p) { (*this)(p.duration, p.coefficients); }
   void add(const Track& t) {
-    (*this)(t.id, t.kind, t.half_extents, t.motion.start, t.motion.pieces, t.alpha, t.top_speed);
+    (*this)(t.id, t.kind, t.half_extents, t.motion.start, t.motion.pieces, t.alpha, t.top_speed, t.shares);
   }
   void add(const VoxelRun& r) { (*this)(r.label, r.class_index, r.length); }
   void add(const CertificatePlane& p) { (*this)(p.track, p.interval, p.part, p.parts, p.plane.n, p.plane.d); }
@@ -74,6 +79,10 @@ struct Words {
   void add(const Exposure& e) { (*this)(e.region, e.seconds, e.metres, e.near_seconds, e.near_metres); }
 
   void add(const UavState& s) { (*this)(s.header, s.at, s.motion, s.yaw); }
+  void add(const VehicleStatus& s) {
+    (*this)(s.header, s.at, s.armed, s.following, s.landed, s.mode, s.why_not, s.battery.value_or(-1.0), s.estimator,
+            s.position_sigma, s.resets);
+  }
   void add(const Goal& g) { (*this)(g.header, g.id, g.mode, g.position); }
   void add(const ObservationSet& s) {
     (*this)(s.header, s.at, s.sensor_id, s.range_m, s.sensor_position, s.detections);
@@ -85,11 +94,13 @@ struct Words {
   }
   void add(const HorizonRequest& r) {
     (*this)(r.header, r.id, r.t_s, r.deadline, r.committed, r.start, r.limits.v_max, r.limits.a_max, r.limits.j_max,
-            r.body.vertices, r.body.radius, r.flight_box);
+            r.body.vertices, r.body.radius, r.flight_box, r.tube);
+    const Dynamics d = r.limits.dynamics.value_or(Dynamics{0.0, 0.0, 0.0, 0.0});
+    (*this)(d.thrust_min, d.thrust_max, d.tilt_max_deg, d.body_rate_max_deg_s);
   }
   void add(const Plan& p) {
-    (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.relaxed, p.local_goal, p.sphere_radius,
-            p.cost, p.inputs, p.certificate, p.cuts, p.standing.value_or(-1));
+    (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.confidence, p.level, p.alpha_scale,
+            p.relaxed, p.local_goal, p.sphere_radius, p.cost, p.inputs, p.certificate, p.cuts, p.standing.value_or(-1));
   }
   void add(const SearchViewNode& n) { (*this)(n.position, n.parent); }
   void add(const SearchView& v) { (*this)(v.header, v.request_id, v.left_out, v.nodes); }
@@ -107,7 +118,7 @@ struct Words {
   void add(const ObstacleTruth& t) { (*this)(t.header, t.batch, t.at, t.obstacles, t.left_out); }
   void add(const FlightResult& r) {
     (*this)(r.header, r.outcome, r.detail, r.flight_time_s, r.first_entry_s, r.path_length_m, r.mean_speed_mps,
-            r.top_speed_mps, r.min_clearance_m, r.jerk_integral, r.stops, r.limit_violations, r.exposure);
+            r.top_speed_mps, r.min_clearance_m, r.min_map_clearance_m, r.jerk_integral, r.stops, r.limit_violations, r.exposure);
   }
 };
 
@@ -120,6 +131,7 @@ std::vector<std::uint64_t> words_of(const T& value) {
   return words.words;
 }
 template std::vector<std::uint64_t> words_of(const UavState&);
+template std::vector<std::uint64_t> words_of(const VehicleStatus&);
 template std::vector<std::uint64_t> words_of(const ObservationSet&);
 template std::vector<std::uint64_t> words_of(const TrackSet&);
 template std::vector<std::uint64_t> words_of(const MapChunk&);
@@ -190,6 +202,10 @@ std::vector<std::int32_t> array_sizes(const ConfigurationReport& report) {
 template <>
 std::vector<std::int32_t> array_sizes(const ObstacleTruth& truth) {
   return {size_of(truth.obstacles)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const VehicleStatus& status) {
+  return {size_of(status.mode), size_of(status.why_not)};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const FlightResult& result) {

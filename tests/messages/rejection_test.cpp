@@ -176,11 +176,30 @@ TEST(Rejection, OfTracksWhosePiecesDoNotAddUp) {
   EXPECT_EQ(after_wire([](Wire& m) { m.tracks[0].piece_count = std::numeric_limits<std::int32_t>::min(); }), "Number");
 }
 
+TEST(Rejection, OfSharesThatNoDistributionHas) {
+  const auto after_shares = [](const AlphaShares& shares) {
+    return after<TrackSet>([&](auto& s) {
+      s.tracks[0].kind = TrackKind::Estimated;
+      s.tracks[0].shares.assign(s.tracks[0].alpha.size(), shares);
+    });
+  };
+  EXPECT_EQ(after_shares({1.0F, 1.0F, 1.0F, 1.0F}), "accepted");
+  EXPECT_EQ(after_shares({0.9F, 0.8F, 0.8F, 1e-6F}), "accepted");
+  EXPECT_EQ(after_shares({0.9F, 0.8F, 0.8F, 0.0F}), "Number");
+  EXPECT_EQ(after_shares({1.1F, 0.8F, 0.8F, 0.5F}), "Number");
+  EXPECT_EQ(after_shares({std::numeric_limits<float>::quiet_NaN(), 0.8F, 0.8F, 0.5F}), "Number");
+  EXPECT_EQ(after_shares({0.9F, 0.8F, 0.81F, 0.5F}), "Inconsistent");
+  using Wire = tern_msgs::track_set_t;
+  const auto after_wire = after_on_wire<TrackSet, Wire>;
+  EXPECT_EQ(after_wire([](Wire& m) { m.shares.push_back({{1.0F, 1.0F, 1.0F, 1.0F}}); }), "Inconsistent");
+}
+
 TEST(Rejection, OfAStaticTrackThatMoves) {
   const auto make_static = [](Track& track, int pieces) {
     track.kind = TrackKind::Static;
     track.motion.pieces.assign(static_cast<std::size_t>(pieces), CubicPiece{Duration{1}, PowerCubic::Zero()});
     track.alpha.assign(track.motion.pieces.size(), Vec3::Zero());
+    track.shares.clear();
   };
   EXPECT_EQ(after<TrackSet>([&](auto& s) { make_static(s.tracks[0], 1); }), "accepted");
   EXPECT_EQ(after<TrackSet>([&](auto& s) { make_static(s.tracks[0], 2); }), "Inconsistent");
@@ -222,6 +241,8 @@ TEST(Rejection, OfMapChunk) {
 
 TEST(Rejection, OfHorizonRequest) {
   using Request = HorizonRequest;
+  EXPECT_EQ(after<Request>([](auto& r) { r.tube.z() = -1e-9; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.tube.x() = kNaN; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.id = -1; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.t_s.us = kFarPast; }), "Time");
   EXPECT_EQ(after<Request>([](auto& r) { r.deadline = r.t_s - Duration{4'999}; }), "Time");
@@ -253,6 +274,20 @@ TEST(Rejection, OfHorizonRequest) {
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.setConstant(1e300); }), "accepted");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.x() = -kInfinity; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.y() = kNaN; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.dynamics = Dynamics{}; }), "accepted");
+  for (const auto& [field, range] : {std::pair{&Dynamics::thrust_min, Dynamics::kThrustMin},
+                                     {&Dynamics::thrust_max, Dynamics::kThrustMax},
+                                     {&Dynamics::tilt_max_deg, Dynamics::kTilt},
+                                     {&Dynamics::body_rate_max_deg_s, Dynamics::kBodyRate}}) {
+    const auto with = [field = field](double value) {
+      return after<Request>([&](auto& r) { r.limits.dynamics.emplace().*field = value; });
+    };
+    EXPECT_EQ(with(range.low), "accepted");
+    EXPECT_EQ(with(range.high), "accepted");
+    EXPECT_EQ(with(std::nextafter(range.low, -kInfinity)), "Number");
+    EXPECT_EQ(with(std::nextafter(range.high, kInfinity)), "Number");
+    EXPECT_EQ(with(kNaN), "Number");
+  }
   EXPECT_EQ(after<Request>([](auto& r) { r.body.radius = -0.1; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.body.vertices(2, 0) = 1001.0; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.flight_box = Box(Vec3(0, 0, 1), Vec3(1, 1, 0)); }), "Inconsistent");
@@ -291,15 +326,20 @@ TEST(Rejection, OfPlan) {
   EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].parts = 3; }), "Inconsistent");
   EXPECT_EQ(after<Plan>([](auto& p) { p.certificate[1].part = p.certificate[1].parts; }), "Inconsistent");
   EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].stage = static_cast<Stage>(kStages); }), "Enumeration");
-  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = -2; }), "Number");
-  EXPECT_EQ(after<Plan>([](auto& p) {
-              p.cuts[0].phase = Phase::Room;
-              p.cuts[0].attempt = kMostAttempts;
-            }),
-            "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].phase = static_cast<Phase>(kPhases); }), "Enumeration");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = -1; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = kMostAttempts; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.standing = -1; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].count = -1; }), "Number");
   EXPECT_EQ(after_flag_of_two<Plan>([](Plan& p, bool flag) { p.relaxed = flag; }), "Enumeration");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.confidence = -1e-9; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.confidence = 1.0 + 1e-15; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.level = kLevels; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.alpha_scale = kNaN; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.level = kLevels - 1, p.alpha_scale = 0.5, p.confidence = 0.0; }), "accepted");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.level = kLevels - 1, p.alpha_scale = 0.5, p.confidence = 0.1; }),
+            "Inconsistent");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.level = 0, p.alpha_scale = 0.5, p.confidence = 0.0; }), "Inconsistent");
 }
 
 TEST(Rejection, OfSearchView) {
@@ -371,12 +411,31 @@ TEST(Rejection, OfObstacleTruth) {
             "Enumeration");
 }
 
+TEST(Rejection, OfVehicleStatus) {
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.at.us = kFarPast; }), "Time");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.battery = 1.1; }), "Number");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.battery = kNaN; }), "Number");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.battery.reset(); }), "accepted");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.estimator = static_cast<EstimatorHealth>(3); }), "Enumeration");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.position_sigma.y() = -0.1; }), "Number");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.resets = -1; }), "Number");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.mode = "\xC3"; }), "Number");
+  const auto following = [](bool armed, const char* why_not) {
+    return after<VehicleStatus>([&](VehicleStatus& s) { s.following = true, s.armed = armed, s.why_not = why_not; });
+  };
+  EXPECT_EQ(following(true, ""), "accepted");
+  EXPECT_EQ(following(false, ""), "Inconsistent");
+  EXPECT_EQ(following(true, "a pilot flies"), "Inconsistent");
+  EXPECT_EQ(after<VehicleStatus>([](auto& s) { s.following = false, s.why_not.clear(); }), "Inconsistent");
+}
+
 TEST(Rejection, OfFlightResult) {
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.outcome = static_cast<FlightOutcome>(4); }), "Enumeration");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.first_entry_s = kNaN; }), "accepted");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.first_entry_s = kInfinity; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.flight_time_s = -1.0; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.min_clearance_m = -2e7; }), "Number");
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.min_map_clearance_m = 2e7; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.stops = -1; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.exposure[0].metres = kNaN; }), "Number");
   using Wire = tern_msgs::flight_result_t;
@@ -410,6 +469,7 @@ TEST(Encoding, ThrowsOnAMessageThatIsTooLong) {
   Rng rng(7);
   TrackSet set;
   for (int i = 0; i < 2; ++i) set.tracks.push_back(support::random_track(rng, i, kMaxPiecesPerBatch / 2));
+  for (Track& track : set.tracks) track.kind = TrackKind::Declared, track.shares.clear();
   EXPECT_LE(encode(set).size(), static_cast<std::size_t>(kMaxMessageBytes));
   for (int i = 2; i < 200; ++i) set.tracks.push_back(support::random_track(rng, i, 1));
   set.tracks.erase(set.tracks.begin());
@@ -421,6 +481,19 @@ TEST(Encoding, ThrowsOnATrackWithoutAnAlphaForEachPiece) {
   TrackSet set;
   set.tracks.push_back(support::random_track(rng, 0, 3));
   set.tracks[0].alpha.pop_back();
+  EXPECT_THROW(encode(set), std::invalid_argument);
+}
+
+TEST(Encoding, ThrowsOnSharesThatDoNotGoWithTheKindOfTrack) {
+  Rng rng(9);
+  TrackSet set;
+  set.tracks.push_back(support::random_track(rng, 0, 3));
+  set.tracks[0].kind = TrackKind::Declared;
+  set.tracks[0].shares.assign(3, {1.0F, 1.0F, 1.0F, 1.0F});
+  EXPECT_THROW(encode(set), std::invalid_argument);
+  set.tracks[0].kind = TrackKind::Estimated;
+  EXPECT_NO_THROW(encode(set));
+  set.tracks[0].shares.pop_back();
   EXPECT_THROW(encode(set), std::invalid_argument);
 }
 

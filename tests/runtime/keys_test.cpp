@@ -49,7 +49,7 @@ TEST(KeyRing, GivesAProcessTheKeysOfWhatItSaysAndHearsAlone) {
 TEST(KeyRing, OnlyWhoHearsAPlanHoldsItsKey) {
   for (const Part& part : parts()) {
     const KeyRing ring = KeyRing::derive(counting_key(), part.process);
-    const bool hears = part.process == "tern-planner" || part.process == "tern-simulator" ||
+    const bool hears = part.process == "tern-planner" || part.process == "tern-executor" ||
                        part.process == "tern-monitor" || part.process == "tern-viewer";
     EXPECT_EQ(ring.find(channels::kPlan.name, Role::Planner) != nullptr, hears) << part.process;
   }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "planner/global_path/box_cover.h"
+#include "core/world/box_cover.h"
 #include "planner/global_path/goal_field.h"
 #include "planner/global_path/local_goal.h"
 #include "runtime/scenario_file.h"

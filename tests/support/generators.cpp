@@ -8,6 +8,7 @@
 
 #include "core/base/digest.h"
 #include "core/world/message_limits.h"
+#include "tests/support/random_shares.h"
 #include "tests/support/random_splines.h"
 
 namespace tern::support {
@@ -136,7 +137,7 @@ double measure(Rng& rng, double lo, double hi) {
 Track random_track(Rng& rng, std::int64_t id, int pieces) {
   Track track;
   track.id = id;
-  track.kind = pieces == 1 && flag(rng) ? TrackKind::Static : enumerator(rng, TrackKind::Declared);
+  track.kind = pieces == 1 && flag(rng) ? TrackKind::Static : enumerator(rng, TrackKind::Estimated);
   if (track.kind == TrackKind::Static && pieces > 1) track.kind = TrackKind::Estimated;
   track.half_extents = extents(rng);
   track.top_speed = number(rng, 0.0, kMaxSpeed);
@@ -152,6 +153,7 @@ Track random_track(Rng& rng, std::int64_t id, int pieces) {
     piece.coefficients.col(3) = position(rng);
     track.motion.pieces.push_back(piece);
     track.alpha.push_back(extents(rng));
+    if (track.kind == TrackKind::Estimated) track.shares.push_back(random_shares(rng));
   }
   return track;
 }
@@ -189,7 +191,7 @@ TrackSet random_message(Rng& rng, Fill fill) {
   set.confidence = positive(rng, 1.0);
   set.left_out = random_integer(rng, 0, 1000);
   const int tracks = count(rng, fill, 0, kMaxTracksPerBatch);
-  const int spare = std::min(kMaxPiecesPerBatch - tracks, (kMaxMessageBytes - 200 - tracks * 181) / 128);
+  const int spare = std::min(kMaxPiecesPerBatch - tracks, (kMaxMessageBytes - 200 - tracks * 197) / 144);
   int left = fill == Fill::Largest ? 0 : random_integer(rng, 0, spare);
   for (const std::int64_t id : different_ids(rng, tracks)) {
     const int more = random_integer(rng, 0, std::min(left, 12));
@@ -240,11 +242,17 @@ HorizonRequest random_message(Rng& rng, Fill fill) {
   request.limits.a_max = vec3(rng, kLeastLimit, kMostAccelerationLimit);
   request.limits.j_max =
       flag(rng) ? vec3(rng, kLeastLimit, kMaxJerk) : Vec3::Constant(std::numeric_limits<double>::infinity());
+  if (flag(rng)) {
+    const auto within = [&rng](const Range& range) { return number(rng, range.low, range.high); };
+    request.limits.dynamics = Dynamics{within(Dynamics::kThrustMin), within(Dynamics::kThrustMax),
+                                       within(Dynamics::kTilt), within(Dynamics::kBodyRate)};
+  }
   request.body.radius = number(rng, 0.0, kMaxBodyExtent);
   request.body.vertices = points(rng, count(rng, fill, 1, kMaxBodyVertices), kMaxBodyExtent);
   const Vec3 a = position(rng);
   const Vec3 b = position(rng);
   request.flight_box = Box(a.cwiseMin(b), a.cwiseMax(b));
+  request.tube = vec3(rng, 0.0, kMaxBodyExtent);
   return request;
 }
 
@@ -258,6 +266,9 @@ Plan random_message(Rng& rng, Fill fill) {
   const int n = count(rng, fill, kMinControlPoints, kMaxControlPoints);
   plan.trajectory = {time(rng), interval(rng), points(rng, n, kMaxCoordinate)};
   plan.hold = {integer(rng, 0, kMaxSpan.us)};
+  plan.confidence = rng.uniform();
+  plan.level = random_integer(rng, 0, kLevels - 1);
+  if (flag(rng)) plan.confidence = 0.0, plan.level = kLevels - 1, plan.alpha_scale = rng.uniform();
   plan.relaxed = flag(rng);
   plan.local_goal = position(rng);
   plan.sphere_radius = number(rng, 0.0, kMaxCoordinate);
@@ -359,6 +370,23 @@ ObstacleTruth random_message(Rng& rng, Fill fill) {
 }
 
 template <>
+VehicleStatus random_message(Rng& rng, Fill fill) {
+  VehicleStatus status;
+  status.header = header(rng);
+  status.at = time(rng);
+  status.following = fill == Fill::Mixed && flag(rng);
+  status.armed = status.following || flag(rng);
+  status.landed = flag(rng);
+  status.mode = text(rng, count(rng, fill, 0, kMaxModeText));
+  if (!status.following) status.why_not = text(rng, count(rng, fill, 1, kMaxWhyText));
+  if (flag(rng)) status.battery = number(rng, 0.0, 1.0);
+  status.estimator = enumerator(rng, EstimatorHealth::Lost);
+  status.position_sigma = extents(rng);
+  status.resets = integer(rng, 0, kMaxCounter);
+  return status;
+}
+
+template <>
 FlightResult random_message(Rng& rng, Fill fill) {
   FlightResult result;
   result.header = header(rng);
@@ -370,6 +398,7 @@ FlightResult random_message(Rng& rng, Fill fill) {
   result.mean_speed_mps = measure(rng, 0.0, kMaxSpeed);
   result.top_speed_mps = measure(rng, 0.0, kMaxSpeed);
   result.min_clearance_m = measure(rng, -1e7, 1e7);
+  result.min_map_clearance_m = measure(rng, -1e7, 1e7);
   result.jerk_integral = measure(rng, 0.0, 1e300);
   result.stops = integer(rng, 0, kMaxCounter);
   result.limit_violations = integer(rng, 0, kMaxCounter);

@@ -19,8 +19,9 @@ enum class Fill {
   Largest,  ///< every count at its published maximum (a TrackSet: as many tracks as may be, a piece each)
 };
 
-/// A value that decode() accepts, of any of the twelve message types: UavState, ObservationSet, TrackSet, MapChunk,
-/// Goal, HorizonRequest, Plan, PlanTiming, SearchView, Heartbeat, ConfigurationReport, ObstacleTruth, FlightResult.
+/// A value that decode() accepts, of any of the message types: UavState, VehicleStatus, ObservationSet, TrackSet,
+/// MapChunk, Goal, HorizonRequest, Plan, PlanTiming, SearchView, Heartbeat, ConfigurationReport, ObstacleTruth,
+/// FlightResult.
 template <class T>
 T random_message(Rng& rng, Fill fill = Fill::Mixed);
 

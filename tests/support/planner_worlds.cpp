@@ -8,6 +8,7 @@
 #include "core/geometry/distance.h"
 #include "planner/search/axis_reach.h"
 #include "planner/tuning.h"
+#include "tests/support/random_shares.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/voxel_maps.h"
 
@@ -67,6 +68,7 @@ Track jumping_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, dou
     piece.coefficients.col(3) = random_in(rng, where);
     track.motion.pieces.push_back(piece);
     track.alpha.push_back(random_alpha(rng));
+    track.shares.push_back(random_shares(rng));
   }
   return track;
 }

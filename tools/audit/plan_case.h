@@ -54,7 +54,7 @@ struct PlanCase {
 /// largest clear value); 1 where it is clear with all of it, 0 where there is no room without any. To 1e-6, low.
 double relaxed_share(const Track& track, const Body& body, const Vec3& p, UTime t);
 
-/// Puts a plan together with its inputs. Nothing, and the reason in `why`, when the log lacks one of them.
+/// Puts a plan together with its inputs. @return nullopt, and the reason in `why`, if the log lacks one of them.
 std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, std::string& why);
 
 }  // namespace tern::audit

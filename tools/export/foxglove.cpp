@@ -166,7 +166,7 @@ Json field_schema(const MessageField& field) {
   Json schema;
   if (message_types().contains(field.type)) {
     schema = message_schema(field.type);
-  } else if (field.type == "double") {
+  } else if (field.type == "double" || field.type == "float") {
     schema["type"] = Json::array({"number", "null"});
   } else {
     const bool text = field.digest || field.form == MessageField::Form::Text;

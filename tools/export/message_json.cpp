@@ -37,6 +37,7 @@ Json object_of(const MessageType& type, WireReader& wire);
 Json value_of(const MessageField& field, WireReader& wire) {
   const std::string& type = field.type;
   if (type == "double") return std::bit_cast<double>(wire.unsigned_integer(8));
+  if (type == "float") return std::bit_cast<float>(static_cast<std::uint32_t>(wire.unsigned_integer(4)));
   if (type == "int64_t") {
     const std::uint64_t x = wire.unsigned_integer(8);
     return field.digest ? Json(fmt::format("{:#018x}", x)) : Json(static_cast<std::int64_t>(x));

@@ -23,7 +23,7 @@ namespace tern {
 struct RecordedPlan {
   Plan plan;
   std::int64_t received_us = 0;      ///< when the logger had it, µs since the Unix epoch
-  std::optional<PlanTiming> timing;  ///< what it cost; nothing when the log has none
+  std::optional<PlanTiming> timing;  ///< what it cost; nullopt if the log has none
 };
 
 /// Everything that plans name but the prediction sets, which are many: those are read by read_prediction_sets.

@@ -36,7 +36,13 @@ void write_pieces(JsonWriter& json, const Track& track) {
     const CubicPiece& piece = track.motion.pieces[k];
     json.begin_object().key("duration_s").number(piece.duration.seconds());
     json.key("from_m").vec3(piece.coefficients.col(3)).key("velocity_mps").vec3(piece.coefficients.col(2));
-    json.key("alpha_m").vec3(track.alpha[k]).end_object();
+    json.key("alpha_m").vec3(track.alpha[k]);
+    if (!track.shares.empty()) {
+      json.key("alpha_shares").begin_list();
+      for (const float share : track.shares[k]) json.number(static_cast<double>(share));
+      json.end_list();
+    }
+    json.end_object();
   }
   json.end_list();
 }
@@ -81,6 +87,7 @@ void write_plan(JsonWriter& json, const Scene& scene) {
   json.key("outcome").text(to_string(p.outcome)).key("reason").text(to_string(p.reason));
   json.key("start_us").integer(p.trajectory.start.us).key("interval_s").number(p.trajectory.interval.seconds());
   json.key("intervals").integer(p.trajectory.control_points.cols() - 3).key("hold_s").number(p.hold.seconds());
+  json.key("confidence").number(p.confidence).key("alpha_scale").number(p.alpha_scale);
   json.key("relaxed").flag(p.relaxed).key("local_goal_m").vec3(p.local_goal);
   json.key("sphere_radius_m").number(p.sphere_radius).key("cost_total").number(p.cost.total);
   json.key("cost_distance_to_goal_m").number(p.cost.distance_to_goal).key("cost_jerk").number(p.cost.jerk);

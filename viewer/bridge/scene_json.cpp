@@ -122,7 +122,12 @@ std::string plan_json(const Scene& scene, bool planes) {
   JsonWriter json;
   json.begin_object().key("request").integer(plan.request_id).key("outcome").text(to_string(plan.outcome));
   json.key("reason").text(to_string(plan.reason)).key("hold_s").number(plan.hold.seconds());
-  json.key("relaxed").flag(plan.relaxed).key("local_goal").vec3(plan.local_goal);
+  json.key("confidence")
+      .number(plan.confidence)
+      .key("relaxed")
+      .flag(plan.relaxed)
+      .key("local_goal")
+      .vec3(plan.local_goal);
   json.key("radius").number(plan.sphere_radius).key("cost").number(plan.cost.total);
   json.key("certificate").integer(static_cast<std::int64_t>(plan.certificate.size()));
   if (plan.outcome != PlanOutcome::NoPlan) write_trajectory(json, plan.trajectory);

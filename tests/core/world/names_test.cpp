@@ -31,6 +31,7 @@ void expect_constants_in(const std::string& file) {
 TEST(Names, AreTheConstantsOfTheMessagesDescriptions) {
   expect_constants_in<PlanOutcome>("lcmtypes/plan_t.lcm");
   expect_constants_in<PlanReason>("lcmtypes/plan_t.lcm");
+  expect_constants_in<Phase>("lcmtypes/budget_cut_t.lcm");
   expect_constants_in<Stage>("lcmtypes/budget_cut_t.lcm");
   expect_constants_in<FlightOutcome>("lcmtypes/flight_result_t.lcm");
   expect_constants_in<GoalMode>("lcmtypes/goal_t.lcm");

@@ -9,6 +9,7 @@
 
 #include "core/base/random.h"
 #include "core/world/message_limits.h"
+#include "tests/support/random_shares.h"
 #include "tests/support/random_splines.h"
 
 namespace tern {
@@ -25,7 +26,7 @@ Track random_track(Rng& rng, int pieces) {
   track.motion.start = {1'700'000'000'000'000 + random_integer(rng, 0, 1'000'000)};
   const double from_origin = rng.uniform() < 0.5 ? 10.0 : 1e5;
   Vec3 p = random_vector(rng, from_origin);
-  const bool jumps = rng.uniform() < 0.3, bends = rng.uniform() < 0.5;
+  const bool jumps = rng.uniform() < 0.3, bends = rng.uniform() < 0.5, estimated = rng.uniform() < 0.5;
   for (int k = 0; k < pieces; ++k) {
     const Duration length{rng.uniform() < 0.1 ? random_integer(rng, 1, 1000) : random_integer(rng, 1000, 100'000)};
     const double h = length.seconds();
@@ -38,6 +39,7 @@ Track random_track(Rng& rng, int pieces) {
     if (jumps && rng.uniform() < 0.1) p += random_vector(rng, 1.0);
     track.motion.pieces.push_back(piece);
     track.alpha.push_back(rng.uniform() < 0.5 ? Vec3(Vec3::Zero()) : Vec3(random_vector(rng, 0.2).cwiseAbs()));
+    if (estimated) track.shares.push_back(support::random_shares(rng));
   }
   return track;
 }
@@ -47,6 +49,7 @@ void expect_contains(const Track& now, const Track& before) {
   ASSERT_EQ(now.motion.start, before.motion.start);
   ASSERT_EQ(now.motion.end(), before.motion.end());
   ASSERT_EQ(now.alpha.size(), now.motion.pieces.size());
+  ASSERT_EQ(now.shares.size(), before.shares.empty() ? 0 : now.alpha.size());
   UTime start = before.motion.start;
   for (std::size_t k = 0; k < before.motion.pieces.size(); ++k) {
     const CubicPiece& piece = before.motion.pieces[k];
@@ -60,8 +63,11 @@ void expect_contains(const Track& now, const Track& before) {
         at.start = at.start - now.motion.pieces[at.index].duration;
       }
       const Vec3 q = sample_cubic(now.motion.pieces[at.index].coefficients, (start + tau - at.start).seconds()).p;
-      const Vec3 room = now.alpha[at.index] - before.alpha[k] - (q - p).cwiseAbs();
-      ASSERT_GE(room.minCoeff(), 0.0) << "piece " << k << " at " << i << "/20: " << room.transpose();
+      for (int level = 0; level < kLevels; ++level) {
+        const Vec3 alpha = now.share_at(at.index, level) * now.alpha[at.index];
+        const Vec3 room = alpha - before.share_at(k, level) * before.alpha[k] - (q - p).cwiseAbs();
+        ASSERT_GE(room.minCoeff(), 0.0) << "piece " << k << " at " << i << "/20, level " << level;
+      }
     }
     start = start + piece.duration;
   }

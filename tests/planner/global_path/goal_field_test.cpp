@@ -7,7 +7,7 @@
 #include <queue>
 
 #include "core/base/random.h"
-#include "planner/global_path/box_cover.h"
+#include "core/world/box_cover.h"
 #include "planner/global_path/local_goal.h"
 #include "tests/support/voxel_maps.h"
 

@@ -1,4 +1,4 @@
-#include "planner/global_path/box_cover.h"
+#include "core/world/box_cover.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Occupied voxels as few axis-aligned boxes: what the planner's hulls, planes and paths are made from.
+// Occupied voxels as few axis-aligned boxes: what planner and referee keep clear of.
 #pragma once
 
 #include <vector>

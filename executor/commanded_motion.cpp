@@ -1,0 +1,107 @@
+#include "executor/commanded_motion.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/world/message_limits.h"
+
+namespace tern {
+namespace {
+
+constexpr int kBrakingPoints = 7;
+constexpr Duration kShortestBraking{20'000};  ///< of an interval
+constexpr Duration kLongestBraking{5'000'000};
+
+bool agree(const Vec3& a, const Vec3& b) { return (a - b).cwiseAbs().maxCoeff() <= kJoinTolerance; }
+
+/// Jerk is not compared: it may jump.
+bool agree(const MotionSample& a, const MotionSample& b) {
+  return agree(a.p, b.p) && agree(a.v, b.v) && agree(a.a, b.a);
+}
+
+CubicPiece cubic_of(const MotionSample& from, Duration duration) {
+  CubicPiece piece{duration, {}};
+  piece.coefficients << from.j / 6.0, from.a / 2.0, from.v, from.p;
+  return piece;
+}
+
+TimedSpline braking_in(const MotionSample& from, UTime at, Duration interval) {
+  TimedSpline stop{at, interval, Points(3, kBrakingPoints)};
+  const Points3 first = start_control_points(from, interval.seconds());
+  stop.control_points.leftCols<3>() = first;
+  stop.control_points.rightCols<kBrakingPoints - 3>().colwise() = Vec3(first.col(2));
+  return stop;
+}
+
+/// The largest share of a limit that is used, over axes and derivatives; ≤ 1 + kLimitTolerance: all are kept.
+double share_of(const Limits& limits, const TimedSpline& trajectory) {
+  const MotionBounds bounds = motion_bounds(trajectory.spline());
+  return std::max({bounds.v_max.cwiseQuotient(limits.v_max).maxCoeff(),
+                   bounds.a_max.cwiseQuotient(limits.a_max).maxCoeff(),
+                   bounds.j_max.cwiseQuotient(limits.j_max).maxCoeff()});
+}
+
+}  // namespace
+
+TimedSpline braking_trajectory(const MotionSample& from, UTime at, const Limits& limits) {
+  TimedSpline best;
+  double least = std::numeric_limits<double>::infinity();
+  for (Duration interval = kShortestBraking; interval <= kLongestBraking; interval.us += interval.us / 8) {
+    TimedSpline stop = braking_in(from, at, interval);
+    const double share = share_of(limits, stop);
+    if (share < least || least == std::numeric_limits<double>::infinity()) {
+      least = share;
+      best = std::move(stop);
+    }
+    if (share <= 1.0 + kLimitTolerance) break;
+  }
+  return best;
+}
+
+CommandedMotion::CommandedMotion(const Vec3& p, UTime from, const Limits& limits)
+    : limits_(limits), settled_(p, from), newest_{.p = p}, told_until_(from), committed_(p, from) {}
+
+void CommandedMotion::hear(const UavState& setpoint) {
+  const UTime end = settled_.end();
+  if (setpoint.at <= end) return;
+  const CubicPiece cubic = cubic_of(newest_, setpoint.at - end);
+  const bool is_cubic = agree(sample_cubic(cubic.coefficients, cubic.duration.seconds()), setpoint.motion);
+  if (!is_cubic && agree(after().sample(setpoint.at), setpoint.motion)) {
+    settled_.append(after().pieces(end, setpoint.at));
+  } else {
+    settled_.append(cubic);
+  }
+  told_until_ = setpoint.at;
+  yaw_ = setpoint.yaw;
+  choose_after(setpoint.motion, setpoint.at);
+}
+
+void CommandedMotion::hear(const TimedSpline& committed) {
+  if (committed.start <= committed_.newest_start() || !committed.spline().ends_at_rest()) return;
+  committed_.splice(committed);
+  committed_.forget_before(settled_.end());
+  if (braking_) choose_after(newest_, settled_.end());
+}
+
+void CommandedMotion::choose_after(const MotionSample& motion, UTime at) {
+  newest_ = motion;
+  braking_.reset();
+  if (agree(committed_.sample(at), motion)) return;
+  const TimedSpline stop = braking_trajectory(motion, at, limits_);
+  braking_.emplace(motion.p, at - Duration{1});
+  braking_->splice(stop);
+}
+
+MotionSample CommandedMotion::sample(UTime t) const {
+  return t < settled_.end() ? settled_.sample(t) : after().sample(t);
+}
+
+bool CommandedMotion::settle(UTime until) {
+  const UTime end = settled_.end();
+  if (until <= end) return false;
+  settled_.append(after().pieces(end, until));
+  newest_ = after().sample(until);
+  return true;
+}
+
+}  // namespace tern

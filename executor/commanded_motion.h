@@ -1,0 +1,65 @@
+// What a vehicle is told to do, as the one who follows hears it: setpoints, and what comes after the newest one.
+#pragma once
+
+#include <optional>
+
+#include "core/splines/motion_history.h"
+#include "core/world/vehicle.h"
+#include "executor/committed_trajectory.h"
+
+namespace tern {
+
+/// After this long without a SETPOINT the executor counts as gone: three of them may be lost, and a busy machine may
+/// hold it up for a while.
+inline constexpr Duration kSetpointSilence{100'000};
+
+/// The commanded motion as a vehicle (simulator, autopilot bridge) reconstructs it from SETPOINT and from the committed
+/// trajectory that each HORIZON_REQUEST carries.
+///
+/// Between two setpoints it is the cubic of the first (p, v, a, j), unless the committed trajectory passes through both
+/// and that cubic does not (a message between them was lost). After the newest setpoint it is the committed trajectory,
+/// if it passes through that setpoint within kJoinTolerance, else the braking trajectory. Both end at rest. So a
+/// vehicle whose executor has died flies on along what was certified, and rests at its end.
+class CommandedMotion {
+ public:
+  /// At rest at p (W, m) until the first setpoint. @param limits  for braking
+  CommandedMotion(const Vec3& p, UTime from, const Limits& limits);
+
+  /// The next setpoint. One that is not after settled().end() is ignored.
+  void hear(const UavState& setpoint);
+  /// HORIZON_REQUEST.committed. Only one that starts after all earlier ones is news.
+  void hear(const TimedSpline& committed);
+
+  /// The command at any time; before settled().end() as it was, after it as it would be without another setpoint.
+  [[nodiscard]] MotionSample sample(UTime t) const;
+  [[nodiscard]] double yaw() const { return yaw_; }  ///< rad, of the newest setpoint
+  /// Whether the command after settled().end() is a trajectory that was heard to be committed, not one that brakes.
+  [[nodiscard]] bool is_committed() const { return !braking_; }
+  /// The time of the newest setpoint that was heard; `from` before the first one.
+  [[nodiscard]] UTime told_until() const { return told_until_; }
+
+  /// What can no longer change. Ends at the newest setpoint, or where settle() has ended it.
+  [[nodiscard]] const MotionHistory& settled() const { return settled_; }
+  /// Gives up waiting for setpoints up to `until`: the command until then is what comes after the newest one.
+  /// @return whether anything was missing
+  bool settle(UTime until);
+  void forget_before(UTime t) { settled_.forget_before(t); }
+
+ private:
+  [[nodiscard]] const CommittedTrajectory& after() const { return braking_ ? *braking_ : committed_; }
+  void choose_after(const MotionSample& motion, UTime at);
+
+  Limits limits_;
+  MotionHistory settled_;
+  MotionSample newest_;  ///< at settled_.end(), with the jerk that follows
+  UTime told_until_;
+  double yaw_ = 0.0;
+  CommittedTrajectory committed_;               ///< as heard
+  std::optional<CommittedTrajectory> braking_;  ///< when committed_ does not pass through the newest setpoint
+};
+
+/// The trajectory that leaves `from` at `at` and comes to rest soonest among splines of four equal intervals that keep
+/// `limits`; if none keeps them (the vehicle is beyond them already), the one that exceeds them least.
+TimedSpline braking_trajectory(const MotionSample& from, UTime at, const Limits& limits);
+
+}  // namespace tern

@@ -1,0 +1,58 @@
+// What a vehicle believes of its own motion: the truth with noise, a bias that drifts, and jumps; said late.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/knobs.h"
+#include "core/base/random.h"
+#include "core/base/types.h"
+
+namespace tern {
+
+/// All zero: it knows the truth at once.
+struct EstimatorSpec {
+  double position_sigma_m = 0.0;
+  double velocity_sigma = 0.0;
+  double noise_time_s = 0.3;
+  double drift_m = 0.0;
+  double drift_time_s = 60.0;
+  double latency_s = 0.0;
+  double jump_m = 0.0;
+  double jump_every_s = 0.0;
+  double jump_at_s = 0.0;
+  template <typename V>
+  void visit(V& v) {
+    v("position_sigma_m", position_sigma_m, Range{0.0, 100.0}, "standard deviation of the noise per axis, m");
+    v("velocity_sigma", velocity_sigma, Range{0.0, 100.0}, "the same of the velocity, m/s");
+    v("noise_time_s", noise_time_s, Range{1e-3, 1e3}, "correlation time of both, s");
+    v("drift_m", drift_m, Range{0.0, 100.0}, "standard deviation of the position's bias per axis, m");
+    v("drift_time_s", drift_time_s, Range{1.0, 1e5}, "correlation time of the bias, s");
+    v("latency_s", latency_s, Range{0.0, 1.0},
+      "UAV_STATE comes this much after its time, s; the controller's own does not");
+    v("jump_m", jump_m, Range{0.0, 100.0}, "a filter that resets shifts the position by this, level, any direction, m");
+    v("jump_every_s", jump_every_s, Range{0.0, 1e6}, "mean time between jumps, s; 0: none but the next");
+    v("jump_at_s", jump_at_s, Range{0.0, 1e6}, "one jump at this time after the vehicle's start, s; 0: none");
+  }
+};
+
+/// The error is a first-order Markov process each for noise and bias, begun in its stationary state, and the sum of all
+/// jumps. Deterministic from the seed. Latency is its user's to keep.
+class Estimator {
+ public:
+  Estimator(const EstimatorSpec& spec, std::uint64_t seed);
+  void advance(double dt);
+  [[nodiscard]] Vec3 position_error() const { return noise_ + bias_ + jumped_; }  ///< estimate − truth, m
+  [[nodiscard]] Vec3 velocity_error() const { return velocity_; }                 ///< m/s
+  [[nodiscard]] int jumps() const { return jumps_; }                              ///< so far
+
+ private:
+  Vec3 normal();
+  void jump();
+  EstimatorSpec spec_;
+  Rng rng_;
+  double time_s_ = 0.0;
+  Vec3 noise_ = Vec3::Zero(), velocity_ = Vec3::Zero(), bias_ = Vec3::Zero(), jumped_ = Vec3::Zero();
+  int jumps_ = 0;
+};
+
+}  // namespace tern

@@ -1,0 +1,32 @@
+#include "simulator/vehicle/perfect_vehicle.h"
+
+namespace tern {
+namespace {
+
+/// The longest time that anybody looks back: the sensor's latency and the referee's lag.
+constexpr Duration kRemembered{4'000'000};
+
+}  // namespace
+
+void PerfectVehicle::advance(UTime now) {
+  command_.settle(now - kSetpointSilence);
+  command_.forget_before(now - kRemembered);
+}
+
+UavState PerfectVehicle::state_at(UTime t) const {
+  UavState state;
+  state.at = t;
+  state.motion = command_.sample(t);
+  state.yaw = command_.yaw();
+  return state;
+}
+
+VehicleStatus PerfectVehicle::status(UTime now) const {
+  VehicleStatus status;
+  status.at = now;
+  status.armed = status.following = true;
+  status.mode = "perfect";
+  return status;
+}
+
+}  // namespace tern

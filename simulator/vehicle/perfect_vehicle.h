@@ -1,0 +1,36 @@
+// The vehicle that is where its setpoints say.
+#pragma once
+
+#include "core/world/scenario.h"
+#include "executor/commanded_motion.h"
+#include "simulator/vehicle/vehicle.h"
+
+namespace tern {
+
+/// Follows the commanded motion exactly, and knows its state exactly. Its truth ends at its newest setpoint, and during
+/// a silence kSetpointSilence ago, so that setpoints that come late after all are followed. A setpoint that jumps makes
+/// it jump, which the referee counts.
+class PerfectVehicle final : public Vehicle {
+ public:
+  PerfectVehicle(const UavSpec& uav, UTime now) : limits_(uav.limits), command_(uav.start, now, uav.limits) {}
+
+  void hear(const UavState& setpoint) override { command_.hear(setpoint); }
+  void hear(const TimedSpline& committed) override { command_.hear(committed); }
+  void advance(UTime now) override;
+  [[nodiscard]] const MotionHistory& truth() const override { return command_.settled(); }
+  [[nodiscard]] UavState true_state() const override { return state_at(truth().end()); }
+  /// At its newest setpoint while it does not know what comes after it.
+  [[nodiscard]] UavState estimate(UTime now) override {
+    return state_at(command_.is_committed() ? now : truth().end());
+  }
+  [[nodiscard]] VehicleStatus status(UTime now) const override;
+  [[nodiscard]] Limits judged_limits() const override { return limits_; }
+
+ private:
+  [[nodiscard]] UavState state_at(UTime t) const;
+
+  Limits limits_;
+  CommandedMotion command_;
+};
+
+}  // namespace tern

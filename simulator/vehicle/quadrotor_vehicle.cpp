@@ -1,0 +1,72 @@
+#include "simulator/vehicle/quadrotor_vehicle.h"
+
+#include <cmath>
+#include <limits>
+
+namespace tern {
+namespace {
+
+/// Of a piece of the truth: cubics through the model's states are then within a micrometre of it.
+constexpr Duration kPiece{5'000};
+constexpr Duration kRemembered{4'000'000};
+
+}  // namespace
+
+QuadrotorVehicle::QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& flight, std::uint64_t seed, UTime now)
+    : estimator_(flight.estimator),
+      model_(flight.quadrotor, flight.wind, flight.estimator, seed, uav.start, uav.flight_box.min().z(), now),
+      command_(uav.start, now, uav.limits),
+      truth_(uav.start, now),
+      newest_{.p = uav.start} {
+  said_.at = now;
+  said_.motion.p = uav.start;
+}
+
+void QuadrotorVehicle::advance(UTime now) {
+  command_.settle(now - kSetpointSilence);
+  while (truth_.end() + kPiece <= now) {
+    const UTime end = truth_.end() + kPiece;
+    for (UTime t = truth_.end(); t < end; t = t + kVehicleStep) {
+      UavState command;
+      command.at = t;
+      command.motion = command_.sample(t);
+      command.yaw = command_.yaw();
+      model_.command(command);
+      model_.advance(t + kVehicleStep);
+    }
+    const MotionSample reached = model_.truth().motion;
+    truth_.append(hermite_piece(newest_, reached, kPiece));
+    newest_ = reached;
+  }
+  command_.forget_before(now - kRemembered);
+  truth_.forget_before(now - kRemembered);
+}
+
+UavState QuadrotorVehicle::true_state() const {
+  UavState state = model_.estimate();
+  state.at = truth_.end();
+  state.motion = newest_;
+  return state;
+}
+
+UavState QuadrotorVehicle::estimate(UTime) {
+  if (const auto said = model_.said_estimate()) said_ = *said;
+  return said_;
+}
+
+VehicleStatus QuadrotorVehicle::status(UTime now) const {
+  VehicleStatus status;
+  status.at = now;
+  status.armed = status.following = true;
+  status.mode = "quadrotor";
+  status.position_sigma = Vec3::Constant(std::hypot(estimator_.position_sigma_m, estimator_.drift_m));
+  status.resets = model_.resets();
+  return status;
+}
+
+Limits QuadrotorVehicle::judged_limits() const {
+  const Vec3 none = Vec3::Constant(std::numeric_limits<double>::infinity());
+  return {none, none, none};
+}
+
+}  // namespace tern

@@ -1,0 +1,44 @@
+// The quadrotor's model as the simulator's vehicle.
+#pragma once
+
+#include <cstdint>
+
+#include "core/world/scenario.h"
+#include "executor/commanded_motion.h"
+#include "simulator/vehicle/quadrotor_model.h"
+#include "simulator/vehicle/vehicle.h"
+
+namespace tern {
+
+/// What flies, in which air, and what it believes.
+struct QuadrotorFlight {
+  QuadrotorConfig quadrotor;
+  WindSpec wind;
+  EstimatorSpec estimator;
+};
+
+/// Follows the commanded motion (executor/commanded_motion.h) as well as its controller can. Its limits are its
+/// physics'. The ground is the flight box's floor.
+class QuadrotorVehicle final : public Vehicle {
+ public:
+  QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& flight, std::uint64_t seed, UTime now);
+
+  void hear(const UavState& setpoint) override { command_.hear(setpoint); }
+  void hear(const TimedSpline& committed) override { command_.hear(committed); }
+  void advance(UTime now) override;
+  [[nodiscard]] const MotionHistory& truth() const override { return truth_; }
+  [[nodiscard]] UavState true_state() const override;
+  [[nodiscard]] UavState estimate(UTime now) override;
+  [[nodiscard]] VehicleStatus status(UTime now) const override;
+  [[nodiscard]] Limits judged_limits() const override;
+
+ private:
+  EstimatorSpec estimator_;
+  QuadrotorModel model_;
+  CommandedMotion command_;
+  MotionHistory truth_;
+  MotionSample newest_;  // at truth_.end()
+  UavState said_;
+};
+
+}  // namespace tern

@@ -1,0 +1,62 @@
+// Moving air: a mean, Dryden's gusts, and one discrete gust.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/knobs.h"
+#include "core/base/random.h"
+#include "core/base/types.h"
+
+namespace tern {
+
+struct WindSpec {
+  double speed = 0.0;
+  double towards = 0.0;
+  double gusts = 1.0;
+  double height_m = 6.1;
+  double burst = 0.0;
+  double burst_towards = 0.0;
+  double burst_at_s = 10.0;
+  double burst_lasts_s = 1.0;
+  template <typename V>
+  void visit(V& v) {
+    v("speed", speed, Range{0.0, 60.0}, "of the mean wind, level, m/s");
+    v("towards", towards, Range::within(7.0), "where the mean wind blows to, from W's x, rad");
+    v("gusts", gusts, Range{0.0, 5.0}, "of Dryden's turbulence at low altitude; 1: what this mean wind has, 0: none");
+    v("height_m", height_m, Range{3.0, 300.0}, "above the ground, for the turbulence's strength and length, m");
+    v("burst", burst, Range{0.0, 60.0}, "peak of one discrete gust, level, m/s");
+    v("burst_towards", burst_towards, Range::within(7.0), "where it blows to, rad");
+    v("burst_at_s", burst_at_s, Range{0.0, 1e6}, "when it begins, s after the vehicle's start");
+    v("burst_lasts_s", burst_lasts_s, Range::positive(1e3), "from nothing to nothing, s");
+  }
+};
+
+/// Standard deviations (m/s) and lengths (m) of Dryden's turbulence along the wind, across it, and vertically.
+struct Turbulence {
+  Vec3 sigma, length;
+};
+/// MIL-F-8785C, low altitude: σ_w = 0.1 V, σ_u = σ_v = σ_w / (0.177 + 0.000823 h)^0.4, L_w = h,
+/// L_u = L_v = h / (0.177 + 0.000823 h)^1.2, h in feet.
+Turbulence turbulence_of(const WindSpec& spec);
+
+/// Dryden's filters driven by white noise, for a vehicle that meets the air at `airspeed`: along the wind of first
+/// order, across and vertical of second. The discrete gust is 1 − cosine (MIL-F-8785C). Deterministic from the seed.
+class Wind {
+ public:
+  Wind(const WindSpec& spec, std::uint64_t seed);
+  /// Moves on by dt (s, far shorter than length / airspeed). @param airspeed  m/s, ≥ 0; below 1 it counts as 1
+  void advance(double airspeed, double dt);
+  /// W, m/s.
+  [[nodiscard]] Vec3 velocity() const;
+
+ private:
+  WindSpec spec_;
+  Turbulence turbulence_;
+  Rng rng_;
+  double time_s_ = 0.0;
+  double along_ = 0.0;  // the first-order state, m/s
+  Eigen::Array2d slow_ = Eigen::Array2d::Zero(),
+                 gust_ = Eigen::Array2d::Zero();  // of the second-order ones: across, up
+};
+
+}  // namespace tern
