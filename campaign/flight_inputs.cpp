@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "executor/app/executor_config.h"
 #include "planner/app/config_reader.h"
 #include "predictor/app/predictor_config.h"
 #include "runtime/config.h"

@@ -22,6 +22,8 @@ fly.sh [OPTION...]: installs what is missing, builds, starts Tern's processes, f
   --view[=ADDRESS]      show the flight in the browser: builds the page (Node 18 or newer), prints its URL and opens it
                         (default 127.0.0.1, on the first free port from 8765)
   --allow-goals         that page may send goals
+  --autopilot URL|sim   the vehicle is an autopilot's, over MAVLink (docs/autopilot.md): udp://127.0.0.1:14540,
+                        serial:///dev/ttyACM0:921600; sim: tern-autopilot-sim. It arms, takes off, and lands at the end
   --audit               recompute the flight from its log when it has ended (tern-audit); writes audit.txt and audit.json
   --report              draw the flight when it has ended (tern-report); writes report.html
   --no-install          do not look for missing packages
@@ -33,7 +35,7 @@ END
 }
 
 typed=$(printf '%q ' "$0" "$@")
-scenario=corridor_demo install=yes view='' url='' isolated=''
+scenario=corridor_demo install=yes view='' url='' isolated='' autopilot=''
 flight=("$TERN_BIN/tern-launch" fly --programs="$TERN_BIN") # and its options
 
 # There will be no flight, for this reason: the summary that was asked for says so, too.
@@ -57,7 +59,7 @@ parse() {
         shift
         ;;
       --*=*) value=${option#*=} option=${option%%=*} ;;
-      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url)
+      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url | --autopilot)
         [[ $# -gt 0 ]] || die "$option needs a value (--help)"
         value=$1
         shift
@@ -68,6 +70,7 @@ parse() {
       --scenario) scenario=$value ;;
       --view) view=$value ;;
       --lcm-url) url=$value ;;
+      --autopilot) autopilot=$value ;;
       --set | --record | --summary) [[ -z $value ]] || flight+=("$option=$value") ;;
       --seed) flight+=("--set=seed=$value") ;;
       --count) flight+=("--set=world.count=$value") ;;
@@ -112,6 +115,8 @@ build_programs || die "the programs could not be built"
 [[ -z $view ]] || "$TERN_ROOT/launch_scripts/view_page.sh" || die "the page could not be built"
 [[ -x ${flight[0]} ]] || die "${flight[0]} is not there"
 choose_network
+[[ $autopilot != sim ]] || { autopilot=udp://127.0.0.1:$((port + 14540 - FIRST_PORT)) && flight+=(--autopilot-sim); }
+flight+=(${autopilot:+--autopilot="$autopilot"})
 flight+=(--config="$scenario_file" --lcm-url="$url" ${flags:+--namespace="$flags"} --flights="$TERN_ROOT/flights" --typed="$typed")
 
 # Programs that become the next one, the outermost last. The page's socket is opened outside the namespace: browsers reach it.

@@ -24,6 +24,8 @@ struct FlightOptions {
   std::optional<int> view_fd;          ///< a listening socket for tern-viewer; none: no viewer
   std::string view_url, page;          ///< that socket's URL; the folder of the built page
   bool allow_goals = false;            ///< the page may send goals
+  std::string autopilot;               ///< where tern-mavlink connects to; empty: the simulator flies its own vehicle
+  bool autopilot_sim = false;          ///< the autopilot there is tern-autopilot-sim; needs udp://
   bool audit = false, report = false;  ///< look back when it has ended
 };
 

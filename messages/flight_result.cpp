@@ -43,6 +43,7 @@ Message to_lcm(const FlightResult& result) {
   m.mean_speed = result.mean_speed_mps;
   m.top_speed = result.top_speed_mps;
   m.min_clearance = result.min_clearance_m;
+  m.min_map_clearance = result.min_map_clearance_m;
   m.jerk_integral = result.jerk_integral;
   m.stops = result.stops;
   m.limit_violations = result.limit_violations;
@@ -73,6 +74,7 @@ tl::expected<FlightResult, Rejection> from_lcm(const Message& m) {
   result.mean_speed_mps = measure(m.mean_speed, 0.0, kMaxSpeed);
   result.top_speed_mps = measure(m.top_speed, 0.0, kMaxSpeed);
   result.min_clearance_m = measure(m.min_clearance, -kMaxClearance, kMaxClearance);
+  result.min_map_clearance_m = measure(m.min_map_clearance, -kMaxClearance, kMaxClearance);
   result.jerk_integral = measure(m.jerk_integral, 0.0, wire::kMaxNumber);
   result.stops = read.counter(m.stops);
   result.limit_violations = read.counter(m.limit_violations);

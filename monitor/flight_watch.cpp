@@ -37,11 +37,11 @@ void FlightWatch::hear(const Goal& goal) {
 
 void FlightWatch::hear(const HorizonRequest& request, UTime now) {
   ledger_.add(request);
-  const bool is_simulators = request.header.name.sender_epoch_us == processes_.epoch_us(kSimulatorProcess);
-  if (world_epoch_us_ != 0 || (first_request_ && !is_simulators)) return;
+  const bool is_executors = request.header.name.sender_epoch_us == processes_.epoch_us(kExecutorProcess);
+  if (world_epoch_us_ != 0 || (first_request_ && !is_executors)) return;
   first_request_ = request;
   first_request_at_ = now;
-  if (is_simulators) world_epoch_us_ = request.header.name.sender_epoch_us;
+  if (is_executors) world_epoch_us_ = processes_.epoch_us(kSimulatorProcess);
 }
 
 void FlightWatch::hear(const PlanTiming& timing) {

@@ -81,6 +81,7 @@ std::string to_json(const FlightSummary& summary) {
       {"top_speed_mps", measure(result, &FlightResult::top_speed_mps)},
       {"stops", measure(result, &FlightResult::stops)},
       {"min_clearance_m", measure(result, &FlightResult::min_clearance_m)},
+      {"min_map_clearance_m", measure(result, &FlightResult::min_map_clearance_m)},
       {"limit_violations", measure(result, &FlightResult::limit_violations)},
       {"requests", summary.requests},
       {"answered_in_time", summary.answered_in_time},

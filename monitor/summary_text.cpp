@@ -33,8 +33,9 @@ std::string flight_lines(const FlightResult& r) {
       fmt::format("  flight time   {:<14} first entry  {}\n", value(r.flight_time_s, "s"), value(r.first_entry_s, "s"));
   text += fmt::format("  path          {:<14} mean speed   {:<14} top speed  {}\n", value(r.path_length_m, "m"),
                       value(r.mean_speed_mps, "m/s"), value(r.top_speed_mps, "m/s"));
-  text += fmt::format("  clearance     {:<14} stops        {:<14} limit violations  {}\n",
-                      value(r.min_clearance_m, "m", 3), r.stops, r.limit_violations);
+  text +=
+      fmt::format("  clearance     {:<14} of the map   {:<14} stops      {}, limit violations {}\n",
+                  value(r.min_clearance_m, "m", 3), value(r.min_map_clearance_m, "m", 3), r.stops, r.limit_violations);
   for (const Exposure& e : r.exposure) {
     text += fmt::format("  in {:<20.20} {:>8} {:>10}   within 1 m {:>8} {:>10}\n", e.region, value(e.seconds, "s"),
                         value(e.metres, "m"), value(e.near_seconds, "s"), value(e.near_metres, "m"));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/duration.h"
+#include "planner/safety/thrust_set.h"
 #include "planner/tuning.h"
 
 namespace tern {
@@ -57,7 +58,7 @@ HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& confi
   }
   if (largest.isZero(0.0)) return hold;
   const Vec3 body = request.body.half_extents();
-  hold.aside_s = time_to_step_aside(request.limits, body, largest);
+  hold.aside_s = time_to_step_aside(boxed(request.limits), body, largest);
   hold.width = (body + largest).maxCoeff();
   Vec3 sides = body + largest;
   std::sort(sides.data(), sides.data() + 3);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/world/body.h"
 #include "planner/durations.h"
 #include "planner/evasion.h"
 #include "planner/fallback.h"
@@ -70,8 +71,10 @@ void evade(const Surroundings& near, const Heading& heading, StandingAnswer& sta
 
 }  // namespace
 
-PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
+PlanAnswer plan(const HorizonRequest& asked, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanWorkspace& workspace, PlanObserver* observer) {
+  HorizonRequest request = asked;
+  request.body = grown(asked.body, asked.tube);
   PlanLog log(observer);
   PlanTools tools{budget, workspace, log};
   log.enter(Stage::Fallback);

@@ -74,8 +74,6 @@ MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
   weighs_paths = config.semantic_path && fields.weighs();
 }
 
-Box centre_box(const Box& flight_box, const Body& body) { return grown(flight_box, -body.half_extents()); }
-
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const std::vector<Box>& static_boxes, const Vec3& start) {
   std::vector<Box> boxes = static_boxes;

@@ -1,7 +1,9 @@
 #include "planner/surroundings.h"
 
 #include "core/geometry/box.h"
+#include "core/world/flyable.h"
 #include "planner/plan_workspace.h"
+#include "planner/safety/thrust_set.h"
 
 namespace tern {
 namespace {
@@ -48,6 +50,7 @@ Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& wo
           look,
           hold_demand(request, config, memory.obstacles, look.horizon_s),
           plan_limits,
+          boxed(plan_limits),
           semantics_in_reach(request, world.map->fields, config)};
 }
 

@@ -25,6 +25,7 @@ struct Surroundings {
   LookAhead look;  ///< no plan looks past its followed_until
   HoldDemand hold;
   Limits plan_limits;                      ///< v_max reduced to velocity_share
+  Limits pace_limits;                      ///< boxed(plan_limits): by which durations are made
   const SemanticFields* fields = nullptr;  ///< null: nothing that they cost differs anywhere in the sphere
 };
 

@@ -198,6 +198,7 @@ UavSpec read_uav(ConfigSection section, UavSpec uav) {
       limits.vec3_or_number("a_max", uav.limits.a_max, Range::at_least(kLeastLimit, kMostAccelerationLimit));
   uav.limits.j_max = limits.vec3_or_number("j_max", uav.limits.j_max, Range::at_least(kLeastLimit, kInfinity));
   limits.finish();
+  if (section.has("dynamics")) section.section("dynamics").read(uav.limits.dynamics.emplace());
   uav.body = read_body(section.section("body"), uav.body);
   if (section.has("flight_box")) uav.flight_box = read_box(section.section("flight_box"));
   section.finish();

@@ -84,10 +84,16 @@ std::string body_yaml(const Body& body) {
 }
 
 std::string uav_yaml(const UavSpec& uav) {
+  std::string dynamics;
+  if (const auto& d = uav.limits.dynamics) {
+    dynamics = fmt::format("  dynamics: {{thrust_min: {}, thrust_max: {}, tilt_max: {}, body_rate_max: {}}}\n",
+                           yaml_number(d->thrust_min), yaml_number(d->thrust_max), yaml_number(d->tilt_max_deg),
+                           yaml_number(d->body_rate_max_deg_s));
+  }
   return fmt::format("uav:\n  start: {}\n  goal: {}\n", to_yaml(uav.start), to_yaml(uav.goal)) +
          fmt::format("  limits:\n    v_max: {}\n    a_max: {}\n    j_max: {}\n", to_yaml(uav.limits.v_max),
                      to_yaml(uav.limits.a_max), to_yaml(uav.limits.j_max)) +
-         fmt::format("  body: {}\n  flight_box: {}\n", body_yaml(uav.body), to_yaml(uav.flight_box));
+         dynamics + fmt::format("  body: {}\n  flight_box: {}\n", body_yaml(uav.body), to_yaml(uav.flight_box));
 }
 
 std::string shape_yaml(const Box& box) { return "box: " + to_yaml(box); }

@@ -120,6 +120,7 @@ void add_measures(std::vector<Column>& columns) {
   add("top_speed_mps", &FlightResult::top_speed_mps);
   add("stops", &FlightResult::stops);
   add("min_clearance_m", &FlightResult::min_clearance_m);
+  add("min_map_clearance_m", &FlightResult::min_map_clearance_m);
   add("jerk_integral", &FlightResult::jerk_integral);
   add("limit_violations", &FlightResult::limit_violations);
 }
@@ -197,7 +198,8 @@ FlightResult unjudged(FlightOutcome outcome, std::string detail) {
   result.outcome = outcome;
   result.detail = std::move(detail);
   result.flight_time_s = result.first_entry_s = result.path_length_m = kNaN;
-  result.mean_speed_mps = result.top_speed_mps = result.min_clearance_m = result.jerk_integral = kNaN;
+  result.mean_speed_mps = result.top_speed_mps = result.min_clearance_m = kNaN;
+  result.min_map_clearance_m = result.jerk_integral = kNaN;
   return result;
 }
 

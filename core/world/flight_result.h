@@ -29,8 +29,9 @@ struct FlightResult {
   double path_length_m = 0.0;
   double mean_speed_mps = 0.0;  ///< straight distance / flight time
   double top_speed_mps = 0.0;
-  double min_clearance_m = 0.0;  ///< continuous time, negative in overlap
-  double jerk_integral = 0.0;    ///< ∫‖jerk‖² dt, m²/s⁵
+  double min_clearance_m = 0.0;      ///< to obstacles, continuous time, negative in overlap
+  double min_map_clearance_m = 0.0;  ///< the same to the map's occupied voxels
+  double jerk_integral = 0.0;        ///< ∫‖jerk‖² dt, m²/s⁵
   std::int64_t stops = 0;
   std::int64_t limit_violations = 0;
   std::vector<Exposure> exposure;

@@ -35,6 +35,8 @@ int main(int argc, char** argv) {
   fly.add_option("--view-url", options.view_url, "That socket's URL");
   fly.add_option("--page", options.page, "The folder of tern-viewer's page");
   fly.add_flag("--allow-goals", options.allow_goals, "The page may send goals");
+  fly.add_option("--autopilot", options.autopilot, "tern-mavlink flies the vehicle of the autopilot there");
+  fly.add_flag("--autopilot-sim", options.autopilot_sim, "That autopilot is tern-autopilot-sim");
   fly.add_flag("--audit", options.audit, "Recompute the flight when it has ended");
   fly.add_flag("--report", options.report, "Draw the flight when it has ended");
   fly.add_option("--failed", failed, "Do not fly: write the summary of a flight that could not begin, for this reason");

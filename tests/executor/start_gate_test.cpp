@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "simulator/app/beat.h"
+#include "runtime/beat.h"
 
 namespace tern {
 namespace {

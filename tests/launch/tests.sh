@@ -209,14 +209,14 @@ the_log_holds_what_the_logger_counted() {
 
 every_program_starts_alone() {
   local name pid
-  for name in simulator predictor mapper planner logger monitor; do
+  for name in simulator executor predictor mapper planner logger monitor; do
     [[ $(code "$scripts/$name.sh" --help) == 0 ]] || fail "$name --help"
     [[ $(code "$scripts/$name.sh" --version) == 0 ]] || fail "$name --version"
     expect "$name --version" has_text "tern-$name 0" "$work/out"
     [[ $(code "$scripts/$name.sh" --config "$work/nowhere.yaml") == 2 ]] || fail "$name --config nowhere"
   done
   cd "$work"
-  for name in simulator predictor mapper planner logger monitor; do
+  for name in simulator executor predictor mapper planner logger monitor; do
     "$scripts/$name.sh" >"$work/$name.out" 2>&1 &
     pid=$!
     eventually "$name runs" 20 has_text "runs" "$work/$name.out"

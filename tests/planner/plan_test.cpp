@@ -6,6 +6,7 @@
 #include "messages/codec.h"
 #include "planner/planner.h"
 #include "planner/tuning.h"
+#include "tests/support/flat_outputs.h"
 #include "tests/support/plan_judge.h"
 #include "tests/support/random_shares.h"
 #include "tests/support/random_splines.h"
@@ -397,6 +398,36 @@ TEST(PlannerInALoop, AStrongAttractionDoesNotParkTheVehicle) {
     }
     EXPECT_LT(steps, 120) << "cost " << static_cast<int>(cost) << ": at " << loop.now().p.transpose();
   }
+}
+
+/// Loops among movers, each with a vehicle of its own: all that is flown stays within its thrust, tilt and body rates.
+TEST(PlannerInALoop, AMultirotorFliesOnlyWhatItsPropellersCan) {
+  double farthest = 0.0;
+  int optimized = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Rng rng(seed);
+    Limits limits;
+    limits.dynamics = random_dynamics(rng);
+    std::vector<Track> tracks;
+    for (int id = 1; id <= 12; ++id) {
+      tracks.push_back(random_mover(rng, id, Box(Vec3(1.5, -2.0, 0.0), Vec3(9.0, 2.0, 2.0)), kStart, 12.0));
+    }
+    PlannerConfig config;
+    config.optimization.solver = seed % 4 == 0 ? ConvexSolver::Ipopt : ConvexSolver::Barrier;
+    Loop loop{kStart, resting_at(Vec3(0, 0, 1), kStart), limits, Body{}, config};
+    for (int step = 0; step < 40; ++step) {
+      const auto world_at = [&](const HorizonRequest& request) {
+        return world_of(tracks, go_to(Vec3(10, 0, 1)), request, config);
+      };
+      const Plan got = loop.step(world_at);
+      if (got.outcome == PlanOutcome::Optimized) ++optimized;
+      ASSERT_TRUE(flat_outputs(loop.committed.spline(), 50).within(*limits.dynamics, 1e-5))
+          << "seed " << seed << ", step " << step;
+    }
+    farthest = std::max(farthest, loop.now().p.x());
+  }
+  EXPECT_GT(farthest, 5.0);
+  EXPECT_GT(optimized, 50);
 }
 
 }  // namespace

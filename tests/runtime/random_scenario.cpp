@@ -1,5 +1,6 @@
 #include "random_scenario.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -93,6 +94,10 @@ UavSpec random_uav(Rng& rng) {
   uav.limits.a_max = vec(rng, 0.5, 50.0);
   if (toss(rng)) uav.limits.j_max = vec(rng, 1.0, 200.0);
   if (toss(rng)) uav.limits.j_max.z() = std::numeric_limits<double>::infinity();
+  if (toss(rng)) {
+    uav.limits.dynamics =
+        Dynamics{rng.uniform(0.0, 9.0), rng.uniform(10.5, 50.0), rng.uniform(1.0, 85.0), rng.uniform(1.0, 2000.0)};
+  }
   uav.body.radius = rng.uniform(0.0, 0.5);
   if (toss(rng)) {
     uav.body.radius = 0.0;
@@ -232,6 +237,12 @@ std::string difference(const Scenario& a, const Scenario& b) {
   equal("uav.limits.v_max", a.uav.limits.v_max, b.uav.limits.v_max);
   equal("uav.limits.a_max", a.uav.limits.a_max, b.uav.limits.a_max);
   equal("uav.limits.j_max", a.uav.limits.j_max, b.uav.limits.j_max);
+  const auto none = Dynamics{0.0, 0.0, 0.0, 0.0};
+  const auto numbers = [&none](const UavSpec& uav) {
+    const Dynamics d = uav.limits.dynamics.value_or(none);
+    return std::array{d.thrust_min, d.thrust_max, d.tilt_max_deg, d.body_rate_max_deg_s};
+  };
+  equal("uav.dynamics", numbers(a.uav), numbers(b.uav));
   equal("uav.body.radius", a.uav.body.radius, b.uav.body.radius);
   equal("uav.body.vertices", a.uav.body.vertices.cols(), b.uav.body.vertices.cols());
   if (equal.first.empty()) equal("uav.body.vertices", a.uav.body.vertices, b.uav.body.vertices);

@@ -189,6 +189,19 @@ TEST(ScenarioFile, TakesLimitsAsOneNumberOrThreeAndInfiniteJerk) {
   EXPECT_EQ(error_of("uav:\n  limits:\n    j_max: 0\n"), "a.yaml:3: uav.limits.j_max: 0 is out of range [0.001, inf]");
 }
 
+TEST(ScenarioFile, TakesAMultirotorsDynamicsInPartAndNoneAreNone) {
+  EXPECT_FALSE(read("uav: {}\n").uav.limits.dynamics);
+  const auto dynamics = read("uav: {dynamics: {thrust_max: 39.2, tilt_max: 70}}\n").uav.limits.dynamics;
+  ASSERT_TRUE(dynamics);
+  EXPECT_EQ(dynamics->thrust_max, 39.2);
+  EXPECT_EQ(dynamics->tilt_max_deg, 70.0);
+  EXPECT_EQ(dynamics->body_rate_max_deg_s, Dynamics{}.body_rate_max_deg_s);
+  EXPECT_EQ(error_of("uav:\n  dynamics:\n    thrust_max: 9\n"),
+            "a.yaml:3: uav.dynamics.thrust_max: 9 is out of range [10.5, 10000]");
+  EXPECT_EQ(error_of("uav:\n  dynamics:\n    tilt_max: 90\n"),
+            "a.yaml:3: uav.dynamics.tilt_max: 90 is out of range [1, 85]");
+}
+
 TEST(ScenarioFile, ABoxBodyIsItsCorners) {
   const Scenario s = read("uav: {body: {half_extents: [0.1, 0.2, 0.3]}}\n");
   EXPECT_EQ(s.uav.body.radius, 0.0);

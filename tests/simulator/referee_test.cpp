@@ -58,6 +58,28 @@ TEST(Referee, JudgesAFlightThatReachesItsGoal) {
   EXPECT_EQ(verdict->limit_violations, 0);
 }
 
+TEST(Referee, JudgesTheMapsOccupiedVoxelsBesideTheObstacles) {
+  Scenario s = short_flight();
+  s.world.obstacles = {cube(Vec3(5, 1, 1), 0.4)};
+  Referee passes = referee_of(s);
+  ASSERT_TRUE(passes.set_map({Box(Vec3(4, -3, 0), Vec3(5, -0.15, 2)), Box(Vec3(20, -3, 0), Vec3(21, 3, 2))}));
+  passes.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  const FlightResult passed = passes.verdict().value();
+  EXPECT_EQ(passed.outcome, FlightOutcome::Reached) << passed.detail;
+  EXPECT_NEAR(passed.min_clearance_m, 0.5, kClearanceTolerance);
+  EXPECT_NEAR(passed.min_map_clearance_m, 0.05, kClearanceTolerance);
+
+  Referee hits = referee_of(s);
+  ASSERT_TRUE(hits.set_map({Box(Vec3(4, -3, 0), Vec3(5, 0.05, 2))}));
+  hits.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  const FlightResult hit = hits.verdict().value();
+  EXPECT_EQ(hit.outcome, FlightOutcome::Collision);
+  EXPECT_THAT(hit.detail, HasSubstr("touched the map at"));
+  EXPECT_LT(hit.min_map_clearance_m, 0.0);
+  EXPECT_GT(hit.min_clearance_m, 0.0);
+  EXPECT_FALSE(hits.set_map({Box(Vec3(2e5, 0, 0), Vec3(3e5, 1, 1))})) << "farther than a world reaches";
+}
+
 TEST(Referee, EndsTheFlightAtTheFirstContact) {
   Scenario s = short_flight();
   s.world.obstacles = {cube(Vec3(8, 0, 1), 0.4), cube(Vec3(5, 0, 1), 0.4)};

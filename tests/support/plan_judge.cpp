@@ -26,8 +26,7 @@ std::string fault_of_new(const Plan& plan, const HorizonRequest& request,
   problem.centre_box = centre_box(request.flight_box, request.body);
   const CheckReport report = check_plan(plan.trajectory, problem, swept);
   if (report.ok()) return "";
-  return fmt::format("the checker: {}, interval {}, axis {}, {} against {}, obstacle {}", to_string(report.fault),
-                     report.interval, report.axis, report.value, report.limit, report.obstacle);
+  return fmt::format("the checker: {}, interval {}, obstacle {}", report.text(), report.interval, report.obstacle);
 }
 
 bool same(const TimedSpline& a, const TimedSpline& b) {
