@@ -41,6 +41,7 @@ struct FlightSummary {
   std::int64_t second_answers = 0;                      ///< to requests that had their answer: two planners
   std::array<std::int64_t, kPlanOutcomes> plans = {};   ///< first answers, by PlanOutcome
   std::array<std::int64_t, kPlanReasons> reasons = {};  ///< of the plans, by PlanReason; not in the JSON
+  PlansByLevel by_level = {};
   LeftOut left_out;
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel
@@ -54,8 +55,8 @@ struct FlightSummary {
 /// One JSON object, two spaces of indent, with exactly the keys outcome, detail, scenario, seed, count, settings,
 /// flight_time_s, first_entry_s, path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m,
 /// min_map_clearance_m, limit_violations, contacts_moving, contacts_at_rest, obstacles, obstacles_left_out, requests,
-/// answered_in_time, second_answers, plans, left_out, replan_ms, exposure, messages, restarts, beside, log, command,
-/// version. What has no value (NaN, a measure that no referee gave) is null.
+/// answered_in_time, second_answers, plans, confidence, left_out, replan_ms, exposure, messages, restarts, beside, log,
+/// command, version. What has no value (NaN, a measure that no referee gave) is null.
 std::string to_json(const FlightSummary& summary);
 
 /// The same for a person, at most 33 lines of at most 100 characters while there are at most 6 regions.

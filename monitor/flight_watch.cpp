@@ -136,6 +136,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   for (int k = 0; k < kPlanReasons; ++k) {
     summary.reasons[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanReason>(k));
   }
+  summary.by_level = ledger_.plans_by_level();
   summary.left_out = ledger_.left_out();
   summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::Hulls),
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "core/world/names.h"
@@ -50,6 +52,14 @@ Json plans_by_outcome(const FlightSummary& summary) {
   return plans;
 }
 
+Json plans_by_confidence(const FlightSummary& summary) {
+  Json plans = {{"promised", summary.by_level.front()}, {"below", summary.by_level.back()}};
+  for (std::size_t k = 1; k < kConfidenceLevels.size(); ++k) {
+    plans[fmt::format("{}", kConfidenceLevels[k])] = summary.by_level[k];
+  }
+  return plans;
+}
+
 Json exposure_by_region(const std::optional<FlightResult>& result) {
   Json regions = Json::object();
   if (!result) return regions;
@@ -93,6 +103,7 @@ std::string to_json(const FlightSummary& summary) {
       {"answered_in_time", summary.answered_in_time},
       {"second_answers", summary.second_answers},
       {"plans", plans_by_outcome(summary)},
+      {"confidence", plans_by_confidence(summary)},
       {"left_out", {{"plans", summary.left_out.plans}, {"most_tracks", summary.left_out.most_tracks}}},
       {"replan_ms", to_json(summary.replan_ms)},
       {"exposure", exposure_by_region(result)},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -91,6 +92,11 @@ std::string plan_lines(const FlightSummary& s) {
     if (k + 1 < kPlanOutcomes) text += ",";
   }
   text += "\n" + reason_line(s);
+  const std::int64_t all = std::accumulate(s.by_level.begin(), s.by_level.end(), std::int64_t{0});
+  if (const std::int64_t less = all - s.by_level.front(); less > 0) {
+    text += fmt::format("  confidence    {} of {} plans at less than what is promised, {} below {}\n", less, all,
+                        s.by_level.back(), kConfidenceLevels.back());
+  }
   if (s.left_out.plans == 0) return text;
   return text +
          fmt::format("  left out      {} plans rest on incomplete predictions: up to {} tracks are not in them\n",

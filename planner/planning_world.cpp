@@ -40,7 +40,10 @@ PredictionProducts::PredictionProducts(TrackSet tracks) : set(std::move(tracks))
       movers_.push_back({box, track.motion.end(), track.top_speed});
     }
     boxes.push_back(track.bounds(from, track.motion.end() + kTrackBoxReach));
-    obstacles.push_back({track.id, &track, boxes.back(), 1.0,
+    obstacles.push_back({track.id,
+                         &track,
+                         boxes.back(),
+                         {},
                          std::span<const Box>(piece_boxes.data() + first, piece_boxes.size() - first)});
   }
   index = BoxIndex(std::move(boxes));

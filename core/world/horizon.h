@@ -51,7 +51,7 @@ inline constexpr int kStages = 6;
 /// theirs in vain.
 enum class Phase : std::uint8_t {
   Durations = 0,  ///< to the local goal
-  Evasion = 1,    ///< to the stop that stays clear longest
+  Evasion = 1,    ///< to the local goal, less sure than promised; to the stop that stays clear longest
   Room = 2,       ///< out of a hull, to where there is most room
 };
 inline constexpr int kPhases = 3;

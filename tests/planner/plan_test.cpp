@@ -8,6 +8,7 @@
 #include "planner/tuning.h"
 #include "tests/support/flat_outputs.h"
 #include "tests/support/plan_judge.h"
+#include "tests/support/random_shares.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/voxel_maps.h"
 
@@ -46,6 +47,15 @@ VoxelMap random_map(Rng& rng, const Vec3& around) {
   return map;
 }
 
+/// Believed to be somewhere within a metre.
+void make_estimated(Rng& rng, Track& track) {
+  track.kind = TrackKind::Estimated;
+  for (Vec3& alpha : track.alpha) {
+    alpha = Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+    track.shares.push_back(random_shares(rng));
+  }
+}
+
 Draw random_draw(std::uint64_t seed) {
   Rng rng(seed);
   Draw d;
@@ -69,6 +79,9 @@ Draw random_draw(std::uint64_t seed) {
   const int movers = rng.uniform() < 0.2 ? 60 : random_integer(rng, 0, 25);
   for (int id = 1; id <= movers; ++id)
     tracks.push_back(random_mover(rng, id, where, t_s - Duration{250'000}, rng.uniform(2.0, 5.0)));
+  if (rng.uniform() < 0.5) {
+    for (Track& track : tracks) make_estimated(rng, track);
+  }
   for (int id = 101; id <= 100 + random_integer(rng, 0, 4); ++id) {
     tracks.push_back(
         standing_box(id, box_around(Vec3(d.request.start.p + random_vector(rng, 4.0)), Vec3(0.2, 0.2, 2.0)), t_s));

@@ -255,8 +255,8 @@ TEST_F(CheckPlan, RefusesEachPairOfMapBoxAndInterval) {
   for (int j = 0; j < kIntervals; ++j) {
     const Vec3 there = plan_.spline().sample((j + 0.5) * 0.25).p;
     const std::vector<PlanningObstacle> obstacles{
-        {-1, nullptr, box_around(there + Vec3(0, 5, 0), Vec3::Constant(0.2)), 1.0},
-        {-2, nullptr, box_around(there, Vec3::Constant(0.001)), 1.0}};
+        {-1, nullptr, box_around(there + Vec3(0, 5, 0), Vec3::Constant(0.2)), {}},
+        {-2, nullptr, box_around(there, Vec3::Constant(0.001)), {}}};
     SweptObstacles swept(obstacles, body_, kStart, {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5}, kEverywhere);
     const CheckReport report = check_plan(plan_, problem_, swept);
     EXPECT_EQ(report.breach, Breach::NotSeparated);
