@@ -94,8 +94,12 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
     ++strangers_;
     return false;
   }
+  if (received - last_heard_ > kLinkSilence) mode_is_old_ = true;
   last_heard_ = received;
-  if (heartbeat) heartbeat_ = *heartbeat;
+  if (heartbeat) {
+    heartbeat_ = *heartbeat;
+    mode_is_old_ = false;
+  }
   if (const auto m = from_frame<SysStatus>(frame); m && m->battery_remaining >= 0) {
     battery_ = std::min(m->battery_remaining / 100.0, 1.0);
   }

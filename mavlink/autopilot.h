@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/world/vehicle.h"
 #include "core/world/vehicle_status.h"
@@ -39,7 +40,8 @@ class Autopilot {
 
   [[nodiscard]] const std::optional<Address>& address() const { return address_; }
   [[nodiscard]] Firmware firmware() const;
-  [[nodiscard]] bool linked(UTime now) const { return address_ && now - last_heard_ <= kLinkSilence; }
+  /// It is heard, and its mode too since the last silence: HEARTBEAT comes at 1 Hz only.
+  [[nodiscard]] bool linked(UTime now) const { return address_ && !mode_is_old_ && now - last_heard_ <= kLinkSilence; }
   [[nodiscard]] UTime last_heard() const { return last_heard_; }
   [[nodiscard]] bool armed() const { return (heartbeat_.base_mode & kArmedBit) != 0; }
   /// Its own word: "OFFBOARD", "GUIDED", "AUTO.LAND".
@@ -76,6 +78,7 @@ class Autopilot {
   std::optional<Address> address_;
   Heartbeat heartbeat_;
   UTime last_heard_;
+  bool mode_is_old_ = false;
   std::optional<bool> landed_;
   std::optional<double> battery_;
   std::optional<EstimatorStatus> health_;

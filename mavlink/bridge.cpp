@@ -73,7 +73,7 @@ void Bridge::enter(Stage stage, const std::string& why) {
 }
 
 void Bridge::stand_back(const std::string& why) {
-  told_ = false;
+  told_ = told_again_ = false;
   streaming_since_.reset();
   enter(Stage::StoodBack, why);
 }
@@ -100,13 +100,19 @@ void Bridge::hear(const UavState& setpoint, UTime now) {
 
 void Bridge::told_to_fly() {
   if (flies()) return;
-  told_ = true;
+  told_ = told_again_ = true;
   if (stage_ == Stage::StoodBack || stage_ == Stage::Landed) enter(Stage::Waiting, "told to fly");
 }
 
+void Bridge::flight_is_under_way() {
+  if (!flies() && !told_again_) told_ = false;
+}
+
 void Bridge::land(const std::string& why) {
-  told_ = false;
-  if (flies() && stage_ != Stage::Landing) enter(Stage::Landing, why);
+  told_ = told_again_ = false;
+  if (!flies() || stage_ == Stage::Landing) return;
+  if (!followed_) hold_here(now_);
+  enter(Stage::Landing, why);
 }
 
 std::optional<UavState> Bridge::in_world(std::optional<UavState> local) const {
@@ -232,6 +238,9 @@ void Bridge::step_ready(UTime now) {
   if (!followed_) hold_here(now);
   const bool armed = autopilot_.armed(), ours = armed && autopilot_.follows();
   if (ours && in_air()) return enter(Stage::Following);
+  if (armed && !ours && !told_again_ && config_.start == Start::Arm) {
+    return stand_back(fmt::format("the vehicle is armed in {}: somebody else flies", autopilot_.mode()));
+  }
   const double aside = (state()->motion.p - uav_.start).head<2>().norm();
   if (!in_air() && aside > config_.reach_m) {
     return enter(Stage::Ready, fmt::format("the vehicle stands {:.1f} m from below uav.start, more than {:g} m", aside,

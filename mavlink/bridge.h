@@ -37,8 +37,8 @@ const char* to_string(Stage stage);
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
 /// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another: the bridge then stands back, stops its stream
 /// (with start pilot it goes on, saying the vehicle's own place), and flies again only when told: by a new GOAL, or
-/// with start pilot by the switch. A bridge that was started anew and finds the vehicle armed and in OFFBOARD in the
-/// air goes on following.
+/// with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody else's, too. A
+/// bridge that was started anew and finds the vehicle armed and in OFFBOARD in the air goes on following.
 class Bridge {
  public:
   Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
@@ -48,6 +48,8 @@ class Bridge {
   void hear(const TimedSpline& committed) { command_.hear(committed); }
   /// Somebody wants it to fly: a new GOAL of mode Go.
   void told_to_fly();
+  /// A flight has begun that this bridge knows nothing of (it was started anew): it does not arm unless told.
+  void flight_is_under_way();
   void land(const std::string& why);
   void step(UTime now);
 
@@ -101,8 +103,9 @@ class Bridge {
   CommandedMotion command_;
   bool setpoint_heard_ = false;
   Stage stage_ = Stage::Waiting;
-  std::string why_;  ///< of the newest stage
-  bool told_;        ///< to fly
+  std::string why_;          ///< of the newest stage
+  bool told_;                ///< to fly
+  bool told_again_ = false;  ///< by somebody, not by the configuration: also a vehicle that is in somebody's hands
   UTime stage_since_, now_;
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_;
   std::optional<UTime> streaming_since_;

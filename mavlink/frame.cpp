@@ -65,17 +65,19 @@ Bytes to_bytes(const Frame& frame, const SigningKey* key, std::uint64_t time) {
   }
   std::size_t length = frame.payload.size();
   while (length > 1 && frame.payload[length - 1] == 0) --length;
-  Bytes bytes{kMagic2,
-              static_cast<std::uint8_t>(length),
-              key != nullptr ? kSignedFlag : std::uint8_t{0},
-              0,
-              frame.sequence,
-              frame.from.system,
-              frame.from.component,
-              static_cast<std::uint8_t>(frame.id),
-              static_cast<std::uint8_t>(frame.id >> 8U),
-              static_cast<std::uint8_t>(frame.id >> 16U)};
-  bytes.insert(bytes.end(), frame.payload.begin(), frame.payload.begin() + static_cast<std::ptrdiff_t>(length));
+  const std::array<std::uint8_t, kHead2> head{kMagic2,
+                                              static_cast<std::uint8_t>(length),
+                                              key != nullptr ? kSignedFlag : std::uint8_t{0},
+                                              0,
+                                              frame.sequence,
+                                              frame.from.system,
+                                              frame.from.component,
+                                              static_cast<std::uint8_t>(frame.id),
+                                              static_cast<std::uint8_t>(frame.id >> 8U),
+                                              static_cast<std::uint8_t>(frame.id >> 16U)};
+  Bytes bytes(kHead2 + length);
+  std::copy(head.begin(), head.end(), bytes.begin());
+  std::copy_n(frame.payload.begin(), length, bytes.begin() + kHead2);
   const std::uint16_t crc = checksum(std::span(bytes).subspan(1), form->crc_extra);
   bytes.push_back(static_cast<std::uint8_t>(crc));
   bytes.push_back(static_cast<std::uint8_t>(crc >> 8U));

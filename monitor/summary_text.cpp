@@ -37,6 +37,16 @@ std::string settings_line(const FlownSettings& s) {
                      s.lambda_repulsive, per_axis(s.limits.v_max), per_axis(s.limits.a_max), per_axis(s.limits.j_max));
 }
 
+/// What was there, by the referee; nothing when there was none.
+std::string obstacles_met(const FlightSummary& s) {
+  if (!s.result) return "";
+  std::string text = fmt::format(", {} obstacles", s.result->obstacles);
+  if (s.result->obstacles_left_out > 0) {
+    text += fmt::format(" ({} left out: they began beside the vehicle)", s.result->obstacles_left_out);
+  }
+  return text;
+}
+
 std::string flight_lines(const FlightResult& r) {
   std::string text;
   text +=
@@ -46,6 +56,9 @@ std::string flight_lines(const FlightResult& r) {
   text +=
       fmt::format("  clearance     {:<14} of the map   {:<14} stops      {}, limit violations {}\n",
                   value(r.min_clearance_m, "m", 3), value(r.min_map_clearance_m, "m", 3), r.stops, r.limit_violations);
+  if (r.contacts_moving + r.contacts_at_rest > 0) {
+    text += fmt::format("  contacts      {} while moving, {} at rest\n", r.contacts_moving, r.contacts_at_rest);
+  }
   for (const Exposure& e : r.exposure) {
     text += fmt::format("  in {:<20.20} {:>8} {:>10}   within 1 m {:>8} {:>10}\n", e.region, value(e.seconds, "s"),
                         value(e.metres, "m"), value(e.near_seconds, "s"), value(e.near_metres, "m"));
@@ -104,8 +117,7 @@ std::string message_lines(const FlightSummary& s) {
 
 std::string to_text(const FlightSummary& s) {
   std::string text = fmt::format("{}{}{}\n", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
-  text +=
-      fmt::format("  scenario      {}, seed {}, {} obstacles\n", s.scenario, s.seed.value_or(0), s.count.value_or(0));
+  text += fmt::format("  scenario      {}, seed {}{}\n", s.scenario, s.seed.value_or(0), obstacles_met(s));
   if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);
   text += plan_lines(s);

@@ -21,6 +21,8 @@ void add_judge_contacts(CLI::App& app, Command& chosen);
 void add_merge(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
 void add_summarize(CLI::App& app, Command& chosen);
+/// compare, page and columns.
+void add_compare(CLI::App& app, Command& chosen);
 /// paper-6.1 and paper-6.2.
 void add_paper(CLI::App& app, Command& chosen);
 

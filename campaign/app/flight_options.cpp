@@ -21,6 +21,8 @@ void add_flight_options(CLI::App& app, FlightOptions& options) {
       ->capture_default_str();
   app.add_option("--audit", options.audit, "Run this program on every log: exit code 0 passed, 1 broken")
       ->type_name("PROGRAM");
+  app.add_flag("--oracle", options.oracle,
+               "The same flights with all motions declared: what perfect prediction reaches");
 }
 
 FlightInputs inputs_of(const FlightOptions& options) {
@@ -31,6 +33,9 @@ FlightInputs inputs_of(const FlightOptions& options) {
   inputs.scenario_file = *file;
   inputs.overrides = options.settings;
   if (!options.count.empty()) inputs.overrides.push_back("world.count=" + options.count);
+  if (options.oracle) {
+    inputs.overrides.insert(inputs.overrides.end(), {"simulator.declare=true", "simulator.sensor={mode: truth}"});
+  }
   inputs.charge = options.charge == "cpu" ? Charge::Cpu : Charge::Counts;
   for (const std::string& setting : options.settings) {
     if (setting.starts_with("seed=")) throw ConfigError("--set " + setting + ": seeds are set by --seeds or --seed");
@@ -43,6 +48,7 @@ std::vector<std::string> words_of(const FlightOptions& options) {
   std::vector<std::string> words = {"--world", options.world, "--charge", options.charge};
   if (!options.count.empty()) words.insert(words.end(), {"--count", options.count});
   for (const std::string& setting : options.settings) words.insert(words.end(), {"--set", setting});
+  if (options.oracle) words.emplace_back("--oracle");
   if (!options.audit.empty()) words.insert(words.end(), {"--audit", options.audit});
   return words;
 }

@@ -22,7 +22,8 @@ struct SimulatorConfig {
   bool send_goal = true;      ///< send the scenario's goal; false: the mission waits for a GOAL of someone else
   double min_flight_s = 0.0;  ///< an arrival counts only from this world time on, ≥ 0 (a vehicle that guards a place)
   SensorConfig sensor;
-  std::optional<QuadrotorFlight> quadrotor;  ///< nullopt: the perfect vehicle
+  std::optional<QuadrotorFlight> quadrotor;  ///< nullopt: the perfect vehicle, or an external one
+  bool external = false;                     ///< others fly it and say its state
 };
 
 /// Reads and finishes the section. `seed` seeds the sensor's noise. @throws ConfigError.

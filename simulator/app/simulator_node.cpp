@@ -9,6 +9,7 @@
 #include "core/world/names.h"
 #include "messages/codec.h"
 #include "runtime/beat.h"
+#include "simulator/vehicle/external_vehicle.h"
 
 namespace tern {
 namespace {
@@ -53,6 +54,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { vehicle_->hear(setpoint); });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->hear(m.committed); });
+  if (config.external) hear_external_vehicle();
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
 }
 
@@ -60,21 +62,31 @@ UTime SimulatorNode::next_wakeup() const {
   return std::min({next_state_, next_goal_, next_status_, next_result_, broadcast_.next_wakeup()});
 }
 
+void SimulatorNode::hear_external_vehicle() {
+  auto& external = dynamic_cast<ExternalVehicle&>(*vehicle_);
+  bus_.subscribe(channels::kVehicleTruth, [&external](const UavState& state) { external.hear_truth(state); });
+  bus_.subscribe(channels::kUavState, [&external](const UavState& state) { external.hear_estimate(state); });
+}
+
 void SimulatorNode::step(UTime now) {
   if (!world_zero_ && !result_) wait_for_processes(now);
-  if (now >= next_state_) {
-    vehicle_->advance(now);
-    publish_state(now);
+  const bool beat = now >= next_state_;
+  if (beat) vehicle_->advance(now);
+  admit(now);
+  if (beat) {
+    if (!config_.external) publish_state(now);
     judge(now);
     next_state_ = next_beat(next_state_, kStatePeriod, now);
   }
   broadcast_.step(now, vehicle_->truth());
-  if (now >= next_status_) publish_status(now);
+  if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
-    // Plans name the GOAL that was heard first: the log must have it.
-    const bool is_kept = world_zero_ || gate_.records(now);
-    if (goal_ && is_kept) bus_.publish(channels::kGoal, *goal_);
-    next_goal_ = next_beat(next_goal_, is_kept ? kGoalPeriod : kStatePeriod, now);
+    // Plans name the GOAL that was heard first: the log must have it. Nobody shall fly an external vehicle before world
+    // time begins.
+    const bool has_begun = world_zero_ && (!config_.external || now >= *world_zero_);
+    const bool is_due = has_begun || (!config_.external && gate_.records(now));
+    if (goal_ && is_due) bus_.publish(channels::kGoal, *goal_);
+    next_goal_ = next_beat(next_goal_, is_due ? kGoalPeriod : kStatePeriod, now);
   }
   if (now >= next_result_) {
     if (results_left_ > 0) bus_.publish(channels::kFlightResult, *result_);
@@ -160,6 +172,14 @@ void SimulatorNode::publish_status(UTime now) {
   bus_.publish(channels::kVehicleStatus, status);
   next_status_ = next_beat(next_status_, kStatusPeriod, now);
   if (world_zero_ && now < *world_zero_) next_status_ = std::min(next_status_, *world_zero_);
+}
+
+void SimulatorNode::admit(UTime now) {
+  if (!world_zero_ || now < *world_zero_) return;
+  const MotionHistory& flown = vehicle_->truth();
+  referee_.admit((now - *world_zero_).seconds(), [&](double t_s) {
+    return flown.sample(std::min(*world_zero_ + Duration::from_seconds(t_s), flown.end())).p;
+  });
 }
 
 void SimulatorNode::judge(UTime now) {

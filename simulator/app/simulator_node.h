@@ -49,6 +49,7 @@ class SimulatorNode final : public Node {
   [[nodiscard]] std::optional<UTime> world_zero() const { return world_zero_; }
 
  private:
+  void hear_external_vehicle();
   void on_heartbeat(const Heartbeat& heartbeat);
   void on_goal(const Goal& goal);
   void on_map(const MapChunk& chunk);
@@ -58,6 +59,7 @@ class SimulatorNode final : public Node {
   void publish_state(UTime now);
   void publish_status(UTime now);
   [[nodiscard]] std::string why_not_flying(UTime now) const;
+  void admit(UTime now);
   void judge(UTime now);
   void end_flight(const FlightResult& result, int exit_code, UTime now);
 

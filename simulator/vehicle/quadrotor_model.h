@@ -70,6 +70,8 @@ class QuadrotorModel {
   [[nodiscard]] UavState estimate() const;
   /// The newest estimate that has been said by now: of latency_s ago. @return nullopt before the first
   [[nodiscard]] std::optional<UavState> said_estimate();
+  /// The estimator resets itself by so many metres.
+  void jump_estimate(double metres) { estimator_.jump(metres); }
   [[nodiscard]] int resets() const { return estimator_.jumps(); }
   [[nodiscard]] const QuadrotorState& state() const { return state_; }
 

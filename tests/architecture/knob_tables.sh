@@ -34,5 +34,7 @@ same tern-predictor predictor predictor/README.md
 same tern-executor executor executor/README.md
 same tern-simulator simulator simulator/README.md
 same tern-mapper mapper semantic_mapper/README.md
+same tern-mavlink mavlink docs/autopilot.md
+same tern-autopilot-sim autopilot_sim mavlink/README.md
 same tern-logger logger logger/README.md
 exit $status

@@ -48,11 +48,12 @@ FlightSummary flown() {
 TEST(Summary, HasExactlyTheKeysThatWerePromised) {
   const json summary = json::parse(to_json(flown()));
   EXPECT_THAT(keys(summary),
-              testing::UnorderedElementsAre("outcome", "detail", "scenario", "seed", "count", "settings",
-                                            "flight_time_s", "first_entry_s", "path_length_m", "mean_speed_mps",
-                                            "top_speed_mps", "stops", "min_clearance_m", "limit_violations", "requests",
-                                            "answered_in_time", "second_answers", "plans", "left_out", "replan_ms",
-                                            "exposure", "messages", "restarts", "beside", "log", "command", "version"));
+              testing::UnorderedElementsAre(
+                  "outcome", "detail", "scenario", "seed", "count", "settings", "flight_time_s", "first_entry_s",
+                  "path_length_m", "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m", "limit_violations",
+                  "contacts_moving", "contacts_at_rest", "obstacles", "obstacles_left_out", "requests",
+                  "answered_in_time", "second_answers", "plans", "left_out", "replan_ms", "exposure", "messages",
+                  "restarts", "beside", "log", "command", "version"));
   EXPECT_THAT(keys(summary["settings"]),
               testing::UnorderedElementsAre("lambda_attractive", "lambda_repulsive", "v_max", "a_max", "j_max"));
   EXPECT_THAT(keys(summary["replan_ms"]),

@@ -64,6 +64,7 @@ std::string state_json(const Scene& scene) {
   json.begin_object().key("at_us").integer(s.at.us).key("p").vec3(s.motion.p).key("v").vec3(s.motion.v);
   json.key("a").vec3(s.motion.a).key("yaw").number(s.yaw);
   if (const auto metres = scene.clearance()) json.key("clearance").number(*metres);
+  if (const auto metres = scene.map_clearance()) json.key("map_clearance").number(*metres);
   return json.end_object().take();
 }
 
