@@ -32,8 +32,8 @@ fly.sh [OPTION...]: installs what is missing, builds, starts Tern's processes, f
   --no-install          do not look for missing packages
   --help                this
 
-Exit code (--check: 0 the goal can be reached, 1 it cannot, 2 a bad scenario): 0 reached, 1 collision, 2 not reached in time, 3 the system itself failed, 4 the audit found something broken in a
-flight that did not collide, 128 + n ended by signal n (Ctrl-C: 130).
+Exit code: 0 reached, 1 collision, 2 not reached in time, 3 the system itself failed, 4 the audit found something broken in a
+flight that did not collide, 128 + n ended by signal n (Ctrl-C: 130). Of --check: 0 the goal can be reached, 1 it cannot.
 END
 }
 
@@ -88,7 +88,7 @@ parse() {
       --view) view=$value ;;
       --lcm-url) url=$value ;;
       --autopilot) autopilot=$value ;;
-      --set | --record | --summary) [[ -z $value ]] || flight+=("$option=$value") ;;
+      --set | --record | --summary) flight+=("$option=$value") ;;
       --view-wait)
         [[ $value =~ ^[0-9]+$ ]] || die "--view-wait $value: not whole seconds"
         flight+=("--view-wait=$value")
@@ -114,7 +114,7 @@ parse() {
 check_scenario() {
   local setting options=() drawing
   drawing=$(basename "$scenario_file" .yaml).svg
-  [[ -z $view$url$isolated ]] || die "--check does not fly: --view, --lcm-url and --isolated have no effect on it"
+  [[ -z $view$url$isolated$autopilot ]] || die "--check does not fly: --view, --lcm-url, --isolated and --autopilot have no effect on it"
   for setting in "${flight[@]:3}"; do
     case $setting in
       --set=seed=*) options+=(--seed "${setting#--set=seed=}") ;;

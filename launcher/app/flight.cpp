@@ -127,6 +127,10 @@ void announce(const FlightOptions& options, const fs::path& record, const std::v
   std::ofstream commands(record / "command");
   commands << options.typed << '\n';
   for (const SupervisedProcess& process : processes) commands << shell_line(process.child.command) << '\n';
+  std::ofstream flown(record / "scenario.yaml");
+  flown << "# As flown: " << options.scenario << '\n';
+  for (const std::string& value : options.overrides) flown << "# " << shell_line({"--set", value}) << '\n';
+  flown << text_of(options.scenario);
   say("Flight of {}\n  record   {}", options.scenario, record.string());
   if (options.namespace_flags.empty()) {
     say("  network  export LCM_DEFAULT_URL='{}'", options.lcm_url);
