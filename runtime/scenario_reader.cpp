@@ -212,7 +212,6 @@ Body read_body(ConfigSection section, Body body) {
 }
 
 using Route = std::pair<Vec3, Vec3>;
-
 /// From start to goal. Of several routes the seed draws one, and which end of it is the start.
 Route read_route(ConfigSection& section, const UavSpec& uav, std::uint64_t seed, std::vector<Route>& routes) {
   for (ConfigSection entry : section.list("routes")) {
@@ -220,8 +219,7 @@ Route read_route(ConfigSection& section, const UavSpec& uav, std::uint64_t seed,
     entry.finish();
   }
   if (routes.empty()) {
-    routes.emplace_back(section.vec3("start", uav.start, kPosition), section.vec3("goal", uav.goal, kPosition));
-    return routes.front();
+    return routes.emplace_back(section.vec3("start", uav.start, kPosition), section.vec3("goal", uav.goal, kPosition));
   }
   if (section.has("start") || section.has("goal")) {
     throw section.error("routes", "goes without start and goal: each route has both");
@@ -256,10 +254,9 @@ UavSpec read_uav(ConfigSection section, UavSpec uav, std::uint64_t seed) {
                                     "[{}, {}, {}])",
                                     p.x(), p.y(), p.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
   };
-  const bool drawn = section.has("routes");
   for (const auto& [from, to] : routes) {
-    check(drawn ? "routes" : "start", from);
-    check(drawn ? "routes" : "goal", to);
+    check(section.has("routes") ? "routes" : "start", from);
+    check(section.has("routes") ? "routes" : "goal", to);
   }
   return uav;
 }
