@@ -1,5 +1,7 @@
 #include "launcher/flight_processes.h"
 
+#include <algorithm>
+
 namespace tern {
 namespace {
 
@@ -34,15 +36,20 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
     words.insert(words.end(), more.begin(), more.end());
     return process;
   };
-  const std::string log = record + "/flight.lcm";
-  add(kLogger, {"--record", log});
-  add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure"})
-      .restarted = false;
   if (options.view_fd) {
-    ChildProcess& viewer = add("tern-viewer", {"--page", options.page}).child;
+    ChildProcess& viewer = add(kViewer, {"--page", options.page}).child;
     viewer.inherited.push_back(*options.view_fd);
     if (options.allow_goals) viewer.command.emplace_back("--allow-goals");
+    if (options.looked_fd) {
+      viewer.inherited.push_back(*options.looked_fd);
+      viewer.command.insert(viewer.command.end(), {"--looked-fd", std::to_string(*options.looked_fd)});
+    }
   }
+  const std::string log = record + "/flight.lcm";
+  add(kLogger, {"--record", log});
+  add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure",
+                 "--command", options.typed})
+      .restarted = false;
   for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"})
     add(name, {});
   if (!options.autopilot.empty()) add("tern-mavlink", {"--connect", options.autopilot});
@@ -50,6 +57,9 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
     const std::string place = options.autopilot.substr(options.autopilot.find("//"));
     add("tern-autopilot-sim", {"--connect", "udpout:" + place}).restarted = false;
   }
+  const auto simulator = std::find_if(processes.begin(), processes.end(),
+                                      [](const SupervisedProcess& p) { return p.name == "tern-simulator"; });
+  simulator->child.command.emplace_back("--recorded");
   return processes;
 }
 

@@ -123,6 +123,9 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   summary.scenario = scenario_.name;
   summary.seed = scenario_.seed;
   summary.count = scenario_.world.count;
+  const SemanticsSpec& semantics = scenario_.semantics;
+  summary.settings = {scenario_.uav.limits, semantics.enabled ? semantics.lambda_attractive : 0.0,
+                      semantics.enabled ? semantics.lambda_repulsive : 0.0};
   summary.result = result_;
   summary.requests = ledger_.requests();
   summary.answered_in_time = ledger_.answered_in_time();

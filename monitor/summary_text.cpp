@@ -26,6 +26,27 @@ std::string row(std::string_view name, const Percentiles& p) {
   return fmt::format("  {:<14}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}\n", name, p.p50, p.p95, p.p99, p.max);
 }
 
+/// What was there, by the referee; nothing when there was none.
+std::string obstacles_met(const FlightSummary& s) {
+  if (!s.result) return "";
+  std::string text = fmt::format(", {} obstacles", s.result->obstacles);
+  if (s.result->obstacles_left_out > 0) {
+    text += fmt::format(" ({} left out: they began beside the vehicle)", s.result->obstacles_left_out);
+  }
+  return text;
+}
+
+/// One number where the axes agree.
+std::string per_axis(const Vec3& v) {
+  if (v.x() == v.y() && v.x() == v.z()) return std::isinf(v.x()) ? "none" : fmt::format("{:g}", v.x());
+  return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z());
+}
+
+std::string settings_line(const FlownSettings& s) {
+  return fmt::format("  flown with    λ {:g} to, {:g} away; v_max {}, a_max {}, j_max {} (SI)\n", s.lambda_attractive,
+                     s.lambda_repulsive, per_axis(s.limits.v_max), per_axis(s.limits.a_max), per_axis(s.limits.j_max));
+}
+
 std::string flight_lines(const FlightResult& r) {
   std::string text;
   text +=
@@ -35,6 +56,9 @@ std::string flight_lines(const FlightResult& r) {
   text +=
       fmt::format("  clearance     {:<14} of the map   {:<14} stops      {}, limit violations {}\n",
                   value(r.min_clearance_m, "m", 3), value(r.min_map_clearance_m, "m", 3), r.stops, r.limit_violations);
+  if (r.contacts_moving + r.contacts_at_rest > 0) {
+    text += fmt::format("  contacts      {} while moving, {} at rest\n", r.contacts_moving, r.contacts_at_rest);
+  }
   for (const Exposure& e : r.exposure) {
     text += fmt::format("  in {:<20.20} {:>8} {:>10}   within 1 m {:>8} {:>10}\n", e.region, value(e.seconds, "s"),
                         value(e.metres, "m"), value(e.near_seconds, "s"), value(e.near_metres, "m"));
@@ -93,8 +117,8 @@ std::string message_lines(const FlightSummary& s) {
 
 std::string to_text(const FlightSummary& s) {
   std::string text = fmt::format("{}{}{}\n", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
-  text +=
-      fmt::format("  scenario      {}, seed {}, {} obstacles\n", s.scenario, s.seed.value_or(0), s.count.value_or(0));
+  text += fmt::format("  scenario      {}, seed {}{}\n", s.scenario, s.seed.value_or(0), obstacles_met(s));
+  if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);
   text += plan_lines(s);
   text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");

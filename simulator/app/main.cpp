@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <memory>
 
@@ -8,16 +9,22 @@
 #include "simulator/app/simulator_node.h"
 
 int main(int argc, char** argv) {
+  bool recorded = false;
   const tern::ProcessDescription description{
       .name = "tern-simulator",
       .section = "simulator",
       .summary = "The world of a scenario, its sensors and its vehicle, and the referee; ends with FLIGHT_RESULT",
+      .add_options =
+          [&recorded](CLI::App& app) {
+            app.add_flag("--recorded", recorded, "Wait for tern-logger, too: it shall hold all that a replay needs");
+          },
       .read_sections =
           [](tern::ConfigDocument& document) { tern::read_simulator_config(document.root().section("simulator"), 0); },
       .example = "simulator: {sensor: {mode: noisy}, vehicle: quadrotor}"};
-  return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+  return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::Scenario& scenario = context.scenario;
-    const auto config = tern::read_simulator_config(context.section, scenario.seed);
+    auto config = tern::read_simulator_config(context.section, scenario.seed);
+    if (recorded) config.wait_for.emplace_back(tern::kRecorder);
     auto world = tern::make_flyable_world(scenario, config, tern::data_folder(scenario.file, std::getenv("TERN_DATA")));
     if (!world) throw tern::ConfigError(scenario.file + ": world: " + world.error().message);
     auto vehicle = tern::make_vehicle(scenario, config, context.bus.clock().now());

@@ -24,8 +24,10 @@ SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
   sensor.seed = seed;
   sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::at_least(kLeastRate, 100.0), "frames per second");
   const std::string mode =
-      section.choice("mode", "truth", {"truth", "noisy"},
-                     "`truth`: everything at once, with ids; `noisy`: by the keys below, which `truth` does not know");
+      section.choice("mode", "truth", {"none", "truth", "noisy"},
+                     "`none`: no sensor; `truth`: everything at once, with ids; `noisy`: by the keys below, which only "
+                     "it knows");
+  sensor.present = mode != "none";
   if (mode == "noisy") {
     const SensorConfig noisy = perception_only(seed);
     sensor.range_m =

@@ -70,8 +70,10 @@ void SimulatorNode::hear_external_vehicle() {
 
 void SimulatorNode::step(UTime now) {
   if (!world_zero_ && !result_) wait_for_processes(now);
-  if (now >= next_state_) {
-    vehicle_->advance(now);
+  const bool beat = now >= next_state_;
+  if (beat) vehicle_->advance(now);
+  admit(now);
+  if (beat) {
     if (!config_.external) publish_state(now);
     judge(now);
     next_state_ = next_beat(next_state_, kStatePeriod, now);
@@ -79,9 +81,12 @@ void SimulatorNode::step(UTime now) {
   broadcast_.step(now, vehicle_->truth());
   if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
-    // Nobody shall fly an external vehicle before world time begins.
-    if (goal_ && (!config_.external || (world_zero_ && now >= *world_zero_))) bus_.publish(channels::kGoal, *goal_);
-    next_goal_ = next_beat(next_goal_, kGoalPeriod, now);
+    // Nobody shall fly an external vehicle before world time begins, and plans name the GOAL that was heard first: the
+    // log must have it.
+    const bool is_kept =
+        world_zero_ ? !config_.external || now >= *world_zero_ : !config_.external && gate_.records(now);
+    if (goal_ && is_kept) bus_.publish(channels::kGoal, *goal_);
+    next_goal_ = next_beat(next_goal_, is_kept ? kGoalPeriod : kStatePeriod, now);
   }
   if (now >= next_result_) {
     if (results_left_ > 0) bus_.publish(channels::kFlightResult, *result_);
@@ -167,6 +172,14 @@ void SimulatorNode::publish_status(UTime now) {
   bus_.publish(channels::kVehicleStatus, status);
   next_status_ = next_beat(next_status_, kStatusPeriod, now);
   if (world_zero_ && now < *world_zero_) next_status_ = std::min(next_status_, *world_zero_);
+}
+
+void SimulatorNode::admit(UTime now) {
+  if (!world_zero_ || now < *world_zero_) return;
+  const MotionHistory& flown = vehicle_->truth();
+  referee_.admit((now - *world_zero_).seconds(), [&](double t_s) {
+    return flown.sample(std::min(*world_zero_ + Duration::from_seconds(t_s), flown.end())).p;
+  });
 }
 
 void SimulatorNode::judge(UTime now) {

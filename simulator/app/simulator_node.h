@@ -59,6 +59,7 @@ class SimulatorNode final : public Node {
   void publish_state(UTime now);
   void publish_status(UTime now);
   [[nodiscard]] std::string why_not_flying(UTime now) const;
+  void admit(UTime now);
   void judge(UTime now);
   void end_flight(const FlightResult& result, int exit_code, UTime now);
 

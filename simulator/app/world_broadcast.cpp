@@ -100,8 +100,9 @@ void WorldBroadcast::start(UTime world_zero, UTime now) {
 }
 
 UTime WorldBroadcast::next_wakeup() const {
-  const UTime frame = frame_arrives(config_.sensor, frames_zero_, frame_);
-  return std::min({frame, next_truth_, config_.declare ? declared_due() : frame});
+  UTime next = next_truth_;
+  if (config_.sensor.present) next = std::min(next, frame_arrives(config_.sensor, frames_zero_, frame_));
+  return config_.declare ? std::min(next, declared_due()) : next;
 }
 
 UTime WorldBroadcast::declared_due() const {
@@ -110,7 +111,7 @@ UTime WorldBroadcast::declared_due() const {
 }
 
 void WorldBroadcast::step(UTime now, const MotionHistory& uav) {
-  publish_observations(now, uav);
+  if (config_.sensor.present) publish_observations(now, uav);
   if (config_.declare && now >= declared_due()) {
     publish_declared(now, uav.sample(std::min(now, uav.end())).p);
     if (now >= next_declared_) next_declared_ = next_beat(next_declared_, kDeclaredPeriod, now);

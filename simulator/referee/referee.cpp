@@ -25,10 +25,16 @@ Referee::Referee(const Scenario& scenario, World world, const Limits& judged)
     : uav_(scenario.uav),
       goal_(scenario.uav.goal),
       world_(std::move(world)),
+      appearances_(world_),
       timeout_s_(flight_timeout_s(scenario)),
       clearance_(world_, uav_.body),
       limits_(with_limits(uav_, judged), BodyDistance(uav_.body).bounds()),
-      measures_(scenario.semantics.regions) {}
+      measures_(scenario.semantics.regions),
+      left_out_(world_.left_out) {}
+
+void Referee::admit(double t_s, const std::function<Vec3(double)>& vehicle) {
+  left_out_ += appearances_.admit(world_, t_s, vehicle);
+}
 
 void Referee::advance(Duration start, const CubicPiece& piece) {
   if (start != now_ || piece.duration <= Duration{}) {
@@ -60,6 +66,7 @@ void Referee::step(const FlownPiece& piece, double t0_s, double t1_s) {
   limits_.advance(piece, t0_s, end_s);
   if (goal_ && !first_entry_s_) first_entry_s_ = first_entry(piece, t0_s, end_s, *goal_);
   measures_.advance(piece, t0_s, end_s, arrived_s && !contact && !scrape);
+  if (scrape || contact) ++(piece.at(end_s).v.norm() > kRestSpeed ? contacts_moving_ : contacts_at_rest_);
   if (scrape) return end(FlightOutcome::Collision, end_s, describe(*scrape, "the map", piece.at(end_s).p));
   if (contact) return end(FlightOutcome::Collision, end_s, describe(*contact, name_of(*contact), piece.at(end_s).p));
   if (arrived_s && limits_.violations() == 0) return end(FlightOutcome::Reached, end_s, {});
@@ -125,6 +132,12 @@ std::optional<FlightResult> Referee::verdict() const {
   return result_so_far();
 }
 
+std::int64_t Referee::obstacles_met() const {
+  const double until = outcome_ ? end_s_ : now_.seconds();
+  return std::count_if(world_.obstacles.begin(), world_.obstacles.end(),
+                       [&](const WorldObstacle& o) { return o.first_s() <= until && o.last_s() >= 0.0; });
+}
+
 FlightResult Referee::result_so_far() const {
   FlightResult result;
   result.outcome = outcome_.value_or(FlightOutcome::Failed);
@@ -142,6 +155,10 @@ FlightResult Referee::result_so_far() const {
   result.jerk_integral = measures_.jerk_integral();
   result.stops = measures_.stops();
   result.limit_violations = limits_.violations();
+  result.contacts_moving = contacts_moving_;
+  result.contacts_at_rest = contacts_at_rest_;
+  result.obstacles = obstacles_met();
+  result.obstacles_left_out = left_out_;
   result.exposure = measures_.exposure();
   return result;
 }

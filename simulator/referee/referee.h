@@ -1,6 +1,7 @@
 // The referee: watches what the vehicle truly flies against what is truly there, and judges (BENCHMARKS: measures).
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "core/world/scenario.h"
 #include "simulator/referee/clearance.h"
 #include "simulator/referee/flight_measures.h"
+#include "simulator/worlds/appearances.h"
 #include "simulator/worlds/world.h"
 
 namespace tern {
@@ -43,6 +45,9 @@ class Referee {
   /// The occupied voxels of the newest map, as boxes (cover_with_boxes()): from now on a contact with one of them is a
   /// collision too. An error leaves the map as it was: a box beyond WorldObstacle::kMaxCoordinate.
   Result<void> set_map(const std::vector<Box>& occupied);
+  /// Decides who of those who appeared by world time t_s is part of the flight (Appearances); call it first.
+  /// @param vehicle  where it was at a world time, W
+  void admit(double t_s, const std::function<Vec3(double)>& vehicle);
 
   /// The vehicle flew `piece` from world time `start` on. After the verdict nothing is taken any more.
   /// @throws std::invalid_argument unless start is where the last piece ended (0 at first), duration > 0, coefficients
@@ -66,12 +71,14 @@ class Referee {
   [[nodiscard]] std::string name_of(const Contact& contact) const;
   [[nodiscard]] std::string describe(const Contact& contact, const std::string& what, const Vec3& p) const;
 
+  [[nodiscard]] std::int64_t obstacles_met() const;
   [[nodiscard]] std::optional<double> arrival(const FlownPiece& piece, double t0_s, double t1_s) const;
 
   UavSpec uav_;
   std::optional<Vec3> goal_;
   double earliest_arrival_s_ = 0.0;
   World world_;
+  Appearances appearances_;
   double timeout_s_;
   ClearanceWatch clearance_;
   World map_;  ///< its boxes as obstacles at rest
@@ -84,6 +91,8 @@ class Referee {
   std::optional<double> first_entry_s_;
   std::optional<FlightOutcome> outcome_;
   double end_s_ = 0.0;
+  std::int64_t left_out_ = 0;
+  std::int64_t contacts_moving_ = 0, contacts_at_rest_ = 0;
   std::string detail_;
 };
 

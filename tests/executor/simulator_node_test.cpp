@@ -490,7 +490,9 @@ TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {
     SimulatorConfig config;
     config.quadrotor.emplace();
     disturbance.apply(*config.quadrotor);
-    Flight flight(gentle_scenario(), config, {.tube_m = 0.25});
+    ExecutorConfig executor;
+    executor.tube_m = 0.25;
+    Flight flight(gentle_scenario(), config, executor);
     flight.start_planner();
     flight.fly();
     ASSERT_FALSE(flight.results.empty());
@@ -499,6 +501,29 @@ TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {
     EXPECT_EQ(flight.executor->exits() > 0, disturbance.leaves) << flight.executor->exits();
     EXPECT_EQ(flight.executor->counters().refused(), 0);
   }
+}
+
+TEST(SimulatorNode, WithoutASensorObservesNothing) {
+  SimulatorConfig config;
+  config.sensor.present = false;
+  Flight flight(with_obstacle(empty_scenario(), far_trefoil()), config);
+  flight.start_planner();
+  flight.fly();
+  EXPECT_TRUE(flight.observations.empty());
+  EXPECT_FALSE(flight.truths.empty());
+  EXPECT_EQ(flight.results.front().obstacles, 1);
+}
+
+TEST(SimulatorNode, NeverShowsWhoAppearsBesideTheVehicle) {
+  ObstacleSpec person;
+  person.motion = WaypointMotion{{{0.5, Vec3(1, 2, 1)}, {60.0, Vec3(1, 2, 1)}}, false, true, 3.0};
+  Flight flight(with_obstacle(empty_scenario(), person));
+  flight.start_planner();
+  flight.fly();
+  for (const ObstacleTruth& truth : flight.truths) EXPECT_TRUE(truth.obstacles.empty());
+  for (const auto& [set, at] : flight.observations) EXPECT_TRUE(set.detections.empty());
+  EXPECT_EQ(flight.results.front().obstacles_left_out, 1);
+  EXPECT_EQ(flight.results.front().outcome, FlightOutcome::Reached) << flight.results.front().detail;
 }
 
 }  // namespace

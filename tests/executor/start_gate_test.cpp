@@ -53,6 +53,18 @@ TEST(StartGate, OpensWhenEveryoneIsReadyAndSaysWhoIsNot) {
   EXPECT_TRUE(gate.open(kNow));
 }
 
+TEST(StartGate, KnowsWhetherTheLogHoldsWhatIsPublished) {
+  EXPECT_TRUE(StartGate({"tern-planner"}, kOwnEpoch).records(kNow)) << "nobody records";
+  StartGate gate({"tern-planner", kRecorder}, kOwnEpoch);
+  EXPECT_FALSE(gate.records(kNow));
+  gate.hear(heartbeat(kRecorder, ProcessState::Waiting, "CONFIGURATION of tern-planner"), kNow);
+  EXPECT_FALSE(gate.records(kNow));
+  EXPECT_EQ(gate.missing(kNow), "tern-planner (not heard), tern-logger (waits for CONFIGURATION of tern-planner)");
+  gate.hear(heartbeat(kRecorder, ProcessState::Ready), kNow);
+  EXPECT_TRUE(gate.records(kNow));
+  EXPECT_FALSE(gate.records(kNow + StartGate::kHeartbeatAge + kMs));
+}
+
 TEST(StartGate, ForgetsWhoIsNoLongerHeard) {
   StartGate gate({"tern-planner"}, kOwnEpoch);
   gate.hear(heartbeat("tern-planner", ProcessState::Ready), kNow);

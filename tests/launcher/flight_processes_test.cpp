@@ -24,13 +24,13 @@ Words names(const std::vector<SupervisedProcess>& processes) {
   return names;
 }
 
-TEST(FlightProcesses, BeginWithWhoRecordsAndWhoJudges) {
+TEST(FlightProcesses, BeginWithTheViewerThenWhoRecordsAndWhoJudges) {
   FlightOptions options = demo();
   EXPECT_EQ(names(flight_processes(options, "r", {})),
             (Words{"tern-logger", "tern-monitor", "tern-simulator", "tern-executor", "tern-predictor", "tern-mapper",
                    "tern-planner"}));
   options.view_fd = 7;
-  EXPECT_EQ(names(flight_processes(options, "r", {}))[2], "tern-viewer");
+  EXPECT_EQ(names(flight_processes(options, "r", {}))[0], "tern-viewer");
 }
 
 TEST(FlightProcesses, WithAnAutopilotHaveABridge) {
@@ -52,6 +52,12 @@ TEST(FlightProcesses, WithAnAutopilotHaveABridge) {
 TEST(FlightProcesses, AreAllRestartedButTheMonitor) {
   for (const SupervisedProcess& p : flight_processes(demo(), "r", {})) {
     EXPECT_EQ(p.restarted, p.name != "tern-monitor") << p.name;
+  }
+}
+
+TEST(FlightProcesses, TellTheSimulatorThatTheLoggerRecords) {
+  for (const SupervisedProcess& p : flight_processes(demo(), "r", {})) {
+    EXPECT_EQ(std::count(p.child.command.begin(), p.child.command.end(), "--recorded"), p.name == "tern-simulator");
   }
 }
 

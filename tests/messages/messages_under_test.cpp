@@ -118,7 +118,8 @@ struct Words {
   void add(const ObstacleTruth& t) { (*this)(t.header, t.batch, t.at, t.obstacles, t.left_out); }
   void add(const FlightResult& r) {
     (*this)(r.header, r.outcome, r.detail, r.flight_time_s, r.first_entry_s, r.path_length_m, r.mean_speed_mps,
-            r.top_speed_mps, r.min_clearance_m, r.min_map_clearance_m, r.jerk_integral, r.stops, r.limit_violations, r.exposure);
+            r.top_speed_mps, r.min_clearance_m, r.min_map_clearance_m, r.jerk_integral, r.stops, r.limit_violations,
+            r.contacts_moving, r.contacts_at_rest, r.obstacles, r.obstacles_left_out, r.exposure);
   }
 };
 

@@ -106,9 +106,8 @@ void fly_again(VirtualSystem& system) {
                                            std::make_unique<PerfectVehicle>(scenario.uav, bus.clock().now()),
                                            SimulatorConfig());
   });
-  system.runner().start("tern-executor", [](Bus& bus) {
-    return std::make_unique<ExecutorNode>(bus, scenario.uav, ExecutorConfig());
-  });
+  system.runner().start("tern-executor",
+                        [](Bus& bus) { return std::make_unique<ExecutorNode>(bus, scenario.uav, ExecutorConfig()); });
 }
 
 TEST_F(ReplayTest, OfHoldingAndOfASecondFlightGivesTheSameBytes) {
@@ -271,6 +270,31 @@ TEST_F(ReplayTest, OtherSettingsSayWhatTheyChange) {
   EXPECT_GT(what_if.count(Agreement::Different), 0);
   EXPECT_EQ(replay_exit_code(what_if, true), 0);
   EXPECT_NE(replay_text(what_if, true).find("other trajectories"), std::string::npos);
+}
+
+TEST_F(ReplayTest, RefusesSettingsThatCannotTakeEffect) {
+  for (const char* setting : {"uav.limits.v_max=4", "semantics.regions=[]", "semantics={}", "seed=3", "plannerx.a=1",
+                              "predictor.confidence=0.9"}) {
+    ReplayOptions options;
+    options.other.settings = {"planner.hold_required_s=1", setting};
+    EXPECT_THROW((void)replay_log(log(), options), ConfigError) << setting;
+  }
+  for (const char* setting :
+       {"semantics.lambda_attractive=3", "semantics.lambdas.texture=1", "semantics.cost=exposure"}) {
+    EXPECT_NO_THROW((OtherSettings{"", {setting}}.check())) << setting;
+  }
+}
+
+TEST_F(ReplayTest, RefusesAChoiceOfNoAnswer) {
+  ReplayOptions options;
+  options.request = 100'000;
+  const auto none = replay_log(log(), options);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("no answer is chosen"), std::string::npos) << none.error().message;
+  options.request.reset();
+  options.from_s = 3.0;
+  options.to_s = 2.0;
+  EXPECT_FALSE(replay_log(log(), options));
 }
 
 /// Problems of the log, solved anew.

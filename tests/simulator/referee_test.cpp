@@ -243,5 +243,37 @@ TEST(Referee, MeasuresExposureUntilTheEnd) {
   EXPECT_NEAR(meadow.near_metres, 4.0, 2e-3);
 }
 
+TEST(Referee, TellsAContactInFlightFromOneAtRest) {
+  Scenario s = short_flight();
+  s.world.obstacles = {cube(Vec3(5, 0, 1), 0.4)};
+  Referee flies_into = referee_of(s);
+  flies_into.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  EXPECT_EQ(flies_into.verdict()->contacts_moving, 1);
+  EXPECT_EQ(flies_into.verdict()->contacts_at_rest, 0);
+  s.world.obstacles[0].motion = LinearMotion{Vec3(-2, 0, 0), 0.0};
+  Referee is_hit = referee_of(s);
+  is_hit.advance({}, hop(s.uav.start, s.uav.start, 5.0));
+  ASSERT_TRUE(is_hit.verdict());
+  EXPECT_EQ(is_hit.verdict()->contacts_moving, 0);
+  EXPECT_EQ(is_hit.verdict()->contacts_at_rest, 1);
+  EXPECT_EQ(is_hit.verdict()->obstacles, 1);
+}
+
+TEST(Referee, CountsWhoWasThereAndWhoWasLeftOut) {
+  Scenario s = short_flight();
+  ObstacleSpec beside = cube(Vec3::Zero(), 0.4);
+  beside.motion = WaypointMotion{{{1.0, Vec3(0, 1, 1)}, {9.0, Vec3(0, 1, 1)}}, false, true, 3.0};
+  ObstacleSpec later = beside;
+  later.name = "later";
+  std::get<WaypointMotion>(later.motion).points = {{100.0, Vec3(9, 9, 1)}, {200.0, Vec3(9, 9, 1)}};
+  s.world.obstacles = {cube(Vec3(5, 4, 1), 0.4), beside, later};
+  Referee referee = referee_of(s);
+  referee.admit(5.0, [](double) { return Vec3(0, 0, 1); });
+  referee.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  EXPECT_EQ(referee.verdict()->outcome, FlightOutcome::Reached) << referee.verdict()->detail;
+  EXPECT_EQ(referee.verdict()->obstacles, 1);
+  EXPECT_EQ(referee.verdict()->obstacles_left_out, 1);
+}
+
 }  // namespace
 }  // namespace tern

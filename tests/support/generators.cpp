@@ -402,6 +402,10 @@ FlightResult random_message(Rng& rng, Fill fill) {
   result.jerk_integral = measure(rng, 0.0, 1e300);
   result.stops = integer(rng, 0, kMaxCounter);
   result.limit_violations = integer(rng, 0, kMaxCounter);
+  result.contacts_moving = integer(rng, 0, kMaxCounter);
+  result.contacts_at_rest = integer(rng, 0, kMaxCounter);
+  result.obstacles = integer(rng, 0, kMaxCounter);
+  result.obstacles_left_out = integer(rng, 0, kMaxCounter);
   const int regions = count(rng, fill, 0, kMaxExposures);
   for (int i = 0; i < regions; ++i) {
     result.exposure.push_back({text(rng, fill == Fill::Largest ? 64 : random_integer(rng, 0, 64)),
