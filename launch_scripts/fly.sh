@@ -150,6 +150,8 @@ build_programs || die "the programs could not be built"
 [[ -z $view || -n $TERN_INSTALLED ]] || "$TERN_ROOT/launch_scripts/view_page.sh" || die "the page could not be built"
 [[ -x ${flight[0]} ]] || die "${flight[0]} is not there"
 choose_network
+[[ -z $flags || $autopilot != udp* ]] ||
+  say "This flight has a network of its own: start the autopilot in it (enter.sh), or give the host a multicast route and fly without --isolated."
 [[ $autopilot != sim ]] || { autopilot=udp://127.0.0.1:$((port + 14540 - FIRST_PORT)) && flight+=(--autopilot-sim); }
 flight+=(${autopilot:+--autopilot="$autopilot"})
 flight+=(--config="$scenario_file" --lcm-url="$url" ${flags:+--namespace="$flags"} --flights="$TERN_FLIGHTS" --typed="$typed")

@@ -7,8 +7,8 @@
 
 #include "core/world/goal.h"
 #include "core/world/scenario.h"
-#include "mavlink/link/link.h"
 #include "mavlink/bridge.h"
+#include "mavlink/link/link.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
 
@@ -16,9 +16,9 @@ namespace tern::mavlink {
 
 /// Hears SETPOINT, HORIZON_REQUEST, GOAL, FLIGHT_RESULT; says UAV_STATE and VEHICLE_STATUS, and VEHICLE_TRUTH where the
 /// autopilot tells it. A GOAL of mode Go with a larger id than the first one heard tells the bridge to fly (again);
-/// FLIGHT_RESULT to land. With start arm it arms by itself only as long as no GOAL was heard: a bridge that is started anew
-/// in or after a flight waits. While another process says VEHICLE_STATUS it says nothing, to nobody: of two bridges one
-/// flies.
+/// FLIGHT_RESULT to land. With start arm it arms by itself only as long as no GOAL was heard: a bridge that is started
+/// anew in or after a flight waits. While another process says VEHICLE_STATUS it says nothing, to nobody: of two
+/// bridges one flies.
 ///
 /// When it ends while it flies, it has the autopilot land, and waits kLandPatience for it to do so.
 class MavlinkNode final : public Node {
