@@ -285,7 +285,7 @@ await run({
     const page = await openPage(/view +(\S+)/.exec(flight.said)[1]);
     const first = await shows(page, 'the corridor', (s) => s.obstacles === 100 && s.regions === 2 && s.vehicle);
     await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > first.vehicle[0] + 2);
-    await eventually('every process', async () => (await page.$$('#health li.ready')).length === 7);
+    await eventually('every process', async () => (await page.$$('#health li.ready')).length === 8);
     expect('goals may be sent', await page.isEnabled('#goalmode'));
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
     await end(flight, 'SIGINT');

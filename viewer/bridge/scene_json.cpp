@@ -225,6 +225,7 @@ std::string result_json(const Scene& scene) {
   json.begin_object().key("outcome").text(to_string(result.outcome)).key("detail").text(result.detail);
   json.key("flight_time_s").number(result.flight_time_s).key("path_length_m").number(result.path_length_m);
   json.key("top_speed_mps").number(result.top_speed_mps).key("min_clearance_m").number(result.min_clearance_m);
+  json.key("min_map_clearance_m").number(result.min_map_clearance_m);
   return json.end_object().take();
 }
 

@@ -47,7 +47,7 @@ class Chart {
 
   fitWidth() {
     if (this.area.clientWidth > 50) this.plot.setSize({ width: this.area.clientWidth, height: HEIGHT });
-    this.showNow();
+    this.draw(); // it may have been hidden
   }
 
   rebuild() {

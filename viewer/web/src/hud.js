@@ -72,7 +72,9 @@ export function showTiming(timing) {
 export function showResult(result) {
   if (!result) return;
   chip('outcome', result.outcome, result.outcome === 'reached' ? 'live' : 'bad');
-  say('reason', `${fixed(result.flight_time_s)} s, ${fixed(result.path_length_m, 0)} m`);
+  const least = [['obstacles', result.min_clearance_m], ['map', result.min_map_clearance_m]].filter(([, x]) => Number.isFinite(x));
+  const words = least.map(([what, x]) => `${fixed(x, 3)} m to ${what}`).join(', ');
+  say('reason', `${fixed(result.flight_time_s)} s, ${fixed(result.path_length_m, 0)} m${words && `; least ${words}`}`);
 }
 
 export function showClock(seconds) {

@@ -51,10 +51,10 @@ export class Inspector {
     this.refresh();
   }
 
-  /** What happened when; a click jumps there. @param events  {t, text} */
-  list(title, events, jump) {
+  /** What happened when; a click jumps there. @param events  {t, text}  @param words  of what is not listed */
+  list(title, events, jump, words) {
     this.pick = this.words = null;
-    this.say(title, '');
+    this.say(title, words);
     const rows = events.map(({ t, text }) => {
       const row = cell('button', `${t.toFixed(1)} s  ${text}`);
       row.className = 'event';

@@ -15,6 +15,7 @@ import { Proofs } from './proofs.js';
 import { Regions } from './regions.js';
 import { Stream } from './stream.js';
 import { readTape, Tape } from './tape.js';
+import { QUIET } from './time_rows.js';
 import { Timeline } from './timeline.js';
 import { Trajectories } from './trajectories.js';
 import { Vehicle } from './vehicle.js';
@@ -193,7 +194,11 @@ const controls = new Controls(cameras, {
   changed: () => free.look(),
 });
 
-document.getElementById('eventlist').onclick = () => inspector.list('What happened', timeline.events, jump);
+document.getElementById('eventlist').onclick = () => {
+  const loud = timeline.events.filter(({ kind }) => kind !== QUIET);
+  const quiet = timeline.events.length - loud.length;
+  inspector.list('What happened', loud, jump, `and the outcome changed ${quiet} times: the band`);
+};
 
 function pickObstacle(id) {
   obstacles.pick(id);
