@@ -205,7 +205,8 @@ void SimulatedAutopilot::hear(const Frame& frame, UTime now) {
     say_parameter(words_of(m->param_id));
   }
   if (const auto m = from_frame<ParamSet>(frame); m && mine(m->target_system, m->target_component)) {
-    const double value = m->param_type == kInt32 ? std::bit_cast<std::int32_t>(m->param_value) : m->param_value;
+    const double value = m->param_type == kInt32 ? static_cast<double>(std::bit_cast<std::int32_t>(m->param_value))
+                                                 : static_cast<double>(m->param_value);
     set_parameter(words_of(m->param_id), value);
     say_parameter(words_of(m->param_id));
   }
