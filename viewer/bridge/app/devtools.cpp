@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "runtime/child_process.h"
@@ -47,13 +48,21 @@ Devtools::Devtools(const std::string& program, const std::string& profile, int w
   from_ = answers[0];
   // The browser reads descriptor 3 and writes 4.
   const std::string redirect = fmt::format("exec \"$0\" \"$@\" 3<&{} 4>&{} 2>/dev/null", commands[0], answers[1]);
-  browser_ =
-      start_child({.command = {"sh", "-c", redirect, program, "--headless", "--remote-debugging-pipe", "--no-first-run",
-                               "--no-sandbox", "--hide-scrollbars", "--allow-file-access-from-files", "--use-gl=angle",
-                               "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                               fmt::format("--window-size={},{}", width, height), "--user-data-dir=" + profile},
-                   .inherited = {commands[0], answers[1]},
-                   .own_group = true});
+  std::vector<std::string> command = {"sh",
+                                      "-c",
+                                      redirect,
+                                      program,
+                                      "--headless",
+                                      "--remote-debugging-pipe",
+                                      "--no-first-run",
+                                      "--hide-scrollbars",
+                                      "--use-gl=angle",
+                                      "--use-angle=swiftshader",
+                                      "--enable-unsafe-swiftshader",
+                                      fmt::format("--window-size={},{}", width, height),
+                                      "--user-data-dir=" + profile};
+  if (geteuid() == 0) command.emplace_back("--no-sandbox");  // Chromium has none for root
+  browser_ = start_child({.command = std::move(command), .inherited = {commands[0], answers[1]}, .own_group = true});
   close(commands[0]);
   close(answers[1]);
   const json target = call("Target.createTarget", {{"url", "about:blank"}});

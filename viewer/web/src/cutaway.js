@@ -1,12 +1,14 @@
 // Nothing hides the vehicle: what stands before it, as seen from the camera, is drawn as a sieve.
 
+export const SIEVE_RADIUS = 1.5; // m about the line to the vehicle
+
 /** Of a fragment shader that has `seen`, its place in the camera's frame, and the uniform `vehicle`. */
 export const SIEVE = `
   vec3 target = (viewMatrix * vec4(vehicle, 1.0)).xyz;
   float along = isOrthographic ? (seen.z > target.z + 0.1 ? 0.5 : 1.0) : dot(seen, target) / dot(target, target);
   float aside = isOrthographic ? length(seen.xy - target.xy) : length(seen - along * target) / (0.35 + 0.65 * along);
-  if (along < 0.97 && aside < 1.5 && dot(target, target) > 1.0) { // not for who sits in it
-    float keep = mix(0.12, 1.0, smoothstep(0.7, 1.5, aside));
+  if (along < 0.97 && aside < ${SIEVE_RADIUS.toFixed(1)} && dot(target, target) > 1.0) { // not for who sits in it
+    float keep = mix(0.12, 1.0, smoothstep(0.7, ${SIEVE_RADIUS.toFixed(1)}, aside));
     float sieve = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
     if (sieve > keep) discard;
   }`;

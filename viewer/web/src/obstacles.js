@@ -1,11 +1,14 @@
 // Obstacles as instanced boxes, with a soft dark spot below each, so that one sees where it hovers. Only those in view
 // are given to the renderer: without a GPU it pays for every corner.
 import * as THREE from 'three';
-import { cutaway } from './cutaway.js';
+import { cutaway, SIEVE_RADIUS } from './cutaway.js';
 import { numbers } from './form.js';
 import { palette } from './palette.js';
+import { FOG_END } from './world.js';
 
 const MOST = 4096; // what is drawn at most
+const SIEVE_FAR = 40; // m from the vehicle towards the camera
+const THRIFTY_SPOTS = 15; // m: spots farther away are not drawn by a renderer without a GPU
 const LONGEST_GUESS_S = 0.25; // positions are carried on by velocity no longer than this
 
 function spotTexture() {
@@ -22,7 +25,7 @@ function spotTexture() {
 }
 
 /** Faces a little darker within than at their edges: boxes keep their outline without lines. */
-function faceTexture(anisotropy) {
+function faceTexture(thrifty) {
   const size = 128;
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = size;
@@ -34,7 +37,8 @@ function faceTexture(anisotropy) {
   const texture = new THREE.CanvasTexture(canvas);
   texture.colorSpace = THREE.SRGBColorSpace;
   texture.generateMipmaps = true;
-  texture.anisotropy = anisotropy;
+  texture.anisotropy = thrifty ? 1 : 4;
+  if (thrifty) texture.minFilter = THREE.LinearMipmapNearestFilter;
   return texture;
 }
 
@@ -56,34 +60,71 @@ function touch(attribute, count) {
   attribute.needsUpdate = true;
 }
 
+/** Boxes of one material, as many as are drawn this time. */
+class Boxes {
+  constructor(scene, geometry, material) {
+    this.mesh = new THREE.InstancedMesh(geometry, material, MOST);
+    this.mesh.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * MOST), 3);
+    this.mesh.instanceColor.setUsage(THREE.DynamicDrawUsage);
+    this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+    this.mesh.frustumCulled = false;
+    this.rows = new Int32Array(MOST); // in the set
+    scene.add(this.mesh);
+  }
+
+  add(row, [x, y, z], [width, depth, height], color) {
+    color?.toArray(this.mesh.instanceColor.array, 3 * this.mesh.count);
+    this.rows[this.mesh.count] = row;
+    const matrix = this.mesh.instanceMatrix.array;
+    const m = 16 * this.mesh.count++;
+    matrix[m] = width;
+    matrix[m + 5] = depth;
+    matrix[m + 10] = height;
+    matrix[m + 12] = x;
+    matrix[m + 13] = y;
+    matrix[m + 14] = z;
+    matrix[m + 15] = 1;
+  }
+
+  done() {
+    touch(this.mesh.instanceMatrix, this.mesh.count);
+    if (this.mesh.instanceColor) touch(this.mesh.instanceColor, this.mesh.count);
+  }
+
+  /** {row, distance} of the first under a ray, or null. */
+  hit(raycaster) {
+    this.mesh.computeBoundingSphere();
+    const [first] = raycaster.intersectObject(this.mesh);
+    return first ? { row: this.rows[first.instanceId], distance: first.distance } : null;
+  }
+}
+
 export class Obstacles {
   /** @param vehicle  where it is; kept */
   constructor(world, vehicle) {
-    const faces = faceTexture(world.thrifty ? 1 : 4);
-    const material = cutaway(new THREE.MeshBasicMaterial({ map: faces, vertexColors: true }), vehicle);
-    this.boxes = new THREE.InstancedMesh(litBox(world), material, MOST);
-    this.boxes.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * MOST), 3);
-    this.spots = new THREE.InstancedMesh(
-      new THREE.PlaneGeometry(1, 1),
-      new THREE.MeshBasicMaterial({ map: spotTexture(), transparent: true, depthWrite: false }), MOST);
-    this.spots.renderOrder = -1;
-    for (const mesh of [this.boxes, this.spots]) {
-      mesh.frustumCulled = false;
-      mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
-      world.scene.add(mesh);
-    }
-    this.boxes.instanceColor.setUsage(THREE.DynamicDrawUsage);
+    const faces = faceTexture(world.thrifty);
+    const look = { map: faces, vertexColors: true };
+    const box = litBox(world);
+    this.boxes = new Boxes(world.scene, box, new THREE.MeshBasicMaterial(look));
+    // What may stand before the vehicle: a sieve, whose every pixel costs more.
+    this.sieves = new Boxes(world.scene, box, cutaway(new THREE.MeshBasicMaterial(look), vehicle));
+    this.spots = new Boxes(world.scene, new THREE.PlaneGeometry(1, 1), new THREE.MeshBasicMaterial({
+      map: spotTexture(), transparent: true, depthWrite: false }));
+    this.spots.mesh.renderOrder = -1;
+    this.spots.mesh.instanceColor = null;
+    this.vehicle = vehicle;
+    this.spotReach = world.thrifty ? THRIFTY_SPOTS : Infinity;
     this.colors = { 0: new THREE.Color(palette.pillar), 1: new THREE.Color(palette.mover) };
     this.picked = new THREE.Color(palette.picked);
     this.frustum = new THREE.Frustum();
     this.sphere = new THREE.Sphere();
-    this.drawn = new Int32Array(MOST); // row in the set of each box that is drawn
     this.clear();
   }
 
   clear() {
     this.set = null;
-    this.count = this.boxes.count = this.spots.count = 0;
+    this.count = 0;
+    for (const boxes of this.all()) boxes.mesh.count = 0;
   }
 
   /**
@@ -116,35 +157,59 @@ export class Obstacles {
     return Math.min(Math.max((now_us - this.set.at_us) * 1e-6, 0), LONGEST_GUESS_S);
   }
 
-  /** @param now_us  the vehicle's clock */
+  /** What is in view, the nearest first: what they hide costs nothing then. @param now_us  the vehicle's clock */
   draw(now_us, camera) {
     if (!this.set) return;
     const dt = this.guess(now_us);
     camera.updateMatrixWorld();
     this.frustum.setFromProjectionMatrix(camera.matrixWorldInverse.clone().premultiply(camera.projectionMatrix));
-    this.boxes.count = this.spots.count = 0;
+    const eye = camera.position;
     const { p, v } = this.set;
+    const rows = [];
     for (let k = 0; k < this.count; ++k) {
       const i = 3 * k;
-      this.place(k, p[i] + v[i] * dt, p[i + 1] + v[i + 1] * dt, p[i + 2] + v[i + 2] * dt);
+      const at = new THREE.Vector3(p[i] + v[i] * dt, p[i + 1] + v[i + 1] * dt, p[i + 2] + v[i + 2] * dt);
+      rows.push({ k, at, away: at.distanceToSquared(eye) });
     }
-    touch(this.boxes.instanceMatrix, this.boxes.count);
-    touch(this.boxes.instanceColor, this.boxes.count);
-    touch(this.spots.instanceMatrix, this.spots.count);
+    rows.sort((a, b) => a.away - b.away);
+    for (const boxes of this.all()) boxes.mesh.count = 0;
+    const before = this.before(camera);
+    for (const row of rows) this.place(row, before, camera.isOrthographicCamera ? Infinity : FOG_END);
+    for (const boxes of this.all()) boxes.done();
   }
 
-  place(k, x, y, z) {
-    const [hx, hy, hz] = this.set.h.slice(3 * k, 3 * k + 3);
-    if (this.isSeen(x, y, z, Math.hypot(hx, hy, hz))) {
+  all() {
+    return [this.boxes, this.sieves, this.spots];
+  }
+
+  place({ k, at, away }, before, reach) {
+    const half = this.set.h.slice(3 * k, 3 * k + 3);
+    const [hx, hy, hz] = half;
+    const radius = Math.hypot(hx, hy, hz);
+    if (away > (reach + radius) ** 2) return;
+    if (this.isSeen(at.x, at.y, at.z, radius)) {
       const color = this.set.id[k] === this.pickedId ? this.picked : this.colors[this.set.moves[k]];
-      color.toArray(this.boxes.instanceColor.array, 3 * this.boxes.count);
-      this.drawn[this.boxes.count] = k;
-      this.add(this.boxes, x, y, z, 2 * hx, 2 * hy, 2 * hz);
+      (before(at, half) ? this.sieves : this.boxes).add(k, at.toArray(), half.map((h) => 2 * h), color);
     }
-    const spread = 2.6 + 0.25 * Math.max(z - hz, 0);
-    if (this.isSeen(x, y, 0.02, 0.5 * spread * Math.hypot(hx, hy))) {
-      this.add(this.spots, x, y, 0.02, spread * hx, spread * hy, 1);
+    const spread = 2.6 + 0.25 * Math.max(at.z - hz, 0);
+    if (away < this.spotReach ** 2 && this.isSeen(at.x, at.y, 0.02, 0.5 * spread * Math.hypot(hx, hy))) {
+      this.spots.add(k, [at.x, at.y, 0.02], [spread * hx, spread * hy, 1]);
     }
+  }
+
+  /** Whether a box may hide the vehicle, or what is near it, from this camera: it is near the line between them. */
+  before(camera) {
+    const back = camera.isOrthographicCamera
+      ? camera.getWorldDirection(new THREE.Vector3()).multiplyScalar(-SIEVE_FAR)
+      : camera.position.clone().sub(this.vehicle).clampLength(0, SIEVE_FAR);
+    const steps = Math.max(Math.ceil(back.length()), 1); // a metre each
+    const line = Array.from({ length: steps + 1 }, (_, k) => back.clone().multiplyScalar(k / steps).add(this.vehicle));
+    return (at, [hx, hy, hz]) => line.some((p) => {
+      const x = Math.max(Math.abs(p.x - at.x) - hx, 0);
+      const y = Math.max(Math.abs(p.y - at.y) - hy, 0);
+      const z = Math.max(Math.abs(p.z - at.z) - hz, 0);
+      return x * x + y * y + z * z < (SIEVE_RADIUS + 0.5) ** 2;
+    });
   }
 
   isSeen(x, y, z, radius) {
@@ -153,27 +218,15 @@ export class Obstacles {
     return this.frustum.intersectsSphere(this.sphere);
   }
 
-  add(mesh, x, y, z, width, depth, height) {
-    const matrix = mesh.instanceMatrix.array;
-    const m = 16 * mesh.count++;
-    matrix[m] = width;
-    matrix[m + 5] = depth;
-    matrix[m + 10] = height;
-    matrix[m + 12] = x;
-    matrix[m + 13] = y;
-    matrix[m + 14] = z;
-    matrix[m + 15] = 1;
-  }
-
   show(on) {
-    this.boxes.visible = this.spots.visible = on;
+    for (const { mesh } of this.all()) mesh.visible = on;
   }
 
   /** The obstacle under a ray, {id, distance}, or nothing. */
   hit(raycaster) {
-    if (!this.set || !this.boxes.visible) return null;
-    this.boxes.computeBoundingSphere();
-    const [first] = raycaster.intersectObject(this.boxes);
-    return first ? { id: this.set.id[this.drawn[first.instanceId]], distance: first.distance } : null;
+    if (!this.set || !this.boxes.mesh.visible) return null;
+    const hits = [this.boxes.hit(raycaster), this.sieves.hit(raycaster)].filter((hit) => hit);
+    hits.sort((a, b) => a.distance - b.distance);
+    return hits.length ? { id: this.set.id[hits[0].row], distance: hits[0].distance } : null;
   }
 }

@@ -4,6 +4,7 @@ import { Cameras } from './camera.js';
 import { palette } from './palette.js';
 import { Quality } from './quality.js';
 
+export const FOG_END = 80; // m: nothing is seen beyond
 const FEWEST_PIXELS = 0.3; // of the window's, per axis
 
 /** Whether WebGL draws on the CPU: then it gets no more pixels than it can pay for. */
@@ -43,7 +44,7 @@ export class World {
     this.renderer.setPixelRatio(pixels);
     this.scene = new THREE.Scene();
     this.scene.background = sky();
-    this.fog = new THREE.Fog(palette.back, 26, 80);
+    this.fog = new THREE.Fog(palette.back, 26, FOG_END);
     this.cameras = new Cameras(canvas);
     this.light();
     this.floor = this.thrifty ? this.lineGround() : this.shadedGround();
