@@ -8,6 +8,7 @@
 
 #include "core/base/digest.h"
 #include "core/world/message_limits.h"
+#include "core/world/vehicle_status.h"
 #include "tests/support/random_shares.h"
 #include "tests/support/random_splines.h"
 

@@ -59,7 +59,7 @@ TrackSet KnownScene::predictions(UTime now) const {
     CubicPiece piece{Duration{3'500'000}, PowerCubic::Zero()};
     piece.coefficients.col(2) = o.velocity;
     piece.coefficients.col(3) = o.position;
-    Track track{o.id, o.moves ? TrackKind::Declared : TrackKind::Static, o.half_extents, {now, {piece}}, {}, 1.0};
+    Track track{o.id, o.moves ? TrackKind::Declared : TrackKind::Static, o.half_extents, {now, {piece}}, {}, {}, 1.0};
     track.alpha = {o.moves ? Vec3::Constant(0.2) : Vec3::Zero()};
     set.tracks.push_back(track);
   }
