@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/world/message_limits.h"
 
@@ -11,12 +12,19 @@ namespace {
 constexpr int kBrakingPoints = 7;
 constexpr Duration kShortestBraking{20'000};  ///< of an interval
 constexpr Duration kLongestBraking{5'000'000};
+/// No honest setpoint is this much later than the one before: until then the vehicle goes on by itself.
+constexpr Duration kSetpointGap{200'000};
 
 bool agree(const Vec3& a, const Vec3& b) { return (a - b).cwiseAbs().maxCoeff() <= kJoinTolerance; }
 
 /// Jerk is not compared: it may jump.
 bool agree(const MotionSample& a, const MotionSample& b) {
   return agree(a.p, b.p) && agree(a.v, b.v) && agree(a.a, b.a);
+}
+
+/// Whether what is expected and what is heard differ by no more than a lost setpoint explains.
+bool near(const MotionSample& a, const MotionSample& b) {
+  return (a.p - b.p).norm() <= 0.05 && (a.v - b.v).norm() <= 0.5 && (a.a - b.a).norm() <= 10.0;
 }
 
 CubicPiece cubic_of(const MotionSample& from, Duration duration) {
@@ -31,6 +39,14 @@ TimedSpline braking_in(const MotionSample& from, UTime at, Duration interval) {
   stop.control_points.leftCols<3>() = first;
   stop.control_points.rightCols<kBrakingPoints - 3>().colwise() = Vec3(first.col(2));
   return stop;
+}
+
+/// Whether the second of two setpoints is where the first leads.
+bool goes_on(const UavState& first, const UavState& second) {
+  const Duration between = second.at - first.at;
+  if (between <= Duration{0} || between > kSetpointGap) return false;
+  const CubicPiece cubic = cubic_of(first.motion, between);
+  return near(sample_cubic(cubic.coefficients, between.seconds()), second.motion);
 }
 
 /// The largest share of a limit that is used, over axes and derivatives; ≤ 1 + kLimitTolerance: all are kept.
@@ -65,11 +81,18 @@ void CommandedMotion::hear(const UavState& setpoint) {
   const UTime end = settled_.end();
   if (setpoint.at <= end) return;
   const CubicPiece cubic = cubic_of(newest_, setpoint.at - end);
-  const bool is_cubic = agree(sample_cubic(cubic.coefficients, cubic.duration.seconds()), setpoint.motion);
-  if (!is_cubic && agree(after().sample(setpoint.at), setpoint.motion)) {
-    settled_.append(after().pieces(end, setpoint.at));
-  } else {
+  const MotionSample by_cubic = sample_cubic(cubic.coefficients, cubic.duration.seconds());
+  const MotionSample by_committed = after().sample(setpoint.at);
+  const bool is_soon = setpoint.at - end <= kSetpointGap;
+  if (!is_soon || !(near(by_cubic, setpoint.motion) || near(by_committed, setpoint.motion))) {
+    const std::optional<UavState> before = std::exchange(apart_, setpoint);
+    if (!before || !goes_on(*before, setpoint)) return;
+  }
+  apart_.reset();
+  if (agree(by_cubic, setpoint.motion) || !agree(by_committed, setpoint.motion)) {
     settled_.append(cubic);
+  } else {
+    settled_.append(after().pieces(end, setpoint.at));
   }
   told_until_ = setpoint.at;
   yaw_ = setpoint.yaw;

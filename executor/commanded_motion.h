@@ -25,7 +25,9 @@ class CommandedMotion {
   /// At rest at p (W, m) until the first setpoint. @param limits  for braking
   CommandedMotion(const Vec3& p, UTime from, const Limits& limits);
 
-  /// The next setpoint. One that is not after settled().end() is ignored.
+  /// The next setpoint. One that is not after settled().end() is ignored. One to which the command does not lead (0.05
+  /// m, 0.5 m/s, 10 m/s²: more than a lost setpoint explains), or that is 0.2 s ahead, counts only when the next one
+  /// goes on from it: no single message makes the vehicle jump.
   void hear(const UavState& setpoint);
   /// HORIZON_REQUEST.committed. Only one that starts after all earlier ones is news.
   void hear(const TimedSpline& committed);
@@ -53,6 +55,7 @@ class CommandedMotion {
   MotionHistory settled_;
   MotionSample newest_;  ///< at settled_.end(), with the jerk that follows
   UTime told_until_;
+  std::optional<UavState> apart_;  ///< the newest setpoint, where the command did not lead to it
   double yaw_ = 0.0;
   CommittedTrajectory committed_;               ///< as heard
   std::optional<CommittedTrajectory> braking_;  ///< when committed_ does not pass through the newest setpoint

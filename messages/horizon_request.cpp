@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "messages/codec.h"
 #include "messages/fields.h"
 #include "messages/wire.h"
@@ -54,7 +56,10 @@ bool starts_on(const TimedSpline& committed, UTime t_s, const MotionSample& star
 
 std::optional<Dynamics> read_dynamics(const Message& m, wire::FieldReader& read) {
   if (!read.flag(m.has_dynamics)) {
-    for (const double x : {m.thrust_min, m.thrust_max, m.tilt_max_deg, m.body_rate_max_deg_s}) read.number(x, 0.0, 0.0);
+    for (const double x : {m.thrust_min, m.thrust_max, m.tilt_max_deg, m.body_rate_max_deg_s}) {
+      read.number(x, 0.0, 0.0);
+      read.consistent(!std::signbit(x));  // one form of nothing
+    }
     return std::nullopt;
   }
   const auto within = [&](double x, const Range& range) { return read.number(x, range.low, range.high); };

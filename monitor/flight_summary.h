@@ -59,7 +59,7 @@ struct FlightSummary {
 /// command, version. What has no value (NaN, a measure that no referee gave) is null.
 std::string to_json(const FlightSummary& summary);
 
-/// The same for a person, at most 33 lines of at most 100 characters while there are at most 6 regions.
+/// The same for a person, at most 34 lines of at most 100 characters while there are at most 6 regions.
 std::string to_text(const FlightSummary& summary);
 
 }  // namespace tern

@@ -157,7 +157,8 @@ TEST(Rejection, OfTrackSet) {
   EXPECT_EQ(after<TrackSet>([](auto& s) { s.left_out = -1; }), "Number");
   EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].id = -1; }), "Number");
   EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].id = s.tracks[1].id; }), "Inconsistent");
-  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].kind = static_cast<TrackKind>(3); }), "Enumeration");
+  EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].kind = static_cast<TrackKind>(3), s.tracks[0].shares.clear(); }),
+            "Enumeration");
   EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].half_extents.z() = -1.0; }), "Number");
   EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].top_speed = kInfinity; }), "Number");
   EXPECT_EQ(after<TrackSet>([](auto& s) { s.tracks[0].alpha[0].x() = -1.0; }), "Number");
@@ -191,7 +192,10 @@ TEST(Rejection, OfSharesThatNoDistributionHas) {
   EXPECT_EQ(after_shares({0.9F, 0.8F, 0.81F, 0.5F}), "Inconsistent");
   using Wire = tern_msgs::track_set_t;
   const auto after_wire = after_on_wire<TrackSet, Wire>;
-  EXPECT_EQ(after_wire([](Wire& m) { m.shares.push_back({{1.0F, 1.0F, 1.0F, 1.0F}}); }), "Inconsistent");
+  EXPECT_EQ(after_wire([](Wire& m) {
+              m.shares.push_back({{1.0F, 1.0F, 1.0F, 1.0F}}), ++m.share_count;
+            }),
+            "Inconsistent");
 }
 
 TEST(Rejection, OfAStaticTrackThatMoves) {

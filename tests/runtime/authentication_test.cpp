@@ -39,11 +39,11 @@ class SignedMessage : public testing::Test {
   SignedMessage() { sign(message, planner, "PLAN", "PLAN", {{1'000'000, 1}, now}); }
   tl::expected<Authentic, Rejection> check(const Bytes& bytes, const char* channel = "PLAN",
                                            const char* wire_name = "PLAN") {
-    return verify(bytes, simulator, guard, channel, wire_name, now);
+    return verify(bytes, executor, guard, channel, wire_name, now);
   }
   UTime now{5'000'000};
   KeyRing planner = KeyRing::derive(counting_key(), "tern-planner");
-  KeyRing simulator = KeyRing::derive(counting_key(), "tern-simulator");
+  KeyRing executor = KeyRing::derive(counting_key(), "tern-executor");
   ReplayGuard guard;
   Bytes message = text("a message");
 };
@@ -98,10 +98,10 @@ TEST_F(SignedMessage, CountsOnceAndNotWhenItIsOld) {
   ASSERT_FALSE(again);
   EXPECT_EQ(again.error(), Rejection::Repeated);
   ReplayGuard fresh;  // a receiver that has just started
-  const auto late = verify(message, simulator, fresh, "PLAN", "PLAN", now + kLongestOnItsWay + Duration{1});
+  const auto late = verify(message, executor, fresh, "PLAN", "PLAN", now + kLongestOnItsWay + Duration{1});
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error(), Rejection::Repeated);
-  EXPECT_TRUE(verify(message, simulator, fresh, "PLAN", "PLAN", now + kLongestOnItsWay));
+  EXPECT_TRUE(verify(message, executor, fresh, "PLAN", "PLAN", now + kLongestOnItsWay));
 }
 
 TEST(ReplayWindow, AdmitsWhatASetOfAllThatCameWouldWithinItsReach) {

@@ -192,7 +192,7 @@ TrackSet random_message(Rng& rng, Fill fill) {
   set.confidence = positive(rng, 1.0);
   set.left_out = random_integer(rng, 0, 1000);
   const int tracks = count(rng, fill, 0, kMaxTracksPerBatch);
-  const int spare = std::min(kMaxPiecesPerBatch - tracks, (kMaxMessageBytes - 200 - tracks * 197) / 144);
+  const int spare = std::max(0, std::min(kMaxPiecesPerBatch - tracks, (kMaxMessageBytes - 200 - tracks * 197) / 144));
   int left = fill == Fill::Largest ? 0 : random_integer(rng, 0, spare);
   for (const std::int64_t id : different_ids(rng, tracks)) {
     const int more = random_integer(rng, 0, std::min(left, 12));

@@ -53,7 +53,7 @@ TEST(ThrustBounds, AreWhatDenselySampledFlatOutputsReach) {
       all = {std::min(all.least, b.least), std::max(all.most, b.most), std::max(all.slope, b.slope),
              std::max(all.body_rate, b.body_rate)};
     }
-    const FlatOutputs sampled = flat_outputs(spline, 1000);
+    const FlatOutputs sampled = flat_outputs(spline, 2000);
     ASSERT_NEAR(all.most, sampled.most, 1e-9) << "seed " << seed;
     ASSERT_LE(all.least, sampled.least + 1e-9) << "seed " << seed;
     ASSERT_NEAR(all.least, sampled.least, 1e-2) << "seed " << seed;
