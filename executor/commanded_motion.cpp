@@ -22,11 +22,6 @@ bool agree(const MotionSample& a, const MotionSample& b) {
   return agree(a.p, b.p) && agree(a.v, b.v) && agree(a.a, b.a);
 }
 
-/// Whether what is expected and what is heard differ by no more than a lost setpoint explains.
-bool near(const MotionSample& a, const MotionSample& b) {
-  return (a.p - b.p).norm() <= 0.05 && (a.v - b.v).norm() <= 0.5 && (a.a - b.a).norm() <= 10.0;
-}
-
 CubicPiece cubic_of(const MotionSample& from, Duration duration) {
   CubicPiece piece{duration, {}};
   piece.coefficients << from.j / 6.0, from.a / 2.0, from.v, from.p;
@@ -41,12 +36,14 @@ TimedSpline braking_in(const MotionSample& from, UTime at, Duration interval) {
   return stop;
 }
 
-/// Whether the second of two setpoints is where the first leads.
+/// Whether the second of two setpoints is about where the first leads: a stream of somebody who states no jerk, too.
 bool goes_on(const UavState& first, const UavState& second) {
   const Duration between = second.at - first.at;
   if (between <= Duration{0} || between > kSetpointGap) return false;
   const CubicPiece cubic = cubic_of(first.motion, between);
-  return near(sample_cubic(cubic.coefficients, between.seconds()), second.motion);
+  const MotionSample there = sample_cubic(cubic.coefficients, between.seconds());
+  const MotionSample& m = second.motion;
+  return (there.p - m.p).norm() <= 0.05 && (there.v - m.v).norm() <= 0.5 && (there.a - m.a).norm() <= 10.0;
 }
 
 /// The largest share of a limit that is used, over axes and derivatives; ≤ 1 + kLimitTolerance: all are kept.
@@ -84,7 +81,7 @@ void CommandedMotion::hear(const UavState& setpoint) {
   const MotionSample by_cubic = sample_cubic(cubic.coefficients, cubic.duration.seconds());
   const MotionSample by_committed = after().sample(setpoint.at);
   const bool is_soon = setpoint.at - end <= kSetpointGap;
-  if (!is_soon || !(near(by_cubic, setpoint.motion) || near(by_committed, setpoint.motion))) {
+  if (!is_soon || !(agree(by_cubic, setpoint.motion) || agree(by_committed, setpoint.motion))) {
     const std::optional<UavState> before = std::exchange(apart_, setpoint);
     if (!before || !goes_on(*before, setpoint)) return;
   }

@@ -25,9 +25,9 @@ class CommandedMotion {
   /// At rest at p (W, m) until the first setpoint. @param limits  for braking
   CommandedMotion(const Vec3& p, UTime from, const Limits& limits);
 
-  /// The next setpoint. One that is not after settled().end() is ignored. One to which the command does not lead (0.05
-  /// m, 0.5 m/s, 10 m/s²: more than a lost setpoint explains), or that is 0.2 s ahead, counts only when the next one
-  /// goes on from it: no single message makes the vehicle jump.
+  /// The next setpoint. One that is not after settled().end() is ignored. One to which the command does not lead within
+  /// kJoinTolerance, or that is 0.2 s ahead, counts only when the next one goes on from it, as after a lost setpoint:
+  /// no single message makes the vehicle jump.
   void hear(const UavState& setpoint);
   /// HORIZON_REQUEST.committed. Only one that starts after all earlier ones is news.
   void hear(const TimedSpline& committed);

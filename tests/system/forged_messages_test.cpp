@@ -184,8 +184,10 @@ TEST_F(ForgedMessages, AStopOfNowIsBelievedAndALaterGoalIsHeardAfterIt) {
   EXPECT_EQ(fly_to_the_goal(), 0);
 }
 
-TEST_F(ForgedMessages, AGoalInTheVehiclesNameIsGoneWhenTheVehicleRepeatsItsOwn) {
+TEST_F(ForgedMessages, AGoalInTheVehiclesNameIsBelievedAsAnybodysIs) {
   forger_.send(channels::kGoal.name, goal(77, GoalMode::Go, Vec3(1e6, 1e6, 1e6)), forger_.next(channels::kGoal.name));
+  fly(1.0);
+  forger_.send(channels::kGoal.name, goal(78, GoalMode::Go, system_.scenario().uav.goal), forger_.foreign(2));
   EXPECT_EQ(fly_to_the_goal(), 0);
   EXPECT_LT(simulator().result()->flight_time_s, 18.0);
 }

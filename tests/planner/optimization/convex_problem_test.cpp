@@ -129,7 +129,7 @@ TEST(ConvexProblem, WhateverSatisfiesTheRowsKeepsTheLimitsAndThePlanes) {
       if (HasFatalFailure()) return;
     }
   }
-  EXPECT_GT(tried, 100);
+  EXPECT_GE(tried, 100);
 }
 
 TEST(ConvexProblem, WhateverSatisfiesItAlsoKeepsThrustAndTilt) {
@@ -165,7 +165,7 @@ TEST(ConvexProblem, WhateverSatisfiesItAlsoKeepsThrustAndTilt) {
       ASSERT_TRUE(all_in_set(ClampedSpline(control_points_of(x0 + low * d, p), p.interval_s()))) << "seed " << seed;
     }
   }
-  EXPECT_GT(tried, 100);
+  EXPECT_GE(tried, 100);
 }
 
 }  // namespace
