@@ -9,6 +9,7 @@
 #include "benchmarks/flight_recording.h"
 #include "core/base/percentiles.h"
 #include "core/splines/minvo.h"
+#include "core/world/flyable.h"
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/convex_problem.h"
 #include "planner/optimization/ipopt_solver.h"

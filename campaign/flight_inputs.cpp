@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "executor/app/executor_config.h"
 #include "planner/app/config_reader.h"
 #include "predictor/app/predictor_config.h"
 #include "runtime/config.h"
@@ -25,8 +26,8 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> scenario_folders() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return {"scenarios", program.parent_path() / ".." / ".." / ".." / "scenarios"};
+  const fs::path programs = fs::read_symlink("/proc/self/exe", error).parent_path();
+  return {"scenarios", programs / ".." / ".." / ".." / "scenarios", programs / ".." / "share" / "tern" / "scenarios"};
 }
 
 /// Reads every process's section, as the processes would.
@@ -85,6 +86,8 @@ Result<std::string> find_scenario(const std::string& wanted) {
   for (const std::string& name : names) list += " " + name;
   return fail(fmt::format("no scenario {}; there are:{}", wanted, list.empty() ? " none" : list));
 }
+
+void read_every_section(ConfigDocument& document) { (void)read_sections(document, read_scenario(document)); }
 
 CampaignIdentity check_inputs(const FlightInputs& inputs, std::uint64_t seed) {
   ConfigDocument document = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(0));

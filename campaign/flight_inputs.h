@@ -9,6 +9,7 @@
 #include "campaign/records/flight_record.h"
 #include "campaign/virtual_system.h"
 #include "core/base/result.h"
+#include "runtime/config.h"
 
 namespace tern {
 
@@ -22,10 +23,14 @@ struct FlightInputs {
   [[nodiscard]] std::vector<std::string> with_seed(std::uint64_t seed) const;
 };
 
-/// The path of a scenario: a file, or a name in ./scenarios, or in the scenarios folder of the source tree from which
-/// the program was built (for build/PRESET/bin/PROGRAM: three folders up).
+/// The path of a scenario: a file, or a name in ./scenarios, in the scenarios folder of the source tree from which the
+/// program was built (for build/PRESET/bin/PROGRAM: three folders up), or in share/tern/scenarios beside an installed
+/// one.
 /// @return an Error that lists the names that there are.
 Result<std::string> find_scenario(const std::string& wanted);
+
+/// The scenario, and every section of a process that a virtual flight has. @throws ConfigError.
+void read_every_section(ConfigDocument& document);
 
 /// Reads all that a flight would read, and makes the world of the seed. @throws ConfigError for what run_process would
 /// refuse.

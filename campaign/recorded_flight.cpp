@@ -10,10 +10,10 @@
 #include <fstream>
 #include <utility>
 
+#include "executor/app/executor_node.h"
 #include "flight_log/log_writer.h"
 #include "messages/codec.h"
 #include "monitor/app/hear_flight.h"
-#include "simulator/app/simulator_node.h"
 
 namespace tern {
 namespace {
@@ -132,7 +132,7 @@ RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, cons
     summary.log = log;
     summary.version = identity.version;
     write_text(folder + "/summary.json", to_json(summary));
-    flight.record = make_record(summary, system.simulator().executor().counters(), inputs, identity);
+    flight.record = make_record(summary, system.executor().counters(), inputs, identity);
   }
   if (const auto flushed = writer->flush(); !flushed) throw CannotRecord(flushed.error().message);
   if (writer->counters().unwritten > 0) throw CannotRecord(log + ": not all messages could be written");

@@ -1,6 +1,7 @@
 #include "campaign/virtual_flight.h"
 
 #include "campaign/virtual_system.h"
+#include "executor/app/executor_node.h"
 #include "messages/channels.h"
 #include "simulator/app/simulator_node.h"
 
@@ -32,7 +33,7 @@ VirtualFlight fly_virtually(const std::string& scenario_file, const std::vector<
   if (simulator.result()) flight.result = *simulator.result();
   if (run.end == RunEnd::Finished) flight.end = run.process + " ended with exit code " + std::to_string(run.exit_code);
   if (run.end == RunEnd::Time) flight.end = "no end within an hour";
-  flight.executor = simulator.executor().counters();
+  flight.executor = system.executor().counters();
   return flight;
 }
 

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "executor/app/executor_config.h"
+#include "executor/app/executor_node.h"
 #include "planner/app/config_reader.h"
 #include "planner/app/planner_node.h"
 #include "predictor/app/predictor_config.h"
@@ -15,6 +17,7 @@
 #include "semantic_mapper/app/load_map.h"
 #include "semantic_mapper/app/mapper_config.h"
 #include "semantic_mapper/app/mapper_node.h"
+#include "simulator/app/make_vehicle.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/app/simulator_node.h"
 
@@ -25,6 +28,7 @@ const char* to_string(Charge charge) { return charge == Charge::Cpu ? "cpu" : "c
 struct VirtualSystem::Parts {
   Charge charge;
   Scenario scenario;
+  ExecutorConfig executor;
   PredictorConfig predictor;
   VoxelMap map;
   PlannerConfig planner;
@@ -33,6 +37,7 @@ struct VirtualSystem::Parts {
   Parts(ConfigDocument& document, Charge charge_)
       : charge(charge_),
         scenario(read_scenario(document)),
+        executor(read_executor_config(document.root().section("executor"))),
         predictor(read_predictor_config(document.root().section("predictor"))),
         map(load_map(scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA"))),
         planner(read_planner_config(document.root().section("planner"), scenario.semantics)) {}
@@ -46,14 +51,14 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
   parts_ = std::make_unique<Parts>(document, charge);
   const Scenario& scenario = parts_->scenario;
   const SimulatorConfig config = read_simulator_config(document.root().section("simulator"), scenario.seed);
-  const ExecutorConfig executor = read_executor_config(document.root().section("executor"));
   parts_->effective_yaml = document.effective();
   auto world = make_flyable_world(scenario, config, data_folder(scenario.file, std::getenv("TERN_DATA")));
   if (!world) throw ConfigError(scenario.file + ": world: " + world.error().message);
   simulator_ = static_cast<SimulatorNode*>(&runner_.start("tern-simulator", [&](Bus& bus) {
-    return std::make_unique<SimulatorNode>(bus, scenario, std::move(*world), config, executor);
+    auto vehicle = make_vehicle(scenario, config, bus.clock().now());
+    return std::make_unique<SimulatorNode>(bus, scenario, std::move(*world), std::move(vehicle), config);
   }));
-  for (const char* process : {"tern-predictor", "tern-mapper", "tern-planner"}) start(process);
+  for (const char* process : {"tern-executor", "tern-predictor", "tern-mapper", "tern-planner"}) start(process);
 }
 
 VirtualSystem::~VirtualSystem() = default;
@@ -67,6 +72,7 @@ void VirtualSystem::stop(const std::string& process) {
 
 void VirtualSystem::start(const std::string& process) {
   const auto make = [&](Bus& bus) -> std::unique_ptr<Node> {
+    if (process == "tern-executor") return std::make_unique<ExecutorNode>(bus, parts_->scenario.uav, parts_->executor);
     if (process == "tern-predictor") return std::make_unique<PredictorNode>(bus, parts_->predictor);
     if (process == "tern-mapper") return std::make_unique<MapperNode>(bus, parts_->map);
     if (process != "tern-planner") throw std::invalid_argument("VirtualSystem: no process " + process);
@@ -76,7 +82,8 @@ void VirtualSystem::start(const std::string& process) {
     return std::make_unique<PlannerNode>(bus, parts_->scenario.uav, parts_->planner,
                                          configuration_hash(parts_->effective_yaml), execution);
   };
-  runner_.start(process, make, parts_->effective_yaml);
+  const Node& node = runner_.start(process, make, parts_->effective_yaml);
+  if (process == "tern-executor") executor_ = static_cast<const ExecutorNode*>(&node);
 }
 
 }  // namespace tern

@@ -11,6 +11,7 @@
 
 namespace tern {
 
+class ExecutorNode;
 class SimulatorNode;
 
 /// What planning costs in virtual time. In neither case anything else does: messages arrive at once, and what live
@@ -22,8 +23,8 @@ enum class Charge {
 /// "counts", "cpu".
 const char* to_string(Charge charge);
 
-/// Simulator, predictor, mapper and planner of one scenario file on a VirtualRunner, all started. The planner has no
-/// threads.
+/// Simulator, executor, predictor, mapper and planner of one scenario file on a VirtualRunner, all started. The planner
+/// has no threads.
 class VirtualSystem {
  public:
   /// @param begin   when time begins, µs > 0
@@ -33,7 +34,8 @@ class VirtualSystem {
                 Charge charge = Charge::Counts, UTime begin = UTime{1'000'000}, const std::optional<Key>& master = {});
   ~VirtualSystem();
 
-  /// Kills "tern-predictor", "tern-mapper" or "tern-planner"; the next start() makes a new one that knows nothing.
+  /// Kills "tern-executor", "tern-predictor", "tern-mapper" or "tern-planner"; the next start() makes a new one that
+  /// knows nothing.
   /// @throws std::invalid_argument for other names.
   void stop(const std::string& process);
   void start(const std::string& process);
@@ -41,6 +43,8 @@ class VirtualSystem {
   /// Time, the bus for those who watch, run().
   [[nodiscard]] VirtualRunner& runner() { return runner_; }
   [[nodiscard]] const SimulatorNode& simulator() const { return *simulator_; }
+  /// The one that was started last. @pre it was not stopped
+  [[nodiscard]] const ExecutorNode& executor() const { return *executor_; }
   [[nodiscard]] const Scenario& scenario() const;
 
  private:
@@ -49,6 +53,7 @@ class VirtualSystem {
   std::unique_ptr<Parts> parts_;
   VirtualRunner runner_;
   const SimulatorNode* simulator_ = nullptr;
+  const ExecutorNode* executor_ = nullptr;
 };
 
 }  // namespace tern

@@ -1,5 +1,5 @@
-# `cmake --install`: the programs with tern-viewer's page, if it was built, and core/ as a package for others
-# (find_package(tern); target tern::core).
+# `cmake --install`: the programs with tern-viewer's page, if it was built, what they fly and the scripts (share/tern), the
+# messages for other languages, and core/ as a package for others (find_package(tern); target tern::core).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -37,3 +37,14 @@ foreach(program ${executables})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   endif()
 endforeach()
+
+# The scripts find programs and scenarios from their own place (launch_scripts/lib.sh).
+foreach(folder scenarios launch_scripts lcmtypes)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION share/tern COMPONENT programs USE_SOURCE_PERMISSIONS
+          PATTERN CMakeLists.txt EXCLUDE PATTERN build.sh EXCLUDE PATTERN test.sh EXCLUDE PATTERN install.sh EXCLUDE
+          PATTERN record_golden.sh EXCLUDE PATTERN results.sh EXCLUDE PATTERN view_page.sh EXCLUDE
+          PATTERN campaign_slurm.sh EXCLUDE PATTERN packages*.txt EXCLUDE)
+endforeach()
+install(DIRECTORY ${PROJECT_BINARY_DIR}/python/tern_msgs DESTINATION share/tern/python COMPONENT programs OPTIONAL)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/docs/licensing.md DESTINATION share/doc/tern
+        COMPONENT programs)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/world/flyable.h"
 #include "core/world/horizon.h"
 
 namespace tern {
@@ -18,19 +19,11 @@ enum class Verdict : std::uint8_t {
   Late = 5,            ///< refused: after the deadline, before t_s: the request was closed
   TooLate = 6,         ///< refused: at or after t_s
   Stopped = 7,         ///< refused: the vehicle was told to stop (GoalMode::Stop) or has no mission
-  Shape =
-      8,  ///< refused: fewer than 4 intervals or too many, an interval not in (0, kLongestInterval], numbers not finite
-  Start = 9,          ///< refused: does not start at t_s
-  Join = 10,          ///< refused: position, velocity or acceleration leaves the committed trajectory at t_s
-  End = 11,           ///< refused: does not end at rest
-  Velocity = 12,      ///< refused: beyond v_max at its true extremum
-  Acceleration = 13,  ///< refused: beyond a_max
-  Jerk = 14,          ///< refused: beyond j_max
-  FlightBox = 15,     ///< refused: the body leaves the flight box
+  Unflyable = 8,       ///< refused: the trajectory may not be flown (breach_of)
 };
-inline constexpr int kVerdicts = 16;
+inline constexpr int kVerdicts = 9;
 
-/// "adopted", "late", "flight box" …
+/// "adopted", "late", "unflyable" …
 const char* to_string(Verdict verdict);
 /// Everything but Adopted, Kept and NoPlan.
 constexpr bool is_refusal(Verdict verdict) { return verdict > Verdict::NoPlan; }
@@ -39,12 +32,12 @@ constexpr bool is_refusal(Verdict verdict) { return verdict > Verdict::NoPlan; }
 struct Adoption {
   Verdict verdict = Verdict::NoPlan;
   std::string detail;
+  Breach breach = Breach::None;  ///< of Verdict::Unflyable: which rule is broken
 };
+/// The breach's words where there is one, else the verdict's: "flight box", "late" …
+const char* to_string(const Adoption& adoption);
 
-/// Whether `trajectory` may be flown after `request`: form (J ≥ 4), start at t_s, joining request.start within
-/// kJoinTolerance, ending at rest, |v|, |a|, |j| within limits·(1 + kLimitTolerance) at their true extrema, the body
-/// within the flight box to kBoxTolerance (true extrema too). The first rule broken is named, in that order.
-/// Verdict::Adopted when all hold. O(J).
+/// Whether `trajectory` may be flown after `request`: Verdict::Adopted or Verdict::Unflyable. O(J).
 Adoption check_trajectory(const TimedSpline& trajectory, const HorizonRequest& request);
 
 }  // namespace tern

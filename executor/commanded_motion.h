@@ -25,14 +25,16 @@ class CommandedMotion {
   /// At rest at p (W, m) until the first setpoint. @param limits  for braking
   CommandedMotion(const Vec3& p, UTime from, const Limits& limits);
 
-  /// The next setpoint. One that is not after settled_until() is ignored.
+  /// The next setpoint. One that is not after settled().end() is ignored.
   void hear(const UavState& setpoint);
   /// HORIZON_REQUEST.committed. Only one that starts after all earlier ones is news.
   void hear(const TimedSpline& committed);
 
-  /// The command at any time; before settled_until() as it was, after it as it would be without another setpoint.
+  /// The command at any time; before settled().end() as it was, after it as it would be without another setpoint.
   [[nodiscard]] MotionSample sample(UTime t) const;
   [[nodiscard]] double yaw() const { return yaw_; }  ///< rad, of the newest setpoint
+  /// Whether the command after settled().end() is a trajectory that was heard to be committed, not one that brakes.
+  [[nodiscard]] bool is_committed() const { return !braking_; }
   /// The time of the newest setpoint that was heard; `from` before the first one.
   [[nodiscard]] UTime told_until() const { return told_until_; }
 

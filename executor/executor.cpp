@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/world/message_limits.h"
+#include "executor/commanded_motion.h"
 
 namespace tern {
 namespace {
@@ -28,6 +29,15 @@ Duration checked_lead(Duration lead) {
   return lead;
 }
 
+/// From a measured state to rest.
+CommittedTrajectory stopping(const UavState& measured, const Limits& limits) {
+  const MotionSample& m = measured.motion;
+  if (m.v.isZero(0.0) && m.a.isZero(0.0)) return {m.p, measured.at};
+  CommittedTrajectory committed(m.p, measured.at - Duration{1});
+  committed.splice(braking_trajectory(m, measured.at, limits));
+  return committed;
+}
+
 }  // namespace
 
 std::int64_t ExecutorCounters::refused() const {
@@ -39,12 +49,35 @@ std::int64_t ExecutorCounters::refused() const {
 }
 
 Executor::Executor(const UavSpec& uav, UTime now, const ExecutorConfig& config)
+    : Executor(uav, UavState{.header = {}, .at = now, .motion = {.p = uav.start}}, config) {}
+
+Executor::Executor(const UavSpec& uav, const UavState& measured, const ExecutorConfig& config)
     : limits_(uav.limits),
       body_(uav.body),
       flight_box_(uav.flight_box),
       period_(checked_period(config.rate_hz)),
       lead_(checked_lead(config.lead)),
-      committed_(uav.start, now) {}
+      committed_(stopping(measured, uav.limits)) {}
+
+void Executor::rejoin(const UavState& measured) {
+  if (outstanding_) {
+    ++counters_.unanswered;
+    close(false);
+  }
+  committed_ = stopping(measured, limits_);
+}
+
+Limits Executor::limits_for(const TimedSpline& committed) const {
+  const auto widened = [](const Vec3& limit, const Vec3& needed) {
+    return Vec3((needed.array() > limit.array() * (1.0 + kLimitTolerance)).select(needed, limit));
+  };
+  const ClampedSpline spline = committed.spline();
+  const MotionBounds bounds = motion_bounds(spline);
+  Limits limits{widened(limits_.v_max, bounds.v_max), widened(limits_.a_max, bounds.a_max),
+                widened(limits_.j_max, bounds.j_max)};
+  if (limits_.dynamics && breach_of(spline, *limits_.dynamics).ok()) limits.dynamics = limits_.dynamics;
+  return limits;
+}
 
 void Executor::close(bool answered) {
   closed_.push_back({outstanding_->id, outstanding_->t_s, answered});
@@ -75,12 +108,17 @@ std::optional<HorizonRequest> Executor::next_request(UTime now) {
   request.deadline = request.t_s - kDeadlineLead;
   request.committed = committed_.in_force_at(request.t_s);
   request.start = committed_.sample(request.t_s);
-  request.limits = limits_;
+  request.limits = limits_for(request.committed);
   request.body = body_;
   request.flight_box = flight_box_;
+  request.tube = tube_;
   last_request_ = now;
   outstanding_ = request;
   return request;
+}
+
+MotionSample Executor::leaving(UTime t) const {
+  return sample_cubic(committed_.pieces(t, t + Duration{1}).pieces.front().coefficients, 0.0);
 }
 
 Verdict Executor::judge_closed(std::int64_t id, UTime now) {
@@ -109,6 +147,7 @@ Adoption Executor::consider(const Plan& plan, UTime now) {
   close_expired(now);
   Adoption result = judge(plan, now);
   ++counters_.verdicts[static_cast<std::size_t>(result.verdict)];
+  if (result.verdict == Verdict::Unflyable) ++counters_.breaches[static_cast<std::size_t>(result.breach)];
   return result;
 }
 

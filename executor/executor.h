@@ -11,17 +11,25 @@
 #include "core/world/scenario.h"
 #include "executor/adoption.h"
 #include "executor/committed_trajectory.h"
+#include "executor/heading.h"
+#include "executor/tube.h"
 
 namespace tern {
 
 struct ExecutorConfig {
   double rate_hz = 20.0;
   Duration lead{75'000};  ///< > kDeadlineLead, ≤ 5 s
+  double tube_m = 0.0;    ///< [0, kWidestTube]
+  HeadingConfig heading = {};
 
   template <typename V>
   void visit(V& v) {
     v("rate_hz", rate_hz, Range{1e-3, 100.0}, "requests per second at most");
     v("lead_s", lead, Range{0.01, 2.0}, "t_s − the time of the request, s; the planner has this less 5 ms");
+    v("tube_m", tube_m, Range{0.0, kWidestTube},
+      "requests promise that the vehicle is at most this far off its setpoints, m per axis; more where more is "
+      "measured");
+    v("heading", heading);
   }
 };
 
@@ -31,8 +39,10 @@ struct ExecutorCounters {
   std::int64_t answered_in_time = 0;                  ///< whatever the answer's verdict
   std::int64_t unanswered = 0;                        ///< closed by their deadline
   std::array<std::int64_t, kVerdicts> verdicts = {};  ///< plans by Verdict; late, twice, unknown ones among them
+  std::array<std::int64_t, kBreaches> breaches = {};  ///< of the unflyable ones, by Breach
 
   [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
+  [[nodiscard]] std::int64_t of(Breach breach) const { return breaches[static_cast<std::size_t>(breach)]; }
   [[nodiscard]] std::int64_t late() const { return of(Verdict::Late) + of(Verdict::TooLate); }
   [[nodiscard]] std::int64_t answered_twice() const { return of(Verdict::AnsweredTwice); }
   [[nodiscard]] std::int64_t refused() const;
@@ -42,14 +52,25 @@ struct ExecutorCounters {
 ///
 /// One request is outstanding at most; the next one goes out after its answer or its deadline, at no more than rate_hz.
 /// An answer is in time when now ≤ deadline; from then on the request is closed. Nothing is asked before begin()'s
-/// time, without a mode, or in mode Stop. At rest it goes on asking: a vehicle at rest must be able to evade.
+/// time, after pause(), without a mode, or in mode Stop. At rest it goes on asking: a vehicle at rest must be able to
+/// evade.
 class Executor {
  public:
   /// At rest at uav.start from `now` on. @throws std::invalid_argument when config is out of its ranges.
   Executor(const UavSpec& uav, UTime now, const ExecutorConfig& config = {});
+  /// At the measured state, and from there to rest (braking_trajectory). The same @throws.
+  Executor(const UavSpec& uav, const UavState& measured, const ExecutorConfig& config = {});
 
-  /// The mission may ask from `go` on.
+  /// The vehicle follows: the mission may ask from `go` on.
   void begin(UTime go) { go_ = go; }
+  /// It no longer does. What is committed stays so.
+  void pause() { go_.reset(); }
+  /// What requests promise from now on (HorizonRequest::tube).
+  void set_tube(const Vec3& tube) { tube_ = tube; }
+  [[nodiscard]] const Vec3& tube() const { return tube_; }
+  /// The vehicle is not where it was committed to be: from here on it is committed to come to rest from the measured
+  /// state. The open request is closed. Until that rest, limits are as wide as the way to it needs.
+  void rejoin(const UavState& measured);
   /// What the newest goal wants; nothing: no goal yet.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
 
@@ -61,8 +82,10 @@ class Executor {
   Adoption consider(const Plan& plan, UTime now);
 
   [[nodiscard]] MotionSample sample(UTime t) const { return committed_.sample(t); }
+  /// The same, at a joint with the jerk of what follows: the cubic that begins at t.
+  [[nodiscard]] MotionSample leaving(UTime t) const;
   [[nodiscard]] const CommittedTrajectory& committed() const { return committed_; }
-  /// The committed curve between two times, for the referee (see CommittedTrajectory::pieces).
+  /// The committed curve between two times (see CommittedTrajectory::pieces).
   [[nodiscard]] PiecewiseCubic pieces(UTime from, UTime to) const { return committed_.pieces(from, to); }
   /// No one will ask for times before t any more.
   void forget_before(UTime t) { committed_.forget_before(t); }
@@ -78,6 +101,8 @@ class Executor {
     bool answered = false;
   };
   [[nodiscard]] bool asking() const { return go_ && mode_ && *mode_ != GoalMode::Stop; }
+  /// The vehicle's limits, or what the trajectory needs where it is beyond them (see rejoin).
+  [[nodiscard]] Limits limits_for(const TimedSpline& committed) const;
   [[nodiscard]] Adoption judge(const Plan& plan, UTime now);
   [[nodiscard]] Verdict judge_closed(std::int64_t id, UTime now);
   void close_expired(UTime now);
@@ -88,6 +113,7 @@ class Executor {
   Box flight_box_;
   Duration period_, lead_;
   CommittedTrajectory committed_;
+  Vec3 tube_ = Vec3::Zero();
   std::optional<UTime> go_;
   std::optional<GoalMode> mode_;
   std::optional<HorizonRequest> outstanding_;

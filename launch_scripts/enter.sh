@@ -16,7 +16,7 @@ if [[ $# -gt 0 && $1 != -- ]]; then
   shift
   running "$record" || die "$record: no isolated flight runs there"
 else
-  for folder in "$TERN_ROOT"/flights/*/; do
+  for folder in "$TERN_FLIGHTS"/*/; do
     if running "$folder"; then record=$folder; fi
   done
   [[ -n $record ]] || die "no isolated flight runs"

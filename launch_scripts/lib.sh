@@ -3,6 +3,16 @@
 
 TERN_ROOT=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 readonly TERN_ROOT
+# What `cmake --install` has put into share/tern has no sources: programs and page are beside it, nothing is built or fetched.
+if [[ -e $TERN_ROOT/CMakeLists.txt ]]; then
+  # shellcheck disable=SC2034  # for the scripts that source this
+  TERN_INSTALLED='' TERN_MADE=$TERN_ROOT/build TERN_FLIGHTS=$TERN_ROOT/flights
+else
+  TERN_INSTALLED=yes TERN_MADE=${XDG_CACHE_HOME:-$HOME/.cache}/tern TERN_FLIGHTS=$PWD/flights
+  : "${TERN_BIN:=$(readlink -m "$TERN_ROOT/../../bin")}" "${TERN_PAGE:=$TERN_ROOT/viewer-page}"
+fi
+# shellcheck disable=SC2034  # the same
+readonly TERN_INSTALLED TERN_MADE TERN_FLIGHTS
 # Where the programs are. Set in the environment: they are taken from there, and nothing is built.
 TERN_BIN_GIVEN=${TERN_BIN:+yes}
 TERN_BIN=${TERN_BIN:-$TERN_ROOT/build/release/bin}
@@ -24,9 +34,21 @@ die() {
   exit 3
 }
 
-# Builds the programs unless the environment says where they are.
+# Builds the programs unless the environment says where they are: the first time with a word on how long that takes and ninja's
+# progress, later with one line that is gone when it is done, and what fails.
 build_programs() {
-  [[ -n $TERN_BIN_GIVEN ]] || "$TERN_ROOT/launch_scripts/build.sh"
+  [[ -z $TERN_BIN_GIVEN ]] || return 0
+  local cores said failed=''
+  if [[ ! -e $TERN_BIN/tern-launch ]]; then
+    cores=$(nproc)
+    say "Building Tern's programs, this once: up to $(((10 + cores - 1) / cores)) minutes on $cores cores. Later only what has changed."
+    "$TERN_ROOT/launch_scripts/build.sh"
+    return
+  fi
+  [[ ! -t 2 ]] || printf 'Building what has changed …' >&2
+  said=$("$TERN_ROOT/launch_scripts/build.sh" 2>&1) || failed=yes
+  [[ ! -t 2 ]] || printf '\r\033[K' >&2
+  [[ -z $failed ]] || { printf '%s\n' "$said" >&2 && return 1; }
 }
 
 # exec_process NAME ARG...: becomes the program, which is built first if it is not there.

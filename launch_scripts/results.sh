@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # The flight campaigns of docs/results.md. What has been flown is not flown again, so it may be stopped and started at will.
-#   launch_scripts/results.sh [--share S] [--out DIR] [NAME...]
-# S: a share of the seeds, 1 = all (3000 flights of the hard worlds, 200 of each other one); NAME: only these campaigns.
+#   launch_scripts/results.sh [--perception] [--share S] [--out DIR] [NAME...]
+# S: a share of the seeds, 1 = all (3000 flights of the hard worlds, 200 of each other one); NAME: only these campaigns;
+# --perception: instead the worlds without declared motions, 200 flights each, and their oracles.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 # name, scenario, obstacles, seeds, further settings
-readonly CAMPAIGNS="
+campaigns="
 paper_corridor_300 paper_corridor 300 1000
 mader_own_limits_250 mader_corridor_own_limits 250 1000
 sando_forest_200 sando_forest 200 1000
@@ -21,18 +22,25 @@ mader_own_limits_140 mader_corridor_own_limits 140 200
 sando_forest_50 sando_forest 50 200
 sando_forest_100 sando_forest 100 200
 "
+perception=""
+for world in perception_only,100 mader_perception_only,100 sando_perception,200 people_hermes_050,0 people_hermes_090,0 \
+  people_hermes_120,0 people_eth,0 people_hotel,0 drones,0; do
+  perception+="${world%,*} ${world%,*} ${world#*,} 200"$'\n'"${world%,*}_oracle ${world%,*} ${world#*,} 200 --oracle"$'\n'
+done
 
 share=1 out=$TERN_ROOT/build/results only=" "
 while (($#)); do
   case $1 in
     --share) share=${2:?} && shift 2 ;;
     --out) out=${2:?} && shift 2 ;;
-    -h | --help) sed -n '2,4s/^# //p' "$0" && exit ;;
+    --perception) campaigns=$perception && shift ;;
+    -h | --help) sed -n '2,5s/^# //p' "$0" && exit ;;
     -*) die "no option $1" ;;
     *) only+="$1 " && shift ;;
   esac
 done
 
+for name in $only; do grep -q "^$name " <<<"$campaigns" || die "no campaign $name"; done
 build_programs
 mkdir -p "$out"
 while read -r name scenario count seeds settings; do
@@ -43,5 +51,5 @@ while read -r name scenario count seeds settings; do
   # shellcheck disable=SC2086  # settings are words
   "$TERN_BIN/tern-campaign" --world "$TERN_ROOT/scenarios/$scenario.yaml" --count "$count" --seeds "1:$last" $settings \
     --out "$out/$name.csv" --summary "$out/$name.json"
-done <<<"$CAMPAIGNS"
+done <<<"$campaigns"
 "$TERN_ROOT/docs/results/table.py" "$out"/*.json

@@ -17,7 +17,7 @@ END
 }
 
 readonly LCM_JAR=/usr/share/java/lcm.jar
-readonly TYPES_JAR=${TERN_TYPES_JAR:-$TERN_ROOT/build/tern_types.jar}
+readonly TYPES_JAR=${TERN_TYPES_JAR:-$TERN_MADE/tern_types.jar}
 
 # Builds the jar unless it is newer than every message's description. In a subshell, which takes lock and folder with it.
 build_types() (
@@ -46,14 +46,17 @@ take_network() {
   source "$record/env.sh"
 }
 
-install=yes types_only='' record=''
+install=$([[ -n $TERN_INSTALLED ]] || echo yes) types_only='' record=''
 for argument; do
   case $argument in
     --types) types_only=yes ;;
     --no-install) install='' ;;
     --help | -h) usage && exit 0 ;;
     -*) die "unknown option $argument (--help)" ;;
-    *) record=$argument ;;
+    *)
+      [[ -z $record ]] || die "two flights: $record, $argument (--help)"
+      record=$argument
+      ;;
   esac
 done
 [[ -z $install ]] || "$TERN_ROOT/launch_scripts/install.sh" "$TERN_ROOT/launch_scripts/packages_spy.txt" ||
@@ -67,7 +70,7 @@ fi
 command -v lcm-spy >/dev/null || die "no lcm-spy; launch_scripts/install.sh launch_scripts/packages_spy.txt installs it"
 [[ -n ${DISPLAY:-} ]] || die "lcm-spy needs a display, and DISPLAY is not set (over SSH: ssh -X)"
 
-# Java 17 does not know an option that lcm-spy's script gives it, and would not start. lcm-spy looks for types in CLASSPATH.
+# Java does not know an option any more that lcm-spy's script gives it, and would not start. lcm-spy looks for types in CLASSPATH.
 export JAVA_TOOL_OPTIONS="-XX:+IgnoreUnrecognizedVMOptions ${JAVA_TOOL_OPTIONS:-}"
 export CLASSPATH=$TYPES_JAR${CLASSPATH:+:$CLASSPATH}
 exec lcm-spy

@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 case " $* " in *" --help "* | *" --version "*) exec_process tern-viewer "$@" ;; esac
-"$TERN_ROOT/launch_scripts/view_page.sh"
+[[ -n $TERN_INSTALLED ]] || "$TERN_ROOT/launch_scripts/view_page.sh"
 url_pipe=$(mktemp -u)
 mkfifo "$url_pipe"
 {

@@ -1,15 +1,33 @@
 #include "launcher/flight_processes.h"
 
+#include <algorithm>
+
 namespace tern {
+namespace {
+
+/// What a flight with an autopilot asks of the scenario; the user's own values come after it and win.
+std::vector<std::string> overrides_of(const FlightOptions& options) {
+  std::vector<std::string> values;
+  if (!options.autopilot.empty()) {
+    values = {"simulator.vehicle=external", "simulator.wait_s=120", "mavlink.start=arm",
+              "simulator.wait_for=tern-mavlink, tern-executor, tern-predictor, tern-mapper, tern-planner"};
+  }
+  if (options.autopilot_sim) values.emplace_back("mavlink.set_parameters=true");
+  values.insert(values.end(), options.overrides.begin(), options.overrides.end());
+  return values;
+}
+
+}  // namespace
 
 std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, const std::string& record,
                                                 const std::map<std::string, int>& key_fds) {
   std::vector<SupervisedProcess> processes;
+  const std::vector<std::string> overrides = overrides_of(options);
   const auto add = [&](const std::string& name, const std::vector<std::string>& more) -> SupervisedProcess& {
     SupervisedProcess& process = processes.emplace_back();
     process.name = name;
     auto& words = process.child.command = {options.programs + "/" + name, "--config", options.scenario};
-    for (const std::string& value : options.overrides) words.insert(words.end(), {"--set", value});
+    for (const std::string& value : overrides) words.insert(words.end(), {"--set", value});
     words.insert(words.end(), {"--lcm-url", options.lcm_url});
     if (const auto key = key_fds.find(name); key != key_fds.end()) {
       words.insert(words.end(), {"--key-fd", std::to_string(key->second)});
@@ -18,16 +36,30 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
     words.insert(words.end(), more.begin(), more.end());
     return process;
   };
-  const std::string log = record + "/flight.lcm";
-  add(kLogger, {"--record", log});
-  add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure"})
-      .restarted = false;
   if (options.view_fd) {
-    ChildProcess& viewer = add("tern-viewer", {"--page", options.page}).child;
+    ChildProcess& viewer = add(kViewer, {"--page", options.page}).child;
     viewer.inherited.push_back(*options.view_fd);
     if (options.allow_goals) viewer.command.emplace_back("--allow-goals");
+    if (options.looked_fd) {
+      viewer.inherited.push_back(*options.looked_fd);
+      viewer.command.insert(viewer.command.end(), {"--looked-fd", std::to_string(*options.looked_fd)});
+    }
   }
-  for (const char* name : {"tern-simulator", "tern-predictor", "tern-mapper", "tern-planner"}) add(name, {});
+  const std::string log = record + "/flight.lcm";
+  add(kLogger, {"--record", log});
+  add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure",
+                 "--command", options.typed})
+      .restarted = false;
+  for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"})
+    add(name, {});
+  if (!options.autopilot.empty()) add("tern-mavlink", {"--connect", options.autopilot});
+  if (options.autopilot_sim) {
+    const std::string place = options.autopilot.substr(options.autopilot.find("//"));
+    add("tern-autopilot-sim", {"--connect", "udpout:" + place}).restarted = false;
+  }
+  const auto simulator = std::find_if(processes.begin(), processes.end(),
+                                      [](const SupervisedProcess& p) { return p.name == "tern-simulator"; });
+  simulator->child.command.emplace_back("--recorded");
   return processes;
 }
 

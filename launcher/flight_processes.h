@@ -22,8 +22,12 @@ struct FlightOptions {
   std::string typed;                   ///< the command that the user typed, for the record
   std::optional<std::string> key;      ///< sign messages, with the master key of this file; empty: with a new one
   std::optional<int> view_fd;          ///< a listening socket for tern-viewer; none: no viewer
+  int view_wait_s = 30;                ///< the flight waits so long for the first page that looks, s, ≥ 0
+  std::optional<int> looked_fd;        ///< where tern-viewer says that one does
   std::string view_url, page;          ///< that socket's URL; the folder of the built page
   bool allow_goals = false;            ///< the page may send goals
+  std::string autopilot;               ///< where tern-mavlink connects to; empty: the simulator flies its own vehicle
+  bool autopilot_sim = false;          ///< the autopilot there is tern-autopilot-sim; needs udp://
   bool audit = false, report = false;  ///< look back when it has ended
 };
 
@@ -33,10 +37,11 @@ struct SupervisedProcess {
   bool restarted = true;  ///< when it dies, unless that cannot help (is_final)
 };
 
-inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor";
+inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kViewer[] = "tern-viewer";
 
-/// The processes of a flight in the order of their start: who records and who judges come first, so that they miss
-/// nothing. All are restarted but the monitor, whose judgement rests on all that it heard.
+/// The processes of a flight in the order of their start: the viewer, whose page is waited for, then who records and
+/// who judges, so that they miss nothing. All are restarted but the monitor, whose judgement rests on all that it
+/// heard.
 /// @param record  the flight's folder  @param key_fds  by process, an open file of its keys; empty: unsigned
 std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, const std::string& record,
                                                 const std::map<std::string, int>& key_fds);

@@ -43,9 +43,14 @@ Message to_lcm(const FlightResult& result) {
   m.mean_speed = result.mean_speed_mps;
   m.top_speed = result.top_speed_mps;
   m.min_clearance = result.min_clearance_m;
+  m.min_map_clearance = result.min_map_clearance_m;
   m.jerk_integral = result.jerk_integral;
   m.stops = result.stops;
   m.limit_violations = result.limit_violations;
+  m.contacts_moving = result.contacts_moving;
+  m.contacts_at_rest = result.contacts_at_rest;
+  m.obstacles = result.obstacles;
+  m.obstacles_left_out = result.obstacles_left_out;
   m.detail = wire::to_lcm(result.detail);
   for (const Exposure& exposure : result.exposure) {
     m.exposure.push_back(to_lcm(exposure));
@@ -73,9 +78,14 @@ tl::expected<FlightResult, Rejection> from_lcm(const Message& m) {
   result.mean_speed_mps = measure(m.mean_speed, 0.0, kMaxSpeed);
   result.top_speed_mps = measure(m.top_speed, 0.0, kMaxSpeed);
   result.min_clearance_m = measure(m.min_clearance, -kMaxClearance, kMaxClearance);
+  result.min_map_clearance_m = measure(m.min_map_clearance, -kMaxClearance, kMaxClearance);
   result.jerk_integral = measure(m.jerk_integral, 0.0, wire::kMaxNumber);
   result.stops = read.counter(m.stops);
   result.limit_violations = read.counter(m.limit_violations);
+  result.contacts_moving = read.counter(m.contacts_moving);
+  result.contacts_at_rest = read.counter(m.contacts_at_rest);
+  result.obstacles = read.counter(m.obstacles);
+  result.obstacles_left_out = read.counter(m.obstacles_left_out);
   wire::Slices names(m.region_text);
   for (const tern_msgs::exposure_t& exposure : m.exposure)
     result.exposure.push_back(read_exposure(read, exposure, names));

@@ -26,9 +26,17 @@ Message to_lcm(const HorizonRequest& request) {
   m.v_max = wire::to_lcm(request.limits.v_max);
   m.a_max = wire::to_lcm(request.limits.a_max);
   m.j_max = wire::to_lcm(request.limits.j_max);
+  m.has_dynamics = request.limits.dynamics.has_value();
+  if (const auto& dynamics = request.limits.dynamics) {
+    m.thrust_min = dynamics->thrust_min;
+    m.thrust_max = dynamics->thrust_max;
+    m.tilt_max_deg = dynamics->tilt_max_deg;
+    m.body_rate_max_deg_s = dynamics->body_rate_max_deg_s;
+  }
   m.body_radius = request.body.radius;
   m.flight_box_min = wire::to_lcm(request.flight_box.min());
   m.flight_box_max = wire::to_lcm(request.flight_box.max());
+  m.tube = wire::to_lcm(request.tube);
   m.committed_start_us = request.committed.start.us;
   m.committed_interval_us = request.committed.interval.us;
   m.control_points = wire::to_lcm(request.committed.control_points);
@@ -42,6 +50,16 @@ bool agree(const Vec3& a, const Vec3& b) { return (a - b).cwiseAbs().maxCoeff() 
 bool starts_on(const TimedSpline& committed, UTime t_s, const MotionSample& start) {
   const MotionSample there = committed.sample(t_s);
   return agree(there.p, start.p) && agree(there.v, start.v) && agree(there.a, start.a);
+}
+
+std::optional<Dynamics> read_dynamics(const Message& m, wire::FieldReader& read) {
+  if (!read.flag(m.has_dynamics)) {
+    for (const double x : {m.thrust_min, m.thrust_max, m.tilt_max_deg, m.body_rate_max_deg_s}) read.number(x, 0.0, 0.0);
+    return std::nullopt;
+  }
+  const auto within = [&](double x, const Range& range) { return read.number(x, range.low, range.high); };
+  return Dynamics{within(m.thrust_min, Dynamics::kThrustMin), within(m.thrust_max, Dynamics::kThrustMax),
+                  within(m.tilt_max_deg, Dynamics::kTilt), within(m.body_rate_max_deg_s, Dynamics::kBodyRate)};
 }
 
 tl::expected<HorizonRequest, Rejection> from_lcm(const Message& m) {
@@ -58,9 +76,11 @@ tl::expected<HorizonRequest, Rejection> from_lcm(const Message& m) {
   request.limits.v_max = read.vec3(m.v_max, kLeastLimit, kMostSpeedLimit);
   request.limits.a_max = read.vec3(m.a_max, kLeastLimit, kMostAccelerationLimit);
   request.limits.j_max = read.vec3(m.j_max, kLeastLimit, wire::kInfinity);
+  request.limits.dynamics = read_dynamics(m, read);
   request.body.radius = read.number(m.body_radius, 0.0, kMaxBodyExtent);
   request.body.vertices = read.points(m.body_vertices, kMaxBodyExtent);
   request.flight_box = Box(read.position(m.flight_box_min), read.position(m.flight_box_max));
+  request.tube = read.vec3(m.tube, 0.0, kMaxBodyExtent);
   read.consistent(!request.flight_box.isEmpty());
   read.in_order(request.deadline <= request.t_s - kDeadlineLead);
   read.in_order(request.committed.start <= request.t_s);

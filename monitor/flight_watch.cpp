@@ -37,11 +37,11 @@ void FlightWatch::hear(const Goal& goal) {
 
 void FlightWatch::hear(const HorizonRequest& request, UTime now) {
   ledger_.add(request);
-  const bool is_simulators = request.header.name.sender_epoch_us == processes_.epoch_us(kSimulatorProcess);
-  if (world_epoch_us_ != 0 || (first_request_ && !is_simulators)) return;
+  const bool is_executors = request.header.name.sender_epoch_us == processes_.epoch_us(kExecutorProcess);
+  if (world_epoch_us_ != 0 || (first_request_ && !is_executors)) return;
   first_request_ = request;
   first_request_at_ = now;
-  if (is_simulators) world_epoch_us_ = request.header.name.sender_epoch_us;
+  if (is_executors) world_epoch_us_ = processes_.epoch_us(kSimulatorProcess);
 }
 
 void FlightWatch::hear(const PlanTiming& timing) {
@@ -123,6 +123,9 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   summary.scenario = scenario_.name;
   summary.seed = scenario_.seed;
   summary.count = scenario_.world.count;
+  const SemanticsSpec& semantics = scenario_.semantics;
+  summary.settings = {scenario_.uav.limits, semantics.enabled ? semantics.lambda_attractive : 0.0,
+                      semantics.enabled ? semantics.lambda_repulsive : 0.0};
   summary.result = result_;
   summary.requests = ledger_.requests();
   summary.answered_in_time = ledger_.answered_in_time();
@@ -133,6 +136,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   for (int k = 0; k < kPlanReasons; ++k) {
     summary.reasons[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanReason>(k));
   }
+  summary.by_level = ledger_.plans_by_level();
   summary.left_out = ledger_.left_out();
   summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::Hulls),
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};

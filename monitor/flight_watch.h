@@ -21,6 +21,7 @@
 namespace tern {
 
 inline constexpr char kSimulatorProcess[] = "tern-simulator";
+inline constexpr char kExecutorProcess[] = "tern-executor";
 /// Without a heartbeat of the simulator for so long, there is no flight.
 inline constexpr Duration kSimulatorSilence{20'000'000};
 /// After the verdict every process has a last heartbeat to send, with its last counts.
@@ -56,7 +57,8 @@ struct Ending {
 /// The flight ends kLastWords after FLIGHT_RESULT, with its outcome; before that it has failed when
 ///   fail() was called (the launcher knows of a process that cannot run),
 ///   the simulator was not heard for kSimulatorSilence, from the watch's beginning on,
-///   the simulator started anew after the first request, and the one that made it is silent: its world is lost,
+///   the simulator started anew after the first request, and the one that the flight began with is silent: its world is
+///   lost,
 ///   the referee says nothing kVerdictSlack after the scenario's timeout.
 /// Verdict and loss of the world are those of the simulator that the flight began with, whoever else says so; a verdict
 /// that its own next heartbeat contradicts (it flies on) is dropped.
@@ -95,7 +97,7 @@ class FlightWatch {
   std::optional<UavState> state_;
   std::optional<HorizonRequest> first_request_;
   std::optional<UTime> first_request_at_;
-  std::int64_t world_epoch_us_ = 0;  ///< the simulator's that made the first request; 0: none yet
+  std::int64_t world_epoch_us_ = 0;  ///< the simulator's at the first request; 0: none yet
   UTime beat_;                       ///< when a heartbeat was heard last
   std::vector<TrueObstacle> obstacles_;
   Once timings_heard_;

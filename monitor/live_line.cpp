@@ -13,19 +13,25 @@ std::string number(double x, int digits) { return std::isnan(x) ? "-" : fmt::for
 
 }  // namespace
 
-std::string live_line(const LiveView& view) {
+std::string live_line(const LiveView& view, std::size_t columns) {
   const std::string beside = view.beside.empty() ? "" : "  at once: " + view.beside;
   if (!view.flying) {
     return "waiting for " + (view.waiting.empty() ? std::string("the simulator") : view.waiting) + beside;
   }
-  std::string line =
-      fmt::format("{:6.1f} s  {:3.0f} %  {:5.2f} m/s  nearest {} m  replan {}/{} ms (p50/p99)  in time {}/{}",
-                  view.elapsed_s, view.progress * 100.0, view.speed_mps, number(view.nearest_m, 2),
-                  number(view.replan_p50_ms, 1), number(view.replan_p99_ms, 1), view.answered_in_time, view.requests);
-  if (view.reason != PlanReason::None) line += fmt::format("  ({})", to_string(view.reason));
-  if (view.left_out > 0) line += fmt::format("  {} tracks left out", view.left_out);
-  if (!view.waiting.empty()) line += "  waiting for " + view.waiting;
-  return line + beside;
+  const std::string head = fmt::format("{:6.1f} s  {:3.0f} %  {:5.2f} m/s  nearest {} m", view.elapsed_s,
+                                       view.progress * 100.0, view.speed_mps, number(view.nearest_m, 2));
+  const std::string replan =
+      fmt::format("  replan {}/{} ms", number(view.replan_p50_ms, 1), number(view.replan_p99_ms, 1));
+  const std::string in_time = fmt::format("  in time {}/{}", view.answered_in_time, view.requests);
+  std::string trouble;
+  if (view.reason != PlanReason::None) trouble += fmt::format("  ({})", to_string(view.reason));
+  if (view.left_out > 0) trouble += fmt::format("  {} tracks left out", view.left_out);
+  if (!view.waiting.empty()) trouble += "  waiting for " + view.waiting;
+  trouble += beside;
+  for (const std::string& middle : {replan + " (p50/p99)" + in_time, replan + in_time, in_time}) {
+    if (head.size() + middle.size() + trouble.size() <= columns) return head + middle + trouble;
+  }
+  return head + trouble;
 }
 
 std::string fit(const std::string& text, std::size_t columns) {

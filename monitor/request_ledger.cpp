@@ -19,6 +19,9 @@ void RequestLedger::add(const Plan& plan) {
   if (answered_.size() > Once::kRemembered) answered_.erase(answered_.begin());
   ++plans_[static_cast<std::size_t>(plan.outcome)];
   ++reasons_[static_cast<std::size_t>(plan.reason)];
+  if (plan.outcome != PlanOutcome::NoPlan) {
+    ++by_level_[static_cast<std::size_t>(plan.alpha_scale < 1.0 ? kLevels : plan.level)];
+  }
   last_reason_ = plan.reason;
   last_left_out_ = plan.inputs.left_out;
   if (last_left_out_ > 0) ++left_out_.plans;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/world/horizon.h"
+#include "core/world/track.h"
 #include "monitor/once.h"
 
 namespace tern {
@@ -20,6 +21,10 @@ struct LeftOut {
   std::int64_t plans = 0;        ///< that rest on an incomplete set
   std::int32_t most_tracks = 0;  ///< left out of one set
 };
+
+/// First answers with a trajectory, by the confidence that they are certified at: the levels of kConfidenceLevels, then
+/// those below the last one.
+using PlansByLevel = std::array<std::int64_t, kConfidenceLevels.size() + 1>;
 
 /// Matches PLAN with HORIZON_REQUEST by the request's id. A request is settled when its first answer came, or
 /// kAnswerGrace after its deadline; only settled ones are counted, so that the flight's end leaves no request half
@@ -39,6 +44,7 @@ class RequestLedger {
   [[nodiscard]] std::int64_t second_answers() const { return second_answers_; }
   [[nodiscard]] std::int64_t plans(PlanOutcome outcome) const { return plans_[static_cast<std::size_t>(outcome)]; }
   [[nodiscard]] std::int64_t plans(PlanReason reason) const { return reasons_[static_cast<std::size_t>(reason)]; }
+  [[nodiscard]] const PlansByLevel& plans_by_level() const { return by_level_; }
   /// The newest first answer's; None before it.
   [[nodiscard]] PlanReason last_reason() const { return last_reason_; }
   /// Tracks that the newest plan's predictions had left out.
@@ -52,6 +58,7 @@ class RequestLedger {
   std::int64_t settled_ = 0, in_time_ = 0, second_answers_ = 0;
   std::array<std::int64_t, kPlanOutcomes> plans_ = {};
   std::array<std::int64_t, kPlanReasons> reasons_ = {};
+  PlansByLevel by_level_ = {};
   PlanReason last_reason_ = PlanReason::None;
   std::int32_t last_left_out_ = 0;
   LeftOut left_out_;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "core/world/names.h"
@@ -31,10 +33,29 @@ Json known(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json to_json(const std::optional<FlownSettings>& settings) {
+  if (!settings) return nullptr;
+  return {{"lambda_attractive", settings->lambda_attractive},
+          {"lambda_repulsive", settings->lambda_repulsive},
+          {"v_max", to_json(settings->limits.v_max)},
+          {"a_max", to_json(settings->limits.a_max)},
+          {"j_max", to_json(settings->limits.j_max)}};
+}
+
 Json plans_by_outcome(const FlightSummary& summary) {
   Json plans = Json::object();
   for (int k = 0; k < kPlanOutcomes; ++k) {
     plans[key(static_cast<PlanOutcome>(k))] = summary.plans[static_cast<std::size_t>(k)];
+  }
+  return plans;
+}
+
+Json plans_by_confidence(const FlightSummary& summary) {
+  Json plans = {{"promised", summary.by_level.front()}, {"below", summary.by_level.back()}};
+  for (std::size_t k = 1; k < kConfidenceLevels.size(); ++k) {
+    plans[fmt::format("{}", kConfidenceLevels[k])] = summary.by_level[k];
   }
   return plans;
 }
@@ -64,6 +85,7 @@ std::string to_json(const FlightSummary& summary) {
       {"scenario", summary.scenario},
       {"seed", known(summary.seed)},
       {"count", known(summary.count)},
+      {"settings", to_json(summary.settings)},
       {"flight_time_s", measure(result, &FlightResult::flight_time_s)},
       {"first_entry_s", measure(result, &FlightResult::first_entry_s)},
       {"path_length_m", measure(result, &FlightResult::path_length_m)},
@@ -71,11 +93,17 @@ std::string to_json(const FlightSummary& summary) {
       {"top_speed_mps", measure(result, &FlightResult::top_speed_mps)},
       {"stops", measure(result, &FlightResult::stops)},
       {"min_clearance_m", measure(result, &FlightResult::min_clearance_m)},
+      {"min_map_clearance_m", measure(result, &FlightResult::min_map_clearance_m)},
       {"limit_violations", measure(result, &FlightResult::limit_violations)},
+      {"contacts_moving", measure(result, &FlightResult::contacts_moving)},
+      {"contacts_at_rest", measure(result, &FlightResult::contacts_at_rest)},
+      {"obstacles", measure(result, &FlightResult::obstacles)},
+      {"obstacles_left_out", measure(result, &FlightResult::obstacles_left_out)},
       {"requests", summary.requests},
       {"answered_in_time", summary.answered_in_time},
       {"second_answers", summary.second_answers},
       {"plans", plans_by_outcome(summary)},
+      {"confidence", plans_by_confidence(summary)},
       {"left_out", {{"plans", summary.left_out.plans}, {"most_tracks", summary.left_out.most_tracks}}},
       {"replan_ms", to_json(summary.replan_ms)},
       {"exposure", exposure_by_region(result)},
@@ -83,6 +111,7 @@ std::string to_json(const FlightSummary& summary) {
       {"restarts", summary.restarts},
       {"beside", Json(summary.beside)},
       {"log", summary.log.empty() ? Json(nullptr) : Json(summary.log)},
+      {"command", summary.command.empty() ? Json(nullptr) : Json(summary.command)},
       {"version", summary.version},
   };
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -26,14 +27,39 @@ std::string row(std::string_view name, const Percentiles& p) {
   return fmt::format("  {:<14}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}\n", name, p.p50, p.p95, p.p99, p.max);
 }
 
+/// What was there, by the referee; nothing when there was none.
+std::string obstacles_met(const FlightSummary& s) {
+  if (!s.result) return "";
+  std::string text = fmt::format(", {} obstacles", s.result->obstacles);
+  if (s.result->obstacles_left_out > 0) {
+    text += fmt::format(" ({} left out: they began beside the vehicle)", s.result->obstacles_left_out);
+  }
+  return text;
+}
+
+/// One number where the axes agree.
+std::string per_axis(const Vec3& v) {
+  if (v.x() == v.y() && v.x() == v.z()) return std::isinf(v.x()) ? "none" : fmt::format("{:g}", v.x());
+  return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z());
+}
+
+std::string settings_line(const FlownSettings& s) {
+  return fmt::format("  flown with    λ {:g} to, {:g} away; v_max {}, a_max {}, j_max {} (SI)\n", s.lambda_attractive,
+                     s.lambda_repulsive, per_axis(s.limits.v_max), per_axis(s.limits.a_max), per_axis(s.limits.j_max));
+}
+
 std::string flight_lines(const FlightResult& r) {
   std::string text;
   text +=
       fmt::format("  flight time   {:<14} first entry  {}\n", value(r.flight_time_s, "s"), value(r.first_entry_s, "s"));
   text += fmt::format("  path          {:<14} mean speed   {:<14} top speed  {}\n", value(r.path_length_m, "m"),
                       value(r.mean_speed_mps, "m/s"), value(r.top_speed_mps, "m/s"));
-  text += fmt::format("  clearance     {:<14} stops        {:<14} limit violations  {}\n",
-                      value(r.min_clearance_m, "m", 3), r.stops, r.limit_violations);
+  text +=
+      fmt::format("  clearance     {:<14} of the map   {:<14} stops      {}, limit violations {}\n",
+                  value(r.min_clearance_m, "m", 3), value(r.min_map_clearance_m, "m", 3), r.stops, r.limit_violations);
+  if (r.contacts_moving + r.contacts_at_rest > 0) {
+    text += fmt::format("  contacts      {} while moving, {} at rest\n", r.contacts_moving, r.contacts_at_rest);
+  }
   for (const Exposure& e : r.exposure) {
     text += fmt::format("  in {:<20.20} {:>8} {:>10}   within 1 m {:>8} {:>10}\n", e.region, value(e.seconds, "s"),
                         value(e.metres, "m"), value(e.near_seconds, "s"), value(e.near_metres, "m"));
@@ -66,6 +92,11 @@ std::string plan_lines(const FlightSummary& s) {
     if (k + 1 < kPlanOutcomes) text += ",";
   }
   text += "\n" + reason_line(s);
+  const std::int64_t all = std::accumulate(s.by_level.begin(), s.by_level.end(), std::int64_t{0});
+  if (const std::int64_t less = all - s.by_level.front(); less > 0) {
+    text += fmt::format("  confidence    {} of {} plans at less than what is promised, {} below {}\n", less, all,
+                        s.by_level.back(), kConfidenceLevels.back());
+  }
   if (s.left_out.plans == 0) return text;
   return text +
          fmt::format("  left out      {} plans rest on incomplete predictions: up to {} tracks are not in them\n",
@@ -92,8 +123,8 @@ std::string message_lines(const FlightSummary& s) {
 
 std::string to_text(const FlightSummary& s) {
   std::string text = fmt::format("{}{}{}\n", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
-  text +=
-      fmt::format("  scenario      {}, seed {}, {} obstacles\n", s.scenario, s.seed.value_or(0), s.count.value_or(0));
+  text += fmt::format("  scenario      {}, seed {}{}\n", s.scenario, s.seed.value_or(0), obstacles_met(s));
+  if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);
   text += plan_lines(s);
   text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");

@@ -92,6 +92,8 @@ std::optional<Candidate> certify(const Attempt& attempt, const Points& control_p
                                  SweptObstacles& swept, PlanLog& log) {
   Candidate c;
   c.outcome = outcome;
+  c.assurance = attempt.near.assurance;
+  c.relaxed = attempt.near.start.relaxed;
   c.trajectory = {attempt.near.request.t_s, attempt.problem.interval, control_points};
   log.enter(Stage::Check);
   CheckReport report = check_plan(c.trajectory, attempt.problem, swept);

@@ -14,6 +14,8 @@ namespace tern {
 /// A certified trajectory and what it is worth.
 struct Candidate {
   PlanOutcome outcome = PlanOutcome::NoPlan;
+  Assurance assurance;   ///< what it is certified at
+  bool relaxed = false;  ///< StartClearance::relaxed, there
   TimedSpline trajectory;
   double clear_s = 0.0;    ///< from t_s until the end point is no longer clear, or as far as was looked
   double hold_s = 0.0;     ///< of that, after the end

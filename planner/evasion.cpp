@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/geometry/box.h"
+#include "core/world/flyable.h"
 #include "planner/duration.h"
 #include "planner/plan_workspace.h"
 #include "planner/tuning.h"
@@ -90,7 +91,7 @@ bool comes_first(const Stop& a, const Stop& b) {
 /// The stop at this point and pace; nothing: outside the flight box, or too slow to be flown.
 std::optional<Stop> stop_at(const Surroundings& near, const Box& box, const Vec3& point, double pace) {
   if (!box.contains(point)) return std::nullopt;
-  const double least = least_duration(near.request.start, point, near.plan_limits);
+  const double least = least_duration(near.request.start, point, near.pace_limits);
   const auto interval = interval_of(pace * least, near.config.intervals);
   if (!interval) return std::nullopt;
   return Stop{point, *interval, interval->seconds() * near.config.intervals, pace < kStopScale, 0.0};

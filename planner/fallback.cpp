@@ -49,6 +49,8 @@ Fallback check_committed(const Surroundings& near, bool rests_where_it_shall, Pl
   if (rests && clear.seconds <= 0.0) return {};
   Candidate c;
   c.outcome = PlanOutcome::KeepCommitted;
+  c.assurance = near.assurance;
+  c.relaxed = near.start.relaxed;
   c.trajectory = request.committed;
   c.certificate = std::move(report.certificate);
   c.hold_s = std::min(clear.seconds, near.hold.cap(moving_s));

@@ -32,17 +32,17 @@ double length_of(const While& shall, const Heading& heading) {
 Heading heading_nowhere(const Surroundings& near) {
   const Vec3& at = near.request.start.p;
   const LocalAim local{at, kLocalGoalShare * near.config.sphere_radius_m,
-                       planned_duration(near.request.start, at, near.plan_limits)};
-  return {local, {at, 0.0}, 0.0, near.plan_limits, near.fields};
+                       planned_duration(near.request.start, at, near.pace_limits)};
+  return {local, {at, 0.0}, 0.0, near.pace_limits, near.fields};
 }
 
 Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, double largest_radius,
                       const Surroundings& near) {
   const MotionSample& start = near.request.start;
-  const LocalAim local = aim_along(path, start, near.plan_limits, largest_radius,
+  const LocalAim local = aim_along(path, start, near.pace_limits, largest_radius,
                                    longest_first_duration(near.look, near.hold, near.config));
   return {local, way_along(path, cost, kBendIgnored * step_scale(local.radius)), local.least_s,
-          paced(near.plan_limits, (local.goal - start.p).norm()), near.fields};
+          paced(near.pace_limits, (local.goal - start.p).norm()), near.fields};
 }
 
 SemanticGuide guide_of(const Surroundings& near, const Heading& heading) {
@@ -71,7 +71,7 @@ double worth_of(const Surroundings& near, const Heading& heading, const TimedSpl
   double metres = 0.0;
   const double offset_s = (from - trajectory.start).seconds();
   for (const While& shall : kWhiles) metres += 0.5 * guide.of(spline, offset_s, length_of(shall, heading));
-  return arrival_s + metres / near.plan_limits.v_max.minCoeff();
+  return arrival_s + metres / near.pace_limits.v_max.minCoeff();
 }
 
 }  // namespace tern

@@ -4,11 +4,12 @@
 #include <optional>
 #include <utility>
 
-#include "planner/attempt.h"
+#include "core/world/body.h"
+#include "planner/durations.h"
 #include "planner/evasion.h"
 #include "planner/fallback.h"
+#include "planner/less_sure.h"
 #include "planner/plan_workspace.h"
-#include "planner/refinement.h"
 #include "planner/standing_answer.h"
 #include "planner/tuning.h"
 
@@ -55,43 +56,6 @@ std::optional<std::vector<Vec3>> path_to_goal(const GoalProducts& goal, const Ve
   return goal.field->path_from(from);
 }
 
-PlanReason reason_of_nothing(const Surroundings& near, const Budget& budget) {
-  if (near.start.collides) return PlanReason::StartInCollision;
-  return budget.cuts().empty() ? PlanReason::Infeasible : PlanReason::OutOfTime;
-}
-
-/// Whether a longer duration need not be tried.
-bool is_enough(const std::optional<Candidate>& best, const Heading& heading, Budget& budget) {
-  if (!best) return false;
-  const double near = kNearLocalGoal * step_scale(heading.local.radius);
-  return (best->holds && best->cost.distance_to_goal <= near) || budget.expired(Stage::LocalGoal);
-}
-
-/// Too short a duration leaves the goal out of reach, too long a one is slow: a few scales of the least one, each leaf
-/// optimized, the best kept. @return why there is no plan
-PlanReason try_durations(const Surroundings& near, const Heading& heading, StandingAnswer& standing, PlanTools& tools) {
-  const PlannerConfig& config = near.config;
-  const SearchConfig search = scaled(config.search, heading.local.radius, heading.local.least_s);
-  for (const double scale : config.duration_scales) {
-    if (!tools.budget.begin_attempt(Phase::Durations)) break;
-    if (is_enough(standing.best(), heading, tools.budget)) break;
-    const std::optional<Duration> interval = interval_of(scale * heading.local.least_s, config.intervals);
-    if (!interval) break;
-    const double end_s = interval->seconds() * config.intervals;
-    const Attempt now{near, heading, horizon_problem(near, *interval), near.hold.cap(end_s), near.hold.required(end_s)};
-    if (!is_followed(near, *interval, now.hold_s)) break;
-    tools.log.enter(Stage::Hulls);
-    SweptObstacles& swept = tools.memory.horizon;
-    sweep_horizon(now, tools.memory.times, swept);
-    if (auto leaf = search_candidate(now, search, swept, tools)) {
-      standing.announce(*leaf);
-      standing.take(refined(now, std::move(*leaf), swept, tools));
-    }
-    tools.log.statistics.count(swept);
-  }
-  return standing.best() ? PlanReason::None : reason_of_nothing(near, tools.budget);
-}
-
 bool needs_evasion(const StandingAnswer& standing, const Fallback& fallback) {
   if (standing.best() && standing.best()->holds) return false;
   return fallback.is_hit_at_rest || !(standing.committed() && standing.committed()->holds);
@@ -107,8 +71,10 @@ void evade(const Surroundings& near, const Heading& heading, StandingAnswer& sta
 
 }  // namespace
 
-PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
+PlanAnswer plan(const HorizonRequest& asked, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanWorkspace& workspace, PlanObserver* observer) {
+  HorizonRequest request = asked;
+  request.body = grown(asked.body, asked.tube);
   PlanLog log(observer);
   PlanTools tools{budget, workspace, log};
   log.enter(Stage::Fallback);
@@ -117,11 +83,11 @@ PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const
     blank.reason = PlanReason::StaleWorld;
     return {std::move(blank), {}};
   }
-  const Surroundings near = surroundings(request, world, config, workspace);
+  Surroundings near = surroundings(request, world, config, workspace);
   blank.relaxed = near.start.relaxed;
   const bool rests = rests_where_it_shall(request, world.goal->goal, config);
   const Fallback fallback = check_committed(near, rests, tools);
-  StandingAnswer standing(near, std::move(blank), fallback.committed, tools);
+  StandingAnswer standing(near, std::move(blank), fallback.committed, world.predictions->set.confidence, tools);
   if (rests && !needs_evasion(standing, fallback)) {
     return {standing.kept(PlanReason::AtGoal), log.statistics};
   }
@@ -134,13 +100,20 @@ PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const
     return ahead;
   };
   Heading heading = goes ? head(kLocalGoalShare * config.sphere_radius_m) : heading_nowhere(near);
-  if (near.start.relaxed) standing.replace(find_evasion(near, heading, Phase::Room, tools));
+  const bool has_less = goes && !rests && !near.hold.promised;
+  if (near.start.relaxed && !has_less) standing.replace(find_evasion(near, heading, Phase::Room, tools));
   PlanReason reason = path ? PlanReason::None : PlanReason::GoalBlocked;
-  if (path && !rests && !standing.best()) reason = try_durations(near, heading, standing, tools);
+  if (path && !rests && !standing.best() && !(has_less && near.start.relaxed))
+    reason = try_durations(near, heading, Phase::Durations, config.search, standing, tools);
+  if (has_less) {
+    if (near.start.relaxed) standing.keep(std::nullopt, heading);
+    if (!is_settled(near, heading, standing)) reason = plan_less_sure(heading, near, standing, tools);
+    return {standing.chosen(standing.best() ? PlanReason::None : reason), log.statistics};
+  }
   const bool may_creep = goes && !rests && is_at_rest(request);
   for (int k = 0; may_creep && k < kSmallerSteps && !standing.best() && !budget.expired(Stage::LocalGoal); ++k) {
     heading = head(heading.local.radius / kSmallerStep);
-    reason = try_durations(near, heading, standing, tools);
+    reason = try_durations(near, heading, Phase::Durations, config.search, standing, tools);
   }
   if (needs_evasion(standing, fallback)) evade(near, heading, standing, tools);
   return {standing.chosen(reason), log.statistics};

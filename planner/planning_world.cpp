@@ -40,7 +40,10 @@ PredictionProducts::PredictionProducts(TrackSet tracks) : set(std::move(tracks))
       movers_.push_back({box, track.motion.end(), track.top_speed});
     }
     boxes.push_back(track.bounds(from, track.motion.end() + kTrackBoxReach));
-    obstacles.push_back({track.id, &track, boxes.back(), 1.0,
+    obstacles.push_back({track.id,
+                         &track,
+                         boxes.back(),
+                         {},
                          std::span<const Box>(piece_boxes.data() + first, piece_boxes.size() - first)});
   }
   index = BoxIndex(std::move(boxes));
@@ -70,8 +73,6 @@ MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
   fields = SemanticFields(map, options);
   weighs_paths = config.semantic_path && fields.weighs();
 }
-
-Box centre_box(const Box& flight_box, const Body& body) { return grown(flight_box, -body.half_extents()); }
 
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const std::vector<Box>& static_boxes, const Vec3& start) {

@@ -99,7 +99,4 @@ struct PlanningWorld {
   std::shared_ptr<const GoalProducts> goal;
 };
 
-/// Where the vehicle's centre may be: the flight box shrunk by the body.
-Box centre_box(const Box& flight_box, const Body& body);
-
 }  // namespace tern

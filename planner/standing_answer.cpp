@@ -7,8 +7,8 @@
 namespace tern {
 
 StandingAnswer::StandingAnswer(const Surroundings& near, Plan blank, std::optional<Candidate> committed,
-                               PlanTools& tools)
-    : near_(near), blank_(std::move(blank)), committed_(std::move(committed)), tools_(tools) {
+                               double promised, PlanTools& tools)
+    : near_(near), blank_(std::move(blank)), committed_(std::move(committed)), promised_(promised), tools_(tools) {
   if (PlanObserver* observer = tools_.log.observer()) {
     observer->answer(kept(near.start.collides ? PlanReason::StartInCollision : PlanReason::OutOfTime));
   }
@@ -16,6 +16,11 @@ StandingAnswer::StandingAnswer(const Surroundings& near, Plan blank, std::option
 
 void StandingAnswer::head_for(const Heading& heading) {
   blank_.local_goal = heading.local.goal;
+  if (committed_) committed_->arrival_s = worth_of(near_, heading, committed_->trajectory);
+}
+
+void StandingAnswer::keep(std::optional<Candidate> committed, const Heading& heading) {
+  committed_ = std::move(committed);
   if (committed_) committed_->arrival_s = worth_of(near_, heading, committed_->trajectory);
 }
 
@@ -61,6 +66,10 @@ Plan StandingAnswer::filled(const Candidate* candidate, PlanReason reason) const
   plan.cuts = tools_.budget.cuts();
   if (candidate == nullptr) return plan;
   plan.outcome = candidate->outcome;
+  plan.relaxed = candidate->relaxed;
+  plan.level = candidate->assurance.level;
+  plan.alpha_scale = candidate->assurance.scale;
+  plan.confidence = plan.alpha_scale < 1.0 ? 0.0 : confidence_at(promised_, plan.level);
   plan.trajectory = candidate->trajectory;
   plan.hold = Duration::from_seconds(candidate->hold_s);
   plan.cost = candidate->cost;

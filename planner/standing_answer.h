@@ -11,7 +11,9 @@ namespace tern {
 class StandingAnswer {
  public:
   /// What is committed stands, or no plan. @param blank  what every answer to the request says
-  StandingAnswer(const Surroundings& near, Plan blank, std::optional<Candidate> committed, PlanTools& tools);
+  /// @param promised  the predictions' confidence
+  StandingAnswer(const Surroundings& near, Plan blank, std::optional<Candidate> committed, double promised,
+                 PlanTools& tools);
 
   [[nodiscard]] const std::optional<Candidate>& committed() const { return committed_; }
   /// What is new.
@@ -19,6 +21,8 @@ class StandingAnswer {
 
   /// From now on, plans head there, and what is committed is judged by that.
   void head_for(const Heading& heading);
+  /// What is committed, certified at less than was looked for so far.
+  void keep(std::optional<Candidate> committed, const Heading& heading);
   /// A leaf stands while it is optimized, if it is better than the best; the best stays what it is.
   void announce(const Candidate& leaf);
   /// Takes what is better than the best.
@@ -39,6 +43,7 @@ class StandingAnswer {
   const Surroundings& near_;
   Plan blank_;
   std::optional<Candidate> committed_, best_;
+  double promised_;
   PlanTools& tools_;
 };
 

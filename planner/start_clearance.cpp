@@ -17,13 +17,13 @@ constexpr int kHalvings = 20;
 class StartDistance {
  public:
   /// @param body  its vertices about p; @param box  memory
-  StartDistance(const Track& track, const Points& body, double radius, UTime t, Points& box)
+  StartDistance(const Track& track, const AlphaCount& count, const Points& body, double radius, UTime t, Points& box)
       : body_(body),
         box_(box),
         radius_(radius),
         centre_(track.motion.sample(std::clamp(t, track.motion.start, track.motion.end())).p),
         half_(track.half_extents),
-        alpha_(track.alpha[track.motion.locate(t).index]) {}
+        alpha_(count.of(track, track.motion.locate(t).index)) {}
 
   [[nodiscard]] bool clear(double scale, double slack) {
     box_ = box_corners(box_around(centre_, half_ + scale * alpha_));
@@ -62,10 +62,10 @@ StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body&
       result.collides = result.collides || !clear;
       continue;
     }
-    StartDistance start(*o.track, body_at_p, body.radius, t, box);
+    StartDistance start(*o.track, o.alpha, body_at_p, body.radius, t, box);
     if (start.clear(1.0, kTouchingTolerance)) continue;
     result.collides = result.collides || !start.clear(0.0, kTouchingTolerance);
-    o.alpha_scale = start.largest_scale();
+    o.alpha.scale *= start.largest_scale();
     result.relaxed = true;
   }
   return result;

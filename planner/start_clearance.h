@@ -8,13 +8,13 @@
 namespace tern {
 
 struct StartClearance {
-  bool relaxed = false;   ///< some alpha_scale was lowered
+  bool relaxed = false;   ///< some track's α was scaled
   bool collides = false;  ///< the start touches an obstacle even without its α
 };
 
-/// Where the body at p touches a track's box (half-extents + α) at time t, lowers alpha_scale to the largest value that
-/// leaves a millimetre of room, to 1e-6 by bisection of the true distance; to 0 where none does. The other obstacles
-/// are left as they are.
+/// Where the body at p touches a track's box (half-extents + α) at time t, scales what counts of its α by the largest
+/// value that leaves a millimetre of room, to 1e-6 by bisection of the true distance; to 0 where none does. The other
+/// obstacles are left as they are.
 StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p, UTime t);
 
 }  // namespace tern

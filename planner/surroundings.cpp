@@ -1,7 +1,9 @@
 #include "planner/surroundings.h"
 
 #include "core/geometry/box.h"
+#include "core/world/flyable.h"
 #include "planner/plan_workspace.h"
+#include "planner/safety/thrust_set.h"
 
 namespace tern {
 namespace {
@@ -18,7 +20,7 @@ void find_obstacles(const HorizonRequest& request, const PlanningWorld& world, c
   world.map->occupied.query(region, memory.found);
   for (const std::int32_t k : memory.found) {
     const Box& box = world.map->occupied.boxes()[static_cast<std::size_t>(k)];
-    memory.obstacles.push_back({-1 - static_cast<std::int64_t>(k), nullptr, box, 1.0});
+    memory.obstacles.push_back({-1 - static_cast<std::int64_t>(k), nullptr, box, {}});
   }
 }
 
@@ -43,11 +45,20 @@ Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& wo
   return {request,
           config,
           memory.obstacles,
+          {},
           start,
           look,
           hold_demand(request, config, memory.obstacles, look.horizon_s),
           plan_limits,
+          boxed(plan_limits),
           semantics_in_reach(request, world.map->fields, config)};
+}
+
+void count_less(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near) {
+  near.assurance = assurance;
+  count_alpha(assurance, memory.obstacles);
+  near.start = clear_start(memory.obstacles, near.request.body, near.request.start.p, near.request.t_s);
+  near.hold = hold_demand(near.request, near.config, memory.obstacles, near.look.horizon_s);
 }
 
 HorizonProblem horizon_problem(const Surroundings& near, Duration interval) {

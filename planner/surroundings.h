@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/world/horizon.h"
+#include "planner/assurance.h"
 #include "planner/hold.h"
 #include "planner/horizon_problem.h"
 #include "planner/look_ahead.h"
@@ -19,16 +20,21 @@ struct Surroundings {
   const HorizonRequest& request;
   const PlannerConfig& config;
   const std::vector<PlanningObstacle>& obstacles;  ///< in reach; α scaled where the start lies inside
+  Assurance assurance;                             ///< what counts of α
   StartClearance start;
   LookAhead look;  ///< no plan looks past its followed_until
   HoldDemand hold;
   Limits plan_limits;                      ///< v_max reduced to velocity_share
+  Limits pace_limits;                      ///< boxed(plan_limits): by which durations are made
   const SemanticFields* fields = nullptr;  ///< null: nothing that they cost differs anywhere in the sphere
 };
 
 /// @pre the world has predictions and a map. @param memory  keeps the obstacles until the next call
 Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
                           PlanWorkspace& memory);
+
+/// The same among obstacles of which less counts.
+void count_less(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near);
 
 /// The problem of J intervals of this Δt.
 HorizonProblem horizon_problem(const Surroundings& near, Duration interval);

@@ -77,6 +77,23 @@ inline constexpr double kNearer = 1e-6;
 /// No longer duration is tried once an end that holds lies this near the local goal, m.
 inline constexpr double kNearLocalGoal = 1.0;
 
+// ---- Less sure (assurance.h, less_sure.h)
+
+/// Parts of the last level's α that are counted where even that leaves nothing.
+inline constexpr double kAlphaScales[] = {0.6, 0.35, 0.2, 0.1};
+/// Nodes expanded per duration there, at most, in all and after the first leaf: several such searches share the time.
+inline constexpr int kLessSureExpansions = 300;
+inline constexpr int kLessSureHoldExpansions = 100;
+/// Who rests on the way wants a plan that leads at least this share of the way to the local goal.
+inline constexpr double kGetsOn = 0.25;
+
+// ---- A multirotor's thrust (safety/thrust_set.h, search/step_reach.h, optimization/convex_problem.h)
+
+/// Plans lower the thrust's vertical part by at most this share of g; half of it where rest must remain reachable.
+inline constexpr double kThrustDip = 0.5;
+/// In Eq. 4 that part keeps this share of what the search's result has at each knot, so that jerk may be bounded by it.
+inline constexpr double kThrustKept = 0.8;
+
 // ---- Evasion (evasion.h)
 
 /// Stops that are searched for at most, and nodes expanded for each.

@@ -59,6 +59,12 @@ Tag make_tag(const Key& key, std::string_view wire_name, std::span<const std::ui
 
 bool equal_tags(const Tag& a, const Tag& b) { return sodium_memcmp(a.data(), b.data(), kTagBytes) == 0; }
 
+std::array<std::uint8_t, 32> sha256(std::span<const std::uint8_t> bytes) {
+  std::array<std::uint8_t, crypto_hash_sha256_BYTES> digest;
+  crypto_hash_sha256(digest.data(), bytes.data(), bytes.size());
+  return digest;
+}
+
 void wipe(std::span<std::uint8_t> bytes) { sodium_memzero(bytes.data(), bytes.size()); }
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// Keyed BLAKE2b (RFC 7693): the one door to libsodium.
+// Keyed BLAKE2b (RFC 7693) and SHA-256: the one door to libsodium.
 #pragma once
 
 #include <array>
@@ -42,6 +42,9 @@ Tag make_tag(const Key& key, std::string_view wire_name, std::span<const std::ui
 
 /// Whether both are equal, in a time that does not depend on where they differ.
 bool equal_tags(const Tag& a, const Tag& b);
+
+/// SHA-256 (FIPS 180-4), which MAVLink's signatures ask for.
+std::array<std::uint8_t, 32> sha256(std::span<const std::uint8_t> bytes);
 
 /// Overwrites memory that held a secret; never optimized away.
 void wipe(std::span<std::uint8_t> bytes);

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "core/base/digest.h"
 #include "core/world/message_limits.h"
@@ -13,6 +14,7 @@
 namespace tern {
 namespace {
 
+constexpr std::string_view kRecorder = "tern-logger";
 constexpr Duration kHeartbeatPeriod{500'000};
 constexpr Duration kConfigurationPeriod{5'000'000};
 /// Room for the last line of a text that is cut.
@@ -42,10 +44,14 @@ std::uint64_t configuration_hash(const std::string& effective_yaml) { return dig
 NodeHost::NodeHost(Bus& bus, Node& node, std::string process, const std::string& effective_yaml)
     : bus_(bus), node_(node), process_(std::move(process)), yaml_(reported_yaml(effective_yaml)) {
   last_heartbeat_ = next_heartbeat_ = next_configuration_ = bus.clock().now();
-  bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& m) { on_heartbeat(m.header); });
+  bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& m) { on_heartbeat(m); });
 }
 
-void NodeHost::on_heartbeat(const Header& header) {
+void NodeHost::on_heartbeat(const Heartbeat& heartbeat) {
+  const Header& header = heartbeat.header;
+  if (heartbeat.process == kRecorder && heartbeat.state == ProcessState::Waiting) {
+    next_configuration_ = std::min(next_configuration_, bus_.clock().now());
+  }
   if (header.name.sender_epoch_us == bus_.epoch_us() || !heard_.hear(header, bus_.received())) return;
   next_heartbeat_ = std::min(next_heartbeat_, last_heartbeat_ + kHeartbeatSpacing);
 }

@@ -71,7 +71,8 @@ inline constexpr Duration kHeartbeatSpacing{50'000};
 /// Hosts one node: its heartbeat and configuration reports, its pacing. The same in a process and in virtual time.
 ///
 /// A heartbeat tells back the newest ones heard of others. One of a process that was not heard lately is answered at
-/// once, so that both can compare their clocks a round trip after the later one has started.
+/// once, so that both can compare their clocks a round trip after the later one has started. While tern-logger says
+/// that it waits, CONFIGURATION is repeated with its heartbeats.
 class NodeHost {
  public:
   /// @param effective_yaml  reported on CONFIGURATION, by reported_yaml
@@ -88,7 +89,7 @@ class NodeHost {
   [[nodiscard]] Bus& bus() const { return bus_; }
 
  private:
-  void on_heartbeat(const Header& header);
+  void on_heartbeat(const Heartbeat& heartbeat);
   void publish_heartbeat();
   void publish_configuration();
   std::string say_drift();

@@ -50,8 +50,11 @@ const std::vector<Part>& parts() {
   static const std::vector<Part> kParts = {
       {"tern-simulator", Role::Vehicle,
        names_of(kUavState, kSetpoint, kVehicleStatus, kObstacleObservations, kDeclaredMotions, kHorizonRequest,
-                kObstacleTruth, kVehicleTruth, kFlightResult, kGoal)},
+                kObstacleTruth, kVehicleTruth, kFlightResult, kGoal, kSemanticMap)},
       {"tern-executor", Role::Executor, names_of(kUavState, kVehicleStatus, kGoal, kPlan, kHorizonRequest, kSetpoint)},
+      {"tern-mavlink", Role::Vehicle,
+       names_of(kUavState, kSetpoint, kVehicleStatus, kVehicleTruth, kHorizonRequest, kFlightResult, kGoal)},
+      {"tern-autopilot-sim", Role::Observer, {}},
       {"tern-predictor", Role::Predictor, names_of(kObstacleObservations, kDeclaredMotions, kUavState, kPredictions)},
       {"tern-planner", Role::Planner,
        names_of(kHorizonRequest, kPredictions, kSemanticMap, kGoal, kPlan, kPlanTiming, kSearchView)},

@@ -9,7 +9,8 @@
 namespace tern {
 
 /// The sections of a scenario file that belong to processes, not to the scenario itself.
-inline constexpr const char* kProcessSections[] = {"simulator", "executor", "predictor", "mapper", "planner", "logger"};
+inline constexpr const char* kProcessSections[] = {"simulator", "executor", "predictor", "mapper",
+                                                   "planner",   "logger",   "mavlink",   "autopilot_sim"};
 
 /// The worlds that a seed can make (WorldSpec::generator).
 inline constexpr const char* kGenerators[] = {"none",          "paper_corridor", "paper_attract", "paper_repel",

@@ -5,8 +5,11 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <tuple>
 #include <utility>
 
+#include "core/base/digest.h"
+#include "core/base/random.h"
 #include "core/geometry/box.h"
 #include "core/world/message_limits.h"
 #include "core/world/names.h"
@@ -28,6 +31,7 @@ const Range kPhase = Range::within(1e4);
 constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kMaxClassBytes = 32;
 constexpr int kMaxColumns = 100;
+constexpr int kMaxCopies = 1'000;
 /// Whether an outline crosses itself is asked of every two of its edges.
 constexpr std::size_t kMaxCorners = 1'000;
 static_assert(kMaxExposures * kMaxNameBytes <= kMaxRegionText && kMaxMapClasses * kMaxClassBytes <= kMaxMapClassText);
@@ -59,6 +63,9 @@ WaypointMotion read_waypoints(ConfigSection& section) {
   WaypointMotion motion;
   motion.repeat = section.flag("repeat", motion.repeat);
   motion.vanish = section.flag("vanish", motion.vanish);
+  if (motion.vanish) {
+    motion.leave_out_within_m = section.number("leave_out_within_m", motion.leave_out_within_m, Range::at_least(0.0));
+  }
   const std::vector<std::vector<double>> rows = section.rows("points", 4, kSeconds);
   section.finish();
   for (const std::vector<double>& row : rows) {
@@ -116,26 +123,41 @@ ObstacleSpec read_obstacle(ConfigSection section, std::set<std::string>& names) 
   return obstacle;
 }
 
+/// Which parts of the recording are flown through: as people walked, or copies that the seed scatters.
+void read_use(ConfigSection& section, RecordedTracksSpec& spec) {
+  spec.copies = static_cast<int>(section.integer("copies", spec.copies, 0, kMaxCopies));
+  if (spec.copies > 0) {
+    if (!section.has("within")) throw section.error("copies", "needs `within`, the box in which they are");
+    spec.within = read_box(section.section("within"));
+    return;
+  }
+  if (section.has("start_s")) {
+    spec.start_s = section.required_number("start_s", Range::at_least(0.0));
+    spec.wait_for_clear_start = section.flag("wait_for_clear_start", spec.wait_for_clear_start);
+  }
+  spec.leave_out_within_m = section.number("leave_out_within_m", spec.leave_out_within_m, Range::at_least(0.0));
+}
+
 RecordedTracksSpec read_recorded(ConfigSection section) {
   RecordedTracksSpec spec;
   spec.file = section.required_text("file");
   spec.columns = static_cast<int>(section.integer("columns", spec.columns, 4, kMaxColumns));
   std::vector<std::pair<const char*, int>> columns;
-  const auto column = [&](const char* key, int fallback) {
-    columns.emplace_back(key, static_cast<int>(section.integer(key, fallback, 0, kMaxColumns - 1)));
+  const auto column = [&](const char* key, int fallback, int least = 0) {
+    columns.emplace_back(key, static_cast<int>(section.integer(key, fallback, least, kMaxColumns - 1)));
     return columns.back().second;
   };
-  spec.id_column = column("id_column", spec.id_column);
+  spec.id_column = column("id_column", spec.id_column, -1);
   spec.frame_column = column("frame_column", spec.frame_column);
   spec.x_column = column("x_column", spec.x_column);
   spec.y_column = column("y_column", spec.y_column);
   if (section.has("z_column")) spec.z_column = column("z_column", 0);
   spec.metres_per_unit = section.number("metres_per_unit", spec.metres_per_unit, Range::positive(1e6));
   spec.frames_per_second = section.number("frames_per_second", spec.frames_per_second, Range::positive(1e6));
-  spec.start_s = section.number("start_s", spec.start_s, Range::at_least(0.0));
+  spec.least_step_s = section.number("least_step_s", spec.least_step_s, Range::at_least(0.0, 3600.0));
   spec.half_extents = section.vec3_or_number("half_extents", spec.half_extents, kHalfExtent);
   spec.centre_z = section.number("centre_z", spec.centre_z, kPosition);
-  spec.wait_for_clear_start = section.flag("wait_for_clear_start", spec.wait_for_clear_start);
+  read_use(section, spec);
   section.finish();
   if (spec.file.empty()) throw section.error("file", "is empty");
   std::set<int> used;
@@ -150,6 +172,7 @@ WorldSpec read_world(ConfigSection section) {
   WorldSpec world;
   world.generator = section.choice("generator", world.generator, {std::begin(kGenerators), std::end(kGenerators)});
   world.count = static_cast<int>(section.integer("count", world.count, 0, 100'000));
+  if (section.has("slowness")) world.slowness = section.required_number("slowness", Range::positive(1e4));
   std::set<std::string> names;
   for (const ConfigSection& entry : section.list("obstacles")) world.obstacles.push_back(read_obstacle(entry, names));
   for (const ConfigSection& entry : section.list("recorded")) world.recorded.push_back(read_recorded(entry));
@@ -188,16 +211,36 @@ Body read_body(ConfigSection section, Body body) {
   return body;
 }
 
+using Route = std::pair<Vec3, Vec3>;
+/// From start to goal. Of several routes the seed draws one, and which end of it is the start.
+Route read_route(ConfigSection& section, const UavSpec& uav, std::uint64_t seed, std::vector<Route>& routes) {
+  for (ConfigSection entry : section.list("routes")) {
+    routes.emplace_back(entry.required_vec3("from", kPosition), entry.required_vec3("to", kPosition));
+    entry.finish();
+  }
+  if (routes.empty()) {
+    return routes.emplace_back(section.vec3("start", uav.start, kPosition), section.vec3("goal", uav.goal, kPosition));
+  }
+  if (section.has("start") || section.has("goal")) {
+    throw section.error("routes", "goes without start and goal: each route has both");
+  }
+  Rng rng(digest("uav.routes", seed));
+  Route route = routes[static_cast<std::size_t>(rng.uniform() * static_cast<double>(routes.size()))];
+  if (rng.uniform() < 0.5) std::swap(route.first, route.second);
+  return route;
+}
+
 /// @param uav  what holds where the section is silent
-UavSpec read_uav(ConfigSection section, UavSpec uav) {
-  uav.start = section.vec3("start", uav.start, kPosition);
-  uav.goal = section.vec3("goal", uav.goal, kPosition);
+UavSpec read_uav(ConfigSection section, UavSpec uav, std::uint64_t seed) {
+  std::vector<Route> routes;
+  std::tie(uav.start, uav.goal) = read_route(section, uav, seed, routes);
   ConfigSection limits = section.section("limits");
   uav.limits.v_max = limits.vec3_or_number("v_max", uav.limits.v_max, Range::at_least(kLeastLimit, kMostSpeedLimit));
   uav.limits.a_max =
       limits.vec3_or_number("a_max", uav.limits.a_max, Range::at_least(kLeastLimit, kMostAccelerationLimit));
   uav.limits.j_max = limits.vec3_or_number("j_max", uav.limits.j_max, Range::at_least(kLeastLimit, kInfinity));
   limits.finish();
+  if (section.has("dynamics")) section.section("dynamics").read(uav.limits.dynamics.emplace());
   uav.body = read_body(section.section("body"), uav.body);
   if (section.has("flight_box")) uav.flight_box = read_box(section.section("flight_box"));
   section.finish();
@@ -211,8 +254,10 @@ UavSpec read_uav(ConfigSection section, UavSpec uav) {
                                     "[{}, {}, {}])",
                                     p.x(), p.y(), p.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
   };
-  check("start", uav.start);
-  check("goal", uav.goal);
+  for (const auto& [from, to] : routes) {
+    check(section.has("routes") ? "routes" : "start", from);
+    check(section.has("routes") ? "routes" : "goal", to);
+  }
   return uav;
 }
 
@@ -345,7 +390,7 @@ Scenario read_scenario(ConfigDocument& document) {
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
   if (root.has("timeout_s")) scenario.timeout_s = root.required_number("timeout_s", Range::positive(1e6));
   scenario.world = read_world(root.section("world"));
-  scenario.uav = read_uav(root.section("uav"), default_uav(scenario));
+  scenario.uav = read_uav(root.section("uav"), default_uav(scenario), scenario.seed);
   scenario.semantics = read_semantics(root.section("semantics"));
   for (const char* section : kProcessSections) root.ignore(section);
   root.finish();

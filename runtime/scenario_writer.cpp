@@ -38,7 +38,8 @@ std::string motion_yaml(const ObstacleSpec& obstacle) {
                               yaml_number(p.y()), yaml_number(p.z()));
       }
       return line("motion", "waypoints") + line("points", "[" + points + "]") +
-             line("repeat", motion.repeat ? "true" : "false") + line("vanish", motion.vanish ? "true" : "false");
+             line("repeat", motion.repeat ? "true" : "false") + line("vanish", motion.vanish ? "true" : "false") +
+             (motion.vanish ? line("leave_out_within_m", yaml_number(motion.leave_out_within_m)) : "");
     } else {
       return centre;
     }
@@ -53,15 +54,22 @@ std::string recorded_yaml(const RecordedTracksSpec& spec) {
   if (spec.z_column) out += fmt::format("      z_column: {}\n", *spec.z_column);
   out += fmt::format("      metres_per_unit: {}\n", yaml_number(spec.metres_per_unit));
   out += fmt::format("      frames_per_second: {}\n", yaml_number(spec.frames_per_second));
-  out += fmt::format("      start_s: {}\n", yaml_number(spec.start_s));
+  out += fmt::format("      least_step_s: {}\n", yaml_number(spec.least_step_s));
   out += fmt::format("      half_extents: {}\n", to_yaml(spec.half_extents));
   out += fmt::format("      centre_z: {}\n", yaml_number(spec.centre_z));
-  out += fmt::format("      wait_for_clear_start: {}\n", spec.wait_for_clear_start);
-  return out;
+  if (spec.copies > 0) {
+    return out + fmt::format("      copies: {}\n      within: {}\n", spec.copies, to_yaml(spec.within));
+  }
+  if (spec.start_s) {
+    out += fmt::format("      start_s: {}\n", yaml_number(*spec.start_s));
+    out += fmt::format("      wait_for_clear_start: {}\n", spec.wait_for_clear_start);
+  }
+  return out + fmt::format("      leave_out_within_m: {}\n", yaml_number(spec.leave_out_within_m));
 }
 
 std::string world_yaml(const WorldSpec& world) {
   std::string out = fmt::format("world:\n  generator: {}\n  count: {}\n", world.generator, world.count);
+  if (world.slowness) out += fmt::format("  slowness: {}\n", yaml_number(*world.slowness));
   out += world.obstacles.empty() ? "" : "  obstacles:\n";
   for (const ObstacleSpec& obstacle : world.obstacles) {
     out += fmt::format("    - half_extents: {}\n", to_yaml(obstacle.half_extents));
@@ -84,10 +92,16 @@ std::string body_yaml(const Body& body) {
 }
 
 std::string uav_yaml(const UavSpec& uav) {
+  std::string dynamics;
+  if (const auto& d = uav.limits.dynamics) {
+    dynamics = fmt::format("  dynamics: {{thrust_min: {}, thrust_max: {}, tilt_max: {}, body_rate_max: {}}}\n",
+                           yaml_number(d->thrust_min), yaml_number(d->thrust_max), yaml_number(d->tilt_max_deg),
+                           yaml_number(d->body_rate_max_deg_s));
+  }
   return fmt::format("uav:\n  start: {}\n  goal: {}\n", to_yaml(uav.start), to_yaml(uav.goal)) +
          fmt::format("  limits:\n    v_max: {}\n    a_max: {}\n    j_max: {}\n", to_yaml(uav.limits.v_max),
                      to_yaml(uav.limits.a_max), to_yaml(uav.limits.j_max)) +
-         fmt::format("  body: {}\n  flight_box: {}\n", body_yaml(uav.body), to_yaml(uav.flight_box));
+         dynamics + fmt::format("  body: {}\n  flight_box: {}\n", body_yaml(uav.body), to_yaml(uav.flight_box));
 }
 
 std::string shape_yaml(const Box& box) { return "box: " + to_yaml(box); }

@@ -93,6 +93,15 @@ int fly(const Options& options) {
   return write_summary(campaign.out, options.summary, command_line());
 }
 
+/// Before a subcommand they would say nothing.
+void refuse_own_options(const CLI::App& app) {
+  const std::string command = app.get_subcommands().front()->get_name();
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0) continue;
+    throw CLI::ValidationError(option->get_name(), fmt::format("is no option of {}, or belongs behind it", command));
+  }
+}
+
 }  // namespace
 
 void add_campaign(CLI::App& app, Command& chosen) {
@@ -116,7 +125,10 @@ void add_campaign(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   app.require_subcommand(0, 1);
   app.final_callback([&app, &chosen, options] {
-    if (!app.get_subcommands().empty()) return;
+    if (!app.get_subcommands().empty()) {
+      refuse_own_options(app);
+      return;
+    }
     chosen = [options] { return fly(*options); };
   });
 }

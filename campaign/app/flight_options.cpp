@@ -6,17 +6,23 @@
 
 namespace tern {
 
-void add_flight_options(CLI::App& app, FlightOptions& options) {
+void add_world_options(CLI::App& app, FlightOptions& options) {
   app.add_option("--world", options.world, "Scenario: a file, or a name in scenarios/")->type_name("NAME|FILE");
   app.add_option("--count", options.count, "Number of obstacles (world.count)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--set", options.settings, "Override key=value (repeatable)")->type_name("KEY=VALUE")->take_all();
+}
+
+void add_flight_options(CLI::App& app, FlightOptions& options) {
+  add_world_options(app, options);
   app.add_option("--charge", options.charge, "What planning takes of virtual time: its thread's CPU time, or 15 ms")
       ->check(CLI::IsMember({"cpu", "counts"}))
       ->capture_default_str();
   app.add_option("--audit", options.audit, "Run this program on every log: exit code 0 passed, 1 broken")
       ->type_name("PROGRAM");
+  app.add_flag("--oracle", options.oracle,
+               "The same flights with all motions declared: what perfect prediction reaches");
 }
 
 FlightInputs inputs_of(const FlightOptions& options) {
@@ -27,9 +33,13 @@ FlightInputs inputs_of(const FlightOptions& options) {
   inputs.scenario_file = *file;
   inputs.overrides = options.settings;
   if (!options.count.empty()) inputs.overrides.push_back("world.count=" + options.count);
+  if (options.oracle) {
+    inputs.overrides.insert(inputs.overrides.end(), {"simulator.declare=true", "simulator.sensor={mode: truth}"});
+  }
   inputs.charge = options.charge == "cpu" ? Charge::Cpu : Charge::Counts;
   for (const std::string& setting : options.settings) {
     if (setting.starts_with("seed=")) throw ConfigError("--set " + setting + ": seeds are set by --seeds or --seed");
+    if (setting.starts_with("logger.")) throw ConfigError("--set " + setting + ": no tern-logger runs in virtual time");
   }
   return inputs;
 }
@@ -38,6 +48,7 @@ std::vector<std::string> words_of(const FlightOptions& options) {
   std::vector<std::string> words = {"--world", options.world, "--charge", options.charge};
   if (!options.count.empty()) words.insert(words.end(), {"--count", options.count});
   for (const std::string& setting : options.settings) words.insert(words.end(), {"--set", setting});
+  if (options.oracle) words.emplace_back("--oracle");
   if (!options.audit.empty()) words.insert(words.end(), {"--audit", options.audit});
   return words;
 }

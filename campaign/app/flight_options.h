@@ -18,12 +18,16 @@ struct FlightOptions {
   std::vector<std::string> settings;  ///< key=value
   std::string charge = "cpu";
   std::string audit;
+  bool oracle = false;  ///< motions declared, whatever the scenario says
 };
 
-/// --world, --count, --set, --charge, --audit.
+/// --world, --count, --set: what a world is made from.
+void add_world_options(CLI::App& app, FlightOptions& options);
+
+/// Those, --charge, --audit and --oracle.
 void add_flight_options(CLI::App& app, FlightOptions& options);
 
-/// @throws ConfigError when there is no such world, or a setting sets the seed.
+/// @throws ConfigError when there is no such world, or a setting sets the seed or has no effect.
 FlightInputs inputs_of(const FlightOptions& options);
 
 /// The same options as words of a command line.

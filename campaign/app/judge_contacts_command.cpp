@@ -61,7 +61,7 @@ void add_judge_contacts(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "judge-contacts", "Of a vehicle that rests: which contacts of a campaign random moves would have avoided");
-  add_flight_options(*command, options->flight);
+  add_world_options(*command, options->flight);
   command->add_option("flights", options->flights, "What a campaign of this world wrote")
       ->required()
       ->type_name("FLIGHTS.csv");

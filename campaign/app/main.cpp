@@ -15,10 +15,13 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("tern-campaign ") + tern::build_id());
   tern::Command chosen;
   tern::add_campaign(app, chosen);
+  tern::add_check(app, chosen);
   tern::add_fly_one(app, chosen);
   tern::add_judge_contacts(app, chosen);
   tern::add_merge(app, chosen);
+  tern::add_schema(app, chosen);
   tern::add_summarize(app, chosen);
+  tern::add_compare(app, chosen);
   tern::add_paper(app, chosen);
   try {
     app.parse(argc, argv);

@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "campaign/app/commands.h"
-#include "campaign/experiments/corridor_figures.h"
 #include "campaign/experiments/exposure_summary.h"
+#include "campaign/experiments/figure_data.h"
 #include "campaign/experiments/search_experiment.h"
 #include "campaign/experiments/semantic_flights.h"
 #include "campaign/flight_inputs.h"
@@ -46,7 +46,7 @@ int search(const Options& options) {
     table += to_csv(c, outcomes.back()) + "\n";
   }
   write(options.out, "paper_6_1.csv", table);
-  write(options.out, "paper_6_1.svg", draw_search(outcomes));
+  write(options.out, "paper_6_1.json", search_data(outcomes));
   return 0;
 }
 
@@ -83,17 +83,11 @@ int corridor(const Options& options) {
   fmt::print("{}\n", campaign.file);
   write(options.out, name + ".csv", to_csv(summaries));
   write(options.out, name + ".md", to_markdown(summaries));
-  if (options.sweep) {
-    write(options.out, name + ".svg", draw_sweep(summaries));
-    return 0;
-  }
-  write(options.out, name + "_exposure.svg", draw_exposure(*flights, summaries));
+  if (options.sweep) return 0;
   for (const SemanticWorld& world : semantic_worlds()) {
-    const std::string title =
-        world.scenario + (world.attracts ? ": to texture, λ_att = 2, seed 1" : ": around a hazard, λ_rep = 2, seed 1");
-    write(options.out, name + "_" + world.scenario + ".svg",
-          draw_corridor(track_of({world.scenario, "off", 0.0, 1}), track_of({world.scenario, "exposure+path", 2.0, 1}),
-                        title));
+    write(
+        options.out, name + "_" + world.scenario + ".json",
+        corridor_data(track_of({world.scenario, "off", 0.0, 1}), track_of({world.scenario, "exposure+path", 2.0, 1})));
   }
   return 0;
 }
@@ -102,17 +96,24 @@ int corridor(const Options& options) {
 
 void add_paper(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* alone = app.add_subcommand("paper-6.1", "The paper's 6.1: the search alone, three cases; CSV and SVG");
-  CLI::App* flights =
-      app.add_subcommand("paper-6.2", "The paper's 6.2: flights with semantics on against off; CSV, Markdown and SVG");
+  CLI::App* alone =
+      app.add_subcommand("paper-6.1", "The paper's 6.1: the search alone, three cases; CSV, and JSON for the figure");
+  CLI::App* flights = app.add_subcommand(
+      "paper-6.2", "The paper's 6.2: flights with semantics on against off; CSV, Markdown, and JSON for the figures");
   for (CLI::App* command : {alone, flights}) {
     command->add_option("--out", options->out, "Folder for the files")->type_name("DIR")->capture_default_str();
   }
   alone->add_option("--set", options->settings, "Override key=value (repeatable)")->type_name("KEY=VALUE");
-  flights->add_option("--seeds", options->seeds, "Seeds 1 to N of each (default 100, with --sweep 10)")->type_name("N");
-  flights->add_option("--jobs", options->jobs, "Flights at once")->check(CLI::Range(1, 10'000))->capture_default_str();
-  flights->add_flag("--sweep", options->sweep, "λ from 0 to 8 with each method instead");
-  flights->add_option("--one", options->one, "Fly WORLD,METHOD,LAMBDA,SEED in this process: one line of CSV");
+  auto* const seeds =
+      flights->add_option("--seeds", options->seeds, "Seeds 1 to N of each (default 100, with --sweep 10)")
+          ->type_name("N");
+  auto* const jobs = flights->add_option("--jobs", options->jobs, "Flights at once");
+  jobs->check(CLI::Range(1, 10'000))->capture_default_str();
+  auto* const sweep = flights->add_flag("--sweep", options->sweep, "λ from 0 to 8 with each method instead");
+  flights->add_option("--one", options->one, "Fly WORLD,METHOD,LAMBDA,SEED in this process: one line of CSV")
+      ->excludes(seeds)
+      ->excludes(jobs)
+      ->excludes(sweep);
   alone->callback([&chosen, options] { chosen = [options] { return search(*options); }; });
   flights->callback([&chosen, options] { chosen = [options] { return corridor(*options); }; });
 }

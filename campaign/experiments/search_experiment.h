@@ -48,7 +48,4 @@ SearchOutcome run_search_case(const SearchCase& wanted, const std::vector<std::s
 std::string search_columns();
 std::string to_csv(const SearchCase& which, const SearchOutcome& outcome);
 
-/// Per case the path seen from above, and each segment with both hulls, seen along its separating plane. SVG.
-std::string draw_search(const std::vector<SearchOutcome>& outcomes);
-
 }  // namespace tern

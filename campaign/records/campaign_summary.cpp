@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "campaign/records/campaign_comparison.h"
 #include "core/world/names.h"
 
 namespace tern {
@@ -37,19 +38,29 @@ void count_outcomes(CampaignSummary& s, const Records& all) {
     if (!r->audit.empty()) ++s.audits[r->audit];
   }
   s.flights = static_cast<std::int64_t>(all.size());
-  s.success_ci95 = wilson_interval(s.successes, s.flights);
 }
 
 void add_counts(CampaignSummary& s, const Records& all) {
+  std::vector<double> obstacles;
+  std::int64_t moving = 0;
   for (const FlightRecord* r : all) {
     s.stops += r->result.stops;
     s.flights_with_stops += r->result.stops > 0 ? 1 : 0;
     s.limit_violations += r->result.limit_violations;
+    s.contacts_moving += r->result.contacts_moving;
+    s.contacts_at_rest += r->result.contacts_at_rest;
+    s.obstacles_left_out += r->result.obstacles_left_out;
+    obstacles.push_back(static_cast<double>(r->result.obstacles));
+    moving += r->result.contacts_moving > 0 ? 1 : 0;
     s.requests += r->requests;
     s.deadlines_missed += r->requests - r->answered_in_time;
     s.answers_refused += r->answers_refused;
     for (std::size_t k = 0; k < kPlanOutcomes; ++k) s.plans[key(static_cast<PlanOutcome>(k))] += r->plans[k];
   }
+  s.obstacles = describe(std::move(obstacles));
+  if (s.different < s.flights) return;
+  s.success_ci95 = wilson_interval(s.successes, s.flights);
+  s.contact_moving_ci95 = wilson_interval(moving, s.flights);
 }
 
 void add_exposure(CampaignSummary& s, const Records& all) {
@@ -91,6 +102,10 @@ Json to_json(const Distribution& d) {
           {"p99", rounded(d.p99)},   {"min", rounded(d.min)}, {"max", rounded(d.max)}};
 }
 
+Json to_json(const std::optional<Interval>& interval) {
+  return interval ? Json{interval->low, interval->high} : Json(nullptr);
+}
+
 Json exposure_json(const CampaignSummary& s) {
   Json regions = Json::object();
   for (const auto& [region, e] : s.exposure) {
@@ -100,6 +115,28 @@ Json exposure_json(const CampaignSummary& s) {
                        {"near_metres", to_json(e.near_metres)}};
   }
   return regions;
+}
+
+/// The interval of the success, or why there is none.
+std::string in_words(const CampaignSummary& s) {
+  if (s.success_ci95)
+    return fmt::format(" [{:.2f}, {:.2f}]", 100.0 * s.success_ci95->low, 100.0 * s.success_ci95->high);
+  return fmt::format(" (no interval: they are {} different flights)", s.different);
+}
+
+/// How many were audited, and what of those that were not.
+std::string audit_line(const CampaignSummary& s) {
+  if (s.audits.empty()) return "";
+  std::int64_t audited = 0;
+  std::string text;
+  for (const auto& [verdict, n] : s.audits) {
+    text += fmt::format(", {} {}", n, verdict);
+    audited += n;
+  }
+  text = fmt::format("  audited {} of {}{}\n", audited, s.flights, text);
+  if (audited == s.flights) return text;
+  return text +
+         fmt::format("    {} were flown before without --audit: nothing is known of them\n", s.flights - audited);
 }
 
 }  // namespace
@@ -112,6 +149,7 @@ CampaignSummary summarize(const Flights& flights) {
     if (record.result.outcome == FlightOutcome::Reached) reached.push_back(&record);
   }
   if (!all.empty()) s.identity = all.front()->identity;
+  s.different = different_flights(flights.records);
   count_outcomes(s, all);
   add_counts(s, all);
   s.flight_time_s = over(reached, &FlightResult::flight_time_s);
@@ -138,7 +176,8 @@ std::string to_json(const CampaignSummary& s, const std::string& command) {
       {"timeouts", s.timeouts},
       {"failed", s.failed},
       {"success", s.flights > 0 ? Json(rate) : Json(nullptr)},
-      {"success_ci95", {s.success_ci95.low, s.success_ci95.high}},
+      {"different_flights", s.different},
+      {"success_ci95", to_json(s.success_ci95)},
       {"flight_time_s", to_json(s.flight_time_s)},
       {"first_entry_s", to_json(s.first_entry_s)},
       {"path_length_m", to_json(s.path_length_m)},
@@ -149,6 +188,11 @@ std::string to_json(const CampaignSummary& s, const std::string& command) {
       {"stops", s.stops},
       {"flights_with_stops", s.flights_with_stops},
       {"limit_violations", s.limit_violations},
+      {"contacts_moving", s.contacts_moving},
+      {"contact_moving_ci95", to_json(s.contact_moving_ci95)},
+      {"contacts_at_rest", s.contacts_at_rest},
+      {"obstacles", to_json(s.obstacles)},
+      {"obstacles_left_out", s.obstacles_left_out},
       {"requests", s.requests},
       {"deadlines_missed", s.deadlines_missed},
       {"answers_refused", s.answers_refused},
@@ -170,10 +214,13 @@ std::string to_json(const CampaignSummary& s, const std::string& command) {
 std::string to_text(const CampaignSummary& s) {
   const double rate = s.flights > 0 ? 100.0 * static_cast<double>(s.successes) / static_cast<double>(s.flights) : 0.0;
   std::string text =
-      fmt::format("{} {}: {} flights, success {:.2f} % [{:.2f}, {:.2f}]\n", s.identity.scenario, s.identity.count,
-                  s.flights, rate, 100.0 * s.success_ci95.low, 100.0 * s.success_ci95.high);
-  text += fmt::format("  reached {}, collisions {}, timeouts {}, failed {}\n", s.reached, s.collisions, s.timeouts,
-                      s.failed);
+      fmt::format("{}{}: {} flights, success {:.2f} %{}\n", s.identity.scenario,
+                  s.identity.count > 0 ? fmt::format(" {}", s.identity.count) : "", s.flights, rate, in_words(s));
+  text += fmt::format("  reached {}, collisions {} ({} while moving, {} at rest), timeouts {}, failed {}\n", s.reached,
+                      s.collisions, s.contacts_moving, s.contacts_at_rest, s.timeouts, s.failed);
+  text += fmt::format(
+      "  obstacles in a flight {:.0f} to {:.0f}, mean {:.1f}; {} left out (they began beside the vehicle)\n",
+      s.obstacles.min, s.obstacles.max, s.obstacles.mean, s.obstacles_left_out);
   text += fmt::format("  {:<20}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "mean", "p50", "p95", "p99", "min", "max");
   const auto row = [&](const char* name, const Distribution& d) {
     if (d.count == 0) return;
@@ -187,6 +234,7 @@ std::string to_text(const CampaignSummary& s) {
   for (const auto& [region, e] : s.exposure) row(fmt::format("{} m", region).c_str(), e.metres);
   text += fmt::format("  stops {} in {} flights, limit violations {}, requests {}, deadlines missed {}\n", s.stops,
                       s.flights_with_stops, s.limit_violations, s.requests, s.deadlines_missed);
+  text += audit_line(s);
   if (!s.failed_seeds.empty()) text += fmt::format("  failed seeds: {}\n", fmt::join(s.failed_seeds, " "));
   return text;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,18 @@ struct CampaignSummary {
   CampaignIdentity identity;
   std::int64_t flights = 0, reached = 0, collisions = 0, timeouts = 0, failed = 0;  ///< by outcome
   std::int64_t successes = 0;  ///< reached, within all limits, kept by the audit (is_success)
-  Interval success_ci95;       ///< Wilson, of successes
+  std::int64_t different = 0;  ///< flights that differ from each other (different_flights)
+  /// Wilson, of successes; nothing where flights are equal: they say no more than one.
+  std::optional<Interval> success_ci95;
   // Over the flights that reached the goal:
   Distribution flight_time_s, first_entry_s, path_length_m, mean_speed_mps, jerk_integral;
   // Over all flights:
   Distribution top_speed_mps, min_clearance_m;
   std::int64_t stops = 0, flights_with_stops = 0, limit_violations = 0;
+  std::int64_t contacts_moving = 0, contacts_at_rest = 0;
+  std::optional<Interval> contact_moving_ci95;  ///< likewise, of flights with a contact while moving
+  Distribution obstacles;                       ///< there at some time of a flight, by the referee
+  std::int64_t obstacles_left_out = 0;
   std::int64_t requests = 0, deadlines_missed = 0, answers_refused = 0;
   std::map<std::string, std::int64_t> plans;              ///< answers by outcome
   std::array<Distribution, kMeasuredTimes.size()> times;  ///< over all answers of the timed flights

@@ -87,88 +87,114 @@ bool read(const std::string& cell, std::map<std::string, MessageCount>& value) t
 }
 
 struct Column {
-  std::string name;
+  std::string name, meaning;
+  Compared compared;
   std::function<std::string(const FlightRecord&)> write_cell;
   std::function<bool(const std::string&, FlightRecord&)> read_cell;
 };
 
 /// The column of the field that the member pointers lead to, one after the other.
 template <class... Members>
-Column column(std::string name, Members... path) {
+Column column(std::string name, std::string meaning, Compared compared, Members... path) {
   const auto field = [path...](auto& record) -> auto& { return (record.*....*path); };
-  return {std::move(name), [field](const FlightRecord& r) { return write(field(r)); },
+  return {std::move(name), std::move(meaning), compared, [field](const FlightRecord& r) { return write(field(r)); },
           [field](const std::string& cell, FlightRecord& r) { return read(cell, field(r)); }};
 }
 
 template <class Array>
-Column column_at(std::string name, Array FlightRecord::*array, std::size_t k) {
-  return {std::move(name), [array, k](const FlightRecord& r) { return write((r.*array)[k]); },
+Column column_at(std::string name, std::string meaning, Array FlightRecord::*array, std::size_t k) {
+  return {std::move(name), std::move(meaning), Compared::All,
+          [array, k](const FlightRecord& r) { return write((r.*array)[k]); },
           [array, k](const std::string& cell, FlightRecord& r) { return read(cell, (r.*array)[k]); }};
 }
 
 void add_measures(std::vector<Column>& columns) {
-  using R = FlightRecord;
-  const auto add = [&](const char* name, auto FlightResult::*member) {
-    columns.push_back(column(name, &R::result, member));
+  const auto add = [&](const char* name, const char* meaning, Compared compared, auto FlightResult::*member) {
+    columns.push_back(column(name, meaning, compared, &FlightRecord::result, member));
   };
-  add("outcome", &FlightResult::outcome);
-  add("detail", &FlightResult::detail);
-  add("flight_time_s", &FlightResult::flight_time_s);
-  add("first_entry_s", &FlightResult::first_entry_s);
-  add("path_length_m", &FlightResult::path_length_m);
-  add("mean_speed_mps", &FlightResult::mean_speed_mps);
-  add("top_speed_mps", &FlightResult::top_speed_mps);
-  add("stops", &FlightResult::stops);
-  add("min_clearance_m", &FlightResult::min_clearance_m);
-  add("jerk_integral", &FlightResult::jerk_integral);
-  add("limit_violations", &FlightResult::limit_violations);
+  constexpr Compared kNo = Compared::No, kReached = Compared::Reached, kAll = Compared::All;
+  add("outcome", "reached, collision, timeout or failed", kNo, &FlightResult::outcome);
+  add("detail", "in words: what was hit, which limit, what failed", kNo, &FlightResult::detail);
+  add("flight_time_s", "world time at arrival or end, s", kReached, &FlightResult::flight_time_s);
+  add("first_entry_s", "first within 0.2 m of the goal, s", kReached, &FlightResult::first_entry_s);
+  add("path_length_m", "length of the way, m", kReached, &FlightResult::path_length_m);
+  add("mean_speed_mps", "straight distance / flight time, m/s", kReached, &FlightResult::mean_speed_mps);
+  add("top_speed_mps", "greatest speed, m/s", kAll, &FlightResult::top_speed_mps);
+  add("stops", "times under 0.1 m/s on the way, after the first second", kAll, &FlightResult::stops);
+  add("min_clearance_m", "least distance to an obstacle in continuous time, negative in overlap, m", kAll,
+      &FlightResult::min_clearance_m);
+  add("min_map_clearance_m", "the same to the map's occupied voxels, m", kAll, &FlightResult::min_map_clearance_m);
+  add("jerk_integral", "jerk squared over time, m^2/s^5", kReached, &FlightResult::jerk_integral);
+  add("limit_violations", "of speed, acceleration, jerk, flight box, and jumps", kAll, &FlightResult::limit_violations);
+  add("contacts_moving", "touched something while faster than 0.1 m/s", kAll, &FlightResult::contacts_moving);
+  add("contacts_at_rest", "was touched while slower", kAll, &FlightResult::contacts_at_rest);
+  add("obstacles", "that were there at some time of the flight", kNo, &FlightResult::obstacles);
+  add("obstacles_left_out", "recorded ones that began too near to the vehicle", kNo, &FlightResult::obstacles_left_out);
 }
 
 void add_answers(std::vector<Column>& columns) {
   using R = FlightRecord;
-  columns.push_back(column("requests", &R::requests));
-  columns.push_back(column("answered_in_time", &R::answered_in_time));
-  columns.push_back(column("answers_late", &R::answers_late));
-  columns.push_back(column("answers_refused", &R::answers_refused));
+  const auto add = [&](const char* name, const char* meaning, auto member) {
+    columns.push_back(column(name, meaning, Compared::All, member));
+  };
+  add("requests", "horizons asked for", &R::requests);
+  add("answered_in_time", "of these, by their deadline", &R::answered_in_time);
+  add("answers_late", "by the executor's clock", &R::answers_late);
+  add("answers_refused", "by the executor", &R::answers_refused);
   for (std::size_t k = 0; k < kPlanOutcomes; ++k) {
-    columns.push_back(column_at("plans_" + key(static_cast<PlanOutcome>(k)), &R::plans, k));
+    const auto outcome = static_cast<PlanOutcome>(k);
+    columns.push_back(column_at("plans_" + key(outcome), fmt::format("answers: {}", to_string(outcome)), &R::plans, k));
   }
   for (std::size_t k = 0; k < kPlanReasons; ++k) {
-    columns.push_back(column_at("reasons_" + key(static_cast<PlanReason>(k)), &R::reasons, k));
+    const auto reason = static_cast<PlanReason>(k);
+    columns.push_back(column_at("reasons_" + key(reason), fmt::format("answers with the reason: {}", to_string(reason)),
+                                &R::reasons, k));
   }
 }
 
 void add_times(std::vector<Column>& columns) {
-  using Stages = std::pair<const char*, Percentiles ReplanTimes::*>;
+  struct Stage {
+    const char *name, *meaning;
+    Percentiles ReplanTimes::*times;
+  };
   using Ranks = std::pair<const char*, double Percentiles::*>;
-  for (const auto& [stage, times] :
-       {Stages{"total", &ReplanTimes::total}, Stages{"first_answer", &ReplanTimes::first_answer},
-        Stages{"hulls", &ReplanTimes::hulls}, Stages{"search", &ReplanTimes::search},
-        Stages{"optimization", &ReplanTimes::optimization}, Stages{"check", &ReplanTimes::check}}) {
+  for (const Stage& stage :
+       {Stage{"total", "from the request's arrival to the answer", &ReplanTimes::total},
+        Stage{"first_answer", "until the first certified trajectory", &ReplanTimes::first_answer},
+        Stage{"hulls", "of making hulls", &ReplanTimes::hulls}, Stage{"search", "of the search", &ReplanTimes::search},
+        Stage{"optimization", "of the optimizer", &ReplanTimes::optimization},
+        Stage{"check", "of the final check", &ReplanTimes::check}}) {
     for (const auto& [rank, member] : {Ranks{"p50", &Percentiles::p50}, Ranks{"p95", &Percentiles::p95},
                                        Ranks{"p99", &Percentiles::p99}, Ranks{"max", &Percentiles::max}}) {
-      columns.push_back(column(fmt::format("replan_ms_{}_{}", stage, rank), &FlightRecord::replan_ms, times, member));
+      columns.push_back(column(fmt::format("replan_ms_{}_{}", stage.name, rank),
+                               fmt::format("CPU time {}, {} of the flight's answers, ms", stage.meaning, rank),
+                               Compared::All, &FlightRecord::replan_ms, stage.times, member));
     }
   }
 }
 
 std::vector<Column> make_columns() {
   using R = FlightRecord;
+  constexpr Compared kNo = Compared::No;
   std::vector<Column> columns;
-  columns.push_back(column("scenario", &R::identity, &CampaignIdentity::scenario));
-  columns.push_back(column("seed", &R::seed));
-  columns.push_back(column("count", &R::identity, &CampaignIdentity::count));
+  columns.push_back(column("scenario", "the scenario's name", kNo, &R::identity, &CampaignIdentity::scenario));
+  columns.push_back(column("seed", "of everything random in the flight", kNo, &R::seed));
+  columns.push_back(
+      column("count", "world.count: obstacles of the generator", kNo, &R::identity, &CampaignIdentity::count));
   add_measures(columns);
   add_answers(columns);
   add_times(columns);
-  columns.push_back(column("exposure", &R::result, &FlightResult::exposure));
-  columns.push_back(column("messages", &R::messages));
-  columns.push_back(column("restarts", &R::restarts));
-  columns.push_back(column("audit", &R::audit));
-  columns.push_back(column("log", &R::log));
-  columns.push_back(column("charge", &R::identity, &CampaignIdentity::charge));
-  columns.push_back(column("configuration", &R::identity, &CampaignIdentity::configuration));
-  columns.push_back(column("version", &R::identity, &CampaignIdentity::version));
+  columns.push_back(column("exposure", "JSON, per region: seconds and metres inside and within 1 m", kNo, &R::result,
+                           &FlightResult::exposure));
+  columns.push_back(column("messages", "JSON, per channel: received, rejected, lost", kNo, &R::messages));
+  columns.push_back(column("restarts", "of processes in flight", kNo, &R::restarts));
+  columns.push_back(column("audit", "passed, broken, failed; empty: not audited", kNo, &R::audit));
+  columns.push_back(column("log", "of a failed flight, relative to the failures' folder", kNo, &R::log));
+  columns.push_back(column("charge", "cpu or counts: what planning took of virtual time", kNo, &R::identity,
+                           &CampaignIdentity::charge));
+  columns.push_back(column("configuration", "digest of all settings but the seed", kNo, &R::identity,
+                           &CampaignIdentity::configuration));
+  columns.push_back(column("version", "build", kNo, &R::identity, &CampaignIdentity::version));
   return columns;
 }
 
@@ -197,7 +223,8 @@ FlightResult unjudged(FlightOutcome outcome, std::string detail) {
   result.outcome = outcome;
   result.detail = std::move(detail);
   result.flight_time_s = result.first_entry_s = result.path_length_m = kNaN;
-  result.mean_speed_mps = result.top_speed_mps = result.min_clearance_m = result.jerk_integral = kNaN;
+  result.mean_speed_mps = result.top_speed_mps = result.min_clearance_m = kNaN;
+  result.min_map_clearance_m = result.jerk_integral = kNaN;
   return result;
 }
 
@@ -213,6 +240,12 @@ const CsvRecord& flight_columns() {
     return made;
   }();
   return names;
+}
+
+std::vector<ColumnNote> column_notes() {
+  std::vector<ColumnNote> notes;
+  for (const Column& c : all_columns()) notes.push_back({c.name, c.meaning, c.compared});
+  return notes;
 }
 
 CsvRecord to_cells(const FlightRecord& record) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "campaign/records/csv.h"
 #include "campaign/statistics/log_histogram.h"
@@ -52,6 +53,20 @@ bool is_success(const FlightRecord& record);
 
 /// The names of the columns, in order: the keys of fly.sh's summary, nested ones joined by '_'.
 const CsvRecord& flight_columns();
+
+/// Over which pairs of flights of one seed a column's numbers are compared.
+enum class Compared {
+  No,       ///< not a measure
+  Reached,  ///< pairs in which both reached the goal
+  All,
+};
+struct ColumnNote {
+  std::string name, meaning;  ///< with the unit
+  Compared compared = Compared::No;
+};
+/// The dictionary of the columns, in order.
+std::vector<ColumnNote> column_notes();
+
 /// One cell per column. What has no value is empty. Reads back equal, but for times: they are kept to the microsecond.
 CsvRecord to_cells(const FlightRecord& record);
 /// @return an Error that names column and cell.

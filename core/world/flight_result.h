@@ -29,10 +29,15 @@ struct FlightResult {
   double path_length_m = 0.0;
   double mean_speed_mps = 0.0;  ///< straight distance / flight time
   double top_speed_mps = 0.0;
-  double min_clearance_m = 0.0;  ///< continuous time, negative in overlap
-  double jerk_integral = 0.0;    ///< ∫‖jerk‖² dt, m²/s⁵
+  double min_clearance_m = 0.0;      ///< to obstacles, continuous time, negative in overlap
+  double min_map_clearance_m = 0.0;  ///< the same to the map's occupied voxels
+  double jerk_integral = 0.0;        ///< ∫‖jerk‖² dt, m²/s⁵
   std::int64_t stops = 0;
   std::int64_t limit_violations = 0;
+  std::int64_t contacts_moving = 0;     ///< touched something while faster than 0.1 m/s
+  std::int64_t contacts_at_rest = 0;    ///< was touched while slower
+  std::int64_t obstacles = 0;           ///< that were there at some time of the flight
+  std::int64_t obstacles_left_out = 0;  ///< recorded ones that began too near to the vehicle
   std::vector<Exposure> exposure;
 };
 

@@ -23,6 +23,9 @@ struct HorizonRequest {
   Limits limits;
   Body body;
   Box flight_box;  ///< the whole body stays inside, W
+  /// The tube: what the vehicle's true position may be off the commanded one per axis while it flies the plan, m, ≥ 0.
+  /// The planner keeps the body clear by it.
+  Vec3 tube = Vec3::Zero();
 };
 
 enum class PlanOutcome : std::uint8_t { Optimized = 0, SearchOnly = 1, KeepCommitted = 2, Evade = 3, NoPlan = 4 };
@@ -48,7 +51,7 @@ inline constexpr int kStages = 6;
 /// theirs in vain.
 enum class Phase : std::uint8_t {
   Durations = 0,  ///< to the local goal
-  Evasion = 1,    ///< to the stop that stays clear longest
+  Evasion = 1,    ///< to the local goal, less sure than promised; to the stop that stays clear longest
   Room = 2,       ///< out of a hull, to where there is most room
 };
 inline constexpr int kPhases = 3;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/world/flight_result.h"
+#include "core/world/flyable.h"
 #include "core/world/goal.h"
 #include "core/world/health.h"
 #include "core/world/horizon.h"
@@ -49,6 +50,11 @@ template <>
 inline constexpr std::array<const char*, kRejections> kWords<Rejection>{
     "length",       "fingerprint", "count",  "number",   "enumeration",    "time",
     "inconsistent", "future",      "sender", "repeated", "unauthenticated"};
+
+template <>
+inline constexpr std::array<const char*, kBreaches> kWords<Breach>{
+    "none",   "shape", "start",     "join",       "end",    "velocity",      "acceleration",   "jerk",
+    "thrust", "tilt",  "body rate", "flight box", "sphere", "not separated", "too many planes"};
 
 template <class E>
 concept Named = !kWords<E>.empty();

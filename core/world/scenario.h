@@ -38,6 +38,7 @@ struct WaypointMotion {
   std::vector<std::pair<double, Vec3>> points;  ///< (world time s, position m), times strictly ascending, ≥ 1
   bool repeat = false;  ///< the last point is the first one; the motion goes round for ever, also before the first time
   bool vanish = false;  ///< absent before the first time and after the last (recorded people); not with repeat
+  double leave_out_within_m = 0.0;  ///< with vanish: who appears in flight nearer to the vehicle is left out of it, m
 };
 
 struct ObstacleSpec {
@@ -51,21 +52,27 @@ struct ObstacleSpec {
 struct RecordedTracksSpec {
   std::string file;  ///< relative to the scenario's folder, or to TERN_DATA, or absolute
   int columns = 5;   ///< numbers per line
-  int id_column = 0, frame_column = 1, x_column = 2, y_column = 3;
-  std::optional<int> z_column;  ///< none: z is not recorded
+  int id_column = 0, frame_column = 1, x_column = 2, y_column = 3;  ///< id_column −1: the file is one track
+  std::optional<int> z_column;                                      ///< none: z is not recorded
   double metres_per_unit = 1.0;
   double frames_per_second = 25.0;
-  double start_s = 0.0;                       ///< world time 0 is this time of the file (frame / frames_per_second)
+  double least_step_s = 0.0;  ///< positions of a track that follow sooner than this are passed over
+  /// World time 0 is this time of the file (frame / frames_per_second); nothing: the seed draws it.
+  std::optional<double> start_s;
   Vec3 half_extents = Vec3(0.25, 0.25, 1.0);  ///< of every person, m
   double centre_z = 1.0;                      ///< boxes stand here, m
   bool wait_for_clear_start =
       true;  ///< start at the first frame ≥ start_s when none comes within 1 m of the start for 1 s
+  double leave_out_within_m = 3.0;  ///< of WaypointMotion: there the recording begins, not the person
+  int copies = 0;  ///< > 0: so many movers on pieces of the tracks, drawn by the seed, in place of them
+  Box within;      ///< where the copies are, W; with copies only
 };
 
 struct WorldSpec {
   std::string generator =
       "none";     ///< none, paper_corridor, paper_attract, paper_repel, corridor_demo, mader_corridor, sando_forest
   int count = 0;  ///< N of the generator, 0 … 100000
+  std::optional<double> slowness;            ///< of the generator's trefoils instead of its own, > 0
   std::vector<ObstacleSpec> obstacles;       ///< besides the generator's
   std::vector<RecordedTracksSpec> recorded;  ///< besides these
 };

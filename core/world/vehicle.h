@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
+#include "core/base/knobs.h"
 #include "core/base/time.h"
 #include "core/base/types.h"
 #include "core/splines/clamped_spline.h"
@@ -16,11 +18,34 @@ inline constexpr double kLeastLimit = 1e-3;
 inline constexpr double kMostSpeedLimit = 1e3;         ///< of v_max, m/s
 inline constexpr double kMostAccelerationLimit = 1e4;  ///< of a_max, m/s²
 
+/// Standard gravity, m/s².
+inline constexpr double kGravity = 9.80665;
+
+/// What a multirotor's propellers and attitude control can do; thrust is per mass. Defaults: thrust/weight 2 and PX4's
+/// own bounds (MPC_THR_MIN, MPC_TILTMAX_AIR, MC_ROLLRATE_MAX). Ranges leave room to hover: thrust_min < g < thrust_max.
+struct Dynamics {
+  double thrust_min = 2.4;             ///< m/s²
+  double thrust_max = 19.6;            ///< m/s²
+  double tilt_max_deg = 45.0;          ///< of the thrust from the vertical, degrees
+  double body_rate_max_deg_s = 220.0;  ///< of the thrust's direction (roll and pitch together), degrees/s
+
+  static constexpr Range kThrustMin{0.0, 9.0}, kThrustMax{10.5, kMostAccelerationLimit}, kTilt{1.0, 85.0},
+      kBodyRate{1.0, 1e5};
+  template <typename V>
+  void visit(V& v) {
+    v("thrust_min", thrust_min, kThrustMin, "least thrust per mass in flight, m/s²");
+    v("thrust_max", thrust_max, kThrustMax, "largest thrust per mass, m/s²");
+    v("tilt_max", tilt_max_deg, kTilt, "largest angle of the thrust from the vertical, degrees");
+    v("body_rate_max", body_rate_max_deg_s, kBodyRate, "how fast the thrust's direction may turn, degrees/s");
+  }
+};
+
 /// Largest magnitude per axis of W, each at least kLeastLimit. Jerk may be infinite (no limit).
 struct Limits {
   Vec3 v_max = Vec3::Constant(6.0);                                      ///< m/s
   Vec3 a_max = Vec3(20.0, 20.0, 10.0);                                   ///< m/s²
   Vec3 j_max = Vec3::Constant(std::numeric_limits<double>::infinity());  ///< m/s³
+  std::optional<Dynamics> dynamics = {};                                 ///< besides these; nothing: no more limits
 };
 /// A limit L is obeyed by x when |x| ≤ L·(1 + kLimitTolerance): the same in planner, checker, executor and referee.
 inline constexpr double kLimitTolerance = 1e-6;

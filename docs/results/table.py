@@ -19,11 +19,11 @@ def table(head, rows):
 
 
 def flight_row(name, s):
-    low, high = s["success_ci95"]
+    interval = s["success_ci95"]
     time, entry, clear = s["flight_time_s"], s["first_entry_s"], s["min_clearance_m"]
     return [
         name,
-        f"{s['reached']}/{s['flights']} [{100 * low:.1f}, {100 * high:.1f}]",
+        f"{s['reached']}/{s['flights']}" + (f" [{100 * interval[0]:.1f}, {100 * interval[1]:.1f}]" if interval else ""),
         f"{s['collisions']} / {s['timeouts']} / {s['failed']}",
         f"{number(time, 'p50', 2)} / {number(time, 'p95', 2)} / {number(time, 'p99', 2)} / {number(time, 'max', 2)}",
         f"{number(entry, 'mean', 2)}",

@@ -1,7 +1,9 @@
 #include "launcher/app/flight.h"
 
+#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -67,6 +69,7 @@ void write_failure(const FlightOptions& options, const std::string& reason, cons
   summary.scenario = fs::path(options.scenario).stem();
   summary.seed = overridden(options, "seed");
   summary.count = overridden(options, "world.count");
+  summary.command = options.typed;
   summary.version = build_id();
   std::ofstream(file) << to_json(summary);
 }
@@ -124,6 +127,10 @@ void announce(const FlightOptions& options, const fs::path& record, const std::v
   std::ofstream commands(record / "command");
   commands << options.typed << '\n';
   for (const SupervisedProcess& process : processes) commands << shell_line(process.child.command) << '\n';
+  std::ofstream flown(record / "scenario.yaml");
+  flown << "# As flown: " << options.scenario << '\n';
+  for (const std::string& value : options.overrides) flown << "# " << shell_line({"--set", value}) << '\n';
+  flown << text_of(options.scenario);
   say("Flight of {}\n  record   {}", options.scenario, record.string());
   if (options.namespace_flags.empty()) {
     say("  network  export LCM_DEFAULT_URL='{}'", options.lcm_url);
@@ -146,9 +153,28 @@ std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event)
   return is_judge ? std::optional(judged(event.code, has_summary)) : std::nullopt;
 }
 
-int supervise(const FlightOptions& options, const fs::path& record, const sigset_t& signals) try {
+/// Waits until tern-viewer says that a page looks, as long as the options allow.
+/// @return a signal that came meanwhile, or 0
+int await_page(const FlightOptions& options, int looked, const sigset_t& signals) {
+  if (options.view_wait_s == 0) return 0;
+  say("  the flight begins when a page looks, at the latest in {} s (--view-wait)", options.view_wait_s);
+  constexpr int kLookMs = 100;
+  for (int ms = 0; ms < 1000 * options.view_wait_s; ms += kLookMs) {
+    pollfd page{looked, POLLIN, 0};
+    if (poll(&page, 1, kLookMs) > 0) return 0;
+    const timespec at_once{};
+    const int signal = sigtimedwait(&signals, nullptr, &at_once);
+    if (signal > 0 && signal != SIGCHLD) return signal;
+  }
+  say("  no page looks: the flight begins without");
+  return 0;
+}
+
+int supervise(FlightOptions options, const fs::path& record, const sigset_t& signals) try {
   ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
   (void)read_scenario(document);  // refused once, not by each process
+  int looked[2] = {-1, -1};
+  if (options.view_fd && pipe2(looked, O_CLOEXEC) == 0) options.looked_fd = looked[1];
   auto processes = flight_processes(options, record, hold_keys(options));
   announce(options, record, processes);
   Supervisor supervisor(signals);
@@ -156,6 +182,11 @@ int supervise(const FlightOptions& options, const fs::path& record, const sigset
     process.child.error = open_log(record / (process.name + ".log"));
     if (process.name != kMonitor) process.child.out = process.child.error;
     supervisor.start(process);
+    const int signal = process.name == kViewer ? await_page(options, looked[0], signals) : 0;
+    if (signal != 0) {
+      supervisor.stop(kLogger);
+      return kExitSignalled + signal;
+    }
   }
   std::optional<int> code;
   while (!code) code = verdict(record, supervisor.wait());
@@ -201,6 +232,31 @@ int look_back(const FlightOptions& options, const fs::path& record, int code) {
   return code;
 }
 
+/// The page plays the flight that it showed, on the same socket. @return the process
+pid_t play_again(const FlightOptions& options, const fs::path& record) {
+  const int log = open_log(record / "tern-viewer.log");
+  return start_child(
+      {.command = {options.programs + "/" + kViewer, "--log", record / "flight.lcm", "--page", options.page},
+       .out = log,
+       .error = log,
+       .inherited = {*options.view_fd},
+       .own_group = true});
+}
+
+/// Until the user ends it, or it ends itself.
+void keep_playing(pid_t player, const std::string& url) {
+  say("\nThe page plays the flight again, until Ctrl-C: {}", url);
+  const sigset_t signals = block_signals();
+  while (true) {
+    if (poll_child(player)) return;
+    const int signal = sigwaitinfo(&signals, nullptr);
+    if (signal <= 0 || signal == SIGCHLD) continue;
+    kill(player, SIGTERM);
+    (void)await_child(player);
+    return;
+  }
+}
+
 }  // namespace
 
 int fly(const FlightOptions& options) {
@@ -210,9 +266,8 @@ int fly(const FlightOptions& options) {
     throw std::runtime_error(record.error().message);
   }
   int code = watch_over(options, *record);
-  if (options.view_fd && code < kExitSignalled) {
-    say("  see it again: launch_scripts/view.sh --log {}/flight.lcm", record->string());
-  }
+  const bool is_played = options.view_fd && code < kExitSignalled && fs::exists(*record / "flight.lcm");
+  const pid_t player = is_played ? play_again(options, *record) : 0;
   if (code < kExitFailed && fs::exists(*record / "flight.lcm")) code = look_back(options, *record, code);
   if (code > kExitSignalled) say("\nEnded by a signal; what was recorded: {}", record->string());
   const fs::path summary = *record / "summary.json";
@@ -221,6 +276,10 @@ int fly(const FlightOptions& options) {
   }
   if (!options.summary.empty() && fs::exists(summary)) {
     fs::copy_file(summary, options.summary, fs::copy_options::overwrite_existing);
+  }
+  if (is_played) {
+    keep_playing(player, options.view_url);
+    say("See it again: launch_scripts/view.sh --log {}/flight.lcm", record->string());
   }
   return code;
 }

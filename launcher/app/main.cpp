@@ -33,15 +33,18 @@ int main(int argc, char** argv) {
   fly.add_option("--key-file", options.key, "Sign every message, with the master key of this file");
   fly.add_option("--view-fd", options.view_fd, "A listening socket (tern-listen): tern-viewer shows the flight there");
   fly.add_option("--view-url", options.view_url, "That socket's URL");
+  fly.add_option("--view-wait", options.view_wait_s, "The flight waits so long for the first page, s")
+      ->check(CLI::Range(0, 86400));
   fly.add_option("--page", options.page, "The folder of tern-viewer's page");
   fly.add_flag("--allow-goals", options.allow_goals, "The page may send goals");
+  fly.add_option("--autopilot", options.autopilot, "tern-mavlink flies the vehicle of the autopilot there");
+  fly.add_flag("--autopilot-sim", options.autopilot_sim, "That autopilot is tern-autopilot-sim");
   fly.add_flag("--audit", options.audit, "Recompute the flight when it has ended");
   fly.add_flag("--report", options.report, "Draw the flight when it has ended");
   fly.add_option("--failed", failed, "Do not fly: write the summary of a flight that could not begin, for this reason");
   CLI::App& keep = *app.add_subcommand("keep", "Run COMMAND, and run it again when it dies")->prefix_command();
   keep.add_option("--log", log, "File for all that is said (default: standard output and error)");
   keep.add_option("COMMAND", command)->required();
-
   try {
     app.parse(argc, argv);
     if (keep) return tern::keep_alive(command, log);

@@ -8,9 +8,14 @@
 #include <utility>
 
 #include "flight_log/log_format.h"
+#include "messages/codec.h"
+#include "runtime/roles.h"
 
 namespace tern {
 namespace {
+
+/// Who was not heard for longer is gone: four heartbeats in a row are lost.
+constexpr Duration kHeardLately{2'500'000};
 
 LogWriter open_writer(std::string path, std::int64_t rotate_bytes) {
   if (std::filesystem::is_directory(path)) path = (std::filesystem::path(path) / "flight.lcm").string();
@@ -31,7 +36,7 @@ LoggerConfig read_logger_config(ConfigSection section) {
 }
 
 LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path)
-    : writer_(open_writer(path, config.rotate_bytes)), table_(bus.suffix()), next_flush_(bus.clock().now()) {
+    : writer_(open_writer(path, config.rotate_bytes)), table_(bus.suffix()), bus_(bus), next_flush_(bus.clock().now()) {
   spdlog::info("writes {}", writer_.part_path());
   bus.listen([this](std::string_view channel, std::int64_t received_us, std::span<const std::uint8_t> data) {
     table_.add(channel, UTime{received_us}, data);
@@ -40,6 +45,14 @@ LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& 
       return;
     }
     writer_.append(channel, received_us, data);
+  });
+  bus.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) {
+    if (!role_of_process(heartbeat.process)) return;
+    heard_[heartbeat.process] = {bus_.received(), heartbeat.header.name.sender_epoch_us};
+  });
+  bus.subscribe(channels::kConfiguration, [this](const ConfigurationReport& report) {
+    const bool is_ours = role_of_process(report.process).has_value();
+    if (is_ours) configurations_.insert(report.header.name.sender_epoch_us);
   });
 }
 
@@ -60,8 +73,19 @@ void LoggerNode::flush() {
   trouble_ = flushed ? "" : flushed.error().message;
 }
 
+std::string LoggerNode::missing_configurations() const {
+  std::string text;
+  for (const auto& [process, heard] : heard_) {
+    if (bus_.clock().now() - heard.at > kHeardLately || configurations_.contains(heard.epoch_us)) continue;
+    text += (text.empty() ? "CONFIGURATION of " : ", ") + process;
+  }
+  return text;
+}
+
 NodeHealth LoggerNode::health() const {
-  return {trouble_.empty() ? ProcessState::Ready : ProcessState::Failed, trouble_};
+  if (!trouble_.empty()) return {ProcessState::Failed, trouble_};
+  const std::string missing = missing_configurations();
+  return {missing.empty() ? ProcessState::Ready : ProcessState::Waiting, missing};
 }
 
 void LoggerNode::report() const {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 
 #include "flight_log/log_writer.h"
@@ -28,6 +30,9 @@ LoggerConfig read_logger_config(ConfigSection section);
 /// LCM's own receiving thread empties the socket meanwhile, so that a slow disk costs memory, not messages
 /// (Bus::listen). What is larger than any reader takes (kLogMaxDataBytes; only fragments can be) is counted and left
 /// out. A disk that takes nothing makes it Failed, with the reason in waiting_for; it goes on trying.
+///
+/// It is Ready when it has the CONFIGURATION of every one of Tern's processes whose heartbeat it hears: without them
+/// nothing replays. Processes repeat theirs while it waits (NodeHost), and a simulator that is recorded waits for it.
 class LoggerNode final : public Node {
  public:
   /// @param path  of the log; an existing folder means flight.lcm in it
@@ -48,9 +53,19 @@ class LoggerNode final : public Node {
  private:
   void flush();
   void report() const;
+  [[nodiscard]] std::string missing_configurations() const;
+
+  /// The newest process of a name.
+  struct Heard {
+    UTime at;
+    std::int64_t epoch_us = 0;
+  };
 
   LogWriter writer_;
   ChannelTable table_;
+  Bus& bus_;
+  std::map<std::string, Heard> heard_;     ///< by process
+  std::set<std::int64_t> configurations_;  ///< senders' epochs whose CONFIGURATION came
   UTime next_flush_;
   std::int64_t too_large_ = 0;
   std::string trouble_;  ///< why the last flush failed; empty when it did not

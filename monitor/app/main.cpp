@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
       .add_options = [&options](CLI::App& app) {
         app.add_option("--summary", options.summary_file, "Write the summary as JSON")->type_name("FILE");
         app.add_option("--log", options.log, "Path of the recording, named in the summary")->type_name("FILE");
+        app.add_option("--command", options.command, "What was typed to fly, named in the summary")->type_name("TEXT");
         app.add_option("--failure-file", options.failure_file,
                        "Once it exists, the flight has failed; its text says why")
             ->type_name("FILE");

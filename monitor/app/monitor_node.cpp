@@ -49,7 +49,7 @@ void MonitorNode::step(UTime now) {
   look_for_failure();
   if (const auto ending = watch_.ending(now)) return finish(*ending);
   if (now >= next_line_) {
-    output_.show(live_line(watch_.live()));
+    output_.show(live_line(watch_.live(), output_.columns()));
     next_line_ = now + output_.period();
   }
 }
@@ -66,6 +66,7 @@ void MonitorNode::look_for_failure() {
 void MonitorNode::finish(const Ending& ending) {
   FlightSummary summary = watch_.summary(ending);
   summary.log = options_.log;
+  summary.command = options_.command;
   summary.version = build_id();
   output_.print(to_text(summary));
   exit_code_ = static_cast<int>(summary.outcome);

@@ -16,6 +16,7 @@ namespace tern {
 struct MonitorOptions {
   std::string summary_file;  ///< where the summary's JSON goes; empty: nowhere
   std::string log;           ///< path of the recording, for the summary
+  std::string command;       ///< what the user typed, for the summary
   std::string
       failure_file;  ///< once it exists, the flight has failed for the reason that is its text; empty: none is watched
 };

@@ -13,6 +13,8 @@ class LiveOutput {
   LiveOutput();
   /// When show() is due next, at least so long after the last time.
   [[nodiscard]] Duration period() const;
+  /// How wide a line may be: the terminal's width, else without limit.
+  [[nodiscard]] std::size_t columns() const;
   void show(const std::string& line);
   /// Ends the live line, if there is one, and prints text below it.
   void print(const std::string& text);

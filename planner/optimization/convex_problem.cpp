@@ -4,10 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/safety/thrust_set.h"
 #include "planner/tuning.h"
 
 namespace tern {
 namespace {
+
+/// A reach: x0 may be as far from the row as it will.
+constexpr double kAlways = std::numeric_limits<double>::infinity();
+/// Of x0's own jerk: it lies strictly inside.
+constexpr double kJerkRoom = 1.001;
 
 class Builder {
  public:
@@ -60,6 +66,28 @@ class Builder {
     }
   }
 
+  /// Thrust, tilt and body rates (ThrustSet) at the knots that are free, and of each interval. Body rates by |j| ≤ rate
+  /// · least f_z of the interval, which keeps kThrustKept of x0's; where x0 itself jerks more, by its own jerk.
+  void add_dynamics() {
+    if (!problem_.plan_limits.dynamics) return;
+    const ThrustSet set(*problem_.plan_limits.dynamics);
+    double before = std::max(set.floor, problem_.start.a.z() + kGravity);
+    for (int j = 0; j < problem_.intervals; ++j) {
+      double after = kGravity;
+      if (j + 1 < problem_.intervals) {
+        AffinePoint thrust = curve_.acceleration_at_end(j);
+        thrust.offset.z() += kGravity;
+        after = std::max(set.floor, kThrustKept * thrust.at(x0_).z());
+        add_row(thrust, -Vec3::UnitZ(), -after, kAlways);
+        add_tilt(thrust, set.slope);
+        add_ball(thrust, set.ceiling);
+      }
+      const AffinePoint jerk = curve_.jerk(j);
+      add_ball(jerk, std::max(set.rate * std::min(before, after), kJerkRoom * jerk.at(x0_).norm()));
+      before = after;
+    }
+  }
+
   /// Only the sides that cut the sphere: the others follow from it, and each row costs Ipopt time.
   void add_box_rows(const AffinePoint& p) {
     const Vec3 above = problem_.centre_box.max() - problem_.start.p;
@@ -78,8 +106,7 @@ class Builder {
         if (p.fixed()) continue;
         add_box_rows(p);
         if (problem_.sphere_radius - (p.at(x0_) - problem_.start.p).norm() > problem_.reach) continue;
-        out_.sphere_weights.insert(out_.sphere_weights.end(), p.weights.data(), p.weights.data() + p.weights.size());
-        out_.sphere_offsets.push_back(p.offset - problem_.start.p);
+        add_sphere(p.weights, p.offset - problem_.start.p);
       }
     }
     out_.sphere_radius2 = problem_.sphere_radius * problem_.sphere_radius;
@@ -108,6 +135,29 @@ class Builder {
   }
 
  private:
+  void add_sphere(const FreeWeights& weights, const Vec3& offset) {
+    out_.sphere_weights.insert(out_.sphere_weights.end(), weights.data(), weights.data() + weights.size());
+    out_.sphere_offsets.push_back(offset);
+  }
+
+  /// ‖point‖ ≤ radius, scaled to the radius of S.
+  void add_ball(const AffinePoint& point, double radius) {
+    if (point.fixed()) return;
+    const double scale = problem_.sphere_radius / radius;
+    add_sphere(point.weights * scale, point.offset * scale);
+  }
+
+  /// ‖f_xy‖₈ ≤ slope f_z.
+  void add_tilt(const AffinePoint& thrust, double slope) {
+    for (const Vec3& side : {Vec3(1.0, kOctagon, -slope), Vec3(kOctagon, 1.0, -slope)}) {
+      for (int signs = 0; signs < 4; ++signs) {
+        const Vec3 direction((signs & 1) != 0 ? -side.x() : side.x(), (signs & 2) != 0 ? -side.y() : side.y(),
+                             side.z());
+        add_row(thrust, direction, 0.0, kAlways);
+      }
+    }
+  }
+
   /// weight · ‖point − target‖².
   void add_square(const AffinePoint& point, const Vec3& target, double weight) {
     const Vec3 offset = point.offset - target;
@@ -170,6 +220,7 @@ void make_convex_problem(const TrajectoryProblem& problem, const std::vector<Pla
   Builder builder(problem, x0, out);
   builder.add_objective();
   builder.add_limits();
+  builder.add_dynamics();
   builder.add_boxes_and_spheres();
   builder.add_planes(planes);
   builder.widen_bounds();

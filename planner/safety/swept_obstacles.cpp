@@ -46,7 +46,7 @@ void add_piece(std::vector<CentredBox>& out, const PowerCubic& cubic, double a, 
 }
 
 /// The sweep of a track (with its α) over [from, to] seconds after origin; outside its pieces a box that grows.
-void add_track_sweep(std::vector<CentredBox>& out, const Track& track, double alpha_scale, const Vec3& body_half,
+void add_track_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaCount& count, const Vec3& body_half,
                      UTime origin, double from, double to) {
   const double start = (track.motion.start - origin).seconds();
   double piece_from = start;
@@ -56,39 +56,41 @@ void add_track_sweep(std::vector<CentredBox>& out, const Track& track, double al
     const double a = std::max(from, piece_from);
     const double b = std::min(to, piece_to);
     if (a <= b) {
-      const Vec3 half = track.half_extents + alpha_scale * track.alpha[k] + body_half;
+      const Vec3 half = track.half_extents + count.of(track, k) + body_half;
       add_piece(out, piece.coefficients, a - piece_from, b - piece_from, half);
     }
     piece_from = piece_to;
   }
   const auto add_growing = [&](double seconds, const Vec3& p, const Vec3& alpha) {
-    out.push_back(
-        {p, track.half_extents + alpha_scale * alpha + body_half + Vec3::Constant(track.top_speed * seconds)});
+    out.push_back({p, track.half_extents + alpha + body_half + Vec3::Constant(track.top_speed * seconds)});
   };
   if (to > piece_from) {
     const CubicPiece& last = track.motion.pieces.back();
-    add_growing(to - piece_from, sample_cubic(last.coefficients, last.duration.seconds()).p, track.alpha.back());
+    add_growing(to - piece_from, sample_cubic(last.coefficients, last.duration.seconds()).p,
+                count.of(track, track.alpha.size() - 1));
   }
-  if (from < start) add_growing(start - from, track.motion.pieces.front().coefficients.col(3), track.alpha.front());
+  if (from < start) add_growing(start - from, track.motion.pieces.front().coefficients.col(3), count.of(track, 0));
 }
 
 /// Where the track's box is at one instant, as add_track_sweep() has it but without β.
-CentredBox box_at(const Track& track, double alpha_scale, const Vec3& body_half, UTime origin, double at) {
+CentredBox box_at(const Track& track, const AlphaCount& count, const Vec3& body_half, UTime origin, double at) {
   double piece_from = (track.motion.start - origin).seconds();
   const auto grown_half = [&](const Vec3& alpha, double seconds) -> Vec3 {
-    return track.half_extents + alpha_scale * alpha + body_half + Vec3::Constant(track.top_speed * seconds);
+    return track.half_extents + alpha + body_half + Vec3::Constant(track.top_speed * seconds);
   };
   if (at < piece_from) {
-    return {track.motion.pieces.front().coefficients.col(3), grown_half(track.alpha.front(), piece_from - at)};
+    return {track.motion.pieces.front().coefficients.col(3), grown_half(count.of(track, 0), piece_from - at)};
   }
   for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
     const CubicPiece& piece = track.motion.pieces[k];
     const double piece_to = piece_from + piece.duration.seconds();
-    if (at <= piece_to) return {sample_cubic(piece.coefficients, at - piece_from).p, grown_half(track.alpha[k], 0.0)};
+    if (at <= piece_to)
+      return {sample_cubic(piece.coefficients, at - piece_from).p, grown_half(count.of(track, k), 0.0)};
     piece_from = piece_to;
   }
   const CubicPiece& last = track.motion.pieces.back();
-  return {sample_cubic(last.coefficients, last.duration.seconds()).p, grown_half(track.alpha.back(), at - piece_from)};
+  return {sample_cubic(last.coefficients, last.duration.seconds()).p,
+          grown_half(count.of(track, track.alpha.size() - 1), at - piece_from)};
 }
 
 /// Rounding between the box of a piece and the box of a part of it, m, with room to spare.
@@ -106,7 +108,7 @@ UTimeSpan microseconds(UTime origin, double from, double to) {
 Box sweep_box(const PlanningObstacle& obstacle, const Vec3& body_half, UTime origin, double from, double to) {
   if (obstacle.track == nullptr) return grown(obstacle.box, body_half);
   const UTimeSpan t = microseconds(origin, from, to);
-  return grown(obstacle.track->bounds(t.from, t.to), body_half + Vec3::Constant(kBetaMax));
+  return grown(counted_bounds(*obstacle.track, t.from, t.to, obstacle.alpha), body_half + Vec3::Constant(kBetaMax));
 }
 
 /// The boxes of the pieces that a growing series of time spans meets.
@@ -197,7 +199,7 @@ void SweptObstacles::add_track(int index, const Box& region) {
     const UTimeSpan t = microseconds(origin_, time(k), time(k + 1));
     if (far && walk.within_pieces(t)) continue;
     if (walk.known() && !walk.rough(t).intersects(near)) continue;
-    const Box box = grown(o.track->bounds(t.from, t.to), slack);
+    const Box box = grown(counted_bounds(*o.track, t.from, t.to, o.alpha), slack);
     if (!box.intersects(region)) continue;
     candidates_[static_cast<std::size_t>(k)].push_back({box, index, static_cast<int>(slots_.size())});
     slots_.push_back(-1);
@@ -271,7 +273,7 @@ const CentredBox& SweptObstacles::at_quarter(int interval, const Candidate& cand
     for (int i = 0; i < kQuarters; ++i) {
       CentredBox& box = slot.quarters[static_cast<std::size_t>(i)];
       if (o.moves()) {
-        box = box_at(*o.track, o.alpha_scale, box_half_, origin_, from + i * step);
+        box = box_at(*o.track, o.alpha, box_half_, origin_, from + i * step);
       } else {
         box = sweep(candidate, {interval}).boxes[0];
       }
@@ -286,9 +288,9 @@ void SweptObstacles::make_sweep(const PlanningObstacle& o, Span s) {
     boxes_.push_back({o.box.center(), 0.5 * o.box.sizes() + box_half_});
   } else if (!o.moves()) {
     const Vec3 p = o.track->motion.pieces.front().coefficients.col(3);
-    boxes_.push_back({p, o.track->half_extents + o.alpha_scale * o.track->alpha.front() + box_half_});
+    boxes_.push_back({p, o.track->half_extents + o.alpha.of(*o.track, 0) + box_half_});
   } else {
-    add_track_sweep(boxes_, *o.track, o.alpha_scale, box_half_, origin_, s.from, s.to);
+    add_track_sweep(boxes_, *o.track, o.alpha, box_half_, origin_, s.from, s.to);
   }
 }
 

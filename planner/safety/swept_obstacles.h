@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/swept_boxes.h"
+#include "core/world/alpha_count.h"
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "planner/safety/time_part.h"
@@ -22,8 +23,8 @@ inline constexpr double kBetaMax = 0.005;
 struct PlanningObstacle {
   std::int64_t id = 0;           ///< track id; −1 − k: the k-th box of the map
   const Track* track = nullptr;  ///< null: a static box
-  Box box;  ///< the static box (not inflated by the body); for a track: holds it over all times of interest
-  double alpha_scale = 1.0;  ///< < 1 when the start lay inside the obstacle inflated by its α
+  Box box;           ///< the static box (not inflated by the body); for a track: holds it over all times of interest
+  AlphaCount alpha;  ///< what counts of the track's α: less where the plan is not promised, or its start lies inside
   /// A box per piece of the track's motion that holds it over the whole piece, to spare work; empty: not known.
   std::span<const Box> piece_boxes = {};
 

@@ -83,29 +83,51 @@ AxisReach::Interval line_in_polygon(const Polygon& polygon, double v, double dt)
 
 }  // namespace
 
-void AxisReach::assign(int intervals, double interval_s, double v_max, double a_max, double j_max) {
+void AxisReach::set_limits(int intervals, double interval_s, double v_max, double a_max, double j_max) {
   intervals_ = intervals;
   dt_ = interval_s;
   v_max_ = v_max;
   a_max_ = a_max;
   j_step_ = std::min(j_max * interval_s, 2.0 * a_max);
   fastest_.resize(static_cast<std::size_t>(intervals_));
+  const auto last_index = static_cast<std::size_t>(intervals_);
+  if (finishable_.size() <= last_index) finishable_.resize(last_index + 1);
+}
+
+void AxisReach::close_end(double j_step) {
+  const double last = std::min(a_max_, j_step);
+  finishable_[static_cast<std::size_t>(intervals_)].assign({Point(0.0, -last), Point(0.0, last)});
+}
+
+void AxisReach::step_back(const Polygon& next, double j_step, std::size_t l) {
+  auto& [points, other] = scratch_;
+  points.clear();
+  for (const Point& p : next) {
+    for (const double sign : {1.0, -1.0}) points.emplace_back(p.x() - p.y() * dt_, p.y() + sign * j_step);
+  }
+  convex(points, other);
+  clip_box(other, points, v_max_, a_max_);
+  convex(other, finishable_[l]);
+}
+
+void AxisReach::assign(int intervals, double interval_s, double v_max, double a_max, double j_max) {
+  set_limits(intervals, interval_s, v_max, a_max, j_max);
   for (int k = 0; k < intervals_; ++k) {
     fastest_[static_cast<std::size_t>(k)] = std::min(v_max_, a_max_ * dt_ * (intervals_ - k));
   }
-  const auto last_index = static_cast<std::size_t>(intervals_);
-  if (finishable_.size() <= last_index) finishable_.resize(last_index + 1);
-  const double last = std::min(a_max_, j_step_);
-  finishable_[last_index].assign({Point(0.0, -last), Point(0.0, last)});
-  auto& [points, other] = scratch_;
-  for (std::size_t l = last_index - 1; l >= 2; --l) {
-    points.clear();
-    for (const Point& p : finishable_[l + 1]) {
-      for (const double sign : {1.0, -1.0}) points.emplace_back(p.x() - p.y() * dt_, p.y() + sign * j_step_);
-    }
-    convex(points, other);
-    clip_box(other, points, v_max_, a_max_);
-    convex(other, finishable_[l]);
+  close_end(j_step_);
+  for (auto l = static_cast<std::size_t>(intervals_) - 1; l >= 2; --l) step_back(finishable_[l + 1], j_step_, l);
+}
+
+void AxisReach::assign_before(const AxisReach& rest, double a_max, double j_max) {
+  set_limits(rest.intervals_, rest.dt_, rest.v_max_, a_max, j_max);
+  for (std::size_t k = 0; k < fastest_.size(); ++k) {
+    const double after = k + 1 < fastest_.size() ? rest.fastest_[k + 1] : 0.0;
+    fastest_[k] = std::min(v_max_, a_max_ * dt_ + after);
+  }
+  close_end(rest.j_step_);
+  for (auto l = static_cast<std::size_t>(intervals_) - 1; l >= 2; --l) {
+    step_back(rest.finishable_[l + 1], rest.j_step_, l);
   }
 }
 

@@ -23,6 +23,9 @@ class AxisReach {
   }
   /// @param intervals J ≥ 4; @param interval_s Δt, s; limits > 0, j_max may be infinite. Keeps its memory.
   void assign(int intervals, double interval_s, double v_max, double a_max, double j_max);
+  /// One step by these limits, all later ones by those of `rest` (whose a_max and j_max are not larger): the states
+  /// from which `rest` can still finish.
+  void assign_before(const AxisReach& rest, double a_max, double j_max);
 
   struct Interval {
     double low, high;  ///< empty when low > high
@@ -36,6 +39,10 @@ class AxisReach {
 
  private:
   using Polygon = std::vector<Eigen::Vector2d>;  ///< (v, a) counter-clockwise
+  void set_limits(int intervals, double interval_s, double v_max, double a_max, double j_max);
+  void close_end(double j_step);
+  /// K_l, from K_{l+1} = `next`, from which accelerations may change by j_step.
+  void step_back(const Polygon& next, double j_step, std::size_t l);
   [[nodiscard]] double farthest(int l, double v_previous) const;
 
   int intervals_ = 0;

@@ -1,12 +1,11 @@
 // What a search keeps from call to call so that it allocates nothing: memory, never meaning.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/base/types.h"
-#include "planner/search/axis_reach.h"
+#include "planner/search/step_reach.h"
 
 namespace tern {
 
@@ -87,7 +86,7 @@ struct SearchMemory {
   std::vector<SearchNode> nodes;
   std::vector<SearchEntry> open;  ///< a heap
   KeySet closed;
-  std::array<AxisReach, 3> reach;
+  StepReach reach;
 };
 
 }  // namespace tern

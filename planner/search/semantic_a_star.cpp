@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "core/splines/piecewise_cubic.h"
-#include "planner/search/axis_reach.h"
 
 namespace tern {
 namespace {
@@ -62,11 +62,7 @@ class Search {
     nodes_.clear();
     open_.clear();
     closed_.clear();
-    for (int axis = 0; axis < 3; ++axis) {
-      reach_[static_cast<std::size_t>(axis)].assign(problem.intervals, problem.interval_s(),
-                                                    problem.plan_limits.v_max[axis], problem.plan_limits.a_max[axis],
-                                                    problem.plan_limits.j_max[axis]);
-    }
+    reach_.assign(problem);
   }
 
   SearchResult run() {
@@ -110,7 +106,7 @@ class Search {
     Vec3 low;
     Vec3 high;
     for (int axis = 0; axis < 3; ++axis) {
-      const AxisReach::Interval d = reach_[static_cast<std::size_t>(axis)].displacement(n.l, n.v[axis]);
+      const AxisReach::Interval d = reach_.displacement(axis, n.l, n.v[axis]);
       low[axis] = n.q[axis] + d.low;
       high[axis] = n.q[axis] + d.high;
     }
@@ -190,22 +186,21 @@ class Search {
   }
 
   void expand(int index, const Node& n) {
-    std::array<AxisReach::Interval, 3> range{};
+    StepReach::Steps steps = reach_.from(n.l - 1, n.v, n.a);
+    std::array<AxisReach::Interval, 3>& range = steps.range;
     for (int axis = 0; axis < 3; ++axis) {
-      range[static_cast<std::size_t>(axis)] =
-          reach_[static_cast<std::size_t>(axis)].next_velocity(n.l - 1, n.v[axis], n.a[axis]);
       if (n.l == 2) bound_first_peak(axis, range[static_cast<std::size_t>(axis)]);
       if (range[static_cast<std::size_t>(axis)].empty()) return;
     }
     if (n.l == 2) aim_within_sphere(n, range);
-    add_child(index, n, aimed_velocity(n, range));
+    add_child(index, n, steps, aimed_velocity(n, range));
     const auto sample = [](const AxisReach::Interval& r, int k, int count) {
       return r.low + (r.high - r.low) * k / (count - 1);
     };
     for (int ix = 0; ix < config_.samples_xy; ++ix) {
       for (int iy = 0; iy < config_.samples_xy; ++iy) {
         for (int iz = 0; iz < config_.samples_z; ++iz) {
-          add_child(index, n,
+          add_child(index, n, steps,
                     {sample(range[0], ix, config_.samples_xy), sample(range[1], iy, config_.samples_xy),
                      sample(range[2], iz, config_.samples_z)});
         }
@@ -250,7 +245,10 @@ class Search {
     return v;
   }
 
-  void add_child(int index, const Node& n, const Vec3& v) {
+  void add_child(int index, const Node& n, const StepReach::Steps& steps, const Vec3& wanted) {
+    const std::optional<Vec3> flyable = reach_.flyable(steps, wanted);
+    if (!flyable) return;
+    const Vec3 v = *flyable;
     Node child;
     child.q = n.q + v * dt_;
     if (!in_sphere(child.q)) return;
@@ -301,7 +299,7 @@ class Search {
   const SplineBasis& basis_;
   const double least_way_;  ///< to go from anywhere in S, m
   Vec3 aim_;                ///< where one child of each node aims
-  std::array<AxisReach, 3>& reach_;
+  StepReach& reach_;
   std::vector<Node>& nodes_;
   std::vector<Entry>& open_;
   KeySet& closed_;

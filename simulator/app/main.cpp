@@ -1,28 +1,33 @@
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <memory>
 
 #include "runtime/data_folder.h"
 #include "runtime/process.h"
+#include "simulator/app/make_vehicle.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/app/simulator_node.h"
 
 int main(int argc, char** argv) {
+  bool recorded = false;
   const tern::ProcessDescription description{
       .name = "tern-simulator",
       .section = "simulator",
-      .summary = "Flies a scenario's vehicle through its world: sensors, executor, referee; ends with FLIGHT_RESULT",
-      .read_sections =
-          [](tern::ConfigDocument& document) {
-            tern::read_simulator_config(document.root().section("simulator"), 0);
-            tern::read_executor_config(document.root().section("executor"));
+      .summary = "The world of a scenario, its sensors and its vehicle, and the referee; ends with FLIGHT_RESULT",
+      .add_options =
+          [&recorded](CLI::App& app) {
+            app.add_flag("--recorded", recorded, "Wait for tern-logger, too: it shall hold all that a replay needs");
           },
-      .example = "simulator: {sensor: {mode: noisy}}"};
-  return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+      .read_sections =
+          [](tern::ConfigDocument& document) { tern::read_simulator_config(document.root().section("simulator"), 0); },
+      .example = "simulator: {sensor: {mode: noisy}, vehicle: quadrotor}"};
+  return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::Scenario& scenario = context.scenario;
-    const auto config = tern::read_simulator_config(context.section, scenario.seed);
-    const auto executor = tern::read_executor_config(context.document.root().section("executor"));
+    auto config = tern::read_simulator_config(context.section, scenario.seed);
+    if (recorded) config.wait_for.emplace_back(tern::kRecorder);
     auto world = tern::make_flyable_world(scenario, config, tern::data_folder(scenario.file, std::getenv("TERN_DATA")));
     if (!world) throw tern::ConfigError(scenario.file + ": world: " + world.error().message);
-    return std::make_unique<tern::SimulatorNode>(context.bus, scenario, std::move(*world), config, executor);
+    auto vehicle = tern::make_vehicle(scenario, config, context.bus.clock().now());
+    return std::make_unique<tern::SimulatorNode>(context.bus, scenario, std::move(*world), std::move(vehicle), config);
   });
 }

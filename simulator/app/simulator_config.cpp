@@ -24,8 +24,10 @@ SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
   sensor.seed = seed;
   sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::at_least(kLeastRate, 100.0), "frames per second");
   const std::string mode =
-      section.choice("mode", "truth", {"truth", "noisy"},
-                     "`truth`: everything at once, with ids; `noisy`: by the keys below, which `truth` does not know");
+      section.choice("mode", "truth", {"none", "truth", "noisy"},
+                     "`none`: no sensor; `truth`: everything at once, with ids; `noisy`: by the keys below, which only "
+                     "it knows");
+  sensor.present = mode != "none";
   if (mode == "noisy") {
     const SensorConfig noisy = perception_only(seed);
     sensor.range_m =
@@ -43,12 +45,30 @@ SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
   return sensor;
 }
 
+void read_vehicle(ConfigSection& section, SimulatorConfig& config) {
+  const std::string vehicle = section.choice(
+      "vehicle", "perfect", {"perfect", "quadrotor", "external"},
+      "`perfect`: is where its setpoints say; `quadrotor`: a body with motors, controller, wind and "
+      "estimator, by the keys below, which `perfect` does not know; `external`: an autopilot behind tern-mavlink");
+  if (vehicle == "perfect") return;
+  if (vehicle == "external") {
+    config.external = true;
+    for (const char* of_a_model : {"quadrotor", "wind", "estimator"}) section.ignore(of_a_model);
+    return;
+  }
+  QuadrotorFlight flight;
+  section.section("quadrotor").read(flight.quadrotor);
+  section.section("wind").read(flight.wind);
+  section.section("estimator").read(flight.estimator);
+  config.quadrotor = flight;
+}
+
 }  // namespace
 
 SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed) {
   SimulatorConfig config;
   config.declare = section.flag("declare", config.declare, "publish DECLARED_MOTIONS; false: perception only");
-  const std::string needed = section.text("wait_for", "tern-predictor, tern-mapper, tern-planner",
+  const std::string needed = section.text("wait_for", "tern-executor, tern-predictor, tern-mapper, tern-planner",
                                           "processes that world time waits for, separated by spaces or commas; `none`");
   config.wait_for = needed == "none" ? std::vector<std::string>{} : words_of(needed);
   config.wait = Duration::from_seconds(
@@ -63,13 +83,8 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
       section.number("min_flight_s", config.min_flight_s, Range::at_least(0.0, 1e5),
                      "an arrival counts only from this world time on, s: a vehicle that guards a place");
   config.sensor = read_sensor(section.section("sensor"), seed);
+  read_vehicle(section, config);
   section.finish();
-  return config;
-}
-
-ExecutorConfig read_executor_config(ConfigSection section) {
-  ExecutorConfig config;
-  section.read(config);
   return config;
 }
 

@@ -3,27 +3,24 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
+#include "core/world/box_cover.h"
 #include "core/world/names.h"
 #include "messages/codec.h"
-#include "simulator/app/beat.h"
+#include "runtime/beat.h"
+#include "simulator/vehicle/external_vehicle.h"
 
 namespace tern {
 namespace {
 
 constexpr Duration kStatePeriod{10'000};
+constexpr Duration kStatusPeriod{100'000};
 constexpr Duration kGoalPeriod{1'000'000};
 constexpr Duration kResultPeriod{200'000};
 constexpr int kResults = 6;
 constexpr Duration kCountdown{300'000};
-constexpr Duration kRefusalLogPeriod{1'000'000};
-/// The sensor's latency is at most 2 s: frames up to that old ask where the vehicle was.
-constexpr Duration kRemembered{3'000'000};
-/// Below this the velocity has no direction worth a yaw, m/s.
-constexpr double kYawSpeed = 0.05;
+constexpr const char* kMapperProcess = "tern-mapper";
 
 UTime whole_ms(UTime t) { return {(t.us + 999) / 1'000 * 1'000}; }
 
@@ -36,43 +33,60 @@ Goal scenario_goal(const Scenario& scenario) {
 
 }  // namespace
 
-SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, const SimulatorConfig& config,
-                             const ExecutorConfig& executor)
+SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, std::unique_ptr<Vehicle> vehicle,
+                             const SimulatorConfig& config)
     : bus_(bus),
       config_(config),
       gate_(config.wait_for, bus.epoch_us(), config.max_clock_skew),
       give_up_at_(bus.clock().now() + config.wait),
-      executor_(scenario.uav, bus.clock().now(), executor),
-      referee_(scenario, std::move(world)),
+      vehicle_(std::move(vehicle)),
+      referee_(scenario, std::move(world), vehicle_->judged_limits()),
       broadcast_(bus, referee_.world(), config, bus.clock().now()),
       next_state_(bus.clock().now()),
+      next_truth_(next_state_),
       next_goal_(next_state_),
-      next_refusal_log_(next_state_) {
+      next_status_(next_state_) {
+  needs_map_ = std::find(config.wait_for.begin(), config.wait_for.end(), kMapperProcess) != config.wait_for.end();
   referee_.set_earliest_arrival(config.min_flight_s);
   referee_.set_goal(std::nullopt);
   if (config.send_goal) take_goal(scenario_goal(scenario));
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
-  bus_.subscribe(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
+  bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
+  bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { vehicle_->hear(setpoint); });
+  bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->hear(m.committed); });
+  if (config.external) hear_external_vehicle();
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
 }
 
 UTime SimulatorNode::next_wakeup() const {
-  UTime next = std::min({next_state_, next_goal_, next_result_, broadcast_.next_wakeup()});
-  return std::min(next, executor_.next_wakeup().value_or(kNever));
+  return std::min({next_state_, next_goal_, next_status_, next_result_, broadcast_.next_wakeup()});
+}
+
+void SimulatorNode::hear_external_vehicle() {
+  auto& external = dynamic_cast<ExternalVehicle&>(*vehicle_);
+  bus_.subscribe(channels::kVehicleTruth, [&external](const UavState& state) { external.hear_truth(state); });
+  bus_.subscribe(channels::kUavState, [&external](const UavState& state) { external.hear_estimate(state); });
 }
 
 void SimulatorNode::step(UTime now) {
-  ask(now);
   if (!world_zero_ && !result_) wait_for_processes(now);
-  broadcast_.step(now, executor_);
-  if (now >= next_state_) {
-    publish_state(now);
+  const bool beat = now >= next_state_;
+  if (beat) vehicle_->advance(now);
+  admit(now);
+  if (beat) {
+    if (!config_.external) publish_state(now);
     judge(now);
     next_state_ = next_beat(next_state_, kStatePeriod, now);
   }
+  broadcast_.step(now, vehicle_->truth());
+  if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
-    if (goal_) bus_.publish(channels::kGoal, *goal_);
-    next_goal_ = next_beat(next_goal_, kGoalPeriod, now);
+    // Nobody shall fly an external vehicle before world time begins, and plans name the GOAL that was heard first: the
+    // log must have it.
+    const bool is_kept =
+        world_zero_ ? !config_.external || now >= *world_zero_ : !config_.external && gate_.records(now);
+    if (goal_ && is_kept) bus_.publish(channels::kGoal, *goal_);
+    next_goal_ = next_beat(next_goal_, is_kept ? kGoalPeriod : kStatePeriod, now);
   }
   if (now >= next_result_) {
     if (results_left_ > 0) bus_.publish(channels::kFlightResult, *result_);
@@ -80,11 +94,16 @@ void SimulatorNode::step(UTime now) {
   }
 }
 
+std::string SimulatorNode::missing(UTime now) const {
+  std::string missing = gate_.missing(now);
+  return missing.empty() && needs_map_ ? "its map, for the referee" : missing;
+}
+
 void SimulatorNode::wait_for_processes(UTime now) {
-  const std::string missing = gate_.missing(now);
+  const std::string missing = this->missing(now);
   if (missing.empty()) {
     world_zero_ = whole_ms(now + kCountdown);
-    executor_.begin(*world_zero_);
+    next_status_ = std::min(next_status_, *world_zero_);
     broadcast_.start(*world_zero_, now);
     spdlog::info("everyone is ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
     if (const std::string clocks = gate_.clocks(); !clocks.empty()) {
@@ -104,21 +123,14 @@ void SimulatorNode::on_heartbeat(const Heartbeat& heartbeat) {
   said_skewed_ = !skewed.empty();
 }
 
-void SimulatorNode::ask(UTime now) {
-  if (const auto request = executor_.next_request(now)) bus_.publish(channels::kHorizonRequest, *request);
-}
-
-void SimulatorNode::on_plan(const Plan& plan) {
-  const UTime now = bus_.clock().now();
-  const Adoption adoption = executor_.consider(plan, now);
-  if (!is_refusal(adoption.verdict)) return;
-  if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
-  ++refusals_unsaid_;
-  if (now < next_refusal_log_) return;
-  spdlog::warn("refused the plan for request {}: {} ({}); {} refused since the last word", plan.request_id,
-               to_string(adoption.verdict), adoption.detail, refusals_unsaid_);
-  refusals_unsaid_ = 0;
-  next_refusal_log_ = now + kRefusalLogPeriod;
+void SimulatorNode::on_map(const MapChunk& chunk) {
+  const Result<bool> complete = map_.add(chunk);
+  if (!complete) return spdlog::error("map {:016x}: {}", chunk.version, complete.error().message);
+  if (!*complete) return;
+  if (const auto taken = referee_.set_map(cover_with_boxes(map_.take(), false)); !taken) {
+    return spdlog::error("map {:016x} is not judged: {}", chunk.version, taken.error().message);
+  }
+  needs_map_ = false;
 }
 
 void SimulatorNode::on_goal(const Goal& goal) {
@@ -131,26 +143,51 @@ void SimulatorNode::on_goal(const Goal& goal) {
 void SimulatorNode::take_goal(const Goal& goal) {
   goal_ = goal;
   if (result_) return;
-  executor_.set_mode(goal.mode);
   referee_.set_goal(goal.mode == GoalMode::Go ? std::optional<Vec3>(goal.position) : std::nullopt);
 }
 
 void SimulatorNode::publish_state(UTime now) {
-  UavState state;
-  state.at = now;
-  state.motion = executor_.sample(now);
-  const Vec3& v = state.motion.v;
-  if (v.head<2>().norm() > kYawSpeed) yaw_ = std::atan2(v.y(), v.x());
-  state.yaw = yaw_;
-  bus_.publish(channels::kUavState, state);
-  bus_.publish(channels::kSetpoint, state);
+  bus_.publish(channels::kUavState, vehicle_->estimate(now));
+  UavState truth = vehicle_->true_state();
+  const UTime end = std::min(now, truth.at);
+  for (; next_truth_ <= end; next_truth_ = next_truth_ + kStatePeriod) {
+    truth.at = next_truth_;
+    truth.motion = vehicle_->truth().sample(next_truth_);
+    bus_.publish(channels::kVehicleTruth, truth);
+  }
+}
+
+std::string SimulatorNode::why_not_flying(UTime now) const {
+  if (result_) return "the flight has ended";
+  if (!world_zero_ || now < *world_zero_) return "world time has not begun";
+  return "";
+}
+
+void SimulatorNode::publish_status(UTime now) {
+  VehicleStatus status = vehicle_->status(now);
+  if (const std::string why = why_not_flying(now); !why.empty()) {
+    status.following = false;
+    status.why_not = why;
+  }
+  bus_.publish(channels::kVehicleStatus, status);
+  next_status_ = next_beat(next_status_, kStatusPeriod, now);
+  if (world_zero_ && now < *world_zero_) next_status_ = std::min(next_status_, *world_zero_);
+}
+
+void SimulatorNode::admit(UTime now) {
+  if (!world_zero_ || now < *world_zero_) return;
+  const MotionHistory& flown = vehicle_->truth();
+  referee_.admit((now - *world_zero_).seconds(), [&](double t_s) {
+    return flown.sample(std::min(*world_zero_ + Duration::from_seconds(t_s), flown.end())).p;
+  });
 }
 
 void SimulatorNode::judge(UTime now) {
-  if (!world_zero_ || result_ || now <= *world_zero_ + referee_.now()) return;
+  if (!world_zero_ || result_) return;
   const UTime from = *world_zero_ + referee_.now();
-  for (const CubicPiece& piece : executor_.pieces(from, now).pieces) referee_.advance(referee_.now(), piece);
-  executor_.forget_before(now - kRemembered);
+  const UTime to = std::min(now, vehicle_->truth().end());
+  if (to <= from) return;
+  for (const CubicPiece& piece : vehicle_->truth().pieces(from, to).pieces) referee_.advance(referee_.now(), piece);
   if (const auto verdict = referee_.verdict()) end_flight(*verdict, 0, now);
 }
 
@@ -158,26 +195,14 @@ void SimulatorNode::end_flight(const FlightResult& result, int exit_code, UTime 
   result_ = result;
   exit_code_ = exit_code;
   results_left_ = kResults;
-  next_result_ = now;
-  executor_.set_mode(GoalMode::Stop);
-  log_end();
-}
-
-void SimulatorNode::log_end() const {
-  const ExecutorCounters& counters = executor_.counters();
+  next_result_ = next_status_ = now;
   spdlog::info("flight ended: {} {} after {:.2f} s", to_string(result_->outcome), result_->detail,
                result_->flight_time_s);
-  spdlog::info("requests {}, answered in time {}, unanswered {}, late {}, answered twice {}", counters.requests,
-               counters.answered_in_time, counters.unanswered, counters.late(), counters.answered_twice());
-  for (int k = 0; k < kVerdicts; ++k) {
-    const auto verdict = static_cast<Verdict>(k);
-    if (counters.of(verdict) > 0) spdlog::info("plans {}: {}", to_string(verdict), counters.of(verdict));
-  }
 }
 
 NodeHealth SimulatorNode::health() const {
   if (result_) return {exit_code_ == 0 ? ProcessState::Finished : ProcessState::Failed, ""};
-  if (!world_zero_) return {ProcessState::Waiting, gate_.missing(bus_.clock().now())};
+  if (!world_zero_) return {ProcessState::Waiting, missing(bus_.clock().now())};
   if (!goal_) return {ProcessState::Waiting, "a goal"};
   if (const std::string skewed = gate_.skewed(); !skewed.empty()) return {ProcessState::Waiting, skewed};
   return {ProcessState::Ready, broadcast_.trouble()};

@@ -1,69 +1,76 @@
-// tern-simulator: the world, its sensor, the vehicle that flies plans, and the referee. Perfect tracking.
+// tern-simulator: the world, its sensor, the vehicle that follows setpoints, and the referee.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "core/world/flight_result.h"
 #include "core/world/goal.h"
 #include "core/world/horizon.h"
-#include "executor/executor.h"
+#include "core/world/voxel_map.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/app/start_gate.h"
 #include "simulator/app/world_broadcast.h"
 #include "simulator/referee/referee.h"
+#include "simulator/vehicle/vehicle.h"
 
 namespace tern {
 
 inline constexpr int kExitNotReady = 3;  ///< a process that the flight needs was not ready in time
 
 /// A flight has three parts.
-///   Waiting: everything rests and is declared so, until every process of config.wait_for says Ready. After config.wait
-///   the
-///     flight has failed, FLIGHT_RESULT names who is missing, and the exit code is kExitNotReady.
-///   Flying: from world zero on (0.3 s after the last process was ready, a whole ms) the world moves, the executor asks
-///   for
-///     horizons while there is a goal, and the referee watches.
-///   Ended: FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit code is 0 whatever the
-///   verdict.
+///   Waiting: everything rests and is declared so, until every process of config.wait_for says Ready, and the map of
+///     a mapper among them is here: the referee judges its occupied voxels too. After config.wait
+///     the flight has failed, FLIGHT_RESULT names who is missing, and the exit code is kExitNotReady.
+///   Flying: from world zero on (0.3 s after the last process was ready, a whole ms) the world moves, VEHICLE_STATUS
+///     says that the vehicle follows, upon which the executor asks for horizons, and the referee watches.
+///   Ended: VEHICLE_STATUS says so, FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit
+///     code is 0 whatever the verdict.
+/// The referee judges the vehicle's true motion. UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so.
 /// The goal is the scenario's (id 1, unless config.send_goal is false) until a GOAL with a larger id comes; the newest
 /// is repeated at 1 Hz.
 class SimulatorNode final : public Node {
  public:
   /// Time begins at bus.clock().now().
-  SimulatorNode(Bus& bus, const Scenario& scenario, World world, const SimulatorConfig& config,
-                const ExecutorConfig& executor);
+  SimulatorNode(Bus& bus, const Scenario& scenario, World world, std::unique_ptr<Vehicle> vehicle,
+                const SimulatorConfig& config);
 
   [[nodiscard]] UTime next_wakeup() const override;
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
   [[nodiscard]] std::optional<int> finished() const override;
 
-  [[nodiscard]] const Executor& executor() const { return executor_; }
+  [[nodiscard]] const Vehicle& vehicle() const { return *vehicle_; }
   [[nodiscard]] const std::optional<FlightResult>& result() const { return result_; }
   [[nodiscard]] std::optional<UTime> world_zero() const { return world_zero_; }
 
  private:
+  void hear_external_vehicle();
   void on_heartbeat(const Heartbeat& heartbeat);
   void on_goal(const Goal& goal);
-  void on_plan(const Plan& plan);
+  void on_map(const MapChunk& chunk);
   void take_goal(const Goal& goal);
+  [[nodiscard]] std::string missing(UTime now) const;
   void wait_for_processes(UTime now);
-  void ask(UTime now);
   void publish_state(UTime now);
+  void publish_status(UTime now);
+  [[nodiscard]] std::string why_not_flying(UTime now) const;
+  void admit(UTime now);
   void judge(UTime now);
   void end_flight(const FlightResult& result, int exit_code, UTime now);
-  void log_end() const;
 
   Bus& bus_;
   SimulatorConfig config_;
   StartGate gate_;
   UTime give_up_at_;
-  Executor executor_;
+  std::unique_ptr<Vehicle> vehicle_;
   Referee referee_;
+  MapAssembler map_;
+  bool needs_map_ = false;    ///< the flight waits for a mapper, whose map the referee has not got yet
   WorldBroadcast broadcast_;  // of the referee's world
   std::optional<Goal> goal_;
   std::optional<UTime> world_zero_;
@@ -71,10 +78,7 @@ class SimulatorNode final : public Node {
   int exit_code_ = 0;
   int results_left_ = 0;
   bool said_skewed_ = false;
-  double yaw_ = 0.0;  // rad, along the last horizontal velocity
-  UTime next_state_, next_goal_, next_result_ = kNever;
-  UTime next_refusal_log_;
-  std::int64_t refusals_unsaid_ = 0;
+  UTime next_state_, next_truth_, next_goal_, next_status_, next_result_ = kNever;
 };
 
 }  // namespace tern

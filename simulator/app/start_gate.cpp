@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tern {
 namespace {
 
@@ -36,6 +38,12 @@ std::string StartGate::skew_of(const Heard& heard) const {
       "its clock is {:.1f} ms {} the vehicle's, more than {:g} ms and half a round trip of {:.1f} ms: synchronize the "
       "hosts' clocks",
       milliseconds(skew), behind ? "behind" : "ahead of", milliseconds(max_skew_), milliseconds(reading->round_trip));
+}
+
+bool StartGate::records(UTime now) const {
+  if (std::find(needed_.begin(), needed_.end(), kRecorder) == needed_.end()) return true;
+  const auto found = heard_.find(kRecorder);
+  return found != heard_.end() && found->second.state == ProcessState::Ready && now - found->second.at <= kHeartbeatAge;
 }
 
 std::string StartGate::missing(UTime now) const {

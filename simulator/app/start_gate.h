@@ -17,6 +17,9 @@ namespace tern {
 /// far ahead takes as much from the 66 ms that the planner has.
 inline constexpr Duration kMaxClockSkew{10'000};
 
+/// Whom a flight that is recorded waits for, too.
+inline constexpr const char* kRecorder = "tern-logger";
+
 /// Listens to heartbeats. A process is ready when its newest heartbeat says Ready, is at most kHeartbeatAge old, and
 /// its clock was compared with the listener's and is not surely beyond max_skew: ahead or behind by more than max_skew
 /// and half the round trip, by which a measurement may be off. So no delay of the network, alike both ways or not, is
@@ -36,6 +39,8 @@ class StartGate {
   /// Who is not ready, and what each is waiting for: "tern-planner (waits for a map), tern-mapper (not heard)". Empty
   /// when everyone is ready.
   [[nodiscard]] std::string missing(UTime now) const;
+  /// Whether the log, if one is waited for, will hold what is published from now on.
+  [[nodiscard]] bool records(UTime now) const;
   /// Whose clock is surely beyond max_skew, by how much, and what to do, in the same form. Empty when nobody's is.
   [[nodiscard]] std::string skewed() const;
   /// "tern-planner +0.3 ms (round trip 0.2 ms), tern-mapper -0.1 ms (round trip 0.1 ms)": the needed ones' clocks that

@@ -12,7 +12,7 @@
 #include "core/world/track_order.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
-#include "simulator/app/beat.h"
+#include "runtime/beat.h"
 #include "simulator/worlds/declared_motions.h"
 
 namespace tern {
@@ -100,8 +100,9 @@ void WorldBroadcast::start(UTime world_zero, UTime now) {
 }
 
 UTime WorldBroadcast::next_wakeup() const {
-  const UTime frame = frame_arrives(config_.sensor, frames_zero_, frame_);
-  return std::min({frame, next_truth_, config_.declare ? declared_due() : frame});
+  UTime next = next_truth_;
+  if (config_.sensor.present) next = std::min(next, frame_arrives(config_.sensor, frames_zero_, frame_));
+  return config_.declare ? std::min(next, declared_due()) : next;
 }
 
 UTime WorldBroadcast::declared_due() const {
@@ -109,10 +110,10 @@ UTime WorldBroadcast::declared_due() const {
   return std::min(next_declared_, std::max(world_zero_ + appearances_.front(), last_declared_ + kDeclaredApart));
 }
 
-void WorldBroadcast::step(UTime now, const Executor& uav) {
-  publish_observations(now, uav);
+void WorldBroadcast::step(UTime now, const MotionHistory& uav) {
+  if (config_.sensor.present) publish_observations(now, uav);
   if (config_.declare && now >= declared_due()) {
-    publish_declared(now, uav.sample(now).p);
+    publish_declared(now, uav.sample(std::min(now, uav.end())).p);
     if (now >= next_declared_) next_declared_ = next_beat(next_declared_, kDeclaredPeriod, now);
   }
   if (now >= next_truth_) {
@@ -128,9 +129,9 @@ void WorldBroadcast::choose_epoch() {
   frame_ = 0;
 }
 
-void WorldBroadcast::publish_observations(UTime now, const Executor& uav) {
+void WorldBroadcast::publish_observations(UTime now, const MotionHistory& uav) {
   for (choose_epoch(); frame_arrives(config_.sensor, frames_zero_, frame_) <= now; choose_epoch()) {
-    const Vec3 eye = uav.sample(frame_taken(config_.sensor, frames_zero_, frame_)).p;
+    const Vec3 eye = uav.sample(std::min(frame_taken(config_.sensor, frames_zero_, frame_), uav.end())).p;
     const World& seen = frames_rest_ ? resting_ : world_;
     bus_.publish(channels::kObstacleObservations, observe(seen, config_.sensor, frames_zero_, frame_, eye));
     ++frame_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "executor/executor.h"
+#include "core/splines/motion_history.h"
 #include "runtime/bus.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/worlds/coarse_motions.h"
@@ -37,13 +37,13 @@ class WorldBroadcast {
 
   void start(UTime world_zero, UTime now);
   [[nodiscard]] UTime next_wakeup() const;
-  /// Publishes what is due; the sensor is where `uav` was when a frame was taken.
-  void step(UTime now, const Executor& uav);
+  /// Publishes what is due; the sensor is where the vehicle truly was when a frame was taken.
+  void step(UTime now, const MotionHistory& uav);
   /// Motions that the newest declaration had to leave out, in words; empty: none.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
-  void publish_observations(UTime now, const Executor& uav);
+  void publish_observations(UTime now, const MotionHistory& uav);
   void publish_declared(UTime now, const Vec3& uav);
   void say_left_out(std::int32_t left_out, std::size_t of);
   void publish_truth(UTime now);

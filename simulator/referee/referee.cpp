@@ -14,16 +14,27 @@ namespace {
 constexpr std::int64_t kStepUs = 10'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+UavSpec with_limits(UavSpec uav, const Limits& limits) {
+  uav.limits = limits;
+  return uav;
+}
+
 }  // namespace
 
-Referee::Referee(const Scenario& scenario, World world)
+Referee::Referee(const Scenario& scenario, World world, const Limits& judged)
     : uav_(scenario.uav),
       goal_(scenario.uav.goal),
       world_(std::move(world)),
+      appearances_(world_),
       timeout_s_(flight_timeout_s(scenario)),
       clearance_(world_, uav_.body),
-      limits_(uav_, BodyDistance(uav_.body).bounds()),
-      measures_(scenario.semantics.regions) {}
+      limits_(with_limits(uav_, judged), BodyDistance(uav_.body).bounds()),
+      measures_(scenario.semantics.regions),
+      left_out_(world_.left_out) {}
+
+void Referee::admit(double t_s, const std::function<Vec3(double)>& vehicle) {
+  left_out_ += appearances_.admit(world_, t_s, vehicle);
+}
 
 void Referee::advance(Duration start, const CubicPiece& piece) {
   if (start != now_ || piece.duration <= Duration{}) {
@@ -49,10 +60,15 @@ void Referee::step(const FlownPiece& piece, double t0_s, double t1_s) {
   double end_s = arrived_s.value_or(last);
   const auto contact = clearance_.advance(piece, t0_s, end_s);
   if (contact) end_s = contact->time_s;
+  const auto scrape = map_clearance_ ? map_clearance_->advance(piece, t0_s, end_s) : std::nullopt;
+  if (map_clearance_) least_map_clearance_m_ = std::min(least_map_clearance_m_, map_clearance_->min_clearance());
+  if (scrape) end_s = scrape->time_s;
   limits_.advance(piece, t0_s, end_s);
   if (goal_ && !first_entry_s_) first_entry_s_ = first_entry(piece, t0_s, end_s, *goal_);
-  measures_.advance(piece, t0_s, end_s, arrived_s && !contact);
-  if (contact) return end(FlightOutcome::Collision, end_s, describe(*contact, piece.at(end_s).p));
+  measures_.advance(piece, t0_s, end_s, arrived_s && !contact && !scrape);
+  if (scrape || contact) ++(piece.at(end_s).v.norm() > kRestSpeed ? contacts_moving_ : contacts_at_rest_);
+  if (scrape) return end(FlightOutcome::Collision, end_s, describe(*scrape, "the map", piece.at(end_s).p));
+  if (contact) return end(FlightOutcome::Collision, end_s, describe(*contact, name_of(*contact), piece.at(end_s).p));
   if (arrived_s && limits_.violations() == 0) return end(FlightOutcome::Reached, end_s, {});
   if (arrived_s) {
     return end(FlightOutcome::Failed, end_s,
@@ -79,11 +95,31 @@ void Referee::end(FlightOutcome outcome, double t_s, std::string detail) {
   detail_ = std::move(detail);
 }
 
-std::string Referee::describe(const Contact& contact, const Vec3& p) const {
+std::string Referee::name_of(const Contact& contact) const {
   const std::string& name = world_.obstacles[static_cast<std::size_t>(contact.id)].spec().name;
+  return fmt::format("obstacle {}{}", contact.id, name.empty() ? std::string() : fmt::format(" '{}'", name));
+}
+
+std::string Referee::describe(const Contact& contact, const std::string& what, const Vec3& p) const {
   const char* how = contact.time_s > 0.0 ? "touched" : "the start lies in";
-  return fmt::format("{} obstacle {}{} at {:.3f} s, position ({:.3f}, {:.3f}, {:.3f}) m", how, contact.id,
-                     name.empty() ? std::string() : fmt::format(" '{}'", name), contact.time_s, p.x(), p.y(), p.z());
+  return fmt::format("{} {} at {:.3f} s, position ({:.3f}, {:.3f}, {:.3f}) m", how, what, contact.time_s, p.x(), p.y(),
+                     p.z());
+}
+
+Result<void> Referee::set_map(const std::vector<Box>& occupied) {
+  World map;
+  for (const Box& box : occupied) {
+    ObstacleSpec spec;
+    spec.centre = box.center();
+    spec.half_extents = 0.5 * box.sizes();
+    auto obstacle = WorldObstacle::make(static_cast<std::int64_t>(map.obstacles.size()), std::move(spec));
+    if (!obstacle) return tl::unexpected(obstacle.error());
+    map.obstacles.push_back(std::move(*obstacle));
+  }
+  map_clearance_.reset();
+  map_ = std::move(map);
+  if (!occupied.empty()) map_clearance_.emplace(map_, uav_.body);
+  return {};
 }
 
 std::string Referee::describe_timeout(const Vec3& p) const {
@@ -94,6 +130,12 @@ std::string Referee::describe_timeout(const Vec3& p) const {
 std::optional<FlightResult> Referee::verdict() const {
   if (!outcome_) return std::nullopt;
   return result_so_far();
+}
+
+std::int64_t Referee::obstacles_met() const {
+  const double until = outcome_ ? end_s_ : now_.seconds();
+  return std::count_if(world_.obstacles.begin(), world_.obstacles.end(),
+                       [&](const WorldObstacle& o) { return o.first_s() <= until && o.last_s() >= 0.0; });
 }
 
 FlightResult Referee::result_so_far() const {
@@ -109,9 +151,14 @@ FlightResult Referee::result_so_far() const {
   }
   result.top_speed_mps = measures_.top_speed_mps();
   result.min_clearance_m = std::isfinite(clearance_.min_clearance()) ? clearance_.min_clearance() : kNaN;
+  result.min_map_clearance_m = std::isfinite(least_map_clearance_m_) ? least_map_clearance_m_ : kNaN;
   result.jerk_integral = measures_.jerk_integral();
   result.stops = measures_.stops();
   result.limit_violations = limits_.violations();
+  result.contacts_moving = contacts_moving_;
+  result.contacts_at_rest = contacts_at_rest_;
+  result.obstacles = obstacles_met();
+  result.obstacles_left_out = left_out_;
   result.exposure = measures_.exposure();
   return result;
 }

@@ -11,6 +11,7 @@ namespace tern {
 
 /// A sensor. The default tells the truth at once.
 struct SensorConfig {
+  bool present = true;  ///< false: there is no sensor, nothing is published
   std::int32_t sensor_id = 0;
   double rate_hz = 30.0;        ///< frames per second, > 0
   double range_m = 0.0;         ///< sees boxes whose nearest point is this near, ≥ 0; 0: without limit

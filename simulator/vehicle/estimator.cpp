@@ -16,9 +16,9 @@ Vec3 Estimator::normal() {
   return {x, y, z};
 }
 
-void Estimator::jump() {
+void Estimator::jump(double metres) {
   const double direction = rng_.uniform(0.0, 2.0 * std::numbers::pi);
-  jumped_ += spec_.jump_m * Vec3(std::cos(direction), std::sin(direction), 0.0);
+  jumped_ += metres * Vec3(std::cos(direction), std::sin(direction), 0.0);
   ++jumps_;
 }
 
@@ -35,7 +35,7 @@ void Estimator::advance(double dt) {
   if (spec_.jump_m <= 0.0) return;
   const bool now = spec_.jump_at_s > before && spec_.jump_at_s <= time_s_;
   const bool drawn = spec_.jump_every_s > 0.0 && rng_.uniform() < dt / spec_.jump_every_s;
-  if (now || drawn) jump();
+  if (now || drawn) jump(spec_.jump_m);
 }
 
 }  // namespace tern

@@ -43,11 +43,12 @@ class Estimator {
   void advance(double dt);
   [[nodiscard]] Vec3 position_error() const { return noise_ + bias_ + jumped_; }  ///< estimate − truth, m
   [[nodiscard]] Vec3 velocity_error() const { return velocity_; }                 ///< m/s
-  [[nodiscard]] int jumps() const { return jumps_; }                              ///< so far
+  /// Jumps now by so many metres, level, in any direction.
+  void jump(double metres);
+  [[nodiscard]] int jumps() const { return jumps_; }  ///< so far
 
  private:
   Vec3 normal();
-  void jump();
   EstimatorSpec spec_;
   Rng rng_;
   double time_s_ = 0.0;

@@ -19,7 +19,10 @@ class PerfectVehicle final : public Vehicle {
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return command_.settled(); }
   [[nodiscard]] UavState true_state() const override { return state_at(truth().end()); }
-  [[nodiscard]] UavState estimate(UTime now) override { return state_at(now); }
+  /// At its newest setpoint while it does not know what comes after it.
+  [[nodiscard]] UavState estimate(UTime now) override {
+    return state_at(command_.is_committed() ? now : truth().end());
+  }
   [[nodiscard]] VehicleStatus status(UTime now) const override;
   [[nodiscard]] Limits judged_limits() const override { return limits_; }
 

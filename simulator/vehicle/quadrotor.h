@@ -5,10 +5,9 @@
 
 #include "core/base/knobs.h"
 #include "core/base/types.h"
+#include "core/world/vehicle.h"
 
 namespace tern {
-
-inline constexpr double kGravity = 9.80665;  ///< m/s²
 
 using Rotors = std::array<double, 4>;
 

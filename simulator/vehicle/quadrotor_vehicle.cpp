@@ -1,117 +1,72 @@
 #include "simulator/vehicle/quadrotor_vehicle.h"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tern {
 namespace {
 
-/// Seeds of wind and estimator share nothing.
-constexpr std::uint64_t kWindSeed = 0x9e3779b97f4a7c15ULL, kEstimatorSeed = 0xc2b2ae3d27d4eb4fULL;
-
-double yaw_of(const Eigen::Quaterniond& q) {
-  const Vec3 x = q * Vec3::UnitX();
-  return std::atan2(x.y(), x.x());
-}
+/// Of a piece of the truth: cubics through the model's states are then within a micrometre of it.
+constexpr Duration kPiece{5'000};
+constexpr Duration kRemembered{4'000'000};
 
 }  // namespace
 
-FlightControllerSpec QuadrotorConfig::controller_for(const QuadrotorSpec& body) {
-  FlightControllerSpec gains;
-  gains.drag_per_s = body.drag_per_s;
-  gains.lead_s = 1.0 / gains.attitude_p;
-  return gains;
-}
-
-QuadrotorVehicle::QuadrotorVehicle(const QuadrotorConfig& config, const WindSpec& wind, const EstimatorSpec& estimator,
-                                   std::uint64_t seed, const Vec3& start, double ground_z, UTime now)
-    : config_(config),
-      wind_(wind, seed ^ kWindSeed),
-      estimator_(estimator, seed ^ kEstimatorSeed),
-      latency_(Duration::from_seconds(estimator.latency_s)),
-      controller_(config.body, config.controller),
-      state_(start.z() > ground_z ? hovering(config.body, start, 0.0) : standing(config.body, start, 0.0)),
-      ground_z_(ground_z),
-      time_(now) {
-  start_.motion.p = start;
-}
-
-FlightCommand QuadrotorVehicle::commanded() const {
-  const UavState& newest = command_ ? *command_ : start_;
-  FlightCommand command;
-  command.motion = newest.motion;
-  command.yaw = newest.yaw;
-  if (!command_) return command;
-  const double t = std::clamp(time_ - newest.at, Duration{}, kHeldFor).seconds();
-  MotionSample& m = command.motion;
-  m.p += t * (m.v + t * (m.a / 2.0 + t * m.j / 6.0));
-  m.v += t * (m.a + t * m.j / 2.0);
-  m.a += t * m.j;
-  if (time_ - newest.at > kHeldFor) m.v = m.a = m.j = Vec3::Zero();
-  return command;
-}
-
-FlightEstimate QuadrotorVehicle::believed() const {
-  FlightEstimate e;
-  e.p = state_.p + estimator_.position_error();
-  e.v = state_.v + estimator_.velocity_error();
-  e.a = acceleration(config_.body, state_, wind_.velocity());
-  e.q = state_.q;
-  e.w = state_.w;
-  return e;
-}
-
-void QuadrotorVehicle::step_once() {
-  const double dt = kVehicleStep.seconds();
-  Rotors rotors;
-  rotors.fill(config_.body.least_thrust * config_.body.largest_thrust());
-  if (armed_) {
-    rotors = controller_.update(commanded(), believed(), dt);
-  } else {
-    controller_.reset();
-  }
-  const Vec3 air = wind_.velocity();
-  state_ = step(config_.body, state_, rotors, air, ground_z_, dt);
-  wind_.advance((state_.v - air).norm(), dt);
-  estimator_.advance(dt);
-  time_ = time_ + kVehicleStep;
+QuadrotorVehicle::QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& flight, std::uint64_t seed, UTime now)
+    : estimator_(flight.estimator),
+      model_(flight.quadrotor, flight.wind, flight.estimator, seed, uav.start, uav.flight_box.min().z(), now),
+      command_(uav.start, now, uav.limits),
+      truth_(uav.start, now),
+      newest_{.p = uav.start} {
+  said_.at = now;
+  said_.motion.p = uav.start;
 }
 
 void QuadrotorVehicle::advance(UTime now) {
-  while (time_ + kVehicleStep <= now) {
-    step_once();
-    if (latency_ > Duration{}) unsaid_.push_back(estimate());
+  command_.settle(now - kSetpointSilence);
+  while (truth_.end() + kPiece <= now) {
+    const UTime end = truth_.end() + kPiece;
+    for (UTime t = truth_.end(); t < end; t = t + kVehicleStep) {
+      UavState command;
+      command.at = t;
+      command.motion = command_.sample(t);
+      command.yaw = command_.yaw();
+      model_.command(command);
+      model_.advance(t + kVehicleStep);
+    }
+    const MotionSample reached = model_.truth().motion;
+    truth_.append(hermite_piece(newest_, reached, kPiece));
+    newest_ = reached;
   }
+  command_.forget_before(now - kRemembered);
+  truth_.forget_before(now - kRemembered);
 }
 
-VehicleTruth QuadrotorVehicle::truth() const {
-  VehicleTruth truth;
-  truth.at = time_;
-  truth.motion.p = state_.p;
-  truth.motion.v = state_.v;
-  if (!state_.on_ground) truth.motion.a = acceleration(config_.body, state_, wind_.velocity());
-  truth.q = state_.q;
-  truth.w = state_.w;
-  truth.on_ground = state_.on_ground;
-  return truth;
-}
-
-UavState QuadrotorVehicle::estimate() const {
-  const FlightEstimate believed_now = believed();
-  UavState state;
-  state.at = time_;
-  state.motion.p = believed_now.p;
-  state.motion.v = believed_now.v;
-  state.motion.a = truth().motion.a;
-  state.yaw = yaw_of(believed_now.q);
+UavState QuadrotorVehicle::true_state() const {
+  UavState state = model_.estimate();
+  state.at = truth_.end();
+  state.motion = newest_;
   return state;
 }
 
-std::optional<UavState> QuadrotorVehicle::said_estimate() {
-  if (latency_ <= Duration{}) return estimate();
-  while (unsaid_.size() > 1 && unsaid_[1].at <= time_ - latency_) unsaid_.pop_front();
-  if (unsaid_.empty() || unsaid_.front().at > time_ - latency_) return std::nullopt;
-  return unsaid_.front();
+UavState QuadrotorVehicle::estimate(UTime) {
+  if (const auto said = model_.said_estimate()) said_ = *said;
+  return said_;
+}
+
+VehicleStatus QuadrotorVehicle::status(UTime now) const {
+  VehicleStatus status;
+  status.at = now;
+  status.armed = status.following = true;
+  status.mode = "quadrotor";
+  status.position_sigma = Vec3::Constant(std::hypot(estimator_.position_sigma_m, estimator_.drift_m));
+  status.resets = model_.resets();
+  return status;
+}
+
+Limits QuadrotorVehicle::judged_limits() const {
+  const Vec3 none = Vec3::Constant(std::numeric_limits<double>::infinity());
+  return {none, none, none};
 }
 
 }  // namespace tern

@@ -126,7 +126,7 @@ bool refused(const ObstacleSpec& o, const Vec3& start, const Vec3& goal) {
 }  // namespace
 
 Result<GeneratedObstacles> generate(const std::string& generator, int count, std::uint64_t seed, const Vec3& start,
-                                    const Vec3& goal) {
+                                    const Vec3& goal, std::optional<double> slowness) {
   if (generator == "step_aside") return GeneratedObstacles{draw_step_aside(seed, start).movers, 0};
   const Draw draw = find_generator(generator);
   if (draw == nullptr) {
@@ -139,14 +139,20 @@ Result<GeneratedObstacles> generate(const std::string& generator, int count, std
   GeneratedObstacles made;
   made.obstacles.reserve(static_cast<std::size_t>(count));
   Rng rng(seed);
-  for (int i = 0; i < count; ++i) {
+  const auto draw_next = [&](int i) {
     ObstacleSpec o = draw(rng, role_of(i, count));
+    if (auto* trefoil = std::get_if<TrefoilMotion>(&o.motion); trefoil != nullptr && slowness)
+      trefoil->slowness = *slowness;
+    return o;
+  };
+  for (int i = 0; i < count; ++i) {
+    ObstacleSpec o = draw_next(i);
     for (int again = 0; refused(o, start, goal); ++again, ++made.redrawn) {
       if (again == kMaxRedraws) {
         return fail(fmt::format("generator {}, seed {}: no place for obstacle {} clear of start and goal in {} draws",
                                 generator, seed, i, kMaxRedraws));
       }
-      o = draw(rng, role_of(i, count));
+      o = draw_next(i);
     }
     made.obstacles.push_back(std::move(o));
   }

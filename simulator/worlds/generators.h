@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,8 @@ struct GeneratedObstacles {
 /// kEndClearance of start or goal, or when it moves and is within kEndClearance of the goal at all of 256 instants of
 /// its period.
 /// @return an Error for an unknown generator, a count outside 0 … 100000, or a rule that refuses 1000 draws in a row.
+/// @param slowness  of all trefoils, instead of what was drawn
 Result<GeneratedObstacles> generate(const std::string& generator, int count, std::uint64_t seed, const Vec3& start,
-                                    const Vec3& goal);
+                                    const Vec3& goal, std::optional<double> slowness = {});
 
 }  // namespace tern

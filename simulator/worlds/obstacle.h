@@ -52,6 +52,11 @@ class WorldObstacle {
   [[nodiscard]] double first_s() const { return first_s_; }  ///< present from here on (−∞ where it always was)
   [[nodiscard]] double last_s() const { return last_s_; }    ///< present until here (∞ where it always will be)
   [[nodiscard]] bool present(double t_s) const { return t_s >= first_s_ && t_s <= last_s_; }
+  /// From now on it never was and never will be there: present from a time that no flight reaches to one before all.
+  void leave_out() {
+    first_s_ = 1e9;
+    last_s_ = -1e9;
+  }
 
   /// Position and velocity at t_s; while absent: where it appears next or was last, at rest. O(1), O(log n) for
   /// waypoints.

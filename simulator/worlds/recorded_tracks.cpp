@@ -24,7 +24,8 @@ std::string wrong_spec(const RecordedTracksSpec& spec) {
   if (spec.columns < 1 || spec.columns > kMaxTrackColumns) {
     return fmt::format("columns {}, not in [1, {}]", spec.columns, kMaxTrackColumns);
   }
-  for (const int c : {spec.id_column, spec.frame_column, spec.x_column, spec.y_column, spec.z_column.value_or(0)}) {
+  for (const int c :
+       {std::max(spec.id_column, 0), spec.frame_column, spec.x_column, spec.y_column, spec.z_column.value_or(0)}) {
     if (c < 0 || c >= spec.columns) return fmt::format("column {} of {}: columns count from 0", c, spec.columns);
   }
   if (!(spec.metres_per_unit > 0.0 && spec.metres_per_unit <= 1e6)) {
@@ -73,7 +74,7 @@ std::string read_row(std::string_view line, int columns, std::vector<double>& nu
 std::string add_row(const std::vector<double>& row, const RecordedTracksSpec& spec,
                     std::map<std::int64_t, RecordedTrack>& tracks) {
   const auto number = [&](int column) { return row[static_cast<std::size_t>(column)]; };
-  const double id = number(spec.id_column);
+  const double id = spec.id_column < 0 ? 0.0 : number(spec.id_column);
   if (id != std::floor(id) || std::abs(id) > kMaxWholeId) return fmt::format("id {} is not a whole number", id);
   const double time = number(spec.frame_column) / spec.frames_per_second;
   if (std::abs(time) > WorldObstacle::kMaxCoordinate) {
@@ -92,6 +93,7 @@ std::string add_row(const std::vector<double>& row, const RecordedTracksSpec& sp
     return fmt::format("id {}: frame {} after frame {}, frames must ascend", track.id, number(spec.frame_column),
                        track.points.back().first * spec.frames_per_second);
   }
+  if (!track.points.empty() && time < track.points.back().first + spec.least_step_s) return {};
   track.points.emplace_back(time, p);
   return {};
 }
@@ -180,19 +182,20 @@ Result<std::vector<RecordedTrack>> load_recorded_tracks(const std::string& path,
 
 Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
                               const Vec3& start) {
-  if (!spec.wait_for_clear_start) return spec.start_s;
+  const double wanted = spec.start_s.value_or(0.0);
+  if (!spec.wait_for_clear_start) return wanted;
   double last_s = -std::numeric_limits<double>::infinity();
   for (const RecordedTrack& track : tracks) last_s = std::max(last_s, track.points.back().first);
   const std::vector<double> crowded = crowded_instants(tracks, start);
   const double rate = spec.frames_per_second;
-  for (double frame = std::ceil(spec.start_s * rate); frame / rate <= last_s;) {
+  for (double frame = std::ceil(wanted * rate); frame / rate <= last_s;) {
     const double t = frame / rate;
     const auto next = std::lower_bound(crowded.begin(), crowded.end(), t);
     if (next == crowded.end() || *next > t + kStartQuiet) return t;
     frame = std::max(frame, std::floor(*next * rate)) + 1.0;
   }
   return fail(fmt::format("{}: no frame from {} s to the last at {} s leaves the start clear by {} m for {} s",
-                          spec.file, spec.start_s, last_s, kStartClearance, kStartQuiet));
+                          spec.file, wanted, last_s, kStartClearance, kStartQuiet));
 }
 
 std::vector<ObstacleSpec> recorded_obstacles(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
@@ -202,6 +205,7 @@ std::vector<ObstacleSpec> recorded_obstacles(const std::vector<RecordedTrack>& t
   for (const RecordedTrack& track : tracks) {
     WaypointMotion motion;
     motion.vanish = true;
+    motion.leave_out_within_m = spec.leave_out_within_m;
     motion.points.reserve(track.points.size());
     for (const auto& [t, p] : track.points) motion.points.emplace_back(whole_microseconds(t - start_s), p);
     if (motion.points.size() < 2 || motion.points.back().first <= 0.0) continue;

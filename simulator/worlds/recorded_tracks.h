@@ -19,7 +19,7 @@ inline constexpr int kMaxTrackColumns = 64;
 
 /// One person's path as recorded: straight lines between frames; absent before the first and after the last.
 struct RecordedTrack {
-  std::int64_t id = 0;  ///< as in the file
+  std::int64_t id = 0;  ///< as in the file; 0 where it is one track
   std::vector<std::pair<double, Vec3>>
       points;  ///< (frame / frames_per_second, box centre in W, m), times ascending, ≥ 1
 };
@@ -28,7 +28,7 @@ struct RecordedTrack {
 ///
 /// A line holds exactly spec.columns numbers; blank lines and lines that begin with '#' are passed over. z is read
 /// where spec.z_column is set, else spec.centre_z. Rows of one id have ascending frames; rows of several ids may be
-/// mixed.
+/// mixed. A row less than spec.least_step_s after the last one of its id that was kept is passed over.
 /// @param name how errors call the file.
 /// @return an Error "name:line: …" with value and limit for a wrong number of columns, what is not a finite number, an
 /// id
@@ -46,10 +46,10 @@ Result<std::string> find_track_file(const std::string& file, const std::string& 
 /// libraries.
 Result<std::vector<RecordedTrack>> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec);
 
-/// The time of the file at which world time is 0: spec.start_s itself, or with spec.wait_for_clear_start that of the
-/// first whole frame number from there on (recorded or not: a frame may show no one) after which no one's recorded
-/// position comes within kStartClearance of `start`, measured on the floor, for kStartQuiet (sampled at most 10 ms
-/// apart).
+/// The time of the file at which world time is 0, where it is not drawn: spec.start_s itself, or with
+/// spec.wait_for_clear_start that of the first whole frame number from there on (recorded or not: a frame may show no
+/// one) after which no one's recorded position comes within kStartClearance of `start`, measured on the floor, for
+/// kStartQuiet (sampled at most 10 ms apart).
 /// @return an Error when no frame up to the last recorded one is clear.
 Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
                               const Vec3& start);

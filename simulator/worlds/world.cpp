@@ -1,8 +1,12 @@
 #include "simulator/worlds/world.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "core/base/digest.h"
+#include "core/base/random.h"
+#include "simulator/worlds/drawn_recordings.h"
 #include "simulator/worlds/generators.h"
 #include "simulator/worlds/recorded_tracks.h"
 
@@ -27,6 +31,7 @@ struct Digester {
   void operator()(const WaypointMotion& m) {
     for (const auto& [t, p] : m.points) (*this)(t), (*this)(p);
     (*this)(m.repeat ? 1.0 : 0.0), (*this)(m.vanish ? 1.0 : 0.0);
+    if (m.vanish) (*this)(m.leave_out_within_m);
   }
   void operator()(const ObstacleSpec& o) {
     value = digest(o.name, value);
@@ -44,28 +49,49 @@ Result<void> add(World& world, std::vector<ObstacleSpec> specs) {
   return {};
 }
 
+/// The obstacles of one recording; notes in the world how they were chosen.
+Result<std::vector<ObstacleSpec>> recorded_specs(World& world, const Scenario& scenario,
+                                                 const RecordedTracksSpec& recorded, Rng& rng,
+                                                 const std::string& data_dir) {
+  const auto file = find_track_file(recorded.file, scenario.file, data_dir);
+  if (!file) return tl::unexpected(file.error());
+  auto tracks = load_recorded_tracks(*file, recorded);
+  if (!tracks) return tl::unexpected(tracks.error());
+  if (recorded.copies > 0) {
+    auto copies = scatter_copies(rng, *tracks, recorded, scenario.uav.start, flight_timeout_s(scenario));
+    if (!copies) return tl::unexpected(copies.error());
+    world.redrawn += copies->redrawn;
+    return std::move(copies->obstacles);
+  }
+  const auto start = recorded.start_s ? recorded_start(*tracks, recorded, scenario.uav.start)
+                                      : draw_start(rng, *tracks, recorded, scenario.uav);
+  if (!start) return tl::unexpected(start.error());
+  world.recorded_start_s.push_back(*start);
+  if (!recorded.start_s) {
+    world.left_out += static_cast<int>(std::erase_if(
+        *tracks, [&](const RecordedTrack& track) { return crowds_start(track, *start, scenario.uav.start); }));
+  }
+  return recorded_obstacles(*tracks, recorded, *start);
+}
+
 }  // namespace
 
 Result<World> make_world(const Scenario& scenario, const std::string& data_dir) {
   World world;
   const WorldSpec& spec = scenario.world;
   if (spec.generator != "none") {
-    auto made = generate(spec.generator, spec.count, scenario.seed, scenario.uav.start, scenario.uav.goal);
+    auto made =
+        generate(spec.generator, spec.count, scenario.seed, scenario.uav.start, scenario.uav.goal, spec.slowness);
     if (!made) return tl::unexpected(made.error());
     world.redrawn = made->redrawn;
     if (auto done = add(world, std::move(made->obstacles)); !done) return tl::unexpected(done.error());
   }
   if (auto done = add(world, spec.obstacles); !done) return tl::unexpected(done.error());
-  for (const RecordedTracksSpec& recorded : spec.recorded) {
-    const auto file = find_track_file(recorded.file, scenario.file, data_dir);
-    if (!file) return tl::unexpected(file.error());
-    const auto tracks = load_recorded_tracks(*file, recorded);
-    if (!tracks) return tl::unexpected(tracks.error());
-    const auto start = recorded_start(*tracks, recorded, scenario.uav.start);
-    if (!start) return tl::unexpected(start.error());
-    world.recorded_start_s.push_back(*start);
-    if (auto done = add(world, recorded_obstacles(*tracks, recorded, *start)); !done)
-      return tl::unexpected(done.error());
+  for (std::size_t k = 0; k < spec.recorded.size(); ++k) {
+    Rng rng(digest(fmt::format("world.recorded[{}]", k), scenario.seed));
+    auto specs = recorded_specs(world, scenario, spec.recorded[k], rng, data_dir);
+    if (!specs) return tl::unexpected(specs.error());
+    if (auto done = add(world, std::move(*specs)); !done) return tl::unexpected(done.error());
   }
   return world;
 }

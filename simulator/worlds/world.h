@@ -15,12 +15,15 @@ namespace tern {
 
 struct World {
   std::vector<WorldObstacle> obstacles;  ///< the generator's, then the listed, then the recorded; obstacles[k].id() = k
-  int redrawn = 0;                       ///< draws of the generator that start or goal refused
-  std::vector<double> recorded_start_s;  ///< per recorded file: its time at world time 0, s
+  int redrawn = 0;                       ///< draws of generator and copies that start or goal refused
+  int left_out = 0;                      ///< recorded people who leave no room for a drawn beginning
+  std::vector<double> recorded_start_s;  ///< per recorded file without copies: its time at world time 0, s
 };
 
 /// The world of scenario.world with scenario.seed; start and goal of scenario.uav enter the redraw rule (generators.h)
-/// and the recorded start (recorded_tracks.h). @param data_dir where recorded files are sought besides the scenario's
+/// and what is drawn of recordings (drawn_recordings.h). Where the beginning is drawn, who crowds the start is left
+/// out.
+/// @param data_dir where recorded files are sought besides the scenario's
 /// folder.
 /// @return an Error for the person who wrote the scenario.
 Result<World> make_world(const Scenario& scenario, const std::string& data_dir);

@@ -56,34 +56,35 @@ one_folder Beast '^boost/beast'
 only_in '^sodium' '^runtime/mac[.]cpp$' 'libsodium is for one adapter'
 
 # base <- geometry <- splines <- world <- process libraries <- apps.
-ours='^(core|messages|flight_log|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/'
+ours='^(core|messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/'
 never '^core/base/' "^core/(geometry|splines|world)/" 'base stands on nothing'
 never '^core/geometry/' '^core/(splines|world)/' 'geometry stands on base'
 never '^core/splines/' '^core/world/' 'splines stand on base and geometry'
-never '^core/' '^(messages|flight_log|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^core/' '^(messages|flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'core stands on itself'
-never '^messages/' '^(flight_log|runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^messages/' '^(flight_log|runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'messages stand on core'
-never '^flight_log/' '^(runtime|planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^flight_log/' '^(runtime|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'the log stands on core and messages'
-never '^runtime/' '^(planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
+never '^runtime/' '^(planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer|tools|tests)/' \
   'runtime stands on core and messages'
 
-never '^(planner|predictor|executor|simulator|semantic_mapper|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
+never '^(planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|monitor|launcher|campaign|viewer)/' '^tools/' 'tools are the top floor'
 
 # Who starts the others knows how to sum up for a monitor that cannot, no messages and no other process.
-never '^launcher/' '^(messages|flight_log|planner|predictor|executor|simulator|semantic_mapper|logger|campaign|viewer|tools|tests)/' \
+never '^launcher/' '^(messages|flight_log|planner|predictor|executor|simulator|mavlink|semantic_mapper|logger|campaign|viewer|tools|tests)/' \
   'the launcher stands on core, runtime and the summary'
 
 # A process library knows its own folder, core, what channels are called, and for a recorder the messages.
-for process in planner predictor executor simulator semantic_mapper logger monitor viewer/bridge; do
+for process in planner predictor executor simulator mavlink semantic_mapper logger monitor viewer/bridge; do
   while IFS=$'\t' read -r file header; do
-    case $file in "$process"/app/*) continue ;; esac
+    case $file in "$process"/app/* | mavlink/sim/app/*) continue ;; esac
     case $header in
       "$process"/app/*) breach "$file includes $header: libraries do not know their node" ;;
       core/* | messages/channels.h | "$process"/*) ;;
       messages/*) [[ $process == logger ]] || breach "$file includes $header: a library knows no messages" ;;
-      executor/*) [[ $process == simulator ]] || breach "$file includes $header: not its own" ;;
+      executor/*) [[ $process == simulator || $process == mavlink ]] || breach "$file includes $header: not its own" ;;
+      simulator/vehicle/*) [[ $file == mavlink/sim/* ]] || breach "$file includes $header: not its own" ;;
       *) breach "$file includes $header: not its own" ;;
     esac
   done < <(awk -F'\t' -v f="^$process/" -v o="$ours" '$1 ~ f && $2 ~ o' <<<"$includes")

@@ -31,8 +31,10 @@ same() {
 
 same tern-planner planner planner/README.md
 same tern-predictor predictor predictor/README.md
-same tern-simulator executor executor/README.md
+same tern-executor executor executor/README.md
 same tern-simulator simulator simulator/README.md
 same tern-mapper mapper semantic_mapper/README.md
+same tern-mavlink mavlink docs/autopilot.md
+same tern-autopilot-sim autopilot_sim mavlink/README.md
 same tern-logger logger logger/README.md
 exit $status

@@ -74,5 +74,37 @@ TEST(CampaignSummary, NoFlightsHaveNoRate) {
   EXPECT_EQ(json["success_ci95"][1], 1.0);
 }
 
+TEST(CampaignSummary, CountsContactsInFlightApartFromThoseAtRest) {
+  Flights flights = thirty_flights();
+  for (auto& [seed, record] : flights.records) {
+    (seed % 2 == 0 ? record.result.contacts_moving : record.result.contacts_at_rest) = seed % 3 == 0 ? 1 : 0;
+  }
+  const CampaignSummary s = summarize(flights);
+  EXPECT_EQ(s.contacts_moving, 5);
+  EXPECT_EQ(s.contacts_at_rest, 5);
+  EXPECT_NE(to_text(s).find("collisions 10 (5 while moving, 5 at rest)"), std::string::npos) << to_text(s);
+}
+
+TEST(CampaignSummary, OfOneFlightFlownOftenHasNoInterval) {
+  Flights flights;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    flights.records[seed] = some_flight(1);
+    flights.records[seed].seed = seed;
+  }
+  const CampaignSummary s = summarize(flights);
+  EXPECT_EQ(s.different, 1);
+  EXPECT_FALSE(s.success_ci95);
+  EXPECT_NE(to_text(s).find("no interval: they are 1 different flights"), std::string::npos) << to_text(s);
+}
+
+TEST(CampaignSummary, SaysHowManyWereNotAudited) {
+  Flights flights = thirty_flights();
+  EXPECT_EQ(to_text(summarize(flights)).find("audited"), std::string::npos);
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) flights.records[seed].audit = seed == 2 ? "broken" : "passed";
+  const std::string text = to_text(summarize(flights));
+  EXPECT_NE(text.find("audited 8 of 30, 1 broken, 7 passed"), std::string::npos) << text;
+  EXPECT_NE(text.find("22 were flown before without --audit"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace tern

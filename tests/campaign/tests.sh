@@ -71,6 +71,9 @@ bad_arguments_end_with_a_clear_word_and_exit_code_2() {
   refused "--charge" --world "$hop" "${out[@]}" --charge wall
   refused "--jobs" --world "$hop" "${out[@]}" --jobs 0
   refused "--bogus" --world "$hop" "${out[@]}" --bogus
+  refused "world: is no option of summarize" --world x summarize "$work/x.csv"
+  refused "no tern-logger runs" --world "$here/short_hop.yaml" --set logger.rotate_mb=3 --out "$work/x.csv"
+  refused "charge" judge-contacts --world "$here/short_hop.yaml" --charge cpu "$work/x.csv"
   refused "parts is required" merge --out "$work/x.csv"
   refused "nothing.csv: no such file" merge --out "$work/x.csv" "$work/nothing.csv"
   [[ $(code "$campaign" --world "$hop" --out "$work/no/such/folder/x.csv") == 3 ]] || fail "a folder that is not there"

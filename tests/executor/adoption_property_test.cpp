@@ -84,8 +84,7 @@ TEST(Adoption, AdoptsExactlyWhatDenseSamplingAllows) {
       // Between samples an extremum may hide a little excess; beyond that both must agree.
       if (std::abs(excess) < 1e-4) continue;
       EXPECT_EQ(adoption.verdict == Verdict::Adopted, excess < 0.0)
-          << "round " << round << ": " << to_string(adoption.verdict) << " " << adoption.detail << ", sampled "
-          << excess;
+          << "round " << round << ": " << to_string(adoption) << " " << adoption.detail << ", sampled " << excess;
       (adoption.verdict == Verdict::Adopted ? adopted : refused) += 1;
     }
   }

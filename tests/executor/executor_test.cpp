@@ -13,6 +13,7 @@
 
 #include "core/base/random.h"
 #include "core/world/message_limits.h"
+#include "core/world/names.h"
 #include "tests/support/straight_plan.h"
 
 namespace tern {
@@ -119,49 +120,49 @@ TEST(Executor, AdoptsAPlanFromItsStartTimeOn) {
 /// One way to break a plan, and the verdict that it must get.
 struct Breakage {
   const char* name;
-  Verdict verdict;
+  Breach breach;
   std::function<void(Plan&, const HorizonRequest&)> apply;
 };
 
 const Breakage kBreakages[] = {
-    {"too few intervals", Verdict::Shape,
+    {"too few intervals", Breach::Shape,
      [](Plan& p, const HorizonRequest&) { p.trajectory.control_points = Points::Zero(3, 6); }},
-    {"too many intervals", Verdict::Shape,
+    {"too many intervals", Breach::Shape,
      [](Plan& p, const HorizonRequest&) { p.trajectory.control_points = Points::Zero(3, kMaxIntervals + 4); }},
-    {"no interval length", Verdict::Shape, [](Plan& p, const HorizonRequest&) { p.trajectory.interval = {0}; }},
-    {"endless interval", Verdict::Shape,
+    {"no interval length", Breach::Shape, [](Plan& p, const HorizonRequest&) { p.trajectory.interval = {0}; }},
+    {"endless interval", Breach::Shape,
      [](Plan& p, const HorizonRequest&) { p.trajectory.interval = {std::numeric_limits<std::int64_t>::max()}; }},
-    {"not a number", Verdict::Shape,
+    {"not a number", Breach::Shape,
      [](Plan& p, const HorizonRequest&) { p.trajectory.control_points(1, 5) = std::nan(""); }},
-    {"starts later", Verdict::Start, [](Plan& p, const HorizonRequest&) { p.trajectory.start.us += 1; }},
-    {"position gap", Verdict::Join,
+    {"starts later", Breach::Start, [](Plan& p, const HorizonRequest&) { p.trajectory.start.us += 1; }},
+    {"position gap", Breach::Join,
      [](Plan& p, const HorizonRequest&) { p.trajectory.control_points.col(0).x() += 1.1e-6; }},
-    {"velocity gap", Verdict::Join,
+    {"velocity gap", Breach::Join,
      [](Plan& p, const HorizonRequest&) { p.trajectory.control_points.col(1).y() += 1e-6; }},
-    {"acceleration gap", Verdict::Join,
+    {"acceleration gap", Breach::Join,
      [](Plan& p, const HorizonRequest&) { p.trajectory.control_points.col(2).z() += 1e-6; }},
-    {"does not end at rest", Verdict::End,
+    {"does not end at rest", Breach::End,
      [](Plan& p, const HorizonRequest&) { p.trajectory.control_points.rightCols<1>().x() += 1e-9; }},
-    {"too fast", Verdict::Velocity,
+    {"too fast", Breach::Velocity,
      [](Plan& p, const HorizonRequest& r) {
        HorizonRequest wide = r;
        wide.limits = {r.limits.v_max * 1.2, r.limits.a_max * 2.0, r.limits.j_max};
        p = straight_plan(wide, Vec3(19.0, 0.0, 1.0), {.intervals = 10, .reach_m = 19.0, .limit_share = 1.0});
      }},
-    {"accelerates too much", Verdict::Acceleration,
+    {"accelerates too much", Breach::Acceleration,
      [](Plan& p, const HorizonRequest& r) {
        HorizonRequest wide = r;
        wide.limits.a_max *= 1.5;
        wide.limits.j_max *= 100.0;
        p.trajectory = straight_plan(wide, r.start.p + Vec3(2.0, 0.0, 0.0)).trajectory;
      }},
-    {"jerks too much", Verdict::Jerk,
+    {"jerks too much", Breach::Jerk,
      [](Plan& p, const HorizonRequest& r) {
        HorizonRequest wide = r;
        wide.limits.j_max *= 1.5;
        p.trajectory = straight_plan(wide, r.start.p + Vec3(0.1, 0.0, 0.0)).trajectory;
      }},
-    {"leaves the flight box", Verdict::FlightBox,
+    {"leaves the flight box", Breach::FlightBox,
      [](Plan& p, const HorizonRequest& r) {
        p = straight_plan(r, Vec3(0.0, 9.95, 1.0), {.intervals = 10, .reach_m = 20.0, .limit_share = 0.9});
      }},
@@ -178,9 +179,10 @@ TEST(Executor, RefusesEveryBrokenPlanForItsReasonAndStaysOnItsTrajectory) {
     ASSERT_EQ(plan.outcome, PlanOutcome::Optimized);
     breakage.apply(plan, *request);
     const Adoption adoption = executor.consider(plan, kZero + kMs * 20);
-    EXPECT_EQ(to_string(adoption.verdict), std::string(to_string(breakage.verdict))) << adoption.detail;
+    EXPECT_EQ(adoption.verdict, Verdict::Unflyable);
+    EXPECT_EQ(to_string(adoption), std::string(to_string(breakage.breach))) << adoption.detail;
     EXPECT_FALSE(adoption.detail.empty());
-    EXPECT_EQ(executor.counters().of(breakage.verdict), 1);
+    EXPECT_EQ(executor.counters().of(breakage.breach), 1);
     EXPECT_EQ(executor.counters().refused(), 1);
     EXPECT_EQ(executor.counters().answered_in_time, 1);
     EXPECT_TRUE(executor.at_rest(kZero + kMs * 10'000));
@@ -267,7 +269,7 @@ struct Flight {
         const Plan plan = straight_plan(*open, goal);
         const Adoption adoption = executor.consider(plan, now);
         if (adoption.verdict == Verdict::Adopted) splices.push_back(open->t_s);
-        refused_for_content += adoption.verdict > Verdict::Stopped ? 1 : 0;
+        refused_for_content += adoption.verdict == Verdict::Unflyable ? 1 : 0;
         if (rng.uniform() < 0.1) executor.consider(plan, now);
         open.reset();
       }

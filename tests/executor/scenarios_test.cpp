@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "executor/app/executor_config.h"
 #include "runtime/data_folder.h"
 #include "runtime/scenario_file.h"
 #include "simulator/app/simulator_config.h"

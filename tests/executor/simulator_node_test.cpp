@@ -10,10 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "executor/app/executor_node.h"
 #include "messages/codec.h"
 #include "runtime/batches.h"
 #include "runtime/process.h"
 #include "runtime/virtual_runner.h"
+#include "simulator/app/make_vehicle.h"
 #include "tests/support/stub_planner.h"
 
 namespace tern {
@@ -41,10 +43,11 @@ ObstacleSpec far_trefoil() {
   return obstacle;
 }
 
-/// A flight of the simulator and a stub planner; what was said on the way.
+/// A flight of the simulator, an executor and a stub planner; what was said on the way.
 struct Flight {
-  explicit Flight(const Scenario& scenario, SimulatorConfig config = {}, ExecutorConfig executor = {}) {
-    config.wait_for = {"tern-planner"};
+  explicit Flight(const Scenario& scenario, SimulatorConfig config = {}, ExecutorConfig executor_config = {})
+      : uav_(scenario.uav), executor_config_(executor_config) {
+    config.wait_for = {"tern-executor", "tern-planner"};
     Bus& ear = runner.observer();
     ear.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { requests.push_back(m); });
     ear.subscribe(channels::kPlan, [this](const Plan& m) { plans.push_back({m, runner.now()}); });
@@ -57,8 +60,18 @@ struct Flight {
     ear.subscribe(channels::kGoal, [this](const Goal& m) { goals.push_back(m); });
     World world = make_world(scenario, "").value();
     runner.start("tern-simulator", [&](Bus& bus) -> std::unique_ptr<Node> {
-      auto node = std::make_unique<SimulatorNode>(bus, scenario, std::move(world), config, executor);
+      auto vehicle = make_vehicle(scenario, config, bus.clock().now());
+      auto node = std::make_unique<SimulatorNode>(bus, scenario, std::move(world), std::move(vehicle), config);
       simulator = node.get();
+      return node;
+    });
+    start_executor();
+  }
+
+  void start_executor() {
+    runner.start("tern-executor", [&](Bus& bus) -> std::unique_ptr<Node> {
+      auto node = std::make_unique<ExecutorNode>(bus, uav_, executor_config_);
+      executor = node.get();
       return node;
     });
   }
@@ -79,6 +92,7 @@ struct Flight {
   };
   VirtualRunner runner{kStart};
   SimulatorNode* simulator = nullptr;
+  ExecutorNode* executor = nullptr;
   std::vector<HorizonRequest> requests;
   std::vector<Answer> plans;
   std::vector<UavState> states;
@@ -86,6 +100,10 @@ struct Flight {
   std::vector<ObstacleTruth> truths;
   std::vector<Observed> observations;
   std::vector<Goal> goals;
+
+ private:
+  UavSpec uav_;
+  ExecutorConfig executor_config_;
 };
 
 TEST(SimulatorNode, FliesToTheGoalWithEveryRequestAnsweredOnceAndInTime) {
@@ -109,7 +127,7 @@ TEST(SimulatorNode, FliesToTheGoalWithEveryRequestAnsweredOnceAndInTime) {
   EXPECT_GT(flight.requests.size(), 50U);
   EXPECT_EQ(answers.size(), flight.requests.size());
   for (const auto& [id, count] : answers) EXPECT_EQ(count, 1) << "request " << id;
-  const ExecutorCounters& counters = flight.simulator->executor().counters();
+  const ExecutorCounters counters = flight.executor->counters();
   EXPECT_EQ(counters.answered_in_time, counters.requests);
   EXPECT_EQ(counters.refused(), 0);
 }
@@ -290,13 +308,73 @@ TEST(SimulatorNode, APlannerThatDiesStopsTheVehicleAndItsReturnBringsItHome) {
   const MotionSample resting = flight.states.back().motion;
   EXPECT_EQ(resting.v, Vec3::Zero());
   EXPECT_GT((resting.p - empty_scenario().uav.goal).norm(), 1.0);
-  EXPECT_GT(flight.simulator->executor().counters().unanswered, 40);
+  EXPECT_GT(flight.executor->counters().unanswered, 40);
   flight.start_planner();
   flight.fly();
   ASSERT_FALSE(flight.results.empty());
   EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached) << flight.results.back().detail;
   EXPECT_EQ(flight.results.back().limit_violations, 0);
   EXPECT_EQ(flight.results.back().stops, 1);
+}
+
+TEST(SimulatorNode, AnExecutorThatDiesLeavesAVehicleThatRestsAndItsReturnBringsItHome) {
+  for (const int died_ms : {1'500, 2'003, 2'061}) {
+    Flight flight(empty_scenario());
+    flight.start_planner();
+    flight.fly(Duration{died_ms * 1'000});
+    EXPECT_GT(flight.states.back().motion.v.norm(), 1.0);
+    const Vec3 end = flight.requests.back().committed.control_points.rightCols<1>();
+    flight.runner.stop("tern-executor");
+    flight.fly(kSecond * 5);
+    EXPECT_EQ(flight.states.back().motion.v, Vec3::Zero());
+    EXPECT_LT((flight.states.back().motion.p - end).norm(), 1e-6);
+    flight.start_executor();
+    flight.fly();
+    ASSERT_FALSE(flight.results.empty());
+    EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached) << flight.results.back().detail;
+    EXPECT_EQ(flight.results.back().limit_violations, 0);
+    EXPECT_EQ(flight.results.back().stops, 1);
+  }
+}
+
+TEST(SimulatorNode, NothingIsAskedWhileTheVehicleDoesNotFollow) {
+  Flight flight(empty_scenario());
+  std::vector<VehicleStatus> statuses;
+  flight.runner.observer().subscribe(channels::kVehicleStatus, [&](const VehicleStatus& m) { statuses.push_back(m); });
+  flight.fly(kSecond * 2);
+  ASSERT_FALSE(statuses.empty());
+  EXPECT_EQ(statuses.back().why_not, "world time has not begun");
+  EXPECT_TRUE(flight.requests.empty());
+  flight.start_planner();
+  flight.fly();
+  EXPECT_EQ(statuses.back().why_not, "the flight has ended");
+  const UTime zero = *flight.simulator->world_zero();
+  for (const VehicleStatus& status : statuses) {
+    if (status.why_not == "the flight has ended") {
+      EXPECT_LE(flight.requests.back().header.utime, status.at);
+    } else {
+      EXPECT_EQ(status.following, status.at >= zero);
+    }
+  }
+  EXPECT_EQ(flight.requests.front().header.utime, zero);
+}
+
+TEST(SimulatorNode, TheTruthOfAPerfectVehicleIsItsSetpointsAndItsState) {
+  Flight flight(empty_scenario());
+  std::map<UTime, Vec3> commanded, truth;
+  Bus& ear = flight.runner.observer();
+  ear.subscribe(channels::kSetpoint, [&](const UavState& m) { commanded[m.at] = m.motion.p; });
+  ear.subscribe(channels::kVehicleTruth, [&](const UavState& m) { truth[m.at] = m.motion.p; });
+  flight.start_planner();
+  flight.fly();
+  int compared = 0;
+  for (const UavState& state : flight.states) {
+    if (!truth.contains(state.at) || !commanded.contains(state.at)) continue;
+    EXPECT_LT((truth[state.at] - commanded[state.at]).norm(), 1e-9);
+    EXPECT_LT((truth[state.at] - state.motion.p).norm(), 1e-6);
+    ++compared;
+  }
+  EXPECT_GT(compared, 500);
 }
 
 TEST(SimulatorNode, LateAndRepeatedAnswersAreCountedAndFlyNowhere) {
@@ -306,7 +384,7 @@ TEST(SimulatorNode, LateAndRepeatedAnswersAreCountedAndFlyNowhere) {
   ASSERT_FALSE(flight.results.empty());
   EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Timeout);
   EXPECT_EQ(flight.states.back().motion.p, empty_scenario().uav.start);
-  const ExecutorCounters& counters = flight.simulator->executor().counters();
+  const ExecutorCounters counters = flight.executor->counters();
   EXPECT_EQ(counters.answered_in_time, 0);
   EXPECT_EQ(counters.of(Verdict::Late), counters.answered_twice());
   EXPECT_GT(counters.late(), 100);
@@ -378,6 +456,74 @@ TEST(SimulatorNode, AGuardedPlaceIsReachedWhenTheMinimumFlightIsOver) {
   ASSERT_FALSE(flight.results.empty());
   EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached);
   EXPECT_NEAR(flight.results.back().flight_time_s, 3.0, 0.011);
+}
+
+/// A quadrotor of the camera class, which is asked for what it can fly.
+Scenario gentle_scenario() {
+  Scenario scenario = empty_scenario();
+  scenario.uav.limits = {Vec3(5, 5, 2), Vec3(5, 5, 3), Vec3::Constant(30.0)};
+  return scenario;
+}
+
+struct Disturbance {
+  const char* name;
+  void (*apply)(QuadrotorFlight&);
+  bool leaves;  ///< its tube
+};
+
+TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {
+  const Disturbance disturbances[] = {
+      {"still air", [](QuadrotorFlight&) {}, false},
+      {"wind of 8 m/s with gusts", [](QuadrotorFlight& f) { f.wind.speed = 8.0; }, false},
+      {"a gust of 15 m/s", [](QuadrotorFlight& f) { f.wind.burst = 15.0, f.wind.burst_at_s = 3.0; }, true},
+      {"an estimate that jumps by 0.6 m",
+       [](QuadrotorFlight& f) { f.estimator.jump_m = 0.6, f.estimator.jump_at_s = 3.0; }, true},
+      {"a controller three times too soft",
+       [](QuadrotorFlight& f) {
+         f.quadrotor.controller.position_p /= 3.0;
+         f.quadrotor.controller.velocity_p /= 3.0;
+         f.quadrotor.controller.velocity_i /= 3.0;
+       },
+       true}};
+  for (const Disturbance& disturbance : disturbances) {
+    SCOPED_TRACE(disturbance.name);
+    SimulatorConfig config;
+    config.quadrotor.emplace();
+    disturbance.apply(*config.quadrotor);
+    ExecutorConfig executor;
+    executor.tube_m = 0.25;
+    Flight flight(gentle_scenario(), config, executor);
+    flight.start_planner();
+    flight.fly();
+    ASSERT_FALSE(flight.results.empty());
+    EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached) << flight.results.back().detail;
+    EXPECT_EQ(flight.results.back().limit_violations, 0);
+    EXPECT_EQ(flight.executor->exits() > 0, disturbance.leaves) << flight.executor->exits();
+    EXPECT_EQ(flight.executor->counters().refused(), 0);
+  }
+}
+
+TEST(SimulatorNode, WithoutASensorObservesNothing) {
+  SimulatorConfig config;
+  config.sensor.present = false;
+  Flight flight(with_obstacle(empty_scenario(), far_trefoil()), config);
+  flight.start_planner();
+  flight.fly();
+  EXPECT_TRUE(flight.observations.empty());
+  EXPECT_FALSE(flight.truths.empty());
+  EXPECT_EQ(flight.results.front().obstacles, 1);
+}
+
+TEST(SimulatorNode, NeverShowsWhoAppearsBesideTheVehicle) {
+  ObstacleSpec person;
+  person.motion = WaypointMotion{{{0.5, Vec3(1, 2, 1)}, {60.0, Vec3(1, 2, 1)}}, false, true, 3.0};
+  Flight flight(with_obstacle(empty_scenario(), person));
+  flight.start_planner();
+  flight.fly();
+  for (const ObstacleTruth& truth : flight.truths) EXPECT_TRUE(truth.obstacles.empty());
+  for (const auto& [set, at] : flight.observations) EXPECT_TRUE(set.detections.empty());
+  EXPECT_EQ(flight.results.front().obstacles_left_out, 1);
+  EXPECT_EQ(flight.results.front().outcome, FlightOutcome::Reached) << flight.results.front().detail;
 }
 
 }  // namespace

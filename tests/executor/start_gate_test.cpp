@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "simulator/app/beat.h"
+#include "runtime/beat.h"
 
 namespace tern {
 namespace {
@@ -51,6 +51,18 @@ TEST(StartGate, OpensWhenEveryoneIsReadyAndSaysWhoIsNot) {
   EXPECT_EQ(gate.missing(kNow), "tern-planner (not ready)");
   gate.hear(heartbeat("tern-planner", ProcessState::Ready), kNow);
   EXPECT_TRUE(gate.open(kNow));
+}
+
+TEST(StartGate, KnowsWhetherTheLogHoldsWhatIsPublished) {
+  EXPECT_TRUE(StartGate({"tern-planner"}, kOwnEpoch).records(kNow)) << "nobody records";
+  StartGate gate({"tern-planner", kRecorder}, kOwnEpoch);
+  EXPECT_FALSE(gate.records(kNow));
+  gate.hear(heartbeat(kRecorder, ProcessState::Waiting, "CONFIGURATION of tern-planner"), kNow);
+  EXPECT_FALSE(gate.records(kNow));
+  EXPECT_EQ(gate.missing(kNow), "tern-planner (not heard), tern-logger (waits for CONFIGURATION of tern-planner)");
+  gate.hear(heartbeat(kRecorder, ProcessState::Ready), kNow);
+  EXPECT_TRUE(gate.records(kNow));
+  EXPECT_FALSE(gate.records(kNow + StartGate::kHeartbeatAge + kMs));
 }
 
 TEST(StartGate, ForgetsWhoIsNoLongerHeard) {

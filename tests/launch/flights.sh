@@ -81,6 +81,19 @@ a_killed_planner_comes_back_and_the_vehicle_flies_on() {
   holds "stops" "$(field flight stops) >= 1"
 }
 
+a_killed_executor_rests_where_it_was_committed_to_and_flies_on() {
+  scenario=$root/tests/launch/pillars.yaml
+  start_flight flight
+  eventually "flies" 30 flies flight
+  keep_down tern-executor
+  eventually "rests" 15 says flight " 0.00 m/s"
+  bring_back
+  reached flight
+  holds "restarts" "$(field flight restarts) == 1"
+  holds "stops" "$(field flight stops) >= 1"
+  holds "limits" "$(field flight limit_violations) == 0"
+}
+
 without_predictions_nobody_flies_blind() {
   scenario=$root/tests/launch/pillars.yaml
   start_flight flight
@@ -168,7 +181,7 @@ busy_cores_leave_the_answers_in_time() {
   kill "${busy[@]}"
   cat "$work/flight.out"
   holds "in time" "$(field flight answered_in_time) >= 0.999 * $(field flight requests) && $(field flight requests) > 100"
-  has_text "answered twice 0" "$work/flight/tern-simulator.log" || fail "answered twice"
+  has_text "answered twice 0" "$work/flight/tern-executor.log" || fail "answered twice"
   replays flight
 }
 
@@ -230,14 +243,14 @@ after_a_stream_of_packets_that_crash_lcm_the_processes_fly() {
   local stream process started=() scenario=$root/tests/launch/pillars.yaml
   cp "$scenario" "$work/scenario.yaml"
   flood 7667 HEARTBEAT # which every process hears
-  for process in tern-simulator tern-planner tern-predictor tern-mapper tern-logger; do
+  for process in tern-simulator tern-executor tern-planner tern-predictor tern-mapper tern-logger; do
     local options=(--config "$work/scenario.yaml")
     [[ $process != tern-logger ]] || options+=(--record "$work/flight.lcm")
     "$scripts/keep_alive.sh" --log "$work/$process.log" -- "$TERN_BIN/$process" "${options[@]}" &
     started+=($!)
   done
   wait "$stream" || fail "no stream"
-  for process in tern-simulator tern-planner tern-predictor tern-mapper tern-logger; do
+  for process in tern-simulator tern-executor tern-planner tern-predictor tern-mapper tern-logger; do
     expect "$process died and was started again" has_text "$process ended with signal SEGV; restart 3" "$work/$process.log"
   done
   "$TERN_BIN/tern-monitor" --config "$work/scenario.yaml" --summary "$work/summary.json" || fail "the monitor's exit code is $?"

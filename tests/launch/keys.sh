@@ -105,7 +105,7 @@ who_has_not_the_key_is_not_heard_and_harms_nobody() {
   url=$(env -i bash -c "source $work/flight/env.sh && echo \$LCM_DEFAULT_URL")
   "$TERN_BIN/tern-key" new "$work/another.key"
   for stranger in '' "--key-file $work/another.key"; do
-    for name in tern-predictor tern-planner tern-mapper tern-simulator; do
+    for name in tern-predictor tern-planner tern-mapper tern-executor tern-simulator; do
       result=0
       # shellcheck disable=SC2086  # an option and its value, or none
       timeout 0.7 "$TERN_BIN/$name" --config "$root/scenarios/corridor_demo.yaml" --lcm-url "$url" $stranger \

@@ -101,7 +101,8 @@ fly_refuses_a_bad_setting_of_one_process() {
 
 fly_refuses_bad_options() {
   local options
-  for options in "--seed" "--nonsense" "--goal 1,2" "--semantics maybe" "--scenario nowhere" "stray" "--seed one"; do
+  for options in "--seed" "--nonsense" "--goal 1,2" "--semantics maybe" "--scenario nowhere" "stray" "--seed one" \
+    "--allow-goals" "--record=" "--set=" "--view="; do
     # shellcheck disable=SC2086  # an option and its value
     [[ $(code "$scripts/fly.sh" --no-install --record "$work/$RANDOM" $options) == 3 ]] || fail "exit code of $options"
   done
@@ -110,8 +111,8 @@ fly_refuses_bad_options() {
 
 fly_summarizes_what_it_could_not_fly() {
   local keys
-  keys='outcome detail scenario seed count flight_time_s first_entry_s path_length_m mean_speed_mps top_speed_mps stops'
-  keys+=' min_clearance_m limit_violations requests answered_in_time second_answers plans left_out replan_ms exposure messages restarts beside log version'
+  keys='outcome detail scenario seed count settings flight_time_s first_entry_s path_length_m mean_speed_mps top_speed_mps stops'
+  keys+=' min_clearance_m min_map_clearance_m limit_violations contacts_moving contacts_at_rest obstacles obstacles_left_out requests answered_in_time second_answers plans confidence left_out replan_ms exposure messages restarts beside log command version'
   [[ $(code "$scripts/fly.sh" --no-install --scenario nowhere --seed 4 --summary "$work/s.json") == 3 ]] || fail "exit code"
   [[ $(grep -oE '^  "[a-z_]+"' "$work/s.json" | tr -d ' "' | tr '\n' ' ') == "$keys " ]] || fail "keys: $(cat "$work/s.json")"
   expect "the seed" has_text '"seed": 4,' "$work/s.json"
@@ -209,14 +210,14 @@ the_log_holds_what_the_logger_counted() {
 
 every_program_starts_alone() {
   local name pid
-  for name in simulator predictor mapper planner logger monitor; do
+  for name in simulator executor predictor mapper planner logger monitor; do
     [[ $(code "$scripts/$name.sh" --help) == 0 ]] || fail "$name --help"
     [[ $(code "$scripts/$name.sh" --version) == 0 ]] || fail "$name --version"
     expect "$name --version" has_text "tern-$name 0" "$work/out"
     [[ $(code "$scripts/$name.sh" --config "$work/nowhere.yaml") == 2 ]] || fail "$name --config nowhere"
   done
   cd "$work"
-  for name in simulator predictor mapper planner logger monitor; do
+  for name in simulator executor predictor mapper planner logger monitor; do
     "$scripts/$name.sh" >"$work/$name.out" 2>&1 &
     pid=$!
     eventually "$name runs" 20 has_text "runs" "$work/$name.out"

@@ -71,6 +71,7 @@ start_system() {
   start tern-mapper "$TERN_BIN/tern-mapper" "${SETTINGS[@]}"
   start tern-monitor "$TERN_BIN/tern-monitor" "${SETTINGS[@]}" --summary "$work/summary.json"
   monitor=$pid
+  start tern-executor "$TERN_BIN/tern-executor" "${SETTINGS[@]}"
   start tern-simulator "$TERN_BIN/tern-simulator" "${SETTINGS[@]}" --set simulator.wait_s="$wait_s"
   flight=$pid
 }

@@ -24,17 +24,40 @@ Words names(const std::vector<SupervisedProcess>& processes) {
   return names;
 }
 
-TEST(FlightProcesses, BeginWithWhoRecordsAndWhoJudges) {
+TEST(FlightProcesses, BeginWithTheViewerThenWhoRecordsAndWhoJudges) {
   FlightOptions options = demo();
   EXPECT_EQ(names(flight_processes(options, "r", {})),
-            (Words{"tern-logger", "tern-monitor", "tern-simulator", "tern-predictor", "tern-mapper", "tern-planner"}));
+            (Words{"tern-logger", "tern-monitor", "tern-simulator", "tern-executor", "tern-predictor", "tern-mapper",
+                   "tern-planner"}));
   options.view_fd = 7;
-  EXPECT_EQ(names(flight_processes(options, "r", {}))[2], "tern-viewer");
+  EXPECT_EQ(names(flight_processes(options, "r", {}))[0], "tern-viewer");
+}
+
+TEST(FlightProcesses, WithAnAutopilotHaveABridge) {
+  FlightOptions options = demo();
+  options.autopilot = "udp://127.0.0.1:14540";
+  EXPECT_EQ(names(flight_processes(options, "r", {})).back(), "tern-mavlink");
+  options.autopilot_sim = true;
+  const auto processes = flight_processes(options, "r", {});
+  EXPECT_EQ(processes.back().name, "tern-autopilot-sim");
+  EXPECT_FALSE(processes.back().restarted);
+  EXPECT_EQ(processes.back().child.command.back(), "udpout://127.0.0.1:14540");
+  const Words& simulator = processes[2].child.command;
+  const auto ours = std::find(simulator.begin(), simulator.end(), "simulator.vehicle=external");
+  const auto users = std::find(simulator.begin(), simulator.end(), "seed=2");
+  ASSERT_NE(ours, simulator.end());
+  EXPECT_LT(ours, users) << "the user's values win";
 }
 
 TEST(FlightProcesses, AreAllRestartedButTheMonitor) {
   for (const SupervisedProcess& p : flight_processes(demo(), "r", {})) {
     EXPECT_EQ(p.restarted, p.name != "tern-monitor") << p.name;
+  }
+}
+
+TEST(FlightProcesses, TellTheSimulatorThatTheLoggerRecords) {
+  for (const SupervisedProcess& p : flight_processes(demo(), "r", {})) {
+    EXPECT_EQ(std::count(p.child.command.begin(), p.child.command.end(), "--recorded"), p.name == "tern-simulator");
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "flight_log/log_reader.h"
 #include "messages/codec.h"
+#include "runtime/process.h"
 #include "runtime/virtual_runner.h"
 #include "tests/support/temp_folder.h"
 
@@ -62,6 +63,51 @@ TEST(Logger, RecordsEveryMessageOfEveryChannel) {
   EXPECT_EQ(goals, 50);
   EXPECT_EQ(events, received);
   EXPECT_EQ(reader->damage().bytes, 0);
+}
+
+TEST(Logger, IsReadyWhenItHasTheConfigurationOfEveryProcessThatItHears) {
+  const TempFolder folder;
+  VirtualRunner runner;
+  const auto& logger = dynamic_cast<LoggerNode&>(runner.start("tern-logger", [&](Bus& bus) {
+    return std::make_unique<LoggerNode>(bus, LoggerConfig{}, folder.file("a.lcm"));
+  }));
+  Bus& sender = runner.observer();
+  const auto beat = [&](const std::string& process) {
+    Heartbeat heartbeat;
+    heartbeat.process = process;
+    heartbeat.build_id = "b";
+    sender.publish(channels::kHeartbeat, heartbeat);
+    runner.run(runner.now() + Duration{100'000});
+  };
+  beat("a_detector");
+  EXPECT_EQ(logger.health().state, ProcessState::Ready) << logger.health().waiting_for;
+  beat("tern-planner");
+  EXPECT_EQ(logger.health().state, ProcessState::Waiting);
+  EXPECT_EQ(logger.health().waiting_for, "CONFIGURATION of tern-planner");
+  ConfigurationReport report;
+  report.process = "tern-planner";
+  report.build_id = "b";
+  report.platform = "p";
+  report.hash = configuration_hash("");
+  sender.publish(channels::kConfiguration, report);
+  runner.run(runner.now() + Duration{100'000});
+  EXPECT_EQ(logger.health().state, ProcessState::Ready) << logger.health().waiting_for;
+}
+
+TEST(Logger, DoesNotWaitForTheConfigurationOfOneThatIsGone) {
+  const TempFolder folder;
+  VirtualRunner runner;
+  const auto& logger = dynamic_cast<LoggerNode&>(runner.start("tern-logger", [&](Bus& bus) {
+    return std::make_unique<LoggerNode>(bus, LoggerConfig{}, folder.file("a.lcm"));
+  }));
+  Heartbeat heartbeat;
+  heartbeat.process = "tern-mapper";
+  heartbeat.build_id = "b";
+  runner.observer().publish(channels::kHeartbeat, heartbeat);
+  runner.run(runner.now() + Duration{2'000'000});
+  EXPECT_EQ(logger.health().state, ProcessState::Waiting);
+  runner.run(runner.now() + Duration{1'000'000});
+  EXPECT_EQ(logger.health().state, ProcessState::Ready);
 }
 
 /// Fragments can make a message of 256 MB, which LCM hands over.

@@ -94,7 +94,9 @@ struct Words {
   }
   void add(const HorizonRequest& r) {
     (*this)(r.header, r.id, r.t_s, r.deadline, r.committed, r.start, r.limits.v_max, r.limits.a_max, r.limits.j_max,
-            r.body.vertices, r.body.radius, r.flight_box);
+            r.body.vertices, r.body.radius, r.flight_box, r.tube);
+    const Dynamics d = r.limits.dynamics.value_or(Dynamics{0.0, 0.0, 0.0, 0.0});
+    (*this)(d.thrust_min, d.thrust_max, d.tilt_max_deg, d.body_rate_max_deg_s);
   }
   void add(const Plan& p) {
     (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.confidence, p.level, p.alpha_scale,
@@ -116,7 +118,8 @@ struct Words {
   void add(const ObstacleTruth& t) { (*this)(t.header, t.batch, t.at, t.obstacles, t.left_out); }
   void add(const FlightResult& r) {
     (*this)(r.header, r.outcome, r.detail, r.flight_time_s, r.first_entry_s, r.path_length_m, r.mean_speed_mps,
-            r.top_speed_mps, r.min_clearance_m, r.jerk_integral, r.stops, r.limit_violations, r.exposure);
+            r.top_speed_mps, r.min_clearance_m, r.min_map_clearance_m, r.jerk_integral, r.stops, r.limit_violations,
+            r.contacts_moving, r.contacts_at_rest, r.obstacles, r.obstacles_left_out, r.exposure);
   }
 };
 

@@ -241,6 +241,8 @@ TEST(Rejection, OfMapChunk) {
 
 TEST(Rejection, OfHorizonRequest) {
   using Request = HorizonRequest;
+  EXPECT_EQ(after<Request>([](auto& r) { r.tube.z() = -1e-9; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.tube.x() = kNaN; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.id = -1; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.t_s.us = kFarPast; }), "Time");
   EXPECT_EQ(after<Request>([](auto& r) { r.deadline = r.t_s - Duration{4'999}; }), "Time");
@@ -272,6 +274,20 @@ TEST(Rejection, OfHorizonRequest) {
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.setConstant(1e300); }), "accepted");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.x() = -kInfinity; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.y() = kNaN; }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.dynamics = Dynamics{}; }), "accepted");
+  for (const auto& [field, range] : {std::pair{&Dynamics::thrust_min, Dynamics::kThrustMin},
+                                     {&Dynamics::thrust_max, Dynamics::kThrustMax},
+                                     {&Dynamics::tilt_max_deg, Dynamics::kTilt},
+                                     {&Dynamics::body_rate_max_deg_s, Dynamics::kBodyRate}}) {
+    const auto with = [field = field](double value) {
+      return after<Request>([&](auto& r) { r.limits.dynamics.emplace().*field = value; });
+    };
+    EXPECT_EQ(with(range.low), "accepted");
+    EXPECT_EQ(with(range.high), "accepted");
+    EXPECT_EQ(with(std::nextafter(range.low, -kInfinity)), "Number");
+    EXPECT_EQ(with(std::nextafter(range.high, kInfinity)), "Number");
+    EXPECT_EQ(with(kNaN), "Number");
+  }
   EXPECT_EQ(after<Request>([](auto& r) { r.body.radius = -0.1; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.body.vertices(2, 0) = 1001.0; }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.flight_box = Box(Vec3(0, 0, 1), Vec3(1, 1, 0)); }), "Inconsistent");
@@ -419,6 +435,7 @@ TEST(Rejection, OfFlightResult) {
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.first_entry_s = kInfinity; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.flight_time_s = -1.0; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.min_clearance_m = -2e7; }), "Number");
+  EXPECT_EQ(after<FlightResult>([](auto& r) { r.min_map_clearance_m = 2e7; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.stops = -1; }), "Number");
   EXPECT_EQ(after<FlightResult>([](auto& r) { r.exposure[0].metres = kNaN; }), "Number");
   using Wire = tern_msgs::flight_result_t;

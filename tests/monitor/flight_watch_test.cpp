@@ -17,9 +17,19 @@ Heartbeat simulator(std::int64_t epoch) {
   return heartbeat;
 }
 
-HorizonRequest request(std::int64_t simulator_epoch) {
+constexpr std::int64_t kExecutorEpoch = 77;
+
+Heartbeat executor() {
+  Heartbeat heartbeat;
+  heartbeat.process = kExecutorProcess;
+  heartbeat.header.name = {kExecutorEpoch, 1};
+  heartbeat.state = ProcessState::Ready;
+  return heartbeat;
+}
+
+HorizonRequest request() {
   HorizonRequest request;
-  request.header = {{simulator_epoch, 1}, kStart};
+  request.header = {{kExecutorEpoch, 1}, kStart};
   request.id = 1;
   request.deadline = kStart + Duration{50'000};
   return request;
@@ -81,7 +91,8 @@ TEST(FlightWatch, FailsWhenTheSimulatorIsNotHeard) {
 TEST(FlightWatch, FailsWhenTheWorldIsLostMidway) {
   FlightWatch watch(scenario(), kStart);
   watch.hear(simulator(1), kStart);
-  watch.hear(request(1), kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
   EXPECT_FALSE(watch.ending(kStart));
   UTime now = kStart;
   for (int k = 0; k < 5; ++k) watch.hear(simulator(2), now = now + Duration{500'000});
@@ -96,7 +107,8 @@ TEST(FlightWatch, FailsWhenTheWorldIsLostMidway) {
 TEST(FlightWatch, ASecondSimulatorBesideTheFirstEndsNothing) {
   FlightWatch watch(scenario(), kStart);
   watch.hear(simulator(5), kStart);
-  watch.hear(request(5), kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
   UTime now = kStart;
   for (int k = 0; k < 20; ++k) {
     now = now + Duration{500'000};
@@ -114,7 +126,8 @@ TEST(FlightWatch, TheVerdictIsThatOfTheSimulatorThatTheFlightBeganWith) {
   watch.hear(verdict_of(1, FlightOutcome::Reached), kStart);
   EXPECT_FALSE(watch.ending(kStart + kLastWords)) << "there is no simulator yet";
   watch.hear(simulator(5), kStart);
-  watch.hear(request(5), kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
   watch.hear(verdict_of(9, FlightOutcome::Reached), kStart);
   EXPECT_FALSE(watch.ending(kStart + kLastWords));
   watch.hear(verdict_of(5, FlightOutcome::Timeout), kStart);
@@ -124,7 +137,8 @@ TEST(FlightWatch, TheVerdictIsThatOfTheSimulatorThatTheFlightBeganWith) {
 TEST(FlightWatch, AVerdictIsDroppedWhenTheSimulatorFliesOn) {
   FlightWatch watch(scenario(), kStart);
   watch.hear(simulator(5), kStart);
-  watch.hear(request(5), kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
   watch.hear(verdict_of(5, FlightOutcome::Reached), kStart);
   Heartbeat next = simulator(5);
   next.header.utime = kStart + Duration{400'000};
@@ -136,14 +150,16 @@ TEST(FlightWatch, ASimulatorThatStartsAnewBeforeTheFlightIsARestartOnly) {
   FlightWatch watch(scenario(), kStart);
   UTime now = kStart;
   for (const std::int64_t epoch : {1, 1, 2, 2, 2, 2, 2}) watch.hear(simulator(epoch), now = now + Duration{500'000});
-  watch.hear(request(2), now);
+  watch.hear(executor(), now);
+  watch.hear(request(), now);
   EXPECT_FALSE(watch.ending(now));
   EXPECT_EQ(watch.summary({}).restarts, 1);
 }
 
 TEST(FlightWatch, FailsWhenTheRefereeKeepsSilent) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(request(1), kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
   const UTime late = kStart + Duration{30'000'000} + kVerdictSlack;
   watch.hear(simulator(1), late);
   EXPECT_FALSE(watch.ending(late));
@@ -168,7 +184,8 @@ TEST(FlightWatch, AVerdictCountsMoreThanAFailureAfterIt) {
 TEST(FlightWatch, ShowsProgressSpeedAndTheNearestObstacle) {
   FlightWatch watch(scenario(), kStart);
   EXPECT_FALSE(watch.live().flying);
-  watch.hear(request(1), kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
   watch.hear(state(Vec3(4, 0, 1), Vec3(3, 4, 0), kStart + Duration{2'000'000}));
   EXPECT_TRUE(std::isnan(watch.live().nearest_m));
   TrueObstacle near, far;
@@ -186,7 +203,8 @@ TEST(FlightWatch, ShowsProgressSpeedAndTheNearestObstacle) {
 
 TEST(FlightWatch, MeasuresProgressToANewGoal) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(request(1), kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
   watch.hear(state(Vec3(0, 5, 1), Vec3::Zero(), kStart));
   Goal goal;
   goal.id = 2;
@@ -197,7 +215,8 @@ TEST(FlightWatch, MeasuresProgressToANewGoal) {
 
 TEST(FlightWatch, WhereTheGoalIsTheStartAllOfTheWayIsDone) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(request(1), kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
   watch.hear(state(Vec3(1, 0, 0), Vec3::Zero(), kStart));
   Goal goal;
   goal.id = 2;

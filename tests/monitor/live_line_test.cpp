@@ -36,6 +36,24 @@ TEST(LiveLine, SaysWhatTheNewestPlanExcusesItselfWith) {
   EXPECT_TRUE(live_line(view).ends_with("(stale world)")) << live_line(view);
 }
 
+TEST(LiveLine, KeepsWhatIsWrongWhereATerminalIsNarrow) {
+  LiveView view;
+  view.flying = true;
+  view.elapsed_s = 106.4;
+  view.replan_p50_ms = 14.1;
+  view.replan_p99_ms = 112.3;
+  view.requests = view.answered_in_time = 12800;
+  view.reason = PlanReason::StartInCollision;
+  const std::string whole = live_line(view);
+  EXPECT_GT(whole.size(), 100U);
+  for (std::size_t columns = 70; columns < whole.size(); ++columns) {
+    const std::string line = live_line(view, columns);
+    EXPECT_LE(line.size(), columns);
+    EXPECT_TRUE(line.ends_with("(start in collision)")) << line;
+  }
+  EXPECT_EQ(live_line(view, whole.size()), whole);
+}
+
 TEST(LiveLine, SaysThatTheNewestPlanDoesNotKnowAllTracks) {
   LiveView view;
   view.flying = true;

@@ -120,6 +120,20 @@ TEST(RequestLedger, CountsThePlansOfIncompleteSetsAndKeepsTheNewest) {
   EXPECT_EQ(ledger.left_out().most_tracks, 12);
 }
 
+TEST(RequestLedger, CountsTrajectoriesByTheirConfidence) {
+  RequestLedger ledger;
+  ledger.add(plan(1, kDeadline));
+  ledger.add(plan(2, kDeadline, PlanOutcome::NoPlan));
+  Plan less = plan(3, kDeadline);
+  less.level = kLevels - 1;
+  ledger.add(less);
+  less = plan(4, kDeadline);
+  less.level = kLevels - 1;
+  less.alpha_scale = 0.5;
+  ledger.add(less);
+  EXPECT_EQ(ledger.plans_by_level(), (PlansByLevel{1, 0, 0, 0, 1, 1}));
+}
+
 TEST(RequestLedger, AnAnswerToNobodySettlesNothing) {
   RequestLedger ledger;
   ledger.add(plan(7, kDeadline, PlanOutcome::NoPlan));

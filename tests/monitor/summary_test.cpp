@@ -24,6 +24,8 @@ FlightSummary flown() {
   s.scenario = "corridor_demo";
   s.seed = 1;
   s.count = 100;
+  s.settings = {Limits{}, 2.0, 3.0};
+  s.command = "fly.sh --seed 1";
   FlightResult r;
   r.flight_time_s = 13.25;
   r.first_entry_s = std::numeric_limits<double>::quiet_NaN();
@@ -46,11 +48,14 @@ FlightSummary flown() {
 TEST(Summary, HasExactlyTheKeysThatWerePromised) {
   const json summary = json::parse(to_json(flown()));
   EXPECT_THAT(keys(summary),
-              testing::UnorderedElementsAre("outcome", "detail", "scenario", "seed", "count", "flight_time_s",
-                                            "first_entry_s", "path_length_m", "mean_speed_mps", "top_speed_mps",
-                                            "stops", "min_clearance_m", "limit_violations", "requests",
-                                            "answered_in_time", "second_answers", "plans", "left_out", "replan_ms",
-                                            "exposure", "messages", "restarts", "beside", "log", "version"));
+              testing::UnorderedElementsAre(
+                  "outcome", "detail", "scenario", "seed", "count", "settings", "flight_time_s", "first_entry_s",
+                  "path_length_m", "mean_speed_mps", "top_speed_mps", "stops", "min_clearance_m", "min_map_clearance_m",
+                  "limit_violations", "contacts_moving", "contacts_at_rest", "obstacles", "obstacles_left_out",
+                  "requests", "answered_in_time", "second_answers", "plans", "confidence", "left_out", "replan_ms",
+                  "exposure", "messages", "restarts", "beside", "log", "command", "version"));
+  EXPECT_THAT(keys(summary["settings"]),
+              testing::UnorderedElementsAre("lambda_attractive", "lambda_repulsive", "v_max", "a_max", "j_max"));
   EXPECT_THAT(keys(summary["replan_ms"]),
               testing::UnorderedElementsAre("total", "first_answer", "hulls", "search", "optimization", "check"));
   EXPECT_THAT(keys(summary["replan_ms"]["hulls"]), testing::UnorderedElementsAre("p50", "p95", "p99", "max"));
@@ -64,6 +69,8 @@ TEST(Summary, SaysTheValuesInJson) {
   EXPECT_EQ(summary["seed"], 1);
   EXPECT_EQ(summary["flight_time_s"], 13.25);
   EXPECT_EQ(summary["stops"], 2);
+  EXPECT_EQ(summary["settings"]["lambda_repulsive"], 3.0);
+  EXPECT_EQ(summary["command"], "fly.sh --seed 1");
   EXPECT_EQ(summary["plans"]["optimized"], 250);
   EXPECT_EQ(summary["plans"]["no_plan"], 1);
   EXPECT_EQ(summary["replan_ms"]["total"]["p99"], 12.0);
@@ -97,10 +104,11 @@ TEST(Summary, FitsOneScreen) {
   for (int i = 0; i < 14; ++i) s.messages["CHANNEL_" + std::to_string(i)] = {1, 1, 1};
   s.reasons.fill(99);
   s.left_out = {99'999, 99'999};
+  s.by_level.fill(99'999);
   std::istringstream text(to_text(s));
   int lines = 0;
   for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 100U) << line;
-  EXPECT_LE(lines, 32);
+  EXPECT_LE(lines, 33);
 }
 
 TEST(Summary, SaysThatPlansRestedOnAnIncompleteSet) {
@@ -111,6 +119,16 @@ TEST(Summary, SaysThatPlansRestedOnAnIncompleteSet) {
   EXPECT_NE(to_text(s).find("130 plans rest on incomplete predictions: up to 12 tracks are not in them"),
             std::string::npos);
   EXPECT_EQ(json::parse(to_json(s))["left_out"], (json{{"plans", 130}, {"most_tracks", 12}}));
+}
+
+TEST(Summary, SaysHowManyPlansWereLessSureThanPromised) {
+  FlightSummary s = flown();
+  s.by_level = {200, 0, 0, 0, 0, 0};
+  EXPECT_EQ(to_text(s).find("confidence"), std::string::npos);
+  s.by_level = {200, 10, 9, 8, 7, 6};
+  EXPECT_NE(to_text(s).find("40 of 240 plans at less than what is promised, 6 below 0.6"), std::string::npos);
+  EXPECT_EQ(json::parse(to_json(s))["confidence"],
+            (json{{"promised", 200}, {"0.95", 10}, {"0.9", 9}, {"0.8", 8}, {"0.6", 7}, {"below", 6}}));
 }
 
 TEST(Summary, TellsAPersonTheOutcomeFirst) {

@@ -6,7 +6,9 @@
 #include "messages/codec.h"
 #include "planner/planner.h"
 #include "planner/tuning.h"
+#include "tests/support/flat_outputs.h"
 #include "tests/support/plan_judge.h"
+#include "tests/support/random_shares.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/voxel_maps.h"
 
@@ -45,6 +47,15 @@ VoxelMap random_map(Rng& rng, const Vec3& around) {
   return map;
 }
 
+/// Believed to be somewhere within a metre.
+void make_estimated(Rng& rng, Track& track) {
+  track.kind = TrackKind::Estimated;
+  for (Vec3& alpha : track.alpha) {
+    alpha = Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+    track.shares.push_back(random_shares(rng));
+  }
+}
+
 Draw random_draw(std::uint64_t seed) {
   Rng rng(seed);
   Draw d;
@@ -68,6 +79,9 @@ Draw random_draw(std::uint64_t seed) {
   const int movers = rng.uniform() < 0.2 ? 60 : random_integer(rng, 0, 25);
   for (int id = 1; id <= movers; ++id)
     tracks.push_back(random_mover(rng, id, where, t_s - Duration{250'000}, rng.uniform(2.0, 5.0)));
+  if (rng.uniform() < 0.5) {
+    for (Track& track : tracks) make_estimated(rng, track);
+  }
   for (int id = 101; id <= 100 + random_integer(rng, 0, 4); ++id) {
     tracks.push_back(
         standing_box(id, box_around(Vec3(d.request.start.p + random_vector(rng, 4.0)), Vec3(0.2, 0.2, 2.0)), t_s));
@@ -384,6 +398,36 @@ TEST(PlannerInALoop, AStrongAttractionDoesNotParkTheVehicle) {
     }
     EXPECT_LT(steps, 120) << "cost " << static_cast<int>(cost) << ": at " << loop.now().p.transpose();
   }
+}
+
+/// Loops among movers, each with a vehicle of its own: all that is flown stays within its thrust, tilt and body rates.
+TEST(PlannerInALoop, AMultirotorFliesOnlyWhatItsPropellersCan) {
+  double farthest = 0.0;
+  int optimized = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Rng rng(seed);
+    Limits limits;
+    limits.dynamics = random_dynamics(rng);
+    std::vector<Track> tracks;
+    for (int id = 1; id <= 12; ++id) {
+      tracks.push_back(random_mover(rng, id, Box(Vec3(1.5, -2.0, 0.0), Vec3(9.0, 2.0, 2.0)), kStart, 12.0));
+    }
+    PlannerConfig config;
+    config.optimization.solver = seed % 4 == 0 ? ConvexSolver::Ipopt : ConvexSolver::Barrier;
+    Loop loop{kStart, resting_at(Vec3(0, 0, 1), kStart), limits, Body{}, config};
+    for (int step = 0; step < 40; ++step) {
+      const auto world_at = [&](const HorizonRequest& request) {
+        return world_of(tracks, go_to(Vec3(10, 0, 1)), request, config);
+      };
+      const Plan got = loop.step(world_at);
+      if (got.outcome == PlanOutcome::Optimized) ++optimized;
+      ASSERT_TRUE(flat_outputs(loop.committed.spline(), 50).within(*limits.dynamics, 1e-5))
+          << "seed " << seed << ", step " << step;
+    }
+    farthest = std::max(farthest, loop.now().p.x());
+  }
+  EXPECT_GT(farthest, 5.0);
+  EXPECT_GT(optimized, 50);
 }
 
 }  // namespace

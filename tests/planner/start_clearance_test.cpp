@@ -33,17 +33,17 @@ TEST(ClearStart, ScalesAlphaToTheLargestValueThatLeavesTheBodyClear) {
     auto obstacles = obstacles_of(tracks);
     const Body body = body_of(kBodyKinds[seed % 3]);
     const StartClearance result = clear_start(obstacles, body, Vec3::Zero(), kNow);
-    const double scale = obstacles[0].alpha_scale;
+    const double scale = obstacles[0].alpha.scale;
     ASSERT_GE(scale, 0.0);
     ASSERT_LE(scale, 1.0);
-    const Box bare = promised_box(track, kNow, 0.0);
+    const Box bare = promised_box(track, kNow, {0, 0.0});
     if (result.collides) {
       ++collided;
       ASSERT_LE(room(body, bare), kSlack) << "seed " << seed;
       continue;
     }
     ASSERT_EQ(result.relaxed, scale < 1.0) << "seed " << seed;
-    const Box now = promised_box(track, kNow, scale);
+    const Box now = promised_box(track, kNow, {0, scale});
     ASSERT_GT(room(body, now), kTouchingTolerance) << "seed " << seed;
     if (!result.relaxed) continue;
     ++relaxed;
@@ -69,7 +69,7 @@ TEST(ClearStart, LeavesWhatIsFarAlone) {
   const StartClearance result = clear_start(obstacles, Body{}, Vec3::Zero(), kNow);
   EXPECT_FALSE(result.relaxed);
   EXPECT_FALSE(result.collides);
-  EXPECT_EQ(obstacles[0].alpha_scale, 1.0);
+  EXPECT_EQ(obstacles[0].alpha.scale, 1.0);
 }
 
 TEST(ClearStart, TakesTheAlphaOfThePieceThatIsInForce) {
@@ -83,11 +83,11 @@ TEST(ClearStart, TakesTheAlphaOfThePieceThatIsInForce) {
 }
 
 TEST(ClearStart, ABoxOfTheMapHasNoAlphaToGive) {
-  std::vector<PlanningObstacle> obstacles{{-1, nullptr, box_around(Vec3(0.25, 0, 0), Vec3::Constant(0.2)), 1.0}};
+  std::vector<PlanningObstacle> obstacles{{-1, nullptr, box_around(Vec3(0.25, 0, 0), Vec3::Constant(0.2)), {}}};
   const StartClearance result = clear_start(obstacles, Body{}, Vec3::Zero(), kNow);
   EXPECT_TRUE(result.collides);
   EXPECT_FALSE(result.relaxed);
-  EXPECT_EQ(obstacles[0].alpha_scale, 1.0);
+  EXPECT_EQ(obstacles[0].alpha.scale, 1.0);
 }
 
 }  // namespace

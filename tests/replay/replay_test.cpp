@@ -6,12 +6,14 @@
 #include <map>
 #include <optional>
 
+#include "executor/app/executor_node.h"
 #include "flight_log/log_writer.h"
 #include "flight_log/text_log.h"
 #include "messages/codec.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 #include "simulator/app/simulator_node.h"
+#include "simulator/vehicle/perfect_vehicle.h"
 #include "simulator/worlds/world.h"
 #include "tests/replay/golden_flights.h"
 #include "tests/support/temp_folder.h"
@@ -90,7 +92,7 @@ void tell_goal(VirtualSystem& system, std::int64_t id, GoalMode mode, const Vec3
   system.runner().observer().publish(channels::kGoal, goal);
 }
 
-/// Another simulator, with another world and goal, beside the same predictor, mapper and planner.
+/// Another simulator and executor, with another world and goal, beside the same predictor, mapper and planner.
 void fly_again(VirtualSystem& system) {
   static const Scenario scenario = [] {
     auto document = ConfigDocument::load(
@@ -98,11 +100,14 @@ void fly_again(VirtualSystem& system) {
         {"world.obstacles=[{name: wall, centre: [-3, 0.2, 2], half_extents: [0.3, 2, 2]}]", "uav.goal=[-8, 0, 2]"});
     return read_scenario(document);
   }();
-  system.runner().stop("tern-simulator");
+  for (const char* process : {"tern-simulator", "tern-executor"}) system.runner().stop(process);
   system.runner().start("tern-simulator", [](Bus& bus) {
-    return std::make_unique<SimulatorNode>(bus, scenario, make_world(scenario, "").value(), SimulatorConfig(),
-                                           ExecutorConfig());
+    return std::make_unique<SimulatorNode>(bus, scenario, make_world(scenario, "").value(),
+                                           std::make_unique<PerfectVehicle>(scenario.uav, bus.clock().now()),
+                                           SimulatorConfig());
   });
+  system.runner().start("tern-executor",
+                        [](Bus& bus) { return std::make_unique<ExecutorNode>(bus, scenario.uav, ExecutorConfig()); });
 }
 
 TEST_F(ReplayTest, OfHoldingAndOfASecondFlightGivesTheSameBytes) {
@@ -265,6 +270,31 @@ TEST_F(ReplayTest, OtherSettingsSayWhatTheyChange) {
   EXPECT_GT(what_if.count(Agreement::Different), 0);
   EXPECT_EQ(replay_exit_code(what_if, true), 0);
   EXPECT_NE(replay_text(what_if, true).find("other trajectories"), std::string::npos);
+}
+
+TEST_F(ReplayTest, RefusesSettingsThatCannotTakeEffect) {
+  for (const char* setting : {"uav.limits.v_max=4", "semantics.regions=[]", "semantics={}", "seed=3", "plannerx.a=1",
+                              "predictor.confidence=0.9"}) {
+    ReplayOptions options;
+    options.other.settings = {"planner.hold_required_s=1", setting};
+    EXPECT_THROW((void)replay_log(log(), options), ConfigError) << setting;
+  }
+  for (const char* setting :
+       {"semantics.lambda_attractive=3", "semantics.lambdas.texture=1", "semantics.cost=exposure"}) {
+    EXPECT_NO_THROW((OtherSettings{"", {setting}}.check())) << setting;
+  }
+}
+
+TEST_F(ReplayTest, RefusesAChoiceOfNoAnswer) {
+  ReplayOptions options;
+  options.request = 100'000;
+  const auto none = replay_log(log(), options);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("no answer is chosen"), std::string::npos) << none.error().message;
+  options.request.reset();
+  options.from_s = 3.0;
+  options.to_s = 2.0;
+  EXPECT_FALSE(replay_log(log(), options));
 }
 
 /// Problems of the log, solved anew.

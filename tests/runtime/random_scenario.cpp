@@ -1,5 +1,6 @@
 #include "random_scenario.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,7 @@ WaypointMotion waypoints(Rng& rng) {
   motion.repeat = toss(rng);
   if (motion.repeat) motion.points.back().second = motion.points.front().second;
   motion.vanish = !motion.repeat && toss(rng);
+  if (motion.vanish) motion.leave_out_within_m = rng.uniform(0.0, 5.0);
   return motion;
 }
 
@@ -55,10 +57,19 @@ RecordedTracksSpec recorded(Rng& rng) {
   if (toss(rng)) spec.z_column = 3;
   spec.metres_per_unit = rng.uniform(0.001, 2.0);
   spec.frames_per_second = rng.uniform(1.0, 60.0);
-  spec.start_s = rng.uniform(0.0, 600.0);
+  spec.least_step_s = rng.uniform();
   spec.half_extents = vec(rng, 0.1, 1.0);
   spec.centre_z = rng.uniform(-1.0, 3.0);
-  spec.wait_for_clear_start = toss(rng);
+  if (rng.uniform() < 0.3) {
+    spec.copies = 1 + pick(rng, 9);
+    spec.within = Box(vec(rng, -9.0, 0.0), vec(rng, 1.0, 9.0));
+    return spec;
+  }
+  if (toss(rng)) {
+    spec.start_s = rng.uniform(0.0, 600.0);
+    spec.wait_for_clear_start = toss(rng);
+  }
+  spec.leave_out_within_m = rng.uniform(0.0, 5.0);
   return spec;
 }
 
@@ -93,6 +104,10 @@ UavSpec random_uav(Rng& rng) {
   uav.limits.a_max = vec(rng, 0.5, 50.0);
   if (toss(rng)) uav.limits.j_max = vec(rng, 1.0, 200.0);
   if (toss(rng)) uav.limits.j_max.z() = std::numeric_limits<double>::infinity();
+  if (toss(rng)) {
+    uav.limits.dynamics =
+        Dynamics{rng.uniform(0.0, 9.0), rng.uniform(10.5, 50.0), rng.uniform(1.0, 85.0), rng.uniform(1.0, 2000.0)};
+  }
   uav.body.radius = rng.uniform(0.0, 0.5);
   if (toss(rng)) {
     uav.body.radius = 0.0;
@@ -134,6 +149,7 @@ void compare(Comparison& equal, const std::string& at, const WaypointMotion& a, 
   equal(at + "points", a.points, b.points);
   equal(at + "repeat", a.repeat, b.repeat);
   equal(at + "vanish", a.vanish, b.vanish);
+  equal(at + "leave_out_within_m", a.leave_out_within_m, b.leave_out_within_m);
 }
 void compare(Comparison& equal, const std::string& at, const Box& a, const Box& b) { equal(at + "box", a, b); }
 void compare(Comparison& equal, const std::string& at, const BallRegion& a, const BallRegion& b) {
@@ -171,7 +187,11 @@ void compare(Comparison& equal, const std::string& at, const RecordedTracksSpec&
   equal(at + "z_column", a.z_column, b.z_column);
   equal(at + "metres_per_unit", a.metres_per_unit, b.metres_per_unit);
   equal(at + "frames_per_second", a.frames_per_second, b.frames_per_second);
+  equal(at + "least_step_s", a.least_step_s, b.least_step_s);
   equal(at + "start_s", a.start_s, b.start_s);
+  equal(at + "leave_out_within_m", a.leave_out_within_m, b.leave_out_within_m);
+  equal(at + "copies", a.copies, b.copies);
+  if (a.copies > 0) equal(at + "within", a.within, b.within);
   equal(at + "half_extents", a.half_extents, b.half_extents);
   equal(at + "centre_z", a.centre_z, b.centre_z);
   equal(at + "wait_for_clear_start", a.wait_for_clear_start, b.wait_for_clear_start);
@@ -199,6 +219,7 @@ Scenario random_scenario(Rng& rng) {
   if (toss(rng)) {
     scenario.world.generator = "sando_forest";
     scenario.world.count = pick(rng, 500);
+    if (toss(rng)) scenario.world.slowness = rng.uniform(0.1, 9.0);
   }
   for (int n = pick(rng, 6); n > 0; --n) scenario.world.obstacles.push_back(obstacle(rng, n));
   for (int n = pick(rng, 3); n > 0; --n) scenario.world.recorded.push_back(recorded(rng));
@@ -225,6 +246,7 @@ std::string difference(const Scenario& a, const Scenario& b) {
   equal("timeout_s", a.timeout_s, b.timeout_s);
   equal("world.generator", a.world.generator, b.world.generator);
   equal("world.count", a.world.count, b.world.count);
+  equal("world.slowness", a.world.slowness, b.world.slowness);
   compare(equal, "world.obstacles.", a.world.obstacles, b.world.obstacles);
   compare(equal, "world.recorded.", a.world.recorded, b.world.recorded);
   equal("uav.start", a.uav.start, b.uav.start);
@@ -232,6 +254,12 @@ std::string difference(const Scenario& a, const Scenario& b) {
   equal("uav.limits.v_max", a.uav.limits.v_max, b.uav.limits.v_max);
   equal("uav.limits.a_max", a.uav.limits.a_max, b.uav.limits.a_max);
   equal("uav.limits.j_max", a.uav.limits.j_max, b.uav.limits.j_max);
+  const auto none = Dynamics{0.0, 0.0, 0.0, 0.0};
+  const auto numbers = [&none](const UavSpec& uav) {
+    const Dynamics d = uav.limits.dynamics.value_or(none);
+    return std::array{d.thrust_min, d.thrust_max, d.tilt_max_deg, d.body_rate_max_deg_s};
+  };
+  equal("uav.dynamics", numbers(a.uav), numbers(b.uav));
   equal("uav.body.radius", a.uav.body.radius, b.uav.body.radius);
   equal("uav.body.vertices", a.uav.body.vertices.cols(), b.uav.body.vertices.cols());
   if (equal.first.empty()) equal("uav.body.vertices", a.uav.body.vertices, b.uav.body.vertices);

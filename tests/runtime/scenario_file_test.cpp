@@ -1,6 +1,8 @@
 // Scenario files: what is written is read back; every rule refuses with file, line and key.
 #include "runtime/scenario_file.h"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 
 #include "random_scenario.h"
 #include "tests/messages/allocation_meter.h"
@@ -189,6 +192,19 @@ TEST(ScenarioFile, TakesLimitsAsOneNumberOrThreeAndInfiniteJerk) {
   EXPECT_EQ(error_of("uav:\n  limits:\n    j_max: 0\n"), "a.yaml:3: uav.limits.j_max: 0 is out of range [0.001, inf]");
 }
 
+TEST(ScenarioFile, TakesAMultirotorsDynamicsInPartAndNoneAreNone) {
+  EXPECT_FALSE(read("uav: {}\n").uav.limits.dynamics);
+  const auto dynamics = read("uav: {dynamics: {thrust_max: 39.2, tilt_max: 70}}\n").uav.limits.dynamics;
+  ASSERT_TRUE(dynamics);
+  EXPECT_EQ(dynamics->thrust_max, 39.2);
+  EXPECT_EQ(dynamics->tilt_max_deg, 70.0);
+  EXPECT_EQ(dynamics->body_rate_max_deg_s, Dynamics{}.body_rate_max_deg_s);
+  EXPECT_EQ(error_of("uav:\n  dynamics:\n    thrust_max: 9\n"),
+            "a.yaml:3: uav.dynamics.thrust_max: 9 is out of range [10.5, 10000]");
+  EXPECT_EQ(error_of("uav:\n  dynamics:\n    tilt_max: 90\n"),
+            "a.yaml:3: uav.dynamics.tilt_max: 90 is out of range [1, 85]");
+}
+
 TEST(ScenarioFile, ABoxBodyIsItsCorners) {
   const Scenario s = read("uav: {body: {half_extents: [0.1, 0.2, 0.3]}}\n");
   EXPECT_EQ(s.uav.body.radius, 0.0);
@@ -215,6 +231,45 @@ TEST(ScenarioFile, TheWholeBodyMustStartAndEndInsideTheFlightBox) {
       "3.5])");
   EXPECT_EQ(error_of("uav:\n  flight_box:\n    min: [0, 0, 0]\n    max: [1, 0, 1]\n"),
             "a.yaml:4: uav.flight_box.max: is not greater than min on every axis");
+}
+
+TEST(ScenarioFile, OfSeveralRoutesTheSeedDrawsOneAndTheWay) {
+  const std::string routes =
+      "uav:\n  routes:\n    - {from: [0, 0, 1], to: [9, 0, 1]}\n    - {from: [0, 2, 1], to: [9, 2, 1]}\n";
+  std::map<std::pair<double, double>, int> drawn;
+  for (int seed = 1; seed <= 200; ++seed) {
+    const Scenario scenario = read(fmt::format("seed: {}\n{}", seed, routes));
+    EXPECT_EQ(scenario.uav.start.y(), scenario.uav.goal.y());
+    EXPECT_EQ(scenario.uav.start.x() + scenario.uav.goal.x(), 9.0);
+    ++drawn[{scenario.uav.start.x(), scenario.uav.start.y()}];
+    EXPECT_EQ(read(write_scenario(scenario)).uav.start, scenario.uav.start)
+        << "written out, the route is the drawn one";
+  }
+  ASSERT_EQ(drawn.size(), 4U);
+  for (const auto& [start, times] : drawn) EXPECT_GT(times, 30);
+}
+
+TEST(ScenarioFile, RefusesRoutesBesideAStartAndOutsideTheFlightBox) {
+  EXPECT_EQ(error_of("uav:\n  routes: [{from: [0, 0, 1], to: [9, 0, 1]}]\n  goal: [9, 0, 1]\n"),
+            "a.yaml:2: uav.routes: goes without start and goal: each route has both");
+  EXPECT_EQ(error_of("uav:\n  routes: [{from: [0, 0, 1]}]\n"), "a.yaml:2: uav.routes[0].to: is missing");
+  for (int seed = 1; seed <= 8; ++seed) {
+    EXPECT_THAT(error_of(fmt::format("seed: {}\nuav:\n  routes:\n    - {{from: [0, 0, 1], to: [8, 0, 1]}}\n"
+                                     "    - {{from: [0, 0, 1], to: [9, 0, 1]}}\n"
+                                     "  flight_box: {{min: [-1, -1, 0], max: [9, 1, 4]}}\n",
+                                     seed)),
+                testing::HasSubstr("[9, 0, 1] is outside the flight box"))
+        << "whichever is drawn";
+  }
+}
+
+TEST(ScenarioFile, OfARecordingReadsTheKeysOfItsUseOnly) {
+  const std::string file = "world:\n  recorded:\n    - file: a.txt\n      ";
+  EXPECT_EQ(error_of(file + "start_s: 3\n      wait_for_clear_start: false\n"), "");
+  EXPECT_EQ(error_of(file + "copies: 3\n      within: {min: [0, 0, 0], max: [1, 1, 1]}\n"), "");
+  EXPECT_EQ(error_of(file + "copies: 3\n"),
+            "a.yaml:4: world.recorded[0].copies: needs `within`, the box in which they are");
+  EXPECT_THAT(error_of(file + "within: {min: [0, 0, 0], max: [1, 1, 1]}\n"), testing::HasSubstr("unknown key"));
 }
 
 TEST(ScenarioFile, RefusesUnknownGeneratorsAndCountsWithoutOne) {

@@ -81,7 +81,7 @@ TEST(SpeakerSilence, SensorsGoalsAndReportsMayComeFromSeveral) {
     EXPECT_FALSE(speaker_silence(channel)) << channel;
   }
   for (const char* channel :
-       {channels::kDeclaredMotions.name, channels::kHorizonRequest.name, channels::kFlightResult.name}) {
+       {channels::kDeclaredMotions.name, channels::kUavState.name, channels::kFlightResult.name}) {
     EXPECT_EQ(speaker_silence(channel), Duration{1'000'000}) << channel;
   }
 }

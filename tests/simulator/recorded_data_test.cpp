@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "simulator/worlds/declared_motions.h"
+#include "simulator/worlds/drawn_recordings.h"
 #include "simulator/worlds/generators.h"
 #include "simulator/worlds/recorded_tracks.h"
 #include "simulator/worlds/world.h"
@@ -128,6 +130,26 @@ TEST(Crowd, DeclaresWhoWalksExactly) {
       }
     }
   }
+}
+
+/// How many different flights 200 seeds are.
+std::size_t different_starts(const RecordedTracksSpec& spec, const UavSpec& uav) {
+  const auto tracks = load(spec);
+  std::set<double> starts;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Rng rng(seed);
+    starts.insert(draw_start(rng, tracks, spec, uav).value());
+  }
+  return starts.size();
+}
+
+TEST(People, AreMetInDifferentMomentsByDifferentSeeds) {
+  UavSpec uav = crowd(0.0).uav;
+  uav.limits = {Vec3::Constant(3.0), Vec3::Constant(10.0)};
+  EXPECT_GT(different_starts(hermes(), uav), 150U);
+  uav.start = Vec3(-6, 0, 1);
+  uav.goal = Vec3(12, 10, 1);
+  EXPECT_GT(different_starts(eth("eth", 15.0), uav), 180U);
 }
 
 }  // namespace

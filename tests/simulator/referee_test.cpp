@@ -58,6 +58,28 @@ TEST(Referee, JudgesAFlightThatReachesItsGoal) {
   EXPECT_EQ(verdict->limit_violations, 0);
 }
 
+TEST(Referee, JudgesTheMapsOccupiedVoxelsBesideTheObstacles) {
+  Scenario s = short_flight();
+  s.world.obstacles = {cube(Vec3(5, 1, 1), 0.4)};
+  Referee passes = referee_of(s);
+  ASSERT_TRUE(passes.set_map({Box(Vec3(4, -3, 0), Vec3(5, -0.15, 2)), Box(Vec3(20, -3, 0), Vec3(21, 3, 2))}));
+  passes.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  const FlightResult passed = passes.verdict().value();
+  EXPECT_EQ(passed.outcome, FlightOutcome::Reached) << passed.detail;
+  EXPECT_NEAR(passed.min_clearance_m, 0.5, kClearanceTolerance);
+  EXPECT_NEAR(passed.min_map_clearance_m, 0.05, kClearanceTolerance);
+
+  Referee hits = referee_of(s);
+  ASSERT_TRUE(hits.set_map({Box(Vec3(4, -3, 0), Vec3(5, 0.05, 2))}));
+  hits.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  const FlightResult hit = hits.verdict().value();
+  EXPECT_EQ(hit.outcome, FlightOutcome::Collision);
+  EXPECT_THAT(hit.detail, HasSubstr("touched the map at"));
+  EXPECT_LT(hit.min_map_clearance_m, 0.0);
+  EXPECT_GT(hit.min_clearance_m, 0.0);
+  EXPECT_FALSE(hits.set_map({Box(Vec3(2e5, 0, 0), Vec3(3e5, 1, 1))})) << "farther than a world reaches";
+}
+
 TEST(Referee, EndsTheFlightAtTheFirstContact) {
   Scenario s = short_flight();
   s.world.obstacles = {cube(Vec3(8, 0, 1), 0.4), cube(Vec3(5, 0, 1), 0.4)};
@@ -219,6 +241,38 @@ TEST(Referee, MeasuresExposureUntilTheEnd) {
   EXPECT_EQ(meadow.region, "meadow");
   EXPECT_NEAR(meadow.metres, 2.0, 2e-3);
   EXPECT_NEAR(meadow.near_metres, 4.0, 2e-3);
+}
+
+TEST(Referee, TellsAContactInFlightFromOneAtRest) {
+  Scenario s = short_flight();
+  s.world.obstacles = {cube(Vec3(5, 0, 1), 0.4)};
+  Referee flies_into = referee_of(s);
+  flies_into.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  EXPECT_EQ(flies_into.verdict()->contacts_moving, 1);
+  EXPECT_EQ(flies_into.verdict()->contacts_at_rest, 0);
+  s.world.obstacles[0].motion = LinearMotion{Vec3(-2, 0, 0), 0.0};
+  Referee is_hit = referee_of(s);
+  is_hit.advance({}, hop(s.uav.start, s.uav.start, 5.0));
+  ASSERT_TRUE(is_hit.verdict());
+  EXPECT_EQ(is_hit.verdict()->contacts_moving, 0);
+  EXPECT_EQ(is_hit.verdict()->contacts_at_rest, 1);
+  EXPECT_EQ(is_hit.verdict()->obstacles, 1);
+}
+
+TEST(Referee, CountsWhoWasThereAndWhoWasLeftOut) {
+  Scenario s = short_flight();
+  ObstacleSpec beside = cube(Vec3::Zero(), 0.4);
+  beside.motion = WaypointMotion{{{1.0, Vec3(0, 1, 1)}, {9.0, Vec3(0, 1, 1)}}, false, true, 3.0};
+  ObstacleSpec later = beside;
+  later.name = "later";
+  std::get<WaypointMotion>(later.motion).points = {{100.0, Vec3(9, 9, 1)}, {200.0, Vec3(9, 9, 1)}};
+  s.world.obstacles = {cube(Vec3(5, 4, 1), 0.4), beside, later};
+  Referee referee = referee_of(s);
+  referee.admit(5.0, [](double) { return Vec3(0, 0, 1); });
+  referee.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  EXPECT_EQ(referee.verdict()->outcome, FlightOutcome::Reached) << referee.verdict()->detail;
+  EXPECT_EQ(referee.verdict()->obstacles, 1);
+  EXPECT_EQ(referee.verdict()->obstacles_left_out, 1);
 }
 
 }  // namespace

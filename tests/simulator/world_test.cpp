@@ -104,6 +104,7 @@ TEST(World, WithRecordedPeopleListsThemToo) {
   recorded.frames_per_second = 1.0;
   recorded.half_extents = Vec3(0.25, 0.25, 2.0);
   recorded.centre_z = 1.5;
+  recorded.start_s = 0.0;
   s.world.recorded = {recorded};
   const World world = make_world(s, "").value();
   ASSERT_EQ(world.obstacles.size(), 2u) << "who is seen in one frame only is left out";
@@ -112,6 +113,28 @@ TEST(World, WithRecordedPeopleListsThemToo) {
   EXPECT_EQ(world.obstacles[1].at(2.0).p, Vec3(6, 9, 1.5));
   EXPECT_FALSE(world.obstacles[1].present(0.5));
   EXPECT_EQ(world_digest(make_world(list_obstacles(s, world), "").value()), world_digest(world));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(World, WithADrawnBeginningLeavesOutWhoCrowdsTheStart) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "tern_drawn_world_test";
+  std::filesystem::create_directories(folder);
+  std::ofstream out(folder / "two.txt");
+  for (int k = 0; k <= 10; ++k) out << "1 " << k << " 0.5 0\n2 " << k << " 5 0\n";
+  out.close();
+  Scenario s;
+  s.file = (folder / "scenario.yaml").string();
+  s.uav.start = Vec3(0, 0, 1);
+  s.uav.goal = Vec3(10, 0, 1);
+  RecordedTracksSpec recorded;
+  recorded.file = "two.txt";
+  recorded.columns = 4;
+  recorded.frames_per_second = 1.0;
+  s.world.recorded = {recorded};
+  const World world = make_world(s, "").value();
+  EXPECT_EQ(world.left_out, 1);
+  ASSERT_EQ(world.obstacles.size(), 1U);
+  EXPECT_EQ(world.obstacles[0].spec().name, "two#2");
   std::filesystem::remove_all(folder);
 }
 

@@ -242,11 +242,17 @@ HorizonRequest random_message(Rng& rng, Fill fill) {
   request.limits.a_max = vec3(rng, kLeastLimit, kMostAccelerationLimit);
   request.limits.j_max =
       flag(rng) ? vec3(rng, kLeastLimit, kMaxJerk) : Vec3::Constant(std::numeric_limits<double>::infinity());
+  if (flag(rng)) {
+    const auto within = [&rng](const Range& range) { return number(rng, range.low, range.high); };
+    request.limits.dynamics = Dynamics{within(Dynamics::kThrustMin), within(Dynamics::kThrustMax),
+                                       within(Dynamics::kTilt), within(Dynamics::kBodyRate)};
+  }
   request.body.radius = number(rng, 0.0, kMaxBodyExtent);
   request.body.vertices = points(rng, count(rng, fill, 1, kMaxBodyVertices), kMaxBodyExtent);
   const Vec3 a = position(rng);
   const Vec3 b = position(rng);
   request.flight_box = Box(a.cwiseMin(b), a.cwiseMax(b));
+  request.tube = vec3(rng, 0.0, kMaxBodyExtent);
   return request;
 }
 
@@ -392,9 +398,14 @@ FlightResult random_message(Rng& rng, Fill fill) {
   result.mean_speed_mps = measure(rng, 0.0, kMaxSpeed);
   result.top_speed_mps = measure(rng, 0.0, kMaxSpeed);
   result.min_clearance_m = measure(rng, -1e7, 1e7);
+  result.min_map_clearance_m = measure(rng, -1e7, 1e7);
   result.jerk_integral = measure(rng, 0.0, 1e300);
   result.stops = integer(rng, 0, kMaxCounter);
   result.limit_violations = integer(rng, 0, kMaxCounter);
+  result.contacts_moving = integer(rng, 0, kMaxCounter);
+  result.contacts_at_rest = integer(rng, 0, kMaxCounter);
+  result.obstacles = integer(rng, 0, kMaxCounter);
+  result.obstacles_left_out = integer(rng, 0, kMaxCounter);
   const int regions = count(rng, fill, 0, kMaxExposures);
   for (int i = 0; i < regions; ++i) {
     result.exposure.push_back({text(rng, fill == Fill::Largest ? 64 : random_integer(rng, 0, 64)),

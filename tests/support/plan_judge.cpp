@@ -26,8 +26,7 @@ std::string fault_of_new(const Plan& plan, const HorizonRequest& request,
   problem.centre_box = centre_box(request.flight_box, request.body);
   const CheckReport report = check_plan(plan.trajectory, problem, swept);
   if (report.ok()) return "";
-  return fmt::format("the checker: {}, interval {}, axis {}, {} against {}, obstacle {}", to_string(report.fault),
-                     report.interval, report.axis, report.value, report.limit, report.obstacle);
+  return fmt::format("the checker: {}, interval {}, obstacle {}", report.text(), report.interval, report.obstacle);
 }
 
 bool same(const TimedSpline& a, const TimedSpline& b) {
@@ -36,10 +35,12 @@ bool same(const TimedSpline& a, const TimedSpline& b) {
 
 }  // namespace
 
-std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world) {
+std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world,
+                                            const Assurance& assurance) {
   std::vector<PlanningObstacle> obstacles = world.predictions->obstacles;
   std::int64_t id = -1;
-  for (const Box& box : world.map->occupied.boxes()) obstacles.push_back({id--, nullptr, box, 1.0});
+  for (const Box& box : world.map->occupied.boxes()) obstacles.push_back({id--, nullptr, box, {}});
+  count_alpha(assurance, obstacles);
   (void)clear_start(obstacles, request.body, request.start.p, request.t_s);
   return obstacles;
 }
@@ -48,7 +49,7 @@ std::string fault_of(const Plan& plan, const HorizonRequest& request, const Plan
                      const PlannerConfig& config) {
   if (plan.request_id != request.id) return "answers another request";
   if (plan.outcome == PlanOutcome::NoPlan) return "";
-  const auto obstacles = obstacles_for(request, world);
+  const auto obstacles = obstacles_for(request, world, {plan.level, plan.alpha_scale});
   if (plan.outcome == PlanOutcome::KeepCommitted) {
     if (!same(plan.trajectory, request.committed)) return "keeps what was not committed";
   } else if (std::string fault = fault_of_new(plan, request, obstacles, config); !fault.empty()) {

@@ -6,14 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "planner/assurance.h"
 #include "planner/planner.h"
 #include "tests/support/planner_worlds.h"
 
 namespace tern::support {
 
-/// The obstacles that an answer must be clear of: all tracks and all boxes of the map, α scaled as clear_start() has
-/// it.
-std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world);
+/// The obstacles that an answer must be clear of: all tracks and all boxes of the map, α as the plan counts it, scaled
+/// as clear_start() has it.
+std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world,
+                                            const Assurance& assurance = {});
 
 /// What is wrong with the answer, in words; empty: nothing. A new trajectory must begin at t_s, pass check_plan()
 /// against all obstacles and touch nothing at any sampled instant until its hold ends; a kept one must be the committed

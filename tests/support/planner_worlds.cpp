@@ -26,6 +26,13 @@ Vec3 random_alpha(Rng& rng) {
                              : Vec3(rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1));
 }
 
+/// Oracle of AlphaCount::of.
+Vec3 counted(const Track& track, std::size_t piece, const AlphaCount& count) {
+  const bool is_lower = count.level > 0 && !track.shares.empty();
+  const double share = is_lower ? track.shares[piece][static_cast<std::size_t>(count.level) - 1] : 1.0F;
+  return count.scale * share * track.alpha[piece];
+}
+
 Track shell(Rng& rng, std::int64_t id) {
   Track track;
   track.id = id;
@@ -111,23 +118,24 @@ Body body_of(BodyKind kind) {
 std::vector<PlanningObstacle> obstacles_of(const std::vector<Track>& tracks) {
   std::vector<PlanningObstacle> obstacles;
   for (const Track& track : tracks) {
-    obstacles.push_back({track.id, &track, track.bounds(track.motion.start, track.motion.end() + kTrackBoxReach), 1.0});
+    obstacles.push_back({track.id, &track, track.bounds(track.motion.start, track.motion.end() + kTrackBoxReach), {}});
   }
   return obstacles;
 }
 
-Box promised_box(const Track& track, UTime t, double alpha_scale) {
+Box promised_box(const Track& track, UTime t, const AlphaCount& count) {
   if (track.kind == TrackKind::Static) {
-    return box_around(track.motion.pieces[0].coefficients.col(3), track.half_extents + alpha_scale * track.alpha[0]);
+    return box_around(track.motion.pieces[0].coefficients.col(3), track.half_extents + counted(track, 0, count));
   }
   const UTime inside = std::clamp(t, track.motion.start, track.motion.end());
   const double outside_s = std::abs((t - inside).seconds());
-  const Vec3& alpha = track.alpha[track.motion.locate(inside).index];
+  const Vec3 alpha = counted(track, track.motion.locate(inside).index, count);
   return box_around(track.motion.sample(inside).p,
-                    track.half_extents + alpha_scale * alpha + Vec3::Constant(track.top_speed * outside_s));
+                    track.half_extents + alpha + Vec3::Constant(track.top_speed * outside_s));
 }
 
-double support_of_sweep(const Track& track, double alpha_scale, UTime origin, double from, double to, const Vec3& d) {
+double support_of_sweep(const Track& track, const AlphaCount& count, UTime origin, double from, double to,
+                        const Vec3& d) {
   double most = -INFINITY;
   const Vec3 reach = d.cwiseAbs();
   const double start = (track.motion.start - origin).seconds();
@@ -141,16 +149,17 @@ double support_of_sweep(const Track& track, double alpha_scale, UTime origin, do
       PowerCubic projected = PowerCubic::Zero();
       projected.row(0) = d.transpose() * piece.coefficients;
       const double along = cubic_bounds(projected, a - piece_from, b - piece_from).max().x();
-      most = std::max(most, along + reach.dot(track.half_extents + alpha_scale * track.alpha[k]));
+      most = std::max(most, along + reach.dot(track.half_extents + counted(track, k, count)));
     }
     piece_from = piece_to;
   }
   const auto growing = [&](double seconds, const Vec3& p, const Vec3& alpha) {
-    const Vec3 half = track.half_extents + alpha_scale * alpha + Vec3::Constant(track.top_speed * seconds);
+    const Vec3 half = track.half_extents + alpha + Vec3::Constant(track.top_speed * seconds);
     most = std::max(most, d.dot(p) + reach.dot(half));
   };
-  if (to > piece_from) growing(to - piece_from, track.motion.sample(track.motion.end()).p, track.alpha.back());
-  if (from < start) growing(start - from, track.motion.sample(track.motion.start).p, track.alpha.front());
+  if (to > piece_from)
+    growing(to - piece_from, track.motion.sample(track.motion.end()).p, counted(track, track.alpha.size() - 1, count));
+  if (from < start) growing(start - from, track.motion.sample(track.motion.start).p, counted(track, 0, count));
   return most;
 }
 
@@ -168,7 +177,7 @@ double least_gap(const TimedSpline& trajectory, const Body& body, const std::vec
   for (UTime t = from;; t = std::min(t + step, to)) {
     const Vec3 p = spline.sample((t - trajectory.start).seconds()).p;
     for (const PlanningObstacle& o : obstacles) {
-      const Box box = o.track != nullptr ? promised_box(*o.track, t, o.alpha_scale) : o.box;
+      const Box box = o.track != nullptr ? promised_box(*o.track, t, o.alpha) : o.box;
       const double at_least = box.exteriorDistance(box_around(p, half));
       if (at_least < least) least = std::min(least, gap(body, p, box));
     }

@@ -29,11 +29,12 @@ Body body_of(BodyKind kind);
 /// Obstacles as PredictionProducts makes them; the tracks must outlive them.
 std::vector<PlanningObstacle> obstacles_of(const std::vector<Track>& tracks);
 
-/// Oracle: the box that the track promises at t, its α scaled. Beyond its pieces it grows by top_speed.
-Box promised_box(const Track& track, UTime t, double alpha_scale = 1.0);
+/// Oracle: the box that the track promises at t, with what counts of its α. Beyond its pieces it grows by top_speed.
+Box promised_box(const Track& track, UTime t, const AlphaCount& count = {});
 /// Oracle: the largest d·x over everything that the obstacle's box may cover in [from, to] seconds after origin. By the
 /// extrema of the cubics d·p(t), so exact to rounding; β is not in it.
-double support_of_sweep(const Track& track, double alpha_scale, UTime origin, double from, double to, const Vec3& d);
+double support_of_sweep(const Track& track, const AlphaCount& count, UTime origin, double from, double to,
+                        const Vec3& d);
 /// Oracle: the distance between the body at p and the box; 0 when they meet.
 double gap(const Body& body, const Vec3& p, const Box& box);
 /// Oracle: the least gap between the body on its trajectory (at rest after its end) and the obstacles, at instants

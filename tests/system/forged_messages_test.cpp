@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/virtual_system.h"
+#include "executor/app/executor_node.h"
 #include "messages/codec.h"
 #include "monitor/app/monitor_node.h"
 #include "predictor/app/predictor_node.h"
@@ -48,7 +49,8 @@ class ForgedMessages : public ::testing::Test {
 
   [[nodiscard]] VirtualRunner& runner() { return system_.runner(); }
   [[nodiscard]] const SimulatorNode& simulator() { return system_.simulator(); }
-  [[nodiscard]] double speed() { return simulator().executor().sample(runner().now()).v.norm(); }
+  [[nodiscard]] const Executor& executor() { return *system_.executor().executor(); }
+  [[nodiscard]] double speed() { return executor().sample(runner().now()).v.norm(); }
   void fly(double seconds) { runner().run(runner().now() + Duration::from_seconds(seconds)); }
   /// To the monitor's end. @return the answers that did not plan because the world seemed stale, from here on.
   std::int64_t fly_to_the_goal() {
@@ -64,8 +66,8 @@ class ForgedMessages : public ::testing::Test {
   /// As if nothing had been: no answer missing, none without a plan.
   void expect_undisturbed() {
     EXPECT_EQ(fly_to_the_goal(), 0);
-    EXPECT_EQ(simulator().executor().counters().unanswered, 0);
-    EXPECT_EQ(simulator().executor().counters().refused(), 0);
+    EXPECT_EQ(executor().counters().unanswered, 0);
+    EXPECT_EQ(executor().counters().refused(), 0);
     EXPECT_EQ(summary()["outcome"], "reached");
     EXPECT_EQ(summary()["restarts"], 0);
     for (const auto& [channel, count] : summary()["messages"].items()) EXPECT_EQ(count["lost"], 0) << channel;
@@ -146,12 +148,12 @@ TEST_F(ForgedMessages, ARequestOfTheTrueExecutorMutesNoneForLong) {
   request.deadline = request.t_s - Duration{5'000};
   forger_.send(channels::kHorizonRequest.name, request, header);
   EXPECT_EQ(fly_to_the_goal(), 0);
-  EXPECT_LE(simulator().executor().counters().unanswered, 4);
+  EXPECT_LE(executor().counters().unanswered, 4);
 }
 
 TEST_F(ForgedMessages, APlanOfAnotherPlannerIsNotAdopted) {
   const HorizonRequest asked = forger_.newest_request();
-  const auto adopted = simulator().executor().counters().of(Verdict::Adopted);
+  const auto adopted = executor().counters().of(Verdict::Adopted);
   for (std::int64_t ahead = 0; ahead < 4; ++ahead) {
     Plan plan;
     plan.request_id = asked.id + ahead;
@@ -160,7 +162,7 @@ TEST_F(ForgedMessages, APlanOfAnotherPlannerIsNotAdopted) {
     forger_.send(channels::kPlan.name, plan, forger_.foreign(1 + ahead));
   }
   fly(0.001);
-  EXPECT_EQ(simulator().executor().counters().of(Verdict::Adopted), adopted);
+  EXPECT_EQ(executor().counters().of(Verdict::Adopted), adopted);
   expect_undisturbed();
 }
 

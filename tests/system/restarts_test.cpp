@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "campaign/virtual_system.h"
+#include "executor/app/executor_node.h"
 #include "messages/channels.h"
 #include "simulator/app/simulator_node.h"
 #include "tests/support/watched_flight.h"
@@ -32,7 +33,7 @@ class Restarts : public ::testing::Test {
 
   [[nodiscard]] UTime now() { return system_.runner().now(); }
   [[nodiscard]] const SimulatorNode& simulator() { return system_.simulator(); }
-  [[nodiscard]] const Executor& executor() { return simulator().executor(); }
+  [[nodiscard]] const Executor& executor() { return *system_.executor().executor(); }
   void fly(double seconds) { system_.runner().run(now() + Duration::from_seconds(seconds)); }
   void fly_to_the_end() {
     system_.runner().run(now() + Duration::from_seconds(100.0), [this] { return simulator().result().has_value(); });
@@ -99,6 +100,32 @@ TEST_F(Restarts, WithoutAPlannerTheVehicleComesToRestUntilItIsBack) {
   EXPECT_EQ(counters.late(), 0);
   EXPECT_EQ(counters.answered_twice(), 0);
   EXPECT_LE(counters.requests - counters.answered_in_time - counters.unanswered, 1);
+}
+
+TEST_F(Restarts, WithoutAnExecutorTheVehicleFliesWhatWasCommittedToItsEnd) {
+  fly_midway();
+  const Vec3 end = committed_end();
+  const std::size_t requests = exchange_.requests.size();
+  system_.stop("tern-executor");
+  fly(kLongEnough);
+  const MotionHistory& truth = simulator().vehicle().truth();
+  EXPECT_LT((truth.sample(truth.end()).p - end).norm(), 1e-9);
+  EXPECT_EQ(exchange_.requests.size(), requests);
+  exchange_ = Exchange();
+  system_.start("tern-executor");
+  fly_to_the_end();
+  EXPECT_EQ(simulator().result()->stops, 1);
+  expect_answered_once_and_in_time(executor().counters(), exchange_);
+}
+
+TEST_F(Restarts, AnExecutorThatIsBackAtOnceWaitsForTheVehicleToRest) {
+  fly_midway();
+  const Vec3 end = committed_end();
+  system_.stop("tern-executor");
+  system_.start("tern-executor");
+  while (system_.executor().executor() == nullptr) fly(0.01);
+  EXPECT_LT((executor().sample(executor().committed().end()).p - end).norm(), 0.05);
+  fly_to_the_end();
 }
 
 TEST_F(Restarts, APlannerThatHasTheMapDoesNotMissTheMapper) {

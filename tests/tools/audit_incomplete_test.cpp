@@ -98,8 +98,9 @@ void expect_same(const Audit& a, const Audit& b) {
 }
 
 TEST_F(AuditOfALog, WithoutStatesForASecondKnowsTheMotionByWhatWasCommitted) {
-  const std::string log = with<UavState>(
-      good(), channels::kUavState.name, [](const UavState& s) { return s.at.us < at_us(2.0) || s.at.us > at_us(3.0); });
+  const std::string log = with<UavState>(good(), channels::kVehicleTruth.name, [](const UavState& s) {
+    return s.at.us < at_us(2.0) || s.at.us > at_us(3.0);
+  });
   const Audit whole = audit(good());
   const Audit gap = audit(log);
   EXPECT_THAT(broken(gap), IsEmpty()) << text(gap);
@@ -135,7 +136,7 @@ TEST_F(AuditOfALog, OfALoggerThatWasAwayStillFindsARefereeThatErrsByMoreThanTheG
 TEST_F(AuditOfALog, OfABusyMachineWithRareStatesBreaksNothing) {
   int k = 0;
   const std::string log =
-      with<UavState>(good(), channels::kUavState.name, [&](const UavState&) { return ++k % 11 == 0; });
+      with<UavState>(good(), channels::kVehicleTruth.name, [&](const UavState&) { return ++k % 11 == 0; });
   EXPECT_THAT(broken(audit(log)), IsEmpty());
 }
 

@@ -18,6 +18,7 @@ namespace tern::audit {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using testing::copy_log_with;
 using ::testing::Each;
 using ::testing::ElementsAre;
@@ -126,6 +127,17 @@ TEST_F(AuditedFlight, WithATamperedControlPointNamesThatPlan) {
   }
 }
 
+TEST_F(AuditedFlight, OfAMultirotorThatCannotFlyItNamesThrustTiltAndBodyRate) {
+  const Audit audit = audit_with<HorizonRequest>(channels::kHorizonRequest.name, [&](HorizonRequest& request) {
+    request.limits.dynamics = Dynamics{9.0, 10.5, 1.0, 1.0};
+    return true;
+  });
+  EXPECT_THAT(broken(audit), Contains("limits"));
+  for (const char* what : {"thrust is", "tilt is", "body rate is"}) {
+    EXPECT_THAT(audit.check("limits").findings, Contains(Field(&Finding::what, HasSubstr(what))));
+  }
+}
+
 TEST_F(AuditedFlight, WithATrajectoryThatDoesNotJoinNamesTheSplice) {
   const std::int64_t request = plan_with_planes().request_id;
   const Audit audit = audit_with<Plan>(channels::kPlan.name, [&](Plan& plan) {
@@ -192,13 +204,15 @@ TEST_F(AuditedFlight, WithASetpointOffTheTrajectoryNamesItsInstant) {
     if (state.at == at) state.motion.p.x() += 1e-4;
     return true;
   });
-  EXPECT_THAT(broken(audit), ElementsAre("commitment"));
-  EXPECT_THAT(audit.check("commitment").findings, ElementsAre(Field(&Finding::at, at)));
+  EXPECT_THAT(broken(audit), ElementsAre("commitment", "tube"));
+  for (const char* check : {"commitment", "tube"}) {
+    EXPECT_THAT(audit.check(check).findings, ElementsAre(Field(&Finding::at, at))) << check;
+  }
 }
 
 TEST_F(AuditedFlight, WithAStateBeyondALimitNamesTheLimit) {
   const UTime at = record_->states[300].at;
-  const Audit audit = audit_with<UavState>(channels::kUavState.name, [&](UavState& state) {
+  const Audit audit = audit_with<UavState>(channels::kVehicleTruth.name, [&](UavState& state) {
     if (state.at == at) state.motion.a.z() = 10.1;
     return true;
   });

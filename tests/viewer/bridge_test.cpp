@@ -8,6 +8,7 @@
 #include "viewer/bridge/board.h"
 #include "viewer/bridge/commands.h"
 #include "viewer/bridge/json_writer.h"
+#include "viewer/bridge/wishes.h"
 
 namespace tern {
 namespace {
@@ -70,6 +71,8 @@ TEST(Commands, AreUnderstood) {
   EXPECT_EQ(std::get<SpeedCommand>(*parse_command(R"({"player":{"speed":0.5}})")).factor, 0.5);
   EXPECT_EQ(std::get<GoalCommand>(*parse_command(R"({"goal":{"position":[1,-2,3.5]}})")).position, Vec3(1, -2, 3.5));
   EXPECT_EQ(std::get<GoalCommand>(*parse_command(R"({"goal":{"mode":"stop"}})")).mode, GoalMode::Stop);
+  EXPECT_EQ(std::get<SeriesCommand>(*parse_command(R"({"series":["PLAN.hold_s"]})")).names,
+            std::vector<std::string>{"PLAN.hold_s"});
 }
 
 TEST(Commands, OfAnyOtherFormAreRefused) {
@@ -84,6 +87,8 @@ TEST(Commands, OfAnyOtherFormAreRefused) {
                            R"({"layers":["walls"]})",
                            R"({"layers":[1]})",
                            R"({"layers":[],"goal":{}})",
+                           R"({"series":"PLAN.hold_s"})",
+                           R"({"series":[1]})",
                            R"({"pick":{}})",
                            R"({"pick":{"kind":"moon"}})",
                            R"({"pick":{"kind":"obstacle","id":1.5}})",
@@ -101,6 +106,23 @@ TEST(Commands, OfAnyOtherFormAreRefused) {
                            R"({"goal":{"position":[1,2,3],"speed":9}})"}) {
     EXPECT_FALSE(parse_command(text)) << text;
   }
+}
+
+TEST(Wishes, AreOfAllPagesThatStillLook) {
+  Wishes wishes;
+  wishes.take(1, LayersCommand{true, false, false});
+  wishes.take(1, SeriesCommand{{"b", "a"}});
+  wishes.take(2, LayersCommand{false, true, false});
+  wishes.take(2, SeriesCommand{{"b", "c"}});
+  EXPECT_TRUE(wishes.layers().hulls && wishes.layers().planes && !wishes.layers().search);
+  EXPECT_EQ(wishes.series(), (std::vector<std::string>{"a", "b", "c"}));
+  wishes.keep_only({2});
+  EXPECT_FALSE(wishes.layers().hulls);
+  EXPECT_EQ(wishes.series(), (std::vector<std::string>{"b", "c"}));
+  std::vector<std::string> many;
+  for (std::size_t k = 0; k < 10 * kMostSeries; ++k) many.push_back(std::to_string(k));
+  wishes.take(2, SeriesCommand{many});
+  EXPECT_EQ(wishes.series().size(), kMostSeries);
 }
 
 RC_GTEST_PROP(Commands, NeverThrowOnAnyBytes, (std::string text)) { (void)parse_command(text); }

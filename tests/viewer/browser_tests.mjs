@@ -75,7 +75,6 @@ await run({
     await scrubTo(page, 0);
     await shows(page, 'the vehicle at the start', (s) => s.vehicle[0] < 0.01);
     const spot = await atRest(page, [0, 0, 1]);
-    await page.click('[data-camera=free]');
     await page.mouse.click(spot.x, spot.y);
     await eventually('the vehicle', async () => (await text(page, '#inspected')) === 'Vehicle');
     expect('its message', (await text(page, '#messages')).includes('UAV_STATE'));
@@ -92,30 +91,6 @@ await run({
     await eventually('both messages', async () => /OBSTACLE_TRUTH.*PREDICTIONS/s.test(await text(page, '#messages')));
     await page.click('#closeinspector');
     expect('closed', await page.isHidden('#inspector'));
-    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
-  },
-
-  async no_panel_hides_the_vehicle_that_is_followed() {
-    const viewer = await startViewer('--log', await knownLog());
-    const page = await openPage(viewer.url);
-    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
-    await page.evaluate(() => window.tern.send({ player: { play: false } }));
-    await page.waitForFunction(() => window.tern.known.player?.playing === false);
-    await scrubTo(page, 0.5);
-    await shows(page, 'the vehicle at 10 m', (s) => Math.abs(s.vehicle[0] - 10) < 0.05);
-    for (const [width, height] of [[800, 600], [1600, 900]]) {
-      await page.setViewportSize({ width, height });
-      for (const camera of ['follow', 'top']) {
-        await page.click(`[data-camera=${camera}]`);
-        const { vehicle } = await status(page);
-        const { x, y } = await atRest(page, vehicle);
-        const hidden = await page.evaluate(
-          ([u, v]) => [[0, 0], [-25, 0], [25, 0], [0, -25], [0, 25]].some(
-            ([right, down]) => document.elementFromPoint(u + right, v + down)?.id !== 'view'),
-          [x, y]);
-        expect(`${camera} at ${width}×${height}: the vehicle is at ${x}, ${y}`, !hidden);
-      }
-    }
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
   },
 
@@ -310,7 +285,7 @@ await run({
     const page = await openPage(/view +(\S+)/.exec(flight.said)[1]);
     const first = await shows(page, 'the corridor', (s) => s.obstacles === 100 && s.regions === 2 && s.vehicle);
     await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > first.vehicle[0] + 2);
-    await eventually('every process', async () => (await page.$$('#health li.ready')).length === 7);
+    await eventually('every process', async () => (await page.$$('#health li.ready')).length === 8);
     expect('goals may be sent', await page.isEnabled('#goalmode'));
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
     await end(flight, 'SIGINT');

@@ -2,13 +2,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 #include <vector>
 
 #include "tests/viewer/known_scene.h"
-#include "viewer/bridge/flight_history.h"
 #include "viewer/bridge/predicted_hulls.h"
 #include "viewer/bridge/scene.h"
 #include "viewer/bridge/scene_json.h"
@@ -77,6 +78,22 @@ TEST(VoxelSurface, CoarsensWhatIsTooLargeAndLosesNoHazard) {
   EXPECT_EQ(surface.grid.resolution, 4 * map.grid.resolution);
   ASSERT_EQ(surface.faces.size(), 6U);
   EXPECT_EQ(surface.faces.front().low, Eigen::Vector3i(5, 1, 8));
+}
+
+RC_GTEST_PROP(VoxelSurface, TellsTheDistanceToWhatIsOccupied, ()) {
+  const auto axis = rc::gen::inRange(1, 6);
+  const Eigen::Vector3i size(*axis, *axis, *axis);
+  const auto labels = *rc::gen::container<std::vector<int>>(7, rc::gen::inRange(0, kVoxelLabels));
+  const VoxelMap map = random_map(size, labels);
+  const auto coordinate = rc::gen::map(rc::gen::inRange(-300, 500), [](int cm) { return 0.01 * cm; });
+  const Vec3 p(*coordinate, *coordinate, *coordinate);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::int64_t k = 0; k < map.grid.voxels(); ++k) {
+    if (map.labels[static_cast<std::size_t>(k)] != VoxelLabel::Occupied) continue;
+    nearest = std::min(nearest, map.grid.box(map.grid.cell(k)).exteriorDistance(p));
+  }
+  const double told = distance_to_occupied(voxel_surface(map), p);
+  RC_ASSERT(told == nearest || std::abs(told - nearest) < 1e-9);
 }
 
 TEST(PredictedHulls, HoldTheObstacleAtEveryInstant) {
@@ -149,35 +166,6 @@ TEST(Planes, StandAtTheirPartOfTheirIntervalCountedFromTheRequestsStart) {
   plan.outcome = PlanOutcome::KeepCommitted;  // of which 2.4 intervals have passed at t_s
   request.t_s = plan.trajectory.start + Duration::from_seconds(2.4 * plan.trajectory.interval.seconds());
   expect_at({2.7, 2.85, 3.875});
-}
-
-TEST(FlightHistory, TellsTheLastThirtySecondsAndTheWholePath) {
-  FlightHistory history;
-  const UTime start{1'000'000'000};
-  for (int k = 0; k <= 6'000; ++k) {
-    UavState state;
-    state.at = start + Duration{k * 10'000};
-    state.motion.p = Vec3(0.01 * k, 0.0, 1.0);
-    state.motion.v = Vec3(3.0, 4.0, 0.0);
-    history.add(state);
-    history.add_clearance(state.at, 1.5);
-  }
-  history.add_answer(start + Duration{59'000'000}, 20.0, 70.0, PlanOutcome::Evade);
-  const UTime now = start + Duration{60'000'000};
-  const json chart = json::parse(history.chart_json(now));
-  EXPECT_EQ(chart["elapsed_s"], 60.0);
-  EXPECT_EQ(chart["motion"][0].size(), 600U);
-  EXPECT_NEAR(chart["motion"][0].front().get<double>(), -29.95, 1e-9);
-  EXPECT_EQ(chart["motion"][0].back(), 0.0);
-  EXPECT_EQ(chart["motion"][1].back(), 5.0);
-  EXPECT_EQ(chart["clearance"][0].size(), 300U);
-  EXPECT_EQ(chart["answers"], json::parse("[[-1],[20],[70],[3]]"));
-  EXPECT_EQ(json::parse(history.path_json(now)).size(), 4 * 1'201U);
-  const json thinned = json::parse(history.path_json(now, 100));
-  EXPECT_LE(thinned.size(), 4 * 100U);
-  EXPECT_EQ(thinned[0], 0.0);
-  const json half = json::parse(history.path_json(start + Duration{30'000'000}));
-  EXPECT_EQ(half[half.size() - 4], 30.0);
 }
 
 }  // namespace

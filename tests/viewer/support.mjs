@@ -76,7 +76,7 @@ export async function openBrowser() {
 }
 
 /** A page that has begun to show something. `page.complaints` holds what its console complained of. */
-export async function openPage(url, prepare = async () => {}) {
+export async function openPage(url, prepare = async () => {}, hash = '') {
   const page = await (await openBrowser()).newPage({ viewport: { width: 800, height: 600 } });
   page.setDefaultTimeout(PATIENCE_MS);
   page.complaints = [];
@@ -85,7 +85,7 @@ export async function openPage(url, prepare = async () => {}) {
     if (message.type() === 'error') page.complaints.push(message.text());
   });
   await prepare(page);
-  await page.goto(`${url}?quality=low`);
+  await page.goto(`${url}?quality=low${hash}`);
   await eventually('the page draws', async () => {
     const drawn = await page.evaluate(() => window.tern?.counts.drawn ?? 0);
     if (drawn === 0 && page.complaints.length > 0) fail(`the page complains: ${page.complaints.join('; ')}`);

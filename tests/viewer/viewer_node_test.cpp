@@ -105,14 +105,19 @@ TEST_F(LogPlayerTest, PlaysAtItsSpeedAndEndsAtTheEnd) {
 }
 
 TEST_F(LogPlayerTest, KnowsTheWholeFlightBeforeItPlays) {
-  auto player = LogPlayer::open(log(), "");
+  const auto player = LogPlayer::open(log(), "");
   ASSERT_TRUE(player);
-  const json path = json::parse(player->history().path_json(at(20.0)));
-  EXPECT_EQ(path.size(), 4 * 401U);
-  EXPECT_EQ(path[path.size() - 4], 20.0);
-  const json chart = json::parse(player->history().chart_json(at(10.0)));
-  EXPECT_EQ(chart["answers"][1].back(), 12.5);
-  EXPECT_EQ(chart["answers"][2].back(), 70.0);
+  const FlightHistory& history = player->memory().history;
+  const json chart = json::parse(
+      history.chart_json(player->begin(), player->end(), {"PLAN_TIMING.total_ms", "PLAN_TIMING.allowed_ms"}));
+  EXPECT_EQ(chart["end_s"], 20.0);
+  EXPECT_EQ(chart["series"]["PLAN_TIMING.total_ms"][1].back(), 12.5);
+  EXPECT_EQ(chart["series"]["PLAN_TIMING.allowed_ms"][1].back(), 70.0);
+  EXPECT_EQ(chart["outcomes"][0].size(), 201U);
+  EXPECT_EQ(chart["outcomes"][0].back(), 20.0);
+  const auto events = player->memory().events.events();
+  const auto is_goal = [](const FlightEvent& event) { return std::string(event.kind) == "goal"; };
+  EXPECT_EQ(std::count_if(events.begin(), events.end(), is_goal), 1);
 }
 
 TEST_F(LogPlayerTest, PlaysADamagedLogAndSaysSo) {

@@ -37,10 +37,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     const bool what_if = !options.other.empty();
-    const auto kept = tern::keep_answers(log, options, save, dump);
-    if (!kept) throw tern::ConfigError(kept.error().message);
     const auto replay = tern::replay_log(log, options);
     if (!replay) throw tern::ConfigError(replay.error().message);
+    const auto kept = tern::keep_answers(log, options, save, dump);
+    if (!kept) throw tern::ConfigError(kept.error().message);
     fmt::print("{}", tern::replay_text(*replay, what_if));
     if (!json.empty() && !(std::ofstream(json) << tern::replay_json(*replay, what_if))) {
       throw tern::ConfigError(json + ": cannot be written");

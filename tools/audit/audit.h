@@ -72,6 +72,7 @@ Check check_clearance(const FlightRecord& record, Audit& audit);
 Check check_limits(const FlightRecord& record);
 Check check_continuity(const FlightRecord& record);
 Check check_commitment(const FlightRecord& record);
+Check check_tube(const FlightRecord& record);
 Check check_certificates(const FlightRecord& record);
 Check check_holds(const FlightRecord& record);
 Check check_answers(const FlightRecord& record);

@@ -38,7 +38,11 @@ std::string words(const Part& p) {
 class CaseCheck {
  public:
   CaseCheck(const PlanCase& plan, bool unknown_is_obstacle, Check& check)
-      : case_(plan), body_(plan.request.body), unknown_is_obstacle_(unknown_is_obstacle), check_(check) {
+      : case_(plan),
+        body_(plan.request.body),
+        tube_(plan.request.tube),
+        unknown_is_obstacle_(unknown_is_obstacle),
+        check_(check) {
     for (const CertificatePlane& c : plan.plan.certificate) planes_[{c.interval, c.part, c.parts}].push_back(&c);
   }
 
@@ -99,10 +103,15 @@ class CaseCheck {
       const Enclosure e = enclose(stretch.curve.along(plane.n), stretch.a, stretch.b, kExtremum);
       least = std::min(least, e.low - plane.n.cwiseAbs().dot(stretch.half));
     }
-    return -(least + plane.d - (plane.n.transpose() * body_.vertices).maxCoeff());
+    return -(least + plane.d - reach(plane.n));
   }
 
-  /// Where the vehicle's centre may be during a part, grown by the body.
+  /// How far the body's vertices and the tube reach along n.
+  [[nodiscard]] double reach(const Vec3& n) const {
+    return (n.transpose() * body_.vertices).maxCoeff() + n.cwiseAbs().dot(tube_);
+  }
+
+  /// Where the vehicle's centre may be during a part, grown by body and tube.
   [[nodiscard]] Box vehicle_box(const Part& part) {
     const auto known = vehicle_boxes_.find(part);
     if (known != vehicle_boxes_.end()) return known->second;
@@ -110,8 +119,8 @@ class CaseCheck {
     Vec3 low, high;
     for (int axis = 0; axis < 3; ++axis) {
       const Enclosure e = enclose(curve(part).axis[static_cast<std::size_t>(axis)], s.a, s.b, kExtremum);
-      low[axis] = e.low - body_support(body_, -Vec3::Unit(axis));
-      high[axis] = e.high + body_support(body_, Vec3::Unit(axis));
+      low[axis] = e.low - body_support(body_, -Vec3::Unit(axis)) - tube_[axis];
+      high[axis] = e.high + body_support(body_, Vec3::Unit(axis)) + tube_[axis];
     }
     return vehicle_boxes_.emplace(part, Box(low, high)).first->second;
   }
@@ -176,7 +185,7 @@ class CaseCheck {
     const Vec3 half = 0.5 * box.sizes();
     for (const CertificatePlane* c : planes_of(part)) {
       const Vec3& n = c->plane.n;
-      const double least = n.dot(box.center()) - n.cwiseAbs().dot(half) - (n.transpose() * body_.vertices).maxCoeff();
+      const double least = n.dot(box.center()) - n.cwiseAbs().dot(half) - reach(n);
       if (c->track < 0 && least + c->plane.d >= -kPlaneTolerance) return true;
     }
     if (part.parts == kMostParts) return false;
@@ -186,6 +195,7 @@ class CaseCheck {
 
   const PlanCase& case_;
   const Body& body_;
+  const Vec3& tube_;
   bool unknown_is_obstacle_;
   Check& check_;
   std::map<Part, std::vector<const CertificatePlane*>> planes_;
@@ -212,7 +222,8 @@ void check_hold(const PlanCase& plan, Check& check) {
   const Body& body = plan.request.body;
   for (const PredictedBox& obstacle : plan.obstacles) {
     ++check.checked;
-    for (const PredictedBox::Stretch& s : obstacle.stretches(end, 0.0, plan.plan.hold.seconds())) {
+    for (PredictedBox::Stretch s : obstacle.stretches(end, 0.0, plan.plan.hold.seconds())) {
+      s.half += plan.request.tube;
       const double depth = overlap(body, p, s, s.a, s.b, 0);
       if (depth <= 0.0) continue;
       const std::int64_t id = obstacle.track().id;

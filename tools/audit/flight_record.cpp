@@ -19,9 +19,9 @@ void put_in_order(std::vector<T>& items, const TimeOf& time_of) {
   items.erase(std::unique(items.begin(), items.end(), same), items.end());
 }
 
-/// What one sender of vehicle and world said: a simulator's start.
+/// What one sender of vehicle, world or setpoints said: a simulator's start, or an executor's.
 struct Told {
-  std::vector<UavState> states, setpoints;
+  std::vector<UavState> estimates, true_states, setpoints;
   std::map<std::int64_t, ObstacleHistory> truth;
   std::map<std::int64_t, std::vector<DeclaredPiece>> declared;
   std::vector<FlightResult> results;
@@ -45,7 +45,8 @@ class Reading {
     keep(channels::kHorizonRequest, record.requests);
     keep(channels::kPlan, record.plans);
     keep(channels::kPlanTiming, record.timings);
-    tell(channels::kUavState, [](Told& told, const UavState& s) { told.states.push_back(s); });
+    tell(channels::kUavState, [](Told& told, const UavState& s) { told.estimates.push_back(s); });
+    tell(channels::kVehicleTruth, [](Told& told, const UavState& s) { told.true_states.push_back(s); });
     tell(channels::kSetpoint, [](Told& told, const UavState& s) { told.setpoints.push_back(s); });
     tell(channels::kObstacleTruth, take_truth);
     tell(channels::kFlightResult, take_result);
@@ -66,6 +67,7 @@ class Reading {
     record_.incomplete_predictions = predictions_.incomplete();
     choose_flight();
     put_in_order(record_.states, [](const UavState& s) { return s.at; });
+    put_in_order(record_.estimates, [](const UavState& s) { return s.at; });
     put_in_order(record_.setpoints, [](const UavState& s) { return s.at; });
     for (auto& [id, history] : record_.truth) {
       put_in_order(history.samples, [](const ObstacleHistory::Sample& s) { return s.at; });
@@ -132,13 +134,13 @@ class Reading {
     record_.configurations.push_back(report);
   }
 
-  /// One kind of what was told, of the flight's own simulator. Where that one says nothing of the kind (vehicle,
-  /// executor and sensors are processes of their own), of everybody who has no flight of his own.
+  /// One kind of what was told, of the flight's own world. Where that one says nothing of the kind (vehicle, executor
+  /// and sensors are processes of their own), of everybody who belongs to no other flight.
   template <class T, class Merge>
-  T of_flight(std::int64_t epoch, T Told::*kind, const Merge& merge) {
+  T of_flight(std::int64_t world, T Told::*kind, const Merge& merge) {
     T all;
     for (auto& [sender, told] : told_) {
-      if (sender == epoch && !(told.*kind).empty()) return std::move(told.*kind);
+      if (sender == world && !(told.*kind).empty()) return std::move(told.*kind);
     }
     for (auto& [sender, told] : told_) {
       if (!others_.contains(sender)) merge(all, told.*kind);
@@ -146,12 +148,25 @@ class Reading {
     return all;
   }
 
+  /// The sender of the world that the flight is in: the executor itself if it hosts one, else the first world there is.
+  [[nodiscard]] std::int64_t own_world() const {
+    const auto has_truth = [](const auto& known) { return !known.second.truth.empty(); };
+    if (!record_.requests.empty()) {
+      const auto own = told_.find(record_.requests.front().header.name.sender_epoch_us);
+      if (own != told_.end() && has_truth(*own)) return own->first;
+    }
+    const auto first = std::find_if(told_.begin(), told_.end(), has_truth);
+    if (first != told_.end()) return first->first;
+    return told_.empty() ? 0 : told_.begin()->first;
+  }
+
   void choose_flight() {
-    std::int64_t epoch = told_.empty() ? 0 : told_.begin()->first;
-    if (!record_.requests.empty()) epoch = record_.requests.front().header.name.sender_epoch_us;
+    const std::int64_t epoch = own_world();
     name_others(epoch);
     const auto append = [](auto& all, auto& more) { all.insert(all.end(), more.begin(), more.end()); };
-    record_.states = of_flight(epoch, &Told::states, append);
+    record_.states = of_flight(epoch, &Told::true_states, append);
+    record_.estimates = of_flight(epoch, &Told::estimates, append);
+    if (record_.states.empty()) record_.states = record_.estimates;
     record_.setpoints = of_flight(epoch, &Told::setpoints, append);
     record_.results = of_flight(epoch, &Told::results, append);
     record_.truth = of_flight(epoch, &Told::truth, [&](auto& all, auto& more) {
@@ -173,19 +188,20 @@ class Reading {
     forget_others();
   }
 
-  /// Other executors' requests and other worlds, where this flight's simulator has a world of its own.
-  void name_others(std::int64_t epoch) {
+  /// Other worlds, and the executors that flew in them: those that began after this one had ended.
+  void name_others(std::int64_t world) {
+    const auto own = told_.find(world);
+    if (own == told_.end() || own->second.truth.empty()) return;
     std::map<std::int64_t, std::int64_t> requests;
     for (const HorizonRequest& r : record_.requests) ++requests[r.header.name.sender_epoch_us];
-    const bool own_world = told_.contains(epoch) && !told_[epoch].truth.empty();
+    UTime last;
+    for (const auto& [id, history] : own->second.truth) last = std::max(last, history.samples.back().at);
     for (const auto& [sender, told] : told_) {
-      if (own_world && !told.truth.empty()) requests.try_emplace(sender, 0);
-    }
-    requests.erase(epoch);
-    for (const auto& [sender, count] : requests) {
+      if (sender == world || (told.truth.empty() && (sender <= last.us || !requests.contains(sender)))) continue;
       others_.insert(sender);
-      record_.other_flights.push_back(
-          fmt::format("another flight: sender {} has a world of its own, {} requests: not audited", sender, count));
+      record_.other_flights.push_back(fmt::format("another flight: sender {} {}, {} requests: not audited", sender,
+                                                  told.truth.empty() ? "came after it" : "has a world of its own",
+                                                  requests[sender]));
     }
   }
 

@@ -48,7 +48,10 @@ struct FlightRecord {
   LogContents contents;
   std::vector<std::string> other_flights;  ///< in words: whose messages were left out
 
-  std::vector<UavState> states, setpoints;        ///< times strictly ascending
+  /// What the vehicle flew: VEHICLE_TRUTH, or where nobody knows the truth, UAV_STATE. Times strictly ascending, as
+  /// below.
+  std::vector<UavState> states;
+  std::vector<UavState> estimates, setpoints;     ///< UAV_STATE, SETPOINT
   std::map<std::int64_t, ObstacleHistory> truth;  ///< by obstacle
   /// What was declared of each mover, by obstacle: the newest word at each time, without overlap, in order.
   std::map<std::int64_t, std::vector<DeclaredPiece>> declared;

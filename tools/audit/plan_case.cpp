@@ -30,8 +30,8 @@ std::vector<Curve> remaining(const Plan& plan, UTime t_s) {
 
 }  // namespace
 
-PredictedBox::PredictedBox(const Track& track, double alpha_scale)
-    : track_(track), alpha_scale_(alpha_scale), curves_(curves_of(track.motion)) {}
+PredictedBox::PredictedBox(const Track& track, std::vector<double> share)
+    : track_(track), share_(std::move(share)), curves_(curves_of(track.motion)) {}
 
 std::vector<PredictedBox::Stretch> PredictedBox::stretches(UTime origin, double from, double to) const {
   if (track_.kind == TrackKind::Static) return {{resting(curves_.front().p(0.0)), 0.0, 0.0, half(0)}};
@@ -68,14 +68,25 @@ Box PredictedBox::bounds(UTime origin, double from, double to) const {
   return {low, high};
 }
 
-double relaxed_share(const Track& track, const Body& body, const Vec3& p, UTime t) {
+std::vector<double> claimed_shares(const Track& track, const Plan& plan) {
+  std::vector<double> shares(track.alpha.size(), 1.0);
+  if (track.kind != TrackKind::Estimated) return shares;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    if (plan.level > 0)
+      shares[k] = static_cast<double>(track.shares.at(k).at(static_cast<std::size_t>(plan.level) - 1));
+    shares[k] *= plan.alpha_scale;
+  }
+  return shares;
+}
+
+double relaxed_share(const Track& track, const std::vector<double>& shares, const Body& body, const Vec3& p, UTime t) {
   const std::vector<Curve> curves = curves_of(track.motion);
   const UTime at = std::clamp(t, curves.front().from, curves.back().to);
   std::size_t k = 0;
   while (k + 1 < curves.size() && curves[k].to <= at) ++k;
   const Vec3 relative = p - curves[k].p((at - curves[k].from).seconds());
   const auto room = [&](double share) {
-    return body_gap(body, relative, track.half_extents + share * track.alpha[k]).low;
+    return body_gap(body, relative, track.half_extents + share * shares[k] * track.alpha[k]).low;
   };
   if (room(1.0) > kTouching) return 1.0;
   double low = 0.0;
@@ -104,8 +115,12 @@ std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, 
                   remaining(plan, request->t_s),
                   {}};
   for (const Track& track : result.predictions.tracks) {
-    const double share = plan.relaxed ? relaxed_share(track, request->body, request->start.p, request->t_s) : 1.0;
-    result.obstacles.emplace_back(track, share);
+    std::vector<double> shares = claimed_shares(track, plan);
+    if (plan.relaxed) {
+      const double part = relaxed_share(track, shares, request->body, request->start.p, request->t_s);
+      for (double& share : shares) share *= part;
+    }
+    result.obstacles.emplace_back(track, std::move(shares));
   }
   return result;
 }

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <system_error>
+#include <utility>
 
+#include "flight_log/track_sets.h"
 #include "messages/codec.h"
 #include "tools/export/csv_files.h"
 #include "tools/export/foxglove.h"
@@ -59,6 +62,47 @@ void add_maps(FlightLog& log, McapWriter& mcap) {
          });
 }
 
+/// Draws what each plan stands on, from the request and the predictions that it names; of those the newest are kept.
+class Proofs {
+ public:
+  explicit Proofs(McapWriter& mcap) : mcap_(mcap) {}
+  void listen(FlightLog& log) {
+    log.on(channels::kHorizonRequest,
+           [this](const HorizonRequest& request, std::int64_t) { keep(requests_, request.header.name, request.t_s); });
+    log.on(channels::kPredictions, [this](const TrackSet& batch, std::int64_t) {
+      if (auto whole = sets_.add(batch)) {
+        keep(tracks_, std::pair(whole->header.name.sender_epoch_us, whole->batch.set), std::move(*whole));
+      }
+    });
+    log.on(channels::kPlan, [this](const Plan& plan, std::int64_t received_us) { draw(plan, received_us); });
+  }
+
+ private:
+  static constexpr std::size_t kKept = 32;
+
+  template <class Key, class Value>
+  static void keep(std::map<Key, Value>& kept, const Key& key, Value value) {
+    kept.insert_or_assign(key, std::move(value));
+    if (kept.size() > kKept) kept.erase(kept.begin());
+  }
+
+  void draw(const Plan& plan, std::int64_t received_us) {
+    const auto request = requests_.find(plan.inputs.request);
+    const auto tracks = tracks_.find({plan.inputs.predictions.sender_epoch_us, plan.inputs.prediction_set});
+    const bool blind = plan.inputs.predictions == MessageName{};
+    if (request == requests_.end() || (tracks == tracks_.end() && !blind)) return;
+    for (const Drawing& drawing :
+         drawings_of(plan, request->second, blind ? TrackSet() : tracks->second, received_us)) {
+      add(mcap_, drawing, received_us);
+    }
+  }
+
+  McapWriter& mcap_;
+  RecordedSets sets_;
+  std::map<MessageName, UTime> requests_;  ///< t_s
+  std::map<std::pair<std::int64_t, std::int64_t>, TrackSet> tracks_;
+};
+
 }  // namespace
 
 Result<std::string> export_log(const ExportOptions& options) {
@@ -78,7 +122,11 @@ Result<std::string> export_log(const ExportOptions& options) {
     if (to_csv) csv.add(message);
     if (mcap) add(*mcap, message);
   });
-  if (mcap) add_maps(log, *mcap);
+  std::optional<Proofs> proofs;
+  if (mcap) {
+    add_maps(log, *mcap);
+    proofs.emplace(*mcap).listen(log);
+  }
   const auto contents = log.read(options.log);
   if (!contents) return tl::make_unexpected(contents.error());
   if (messages == 0) return fail(options.log + ": not one message of Tern's in it");

@@ -1,13 +1,18 @@
 #include "tools/export/foxglove.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "core/splines/clamped_spline.h"
 #include "core/world/names.h"
+#include "tools/export/hull_faces.h"
 #include "tools/export/map_boxes.h"
+#include "viewer/bridge/plane_place.h"
+#include "viewer/bridge/predicted_hulls.h"
 
 namespace tern::exporting {
 namespace {
@@ -15,6 +20,9 @@ namespace {
 constexpr int kSamplesPerInterval = 8;  // a cubic interval looks round
 constexpr std::int64_t kNoPlan = 4;     // plan_t.NO_PLAN
 constexpr char kFrame[] = "W";
+constexpr double kHullReach = 3.0;  // m
+constexpr int kMostHulls = 60;
+constexpr double kPatchSide = 1.0;  // m
 
 Json time_of(std::int64_t us) { return {{"sec", us / 1'000'000}, {"nsec", us % 1'000'000 * 1000}}; }
 
@@ -25,7 +33,12 @@ Json pose(const Json& position, double yaw) {
 
 Json color(double r, double g, double b, double a) { return {{"r", r}, {"g", g}, {"b", b}, {"a", a}}; }
 
-Json vector_of(const Vec3& p) { return {{"x", p.x()}, {"y", p.y()}, {"z", p.z()}}; }
+/// To 0.1 mm: what is drawn takes a third of the room.
+Json vector_of(const Vec3& p) {
+  constexpr double kPerMetre = 1e4;
+  const Vec3 q = (p * kPerMetre).array().round() / kPerMetre;
+  return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}};
+}
 
 /// An entity of nothing yet.
 Json entity_of(std::int64_t received_us, const std::string& id) {
@@ -49,6 +62,38 @@ Json scene(const LoggedMessage& message, const std::string& id, const Json& cube
   update["deletions"] = Json::array();
   update["entities"] = Json::array({entity});
   return update;
+}
+
+/// Triangles of one colour.
+struct Triangles {
+  Json points = Json::array(), indices = Json::array();
+
+  void add(const Points& corners, const std::vector<std::array<int, 3>>& faces) {
+    const std::size_t first = points.size();
+    for (Eigen::Index k = 0; k < corners.cols(); ++k) points.push_back(vector_of(corners.col(k)));
+    for (const auto& face : faces) {
+      for (const int corner : face) indices.push_back(first + static_cast<std::size_t>(corner));
+    }
+  }
+  [[nodiscard]] Json scene(const std::string& id, const Json& its_color, std::int64_t received_us) const {
+    Json entity = entity_of(received_us, id);
+    entity["triangles"] = {{{"pose", pose(vector_of(Vec3::Zero()), 0.0)},
+                            {"points", points},
+                            {"color", its_color},
+                            {"colors", Json::array()},
+                            {"indices", indices}}};
+    return {{"deletions", Json::array()}, {"entities", Json::array({entity})}};
+  }
+};
+
+/// A square in the plane, nearest to `from`.
+Points patch_of(const Plane& plane, const Vec3& from) {
+  const Vec3 centre = from - plane.signed_distance(from) * plane.n;
+  const Vec3 u = plane.n.unitOrthogonal(), v = plane.n.cross(u);
+  Points corners(3, 4);
+  corners << centre - kPatchSide / 2 * (u + v), centre + kPatchSide / 2 * (u - v), centre + kPatchSide / 2 * (u + v),
+      centre - kPatchSide / 2 * (u - v);
+  return corners;
 }
 
 Json cubes_of(const Json& obstacles) {
@@ -171,6 +216,20 @@ std::optional<Drawing> drawing_of(const LoggedMessage& message) {
   return std::nullopt;
 }
 
+std::vector<Drawing> drawings_of(const Plan& plan, UTime t_s, const TrackSet& tracks, std::int64_t received_us) {
+  if (plan.outcome == PlanOutcome::NoPlan) return {};
+  Triangles hulls, planes;
+  for (const PredictedHull& hull : predicted_hulls(tracks, plan.trajectory, kHullReach, kMostHulls).hulls) {
+    hulls.add(hull.points, hull_faces(hull.points));
+  }
+  for (const CertificatePlane& c : plan.certificate) {
+    planes.add(patch_of(c.plane, place_of(c, plan.trajectory, t_s)), {{0, 1, 2}, {0, 2, 3}});
+  }
+  constexpr char kScene[] = "foxglove.SceneUpdate";
+  return {{"/tern/hulls", kScene, hulls.scene("hulls", color(0.95, 0.5, 0.1, 0.15), received_us)},
+          {"/tern/planes", kScene, planes.scene("planes", color(0.35, 0.55, 0.95, 0.12), received_us)}};
+}
+
 Drawing drawing_of(const VoxelMap& map, std::int64_t received_us) {
   constexpr int kDeleteAll = 1;  // foxglove.SceneEntityDeletion
   std::map<std::pair<VoxelLabel, std::uint8_t>, std::vector<MapBox>> regions;
@@ -201,6 +260,11 @@ Json foxglove_schema(const std::string& name) {
                                      {"color", its_color},
                                      {"colors", list_schema(its_color)},
                                      {"indices", list_schema(integer)}});
+    const Json triangles = object_schema({{"pose", its_pose},
+                                          {"points", list_schema(vector)},
+                                          {"color", its_color},
+                                          {"colors", list_schema(its_color)},
+                                          {"indices", list_schema(integer)}});
     const Json words = object_schema({{"pose", its_pose},
                                       {"billboard", flag},
                                       {"font_size", number},
@@ -215,6 +279,7 @@ Json foxglove_schema(const std::string& name) {
                                        {"metadata", list_schema(object_schema({{"key", text}, {"value", text}}))},
                                        {"cubes", list_schema(cube)},
                                        {"lines", list_schema(line)},
+                                       {"triangles", list_schema(triangles)},
                                        {"texts", list_schema(words)}});
     const Json deletion = object_schema({{"timestamp", time}, {"type", integer}, {"id", text}});
     schema = object_schema({{"deletions", list_schema(deletion)}, {"entities", list_schema(entity)}});

@@ -1,11 +1,15 @@
 #include "tools/export/mcap_writer.h"
 
+#include <zstd.h>
+
 #include <algorithm>
+#include <stdexcept>
 
 namespace tern::exporting {
 namespace {
 
 constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+constexpr std::string_view kCompression = "zstd";
 
 enum class Op : std::uint8_t {
   Header = 0x01,
@@ -47,6 +51,14 @@ std::uint32_t crc_of(std::string_view bytes) {
   boost::crc_32_type crc;
   crc.process_bytes(bytes.data(), bytes.size());
   return crc.checksum();
+}
+
+std::string compressed(std::string_view bytes) {
+  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), ZSTD_CLEVEL_DEFAULT);
+  if (ZSTD_isError(size) != 0) throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
+  packed.resize(size);
+  return packed;
 }
 
 }  // namespace
@@ -101,8 +113,9 @@ void McapWriter::end_chunk() {
   const std::uint64_t start = size_, bytes = chunk_.records.size();
   Fields fields;
   fields.integer(chunk_.span.first_ns).integer(chunk_.span.last_ns).integer(bytes).integer(crc_of(chunk_.records));
-  fields.text("").integer(bytes);
-  fields.bytes += chunk_.records;
+  const std::string packed = compressed(chunk_.records);
+  fields.text(kCompression).integer(std::uint64_t{packed.size()});
+  fields.bytes += packed;
   write(record(Op::Chunk, fields));
   const std::uint64_t length = size_ - start;
 
@@ -115,7 +128,7 @@ void McapWriter::end_chunk() {
   }
   Fields index;
   index.integer(chunk_.span.first_ns).integer(chunk_.span.last_ns).integer(start).integer(length).text(where.bytes);
-  index.integer(size_ - start - length).text("").integer(bytes).integer(bytes);
+  index.integer(size_ - start - length).text(kCompression).integer(std::uint64_t{packed.size()}).integer(bytes);
   chunk_index_records_ += record(Op::ChunkIndex, index);
   ++chunks_;
   chunk_ = {};

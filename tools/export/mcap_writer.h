@@ -17,7 +17,8 @@ namespace tern::exporting {
 
 /// Writes Header, Chunks with an index after each, DataEnd, and a summary: schemas, channels, Statistics, where each
 /// chunk is, where each kind of record is. Schema and Channel stand in the chunk of their first message and in the
-/// summary. Chunks, data and summary have their checksums; nothing is compressed.
+/// summary. Chunks, data and summary have their checksums; the records of a chunk are
+/// compressed by Zstandard.
 class McapWriter {
  public:
   /// A chunk is ended when its records are more than this, bytes.

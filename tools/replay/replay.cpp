@@ -89,6 +89,18 @@ class Replayer {
   std::vector<ReplayedPlan> done_;
 };
 
+/// @return an Error when the log has answers and none is asked for.
+Result<void> check_choice(const RecordedInputs& inputs, const ReplayOptions& options) {
+  const auto chosen = [&](const RecordedPlan& recorded) { return is_chosen(recorded, inputs.log, options); };
+  if (inputs.plans.empty() || std::any_of(inputs.plans.begin(), inputs.plans.end(), chosen)) return {};
+  const auto at_s = [&](const RecordedPlan& p) {
+    return static_cast<double>(p.received_us - inputs.log.first_us) * 1e-6;
+  };
+  const RecordedPlan &first = inputs.plans.front(), &last = inputs.plans.back();
+  return fail(fmt::format("no answer is chosen; the log has those from {:.3f} s (request {}) to {:.3f} s (request {})",
+                          at_s(first), first.plan.request_id, at_s(last), last.plan.request_id));
+}
+
 std::int64_t refused(const LogChannel& channel) {
   return std::accumulate(std::begin(channel.refused), std::end(channel.refused), std::int64_t{0});
 }
@@ -153,8 +165,10 @@ bool Replay::incomplete() const {
 }
 
 Result<Replay> replay_log(const std::string& path, const ReplayOptions& options) {
+  options.other.check();
   auto inputs = read_recorded_inputs(path, options.suffix);
   if (!inputs) return tl::make_unexpected(inputs.error());
+  if (auto chosen = check_choice(*inputs, options); !chosen) return tl::make_unexpected(chosen.error());
   Replayer replayer(*inputs, options);
   auto predictions = read_prediction_sets(path, options.suffix, [&](TrackSet set) { replayer.add(std::move(set)); });
   if (!predictions) return tl::make_unexpected(predictions.error());

@@ -1,6 +1,10 @@
 #include "tools/replay/world_rebuilder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
 
 #include "planner/app/config_reader.h"
 #include "runtime/config.h"
@@ -16,10 +20,33 @@ std::string text(const MessageName& name) {
   return fmt::format("{} of sender {}", name.sequence, name.sender_epoch_us);
 }
 
+/// What plan() takes from settings; the rest of a scenario reaches it in messages.
+constexpr std::string_view kPlannedWith[] = {
+    "planner",           "semantics.enabled", "semantics.lambda_attractive", "semantics.lambda_repulsive",
+    "semantics.lambdas", "semantics.cost"};
+
+/// Whether a key is this one, or below it.
+bool is_within(std::string_view key, std::string_view above) {
+  return key.starts_with(above) && (key.size() == above.size() || key[above.size()] == '.');
+}
+
 /// The text that a process that reports too long a configuration ends it with (reported_yaml).
 bool is_cut(const std::string& yaml) { return yaml.find("\n# cut here: ") != std::string::npos; }
 
 }  // namespace
+
+void OtherSettings::check() const {
+  for (const std::string& setting : settings) {
+    const std::string_view key = std::string_view(setting).substr(0, setting.find('='));
+    const bool planned_with = std::any_of(std::begin(kPlannedWith), std::end(kPlannedWith),
+                                          [key](std::string_view above) { return is_within(key, above); });
+    if (planned_with) continue;
+    throw ConfigError(
+        fmt::format("--set {}: has no effect on a replay, whose situations are the recorded ones; it "
+                    "takes {}",
+                    setting, fmt::join(kPlannedWith, ", ")));
+  }
+}
 
 WorldRebuilder::WorldRebuilder(const RecordedInputs& inputs, OtherSettings other)
     : inputs_(inputs), other_(std::move(other)) {

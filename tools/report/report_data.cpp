@@ -243,7 +243,9 @@ json flight_of(const FlightRecord& record) {
                         {"time_s", number(r.flight_time_s)},      {"path_m", number(r.path_length_m)},
                         {"mean_speed", number(r.mean_speed_mps)}, {"top_speed", number(r.top_speed_mps)},
                         {"clearance", number(r.min_clearance_m)}, {"stops", r.stops},
-                        {"violations", r.limit_violations}};
+                        {"violations", r.limit_violations},       {"contacts_moving", r.contacts_moving},
+                        {"contacts_at_rest", r.contacts_at_rest}, {"obstacles", r.obstacles},
+                        {"left_out", r.obstacles_left_out}};
   }
   for (const ConfigurationReport& c : record.configurations) {
     const std::size_t name = c.yaml.rfind("name: ", 0) == 0 ? 6 : std::string::npos;

@@ -7,9 +7,9 @@
 namespace tern {
 
 const char* to_string(Topic topic) {
-  constexpr std::array<const char*, kTopics> kNames = {"session", "player", "state", "truth",  "tracks", "request",
-                                                       "plan",    "timing", "hulls", "search", "map",    "health",
-                                                       "goal",    "result", "chart", "path"};
+  constexpr std::array<const char*, kTopics> kNames = {
+      "session", "player", "state", "truth",  "tracks", "request", "plan",   "timing", "hulls", "search",
+      "map",     "health", "goal",  "result", "chart",  "path",    "fields", "events", "ghost"};
   return kNames.at(static_cast<std::size_t>(topic));
 }
 

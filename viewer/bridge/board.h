@@ -25,10 +25,13 @@ enum class Topic : std::uint8_t {
   Health,   ///< every process
   Goal,
   Result,
-  Chart,  ///< the last 30 s
-  Path,   ///< where it flew
+  Chart,   ///< the whole flight in numbers: the fields that pages ask for
+  Path,    ///< where it flew
+  Fields,  ///< what could be charted
+  Events,  ///< what happened when
+  Ghost,   ///< another log's path
 };
-inline constexpr int kTopics = 16;
+inline constexpr int kTopics = 19;
 const char* to_string(Topic topic);
 
 /// The newest text per topic. A writer never waits for a reader: a text that a reader has not taken when the next one

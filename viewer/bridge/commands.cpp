@@ -76,6 +76,16 @@ LayersCommand layers(const json& value) {
   return command;
 }
 
+SeriesCommand series(const json& value) {
+  check(value.is_array() && value.size() <= kMostSeries, "series are a list of at most 36 names");
+  SeriesCommand command;
+  for (const json& entry : value) {
+    command.names.push_back(text(entry));
+    check(command.names.back().size() <= kLongestSeriesName, "a series of that name is not known");
+  }
+  return command;
+}
+
 PickCommand pick(const json& value) {
   constexpr std::array<std::pair<const char*, PickKind>, 8> kKinds = {{{"vehicle", PickKind::Vehicle},
                                                                        {"obstacle", PickKind::Obstacle},
@@ -125,9 +135,10 @@ GoalCommand goal(const json& value) {
 }
 
 Command parse(const json& value) {
-  only_members(value, {"layers", "pick", "player", "goal"});
+  only_members(value, {"layers", "series", "pick", "player", "goal"});
   check(value.size() == 1, "one command at a time");
   if (value.contains("layers")) return layers(value["layers"]);
+  if (value.contains("series")) return series(value["series"]);
   if (value.contains("pick")) return pick(value["pick"]);
   if (value.contains("player")) return player(value["player"]);
   return goal(value["goal"]);

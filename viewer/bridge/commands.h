@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/world/goal.h"
@@ -15,6 +16,12 @@ namespace tern {
 struct LayersCommand {
   bool hulls = false, planes = false, search = false;
 };
+
+/// {"series": ["UAV_STATE.speed_mps"]}: the fields that this page charts.
+struct SeriesCommand {
+  std::vector<std::string> names;
+};
+inline constexpr std::size_t kMostSeries = 36, kLongestSeriesName = 96;
 
 enum class PickKind : std::uint8_t { Vehicle, Obstacle, Plan, Request, Goal, Map, Process, Result };
 
@@ -46,8 +53,8 @@ struct GoalCommand {
   Vec3 position = Vec3::Zero();  ///< W, m
 };
 
-using Command =
-    std::variant<LayersCommand, PickCommand, PlayCommand, SeekCommand, StepCommand, SpeedCommand, GoalCommand>;
+using Command = std::variant<LayersCommand, SeriesCommand, PickCommand, PlayCommand, SeekCommand, StepCommand,
+                             SpeedCommand, GoalCommand>;
 
 /// Strict: exactly one command, no unknown members, every number finite and in range. Never throws on any bytes.
 Result<Command> parse_command(std::string_view json);

@@ -27,7 +27,8 @@ void write_vehicle(JsonWriter& json, const Scene& scene) {
   const UavState& s = *scene.state();
   begin_message(json, channels::kUavState, s).key("at_us").integer(s.at.us).key("position_m").vec3(s.motion.p);
   json.key("velocity_mps").vec3(s.motion.v).key("acceleration_mps2").vec3(s.motion.a);
-  json.key("jerk_mps3").vec3(s.motion.j).key("yaw_rad").number(s.yaw).end_object();
+  json.key("jerk_mps3").vec3(s.motion.j).key("yaw_rad").number(s.yaw).key("speed_mps").number(s.motion.v.norm());
+  json.key("total_acceleration_mps2").number(s.motion.a.norm()).end_object();
 }
 
 void write_pieces(JsonWriter& json, const Track& track) {
@@ -70,8 +71,9 @@ void write_obstacle(JsonWriter& json, const Scene& scene, std::int64_t id) {
   }
 }
 
-void write_timing(JsonWriter& json, const PlanTiming& t) {
+void write_timing(JsonWriter& json, const PlanTiming& t, double allowed_ms) {
   begin_message(json, channels::kPlanTiming, t).key("request").integer(t.request_id).key("total_ms").number(t.total_ms);
+  json.key("allowed_ms").number(allowed_ms);
   json.key("first_answer_ms").number(t.first_answer_ms).key("cpu_ms").number(t.cpu_ms);
   for (int k = 0; k < kStages; ++k) json.key(key(static_cast<Stage>(k)) + "_ms").number(t.stage_ms[k]);
   json.key("expansions").integer(t.expansions).key("hulls").integer(t.hulls);
@@ -98,7 +100,7 @@ void write_plan(JsonWriter& json, const Scene& scene) {
   json.key("configuration").text(fmt::format("{:016x}", p.inputs.configuration_hash));
   json.key("planes").integer(static_cast<std::int64_t>(p.certificate.size()));
   json.key("budget_cuts").integer(static_cast<std::int64_t>(p.cuts.size())).end_object();
-  if (scene.timing()) write_timing(json, *scene.timing());
+  if (scene.timing()) write_timing(json, *scene.timing(), scene.allowed_ms());
 }
 
 void write_request(JsonWriter& json, const Scene& scene) {

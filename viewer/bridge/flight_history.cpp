@@ -2,22 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "viewer/bridge/json_writer.h"
+#include <limits>
+#include <nlohmann/json.hpp>
 
 namespace tern {
 namespace {
 
-constexpr Duration kMotionEvery{50'000};
-constexpr Duration kClearanceEvery{100'000};
+constexpr Duration kEvery{50'000};
 constexpr std::size_t kMostSamples = 432'000;
+constexpr std::size_t kMostFields = 64;  ///< of one table
+constexpr double kDepartureSpeed = 0.05;
 
-/// Appends in order of time, at least `every` after the last.
 template <class Sample>
-void append(std::vector<Sample>& row, const Sample& sample, Duration every) {
-  if (!row.empty() && sample.at - row.back().at < every) return;
-  if (row.size() >= kMostSamples) row.erase(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(kMostSamples / 2));
-  row.push_back(sample);
+void forget_half(std::vector<Sample>& row, std::size_t width = 1) {
+  row.erase(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(kMostSamples / 2 * width));
 }
 
 template <class Sample>
@@ -25,69 +23,146 @@ auto first_after(const std::vector<Sample>& row, UTime t) {
   return std::upper_bound(row.begin(), row.end(), t, [](UTime at, const Sample& s) { return at < s.at; });
 }
 
-/// The samples in (until − span, until] as one list per column.
-template <class Sample, class... Column>
-void write_columns(JsonWriter& json, const std::vector<Sample>& row, UTime until, Column... columns) {
-  const auto begin = first_after(row, until - kChartSpan);
-  const auto end = first_after(row, until);
-  const auto write = [&](auto column) {
-    json.begin_list();
-    for (auto it = begin; it != end; ++it) json.number(column(*it));
-    json.end_list();
-  };
-  json.begin_list();
-  write([until](const Sample& s) { return (s.at - until).seconds(); });
-  (write(columns), ...);
-  json.end_list();
+void collect(const std::string& name, const nlohmann::json& value, NumberFields& fields) {
+  constexpr const char* kAxes[] = {".x", ".y", ".z"};
+  if (value.is_boolean()) {
+    fields.emplace_back(name, value.get<bool>() ? 1.0 : 0.0);
+  } else if (value.is_number()) {
+    fields.emplace_back(name, value.get<double>());
+  } else if (value.is_object()) {
+    for (const auto& [key, part] : value.items()) collect(name + "." + key, part, fields);
+  } else if (value.is_array() && value.size() == 3 && value.front().is_number()) {
+    for (std::size_t k = 0; k < 3; ++k) collect(name + kAxes[k], value[k], fields);
+  }
+}
+
+/// Of each stretch of rows the least and the greatest, in order of time.
+std::vector<std::size_t> extremes(const std::vector<float>& values, std::size_t width, std::size_t column,
+                                  std::size_t count, std::size_t most) {
+  std::vector<std::size_t> kept;
+  const std::size_t stretch = std::max<std::size_t>(1, (count + most - 1) / std::max<std::size_t>(most, 1));
+  const auto value = [&](std::size_t row) { return values[row * width + column]; };
+  for (std::size_t from = 0; from < count; from += stretch) {
+    std::size_t least = from, greatest = from;
+    for (std::size_t k = from; k < std::min(from + stretch, count); ++k) {
+      if (value(k) < value(least)) least = k;
+      if (value(k) > value(greatest)) greatest = k;
+    }
+    kept.push_back(std::min(least, greatest));
+    if (least != greatest) kept.push_back(std::max(least, greatest));
+  }
+  return kept;
 }
 
 }  // namespace
 
+NumberFields numbers_of(std::string_view detail_json) {
+  NumberFields fields;
+  const nlohmann::json detail = nlohmann::json::parse(detail_json.begin(), detail_json.end());
+  for (const nlohmann::json& message : detail["messages"]) {
+    const std::string channel = message["channel"].get<std::string>() + ".";
+    for (const auto& [key, value] : message.items()) {
+      const bool is_time = key.ends_with("_us");
+      if (!is_time && key != "channel" && key != "name") collect(channel + key, value, fields);
+    }
+  }
+  if (fields.size() > kMostFields) fields.resize(kMostFields);
+  return fields;
+}
+
 void FlightHistory::add(const UavState& state) {
-  append(motion_, {state.at, state.motion.p, state.motion.v.norm(), state.motion.a.norm()}, kMotionEvery);
+  if (!motion_.empty() && state.at - motion_.back().at < kEvery) return;
+  if (motion_.size() >= kMostSamples) forget_half(motion_);
+  motion_.push_back({state.at, state.motion.p, state.motion.v.norm()});
 }
 
-void FlightHistory::add_clearance(UTime at, double clearance_m) {
-  append(clearance_, {at, clearance_m}, kClearanceEvery);
+bool FlightHistory::wants(const std::string& table, UTime at) const {
+  const auto found = tables_.find(table);
+  return found == tables_.end() || found->second.at.empty() || at - found->second.at.back() >= kEvery;
 }
 
-void FlightHistory::add_answer(UTime at, double total_ms, double allowed_ms, PlanOutcome outcome) {
-  append(answers_, {at, total_ms, allowed_ms, static_cast<int>(outcome)}, Duration{0});
+bool FlightHistory::add_row(const std::string& name, UTime at, const NumberFields& fields) {
+  if (fields.empty() || !wants(name, at)) return false;
+  Table& table = tables_[name];
+  const bool is_first = table.names.empty();
+  if (is_first) {
+    for (const auto& [field, value] : fields) table.names.push_back(field);
+  }
+  if (table.at.size() >= kMostSamples) {
+    forget_half(table.at);
+    forget_half(table.values, table.names.size());
+  }
+  table.at.push_back(at);
+  for (std::size_t k = 0; k < table.names.size(); ++k) {
+    const bool in_place = k < fields.size() && fields[k].first == table.names[k];
+    const auto found = in_place ? fields.begin() + static_cast<std::ptrdiff_t>(k)
+                                : std::find_if(fields.begin(), fields.end(),
+                                               [&](const auto& field) { return field.first == table.names[k]; });
+    table.values.push_back(found == fields.end() ? std::numeric_limits<float>::quiet_NaN()
+                                                 : static_cast<float>(found->second));
+  }
+  return is_first;
 }
 
-void FlightHistory::clear() {
-  motion_.clear();
-  clearance_.clear();
-  answers_.clear();
+void FlightHistory::add_answer(UTime at, PlanOutcome outcome) {
+  if (!answers_.empty() && at < answers_.back().at) return;
+  if (answers_.size() >= kMostSamples) forget_half(answers_);
+  answers_.push_back({at, static_cast<int>(outcome)});
 }
 
-std::string FlightHistory::chart_json(UTime until) const {
+std::vector<std::string> FlightHistory::fields() const {
+  std::vector<std::string> all;
+  for (const auto& [name, table] : tables_) all.insert(all.end(), table.names.begin(), table.names.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::optional<UTime> FlightHistory::departure() const {
+  const auto flies = [](const Motion& m) { return m.speed > kDepartureSpeed; };
+  const auto first = std::find_if(motion_.begin(), motion_.end(), flies);
+  return first == motion_.end() ? std::nullopt : std::optional(first->at);
+}
+
+void FlightHistory::write_series(JsonWriter& json, UTime zero, UTime until, const std::string& name,
+                                 std::size_t most) const {
+  for (const auto& [key, table] : tables_) {
+    const auto found = std::find(table.names.begin(), table.names.end(), name);
+    if (found == table.names.end()) continue;
+    const auto column = static_cast<std::size_t>(found - table.names.begin());
+    const auto count =
+        static_cast<std::size_t>(std::upper_bound(table.at.begin(), table.at.end(), until) - table.at.begin());
+    const auto rows = extremes(table.values, table.names.size(), column, count, most);
+    json.key(name).begin_list().begin_list();
+    for (const std::size_t row : rows) json.number((table.at[row] - zero).seconds());
+    json.end_list().begin_list();
+    for (const std::size_t row : rows) json.number(table.values[row * table.names.size() + column]);
+    json.end_list().end_list();
+    return;
+  }
+}
+
+std::string FlightHistory::chart_json(UTime zero, UTime until, const std::vector<std::string>& names,
+                                      std::size_t most) const {
   JsonWriter json;
-  json.begin_object().key("until_us").integer(until.us);
-  json.key("elapsed_s").number(motion_.empty() ? 0.0 : (until - motion_.front().at).seconds()).key("motion");
-  write_columns(
-      json, motion_, until, [](const Motion& s) { return s.speed; }, [](const Motion& s) { return s.acceleration; });
-  json.key("clearance");
-  write_columns(json, clearance_, until, [](const Clearance& s) { return s.metres; });
-  json.key("answers");
-  write_columns(
-      json, answers_, until, [](const Answer& s) { return s.total_ms; }, [](const Answer& s) { return s.allowed_ms; },
-      [](const Answer& s) { return static_cast<double>(s.outcome); });
-  json.end_object();
-  return json.take();
+  json.begin_object().key("begin_us").integer(zero.us).key("end_s").number((until - zero).seconds());
+  json.key("series").begin_object();
+  for (const std::string& name : names) write_series(json, zero, until, name, most);
+  json.end_object().key("outcomes").begin_list().begin_list();
+  const auto end = first_after(answers_, until);
+  for (auto it = answers_.begin(); it != end; ++it) json.number((it->at - zero).seconds());
+  json.end_list().begin_list();
+  for (auto it = answers_.begin(); it != end; ++it) json.integer(it->outcome);
+  return json.end_list().end_list().end_object().take();
 }
 
-std::string FlightHistory::path_json(UTime until, std::size_t most) const {
+void FlightHistory::write_path(JsonWriter& json, UTime zero, UTime until, std::size_t most) const {
   const auto count = static_cast<std::size_t>(first_after(motion_, until) - motion_.begin());
   const std::size_t stride = std::max<std::size_t>(1, (count + most - 1) / std::max<std::size_t>(most, 1));
-  JsonWriter json;
-  json.begin_list();
-  for (std::size_t k = 0; k < count; k += stride) {
-    json.point(motion_[k].p);
-    json.number(motion_[k].speed);
-  }
+  json.key("t").begin_list();
+  for (std::size_t k = 0; k < count; k += stride) json.number((motion_[k].at - zero).seconds());
+  json.end_list().key("curve").begin_list();
+  for (std::size_t k = 0; k < count; k += stride) json.point(motion_[k].p).number(motion_[k].speed);
   json.end_list();
-  return json.take();
 }
 
 }  // namespace tern

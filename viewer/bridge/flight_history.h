@@ -1,55 +1,74 @@
-// What charts and the flown path are drawn from: a flight's past, thinned, in bounded memory.
+// A flight's past, in bounded memory: the path, every number that messages carry, the answers' outcomes.
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/types.h"
 #include "core/world/horizon.h"
 #include "core/world/vehicle.h"
+#include "viewer/bridge/json_writer.h"
 
 namespace tern {
 
-/// How far back the charts reach.
-inline constexpr Duration kChartSpan{30'000'000};
+/// {"PLAN_TIMING.total_ms", 12.5}, …: the numbers of one message, by channel and field.
+using NumberFields = std::vector<std::pair<std::string, double>>;
 
-/// Keeps at most one vehicle sample per 50 ms, one clearance per 100 ms and every answer's cost; when a row is full
-/// (six hours of flight), it forgets its older half. Times are the vehicle's clock; what comes out of order is left
-/// out.
+/// The numbers in what detail_json() tells: numbers and booleans; a list of three is its x, y and z. Names, times in
+/// µs since the epoch and longer lists are left out.
+NumberFields numbers_of(std::string_view detail_json);
+
+/// Times are the vehicle's clock; what comes out of order is left out. A row that is full (six hours of flight, of a
+/// channel twenty times a second) forgets its older half.
 class FlightHistory {
  public:
+  /// At most one per 50 ms is kept.
   void add(const UavState& state);
-  /// @param clearance_m  from the body to the nearest obstacle, negative in overlap
-  void add_clearance(UTime at, double clearance_m);
-  /// @param allowed_ms  from the request to its deadline; 0: unknown
-  void add_answer(UTime at, double total_ms, double allowed_ms, PlanOutcome outcome);
-  void clear();
+  /// Whether a row of this name would be kept now: at most one per 50 ms is. Who asks before saves the work.
+  [[nodiscard]] bool wants(const std::string& table, UTime at) const;
+  /// @param fields  of one message; its first row says which fields a table has
+  /// @return whether it is the first
+  bool add_row(const std::string& table, UTime at, const NumberFields& fields);
+  void add_answer(UTime at, PlanOutcome outcome);
 
-  /// {"until_us": …, "elapsed_s": since the first state, "motion": [[t…], [speed…], [acceleration…]], "clearance":
-  /// [[t…], [m…]],
-  ///  "answers": [[t…], [ms…], [allowed ms…], [outcome…]]} of the last 30 s before `until`, t in seconds, ≤ 0.
-  [[nodiscard]] std::string chart_json(UTime until) const;
-  /// [x, y, z, speed, …] from the start to `until`, at most `most` points.
-  [[nodiscard]] std::string path_json(UTime until, std::size_t most = 3'000) const;
+  /// The names of all fields that were ever heard, sorted.
+  [[nodiscard]] std::vector<std::string> fields() const;
+  [[nodiscard]] UTime begin() const { return motion_.empty() ? UTime{} : motion_.front().at; }
+  /// When it flew first (faster than 0.05 m/s); nothing before.
+  [[nodiscard]] std::optional<UTime> departure() const;
+
+  /// {"begin_us", "end_s", "series": {name: [[t…], [value…]]}, "outcomes": [[t…], [outcome…]]}, t in seconds from
+  /// `zero`, all of the flight until `until`. A series has at most 2·`most` points: of every stretch the least and the
+  /// greatest, so that no extreme is lost.
+  [[nodiscard]] std::string chart_json(UTime zero, UTime until, const std::vector<std::string>& names,
+                                       std::size_t most = 600) const;
+  /// Members "t": [s from `zero`…], "curve": [x, y, z, speed, …] from the start to `until`, at most `most` points.
+  void write_path(JsonWriter& json, UTime zero, UTime until, std::size_t most = 3'000) const;
 
  private:
   struct Motion {
     UTime at;
     Vec3 p;
-    double speed, acceleration;
+    double speed;
   };
-  struct Clearance {
-    UTime at;
-    double metres;
+  struct Table {
+    std::vector<std::string> names;
+    std::vector<UTime> at;
+    std::vector<float> values;  ///< a row after the other
   };
   struct Answer {
     UTime at;
-    double total_ms, allowed_ms;
     int outcome;
   };
+  void write_series(JsonWriter& json, UTime zero, UTime until, const std::string& name, std::size_t most) const;
+
   std::vector<Motion> motion_;
-  std::vector<Clearance> clearance_;
+  std::map<std::string, Table> tables_;
   std::vector<Answer> answers_;
 };
 

@@ -1,8 +1,12 @@
 #include "viewer/bridge/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "messages/channels.h"
+#include "viewer/bridge/scene_json.h"
 
 namespace tern {
 namespace {
@@ -22,14 +26,31 @@ void Scene::hear(const UavState& message) {
     mark(Topic::Goal);
   }
   state_ = message;
-  if (history_ != nullptr) history_->add(message);
-  for (const Topic topic : {Topic::State, Topic::Chart, Topic::Path}) mark(topic);
+  remember_state();
+  for (const Topic topic : {Topic::State, Topic::Chart, Topic::Path, Topic::Events}) mark(topic);
+}
+
+void Scene::remember_state() {
+  if (memory_ == nullptr) return;
+  memory_->events.hear(*state_);
+  if (!memory_->history.wants(channels::kUavState.name, state_->at)) return;
+  memory_->history.add(*state_);
+  remember(channels::kUavState.name, state_->at, numbers_of(detail_json(*this, {})));
+  const auto obstacles = clearance(), map = map_clearance();
+  memory_->events.hear_clearance(state_->at, obstacles, map);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const NumberFields fields{{"clearance.obstacles_m", obstacles.value_or(kNone)},
+                            {"clearance.map_m", map.value_or(kNone)}};
+  remember("clearance", state_->at, fields);
+}
+
+void Scene::remember(const std::string& table, UTime at, const NumberFields& fields) {
+  if (memory_->history.add_row(table, at, fields)) mark(Topic::Fields);
 }
 
 void Scene::hear(const ObstacleTruth& complete_set) {
   truth_ = complete_set;
   mark(Topic::Truth);
-  if (const auto metres = clearance(); metres && history_ != nullptr) history_->add_clearance(state_->at, *metres);
 }
 
 void Scene::hear(TrackSet complete_set) {
@@ -46,6 +67,7 @@ void Scene::hear(const HorizonRequest& message) {
 
 void Scene::hear(const Plan& message) {
   plan_ = message;
+  if (memory_ != nullptr) memory_->events.hear(message);
   mark(Topic::Plan);
   mark(Topic::Hulls);
 }
@@ -53,8 +75,12 @@ void Scene::hear(const Plan& message) {
 void Scene::hear(const PlanTiming& message) {
   timing_ = message;
   mark(Topic::Timing);
-  if (history_ == nullptr || !plan_ || plan_->request_id != message.request_id) return;
-  history_->add_answer(message.header.utime, message.total_ms, allowed_ms(), plan_->outcome);
+  if (memory_ == nullptr || !plan_ || plan_->request_id != message.request_id) return;
+  const UTime at = message.header.utime;
+  memory_->events.hear(message, allowed_ms());
+  memory_->history.add_answer(at, plan_->outcome);
+  if (!memory_->history.wants(channels::kPlan.name, at)) return;
+  remember(channels::kPlan.name, at, numbers_of(detail_json(*this, {PickKind::Plan, 0, ""})));
 }
 
 void Scene::hear(const SearchView& message) {
@@ -65,16 +91,19 @@ void Scene::hear(const SearchView& message) {
 void Scene::hear(const Goal& message) {
   if (goal_ && message.id < goal_->id) return;
   goal_ = message;
+  if (memory_ != nullptr) memory_->events.hear(message);
   mark(Topic::Goal);
 }
 
 void Scene::hear(const FlightResult& message) {
   result_ = message;
+  if (memory_ != nullptr) memory_->events.hear(message);
   mark(Topic::Result);
 }
 
 void Scene::hear(const Heartbeat& message, UTime now) {
   if (!processes_.contains(message.process) && processes_.size() >= kMostProcesses) return;
+  if (memory_ != nullptr) memory_->events.hear(message);
   HeardProcess& process = processes_[message.process];
   process.heartbeat = message;
   process.heard = now;
@@ -116,8 +145,16 @@ std::optional<double> Scene::clearance() const {
   for (const TrueObstacle& o : truth_->obstacles) {
     nearest = std::min(nearest, box_around(o.position, o.half_extents).exteriorDistance(state_->motion.p));
   }
-  return nearest - (request_ ? ball_radius(request_->body) : 0.0);
+  return nearest - body_radius();
 }
+
+std::optional<double> Scene::map_clearance() const {
+  if (!state_ || !map_) return std::nullopt;
+  const double nearest = distance_to_occupied(map_->surface, state_->motion.p);
+  return std::isfinite(nearest) ? std::optional(nearest - body_radius()) : std::nullopt;
+}
+
+double Scene::body_radius() const { return request_ ? ball_radius(request_->body) : 0.0; }
 
 double Scene::allowed_ms() const {
   if (!timing_) return 0.0;

@@ -15,6 +15,7 @@
 #include "core/world/track.h"
 #include "core/world/vehicle.h"
 #include "viewer/bridge/board.h"
+#include "viewer/bridge/flight_events.h"
 #include "viewer/bridge/flight_history.h"
 #include "viewer/bridge/voxel_faces.h"
 
@@ -42,8 +43,13 @@ struct SeenMap {
 /// Takes validated messages, complete sets and whole maps. Which topics changed is noted for whoever tells the page.
 class Scene {
  public:
-  /// @param history  is told of motion, clearances and answers; may be null
-  explicit Scene(FlightHistory* history = nullptr) : history_(history) {}
+  /// What is remembered of the flight.
+  struct Memory {
+    FlightHistory history;
+    FlightEvents events;
+  };
+  /// @param memory  is told of everything that is heard; may be null
+  explicit Scene(Memory* memory = nullptr) : memory_(memory) {}
 
   /// A state of another vehicle (a new sender epoch) is another flight's: goals that were sent before it began are
   /// forgotten.
@@ -79,6 +85,11 @@ class Scene {
   /// From the body to the nearest true obstacle, m; nothing before both were heard. A body of vertices counts as the
   /// ball around it.
   [[nodiscard]] std::optional<double> clearance() const;
+  /// From the body, taken for a ball as well, to the nearest occupied voxel of the map, m; nothing before both were
+  /// heard, or where nothing is occupied.
+  [[nodiscard]] std::optional<double> map_clearance() const;
+  /// Of the ball around the vehicle's body, m; 0 before a request says it.
+  [[nodiscard]] double body_radius() const;
   /// What the planner was given for the answer that `timing` tells of, ms; 0: not known.
   [[nodiscard]] double allowed_ms() const;
 
@@ -87,7 +98,10 @@ class Scene {
   void mark(Topic topic) { changed_.set(static_cast<std::size_t>(topic)); }
 
  private:
-  FlightHistory* history_;
+  void remember_state();
+  void remember(const std::string& table, UTime at, const NumberFields& fields);
+
+  Memory* memory_;
   std::optional<UavState> state_;
   std::optional<ObstacleTruth> truth_;
   std::optional<TrackSet> tracks_;

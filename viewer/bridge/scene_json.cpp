@@ -6,6 +6,7 @@
 
 #include "core/world/names.h"
 #include "viewer/bridge/json_writer.h"
+#include "viewer/bridge/plane_place.h"
 #include "viewer/bridge/predicted_hulls.h"
 
 namespace tern {
@@ -43,16 +44,6 @@ void write_trajectory(JsonWriter& json, const TimedSpline& trajectory) {
   write_minvo(json, trajectory);
 }
 
-/// Where the trajectory is in the middle of a plane's part of an interval. Intervals are counted from t_s
-/// (lcmtypes/certificate_plane_t.lcm).
-Vec3 place_of(const CertificatePlane& plane, const TimedSpline& trajectory, UTime t_s) {
-  const ClampedSpline spline = trajectory.spline();
-  const double passed = std::max((t_s - trajectory.start).seconds(), 0.0) / spline.interval_s();
-  const double from = plane.interval == 0 ? passed : std::floor(passed) + plane.interval;
-  const double to = std::floor(passed) + plane.interval + 1;
-  return spline.sample(spline.interval_s() * (from + (plane.part + 0.5) / plane.parts * (to - from))).p;
-}
-
 void write_planes(JsonWriter& json, const Plan& plan, UTime t_s) {
   json.begin_list();
   for (const CertificatePlane& c : plan.certificate) {
@@ -73,6 +64,7 @@ std::string state_json(const Scene& scene) {
   json.begin_object().key("at_us").integer(s.at.us).key("p").vec3(s.motion.p).key("v").vec3(s.motion.v);
   json.key("a").vec3(s.motion.a).key("yaw").number(s.yaw);
   if (const auto metres = scene.clearance()) json.key("clearance").number(*metres);
+  if (const auto metres = scene.map_clearance()) json.key("map_clearance").number(*metres);
   return json.end_object().take();
 }
 
@@ -233,6 +225,7 @@ std::string result_json(const Scene& scene) {
   json.begin_object().key("outcome").text(to_string(result.outcome)).key("detail").text(result.detail);
   json.key("flight_time_s").number(result.flight_time_s).key("path_length_m").number(result.path_length_m);
   json.key("top_speed_mps").number(result.top_speed_mps).key("min_clearance_m").number(result.min_clearance_m);
+  json.key("min_map_clearance_m").number(result.min_map_clearance_m);
   return json.end_object().take();
 }
 

@@ -1,6 +1,8 @@
 #include "viewer/bridge/voxel_faces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace tern {
 namespace {
@@ -115,7 +117,8 @@ VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels) {
   int factor = 1;
   while (map.grid.voxels() / (static_cast<std::int64_t>(factor) * factor * factor) > max_voxels) ++factor;
   const Labels labels = coarsened(map, factor);
-  VoxelSurface surface{labels.grid, {}};
+  VoxelSurface surface{labels.grid, {}, {}};
+  for (const VoxelLabel label : labels.labels) surface.occupied.push_back(label == VoxelLabel::Occupied);
   for (int direction = 0; direction < 6; ++direction) {
     for (int depth = 0; depth < labels.grid.size[direction / 2]; ++depth) {
       Layer layer = exposed(labels, direction, depth);
@@ -123,6 +126,20 @@ VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels) {
     }
   }
   return surface;
+}
+
+double distance_to_occupied(const VoxelSurface& surface, const Vec3& p) {
+  const VoxelGrid& grid = surface.grid;
+  const Eigen::Vector3i cell = grid.cell_of(p);
+  if (grid.contains(cell) && surface.occupied[static_cast<std::size_t>(grid.index(cell))]) return 0.0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const VoxelFace& face : surface.faces) {
+    if (face.label != VoxelLabel::Occupied) continue;
+    const Vec3 low = grid.origin + grid.resolution * face.low.cast<double>();
+    const Vec3 high = grid.origin + grid.resolution * face.high.cast<double>();
+    nearest = std::min(nearest, (p - p.cwiseMax(low).cwiseMin(high)).squaredNorm());
+  }
+  return std::sqrt(nearest);
 }
 
 }  // namespace tern

@@ -19,11 +19,16 @@ struct VoxelFace {
 struct VoxelSurface {
   VoxelGrid grid;  ///< of the drawing: the map's, or a coarser one
   std::vector<VoxelFace> faces;
+  std::vector<bool> occupied;  ///< by grid.index
 };
 
 /// Every face between an occupied, attractive or repulsive voxel and one of another label (or the grid's outside),
 /// joined greedily to rectangles. A grid of more than `max_voxels` is coarsened first by a whole factor: a coarse voxel
 /// has the gravest label within it (repulsive, occupied, attractive). O(voxels).
 VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels = 4'000'000);
+
+/// From p to the nearest occupied voxel as it is drawn (of a coarsened map no farther than it is), m; 0 within one,
+/// infinity where there is none. O(faces).
+double distance_to_occupied(const VoxelSurface& surface, const Vec3& p);
 
 }  // namespace tern

@@ -18,5 +18,6 @@ export default defineConfig({
     outDir: process.env.TERN_PAGE_DIR ?? '../../build/viewer-page',
     emptyOutDir: true,
     chunkSizeWarningLimit: 2000,
+    target: 'es2022',
   },
 });

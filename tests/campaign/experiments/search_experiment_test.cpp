@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "campaign/experiments/figure_data.h"
 
 namespace tern {
 namespace {
@@ -34,13 +37,18 @@ TEST(PaperSearch, EveryPlaneSeparatesItsHulls) {
   }
 }
 
-TEST(PaperSearch, TheFigureShowsEveryCase) {
+TEST(PaperSearch, TheFiguresDataHasEveryCaseWithItsSegments) {
   std::vector<SearchOutcome> outcomes;
   for (const SearchCase& c : search_cases()) outcomes.push_back(run_search_case(c));
-  const std::string svg = draw_search(outcomes);
-  for (const SearchCase& c : search_cases()) EXPECT_NE(svg.find(c.title), std::string::npos);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
-  EXPECT_LT(svg.size(), 200'000U);
+  const auto data = nlohmann::json::parse(search_data(outcomes));
+  ASSERT_EQ(data.size(), search_cases().size());
+  for (std::size_t k = 0; k < data.size(); ++k) {
+    EXPECT_EQ(data[k]["title"], search_cases()[k].title);
+    EXPECT_EQ(data[k]["regions"].size(), search_cases()[k].name == "none" ? 0U : 1U);
+    ASSERT_EQ(data[k]["segments"].size(), 6U);
+    EXPECT_EQ(data[k]["segments"][0]["curve"][0], data[k]["start"]);
+    EXPECT_EQ(data[k]["segments"][5]["curve_hull"].size(), 4U);
+  }
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/random.h"
+#include "planner/safety/thrust_set.h"
 #include "tests/planner/optimization/random_problems.h"
+#include "tests/support/flat_outputs.h"
 
 namespace tern {
 namespace {
@@ -125,6 +127,42 @@ TEST(ConvexProblem, WhateverSatisfiesTheRowsKeepsTheLimitsAndThePlanes) {
       if (low > 0.0) ++tried;
       expect_within(instance, x0 + low * d, seed);
       if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(tried, 100);
+}
+
+TEST(ConvexProblem, WhateverSatisfiesItAlsoKeepsThrustAndTilt) {
+  int tried = 0;
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+    Instance instance = random_instance(seed);
+    Rng rng(seed);
+    const Dynamics dynamics = support::random_dynamics(rng);
+    instance.problem.plan_limits.dynamics = dynamics;
+    const ThrustSet set(dynamics);
+    const TrajectoryProblem& p = instance.problem;
+    const auto all_in_set = [&](const ClampedSpline& spline) {
+      for (int j = 0; j + 1 < p.intervals; ++j) {
+        const Vec3 a = spline.sample((j + 1) * p.interval_s()).a;
+        if (!set.contains(a * (1.0 - 1e-5))) return false;
+      }
+      return true;
+    };
+    // A start that the search would not have given is widened to: its neighbours keep no more than it does.
+    if (!all_in_set(ClampedSpline(instance.initial, p.interval_s()))) continue;
+    const ConvexProblem convex = instance.convex();
+    const Eigen::VectorXd x0 = free_variables(instance.initial);
+    ASSERT_LT(convex.worst_violation(x0), -0.5 * kStartRoom) << "seed " << seed;
+    for (int i = 0; i < 10; ++i) {
+      const Eigen::VectorXd d = random_step(rng, x0.size(), 1.0);
+      double low = 0.0;
+      double high = 2.0;
+      for (int k = 0; k < 40; ++k) {
+        const double mid = 0.5 * (low + high);
+        (convex.worst_violation(x0 + mid * d) <= 0.0 ? low : high) = mid;
+      }
+      if (low > 0.0) ++tried;
+      ASSERT_TRUE(all_in_set(ClampedSpline(control_points_of(x0 + low * d, p), p.interval_s()))) << "seed " << seed;
     }
   }
   EXPECT_GT(tried, 100);

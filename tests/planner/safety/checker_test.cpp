@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/world/message_limits.h"
+#include "core/world/names.h"
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"
 
@@ -46,9 +47,9 @@ class CheckPlan : public ::testing::Test {
     SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
     return check_plan(plan_, problem_, swept);
   }
-  void expect_fault(CheckFault fault, int axis) const {
+  void expect_fault(Breach breach, int axis) const {
     const CheckReport report = check();
-    EXPECT_EQ(report.fault, fault) << to_string(report.fault);
+    EXPECT_EQ(report.breach, breach) << to_string(report.breach);
     EXPECT_EQ(report.axis, axis);
     EXPECT_TRUE(report.certificate.empty());
   }
@@ -70,26 +71,26 @@ constexpr double kWithin = 1.0 + 0.5 * kLimitTolerance;
 
 TEST_F(CheckPlan, PassesAGoodPlan) {
   const CheckReport report = check();
-  EXPECT_TRUE(report.ok()) << to_string(report.fault) << " axis " << report.axis << " " << report.value;
+  EXPECT_TRUE(report.ok()) << to_string(report.breach) << " axis " << report.axis << " " << report.value;
 }
 
 TEST_F(CheckPlan, RefusesShapesThatAreNoPlan) {
   const TimedSpline good = plan_;
   plan_.interval = Duration{0};
-  expect_fault(CheckFault::Shape, -1);
+  expect_fault(Breach::Shape, -1);
   plan_ = good;
   plan_.interval = Duration{-250'000};
-  expect_fault(CheckFault::Shape, -1);
+  expect_fault(Breach::Shape, -1);
   plan_ = good;
   plan_.control_points = Points(good.control_points.leftCols(6));
-  expect_fault(CheckFault::Shape, -1);
+  expect_fault(Breach::Shape, -1);
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     plan_ = good;
     plan_.control_points(1, 4) = bad;
-    expect_fault(CheckFault::Shape, -1);
+    expect_fault(Breach::Shape, -1);
   }
   plan_.control_points = start_.p.replicate(1, kMaxIntervals + 4);
-  expect_fault(CheckFault::Shape, -1);
+  expect_fault(Breach::Shape, -1);
 }
 
 TEST_F(CheckPlan, RefusesNumbersThatOverflow) {
@@ -101,7 +102,7 @@ TEST_F(CheckPlan, RefusesAStartElsewhere) {
   for (int axis = 0; axis < 3; ++axis) {
     problem_.start = start_;
     problem_.start.p[axis] += 2.0 * kJoinTolerance;
-    expect_fault(CheckFault::Start, axis);
+    expect_fault(Breach::Join, axis);
     problem_.start.p[axis] = start_.p[axis] - 0.5 * kJoinTolerance;
     EXPECT_TRUE(check().ok());
   }
@@ -111,7 +112,7 @@ TEST_F(CheckPlan, RefusesAStartWithAnotherVelocity) {
   for (int axis = 0; axis < 3; ++axis) {
     problem_.start = start_;
     problem_.start.v[axis] -= 2.0 * kJoinTolerance;
-    expect_fault(CheckFault::Start, axis);
+    expect_fault(Breach::Join, axis);
     problem_.start.v[axis] = start_.v[axis] + 0.5 * kJoinTolerance;
     EXPECT_TRUE(check().ok());
   }
@@ -121,7 +122,7 @@ TEST_F(CheckPlan, RefusesAStartWithAnotherAcceleration) {
   for (int axis = 0; axis < 3; ++axis) {
     problem_.start = start_;
     problem_.start.a[axis] += 2.0 * kJoinTolerance;
-    expect_fault(CheckFault::Start, axis);
+    expect_fault(Breach::Join, axis);
     problem_.start.a[axis] = start_.a[axis] - 0.5 * kJoinTolerance;
     EXPECT_TRUE(check().ok());
   }
@@ -129,14 +130,14 @@ TEST_F(CheckPlan, RefusesAStartWithAnotherAcceleration) {
 
 TEST_F(CheckPlan, RefusesAStartThatIsNotANumber) {
   problem_.start.a.y() = std::nan("");
-  expect_fault(CheckFault::Start, 1);
+  expect_fault(Breach::Join, 1);
 }
 
 TEST_F(CheckPlan, RefusesVelocityBeyondItsLimitOnEachAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     problem_.limits = Limits{};
     problem_.limits.v_max[axis] = bounds().v_max[axis] / kBeyond;
-    expect_fault(CheckFault::Velocity, axis);
+    expect_fault(Breach::Velocity, axis);
     problem_.limits.v_max[axis] = bounds().v_max[axis] / kWithin;
     EXPECT_TRUE(check().ok());
   }
@@ -146,7 +147,7 @@ TEST_F(CheckPlan, RefusesAccelerationBeyondItsLimitOnEachAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     problem_.limits = Limits{};
     problem_.limits.a_max[axis] = bounds().a_max[axis] / kBeyond;
-    expect_fault(CheckFault::Acceleration, axis);
+    expect_fault(Breach::Acceleration, axis);
     problem_.limits.a_max[axis] = bounds().a_max[axis] / kWithin;
     EXPECT_TRUE(check().ok());
   }
@@ -156,7 +157,7 @@ TEST_F(CheckPlan, RefusesJerkBeyondItsLimitOnEachAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     problem_.limits = Limits{};
     problem_.limits.j_max[axis] = bounds().j_max[axis] / kBeyond;
-    expect_fault(CheckFault::Jerk, axis);
+    expect_fault(Breach::Jerk, axis);
     problem_.limits.j_max[axis] = bounds().j_max[axis] / kWithin;
     EXPECT_TRUE(check().ok());
   }
@@ -172,14 +173,14 @@ TEST_F(CheckPlan, RefusesAVelocityThatPeaksInsideAnInterval) {
   for (int j = 0; j <= kIntervals; ++j) at_knots = std::max(at_knots, std::abs(plan_.spline().sample(0.25 * j).v.x()));
   ASSERT_LT(at_knots, 0.999 * bounds().v_max.x());
   problem_.limits.v_max.x() = 0.5 * (at_knots + bounds().v_max.x());
-  expect_fault(CheckFault::Velocity, 0);
+  expect_fault(Breach::Velocity, 0);
 }
 
 TEST_F(CheckPlan, RefusesAnEndThatIsNotAtRest) {
   for (const int point : {6, 7, 8}) {
     const TimedSpline good = plan_;
     plan_.control_points(2, point) += 1e-12;
-    expect_fault(CheckFault::NotAtRest, -1);
+    expect_fault(Breach::End, -1);
     plan_ = good;
   }
 }
@@ -190,7 +191,7 @@ TEST_F(CheckPlan, RefusesToLeaveTheSphere) {
     farthest = std::max(farthest, (plan_.spline().minvo(j).colwise() - start_.p).colwise().norm().maxCoeff());
   }
   problem_.sphere_radius = farthest / kBeyond;
-  expect_fault(CheckFault::Sphere, -1);
+  expect_fault(Breach::Sphere, -1);
   problem_.sphere_radius = farthest / kWithin;
   EXPECT_TRUE(check().ok());
 }
@@ -210,7 +211,7 @@ TEST_F(CheckPlan, RefusesABodyOutsideTheFlightBoxThroughEachOfItsSides) {
         side(flight_box) += inwards * 2.0 * kBoxTolerance;
         ASSERT_TRUE(flight_box.contains(curve_box()));
         problem_.centre_box = grown(flight_box, -body_.half_extents());
-        expect_fault(CheckFault::FlightBox, axis);
+        expect_fault(Breach::FlightBox, axis);
       }
     }
   }
@@ -242,7 +243,7 @@ TEST_F(CheckPlan, RefusesEachPairOfObstacleAndInterval) {
                                       : straight_mover(i + 1, harmless, Vec3::Zero(), 0.5, kStart, 2.0));
       }
       const CheckReport report = check(tracks);
-      EXPECT_EQ(report.fault, CheckFault::NotSeparated) << "obstacle " << culprit + 1 << " in interval " << j;
+      EXPECT_EQ(report.breach, Breach::NotSeparated) << "obstacle " << culprit + 1 << " in interval " << j;
       EXPECT_EQ(report.obstacle, culprit + 1);
       EXPECT_LE(std::abs(report.interval - j), 1);
       EXPECT_TRUE(report.certificate.empty());
@@ -254,11 +255,11 @@ TEST_F(CheckPlan, RefusesEachPairOfMapBoxAndInterval) {
   for (int j = 0; j < kIntervals; ++j) {
     const Vec3 there = plan_.spline().sample((j + 0.5) * 0.25).p;
     const std::vector<PlanningObstacle> obstacles{
-        {-1, nullptr, box_around(there + Vec3(0, 5, 0), Vec3::Constant(0.2)), 1.0},
-        {-2, nullptr, box_around(there, Vec3::Constant(0.001)), 1.0}};
+        {-1, nullptr, box_around(there + Vec3(0, 5, 0), Vec3::Constant(0.2)), {}},
+        {-2, nullptr, box_around(there, Vec3::Constant(0.001)), {}}};
     SweptObstacles swept(obstacles, body_, kStart, {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5}, kEverywhere);
     const CheckReport report = check_plan(plan_, problem_, swept);
-    EXPECT_EQ(report.fault, CheckFault::NotSeparated);
+    EXPECT_EQ(report.breach, Breach::NotSeparated);
     EXPECT_EQ(report.obstacle, -2);
   }
 }
@@ -270,8 +271,8 @@ TEST_F(CheckPlan, RefusesAGrazeByTheBodyThatTheCentreMisses) {
     const double reach = body_.vertices.row(0).maxCoeff() + body_.radius;
     const Box wall(Vec3(end.x(), -100, -100), Vec3(end.x() + 5, 100, 100));
     EXPECT_TRUE(check({standing_box(1, Box(wall.min() + Vec3(reach + 1e-3, 0, 0), wall.max()), kStart)}).ok());
-    EXPECT_EQ(check({standing_box(1, Box(wall.min() + Vec3(reach - 1e-5, 0, 0), wall.max()), kStart)}).fault,
-              CheckFault::NotSeparated);
+    EXPECT_EQ(check({standing_box(1, Box(wall.min() + Vec3(reach - 1e-5, 0, 0), wall.max()), kStart)}).breach,
+              Breach::NotSeparated);
   }
 }
 
@@ -294,8 +295,8 @@ TEST_F(CheckPlan, NeverPassesAPlanThatDenseSamplingSeesCollide) {
     for (int k = 0; k <= kIntervals; ++k) times.push_back(k * plan_.interval.seconds());
     SweptObstacles swept(obstacles, body_, kStart, times, kEverywhere);
     const CheckReport report = check_plan(plan_, problem_, swept);
-    ASSERT_TRUE(report.ok() || report.fault == CheckFault::NotSeparated)
-        << to_string(report.fault) << " at seed " << seed;
+    ASSERT_TRUE(report.ok() || report.breach == Breach::NotSeparated)
+        << to_string(report.breach) << " at seed " << seed;
     if (!report.ok()) continue;
     ++passed;
     ASSERT_GT(least_gap(plan_, body_, obstacles, kStart, plan_.end(), Duration{5'000}), 0.0) << "seed " << seed;
@@ -334,7 +335,7 @@ TEST_F(CheckPlan, RefusesACertificateThatNoPlanCanCarry) {
     if (!check({crumbs.back()}).ok() || check({crumbs.back()}).certificate.empty()) crumbs.pop_back();
   }
   const CheckReport report = check(crumbs);
-  EXPECT_EQ(report.fault, CheckFault::TooManyPlanes) << to_string(report.fault);
+  EXPECT_EQ(report.breach, Breach::TooManyPlanes) << to_string(report.breach);
   EXPECT_GT(report.value, kMaxCertificatePlanes);
   EXPECT_TRUE(report.certificate.empty());
   crumbs.resize(300);
@@ -350,7 +351,7 @@ TEST(CheckSeparation, JudgesAMotionUnderWayByItsPiecesAlone) {
     const auto obstacles = obstacles_of(tracks);
     SweptObstacles swept(obstacles, Body{}, kStart, {0.0, 0.3, 0.6}, kEverywhere);
     const CheckReport report = check_separation(pieces, swept);
-    EXPECT_EQ(report.fault, CheckFault::NotSeparated);
+    EXPECT_EQ(report.breach, Breach::NotSeparated);
     EXPECT_EQ(report.interval, j);
     EXPECT_EQ(report.obstacle, 3);
   }

@@ -38,7 +38,7 @@ Scene random_scene(std::uint64_t seed) {
     if (rng.uniform() < 0.2) s.tracks.back().kind = TrackKind::Static;
   }
   s.obstacles = obstacles_of(s.tracks);
-  s.obstacles.push_back({-1, nullptr, box_around(random_vector(rng, 2.0), Vec3::Constant(0.3)), 1.0});
+  s.obstacles.push_back({-1, nullptr, box_around(random_vector(rng, 2.0), Vec3::Constant(0.3)), {}});
   s.body = body_of(kBodyKinds[random_integer(rng, 0, 2)]);
   s.trajectory = random_trajectory(rng, random_vector(rng, 1.5), kOrigin, Limits{});
   for (int j = 0; j <= s.trajectory.spline().intervals(); ++j) s.times.push_back(j * s.trajectory.interval.seconds());

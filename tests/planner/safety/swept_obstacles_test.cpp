@@ -38,7 +38,9 @@ Case random_case(Rng& rng) {
                                          : jumping_mover(rng, 1, kWhere, from, seconds));
   if (rng.uniform() < 0.1) c.tracks[0].kind = TrackKind::Static;
   c.obstacles = obstacles_of(c.tracks);
-  if (rng.uniform() < 0.3) c.obstacles[0].alpha_scale = rng.uniform();
+  AlphaCount& count = c.obstacles[0].alpha;
+  if (rng.uniform() < 0.3) count.scale = rng.uniform();
+  if (rng.uniform() < 0.5) count.level = random_integer(rng, 0, kLevels - 1);
   c.body = body_of(kBodyKinds[random_integer(rng, 0, 2)]);
   double t = rng.uniform() < 0.5 ? 0.0 : rng.uniform(0.0, 0.5);
   for (int k = random_integer(rng, 2, 8); k >= 0; --k) {
@@ -54,10 +56,10 @@ double true_support(const Case& c, double from, double to, const Vec3& d) {
   const Track& track = c.tracks[0];
   double most = 0.0;
   if (track.kind == TrackKind::Static) {
-    const Box box = promised_box(track, kOrigin, c.obstacles[0].alpha_scale);
+    const Box box = promised_box(track, kOrigin, c.obstacles[0].alpha);
     most = d.dot(box.center()) + d.cwiseAbs().dot(0.5 * box.sizes());
   } else {
-    most = support_of_sweep(track, c.obstacles[0].alpha_scale, kOrigin, from, to, d);
+    most = support_of_sweep(track, c.obstacles[0].alpha, kOrigin, from, to, d);
   }
   return most + support(-c.body.vertices, d);
 }
@@ -86,7 +88,7 @@ TEST(SweptObstacles, HullsContainDenseSamplesOfEverySweptInflatedBody) {
       for (int i = 0; i <= 12; ++i) {
         const UTime t = kOrigin + Duration{static_cast<std::int64_t>((from + (to - from) * i / 12) * 1e6)};
         const Duration at = std::clamp(t - kOrigin, Duration::from_seconds(from), Duration::from_seconds(to));
-        const Box box = promised_box(c.tracks[0], kOrigin + at, c.obstacles[0].alpha_scale);
+        const Box box = promised_box(c.tracks[0], kOrigin + at, c.obstacles[0].alpha);
         const Eigen::Matrix<double, 3, 8> corners = box_corners(box);
         for (int corner = 0; corner < 8; ++corner) {
           const Points swept = (-c.body.vertices).colwise() + corners.col(corner);
@@ -184,7 +186,7 @@ TEST(SweptObstacles, KeepsEveryObstacleThatTheBodyCanTouchFromTheRegion) {
       ++left_out;
       for (int i = 0; i <= 40; ++i) {
         const double t = swept.time(k) + (swept.time(k + 1) - swept.time(k)) * i / 40;
-        const Box box = promised_box(c.tracks[0], kOrigin + Duration::from_seconds(t), c.obstacles[0].alpha_scale);
+        const Box box = promised_box(c.tracks[0], kOrigin + Duration::from_seconds(t), c.obstacles[0].alpha);
         ASSERT_FALSE(grown(box, c.body.half_extents()).intersects(region)) << "seed " << seed << ", t " << t;
       }
     }
@@ -208,7 +210,7 @@ TEST(SweptObstacles, BeforeItsFirstPieceAndAfterItsLastATrackIsAGrowingBox) {
 TEST(SweptObstacles, BoxesOfTheMapAndStaticTracksHaveOneHullForAllTime) {
   const std::vector<Track> tracks{standing_box(1, Box(Vec3(0, 0, 0), Vec3(1, 2, 3)), kOrigin)};
   auto obstacles = obstacles_of(tracks);
-  obstacles.push_back({-1, nullptr, Box(Vec3(5, 5, 5), Vec3(6, 6, 6)), 1.0});
+  obstacles.push_back({-1, nullptr, Box(Vec3(5, 5, 5), Vec3(6, 6, 6)), {}});
   for (const BodyKind kind : kBodyKinds) {
     const Body body = body_of(kind);
     SweptObstacles swept(obstacles, body, kOrigin, {0.0, 1.0, 2.0, 900.0}, kEverywhere);

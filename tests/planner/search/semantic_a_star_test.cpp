@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/world/flyable.h"
 #include "planner/duration.h"
 #include "planner/safety/checker.h"
+#include "tests/support/flat_outputs.h"
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"
 
@@ -99,10 +101,27 @@ TEST(SemanticAStar, NeverReturnsALeafThatTheCheckerRejects) {
     ++found;
     ASSERT_EQ(result.control_points.cols(), s.problem.intervals + 3);
     const CheckReport report = s.check(result);
-    ASSERT_TRUE(report.ok()) << "seed " << seed << ": " << to_string(report.fault) << " in interval " << report.interval
-                             << ", axis " << report.axis << ": " << report.value << " against " << report.limit;
+    ASSERT_TRUE(report.ok()) << "seed " << seed << ": " << report.text() << " in interval " << report.interval;
   }
   EXPECT_GT(found, 150);
+}
+
+TEST(SemanticAStar, OfAMultirotorItsLeavesAreFlyable) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Rng rng(seed);
+    Scene s = random_scene(seed);
+    s.problem.start.a = Vec3::Zero();
+    s.problem.limits.dynamics = s.problem.plan_limits.dynamics = random_dynamics(rng);
+    const SearchResult result = s.search(quick());
+    if (!result.found) continue;
+    ++found;
+    const CheckReport report = s.check(result);
+    ASSERT_TRUE(report.ok()) << "seed " << seed << ": " << report.text() << " in interval " << report.interval;
+    const ClampedSpline flown(result.control_points, s.problem.interval_s());
+    ASSERT_TRUE(flat_outputs(flown).within(*s.problem.limits.dynamics, 1e-5)) << "seed " << seed;
+  }
+  EXPECT_GT(found, 60);
 }
 
 TEST(SemanticAStar, WhatItSaysOfItsLeafIsTrue) {

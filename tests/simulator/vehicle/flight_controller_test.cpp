@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "simulator/vehicle/quadrotor_vehicle.h"
+#include "simulator/vehicle/quadrotor_model.h"
 
 namespace tern {
 namespace {

@@ -1,5 +1,6 @@
 // check_mcap.mjs FILE: reads an MCAP file by @mcap/core and holds it to what tern-export promises; prints its topics.
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
+import { decompress } from "fzstd";
 import assert from "node:assert/strict";
 import { createReadStream } from "node:fs";
 import { open } from "node:fs/promises";
@@ -15,7 +16,8 @@ function fits(schema, value, at) {
   if (kind === "array") value.forEach((item, k) => fits(schema.items, item, `${at}[${k}]`));
 }
 
-const reader = new McapStreamReader({ validateCrcs: true });
+const decompressHandlers = { zstd: (packed, size) => decompress(packed, new Uint8Array(Number(size))) };
+const reader = new McapStreamReader({ validateCrcs: true, decompressHandlers });
 for await (const bytes of createReadStream(process.argv[2])) {
   reader.append(bytes);
   for (let record; (record = reader.nextRecord()); ) {
@@ -47,7 +49,7 @@ const readable = {
   size: async () => BigInt((await file.stat()).size),
   read: async (offset, size) => (await file.read(Buffer.alloc(Number(size)), 0, Number(size), Number(offset))).buffer,
 };
-const indexed = await McapIndexedReader.Initialize({ readable });
+const indexed = await McapIndexedReader.Initialize({ readable, decompressHandlers });
 const plans = [...channels.values()].find(({ topic }) => topic === "/PLAN");
 let found = 0n;
 for await (const message of indexed.readMessages({ topics: ["/PLAN"], validateCrcs: true })) {

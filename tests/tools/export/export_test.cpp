@@ -3,16 +3,19 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 
+#include "core/geometry/convex_hull.h"
 #include "tests/support/recorded_flight.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tools/export/mcap_file.h"
 #include "tools/export/export_log.h"
 #include "tools/export/foxglove.h"
+#include "tools/export/hull_faces.h"
 #include "tools/export/logged_messages.h"
 #include "tools/export/map_boxes.h"
 #include "tools/export/mcap_writer.h"
@@ -65,7 +68,8 @@ TEST_F(ExportedFlight, HoldsEveryMessageOfTheLogOnce) {
 
 TEST_F(ExportedFlight, DrawsTheVehicleObstaclesPathsAndRegions) {
   const McapFile file = read_mcap(mcap());
-  for (const char* topic : {"/tern/uav", "/tern/obstacles", "/tern/committed", "/tern/plan", "/tern/regions"}) {
+  for (const char* topic : {"/tern/uav", "/tern/obstacles", "/tern/committed", "/tern/plan", "/tern/hulls",
+                            "/tern/planes", "/tern/regions"}) {
     EXPECT_THAT(file.counted, Contains(Key(topic)));
   }
   EXPECT_EQ(file.counted.at("/tern/uav"), file.counted.at("/UAV_STATE"));
@@ -86,6 +90,42 @@ TEST_F(ExportedFlight, NamesTheClassOfEachRegion) {
     EXPECT_EQ(entity["texts"][0]["text"], entity["metadata"][1]["value"]);
   }
   EXPECT_EQ(labels, (std::map<std::string, std::string>{{"texture", "attractive"}, {"water", "repulsive"}}));
+}
+
+TEST_F(ExportedFlight, DrawsHullsAndPlanesOfEveryPlan) {
+  const McapFile file = read_mcap(mcap());
+  EXPECT_EQ(file.counted.at("/tern/hulls"), file.counted.at("/tern/plan"));
+  EXPECT_EQ(file.counted.at("/tern/planes"), file.counted.at("/tern/plan"));
+  std::size_t triangles = 0;
+  for (const McapMessage& message : file.messages) {
+    if (message.topic != "/tern/hulls" && message.topic != "/tern/planes") continue;
+    const auto& mesh = message.fields["entities"][0]["triangles"][0];
+    ASSERT_EQ(mesh["indices"].size() % 3, 0U);
+    for (const auto& index : mesh["indices"]) ASSERT_LT(index.get<std::size_t>(), mesh["points"].size());
+    triangles += mesh["indices"].size() / 3;
+  }
+  EXPECT_GT(triangles, 100U);
+}
+
+RC_GTEST_PROP(HullFaces, AreAClosedSurfaceWithEveryPointInside, ()) {
+  const int n = *rc::gen::inRange(4, 30);
+  Points points(3, n);
+  for (int k = 0; k < n; ++k) {
+    for (int axis = 0; axis < 3; ++axis) points(axis, k) = *rc::gen::inRange(-4, 5);  // coplanar faces are common
+  }
+  const Points vertices = hull_vertices(points);
+  std::map<std::pair<int, int>, int> edges;
+  for (const auto& face : hull_faces(vertices)) {
+    const Vec3 a = vertices.col(face[0]), b = vertices.col(face[1]), c = vertices.col(face[2]);
+    for (int k = 0; k < n; ++k) RC_ASSERT((b - a).cross(c - a).dot(points.col(k) - a) <= 1e-9);
+    for (int k = 0; k < 3; ++k) ++edges[{face[k], face[(k + 1) % 3]}];
+  }
+  for (const auto& [edge, count] : edges) {
+    RC_ASSERT(count == 1);
+    RC_ASSERT(edges.contains({edge.second, edge.first}));
+  }
+  const Eigen::Matrix3Xd arms = points.colwise() - points.col(0);
+  RC_ASSERT(edges.empty() == (arms.fullPivLu().rank() < 3));
 }
 
 TEST(McapReader, NoticesEveryChangedByteOfASmallFile) {

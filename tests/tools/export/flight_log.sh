@@ -21,6 +21,6 @@ plans=$(awk '$1 == "/PLAN" {print $3}' "$work/topics")
 rows=$(($(wc -l <"$work/tables/PLAN.csv") - 1))
 ((plans > 0 && rows == plans)) || { echo "$rows rows of $plans plans" && exit 1; }
 for drawn in '/tern/uav foxglove.PoseInFrame' '/tern/obstacles foxglove.SceneUpdate' '/tern/committed foxglove.SceneUpdate' \
-  '/tern/regions foxglove.SceneUpdate'; do
+  '/tern/regions foxglove.SceneUpdate' '/tern/hulls foxglove.SceneUpdate' '/tern/planes foxglove.SceneUpdate'; do
   grep -q "^$drawn [1-9]" "$work/topics" || { echo "no $drawn" && exit 1; }
 done

@@ -1,5 +1,7 @@
 #include "tests/tools/export/mcap_file.h"
 
+#include <zstd.h>
+
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -23,6 +25,14 @@ std::uint32_t crc32(std::string_view bytes) {
     for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xEDB88320 : 0);
   }
   return ~crc;
+}
+
+std::string unpacked(std::string_view packed, std::uint64_t size) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 26U;
+  expect(size <= kMost, "a chunk's size");
+  std::string bytes(size, '\0');
+  expect(ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size()) == size, "a chunk's size");
+  return bytes;
 }
 
 class Cursor {
@@ -138,9 +148,9 @@ class Reader {
     Cursor cursor(chunk.body);
     const std::uint64_t first_ns = cursor.u64(), last_ns = cursor.u64(), size = cursor.u64();
     const std::uint32_t crc = cursor.u32();
-    expect(cursor.text().empty(), "no compression");
-    const std::string_view records = cursor.take(cursor.u64());
-    expect(records.size() == size, "a chunk's size");
+    expect(cursor.text() == "zstd", "the compression");
+    const std::string records = unpacked(cursor.take(cursor.u64()), size);
+    expect(cursor.at_end(), "nothing behind the records");
     expect(crc32(records) == crc, "a chunk's checksum");
     const std::size_t before = file_.messages.size();
     for (const Record& record : records_of(records, 0)) {

@@ -6,12 +6,14 @@
 #include <exception>
 #include <string>
 
+#include "runtime/version.h"
 #include "tools/export/export_log.h"
 
 int main(int argc, char** argv) {
   constexpr int kFailed = 2;
   CLI::App app{
       "Writes a recorded flight for other programs. Exit code: 0 written, 2 bad arguments or log, or not writable."};
+  app.set_version_flag("--version", fmt::format("tern-export {}", tern::build_id()));
   tern::exporting::ExportOptions options;
   app.add_option("LOG", options.log, "The log: a file (its parts are found), or the folder of flight.lcm")->required();
   app.add_option("--csv", options.csv_folder, "Write tables to this folder: one per channel, one per list in it")

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "runtime/version.h"
 #include "tools/audit/app/load_flight.h"
 #include "tools/report/report_data.h"
 
@@ -40,6 +41,7 @@ std::string beside(const std::string& log) {
 int main(int argc, char** argv) {
   CLI::App app{
       "Draws a recorded flight as one self-contained HTML file. Exit code: 0 written, 2 bad arguments or log."};
+  app.set_version_flag("--version", fmt::format("tern-report {}", tern::build_id()));
   std::string log, page;
   app.add_option("LOG", log, "The log: a file (its parts are found), or the folder of flight.lcm")->required();
   app.add_option("-o,--output", page, "The file to write (default: beside the log)")->type_name("FILE.html");

@@ -25,12 +25,13 @@ std::size_t messages_needed(std::string_view channel) {
   return 1;
 }
 
-/// What the whole flight's charts and path are drawn from.
-bool makes_history(std::string_view channel) {
-  constexpr std::tuple kHistory{channels::kUavState, channels::kObstacleTruth, channels::kHorizonRequest,
-                                channels::kPlan, channels::kPlanTiming};
+/// What charts, path and timeline of the whole flight are drawn from.
+bool is_remembered(std::string_view channel) {
+  constexpr std::tuple kRemembered{channels::kUavState,  channels::kObstacleTruth, channels::kHorizonRequest,
+                                   channels::kPlan,      channels::kPlanTiming,    channels::kGoal,
+                                   channels::kHeartbeat, channels::kFlightResult,  channels::kSemanticMap};
   return visit_channel(
-      channel, [](const auto&) {}, kHistory);
+      channel, [](const auto&) {}, kRemembered);
 }
 
 /// Adds what one file of the log holds.
@@ -90,7 +91,7 @@ Result<LogPlayer> LogPlayer::open(const std::string& path, const std::string& su
     if (!files.back()) return fail(part + ": cannot be opened");
   }
   LogPlayer player(std::move(files), std::move(*index));
-  player.build_history();
+  player.build_memory();
   return player;
 }
 
@@ -103,14 +104,15 @@ LogPlayer::LogPlayer(std::vector<std::ifstream> files, LogIndex index)
   position_ = begin();
 }
 
-void LogPlayer::build_history() {
-  Scene scene(&history_);
+void LogPlayer::build_memory() {
+  Scene scene(&memory_);
   SceneIntake intake(scene);
   std::vector<bool> wanted;
-  for (const std::string& channel : index_.channels) wanted.push_back(makes_history(channel));
+  for (const std::string& channel : index_.channels) wanted.push_back(is_remembered(channel));
   for (std::size_t k = 0; k < index_.entries.size(); ++k) {
     if (wanted[static_cast<std::size_t>(index_.entries[k].channel)]) feed(k, intake);
   }
+  body_radius_ = scene.body_radius();
 }
 
 void LogPlayer::play(bool on, UTime wall_now) {

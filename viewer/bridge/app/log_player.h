@@ -40,7 +40,9 @@ class LogPlayer {
   [[nodiscard]] UTime end() const { return index_.entries.back().received; }
   [[nodiscard]] UTime position() const { return position_; }
   [[nodiscard]] bool playing() const { return playing_; }
-  [[nodiscard]] const FlightHistory& history() const { return history_; }
+  [[nodiscard]] const Scene::Memory& memory() const { return memory_; }
+  /// The radius of the ball around the vehicle's body, m; 0 when no request says it.
+  [[nodiscard]] double body_radius() const { return body_radius_; }
 
   void play(bool on, UTime wall_now);
   void set_speed(double factor) { speed_ = factor; }
@@ -56,7 +58,7 @@ class LogPlayer {
 
  private:
   LogPlayer(std::vector<std::ifstream> files, LogIndex index);
-  void build_history();
+  void build_memory();
   [[nodiscard]] std::size_t first_after(UTime t) const;
   void feed(std::size_t entry, SceneIntake& intake);
   void feed_newest(std::size_t end, int channel, std::size_t most, SceneIntake& intake);
@@ -66,7 +68,8 @@ class LogPlayer {
   std::vector<std::ifstream> files_;
   LogIndex index_;
   std::vector<std::vector<std::uint32_t>> by_channel_;  ///< entries of each channel
-  FlightHistory history_;
+  Scene::Memory memory_;
+  double body_radius_ = 0.0;
   std::vector<std::uint8_t> buffer_;
   UTime position_, wall_{};
   std::size_t next_ = 0;  ///< the first entry that was not played

@@ -1,10 +1,12 @@
 #include "viewer/bridge/app/viewer_node.h"
 
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <utility>
 
 #include "messages/codec.h"
 #include "runtime/config.h"
@@ -12,25 +14,31 @@
 #include "viewer/bridge/app/listening_socket.h"
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/scene_json.h"
+#include "viewer/bridge/topics.h"
 
 namespace tern {
 namespace {
 
 constexpr Duration kStepPeriod{33'000};
-/// Hulls are of what may come as near as this to the plan, m; at most so many at a time (about 10 ms of work).
-constexpr double kHullReach = 2.0;
-constexpr int kMostHulls = 240;
-
 /// How often a topic is told at most.
 Duration period(Topic topic) {
   switch (topic) {
     case Topic::Tracks:
     case Topic::Hulls: return Duration{200'000};
-    case Topic::Chart: return Duration{250'000};
+    case Topic::Chart:
     case Topic::Path:
+    case Topic::Fields:
+    case Topic::Events:
+    case Topic::Ghost:
     case Topic::Health: return Duration{500'000};
     default: return kStepPeriod;
   }
+}
+
+/// Of a log these are of the whole flight, told once.
+bool is_of_the_past(Topic topic) {
+  return topic == Topic::Chart || topic == Topic::Path || topic == Topic::Fields || topic == Topic::Events ||
+         topic == Topic::Ghost;
 }
 
 template <class T>
@@ -45,7 +53,7 @@ ViewerNode::ViewerNode(Bus& bus, const Scenario& scenario, ViewerOptions options
     : bus_(bus),
       scenario_(scenario),
       options_(std::move(options)),
-      scene_(options_.log.empty() ? &history_ : nullptr),
+      scene_(options_.log.empty() ? &memory_ : nullptr),
       intake_(scene_),
       next_step_(bus.clock().now()) {
   if (options_.log.empty()) {
@@ -55,6 +63,7 @@ ViewerNode::ViewerNode(Bus& bus, const Scenario& scenario, ViewerOptions options
     player_->seek(player_->begin(), scene_, intake_);
     player_->play(true, bus.clock().now());
   }
+  if (!options_.ghost.empty()) ghost_ = or_refuse(LogPlayer::open(options_.ghost, bus.suffix()));
   listen();
   post_session();
 }
@@ -90,10 +99,11 @@ void ViewerNode::step(UTime now) {
   next_step_ = now + kStepPeriod;
   for (const ClientCommand& command : server_->take_commands()) obey(command, now);
   jump();
-  forget_gone_pages();
+  wishes_.keep_only(server_->clients());
   if (player_) player_->advance(now, intake_);
   repeat_goal(now);
   if (server_->clients().empty()) return;
+  if (const auto fd = std::exchange(options_.looked_fd, std::nullopt)) (void)!write(*fd, "!", 1);
   post(now);
   server_->wake();
 }
@@ -106,16 +116,14 @@ void ViewerNode::obey(const ClientCommand& said, UTime now) {
 }
 
 void ViewerNode::obey(std::int64_t client, const LayersCommand& layers, UTime) {
-  layers_[client] = layers;
-  wanted_ = {};
-  for (const auto& [id, l] : layers_) {
-    wanted_.hulls = wanted_.hulls || l.hulls;
-    wanted_.planes = wanted_.planes || l.planes;
-    wanted_.search = wanted_.search || l.search;
-  }
-  scene_.mark(Topic::Plan);
-  scene_.mark(Topic::Hulls);
-  scene_.mark(Topic::Search);
+  wishes_.take(client, layers);
+  for (const Topic topic : {Topic::Plan, Topic::Hulls, Topic::Search}) scene_.mark(topic);
+}
+
+void ViewerNode::obey(std::int64_t client, const SeriesCommand& series, UTime) {
+  wishes_.take(client, series);
+  told_once_.reset(static_cast<std::size_t>(Topic::Chart));
+  scene_.mark(Topic::Chart);
 }
 
 void ViewerNode::obey(std::int64_t client, const PickCommand& pick, UTime) {
@@ -176,13 +184,6 @@ void ViewerNode::obey(std::int64_t client, const GoalCommand& command, UTime now
   server_->reply(client, json.end_object().end_object().take());
 }
 
-void ViewerNode::forget_gone_pages() {
-  const auto clients = server_->clients();
-  std::erase_if(layers_, [&](const auto& entry) {
-    return std::find(clients.begin(), clients.end(), entry.first) == clients.end();
-  });
-}
-
 void ViewerNode::repeat_goal(UTime now) {
   if (const auto goal = own_goal_.due(scene_, now)) bus_.publish(channels::kGoal, *goal);
 }
@@ -191,42 +192,40 @@ void ViewerNode::post(UTime now) {
   for (int k = 0; k < kTopics; ++k) post_if_changed(static_cast<Topic>(k), now);
 }
 
+bool ViewerNode::is_wanted(Topic topic) const {
+  switch (topic) {
+    case Topic::Session: return false;
+    case Topic::Hulls: return wishes_.layers().hulls;
+    case Topic::Search: return wishes_.layers().search;
+    case Topic::Ghost: return ghost_.has_value();
+    default: return true;
+  }
+}
+
 void ViewerNode::post_if_changed(Topic topic, UTime now) {
-  if (topic == Topic::Session) return;
-  if (topic == Topic::Hulls && !wanted_.hulls) return;
-  if (topic == Topic::Search && !wanted_.search) return;
-  UTime& due = next_post_[static_cast<std::size_t>(topic)];
-  if (now < due) return;
-  if (topic == Topic::Player) {
-    if (player_) board_.post(topic, player_->json());
-  } else if (scene_.take_change(topic)) {
-    board_.post(topic, json_of(topic, player_ ? player_->position() : now));
-  } else {
+  const auto k = static_cast<std::size_t>(topic);
+  if (!is_wanted(topic) || now < next_post_[k]) return;
+  const bool is_told_once = topic == Topic::Ghost || (player_ && is_of_the_past(topic));
+  if (is_told_once) {
+    if (told_once_[k]) return;
+  } else if (topic != Topic::Player && !scene_.take_change(topic)) {
     return;
   }
-  due = now + period(topic);
+  const std::string json = json_of(topic, player_ ? player_->position() : now);
+  told_once_[k] = json != "null";
+  if (topic != Topic::Player || player_) board_.post(topic, json);
+  next_post_[k] = now + period(topic);
 }
 
 std::string ViewerNode::json_of(Topic topic, UTime now) const {
-  const FlightHistory& history = player_ ? player_->history() : history_;
-  const UTime until = scene_.state() ? scene_.state()->at : UTime{};
-  switch (topic) {
-    case Topic::State: return state_json(scene_);
-    case Topic::Truth: return truth_json(scene_);
-    case Topic::Tracks: return tracks_json(scene_);
-    case Topic::Request: return request_json(scene_);
-    case Topic::Plan: return plan_json(scene_, wanted_.planes);
-    case Topic::Timing: return timing_json(scene_);
-    case Topic::Hulls: return hulls_json(scene_, kHullReach, kMostHulls);
-    case Topic::Search: return search_json(scene_);
-    case Topic::Map: return map_json(scene_);
-    case Topic::Health: return health_json(scene_, now);
-    case Topic::Goal: return goal_json(scene_);
-    case Topic::Result: return result_json(scene_);
-    case Topic::Chart: return history.chart_json(until);
-    case Topic::Path: return history.path_json(until);
-    default: return "null";
+  const Scene::Memory& memory = player_ ? player_->memory() : memory_;
+  const UTime zero = player_ ? player_->begin() : memory.history.begin();
+  if (topic == Topic::Player) return player_ ? player_->json() : "null";
+  if (topic == Topic::Ghost) {
+    return ghost_json(options_.ghost, ghost_->body_radius(), ghost_->memory().history, memory.history, zero);
   }
+  const UTime until = player_ ? player_->end() : scene_.state() ? scene_.state()->at : zero;
+  return topic_json(topic, {scene_, memory, zero, until, now, wishes_.layers(), wishes_.series()});
 }
 
 }  // namespace tern

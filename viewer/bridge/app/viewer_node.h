@@ -1,7 +1,7 @@
 // tern-viewer's node: the bus, or a log, on a page in the browser.
 #pragma once
 
-#include <map>
+#include <bitset>
 #include <optional>
 #include <string>
 
@@ -13,6 +13,7 @@
 #include "viewer/bridge/app/web_server.h"
 #include "viewer/bridge/commands.h"
 #include "viewer/bridge/own_goal.h"
+#include "viewer/bridge/wishes.h"
 
 namespace tern {
 
@@ -22,6 +23,10 @@ struct ViewerOptions {
   std::vector<std::string> allow_hosts;  ///< names besides loopback by which browsers may call this host
   bool allow_goals = false;              ///< pages may send goals
   std::string log;                       ///< plays this log; empty: live
+  std::string export_to;                 ///< writes the log as one page there; empty: does not
+  std::string video_to;                  ///< likewise, as a film
+  std::string ghost;                     ///< another log, drawn over it; empty: none
+  std::optional<int> looked_fd;          ///< a byte is written there when the first page looks
   std::string url_file;                  ///< the page's URL is written there; empty: nowhere
 };
 
@@ -43,6 +48,7 @@ class ViewerNode final : public Node {
   void post_session();
   void obey(const ClientCommand& command, UTime now);
   void obey(std::int64_t client, const LayersCommand& layers, UTime now);
+  void obey(std::int64_t client, const SeriesCommand& series, UTime now);
   void obey(std::int64_t client, const PickCommand& pick, UTime now);
   void obey(std::int64_t client, const PlayCommand& play, UTime now);
   void obey(std::int64_t client, const SeekCommand& seek, UTime now);
@@ -50,25 +56,25 @@ class ViewerNode final : public Node {
   void obey(std::int64_t client, const SpeedCommand& speed, UTime now);
   void obey(std::int64_t client, const GoalCommand& goal, UTime now);
   void jump();
-  void forget_gone_pages();
   void repeat_goal(UTime now);
   void post(UTime now);
   void post_if_changed(Topic topic, UTime now);
+  [[nodiscard]] bool is_wanted(Topic topic) const;
   [[nodiscard]] std::string json_of(Topic topic, UTime now) const;
 
   Bus& bus_;
   Scenario scenario_;
   ViewerOptions options_;
-  FlightHistory history_;  ///< live
+  Scene::Memory memory_;  ///< live
   Scene scene_;
   SceneIntake intake_;
-  std::optional<LogPlayer> player_;
+  std::optional<LogPlayer> player_, ghost_;
   std::optional<UTime> jump_to_;
   Board board_;
   std::string url_;
   std::unique_ptr<WebServer> server_;  ///< after the board that it reads
-  std::map<std::int64_t, LayersCommand> layers_;
-  LayersCommand wanted_;  ///< by any page
+  Wishes wishes_;
+  std::bitset<kTopics> told_once_;
   OwnGoal own_goal_;
   UTime next_step_;
   std::array<UTime, kTopics> next_post_{};

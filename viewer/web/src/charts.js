@@ -1,69 +1,229 @@
-// The last 30 s: speed, clearance, replan time.
+// Charts of numbers over the whole flight: any field of what was heard, several curves each. Drag zooms all of them, a double
+// click shows the whole flight again, a click jumps.
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { outcomes, palette } from './palette.js';
+import { label } from './labels.js';
+import { palette } from './palette.js';
+import { valueAt } from './time_rows.js';
 
-const HEIGHT = 104;
-const SPAN_S = 30;
+const HEIGHT = 96;
+const MOST_CURVES = 6;
+const MOST_CHARTS = 6;
+const DEFAULT = [
+  ['UAV_STATE.speed_mps'],
+  ['clearance.obstacles_m', 'clearance.map_m'],
+  ['PLAN_TIMING.total_ms', 'PLAN_TIMING.allowed_ms'],
+];
+const DOTS = new Set(['PLAN_TIMING.total_ms']); // answers, not a curve
+const DRAGGED_PX = 4;
 
 const axis = {
-  stroke: '#7f91a4',
+  stroke: palette.axis,
   font: '11px system-ui, sans-serif',
-  grid: { stroke: 'rgba(148,173,199,0.08)', width: 1 },
+  grid: { stroke: palette.rule, width: 1 },
   ticks: { show: false },
 };
 
-function line(label, stroke, more = {}) {
-  return { label, stroke, width: 1.5, points: { show: false }, ...more };
+function element(tag, className, text = '') {
+  return Object.assign(document.createElement(tag), { className, textContent: text });
 }
 
-function chart(element, series, scaleY) {
-  const options = {
-    width: Math.max(element.clientWidth, 50),
-    height: HEIGHT,
-    legend: { show: false },
-    cursor: { show: false },
-    padding: [6, 14, 0, 0],
-    scales: { x: { time: false, range: [-SPAN_S, 0] }, y: { range: scaleY } },
-    axes: [
-      { ...axis, size: 20, values: (_, ticks) => ticks.map((t) => (t === 0 ? 'now' : `${t} s`)) },
-      { ...axis, size: 34, space: 28 },
-    ],
-    series: [{}, ...series],
-  };
-  const plot = new uPlot(options, [[], ...series.map(() => [])], element);
-  new ResizeObserver(() => {
-    if (element.clientWidth > 50) plot.setSize({ width: element.clientWidth, height: HEIGHT });
-  }).observe(element);
-  return plot;
+const brief = (x) => (Number.isFinite(x) ? Number(x.toPrecision(4)).toString() : '–');
+
+/** One chart: a caption with its curves and their values, and a plot. */
+class Chart {
+  constructor(charts, names) {
+    this.charts = charts;
+    this.names = names;
+    this.figure = element('figure', 'panel');
+    this.caption = element('figcaption', '');
+    this.area = element('div', 'plot');
+    this.figure.append(this.caption, this.area);
+    this.nowLine = element('div', 'now');
+    this.watcher = new ResizeObserver(() => this.fitWidth());
+    this.watcher.observe(this.area);
+    this.rebuild();
+  }
+
+  fitWidth() {
+    if (this.area.clientWidth > 50) this.plot.setSize({ width: this.area.clientWidth, height: HEIGHT });
+    this.draw(); // it may have been hidden
+  }
+
+  rebuild() {
+    this.plot?.destroy();
+    const series = this.names.map((name, k) => {
+      const stroke = palette.curves[k % palette.curves.length];
+      return DOTS.has(name)
+        ? { label: name, stroke, paths: () => null, points: { show: true, size: 3, width: 0, fill: stroke } }
+        : { label: name, stroke, width: 1.5, points: { show: false }, spanGaps: true };
+    });
+    const { charts } = this;
+    this.plot = new uPlot({
+      width: Math.max(this.area.clientWidth, 50),
+      height: HEIGHT,
+      legend: { show: false },
+      padding: [6, 10, 0, 0],
+      cursor: { sync: { key: 'flight' }, drag: { x: true, y: false, setScale: false }, points: { size: 5 }, y: false,
+        bind: { dblclick: () => () => charts.zoom(null) } },
+      scales: { x: { time: false, range: () => charts.range() }, y: { range: (_, low, high) => span(low, high) } },
+      axes: [{ ...axis, size: 20, values: (_, ticks) => ticks.map((t) => `${t} s`) }, { ...axis, size: 38, space: 26 }],
+      series: [{}, ...series],
+      hooks: {
+        setSelect: [(u) => u.select.width > DRAGGED_PX && charts.zoom([u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x')])],
+        setCursor: [(u) => charts.hover(u.cursor.left >= 0 ? u.posToVal(u.cursor.left, 'x') : null, this)],
+      },
+    }, [[], ...this.names.map(() => [])], this.area);
+    this.plot.over.append(this.nowLine);
+    let pressed = 0;
+    this.plot.over.addEventListener('mousedown', (event) => (pressed = event.clientX));
+    this.plot.over.addEventListener('click', (event) => {
+      if (Math.abs(event.clientX - pressed) <= DRAGGED_PX) charts.jump(this.plot.posToVal(event.offsetX, 'x'));
+    });
+    this.showCaption();
+    this.draw();
+  }
+
+  showCaption() {
+    this.values = this.names.map(() => element('b', 'numbers'));
+    const curves = this.names.map((name, k) => {
+      const curve = element('button', 'curve', label(name));
+      curve.title = `${name}: a click takes it away`;
+      curve.style.setProperty('--color', palette.curves[k % palette.curves.length]);
+      curve.append(this.values[k]);
+      curve.onclick = () => this.charts.change(this, this.names.filter((other) => other !== name));
+      return curve;
+    });
+    const add = Object.assign(element('input', 'add'), { placeholder: '+ field', type: 'text' });
+    add.setAttribute('list', 'fields');
+    add.setAttribute('aria-label', 'Add a curve');
+    add.onchange = () => {
+      const name = add.value.trim();
+      add.value = '';
+      if (name) this.charts.add(name, this);
+    };
+    this.caption.replaceChildren(...curves, ...(this.names.length < MOST_CURVES ? [add] : []));
+  }
+
+  draw() {
+    if (this.plot.root.clientWidth === 0) return; // a small window hides it
+    const rows = this.names.map((name) => this.charts.series[name] ?? [[], []]);
+    this.plot.setData(uPlot.join(rows));
+    this.showNow();
+  }
+
+  /** Values at the cursor, or now. */
+  read(t) {
+    this.names.forEach((name, k) => {
+      const rows = this.charts.series[name];
+      const text = rows && t !== null ? ` ${brief(valueAt(rows, t))}` : '';
+      if (this.values[k].textContent !== text) this.values[k].textContent = text;
+    });
+  }
+
+  showNow() {
+    const x = this.plot.valToPos(this.charts.now, 'x');
+    const isSeen = Number.isFinite(x) && x >= 0 && x <= this.plot.over.clientWidth;
+    this.nowLine.style.display = isSeen ? '' : 'none';
+    if (isSeen) this.nowLine.style.transform = `translateX(${x}px)`;
+  }
 }
 
-function show(plot, data) {
-  if (plot.root.clientWidth > 0) plot.setData(data);
+/** From 0, with room above; a field that is below 0 shows so. */
+function span(low, high) {
+  if (low === null || high === null) return [0, 1];
+  const room = 0.08 * Math.max(high - low, 1e-3);
+  return [low >= 0 && low < 0.6 * high ? 0 : low - room, high + room];
 }
 
 export class Charts {
-  constructor() {
-    const at = (id) => document.getElementById(id);
-    this.speed = chart(
-      at('chart-speed'), [line('speed', palette.plan, { fill: 'rgba(92,214,255,0.10)' })],
-      (_, low, high) => [0, Math.max(high ?? 0, 2) * 1.1]);
-    this.clearance = chart(
-      at('chart-clearance'), [line('clearance', palette.attractive, { fill: 'rgba(47,214,163,0.10)' })],
-      (_, low, high) => [Math.min(low ?? 0, 0), Math.max(high ?? 0, 1) * 1.1]);
-    const dot = (fill) => ({ width: 0, paths: () => null, points: { show: true, size: 4, width: 0, fill } });
-    this.replan = chart(
-      at('chart-replan'),
-      [line('allowed', 'rgba(255,93,115,0.7)', { dash: [5, 4], width: 1 }), ...outcomes.map(dot)],
-      (_, low, high) => [0, Math.max(high ?? 0, 20) * 1.1]);
+  /** @param handlers  {jump(t), wants(names), hover(t)}; t in seconds of the flight */
+  constructor(handlers) {
+    Object.assign(this, { handlers, series: {}, end: 1, now: 0, zoomed: null, charts: [], fields: [] });
+    this.root = document.getElementById('charts');
+    for (const names of DEFAULT) this.append(names);
   }
 
-  /** Charts that a small window hides are left alone. @param chart  as FlightHistory::chart_json tells it */
-  take({ motion, clearance, answers }) {
-    show(this.speed, [motion[0], motion[1]]);
-    show(this.clearance, clearance);
-    const [t, ms, allowed, outcome] = answers;
-    const rows = outcomes.map((_, k) => ms.map((x, i) => (outcome[i] === k ? x : null)));
-    show(this.replan, [t, allowed.map((x) => (x > 0 ? x : null)), ...rows]);
+  names() {
+    return [...new Set(this.charts.flatMap((chart) => chart.names))];
+  }
+
+  range() {
+    return this.zoomed ?? [0, Math.max(this.end, 1)];
+  }
+
+  append(names) {
+    const chart = new Chart(this, names);
+    this.charts.push(chart);
+    this.root.append(chart.figure);
+    this.root.style.setProperty('--charts', this.charts.length);
+    return chart;
+  }
+
+  /** Another curve, in that chart or in one of its own. */
+  add(name, chart) {
+    if (this.fields.length > 0 && !this.fields.includes(name)) return this.handlers.unknown?.(name);
+    if (chart ? chart.names.length >= MOST_CURVES : this.charts.length >= MOST_CHARTS) return;
+    if (chart?.names.includes(name)) return;
+    if (chart) this.change(chart, [...chart.names, name]);
+    else this.append([name]);
+    this.handlers.wants(this.names());
+  }
+
+  change(chart, names) {
+    if (names.length === 0 && this.charts.length > 1) {
+      chart.watcher.disconnect();
+      chart.plot.destroy();
+      chart.figure.remove();
+      this.charts = this.charts.filter((other) => other !== chart);
+      this.root.style.setProperty('--charts', this.charts.length);
+    } else {
+      chart.names = names;
+      chart.rebuild();
+    }
+    this.handlers.wants(this.names());
+  }
+
+  /** @param chart  as FlightHistory::chart_json tells it */
+  take({ series, end_s: end }) {
+    for (const rows of Object.values(series)) {
+      if (rows.length !== 2 || rows[0].length !== rows[1].length) throw new RangeError('not two rows of one length');
+    }
+    this.series = series;
+    this.end = end;
+    for (const chart of this.charts) chart.draw();
+  }
+
+  /** What may be charted. */
+  takeFields(names) {
+    this.fields = names;
+    document.getElementById('fields').replaceChildren(...names.map((name) => new Option(name)));
+  }
+
+  zoom(range) {
+    this.zoomed = range;
+    for (const chart of this.charts) {
+      chart.plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+      chart.draw();
+    }
+  }
+
+  /** The flight's time now, s. */
+  setNow(t) {
+    this.now = t;
+    for (const chart of this.charts) {
+      chart.showNow();
+      if (!this.hovers) chart.read(t);
+    }
+  }
+
+  hover(t) {
+    this.hovers = t !== null;
+    for (const chart of this.charts) chart.read(t ?? this.now);
+    this.handlers.hover(t);
+  }
+
+  jump(t) {
+    this.handlers.jump(t);
   }
 }

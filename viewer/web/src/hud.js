@@ -1,6 +1,7 @@
 // Numbers and words: the vehicle, the last answer, every process.
 
 const SILENT_S = 2.5; // processes say something twice a second
+const ENDED_S = 6; // so long silent: it has ended
 const READ_MS = 100;
 
 const byId = (id) => document.getElementById(id);
@@ -21,9 +22,10 @@ export function showSession(session) {
   chip('mode', session.mode, session.mode);
   say('name', session.name.split('/').slice(-2).join('/'));
   byId('name').title = session.name;
-  const button = byId('goalmode');
-  button.disabled = !session.goals;
-  button.title = session.goals ? 'then click on the ground (g)' : 'read-only: tern-viewer runs without --allow-goals';
+  for (const id of ['goalmode', 'hold-goal', 'stop-goal']) {
+    byId(id).disabled = !session.goals;
+    byId(id).parentElement.title = session.goals ? '' : 'read-only: tern-viewer runs without --allow-goals';
+  }
 }
 
 export function showGone() {
@@ -39,15 +41,16 @@ export function takeState(state, goal) {
 
 /** Shows the newest state no more often than one can read. @param now  ms */
 export function draw(now) {
-  if (!waiting || now - shownAt < READ_MS) return;
+  if (!waiting || now - shownAt < READ_MS) return; // Infinity: at once
   const { state, goal } = waiting;
   say('speed', fixed(Math.hypot(...state.v)));
   say('acceleration', fixed(Math.hypot(...state.a)));
   say('clearance', fixed(state.clearance, 2));
+  say('mapclearance', fixed(state.map_clearance, 2));
   say('position', state.p.map((x) => fixed(x)).join('  '));
   say('togoal', goal ? fixed(Math.hypot(...state.p.map((x, k) => goal.p[k] - x))) : '–');
   waiting = null;
-  shownAt = now;
+  shownAt = Number.isFinite(now) ? now : 0;
 }
 
 export function showPlan(plan) {
@@ -69,11 +72,13 @@ export function showTiming(timing) {
 export function showResult(result) {
   if (!result) return;
   chip('outcome', result.outcome, result.outcome === 'reached' ? 'live' : 'bad');
-  say('reason', `${fixed(result.flight_time_s)} s, ${fixed(result.path_length_m, 0)} m`);
+  const least = [['obstacles', result.min_clearance_m], ['map', result.min_map_clearance_m]].filter(([, x]) => Number.isFinite(x));
+  const words = least.map(([what, x]) => `${fixed(x, 3)} m to ${what}`).join(', ');
+  say('reason', `${fixed(result.flight_time_s)} s, ${fixed(result.path_length_m, 0)} m${words && `; least ${words}`}`);
 }
 
 export function showClock(seconds) {
-  say('clock', `${seconds.toFixed(1)} s`);
+  say('clock', `${fixed(seconds)} s`);
 }
 
 /** @param pick  is called with the name of a process that was clicked */
@@ -81,7 +86,7 @@ export function showHealth(processes, pick) {
   byId('health').replaceChildren(
     ...processes.map((process) => {
       const item = document.createElement('li');
-      item.className = process.age_s > SILENT_S ? 'silent' : process.state;
+      item.className = stateOf(process);
       item.textContent = process.name.replace(/^tern-/, '');
       const note = document.createElement('span');
       note.className = 'dim';
@@ -94,7 +99,13 @@ export function showHealth(processes, pick) {
   );
 }
 
-function trouble({ age_s, refused, lost }) {
+function stateOf({ state, age_s }) {
+  if (state === 'finished' || age_s > ENDED_S) return 'ended';
+  return age_s > SILENT_S ? 'silent' : state;
+}
+
+function trouble({ state, age_s, refused, lost }) {
+  if (stateOf({ state, age_s }) === 'ended') return 'ended';
   if (age_s > SILENT_S) return `silent ${age_s.toFixed(0)} s`;
   if (refused > 0) return `${refused} refused`;
   return lost > 0 ? `${lost} lost` : '';

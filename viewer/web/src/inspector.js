@@ -43,9 +43,31 @@ export class Inspector {
     setInterval(() => this.refresh(), REFRESH_MS);
   }
 
-  open(pick) {
+  /** @param words  says what was picked in a sentence, now; or nothing */
+  open(pick, words = null) {
     this.pick = pick;
+    this.words = words;
+    document.getElementById('messages').replaceChildren();
     this.refresh();
+  }
+
+  /** What happened when; a click jumps there. @param events  {t, text}  @param words  of what is not listed */
+  list(title, events, jump, words) {
+    this.pick = this.words = null;
+    this.say(title, words);
+    const rows = events.map(({ t, text }) => {
+      const row = cell('button', `${t.toFixed(1)} s  ${text}`);
+      row.className = 'event';
+      row.onclick = () => jump(t);
+      return row;
+    });
+    document.getElementById('messages').replaceChildren(...(rows.length ? rows : [cell('p', 'nothing yet')]));
+  }
+
+  say(title, words) {
+    document.getElementById('inspected').textContent = title;
+    document.getElementById('words').textContent = words;
+    this.panel.hidden = false;
   }
 
   close() {
@@ -61,10 +83,9 @@ export class Inspector {
   show(detail) {
     if (!this.pick) return;
     const scroll = this.panel.scrollTop;
-    document.getElementById('inspected').textContent = detail.title;
+    this.say(detail.title, this.words?.() ?? '');
     const parts = detail.messages.flatMap((message) => [cell('h3', message.channel), fields(message)]);
-    document.getElementById('messages').replaceChildren(...(parts.length ? parts : [cell('p', 'nothing was heard of it')]));
-    this.panel.hidden = false;
+    document.getElementById('messages').replaceChildren(...(parts.length ? parts : [cell('p', detail.note ?? 'nothing was heard of it')]));
     this.panel.scrollTop = scroll;
   }
 }

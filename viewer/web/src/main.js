@@ -1,73 +1,98 @@
-// Wires the stream to the scene and the panels.
+// Wires what comes (a bridge's stream, or a tape in the page) to the scene and the panels.
 import * as THREE from 'three';
 import './style.css';
 import { Charts } from './charts.js';
+import { Controls } from './controls.js';
+import { Ghost } from './ghost.js';
 import * as hud from './hud.js';
 import { Inspector } from './inspector.js';
+import { makeSwitches, ON_DEMAND } from './layers.js';
 import { Obstacles } from './obstacles.js';
 import { watchFreeArea } from './panels.js';
+import { Pointer } from './picking.js';
 import { Player } from './player.js';
 import { Proofs } from './proofs.js';
 import { Regions } from './regions.js';
 import { Stream } from './stream.js';
+import { readTape, Tape } from './tape.js';
+import { QUIET } from './time_rows.js';
+import { Timeline } from './timeline.js';
 import { Trajectories } from './trajectories.js';
 import { Vehicle } from './vehicle.js';
+import { mapInWords, obstacleInWords } from './words.js';
 import { World } from './world.js';
-
-const LAYERS = { regions: true, minvo: true, committed: true, sphere: true, hulls: false, planes: false, search: false };
-const ON_DEMAND = ['hulls', 'planes', 'search']; // the bridge makes these only while someone looks
 
 const canvas = document.getElementById('view');
 const world = new World(canvas);
-watchFreeArea((area) => world.setFree(area));
-const regions = new Regions(world.scene);
+const { cameras } = world;
+const free = watchFreeArea((area) => world.setFree(area));
 const trajectories = new Trajectories(world.scene);
 const proofs = new Proofs(world.scene);
 const vehicle = new Vehicle(world.scene);
+const regions = new Regions(world, vehicle.p);
 const obstacles = new Obstacles(world, vehicle.p);
-const charts = new Charts();
-const layers = { ...LAYERS };
+const ghost = new Ghost(world.scene);
+const layers = {};
 const known = {}; // the newest of each topic
-const counts = { frames: 0, drawn: 0, malformed: 0, connections: 0, dropped: 0, goals: [] };
+const counts = { frames: 0, drawn: 0, malformed: 0, connections: 0, dropped: 0, goals: [], modes: [] };
 let clock = { at_us: 0, arrived_ms: 0 }; // the vehicle's clock when its last state came
+let stream = null;
+const send = (command) => stream?.send(command);
 
-const stream = new Stream(`ws://${location.host}/stream`, {
-  open() {
-    counts.connections += 1;
-    tellLayers();
-  },
-  close: hud.showGone,
-  frame: takeFrame,
-  reply: takeReply,
-  malformed(text, error) {
-    counts.malformed += 1;
-    console.warn(`a message was not understood (${error.message}): ${text.slice(0, 80)}`);
-  },
-});
-const send = (command) => stream.send(command);
-const player = new Player(send);
 const inspector = new Inspector(send);
 inspector.closed = () => pickObstacle(undefined);
+const player = new Player(send, hud.toast);
+const jump = (t) => player.jump(t);
+const timeline = new Timeline(jump);
+const charts = new Charts({
+  jump,
+  wants: (names) => send({ series: names }),
+  hover: (t) => timeline.hover(t),
+  unknown: (name) => hud.toast(`no such field: ${name}`),
+});
+
+/** Seconds of the flight: since the log's begin, or since the first state was heard. */
+const flightTime = (at_us) => (at_us - (known.player?.begin_us ?? known.chart?.begin_us ?? at_us)) * 1e-6;
 
 /** What each topic does; null takes back what it said. */
 const topics = {
   session(session) {
-    if (known.session && known.session.epoch !== session.epoch) forget();
+    if (known.session && (known.session.epoch !== session.epoch || known.session.mode !== session.mode)) forget();
+    counts.modes.push(session.mode);
     hud.showSession(session);
+    if (session.mode === 'live') player.take(null);
   },
-  player: (state) => player.take(state),
+  player(state) {
+    const isFirst = !known.player;
+    known.player = state;
+    player.take(state);
+    if (isFirst && controls.follow()) send({ player: { play: false } });
+  },
+  chart(chart) {
+    if (!chart) return;
+    known.chart = chart;
+    charts.take(chart);
+    timeline.takeChart(chart);
+  },
+  fields: (names) => names && charts.takeFields(names),
+  events: (told) => timeline.takeEvents(told?.events ?? []),
+  path(path) {
+    if (!path) return;
+    trajectories.takePath(path);
+    if (known.state) trajectories.takeState(known.state, flightTime(known.state.at_us));
+  },
   goal: (goal) => trajectories.takeGoal(goal),
   request(request) {
     if (!request) return;
     trajectories.takeRequest(request);
-    vehicle.setRadius(request.radius);
+    vehicle.setBody(request.half);
   },
   state(state) {
     if (!state) return vehicle.clear();
     vehicle.take(state);
     clock = { at_us: state.at_us, arrived_ms: performance.now() };
-    trajectories.takeState(state);
-    if (known.goal) world.head(state.p, known.goal.p);
+    trajectories.takeState(state, flightTime(state.at_us));
+    if (known.goal) cameras.head(state.p, known.goal.p);
     hud.takeState(state, known.goal);
   },
   truth: (set) => (set ? obstacles.take(set) : obstacles.clear()),
@@ -84,26 +109,23 @@ const topics = {
   result: (result) => hud.showResult(result),
   hulls: (hulls) => proofs.takeHulls(hulls),
   search: (search) => proofs.takeSearch(search),
-  map: (map) => (map ? regions.take(map) : regions.clear()),
+  map(map) {
+    if (map) regions.take(map);
+    else regions.clear();
+    showCut();
+  },
   health: (processes) => hud.showHealth(processes, (name) => inspector.open({ kind: 'process', name })),
-  chart(chart) {
-    if (!chart) return;
-    charts.take(chart);
-    hud.showClock(chart.elapsed_s);
-  },
-  path(curve) {
-    if (curve) trajectories.takePath(curve);
-  },
+  ghost: (told) => (told ? ghost.take(told) : ghost.clear()),
 };
 
 function takeFrame(frame) {
   counts.frames += 1;
   counts.dropped = frame.dropped;
-  for (const [topic, value] of Object.entries(frame)) {
-    if (!topics[topic]) continue;
+  for (const topic of Object.keys(topics)) { // who the flight is comes before what it does
+    if (!(topic in frame)) continue;
     try {
-      topics[topic](value);
-      known[topic] = value;
+      topics[topic](frame[topic]);
+      known[topic] = frame[topic];
     } catch (error) {
       counts.malformed += 1;
       console.warn(`${topic} was not understood: ${error.message}`);
@@ -120,142 +142,161 @@ function takeReply(message) {
   }
 }
 
-/** Another bridge, another flight. */
+/** Another bridge, another flight, or its log. */
 function forget() {
   for (const key of Object.keys(known)) delete known[key];
-  for (const part of [obstacles, trajectories, proofs, vehicle, regions]) part.clear();
+  for (const part of [obstacles, trajectories, proofs, vehicle, regions, ghost, cameras]) part.clear();
+  timeline.takeEvents([]);
 }
 
 // Layers -------------------------------------------------------------------------------------------------------------
 
-function tellLayers() {
+function tellWishes() {
   send({ layers: ON_DEMAND.filter((name) => layers[name]) });
+  send({ series: charts.names() });
 }
 
 function setLayer(name, on) {
   layers[name] = on;
-  trajectories.show(name, on);
-  proofs.show(name, on);
-  if (name === 'regions') regions.group.visible = on;
-  if (ON_DEMAND.includes(name)) tellLayers();
+  for (const part of [trajectories, proofs, regions, ghost]) part.show(name, on);
+  if (name === 'obstacles') obstacles.show(on);
+  if (ON_DEMAND.includes(name)) send({ layers: ON_DEMAND.filter((other) => layers[other]) });
+  if (name === 'planes') proofs.takePlanes(on ? known.plan : null, obstacles.pickedId);
   if (name === 'search' && on && !known.search) hud.toast('the planner tells with --set planner.publish_search=true');
 }
+makeSwitches(document.getElementById('layers'), setLayer);
 
-const boxes = document.getElementById('layers');
-for (const [name, on] of Object.entries(LAYERS)) {
-  const label = document.createElement('label');
-  const box = Object.assign(document.createElement('input'), { type: 'checkbox', checked: on, name });
-  box.onchange = () => setLayer(name, box.checked);
-  label.append(box, name);
-  boxes.append(label);
-  setLayer(name, on);
+let cutShare = 1;
+function showCut() {
+  const has = regions.top > 0;
+  document.getElementById('cutrow').hidden = !has;
+  const height = cutShare * regions.top;
+  document.getElementById('cutat').textContent = cutShare < 1 ? `${height.toFixed(1)} m` : '';
+  regions.cutAt(cutShare < 1 ? height : null);
 }
 
-// Cameras, keys ------------------------------------------------------------------------------------------------------
+// What the user asks -------------------------------------------------------------------------------------------------
 
-const cameras = [...document.querySelectorAll('[data-camera]')];
-function setCamera(mode) {
-  world.setCamera(mode);
-  for (const button of cameras) button.classList.toggle('on', button.dataset.camera === mode);
-}
-for (const button of cameras) button.onclick = () => setCamera(button.dataset.camera);
-
-window.addEventListener('keydown', (event) => {
-  if (event.target.matches('input, select, button')) return;
-  const action = {
-    1: () => setCamera('follow'),
-    2: () => setCamera('top'),
-    3: () => setCamera('free'),
-    g: () => document.getElementById('goalmode').click(),
-    ' ': () => player.toggle(),
-    ArrowLeft: () => send({ player: { step: -1 } }),
-    ArrowRight: () => send({ player: { step: 1 } }),
-    Escape: () => inspector.close(),
-  }[event.key];
-  if (!action) return;
-  event.preventDefault();
-  action();
+const controls = new Controls(cameras, {
+  fit: () => cameras.fit(trajectories.extent(new THREE.Box3())),
+  toggle: () => player.toggle(),
+  step: (plans) => player.step(plans),
+  jump,
+  cut(share) {
+    cutShare = share;
+    showCut();
+  },
+  goal: (mode) => send({ goal: { mode } }),
+  aim: () => !document.getElementById('goalmode').disabled && pointer.aim(!pointer.aiming),
+  escape: () => inspector.close(),
+  now: () => (known.player ? flightTime(known.player.at_us) : undefined),
+  say: hud.toast,
+  changed: () => free.look(),
 });
 
-// Picking and goals --------------------------------------------------------------------------------------------------
-
-const raycaster = new THREE.Raycaster();
-let pressed = null;
-let aiming = false;
-
-document.getElementById('goalmode').onclick = () => aim(!aiming);
-function aim(on) {
-  aiming = on;
-  document.body.classList.toggle('aiming', on);
-  document.getElementById('goalmode').classList.toggle('on', on);
-}
+document.getElementById('eventlist').onclick = () => {
+  const loud = timeline.events.filter(({ kind }) => kind !== QUIET);
+  const quiet = timeline.events.length - loud.length;
+  inspector.list('What happened', loud, jump, `and the outcome changed ${quiet} times: the band`);
+};
 
 function pickObstacle(id) {
   obstacles.pick(id);
   proofs.takePlanes(layers.planes ? known.plan : null, id);
 }
 
-function pick() {
-  const picks = [
-    { hit: vehicle.hit(raycaster), pick: { kind: 'vehicle' } },
-    { hit: obstacles.hit(raycaster), pick: { kind: 'obstacle' } },
-    { hit: raycaster.intersectObject(trajectories.goal)[0], pick: { kind: 'goal' } },
-    { hit: raycaster.intersectObject(trajectories.localGoal)[0], pick: { kind: 'plan' } },
-  ].filter(({ hit }) => hit);
-  picks.sort((a, b) => a.hit.distance - b.hit.distance);
-  const first = picks[0] ?? { hit: regions.hit(raycaster), pick: { kind: 'map' } };
-  if (!first.hit) return inspector.close();
-  if (first.pick.kind === 'obstacle') first.pick.id = first.hit.id;
-  pickObstacle(first.pick.id);
-  inspector.open(first.pick);
-}
-
-/** The goal is where the ray meets the height of the last goal. */
-function sendGoal() {
-  const height = known.goal?.p[2] ?? vehicle.p.z;
-  const at = raycaster.ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 0, 1), -height), new THREE.Vector3());
-  if (at) send({ goal: { mode: 'go', position: at.toArray() } });
-  aim(false);
-}
-
-canvas.addEventListener('pointerdown', (event) => (pressed = [event.clientX, event.clientY]));
-canvas.addEventListener('pointerup', (event) => {
-  const dragged = !pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4;
-  if (dragged || event.button !== 0) return;
-  raycaster.setFromCamera(
-    new THREE.Vector2((2 * event.clientX) / innerWidth - 1, 1 - (2 * event.clientY) / innerHeight), world.camera);
-  if (aiming) sendGoal();
-  else pick();
+const pointer = new Pointer(canvas, world, {
+  pick(ray) {
+    const picks = [
+      { hit: vehicle.hit(ray), pick: { kind: 'vehicle' } },
+      { hit: obstacles.hit(ray), pick: { kind: 'obstacle' } },
+      { hit: ray.intersectObject(trajectories.goal)[0], pick: { kind: 'goal' } },
+      { hit: ray.intersectObject(trajectories.localGoal)[0], pick: { kind: 'plan' } },
+      { hit: regions.hit(ray), pick: { kind: 'map' } },
+    ].filter(({ hit, pick }) => hit && !(pick.kind === 'map' && hit.layer === 'regions'));
+    picks.sort((a, b) => a.hit.distance - b.hit.distance);
+    const first = picks[0] ?? { hit: regions.hit(ray), pick: { kind: 'map' } }; // regions are clear: what stands behind comes first
+    if (!first.hit) return inspector.close();
+    if (first.pick.kind === 'obstacle') first.pick.id = first.hit.id;
+    pickObstacle(first.pick.id);
+    const words = { obstacle: () => obstacleInWords(first.hit.id, known), map: () => mapInWords(first.hit, known) };
+    inspector.open(first.pick, words[first.pick.kind]);
+  },
+  orbit(ray) {
+    const hit = obstacles.hit(ray);
+    if (!hit) return;
+    pickObstacle(hit.id);
+    const centre = obstacles.where(hit.id, clock.at_us);
+    cameras.controls.target.copy(centre);
+    controls.setCamera('orbit');
+  },
+  height: () => known.goal?.p[2] ?? vehicle.p.z,
+  aim: (at) => send({ goal: { mode: 'go', position: at.toArray() } }),
 });
 
 // Drawing ------------------------------------------------------------------------------------------------------------
 
 let last = performance.now();
+let isFilmed = false; // pictures are asked for, one by one
 function draw(now) {
+  if (isFilmed) return;
+  picture(now, (now - last) * 1e-3);
+  last = now;
+  requestAnimationFrame(draw);
+}
+
+/** @param now  ms  @param seconds  since the last picture */
+function picture(now, seconds) {
+  stream.drawn();
   const paused = known.player && !known.player.playing;
   const speed = paused ? 0 : (known.player?.speed ?? 1);
   const now_us = clock.at_us + (now - clock.arrived_ms) * 1e3 * speed;
   vehicle.draw(now_us);
+  vehicle.showBody(cameras.mode !== 'first');
   trajectories.draw(now * 1e-3);
-  const seconds = (now - last) * 1e-3;
-  last = now;
-  if (vehicle.state) world.follow(vehicle.p, seconds);
-  world.aim(seconds);
+  if (vehicle.state) {
+    const centre = cameras.mode === 'orbit' ? obstacles.where(obstacles.pickedId, now_us) : null;
+    cameras.follow(vehicle.p, vehicle.state.v, centre, seconds);
+    showTime(flightTime(known.player?.at_us ?? clock.at_us));
+    ghost.draw(flightTime(now_us));
+  }
+  cameras.update();
   obstacles.draw(now_us, world.camera);
+  world.adapt(now);
   world.render();
   hud.draw(now);
   counts.drawn += 1;
-  stream.drawn();
-  requestAnimationFrame(draw);
 }
-requestAnimationFrame(draw);
+
+/** The flight's picture at t, `seconds` after the last one. For tern-viewer --video. */
+function film(t, seconds) {
+  if (!isFilmed) document.body.classList.add('film');
+  isFilmed = true;
+  send({ player: { play: false } });
+  jump(t);
+  picture(performance.now(), seconds);
+  hud.draw(Infinity);
+}
+
+/** One cursor for charts, timeline and clock. @param t  s of the flight */
+function showTime(t) {
+  charts.setNow(t);
+  timeline.setNow(t);
+  hud.showClock(t);
+  if (!known.player) player.show(t, known.chart?.end_s ?? t);
+  else controls.writeLink();
+}
 
 /** For the console and the tests: what the page knows and shows. */
 window.tern = {
   send,
   known,
   counts,
-  setCamera,
+  charts,
+  timeline,
+  jump,
+  film,
+  setCamera: (mode, eye) => controls.setCamera(mode, eye),
   setLayer,
   world,
   status: () => ({
@@ -266,6 +307,26 @@ window.tern = {
     nodes: proofs.nodeCount,
     regions: regions.group.children.length,
     vehicle: vehicle.state ? vehicle.p.toArray() : null,
+    ghost: ghost.ball.visible ? ghost.ball.position.toArray() : null,
+    events: timeline.events.length,
     calls: world.renderer.info.render.calls,
   }),
 };
+
+const handlers = {
+  open() {
+    counts.connections += 1;
+    tellWishes();
+  },
+  close: hud.showGone,
+  frame: takeFrame,
+  reply: takeReply,
+  malformed(text, error) {
+    counts.malformed += 1;
+    console.warn(`a message was not understood (${error.message}): ${text.slice(0, 80)}`);
+  },
+};
+const tape = await readTape();
+stream = tape ? new Tape(tape, handlers) : new Stream(`ws://${location.host}/stream`, handlers);
+stream.open?.();
+requestAnimationFrame(draw);

@@ -1,6 +1,7 @@
 // Obstacles as instanced boxes, with a soft dark spot below each, so that one sees where it hovers. Only those in view
 // are given to the renderer: without a GPU it pays for every corner.
 import * as THREE from 'three';
+import { cutaway } from './cutaway.js';
 import { numbers } from './form.js';
 import { palette } from './palette.js';
 
@@ -13,8 +14,8 @@ function spotTexture() {
   canvas.width = canvas.height = size;
   const context = canvas.getContext('2d');
   const gradient = context.createRadialGradient(32, 32, 4, 32, 32, 32);
-  gradient.addColorStop(0, 'rgba(0,0,0,0.62)');
-  gradient.addColorStop(1, 'rgba(0,0,0,0)');
+  gradient.addColorStop(0, palette.shadow);
+  gradient.addColorStop(1, 'transparent');
   context.fillStyle = gradient;
   context.fillRect(0, 0, size, size);
   return new THREE.CanvasTexture(canvas);
@@ -48,28 +49,6 @@ function litBox(world) {
   return geometry.setAttribute('color', new THREE.Float32BufferAttribute(colors, 3));
 }
 
-/** Nothing hides the vehicle: what stands before it, as seen from the camera, is drawn as a sieve. */
-function cutaway(material, vehicle) {
-  material.onBeforeCompile = (shader) => {
-    shader.uniforms.vehicle = { value: vehicle };
-    shader.vertexShader = shader.vertexShader
-      .replace('#include <common>', '#include <common>\nvarying vec3 seen;')
-      .replace('#include <project_vertex>', '#include <project_vertex>\nseen = mvPosition.xyz;');
-    shader.fragmentShader = shader.fragmentShader
-      .replace('#include <common>', '#include <common>\nvarying vec3 seen; uniform vec3 vehicle;')
-      .replace('#include <clipping_planes_fragment>', `
-        vec3 target = (viewMatrix * vec4(vehicle, 1.0)).xyz;
-        float along = dot(seen, target) / dot(target, target);
-        float aside = length(seen - along * target) / (0.35 + 0.65 * along);
-        if (along < 0.97 && aside < 1.5) {
-          float keep = mix(0.12, 1.0, smoothstep(0.7, 1.5, aside));
-          float sieve = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
-          if (sieve > keep) discard;
-        }`);
-  };
-  return material;
-}
-
 /** Tells the renderer that the first `count` instances have changed. */
 function touch(attribute, count) {
   attribute.clearUpdateRanges();
@@ -95,7 +74,7 @@ export class Obstacles {
     }
     this.boxes.instanceColor.setUsage(THREE.DynamicDrawUsage);
     this.colors = { 0: new THREE.Color(palette.pillar), 1: new THREE.Color(palette.mover) };
-    this.picked = new THREE.Color('#ffffff');
+    this.picked = new THREE.Color(palette.picked);
     this.frustum = new THREE.Frustum();
     this.sphere = new THREE.Sphere();
     this.drawn = new Int32Array(MOST); // row in the set of each box that is drawn
@@ -123,10 +102,24 @@ export class Obstacles {
     this.pickedId = id;
   }
 
+  /** Where the obstacle's middle is now, or null if there is no such. @param now_us  the vehicle's clock */
+  where(id, now_us) {
+    const k = this.set?.id.indexOf(id) ?? -1;
+    if (k < 0) return null;
+    const { p, v } = this.set;
+    const dt = this.guess(now_us);
+    return new THREE.Vector3(...[0, 1, 2].map((axis) => p[3 * k + axis] + v[3 * k + axis] * dt));
+  }
+
+  /** Seconds from the set to now, as far as one may guess. */
+  guess(now_us) {
+    return Math.min(Math.max((now_us - this.set.at_us) * 1e-6, 0), LONGEST_GUESS_S);
+  }
+
   /** @param now_us  the vehicle's clock */
   draw(now_us, camera) {
     if (!this.set) return;
-    const dt = Math.min(Math.max((now_us - this.set.at_us) * 1e-6, 0), LONGEST_GUESS_S);
+    const dt = this.guess(now_us);
     camera.updateMatrixWorld();
     this.frustum.setFromProjectionMatrix(camera.matrixWorldInverse.clone().premultiply(camera.projectionMatrix));
     this.boxes.count = this.spots.count = 0;
@@ -172,9 +165,13 @@ export class Obstacles {
     matrix[m + 15] = 1;
   }
 
+  show(on) {
+    this.boxes.visible = this.spots.visible = on;
+  }
+
   /** The obstacle under a ray, {id, distance}, or nothing. */
   hit(raycaster) {
-    if (!this.set) return null;
+    if (!this.set || !this.boxes.visible) return null;
     this.boxes.computeBoundingSphere();
     const [first] = raycaster.intersectObject(this.boxes);
     return first ? { id: this.set.id[this.drawn[first.instanceId]], distance: first.distance } : null;

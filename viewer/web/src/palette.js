@@ -1,11 +1,13 @@
-// Colours that the scene and the charts share.
+// Colours that the scene and the charts share, dark or light: ?theme=light, else as the user's system has it.
 import { Color } from 'three';
 
-export const palette = {
+const dark = {
   back: '#0b1119',
   sky: '#060a10',
+  horizon: '#101b28',
   ground: '#0f161e',
   grid: '#2b3a4a',
+  faint: '#18222c',
   mover: '#ffa05c',
   pillar: '#74849a',
   plan: '#5cd6ff',
@@ -13,20 +15,75 @@ export const palette = {
   goal: '#ffd166',
   attractive: '#2fd6a3',
   repulsive: '#ff4d6d',
-  occupied: '#7b8ea3',
+  occupied: '#8797a8',
+  sphere: '#8fb8dd',
+  hull: '#ffb26b',
+  hullLater: '#7d4630',
   plane: '#6aa8ff',
+  search: '#c7b6ff',
   vehicle: '#f2f7fb',
+  ghost: '#ff8fd0',
+  picked: '#ffffff',
+  shadow: 'rgba(0,0,0,0.62)',
+  axis: '#7f91a4',
+  rule: 'rgba(148,173,199,0.08)',
+  /** By outcome: optimized, search only, kept, evasion, none. */
+  outcomes: ['#3ddc97', '#5cd6ff', '#8fa3b8', '#ffb454', '#ff5d73'],
+  /** Of a chart, in turn. */
+  curves: ['#5cd6ff', '#ffb454', '#3ddc97', '#9d8cff', '#ff5d73', '#ffd166'],
+  // Slow to fast: indigo, blue, teal, green, yellow, white-hot.
+  speeds: ['#4d4fc4', '#2d86e0', '#22b8c9', '#46d98a', '#d8e35a', '#fff3b0'],
 };
 
-/** By outcome: optimized, search only, kept, evasion, none. */
-export const outcomes = ['#3ddc97', '#5cd6ff', '#8fa3b8', '#ffb454', '#ff5d73'];
+const light = {
+  ...dark,
+  back: '#eef2f6',
+  sky: '#cfdeed',
+  horizon: '#dfe8f1',
+  ground: '#e6ebf0',
+  grid: '#b3c0cd',
+  faint: '#d5dde5',
+  mover: '#f08a3c',
+  pillar: '#8e9bab',
+  plan: '#0086c4',
+  committed: '#6a4fd6',
+  goal: '#d99500',
+  attractive: '#0fa678',
+  repulsive: '#e0234a',
+  occupied: '#a3afbc',
+  sphere: '#5d86ad',
+  hull: '#d9731a',
+  hullLater: '#c9a48c',
+  plane: '#2b6fd6',
+  search: '#8a70d6',
+  vehicle: '#27323d',
+  ghost: '#c2188a',
+  picked: '#111820',
+  shadow: 'rgba(30,45,60,0.32)',
+  axis: '#5b6b7b',
+  rule: 'rgba(40,60,80,0.10)',
+  outcomes: ['#17a86b', '#0086c4', '#8595a6', '#e08a00', '#d92340'],
+  curves: ['#0086c4', '#d97706', '#17a86b', '#6a4fd6', '#d92340', '#a17800'],
+  speeds: ['#4143b0', '#1f74cc', '#0f98a8', '#1f9e58', '#9a9a00', '#d06a00'],
+};
 
-// Slow to fast: indigo, blue, teal, green, yellow, white-hot.
-const stops = ['#4d4fc4', '#2d86e0', '#22b8c9', '#46d98a', '#d8e35a', '#fff3b0'].map((c) => new Color(c));
+const asked = new URLSearchParams(location.search).get('theme');
+export const theme = asked ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
+export const palette = theme === 'light' ? light : dark;
+document.documentElement.dataset.theme = theme === 'light' ? 'light' : 'dark';
+
+const stops = palette.speeds.map((c) => new Color(c));
 
 /** Writes the colour of a share of the top speed, 0 … 1, to `target`. */
 export function speedColor(share, target) {
   const x = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
   const k = Math.min(Math.floor(x), stops.length - 2);
   return target.copy(stops[k]).lerp(stops[k + 1], x - k);
+}
+
+/** The same page in the other theme, at the same moment and camera. */
+export function otherTheme() {
+  const url = new URL(location.href);
+  url.searchParams.set('theme', theme === 'light' ? 'dark' : 'light');
+  return url.href;
 }

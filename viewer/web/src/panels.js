@@ -1,24 +1,31 @@
 // Where the panels leave the scene free.
 
 const LEAST_SHARE = 0.2; // of the window, per axis; with less free, the scene has what is beneath the panels, too
+const PANELS = ['#head', '#flight', '#side', 'footer'];
 
 /** {left, right, top, bottom}, CSS pixels. The inspector is not counted: who opened it closes it. */
 function freeArea() {
   const { innerWidth: width, innerHeight: height } = window;
-  const box = (selector) => document.querySelector(selector).getBoundingClientRect();
-  const left = Math.max(box('#head').right, box('#flight').right);
-  const right = box('#side').left;
-  const bottom = box('footer').top;
-  const wide = right - left > LEAST_SHARE * width;
-  const high = bottom > LEAST_SHARE * height;
-  return { left: wide ? left : 0, right: wide ? right : width, top: 0, bottom: high ? bottom : height };
+  const boxes = PANELS.map((selector) => document.querySelector(selector).getBoundingClientRect()).filter((box) => box.width > 0);
+  const area = { left: 0, right: width, top: 0, bottom: height };
+  for (const box of boxes) { // each panel stands at one side of the window
+    if (box.width > 0.6 * width) {
+      if (box.top > height / 2) area.bottom = Math.min(area.bottom, box.top);
+      else area.top = Math.max(area.top, box.bottom);
+    } else if (box.left > width / 2) area.right = Math.min(area.right, box.left);
+    else area.left = Math.max(area.left, box.right);
+  }
+  if (area.right - area.left < LEAST_SHARE * width) Object.assign(area, { left: 0, right: width });
+  if (area.bottom - area.top < LEAST_SHARE * height) Object.assign(area, { top: 0, bottom: height });
+  return area;
 }
 
-/** Tells the free area now, and whenever window or panels change their size. */
+/** Tells the free area now, and whenever window or panels change their size. @return {look()}, to look at once */
 export function watchFreeArea(tell) {
   const look = () => tell(freeArea());
   const watcher = new ResizeObserver(look);
-  for (const panel of document.querySelectorAll('#head, #flight, #side, footer')) watcher.observe(panel);
+  for (const selector of PANELS) watcher.observe(document.querySelector(selector));
   window.addEventListener('resize', look);
   look();
+  return { look };
 }

@@ -3,39 +3,62 @@
 const RATES = [0.1, 0.25, 0.5, 1, 2, 4, 8];
 
 const byId = (id) => document.getElementById(id);
-const seconds = (us) => `${(us * 1e-6).toFixed(1)} s`;
+const seconds = (s) => `${s.toFixed(1)} s`;
 
 export class Player {
-  /** @param send  a command to the bridge */
-  constructor(send) {
+  /** @param send  a command to the bridge  @param refuse  says why there is nothing to play */
+  constructor(send, refuse) {
     this.state = null;
-    const ask = (command) => send({ player: command });
+    this.send = send;
+    this.refuse = refuse;
     byId('play').onclick = () => this.toggle();
-    byId('back').onclick = () => ask({ step: -1 });
-    byId('forth').onclick = () => ask({ step: 1 });
+    byId('back').onclick = () => this.step(-1);
+    byId('forth').onclick = () => this.step(1);
     byId('rate').append(...RATES.map((rate) => new Option(`${rate}×`, rate, rate === 1, rate === 1)));
-    byId('rate').onchange = () => ask({ speed: Number(byId('rate').value) });
-    byId('scrub').oninput = () => {
-      const { begin_us, end_us } = this.state;
-      ask({ seek_us: Math.round(begin_us + (end_us - begin_us) * (byId('scrub').value / byId('scrub').max)) });
-    };
-    this.ask = ask;
+    byId('rate').onchange = () => this.ask({ speed: Number(byId('rate').value) });
+    byId('scrub').oninput = () => this.jump(this.length() * (byId('scrub').value / byId('scrub').max));
+    this.take(null);
+  }
+
+  ask(command) {
+    if (this.state) this.send({ player: command });
+    else this.refuse('a flight that is flown cannot be wound back; when it has ended, its log can');
   }
 
   toggle() {
-    if (this.state) this.ask({ play: !this.state.playing });
+    this.ask({ play: !this.state?.playing });
   }
 
+  /** @param plans  1: to the next answer of the planner, -1: to the last */
+  step(plans) {
+    this.ask({ step: plans });
+  }
+
+  /** @param t  seconds from the log's begin */
+  jump(t) {
+    this.ask({ seek_us: Math.round((this.state?.begin_us ?? 0) + 1e6 * t) });
+  }
+
+  length() {
+    return this.state ? (this.state.end_us - this.state.begin_us) * 1e-6 : 0;
+  }
+
+  /** @param state  as LogPlayer::json tells it; null: a live flight */
   take(state) {
     this.state = state;
-    byId('player').hidden = false;
+    document.body.classList.toggle('live', !state);
+    if (!state) return;
     byId('play').textContent = state.playing ? '❚❚' : '▶';
-    byId('at').textContent = seconds(state.at_us - state.begin_us);
-    byId('length').textContent = seconds(state.end_us - state.begin_us);
     byId('damage').textContent = state.damage || (state.refused ? `${state.refused} refused` : '');
-    const scrub = byId('scrub');
-    if (!scrub.matches(':active')) {
-      scrub.value = (scrub.max * (state.at_us - state.begin_us)) / Math.max(state.end_us - state.begin_us, 1);
+    this.show((state.at_us - state.begin_us) * 1e-6, this.length());
+  }
+
+  /** Where the flight is. @param at, length  s */
+  show(at, length) {
+    for (const [id, text] of [['at', seconds(at)], ['length', seconds(length)]]) {
+      if (byId(id).textContent !== text) byId(id).textContent = text;
     }
+    const scrub = byId('scrub');
+    if (!scrub.matches(':active')) scrub.value = (scrub.max * at) / Math.max(length, 1e-6);
   }
 }

@@ -5,8 +5,8 @@ import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const PATCH = 0.9; // half the side of a drawn plane, m
-const SOON = new THREE.Color('#ffb26b');
-const LATER = new THREE.Color('#7d4630');
+const SOON = new THREE.Color(palette.hull);
+const LATER = new THREE.Color(palette.hullLater);
 
 /** Triangles of a convex hull, appended to `out`. */
 function triangulate(points, out) {
@@ -36,7 +36,7 @@ export class Proofs {
       new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: palette.plane, transparent: true, opacity: 0.3 }));
     this.planes.add(this.patches, this.frames);
     this.nodes = new THREE.LineSegments(
-      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#c7b6ff', transparent: true, opacity: 0.35 }));
+      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: palette.search, transparent: true, opacity: 0.35 }));
     for (const mesh of [this.hulls, this.patches, this.frames, this.nodes]) mesh.frustumCulled = false;
     scene.add(this.hulls, this.planes, this.nodes);
     this.clear();

@@ -1,39 +1,51 @@
-// The semantic map: outer faces of labelled voxels as translucent volumes with a faint grid of the voxels.
+// The semantic map: outer faces of labelled voxels; what is occupied is solid, regions are translucent volumes.
 import * as THREE from 'three';
+import { SIEVE } from './cutaway.js';
 import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const NUMBERS_PER_FACE = 8; // label, direction, low x y z, high x y z
+const OCCUPIED = 2;
+const NO_CUT = 1e9; // m
 const LABELS = {
-  2: { color: palette.occupied, opacity: 0.5 },
+  [OCCUPIED]: { color: palette.occupied },
   3: { color: palette.attractive, opacity: 0.13 },
   4: { color: palette.repulsive, opacity: 0.15 },
 };
 
-function material(color, opacity, origin, resolution) {
-  return new THREE.ShaderMaterial({
-    transparent: true,
-    depthWrite: false,
-    side: THREE.DoubleSide,
-    uniforms: {
-      color: { value: new THREE.Color(color) },
-      opacity: { value: opacity },
-      origin: { value: new THREE.Vector3(...origin) },
-      resolution: { value: resolution },
-    },
-    vertexShader: `varying vec3 at; varying vec3 n; void main() {
-      at = position; n = normal; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
-    fragmentShader: `varying vec3 at; varying vec3 n; uniform vec3 color, origin; uniform float opacity, resolution;
-      void main() {
-        vec3 q = (at - origin) / resolution; vec3 w = fwidth(q);
-        vec3 d = abs(fract(q - 0.5) - 0.5) / max(w, vec3(1e-5)) + 8.0 * abs(n);
-        float line = (1.0 - min(min(d.x, min(d.y, d.z)), 1.0)) * clamp(0.55 - 1.4 * max(w.x, max(w.y, w.z)), 0.0, 1.0);
-        float rise = 0.75 + 0.5 * smoothstep(4.0, 0.0, at.z);
-        gl_FragColor = vec4(color, opacity * rise + 0.16 * line);
-        #include <colorspace_fragment>
-      }`,
-  });
-}
+const VERTEX = `varying vec3 at; varying vec3 n; varying vec3 seen; void main() {
+  at = position; n = normal;
+  vec4 p = modelViewMatrix * vec4(position, 1.0);
+  seen = p.xyz; gl_Position = projectionMatrix * p; }`;
+
+/** How much of a line between voxels there is here, 0 … 1. */
+const GRID = `float grid() {
+    vec3 q = (at - origin) / resolution; vec3 w = fwidth(q);
+    vec3 d = abs(fract(q - 0.5) - 0.5) / max(w, vec3(1e-5)) + 8.0 * abs(n);
+    return (1.0 - min(min(d.x, min(d.y, d.z)), 1.0)) * clamp(0.55 - 1.4 * max(w.x, max(w.y, w.z)), 0.0, 1.0);
+  }`;
+
+/** A region that one may fly through: translucent. */
+const AIRY = `varying vec3 at; varying vec3 n; varying vec3 seen; uniform vec3 color, origin; uniform float opacity, resolution;
+  ${GRID}
+  void main() {
+    float rise = 0.75 + 0.5 * smoothstep(4.0, 0.0, at.z);
+    gl_FragColor = vec4(color, opacity * rise + 0.16 * grid());
+    #include <colorspace_fragment>
+  }`;
+
+/** What is occupied: solid, with the edges of its voxels, cut off above `cut`; where it is cut one sees its inside, darker. */
+const SOLID = `varying vec3 at; varying vec3 n; varying vec3 seen;
+  uniform vec3 color, origin, vehicle, lit[6]; uniform float resolution, cut;
+  ${GRID}
+  void main() {
+    if (at.z > cut) discard;
+    ${SIEVE}
+    vec3 light = n.x < -0.5 ? lit[0] : n.x > 0.5 ? lit[1] : n.y < -0.5 ? lit[2] : n.y > 0.5 ? lit[3] : n.z < -0.5 ? lit[4] : lit[5];
+    vec3 c = color * (gl_FrontFacing ? light : vec3(0.28)) * (gl_FrontFacing ? 1.0 - 0.35 * grid() : 1.0);
+    gl_FragColor = vec4(c, 1.0);
+    #include <colorspace_fragment>
+  }`;
 
 /** Corners of a face, counter-clockwise seen from outside. */
 function corners(direction, low, high) {
@@ -51,9 +63,15 @@ function corners(direction, low, high) {
 }
 
 export class Regions {
-  constructor(scene) {
+  /** @param vehicle  where it is; kept */
+  constructor(world, vehicle) {
     this.group = new THREE.Group();
-    scene.add(this.group);
+    this.shown = { walls: true, regions: true };
+    this.vehicle = vehicle;
+    this.cut = { value: NO_CUT };
+    const sides = [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]];
+    this.lit = sides.map((n) => new THREE.Vector3(...world.lightOn(new THREE.Vector3(...n)).toArray()));
+    world.scene.add(this.group);
   }
 
   clear() {
@@ -62,6 +80,7 @@ export class Regions {
       mesh.material.dispose();
     }
     this.group.clear();
+    this.top = 0;
   }
 
   /** @param map  {origin, resolution, faces}: eight integers per face, corners in voxels */
@@ -69,13 +88,57 @@ export class Regions {
     numbers(map.faces, NUMBERS_PER_FACE);
     point(map.origin);
     this.clear();
-    for (const [label, look] of Object.entries(LABELS)) {
-      const geometry = this.geometry(map, Number(label));
+    for (const label of Object.keys(LABELS).map(Number)) {
+      const geometry = this.geometry(map, label);
       if (!geometry) continue;
-      const mesh = new THREE.Mesh(geometry, material(look.color, look.opacity, map.origin, map.resolution));
-      mesh.renderOrder = 1;
+      const mesh = new THREE.Mesh(geometry, this.material(label, map));
+      mesh.name = label === OCCUPIED ? 'walls' : 'regions';
+      mesh.visible = this.shown[mesh.name];
+      mesh.renderOrder = label === OCCUPIED ? 0 : 1;
       this.group.add(mesh);
+      if (label !== OCCUPIED) continue;
+      geometry.computeBoundingBox();
+      this.top = geometry.boundingBox.max.z;
     }
+  }
+
+  material(label, { origin, resolution }) {
+    const { color, opacity } = LABELS[label];
+    const isSolid = label === OCCUPIED;
+    return new THREE.ShaderMaterial({
+      transparent: !isSolid,
+      depthWrite: isSolid,
+      side: isSolid ? this.side() : THREE.DoubleSide,
+      uniforms: {
+        color: { value: new THREE.Color(color) },
+        opacity: { value: opacity ?? 1 },
+        origin: { value: new THREE.Vector3(...origin) },
+        resolution: { value: resolution },
+        vehicle: { value: this.vehicle },
+        lit: { value: this.lit },
+        cut: this.cut,
+      },
+      vertexShader: VERTEX,
+      fragmentShader: isSolid ? SOLID : AIRY,
+    });
+  }
+
+  /** @param layer  'walls' or 'regions' */
+  show(layer, on) {
+    if (!(layer in this.shown)) return;
+    this.shown[layer] = on;
+    for (const mesh of this.group.children) if (mesh.name === layer) mesh.visible = on;
+  }
+
+  /** Walls above this height are not drawn. @param z  m; null: all are */
+  cutAt(z) {
+    this.cut.value = z ?? NO_CUT;
+    for (const mesh of this.group.children) if (mesh.name === 'walls') mesh.material.side = this.side();
+  }
+
+  /** From within a wall one looks out, unless it is cut: then its inside is what shows the cut. */
+  side() {
+    return this.cut.value < NO_CUT ? THREE.DoubleSide : THREE.FrontSide;
   }
 
   geometry({ faces, origin, resolution }, label) {
@@ -99,8 +162,10 @@ export class Regions {
       .setIndex(index);
   }
 
+  /** The first face under a ray: {point, distance, layer}, or null. */
   hit(raycaster) {
-    if (!this.group.visible) return null;
-    return raycaster.intersectObjects(this.group.children)[0] ?? null;
+    const hits = raycaster.intersectObjects(this.group.children.filter((mesh) => mesh.visible));
+    const first = hits.find(({ object, point: at }) => object.name !== 'walls' || at.z <= this.cut.value);
+    return first ? { point: first.point, distance: first.distance, layer: first.object.name } : null;
   }
 }

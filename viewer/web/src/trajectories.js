@@ -5,13 +5,13 @@ import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { numbers, point } from './form.js';
 import { palette, speedColor } from './palette.js';
+import { countUpTo } from './time_rows.js';
 
-const LONGEST_GAP_US = 500_000;
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
 const FACES = [0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3];
 
 /** A line of changing length, as wide as `width` pixels. Its buffers grow, and are written again. */
-class Ribbon {
+export class Ribbon {
   constructor(scene, options) {
     this.material = new LineMaterial({ linewidth: 3, transparent: true, ...options });
     this.line = new Line2(new LineGeometry(), this.material);
@@ -120,7 +120,7 @@ export class Trajectories {
     this.committed = new Ribbon(scene, { color: palette.committed, linewidth: 2, opacity: 0.85 });
     this.plan = new Ribbon(scene, { color: palette.plan, linewidth: 4 });
     this.minvo = new Simplices(scene, palette.plan);
-    this.sphere = circles('#8fb8dd', 0.22);
+    this.sphere = circles(palette.sphere, 0.22);
     this.localGoal = new THREE.Mesh(
       new THREE.OctahedronGeometry(0.13), new THREE.MeshLambertMaterial({ color: palette.goal, emissive: '#6b4d00' }));
     this.goal = new THREE.Group();
@@ -139,27 +139,45 @@ export class Trajectories {
     for (const ribbon of [this.path, this.tail, this.committed, this.plan]) ribbon.line.visible = false;
     this.minvo.set([]);
     this.sphere.visible = this.localGoal.visible = this.goal.visible = false;
-    this.recent = [];
-    this.lastOfPath = null;
+    this.recent = []; // [t, x, y, z, speed]
+    this.flown = { t: [], curve: [] };
+    this.drawnPoints = -1;
   }
 
-  takePath(curve) {
-    const { positions, colors } = split(curve, this.top);
-    this.path.set(positions, colors);
-    this.recent = [];
-    this.lastOfPath = curve.length >= 4 ? curve.slice(-4) : null;
+  /** @param path  {t, curve}: the flight as far as it is known, [x, y, z, speed, …], t in its seconds */
+  takePath(path) {
+    numbers(path.curve, 4, numbers(path.t, 1).length);
+    this.flown = path;
+    this.drawnPoints = -1;
   }
 
-  /** Where the path has not come to yet: it is told twice a second. */
-  takeState(state) {
-    const gap_us = state.at_us - (this.recentAt ?? state.at_us);
-    this.recentAt = state.at_us;
-    if (gap_us < 0 || gap_us > LONGEST_GAP_US) this.recent = []; // a jump in a log
-    this.recent.push(...state.p, Math.hypot(...state.v));
-    if (this.recent.length > 4 * 120) this.recent.splice(0, 4);
-    const curve = this.lastOfPath && this.recent.length > 4 ? [...this.lastOfPath, ...this.recent] : this.recent;
-    const { positions, colors } = split(curve, this.top);
+  /**
+   * The path up to the vehicle: the flown one's points, and where it has not come to yet (it is told twice a second), the
+   * states themselves.
+   * @param t  of the state, s
+   */
+  takeState(state, t) {
+    const { t: times, curve } = this.flown;
+    const known = countUpTo(times, t);
+    if (known !== this.drawnPoints) {
+      const { positions, colors } = split(curve.slice(0, 4 * known), this.top);
+      this.path.set(positions, colors);
+      this.drawnPoints = known;
+    }
+    const from = known > 0 ? times[known - 1] : -Infinity;
+    this.recent = this.recent.filter(([at]) => at > from && at < t);
+    this.recent.push([t, ...state.p, Math.hypot(...state.v)]);
+    const last = known > 0 ? curve.slice(4 * known - 4, 4 * known) : [];
+    const { positions, colors } = split([...last, ...this.recent.flatMap((row) => row.slice(1))], this.top);
     this.tail.set(positions, colors);
+  }
+
+  /** What the flight has come to, and where it goes. */
+  extent(box) {
+    const { curve } = this.flown;
+    for (let k = 0; k < curve.length; k += 4) box.expandByPoint(new THREE.Vector3(curve[k], curve[k + 1], curve[k + 2]));
+    if (this.goal.visible) box.expandByPoint(this.goal.position);
+    return box;
   }
 
   takeRequest(request) {
@@ -192,6 +210,8 @@ export class Trajectories {
   }
 
   show(layer, on) {
+    if (layer === 'path') this.path.material.visible = this.tail.material.visible = on;
+    if (layer === 'plan') this.plan.material.visible = this.localGoal.material.visible = on;
     if (layer === 'minvo') this.minvo.group.visible = on;
     if (layer === 'committed') this.committed.material.visible = on;
     if (layer === 'sphere') this.wantSphere = this.sphere.visible = on;

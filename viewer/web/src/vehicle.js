@@ -1,14 +1,15 @@
-// The vehicle: a quadrotor that leans into its acceleration, and the ball that the planner takes it for.
+// The vehicle to scale: a quadrotor that leans into its acceleration, as large as the body that the planner keeps clear.
 import * as THREE from 'three';
 import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const GRAVITY = 9.81;
 const LONGEST_GUESS_S = 0.12;
+const MODEL_RADIUS = 0.18 * Math.SQRT2 + 0.115; // m: to the rotors' tips
 
 function model() {
   const group = new THREE.Group();
-  const shell = new THREE.MeshLambertMaterial({ color: palette.vehicle, emissive: '#27323d' });
+  const shell = new THREE.MeshLambertMaterial({ color: palette.vehicle, emissive: palette.vehicle, emissiveIntensity: 0.18 });
   const dark = new THREE.MeshLambertMaterial({ color: '#39434f', emissive: '#0d1116' });
   const body = new THREE.Mesh(new THREE.SphereGeometry(0.1, 20, 12), shell);
   body.scale.set(1.35, 0.9, 0.55);
@@ -17,7 +18,7 @@ function model() {
   nose.position.set(0.125, 0, 0.012);
   group.add(body, nose);
   const disc = new THREE.MeshBasicMaterial({
-    color: '#cfeaff', transparent: true, opacity: 0.28, depthWrite: false, side: THREE.DoubleSide });
+    color: palette.vehicle, transparent: true, opacity: 0.4, depthWrite: false, side: THREE.DoubleSide });
   for (const [sx, sy] of [[1, 1], [1, -1], [-1, 1], [-1, -1]]) {
     const arm = new THREE.Mesh(new THREE.BoxGeometry(0.25, 0.026, 0.02), dark);
     arm.position.set(0.09 * sx, 0.09 * sy, 0);
@@ -26,7 +27,6 @@ function model() {
     rotor.position.set(0.18 * sx, 0.18 * sy, 0.035);
     group.add(arm, rotor);
   }
-  group.scale.setScalar(1.35);
   return group;
 }
 
@@ -47,6 +47,7 @@ export class Vehicle {
     this.group.add(this.body, this.ball);
     scene.add(this.group, this.stem, this.spot);
     this.p = new THREE.Vector3();
+    this.setBody([0.1, 0.1, 0.1]);
     this.clear();
   }
 
@@ -62,8 +63,17 @@ export class Vehicle {
     for (const part of [this.group, this.stem, this.spot]) part.visible = true;
   }
 
-  setRadius(metres) {
-    this.ball.scale.setScalar(Math.max(metres, 0.02));
+  /** @param half  of the body's box per axis, m: the rotors reach its ends, the ball is round when it is */
+  setBody(half) {
+    const [x, y, z] = point(half).map((metres) => Math.max(metres, 0.02));
+    this.ball.scale.set(x, y, z);
+    this.body.scale.setScalar(Math.min(x, y) / MODEL_RADIUS);
+    this.reach = Math.hypot(x, y, z);
+  }
+
+  /** Seen from within, there is no vehicle. */
+  showBody(on) {
+    this.body.visible = this.ball.visible = on;
   }
 
   draw(now_us) {
@@ -88,6 +98,7 @@ export class Vehicle {
   hit(raycaster) {
     if (!this.state) return null;
     const near = raycaster.ray.distanceToPoint(this.p);
-    return near < 0.3 ? { distance: raycaster.ray.origin.distanceTo(this.p) - 0.3 } : null;
+    const reach = Math.max(0.3, this.reach);
+    return near < reach ? { distance: raycaster.ray.origin.distanceTo(this.p) - reach } : null;
   }
 }

@@ -1,4 +1,4 @@
-#include "simulator/vehicle/quadrotor_vehicle.h"
+#include "simulator/vehicle/quadrotor_model.h"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ struct Tracking {
 
 Tracking track(const QuadrotorConfig& config, const WindSpec& wind, const EstimatorSpec& estimator, std::uint64_t seed,
                const Slalom& slalom) {
-  QuadrotorVehicle vehicle(config, wind, estimator, seed, Vec3(0, 0, 5), kNoGround, UTime{});
+  QuadrotorModel vehicle(config, wind, estimator, seed, Vec3(0, 0, 5), kNoGround, UTime{});
   double squares = 0.0;
   Tracking result;
   constexpr int kBeats = 2500;
@@ -69,7 +69,7 @@ Tracking track(const QuadrotorConfig& config, const WindSpec& wind, const Estima
   return result;
 }
 
-TEST(QuadrotorVehicle, TracksASlalomOfFiveMetresPerSecondInGustyWind) {
+TEST(QuadrotorModel, TracksASlalomOfFiveMetresPerSecondInGustyWind) {
   for (const auto kind : {QuadrotorClass::Camera, QuadrotorClass::Racer}) {
     const Slalom slalom{5.0, kind == QuadrotorClass::Camera ? 7.0 : 14.0};
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -80,7 +80,7 @@ TEST(QuadrotorVehicle, TracksASlalomOfFiveMetresPerSecondInGustyWind) {
   }
 }
 
-TEST(QuadrotorVehicle, AControllerThreeTimesTooSoftIsFartherOff) {
+TEST(QuadrotorModel, AControllerThreeTimesTooSoftIsFartherOff) {
   QuadrotorConfig soft = config_of(QuadrotorClass::Camera);
   soft.controller.position_p /= 3.0;
   soft.controller.velocity_p /= 3.0;
@@ -90,10 +90,10 @@ TEST(QuadrotorVehicle, AControllerThreeTimesTooSoftIsFartherOff) {
             2.0 * track(config_of(QuadrotorClass::Camera), wind, {}, 1, slalom).rmse);
 }
 
-TEST(QuadrotorVehicle, FeedForwardDecides) {
+TEST(QuadrotorModel, FeedForwardDecides) {
   const Slalom slalom{5.0, 7.0};
   const QuadrotorConfig config = config_of(QuadrotorClass::Camera);
-  QuadrotorVehicle vehicle(config, {}, {}, 1, Vec3(0, 0, 5), kNoGround, UTime{});
+  QuadrotorModel vehicle(config, {}, {}, 1, Vec3(0, 0, 5), kNoGround, UTime{});
   double squares = 0.0;
   for (int k = 0; k < 2500; ++k) {
     UavState setpoint = slalom.at(k * 0.01);
@@ -105,11 +105,11 @@ TEST(QuadrotorVehicle, FeedForwardDecides) {
   EXPECT_GT(std::sqrt(squares / 2500), 3.0 * track(config, {}, {}, 1, slalom).rmse);
 }
 
-TEST(QuadrotorVehicle, IsAFunctionOfItsSeed) {
+TEST(QuadrotorModel, IsAFunctionOfItsSeed) {
   const auto fly = [](std::uint64_t seed, Duration beat) {
-    QuadrotorVehicle vehicle(config_of(QuadrotorClass::Racer), {.speed = 8.0},
-                             {.position_sigma_m = 0.02, .drift_m = 0.1, .jump_m = 0.5, .jump_every_s = 2.0}, seed,
-                             Vec3(0, 0, 5), kNoGround, UTime{});
+    QuadrotorModel vehicle(config_of(QuadrotorClass::Racer), {.speed = 8.0},
+                           {.position_sigma_m = 0.02, .drift_m = 0.1, .jump_m = 0.5, .jump_every_s = 2.0}, seed,
+                           Vec3(0, 0, 5), kNoGround, UTime{});
     for (UTime t{}; t <= at_s(3.0); t = t + beat) vehicle.advance(t);
     return vehicle.truth().motion.p;
   };
@@ -117,9 +117,9 @@ TEST(QuadrotorVehicle, IsAFunctionOfItsSeed) {
   EXPECT_NE(fly(1, Duration{10'000}), fly(2, Duration{10'000}));
 }
 
-TEST(QuadrotorVehicle, AnEstimateThatJumpsMovesTheTruthTheOtherWay) {
-  QuadrotorVehicle vehicle(config_of(QuadrotorClass::Camera), {}, {.jump_m = 0.6, .jump_at_s = 1.0}, 7, Vec3(0, 0, 5),
-                           kNoGround, UTime{});
+TEST(QuadrotorModel, AnEstimateThatJumpsMovesTheTruthTheOtherWay) {
+  QuadrotorModel vehicle(config_of(QuadrotorClass::Camera), {}, {.jump_m = 0.6, .jump_at_s = 1.0}, 7, Vec3(0, 0, 5),
+                         kNoGround, UTime{});
   vehicle.advance(at_s(1.01));
   const Vec3 jump = vehicle.estimate().motion.p - vehicle.truth().motion.p;
   EXPECT_NEAR(jump.norm(), 0.6, 1e-9);
@@ -128,9 +128,9 @@ TEST(QuadrotorVehicle, AnEstimateThatJumpsMovesTheTruthTheOtherWay) {
   EXPECT_LT((vehicle.truth().motion.p - (Vec3(0, 0, 5) - jump)).norm(), 0.02);
 }
 
-TEST(QuadrotorVehicle, SaysItsEstimateLate) {
-  QuadrotorVehicle vehicle(config_of(QuadrotorClass::Camera), {}, {.latency_s = 0.05}, 1, Vec3(0, 0, 5), kNoGround,
-                           UTime{});
+TEST(QuadrotorModel, SaysItsEstimateLate) {
+  QuadrotorModel vehicle(config_of(QuadrotorClass::Camera), {}, {.latency_s = 0.05}, 1, Vec3(0, 0, 5), kNoGround,
+                         UTime{});
   vehicle.advance(at_s(0.04));
   EXPECT_FALSE(vehicle.said_estimate());
   vehicle.advance(at_s(1.0));
@@ -138,8 +138,8 @@ TEST(QuadrotorVehicle, SaysItsEstimateLate) {
   EXPECT_EQ(vehicle.said_estimate()->at, at_s(0.95));
 }
 
-TEST(QuadrotorVehicle, HoldsWhereItsLastCommandEnds) {
-  QuadrotorVehicle vehicle(config_of(QuadrotorClass::Camera), {}, {}, 1, Vec3(0, 0, 5), kNoGround, UTime{});
+TEST(QuadrotorModel, HoldsWhereItsLastCommandEnds) {
+  QuadrotorModel vehicle(config_of(QuadrotorClass::Camera), {}, {}, 1, Vec3(0, 0, 5), kNoGround, UTime{});
   UavState setpoint;
   setpoint.motion.p = Vec3(0, 0, 5);
   setpoint.motion.v = Vec3(2, 0, 0);
@@ -148,8 +148,8 @@ TEST(QuadrotorVehicle, HoldsWhereItsLastCommandEnds) {
   EXPECT_LT((vehicle.truth().motion.p - Vec3(0.2, 0, 5)).norm(), 0.02);
 }
 
-TEST(QuadrotorVehicle, DisarmedItFallsAndStands) {
-  QuadrotorVehicle vehicle(config_of(QuadrotorClass::Camera), {}, {}, 1, Vec3(0, 0, 2), 0.0, UTime{});
+TEST(QuadrotorModel, DisarmedItFallsAndStands) {
+  QuadrotorModel vehicle(config_of(QuadrotorClass::Camera), {}, {}, 1, Vec3(0, 0, 2), 0.0, UTime{});
   vehicle.set_armed(false);
   vehicle.advance(at_s(3.0));
   EXPECT_TRUE(vehicle.truth().on_ground);

@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "campaign/app/commands.h"
+#include "campaign/app/flight_options.h"
+#include "campaign/experiments/scenario_view.h"
+#include "runtime/config.h"
+
+namespace tern {
+namespace {
+
+constexpr int kExitUnreachable = 1;
+
+struct Options {
+  FlightOptions flight;
+  std::optional<std::uint64_t> seed;
+  std::string out;
+};
+
+int check(const Options& options) {
+  const ScenarioView view = view_scenario(inputs_of(options.flight), options.seed);
+  fmt::print("{}", to_text(view));
+  if (!options.out.empty()) {
+    std::ofstream file(options.out);
+    file << draw_scenario(view);
+    if (!file.flush()) throw ConfigError(options.out + ": cannot be written");
+    fmt::print("  drawn     {}\n", options.out);
+  }
+  return view.shortest ? 0 : kExitUnreachable;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "check",
+      "Look at a scenario without flying it: what is in it, a plan, a way to the goal; exit code 1: there is none");
+  add_world_options(*command, options->flight);
+  command->add_option("--seed", options->seed, "Seed (default: the scenario's)");
+  command->add_option("--out", options->out, "Draw its plan there")->type_name("FILE.svg");
+  command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });
+}
+
+}  // namespace tern

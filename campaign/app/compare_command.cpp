@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "campaign/app/commands.h"
+#include "campaign/campaign.h"
+#include "campaign/page/campaign_page.h"
+#include "campaign/records/campaign_comparison.h"
+#include "runtime/config.h"
+
+namespace tern {
+namespace {
+
+struct Options {
+  std::string a, b;
+  TableForm form = TableForm::Text;
+};
+
+Flights flights_of(const std::string& file) {
+  auto flights = read_flights(file);
+  if (!flights) throw ConfigError(flights.error().message);
+  return std::move(*flights);
+}
+
+int compare_files(const Options& options) {
+  const auto comparison = compare(flights_of(options.a), flights_of(options.b));
+  if (!comparison) throw ConfigError(fmt::format("{} and {}: {}", options.a, options.b, comparison.error().message));
+  fmt::print("{}", to_text(*comparison, options.form));
+  return 0;
+}
+
+struct PageOptions {
+  std::string flights, out, failures;
+};
+
+int write_page(const PageOptions& options) {
+  namespace fs = std::filesystem;
+  const fs::path out = options.out.empty() ? options.flights + ".html" : options.out;
+  const fs::path failures = options.failures.empty() ? default_failures(options.flights) : options.failures;
+  const fs::path link = fs::absolute(failures).lexically_relative(fs::absolute(out).parent_path());
+  std::ofstream file(out);
+  file << campaign_page(flights_of(options.flights), link.string());
+  if (!file.flush()) throw ConfigError(out.string() + ": cannot be written");
+  fmt::print("{}\n", out.string());
+  return 0;
+}
+
+int print_columns() {
+  for (const ColumnNote& note : column_notes()) fmt::print("{:<32}{}\n", note.name, note.meaning);
+  return 0;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("compare", "Two campaigns over the same seeds: every measure, B against A");
+  command->add_option("a", options->a, "One campaign's flights")->required()->type_name("A.csv");
+  command->add_option("b", options->b, "The other's")->required()->type_name("B.csv");
+  command->add_option("--form", options->form, "How the table is written (default text)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, TableForm>{
+          {"text", TableForm::Text}, {"markdown", TableForm::Markdown}, {"latex", TableForm::Latex}}));
+  command->callback([&chosen, options] { chosen = [options] { return compare_files(*options); }; });
+  auto page = std::make_shared<PageOptions>();
+  CLI::App* html =
+      app.add_subcommand("page", "A campaign as one HTML page: distributions, and what failed with its logs");
+  html->add_option("flights", page->flights, "What a campaign wrote")->required()->type_name("FLIGHTS.csv");
+  html->add_option("--out", page->out, "The page (default FLIGHTS.csv.html)")->type_name("FILE.html");
+  html->add_option("--failures", page->failures, "Folder of the flights that failed (default FLIGHTS.csv.failures)")
+      ->type_name("DIR");
+  html->callback([&chosen, page] { chosen = [page] { return write_page(*page); }; });
+  CLI::App* columns = app.add_subcommand("columns", "What each column of FLIGHTS.csv means");
+  columns->callback([&chosen] { chosen = print_columns; });
+}
+
+}  // namespace tern

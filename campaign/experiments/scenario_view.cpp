@@ -1,0 +1,218 @@
+#include "campaign/experiments/scenario_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+#include "campaign/experiments/svg.h"
+#include "core/world/names.h"
+#include "planner/app/config_reader.h"
+#include "planner/planning_world.h"
+#include "runtime/data_folder.h"
+#include "runtime/scenario_file.h"
+#include "semantic_mapper/app/load_map.h"
+#include "simulator/app/simulator_config.h"
+#include "simulator/app/world_broadcast.h"
+
+namespace tern {
+namespace {
+
+constexpr double kStep = 0.05;  // m, of a way's samples
+
+PlannedWay measured(std::vector<Vec3> points, const std::vector<Region>& regions) {
+  PlannedWay way{std::move(points), 0.0, std::vector<double>(regions.size(), 0.0)};
+  for (std::size_t k = 1; k < way.points.size(); ++k) {
+    const Vec3 from = way.points[k - 1], leg = way.points[k] - from;
+    const int samples = std::max(1, static_cast<int>(std::ceil(leg.norm() / kStep)));
+    way.length_m += leg.norm();
+    for (int i = 0; i < samples; ++i) {
+      const Vec3 p = from + leg * ((i + 0.5) / samples);
+      for (std::size_t r = 0; r < regions.size(); ++r) {
+        if (regions[r].contains(p)) way.in_region_m[r] += leg.norm() / samples;
+      }
+    }
+  }
+  return way;
+}
+
+std::optional<PlannedWay> way_of(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map) {
+  const UavSpec& uav = view.scenario.uav;
+  const GoalFieldKey key{uav.goal, map->version, 0, uav.body.half_extents(), uav.flight_box};
+  auto points = make_goal_field(key, map, static_boxes(view.world), uav.start).path_from(uav.start);
+  if (!points) return std::nullopt;
+  return measured(std::move(*points), view.scenario.semantics.regions);
+}
+
+std::string place(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g})", p.x(), p.y(), p.z()); }
+
+const std::string& label_of(const Scenario& scenario, const Region& region) {
+  const auto& classes = scenario.semantics.classes;
+  return std::find_if(classes.begin(), classes.end(), [&](const auto& c) { return c.first == region.class_name; })
+      ->second;
+}
+
+double lambda_of(const Scenario& scenario, const Region& region) {
+  const SemanticsSpec& semantics = scenario.semantics;
+  for (const auto& [name, lambda] : semantics.lambdas) {
+    if (name == region.class_name) return lambda;
+  }
+  return label_of(scenario, region) == to_string(VoxelLabel::Repulsive) ? semantics.lambda_repulsive
+                                                                        : semantics.lambda_attractive;
+}
+
+std::string world_text(const World& world) {
+  const auto movers =
+      std::count_if(world.obstacles.begin(), world.obstacles.end(), [](const auto& o) { return o.moves(); });
+  return fmt::format("{} obstacles: {} rest, {} move", world.obstacles.size(),
+                     world.obstacles.size() - static_cast<std::size_t>(movers), movers);
+}
+
+std::string regions_text(const ScenarioView& view) {
+  std::string text;
+  for (std::size_t r = 0; r < view.scenario.semantics.regions.size(); ++r) {
+    const Region& region = view.scenario.semantics.regions[r];
+    const std::string& label = label_of(view.scenario, region);
+    text += fmt::format("  region    {} ({}, {}", region.name, region.class_name, label);
+    const bool weighs = label == to_string(VoxelLabel::Attractive) || label == to_string(VoxelLabel::Repulsive);
+    if (weighs) text += fmt::format(", λ {:g}", lambda_of(view.scenario, region));
+    text += ")";
+    if (view.shortest) text += fmt::format(": {:.1f} m of the shortest way", view.shortest->in_region_m[r]);
+    if (view.weighed) text += fmt::format(", {:.1f} m of the weighed one", view.weighed->in_region_m[r]);
+    text += "\n";
+  }
+  return text;
+}
+
+const char* fill_of(const std::string& label) {
+  if (label == to_string(VoxelLabel::Attractive)) return "fill=\"#2e9e5b\" fill-opacity=\"0.20\" stroke=\"#2e9e5b\"";
+  if (label == to_string(VoxelLabel::Repulsive)) return "fill=\"#d9413e\" fill-opacity=\"0.18\" stroke=\"#d9413e\"";
+  return "fill=\"#7d838c\" fill-opacity=\"0.30\" stroke=\"#7d838c\"";
+}
+
+/// Equal scales; what the flight box leaves open is cut near what there is.
+PlotFrame frame_of(const ScenarioView& view) {
+  const UavSpec& uav = view.scenario.uav;
+  Box box(uav.start);
+  box.extend(uav.goal);
+  for (const Region& r : view.scenario.semantics.regions) box.extend(r.bounds());
+  for (const WorldObstacle& o : view.world.obstacles) box.extend(o.box(std::max(0.0, o.first_s())));
+  for (const Box& b : view.occupied) box.extend(b);
+  for (const auto* way : {&view.shortest, &view.weighed}) {
+    for (const Vec3& p : *way ? (*way)->points : std::vector<Vec3>()) box.extend(p);
+  }
+  PlotFrame frame;
+  frame.corner = {62, 52};
+  const double x = box.sizes().x() + 4.0, y = box.sizes().y() + 4.0;
+  const double scale = std::min(1000.0 / x, 700.0 / y);
+  frame.width = scale * x;
+  frame.height = scale * y;
+  frame.x_range = {box.min().x() - 2.0, box.max().x() + 2.0};
+  frame.y_range = {box.min().y() - 2.0, box.max().y() + 2.0};
+  return frame;
+}
+
+void draw_box(Svg& page, const PlotFrame& frame, const Box& box, const std::string& attributes) {
+  const XY from = frame.at(box.min().x(), box.max().y()), to = frame.at(box.max().x(), box.min().y());
+  page.rect(from, to.first - from.first, to.second - from.second, attributes);
+}
+
+void draw_region(Svg& page, const PlotFrame& frame, const Region& region, const std::string& attributes) {
+  if (const auto* prism = std::get_if<PrismRegion>(&region.shape)) {
+    std::vector<XY> corners;
+    for (const auto& c : prism->corners) corners.push_back(frame.at(c.x(), c.y()));
+    page.polygon(corners, attributes);
+  } else if (const auto* ball = std::get_if<BallRegion>(&region.shape)) {
+    const double scale = frame.width / (frame.x_range.second - frame.x_range.first);
+    page.circle(frame.at(ball->centre.x(), ball->centre.y()), ball->radius * scale, attributes);
+  } else {
+    draw_box(page, frame, region.bounds(), attributes);
+  }
+  const Box box = region.bounds();
+  const XY at = frame.at(box.min().x(), box.max().y());
+  page.text({at.first + 4, at.second + 14}, region.name, "font-size=\"12\"");
+}
+
+void draw_way(Svg& page, const PlotFrame& frame, const std::optional<PlannedWay>& way, const std::string& attributes) {
+  if (!way) return;
+  std::vector<XY> points;
+  for (const Vec3& p : way->points) points.push_back(frame.at(p.x(), p.y()));
+  page.polyline(points, "fill=\"none\" " + attributes);
+}
+
+}  // namespace
+
+ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64_t> seed) {
+  ScenarioView view;
+  ConfigDocument document =
+      ConfigDocument::load(inputs.scenario_file, seed ? inputs.with_seed(*seed) : inputs.overrides);
+  view.scenario = read_scenario(document);
+  (void)check_inputs(inputs, view.scenario.seed);
+  const auto simulator = read_simulator_config(document.root().section("simulator"), view.scenario.seed);
+  const char* const data = std::getenv("TERN_DATA");
+  auto world = make_flyable_world(view.scenario, simulator, data_folder(view.scenario.file, data));
+  if (!world) throw ConfigError(view.scenario.file + ": world: " + world.error().message);
+  view.world = std::move(*world);
+  const VoxelMap map = load_map(view.scenario, read_mapper_config(document.root().section("mapper")), data);
+  PlannerConfig planner = read_planner_config(document.root().section("planner"), view.scenario.semantics);
+  const auto weighed = std::make_shared<const MapProducts>(map, planner);
+  view.occupied = weighed->occupied.boxes();
+  view.map = fmt::format("{} x {} x {} voxels of {:g} m, occupied ones as {} boxes", map.grid.size.x(),
+                         map.grid.size.y(), map.grid.size.z(), map.grid.resolution, view.occupied.size());
+  planner.semantics = false;
+  view.shortest = way_of(view, std::make_shared<const MapProducts>(map, planner));
+  if (weighed->weighs_paths) view.weighed = way_of(view, weighed);
+  return view;
+}
+
+std::string to_text(const ScenarioView& view) {
+  const Scenario& s = view.scenario;
+  std::string text = fmt::format("{} ({}), seed {}\n", s.name, s.file, s.seed);
+  text += fmt::format("  vehicle   from {} to {}, {:.1f} m straight\n", place(s.uav.start), place(s.uav.goal),
+                      (s.uav.goal - s.uav.start).norm());
+  text += fmt::format("  world     {}\n  map       {}\n", world_text(view.world), view.map) + regions_text(view);
+  if (!view.shortest) {
+    return text + "  goal      cannot be reached: what rests, or the flight box, leaves no way for this body\n";
+  }
+  text += fmt::format("  goal      can be reached: {:.1f} m around what rests (movers are not counted)\n",
+                      view.shortest->length_m);
+  if (!view.weighed) return text;
+  return text +
+         fmt::format("  λ         the weighed way is {:.1f} m, {:+.1f} m; what that buys stands at the regions\n",
+                     view.weighed->length_m, view.weighed->length_m - view.shortest->length_m);
+}
+
+std::string draw_scenario(const ScenarioView& view) {
+  const PlotFrame frame = frame_of(view);
+  Svg page(frame.width + 86.0, frame.height + 110.0);
+  page.text({62, 24}, fmt::format("{}, seed {}: {}", view.scenario.name, view.scenario.seed, world_text(view.world)),
+            "font-size=\"15\" font-weight=\"bold\"");
+  page.clip_rect("plan", frame.corner, frame.width, frame.height);
+  page.open_group("clip-path=\"url(#plan)\"");
+  draw_box(page, frame, view.scenario.uav.flight_box, "fill=\"none\" stroke=\"#1f2933\" stroke-dasharray=\"6 4\"");
+  for (const Region& r : view.scenario.semantics.regions) {
+    draw_region(page, frame, r, fill_of(label_of(view.scenario, r)));
+  }
+  for (const Box& b : view.occupied) draw_box(page, frame, b, "fill=\"#4a5560\" fill-opacity=\"0.55\"");
+  for (const WorldObstacle& o : view.world.obstacles) {
+    draw_box(page, frame, o.box(std::max(0.0, o.first_s())),
+             o.moves() ? "fill=\"#e07b00\" fill-opacity=\"0.65\"" : "fill=\"#7d838c\" fill-opacity=\"0.8\"");
+  }
+  draw_way(page, frame, view.shortest, "stroke=\"#7d838c\" stroke-width=\"2\" stroke-dasharray=\"5 3\"");
+  draw_way(page, frame, view.weighed, "stroke=\"#1357a6\" stroke-width=\"2.5\"");
+  const UavSpec& uav = view.scenario.uav;
+  page.circle(frame.at(uav.start.x(), uav.start.y()), 6.0, "fill=\"white\" stroke=\"#1f2933\" stroke-width=\"2\"");
+  page.circle(frame.at(uav.goal.x(), uav.goal.y()), 6.0, "fill=\"#1357a6\" stroke=\"white\"");
+  page.close_group();
+  frame.draw_axes(page, "x, m", "y, m");
+  const std::string ways = !view.shortest ? "the goal cannot be reached"
+                           : view.weighed ? "grey: the shortest way; blue: as the regions' λ weigh it"
+                                          : "grey: the shortest way around what rests";
+  page.text({62, frame.height + 100.0}, "open dot: start; orange: movers where they begin; " + ways,
+            "font-size=\"12\"");
+  return page.finish();
+}
+
+}  // namespace tern

@@ -1,0 +1,9 @@
+// The still parts of the page, built into the program.
+#pragma once
+
+namespace tern {
+
+extern const char* const kCampaignStyle;   ///< CSS: that of a flight's report
+extern const char* const kCampaignScript;  ///< campaign.js
+
+}  // namespace tern

@@ -1,0 +1,27 @@
+// Two treatments of the same cases: how much they differ, and whether that is more than chance.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "campaign/statistics/wilson.h"
+
+namespace tern {
+
+/// The mean of b − a over pairs (a, b) with a 95 % percentile bootstrap interval (Efron and Tibshirani 1993, §13.3).
+struct PairedDifference {
+  std::int64_t pairs = 0, different = 0;  ///< all; of these, those with a ≠ b
+  double mean_a = 0.0, mean_b = 0.0;
+  double difference = 0.0;
+  Interval interval;  ///< of the difference; both ends 0 where no pair differs
+};
+
+/// 2000 resamples of whole pairs, the same ones for equal numbers of pairs. O(2000 n). @pre all are finite
+PairedDifference paired_difference(const std::vector<std::pair<double, double>>& pairs);
+
+/// McNemar's exact test of two success rates over the same cases: the two-sided binomial probability, at rate 1/2, of
+/// as uneven a split of the pairs in which one alone succeeds. 1 where there are none.
+double mcnemar(std::int64_t a_alone, std::int64_t b_alone);
+
+}  // namespace tern

@@ -1,0 +1,38 @@
+#include "core/world/body.h"
+
+#include "core/geometry/box.h"
+
+namespace tern {
+namespace {
+
+/// Whether the vertices are the corners of their bounding box, and nothing else.
+bool is_box(const Points& vertices, const Box& bounds) {
+  const Eigen::Matrix<double, 3, 8> corners = box_corners(bounds);
+  const auto among = [](const Vec3& p, const auto& points) {
+    return (points.colwise() - p).colwise().squaredNorm().minCoeff() == 0.0;
+  };
+  for (int k = 0; k < 8; ++k) {
+    if (!among(corners.col(k), vertices)) return false;
+  }
+  for (Eigen::Index k = 0; k < vertices.cols(); ++k) {
+    if (!among(vertices.col(k), corners)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Body grown(const Body& body, const Vec3& margin) {
+  if (margin.isZero(0.0)) return body;
+  const Points& v = body.vertices;
+  const Box bounds(v.rowwise().minCoeff(), v.rowwise().maxCoeff());
+  if (is_box(v, bounds)) return {box_corners(Box(bounds.min() - margin, bounds.max() + margin)), body.radius};
+  const Eigen::Matrix<double, 3, 8> around = box_corners(Box(-margin, margin));
+  Body result{Points(3, 8 * v.cols()), body.radius};
+  for (Eigen::Index k = 0; k < v.cols(); ++k) {
+    result.vertices.middleCols<8>(8 * k) = around.colwise() + Vec3(v.col(k));
+  }
+  return result;
+}
+
+}  // namespace tern

@@ -1,0 +1,181 @@
+#include "executor/app/executor_node.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "core/world/names.h"
+#include "messages/codec.h"
+#include "runtime/beat.h"
+
+namespace tern {
+namespace {
+
+constexpr Duration kSetpointPeriod{10'000};
+constexpr Duration kGoalPeriod{1'000'000};
+constexpr Duration kRefusalLogPeriod{1'000'000};
+constexpr Duration kRemembered{1'000'000};
+/// A vehicle that was slower for so long stands, or hovers.
+constexpr double kStillSpeed = 0.3;
+constexpr Duration kStillFor{200'000};
+
+}  // namespace
+
+ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config)
+    : bus_(bus),
+      uav_(uav),
+      config_(config),
+      tube_(config.tube_m),
+      next_setpoint_(bus.clock().now()),
+      next_goal_(next_setpoint_),
+      next_refusal_log_(next_setpoint_) {
+  bus_.subscribe(channels::kUavState, [this](const UavState& state) { on_state(state); });
+  bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });
+  bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
+  bus_.subscribe(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
+}
+
+void ExecutorNode::on_state(const UavState& state) { executor_ ? watch(state) : wait_for_rest(state); }
+
+void ExecutorNode::wait_for_rest(const UavState& state) {
+  if (!(state.motion.v.norm() <= kStillSpeed)) {
+    still_since_.reset();
+    return;
+  }
+  if (!still_since_) still_since_ = state.at;
+  if (state.at - *still_since_ >= kStillFor) begin(state);
+}
+
+void ExecutorNode::watch(const UavState& state) {
+  if (state.at < last_setpoint_ - kRemembered) return;
+  const Vec3 error = (state.motion.p - executor_->sample(state.at).p).cwiseAbs();
+  if (!following_) {
+    if (error.maxCoeff() > kRejoinBeyond) rejoin(state);
+    return;
+  }
+  const Vec3 promised = executor_->tube();
+  const bool outside = ((error - promised).array() > kNothing).any();
+  const bool lost = outside && error.maxCoeff() > kRejoinBeyond;
+  lost ? tube_.left(state.at) : tube_.add(error, state.at);
+  executor_->set_tube(tube_.width(sigma_, state.at));
+  if (outside && !outside_) {
+    ++exits_;
+    spdlog::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
+                 error.x(), error.y(), error.z(), exits_);
+  }
+  outside_ = outside;
+  if (lost) rejoin(state);
+}
+
+void ExecutorNode::rejoin(const UavState& state) {
+  executor_->rejoin(state);
+  last_setpoint_ = std::max(last_setpoint_, state.at);
+}
+
+void ExecutorNode::begin(const UavState& state) {
+  const Vec3& p = state.motion.p;
+  executor_.emplace(uav_, state, config_);
+  executor_->set_tube(tube_.width(sigma_, state.at));
+  if (goal_) executor_->set_mode(goal_->mode);
+  if (following_) executor_->begin(bus_.clock().now());
+  heading_.emplace(state.yaw, state.at, config_.heading);
+  publish_setpoint(state.at);
+  spdlog::info("begins with the vehicle at ({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
+}
+
+void ExecutorNode::on_status(const VehicleStatus& status) {
+  sigma_ = status.position_sigma;
+  if (status.following == following_) return;
+  following_ = status.following;
+  spdlog::info("the vehicle {}", following_ ? "follows" : "does not follow: " + status.why_not);
+  if (!executor_) return;
+  if (following_) return executor_->begin(bus_.clock().now());
+  executor_->pause();
+  log_counters();
+}
+
+void ExecutorNode::on_goal(const Goal& goal) {
+  if (goal_ && goal.id <= goal_->id) return;
+  spdlog::info("goal {}: mode {}, ({:.2f}, {:.2f}, {:.2f}) m", goal.id, to_string(goal.mode), goal.position.x(),
+               goal.position.y(), goal.position.z());
+  goal_ = goal;
+  next_goal_ = bus_.clock().now();
+  if (executor_) executor_->set_mode(goal.mode);
+}
+
+void ExecutorNode::on_plan(const Plan& plan) {
+  if (!executor_) return;
+  const UTime now = bus_.clock().now();
+  const Adoption adoption = executor_->consider(plan, now);
+  if (adoption.verdict == Verdict::Adopted) tube_.flown();
+  if (adoption.verdict == Verdict::NoPlan && plan.reason == PlanReason::StartInCollision) tube_.blocked();
+  if (!is_refusal(adoption.verdict)) return;
+  if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
+  ++refusals_unsaid_;
+  if (now < next_refusal_log_) return;
+  spdlog::warn("refused the plan for request {}: {} ({}); {} refused since the last word", plan.request_id,
+               to_string(adoption), adoption.detail, refusals_unsaid_);
+  refusals_unsaid_ = 0;
+  next_refusal_log_ = now + kRefusalLogPeriod;
+}
+
+UTime ExecutorNode::next_wakeup() const {
+  const UTime next = goal_ ? next_goal_ : kNever;
+  if (!executor_) return next;
+  return std::min({next, next_setpoint_, executor_->next_wakeup().value_or(kNever)});
+}
+
+void ExecutorNode::step(UTime now) {
+  if (executor_) {
+    if (const auto request = executor_->next_request(now)) bus_.publish(channels::kHorizonRequest, *request);
+    if (now >= next_setpoint_) {
+      publish_setpoints(now);
+      executor_->forget_before(now - kRemembered);
+      next_setpoint_ = next_beat(next_setpoint_, kSetpointPeriod, now);
+    }
+  }
+  if (goal_ && now >= next_goal_) {
+    bus_.publish(channels::kGoal, *goal_);
+    next_goal_ = next_beat(next_goal_, kGoalPeriod, now);
+  }
+}
+
+/// Where the trajectory's jerk jumps since the last beat, and now: so each setpoint's cubic leads to the next one.
+void ExecutorNode::publish_setpoints(UTime now) {
+  if (now <= last_setpoint_) return;
+  UTime at = last_setpoint_;
+  for (const CubicPiece& piece : executor_->pieces(last_setpoint_, now).pieces) {
+    at = at + piece.duration;
+    publish_setpoint(at);
+  }
+}
+
+void ExecutorNode::publish_setpoint(UTime at) {
+  UavState setpoint;
+  setpoint.at = at;
+  setpoint.motion = executor_->leaving(at);
+  setpoint.yaw = heading_->follow(setpoint.motion.v, at);
+  bus_.publish(channels::kSetpoint, setpoint);
+  last_setpoint_ = at;
+}
+
+void ExecutorNode::log_counters() const {
+  const ExecutorCounters& counters = executor_->counters();
+  spdlog::info("requests {}, answered in time {}, unanswered {}, late {}, answered twice {}", counters.requests,
+               counters.answered_in_time, counters.unanswered, counters.late(), counters.answered_twice());
+  for (int k = 0; k < kVerdicts; ++k) {
+    const auto verdict = static_cast<Verdict>(k);
+    if (counters.of(verdict) > 0) spdlog::info("plans {}: {}", to_string(verdict), counters.of(verdict));
+  }
+  for (int k = 0; k < kBreaches; ++k) {
+    const auto breach = static_cast<Breach>(k);
+    if (counters.of(breach) > 0) spdlog::info("  of these for {}: {}", to_string(breach), counters.of(breach));
+  }
+}
+
+NodeHealth ExecutorNode::health() const {
+  if (!executor_) return {ProcessState::Waiting, "a vehicle at rest (UAV_STATE)"};
+  return {ProcessState::Ready, ""};
+}
+
+}  // namespace tern

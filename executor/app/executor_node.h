@@ -1,0 +1,76 @@
+// tern-executor: asks for plans, adopts them, and says setpoint by setpoint what the vehicle shall fly.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/world/goal.h"
+#include "core/world/horizon.h"
+#include "core/world/scenario.h"
+#include "core/world/vehicle_status.h"
+#include "executor/executor.h"
+#include "runtime/bus.h"
+#include "runtime/node.h"
+
+namespace tern {
+
+/// A vehicle that is outside its tube, but no farther off than this, is left to its controller, m.
+inline constexpr double kRejoinBeyond = 0.1;
+
+/// Hears UAV_STATE, VEHICLE_STATUS, GOAL and PLAN; says HORIZON_REQUEST, SETPOINT and, at 1 Hz, the GOAL that it has
+/// taken.
+///
+/// It begins when the vehicle is still, which it is at a flight's start; and in flight, when an executor that was
+/// started anew knows nothing of what was committed, as soon as the vehicle has flown that to its end. Then it commits
+/// to rest where the vehicle is. It asks for plans while VEHICLE_STATUS says that the vehicle is following and there is
+/// a goal.
+///
+/// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves it is said, widens
+/// it, and beyond kRejoinBeyond gets a trajectory to rest from where it is, from which the next plan goes on.
+class ExecutorNode final : public Node {
+ public:
+  ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);
+
+  [[nodiscard]] UTime next_wakeup() const override;
+  void step(UTime now) override;
+  [[nodiscard]] NodeHealth health() const override;
+
+  /// nullptr until the vehicle was found at rest.
+  [[nodiscard]] const Executor* executor() const { return executor_ ? &*executor_ : nullptr; }
+  /// How often the vehicle has left its tube.
+  [[nodiscard]] std::int64_t exits() const { return exits_; }
+  /// All zero until then.
+  [[nodiscard]] ExecutorCounters counters() const { return executor_ ? executor_->counters() : ExecutorCounters(); }
+
+ private:
+  void on_state(const UavState& state);
+  void on_status(const VehicleStatus& status);
+  void on_goal(const Goal& goal);
+  void on_plan(const Plan& plan);
+  void wait_for_rest(const UavState& state);
+  void begin(const UavState& state);
+  void watch(const UavState& state);
+  void rejoin(const UavState& state);
+  void publish_setpoints(UTime now);
+  void publish_setpoint(UTime at);
+  void log_counters() const;
+
+  Bus& bus_;
+  UavSpec uav_;
+  ExecutorConfig config_;
+  std::optional<Executor> executor_;
+  std::optional<UTime> still_since_;
+  std::optional<Goal> goal_;
+  bool following_ = false;
+  Tube tube_;
+  Vec3 sigma_ = Vec3::Zero();  // of the estimate, m
+  std::int64_t exits_ = 0;     // how often the vehicle has left its tube
+  bool outside_ = false;
+  std::optional<Heading> heading_;  ///< once the executor has begun
+  UTime last_setpoint_;
+  UTime next_setpoint_, next_goal_;
+  UTime next_refusal_log_;
+  std::int64_t refusals_unsaid_ = 0;
+};
+
+}  // namespace tern

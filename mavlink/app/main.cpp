@@ -1,0 +1,43 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "mavlink/app/mavlink_node.h"
+#include "runtime/keys.h"
+#include "runtime/process.h"
+
+int main(int argc, char** argv) {
+  using namespace tern::mavlink;
+  std::string url, key_file;
+  const tern::ProcessDescription description{
+      .name = "tern-mavlink",
+      .section = "mavlink",
+      .summary = "Flies SETPOINT with an autopilot over MAVLink, and says UAV_STATE and VEHICLE_STATUS",
+      .add_options =
+          [&](CLI::App& app) {
+            app.add_option("--connect", url,
+                           "udp://ADDRESS:PORT (listens), udpout://ADDRESS:PORT, serial:///dev/NAME:BAUD");
+            app.add_option("--signing-key", key_file, "Sign MAVLink's frames by this secret (32 bytes, mode 600)");
+          },
+      .read_sections =
+          [](tern::ConfigDocument& document) {
+            BridgeConfig config;
+            document.root().section("mavlink").read(config);
+          }};
+  return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+    BridgeConfig config;
+    context.section.read(config);
+    std::optional<SigningKey> key;
+    if (!key_file.empty()) {
+      const auto secret = tern::read_master_key(key_file);
+      if (!secret) throw tern::ConfigError(secret.error().message);
+      key.emplace();
+      std::copy(secret->bytes().begin(), secret->bytes().end(), key->secret.begin());
+      key->sha256 = tern::sha256;
+    }
+    if (url.empty()) throw tern::ConfigError("--connect URL is needed");
+    auto link = open_link(url);
+    if (!link) throw tern::ConfigError("--connect " + link.error().message);
+    return std::make_unique<MavlinkNode>(context.bus, std::move(*link), context.scenario.uav, config, key);
+  });
+}

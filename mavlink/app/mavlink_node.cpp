@@ -1,0 +1,117 @@
+#include "mavlink/app/mavlink_node.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "messages/codec.h"
+
+namespace tern::mavlink {
+namespace {
+
+/// How often the link is looked at.
+constexpr Duration kLook{2'000};
+constexpr Duration kStatusPeriod{100'000};
+/// VEHICLE_STATUS comes at 10 Hz: who hears none for so long is alone.
+constexpr Duration kListenFirst{350'000}, kOtherSilence{1'000'000};
+
+}  // namespace
+
+MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& uav, const BridgeConfig& config,
+                         std::optional<SigningKey> key)
+    : bus_(bus),
+      link_(std::move(link)),
+      key_(std::move(key)),
+      parser_(key_),
+      bridge_(config, uav, bus.clock().now()),
+      begun_(bus.clock().now()),
+      next_(begun_),
+      next_status_(begun_) {
+  bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { bridge_.hear(setpoint, bus_.clock().now()); });
+  bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { bridge_.hear(m.committed); });
+  bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
+  bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });
+  bus_.subscribe(channels::kFlightResult, [this](const FlightResult&) { bridge_.land("the flight has ended"); });
+}
+
+MavlinkNode::~MavlinkNode() {
+  if (!bridge_.flies()) return;
+  const UTime end = bus_.clock().now() + kLandPatience;
+  bridge_.land("asked to end");
+  for (UTime now = bus_.clock().now(); now < end && !bridge_.autopilot().landing(); now = bus_.clock().now()) {
+    exchange(now);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  spdlog::log(bridge_.autopilot().landing() ? spdlog::level::info : spdlog::level::err, "the autopilot {}",
+              bridge_.autopilot().landing() ? "lands" : "did not say that it lands");
+}
+
+void MavlinkNode::on_goal(const Goal& goal) {
+  const bool first = !goal_id_, news = !first && goal.id > *goal_id_;
+  if (first || news) goal_id_ = goal.id;
+  if (first) bridge_.flight_is_under_way();
+  if (news && goal.mode == GoalMode::Go) bridge_.told_to_fly();
+}
+
+void MavlinkNode::on_status(const VehicleStatus& status) {
+  if (status.header.name.sender_epoch_us != bus_.epoch_us()) other_heard_ = bus_.clock().now();
+}
+
+bool MavlinkNode::alone(UTime now) const {
+  return now - begun_ >= kListenFirst && (!other_heard_ || now - *other_heard_ >= kOtherSilence);
+}
+
+void MavlinkNode::exchange(UTime now) {
+  const std::uint64_t time = signature_time(now.us);
+  while (const auto bytes = link_->receive(now)) {
+    for (const Frame& frame : parser_.push(*bytes, time)) bridge_.hear(frame, now);
+    if (link_->datagrams()) parser_.drop_rest();
+  }
+  bridge_.step(now);
+  for (const Frame& frame : bridge_.take_frames()) {
+    signature_time_ = std::max(signature_time_ + 1, time);
+    link_->send(to_bytes(frame, key_ ? &*key_ : nullptr, signature_time_));
+  }
+  say_words();
+}
+
+void MavlinkNode::say_words() {
+  for (const std::string& words : bridge_.take_words()) spdlog::info("{}", words);
+}
+
+void MavlinkNode::publish(UTime now) {
+  if (const auto state = bridge_.state(); state && state->at > said_state_) {
+    said_state_ = state->at;
+    bus_.publish(channels::kUavState, *state);
+  }
+  if (const auto truth = bridge_.truth(); truth && truth->at > said_truth_) {
+    said_truth_ = truth->at;
+    bus_.publish(channels::kVehicleTruth, *truth);
+  }
+  const VehicleStatus status = bridge_.status(now);
+  if (now < next_status_ && status.following == followed_) return;
+  followed_ = status.following;
+  next_status_ = now + kStatusPeriod;
+  bus_.publish(channels::kVehicleStatus, status);
+}
+
+void MavlinkNode::step(UTime now) {
+  if (now < next_) return;
+  next_ = now + kLook;
+  if (!alone(now)) return;
+  exchange(now);
+  publish(now);
+}
+
+NodeHealth MavlinkNode::health() const {
+  const UTime now = bus_.clock().now();
+  if (now - begun_ < kListenFirst) return {ProcessState::Starting, ""};
+  if (!alone(now)) return {ProcessState::Waiting, "another process flies this vehicle (VEHICLE_STATUS)"};
+  const VehicleStatus status = bridge_.status(now);
+  if (status.following) return {ProcessState::Ready, ""};
+  return {ProcessState::Waiting, status.why_not};
+}
+
+}  // namespace tern::mavlink

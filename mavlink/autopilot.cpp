@@ -1,0 +1,200 @@
+#include "mavlink/autopilot.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "mavlink/axes.h"
+
+namespace tern::mavlink {
+namespace {
+
+constexpr std::uint8_t kAutopilotComponent = 1, kPx4 = 12, kArduPilot = 3, kInvalid = 8;
+constexpr std::uint8_t kInt32 = 6;
+constexpr std::uint8_t kFrameLocalNed = 1;
+constexpr std::uint8_t kOnGround = 1;
+constexpr std::uint8_t kWarning = 4;
+constexpr Duration kOdometryRules{500'000};
+/// Answers and texts that wait at most.
+constexpr std::size_t kMostWaiting = 64;
+constexpr std::size_t kMostParameters = 4096;
+
+/// ESTIMATOR_STATUS_FLAGS.
+constexpr unsigned kVelocity = 2, kPositionRelative = 8, kPositionAbsolute = 16, kAccelerometerWrong = 2048;
+
+template <class T>
+void keep(std::deque<T>& queue, const T& value) {
+  queue.push_back(value);
+  if (queue.size() > kMostWaiting) queue.pop_front();
+}
+
+bool all_finite(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+  return std::all_of(a.begin(), a.end(), [](float x) { return std::isfinite(x); }) &&
+         std::all_of(b.begin(), b.end(), [](float x) { return std::isfinite(x); });
+}
+
+std::string px4_mode(std::uint32_t custom) {
+  constexpr std::array kMain{"", "MANUAL", "ALTCTL", "POSCTL", "AUTO", "ACRO", "OFFBOARD", "STABILIZED", "RATTITUDE"};
+  constexpr std::array kAuto{"", ".READY", ".TAKEOFF", ".LOITER", ".MISSION", ".RTL", ".LAND", ".RTGS", ".FOLLOW"};
+  const std::size_t main = custom >> 16U & 0xFFU, sub = custom >> 24U;
+  if (main == 0 || main >= kMain.size()) return "mode " + std::to_string(custom);
+  return std::string(kMain[main]) + (main == 4 && sub < kAuto.size() ? kAuto[sub] : "");
+}
+
+std::string ardupilot_mode(std::uint32_t custom) {
+  static const std::map<std::uint32_t, const char*> kModes{
+      {0, "STABILIZE"}, {1, "ACRO"}, {2, "ALT_HOLD"}, {3, "AUTO"},     {4, "GUIDED"},
+      {5, "LOITER"},    {6, "RTL"},  {9, "LAND"},     {16, "POSHOLD"}, {17, "BRAKE"}};
+  const auto found = kModes.find(custom);
+  return found == kModes.end() ? "mode " + std::to_string(custom) : found->second;
+}
+
+/// Metres north and east of the origin on a sphere, as PX4 projects (azimuthal equidistant).
+Vec3 ned_from(const GpsGlobalOrigin& origin, std::int32_t lat, std::int32_t lon, std::int32_t alt_mm) {
+  constexpr double kEarth_m = 6'371'000.0, kRadians = std::numbers::pi / 180.0 * 1e-7;
+  const double a = origin.latitude * kRadians, b = lat * kRadians;
+  const double turn = (static_cast<double>(lon) - origin.longitude) * kRadians;
+  const double cosine = std::clamp(std::sin(a) * std::sin(b) + std::cos(a) * std::cos(b) * std::cos(turn), -1.0, 1.0);
+  const double angle = std::acos(cosine), k = angle < 1e-9 ? 1.0 : angle / std::sin(angle);
+  return {k * (std::cos(a) * std::sin(b) - std::sin(a) * std::cos(b) * std::cos(turn)) * kEarth_m,
+          k * std::cos(b) * std::sin(turn) * kEarth_m, (origin.altitude - alt_mm) * 1e-3};
+}
+
+}  // namespace
+
+std::string result_words(std::uint8_t result) {
+  constexpr std::array kWords{"accepted", "temporarily rejected", "denied",   "unsupported",
+                              "failed",   "in progress",          "cancelled"};
+  return result < kWords.size() ? kWords[result] : "result " + std::to_string(result);
+}
+
+Firmware Autopilot::firmware() const {
+  if (heartbeat_.autopilot == kPx4) return Firmware::Px4;
+  return heartbeat_.autopilot == kArduPilot ? Firmware::ArduPilot : Firmware::Other;
+}
+
+std::string Autopilot::mode() const {
+  if (!address_) return "";
+  return firmware() == Firmware::ArduPilot ? ardupilot_mode(heartbeat_.custom_mode) : px4_mode(heartbeat_.custom_mode);
+}
+
+bool Autopilot::follows() const { return mode() == (firmware() == Firmware::ArduPilot ? "GUIDED" : "OFFBOARD"); }
+
+bool Autopilot::landing() const { return mode() == (firmware() == Firmware::ArduPilot ? "LAND" : "AUTO.LAND"); }
+
+bool Autopilot::hear(const Frame& frame, UTime received) {
+  const auto heartbeat = from_frame<Heartbeat>(frame);
+  if (!address_ && heartbeat && frame.from.component == kAutopilotComponent && heartbeat->autopilot != kInvalid &&
+      (wanted_ == 0 || frame.from.system == wanted_)) {
+    address_ = frame.from;
+  }
+  if (!address_ || frame.from != *address_) {
+    ++strangers_;
+    return false;
+  }
+  if (received - last_heard_ > kLinkSilence) mode_is_old_ = true;
+  last_heard_ = received;
+  if (heartbeat) {
+    heartbeat_ = *heartbeat;
+    mode_is_old_ = false;
+  }
+  if (const auto m = from_frame<SysStatus>(frame); m && m->battery_remaining >= 0) {
+    battery_ = std::min(m->battery_remaining / 100.0, 1.0);
+  }
+  if (const auto m = from_frame<ExtendedSysState>(frame); m && m->landed_state != 0) {
+    landed_ = m->landed_state == kOnGround;
+  }
+  if (const auto m = from_frame<EstimatorStatus>(frame)) health_ = *m;
+  if (const auto m = from_frame<Timesync>(frame); m && m->tc1 != 0) {
+    clock_.add(UTime{m->ts1 / 1000}, m->tc1 / 1000, received);
+  }
+  if (const auto m = from_frame<GpsGlobalOrigin>(frame)) origin_ = *m;
+  if (const auto m = from_frame<ParamValue>(frame)) hear_parameter(*m);
+  if (const auto m = from_frame<CommandAck>(frame)) keep(acks_, *m);
+  if (const auto m = from_frame<StatusText>(frame)) {
+    keep(texts_, *m);
+    if (m->severity <= kWarning) warning_ = words_of(m->text);
+  }
+  hear_position(frame, received);
+  if (const auto m = from_frame<HilStateQuaternion>(frame)) hear_truth(*m, received);
+  return true;
+}
+
+std::optional<UTime> Autopilot::ours(std::uint64_t theirs_us, UTime received) const {
+  if (theirs_us > static_cast<std::uint64_t>(INT64_MAX)) return std::nullopt;
+  const auto at = clock_.ours(static_cast<std::int64_t>(theirs_us));
+  if (!at || received - *at > Duration{1'000'000}) return std::nullopt;
+  return std::min(*at, received);  // a fit may be a little ahead; what was received had happened
+}
+
+void Autopilot::hear_position(const Frame& frame, UTime received) {
+  if (const auto m = from_frame<AttitudeQuaternion>(frame)) yaw_ = yaw_of(swapped(quaternion_of(m->q)));
+  if (const auto m = from_frame<Odometry>(frame)) {
+    if (reset_counter_ && *reset_counter_ != m->reset_counter) ++resets_;
+    reset_counter_ = m->reset_counter;
+    const auto at = ours(m->time_usec, received);
+    const Eigen::Quaterniond q = quaternion_of(m->q);
+    if (!at || m->frame_id != kFrameLocalNed || !all_finite(m->p, m->v) || !(std::abs(q.norm() - 1.0) < 0.1)) return;
+    Vec3 v(m->v[0], m->v[1], m->v[2]);
+    if (m->child_frame_id != kFrameLocalNed) v = q.normalized() * v;
+    UavState state;
+    state.at = *at;
+    state.motion.p = enu_of(m->p);
+    state.motion.v = swapped(v);
+    state.yaw = wrapped(yaw_of(swapped(q.normalized())));
+    if (!state_ || state.at > state_->at) state_ = state;
+    last_odometry_ = received;
+  }
+  if (const auto m = from_frame<LocalPositionNed>(frame)) {
+    if (last_odometry_ && received - *last_odometry_ < kOdometryRules) return;
+    const auto at = ours(std::uint64_t{m->time_boot_ms} * 1000, received);
+    if (!at || !all_finite(m->p, m->v)) return;
+    UavState state;
+    state.at = *at;
+    state.motion.p = enu_of(m->p);
+    state.motion.v = enu_of(m->v);
+    state.yaw = wrapped(yaw_);
+    if (!state_ || state.at > state_->at) state_ = state;
+  }
+}
+
+void Autopilot::hear_truth(const HilStateQuaternion& hil, UTime received) {
+  const auto at = ours(hil.time_usec, received);
+  if (!at || !origin_ || (truth_ && *at <= truth_->at)) return;
+  UavState truth;
+  truth.at = *at;
+  truth.motion.p = swapped(ned_from(*origin_, hil.lat, hil.lon, hil.alt));
+  truth.motion.v = swapped(Vec3(hil.v[0], hil.v[1], hil.v[2]) * 0.01);
+  truth.yaw = wrapped(yaw_of(swapped(quaternion_of(hil.q))));
+  truth_ = truth;
+}
+
+void Autopilot::hear_parameter(const ParamValue& value) {
+  // PX4 puts an integer's bytes into the float; ArduPilot its value.
+  double number = value.param_value;
+  if (firmware() != Firmware::ArduPilot && value.param_type == kInt32) {
+    number = std::bit_cast<std::int32_t>(value.param_value);
+  }
+  if (parameters_.size() < kMostParameters) parameters_[words_of(value.param_id)] = number;
+}
+
+EstimatorHealth Autopilot::estimator() const {
+  if (!health_) return state_ ? EstimatorHealth::Degraded : EstimatorHealth::Lost;
+  const unsigned flags = health_->flags;
+  const bool position = (flags & (kPositionRelative | kPositionAbsolute)) != 0 && (flags & kVelocity) != 0;
+  if (!position || (flags & kAccelerometerWrong) != 0) return EstimatorHealth::Lost;
+  const auto& r = health_->ratios;
+  const bool believed = r[0] < 1.0F && r[1] < 1.0F && r[2] < 1.0F;
+  return believed ? EstimatorHealth::Good : EstimatorHealth::Degraded;
+}
+
+Vec3 Autopilot::sigma() const {
+  if (!health_) return Vec3::Zero();
+  const double level = health_->pos_horiz_accuracy, up = health_->pos_vert_accuracy;
+  const auto sane = [](double x) { return std::isfinite(x) && x >= 0.0 && x < 1e6 ? x : 0.0; };
+  return {sane(level), sane(level), sane(up)};
+}
+
+}  // namespace tern::mavlink

@@ -1,0 +1,99 @@
+// What is known of an autopilot from its messages: mode, position, health, clock, parameters.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/world/vehicle.h"
+#include "core/world/vehicle_status.h"
+#include "mavlink/clock_fit.h"
+#include "mavlink/messages.h"
+
+namespace tern::mavlink {
+
+enum class Firmware : std::uint8_t { Px4, ArduPilot, Other };
+
+/// MAV_CMD.
+inline constexpr std::uint16_t kNavLand = 21, kNavTakeoff = 22, kDoSetMode = 176, kArmDisarm = 400,
+                               kSetMessageInterval = 511, kRequestMessage = 512;
+/// MAV_RESULT.
+inline constexpr std::uint8_t kAccepted = 0;
+inline constexpr std::uint8_t kArmedBit = 128;
+/// Silent for longer, and the link counts as lost: its states come at 30 to 100 Hz.
+inline constexpr Duration kLinkSilence{300'000};
+
+/// "temporarily rejected", "denied" …
+std::string result_words(std::uint8_t mav_result);
+
+/// Pure: hears frames, answers questions. The first HEARTBEAT of an autopilot (component 1) decides who it is; frames
+/// of any other system or component change nothing and are counted.
+class Autopilot {
+ public:
+  /// @param system  only this system id; 0: the first that is heard
+  explicit Autopilot(std::uint8_t system = 0) : wanted_(system) {}
+
+  /// @return whether the frame is the autopilot's
+  bool hear(const Frame& frame, UTime received);
+
+  [[nodiscard]] const std::optional<Address>& address() const { return address_; }
+  [[nodiscard]] Firmware firmware() const;
+  /// It is heard, and its mode too since the last silence: HEARTBEAT comes at 1 Hz only.
+  [[nodiscard]] bool linked(UTime now) const { return address_ && !mode_is_old_ && now - last_heard_ <= kLinkSilence; }
+  [[nodiscard]] UTime last_heard() const { return last_heard_; }
+  [[nodiscard]] bool armed() const { return (heartbeat_.base_mode & kArmedBit) != 0; }
+  /// Its own word: "OFFBOARD", "GUIDED", "AUTO.LAND".
+  [[nodiscard]] std::string mode() const;
+  /// Whether it follows setpoints: OFFBOARD of PX4, GUIDED of ArduPilot.
+  [[nodiscard]] bool follows() const;
+  [[nodiscard]] bool landing() const;
+  [[nodiscard]] std::optional<bool> landed() const { return landed_; }
+  [[nodiscard]] std::optional<double> battery() const { return battery_; }  ///< [0, 1]
+  [[nodiscard]] EstimatorHealth estimator() const;
+  [[nodiscard]] Vec3 sigma() const;  ///< the estimator's own accuracy per axis, m; 0: not said
+  [[nodiscard]] const ClockFit& clock() const { return clock_; }
+  [[nodiscard]] int resets() const { return resets_; }
+  /// The newest state in its local frame, as ENU; `at` is ours. a and j are zero: it does not say them.
+  [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
+  /// The newest true state by HIL_STATE_QUATERNION, in the same frame: only simulators say it, and only with
+  /// GPS_GLOBAL_ORIGIN.
+  [[nodiscard]] const std::optional<UavState>& truth() const { return truth_; }
+  [[nodiscard]] const std::map<std::string, double>& parameters() const { return parameters_; }
+  void forget_parameters() { parameters_.clear(); }
+  [[nodiscard]] const std::string& last_warning() const { return warning_; }  ///< newest STATUSTEXT, warning or worse
+  /// Acknowledgements and texts since the last call.
+  std::deque<CommandAck> take_acks() { return std::exchange(acks_, {}); }
+  std::deque<StatusText> take_texts() { return std::exchange(texts_, {}); }
+  [[nodiscard]] std::int64_t strangers() const { return strangers_; }  ///< frames of others
+
+ private:
+  void hear_position(const Frame& frame, UTime received);
+  void hear_truth(const HilStateQuaternion& hil, UTime received);
+  void hear_parameter(const ParamValue& value);
+  [[nodiscard]] std::optional<UTime> ours(std::uint64_t theirs_us, UTime received) const;
+
+  std::uint8_t wanted_;
+  std::optional<Address> address_;
+  Heartbeat heartbeat_;
+  UTime last_heard_;
+  bool mode_is_old_ = false;
+  std::optional<bool> landed_;
+  std::optional<double> battery_;
+  std::optional<EstimatorStatus> health_;
+  ClockFit clock_;
+  std::optional<std::uint8_t> reset_counter_;
+  int resets_ = 0;
+  std::optional<UavState> state_, truth_;
+  std::optional<UTime> last_odometry_;
+  double yaw_ = 0.0;
+  std::optional<GpsGlobalOrigin> origin_;
+  std::map<std::string, double> parameters_;
+  std::string warning_;
+  std::deque<CommandAck> acks_;
+  std::deque<StatusText> texts_;
+  std::int64_t strangers_ = 0;
+};
+
+}  // namespace tern::mavlink

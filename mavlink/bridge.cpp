@@ -1,0 +1,383 @@
+#include "mavlink/bridge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "mavlink/axes.h"
+#include "mavlink/required_parameters.h"
+
+namespace tern::mavlink {
+namespace {
+
+constexpr Duration kHeartbeatPeriod{500'000}, kTimesyncPeriod{100'000}, kCommandPeriod{1'000'000};
+constexpr Duration kParameterPeriod{1'000'000}, kStreamsPeriod{5'000'000};
+/// A stream of setpoints has to run before OFFBOARD is asked for.
+constexpr Duration kStreamFirst{1'000'000};
+constexpr Duration kStateAge{500'000};
+constexpr Duration kEngagePatience{60'000'000};
+constexpr Duration kHeld{4'000'000};
+/// Arrived at the top of the climb.
+constexpr double kThere_m = 0.3, kThereSpeed = 0.4;
+/// By this it stops when it is taken over in flight, m/s².
+constexpr double kStop = 4.0;
+constexpr std::uint16_t kAllButYawRate = 0x0800;
+constexpr std::uint8_t kLocalNed = 1, kInt32 = 6, kReal32 = 9;
+constexpr std::uint8_t kOnboardController = 18, kNoAutopilot = 8, kActive = 4;
+constexpr float kPx4Offboard = 6, kArduPilotGuided = 4;
+
+std::string seconds(Duration d) { return fmt::format("{:.1f} s", d.seconds()); }
+
+}  // namespace
+
+const char* to_string(Stage stage) {
+  constexpr std::array kWords{"waiting",   "ready",      "engaging", "climbing",
+                              "following", "stood back", "landing",  "landed"};
+  return kWords.at(static_cast<std::size_t>(stage));
+}
+
+Bridge::Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now)
+    : config_(config),
+      uav_(uav),
+      origin_(uav.start.x(), uav.start.y(), 0.0),
+      autopilot_(static_cast<std::uint8_t>(config.system)),
+      command_(uav.start, now, uav.limits),
+      told_(config.start == Start::Arm),
+      stage_since_(now),
+      now_(now),
+      next_heartbeat_(now),
+      next_timesync_(now),
+      next_target_(now),
+      next_command_(now),
+      next_parameters_(now),
+      next_streams_(now) {}
+
+template <class M>
+void Bridge::say(const M& message) {
+  const std::uint8_t system = autopilot_.address() ? autopilot_.address()->system : kSelf.system;
+  out_.push_back(to_frame(message, {system, kSelf.component}, sequence_++));
+}
+
+void Bridge::enter(Stage stage, const std::string& why) {
+  if (stage == stage_ && why == why_) return;
+  words_.push_back(fmt::format("{}{}{}", to_string(stage), why.empty() ? "" : ": ", why));
+  if (stage != stage_) {
+    stage_since_ = now_;
+    next_command_ = now_;
+    refusal_.clear();
+  }
+  stage_ = stage;
+  why_ = why;
+}
+
+void Bridge::stand_back(const std::string& why) {
+  told_ = told_again_ = false;
+  streaming_since_.reset();
+  enter(Stage::StoodBack, why);
+}
+
+void Bridge::hear(const Frame& frame, UTime received) {
+  if (!autopilot_.hear(frame, received)) return;
+  if (const auto question = from_frame<Timesync>(frame); question && question->tc1 == 0) {
+    say(Timesync{.tc1 = received.us * 1000, .ts1 = question->ts1});
+  }
+  for (const CommandAck& ack : autopilot_.take_acks()) {
+    if (ack.command == kSetMessageInterval || ack.command == kRequestMessage || ack.result == kAccepted) continue;
+    refusal_ = fmt::format("{} {}", ack.command == kArmDisarm ? "arming" : fmt::format("command {}", ack.command),
+                           result_words(ack.result));
+    if (!autopilot_.last_warning().empty()) refusal_ += ": " + autopilot_.last_warning();
+  }
+  for (const StatusText& text : autopilot_.take_texts()) words_.push_back("autopilot: " + words_of(text.text));
+}
+
+void Bridge::hear(const UavState& setpoint, UTime now) {
+  (void)now;
+  setpoint_heard_ = true;
+  command_.hear(setpoint);
+}
+
+void Bridge::told_to_fly() {
+  if (flies()) return;
+  told_ = told_again_ = true;
+  if (stage_ == Stage::StoodBack || stage_ == Stage::Landed) enter(Stage::Waiting, "told to fly");
+}
+
+void Bridge::flight_is_under_way() {
+  if (!flies() && !told_again_) told_ = false;
+}
+
+void Bridge::land(const std::string& why) {
+  told_ = told_again_ = false;
+  if (!flies() || stage_ == Stage::Landing) return;
+  if (!followed_) hold_here(now_);
+  enter(Stage::Landing, why);
+}
+
+std::optional<UavState> Bridge::in_world(std::optional<UavState> local) const {
+  if (local) local->motion.p += origin_;
+  return local;
+}
+
+std::string Bridge::not_ready(UTime now) const {
+  const auto& state = autopilot_.state();
+  if (!autopilot_.address()) return "no autopilot is heard";
+  if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_heard());
+  if (!autopilot_.clock().ready()) return "its clock is not yet known (TIMESYNC)";
+  if (!state || now - state->at > kStateAge) return "it says no position (ODOMETRY, LOCAL_POSITION_NED)";
+  if (autopilot_.estimator() == EstimatorHealth::Lost) return "its estimator has no position (ESTIMATOR_STATUS)";
+  if (!autopilot_.landed()) return "it does not say whether it has landed (EXTENDED_SYS_STATE)";
+  if (!config_.check_parameters) return {};
+  return parameter_faults(required_parameters(autopilot_.firmware()), autopilot_.parameters());
+}
+
+std::string Bridge::why_not_following(UTime now) const {
+  if (stage_ == Stage::Waiting) return not_ready(now);
+  if (stage_ == Stage::Engaging && !refusal_.empty()) return refusal_;
+  if (stage_ != Stage::Following) return fmt::format("{}{}{}", to_string(stage_), why_.empty() ? "" : ": ", why_);
+  if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_heard());
+  if (!setpoint_heard_) return "no SETPOINT is heard";
+  if (!setpoint_near(now)) return fmt::format("SETPOINT is more than {:g} m from the vehicle", config_.far_m);
+  return {};
+}
+
+VehicleStatus Bridge::status(UTime now) const {
+  VehicleStatus status;
+  status.at = now;
+  status.armed = autopilot_.armed();
+  status.why_not = why_not_following(now);
+  status.following = status.armed && status.why_not.empty();
+  if (!status.following && status.why_not.empty()) status.why_not = "not armed";
+  status.why_not.resize(std::min<std::size_t>(status.why_not.size(), 256));
+  status.landed = autopilot_.landed().value_or(false);
+  status.mode = autopilot_.mode();
+  status.battery = autopilot_.battery();
+  status.estimator = autopilot_.estimator();
+  status.position_sigma = config_.sigma_share * autopilot_.sigma();
+  status.resets = autopilot_.resets();
+  return status;
+}
+
+MotionSample Bridge::commanded(UTime now) const {
+  return stage_ == Stage::Following && setpoint_heard_ && setpoint_near(now) ? command_.sample(now) : own_.motion;
+}
+
+bool Bridge::setpoint_near(UTime now) const {
+  const auto here = state();
+  return here && (command_.sample(now).p - here->motion.p).norm() <= config_.far_m;
+}
+
+void Bridge::hold_here(UTime now) {
+  (void)now;
+  const auto here = state();
+  if (!here) return;
+  own_ = *here;
+  own_.motion.p += here->motion.v * (here->motion.v.norm() / (2.0 * kStop));
+  own_.motion.v = own_.motion.a = own_.motion.j = Vec3::Zero();
+}
+
+void Bridge::command(UTime now, std::uint16_t number, std::array<float, 7> param) {
+  if (now < next_command_) return;
+  next_command_ = now + kCommandPeriod;
+  const Address to = *autopilot_.address();
+  say(CommandLong{.param = param, .command = number, .target_system = to.system, .target_component = to.component});
+}
+
+void Bridge::request_streams(UTime now) {
+  if (now < next_streams_ || !autopilot_.address()) return;
+  next_streams_ = now + kStreamsPeriod;
+  const Address to = *autopilot_.address();
+  const auto ask = [&](std::uint16_t number, float message, float interval_us) {
+    say(CommandLong{.param = {message, interval_us},
+                    .command = number,
+                    .target_system = to.system,
+                    .target_component = to.component});
+  };
+  ask(kSetMessageInterval, Odometry::kId, 10'000);
+  ask(kSetMessageInterval, HilStateQuaternion::kId, 10'000);
+  ask(kSetMessageInterval, EstimatorStatus::kId, 200'000);
+  ask(kSetMessageInterval, ExtendedSysState::kId, 200'000);
+  ask(kRequestMessage, GpsGlobalOrigin::kId, 0);
+}
+
+void Bridge::request_parameters(UTime now) {
+  if (now < next_parameters_ || !autopilot_.address()) return;
+  next_parameters_ = now + kParameterPeriod;
+  const Address to = *autopilot_.address();
+  for (const RequiredParameter& r : required_parameters(autopilot_.firmware())) {
+    const auto known = autopilot_.parameters().find(r.name);
+    const bool read = known != autopilot_.parameters().end();
+    if (read && known->second >= r.low && known->second <= r.high) continue;
+    if (read && config_.set_parameters && !autopilot_.armed()) {
+      const bool bytewise = r.integer && autopilot_.firmware() == Firmware::Px4;
+      const float value =
+          bytewise ? std::bit_cast<float>(static_cast<std::int32_t>(r.recommended)) : static_cast<float>(r.recommended);
+      words_.push_back(fmt::format("sets {} to {:g} (it was {:g})", r.name, r.recommended, known->second));
+      say(ParamSet{.param_value = value,
+                   .target_system = to.system,
+                   .target_component = to.component,
+                   .param_id = text_of<16>(r.name),
+                   .param_type = bytewise ? kInt32 : kReal32});
+    }
+    say(ParamRequestRead{
+        .target_system = to.system, .target_component = to.component, .param_id = text_of<16>(r.name)});
+  }
+}
+
+void Bridge::step_waiting(UTime now) {
+  request_parameters(now);
+  const std::string why = not_ready(now);
+  if (why.empty()) return enter(Stage::Ready);
+  // Seconds that pass are no news.
+  if (autopilot_.linked(now) || !autopilot_.address()) enter(Stage::Waiting, why);
+}
+
+void Bridge::step_ready(UTime now) {
+  if (!not_ready(now).empty()) return enter(Stage::Waiting, not_ready(now));
+  if (!followed_) hold_here(now);
+  const bool armed = autopilot_.armed(), ours = armed && autopilot_.follows();
+  if (ours && in_air()) return enter(Stage::Following);
+  if (armed && !ours && !told_again_ && config_.start == Start::Arm) {
+    return stand_back(fmt::format("the vehicle is armed in {}: somebody else flies", autopilot_.mode()));
+  }
+  const double aside = (state()->motion.p - uav_.start).head<2>().norm();
+  if (!in_air() && aside > config_.reach_m) {
+    return enter(Stage::Ready, fmt::format("the vehicle stands {:.1f} m from below uav.start, more than {:g} m", aside,
+                                           config_.reach_m));
+  }
+  if (!in_air() && autopilot_.battery().value_or(1.0) < config_.battery_start) {
+    return enter(Stage::Ready, fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
+  }
+  if (ours) return enter(Stage::Climbing);
+  if (!told_) return enter(Stage::Ready, "waits for the pilot to arm, take off and switch, or for a new GOAL");
+  if (streaming_since_ && now - *streaming_since_ >= kStreamFirst) enter(Stage::Engaging);
+}
+
+void Bridge::engage_next(UTime now) {
+  const bool px4 = autopilot_.firmware() != Firmware::ArduPilot;
+  if (!autopilot_.follows()) return command(now, kDoSetMode, {1, px4 ? kPx4Offboard : kArduPilotGuided});
+  if (!autopilot_.armed()) return command(now, kArmDisarm, {1});
+  if (in_air()) return enter(Stage::Following);
+  if (px4) return enter(Stage::Climbing);
+  const float height = static_cast<float>(uav_.start.z() - state()->motion.p.z());
+  command(now, kNavTakeoff, {0, 0, 0, 0, 0, 0, height});
+}
+
+void Bridge::step_engaging(UTime now) {
+  if (now - stage_since_ > kEngagePatience) {
+    return stand_back(refusal_.empty() ? "the autopilot does not answer" : refusal_);
+  }
+  if (!autopilot_.linked(now)) return;
+  if (!in_air()) hold_here(now);
+  engage_next(now);
+}
+
+void Bridge::climb(UTime now) {
+  const Vec3 way = uav_.start - own_.motion.p;
+  const double left = way.norm(), next = config_.climb_speed * std::min((now - now_).seconds(), 0.1);
+  own_.motion.v = left > 1e-9 ? Vec3(way * (config_.climb_speed / left)) : Vec3::Zero();
+  if (left <= next) {
+    own_.motion.p = uav_.start;
+    own_.motion.v = Vec3::Zero();
+  } else {
+    own_.motion.p += way * (next / left);
+  }
+  const auto here = state();
+  if (here && own_.motion.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere_m &&
+      here->motion.v.norm() < kThereSpeed && in_air()) {
+    enter(Stage::Following);
+  }
+}
+
+void Bridge::step_flying(UTime now) {
+  if (!autopilot_.linked(now)) return;
+  if (!autopilot_.armed()) return stand_back("the autopilot has disarmed");
+  if (!autopilot_.follows()) {
+    return stand_back(fmt::format("the autopilot has left for {}: somebody else flies", autopilot_.mode()));
+  }
+  if (autopilot_.battery().value_or(1.0) < config_.battery_land) {
+    return land(fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
+  }
+  if (stage_ == Stage::Climbing) return climb(now);
+  const bool near = setpoint_heard_ && setpoint_near(now);
+  if (!near && followed_) hold_here(now);
+  followed_ = near;
+}
+
+void Bridge::step_landing(UTime now) {
+  if (!autopilot_.linked(now)) return;
+  if (!autopilot_.armed()) {
+    followed_ = false;
+    return enter(Stage::Landed, why_);
+  }
+  if (followed_) hold_here(now);
+  followed_ = false;
+  if (autopilot_.landing()) {
+    streaming_since_.reset();
+    return;
+  }
+  if (!streaming_since_) return stand_back(fmt::format("the autopilot has left for {}", autopilot_.mode()));
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  command(now, kNavLand, {0, 0, 0, nan, nan, nan, 0});
+}
+
+void Bridge::step_stage(UTime now) {
+  switch (stage_) {
+    case Stage::Waiting: return step_waiting(now);
+    case Stage::Ready: return step_ready(now);
+    case Stage::Engaging: return step_engaging(now);
+    case Stage::Climbing:
+    case Stage::Following: return step_flying(now);
+    case Stage::StoodBack:
+      if (config_.start == Start::Pilot && autopilot_.follows() && autopilot_.armed())
+        enter(Stage::Waiting, "the switch");
+      return;
+    case Stage::Landing: return step_landing(now);
+    case Stage::Landed: return;
+  }
+}
+
+void Bridge::stream(UTime now) {
+  const bool silent = stage_ == Stage::Waiting || stage_ == Stage::Landed ||
+                      (stage_ == Stage::StoodBack && config_.start == Start::Arm) ||
+                      (stage_ == Stage::Landing && !streaming_since_);
+  if (silent || !state() || now < next_target_) return;
+  next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
+  if (!streaming_since_) streaming_since_ = now;
+  if (stage_ == Stage::StoodBack) hold_here(now);
+  const bool following = stage_ == Stage::Following && followed_;
+  const MotionSample m = following ? command_.sample(now) : own_.motion;
+  const Vec3 a = config_.acceleration_gain * (m.a + config_.lead_s * m.j) + config_.drag_per_s * m.v;
+  const Address to = *autopilot_.address();
+  SetPositionTargetLocalNed target;
+  target.time_boot_ms = static_cast<std::uint32_t>(autopilot_.clock().theirs_us(now).value_or(0) / 1000);
+  target.p = ned_of(m.p - origin_);
+  target.v = ned_of(m.v);
+  target.a = ned_of(a);
+  target.yaw = static_cast<float>(swapped_yaw(following ? command_.yaw() : own_.yaw));
+  target.type_mask = kAllButYawRate;
+  target.target_system = to.system;
+  target.target_component = to.component;
+  target.coordinate_frame = kLocalNed;
+  say(target);
+}
+
+void Bridge::step(UTime now) {
+  command_.settle(now - kSetpointSilence);
+  command_.forget_before(now - kHeld);
+  step_stage(now);
+  now_ = now;
+  if (now >= next_heartbeat_) {
+    next_heartbeat_ = now + kHeartbeatPeriod;
+    say(Heartbeat{.type = kOnboardController, .autopilot = kNoAutopilot, .system_status = kActive});
+  }
+  if (now >= next_timesync_ && autopilot_.address()) {
+    next_timesync_ = now + kTimesyncPeriod;
+    say(Timesync{.ts1 = now.us * 1000});
+  }
+  request_streams(now);
+  stream(now);
+}
+
+}  // namespace tern::mavlink

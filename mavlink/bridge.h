@@ -1,0 +1,120 @@
+// Between SETPOINT and an autopilot: take-off, following, standing back, landing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/world/scenario.h"
+#include "executor/commanded_motion.h"
+#include "mavlink/autopilot.h"
+#include "mavlink/bridge_config.h"
+
+namespace tern::mavlink {
+
+/// Where a flight is.
+enum class Stage : std::uint8_t {
+  Waiting,    ///< for a link, an estimate, a clock, parameters
+  Ready,      ///< to be told to fly, or for the pilot
+  Engaging,   ///< asks for OFFBOARD, then to be armed
+  Climbing,   ///< from the ground to uav.start
+  Following,  ///< flies SETPOINT
+  StoodBack,  ///< somebody else flies; until told again
+  Landing,
+  Landed
+};
+const char* to_string(Stage stage);
+
+/// Pure: frames and times in, frames out. The caller sends what take_frames() gives and calls step() at rate_hz or
+/// more.
+///
+/// W is the autopilot's local frame, shifted: the local origin lies at (uav.start.x, uav.start.y, 0), so that a vehicle
+/// that has started its estimator where it stands climbs straight up to uav.start. What is said to the autopilot:
+/// HEARTBEAT 2 Hz, TIMESYNC 10 Hz, and from the moment that its position is known SET_POSITION_TARGET_LOCAL_NED at
+/// rate_hz, so that the stream runs before OFFBOARD is asked for. It carries
+///   p, v of the command now, a·acceleration_gain + j·lead_s·acceleration_gain + v·drag_per_s, and the heading.
+/// While the vehicle is not following, the command is to stay where it is.
+///
+/// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
+/// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another: the bridge then stands back, stops its stream
+/// (with start pilot it goes on, saying the vehicle's own place), and flies again only when told: by a new GOAL, or
+/// with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody else's, too. A
+/// bridge that was started anew and finds the vehicle armed and in OFFBOARD in the air goes on following.
+class Bridge {
+ public:
+  Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
+
+  void hear(const Frame& frame, UTime received);
+  void hear(const UavState& setpoint, UTime now);
+  void hear(const TimedSpline& committed) { command_.hear(committed); }
+  /// Somebody wants it to fly: a new GOAL of mode Go.
+  void told_to_fly();
+  /// A flight has begun that this bridge knows nothing of (it was started anew): it does not arm unless told.
+  void flight_is_under_way();
+  void land(const std::string& why);
+  void step(UTime now);
+
+  /// What is to be sent, in order.
+  std::vector<Frame> take_frames() { return std::exchange(out_, {}); }
+  /// In W; nullopt while nothing is known. @pre the caller publishes each `at` once
+  [[nodiscard]] std::optional<UavState> state() const { return in_world(autopilot_.state()); }
+  [[nodiscard]] std::optional<UavState> truth() const { return in_world(autopilot_.truth()); }
+  [[nodiscard]] VehicleStatus status(UTime now) const;
+  /// Sentences for the log since the last call.
+  std::vector<std::string> take_words() { return std::exchange(words_, {}); }
+  [[nodiscard]] Stage stage() const { return stage_; }
+  [[nodiscard]] const Autopilot& autopilot() const { return autopilot_; }
+  /// Whether this bridge has to see to the vehicle's landing when it is asked to end.
+  [[nodiscard]] bool flies() const {
+    return stage_ == Stage::Engaging || stage_ == Stage::Climbing || stage_ == Stage::Following ||
+           stage_ == Stage::Landing;
+  }
+
+ private:
+  static constexpr Address kSelf{1, 191};  ///< onboard computer; the system is the autopilot's when that is known
+  void enter(Stage stage, const std::string& why = {});
+  void hear_answers();
+  void step_stage(UTime now);
+  void step_waiting(UTime now);
+  void step_ready(UTime now);
+  void step_engaging(UTime now);
+  void step_flying(UTime now);
+  void step_landing(UTime now);
+  void climb(UTime now);
+  void stand_back(const std::string& why);
+  void engage_next(UTime now);
+  void request_parameters(UTime now);
+  void request_streams(UTime now);
+  void stream(UTime now);
+  void hold_here(UTime now);
+  void command(UTime now, std::uint16_t number, std::array<float, 7> param);
+  [[nodiscard]] std::string not_ready(UTime now) const;
+  [[nodiscard]] MotionSample commanded(UTime now) const;
+  [[nodiscard]] std::string why_not_following(UTime now) const;
+  [[nodiscard]] bool setpoint_near(UTime now) const;
+  [[nodiscard]] bool in_air() const { return autopilot_.landed() == std::optional(false); }
+  [[nodiscard]] std::optional<UavState> in_world(std::optional<UavState> local) const;
+  template <class M>
+  void say(const M& message);
+
+  BridgeConfig config_;
+  UavSpec uav_;
+  Vec3 origin_;  ///< of the local frame, in W
+  Autopilot autopilot_;
+  CommandedMotion command_;
+  bool setpoint_heard_ = false;
+  Stage stage_ = Stage::Waiting;
+  std::string why_;          ///< of the newest stage
+  bool told_;                ///< to fly
+  bool told_again_ = false;  ///< by somebody, not by the configuration: also a vehicle that is in somebody's hands
+  UTime stage_since_, now_;
+  UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_;
+  std::optional<UTime> streaming_since_;
+  bool followed_ = false;  ///< at the last setpoint that was sent
+  UavState own_;           ///< the command while it does not follow: at rest here, or on its way up
+  std::string refusal_;    ///< the newest answer to a command that was not taken, in words
+  std::uint8_t sequence_ = 0;
+  std::vector<Frame> out_;
+  std::vector<std::string> words_;
+};
+
+}  // namespace tern::mavlink

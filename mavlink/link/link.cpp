@@ -1,0 +1,179 @@
+#include "mavlink/link/link.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "mavlink/messages.h"
+
+namespace tern::mavlink {
+namespace {
+
+constexpr std::size_t kLargest = 65'536;
+constexpr Duration kPeerSilence{3'000'000};
+constexpr std::uint8_t kAutopilotComponent = 1, kInvalidAutopilot = 8;
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) close(fd_);
+  }
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+bool introduces_autopilot(std::span<const std::uint8_t> bytes) {
+  for (const Frame& frame : Parser().push(bytes)) {
+    const auto heartbeat = from_frame<Heartbeat>(frame);
+    if (heartbeat && frame.from.component == kAutopilotComponent && heartbeat->autopilot != kInvalidAutopilot)
+      return true;
+  }
+  return false;
+}
+
+class UdpLink final : public Link {
+ public:
+  UdpLink(Descriptor socket, std::optional<sockaddr_in> peer)
+      : socket_(std::move(socket)), peer_(peer), fixed_(peer.has_value()) {}
+
+  std::optional<Bytes> receive(UTime now) override {
+    Bytes bytes(kLargest);
+    while (true) {
+      sockaddr_in from{};
+      socklen_t length = sizeof(from);
+      const ssize_t n =
+          recvfrom(socket_.get(), bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
+      if (n < 0) return std::nullopt;
+      const auto portion = std::span(bytes).first(static_cast<std::size_t>(n));
+      if (!is_peer(from, portion, now)) {
+        ++strangers_;
+        continue;
+      }
+      last_ = now;
+      bytes.resize(static_cast<std::size_t>(n));
+      return bytes;
+    }
+  }
+
+  void send(std::span<const std::uint8_t> bytes) override {
+    if (!peer_) return;
+    sendto(socket_.get(), bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&*peer_), sizeof(*peer_));
+  }
+
+  [[nodiscard]] bool datagrams() const override { return true; }
+  [[nodiscard]] std::int64_t strangers() const override { return strangers_; }
+
+ private:
+  bool is_peer(const sockaddr_in& from, std::span<const std::uint8_t> bytes, UTime now) {
+    if (fixed_) return true;
+    const bool same = peer_ && from.sin_port == peer_->sin_port && from.sin_addr.s_addr == peer_->sin_addr.s_addr;
+    if (same) return true;
+    if ((peer_ && now - last_ < kPeerSilence) || !introduces_autopilot(bytes)) return false;
+    peer_ = from;
+    return true;
+  }
+
+  Descriptor socket_;
+  std::optional<sockaddr_in> peer_;
+  bool fixed_;
+  UTime last_;
+  std::int64_t strangers_ = 0;
+};
+
+class SerialLink final : public Link {
+ public:
+  explicit SerialLink(Descriptor port) : port_(std::move(port)) {}
+  std::optional<Bytes> receive(UTime) override {
+    Bytes bytes(4096);
+    const ssize_t n = read(port_.get(), bytes.data(), bytes.size());
+    if (n <= 0) return std::nullopt;
+    bytes.resize(static_cast<std::size_t>(n));
+    return bytes;
+  }
+  void send(std::span<const std::uint8_t> bytes) override { (void)!write(port_.get(), bytes.data(), bytes.size()); }
+  [[nodiscard]] bool datagrams() const override { return false; }
+
+ private:
+  Descriptor port_;
+};
+
+/// The last ":NUMBER" of a text, and what is before it.
+std::optional<std::pair<std::string, int>> split(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos) return std::nullopt;
+  int number = -1;
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data() + colon + 1, end, number);
+  if (error != std::errc() || at != end || number <= 0) return std::nullopt;
+  return std::pair(text.substr(0, colon), number);
+}
+
+Result<std::unique_ptr<Link>> open_udp(const std::string& url, const std::string& place, bool listens) {
+  const auto parts = split(place);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  if (!parts || parts->second > 65535 || inet_pton(AF_INET, parts->first.c_str(), &address.sin_addr) != 1) {
+    return fail(url + ": not ADDRESS:PORT with a numeric IPv4 address");
+  }
+  address.sin_port = htons(static_cast<std::uint16_t>(parts->second));
+  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (socket.get() < 0) return fail(url + ": " + std::strerror(errno));
+  if (!listens) return std::make_unique<UdpLink>(std::move(socket), address);
+  if (bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    return fail(fmt::format("{}: {}{}", url, std::strerror(errno),
+                            errno == EADDRINUSE ? ": another bridge or ground station listens there" : ""));
+  }
+  return std::make_unique<UdpLink>(std::move(socket), std::nullopt);
+}
+
+Result<std::unique_ptr<Link>> open_serial(const std::string& url, const std::string& place) {
+  static const std::map<int, speed_t> kSpeeds{{57600, B57600},     {115200, B115200},   {230400, B230400},
+                                              {460800, B460800},   {500000, B500000},   {921600, B921600},
+                                              {1000000, B1000000}, {1500000, B1500000}, {3000000, B3000000}};
+  const auto parts = split(place);
+  const auto speed = parts ? kSpeeds.find(parts->second) : kSpeeds.end();
+  if (speed == kSpeeds.end()) return fail(url + ": not /dev/NAME:BAUD with a usual baud rate of 57600 or more");
+  Descriptor port(open(parts->first.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (port.get() < 0) return fail(url + ": " + std::strerror(errno));
+  termios settings{};
+  if (tcgetattr(port.get(), &settings) != 0) return fail(url + ": no serial port: " + std::strerror(errno));
+  cfmakeraw(&settings);
+  settings.c_cflag |= CLOCAL | CREAD;
+  settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
+  cfsetspeed(&settings, speed->second);
+  if (tcsetattr(port.get(), TCSANOW, &settings) != 0) return fail(url + ": " + std::strerror(errno));
+  return std::make_unique<SerialLink>(std::move(port));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Link>> open_link(const std::string& url) {
+  const auto after = [&](const std::string& scheme) -> std::optional<std::string> {
+    if (!url.starts_with(scheme)) return std::nullopt;
+    return url.substr(scheme.size());
+  };
+  if (const auto place = after("udp://")) return open_udp(url, *place, true);
+  if (const auto place = after("udpout://")) return open_udp(url, *place, false);
+  if (const auto place = after("serial://")) return open_serial(url, *place);
+  return fail(url + ": neither udp://, udpout:// nor serial://");
+}
+
+}  // namespace tern::mavlink

@@ -1,0 +1,33 @@
+// Bytes to and from an autopilot: UDP or a serial port.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/base/time.h"
+#include "mavlink/frame.h"
+
+namespace tern::mavlink {
+
+/// One end. Never blocks: what a full buffer does not take is lost, as on any link.
+class Link {
+ public:
+  virtual ~Link() = default;
+  /// The next bytes that have come. @return nullopt if there are none
+  virtual std::optional<Bytes> receive(UTime now) = 0;
+  virtual void send(std::span<const std::uint8_t> bytes) = 0;
+  /// Whether each portion is a whole number of frames.
+  [[nodiscard]] virtual bool datagrams() const = 0;
+  /// Datagrams of others than the peer, which were dropped.
+  [[nodiscard]] virtual std::int64_t strangers() const { return 0; }
+};
+
+/// udp://ADDRESS:PORT listens there, as PX4 expects it of a companion computer; the peer is who first sends an
+/// autopilot's HEARTBEAT, and again after 3 s of its silence. udpout://ADDRESS:PORT speaks to that place first.
+/// serial:///dev/NAME:BAUD is a serial port, raw, 8N1. ADDRESS is numeric.
+Result<std::unique_ptr<Link>> open_link(const std::string& url);
+
+}  // namespace tern::mavlink

@@ -1,0 +1,20 @@
+#include "mavlink/messages.h"
+
+namespace tern::mavlink {
+namespace {
+
+template <class... M>
+std::optional<MessageForm> find(std::uint32_t id, std::type_identity<std::tuple<M...>>) {
+  std::optional<MessageForm> form;
+  ((M::kId == id
+        ? (void)(form = MessageForm{M::kId, M::kCrcExtra, M::kLeastLength, static_cast<std::uint8_t>(length_of<M>())})
+        : void()),
+   ...);
+  return form;
+}
+
+}  // namespace
+
+std::optional<MessageForm> form_of(std::uint32_t id) { return find(id, std::type_identity<AllMessages>{}); }
+
+}  // namespace tern::mavlink

@@ -1,0 +1,301 @@
+// The messages that a bridge needs, field by field in wire order. https://mavlink.io/en/messages/common.html
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+#include "mavlink/frame.h"
+
+namespace tern::mavlink {
+
+template <std::size_t N>
+using Text = std::array<char, N>;  ///< zero-terminated unless it is full
+
+/// Each message: its id, CRC_EXTRA, length without extensions, and its fields by their members.
+struct Heartbeat {
+  static constexpr std::uint32_t kId = 0;
+  static constexpr std::uint8_t kCrcExtra = 50, kLeastLength = 9;
+  std::uint32_t custom_mode = 0;
+  std::uint8_t type = 0, autopilot = 0, base_mode = 0, system_status = 0, mavlink_version = 3;
+  static constexpr auto fields() {
+    using M = Heartbeat;
+    return std::tuple(&M::custom_mode, &M::type, &M::autopilot, &M::base_mode, &M::system_status, &M::mavlink_version);
+  }
+};
+
+struct SysStatus {
+  static constexpr std::uint32_t kId = 1;
+  static constexpr std::uint8_t kCrcExtra = 124, kLeastLength = 31;
+  std::array<std::uint32_t, 3> sensors{};       ///< present, enabled, healthy
+  std::uint16_t load = 0, voltage_battery = 0;  ///< 0.1 %, mV
+  std::int16_t current_battery = -1;            ///< 10 mA
+  std::array<std::uint16_t, 6> errors{};        ///< drop_rate_comm, errors_comm, errors_count1 … 4
+  std::int8_t battery_remaining = -1;           ///< %; −1: unknown
+  std::array<std::uint32_t, 3> sensors_extended{};
+  static constexpr auto fields() {
+    using M = SysStatus;
+    return std::tuple(&M::sensors, &M::load, &M::voltage_battery, &M::current_battery, &M::errors,
+                      &M::battery_remaining, &M::sensors_extended);
+  }
+};
+
+struct ParamRequestRead {
+  static constexpr std::uint32_t kId = 20;
+  static constexpr std::uint8_t kCrcExtra = 214, kLeastLength = 20;
+  std::int16_t param_index = -1;  ///< −1: by its name
+  std::uint8_t target_system = 0, target_component = 0;
+  Text<16> param_id{};
+  static constexpr auto fields() {
+    using M = ParamRequestRead;
+    return std::tuple(&M::param_index, &M::target_system, &M::target_component, &M::param_id);
+  }
+};
+
+struct ParamValue {
+  static constexpr std::uint32_t kId = 22;
+  static constexpr std::uint8_t kCrcExtra = 220, kLeastLength = 25;
+  float param_value = 0.0F;
+  std::uint16_t param_count = 0, param_index = 0;
+  Text<16> param_id{};
+  std::uint8_t param_type = 0;
+  static constexpr auto fields() {
+    using M = ParamValue;
+    return std::tuple(&M::param_value, &M::param_count, &M::param_index, &M::param_id, &M::param_type);
+  }
+};
+
+struct ParamSet {
+  static constexpr std::uint32_t kId = 23;
+  static constexpr std::uint8_t kCrcExtra = 168, kLeastLength = 23;
+  float param_value = 0.0F;
+  std::uint8_t target_system = 0, target_component = 0;
+  Text<16> param_id{};
+  std::uint8_t param_type = 0;
+  static constexpr auto fields() {
+    using M = ParamSet;
+    return std::tuple(&M::param_value, &M::target_system, &M::target_component, &M::param_id, &M::param_type);
+  }
+};
+
+struct AttitudeQuaternion {
+  static constexpr std::uint32_t kId = 31;
+  static constexpr std::uint8_t kCrcExtra = 246, kLeastLength = 32;
+  std::uint32_t time_boot_ms = 0;
+  std::array<float, 4> q{};  ///< w x y z, FRD to NED
+  std::array<float, 3> rates{};
+  std::array<float, 4> repr_offset_q{};
+  static constexpr auto fields() {
+    using M = AttitudeQuaternion;
+    return std::tuple(&M::time_boot_ms, &M::q, &M::rates, &M::repr_offset_q);
+  }
+};
+
+struct LocalPositionNed {
+  static constexpr std::uint32_t kId = 32;
+  static constexpr std::uint8_t kCrcExtra = 185, kLeastLength = 28;
+  std::uint32_t time_boot_ms = 0;
+  std::array<float, 3> p{}, v{};
+  static constexpr auto fields() {
+    using M = LocalPositionNed;
+    return std::tuple(&M::time_boot_ms, &M::p, &M::v);
+  }
+};
+
+struct GpsGlobalOrigin {
+  static constexpr std::uint32_t kId = 49;
+  static constexpr std::uint8_t kCrcExtra = 39, kLeastLength = 12;
+  std::int32_t latitude = 0, longitude = 0, altitude = 0;  ///< 1e-7 degrees, mm
+  std::uint64_t time_usec = 0;
+  static constexpr auto fields() {
+    using M = GpsGlobalOrigin;
+    return std::tuple(&M::latitude, &M::longitude, &M::altitude, &M::time_usec);
+  }
+};
+
+struct CommandLong {
+  static constexpr std::uint32_t kId = 76;
+  static constexpr std::uint8_t kCrcExtra = 152, kLeastLength = 33;
+  std::array<float, 7> param{};
+  std::uint16_t command = 0;
+  std::uint8_t target_system = 0, target_component = 0, confirmation = 0;
+  static constexpr auto fields() {
+    using M = CommandLong;
+    return std::tuple(&M::param, &M::command, &M::target_system, &M::target_component, &M::confirmation);
+  }
+};
+
+struct CommandAck {
+  static constexpr std::uint32_t kId = 77;
+  static constexpr std::uint8_t kCrcExtra = 143, kLeastLength = 3;
+  std::uint16_t command = 0;
+  std::uint8_t result = 0, progress = 0;
+  std::int32_t result_param2 = 0;
+  std::uint8_t target_system = 0, target_component = 0;
+  static constexpr auto fields() {
+    using M = CommandAck;
+    return std::tuple(&M::command, &M::result, &M::progress, &M::result_param2, &M::target_system,
+                      &M::target_component);
+  }
+};
+
+struct SetPositionTargetLocalNed {
+  static constexpr std::uint32_t kId = 84;
+  static constexpr std::uint8_t kCrcExtra = 143, kLeastLength = 53;
+  std::uint32_t time_boot_ms = 0;
+  std::array<float, 3> p{}, v{}, a{};
+  float yaw = 0.0F, yaw_rate = 0.0F;
+  std::uint16_t type_mask = 0;  ///< a set bit: that field does not count
+  std::uint8_t target_system = 0, target_component = 0, coordinate_frame = 0;
+  static constexpr auto fields() {
+    using M = SetPositionTargetLocalNed;
+    return std::tuple(&M::time_boot_ms, &M::p, &M::v, &M::a, &M::yaw, &M::yaw_rate, &M::type_mask, &M::target_system,
+                      &M::target_component, &M::coordinate_frame);
+  }
+};
+
+struct Timesync {
+  static constexpr std::uint32_t kId = 111;
+  static constexpr std::uint8_t kCrcExtra = 34, kLeastLength = 16;
+  std::int64_t tc1 = 0, ts1 = 0;  ///< ns; tc1 = 0: a question, answered with the own time in tc1 and ts1 copied
+  std::uint8_t target_system = 0, target_component = 0;
+  static constexpr auto fields() {
+    using M = Timesync;
+    return std::tuple(&M::tc1, &M::ts1, &M::target_system, &M::target_component);
+  }
+};
+
+struct HilStateQuaternion {
+  static constexpr std::uint32_t kId = 115;
+  static constexpr std::uint8_t kCrcExtra = 4, kLeastLength = 64;
+  std::uint64_t time_usec = 0;
+  std::array<float, 4> q{};  ///< w x y z
+  std::array<float, 3> rates{};
+  std::int32_t lat = 0, lon = 0, alt = 0;  ///< 1e-7 degrees, mm
+  std::array<std::int16_t, 3> v{};         ///< NED, cm/s
+  std::uint16_t ind_airspeed = 0, true_airspeed = 0;
+  std::array<std::int16_t, 3> acc{};  ///< milli-g
+  static constexpr auto fields() {
+    using M = HilStateQuaternion;
+    return std::tuple(&M::time_usec, &M::q, &M::rates, &M::lat, &M::lon, &M::alt, &M::v, &M::ind_airspeed,
+                      &M::true_airspeed, &M::acc);
+  }
+};
+
+struct EstimatorStatus {
+  static constexpr std::uint32_t kId = 230;
+  static constexpr std::uint8_t kCrcExtra = 163, kLeastLength = 42;
+  std::uint64_t time_usec = 0;
+  std::array<float, 6> ratios{};  ///< vel, pos_horiz, pos_vert, mag, hagl, tas: innovations over what is still believed
+  float pos_horiz_accuracy = 0.0F, pos_vert_accuracy = 0.0F;  ///< m
+  std::uint16_t flags = 0;
+  static constexpr auto fields() {
+    using M = EstimatorStatus;
+    return std::tuple(&M::time_usec, &M::ratios, &M::pos_horiz_accuracy, &M::pos_vert_accuracy, &M::flags);
+  }
+};
+
+struct ExtendedSysState {
+  static constexpr std::uint32_t kId = 245;
+  static constexpr std::uint8_t kCrcExtra = 130, kLeastLength = 2;
+  std::uint8_t vtol_state = 0, landed_state = 0;
+  static constexpr auto fields() {
+    using M = ExtendedSysState;
+    return std::tuple(&M::vtol_state, &M::landed_state);
+  }
+};
+
+struct StatusText {
+  static constexpr std::uint32_t kId = 253;
+  static constexpr std::uint8_t kCrcExtra = 83, kLeastLength = 51;
+  std::uint8_t severity = 6;  ///< 0 emergency … 7 debug
+  Text<50> text{};
+  std::uint16_t id = 0;
+  std::uint8_t chunk_seq = 0;
+  static constexpr auto fields() {
+    using M = StatusText;
+    return std::tuple(&M::severity, &M::text, &M::id, &M::chunk_seq);
+  }
+};
+
+struct Odometry {
+  static constexpr std::uint32_t kId = 331;
+  static constexpr std::uint8_t kCrcExtra = 91, kLeastLength = 230;
+  std::uint64_t time_usec = 0;
+  std::array<float, 3> p{};
+  std::array<float, 4> q{};  ///< w x y z
+  std::array<float, 3> v{}, rates{};
+  std::array<float, 21> pose_covariance{}, velocity_covariance{};
+  std::uint8_t frame_id = 0, child_frame_id = 0, reset_counter = 0, estimator_type = 0;
+  std::int8_t quality = 0;
+  static constexpr auto fields() {
+    using M = Odometry;
+    return std::tuple(&M::time_usec, &M::p, &M::q, &M::v, &M::rates, &M::pose_covariance, &M::velocity_covariance,
+                      &M::frame_id, &M::child_frame_id, &M::reset_counter, &M::estimator_type, &M::quality);
+  }
+};
+
+using AllMessages = std::tuple<Heartbeat, SysStatus, ParamRequestRead, ParamValue, ParamSet, AttitudeQuaternion,
+                               LocalPositionNed, GpsGlobalOrigin, CommandLong, CommandAck, SetPositionTargetLocalNed,
+                               Timesync, HilStateQuaternion, EstimatorStatus, ExtendedSysState, StatusText, Odometry>;
+
+/// Bytes of a message's fields together.
+template <class M>
+constexpr std::size_t length_of() {
+  return std::apply(
+      [](auto... member) { return (sizeof(std::remove_reference_t<decltype(std::declval<M>().*member)>) + ...); },
+      M::fields());
+}
+
+/// The payload, little-endian, uncut.
+template <class M>
+Frame to_frame(const M& message, Address from, std::uint8_t sequence) {
+  static_assert(std::endian::native == std::endian::little);
+  Frame frame{from, sequence, M::kId, Bytes(length_of<M>())};
+  std::size_t at = 0;
+  const auto put = [&](const auto& field) {
+    std::memcpy(frame.payload.data() + at, &field, sizeof(field));
+    at += sizeof(field);
+  };
+  std::apply([&](auto... member) { (put(message.*member), ...); }, M::fields());
+  return frame;
+}
+
+/// @return nullopt if the frame is another message.
+template <class M>
+std::optional<M> from_frame(const Frame& frame) {
+  if (frame.id != M::kId || frame.payload.size() != length_of<M>()) return std::nullopt;
+  M message;
+  std::size_t at = 0;
+  const auto take = [&](auto& field) {
+    std::memcpy(&field, frame.payload.data() + at, sizeof(field));
+    at += sizeof(field);
+  };
+  std::apply([&](auto... member) { (take(message.*member), ...); }, M::fields());
+  return message;
+}
+
+template <std::size_t N>
+Text<N> text_of(std::string_view words) {
+  Text<N> text{};
+  words.copy(text.data(), N);
+  return text;
+}
+/// Up to the first zero; what is not printable ASCII becomes '?'.
+template <std::size_t N>
+std::string words_of(const Text<N>& text) {
+  std::string words;
+  for (const char c : text) {
+    if (c == '\0') break;
+    words += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return words;
+}
+
+}  // namespace tern::mavlink

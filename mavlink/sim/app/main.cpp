@@ -1,0 +1,35 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "mavlink/sim/app/autopilot_sim_node.h"
+#include "runtime/process.h"
+
+int main(int argc, char** argv) {
+  using namespace tern::mavlink;
+  std::string url;
+  const tern::ProcessDescription description{
+      .name = "tern-autopilot-sim",
+      .section = "autopilot_sim",
+      .summary = "An autopilot with a quadrotor of its own behind MAVLink, in PX4's manners",
+      .add_options =
+          [&](CLI::App& app) {
+            app.add_option("--connect", url, "udpout://ADDRESS:PORT of the bridge, or another end of a link");
+          },
+      .read_sections =
+          [](tern::ConfigDocument& document) {
+            SimulatedAutopilotConfig config;
+            document.root().section("autopilot_sim").read(config);
+          }};
+  return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+    SimulatedAutopilotConfig config;
+    context.section.read(config);
+    tern::ConfigSection simulator = context.document.root().section("simulator");
+    simulator.section("quadrotor").read(config.quadrotor);
+    simulator.section("wind").read(config.wind);
+    simulator.section("estimator").read(config.estimator);
+    if (url.empty()) throw tern::ConfigError("--connect URL is needed");
+    auto link = open_link(url);
+    if (!link) throw tern::ConfigError("--connect " + link.error().message);
+    return std::make_unique<AutopilotSimNode>(context.bus, std::move(*link), config, context.scenario.seed);
+  });
+}

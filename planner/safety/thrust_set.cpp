@@ -1,0 +1,57 @@
+#include "planner/safety/thrust_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/tuning.h"
+
+namespace tern {
+namespace {
+
+/// Corners of the box touch the set's border: rounding must not put them outside.
+constexpr double kInside = 1.0 - 1e-9;
+
+/// How far below g the thrust's vertical part goes in plans.
+double dip_of(double thrust_min) { return std::min(kThrustDip * kGravity, kGravity - thrust_min); }
+
+}  // namespace
+
+double octagon_norm(double x, double y) {
+  const double high = std::max(std::abs(x), std::abs(y));
+  return high + kOctagon * std::min(std::abs(x), std::abs(y));
+}
+
+ThrustSet::ThrustSet(const Dynamics& dynamics)
+    : least(dynamics.thrust_min),
+      floor(kGravity - dip_of(dynamics.thrust_min)),
+      ceiling(dynamics.thrust_max),
+      slope(tilt_slope(dynamics.tilt_max_deg)),
+      rate(to_radians(dynamics.body_rate_max_deg_s)) {}
+
+bool ThrustSet::contains(const Vec3& a) const {
+  const double up = a.z() + kGravity;
+  return up >= floor && octagon_norm(a.x(), a.y()) <= slope * up &&
+         a.head<2>().squaredNorm() + up * up <= ceiling * ceiling;
+}
+
+bool ThrustSet::allows(const Vec3& a0, const Vec3& a1, double duration_s) const {
+  if (!contains(a1)) return false;
+  const ThrustBounds b = thrust_bounds(a0, a1, duration_s);
+  return b.least >= least && b.body_rate <= rate * (1.0 + 0.5 * kLimitTolerance);
+}
+
+Limits boxed(const Limits& limits) {
+  if (!limits.dynamics) return limits;
+  const ThrustSet set(*limits.dynamics);
+  Limits box = limits;
+  const double dip = 0.5 * (kGravity - set.floor);
+  const double z = std::min({limits.a_max.z(), dip, 0.5 * (set.ceiling - kGravity)});
+  const double by_tilt = set.slope * (kGravity - z) / std::sqrt(2.0);
+  const double by_thrust = std::sqrt(0.5 * (set.ceiling * set.ceiling - (kGravity + z) * (kGravity + z)));
+  const double xy = std::min(by_tilt, by_thrust);
+  box.a_max = limits.a_max.cwiseMin(Vec3(xy, xy, z)) * kInside;
+  box.j_max = limits.j_max.cwiseMin(Vec3::Constant(kInside * set.rate * set.floor / std::sqrt(3.0)));
+  return box;
+}
+
+}  // namespace tern

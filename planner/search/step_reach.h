@@ -1,0 +1,47 @@
+// Which velocity control points may follow, so that the limits hold and rest remains reachable.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "planner/horizon_problem.h"
+#include "planner/safety/thrust_set.h"
+#include "planner/search/axis_reach.h"
+
+namespace tern {
+
+/// Three AxisReach by plan_limits, and a multirotor's thrust where they have dynamics.
+///
+/// Dynamics couple the axes. The limits per axis that boxed() finds imply them, so an end at rest that is reachable by
+/// these can be flown. One step may do more: any acceleration in the ThrustSet, at any body rate that is allowed, as
+/// long as the steps after it can end at rest by the boxed limits. So every state that flyable() leads to has such a
+/// step again, and the set of states is larger than what boxed limits alone would reach.
+class StepReach {
+ public:
+  /// Keeps its memory.
+  void assign(const HorizonProblem& problem);
+
+  /// How far q_{n-2} − q_l can lie on this axis (AxisReach).
+  [[nodiscard]] AxisReach::Interval displacement(int axis, int l, double v_previous) const {
+    return steps_[static_cast<std::size_t>(axis)].displacement(l, v_previous);
+  }
+
+  /// What may follow v_l and a_{l-1}: per axis, and the part of it that boxed limits reach.
+  struct Steps {
+    Vec3 v, a;
+    std::array<AxisReach::Interval, 3> range;
+    std::array<AxisReach::Interval, 3> steady;  ///< read with dynamics only
+  };
+  [[nodiscard]] Steps from(int l, const Vec3& v, const Vec3& a_previous) const;
+
+  /// The wanted velocity, or the first on the way from it to the steady range that may be flown.
+  /// @return nullopt if none may
+  [[nodiscard]] std::optional<Vec3> flyable(const Steps& from, const Vec3& wanted) const;
+
+ private:
+  double dt_ = 0.0;
+  std::array<AxisReach, 3> steps_, steady_;
+  std::optional<ThrustSet> thrust_;
+};
+
+}  // namespace tern

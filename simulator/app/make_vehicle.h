@@ -1,0 +1,15 @@
+// The vehicle that a scenario flies.
+#pragma once
+
+#include <memory>
+
+#include "core/world/scenario.h"
+#include "simulator/app/simulator_config.h"
+#include "simulator/vehicle/vehicle.h"
+
+namespace tern {
+
+/// At rest at scenario.uav.start from `now` on; what is random in it comes from the scenario's seed.
+std::unique_ptr<Vehicle> make_vehicle(const Scenario& scenario, const SimulatorConfig& config, UTime now);
+
+}  // namespace tern

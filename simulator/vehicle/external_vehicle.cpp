@@ -1,0 +1,52 @@
+#include "simulator/vehicle/external_vehicle.h"
+
+#include <limits>
+
+namespace tern {
+namespace {
+
+constexpr Duration kRemembered{4'000'000};
+
+}  // namespace
+
+ExternalVehicle::ExternalVehicle(const UavSpec& uav, UTime now) : truth_(uav.start, now) {
+  newest_.at = now;
+  newest_.motion.p = uav.start;
+}
+
+void ExternalVehicle::append(const UavState& state) {
+  if (!heard_) {
+    truth_ = MotionHistory(state.motion.p, state.at);
+  } else if (state.at <= newest_.at) {
+    return;
+  } else {
+    truth_.append(hermite_piece(newest_.motion, state.motion, state.at - newest_.at));
+  }
+  heard_ = true;
+  newest_ = state;
+}
+
+void ExternalVehicle::hear_truth(const UavState& state) {
+  truth_heard_ = true;
+  append(state);
+}
+
+void ExternalVehicle::hear_estimate(const UavState& state) {
+  if (!truth_heard_) append(state);
+}
+
+void ExternalVehicle::advance(UTime now) { truth_.forget_before(now - kRemembered); }
+
+VehicleStatus ExternalVehicle::status(UTime now) const {
+  VehicleStatus status;
+  status.at = now;
+  status.why_not = "flown elsewhere";
+  return status;
+}
+
+Limits ExternalVehicle::judged_limits() const {
+  const Vec3 none = Vec3::Constant(std::numeric_limits<double>::infinity());
+  return {none, none, none};
+}
+
+}  // namespace tern

@@ -1,0 +1,132 @@
+// What a vehicle makes of setpoints and of what it heard to be committed: the executor's very curve.
+#include "executor/commanded_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/base/random.h"
+#include "executor/executor.h"
+#include "tests/support/straight_plan.h"
+
+namespace tern {
+namespace {
+
+constexpr UTime kZero{1'700'000'000'000'000};
+constexpr Duration kBeat{10'000};
+
+UavSpec uav() {
+  UavSpec uav;
+  uav.start = Vec3(0.0, 0.0, 1.0);
+  uav.limits.j_max = Vec3::Constant(60.0);
+  return uav;
+}
+
+UavState setpoint(UTime at, const MotionSample& motion) {
+  UavState state;
+  state.at = at;
+  state.motion = motion;
+  return state;
+}
+
+/// An executor that flies straight plans, and a vehicle's ear, which hears each setpoint unless `lost` says so.
+class Flight {
+ public:
+  template <class Lost>
+  void fly(Duration span, const Lost& lost) {
+    const UTime end = now_ + span;
+    for (; now_ < end; now_ = now_ + kBeat) {
+      if (const auto request = executor_.next_request(now_)) {
+        command_.hear(request->committed);
+        executor_.consider(straight_plan(*request, Vec3(30.0, -4.0, 3.0)), now_ + Duration{5'000});
+      }
+      UTime at = now_ - kBeat;
+      for (const CubicPiece& piece : executor_.pieces(at, now_).pieces) {
+        at = at + piece.duration;
+        if (!lost()) command_.hear(setpoint(at, executor_.leaving(at)));
+      }
+    }
+  }
+  void expect_same_until(UTime to) {
+    for (UTime t = kZero; t <= to; t = t + Duration{1'700}) {
+      const MotionSample a = command_.sample(t), b = executor_.sample(t);
+      ASSERT_LT((a.p - b.p).norm(), 1e-9) << (t - kZero).us;
+      ASSERT_LT((a.v - b.v).norm(), 1e-8);
+      ASSERT_LT((a.a - b.a).norm(), 1e-6);
+    }
+  }
+
+  UTime now_ = kZero;
+  Executor executor_ = [] {
+    Executor executor(uav(), kZero - Duration{300'000});
+    executor.begin(kZero);
+    executor.set_mode(GoalMode::Go);
+    return executor;
+  }();
+  CommandedMotion command_{uav().start, kZero - Duration{300'000}, uav().limits};
+};
+
+TEST(CommandedMotion, IsTheCommittedCurveBetweenSetpoints) {
+  Flight flight;
+  flight.fly(Duration{3'000'000}, [] { return false; });
+  EXPECT_GT(flight.command_.sample(flight.now_).v.norm(), 1.0);
+  flight.expect_same_until(flight.command_.told_until());
+}
+
+TEST(CommandedMotion, IsTheCommittedCurveThoughHalfTheSetpointsAreLost) {
+  Flight flight;
+  Rng rng(3);
+  flight.fly(Duration{3'000'000}, [&] { return rng.uniform() < 0.5; });
+  flight.expect_same_until(flight.command_.told_until());
+}
+
+TEST(CommandedMotion, GoesOnAlongTheCommittedCurveToItsRestWhenTheExecutorDies) {
+  for (int k = 0; k < 40; ++k) {
+    Flight flight;
+    flight.fly(Duration{600'000 + k * 17'000}, [] { return false; });
+    const UTime died = flight.command_.told_until();
+    flight.command_.settle(died + Duration{5'000'000});
+    const MotionHistory& motion = flight.command_.settled();
+    // What was adopted after the newest request is not known to the vehicle, nor flown yet.
+    const Vec3 end = motion.sample(motion.end()).p;
+    EXPECT_EQ(motion.sample(motion.end()).v, Vec3::Zero());
+    EXPECT_GT((end - flight.executor_.sample(died).p).norm(), 0.05) << "it did not stop at once";
+    flight.expect_same_until(died);
+  }
+}
+
+TEST(CommandedMotion, BrakesWithinTheLimitsFromASetpointThatIsOnNoCommittedCurve) {
+  Rng rng(5);
+  const Limits limits = uav().limits;
+  for (int k = 0; k < 200; ++k) {
+    CommandedMotion command(Vec3::Zero(), kZero, limits);
+    MotionSample moving;
+    for (int i = 0; i < 3; ++i) {
+      moving.p[i] = rng.uniform(-5.0, 5.0);
+      moving.v[i] = rng.uniform(-0.5, 0.5) * limits.v_max[i];
+      moving.a[i] = rng.uniform(-0.3, 0.3) * limits.a_max[i];
+    }
+    command.hear(setpoint(kZero + kBeat, moving));
+    command.settle(kZero + Duration{60'000'000});
+    const MotionHistory& motion = command.settled();
+    EXPECT_EQ(motion.sample(motion.end()).v, Vec3::Zero());
+    for (const CubicPiece& piece : motion.pieces(kZero + kBeat, motion.end()).pieces) {
+      const double s = piece.duration.seconds();
+      EXPECT_TRUE((max_abs_velocity(piece.coefficients, 0.0, s).array() <= limits.v_max.array() * 1.000002).all());
+      EXPECT_TRUE((max_abs_acceleration(piece.coefficients, 0.0, s).array() <= limits.a_max.array() * 1.000002).all());
+    }
+    EXPECT_LT((motion.sample(kZero + kBeat).p - moving.p).norm(), 1e-9);
+  }
+}
+
+TEST(CommandedMotion, ASetpointThatComesAfterItWasGivenUpForIsIgnored) {
+  CommandedMotion command(Vec3::Zero(), kZero, uav().limits);
+  EXPECT_TRUE(command.settle(kZero + kBeat * 5));
+  EXPECT_FALSE(command.settle(kZero + kBeat * 5));
+  command.hear(setpoint(kZero + kBeat * 3, MotionSample{.p = Vec3(9, 9, 9)}));
+  EXPECT_EQ(command.sample(kZero + kBeat * 3).p, Vec3::Zero());
+  EXPECT_EQ(command.settled().end(), kZero + kBeat * 5);
+}
+
+}  // namespace
+}  // namespace tern

@@ -1,0 +1,86 @@
+#include "executor/tube.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+
+namespace tern {
+namespace {
+
+constexpr Duration kBeat{10'000};
+constexpr UTime kNow{1'000'000'000};
+
+TEST(Tube, OfAPerfectVehicleIsNothing) {
+  Tube tube(0.0);
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Zero());
+  for (int k = 0; k < 1000; ++k) tube.add(Vec3::Constant(1e-4), UTime{k * kBeat.us});
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Zero());
+}
+
+TEST(Tube, IsNeverUnderItsFloorNorOverTheWidest) {
+  Tube tube(0.3);
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Constant(0.3));
+  tube.add(Vec3(0.1, 50.0, 0.0), UTime{1});
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3(0.3, kWidestTube, 0.3));
+}
+
+TEST(Tube, CoversTheNextSecondAsOftenAsItPromises) {
+  Rng rng(11);
+  Tube tube(0.0);
+  UTime at{1'000'000};
+  int left = 0, promised = 0;
+  for (int second = 0; second < 3000; ++second) {
+    const double width = tube.width(Vec3::Zero(), kNow).x();
+    double largest = 0.0;
+    for (int k = 0; k < 100; ++k, at = at + kBeat) {
+      const double error = 0.4 * std::abs(rng.normal());
+      largest = std::max(largest, error);
+      tube.add(Vec3(error, 0.0, 0.0), at);
+    }
+    if (second < 120) continue;
+    ++promised;
+    if (largest > width) ++left;
+  }
+  // 2 % are promised, and rounding up only helps: three standard deviations of a binomial above that.
+  EXPECT_LT(left, 0.02 * promised + 3.0 * std::sqrt(0.02 * promised)) << left << " of " << promised;
+}
+
+TEST(Tube, AddsTheUncertaintyOfTheEstimate) {
+  Tube tube(0.0);
+  const Vec3 width = tube.width(Vec3(0.045, 0.0, 0.01), UTime{1});
+  EXPECT_NEAR(width.x(), 0.15, 1e-12);
+  EXPECT_EQ(width.y(), 0.0);
+  EXPECT_NEAR(width.z(), 0.05, 1e-12);
+}
+
+TEST(Tube, IsWiderAfterAnEventForAWhile) {
+  Tube tube(0.2);
+  tube.left(kNow);
+  EXPECT_NEAR(tube.width(Vec3::Zero(), kNow).x(), 0.3, 1e-12);
+  EXPECT_NEAR(tube.width(Vec3::Zero(), kNow + Tube::kWidened).x(), 0.2, 1e-12);
+}
+
+TEST(Tube, GivesWayToTheFloorWhereTheStartIsBlocked) {
+  Tube tube(0.1);
+  tube.add(Vec3::Constant(0.5), UTime{1});
+  const double whole = tube.width(Vec3::Zero(), kNow).x();
+  tube.blocked();
+  EXPECT_NEAR(tube.width(Vec3::Zero(), kNow).x(), whole / 2.0, 1e-12);
+  for (int k = 0; k < 10; ++k) tube.blocked();
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), 0.1);
+  for (int k = 0; k < Tube::kMostHalvings; ++k) tube.flown();
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), whole);
+}
+
+TEST(Tube, ForgetsAfterTwoMinutes) {
+  Tube tube(0.0);
+  tube.add(Vec3(1.0, 0.0, 0.0), UTime{1});
+  EXPECT_GE(tube.width(Vec3::Zero(), kNow).x(), 1.0);
+  for (int k = 1; k <= 121; ++k) tube.add(Vec3(0.01, 0.0, 0.0), UTime{1 + k * 1'000'000LL});
+  EXPECT_NEAR(tube.width(Vec3::Zero(), kNow).x(), Tube::kTubeStep, 1e-12);
+}
+
+}  // namespace
+}  // namespace tern

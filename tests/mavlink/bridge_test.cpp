@@ -1,0 +1,305 @@
+#include "mavlink/bridge.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mavlink/axes.h"
+#include "tests/mavlink/flight_in_memory.h"
+
+namespace tern::mavlink {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+CommandLong switch_to(float main, float sub = 0) { return {.param = {1, main, sub}, .command = kDoSetMode}; }
+
+/// To and fro in y about (x, 0, 2), 5 m/s at most, begun and left smoothly.
+MotionSample slalom(double t) {
+  constexpr double kSpeed = 4.0, kSideways = 5.0, kH = 1e-3;
+  const auto place = [](double s) {
+    const double u = std::clamp(s / 4.0, 0.0, 1.0), smooth = u * u * u * (10 - 15 * u + 6 * u * u);
+    const double omega = kSideways / (0.75 * kSpeed);
+    const double x = s < 0 ? 0 : s < 4.0 ? kSpeed * 4.0 * u * u * u * (1.0 - 0.5 * u) : kSpeed * (s - 2.0);
+    return Vec3(x, kSideways / (omega * omega) * smooth * std::sin(omega * s), 2.0);
+  };
+  const Vec3 a = place(t - 2 * kH), b = place(t - kH), c = place(t), d = place(t + kH), e = place(t + 2 * kH);
+  MotionSample m;
+  m.p = c;
+  m.v = (d - b) / (2 * kH);
+  m.a = (b - 2 * c + d) / (kH * kH);
+  m.j = (e - 2 * d + 2 * b - a) / (2 * kH * kH * kH);
+  return m;
+}
+
+/// RMSE of the true path while it follows.
+double tracking(FlightInMemory& flight, double seconds) {
+  flight.path = slalom;
+  double squares = 0.0;
+  int n = 0;
+  flight.each = [&] {
+    if (!flight.follows_since) return;
+    const double t = (flight.now - *flight.follows_since).seconds();
+    squares += (flight.autopilot.model().truth().motion.p - slalom(t).p).squaredNorm();
+    ++n;
+  };
+  flight.run(seconds);
+  flight.each = nullptr;
+  return std::sqrt(squares / std::max(n, 1));
+}
+
+TEST(Bridge, TakesOffFollowsAndLands) {
+  FlightInMemory flight;
+  EXPECT_EQ(flight.bridge.status(flight.now).why_not, "no autopilot is heard");
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
+  EXPECT_LT((flight.autopilot.model().truth().motion.p - Vec3(0, 0, 2)).norm(), 0.5);
+  flight.bridge.land("the flight has ended");
+  EXPECT_FALSE(flight.following());
+  ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Landed; }));
+  EXPECT_TRUE(flight.autopilot.model().truth().on_ground);
+  EXPECT_FALSE(flight.autopilot.armed());
+}
+
+TEST(Bridge, TracksASlalomThroughTheAutopilot) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  EXPECT_LT(tracking(flight, 20.0), 0.15);
+}
+
+TEST(Bridge, AccelerationFeedForwardDecides) {
+  FlightInMemory flight({.start = Start::Arm, .acceleration_gain = 0.0, .set_parameters = true});
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  EXPECT_GT(tracking(flight, 20.0), 0.3);
+}
+
+TEST(Bridge, MapsTimesThoughTheAutopilotsClockRunsSlow) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  double worst = 0.0;
+  flight.each = [&] {
+    const auto state = flight.bridge.state();
+    // The estimate is at most 12 ms old: ODOMETRY comes at 100 Hz, a step and a delay later.
+    worst = std::max(worst, (flight.now - state->at).seconds());
+    ASSERT_LE(state->at, flight.now);
+  };
+  flight.run(30.0);
+  EXPECT_LT(worst, 0.02);
+  EXPECT_NEAR(flight.bridge.autopilot().clock().rate(), 0.99, 1e-3);
+}
+
+TEST(Bridge, RefusesParametersThatFlyAwayWhenTheLinkIsLost) {
+  FlightInMemory flight({.start = Start::Arm});
+  flight.run(10.0);
+  EXPECT_EQ(flight.bridge.stage(), Stage::Waiting);
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("COM_OBL_RC_ACT is 0, not within [4, 5]"));
+  EXPECT_FALSE(flight.autopilot.armed());
+  flight.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{4}),
+                                          .param_id = text_of<16>("COM_OBL_RC_ACT"),
+                                          .param_type = 6},
+                                 {255, 190}, 0),
+                        flight.now);
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
+}
+
+TEST(Bridge, FliesWithThemWhenToldTo) {
+  FlightInMemory flight({.start = Start::Arm, .check_parameters = false});
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
+}
+
+TEST(Bridge, SaysWhyItIsNotArmed) {
+  FlightInMemory flight;
+  flight.set_parameter("SIM_ARM_REFUSE", 1.0F);
+  flight.run(12.0);
+  EXPECT_FALSE(flight.autopilot.armed());
+  EXPECT_EQ(flight.bridge.stage(), Stage::Engaging);
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("arming temporarily rejected: Arming denied"));
+  flight.run(60.0);
+  EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
+  flight.set_parameter("SIM_ARM_REFUSE", 0.0F);
+  flight.run(5.0);
+  EXPECT_FALSE(flight.autopilot.armed()) << "it was not told again";
+  flight.bridge.told_to_fly();
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
+}
+
+TEST(Bridge, StandsBackWhenAPilotTakesOverUntilItIsToldAgain) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.ground_station(switch_to(3));
+  ASSERT_TRUE(flight.run_until([&] { return !flight.following(); }));
+  EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("has left for POSCTL: somebody else flies"));
+  flight.run(20.0);
+  EXPECT_EQ(flight.autopilot.mode(), "POSCTL");
+  EXPECT_TRUE(flight.autopilot.armed());
+  flight.bridge.land("the flight has ended");
+  flight.run(3.0);
+  EXPECT_EQ(flight.autopilot.mode(), "POSCTL") << "what somebody else flies is not landed";
+  flight.bridge.told_to_fly();
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
+  EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
+}
+
+TEST(Bridge, WithStartPilotFollowsThePilotsSwitchAlone) {
+  FlightInMemory flight({.start = Start::Pilot, .set_parameters = true});
+  flight.run(8.0);
+  EXPECT_EQ(flight.bridge.stage(), Stage::Ready);
+  EXPECT_FALSE(flight.autopilot.armed());
+  flight.ground_station(switch_to(6));
+  flight.ground_station({.param = {1}, .command = kArmDisarm});
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
+  flight.ground_station(switch_to(3));
+  EXPECT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::StoodBack; }));
+  flight.run(3.0);
+  flight.ground_station(switch_to(6));
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
+}
+
+TEST(Bridge, AShortCutOfTheLinkIsOutlived) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.cut = true;
+  flight.run(0.2);
+  flight.cut = false;
+  flight.run(1.0);
+  EXPECT_TRUE(flight.following());
+}
+
+TEST(Bridge, ALongCutLeavesTheAutopilotToItsFailsafe) {
+  for (const double seconds : {1.0, 5.0}) {
+    FlightInMemory flight;
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+    flight.cut = true;
+    flight.run(0.5);
+    EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("nothing heard of the autopilot"));
+    flight.run(seconds - 0.5);
+    flight.cut = false;
+    flight.run(2.0);
+    EXPECT_EQ(flight.autopilot.mode(), "AUTO.LAND") << seconds;
+    EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
+    ASSERT_TRUE(flight.run_until([&] { return !flight.autopilot.armed(); }));
+  }
+}
+
+TEST(Bridge, LandsWithALowBattery) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.set_parameter("SIM_BAT_PCT", 10.0F);
+  EXPECT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Landed; }));
+  EXPECT_THAT(flight.words, Contains(HasSubstr("battery 10 %")));
+}
+
+TEST(Bridge, DoesNotTakeOffWithALowBattery) {
+  FlightInMemory flight;
+  flight.set_parameter("SIM_BAT_PCT", 20.0F);
+  flight.run(10.0);
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("battery 20 %"));
+  EXPECT_FALSE(flight.autopilot.armed());
+}
+
+TEST(Bridge, CountsTheEstimatorsJumps) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  EXPECT_EQ(flight.bridge.status(flight.now).resets, 0);
+  flight.set_parameter("SIM_EST_JUMP", 0.6F);
+  flight.run(1.0);
+  EXPECT_EQ(flight.bridge.status(flight.now).resets, 1);
+  EXPECT_TRUE(flight.following());
+}
+
+TEST(Bridge, HoldsWhenSetpointsCeaseAndGoesOnWithThem) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  tracking(flight, 6.0);
+  flight.speaks = false;
+  flight.run(4.0);
+  EXPECT_LT(flight.autopilot.model().truth().motion.v.norm(), 0.3);
+  EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
+}
+
+TEST(Bridge, DoesNotFlyToASetpointThatIsFarAway) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  const Vec3 before = flight.autopilot.model().truth().motion.p;
+  flight.path = [](double) { return MotionSample{Vec3(30, 0, 2), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}; };
+  double farthest = 0.0;
+  flight.each = [&] { farthest = std::max(farthest, (flight.autopilot.model().truth().motion.p - before).norm()); };
+  flight.run(3.0);
+  EXPECT_LT(farthest, 0.5);
+}
+
+TEST(Bridge, FliesOverALinkThatLosesDoublesAndReorders) {
+  FlightInMemory flight;
+  flight.faults = {.lost = 0.2, .doubled = 0.1, .delay_from = Duration{1'000}, .delay_to = Duration{30'000}};
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  EXPECT_LT(tracking(flight, 15.0), 0.35);
+  EXPECT_TRUE(flight.following());
+  flight.bridge.land("end");
+  EXPECT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Landed; }));
+}
+
+TEST(Bridge, ABridgeStartedAnewInFlightGoesOn) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.autopilot.hear(
+      to_frame(ParamSet{.param_value = 1.0F, .param_id = text_of<16>("COM_OF_LOSS_T"), .param_type = 9}, {255, 190}, 0),
+      flight.now);
+  flight.bridge = Bridge({.start = Start::Pilot, .set_parameters = true}, FlightInMemory::uav(), flight.now);
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); }, 2.0)) << flight.bridge.status(flight.now).why_not;
+  EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
+}
+
+TEST(Bridge, StartedAnewItLeavesAVehicleInSomebodysHands) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.ground_station(switch_to(3));
+  flight.bridge = Bridge(flight.config, FlightInMemory::uav(), flight.now);
+  flight.run(10.0);
+  EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
+  EXPECT_EQ(flight.autopilot.mode(), "POSCTL");
+}
+
+TEST(Bridge, DoesNotArmForAFlightThatIsUnderWay) {
+  FlightInMemory flight;
+  flight.bridge.flight_is_under_way();
+  flight.run(8.0);
+  EXPECT_EQ(flight.bridge.stage(), Stage::Ready);
+  EXPECT_FALSE(flight.autopilot.armed());
+  flight.bridge.told_to_fly();
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
+}
+
+TEST(Bridge, StrangersChangeNothing) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  for (const Address stranger : {Address{2, 1}, Address{1, 2}, Address{255, 190}}) {
+    flight.bridge.hear(to_frame(Heartbeat{.custom_mode = 3U << 16U, .autopilot = 12}, stranger, 0), flight.now);
+    flight.bridge.hear(to_frame(SysStatus{.battery_remaining = 1}, stranger, 0), flight.now);
+    flight.bridge.hear(to_frame(LocalPositionNed{.time_boot_ms = 1, .p = {90, 90, 90}}, stranger, 0), flight.now);
+  }
+  flight.run(1.0);
+  EXPECT_TRUE(flight.following());
+  EXPECT_EQ(flight.bridge.autopilot().strangers(), 9);
+}
+
+TEST(Bridge, TellsTheTruthOfASimulator) {
+  SimulatedAutopilotConfig drifting;
+  drifting.estimator.drift_m = 0.5;
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, drifting);
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.run(3.0);
+  ASSERT_TRUE(flight.bridge.truth());
+  EXPECT_LT((flight.bridge.truth()->motion.p - flight.autopilot.model().truth().motion.p).norm(), 0.05);
+}
+
+TEST(Axes, TurnBothWaysAndAgree) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond(0.5, 0.1, -0.4, 0.7).normalized();
+  EXPECT_LT((swapped(swapped(q)).coeffs().cwiseAbs() - q.coeffs().cwiseAbs()).norm(), 1e-12);
+  const Vec3 body(1, 2, 3), frd(1, -2, -3);
+  EXPECT_LT((swapped(q) * frd - swapped(Vec3(q * body))).norm(), 1e-12);
+  EXPECT_NEAR(swapped_yaw(0.0), std::numbers::pi / 2.0, 1e-12);
+  EXPECT_NEAR(swapped_yaw(std::numbers::pi / 2.0), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace tern::mavlink

@@ -1,0 +1,117 @@
+// A bridge and a simulated autopilot on virtual time, over a link that may lose, double, delay and cut.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "core/base/random.h"
+#include "mavlink/bridge.h"
+#include "mavlink/sim/simulated_autopilot.h"
+
+namespace tern::mavlink {
+
+struct LinkFaults {
+  double lost = 0.0, doubled = 0.0;
+  Duration delay_from{1'000}, delay_to{1'000};  ///< later ones may overtake
+};
+
+class FlightInMemory {
+ public:
+  explicit FlightInMemory(const BridgeConfig& bridge_config = {.start = Start::Arm, .set_parameters = true},
+                          const SimulatedAutopilotConfig& autopilot_config = {}, std::uint64_t seed = 1)
+      : config(bridge_config), rng(seed), bridge(bridge_config, uav(), now), autopilot(autopilot_config, seed, now) {}
+
+  static UavSpec uav() {
+    UavSpec spec;
+    spec.start = Vec3(0, 0, 2);
+    return spec;
+  }
+
+  /// A stub of the executor: where the vehicle is, at rest, while it does not follow; then `path` (since it follows).
+  void say_setpoint() {
+    const VehicleStatus status = bridge.status(now);
+    if (!status.following) follows_since.reset();
+    if (status.following && !follows_since && path) follows_since = now;
+    UavState setpoint;
+    setpoint.at = now;
+    const auto state = bridge.state();
+    if (follows_since) {
+      setpoint.motion = path((now - *follows_since).seconds());
+      last = setpoint.motion;
+    } else if (!status.following && state) {
+      setpoint.motion.p = state->motion.p;
+      last = setpoint.motion;
+    } else {
+      setpoint.motion.p = last.p;
+    }
+    if (state && speaks) bridge.hear(setpoint, now);
+  }
+
+  void run(double seconds) {
+    const UTime end = now + Duration::from_seconds(seconds);
+    for (; now < end; now = now + Duration{2'000}) {
+      deliver();
+      if (beats++ % 5 == 0) say_setpoint();
+      if (bridge_runs) bridge.step(now);
+      autopilot.step(now);
+      for (const Frame& f : bridge.take_frames()) post(f, false);
+      for (const Frame& f : autopilot.take_frames()) post(f, true);
+      for (std::string& word : bridge.take_words()) words.push_back(std::move(word));
+      if (each) each();
+    }
+  }
+  bool run_until(const std::function<bool()>& condition, double patience_s = 60.0) {
+    const UTime end = now + Duration::from_seconds(patience_s);
+    while (!condition() && now < end) run(0.05);
+    return condition();
+  }
+  bool following() const { return bridge.status(now).following; }
+
+  /// Of a ground station: any system may command.
+  void ground_station(const CommandLong& command) { autopilot.hear(to_frame(command, {255, 190}, 0), now); }
+  void set_parameter(const std::string& name, float value) {
+    autopilot.hear(
+        to_frame(ParamSet{.param_value = value, .param_id = text_of<16>(name), .param_type = 9}, {255, 190}, 0), now);
+  }
+
+  BridgeConfig config;
+  UTime now{1'000'000'000};
+  Rng rng;
+  Bridge bridge;
+  SimulatedAutopilot autopilot;
+  LinkFaults faults;
+  bool cut = false, bridge_runs = true, speaks = true;
+  std::function<MotionSample(double)> path;
+  std::function<void()> each;
+  std::optional<UTime> follows_since;
+  std::vector<std::string> words;
+
+ private:
+  void post(const Frame& frame, bool to_bridge) {
+    if (cut || (!to_bridge && !bridge_runs)) return;
+    const int copies = rng.uniform() < faults.lost ? 0 : rng.uniform() < faults.doubled ? 2 : 1;
+    for (int k = 0; k < copies; ++k) {
+      const double delay =
+          rng.uniform(static_cast<double>(faults.delay_from.us), static_cast<double>(faults.delay_to.us) + 1);
+      flying.emplace(now + Duration{static_cast<std::int64_t>(delay)}, std::pair(to_bridge, frame));
+    }
+  }
+  void deliver() {
+    while (!flying.empty() && flying.begin()->first <= now) {
+      const auto [to_bridge, frame] = flying.begin()->second;
+      if (to_bridge) {
+        if (bridge_runs) bridge.hear(frame, now);
+      } else {
+        autopilot.hear(frame, now);
+      }
+      flying.erase(flying.begin());
+    }
+  }
+  std::multimap<UTime, std::pair<bool, Frame>> flying;
+  MotionSample last;
+  int beats = 0;
+};
+
+}  // namespace tern::mavlink

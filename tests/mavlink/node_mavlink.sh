@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# node_mavlink.sh: the frames that the tests were recorded with are those that npm's node-mavlink makes.
+# Without node or npm it fails: what was not run was not tested (launch_scripts/test.sh installs them).
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+for program in node npm; do
+  command -v "$program" >/dev/null || { echo "$program is missing: MAVLink's frames were not compared" && exit 1; }
+done
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cp "$here"/{package.json,package-lock.json,make_frames.mjs} "$work"
+(cd "$work" && npm ci --silent --no-audit --no-fund && node make_frames.mjs) >"$work/frames.txt"
+diff "$here/frames.txt" "$work/frames.txt"

@@ -1,0 +1,302 @@
+// tern-mavlink and tern-autopilot-sim as processes, with a relay between them that loses, doubles, reorders and cuts.
+// Runs inside tests/support/hermetic.sh, which gives it a network of its own. The test plays the executor.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "core/base/random.h"
+#include "mavlink/autopilot.h"
+#include "mavlink/messages.h"
+#include "tests/support/child_process.h"
+#include "tests/support/network_end.h"
+
+namespace tern::mavlink {
+namespace {
+
+using testing::HasSubstr;
+
+/// A UDP socket of this host.
+class Socket {
+ public:
+  Socket() : fd_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address = local(0);
+    socklen_t length = sizeof(address);
+    if (bind(fd_, reinterpret_cast<sockaddr*>(&address), length) != 0) throw std::runtime_error("bind");
+    getsockname(fd_, reinterpret_cast<sockaddr*>(&address), &length);
+    port_ = ntohs(address.sin_port);
+  }
+  ~Socket() { close(fd_); }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+
+  static sockaddr_in local(int port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    return address;
+  }
+  void send(const Bytes& bytes, int to) const {
+    const sockaddr_in address = local(to);
+    sendto(fd_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+  }
+  std::optional<Bytes> receive() {
+    Bytes bytes(2048);
+    sockaddr_in from{};
+    socklen_t length = sizeof(from);
+    const ssize_t n = recvfrom(fd_, bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
+    if (n < 0) return std::nullopt;
+    last_from = ntohs(from.sin_port);
+    bytes.resize(static_cast<std::size_t>(n));
+    return bytes;
+  }
+  [[nodiscard]] int port() const { return port_; }
+  int last_from = 0;
+
+ private:
+  int fd_, port_ = 0;
+};
+
+/// Between the bridge's port and the autopilot.
+struct Relay {
+  Socket to_autopilot, to_bridge;
+  int bridge_port = Socket().port(), autopilot_port = 0;
+  double lost = 0.0, doubled = 0.0, swapped = 0.0;
+  bool cut = false;
+  Rng rng{1};
+
+  void pump() {
+    while (const auto bytes = to_autopilot.receive()) {
+      autopilot_port = to_autopilot.last_from;
+      pass(*bytes, held_down, [&](const Bytes& b) { to_bridge.send(b, bridge_port); });
+    }
+    while (const auto bytes = to_bridge.receive()) {
+      pass(*bytes, held_up, [&](const Bytes& b) { to_autopilot.send(b, autopilot_port); });
+    }
+  }
+
+ private:
+  template <class Send>
+  void pass(const Bytes& bytes, std::deque<Bytes>& held, const Send& send) {
+    if (cut || rng.uniform() < lost) return;
+    if (rng.uniform() < swapped && held.size() < 4) {
+      held.push_back(bytes);  // goes after the next one
+      return;
+    }
+    send(bytes);
+    if (rng.uniform() < doubled) send(bytes);
+    for (const Bytes& late : held) send(late);
+    held.clear();
+  }
+  std::deque<Bytes> held_down, held_up;
+};
+
+class MavlinkProcesses : public testing::Test, protected NetworkEnd {
+ protected:
+  MavlinkProcesses() {
+    bus->subscribe(channels::kVehicleStatus, [this](const VehicleStatus& s) { status = s; });
+    bus->subscribe(channels::kUavState, [this](const UavState& s) { state = s; });
+    bus->subscribe(channels::kVehicleTruth, [this](const UavState& s) { truth = s; });
+    start_autopilot();
+  }
+
+  void start_autopilot() {
+    autopilot = std::make_unique<Child>(std::vector<std::string>{
+        TERN_AUTOPILOT_SIM, "--connect", "udpout://127.0.0.1:" + std::to_string(relay.to_autopilot.port()), "--set",
+        "autopilot_sim.busy_s=0.2"});
+  }
+  std::unique_ptr<Child> make_bridge(int port, std::vector<std::string> more = {}) {
+    std::vector<std::string> words{TERN_MAVLINK, "--connect", "udp://127.0.0.1:" + std::to_string(port)};
+    for (const char* value : {"mavlink.start=arm", "mavlink.set_parameters=true", "mavlink.climb_speed=3"}) {
+      more.insert(more.begin(), {"--set", value});
+    }
+    words.insert(words.end(), more.begin(), more.end());
+    return std::make_unique<Child>(words);
+  }
+  void start_bridge(std::vector<std::string> more = {}) { bridge = make_bridge(relay.bridge_port, std::move(more)); }
+
+  /// One look at everything; the executor's part at 100 Hz: rest where the vehicle began to follow.
+  void look() {
+    relay.pump();
+    pollfd fd{lcm->getFileno(), POLLIN, 0};
+    poll(&fd, 1, 1);
+    drain(*lcm, 1'000);
+    bus->rethrow();
+    const UTime now = clock.now();
+    if (!state || now < next_setpoint || !speaks) return;
+    next_setpoint = now + Duration{10'000};
+    if (!status.following || !rest) rest = state->motion.p;
+    UavState setpoint;
+    setpoint.at = now;
+    setpoint.motion.p = *rest;
+    bus->publish(channels::kSetpoint, setpoint);
+  }
+  bool until(const std::function<bool()>& condition, int patience_ms = kPatienceMs) {
+    const UTime end = clock.now() + Duration{patience_ms * 1'000LL};
+    while (!condition() && clock.now() < end) look();
+    return condition();
+  }
+  bool until_following() {
+    return until([&] { return status.following; });
+  }
+  void run_ms(int ms) {
+    until([] { return false; }, ms);
+  }
+  /// Of a ground station on a link of its own.
+  template <class M>
+  void ground_station(const M& message) {
+    Socket().send(to_bytes(to_frame(message, {255, 190}, 0)), relay.autopilot_port);
+  }
+  void say_goal(std::int64_t id) {
+    Goal goal;
+    goal.id = id;
+    bus->publish(channels::kGoal, goal);
+  }
+  void set_parameter(const char* name, float value) {
+    ground_station(ParamSet{.param_value = value, .param_id = text_of<16>(name), .param_type = 9});
+  }
+
+  Relay relay;
+  std::unique_ptr<Child> autopilot, bridge;
+  VehicleStatus status;
+  std::optional<UavState> state, truth;
+  std::optional<Vec3> rest;
+  UTime next_setpoint;
+  bool speaks = true;
+};
+
+const CommandLong kPilot{.param = {1, 3, 0}, .command = kDoSetMode};
+
+TEST_F(MavlinkProcesses, FlyAndLandWhenAskedToEnd) {
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  EXPECT_EQ(status.mode, "OFFBOARD");
+  ASSERT_TRUE(truth);
+  EXPECT_LT((truth->motion.p - Vec3(0, 0, 1)).norm(), 0.5) << "above uav.start";
+  EXPECT_LT((truth->motion.p - state->motion.p).norm(), 0.2);
+  bridge->signal(SIGTERM);
+  run_ms(600);
+  EXPECT_EQ(bridge->wait(), 0);
+  EXPECT_THAT(bridge->output, HasSubstr("the autopilot lands"));
+}
+
+TEST_F(MavlinkProcesses, OutliveAShortCutAndStandBackAfterALongOne) {
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  relay.cut = true;
+  run_ms(200);
+  relay.cut = false;
+  run_ms(700);
+  EXPECT_TRUE(status.following) << status.why_not;
+  relay.cut = true;
+  run_ms(1500);
+  EXPECT_THAT(status.why_not, HasSubstr("nothing heard of the autopilot"));
+  relay.cut = false;
+  ASSERT_TRUE(until([&] { return status.mode == "AUTO.LAND"; }));
+  EXPECT_FALSE(status.following);
+  EXPECT_TRUE(until([&] { return !status.armed; })) << "it has landed by its failsafe";
+}
+
+TEST_F(MavlinkProcesses, GiveWayToAPilotAndFlyAgainWhenTold) {
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  say_goal(1);
+  run_ms(50);
+  ground_station(kPilot);
+  ASSERT_TRUE(until([&] { return !status.following; }));
+  EXPECT_THAT(status.why_not, HasSubstr("has left for POSCTL"));
+  say_goal(1);
+  run_ms(1500);
+  EXPECT_EQ(status.mode, "POSCTL") << "a goal that is repeated is no new one";
+  say_goal(2);
+  EXPECT_TRUE(until_following()) << status.why_not;
+}
+
+TEST_F(MavlinkProcesses, SayWhyArmingIsRefused) {
+  ASSERT_TRUE(until([&] { return relay.autopilot_port != 0; }));
+  ground_station(ParamSet{.param_value = 1.0F, .param_id = text_of<16>("SIM_ARM_REFUSE"), .param_type = 9});
+  start_bridge();
+  EXPECT_TRUE(until([&] { return status.why_not.find("Arming denied") != std::string::npos; })) << status.why_not;
+  EXPECT_FALSE(status.armed);
+}
+
+TEST_F(MavlinkProcesses, TellJumpsAndLandWithALowBattery) {
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  set_parameter("SIM_EST_JUMP", 0.6F);
+  EXPECT_TRUE(until([&] { return status.resets == 1; }));
+  set_parameter("SIM_BAT_PCT", 10.0F);
+  ASSERT_TRUE(until([&] { return status.mode == "AUTO.LAND"; })) << status.why_not;
+  EXPECT_THAT(status.why_not, HasSubstr("battery 10 %"));
+}
+
+TEST_F(MavlinkProcesses, AKilledBridgeComesBackOrStandsBack) {
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  bridge->signal(SIGKILL);
+  EXPECT_EQ(bridge->wait(), -SIGKILL);
+  status = {};
+  start_bridge();
+  // What it finds depends on the failsafe's time: the vehicle still in OFFBOARD, or landing.
+  ASSERT_TRUE(until([&] { return status.following || status.mode == "AUTO.LAND"; })) << status.why_not;
+  if (status.mode == "AUTO.LAND") {
+    run_ms(2000);
+    EXPECT_FALSE(status.following);
+    EXPECT_EQ(status.mode, "AUTO.LAND");
+  }
+}
+
+TEST_F(MavlinkProcesses, FlyOverALinkThatLosesDoublesAndReorders) {
+  relay.lost = 0.2;
+  relay.doubled = 0.1;
+  relay.swapped = 0.1;
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  for (int k = 0; k < 20; ++k) {
+    run_ms(100);
+    ASSERT_TRUE(status.following) << status.why_not;
+  }
+}
+
+TEST_F(MavlinkProcesses, OfTwoBridgesOneFlies) {
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  const std::int64_t first = status.header.name.sender_epoch_us;
+  auto same_port = make_bridge(relay.bridge_port);
+  EXPECT_EQ(same_port->wait(), 2);
+  EXPECT_THAT(same_port->output, HasSubstr("another bridge or ground station listens there"));
+  auto second = make_bridge(Socket().port());
+  EXPECT_TRUE(until([&] {
+    return std::any_of(beats.begin(), beats.end(), [](const tern::Heartbeat& b) {
+      return b.waiting_for.find("another process flies this vehicle") != std::string::npos;
+    });
+  }));
+  EXPECT_TRUE(status.following);
+  EXPECT_EQ(status.header.name.sender_epoch_us, first);
+}
+
+TEST_F(MavlinkProcesses, StrangersChangeNothing) {
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  Socket stranger;
+  for (int k = 0; k < 50; ++k) {
+    for (const Address from : {Address{1, 1}, Address{9, 1}}) {
+      stranger.send(to_bytes(to_frame(Heartbeat{.custom_mode = 3U << 16U, .autopilot = 12}, from, 0)),
+                    relay.bridge_port);
+    }
+    stranger.send(Bytes(100, 0xFD), relay.bridge_port);
+    relay.to_bridge.send(to_bytes(to_frame(Heartbeat{.custom_mode = 3U << 16U, .autopilot = 12}, {9, 1}, 0)),
+                         relay.bridge_port);
+    run_ms(10);
+    ASSERT_TRUE(status.following) << status.why_not;
+  }
+}
+
+}  // namespace
+}  // namespace tern::mavlink

@@ -1,0 +1,112 @@
+#include "planner/assurance.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/planner.h"
+#include "tests/support/plan_judge.h"
+
+namespace tern {
+namespace {
+
+using namespace support;
+
+constexpr UTime kStart{50'000'000};
+constexpr AlphaShares kShares{0.9F, 0.5F, 0.3F, 0.1F};
+
+/// A post that is believed to stand there, α as wide.
+Track believed_post(std::int64_t id, const Vec3& p, double alpha) {
+  Track track = straight_mover(id, p, Vec3::Zero(), 0.3, kStart, 8.0);
+  track.half_extents.z() = 5.0;
+  track.kind = TrackKind::Estimated;
+  track.alpha = {Vec3(alpha, alpha, 0.0)};
+  track.shares = {kShares};
+  return track;
+}
+
+/// A world whose predictions promise 0.99.
+PlanningWorld promised_world(std::vector<Track> tracks, const HorizonRequest& request) {
+  PlanningWorld world = world_of(std::move(tracks), go_to(Vec3(10, 0, 1)), request);
+  TrackSet set = world.predictions->set;
+  set.confidence = kConfidenceLevels[0];
+  world.predictions = std::make_shared<const PredictionProducts>(std::move(set));
+  return world;
+}
+
+/// At rest in a corridor 3 m wide, with a post in its middle 1.5 m ahead.
+class InACorridor : public ::testing::Test {
+ protected:
+  InACorridor() { request_.flight_box = Box(Vec3(-5, -1.5, 0), Vec3(20, 1.5, 2)); }
+
+  Plan answer(std::vector<Track> tracks) {
+    const PlanningWorld world = promised_world(std::move(tracks), request_);
+    Budget budget = Budget::unlimited();
+    Plan got = plan(request_, world, PlannerConfig{}, budget).plan;
+    EXPECT_EQ(fault_of(got, request_, world, PlannerConfig{}), "");
+    return got;
+  }
+
+  HorizonRequest request_ = request_at(kStart + Duration{1'000'000}, resting_at(Vec3(0, 0, 1), kStart));
+};
+
+TEST(CountAlpha, LeavesWhatIsDeclaredOrStaticAsItIs) {
+  std::vector<Track> tracks = {straight_mover(1, Vec3::Zero(), Vec3::Ones(), 0.3, kStart, 2.0),
+                               standing_box(2, Box(Vec3::Zero(), Vec3::Ones()), kStart),
+                               believed_post(3, Vec3::Zero(), 1.0)};
+  for (Track& track : tracks) track.alpha[0] = Vec3::Ones();
+  std::vector<PlanningObstacle> obstacles = obstacles_of(tracks);
+  for (const Assurance& assurance : lower_assurances()) {
+    count_alpha(assurance, obstacles);
+    EXPECT_EQ(obstacles[0].alpha.of(tracks[0], 0), Vec3::Ones());
+    EXPECT_EQ(obstacles[1].alpha.of(tracks[1], 0), Vec3::Ones());
+    EXPECT_LE(obstacles[2].alpha.of(tracks[2], 0).maxCoeff(), 1.0);
+  }
+  count_alpha({}, obstacles);
+  EXPECT_EQ(obstacles[2].alpha.of(tracks[2], 0), Vec3::Ones());
+}
+
+TEST(LowerAssurances, CountLessAndLess) {
+  const Track track = believed_post(1, Vec3::Zero(), 1.0);
+  double before = 1.0;
+  for (const Assurance& assurance : lower_assurances()) {
+    std::vector<PlanningObstacle> obstacles = obstacles_of({track});
+    obstacles[0].track = &track;
+    count_alpha(assurance, obstacles);
+    const double now = obstacles[0].alpha.of(track, 0).x();
+    EXPECT_LE(now, before);
+    EXPECT_GT(now, 0.0);
+    before = now;
+  }
+}
+
+TEST_F(InACorridor, WhatIsPromisedIsFlownWhereThereIsRoom) {
+  const Plan got = answer({believed_post(1, Vec3(1.8, 0, 1), 0.3)});
+  EXPECT_EQ(got.outcome, PlanOutcome::Optimized);
+  EXPECT_EQ(got.confidence, kConfidenceLevels[0]);
+}
+
+TEST_F(InACorridor, ThePlanIsOfTheGreatestConfidenceThatLeavesAWay) {
+  // Beside the post there are 1.5 m less 0.3 m, α and the body's 0.2 m: none at levels 0 and 1.
+  const Plan got = answer({believed_post(1, Vec3(1.8, 0, 1), 1.15)});
+  EXPECT_EQ(got.outcome, PlanOutcome::Optimized);
+  EXPECT_EQ(got.level, 2);
+  EXPECT_EQ(got.confidence, kConfidenceLevels[2]);
+  EXPECT_EQ(got.alpha_scale, 1.0);
+}
+
+TEST_F(InACorridor, WhatIsDeclaredIsCertainAtEveryLevel) {
+  Track wall = believed_post(1, Vec3(1.8, 0, 1), 1.3);
+  wall.kind = TrackKind::Declared;
+  wall.shares.clear();
+  const Plan got = answer({wall});
+  EXPECT_EQ(got.level, 0);
+  EXPECT_LT(got.trajectory.control_points.row(0).maxCoeff(), 1.8) << "nothing lies beyond";
+}
+
+TEST_F(InACorridor, WhoStandsInsideAnInflatedBoxFliesOutOfItAtWhatConfidenceThereIs) {
+  const Plan got = answer({believed_post(1, Vec3(0.6, 0, 1), 1.4), believed_post(2, Vec3(-0.6, 0, 1), 1.4)});
+  EXPECT_NE(got.outcome, PlanOutcome::NoPlan);
+  EXPECT_LT(got.confidence, kConfidenceLevels[0]);
+}
+
+}  // namespace
+}  // namespace tern

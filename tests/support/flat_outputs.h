@@ -1,0 +1,47 @@
+// Oracle: what a multirotor must do to fly a spline, by dense sampling: thrust, attitude, and how attitude turns.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/world/vehicle.h"
+
+namespace tern::support {
+
+/// Extrema over samples; between samples a little more.
+struct FlatOutputs {
+  double least = 1e9, most = 0.0;           ///< thrust per mass, m/s²
+  double tilt_deg = 0.0, rate_deg_s = 0.0;  ///< of the thrust's direction; the rate from sample to sample
+
+  /// Whether they keep to the dynamics but for this share of each limit.
+  [[nodiscard]] bool within(const Dynamics& d, double share) const {
+    return least >= d.thrust_min * (1.0 - share) && most <= d.thrust_max * (1.0 + share) &&
+           tilt_deg <= d.tilt_max_deg * (1.0 + share) && rate_deg_s <= d.body_rate_max_deg_s * (1.0 + share);
+  }
+};
+
+inline FlatOutputs flat_outputs(const ClampedSpline& spline, int samples_per_interval = 200) {
+  FlatOutputs out;
+  const double step = spline.interval_s() / samples_per_interval;
+  Vec3 before = Vec3::Zero();
+  for (int k = 0; k <= samples_per_interval * spline.intervals(); ++k) {
+    const Vec3 thrust = spline.sample(std::min(k * step, spline.duration_s())).a + Vec3(0.0, 0.0, 9.80665);
+    const Vec3 z = thrust.normalized();
+    out.least = std::min(out.least, thrust.norm());
+    out.most = std::max(out.most, thrust.norm());
+    out.tilt_deg = std::max(out.tilt_deg, std::acos(std::clamp(z.z(), -1.0, 1.0)) * 180.0 / M_PI);
+    // The chord of two unit vectors tells small angles apart, which their scalar product does not.
+    if (k > 0)
+      out.rate_deg_s = std::max(out.rate_deg_s, 2.0 * std::asin(0.5 * (z - before).norm()) * 180.0 / M_PI / step);
+    before = z;
+  }
+  return out;
+}
+
+/// From a heavy vehicle with an autopilot's defaults to a racer.
+inline Dynamics random_dynamics(Rng& rng) {
+  return {rng.uniform(0.0, 5.0), rng.uniform(14.0, 50.0), rng.uniform(25.0, 80.0), rng.uniform(150.0, 1200.0)};
+}
+
+}  // namespace tern::support

@@ -1,0 +1,77 @@
+// The examples of docs fly: what a reader copies works.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "campaign/virtual_system.h"
+#include "messages/channels.h"
+#include "runtime/config.h"
+#include "runtime/scenario_file.h"
+#include "simulator/app/simulator_node.h"
+#include "tests/support/watched_flight.h"
+
+namespace tern::testing {
+namespace {
+
+constexpr Duration kFrame{33'333};
+const Vec3 kHalfExtents = Vec3::Constant(0.4);
+
+/// Where the box of own_detector.py is.
+Vec3 true_centre(UTime at) { return {6.0, 2.0 * std::sin(static_cast<double>(at.us) * 1e-6), 1.0}; }
+
+/// What own_detector.py sends.
+class OwnDetector final : public Node {
+ public:
+  explicit OwnDetector(Bus& bus) : bus_(bus), next_(bus.clock().now()) {}
+  [[nodiscard]] UTime next_wakeup() const override { return next_; }
+  void step(UTime now) override {
+    if (now < next_) return;
+    ObservationSet frame;
+    frame.at = now;
+    frame.sensor_id = 1;
+    frame.sensor_position = Vec3(0, 0, 1);
+    Detection box;
+    box.position = true_centre(now);
+    box.half_extents = kHalfExtents;
+    box.variance = Vec3::Constant(1e-4);
+    frame.detections.push_back(box);
+    bus_.publish(channels::kObstacleObservations, frame);
+    next_ = next_ + kFrame;
+  }
+  [[nodiscard]] NodeHealth health() const override { return {ProcessState::Ready, ""}; }
+
+ private:
+  Bus& bus_;
+  UTime next_;
+};
+
+TEST(DocsExamples, AFlightByOnesOwnDetectorReachesItsGoalClearOfWhatTrulyStoodThere) {
+  VirtualSystem system(TERN_EXAMPLES "/own_detector.yaml", {});
+  VirtualRunner& runner = system.runner();
+  runner.start("own-detector", [](Bus& bus) { return std::make_unique<OwnDetector>(bus); });
+  double clearance = std::numeric_limits<double>::infinity();
+  const double radius = system.scenario().uav.body.radius;
+  runner.observer().subscribe(channels::kUavState, [&](const UavState& state) {
+    const Vec3 apart = (state.motion.p - true_centre(state.at)).cwiseAbs() - kHalfExtents;
+    clearance = std::min(clearance, apart.cwiseMax(0.0).norm() - radius);
+  });
+  const SimulatorNode& simulator = system.simulator();
+  runner.run(runner.now() + Duration{120'000'000}, [&] { return simulator.result().has_value(); });
+  ASSERT_TRUE(simulator.result());
+  expect_reached(*simulator.result());
+  EXPECT_GT(clearance, 0.0);
+}
+
+TEST(DocsExamples, EveryScenarioOfDocsIsFlownHere) {
+  std::vector<std::string> scenarios;
+  for (const auto& entry : std::filesystem::directory_iterator(TERN_EXAMPLES)) {
+    if (entry.path().extension() == ".yaml") scenarios.push_back(entry.path().stem().string());
+  }
+  EXPECT_EQ(scenarios, std::vector<std::string>{"own_detector"});
+}
+
+}  // namespace
+}  // namespace tern::testing

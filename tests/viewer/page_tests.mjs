@@ -1,0 +1,173 @@
+// page_tests.mjs: what the page computes, without a browser.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+const source = (name) => import(new URL(`../../viewer/web/src/${name}.js`, import.meta.url));
+const { Quality } = await source('quality');
+const { readLink, writeLink } = await source('link');
+const { countUpTo, eventNear, placeAt, valueAt } = await source('time_rows');
+const { Tape } = await source('tape');
+const { label } = await source('labels');
+const { mapInWords, obstacleInWords } = await source('words');
+
+/** A renderer whose frames take `fixed` ms and `perPixels` ms at full size. @return ms until the pixels stayed, and the last frame's */
+function settle(quality, fixed, perPixels, seconds = 30) {
+  let now = 0;
+  let changed = 0;
+  let ms = 0;
+  while (now < 1e3 * seconds) {
+    ms = fixed + perPixels * quality.pixels ** 2;
+    now += ms;
+    const pixels = quality.frame(now);
+    if (pixels !== null && now < 20_000) changed = now;
+  }
+  return { changed, ms };
+}
+
+test('quality: a slow renderer has what it can pay for within two seconds', () => {
+  for (const perPixels of [40, 80, 150, 300]) {
+    const quality = new Quality({ pixels: 0.7, fewest: 0.3, most: 1 });
+    const { changed, ms } = settle(quality, 8, perPixels, 10);
+    assert.ok(changed < 2000 || quality.pixels === 1, `${perPixels}: still changed after ${changed} ms`);
+    assert.ok(ms < 33 || quality.pixels === 0.3, `${perPixels}: ${ms} ms a frame at ${quality.pixels}`);
+  }
+});
+
+test('quality: a renderer of four frames a second is at its least within two seconds', () => {
+  const quality = new Quality({ pixels: 0.7, fewest: 0.3, most: 1 });
+  const { changed } = settle(quality, 200, 200, 5);
+  assert.equal(quality.pixels, 0.3);
+  assert.ok(changed < 2000, `after ${changed} ms`);
+});
+
+test('quality: a fast renderer gets all pixels', () => {
+  const quality = new Quality({ pixels: 0.4, fewest: 0.3, most: 1 });
+  settle(quality, 3, 4);
+  assert.equal(quality.pixels, 1);
+});
+
+test('links: what is written is read', () => {
+  for (const link of [{}, { t: 6.3 }, { cam: 'top' }, { t: 0, cam: 'chase' }, { t: 12.25, cam: 'free', eye: [1, -2.5, 3, 0, 0, 1] }]) {
+    assert.deepEqual(readLink(writeLink(link)), link);
+  }
+  assert.equal(writeLink({ t: 6.3, cam: 'top' }), '#t=6.3&cam=top');
+});
+
+test('links: what is wrong is left out', () => {
+  for (const hash of ['', '#', '#t=', '#t=x', '#t=-1', '#t=Infinity', '#cam=moon', '#cam=<b>', '#x=1']) {
+    const { t, cam } = readLink(hash);
+    assert.ok(t === undefined || t === 0, hash);
+    assert.equal(cam, undefined, hash);
+  }
+  assert.deepEqual(readLink('#cam=free:1,2,x,4,5,6'), { cam: 'free' });
+  assert.deepEqual(readLink('#t=2&cam=free:1,2'), { t: 2, cam: 'free' });
+});
+
+test('rows: the newest value, and the place between two', () => {
+  const t = [0, 1, 1, 2, 5];
+  for (const at of [-1, 0, 0.5, 1, 1.5, 2, 4, 5, 6]) assert.equal(countUpTo(t, at), t.filter((x) => x <= at).length);
+  assert.equal(valueAt([[1, 2], ['a', 'b']], 0.9), null);
+  assert.equal(valueAt([[1, 2], ['a', 'b']], 1.9), 'a');
+  const path = { t: [1, 2, 4], curve: [0, 0, 0, 1, 2, 0, 0, 3, 2, 8, 0, 1] };
+  assert.equal(placeAt(path, 0.5), null);
+  assert.deepEqual(placeAt(path, 1.5), [1, 0, 0, 2]);
+  assert.deepEqual(placeAt(path, 3), [2, 4, 0, 2]);
+  assert.equal(placeAt(path, 9), null);
+});
+
+test('timeline: a click finds the loud event near it', () => {
+  const events = [{ t: 1, kind: 'outcome' }, { t: 1.3, kind: 'late' }, { t: 9, kind: 'goal' }];
+  const place = (t) => 10 * t;
+  assert.equal(eventNear(events, place, 11).kind, 'late');
+  assert.equal(eventNear(events, place, 5).kind, 'outcome');
+  assert.equal(eventNear(events, place, 50), null);
+});
+
+/** A tape of 10 s: the vehicle's x is its time; plans at 2, 4, 6, 8 s. */
+function tape() {
+  const shown = [];
+  let now = 0;
+  const s = (t) => t * 1e6;
+  const rows = {
+    state: [Array.from({ length: 101 }, (_, k) => s(k / 10)), Array.from({ length: 101 }, (_, k) => ({ x: k / 10 }))],
+    plan: [[2, 4, 6, 8].map(s), ['a', 'b', 'c', 'd']],
+  };
+  const known = {};
+  const handlers = { open() {}, frame: (frame) => Object.assign(known, frame) && shown.push(frame), reply: (r) => (known.reply = r) };
+  const player = new Tape({ begin_us: 0, end_us: s(10), still: { session: { mode: 'file' } }, rows }, handlers, () => now);
+  player.open();
+  return { player, known, shown, pass: (ms) => ((now += ms), player.drawn()) };
+}
+
+test('tape: plays at its speed, and ends at the end', () => {
+  const { known, pass, player } = tape();
+  assert.equal(known.session.mode, 'file');
+  pass(1500);
+  assert.equal(known.state.x, 1.5);
+  assert.equal(known.plan ?? null, null);
+  player.send({ player: { speed: 2 } });
+  pass(1000);
+  assert.equal(known.state.x, 3.5);
+  assert.equal(known.plan, 'a');
+  pass(60_000);
+  assert.equal(known.state.x, 10);
+  assert.equal(known.player.playing, false);
+  player.send({ player: { play: true } });
+  pass(100);
+  assert.equal(known.state.x, 0.2);
+});
+
+test('tape: jumps anywhere, and steps from plan to plan', () => {
+  const { known, pass, player } = tape();
+  for (const [to, x, plan] of [[7e6, 7, 'c'], [1e6, 1, null], [99e6, 10, 'd'], [-5, 0, null]]) {
+    player.send({ player: { play: false } });
+    player.send({ player: { seek_us: to } });
+    pass(500);
+    assert.equal(known.state.x, x);
+    assert.equal(known.plan, plan);
+  }
+  for (const [step, at] of [[1, 2e6], [1, 4e6], [-1, 2e6], [-1, 2e6]]) {
+    player.send({ player: { step } });
+    pass(10);
+    assert.equal(known.player.at_us, at);
+  }
+});
+
+test('tape: an unchanged topic is not told again', () => {
+  const { shown, pass, player } = tape();
+  player.send({ player: { play: false } });
+  pass(0);
+  pass(100);
+  assert.deepEqual(Object.keys(shown.at(-1)).sort(), ['dropped', 'frame', 'player']);
+});
+
+test('labels: fields as people read them', () => {
+  assert.equal(label('UAV_STATE.speed_mps'), 'speed m/s');
+  assert.equal(label('UAV_STATE.velocity_mps.x'), 'velocity.x m/s');
+  assert.equal(label('clearance.obstacles_m'), 'clearance to obstacles m');
+  assert.equal(label('PLAN_TIMING.local_goal_ms'), 'local goal ms');
+  assert.equal(label('PLAN.cost_jerk'), 'plan cost jerk');
+  assert.equal(label('PLAN_TIMING.hulls'), 'hulls');
+});
+
+test('words: what was clicked on', () => {
+  const known = {
+    state: { p: [0, 0, 1], map_clearance: 0.4 },
+    request: { radius: 0.1 },
+    truth: { id: [7, 8], moves: [1, 0], p: [3, 0, 1, 0, 5, 1], v: [0, 2, 0, 0, 0, 0], h: [0.5, 0.5, 0.5, 1, 1, 1] },
+    tracks: { id: [7] },
+    plan: { planes: [{ track: 7 }, { track: 7 }] },
+  };
+  assert.equal(
+    obstacleInWords(7, known),
+    'A mover at 2.0 m/s, 1.0 × 1.0 × 1.0 m; the vehicle is 2.40 m away; the planner is told of it; 2 planes of the newest plan keep it apart.');
+  assert.match(obstacleInWords(8, known), /^It stands still, .* 3\.90 m away; the planner is not told of it/);
+  assert.equal(obstacleInWords(9, known), 'It is not there any more.');
+  known.state.p = [3, 0, 1.45];
+  assert.match(obstacleInWords(7, known), /overlaps it by 0\.10 m/);
+  const at = { toArray: () => [0, 3, 1], getComponent: (k) => [0, 3, 1][k] };
+  known.state.p = [0, 0, 1];
+  assert.equal(
+    mapInWords({ point: at, layer: 'walls' }, known),
+    'Occupied: a wall of the map, nothing flies through it; here at 0.0, 3.0, 1.0; the vehicle is 2.90 m away; its nearest wall is 0.40 m away.');
+});

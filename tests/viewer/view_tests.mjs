@@ -1,0 +1,192 @@
+// view_tests.mjs NAME: one test of how tern-viewer's page shows a flight, in a headless Chromium.
+import { statSync } from 'node:fs';
+import { join } from 'node:path';
+import {
+  atRest, end, eventually, expect, knownLog, openPage, run, scrubTo, shows, start, startViewer, status, work,
+} from './support.mjs';
+
+const OBSTACLES = 30; // of the known scene
+const REGIONS = 2;
+const { TERN_BIN, TERN_PAGE } = process.env;
+const scripts = new URL('../../launch_scripts', import.meta.url).pathname;
+
+const text = (page, selector) => page.textContent(selector);
+
+await run({
+  async no_panel_hides_the_vehicle_that_is_followed() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    await page.evaluate(() => window.tern.send({ player: { play: false } }));
+    await page.waitForFunction(() => window.tern.known.player?.playing === false);
+    await scrubTo(page, 0.5);
+    await shows(page, 'the vehicle at 10 m', (s) => Math.abs(s.vehicle[0] - 10) < 0.05);
+    for (const [width, height] of [[800, 600], [1600, 900], [390, 844]]) {
+      await page.setViewportSize({ width, height });
+      for (const camera of ['chase', 'top', 'side']) {
+        await page.evaluate((mode) => window.tern.setCamera(mode), camera); // a phone has the buttons behind its menu
+        const { vehicle } = await status(page);
+        const { x, y } = await atRest(page, vehicle);
+        const hidden = await page.evaluate(
+          ([u, v]) => [[0, 0], [-25, 0], [25, 0], [0, -25], [0, 25]].some(
+            ([right, down]) => document.elementFromPoint(u + right, v + down)?.id !== 'view'),
+          [x, y]);
+        expect(`${camera} at ${width}×${height}: the vehicle is at ${x}, ${y}`, !hidden);
+      }
+    }
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async no_two_panels_overlap() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    for (const [width, height] of [[390, 844], [360, 640], [800, 600], [1024, 768], [1600, 1000]]) {
+      await page.setViewportSize({ width, height });
+      const overlaps = await page.evaluate(() => {
+        const boxes = ['#head', '#flight', '#side', 'footer'].map((name) => [name, document.querySelector(name).getBoundingClientRect()]);
+        const shown = boxes.filter(([, box]) => box.width > 0);
+        const bad = shown.filter(([, b]) => b.left < 0 || b.top < 0 || b.right > innerWidth || b.bottom > innerHeight);
+        for (const [one, a] of shown) {
+          for (const [other, b] of shown) {
+            if (one < other && a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom) bad.push([`${one} ${other}`]);
+          }
+        }
+        return bad.map(([name]) => name);
+      });
+      expect(`at ${width}×${height}: ${overlaps}`, overlaps.length === 0);
+    }
+  },
+
+  async keys_work_after_clicks() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    const playing = () => page.evaluate(() => window.tern.known.player.playing);
+    const at = () => page.evaluate(() => window.tern.known.player.at_us);
+    await page.click('#play');
+    await eventually('it pauses', async () => !(await playing()));
+    for (const spot of ['[data-camera=top]', 'input[name=hulls]', '#timeline', '#view']) {
+      if (spot === '#view') await page.mouse.click(400, 250);
+      else await page.click(spot, { force: true });
+      await page.evaluate(() => window.tern.jump(5));
+      await eventually('it is there', async () => page.evaluate(() => Math.abs(window.tern.known.player.at_us - window.tern.known.player.begin_us - 5e6) < 1));
+      const here = await at();
+      await page.keyboard.press('ArrowRight');
+      await eventually(`the next plan after a click on ${spot}`, async () => (await at()) === here + 100_000);
+      await page.keyboard.press('ArrowLeft');
+      await eventually('and back', async () => (await at()) === here);
+      await page.keyboard.press(' ');
+      await eventually(`it plays after a click on ${spot}`, playing);
+      await page.keyboard.press(' ');
+      await eventually('and pauses', async () => !(await playing()));
+    }
+  },
+
+  async a_link_holds_moment_and_camera() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url, undefined, '#t=6.3&cam=top');
+    await shows(page, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.02);
+    expect('paused', !(await page.evaluate(() => window.tern.known.player.playing)));
+    expect('from above', await page.evaluate(() => window.tern.world.camera.isOrthographicCamera));
+    await page.evaluate(() => window.tern.jump(12));
+    await eventually('the address follows', () => page.evaluate(() => location.hash === '#t=12&cam=top'));
+  },
+
+  async the_cameras_look_along_the_flight() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url, undefined, '#t=10&cam=chase');
+    await shows(page, 'the vehicle at 10 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 10) < 0.02);
+    await page.waitForFunction(() => Object.keys(window.tern.known.path ?? {}).length > 0);
+    const looks = () =>
+      page.evaluate(() => {
+        const { camera } = window.tern.world;
+        return { from: camera.position.toArray(), to: camera.getWorldDirection(camera.position.clone()).toArray() };
+      });
+    for (const [camera, holds] of [
+      ['chase', ({ from, to }) => from[0] < 8 && to[0] > 0.8], // behind, along +x
+      ['first', ({ from, to }) => Math.abs(from[0] - 10) < 0.1 && to[0] > 0.9],
+      ['top', ({ to }) => to[2] < -0.99],
+      ['side', ({ from, to }) => from[1] < -20 && to[1] > 0.99],
+    ]) {
+      await page.evaluate((mode) => window.tern.setCamera(mode), camera);
+      let view = null;
+      await eventually(`${camera}: ${JSON.stringify(view)}`, async () => holds((view = await looks())));
+    }
+    await page.click('#fit');
+    const ends = await Promise.all([[0, 0, 1], [20, 0, 1]].map((p) => atRest(page, p)));
+    expect(`all of the path: ${JSON.stringify(ends)}`, ends.every(({ x, y }) => x > 0 && x < 800 && y > 0 && y < 600));
+  },
+
+  async charts_and_timeline_show_the_whole_flight() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES && s.events > 0);
+    await page.evaluate(() => window.tern.send({ player: { play: false } }));
+    const series = (name) => page.evaluate((n) => window.tern.charts.series[n], name);
+    await eventually('speed', async () => (await series('UAV_STATE.speed_mps'))?.[0].length > 100);
+    const [t, speed] = await series('UAV_STATE.speed_mps');
+    expect('all of it', t[0] < 0.1 && t.at(-1) === 20 && speed.at(-1) === 0 && speed.slice(0, -1).every((v) => v === 1));
+    const [, toMap] = await series('clearance.map_m');
+    expect('nothing of the map is occupied', toMap.every((x) => x === null));
+    await page.setViewportSize({ width: 1400, height: 900 });
+    const [input] = await page.$$('.add');
+    await input.fill('PLAN.hold_s');
+    await input.press('Enter');
+    await eventually('another field', async () => (await series('PLAN.hold_s'))?.[1].every((x) => x === 1));
+    const plot = await page.$('.plot .u-over');
+    const box = await plot.boundingBox();
+    await page.mouse.click(box.x + box.width / 2, box.y + 20);
+    await shows(page, 'a click jumps', (s) => Math.abs(s.vehicle[0] - 10) < 0.3);
+    const line = await page.evaluate(() => window.tern.timeline.now);
+    expect(`one cursor: ${line}`, Math.abs(line - 10) < 0.3);
+    await page.mouse.move(box.x + box.width / 4, box.y + 20);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2, box.y + 20, { steps: 4 });
+    await page.mouse.up();
+    await eventually('a drag zooms all', () => page.evaluate(() => {
+      const [from, to] = window.tern.charts.range();
+      return Math.abs(from - 5) < 0.3 && Math.abs(to - 10) < 0.3;
+    }));
+    await page.click('#eventlist');
+    await eventually('the goal is listed', async () => (await text(page, '#messages')).includes('goal 1: 20.0, 0.0, 1.0'));
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async an_exported_page_plays_by_itself() {
+    const file = join(work, 'flight.html');
+    const log = await knownLog();
+    const made = start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, '--export', file, '--ghost', log, log]);
+    expect(`exported: ${made.said}`, (await made.gone) === 0);
+    expect('small enough', statSync(file).size < 10_000_000);
+    const page = await openPage(`file://${file}`, undefined, '#t=6.3&cam=side');
+    await shows(page, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.06);
+    const there = await status(page);
+    expect('all that stands there', there.obstacles === OBSTACLES && there.regions === REGIONS);
+    expect('its ghost is where it is', Math.abs(there.ghost[0] - there.vehicle[0]) < 0.1);
+    await page.keyboard.press(' ');
+    await shows(page, 'it plays', (s) => s.vehicle[0] > 7);
+    await page.check('input[name=planes]');
+    await shows(page, 'planes', (s) => s.planes === 1);
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async a_flight_that_has_ended_is_played_by_the_same_page() {
+    const record = join(work, 'flight');
+    const flight = start(`${scripts}/fly.sh`, [
+      '--no-install', '--isolated', '--view', '--view-wait', '60', '--record', record, '--scenario',
+      new URL('pillar.yaml', import.meta.url).pathname, '--set', 'simulator.send_goal=true',
+    ]);
+    await eventually('it waits for a page', () => /begins when a page looks/.test(flight.said) || flight.ended);
+    const page = await openPage(/view +(\S+)/.exec(flight.said)[1]);
+    await eventually('the log', async () => (await text(page, '#mode')) === 'log');
+    expect('which was seen live before', (await status(page)).modes.join() === 'live,log');
+    expect('reached', /^reached$/m.test(flight.said));
+    await page.evaluate(() => window.tern.jump(0));
+    await shows(page, 'wound back', (s) => s.vehicle && Math.hypot(s.vehicle[0], s.vehicle[1]) < 0.5);
+    expect(`the console is silent: ${page.complaints}`, page.complaints.filter((c) => !/WebSocket/.test(c)).length === 0);
+    expect('it stays', !flight.ended);
+    process.kill(flight.child.pid, 'SIGINT');
+    expect(`the flight's exit code: ${flight.said}`, (await flight.gone) === 0);
+  },
+});

@@ -1,0 +1,83 @@
+// Whether the vehicle was where it was promised to be: within the tube about its setpoints.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/audit/audit.h"
+#include "tools/audit/flown.h"
+
+namespace tern::audit {
+namespace {
+
+/// Setpoints come at 100 Hz. Farther apart the one before says nothing of now.
+constexpr Duration kSetpointHole{25'000};
+constexpr char kAxes[] = {'x', 'y', 'z'};
+
+/// The commanded position at `t`: the cubic that the setpoint begins.
+Vec3 commanded(const UavState& setpoint, UTime t) {
+  const double s = (t - setpoint.at).seconds();
+  const MotionSample& m = setpoint.motion;
+  return m.p + s * (m.v + s * (0.5 * m.a + s / 6.0 * m.j));
+}
+
+/// The request whose plan, or whose consent to the committed trajectory, was in force at `t`. @return nullptr before
+/// the first one
+const HorizonRequest* in_force(const std::vector<HorizonRequest>& requests, UTime t) {
+  const auto later = std::upper_bound(requests.begin(), requests.end(), t,
+                                      [](UTime at, const HorizonRequest& r) { return at < r.t_s; });
+  return later == requests.begin() ? nullptr : &*std::prev(later);
+}
+
+struct Widest {
+  double error_m = 0.0;
+  double margin_m = INFINITY;
+  Vec3 tube = Vec3::Zero();
+  double squares = 0.0;
+};
+
+}  // namespace
+
+Check check_tube(const FlightRecord& record) {
+  Check check{.name = "tube", .claim = "the vehicle stayed within the promised tube about its setpoints"};
+  std::vector<HorizonRequest> requests = record.requests;
+  std::stable_sort(requests.begin(), requests.end(), [](const auto& a, const auto& b) { return a.t_s < b.t_s; });
+  const Window window = judged(record);
+  Widest worst;
+  for (const UavState& state : record.states) {
+    if (state.at < window.from || state.at > window.to) continue;
+    const HorizonRequest* request = in_force(requests, state.at);
+    if (request == nullptr) continue;
+    const auto after = std::upper_bound(record.setpoints.begin(), record.setpoints.end(), state.at,
+                                        [](UTime t, const UavState& s) { return t < s.at; });
+    if (after == record.setpoints.begin() || state.at - std::prev(after)->at > kSetpointHole) {
+      ++check.unchecked["states without a setpoint in the 25 ms before"];
+      continue;
+    }
+    ++check.checked;
+    const Vec3 off = (state.motion.p - commanded(*std::prev(after), state.at)).cwiseAbs();
+    const Vec3 margin = request->tube - off;
+    int axis = 0;
+    worst.margin_m = std::min(worst.margin_m, margin.minCoeff(&axis));
+    worst.error_m = std::max(worst.error_m, off.norm());
+    worst.squares += off.squaredNorm();
+    worst.tube = worst.tube.cwiseMax(request->tube);
+    if (margin[axis] >= -kJoinTolerance) continue;
+    check.fail({state.at,
+                fmt::format("{:.3g} m off its setpoint along {}, beyond {:.3g} m", off[axis], kAxes[axis],
+                            request->tube[axis]),
+                request->id});
+  }
+  if (check.checked == 0) return check;
+  const double rmse = std::sqrt(worst.squares / static_cast<double>(check.checked));
+  check.summary =
+      fmt::format("at most {:.3g} m off its setpoints (RMSE {:.3g} m), {:.3g} m inside the tube of {:.3g} m",
+                  worst.error_m, rmse, worst.margin_m, worst.tube.maxCoeff());
+  check.measures = {{"tracking_error_m", worst.error_m},
+                    {"tracking_rmse_m", rmse},
+                    {"tube_margin_m", worst.margin_m},
+                    {"tube_m", worst.tube.maxCoeff()}};
+  return check;
+}
+
+}  // namespace tern::audit

@@ -1,0 +1,122 @@
+#include "viewer/bridge/app/devtools.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "runtime/child_process.h"
+
+namespace tern {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kPatienceMs = 60'000;
+constexpr int kLookMs = 100;
+
+std::string from_base64(const std::string& text) {
+  std::string bytes;
+  std::uint32_t group = 0;
+  int bits = 0;
+  for (const char c : text) {
+    const bool is_upper = c >= 'A' && c <= 'Z', is_lower = c >= 'a' && c <= 'z', is_digit = c >= '0' && c <= '9';
+    if (!is_upper && !is_lower && !is_digit && c != '+' && c != '/') continue;
+    const int value = is_upper ? c - 'A' : is_lower ? c - 'a' + 26 : is_digit ? c - '0' + 52 : c == '+' ? 62 : 63;
+    group = group << 6U | static_cast<std::uint32_t>(value);
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(group >> static_cast<std::uint32_t>(bits) & 0xffU);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+Devtools::Devtools(const std::string& program, const std::string& profile, int width, int height) {
+  int commands[2], answers[2];
+  if (pipe2(commands, O_CLOEXEC) != 0 || pipe2(answers, O_CLOEXEC) != 0)
+    throw std::runtime_error("no pipe can be made");
+  to_ = commands[1];
+  from_ = answers[0];
+  // The browser reads descriptor 3 and writes 4.
+  const std::string redirect = fmt::format("exec \"$0\" \"$@\" 3<&{} 4>&{} 2>/dev/null", commands[0], answers[1]);
+  browser_ =
+      start_child({.command = {"sh", "-c", redirect, program, "--headless", "--remote-debugging-pipe", "--no-first-run",
+                               "--no-sandbox", "--hide-scrollbars", "--allow-file-access-from-files", "--use-gl=angle",
+                               "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                               fmt::format("--window-size={},{}", width, height), "--user-data-dir=" + profile},
+                   .inherited = {commands[0], answers[1]},
+                   .own_group = true});
+  close(commands[0]);
+  close(answers[1]);
+  const json target = call("Target.createTarget", {{"url", "about:blank"}});
+  session_ = call("Target.attachToTarget", {{"targetId", target.at("targetId")}, {"flatten", true}}).at("sessionId");
+  call("Emulation.setDeviceMetricsOverride",
+       {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+}
+
+Devtools::~Devtools() {
+  close(to_);
+  close(from_);
+  kill(-browser_, SIGKILL);
+  (void)await_child(browser_);
+}
+
+std::string Devtools::read_message() {
+  while (true) {
+    const std::size_t end = heard_.find('\0');
+    if (end != std::string::npos) {
+      std::string message = heard_.substr(0, end);
+      heard_.erase(0, end + 1);
+      return message;
+    }
+    pollfd answer{from_, POLLIN, 0};
+    std::vector<char> buffer(1U << 16U);
+    const ssize_t n = poll(&answer, 1, kPatienceMs) > 0 ? read(from_, buffer.data(), buffer.size()) : 0;
+    if (n <= 0) throw std::runtime_error("the browser does not answer");
+    heard_.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+}
+
+json Devtools::call(const std::string& method, const json& parameters) {
+  json command = {{"id", ++calls_}, {"method", method}, {"params", parameters}};
+  if (!session_.empty()) command["sessionId"] = session_;
+  const std::string text = command.dump() + '\0';
+  if (write(to_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+    throw std::runtime_error("the browser does not listen: is it installed?");
+  }
+  while (true) {
+    const json message = json::parse(read_message());
+    if (message.value("id", std::int64_t{0}) != calls_) continue;
+    if (message.contains("error")) throw std::runtime_error(method + ": " + message["error"].dump());
+    return message.at("result");
+  }
+}
+
+void Devtools::open(const std::string& url, const std::string& ready) {
+  call("Page.navigate", {{"url", url}});
+  for (int waited = 0; evaluate(ready) != true; waited += kLookMs) {
+    if (waited >= kPatienceMs) throw std::runtime_error("the page does not begin to draw");
+    usleep(kLookMs * 1000);
+  }
+}
+
+json Devtools::evaluate(const std::string& expression) {
+  const json answer =
+      call("Runtime.evaluate", {{"expression", expression}, {"awaitPromise", true}, {"returnByValue", true}});
+  if (answer.contains("exceptionDetails")) throw std::runtime_error(answer["exceptionDetails"].dump());
+  return answer.at("result").value("value", json());
+}
+
+std::string Devtools::picture() {
+  return from_base64(call("Page.captureScreenshot", {{"format", "jpeg"}, {"quality", 92}}).at("data"));
+}
+
+}  // namespace tern

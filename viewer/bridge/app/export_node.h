@@ -1,0 +1,16 @@
+// tern-viewer --export and --video: a log becomes a file, and the process has done its work.
+#pragma once
+
+#include <memory>
+
+#include "runtime/bus.h"
+#include "runtime/node.h"
+#include "viewer/bridge/app/viewer_node.h"
+
+namespace tern {
+
+/// Writes the files that the options ask for, or shows the flight if they ask for none.
+/// @throws ConfigError when that cannot be done
+std::unique_ptr<Node> make_viewer(Bus& bus, const Scenario& scenario, const ViewerOptions& options);
+
+}  // namespace tern

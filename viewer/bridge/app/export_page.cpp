@@ -1,0 +1,200 @@
+#include "viewer/bridge/app/export_page.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <boost/beast/zlib/deflate_stream.hpp>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "viewer/bridge/app/log_player.h"
+#include "viewer/bridge/json_writer.h"
+#include "viewer/bridge/topics.h"
+
+namespace tern {
+namespace {
+
+constexpr Duration kStep{50'000};
+constexpr char kPolicy[] =
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; style-src "
+    "'unsafe-inline'; img-src data:; connect-src data:\">";
+
+std::string base64(const std::string& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      group = group << 8U | (k + i < bytes.size() ? static_cast<std::uint8_t>(bytes[k + i]) : 0U);
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      out += k + i > bytes.size() ? '=' : kDigits[group >> (18U - 6U * i) & 63U];
+    }
+  }
+  return out;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// Puts `text` where the element stands that refers to a file; nothing where none does.
+void put_for(std::string& html, const std::string& file, const std::string& end, const std::string& text) {
+  const std::size_t at = html.find("\"." + file + "\"");
+  if (at == std::string::npos) return;
+  const std::size_t begin = html.rfind('<', at), stop = html.find(end, at) + end.size();
+  html.replace(begin, stop - begin, text);
+}
+
+/// How often a topic is kept at most.
+Duration spacing(Topic topic) {
+  switch (topic) {
+    case Topic::Truth: return Duration{100'000};
+    case Topic::Tracks:
+    case Topic::Hulls: return Duration{200'000};
+    case Topic::Health: return Duration{1'000'000};
+    default: return kStep;
+  }
+}
+
+bool is_of_the_past(Topic topic) {
+  return topic == Topic::Chart || topic == Topic::Path || topic == Topic::Fields || topic == Topic::Events;
+}
+
+/// What the page was told on one topic, and when.
+struct Row {
+  std::vector<UTime> at;
+  std::vector<std::string> json;
+};
+
+using Rows = std::map<Topic, Row>;
+
+Rows play(LogPlayer& player, const LayersCommand& layers) {
+  Scene scene;
+  SceneIntake intake(scene);
+  Rows rows;
+  player.seek(player.begin(), scene, intake);
+  player.play(true, UTime{0});
+  for (std::int64_t step = 0;; ++step) {
+    const UTime now = player.position();
+    for (int k = 0; k < kTopics; ++k) {
+      const auto topic = static_cast<Topic>(k);
+      Row& row = rows[topic];
+      const bool is_due = row.at.empty() || now - row.at.back() >= spacing(topic) || now == player.end();
+      const bool is_hidden = (topic == Topic::Hulls && !layers.hulls) || (topic == Topic::Tracks && scene.truth());
+      if (is_hidden || is_of_the_past(topic) || !is_due || !scene.take_change(topic)) continue;
+      std::string json = topic_json(topic, {scene, player.memory(), player.begin(), player.end(), now, layers, {}});
+      if (row.json.empty() ? json == "null" : json == row.json.back()) continue;
+      row.at.push_back(now);
+      row.json.push_back(std::move(json));
+    }
+    if (now == player.end()) return rows;
+    player.advance(UTime{(step + 1) * kStep.us}, intake);
+  }
+}
+
+std::string session_json(const PageExport& wanted) {
+  JsonWriter json;
+  json.begin_object().key("mode").text("file").key("goals").flag(false).key("name").text(wanted.log);
+  return json.key("epoch").integer(0).end_object().take();
+}
+
+Result<std::string> still_json(const PageExport& wanted, const LogPlayer& player) {
+  const auto fields = player.memory().history.fields();
+  const Scene nothing;
+  const Telling telling{nothing, player.memory(), player.begin(), player.end(), player.end(), {}, fields};
+  JsonWriter json;
+  json.begin_object().key("session").raw(session_json(wanted));
+  for (const Topic topic : {Topic::Chart, Topic::Path, Topic::Fields, Topic::Events}) {
+    json.key(to_string(topic)).raw(topic_json(topic, telling));
+  }
+  if (!wanted.ghost.empty()) {
+    const auto ghost = LogPlayer::open(wanted.ghost, wanted.suffix);
+    if (!ghost) return fail(ghost.error().message);
+    json.key("ghost").raw(ghost_json(wanted.ghost, ghost->body_radius(), ghost->memory().history,
+                                     player.memory().history, player.begin()));
+  }
+  return json.end_object().take();
+}
+
+std::string tape_json(const LogPlayer& player, const std::string& still, const Rows& rows) {
+  JsonWriter json;
+  json.begin_object().key("begin_us").integer(player.begin().us).key("end_us").integer(player.end().us);
+  json.key("still").raw(still).key("rows").begin_object();
+  for (const auto& [topic, row] : rows) {
+    if (row.at.empty()) continue;
+    json.key(to_string(topic)).begin_list().begin_list();
+    for (const UTime at : row.at) json.integer(at.us);
+    json.end_list().begin_list();
+    for (const std::string& value : row.json) json.raw(value);
+    json.end_list().end_list();
+  }
+  return json.end_object().end_object().take();
+}
+
+}  // namespace
+
+std::string deflated(const std::string& bytes) {
+  namespace zlib = boost::beast::zlib;
+  zlib::deflate_stream stream;
+  stream.reset(9, 15, 9, zlib::Strategy::normal);
+  std::string out(stream.upper_bound(bytes.size()) + 64, '\0');
+  zlib::z_params state;
+  state.next_in = bytes.data();
+  state.avail_in = bytes.size();
+  state.next_out = out.data();
+  state.avail_out = out.size();
+  boost::beast::error_code error;
+  while (!error) stream.write(state, zlib::Flush::finish, error);
+  out.resize(state.total_out);
+  return out;
+}
+
+Result<std::string> inline_page(const PageFiles& files, const std::string& packed) {
+  const auto index = files.find("/index.html");
+  const auto licences = files.find("/licences.txt");
+  if (index == files.end() || licences == files.end()) return fail("the page is not built");
+  std::string html = index->second.bytes;
+  for (const auto& [path, file] : files) {
+    std::string text = file.bytes;
+    if (path.ends_with(".js")) {
+      replace_all(text, "</script", "<\\/script");
+      put_for(html, path, "</script>", "<script type=\"module\">" + text + "</script>");
+    } else if (path.ends_with(".css")) {
+      put_for(html, path, ">", "<style>" + text + "</style>");
+    }
+  }
+  std::string said = licences->second.bytes;
+  replace_all(said, "</script", "<\\/script");
+  const std::size_t head = html.find("<head>") + 6;
+  html.insert(head, kPolicy);
+  const std::string kept = fmt::format("<script type=\"text/plain\" id=\"licences\">{}</script>", said) +
+                           fmt::format("<script type=\"text/plain\" id=\"tape\">{}</script>", packed);
+  html.insert(html.rfind("</body>"), kept);
+  return html;
+}
+
+Result<ExportedPage> export_page(const PageExport& wanted) {
+  auto player = LogPlayer::open(wanted.log, wanted.suffix);
+  if (!player) return fail(player.error().message);
+  const auto files = load_page(wanted.page.empty() ? default_page_folder() : wanted.page);
+  if (!files) return fail(files.error().message);
+  const auto still = still_json(wanted, *player);
+  if (!still) return fail(still.error().message);
+  const double seconds = (player->end() - player->begin()).seconds(), minutes = std::max(seconds / 60.0, 1.0);
+  const auto most = static_cast<std::size_t>(minutes * static_cast<double>(kMostBytesPerMinute));
+  constexpr std::array<std::pair<LayersCommand, const char*>, 3> kDetails = {
+      {{{true, true, true}, ""}, {{false, true, true}, "hulls"}, {{false, false, true}, "hulls and planes"}}};
+  for (const auto& [layers, left_out] : kDetails) {
+    auto html = inline_page(*files, base64(deflated(tape_json(*player, *still, play(*player, layers)))));
+    if (!html) return fail(html.error().message);
+    if (html->size() <= most) return ExportedPage{std::move(*html), seconds, left_out};
+  }
+  return fail(
+      fmt::format("{}: a page of it is larger than {} MB a minute", wanted.log, kMostBytesPerMinute / 1'000'000));
+}
+
+}  // namespace tern

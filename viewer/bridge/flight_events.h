@@ -1,0 +1,70 @@
+// What happened in a flight, and when: the marks on the page's timeline.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/world/flight_result.h"
+#include "core/world/goal.h"
+#include "core/world/health.h"
+#include "core/world/horizon.h"
+#include "core/world/vehicle.h"
+
+namespace tern {
+
+struct FlightEvent {
+  UTime at;
+  const char* kind;  ///< "goal", "outcome", "evasion", "clearance", "stop", "late", "restart" or "result"
+  std::string text;  ///< in words
+};
+
+/// Hears messages in the order of their arrival. Pure.
+class FlightEvents {
+ public:
+  void hear(const UavState& message);
+  void hear(const Plan& message);
+  /// @param allowed_ms  from the request to its deadline; 0: unknown
+  void hear(const PlanTiming& message, double allowed_ms);
+  void hear(const Goal& message);
+  void hear(const FlightResult& message);
+  void hear(const Heartbeat& message);
+  /// @param obstacles_m, map_m  from the body to the nearest obstacle and to the nearest occupied voxel
+  void hear_clearance(UTime at, std::optional<double> obstacles_m, std::optional<double> map_m);
+
+  /// All so far, by time: of the clearances those of the flight's five nearest passes, of obstacles and of the map.
+  [[nodiscard]] std::vector<FlightEvent> events() const;
+  /// {"left_out": n, "events": [{"t": s from `zero`, "kind", "text"}]}
+  [[nodiscard]] std::string json(UTime zero) const;
+
+ private:
+  /// A pass is a local minimum from which the clearance has risen by more than 0.1 m.
+  class Passes {
+   public:
+    void hear(UTime at, double metres);
+    void write(const char* what, std::vector<FlightEvent>& events) const;
+
+   private:
+    struct Pass {
+      UTime at;
+      double metres;
+    };
+    std::vector<Pass> nearest_;
+    std::optional<Pass> low_;  ///< the least since the last pass, while it has not risen
+    double high_ = 0.0;        ///< the greatest since the last pass
+  };
+  void add(UTime at, const char* kind, std::string text);
+
+  std::vector<FlightEvent> events_;
+  std::int64_t left_out_ = 0;
+  Passes obstacles_, map_;
+  std::optional<PlanOutcome> outcome_;
+  std::int64_t goal_id_ = 0;
+  bool flies_ = false, has_result_ = false;
+  std::map<std::string, std::int64_t> epochs_;  ///< of processes, by name
+};
+
+}  // namespace tern

@@ -1,0 +1,66 @@
+#include "viewer/bridge/topics.h"
+
+#include "viewer/bridge/json_writer.h"
+#include "viewer/bridge/scene_json.h"
+
+namespace tern {
+namespace {
+
+/// Hulls are of what may come as near as this to the plan, m; at most so many at a time (about 10 ms of work).
+constexpr double kHullReach = 2.0;
+constexpr int kMostHulls = 240;
+
+std::string path_json(const Telling& telling) {
+  JsonWriter json;
+  json.begin_object();
+  telling.memory.history.write_path(json, telling.zero, telling.until);
+  return json.end_object().take();
+}
+
+std::string fields_json(const FlightHistory& history) {
+  JsonWriter json;
+  json.begin_list();
+  for (const std::string& name : history.fields()) json.text(name);
+  return json.end_list().take();
+}
+
+}  // namespace
+
+std::string topic_json(Topic topic, const Telling& telling) {
+  const Scene& scene = telling.scene;
+  const FlightHistory& history = telling.memory.history;
+  switch (topic) {
+    case Topic::State: return state_json(scene);
+    case Topic::Truth: return truth_json(scene);
+    case Topic::Tracks: return tracks_json(scene);
+    case Topic::Request: return request_json(scene);
+    case Topic::Plan: return plan_json(scene, telling.layers.planes);
+    case Topic::Timing: return timing_json(scene);
+    case Topic::Hulls: return hulls_json(scene, kHullReach, kMostHulls);
+    case Topic::Search: return search_json(scene);
+    case Topic::Map: return map_json(scene);
+    case Topic::Health: return health_json(scene, telling.now);
+    case Topic::Goal: return goal_json(scene);
+    case Topic::Result: return result_json(scene);
+    case Topic::Chart: return history.chart_json(telling.zero, telling.until, telling.series);
+    case Topic::Path: return path_json(telling);
+    case Topic::Fields: return fields_json(history);
+    case Topic::Events: return telling.memory.events.json(telling.zero);
+    case Topic::Session:
+    case Topic::Player:
+    case Topic::Ghost: break;
+  }
+  return "null";
+}
+
+std::string ghost_json(const std::string& name, double radius, const FlightHistory& ghost, const FlightHistory& shown,
+                       UTime zero) {
+  const auto its = ghost.departure(), ours = shown.departure();
+  if (!its || !ours) return "null";
+  JsonWriter json;
+  json.begin_object().key("name").text(name).key("radius").number(radius);
+  ghost.write_path(json, *its - (*ours - zero), UTime{INT64_MAX});
+  return json.end_object().take();
+}
+
+}  // namespace tern

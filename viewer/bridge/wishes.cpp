@@ -1,0 +1,32 @@
+#include "viewer/bridge/wishes.h"
+
+#include <algorithm>
+#include <set>
+
+namespace tern {
+
+void Wishes::keep_only(const std::vector<std::int64_t>& clients) {
+  std::erase_if(by_page_, [&](const auto& entry) {
+    return std::find(clients.begin(), clients.end(), entry.first) == clients.end();
+  });
+}
+
+LayersCommand Wishes::layers() const {
+  LayersCommand all;
+  for (const auto& [client, page] : by_page_) {
+    all.hulls = all.hulls || page.layers.hulls;
+    all.planes = all.planes || page.layers.planes;
+    all.search = all.search || page.layers.search;
+  }
+  return all;
+}
+
+std::vector<std::string> Wishes::series() const {
+  std::set<std::string> all;
+  for (const auto& [client, page] : by_page_) all.insert(page.series.begin(), page.series.end());
+  std::vector<std::string> names(all.begin(), all.end());
+  names.resize(std::min(names.size(), kMostSeries));
+  return names;
+}
+
+}  // namespace tern

@@ -1,0 +1,114 @@
+// Buttons, keys and the link: what the user asks of the page.
+import { MODES, readLink, writeLink } from './link.js';
+import { otherTheme, theme } from './palette.js';
+
+const LINK_EVERY_MS = 1000; // browsers refuse more
+
+const byId = (id) => document.getElementById(id);
+
+/** Clicked controls do not keep the keys: space and arrows are the player's. Who comes by Tab keeps what was focused. */
+function giveBackKeys() {
+  const isMouse = (event) => event.detail > 0 || event.type === 'change';
+  for (const kind of ['click', 'change']) {
+    document.addEventListener(kind, (event) => {
+      const isWritten = event.target.matches('input[type=text]');
+      if (isMouse(event) && !isWritten) document.activeElement?.blur();
+    });
+  }
+}
+
+/** @param actions  by key */
+function listen(actions) {
+  window.addEventListener('keydown', (event) => {
+    const isTyped = event.target.matches('input[type=text], select');
+    const isPressed = event.key === ' ' && event.target.matches('button, input');
+    const action = isTyped || isPressed || event.ctrlKey || event.metaKey || event.altKey ? null : actions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  });
+}
+
+export class Controls {
+  /**
+   * @param cameras  Cameras
+   * @param does  {fit(), toggle(), step(n), jump(t), cut(share), goal(mode), aim(), escape(), now(): seconds of a log or undefined,
+   *   say(text), changed()}
+   */
+  constructor(cameras, does) {
+    this.cameras = cameras;
+    this.does = does;
+    this.written = 0;
+    this.buttons = [...document.querySelectorAll('[data-camera]')];
+    for (const button of this.buttons) button.onclick = () => this.setCamera(button.dataset.camera);
+    byId('fit').onclick = () => this.fit();
+    cameras.moved = () => this.writeLink();
+    byId('goalmode').onclick = () => does.aim();
+    byId('hold-goal').onclick = () => does.goal('hold');
+    byId('stop-goal').onclick = () => does.goal('stop');
+    byId('cut').oninput = () => does.cut(byId('cut').value / byId('cut').max);
+    byId('theme').textContent = theme === 'light' ? 'dark' : 'light';
+    byId('theme').onclick = () => location.assign(otherTheme());
+    byId('link').onclick = () => this.copy();
+    byId('menu').onclick = () => byId('menu').setAttribute('aria-expanded', document.body.classList.toggle('menu'));
+    byId('showcharts').onclick = () => {
+      document.body.classList.toggle('charts');
+      does.changed();
+    };
+    giveBackKeys();
+    const camera = Object.fromEntries(MODES.map((mode, k) => [k + 1, () => this.setCamera(mode)]));
+    listen({
+      ...camera, f: () => this.fit(), g: () => does.aim(), Escape: () => does.escape(), ' ': () => does.toggle(),
+      ArrowLeft: () => does.step(-1), ArrowRight: () => does.step(1),
+    });
+    window.addEventListener('hashchange', () => this.follow());
+  }
+
+  setCamera(mode, eye) {
+    this.cameras.set(mode, eye);
+    this.showCamera();
+    this.writeLink();
+  }
+
+  fit() {
+    this.does.fit();
+    this.showCamera();
+  }
+
+  showCamera() {
+    for (const button of this.buttons) button.classList.toggle('on', button.dataset.camera === this.cameras.mode);
+  }
+
+  /** Goes where the address says. @return whether it says a moment */
+  follow() {
+    const { t, cam, eye } = readLink(location.hash);
+    if (cam) this.setCamera(cam, eye);
+    if (t !== undefined) this.does.jump(t);
+    return t !== undefined;
+  }
+
+  address() {
+    const { mode } = this.cameras;
+    const isKnown = MODES.includes(mode);
+    return writeLink({
+      t: this.does.now(), cam: isKnown ? mode : 'free', eye: mode === 'free' || !isKnown ? this.cameras.eye() : undefined });
+  }
+
+  /** The address holds moment and camera, so that it can be sent. @param now  ms */
+  writeLink(now = performance.now()) {
+    if (now - this.written < LINK_EVERY_MS) return;
+    this.written = now;
+    const hash = this.address();
+    if (hash !== location.hash) history.replaceState(null, '', hash || location.pathname + location.search);
+  }
+
+  async copy() {
+    history.replaceState(null, '', this.address());
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.does.say('copied');
+    } catch {
+      this.does.say('the address of this page is the link');
+    }
+  }
+}

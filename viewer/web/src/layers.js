@@ -1,0 +1,41 @@
+// What can be shown, each with the colours in which it is drawn: the layers' switches are the scene's legend.
+import { palette } from './palette.js';
+
+const speeds = `linear-gradient(90deg, ${palette.speeds.join(', ')})`;
+
+export const LAYERS = [
+  { name: 'obstacles', on: true, says: 'moving, standing', colors: [palette.mover, palette.pillar] },
+  { name: 'walls', on: true, says: 'occupied voxels of the map', colors: [palette.occupied] },
+  { name: 'regions', on: true, says: 'attractive, repulsive', colors: [palette.attractive, palette.repulsive] },
+  { name: 'path', on: true, says: 'flown, slow to fast', colors: [speeds] },
+  { name: 'plan', on: true, says: 'the newest plan, its local goal', colors: [palette.plan, palette.goal] },
+  { name: 'minvo', on: true, says: 'simplices around the plan', colors: [palette.plan] },
+  { name: 'committed', on: true, says: 'the trajectory in force', colors: [palette.committed] },
+  { name: 'sphere', on: true, says: 'S, in which the local goal lies', colors: [palette.sphere] },
+  { name: 'hulls', on: false, says: 'where movers may be, soon and later', colors: [palette.hull, palette.hullLater] },
+  { name: 'planes', on: false, says: 'that separate plan and obstacles', colors: [palette.plane] },
+  { name: 'search', on: false, says: 'tree of the last search', colors: [palette.search] },
+  { name: 'ghost', on: true, says: 'the other log', colors: [palette.ghost] },
+];
+
+/** The bridge makes these only while someone looks. */
+export const ON_DEMAND = ['hulls', 'planes', 'search'];
+
+/** Switches for all layers. @param set  is called with a name and whether it is on, at once and at every change */
+export function makeSwitches(root, set) {
+  for (const { name, on, says, colors } of LAYERS) {
+    const row = document.createElement('label');
+    row.title = says;
+    row.dataset.layer = name;
+    const box = Object.assign(document.createElement('input'), { type: 'checkbox', checked: on, name });
+    box.onchange = () => set(name, box.checked);
+    const swatches = colors.map((color) => {
+      const swatch = document.createElement('i');
+      swatch.style.background = color;
+      return swatch;
+    });
+    row.append(box, name, ...swatches);
+    root.append(row);
+    set(name, on);
+  }
+}

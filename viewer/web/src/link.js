@@ -1,0 +1,25 @@
+// What a link to a moment says: #t=6.3&cam=top, or cam=free:x,y,z,x,y,z with the camera's place and what it looks at.
+
+export const MODES = ['chase', 'first', 'top', 'side', 'free'];
+
+/** @return {t, cam, eye}: seconds from the log's begin, a mode, six numbers; what is missing or wrong is left out */
+export function readLink(hash) {
+  const said = new URLSearchParams(hash.replace(/^#/, ''));
+  const link = {};
+  const t = Number(said.get('t'));
+  if (said.has('t') && Number.isFinite(t) && t >= 0) link.t = t;
+  const [mode, place] = (said.get('cam') ?? '').split(':');
+  if (!MODES.includes(mode)) return link;
+  link.cam = mode;
+  const eye = (place ?? '').split(',').map(Number);
+  if (mode === 'free' && place && eye.length === 6 && eye.every(Number.isFinite)) link.eye = eye;
+  return link;
+}
+
+/** @param link  as readLink returns it */
+export function writeLink({ t, cam, eye }) {
+  const parts = [];
+  if (t !== undefined) parts.push(`t=${Number(t.toFixed(2))}`);
+  if (cam) parts.push(`cam=${cam}${eye ? `:${eye.map((x) => Number(x.toFixed(2))).join(',')}` : ''}`);
+  return parts.length ? `#${parts.join('&')}` : '';
+}

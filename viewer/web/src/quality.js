@@ -1,0 +1,49 @@
+// How many pixels per CSS pixel a renderer without a GPU is given: as many as it can pay for, found by measured time.
+
+const FIRST_LOOK_MS = 250; // after that many, the first decision; until then shaders are compiled
+const WINDOW_MS = 400; // between two looks
+const FEWEST_FRAMES = 3; // of a look; of a look at a renderer that takes longer than SLOWEST_MS each, one is enough
+const SLOWEST_MS = 150;
+const SLOW_MS = 31; // 32 frames a second
+const WANTED_MS = 25;
+const FAST_MS = 19;
+const RISE = 1.1;
+const RISE_PAUSE_MS = 1500; // a rise that did not pay is not tried at every look
+const LONG_PAUSE_MS = 60_000;
+
+/** Pure: it is told when frames were drawn. */
+export class Quality {
+  /** @param pixels  to begin with; `fewest` … `most` */
+  constructor({ pixels, fewest, most }) {
+    Object.assign(this, { pixels, fewest, most, begin: null, frames: 0, risePause: RISE_PAUSE_MS });
+  }
+
+  /** A frame was drawn. @return the new number of pixels, or null while it stays */
+  frame(now) {
+    this.begin ??= now + FIRST_LOOK_MS;
+    if (now < this.begin) return null;
+    const span = now - this.begin;
+    const mean = this.frames > 0 ? span / this.frames : 0;
+    this.frames += 1;
+    const enough = mean > SLOWEST_MS || (span >= WINDOW_MS && this.frames > FEWEST_FRAMES);
+    if (this.frames < 2 || !enough) return null;
+    this.begin = now;
+    this.frames = 1;
+    return this.decide(mean, now);
+  }
+
+  decide(mean, now) {
+    let wanted = this.pixels;
+    if (mean > SLOW_MS) {
+      if (this.rose && now - this.rose < 2 * WINDOW_MS) this.risePause = Math.min(2 * this.risePause, LONG_PAUSE_MS);
+      wanted *= Math.sqrt(WANTED_MS / mean); // what is paid for is pixels, the square
+      this.changed = now;
+    } else if (mean < FAST_MS && now - (this.changed ?? -Infinity) > this.risePause) {
+      wanted *= RISE;
+      this.changed = this.rose = now;
+    }
+    wanted = Math.min(Math.max(wanted, this.fewest), this.most);
+    if (Math.abs(wanted - this.pixels) < 0.01) return null;
+    return (this.pixels = wanted);
+  }
+}

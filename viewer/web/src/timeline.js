@@ -1,0 +1,124 @@
+// The whole flight on a line: the answers' outcomes as a band, what happened as marks above it. A click jumps; near a mark, to it.
+import { eventNear, QUIET } from './time_rows.js';
+import { palette } from './palette.js';
+
+const BAND_PX = 6;
+
+/** By kind of event: its mark and colour. */
+export const MARKS = {
+  goal: { mark: '▲', color: palette.goal },
+  outcome: { mark: '·', color: palette.axis },
+  evasion: { mark: '◆', color: palette.outcomes[3] },
+  clearance: { mark: '▼', color: palette.outcomes[4] },
+  stop: { mark: '■', color: palette.pillar },
+  late: { mark: '✕', color: palette.outcomes[4] },
+  restart: { mark: '↻', color: palette.committed },
+  result: { mark: '⚑', color: palette.plan },
+};
+
+const byId = (id) => document.getElementById(id);
+
+export class Timeline {
+  /** @param jump  to a time of the flight, s */
+  constructor(jump) {
+    this.jump = jump;
+    this.events = [];
+    this.outcomes = [[], []];
+    this.end = 1;
+    this.now = 0;
+    this.hovered = null;
+    this.canvas = byId('events');
+    this.context = this.canvas.getContext('2d');
+    new ResizeObserver(() => this.draw()).observe(byId('timeline'));
+    const scrub = byId('scrub');
+    scrub.addEventListener('pointermove', (event) => this.point(event.offsetX));
+    scrub.addEventListener('pointerleave', () => this.point(null));
+    scrub.addEventListener('click', (event) => {
+      const mark = eventNear(this.events, (t) => this.place(t), event.offsetX);
+      if (mark) this.jump(mark.t);
+    });
+  }
+
+  place(t) {
+    return (t / this.end) * this.canvas.clientWidth;
+  }
+
+  takeChart({ outcomes, end_s: end }) {
+    this.outcomes = outcomes;
+    this.end = Math.max(end, 0.1);
+    this.draw();
+  }
+
+  takeEvents(events) {
+    this.events = events.filter((event) => Number.isFinite(event.t) && MARKS[event.kind]);
+    this.draw();
+  }
+
+  setNow(t) {
+    if (Math.abs(this.place(t) - this.place(this.now)) < 0.5) return;
+    this.now = t;
+    this.draw();
+  }
+
+  /** Another chart's cursor is there. */
+  hover(t) {
+    if (this.hovered === t) return;
+    this.hovered = t;
+    this.draw();
+  }
+
+  point(x) {
+    const mark = x === null ? null : eventNear(this.events, (t) => this.place(t), x);
+    const tip = byId('tip');
+    tip.hidden = !mark;
+    if (!mark) return;
+    tip.textContent = `${mark.t.toFixed(1)} s: ${mark.text}`;
+    const room = this.canvas.clientWidth - tip.offsetWidth;
+    tip.style.left = `${Math.max(Math.min(x - tip.offsetWidth / 2, room), 0)}px`;
+  }
+
+  draw() {
+    const { canvas, context } = this;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    if (width === 0) return;
+    const scale = window.devicePixelRatio;
+    if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale)) {
+      canvas.width = Math.round(width * scale);
+      canvas.height = Math.round(height * scale);
+    }
+    context.setTransform(scale, 0, 0, scale, 0, 0);
+    context.clearRect(0, 0, width, height);
+    this.drawBand(width, height - BAND_PX - 3);
+    for (const event of this.events) this.drawMark(event, height - BAND_PX - 3);
+    for (const [t, color] of [[this.hovered, palette.axis], [this.now, palette.plan]]) {
+      if (t === null) continue;
+      context.fillStyle = color;
+      context.fillRect(this.place(t) - 1, 0, 2, height);
+    }
+  }
+
+  /** An answer's outcome until the next one. */
+  drawBand(width, top) {
+    const { context, outcomes: [t, kinds] } = this;
+    context.fillStyle = palette.rule;
+    context.fillRect(0, top, width, BAND_PX);
+    for (let k = 0; k < t.length; ++k) {
+      let last = k;
+      while (last + 1 < t.length && kinds[last + 1] === kinds[k]) ++last;
+      const from = this.place(t[k]);
+      const to = this.place(last + 1 < t.length ? t[last + 1] : Math.min(t[last] + 0.1, this.end));
+      context.fillStyle = palette.outcomes[kinds[k]] ?? palette.axis;
+      context.fillRect(from, top, Math.max(to - from, 1), BAND_PX);
+      k = last;
+    }
+  }
+
+  drawMark({ t, kind }, bottom) {
+    const { mark, color } = MARKS[kind];
+    this.context.fillStyle = color;
+    if (kind === QUIET) return this.context.fillRect(this.place(t) - 0.5, bottom - 3, 1, 3);
+    this.context.font = '12px system-ui, sans-serif';
+    this.context.textAlign = 'center';
+    this.context.fillText(mark, this.place(t), bottom - 3);
+  }
+}

@@ -1,0 +1,48 @@
+// What was clicked on, in words.
+
+const metres = (x) => `${x.toFixed(2)} m`;
+
+/** From a point to a box, 0 within. */
+function distanceToBox(p, centre, half) {
+  return Math.hypot(...p.map((x, k) => Math.max(Math.abs(x - centre[k]) - half[k], 0)));
+}
+
+function fromBody(distance, known) {
+  const clear = distance - (known.request?.radius ?? 0);
+  return clear < 0 ? `the vehicle overlaps it by ${metres(-clear)}` : `the vehicle is ${metres(clear)} away`;
+}
+
+function size(half) {
+  return `${half.map((h) => (2 * h).toFixed(1)).join(' × ')} m`;
+}
+
+/** @param known  the newest of each topic */
+export function obstacleInWords(id, known) {
+  const set = known.truth ?? known.tracks;
+  const k = set?.id.indexOf(id) ?? -1;
+  if (k < 0) return 'It is not there any more.';
+  const row = (list) => list.slice(3 * k, 3 * k + 3);
+  const speed = Math.hypot(...row(set.v));
+  const parts = [`${set.moves[k] ? `A mover at ${speed.toFixed(1)} m/s` : 'It stands still'}, ${size(row(set.h))}`];
+  if (known.state) parts.push(fromBody(distanceToBox(known.state.p, row(set.p), row(set.h)), known));
+  const isPredicted = known.tracks?.id.includes(id);
+  if (known.tracks) parts.push(isPredicted ? 'the planner is told of it' : 'the planner is not told of it: no prediction holds it');
+  const planes = (known.plan?.planes ?? []).filter((plane) => plane.track === id).length;
+  if (known.plan?.planes) parts.push(`${planes === 0 ? 'no plane' : planes === 1 ? 'one plane' : `${planes} planes`} of the newest plan keep it apart`);
+  return `${parts.join('; ')}.`;
+}
+
+const KINDS = { walls: 'Occupied: a wall of the map, nothing flies through it', regions: 'A region of the map' };
+
+/** @param hit  of Regions */
+export function mapInWords({ point: at, layer }, known) {
+  const parts = [KINDS[layer], `here at ${at.toArray().map((x) => x.toFixed(1)).join(', ')}`];
+  if (known.state) {
+    const away = Math.hypot(...known.state.p.map((x, k) => at.getComponent(k) - x));
+    parts.push(fromBody(away, known));
+  }
+  if (layer === 'walls' && Number.isFinite(known.state?.map_clearance)) {
+    parts.push(`its nearest wall is ${metres(known.state.map_clearance)} away`);
+  }
+  return `${parts.join('; ')}.`;
+}
