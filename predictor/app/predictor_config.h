@@ -6,7 +6,7 @@
 
 namespace tern {
 
-enum class PredictorModel { Declared, ConstantVelocity, Both };
+enum class PredictorModel { Declared, Detections, Both };
 
 struct PredictorConfig {
   PredictorModel model = PredictorModel::Both;
@@ -21,9 +21,9 @@ struct PredictorConfig {
     PredictionSpec& prediction = tracker.prediction;
     v("model", model,
       KnobWords<PredictorModel>{{"declared", PredictorModel::Declared},
-                                {"constant_velocity", PredictorModel::ConstantVelocity},
+                                {"detections", PredictorModel::Detections},
                                 {"both", PredictorModel::Both}},
-      "`declared`: declared motions alone, detections are ignored. `constant_velocity`: detections alone. `both`: "
+      "`declared`: declared motions alone, detections are ignored. `detections`: detections alone. `both`: "
       "declared motions, and estimates of what they do not explain");
     v("rate_hz", rate_hz, Range{1.0, 100.0}, "sets per second");
     v("horizon_s", prediction.horizon, Range{0.1, 30.0}, "how far predictions reach, s");
@@ -32,15 +32,8 @@ struct PredictorConfig {
     v("confidence", prediction.confidence, Range{0.5, 0.999999},
       "probability that a track keeps its α over all its pieces");
     v("max_speed", prediction.max_speed, Range::positive(1e3),
-      "of an estimated track, m/s per axis: bounds α's growth; a track's top speed beyond its pieces");
-    v("sigma_acceleration", tracker.acceleration.sigma, Range::positive(1e3),
-      "√ of the spectral density of acceleration per axis, m/s^1.5. 2 is right for the paper's trefoils, 0.5 for "
-      "SANDO's, 0.3 for walking people. With `acceleration_time_s` > 0: the standard deviation of acceleration, m/s²; "
-      "SANDO's 0.35, the paper's 4 … 5");
-    v("acceleration_time_s", tracker.acceleration.time_s, Range{0.0, 1e3},
-      "how long accelerations last, s (Singer's τ); 0: white, constant velocity. SANDO's trefoils 1.5, the paper's "
-      "0.5");
-    v("confirm_hits", tracker.confirm_hits, Range{1, 32}, "a track is published after so many detections …");
+      "what is new or starts is believed to be no faster, m/s per axis, unless something faster was seen");
+    v("confirm_hits", tracker.confirm_hits, Range{1, 32}, "a track is confirmed by so many detections …");
     v("confirm_window", tracker.confirm_window, Range{1, 32},
       "… in its first so many frames of the sensor that saw it last (others' frames count when they see it too)");
     v("coast_s", tracker.coast, Range{0.0, 60.0}, "how long a confirmed track outlives its last detection, s");

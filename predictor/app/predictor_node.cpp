@@ -19,7 +19,7 @@ constexpr const char* kDeclaredInput = "declared motions";
 
 PredictorNode::PredictorNode(Bus& bus, const PredictorConfig& config)
     : bus_(bus), config_(config), tracker_(config.tracker) {
-  if (config_.model != PredictorModel::ConstantVelocity) {
+  if (config_.model != PredictorModel::Detections) {
     bus_.subscribe(channels::kDeclaredMotions, [this](const TrackSet& batch) { on_declared(batch); });
   }
   if (config_.model != PredictorModel::Declared) {

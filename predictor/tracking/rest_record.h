@@ -7,8 +7,9 @@ namespace tern {
 
 /// Of all tracks together: how long they were seen at rest, and how often one of them started.
 struct RestRecord {
-  double rested_s = 0.0;  ///< Σ over tracks of the time seen at rest, s
-  int starts = 0;         ///< tracks that had been at rest and moved
+  /// A flight begins as if things had rested for so long, all together, without a start.
+  double rested_s = 5.0;  ///< Σ over tracks of the time seen at rest, s
+  int starts = 0;          ///< tracks that had been at rest and moved
 };
 
 /// For how long from its last detection on a thing that rests starts with at most this probability, s.

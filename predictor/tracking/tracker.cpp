@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 
 #include "predictor/tracking/assignment.h"
@@ -28,27 +29,7 @@ std::array<AxisFilter, 3> start_filters(const Detection& detection, double speed
   return axes;
 }
 
-std::array<SingerFilter, 3> with_acceleration(const std::array<AxisFilter, 3>& axes, double sigma) {
-  std::array<SingerFilter, 3> result;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const AxisFilter& axis = axes[i];
-    result[i].state << axis.x, axis.v, 0.0;
-    result[i].covariance << axis.xx, axis.xv, 0.0, axis.xv, axis.vv, 0.0, 0.0, 0.0, sigma * sigma;
-  }
-  return result;
-}
-
-std::array<AxisFilter, 3> without_acceleration(const std::array<SingerFilter, 3>& axes) {
-  std::array<AxisFilter, 3> result;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const Eigen::Matrix3d& p = axes[i].covariance;
-    result[i] = {axes[i].state[0], axes[i].state[1], p(0, 0), p(0, 1), p(1, 1)};
-  }
-  return result;
-}
-
-template <typename Filter>
-void update_axes(std::array<Filter, 3>& axes, const Detection& detection) {
+void update_axes(std::array<AxisFilter, 3>& axes, const Detection& detection) {
   for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].update(detection.position[i], detection.variance[i]);
 }
 
@@ -66,9 +47,11 @@ void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<De
   }
 }
 
+using Distance2 = std::function<double(const TrackedObject&, const Detection&)>;
+
 // Among objects with the given confirmation, and detections without an id, that are still free.
 void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-                       bool confirmed, Matching& matching) {
+                       bool confirmed, const Distance2& distance2, Matching& matching) {
   std::vector<std::size_t> rows, columns;
   for (std::size_t o = 0; o < objects.size(); ++o) {
     if (objects[o].confirmed == confirmed && matching.detection_of[o] == kNoDetection) rows.push_back(o);
@@ -79,8 +62,8 @@ void match_by_distance(const std::vector<TrackedObject>& objects, const std::vec
   Eigen::MatrixXd cost(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
   for (Eigen::Index r = 0; r < cost.rows(); ++r) {
     for (Eigen::Index c = 0; c < cost.cols(); ++c) {
-      cost(r, c) = mahalanobis2(objects[rows[static_cast<std::size_t>(r)]].moving,
-                                detections[columns[static_cast<std::size_t>(c)]]);
+      cost(r, c) =
+          distance2(objects[rows[static_cast<std::size_t>(r)]], detections[columns[static_cast<std::size_t>(c)]]);
     }
   }
   const std::vector<int> column_of = assign(cost, kAssociationGate);
@@ -92,11 +75,12 @@ void match_by_distance(const std::vector<TrackedObject>& objects, const std::vec
   }
 }
 
-Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections) {
+Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
+               const Distance2& distance2) {
   Matching matching{std::vector<int>(objects.size(), kNoDetection), std::vector<bool>(detections.size(), false)};
   match_by_id(objects, detections, matching);
-  match_by_distance(objects, detections, true, matching);
-  match_by_distance(objects, detections, false, matching);
+  match_by_distance(objects, detections, true, distance2, matching);
+  match_by_distance(objects, detections, false, distance2, matching);
   return matching;
 }
 
@@ -110,9 +94,23 @@ bool is_out_of_range(const TrackedObject& object, const ObservationSet& observat
   return away.norm() > observations.range_m - kRangeMargin;
 }
 
+void restart(TrackedObject& object, const Detection& detection, const ObservationSet& from) {
+  object.moving = BankFilter(detection.position, detection.variance);
+  object.born = from.at;
+  object.detections = 1;
+}
+
 std::pair<UTime, std::int32_t> key(const ObservationSet& set) { return {set.at, set.sensor_id}; }
 
 }  // namespace
+
+Tracker::Tracker(const TrackerConfig& config) : config_(config), judge_(config.prediction.confidence) {
+  for (const Duration end : piece_ends(config.prediction)) ahead_.push_back(bank_step(end.seconds()));
+  for (std::size_t level = 0; level < rest_quantiles_.size(); ++level) {
+    const double broken = 1.0 - confidence_at(config.prediction.confidence, static_cast<int>(level));
+    rest_quantiles_[level] = quantile_for((1.0 - kStartShare) * broken / 3.0, kRestCrossings);
+  }
+}
 
 Taken Tracker::update(const ObservationSet& observations) {
   if (!steps_.empty() && observations.at + kReorderWindow < newest()) return Taken::TooOld;
@@ -126,6 +124,7 @@ Taken Tracker::update(const ObservationSet& observations) {
     step->after = advanced(before, step->observations);
   }
   while (steps_.size() > 1 && steps_.front().observations.at + kReorderWindow < newest()) {
+    settle(steps_.front());
     before_steps_ = std::move(steps_.front().after);
     steps_.pop_front();
   }
@@ -135,14 +134,10 @@ Taken Tracker::update(const ObservationSet& observations) {
 Tracker::State Tracker::advanced(State state, const ObservationSet& observations) const {
   const UTime at = observations.at;
   predict_to(state, at);
-  for (TrackedObject& object : state.objects) {
-    if (at - object.last_seen > config_.coast && rests(object)) {
-      // Remembered: what is found there again belongs to it, not whatever a mover could have become.
-      object.moving = with_acceleration(object.resting, 0.0);
-    }
-  }
   const std::vector<Detection>& detections = observations.detections;
-  const Matching matching = match(state.objects, detections);
+  const Matching matching =
+      match(state.objects, detections,
+            [&](const TrackedObject& object, const Detection& detection) { return distance2(object, at, detection); });
   for (std::size_t o = 0; o < state.objects.size(); ++o) {
     TrackedObject& object = state.objects[o];
     const int d = matching.detection_of[o];
@@ -150,10 +145,17 @@ Tracker::State Tracker::advanced(State state, const ObservationSet& observations
       ++object.age;
       object.hits <<= 1;
     }
-    if (d != kNoDetection) take(object, detections[static_cast<std::size_t>(d)], observations, state.rest);
+    if (d != kNoDetection) {
+      if (object.detections == 1 && !object.confirmed) ++state.existence.again;
+      take(object, detections[static_cast<std::size_t>(d)], observations, state.rest);
+    }
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
   }
-  std::erase_if(state.objects, [&](const TrackedObject& object) { return is_dead(object, observations); });
+  std::erase_if(state.objects, [&](const TrackedObject& object) {
+    const bool dead = is_dead(object, observations);
+    if (dead && object.detections == 1 && !object.confirmed) ++state.existence.never;
+    return dead;
+  });
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (matching.taken[d]) continue;
     const std::int64_t given = detections[d].track_id;
@@ -170,9 +172,9 @@ Tracker::State Tracker::advanced(State state, const ObservationSet& observations
 
 void Tracker::predict_to(State& state, UTime at) const {
   const double dt = state.objects.empty() ? 0.0 : (at - state.at).seconds();
-  const Transition step = transition(config_.acceleration, dt);
+  const BankStep step = bank_step(dt);
   for (TrackedObject& object : state.objects) {
-    for (SingerFilter& axis : object.moving) axis.predict(step);
+    object.moving.predict(step);
     for (AxisFilter& axis : object.resting) axis.predict(dt, kRestingSigma * kRestingSigma);
   }
   state.at = at;
@@ -187,7 +189,7 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
   if (rested && object.resting_since == from.at) {
     object.stood = stood;
     // It may go at any speed now, as what is seen for the first time.
-    object.moving = born(detection, from, object.id).moving;
+    restart(object, detection, from);
   } else if (rested) {
     rest.rested_s += (from.at - seen).seconds();
     object.stood.reset();
@@ -198,26 +200,30 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
 }
 
 void Tracker::take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const {
-  const double distance2 = mahalanobis2(object.moving, detection);
-  if (distance2 > kJumpGate) {
+  if (object.moving.distance2(detection.position, detection.variance) > kJumpGate) {
     const TrackedObject anew = born(detection, from, object.id);
-    object.moving = anew.moving;
+    restart(object, detection, from);
     object.resting = anew.resting;
     object.resting_since = from.at;
     object.resting_average = anew.resting_average;
   } else {
     const double resting2 = mahalanobis2(object.resting, detection);
     object.resting_average += kRestingForgetting * (resting2 - object.resting_average);
-    update_axes(object.moving, detection);
+    object.moving.update(detection.position, detection.variance);
+    ++object.detections;
     update_axes(object.resting, detection);
     if (object.resting_average > kRestingLimit) {
-      object.resting = without_acceleration(object.moving);
+      for (int axis = 0; axis < 3; ++axis) {
+        object.resting[static_cast<std::size_t>(axis)] = object.moving.lead().marginal(axis);
+      }
       object.resting_since = from.at;
       object.resting_average = 3.0;
     }
   }
   const Vec3 shrunk = object.half_extents + kExtentShrink * (detection.half_extents - object.half_extents);
   object.half_extents = shrunk.cwiseMax(detection.half_extents);
+  object.position = detection.position;
+  object.variance = detection.variance;
   object.last_seen = from.at;
   object.last_seen_by = from.sensor_id;
   object.hits |= 1u;
@@ -230,10 +236,11 @@ TrackedObject Tracker::born(const Detection& detection, const ObservationSet& fr
   object.last_seen_by = from.sensor_id;
   object.resting_since = from.at;
   object.half_extents = detection.half_extents;
-  const double speed = config_.prediction.speed_deviation();
-  object.resting = start_filters(detection, speed * speed);
-  const AccelerationModel& model = config_.acceleration;
-  object.moving = with_acceleration(object.resting, model.time_s > 0.0 ? model.sigma : 0.0);
+  object.position = detection.position;
+  object.variance = detection.variance;
+  const double speed = config_.prediction.max_speed;
+  object.resting = start_filters(detection, speed * speed / 3.0);  // uniform in ±speed
+  restart(object, detection, from);
   object.confirmed = config_.confirm_hits <= 1;
   return object;
 }
@@ -254,48 +261,102 @@ bool Tracker::rests(const TrackedObject& object) const {
   });
 }
 
-PredictionSpec Tracker::rest_spec() const {
-  PredictionSpec spec = config_.prediction;
-  spec.confidence += kStartShare * (1.0 - spec.confidence);
-  return spec;
+double Tracker::distance2(const TrackedObject& object, UTime at, const Detection& detection) const {
+  // Remembered: what is found there again belongs to it, not whatever a mover could have become.
+  if (at - object.last_seen > config_.coast && rests(object)) return mahalanobis2(object.resting, detection);
+  return object.moving.distance2(detection.position, detection.variance);
 }
 
-const StartSpread& Tracker::spread_of(const TrackedObject& object, const State& state, Spreads& spreads) const {
-  const double trusted_s = trusted_rest_s(state.rest, kStartShare * (1.0 - config_.prediction.confidence));
-  const double still_s = std::min(trusted_s - (state.at - object.last_seen).seconds(), rest_spec().horizon.seconds());
-  const auto grid = static_cast<std::int64_t>(std::floor(still_s / kStartGrid));
-  const auto found = spreads.find(grid);
-  if (found != spreads.end()) return found->second;
-  const double from_s = kStartGrid * static_cast<double>(grid);
-  return spreads.emplace(grid, start_spread(from_s, config_.acceleration, rest_spec())).first->second;
-}
-
-void Tracker::predict_resting(const TrackedObject& object, UTime at, const StartSpread& start, Track& track) const {
-  const PredictionSpec spec = rest_spec();
-  std::array<AxisForecast, 3> axes;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    axes[i] = forecast_of_rest(object.resting[i], kRestingSigma * kRestingSigma, start, spec);
+void Tracker::settle(const Step& step) {
+  const ObservationSet& from = step.observations;
+  std::vector<SeenTrack> seen;
+  for (const TrackedObject& object : step.after.objects) {
+    if (object.last_seen != from.at || object.last_seen_by != from.sensor_id) continue;
+    seen.push_back(
+        {object.id, object.born, object.detections, object.position, object.variance, &object.moving, rests(object)});
   }
-  predict_motion(axes, at, spec, track);
+  judge_.take(from.at, seen);
+}
+
+bool Tracker::is_published(const TrackedObject& object, const ExistenceRecord& existence) const {
+  if (object.confirmed || object.detections > 1) return true;
+  return object.age <= kMissesOfNew && existence.real() > 1.0 - config_.prediction.confidence;
+}
+
+double Tracker::top_speed() const { return std::max(config_.prediction.max_speed, judge_.fastest()); }
+
+Waypoint Tracker::resting_at(const TrackedObject& object, const State& state, UTime from, double ahead_s) const {
+  const double to_s = (from - state.at).seconds() + ahead_s;
+  const double unseen_s = (from - object.last_seen).seconds() + ahead_s;
+  Waypoint waypoint;
+  Vec3 sigma;
+  for (int axis = 0; axis < 3; ++axis) {
+    AxisFilter at = object.resting[static_cast<std::size_t>(axis)];
+    at.predict(to_s, kRestingSigma * kRestingSigma);
+    waypoint.centre[axis] = at.x;
+    waypoint.velocity[axis] = at.v;
+    sigma[axis] = std::sqrt(at.xx);
+  }
+  for (std::size_t level = 0; level < waypoint.half.size(); ++level) {
+    const double broken = 1.0 - confidence_at(config_.prediction.confidence, static_cast<int>(level));
+    const double moved_s = std::max(0.0, unseen_s - trusted_rest_s(state.rest, kStartShare * broken));
+    waypoint.half[level] = rest_quantiles_[level] * sigma + Vec3::Constant(top_speed() * moved_s);
+  }
+  return waypoint;
+}
+
+void Tracker::predict_resting(const TrackedObject& object, const State& state, UTime from, Track& track) const {
+  std::vector<Waypoint> waypoints;
+  for (const Duration end : piece_ends(config_.prediction)) {
+    waypoints.push_back(resting_at(object, state, from, end.seconds()));
+  }
+  set_motion(waypoints, from, config_.prediction, top_speed(), track);
+}
+
+void Tracker::predict_moving(const TrackedObject& object, const ExistenceRecord& existence,
+                             const std::vector<BankLook>& looks, UTime from, Track& track) const {
+  const PredictionSpec& spec = config_.prediction;
+  const Judge::Verdict verdict = judge_.verdict(object.id, object.born, object.last_seen, object.detections);
+  const double real = object.confirmed || object.detections > 1 ? 1.0 : existence.real();
+  std::array<PerBand<double>, kConfidenceLevels.size()> margins;
+  for (std::size_t level = 0; level < margins.size(); ++level) {
+    const double broken = 1.0 - confidence_at(spec.confidence, static_cast<int>(level));
+    margins[level] = judge_.calibration().margins(verdict.kind, broken / ((1.0 - spec.confidence) * real));
+  }
+  const std::vector<Duration> ends = piece_ends(spec);
+  const double since_s = (from - object.last_seen).seconds();
+  std::vector<Waypoint> waypoints(ends.size());
+  double speed = top_speed();
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const double ahead_s = since_s + ends[k].seconds();
+    const Mixed said = mixed(object.moving, looks[k], weights_at(verdict.weights, ahead_s));
+    waypoints[k].centre = said.centre;
+    waypoints[k].velocity = said.velocity;
+    for (std::size_t level = 0; level < margins.size(); ++level) {
+      waypoints[k].half[level] = promised_half(said.deviation, margins[level], ahead_s);
+    }
+    if (k == 0) speed = std::max(speed, said.velocity.cwiseAbs().maxCoeff());
+  }
+  set_motion(waypoints, from, spec, speed, track);
 }
 
 std::vector<Track> Tracker::predict(UTime now) const {
-  State state = newest_state();
-  predict_to(state, std::max(now, state.at));
-  Spreads spreads;
+  const State& newest = newest_state();
+  const UTime from = std::max(now, newest.at);
+  const BankStep first = bank_step((from - newest.at).seconds());
+  std::vector<BankLook> looks;
+  for (const BankStep& ahead : ahead_) looks.push_back(bank_look(ahead, first));
   std::vector<Track> tracks;
-  for (const TrackedObject& object : state.objects) {
-    if (!object.confirmed) continue;
+  for (const TrackedObject& object : newest.objects) {
+    if (!is_published(object, newest.existence)) continue;
     Track track;
     track.id = object.id;
     track.kind = TrackKind::Estimated;
     track.half_extents = object.half_extents;
     if (rests(object)) {
-      predict_resting(object, state.at, spread_of(object, state, spreads), track);
+      predict_resting(object, newest, from, track);
     } else {
-      std::array<AxisForecast, 3> axes;
-      for (std::size_t i = 0; i < axes.size(); ++i) axes[i] = forecaster_.forecast(object.moving[i]);
-      predict_motion(axes, state.at, config_.prediction, track);
+      predict_moving(object, newest.existence, looks, from, track);
     }
     tracks.push_back(std::move(track));
   }

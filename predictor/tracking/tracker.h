@@ -4,16 +4,15 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <optional>
 #include <vector>
 
 #include "core/world/observation.h"
 #include "core/world/track.h"
 #include "predictor/models/axis_filter.h"
-#include "predictor/models/forecast.h"
+#include "predictor/models/model_bank.h"
 #include "predictor/models/promise.h"
-#include "predictor/models/singer_filter.h"
+#include "predictor/tracking/judge.h"
 #include "predictor/tracking/rest_record.h"
 
 namespace tern {
@@ -43,16 +42,17 @@ inline constexpr Duration kTentativeUnseen{1'500'000};
 inline constexpr double kRangeMargin = 0.5;
 /// Of 1 − confidence, the share that is left to a start that the α of what rests does not contain.
 inline constexpr double kStartShare = 0.5;
-/// Starts are taken for so much earlier at most than they need be, s: then few spreads serve all tracks.
-inline constexpr double kStartGrid = 0.02;
+/// The crossings of Rice's formula for what rests: π/2 of a speed that does not change, and room for noise.
+inline constexpr double kRestCrossings = 2.5;
+/// Detected once, a track is published until its sensor has failed to see it so often.
+inline constexpr int kMissesOfNew = 2;
 /// What rests has no speed beyond so many standard deviations per axis, or beyond kRestingSpeed m/s.
 inline constexpr double kRestingSpeedSigmas = 3.0;
 inline constexpr double kRestingSpeed = 0.05;
 
 struct TrackerConfig {
   PredictionSpec prediction;
-  AccelerationModel acceleration;   ///< of what moves, per axis
-  int confirm_hits = 3;             ///< a track is published once detected in so many …
+  int confirm_hits = 3;             ///< a track is confirmed once detected in so many …
   int confirm_window = 5;           ///< … of its first observation sets that count (Tracker), hits ≤ window ≤ 32
   Duration coast{1'500'000};        ///< a confirmed track dies when not detected for longer
   Duration resting_after{600'000};  ///< a track that has been consistent with rest so long is predicted at rest
@@ -70,13 +70,23 @@ struct TrackedObject {
   UTime last_seen;
   std::int32_t last_seen_by = 0;  ///< sensor_id
   Vec3 half_extents = Vec3::Zero();
-  std::array<SingerFilter, 3> moving;
+  UTime born;                                             ///< when `moving` began
+  int detections = 1;                                     ///< since then
+  Vec3 position = Vec3::Zero(), variance = Vec3::Zero();  ///< of the last detection: W, m; m²
+  BankFilter moving;
   std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
   UTime resting_since;
   double resting_average = 3.0;  ///< of its χ²₃, see kRestingLimit
   /// Where it rested until the resting hypothesis failed. It has started once it is beyond kJumpGate of that; noise
   /// alone comes back.
   std::optional<std::array<AxisFilter, 3>> stood;
+};
+
+/// How often what was detected once was detected again: what of it was real.
+struct ExistenceRecord {
+  int again = 0, never = 0;  ///< tracks
+  /// Laplace's rule of succession, begun with one that was.
+  [[nodiscard]] double real() const { return (again + 1.0) / (again + never + 1.0); }
 };
 
 /// What became of an observation set.
@@ -101,16 +111,15 @@ enum class Taken {
 /// groups.
 class Tracker {
  public:
-  explicit Tracker(const TrackerConfig& config)
-      : config_(config), forecaster_(config.acceleration, config.prediction) {}
+  explicit Tracker(const TrackerConfig& config);
 
   /// Nothing changes unless the answer is Yes. The tracker has no clock: a set from the future makes all others too
   /// old.
   Taken update(const ObservationSet& observations);
 
-  /// The confirmed tracks predicted from `now` over the horizon, kind Estimated, by id ascending. Tracks whose
-  /// detections have stopped altogether remain, with growing α. If `now` lies before the newest observation, that is
-  /// where they start.
+  /// The tracks predicted from `now` over the horizon, kind Estimated, by id ascending: what is new from its first
+  /// detection on, if it is real more often than promises are broken. Tracks whose detections have stopped altogether
+  /// remain, with growing α. If `now` lies before the newest observation, that is where they start.
   [[nodiscard]] std::vector<Track> predict(UTime now) const;
 
   /// All tracks, tentative ones too, by id ascending, at newest().
@@ -119,6 +128,10 @@ class Tracker {
   [[nodiscard]] const RestRecord& rest() const { return newest_state().rest; }
   /// Time of the newest observation; 0 when there was none.
   [[nodiscard]] UTime newest() const { return steps_.empty() ? UTime{} : steps_.back().observations.at; }
+  /// True if it is predicted at rest.
+  [[nodiscard]] bool rests(const TrackedObject& object) const;
+  /// What was learnt of predictions: models' weights and margins. It lags by kReorderWindow.
+  [[nodiscard]] const Judge& judge() const { return judge_; }
 
  private:
   struct State {
@@ -126,6 +139,7 @@ class Tracker {
     std::int64_t next_id = kFirstOwnTrackId;
     std::vector<TrackedObject> objects;
     RestRecord rest;
+    ExistenceRecord existence;
   };
   struct Step {
     ObservationSet observations;
@@ -138,16 +152,21 @@ class Tracker {
   void take(TrackedObject& object, const Detection& detection, const ObservationSet& from, RestRecord& rest) const;
   [[nodiscard]] TrackedObject born(const Detection& detection, const ObservationSet& from, std::int64_t id) const;
   [[nodiscard]] bool is_dead(const TrackedObject& object, const ObservationSet& observations) const;
-  [[nodiscard]] bool rests(const TrackedObject& object) const;
-  using Spreads = std::map<std::int64_t, StartSpread>;  // by kStartGrid
-  [[nodiscard]] PredictionSpec rest_spec() const;
-  const StartSpread& spread_of(const TrackedObject& object, const State& state, Spreads& spreads) const;
-  void predict_resting(const TrackedObject& object, UTime at, const StartSpread& start, Track& track) const;
+  [[nodiscard]] double distance2(const TrackedObject& object, UTime at, const Detection& detection) const;
+  [[nodiscard]] bool is_published(const TrackedObject& object, const ExistenceRecord& existence) const;
+  void settle(const Step& step);
+  [[nodiscard]] double top_speed() const;  // of what is new or starts
+  [[nodiscard]] Waypoint resting_at(const TrackedObject& object, const State& state, UTime from, double ahead_s) const;
+  void predict_resting(const TrackedObject& object, const State& state, UTime from, Track& track) const;
+  void predict_moving(const TrackedObject& object, const ExistenceRecord& existence, const std::vector<BankLook>& looks,
+                      UTime from, Track& track) const;
 
   TrackerConfig config_;
-  SingerForecaster forecaster_;
+  std::vector<BankStep> ahead_;  // to the ends of pieces
+  std::array<double, kConfidenceLevels.size()> rest_quantiles_{};
   State before_steps_;
   std::deque<Step> steps_;  // ascending by (time, sensor), the newest kReorderWindow
+  Judge judge_;
 };
 
 /// Σ over axes of (z − x)²/S for the detection's position.

@@ -36,18 +36,15 @@ TEST(PredictorConfig, HasDefaults) {
 }
 
 TEST(PredictorConfig, ReadsItsKeys) {
-  const PredictorConfig config =
-      read("keys",
-           "  model: constant_velocity\n  rate_hz: 10\n  horizon_s: 3\n  piece_s: 0.5\n"
-           "  confidence: 0.9\n  max_speed: 2\n  sigma_acceleration: 0.5\n  confirm_hits: 2\n"
-           "  confirm_window: 4\n  coast_s: 1\n  resting_after_s: 2\n"
-           "  acceleration_time_s: 1.5\n  piece_growth: 0.1\n  remember_rest_s: 7\n");
-  EXPECT_EQ(config.model, PredictorModel::ConstantVelocity);
+  const PredictorConfig config = read("keys",
+                                      "  model: detections\n  rate_hz: 10\n  horizon_s: 3\n  piece_s: 0.5\n"
+                                      "  confidence: 0.9\n  max_speed: 2\n  confirm_hits: 2\n"
+                                      "  confirm_window: 4\n  coast_s: 1\n  resting_after_s: 2\n"
+                                      "  piece_growth: 0.1\n  remember_rest_s: 7\n");
+  EXPECT_EQ(config.model, PredictorModel::Detections);
   EXPECT_EQ(config.period(), Duration{100'000});
   EXPECT_EQ(config.tracker.prediction.piece, Duration{500'000});
   EXPECT_EQ(config.tracker.prediction.max_speed, 2.0);
-  EXPECT_EQ(config.tracker.acceleration.sigma, 0.5);
-  EXPECT_EQ(config.tracker.acceleration.time_s, 1.5);
   EXPECT_EQ(config.tracker.prediction.piece_growth, 0.1);
   EXPECT_EQ(config.tracker.remember_rest, Duration{7'000'000});
   EXPECT_EQ(config.tracker.confirm_hits, 2);

@@ -184,7 +184,7 @@ TEST_F(PredictorNodeTest, EstimatesWhatNobodyDeclares) {
 }
 
 TEST_F(PredictorNodeTest, EachModelListensOnlyToItsOwn) {
-  for (const PredictorModel model : {PredictorModel::Declared, PredictorModel::ConstantVelocity}) {
+  for (const PredictorModel model : {PredictorModel::Declared, PredictorModel::Detections}) {
     VirtualRunner runner;
     PredictorConfig config;
     config.model = model;

@@ -1,0 +1,74 @@
+#include "predictor/models/model_bank.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "predictor/models/axis_filter.h"
+
+namespace tern {
+namespace {
+
+constexpr double kEvidenceForgetting = 0.95;
+
+}  // namespace
+
+const PerModel<MotionModel>& motion_models() {
+  static const PerModel<MotionModel> models{constant_velocity(0.15, 1.2),
+                                            constant_velocity(0.4, 1.5),  // steady
+                                            singer(1.0, 1.0, 2.0),
+                                            matern52(4.0, 1.0),  // calm
+                                            squared_exponential(1.4, 1.0),
+                                            squared_exponential(2.0, 0.8),
+                                            squared_exponential(3.5, 0.6),
+                                            constant_velocity(1.5, 4.0),
+                                            singer(1.0, 4.0, 4.0),  // lively
+                                            matern52(4.0, 4.0),
+                                            matern52(8.0, 4.0),
+                                            squared_exponential(0.7, 2.5),
+                                            squared_exponential(1.0, 2.5),
+                                            squared_exponential(1.4, 4.0),
+                                            squared_exponential(2.0, 3.0)};
+  return models;
+}
+
+BankStep bank_step(double dt) {
+  BankStep steps;
+  for (std::size_t j = 0; j < kModels; ++j) steps[j] = model_step(motion_models()[j], dt);
+  return steps;
+}
+
+BankLook bank_look(const BankStep& ahead, const BankStep& first) {
+  BankLook looks;
+  for (std::size_t j = 0; j < kModels; ++j) looks[j] = look(ahead[j], first[j]);
+  return looks;
+}
+
+BankFilter::BankFilter(const Vec3& z, const Vec3& r) {
+  for (std::size_t j = 0; j < kModels; ++j) filters_[j] = MotionFilter(motion_models()[j], z, r);
+  lead_ = kWidestModel;
+}
+
+void BankFilter::predict(const BankStep& step) {
+  for (std::size_t j = 0; j < kModels; ++j) filters_[j].predict(step[j]);
+}
+
+void BankFilter::update(const Vec3& z, const Vec3& r) {
+  for (std::size_t j = 0; j < kModels; ++j) {
+    const Vec3 s = filters_[j].variance() + r.cwiseMax(kLeastVariance);
+    const Vec3 innovation = z - filters_[j].position();
+    const double fit = (innovation.array().square() / s.array() + s.array().log()).sum();
+    evidence_[j] = kEvidenceForgetting * evidence_[j] - 0.5 * fit;
+    filters_[j].update(z, r);
+  }
+  lead_ = static_cast<std::size_t>(std::max_element(evidence_.begin(), evidence_.end()) - evidence_.begin());
+}
+
+double BankFilter::distance2(const Vec3& z, const Vec3& r) const {
+  const auto to = [&](const MotionFilter& filter) {
+    const Vec3 s = filter.variance() + r.cwiseMax(kLeastVariance);
+    return ((z - filter.position()).array().square() / s.array()).sum();
+  };
+  return std::min(to(lead()), to(filters_[kWidestModel]));
+}
+
+}  // namespace tern

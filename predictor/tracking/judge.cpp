@@ -1,0 +1,219 @@
+#include "predictor/tracking/judge.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "predictor/models/axis_filter.h"
+
+namespace tern {
+namespace {
+
+// Pools of model scores.
+constexpr std::size_t kSlow = 0, kFast = 1, kAll = 2;
+// A track that was so fast, m/s, within some seconds, belongs to the second pool.
+constexpr double kFastSpeed = 2.0;
+constexpr double kSpeedMemory = 3.0;
+// By its models' weights at this horizon a track has its class.
+constexpr std::size_t kClassHorizon = 2;
+// A new track's predictions are scored at its first detections of these numbers; then once in kScorePeriod.
+constexpr std::array kFirstScored{1, 2, 3, 5, 8};
+// The noise of the truth, which smoothing leaves, adds to the error in squares: so many of its variances are taken off
+// the square of an error, as a quantile of 0.99 is 2.5 deviations from the mean.
+constexpr double kNoiseTaken = 10.0;
+
+// The truth at a time from detections near it, or between two neighbours.
+template <typename Sample>
+std::optional<Sample> truth_at(const std::vector<Sample>& samples, UTime at) {
+  std::size_t first = 0;
+  while (first < samples.size() && (at - samples[first].at).seconds() > kSmoothed) ++first;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  std::size_t last = first, before = 0;
+  const auto row = [&](std::size_t k) -> Eigen::Vector3d {
+    const double t = (samples[k].at - at).seconds() / kSmoothed;
+    return {1.0, t, t * t};
+  };
+  for (; last < samples.size() && (samples[last].at - at).seconds() <= kSmoothed; ++last) {
+    normal += row(last) * row(last).transpose();
+    before += samples[last].at <= at ? 1 : 0;
+  }
+  Sample truth{at, Vec3::Zero(), Vec3::Zero()};
+  if (last - first >= 4 && before > 0 && before < last - first) {
+    const Eigen::Vector3d solved = normal.inverse().col(0);
+    for (std::size_t k = first; k < last; ++k) {
+      const double c = solved.dot(row(k));
+      truth.z += c * samples[k].z;
+      truth.r += c * c * samples[k].r;
+    }
+    return truth;
+  }
+  const auto after = std::find_if(samples.begin(), samples.end(), [&](const Sample& s) { return s.at >= at; });
+  if (after == samples.begin() || after == samples.end()) return std::nullopt;
+  const Sample& a = *(after - 1);
+  const double gap = (after->at - a.at).seconds();
+  if (gap > kWidestGap) return std::nullopt;
+  const double u = (at - a.at).seconds() / gap;
+  truth.z = (1.0 - u) * a.z + u * after->z;
+  truth.r = (1.0 - u) * (1.0 - u) * a.r + u * u * after->r;
+  return truth;
+}
+
+UTime judged_at(UTime at, std::size_t k) { return at + Duration::from_seconds(kJudgedAhead[k]); }
+
+}  // namespace
+
+Vec3 promised_half(const Vec3& deviation, const PerBand<double>& margins, double ahead_s) {
+  const std::size_t band = band_of(ahead_s);
+  const double before = band == 0 ? margins[0] * margin_growth(0, 0.0)
+                                  : *std::max_element(margins.begin(), margins.begin() + static_cast<int>(band));
+  const double margin = std::max(before, margins[band] * margin_growth(band, ahead_s));
+  return (kModelSigmas * deviation + Vec3::Constant(margin)).cwiseMax(kLeastSigmas * deviation);
+}
+
+Judge::Judge(double confidence) : calibration_(confidence) {
+  const BankStep none = bank_step(0.0);
+  for (std::size_t k = 0; k < looks_.size(); ++k) looks_[k] = bank_look(bank_step(kJudgedAhead[k]), none);
+}
+
+void Judge::take(UTime at, const std::vector<SeenTrack>& seen) {
+  judged_.clear();
+  for (const SeenTrack& track : seen) {
+    History& history = histories_[track.id];
+    if (history.samples.empty() || history.born != track.born) {
+      history = History{};
+      history.born = track.born;
+    }
+    follow(track, at, history);
+    score(history);
+    if (!track.rests) issue(track, at, history);
+  }
+  std::erase_if(histories_, [&](const auto& entry) {
+    const History& history = entry.second;
+    if ((at - history.samples.back().at).seconds() <= kWidestGap) return false;
+    for (const Issue& issue : history.issues) judged_.push_back(issue.judged);
+    return true;
+  });
+}
+
+void Judge::follow(const SeenTrack& track, UTime at, History& history) {
+  if (!history.samples.empty()) {
+    history.fastest *= std::exp(-(at - history.samples.back().at).seconds() / kSpeedMemory);
+  }
+  if ((at - track.born).seconds() >= kYoungAge) {
+    history.fastest = std::max(history.fastest, track.bank->lead().velocity().norm());
+  }
+  if ((at - track.born).seconds() >= kGrownAge) {
+    fastest_ = std::max(fastest_, track.bank->lead().velocity().cwiseAbs().maxCoeff());
+  }
+  history.samples.push_back({at, track.position, track.variance.cwiseMax(kLeastVariance)});
+  std::erase_if(history.samples, [&](const Sample& s) { return (at - s.at).seconds() > 2.0 * kSmoothed + kWidestGap; });
+}
+
+void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
+  const bool first = std::find(kFirstScored.begin(), kFirstScored.end(), track.detections) != kFirstScored.end();
+  if (!first && !history.issues.empty() && (at - history.issued).seconds() < kScorePeriod) return;
+  history.issued = at;
+  Issue issue;
+  issue.at = at;
+  issue.pool = pool_of(&history, at);
+  issue.score = -std::numeric_limits<double>::infinity();
+  const HorizonWeights all = model_weights(pools_[issue.pool], history.own);
+  issue.judged.kind = class_of(&history, at, track.detections, all);
+  issue.margins = calibration_.margins(issue.judged.kind);
+  for (std::size_t k = 0; k < looks_.size(); ++k) {
+    issue.said[k] = mixed(*track.bank, looks_[k], weights_at(all, kJudgedAhead[k]));
+    const auto scored = std::find(kScoredAhead.begin(), kScoredAhead.end(), kJudgedAhead[k]);
+    if (scored == kScoredAhead.end()) continue;
+    PerModel<Said>& said = issue.models_said[static_cast<std::size_t>(scored - kScoredAhead.begin())];
+    for (std::size_t j = 0; j < kModels; ++j) {
+      const MotionFilter& filter = track.bank->of(j);
+      said[j] = {filter.position_at(looks_[k][j]), filter.variance_at(looks_[k][j])};
+    }
+  }
+  history.issues.push_back(issue);
+}
+
+void Judge::score(History& history) {
+  const auto over = [&](const Issue& issue) {
+    judged_.push_back(issue.judged);
+    return true;
+  };
+  const UTime settled = history.samples.back().at - Duration::from_seconds(kSmoothed);
+  std::erase_if(history.issues, [&](Issue& issue) {
+    while (issue.next < kJudgedAhead.size() && judged_at(issue.at, issue.next) <= settled) {
+      const std::optional<Sample> truth = truth_at(history.samples, judged_at(issue.at, issue.next));
+      if (!truth) return over(issue);  // nobody saw what came
+      score(issue, *truth, history);
+      ++issue.next;
+    }
+    return issue.next == kJudgedAhead.size() && over(issue);
+  });
+}
+
+void Judge::score(Issue& issue, const Sample& truth, History& history) {
+  const std::size_t k = issue.next, band = band_of(kJudgedAhead[k]);
+  const Mixed& said = issue.said[k];
+  const Vec3 error = ((truth.z - said.centre).cwiseAbs2() - kNoiseTaken * truth.r).cwiseMax(0.0).cwiseSqrt();
+  const double growth = margin_growth(band, kJudgedAhead[k]);
+  issue.score = std::max(issue.score, (error - kModelSigmas * said.deviation).maxCoeff() / growth);
+  const Vec3 half = promised_half(said.deviation, issue.margins, kJudgedAhead[k]);
+  issue.missed = issue.missed || (error.array() > half.array()).any();
+  if (kJudgedAhead[k] < kBandEnds[band]) return;
+  const auto final_score = static_cast<float>(issue.score);
+  calibration_.add(issue.judged.kind, band, final_score, issue.missed);
+  issue.judged.scores[band] = final_score;
+  issue.judged.bands = band + 1;
+  issue.score = -std::numeric_limits<double>::infinity();
+
+  const auto scored = std::find(kScoredAhead.begin(), kScoredAhead.end(), kJudgedAhead[k]);
+  if (scored == kScoredAhead.end()) return;
+  const auto h = static_cast<std::size_t>(scored - kScoredAhead.begin());
+  PerModel<double> scores{};
+  for (std::size_t j = 0; j < kModels; ++j) {
+    const Said& model = issue.models_said[h][j];
+    for (int i = 0; i < 3; ++i) {
+      scores[j] += predictive_score(truth.z[i] - model.centre[i], model.variance[i] + truth.r[i]);
+    }
+  }
+  history.own.add(h, scores, kOwnForgetting);
+  pools_[kAll].add(h, scores, kPoolForgetting);
+  if (issue.pool != kAll) pools_[issue.pool].add(h, scores, kPoolForgetting);
+}
+
+const Judge::History* Judge::known(std::int64_t id, UTime born) const {
+  const auto found = histories_.find(id);
+  return found == histories_.end() || found->second.born != born ? nullptr : &found->second;
+}
+
+std::size_t Judge::pool_of(const History* history, UTime last_seen) {
+  if (history == nullptr || (last_seen - history->born).seconds() < kYoungAge) return kAll;
+  return history->fastest >= kFastSpeed ? kFast : kSlow;
+}
+
+Judge::Verdict Judge::verdict(std::int64_t id, UTime born, UTime last_seen, int detections) const {
+  const History* history = known(id, born);
+  Verdict verdict;
+  verdict.weights =
+      model_weights(pools_[pool_of(history, last_seen)], history == nullptr ? ModelScores{} : history->own);
+  verdict.kind = class_of(history, last_seen, detections, verdict.weights);
+  return verdict;
+}
+
+TrackClass Judge::class_of(const History* history, UTime last_seen, int detections, const HorizonWeights& weights) {
+  if (detections <= 1) return TrackClass::New;
+  const double age = history == nullptr ? 0.0 : (last_seen - history->born).seconds();
+  if (age < kYoungAge) return TrackClass::Young;
+  const auto weight = [&, at = weights[kClassHorizon].begin()](std::size_t first, std::size_t end) {
+    return std::accumulate(at + static_cast<std::ptrdiff_t>(first), at + static_cast<std::ptrdiff_t>(end), 0.0);
+  };
+  const double steady = weight(0, kSteadyModels), calm = weight(kSteadyModels, kCalmModels);
+  const bool old = age >= kGrownAge;
+  if (steady > 0.5) return old ? TrackClass::SteadyOld : TrackClass::SteadyGrown;
+  if (calm > 0.5 * (1.0 - steady)) return old ? TrackClass::CalmOld : TrackClass::CalmGrown;
+  return old ? TrackClass::LivelyOld : TrackClass::LivelyGrown;
+}
+
+}  // namespace tern

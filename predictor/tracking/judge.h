@@ -1,0 +1,109 @@
+// Judges predictions by what came: which models predict best, and how far the promise has to reach.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "core/base/time.h"
+#include "core/base/types.h"
+#include "predictor/models/model_scores.h"
+#include "predictor/tracking/calibration.h"
+
+namespace tern {
+
+/// What the judge sees of a track: its filters and its last detection, at the time of that detection.
+struct SeenTrack {
+  std::int64_t id = 0;
+  UTime born;                    ///< when its filters began; another time is another motion
+  int detections = 1;            ///< since then
+  Vec3 position = Vec3::Zero();  ///< as detected, W, m
+  Vec3 variance = Vec3::Zero();  ///< m²
+  const BankFilter* bank = nullptr;
+  bool rests = false;  ///< then nothing is predicted of it here
+};
+
+/// A promise is judged at these times after its making, s: two per band.
+inline constexpr std::array<double, 2 * kBands> kJudgedAhead{0.125, 0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.5};
+/// The truth at a time is a parabola through the detections so near to it, s; where none lie on both sides of it, the
+/// straight line between two neighbours at most kWidestGap apart.
+inline constexpr double kSmoothed = 0.2, kWidestGap = 0.5;
+
+/// What became of one promise.
+struct Judged {
+  TrackClass kind = TrackClass::New;
+  std::size_t bands = 0;    ///< so many were seen to their end
+  PerBand<float> scores{};  ///< of BandScores
+};
+
+/// Feeds on observation sets in order of time, once nothing older can come, and predicts for itself at the times of
+/// detections as tracks are predicted for others. A value: the same tracks in the same order give the same weights and
+/// margins.
+class Judge {
+ public:
+  explicit Judge(double confidence);
+
+  /// The tracks that were detected at `at`. Those not detected for kWidestGap are forgotten.
+  void take(UTime at, const std::vector<SeenTrack>& seen);
+
+  /// The models' weights for a track (of one that is not known, those of all tracks), and its class.
+  struct Verdict {
+    HorizonWeights weights;
+    TrackClass kind = TrackClass::New;
+  };
+  [[nodiscard]] Verdict verdict(std::int64_t id, UTime born, UTime last_seen, int detections) const;
+  [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+  /// The largest speed per axis that a track of more than kGrownAge had, m/s.
+  [[nodiscard]] double fastest() const { return fastest_; }
+  /// The promises that the last take() came to an end with.
+  [[nodiscard]] const std::vector<Judged>& judged() const { return judged_; }
+
+ private:
+  struct Sample {
+    UTime at;
+    Vec3 z, r;
+  };
+  struct Said {
+    Vec3 centre, variance;
+  };
+  struct Issue {
+    UTime at;
+    Judged judged;
+    std::size_t pool = 0;
+    std::size_t next = 0;  // of kJudgedAhead
+    bool missed = false;
+    double score = 0.0;  // of the band so far
+    std::array<Mixed, kJudgedAhead.size()> said;
+    std::array<PerModel<Said>, kScoredHorizons> models_said;
+    PerBand<double> margins;
+  };
+  struct History {
+    UTime born, issued;
+    double fastest = 0.0;  // m/s, forgotten slowly
+    ModelScores own;
+    std::vector<Sample> samples;
+    std::vector<Issue> issues;
+  };
+  void follow(const SeenTrack& track, UTime at, History& history);
+  void issue(const SeenTrack& track, UTime at, History& history) const;
+  void score(History& history);
+  void score(Issue& issue, const Sample& truth, History& history);
+  [[nodiscard]] const History* known(std::int64_t id, UTime born) const;
+  [[nodiscard]] static std::size_t pool_of(const History* history, UTime last_seen);
+  [[nodiscard]] static TrackClass class_of(const History* history, UTime last_seen, int detections,
+                                           const HorizonWeights& weights);
+
+  Calibration calibration_;
+  std::array<ModelScores, 3> pools_;
+  std::map<std::int64_t, History> histories_;
+  std::vector<Judged> judged_;
+  double fastest_ = 0.0;
+  std::array<BankLook, kJudgedAhead.size()> looks_;
+};
+
+/// Half-width of the promise per axis so long after the last detection, m: kModelSigmas σ + q g, of which at least
+/// kLeastSigmas σ remain; q g is no less than the margins of the bands before.
+Vec3 promised_half(const Vec3& deviation, const PerBand<double>& margins, double ahead_s);
+
+}  // namespace tern

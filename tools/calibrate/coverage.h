@@ -1,0 +1,59 @@
+// Promised against kept: how often, and how wide, by class of track and time ahead.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/world/track.h"
+#include "predictor/tracking/tracker.h"
+#include "tools/calibrate/recording.h"
+
+namespace tern::calibrate {
+
+/// Kept: the true box was inside the promised one at all times up to there, s.
+inline constexpr std::array<double, 4> kCoveredAhead{0.25, 0.5, 1.0, 2.0};
+
+/// The promises of one track of one class up to one time ahead: what a bootstrap draws.
+struct TrackPromises {
+  int promises = 0, kept = 0;
+  double half_sum = 0.0;  ///< Σ of the half-width there, mean of the axes, m
+};
+
+/// The promises of one class up to one time ahead.
+struct CoverageCell {
+  std::string what;  ///< class, or age
+  double ahead_s = 0.0;
+  std::vector<TrackPromises> tracks;
+};
+
+/// A share and the ends of its 95 % interval, by a bootstrap over tracks (1000 draws from a fixed seed).
+struct Covered {
+  int promises = 0, tracks = 0;
+  double share = 0.0, low = 0.0, high = 0.0;
+  double half_m = 0.0;  ///< mean half-width
+};
+Covered covered(const CoverageCell& cell);
+
+/// A prediction is made each kEvery observation sets, at the time when the set was received. What its tracks promise is
+/// held against the obstacle whose centre is nearest at its start, if that is within kSameThing.
+inline constexpr int kEvery = 5;
+inline constexpr double kSameThing = 1.0;  ///< m
+
+struct Study {
+  std::vector<CoverageCell> cells;  ///< by class, then by the track's age
+  std::vector<Judged> judged;       ///< the tracker's own scores
+};
+
+/// Feeds a recording to a tracker that is new.
+Study study(const Recording& recording, const TrackerConfig& config);
+
+/// A line of CSV per cell, with its interval.
+std::string coverage_table(const Study& study);
+
+/// `other` is added to `sum`, cell by cell.
+void add(Study& sum, const Study& other);
+
+}  // namespace tern::calibrate

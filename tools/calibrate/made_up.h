@@ -1,0 +1,32 @@
+// Made-up movers, for classes of motion that no recording at hand holds.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "tools/calibrate/recording.h"
+
+namespace tern::calibrate {
+
+/// How made-up movers move.
+enum class MadeUp {
+  Walkers,    ///< 0.5 … 1.8 m/s, white acceleration of 0.08 … 0.25 m/s^1.5, and the sway of a head
+  Wanderers,  ///< sums of sines, 0.2 … 1.2 m/s, that go on for 1 … 4 s
+  Racers,     ///< sums of sines, 1.5 … 6 m/s, that go on for 0.5 … 2 s, or accelerations that jump once in a second
+  Drifters,   ///< white acceleration of 0.3 … 0.9 m/s^1.5
+  Turners,    ///< 0.8 … 2 m/s, straight, with turns to anywhere 0.3 times a second
+};
+struct MadeUpSource {
+  MadeUp kind;
+  std::string_view name;
+  double weight;  ///< of Source
+};
+/// All of them; turners, whom nothing but a reach set foresees, are few in this world.
+const std::vector<MadeUpSource>& made_up_sources();
+
+/// A minute and a half of twelve of them at once, 20 m apart, each of 1.5 to 9 s, seen as BENCHMARKS' `near` sensor
+/// sees (σ 0.05 m, 30 Hz, 50 ms late, 5 % dropped), with the truth at each frame. A function of the seed.
+Recording made_up(const MadeUpSource& source, std::uint64_t seed);
+
+}  // namespace tern::calibrate
