@@ -12,6 +12,8 @@ namespace {
 constexpr int kBrakingPoints = 7;
 constexpr Duration kShortestBraking{20'000};  ///< of an interval
 constexpr Duration kLongestBraking{5'000'000};
+/// By then the next setpoint is expected: no braking yet.
+constexpr Duration kNextSetpoint{20'000};
 /// No honest setpoint is this much later than the one before: until then the vehicle goes on by itself.
 constexpr Duration kSetpointGap{200'000};
 
@@ -113,7 +115,12 @@ void CommandedMotion::choose_after(const MotionSample& motion, UTime at) {
 }
 
 MotionSample CommandedMotion::sample(UTime t) const {
-  return t < settled_.end() ? settled_.sample(t) : after().sample(t);
+  if (t < settled_.end()) return settled_.sample(t);
+  const Duration later = t - told_until_;
+  if (braking_ && settled_.end() == told_until_ && later <= kNextSetpoint) {
+    return sample_cubic(cubic_of(newest_, kNextSetpoint).coefficients, later.seconds());
+  }
+  return after().sample(t);
 }
 
 bool CommandedMotion::settle(UTime until) {

@@ -18,8 +18,8 @@ inline constexpr Duration kSetpointSilence{100'000};
 ///
 /// Between two setpoints it is the cubic of the first (p, v, a, j), unless the committed trajectory passes through both
 /// and that cubic does not (a message between them was lost). After the newest setpoint it is the committed trajectory,
-/// if it passes through that setpoint within kJoinTolerance, else the braking trajectory. Both end at rest. So a
-/// vehicle whose executor has died flies on along what was certified, and rests at its end.
+/// if it passes through that setpoint within kJoinTolerance, else, after 20 ms of its cubic, the braking trajectory.
+/// Both end at rest. So a vehicle whose executor has died flies on along what was certified, and rests at its end.
 class CommandedMotion {
  public:
   /// At rest at p (W, m) until the first setpoint. @param limits  for braking
