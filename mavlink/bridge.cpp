@@ -133,7 +133,10 @@ std::string Bridge::not_ready(UTime now) const {
 }
 
 std::string Bridge::why_not_following(UTime now) const {
-  if (stage_ == Stage::Waiting) return not_ready(now);
+  if (stage_ == Stage::Waiting) {
+    const std::string why = not_ready(now);
+    return why.empty() ? to_string(stage_) : why;
+  }
   if (stage_ == Stage::Engaging && !refusal_.empty()) return refusal_;
   if (stage_ != Stage::Following) return fmt::format("{}{}{}", to_string(stage_), why_.empty() ? "" : ": ", why_);
   if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_heard());

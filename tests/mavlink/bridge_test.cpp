@@ -242,7 +242,7 @@ TEST(Bridge, ABridgeStartedAnewInFlightGoesOn) {
   FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   flight.autopilot.hear(
-      to_frame(ParamSet{.param_value = 1.0F, .param_id = text_of<16>("COM_OF_LOSS_T"), .param_type = 9}, {255, 190}, 0),
+      to_frame(ParamSet{.param_value = 2.5F, .param_id = text_of<16>("COM_OF_LOSS_T"), .param_type = 9}, {255, 190}, 0),
       flight.now);
   flight.bridge = Bridge({.start = Start::Pilot, .set_parameters = true}, FlightInMemory::uav(), flight.now);
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); }, 2.0)) << flight.bridge.status(flight.now).why_not;
