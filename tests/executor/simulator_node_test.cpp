@@ -501,7 +501,9 @@ TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {
         << flight.results.back().detail;
     EXPECT_EQ(flight.results.back().limit_violations, 0);
     EXPECT_EQ(flight.executor->exits() > 0, disturbance.leaves) << flight.executor->exits();
-    if (!disturbance.leaves) EXPECT_EQ(flight.executor->counters().refused(), 0);
+    if (!disturbance.leaves) {
+      EXPECT_EQ(flight.executor->counters().refused(), 0);
+    }
   }
 }
 
