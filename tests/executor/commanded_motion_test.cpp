@@ -106,6 +106,11 @@ TEST(CommandedMotion, BrakesWithinTheLimitsFromASetpointThatIsOnNoCommittedCurve
       moving.v[i] = rng.uniform(-0.5, 0.5) * limits.v_max[i];
       moving.a[i] = rng.uniform(-0.3, 0.3) * limits.a_max[i];
     }
+    const double h = 0.5 * kBeat.seconds();  // the jump counts when the next one goes on from it
+    MotionSample before = moving;
+    before.v -= h * moving.a;
+    before.p -= h * moving.v - 0.5 * h * h * moving.a;
+    command.hear(setpoint(kZero + Duration{kBeat.us / 2}, before));
     command.hear(setpoint(kZero + kBeat, moving));
     command.settle(kZero + Duration{60'000'000});
     const MotionHistory& motion = command.settled();

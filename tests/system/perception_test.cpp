@@ -8,10 +8,10 @@ namespace {
 
 class SandoPerception : public ::testing::TestWithParam<int> {};
 
-TEST_P(SandoPerception, TheForestIsFlownThroughUnharmedWithoutAStop) {
+TEST_P(SandoPerception, TheForestIsFlownThroughUnharmedByTheDefaults) {
   const VirtualFlight flight = fly_and_expect_all_well("sando_perception", {"seed=" + std::to_string(GetParam())});
-  EXPECT_EQ(flight.result.stops, 0);
-  EXPECT_LT(flight.result.flight_time_s, 25.0);
+  EXPECT_LE(flight.result.stops, 1) << "before anything is known of the movers";
+  EXPECT_LT(flight.result.flight_time_s, 27.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, SandoPerception, ::testing::Values(2, 11));

@@ -120,7 +120,7 @@ TEST(StepReach, WhateverIsWantedThereIsMostlyAFlyableStepUntilRest) {
     ASSERT_TRUE(support::flat_outputs(plan.spline()).within(*problem.plan_limits.dynamics, 1e-5)) << "seed " << seed;
   }
   EXPECT_GT(walks, 500);
-  EXPECT_LT(ended, walks / 20);
+  EXPECT_LT(ended, walks / 8);
   EXPECT_GT(bold, 300);
 }
 

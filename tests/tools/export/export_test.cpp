@@ -37,7 +37,7 @@ class ExportedFlight : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TempFolder;
     tern::testing::record_flight(TERN_SCENARIO_FOLDER "/corridor_demo.yaml",
-                                 {"world.count=12", "uav.goal=[6, 0, 1]", "executor.rate_hz=10"}, log());
+                                 {"world.count=100", "uav.goal=[6, 0, 1]", "executor.rate_hz=10"}, log());
     const auto told = export_log({.log = log(), .csv_folder = "", .mcap_file = mcap(), .suffix = ""});
     ASSERT_TRUE(told) << told.error().message;
   }
