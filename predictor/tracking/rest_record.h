@@ -9,7 +9,7 @@ namespace tern {
 struct RestRecord {
   /// A flight begins as if things had rested for so long, all together, without a start.
   double rested_s = 5.0;  ///< Σ over tracks of the time seen at rest, s
-  int starts = 0;          ///< tracks that had been at rest and moved
+  int starts = 0;         ///< tracks that had been at rest and moved
 };
 
 /// For how long from its last detection on a thing that rests starts with at most this probability, s.
