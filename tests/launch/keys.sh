@@ -9,7 +9,7 @@ all_keys() {
   python3 - "$1" <<'END'
 import hashlib, sys
 master = bytes.fromhex(open(sys.argv[1]).read())
-names = """UAV_STATE SETPOINT OBSTACLE_OBSERVATIONS DECLARED_MOTIONS HORIZON_REQUEST OBSTACLE_TRUTH FLIGHT_RESULT PREDICTIONS PLAN
+names = """UAV_STATE SETPOINT VEHICLE_STATUS VEHICLE_TRUTH OBSTACLE_OBSERVATIONS DECLARED_MOTIONS HORIZON_REQUEST OBSTACLE_TRUTH FLIGHT_RESULT PREDICTIONS PLAN
 PLAN_TIMING SEARCH_VIEW SEMANTIC_MAP GOAL vehicle predictor planner mapper operator observer executor""".split()
 for key in [master] + [hashlib.blake2b(b"tern key 1 " + n.encode(), key=master, digest_size=32).digest() for n in names]:
     print(key.hex())
@@ -23,7 +23,7 @@ is_without_keys() {
   python3 - "$@" <<END || fail "a key is in $1"
 import sys
 keys = [bytes.fromhex(line) for line in open("$work/all_keys")]
-assert len(keys) == 60
+assert len(keys) == 69
 for name in sys.argv[2:]:
     try:
         data = open(name, "rb").read()
