@@ -51,7 +51,7 @@ MavlinkNode::~MavlinkNode() {
 void MavlinkNode::on_goal(const Goal& goal) {
   const bool first = !goal_id_, news = !first && goal.id > *goal_id_;
   if (first || news) goal_id_ = goal.id;
-  if (first) bridge_.flight_is_under_way();
+  if (first && goal.mode == GoalMode::Go) bridge_.flight_is_under_way();
   if (news && goal.mode == GoalMode::Go) bridge_.told_to_fly();
 }
 

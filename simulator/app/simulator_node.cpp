@@ -24,10 +24,17 @@ constexpr const char* kMapperProcess = "tern-mapper";
 
 UTime whole_ms(UTime t) { return {(t.us + 999) / 1'000 * 1'000}; }
 
-Goal scenario_goal(const Scenario& scenario) {
+Goal scenario_goal(const Scenario& scenario, bool external) {
   Goal goal;
-  goal.id = 1;
+  goal.id = external ? 2 : 1;  // before it comes its held() form
   goal.position = scenario.uav.goal;
+  return goal;
+}
+
+/// What an external vehicle is told before world time begins: the planner needs a goal, and nobody shall fly there yet.
+Goal held(Goal goal) {
+  goal.id -= 1;
+  goal.mode = GoalMode::Hold;
   return goal;
 }
 
@@ -49,7 +56,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
   needs_map_ = std::find(config.wait_for.begin(), config.wait_for.end(), kMapperProcess) != config.wait_for.end();
   referee_.set_earliest_arrival(config.min_flight_s);
   referee_.set_goal(std::nullopt);
-  if (config.send_goal) take_goal(scenario_goal(scenario));
+  if (config.send_goal) take_goal(scenario_goal(scenario, config.external));
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { vehicle_->hear(setpoint); });
@@ -81,12 +88,11 @@ void SimulatorNode::step(UTime now) {
   broadcast_.step(now, vehicle_->truth());
   if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
-    // Nobody shall fly an external vehicle before world time begins, and plans name the GOAL that was heard first: the
-    // log must have it.
-    const bool is_kept =
-        world_zero_ ? !config_.external || now >= *world_zero_ : !config_.external && gate_.records(now);
-    if (goal_ && is_kept) bus_.publish(channels::kGoal, *goal_);
+    // Plans name the GOAL that was heard first: the log must have it.
+    const bool is_kept = world_zero_ || gate_.records(now);
+    if (goal_ && is_kept) bus_.publish(channels::kGoal, config_.external && !has_begun(now) ? held(*goal_) : *goal_);
     next_goal_ = next_beat(next_goal_, is_kept ? kGoalPeriod : kStatePeriod, now);
+    if (world_zero_ && now < *world_zero_) next_goal_ = std::min(next_goal_, *world_zero_);
   }
   if (now >= next_result_) {
     if (results_left_ > 0) bus_.publish(channels::kFlightResult, *result_);
@@ -156,6 +162,8 @@ void SimulatorNode::publish_state(UTime now) {
     bus_.publish(channels::kVehicleTruth, truth);
   }
 }
+
+bool SimulatorNode::has_begun(UTime now) const { return world_zero_ && now >= *world_zero_; }
 
 std::string SimulatorNode::why_not_flying(UTime now) const {
   if (result_) return "the flight has ended";

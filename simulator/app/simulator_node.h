@@ -58,6 +58,7 @@ class SimulatorNode final : public Node {
   void wait_for_processes(UTime now);
   void publish_state(UTime now);
   void publish_status(UTime now);
+  [[nodiscard]] bool has_begun(UTime now) const;
   [[nodiscard]] std::string why_not_flying(UTime now) const;
   void admit(UTime now);
   void judge(UTime now);
