@@ -4,25 +4,27 @@ import * as THREE from 'three';
 const DRAGGED_PX = 4;
 const DOUBLE_MS = 350;
 
+const distance = (event, [x, y]) => Math.hypot(event.clientX - x, event.clientY - y);
+
 export class Pointer {
   /**
    * @param canvas, world  of the scene
    * @param does  {pick(ray), orbit(ray), aim(point)}; point: where the ray meets `height()`
    */
   constructor(canvas, world, does) {
-    Object.assign(this, { world, does, aiming: false, ray: new THREE.Raycaster(), pressed: null, last: -Infinity });
+    Object.assign(this, { world, does, aiming: false, ray: new THREE.Raycaster(), pressed: null, last: { time: -Infinity, at: [0, 0] } });
     canvas.addEventListener('pointerdown', (event) => (this.pressed = [event.clientX, event.clientY]));
     canvas.addEventListener('pointerup', (event) => this.release(event));
   }
 
   release(event) {
     const { pressed, ray, does } = this;
-    const dragged = !pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > DRAGGED_PX;
+    const dragged = !pressed || distance(event, pressed) > DRAGGED_PX;
     if (dragged || event.button !== 0) return;
     const at = new THREE.Vector2((2 * event.clientX) / innerWidth - 1, 1 - (2 * event.clientY) / innerHeight);
     ray.setFromCamera(at, this.world.camera);
-    const isSecond = event.timeStamp - this.last < DOUBLE_MS;
-    this.last = event.timeStamp;
+    const isSecond = event.timeStamp - this.last.time < DOUBLE_MS && distance(event, this.last.at) <= DRAGGED_PX;
+    this.last = { time: event.timeStamp, at: [event.clientX, event.clientY] };
     if (this.aiming) return this.send();
     if (isSecond) does.orbit(ray);
     else does.pick(ray);
