@@ -107,13 +107,6 @@ void PlotFrame::draw_axes(Svg& page, const std::string& x_name, const std::strin
             fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 {:.1f} {:.1f})\"", side.first, side.second));
 }
 
-XY padded_range(const std::vector<double>& numbers, double share) {
-  if (numbers.empty()) return {0.0, 1.0};
-  const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
-  const double pad = std::max(share * (*high - *low), 1e-3);
-  return {*low - pad, *high + pad};
-}
-
 std::vector<double> round_ticks(const XY& range, int most) {
   const double least = (range.second - range.first) / std::max(most, 1);
   const double power = std::pow(10.0, std::floor(std::log10(least)));
@@ -124,18 +117,6 @@ std::vector<double> round_ticks(const XY& range, int most) {
   std::vector<double> ticks;
   for (double k = std::ceil(range.first / step); k * step <= range.second; k += 1.0) ticks.push_back(k * step + 0.0);
   return ticks;
-}
-
-std::string viridis(double share) {
-  static constexpr int kColours[][3] = {{68, 1, 84},    {72, 40, 120},  {62, 74, 137},  {49, 104, 142}, {38, 130, 142},
-                                        {31, 158, 137}, {53, 183, 121}, {110, 206, 88}, {181, 222, 43}, {253, 231, 37}};
-  constexpr int kLast = static_cast<int>(std::size(kColours)) - 1;
-  const double x = std::clamp(share, 0.0, 1.0) * kLast;
-  const int i = std::min(static_cast<int>(x), kLast - 1);
-  const auto mix = [&](int c) {
-    return static_cast<int>(std::lround(kColours[i][c] + (x - i) * (kColours[i + 1][c] - kColours[i][c])));
-  };
-  return fmt::format("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2));
 }
 
 }  // namespace tern

@@ -48,11 +48,7 @@ struct PlotFrame {
   void draw_axes(Svg& page, const std::string& x_name, const std::string& y_name) const;
 };
 
-/// The range of the numbers with a margin of a share of it; never empty.
-XY padded_range(const std::vector<double>& numbers, double share);
 /// Up to about `most` round numbers within the range, ascending.
 std::vector<double> round_ticks(const XY& range, int most);
-/// Viridis at 0 … 1, "#rrggbb".
-std::string viridis(double share);
 
 }  // namespace tern

@@ -28,12 +28,6 @@ Eigen::Matrix3d make_basis_2() {
   return a;
 }
 
-Eigen::Matrix2d make_basis_1() {
-  Eigen::Matrix2d a;
-  a << -1.0, 1.0, 1.0, 0.0;
-  return a;
-}
-
 }  // namespace
 
 const Eigen::Matrix4d& minvo_basis_3() {
@@ -43,11 +37,6 @@ const Eigen::Matrix4d& minvo_basis_3() {
 
 const Eigen::Matrix3d& minvo_basis_2() {
   static const Eigen::Matrix3d basis = make_basis_2();
-  return basis;
-}
-
-const Eigen::Matrix2d& minvo_basis_1() {
-  static const Eigen::Matrix2d basis = make_basis_1();
   return basis;
 }
 

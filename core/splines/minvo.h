@@ -14,11 +14,10 @@ using PowerCubic = Eigen::Matrix<double, 3, 4>;  ///< coefficients of u³ u² u 
 ///
 /// Each basis polynomial is ≥ 0 on [0, 1] and they sum to 1, so that the curve lies in the convex hull of V's columns.
 /// For degree 3 that simplex is 2.36 times smaller than Bernstein's and 254.9 times smaller than the uniform
-/// B-spline's. Both properties hold to rounding (about 1e-15); degrees 1 and 2 are closed forms, degree 3 is the
+/// B-spline's. Both properties hold to rounding (about 1e-15); degree 2 is a closed form, degree 3 is the
 /// published numeric optimum.
 const Eigen::Matrix4d& minvo_basis_3();
 const Eigen::Matrix3d& minvo_basis_2();
-const Eigen::Matrix2d& minvo_basis_1();
 
 /// A⁻¹: MINVO points = power coefficients (3×(N+1), highest power first) · A⁻¹.
 const Eigen::Matrix4d& minvo_inverse_3();

@@ -40,8 +40,6 @@ class WorldIntake {
   void set_vehicle(const HorizonRequest& request);
   /// What a preparation threw, in words: none is made any more.
   [[nodiscard]] std::optional<std::string> failure() const { return worker_ ? worker_->failure() : std::nullopt; }
-  /// Sets of which a batch was lost.
-  [[nodiscard]] std::int64_t incomplete_sets() const { return batches_.incomplete(); }
 
  private:
   void on_predictions(const TrackSet& batch);

@@ -99,12 +99,26 @@ done < <(awk -F'\t' '$2 ~ /\/app\//' <<<"$includes")
 # An auditor shares data types with what it audits, no algorithms.
 never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|executor|simulator)' 'audit shares no algorithm'
 
-# Sizes.
+# Sizes: of files, and of functions at the top of a file, from the first line of their signature to the closing brace.
 while read -r lines file; do
-  limit=600
-  [[ $file != */main.cpp ]] || limit=60
+  case $file in
+    */main.cpp) limit=60 ;;
+    tests/*) limit=600 ;;
+    *) limit=400 ;;
+  esac
   [[ $file == total ]] || ((lines <= limit)) || breach "$file has $lines lines, more than $limit"
 done < <(wc -l "${sources[@]}")
+
+while IFS=$'\t' read -r file line lines; do
+  limit=50
+  [[ $file != tests/* ]] || limit=65
+  ((lines <= limit)) || breach "$file:$line: a function of $lines lines, more than $limit"
+done < <(awk '
+  FNR == 1 { start = 0 }
+  /^(#|\/\/|\/\*|namespace|extern "C"|using|class |struct |enum )/ { start = 0; next }
+  /^}$/ { if (start) print FILENAME "\t" start "\t" FNR - start + 1; start = 0; next }
+  /^[^ \t]/ { if (!start) start = FNR }
+  /^[^ \t].*[;}]$/ || /^};/ || /^}  \/\// { start = 0 }' "${sources[@]}")
 
 ((breaches == 0)) || { echo "$breaches breaches" && exit 1; }
 echo "${#sources[@]} sources keep the rules"

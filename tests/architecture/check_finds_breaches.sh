@@ -48,5 +48,8 @@ planted simulator/x.cpp '#include <CGAL/convex_hull_3.h>\n' CGAL
 planted simulator/x.cpp '#include <IpTNLP.hpp>\n' Ipopt
 planted tools/audit/x.cpp '#include "core/geometry/convex_hull.h"\n'
 planted planner/app2/main.cpp "$(printf '\\n%.0s' {1..61})"
-planted planner/x.cpp "$(printf '\\n%.0s' {1..601})"
+planted planner/x.cpp "$(printf '\\n%.0s' {1..401})"
+planted tests/x.cpp "$(printf '\\n%.0s' {1..601})"
+planted planner/x.cpp "int f(\\n    int a) {$(printf '\\n%.0s' {1..50})}\\n" 'x.cpp:1: a function of 52 lines'
+planted planner/x.cpp "Result f() {$(printf '\\n%.0s' {1..51})}\\n" 'a function of 52 lines'
 echo "every planted breach was found"

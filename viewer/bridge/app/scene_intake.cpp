@@ -1,5 +1,7 @@
 #include "viewer/bridge/app/scene_intake.h"
 
+#include <spdlog/spdlog.h>
+
 #include <tuple>
 #include <type_traits>
 
@@ -44,7 +46,7 @@ void SceneIntake::take(const T& message, UTime at) {
     if (auto batches = tracks_.add(message)) scene_.hear(join_batches(std::move(*batches)));
   } else if constexpr (std::is_same_v<T, MapChunk>) {
     const auto complete = maps_.add(message);
-    if (!complete) map_trouble_ = complete.error().message;
+    if (!complete) spdlog::warn("{}", complete.error().message);
     if (complete && *complete) scene_.hear(maps_.take());
   } else if constexpr (std::is_same_v<T, Heartbeat>) {
     scene_.hear(message, at);

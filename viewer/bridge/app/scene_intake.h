@@ -23,8 +23,6 @@ class SceneIntake {
   bool hear(std::string_view channel, std::span<const std::uint8_t> bytes, UTime at);
   /// Forgets unfinished sets: the log jumps.
   void restart();
-  /// Maps that contradicted themselves, in words; "" while none did.
-  [[nodiscard]] const std::string& map_trouble() const { return map_trouble_; }
 
  private:
   template <class T>
@@ -34,7 +32,6 @@ class SceneIntake {
   BatchCollector<ObstacleTruth> truth_;
   BatchCollector<TrackSet> tracks_;
   MapAssembler maps_;
-  std::string map_trouble_;
 };
 
 }  // namespace tern
