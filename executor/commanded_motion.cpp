@@ -16,6 +16,10 @@ constexpr Duration kLongestBraking{5'000'000};
 constexpr Duration kNextSetpoint{20'000};
 /// No honest setpoint is this much later than the one before: until then the vehicle goes on by itself.
 constexpr Duration kSetpointGap{200'000};
+/// Setpoints that after a silence are farther than this from the command's way are a matter of kStandsOff, m.
+constexpr double kFarOff = 0.1;
+/// By then an executor has seen where the vehicle is, and leads on from there.
+constexpr Duration kStandsOff{500'000};
 
 bool agree(const Vec3& a, const Vec3& b) { return (a - b).cwiseAbs().maxCoeff() <= kJoinTolerance; }
 
@@ -84,8 +88,7 @@ void CommandedMotion::hear(const UavState& setpoint) {
   const MotionSample by_committed = after().sample(setpoint.at);
   const bool is_soon = setpoint.at - end <= kSetpointGap;
   if (!is_soon || !(agree(by_cubic, setpoint.motion) || agree(by_committed, setpoint.motion))) {
-    const std::optional<UavState> before = std::exchange(apart_, setpoint);
-    if (!before || !goes_on(*before, setpoint)) return;
+    if (!leads_elsewhere(setpoint, (by_committed.p - setpoint.motion.p).norm() > kFarOff)) return;
   }
   apart_.reset();
   if (agree(by_cubic, setpoint.motion) || !agree(by_committed, setpoint.motion)) {
@@ -96,6 +99,16 @@ void CommandedMotion::hear(const UavState& setpoint) {
   told_until_ = setpoint.at;
   yaw_ = setpoint.yaw;
   choose_after(setpoint.motion, setpoint.at);
+}
+
+bool CommandedMotion::leads_elsewhere(const UavState& setpoint, bool is_far) {
+  const std::optional<UavState> before = std::exchange(apart_, setpoint);
+  if (!before || !goes_on(*before, setpoint)) {
+    apart_since_ = setpoint.at;
+    return false;
+  }
+  const bool was_silent = setpoint.at - told_until_ > kSetpointSilence;
+  return !(was_silent && is_far) || setpoint.at - apart_since_ >= kStandsOff;
 }
 
 void CommandedMotion::hear(const TimedSpline& committed) {

@@ -27,7 +27,8 @@ class CommandedMotion {
 
   /// The next setpoint. One that is not after settled().end() is ignored. One to which the command does not lead within
   /// kJoinTolerance, or that is 0.2 s ahead, counts only when the next one goes on from it, as after a lost setpoint:
-  /// no single message makes the vehicle jump.
+  /// no single message makes the vehicle jump. After kSetpointSilence setpoints that are more than 0.1 m off count only
+  /// when they have gone on for 0.5 s: an executor that sees where the vehicle is leads it on from there before.
   void hear(const UavState& setpoint);
   /// HORIZON_REQUEST.committed. Only one that starts after all earlier ones is news.
   void hear(const TimedSpline& committed);
@@ -48,6 +49,8 @@ class CommandedMotion {
   void forget_before(UTime t) { settled_.forget_before(t); }
 
  private:
+  /// Whether setpoints to which the command does not lead have come for long enough.
+  bool leads_elsewhere(const UavState& setpoint, bool is_far);
   [[nodiscard]] const CommittedTrajectory& after() const { return braking_ ? *braking_ : committed_; }
   void choose_after(const MotionSample& motion, UTime at);
 
@@ -56,6 +59,7 @@ class CommandedMotion {
   MotionSample newest_;  ///< at settled_.end(), with the jerk that follows
   UTime told_until_;
   std::optional<UavState> apart_;  ///< the newest setpoint, where the command did not lead to it
+  UTime apart_since_;              ///< the first of the setpoints that lead to it
   double yaw_ = 0.0;
   CommittedTrajectory committed_;               ///< as heard
   std::optional<CommittedTrajectory> braking_;  ///< when committed_ does not pass through the newest setpoint

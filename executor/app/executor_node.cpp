@@ -3,8 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/world/names.h"
+#include "executor/commanded_motion.h"
 #include "messages/codec.h"
 #include "runtime/beat.h"
 
@@ -68,6 +70,7 @@ void ExecutorNode::watch(const UavState& state) {
   } else if (!is_confirmed(state)) {
     return;
   }
+  if (look_from_ && state.at >= *look_from_) look(state, error);
   if (!following_) {
     if (error.maxCoeff() > kRejoinBeyond) rejoin(state);
     return;
@@ -84,6 +87,12 @@ void ExecutorNode::watch(const UavState& state) {
   }
   outside_ = outside;
   if (lost) rejoin(state);
+}
+
+void ExecutorNode::look(const UavState& state, const Vec3& error) {
+  look_from_.reset();
+  if (((error - executor_->tube()).array() > kJoinTolerance).any()) rejoin(state);
+  last_setpoint_ = std::max(last_setpoint_, state.at);
 }
 
 void ExecutorNode::rejoin(const UavState& state) {
@@ -108,7 +117,11 @@ void ExecutorNode::on_status(const VehicleStatus& status) {
   following_ = status.following;
   spdlog::info("the vehicle {}", following_ ? "follows" : "does not follow: " + status.why_not);
   if (!executor_) return;
-  if (following_) return executor_->begin(bus_.clock().now());
+  if (following_) {
+    const UTime now = bus_.clock().now();
+    if (std::exchange(was_following_, true)) look_from_ = now;
+    return executor_->begin(now);
+  }
   executor_->pause();
   log_counters();
 }
@@ -141,14 +154,17 @@ void ExecutorNode::on_plan(const Plan& plan) {
 UTime ExecutorNode::next_wakeup() const {
   const UTime next = goal_ ? next_goal_ : kNever;
   if (!executor_) return next;
-  return std::min({next, next_setpoint_, executor_->next_wakeup().value_or(kNever)});
+  const auto request = look_from_ ? std::nullopt : executor_->next_wakeup();
+  return std::min({next, next_setpoint_, request.value_or(kNever)});
 }
 
 void ExecutorNode::step(UTime now) {
   if (executor_) {
-    if (const auto request = executor_->next_request(now)) bus_.publish(channels::kHorizonRequest, *request);
+    if (!look_from_ && now - last_setpoint_ > kSetpointSilence) look_from_ = now;  // this process was held up
+    const auto request = look_from_ ? std::nullopt : executor_->next_request(now);
+    if (request) bus_.publish(channels::kHorizonRequest, *request);
     if (now >= next_setpoint_) {
-      publish_setpoints(now);
+      if (!look_from_) publish_setpoints(now);
       executor_->forget_before(now - kRemembered);
       next_setpoint_ = next_beat(next_setpoint_, kSetpointPeriod, now);
     }

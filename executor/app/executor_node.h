@@ -25,6 +25,10 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// to rest where the vehicle is. It asks for plans while VEHICLE_STATUS says that the vehicle is following and there is
 /// a goal.
 ///
+/// Held up for longer than kSetpointSilence, or told that the vehicle follows again, it says nothing before it has seen
+/// where the vehicle is: what it adopted last the vehicle may not have heard of. Who is not where he was committed to
+/// be gets a trajectory to rest from where he is.
+///
 /// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves it is said, widens
 /// it, and beyond kRejoinBeyond gets a trajectory to rest from where it is, from which the next plan goes on.
 class ExecutorNode final : public Node {
@@ -53,6 +57,8 @@ class ExecutorNode final : public Node {
   /// Whether a state that is far from its setpoint is no single message's word.
   bool is_confirmed(const UavState& state);
   void rejoin(const UavState& state);
+  /// The first state since the vehicle and what is committed may have parted.
+  void look(const UavState& state, const Vec3& error);
   void publish_setpoints(UTime now);
   void publish_setpoint(UTime at);
   void log_counters() const;
@@ -63,7 +69,8 @@ class ExecutorNode final : public Node {
   std::optional<Executor> executor_;
   std::optional<UTime> still_since_;
   std::optional<Goal> goal_;
-  bool following_ = false;
+  bool following_ = false, was_following_ = false;
+  std::optional<UTime> look_from_;  ///< nothing is said until a state of this time or later has come
   Tube tube_;
   Vec3 sigma_ = Vec3::Zero();  // of the estimate, m
   std::int64_t exits_ = 0;     // how often the vehicle has left its tube

@@ -34,7 +34,7 @@ std::string WorldIntake::missing() const {
 void WorldIntake::set_vehicle(const HorizonRequest& request) {
   const std::int64_t run_us = request.header.name.sender_epoch_us;
   if (vehicle_ != MessageName{} && run_us != vehicle_.sender_epoch_us) forget_before(run_us);
-  body_half_ = request.body.half_extents() + request.tube;
+  body_half_ = grown(request.body, request.tube).half_extents();
   flight_box_ = request.flight_box;
   at_ = request.start.p;
   vehicle_ = request.header.name;

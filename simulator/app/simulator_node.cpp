@@ -7,6 +7,7 @@
 
 #include "core/world/box_cover.h"
 #include "core/world/names.h"
+#include "executor/commanded_motion.h"
 #include "messages/codec.h"
 #include "runtime/beat.h"
 #include "simulator/vehicle/external_vehicle.h"
@@ -17,6 +18,8 @@ namespace {
 constexpr Duration kStatePeriod{10'000};
 constexpr Duration kStatusPeriod{100'000};
 constexpr Duration kGoalPeriod{1'000'000};
+/// UAV_STATE comes several times in it.
+constexpr Duration kLookAround{50'000};
 constexpr Duration kResultPeriod{200'000};
 constexpr int kResults = 6;
 constexpr Duration kCountdown{300'000};
@@ -49,7 +52,8 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
       vehicle_(std::move(vehicle)),
       referee_(scenario, std::move(world), vehicle_->judged_limits()),
       broadcast_(bus, referee_.world(), config, bus.clock().now()),
-      next_state_(bus.clock().now()),
+      last_step_(bus.clock().now()),
+      next_state_(last_step_),
       next_truth_(next_state_),
       next_goal_(next_state_),
       next_status_(next_state_) {
@@ -59,7 +63,10 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
   if (config.send_goal) take_goal(scenario_goal(scenario, config.external));
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
-  bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { vehicle_->hear(setpoint); });
+  bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) {
+    const UTime now = bus_.received();
+    if (!is_held_up(now) && now >= follows_from_) vehicle_->hear(setpoint);
+  });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->hear(m.committed); });
   if (config.external) hear_external_vehicle();
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
@@ -76,6 +83,11 @@ void SimulatorNode::hear_external_vehicle() {
 }
 
 void SimulatorNode::step(UTime now) {
+  if (is_held_up(now)) {
+    follows_from_ = now + kLookAround;
+    next_status_ = std::min(next_status_, now);
+  }
+  last_step_ = now;
   if (!world_zero_ && !result_) wait_for_processes(now);
   const bool beat = now >= next_state_;
   if (beat) vehicle_->advance(now);
@@ -168,6 +180,7 @@ bool SimulatorNode::has_begun(UTime now) const { return world_zero_ && now >= *w
 std::string SimulatorNode::why_not_flying(UTime now) const {
   if (result_) return "the flight has ended";
   if (!world_zero_ || now < *world_zero_) return "world time has not begun";
+  if (now < follows_from_) return "the simulator was held up";
   return "";
 }
 
@@ -180,6 +193,7 @@ void SimulatorNode::publish_status(UTime now) {
   bus_.publish(channels::kVehicleStatus, status);
   next_status_ = next_beat(next_status_, kStatusPeriod, now);
   if (world_zero_ && now < *world_zero_) next_status_ = std::min(next_status_, *world_zero_);
+  if (now < follows_from_) next_status_ = std::min(next_status_, follows_from_);
 }
 
 void SimulatorNode::admit(UTime now) {

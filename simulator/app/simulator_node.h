@@ -30,6 +30,8 @@ inline constexpr int kExitNotReady = 3;  ///< a process that the flight needs wa
 ///     says that the vehicle follows, upon which the executor asks for horizons, and the referee watches.
 ///   Ended: VEHICLE_STATUS says so, FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit
 ///     code is 0 whatever the verdict.
+/// A simulator that was held up may have missed setpoints: for kLookAround the vehicle flies on along what it knows to
+/// be committed, and VEHICLE_STATUS says that it does not follow, so that the executor leads on from where it is.
 /// The referee judges the vehicle's true motion. UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so.
 /// The goal is the scenario's (id 1, unless config.send_goal is false) until a GOAL with a larger id comes; the newest
 /// is repeated at 1 Hz.
@@ -59,6 +61,8 @@ class SimulatorNode final : public Node {
   void publish_state(UTime now);
   void publish_status(UTime now);
   [[nodiscard]] bool has_begun(UTime now) const;
+  /// Whether setpoints may have been missed: no step for kSetpointSilence.
+  [[nodiscard]] bool is_held_up(UTime now) const { return now - last_step_ > kSetpointSilence; }
   [[nodiscard]] std::string why_not_flying(UTime now) const;
   void admit(UTime now);
   void judge(UTime now);
@@ -79,6 +83,7 @@ class SimulatorNode final : public Node {
   int exit_code_ = 0;
   int results_left_ = 0;
   bool said_skewed_ = false;
+  UTime last_step_, follows_from_;
   UTime next_state_, next_truth_, next_goal_, next_status_, next_result_ = kNever;
 };
 

@@ -124,6 +124,30 @@ TEST(CommandedMotion, BrakesWithinTheLimitsFromASetpointThatIsOnNoCommittedCurve
   }
 }
 
+TEST(CommandedMotion, AfterASilenceAStreamThatIsFarOffIsFollowedWhenItHasGoneOn) {
+  CommandedMotion command(Vec3::Zero(), kZero, uav().limits);
+  const MotionSample there{.p = Vec3(2.0, 0.0, 0.0)};
+  const UTime begins = kZero + Duration{1'000'000};
+  UTime at = begins;
+  for (; at < begins + Duration{500'000}; at = at + kBeat) {
+    command.settle(at - kSetpointSilence);
+    command.hear(setpoint(at, there));
+    EXPECT_EQ(command.sample(at).p, Vec3::Zero());
+  }
+  command.hear(setpoint(at, there));
+  EXPECT_EQ(command.sample(at).p, there.p);
+}
+
+TEST(CommandedMotion, AfterASilenceAStreamThatIsNearIsFollowedAtOnce) {
+  CommandedMotion command(Vec3::Zero(), kZero, uav().limits);
+  const MotionSample there{.p = Vec3(0.05, 0.0, 0.0)};
+  const UTime begins = kZero + Duration{1'000'000};
+  command.hear(setpoint(begins, there));
+  EXPECT_EQ(command.sample(begins).p, Vec3::Zero());
+  command.hear(setpoint(begins + kBeat, there));
+  EXPECT_EQ(command.sample(begins + kBeat).p, there.p);
+}
+
 TEST(CommandedMotion, ASetpointThatComesAfterItWasGivenUpForIsIgnored) {
   CommandedMotion command(Vec3::Zero(), kZero, uav().limits);
   EXPECT_TRUE(command.settle(kZero + kBeat * 5));

@@ -43,6 +43,21 @@ ObstacleSpec far_trefoil() {
   return obstacle;
 }
 
+/// A process that hears, but does not get the processor for a while.
+class HeldUp final : public Node {
+ public:
+  explicit HeldUp(std::unique_ptr<Node> node) : node_(std::move(node)) {}
+  void hold_until(UTime t) { until_ = t; }
+  [[nodiscard]] UTime next_wakeup() const override { return std::max(until_, node_->next_wakeup()); }
+  void step(UTime now) override { node_->step(now); }
+  [[nodiscard]] NodeHealth health() const override { return node_->health(); }
+  [[nodiscard]] std::optional<int> finished() const override { return node_->finished(); }
+
+ private:
+  std::unique_ptr<Node> node_;
+  UTime until_;
+};
+
 /// A flight of the simulator, an executor and a stub planner; what was said on the way.
 struct Flight {
   explicit Flight(const Scenario& scenario, SimulatorConfig config = {}, ExecutorConfig executor_config = {})
@@ -59,20 +74,20 @@ struct Flight {
     });
     ear.subscribe(channels::kGoal, [this](const Goal& m) { goals.push_back(m); });
     World world = make_world(scenario, "").value();
-    runner.start("tern-simulator", [&](Bus& bus) -> std::unique_ptr<Node> {
+    simulator_process = &runner.start("tern-simulator", [&](Bus& bus) -> std::unique_ptr<Node> {
       auto vehicle = make_vehicle(scenario, config, bus.clock().now());
       auto node = std::make_unique<SimulatorNode>(bus, scenario, std::move(world), std::move(vehicle), config);
       simulator = node.get();
-      return node;
+      return std::make_unique<HeldUp>(std::move(node));
     });
     start_executor();
   }
 
   void start_executor() {
-    runner.start("tern-executor", [&](Bus& bus) -> std::unique_ptr<Node> {
+    executor_process = &runner.start("tern-executor", [&](Bus& bus) -> std::unique_ptr<Node> {
       auto node = std::make_unique<ExecutorNode>(bus, uav_, executor_config_);
       executor = node.get();
-      return node;
+      return std::make_unique<HeldUp>(std::move(node));
     });
   }
 
@@ -80,6 +95,7 @@ struct Flight {
     runner.start("tern-planner", [&](Bus& bus) { return std::make_unique<StubPlannerNode>(bus, options); });
   }
 
+  void hold_up(Node* process, Duration span) { dynamic_cast<HeldUp&>(*process).hold_until(runner.now() + span); }
   RunResult fly(Duration at_most = kSecond * 100) { return runner.run(runner.now() + at_most); }
 
   struct Answer {
@@ -91,6 +107,7 @@ struct Flight {
     UTime at;
   };
   VirtualRunner runner{kStart};
+  Node *simulator_process = nullptr, *executor_process = nullptr;
   SimulatorNode* simulator = nullptr;
   ExecutorNode* executor = nullptr;
   std::vector<HorizonRequest> requests;
@@ -334,6 +351,25 @@ TEST(SimulatorNode, AnExecutorThatDiesLeavesAVehicleThatRestsAndItsReturnBringsI
     EXPECT_EQ(flight.results.back().outcome, FlightOutcome::Reached) << flight.results.back().detail;
     EXPECT_EQ(flight.results.back().limit_violations, 0);
     EXPECT_EQ(flight.results.back().stops, 1);
+  }
+}
+
+TEST(SimulatorNode, WhoeverIsHeldUpTheVehicleDoesNotJumpAndArrives) {
+  for (const bool is_executor : {true, false}) {
+    for (const int span_ms : {60, 110, 170, 400, 1'800}) {
+      for (const int begins_ms : {1'500, 2'003, 2'018, 2'041}) {
+        Flight flight(empty_scenario());
+        flight.start_planner();
+        flight.fly(Duration{begins_ms * 1'000});
+        flight.hold_up(is_executor ? flight.executor_process : flight.simulator_process, Duration{span_ms * 1'000});
+        flight.fly();
+        ASSERT_FALSE(flight.results.empty());
+        const FlightResult& result = flight.results.back();
+        EXPECT_EQ(result.outcome, FlightOutcome::Reached) << result.detail;
+        EXPECT_EQ(result.limit_violations, 0) << (is_executor ? "executor" : "simulator") << " held up for " << span_ms
+                                              << " ms from " << begins_ms << ": " << result.detail;
+      }
+    }
   }
 }
 

@@ -22,6 +22,7 @@ void put_in_order(std::vector<T>& items, const TimeOf& time_of) {
 /// What one sender of vehicle, world or setpoints said: a simulator's start, or an executor's.
 struct Told {
   std::vector<UavState> estimates, true_states, setpoints;
+  std::vector<VehicleStatus> statuses;
   std::map<std::int64_t, ObstacleHistory> truth;
   std::map<std::int64_t, std::vector<DeclaredPiece>> declared;
   std::vector<FlightResult> results;
@@ -48,6 +49,7 @@ class Reading {
     tell(channels::kUavState, [](Told& told, const UavState& s) { told.estimates.push_back(s); });
     tell(channels::kVehicleTruth, [](Told& told, const UavState& s) { told.true_states.push_back(s); });
     tell(channels::kSetpoint, [](Told& told, const UavState& s) { told.setpoints.push_back(s); });
+    tell(channels::kVehicleStatus, [](Told& told, const VehicleStatus& s) { told.statuses.push_back(s); });
     tell(channels::kObstacleTruth, take_truth);
     tell(channels::kFlightResult, take_result);
     log_.on(channels::kDeclaredMotions, [this](const TrackSet& batch, std::int64_t) { declared(batch); });
@@ -69,6 +71,7 @@ class Reading {
     put_in_order(record_.states, [](const UavState& s) { return s.at; });
     put_in_order(record_.estimates, [](const UavState& s) { return s.at; });
     put_in_order(record_.setpoints, [](const UavState& s) { return s.at; });
+    put_in_order(record_.statuses, [](const VehicleStatus& s) { return s.at; });
     for (auto& [id, history] : record_.truth) {
       put_in_order(history.samples, [](const ObstacleHistory::Sample& s) { return s.at; });
     }
@@ -168,6 +171,7 @@ class Reading {
     record_.estimates = of_flight(epoch, &Told::estimates, append);
     if (record_.states.empty()) record_.states = record_.estimates;
     record_.setpoints = of_flight(epoch, &Told::setpoints, append);
+    record_.statuses = of_flight(epoch, &Told::statuses, append);
     record_.results = of_flight(epoch, &Told::results, append);
     record_.truth = of_flight(epoch, &Told::truth, [&](auto& all, auto& more) {
       for (auto& [id, history] : more) {

@@ -15,6 +15,7 @@
 #include "core/world/observation.h"
 #include "core/world/region.h"
 #include "core/world/track.h"
+#include "core/world/vehicle_status.h"
 #include "core/world/voxel_map.h"
 #include "flight_log/flight_log.h"
 #include "tools/audit/cubic.h"
@@ -52,6 +53,7 @@ struct FlightRecord {
   /// below.
   std::vector<UavState> states;
   std::vector<UavState> estimates, setpoints;     ///< UAV_STATE, SETPOINT
+  std::vector<VehicleStatus> statuses;            ///< VEHICLE_STATUS
   std::map<std::int64_t, ObstacleHistory> truth;  ///< by obstacle
   /// What was declared of each mover, by obstacle: the newest word at each time, without overlap, in order.
   std::map<std::int64_t, std::vector<DeclaredPiece>> declared;

@@ -12,6 +12,10 @@ namespace {
 
 /// Setpoints come at 100 Hz. Farther apart the one before says nothing of now.
 constexpr Duration kSetpointHole{25'000};
+/// VEHICLE_STATUS comes at 10 Hz: farther apart the vehicle's process was held up, and flew what it knew.
+constexpr Duration kStatusHole{250'000};
+/// What the executor takes for no error, m: rounding, and jerk that changes between two setpoints.
+constexpr double kNothing = 1e-3;
 constexpr char kAxes[] = {'x', 'y', 'z'};
 
 /// The commanded position at `t`: the cubic that the setpoint begins.
@@ -27,6 +31,17 @@ const HorizonRequest* in_force(const std::vector<HorizonRequest>& requests, UTim
   const auto later = std::upper_bound(requests.begin(), requests.end(), t,
                                       [](UTime at, const HorizonRequest& r) { return at < r.t_s; });
   return later == requests.begin() ? nullptr : &*std::prev(later);
+}
+
+/// Whether the vehicle said that it followed, before and after `t`. A log without VEHICLE_STATUS: it did.
+bool followed(const std::vector<VehicleStatus>& statuses, UTime t) {
+  if (statuses.empty()) return true;
+  const auto after =
+      std::upper_bound(statuses.begin(), statuses.end(), t, [](UTime at, const VehicleStatus& s) { return at < s.at; });
+  if (after == statuses.begin()) return false;
+  const VehicleStatus& before = *std::prev(after);
+  if (!before.following) return false;
+  return after == statuses.end() ? t - before.at <= kStatusHole : after->at - before.at <= kStatusHole;
 }
 
 struct Widest {
@@ -48,6 +63,10 @@ Check check_tube(const FlightRecord& record) {
     if (state.at < window.from || state.at > window.to) continue;
     const HorizonRequest* request = in_force(requests, state.at);
     if (request == nullptr) continue;
+    if (!followed(record.statuses, state.at)) {
+      ++check.unchecked["states while the vehicle did not follow, or its process was held up"];
+      continue;
+    }
     const auto after = std::upper_bound(record.setpoints.begin(), record.setpoints.end(), state.at,
                                         [](UTime t, const UavState& s) { return t < s.at; });
     if (after == record.setpoints.begin() || state.at - std::prev(after)->at > kSetpointHole) {
@@ -62,7 +81,7 @@ Check check_tube(const FlightRecord& record) {
     worst.error_m = std::max(worst.error_m, off.norm());
     worst.squares += off.squaredNorm();
     worst.tube = worst.tube.cwiseMax(request->tube);
-    if (margin[axis] >= -kJoinTolerance) continue;
+    if (margin[axis] >= -kNothing) continue;
     check.fail({state.at,
                 fmt::format("{:.3g} m off its setpoint along {}, beyond {:.3g} m", off[axis], kAxes[axis],
                             request->tube[axis]),
