@@ -14,7 +14,8 @@
 
 namespace tern {
 
-/// A vehicle that is outside its tube, but no farther off than this, is left to its controller, m.
+/// A vehicle that is outside its tube, but by no more than this, is left to its controller, m. While it does not
+/// follow, it may be so far off.
 inline constexpr double kRejoinBeyond = 0.1;
 
 /// Hears UAV_STATE, VEHICLE_STATUS, GOAL and PLAN; says HORIZON_REQUEST, SETPOINT and, at 1 Hz, the GOAL that it has
@@ -25,8 +26,9 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// to rest where the vehicle is. It asks for plans while VEHICLE_STATUS says that the vehicle is following and there is
 /// a goal.
 ///
-/// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves it is said, widens
-/// it, and beyond kRejoinBeyond gets a trajectory to rest from where it is, from which the next plan goes on.
+/// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves what was promised is
+/// said, widens it, and beyond kRejoinBeyond gets a trajectory to rest from where it is, from which the next plan goes
+/// on.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);
@@ -53,6 +55,7 @@ class ExecutorNode final : public Node {
   /// Whether a state that is far from its setpoint is no single message's word.
   bool is_confirmed(const UavState& state);
   void rejoin(const UavState& state);
+  void promise(UTime now);
   void publish_setpoints(UTime now);
   void publish_setpoint(UTime at);
   void log_counters() const;
