@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/world/message_limits.h"
+#include "core/world/thrust.h"
 
 namespace tern {
 namespace {
@@ -52,29 +53,50 @@ bool goes_on(const UavState& first, const UavState& second) {
   return (there.p - m.p).norm() <= 0.05 && (there.v - m.v).norm() <= 0.5 && (there.a - m.a).norm() <= 10.0;
 }
 
-/// The largest share of a limit that is used, over axes and derivatives; ≤ 1 + kLimitTolerance: all are kept.
+double share_of(const Dynamics& dynamics, const ClampedSpline& spline) {
+  double share = 0.0;
+  for (int j = 0; j < spline.intervals(); ++j) {
+    const ThrustBounds b = thrust_bounds(spline, j);
+    share =
+        std::max({share, dynamics.thrust_min / b.least, b.most / dynamics.thrust_max,
+                  b.slope / tilt_slope(dynamics.tilt_max_deg), b.body_rate / to_radians(dynamics.body_rate_max_deg_s)});
+  }
+  return share;
+}
+
+/// The largest share of a limit that is used, over axes, derivatives and dynamics; ≤ 1 + kLimitTolerance: all are kept.
 double share_of(const Limits& limits, const TimedSpline& trajectory) {
-  const MotionBounds bounds = motion_bounds(trajectory.spline());
-  return std::max({bounds.v_max.cwiseQuotient(limits.v_max).maxCoeff(),
-                   bounds.a_max.cwiseQuotient(limits.a_max).maxCoeff(),
-                   bounds.j_max.cwiseQuotient(limits.j_max).maxCoeff()});
+  const ClampedSpline spline = trajectory.spline();
+  const MotionBounds bounds = motion_bounds(spline);
+  const double share = std::max({bounds.v_max.cwiseQuotient(limits.v_max).maxCoeff(),
+                                 bounds.a_max.cwiseQuotient(limits.a_max).maxCoeff(),
+                                 bounds.j_max.cwiseQuotient(limits.j_max).maxCoeff()});
+  return limits.dynamics ? std::max(share, share_of(*limits.dynamics, spline)) : share;
+}
+
+struct Braking {
+  TimedSpline trajectory;
+  double share = std::numeric_limits<double>::infinity();
+};
+
+/// The shortest that keeps the limits, or the one that exceeds them least.
+Braking best_braking(const MotionSample& from, UTime at, const Limits& limits) {
+  Braking best;
+  for (Duration interval = kShortestBraking; interval <= kLongestBraking; interval.us += interval.us / 8) {
+    TimedSpline stop = braking_in(from, at, interval);
+    const double share = share_of(limits, stop);
+    if (share < best.share || best.share == std::numeric_limits<double>::infinity()) best = {std::move(stop), share};
+    if (share <= 1.0 + kLimitTolerance) break;
+  }
+  return best;
 }
 
 }  // namespace
 
 TimedSpline braking_trajectory(const MotionSample& from, UTime at, const Limits& limits) {
-  TimedSpline best;
-  double least = std::numeric_limits<double>::infinity();
-  for (Duration interval = kShortestBraking; interval <= kLongestBraking; interval.us += interval.us / 8) {
-    TimedSpline stop = braking_in(from, at, interval);
-    const double share = share_of(limits, stop);
-    if (share < least || least == std::numeric_limits<double>::infinity()) {
-      least = share;
-      best = std::move(stop);
-    }
-    if (share <= 1.0 + kLimitTolerance) break;
-  }
-  return best;
+  const Braking best = best_braking(from, at, limits);
+  if (!limits.dynamics || best.share <= 1.0 + kLimitTolerance) return best.trajectory;
+  return best_braking(from, at, {limits.v_max, limits.a_max, limits.j_max}).trajectory;
 }
 
 CommandedMotion::CommandedMotion(const Vec3& p, UTime from, const Limits& limits)
@@ -134,6 +156,12 @@ MotionSample CommandedMotion::sample(UTime t) const {
     return sample_cubic(cubic_of(newest_, kNextSetpoint).coefficients, later.seconds());
   }
   return after().sample(t);
+}
+
+Vec3 CommandedMotion::acceleration_ahead(UTime t, Duration lead) const {
+  if (is_committed()) return sample(t + lead).a;
+  const MotionSample m = sample(t);
+  return m.a + lead.seconds() * m.j;
 }
 
 bool CommandedMotion::settle(UTime until) {

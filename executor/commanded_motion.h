@@ -35,6 +35,9 @@ class CommandedMotion {
 
   /// The command at any time; before settled().end() as it was, after it as it would be without another setpoint.
   [[nodiscard]] MotionSample sample(UTime t) const;
+  /// The acceleration at t + lead (m/s²), for who has to tilt first: of what is committed, or, where a braking
+  /// trajectory stands in for it, by the jerk at t.
+  [[nodiscard]] Vec3 acceleration_ahead(UTime t, Duration lead) const;
   [[nodiscard]] double yaw() const { return yaw_; }  ///< rad, of the newest setpoint
   /// Whether the command after settled().end() is a trajectory that was heard to be committed, not one that brakes.
   [[nodiscard]] bool is_committed() const { return !braking_; }
@@ -66,7 +69,8 @@ class CommandedMotion {
 };
 
 /// The trajectory that leaves `from` at `at` and comes to rest soonest among splines of four equal intervals that keep
-/// `limits`; if none keeps them (the vehicle is beyond them already), the one that exceeds them least.
+/// `limits`, dynamics included; if none keeps them (the vehicle is beyond them already), the one that exceeds those per
+/// axis least.
 TimedSpline braking_trajectory(const MotionSample& from, UTime at, const Limits& limits);
 
 }  // namespace tern

@@ -14,6 +14,8 @@ namespace {
 
 /// Closed requests that are remembered: three seconds of them at 20 Hz; an answer later than that is unknown.
 constexpr std::size_t kRemembered = 64;
+/// A flight box that is widened grows by whole steps, m: the planner prepares its goal field for each one.
+constexpr double kBoxStep = 0.25;
 
 Duration checked_period(double rate_hz) {
   if (!(rate_hz >= 1e-3 && rate_hz <= 1000.0)) {
@@ -65,6 +67,34 @@ void Executor::rejoin(const UavState& measured) {
     close(false);
   }
   committed_ = stopping(measured, limits_);
+  promises_.clear();
+}
+
+void Executor::set_tube(const Vec3& tube, double share) {
+  tube_ = tube;
+  share_ = share;
+}
+
+Vec3 Executor::promised(UTime t) const {
+  const auto later = std::find_if(promises_.begin(), promises_.end(), [t](const Promise& p) { return p.from > t; });
+  return later == promises_.begin() ? tube_ : std::prev(later)->tube;
+}
+
+void Executor::forget_before(UTime t) {
+  committed_.forget_before(t);
+  while (promises_.size() > 1 && promises_[1].from <= t) promises_.pop_front();
+}
+
+Box Executor::flight_box_for(const TimedSpline& committed) const {
+  const Vec3 half = body_.half_extents();
+  const Points& q = committed.control_points;
+  Box box = flight_box_;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = q.row(axis).minCoeff() - half[axis], high = q.row(axis).maxCoeff() + half[axis];
+    if (low < box.min()[axis] - kBoxTolerance) box.min()[axis] = std::floor(low / kBoxStep) * kBoxStep;
+    if (high > box.max()[axis] + kBoxTolerance) box.max()[axis] = std::ceil(high / kBoxStep) * kBoxStep;
+  }
+  return box;
 }
 
 Limits Executor::limits_for(const TimedSpline& committed) const {
@@ -73,8 +103,8 @@ Limits Executor::limits_for(const TimedSpline& committed) const {
   };
   const ClampedSpline spline = committed.spline();
   const MotionBounds bounds = motion_bounds(spline);
-  Limits limits{widened(limits_.v_max, bounds.v_max), widened(limits_.a_max, bounds.a_max),
-                widened(limits_.j_max, bounds.j_max)};
+  Limits limits{widened(share_ * limits_.v_max, bounds.v_max), widened(share_ * limits_.a_max, bounds.a_max),
+                widened(share_ * limits_.j_max, bounds.j_max)};
   if (limits_.dynamics && breach_of(spline, *limits_.dynamics).ok()) limits.dynamics = limits_.dynamics;
   return limits;
 }
@@ -110,7 +140,7 @@ std::optional<HorizonRequest> Executor::next_request(UTime now) {
   request.start = committed_.sample(request.t_s);
   request.limits = limits_for(request.committed);
   request.body = body_;
-  request.flight_box = flight_box_;
+  request.flight_box = flight_box_for(request.committed);
   request.tube = tube_;
   last_request_ = now;
   outstanding_ = request;
@@ -135,11 +165,17 @@ Adoption Executor::judge(const Plan& plan, UTime now) {
   ++counters_.answered_in_time;
   const HorizonRequest request = *outstanding_;
   close(true);
-  if (plan.outcome == PlanOutcome::KeepCommitted) return {Verdict::Kept, {}};
+  if (plan.outcome == PlanOutcome::KeepCommitted) {
+    promises_.push_back({request.t_s, request.tube});
+    return {Verdict::Kept, {}};
+  }
   if (plan.outcome == PlanOutcome::NoPlan) return {Verdict::NoPlan, {}};
   if (!asking()) return {Verdict::Stopped, "told to stop"};
   Adoption result = check_trajectory(plan.trajectory, request);
-  if (result.verdict == Verdict::Adopted) committed_.splice(plan.trajectory);
+  if (result.verdict == Verdict::Adopted) {
+    committed_.splice(plan.trajectory);
+    promises_.push_back({request.t_s, request.tube});
+  }
   return result;
 }
 

@@ -65,11 +65,15 @@ class Executor {
   void begin(UTime go) { go_ = go; }
   /// It no longer does. What is committed stays so.
   void pause() { go_.reset(); }
-  /// What requests promise from now on (HorizonRequest::tube).
-  void set_tube(const Vec3& tube) { tube_ = tube; }
+  /// What requests promise from now on (HorizonRequest::tube), and the share of the vehicle's limits that they ask for.
+  /// @pre 0 < share ≤ 1
+  void set_tube(const Vec3& tube, double share = 1.0);
   [[nodiscard]] const Vec3& tube() const { return tube_; }
+  /// What was promised of time t: the tube of the request whose plan was adopted last before it, or that was answered
+  /// by the committed trajectory. Before the first one, and after rejoin(), that of the next request.
+  [[nodiscard]] Vec3 promised(UTime t) const;
   /// The vehicle is not where it was committed to be: from here on it is committed to come to rest from the measured
-  /// state. The open request is closed. Until that rest, limits are as wide as the way to it needs.
+  /// state. The open request is closed. Until that rest, limits and flight box are as wide as the way to it needs.
   void rejoin(const UavState& measured);
   /// What the newest goal wants; nothing: no goal yet.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
@@ -88,7 +92,7 @@ class Executor {
   /// The committed curve between two times (see CommittedTrajectory::pieces).
   [[nodiscard]] PiecewiseCubic pieces(UTime from, UTime to) const { return committed_.pieces(from, to); }
   /// No one will ask for times before t any more.
-  void forget_before(UTime t) { committed_.forget_before(t); }
+  void forget_before(UTime t);
   [[nodiscard]] bool at_rest(UTime t) const { return t >= committed_.end(); }
   [[nodiscard]] bool request_open() const { return outstanding_.has_value(); }
   [[nodiscard]] const ExecutorCounters& counters() const { return counters_; }
@@ -101,8 +105,14 @@ class Executor {
     bool answered = false;
   };
   [[nodiscard]] bool asking() const { return go_ && mode_ && *mode_ != GoalMode::Stop; }
-  /// The vehicle's limits, or what the trajectory needs where it is beyond them (see rejoin).
+  struct Promise {
+    UTime from;
+    Vec3 tube;
+  };
+  /// The share of the vehicle's limits, or what the trajectory needs where it is beyond them (see rejoin).
   [[nodiscard]] Limits limits_for(const TimedSpline& committed) const;
+  /// The flight box, or a larger one where the trajectory is already outside.
+  [[nodiscard]] Box flight_box_for(const TimedSpline& committed) const;
   [[nodiscard]] Adoption judge(const Plan& plan, UTime now);
   [[nodiscard]] Verdict judge_closed(std::int64_t id, UTime now);
   void close_expired(UTime now);
@@ -114,6 +124,8 @@ class Executor {
   Duration period_, lead_;
   CommittedTrajectory committed_;
   Vec3 tube_ = Vec3::Zero();
+  double share_ = 1.0;
+  std::deque<Promise> promises_;
   std::optional<UTime> go_;
   std::optional<GoalMode> mode_;
   std::optional<HorizonRequest> outstanding_;

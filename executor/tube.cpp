@@ -8,36 +8,54 @@ namespace tern {
 namespace {
 
 constexpr double kSigmas = 3.0;
-/// Of the largest error, while there are too few seconds for the quantile.
-constexpr double kFewFactor = 1.5;
 constexpr double kWider = 1.5;
+
+double rounded_up(double width) {
+  return width >= kNothing ? std::ceil(width / Tube::kTubeStep - 1e-9) * Tube::kTubeStep : 0.0;
+}
 
 }  // namespace
 
-void Tube::add(const Vec3& error, UTime at) {
-  if (seconds_.empty() || at - seconds_.back().start >= kSecond) seconds_.push_back({at, Vec3::Zero()});
-  seconds_.back().largest = seconds_.back().largest.cwiseMax(error);
-  if (seconds_.size() > kRemembered) seconds_.pop_front();
+void Tube::add(const Vec3& error, bool rests, UTime at) {
+  saw(error);
+  Seconds& seconds = rests ? resting_ : moving_;
+  if (seconds.empty() || at - seconds.back().start >= kSecond) seconds.push_back({at, Vec3::Zero()});
+  seconds.back().largest = seconds.back().largest.cwiseMax(error);
+  if (seconds.size() > kRemembered) seconds.pop_front();
 }
 
-double Tube::quantile(int axis) const {
-  if (seconds_.empty()) return 0.0;
+void Tube::blocked(UTime at) {
+  if (!has_error_ || halvings_ == kMostHalvings || !may_step(at)) return;
+  ++halvings_;
+  stepped_ = at;
+}
+
+void Tube::flown(UTime at) {
+  if (halvings_ == 0 || !may_step(at)) return;
+  --halvings_;
+  stepped_ = at;
+}
+
+double Tube::share() const { return std::ldexp(1.0, -halvings_); }
+
+double Tube::quantile(const Seconds& seconds, double prior, int axis) {
   std::vector<double> errors;
-  for (const Second& second : seconds_) errors.push_back(second.largest[axis]);
+  for (const Second& second : seconds) errors.push_back(second.largest[axis]);
+  errors.resize(std::max(errors.size(), kPrior), prior);
   std::sort(errors.begin(), errors.end());
   const double n = static_cast<double>(errors.size());
-  const auto rank = static_cast<std::size_t>(std::ceil((n + 1.0) * (1.0 - kMissed)));
-  return rank > errors.size() ? kFewFactor * errors.back() : errors[rank - 1];
+  return errors[static_cast<std::size_t>(std::ceil((n + 1.0) * (1.0 - kMissed))) - 1];
 }
 
 Vec3 Tube::width(const Vec3& sigma, UTime now) const {
   const double wider = left_ && now - *left_ < kWidened ? kWider : 1.0;
   Vec3 width;
   for (int axis = 0; axis < 3; ++axis) {
-    const double measured = quantile(axis) + kSigmas * sigma[axis];
-    const double steps = measured >= kNothing ? std::ceil(measured / kTubeStep) : 0.0;
-    const double whole = std::max(steps * kTubeStep, floor_m_) * wider;
-    width[axis] = std::clamp(std::ldexp(whole, -halvings_), floor_m_, kWidestTube);
+    const double unsure = kSigmas * sigma[axis];
+    const double moving = kMargin * quantile(moving_, has_error_ ? kPriorError : 0.0, axis) + unsure;
+    const double resting = kMargin * quantile(resting_, 0.0, axis) + unsure;
+    const double whole = std::max(rounded_up(resting), share() * rounded_up(moving));
+    width[axis] = std::clamp(std::max(whole, floor_m_) * wider, floor_m_, kWidestTube);
   }
   return width;
 }

@@ -17,46 +17,63 @@ inline constexpr double kWidestTube = 2.0;
 /// An error of less is none, m: rounding, and a trajectory that the vehicle has not heard of yet.
 inline constexpr double kNothing = 1e-3;
 
-/// The tube from what was measured, per axis: the split-conformal quantile of the largest errors of the last two
-/// minutes' seconds (errors of neighbouring instants are alike, those of whole seconds nearly exchangeable), plus three
-/// standard deviations of the estimate that the errors were measured by. Rounded up to kTubeStep, so that it changes
-/// seldom; 0 while no error reached kNothing. Never under the floor, never over kWidestTube.
+/// The tube from what was measured, per axis: kMargin times the split-conformal quantile of the largest errors of the
+/// last two minutes' seconds (errors of neighbouring instants are alike, those of whole seconds nearly exchangeable),
+/// plus three standard deviations of the estimate that the errors were measured by. Until there are kPrior seconds the
+/// rest count with kPriorError: a vehicle that shows any error tracks no better than a well-tuned autopilot. Rounded up
+/// to kTubeStep, so that it changes seldom; 0 while no error reached kNothing. Never under the floor, never over
+/// kWidestTube.
 ///
 /// A vehicle that was pushed out and got a new trajectory (left) tells of an event, not of its tracking: such errors
-/// are not for add(); for kWidened the tube is half as wide again. Where the planner finds the start in collision with
-/// the tube about it (blocked), the next request promises half of it, down to the floor, until plans are flown again:
-/// who stays between obstacles because of what he might do is no safer.
+/// are not for add(); for kWidened the tube is half as wide again.
+///
+/// Where the vehicle rests and the tube leaves no way (blocked), it is asked to fly slower: errors of tracking grow
+/// with speed and acceleration. The next request promises half the tube, but no less than was measured at rest, and
+/// has limits of half the size (share); again until plans are flown, one step in kStep at most.
 class Tube {
  public:
-  static constexpr double kTubeStep = 0.05;        ///< m
-  static constexpr double kMissed = 0.02;          ///< share of seconds that may leave it
-  static constexpr Duration kSecond{1'000'000};    ///< over which the largest error counts
-  static constexpr std::size_t kRemembered = 120;  ///< seconds
+  static constexpr double kTubeStep = 0.05;         ///< m
+  static constexpr double kMissed = 0.02;           ///< share of seconds that may leave the quantile
+  static constexpr double kMargin = 1.5;            ///< over it: a flight shall not leave the tube even once
+  static constexpr double kPriorError = 1.0 / 6.0;  ///< m: the tube begins with 0.25 m
+  static constexpr std::size_t kPrior = 50;         ///< seconds: the fewest of which 2 % may be missed
+  static constexpr Duration kSecond{1'000'000};     ///< over which the largest error counts
+  static constexpr std::size_t kRemembered = 120;   ///< seconds
   static constexpr Duration kWidened{5'000'000};
+  static constexpr Duration kStep{250'000};
   static constexpr int kMostHalvings = 5;
 
   /// @param floor_m  promised at least, [0, kWidestTube]
   explicit Tube(double floor_m) : floor_m_(floor_m) {}
 
   /// @param error  |measured − commanded| per axis, m. Times ascend
-  void add(const Vec3& error, UTime at);
+  /// @param rests  it is commanded to rest, and has been for a while
+  void add(const Vec3& error, bool rests, UTime at);
+  /// An error that tells only that the vehicle is not perfect.
+  void saw(const Vec3& error) { has_error_ = has_error_ || (error.array() >= kNothing).any(); }
   void left(UTime at) { left_ = at; }
-  void blocked() { halvings_ = std::min(halvings_ + 1, kMostHalvings); }
-  void flown() { halvings_ = std::max(halvings_ - 1, 0); }
+  /// At rest, and no plan was found.
+  void blocked(UTime at);
+  void flown(UTime at);
   /// @param sigma  of the estimate per axis, m, ≥ 0
   [[nodiscard]] Vec3 width(const Vec3& sigma, UTime now) const;
+  /// Of the vehicle's limits that requests ask for, (0, 1].
+  [[nodiscard]] double share() const;
 
  private:
   struct Second {
     UTime start;
     Vec3 largest = Vec3::Zero();
   };
-  [[nodiscard]] double quantile(int axis) const;
+  using Seconds = std::deque<Second>;
+  [[nodiscard]] static double quantile(const Seconds& seconds, double prior, int axis);
+  [[nodiscard]] bool may_step(UTime at) const { return !stepped_ || at - *stepped_ >= kStep; }
 
   double floor_m_;
-  std::optional<UTime> left_;
+  std::optional<UTime> left_, stepped_;
   int halvings_ = 0;
-  std::deque<Second> seconds_;
+  bool has_error_ = false;
+  Seconds moving_, resting_;
 };
 
 }  // namespace tern

@@ -12,7 +12,10 @@ std::vector<std::string> overrides_of(const FlightOptions& options) {
     values = {"simulator.vehicle=external", "simulator.wait_s=120", "mavlink.start=arm",
               "simulator.wait_for=tern-mavlink, tern-executor, tern-predictor, tern-mapper, tern-planner"};
   }
-  if (options.autopilot_sim) values.emplace_back("mavlink.set_parameters=true");
+  if (options.default_dynamics) values.emplace_back(kAutopilotDynamics);
+  if (options.autopilot_sim) {
+    values.insert(values.end(), {"mavlink.set_parameters=true", "mavlink.without_remote=true"});
+  }
   values.insert(values.end(), options.overrides.begin(), options.overrides.end());
   return values;
 }

@@ -27,6 +27,7 @@ struct FlightOptions {
   std::string view_url, page;          ///< that socket's URL; the folder of the built page
   bool allow_goals = false;            ///< the page may send goals
   std::string autopilot;               ///< where tern-mavlink connects to; empty: the simulator flies its own vehicle
+  bool default_dynamics = false;       ///< the scenario states no uav.dynamics, and an autopilot flies
   bool autopilot_sim = false;          ///< the autopilot there is tern-autopilot-sim; needs udp://
   bool audit = false, report = false;  ///< look back when it has ended
 };
@@ -37,6 +38,11 @@ struct SupervisedProcess {
   bool restarted = true;  ///< when it dies, unless that cannot help (is_final)
 };
 
+/// What an autopilot with PX4's default bounds (45°, 220°/s) and thrust/weight 2 can fly, less what it needs to
+/// correct.
+inline constexpr char kAutopilotDynamics[] =
+    "uav.dynamics={thrust_min: 4, thrust_max: 16, tilt_max: 38, body_rate_max: 170}";
+inline constexpr char kMavlink[] = "tern-mavlink";
 inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kViewer[] = "tern-viewer";
 
 /// The processes of a flight in the order of their start: the viewer, whose page is waited for, then who records and

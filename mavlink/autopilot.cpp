@@ -110,7 +110,7 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
   if (const auto m = from_frame<Timesync>(frame); m && m->tc1 != 0) {
     clock_.add(UTime{m->ts1 / 1000}, m->tc1 / 1000, received);
   }
-  if (const auto m = from_frame<GpsGlobalOrigin>(frame)) origin_ = *m;
+  if (const auto m = from_frame<GpsGlobalOrigin>(frame); m && !own_origin_) origin_ = *m;
   if (const auto m = from_frame<ParamValue>(frame)) hear_parameter(*m);
   if (const auto m = from_frame<CommandAck>(frame)) keep(acks_, *m);
   if (const auto m = from_frame<StatusText>(frame)) {
@@ -162,7 +162,9 @@ void Autopilot::hear_position(const Frame& frame, UTime received) {
 
 void Autopilot::hear_truth(const HilStateQuaternion& hil, UTime received) {
   const auto at = ours(hil.time_usec, received);
-  if (!at || !origin_ || (truth_ && *at <= truth_->at)) return;
+  if (!at || (truth_ && *at <= truth_->at)) return;
+  if (!origin_ && own_origin_)
+    origin_ = GpsGlobalOrigin{.latitude = hil.lat, .longitude = hil.lon, .altitude = hil.alt};
   UavState truth;
   truth.at = *at;
   truth.motion.p = swapped(ned_from(*origin_, hil.lat, hil.lon, hil.alt));
@@ -192,7 +194,8 @@ EstimatorHealth Autopilot::estimator() const {
 
 Vec3 Autopilot::sigma() const {
   if (!health_) return Vec3::Zero();
-  const double level = health_->pos_horiz_accuracy, up = health_->pos_vert_accuracy;
+  // PX4's horizontal accuracy is the root of the sum of both axes' variances.
+  const double level = health_->pos_horiz_accuracy / std::numbers::sqrt2, up = health_->pos_vert_accuracy;
   const auto sane = [](double x) { return std::isfinite(x) && x >= 0.0 && x < 1e6 ? x : 0.0; };
   return {sane(level), sane(level), sane(up)};
 }

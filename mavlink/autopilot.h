@@ -57,9 +57,11 @@ class Autopilot {
   [[nodiscard]] int resets() const { return resets_; }
   /// The newest state in its local frame, as ENU; `at` is ours. a and j are zero: it does not say them.
   [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
-  /// The newest true state by HIL_STATE_QUATERNION, in the same frame: only simulators say it, and only with
-  /// GPS_GLOBAL_ORIGIN.
+  /// The newest true state by HIL_STATE_QUATERNION, as ENU from GPS_GLOBAL_ORIGIN, or from where the first one was
+  /// (take_own_origin). Only simulators say it.
   [[nodiscard]] const std::optional<UavState>& truth() const { return truth_; }
+  /// An estimator without GPS says no origin: external vision gives it one.
+  void take_own_origin() { own_origin_ = true; }
   [[nodiscard]] const std::map<std::string, double>& parameters() const { return parameters_; }
   void forget_parameters() { parameters_.clear(); }
   [[nodiscard]] const std::string& last_warning() const { return warning_; }  ///< newest STATUSTEXT, warning or worse
@@ -89,6 +91,7 @@ class Autopilot {
   std::optional<UTime> last_odometry_;
   double yaw_ = 0.0;
   std::optional<GpsGlobalOrigin> origin_;
+  bool own_origin_ = false;
   std::map<std::string, double> parameters_;
   std::string warning_;
   std::deque<CommandAck> acks_;

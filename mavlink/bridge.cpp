@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-
-#include "mavlink/axes.h"
-#include "mavlink/required_parameters.h"
+#include <limits>
 
 namespace tern::mavlink {
 namespace {
 
-constexpr Duration kHeartbeatPeriod{500'000}, kTimesyncPeriod{100'000}, kCommandPeriod{1'000'000};
-constexpr Duration kParameterPeriod{1'000'000}, kStreamsPeriod{5'000'000};
+constexpr Duration kHeartbeatPeriod{500'000}, kTimesyncPeriod{100'000};
 /// A stream of setpoints has to run before OFFBOARD is asked for.
 constexpr Duration kStreamFirst{1'000'000};
 constexpr Duration kStateAge{500'000};
@@ -23,10 +18,10 @@ constexpr Duration kHeld{4'000'000};
 constexpr double kThere_m = 0.3, kThereSpeed = 0.4;
 /// By this it stops when it is taken over in flight, m/s².
 constexpr double kStop = 4.0;
-constexpr std::uint16_t kAllButYawRate = 0x0800;
-constexpr std::uint8_t kLocalNed = 1, kInt32 = 6, kReal32 = 9;
 constexpr std::uint8_t kOnboardController = 18, kNoAutopilot = 8, kActive = 4;
 constexpr float kPx4Offboard = 6, kArduPilotGuided = 4;
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 std::string seconds(Duration d) { return fmt::format("{:.1f} s", d.seconds()); }
 
@@ -52,12 +47,8 @@ Bridge::Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now)
       next_target_(now),
       next_command_(now),
       next_parameters_(now),
-      next_streams_(now) {}
-
-template <class M>
-void Bridge::say(const M& message) {
-  const std::uint8_t system = autopilot_.address() ? autopilot_.address()->system : kSelf.system;
-  out_.push_back(to_frame(message, {system, kSelf.component}, sequence_++));
+      next_streams_(now) {
+  if (config.external_vision) autopilot_.take_own_origin();
 }
 
 void Bridge::enter(Stage stage, const std::string& why) {
@@ -80,6 +71,7 @@ void Bridge::stand_back(const std::string& why) {
 
 void Bridge::hear(const Frame& frame, UTime received) {
   if (!autopilot_.hear(frame, received)) return;
+  if (autopilot_.truth()) tell_vision(*autopilot_.truth());
   if (const auto question = from_frame<Timesync>(frame); question && question->tc1 == 0) {
     say(Timesync{.tc1 = received.us * 1000, .ts1 = question->ts1});
   }
@@ -120,6 +112,21 @@ std::optional<UavState> Bridge::in_world(std::optional<UavState> local) const {
   return local;
 }
 
+std::optional<UavState> Bridge::truth() const {
+  std::optional<UavState> truth = in_world(autopilot_.truth());
+  if (truth) truth->motion.p += truth_anchor_;
+  return truth;
+}
+
+void Bridge::anchor_truth() {
+  if (!autopilot_.truth() || autopilot_.armed()) return;
+  truth_anchor_ = autopilot_.state()->motion.p - autopilot_.truth()->motion.p;
+}
+
+std::vector<RequiredParameter> Bridge::required() const {
+  return required_parameters(autopilot_.firmware(), uav_, config_.without_remote, config_.external_vision);
+}
+
 std::string Bridge::not_ready(UTime now) const {
   const auto& state = autopilot_.state();
   if (!autopilot_.address()) return "no autopilot is heard";
@@ -129,7 +136,7 @@ std::string Bridge::not_ready(UTime now) const {
   if (autopilot_.estimator() == EstimatorHealth::Lost) return "its estimator has no position (ESTIMATOR_STATUS)";
   if (!autopilot_.landed()) return "it does not say whether it has landed (EXTENDED_SYS_STATE)";
   if (!config_.check_parameters) return {};
-  return parameter_faults(required_parameters(autopilot_.firmware()), autopilot_.parameters());
+  return parameter_faults(required(), autopilot_.parameters());
 }
 
 std::string Bridge::why_not_following(UTime now) const {
@@ -180,54 +187,6 @@ void Bridge::hold_here(UTime now) {
   own_.motion.v = own_.motion.a = own_.motion.j = Vec3::Zero();
 }
 
-void Bridge::command(UTime now, std::uint16_t number, std::array<float, 7> param) {
-  if (now < next_command_) return;
-  next_command_ = now + kCommandPeriod;
-  const Address to = *autopilot_.address();
-  say(CommandLong{.param = param, .command = number, .target_system = to.system, .target_component = to.component});
-}
-
-void Bridge::request_streams(UTime now) {
-  if (now < next_streams_ || !autopilot_.address()) return;
-  next_streams_ = now + kStreamsPeriod;
-  const Address to = *autopilot_.address();
-  const auto ask = [&](std::uint16_t number, float message, float interval_us) {
-    say(CommandLong{.param = {message, interval_us},
-                    .command = number,
-                    .target_system = to.system,
-                    .target_component = to.component});
-  };
-  ask(kSetMessageInterval, Odometry::kId, 10'000);
-  ask(kSetMessageInterval, HilStateQuaternion::kId, 10'000);
-  ask(kSetMessageInterval, EstimatorStatus::kId, 200'000);
-  ask(kSetMessageInterval, ExtendedSysState::kId, 200'000);
-  ask(kRequestMessage, GpsGlobalOrigin::kId, 0);
-}
-
-void Bridge::request_parameters(UTime now) {
-  if (now < next_parameters_ || !autopilot_.address()) return;
-  next_parameters_ = now + kParameterPeriod;
-  const Address to = *autopilot_.address();
-  for (const RequiredParameter& r : required_parameters(autopilot_.firmware())) {
-    const auto known = autopilot_.parameters().find(r.name);
-    const bool read = known != autopilot_.parameters().end();
-    if (read && known->second >= r.low && known->second <= r.high) continue;
-    if (read && config_.set_parameters && !autopilot_.armed()) {
-      const bool bytewise = r.integer && autopilot_.firmware() == Firmware::Px4;
-      const float value =
-          bytewise ? std::bit_cast<float>(static_cast<std::int32_t>(r.recommended)) : static_cast<float>(r.recommended);
-      words_.push_back(fmt::format("sets {} to {:g} (it was {:g})", r.name, r.recommended, known->second));
-      say(ParamSet{.param_value = value,
-                   .target_system = to.system,
-                   .target_component = to.component,
-                   .param_id = text_of<16>(r.name),
-                   .param_type = bytewise ? kInt32 : kReal32});
-    }
-    say(ParamRequestRead{
-        .target_system = to.system, .target_component = to.component, .param_id = text_of<16>(r.name)});
-  }
-}
-
 void Bridge::step_waiting(UTime now) {
   request_parameters(now);
   const std::string why = not_ready(now);
@@ -239,6 +198,7 @@ void Bridge::step_waiting(UTime now) {
 void Bridge::step_ready(UTime now) {
   if (!not_ready(now).empty()) return enter(Stage::Waiting, not_ready(now));
   if (!followed_) hold_here(now);
+  if (!in_air()) anchor_truth();
   const bool armed = autopilot_.armed(), ours = armed && autopilot_.follows();
   if (ours && in_air()) return enter(Stage::Following);
   if (armed && !ours && !told_again_ && config_.start == Start::Arm) {
@@ -321,8 +281,7 @@ void Bridge::step_landing(UTime now) {
     return;
   }
   if (!streaming_since_) return stand_back(fmt::format("the autopilot has left for {}", autopilot_.mode()));
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  command(now, kNavLand, {0, 0, 0, nan, nan, nan, 0});
+  command(now, kNavLand, {0, 0, 0, kUnknown, kUnknown, kUnknown, 0});
 }
 
 void Bridge::step_stage(UTime now) {
@@ -339,31 +298,6 @@ void Bridge::step_stage(UTime now) {
     case Stage::Landing: return step_landing(now);
     case Stage::Landed: return;
   }
-}
-
-void Bridge::stream(UTime now) {
-  const bool silent = stage_ == Stage::Waiting || stage_ == Stage::Landed ||
-                      (stage_ == Stage::StoodBack && config_.start == Start::Arm) ||
-                      (stage_ == Stage::Landing && !streaming_since_);
-  if (silent || !state() || now < next_target_) return;
-  next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
-  if (!streaming_since_) streaming_since_ = now;
-  if (stage_ == Stage::StoodBack) hold_here(now);
-  const bool following = stage_ == Stage::Following && followed_;
-  const MotionSample m = following ? command_.sample(now) : own_.motion;
-  const Vec3 a = config_.acceleration_gain * (m.a + config_.lead_s * m.j) + config_.drag_per_s * m.v;
-  const Address to = *autopilot_.address();
-  SetPositionTargetLocalNed target;
-  target.time_boot_ms = static_cast<std::uint32_t>(autopilot_.clock().theirs_us(now).value_or(0) / 1000);
-  target.p = ned_of(m.p - origin_);
-  target.v = ned_of(m.v);
-  target.a = ned_of(a);
-  target.yaw = static_cast<float>(swapped_yaw(following ? command_.yaw() : own_.yaw));
-  target.type_mask = kAllButYawRate;
-  target.target_system = to.system;
-  target.target_component = to.component;
-  target.coordinate_frame = kLocalNed;
-  say(target);
 }
 
 void Bridge::step(UTime now) {

@@ -8,6 +8,7 @@
 #include "executor/commanded_motion.h"
 #include "mavlink/autopilot.h"
 #include "mavlink/bridge_config.h"
+#include "mavlink/required_parameters.h"
 
 namespace tern::mavlink {
 
@@ -31,7 +32,7 @@ const char* to_string(Stage stage);
 /// that has started its estimator where it stands climbs straight up to uav.start. What is said to the autopilot:
 /// HEARTBEAT 2 Hz, TIMESYNC 10 Hz, and from the moment that its position is known SET_POSITION_TARGET_LOCAL_NED at
 /// rate_hz, so that the stream runs before OFFBOARD is asked for. It carries
-///   p, v of the command now, a·acceleration_gain + j·lead_s·acceleration_gain + v·drag_per_s, and the heading.
+///   p, v of the command now, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
 /// While the vehicle is not following, the command is to stay where it is.
 ///
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
@@ -46,6 +47,8 @@ class Bridge {
   void hear(const Frame& frame, UTime received);
   void hear(const UavState& setpoint, UTime now);
   void hear(const TimedSpline& committed) { command_.hear(committed); }
+  /// Where a motion-capture system sees the vehicle, W. Nothing comes of it unless external_vision is on.
+  void hear_vision(const UavState& seen);
   /// Somebody wants it to fly: a new GOAL of mode Go.
   void told_to_fly();
   /// A flight has begun that this bridge knows nothing of (it was started anew): it does not arm unless told.
@@ -57,7 +60,9 @@ class Bridge {
   std::vector<Frame> take_frames() { return std::exchange(out_, {}); }
   /// In W; nullopt while nothing is known. @pre the caller publishes each `at` once
   [[nodiscard]] std::optional<UavState> state() const { return in_world(autopilot_.state()); }
-  [[nodiscard]] std::optional<UavState> truth() const { return in_world(autopilot_.truth()); }
+  /// W is the estimator's frame as it was before take-off: there the truth agrees with the estimate, and what is
+  /// between them later has come since.
+  [[nodiscard]] std::optional<UavState> truth() const;
   [[nodiscard]] VehicleStatus status(UTime now) const;
   /// Sentences for the log since the last call.
   std::vector<std::string> take_words() { return std::exchange(words_, {}); }
@@ -86,7 +91,10 @@ class Bridge {
   void request_streams(UTime now);
   void stream(UTime now);
   void hold_here(UTime now);
+  void anchor_truth();
+  void tell_vision(UavState local);
   void command(UTime now, std::uint16_t number, std::array<float, 7> param);
+  [[nodiscard]] std::vector<RequiredParameter> required() const;
   [[nodiscard]] std::string not_ready(UTime now) const;
   [[nodiscard]] MotionSample commanded(UTime now) const;
   [[nodiscard]] std::string why_not_following(UTime now) const;
@@ -94,11 +102,16 @@ class Bridge {
   [[nodiscard]] bool in_air() const { return autopilot_.landed() == std::optional(false); }
   [[nodiscard]] std::optional<UavState> in_world(std::optional<UavState> local) const;
   template <class M>
-  void say(const M& message);
+  void say(const M& message) {
+    const std::uint8_t system = autopilot_.address() ? autopilot_.address()->system : kSelf.system;
+    out_.push_back(to_frame(message, {system, kSelf.component}, sequence_++));
+  }
 
   BridgeConfig config_;
   UavSpec uav_;
-  Vec3 origin_;  ///< of the local frame, in W
+  Vec3 origin_;                       ///< of the local frame, in W
+  UTime told_vision_;                 ///< the time of the newest state that was told
+  Vec3 truth_anchor_ = Vec3::Zero();  ///< added to the truth
   Autopilot autopilot_;
   CommandedMotion command_;
   bool setpoint_heard_ = false;

@@ -27,6 +27,8 @@ struct BridgeConfig {
   double sigma_share = 1.0;
   bool check_parameters = true;
   bool set_parameters = false;
+  bool without_remote = false;
+  bool external_vision = false;
 
   template <typename V>
   void visit(V& v) {
@@ -46,6 +48,12 @@ struct BridgeConfig {
     v("sigma_share", sigma_share, Range{0.0, 10.0}, "of the estimator's own accuracy that VEHICLE_STATUS says");
     v("check_parameters", check_parameters, "refuse to fly with parameters that docs/autopilot.md warns of");
     v("set_parameters", set_parameters, "write the recommended ones first, on the ground");
+    v("without_remote", without_remote,
+      "nobody holds a remote control and no ground station is there, as in simulation: parameters have to say so, too");
+    v("external_vision", external_vision,
+      "the autopilot is told where it is, by ODOMETRY: as a simulation says (HIL_STATE_QUATERNION), or as "
+      "VEHICLE_TRUTH of "
+      "a motion-capture system does");
   }
 };
 

@@ -1,24 +1,30 @@
-// Parameters of an autopilot that decide what happens when something is lost, and what Tern asks of them.
+// Parameters of an autopilot that decide what happens when something is lost and what can be flown, and what Tern asks
+// of them.
 #pragma once
 
 #include <map>
 #include <string>
 #include <vector>
 
+#include "core/world/scenario.h"
 #include "mavlink/autopilot.h"
 
 namespace tern::mavlink {
 
 struct RequiredParameter {
   const char* name;
-  double low, high;    ///< allowed, both included
+  double low, high;    ///< allowed, both included; high may be infinite
   double recommended;  ///< what docs/autopilot.md says
   bool integer;        ///< by its type in PX4, where an integer travels bytewise
   const char* why;     ///< "the aircraft flies home at another height when setpoints cease"
 };
 
-/// The table of docs/autopilot.md. Empty for firmware of which nothing is known.
-std::vector<RequiredParameter> required_parameters(Firmware firmware);
+/// The table of docs/autopilot.md: what happens when something is lost, and bounds of the autopilot's own that must not
+/// be narrower than what is planned for `uav`. Empty for firmware of which nothing is known.
+/// @param without_remote  nobody holds a remote control, and no ground station is there
+/// @param external_vision  the estimator lives by the ODOMETRY that it is told
+std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavSpec& uav, bool without_remote,
+                                                   bool external_vision);
 
 /// What is wrong, in words with name, value, limit and reason: "COM_OBL_RC_ACT is 0, not within [4, 5]: …". Those that
 /// were not read are named. Empty: nothing is wrong.

@@ -22,6 +22,15 @@ constexpr double kStillSpeed = 0.3;
 constexpr Duration kStillFor{200'000};
 /// A state far from its setpoint counts when another one goes on from it this much later, and none between is near.
 constexpr Duration kStrayedFor{20'000};
+/// After this long at rest what is measured is the error of hovering.
+constexpr Duration kSettled{1'000'000};
+
+/// There is no way out of here.
+bool is_blocked(const Plan& plan) {
+  if (plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted) return false;
+  return plan.reason == PlanReason::Infeasible || plan.reason == PlanReason::StartInCollision ||
+         plan.reason == PlanReason::GoalBlocked;
+}
 
 }  // namespace
 
@@ -72,14 +81,16 @@ void ExecutorNode::watch(const UavState& state) {
   }
   if (look_from_ && state.at >= *look_from_) look(state, error);
   if (!following_) {
+    tube_.saw(error);
     if (error.maxCoeff() > kRejoinBeyond) rejoin(state);
     return;
   }
-  const Vec3 promised = executor_->tube();
-  const bool outside = ((error - promised).array() > kNothing).any();
-  const bool lost = outside && error.maxCoeff() > kRejoinBeyond;
-  lost ? tube_.left(state.at) : tube_.add(error, state.at);
-  executor_->set_tube(tube_.width(sigma_, state.at));
+  const Vec3 beyond = error - executor_->promised(state.at);
+  const bool outside = (beyond.array() > kNothing).any();
+  const bool lost = beyond.maxCoeff() > kRejoinBeyond;
+  if (!lost) tube_.add(error, executor_->at_rest(state.at - kSettled), state.at);
+  if (outside) tube_.left(state.at);
+  promise(state.at);
   if (outside && !outside_) {
     ++exits_;
     spdlog::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
@@ -91,19 +102,28 @@ void ExecutorNode::watch(const UavState& state) {
 
 void ExecutorNode::look(const UavState& state, const Vec3& error) {
   look_from_.reset();
-  if (((error - executor_->tube()).array() > kJoinTolerance).any()) rejoin(state);
+  if (((error - executor_->promised(state.at)).array() > kJoinTolerance).any()) rejoin(state);
   last_setpoint_ = std::max(last_setpoint_, state.at);
 }
 
+void ExecutorNode::promise(UTime now) { executor_->set_tube(tube_.width(sigma_, now), tube_.share()); }
+
 void ExecutorNode::rejoin(const UavState& state) {
-  executor_->rejoin(state);
-  last_setpoint_ = std::max(last_setpoint_, state.at);
+  UavState from = state;
+  if (state.at <= last_setpoint_) {  // what was said of then stays so
+    from.at = last_setpoint_ + Duration{1};
+    const double later_s = (from.at - state.at).seconds();
+    from.motion.p += later_s * (state.motion.v + 0.5 * later_s * state.motion.a);
+    from.motion.v += later_s * state.motion.a;
+  }
+  executor_->rejoin(from);
+  last_setpoint_ = from.at;
 }
 
 void ExecutorNode::begin(const UavState& state) {
   const Vec3& p = state.motion.p;
   executor_.emplace(uav_, state, config_);
-  executor_->set_tube(tube_.width(sigma_, state.at));
+  promise(state.at);
   if (goal_) executor_->set_mode(goal_->mode);
   if (following_) executor_->begin(bus_.clock().now());
   heading_.emplace(state.yaw, state.at, config_.heading);
@@ -120,6 +140,7 @@ void ExecutorNode::on_status(const VehicleStatus& status) {
   if (following_) {
     const UTime now = bus_.clock().now();
     if (std::exchange(was_following_, true)) look_from_ = now;
+    promise(status.at);
     return executor_->begin(now);
   }
   executor_->pause();
@@ -139,8 +160,8 @@ void ExecutorNode::on_plan(const Plan& plan) {
   if (!executor_) return;
   const UTime now = bus_.clock().now();
   const Adoption adoption = executor_->consider(plan, now);
-  if (adoption.verdict == Verdict::Adopted) tube_.flown();
-  if (adoption.verdict == Verdict::NoPlan && plan.reason == PlanReason::StartInCollision) tube_.blocked();
+  if (adoption.verdict == Verdict::Adopted) tube_.flown(now);
+  if (is_blocked(plan) && !is_refusal(adoption.verdict) && executor_->at_rest(now)) tube_.blocked(now);
   if (!is_refusal(adoption.verdict)) return;
   if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
   ++refusals_unsaid_;

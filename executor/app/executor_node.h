@@ -14,7 +14,8 @@
 
 namespace tern {
 
-/// A vehicle that is outside its tube, but no farther off than this, is left to its controller, m.
+/// A vehicle that is outside its tube, but by no more than this, is left to its controller, m. While it does not
+/// follow, it may be so far off.
 inline constexpr double kRejoinBeyond = 0.1;
 
 /// Hears UAV_STATE, VEHICLE_STATUS, GOAL and PLAN; says HORIZON_REQUEST, SETPOINT and, at 1 Hz, the GOAL that it has
@@ -29,8 +30,9 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// where the vehicle is: what it adopted last the vehicle may not have heard of. Who is not where he was committed to
 /// be gets a trajectory to rest from where he is.
 ///
-/// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves it is said, widens
-/// it, and beyond kRejoinBeyond gets a trajectory to rest from where it is, from which the next plan goes on.
+/// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves what was promised is
+/// said, widens it, and beyond kRejoinBeyond gets a trajectory to rest from where it is, from which the next plan goes
+/// on.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);
@@ -59,6 +61,7 @@ class ExecutorNode final : public Node {
   void rejoin(const UavState& state);
   /// The first state since the vehicle and what is committed may have parted.
   void look(const UavState& state, const Vec3& error);
+  void promise(UTime now);
   void publish_setpoints(UTime now);
   void publish_setpoint(UTime at);
   void log_counters() const;

@@ -172,7 +172,8 @@ int await_page(const FlightOptions& options, int looked, const sigset_t& signals
 
 int supervise(FlightOptions options, const fs::path& record, const sigset_t& signals) try {
   ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
-  (void)read_scenario(document);  // refused once, not by each process
+  const Scenario scenario = read_scenario(document);  // refused once, not by each process
+  options.default_dynamics = !options.autopilot.empty() && !scenario.uav.limits.dynamics;
   int looked[2] = {-1, -1};
   if (options.view_fd && pipe2(looked, O_CLOEXEC) == 0) options.looked_fd = looked[1];
   auto processes = flight_processes(options, record, hold_keys(options));
@@ -190,6 +191,7 @@ int supervise(FlightOptions options, const fs::path& record, const sigset_t& sig
   }
   std::optional<int> code;
   while (!code) code = verdict(record, supervisor.wait());
+  supervisor.end_first(kMavlink);
   supervisor.stop(kLogger);
   return *code;
 } catch (const std::exception& e) {

@@ -12,6 +12,8 @@ namespace {
 
 /// Together less than the 2 s within which a flight ends.
 constexpr Duration kPatience{1'000'000}, kLastPatience{600'000};
+/// Of tern-mavlink, and a little more.
+constexpr Duration kLandingPatience{32'000'000};
 constexpr Duration kLongPause{3'600'000'000};
 constexpr std::uint64_t kMemoryLimitKb = 4'000'000;
 
@@ -83,6 +85,14 @@ void Supervisor::plan_restart(Kept& kept, const ProcessEnd& end) {
   kept.due = clock_.now() + delay;
   dprintf(kept.process.child.error, "tern-launch: %s ended with %s; restart %d in %d ms\n", kept.process.name.c_str(),
           to_text(end).c_str(), ++kept.restarts, static_cast<int>(delay.us / 1000));
+}
+
+void Supervisor::end_first(const std::string& name) {
+  std::vector<Kept*> one;
+  for (Kept& kept : kept_) {
+    if (kept.process.name == name) one.push_back(&kept);
+  }
+  end(one, kLandingPatience);
 }
 
 void Supervisor::stop(const std::string& last) {

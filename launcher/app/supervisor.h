@@ -32,6 +32,8 @@ class Supervisor {
   void start(SupervisedProcess process);
   /// Keeps all running until one is gone for good or a signal comes. Restarts are said on the process's standard error.
   SupervisorEvent wait();
+  /// Ends one before the others, if it runs: it may take half a minute, to land.
+  void end_first(const std::string& name);
   /// Ends all within 2 s: SIGTERM to all but `last`, SIGKILL to those that are left after 1 s, then the same to `last`,
   /// which hears the others out. Signals that come meanwhile stay pending.
   void stop(const std::string& last);

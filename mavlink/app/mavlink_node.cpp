@@ -33,6 +33,9 @@ MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& ua
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { bridge_.hear(m.committed); });
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });
+  bus_.subscribe(channels::kVehicleTruth, [this](const UavState& seen) {
+    if (seen.header.name.sender_epoch_us != bus_.epoch_us()) bridge_.hear_vision(seen);
+  });
   bus_.subscribe(channels::kFlightResult, [this](const FlightResult&) { bridge_.land("the flight has ended"); });
 }
 
@@ -40,12 +43,14 @@ MavlinkNode::~MavlinkNode() {
   if (!bridge_.flies()) return;
   const UTime end = bus_.clock().now() + kLandPatience;
   bridge_.land("asked to end");
-  for (UTime now = bus_.clock().now(); now < end && !bridge_.autopilot().landing(); now = bus_.clock().now()) {
+  for (UTime now = bus_.clock().now(); now < end && bridge_.stage() == Stage::Landing; now = bus_.clock().now()) {
     exchange(now);
+    publish(now);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  spdlog::log(bridge_.autopilot().landing() ? spdlog::level::info : spdlog::level::err, "the autopilot {}",
-              bridge_.autopilot().landing() ? "lands" : "did not say that it lands");
+  const bool landed = bridge_.stage() == Stage::Landed;
+  spdlog::log(landed ? spdlog::level::info : spdlog::level::err, "the autopilot {}",
+              landed ? "has landed" : "did not say that it has landed");
 }
 
 void MavlinkNode::on_goal(const Goal& goal) {

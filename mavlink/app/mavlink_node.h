@@ -23,7 +23,7 @@ namespace tern::mavlink {
 /// When it ends while it flies, it has the autopilot land, and waits kLandPatience for it to do so.
 class MavlinkNode final : public Node {
  public:
-  static constexpr Duration kLandPatience{700'000};
+  static constexpr Duration kLandPatience{30'000'000};
   MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& uav, const BridgeConfig& config,
               std::optional<SigningKey> key);
   ~MavlinkNode() override;

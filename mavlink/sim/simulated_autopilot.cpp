@@ -18,7 +18,7 @@ constexpr Duration kOldTarget{500'000}, kStreamFirst{500'000}, kDisarmAfter{1'00
 constexpr double kDescend = 0.7, kStop = 4.0;
 /// Of the place on a map where it stands, 1e-7 degrees and mm.
 constexpr std::int32_t kLatitude = 473977418, kLongitude = 85455938, kAltitude = 488'000;
-constexpr std::array kIntegers{"COM_OBL_RC_ACT", "SIM_ARM_REFUSE"};
+constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCEPT", "NAV_DLL_ACT", "SIM_ARM_REFUSE"};
 
 bool is_integer(const std::string& name) {
   return std::find(kIntegers.begin(), kIntegers.end(), name) != kIntegers.end();
@@ -43,9 +43,13 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
       model_(bare(config), config.wind, config.estimator, seed, Vec3::Zero(), 0.0, now),
       started_(now),
       last_step_(now),
-      parameters_{{"COM_OBL_RC_ACT", 0.0}, {"COM_OF_LOSS_T", 1.0}, {"MPC_XY_VEL_D_ACC", config.velocity_d},
-                  {"SIM_ARM_REFUSE", 0.0}, {"SIM_BAT_PCT", 90.0},  {"SIM_EST_JUMP", 0.0}} {
+      parameters_{{"COM_OBL_RC_ACT", 0.0},   {"COM_OF_LOSS_T", 1.0},     {"MPC_XY_VEL_D_ACC", config.velocity_d},
+                  {"COM_RC_IN_MODE", 3.0},   {"COM_RCL_EXCEPT", 0.0},    {"NAV_DLL_ACT", 2.0},
+                  {"MPC_XY_VEL_MAX", 12.0},  {"MPC_Z_VEL_MAX_UP", 3.0},  {"MPC_Z_VEL_MAX_DN", 1.5},
+                  {"MPC_TILTMAX_AIR", 45.0}, {"MC_ROLLRATE_MAX", 220.0}, {"MC_PITCHRATE_MAX", 220.0},
+                  {"SIM_ARM_REFUSE", 0.0},   {"SIM_BAT_PCT", 90.0},      {"SIM_EST_JUMP", 0.0}} {
   model_.set_armed(false);
+  tune();
   const auto every = [&](std::uint32_t id, std::int64_t us) { streams_[id] = {Duration{us}, now}; };
   every(Heartbeat::kId, 1'000'000);
   every(SysStatus::kId, 200'000);
@@ -172,8 +176,18 @@ void SimulatedAutopilot::set_parameter(const std::string& name, double value) {
   const auto found = parameters_.find(name);
   if (found == parameters_.end()) return;
   found->second = value;
+  tune();
   if (name == "SIM_BAT_PCT") battery_ = std::clamp(value / 100.0, 0.0, 1.0);
   if (name == "SIM_EST_JUMP") model_.jump_estimate(value);
+}
+
+void SimulatedAutopilot::tune() {
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  FlightControllerSpec gains = bare(config_).controller;
+  gains.tilt_max = parameters_["MPC_TILTMAX_AIR"] * kRadians;
+  gains.rate_max = std::min(parameters_["MC_ROLLRATE_MAX"], parameters_["MC_PITCHRATE_MAX"]) * kRadians;
+  gains.speed_max = std::hypot(parameters_["MPC_XY_VEL_MAX"], parameters_["MPC_Z_VEL_MAX_UP"]);
+  model_.tune(gains);
 }
 
 void SimulatedAutopilot::say_parameter(const std::string& name) {

@@ -11,8 +11,8 @@
 
 namespace tern::mavlink {
 
-/// The section `autopilot_sim`. Of `quadrotor.controller` velocity_d, drag_per_s and lead_s do not count: an autopilot
-/// has the first from its parameter, and leaves the others to the bridge.
+/// The section `autopilot_sim`. Of `quadrotor.controller` velocity_d, tilt_max, rate_max, speed_max, drag_per_s and
+/// lead_s do not count: an autopilot has the first four from its parameters, and leaves the others to the bridge.
 struct SimulatedAutopilotConfig {
   double clock_rate = 0.99;
   double velocity_d = 0.2;
@@ -68,6 +68,7 @@ class SimulatedAutopilot {
   void enter(Mode mode);
   void hear_target(const SetPositionTargetLocalNed& target, UTime now);
   void set_parameter(const std::string& name, double value);
+  void tune();
   void say_parameter(const std::string& name);
   void watch_offboard(UTime now);
   void fly(UTime now);

@@ -40,6 +40,8 @@ void MonitorNode::subscribe() {
   });
   // Nothing to learn from these but whether they arrive.
   bus_.subscribe(channels::kSetpoint, [](const UavState&) {});
+  bus_.subscribe(channels::kVehicleTruth, [](const UavState&) {});
+  bus_.subscribe(channels::kVehicleStatus, [](const VehicleStatus&) {});
   bus_.subscribe(channels::kConfiguration, [](const ConfigurationReport&) {});
 }
 

@@ -66,6 +66,9 @@ class FlightController {
   /// The rotors' commands for the next dt, s.
   Rotors update(const FlightCommand& command, const FlightEstimate& estimate, double dt);
   void reset() { integral_.setZero(); }
+  void tune(const FlightControllerSpec& gains) { gains_ = gains; }
+  /// As after hovering for long where this acceleration (W, m/s²) was needed against the wind.
+  void trim(const Vec3& against) { integral_ = against; }
 
  private:
   [[nodiscard]] Vec3 commanded_acceleration(const FlightCommand& command, const FlightEstimate& estimate, double dt);

@@ -50,9 +50,10 @@ struct QuadrotorSpec {
 
 /// Camera: 0.5 m from rotor to rotor, thrust/weight 2: 3DR's Iris as PX4's Gazebo models it (PX4-SITL_gazebo-classic,
 /// models/iris: mass, inertia, rotors' places, reaction; its rotor drag 1.75e-4 N s²/m at hover speed gives
-/// drag_per_s), with the slower of its two motor lags. Racer: 0.25 m, thrust/weight 4: a 5-inch frame as Foehn et al.
-/// fly it (Agilicious, Science Robotics 2022: mass, inertia, motor lag, reaction), its rotor drag as Faessler et al.
-/// measured it (RA-L 2018), thrust held to 4. Quadratic drag is that of a plate of 0.03 m² and of 0.012 m².
+/// drag_per_s), with the slower of its two motor lags. Racer: 0.25 m, thrust/weight 4: the 5-inch quadrotor of
+/// Bauersfeld et al. (NeuroBEM, RSS 2021: mass, motor lag, 33 N of thrust, here held to 4; inertia by its data set's
+/// README), rotors' places and reaction as in the models of the same frame in uzh-rpg's Agilicious. Its linear drag,
+/// and both quadratic ones (plates of 0.03 m² and of 0.012 m²), are typical values, not measured ones.
 QuadrotorSpec quadrotor_spec(QuadrotorClass kind);
 
 /// The state. B is forward, left, up.

@@ -9,6 +9,9 @@ namespace {
 /// Seeds of wind and estimator share nothing.
 constexpr std::uint64_t kWindSeed = 0x9e3779b97f4a7c15ULL, kEstimatorSeed = 0xc2b2ae3d27d4eb4fULL;
 
+/// The drag changes little with the tilt: each step leaves a tenth of the error.
+constexpr int kTrimSteps = 10;
+
 double yaw_of(const Eigen::Quaterniond& q) {
   const Vec3 x = q * Vec3::UnitX();
   return std::atan2(x.y(), x.x());
@@ -34,6 +37,19 @@ QuadrotorModel::QuadrotorModel(const QuadrotorConfig& config, const WindSpec& wi
       ground_z_(ground_z),
       time_(now) {
   start_.motion.p = start;
+  if (!state_.on_ground) trim_for_wind();
+}
+
+void QuadrotorModel::trim_for_wind() {
+  const Vec3 mean = wind_.mean();
+  Vec3 against = Vec3::Zero();
+  for (int k = 0; k < kTrimSteps; ++k) {
+    const Vec3 f = against + Vec3(0.0, 0.0, kGravity);
+    state_.q = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), f);
+    state_.thrust.fill(std::min(config_.body.mass_kg * f.norm() / 4.0, config_.body.largest_thrust()));
+    against -= acceleration(config_.body, state_, mean);
+  }
+  controller_.trim(against);
 }
 
 FlightCommand QuadrotorModel::commanded() const {

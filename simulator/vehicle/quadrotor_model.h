@@ -45,10 +45,10 @@ struct VehicleTruth {
   bool on_ground = false;
 };
 
-/// Begins in hover at `start`, or standing there if that is the ground. Time moves by advance() in whole steps since
-/// `now`: between two calls the newest command holds, its motion carried on by its own acceleration and jerk (at most
-/// kHeldFor, then at rest where that ended). Without any command it keeps its start. Deterministic from the seed and
-/// the commands. A step costs about a microsecond.
+/// Begins in hover at `start`, as after hovering in the mean wind for long, or standing there if that is the ground.
+/// Time moves by advance() in whole steps since `now`: between two calls the newest command holds, its motion carried
+/// on by its own acceleration and jerk (at most kHeldFor, then at rest where that ended). Without any command it keeps
+/// its start. Deterministic from the seed and the commands. A step costs about a microsecond.
 class QuadrotorModel {
  public:
   /// A command is carried on no longer than this: then it holds that place.
@@ -70,6 +70,8 @@ class QuadrotorModel {
   [[nodiscard]] UavState estimate() const;
   /// The newest estimate that has been said by now: of latency_s ago. @return nullopt before the first
   [[nodiscard]] std::optional<UavState> said_estimate();
+  /// Other gains from now on.
+  void tune(const FlightControllerSpec& gains) { controller_.tune(gains); }
   /// The estimator resets itself by so many metres.
   void jump_estimate(double metres) { estimator_.jump(metres); }
   [[nodiscard]] int resets() const { return estimator_.jumps(); }
@@ -79,6 +81,7 @@ class QuadrotorModel {
   [[nodiscard]] FlightCommand commanded() const;
   [[nodiscard]] FlightEstimate believed() const;
   void step_once();
+  void trim_for_wind();
 
   QuadrotorConfig config_;
   Wind wind_;

@@ -14,6 +14,7 @@ constexpr Duration kRemembered{4'000'000};
 
 QuadrotorVehicle::QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& flight, std::uint64_t seed, UTime now)
     : estimator_(flight.estimator),
+      lead_(Duration::from_seconds(flight.quadrotor.controller.lead_s)),
       model_(flight.quadrotor, flight.wind, flight.estimator, seed, uav.start, uav.flight_box.min().z(), now),
       command_(uav.start, now, uav.limits),
       truth_(uav.start, now),
@@ -30,6 +31,10 @@ void QuadrotorVehicle::advance(UTime now) {
       UavState command;
       command.at = t;
       command.motion = command_.sample(t);
+      // Its controller takes the acceleration ahead by the jerk: by the mean one it is the very acceleration then.
+      if (lead_ > Duration{}) {
+        command.motion.j = (command_.acceleration_ahead(t, lead_) - command.motion.a) / lead_.seconds();
+      }
       command.yaw = command_.yaw();
       model_.command(command);
       model_.advance(t + kVehicleStep);

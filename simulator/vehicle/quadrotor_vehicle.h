@@ -34,6 +34,7 @@ class QuadrotorVehicle final : public Vehicle {
 
  private:
   EstimatorSpec estimator_;
+  Duration lead_;
   QuadrotorModel model_;
   CommandedMotion command_;
   MotionHistory truth_;

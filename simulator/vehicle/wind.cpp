@@ -32,11 +32,13 @@ void Wind::advance(double airspeed, double dt) {
   }
 }
 
+Vec3 Wind::mean() const { return spec_.speed * Vec3(std::cos(spec_.towards), std::sin(spec_.towards), 0.0); }
+
 Vec3 Wind::velocity() const {
   const Vec3 along(std::cos(spec_.towards), std::sin(spec_.towards), 0.0);
   const Vec3 across(-along.y(), along.x(), 0.0);
   const Eigen::Array2d second = std::numbers::sqrt3 * slow_ + (1.0 - std::numbers::sqrt3) * gust_;
-  Vec3 air = (spec_.speed + along_) * along + second[0] * across + second[1] * Vec3::UnitZ();
+  Vec3 air = mean() + along_ * along + second[0] * across + second[1] * Vec3::UnitZ();
   const double since = time_s_ - spec_.burst_at_s;
   if (since > 0.0 && since < spec_.burst_lasts_s) {
     const double shape = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * since / spec_.burst_lasts_s));

@@ -48,6 +48,8 @@ class Wind {
   void advance(double airspeed, double dt);
   /// W, m/s.
   [[nodiscard]] Vec3 velocity() const;
+  /// Of it what no gust changes.
+  [[nodiscard]] Vec3 mean() const;
 
  private:
   WindSpec spec_;

@@ -26,6 +26,8 @@ class FlightInMemory {
   static UavSpec uav() {
     UavSpec spec;
     spec.start = Vec3(0, 0, 2);
+    spec.limits.v_max.z() = 1.5;
+    spec.limits.dynamics.emplace();  // what PX4's default parameters allow
     return spec;
   }
 

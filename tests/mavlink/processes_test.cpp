@@ -181,9 +181,10 @@ TEST_F(MavlinkProcesses, FlyAndLandWhenAskedToEnd) {
   EXPECT_LT((truth->motion.p - Vec3(0, 0, 1)).norm(), 0.5) << "above uav.start";
   EXPECT_LT((truth->motion.p - state->motion.p).norm(), 0.2);
   bridge->signal(SIGTERM);
-  run_ms(600);
+  EXPECT_TRUE(until([&] { return !status.armed; })) << "it stays until the vehicle stands";
   EXPECT_EQ(bridge->wait(), 0);
-  EXPECT_THAT(bridge->output, HasSubstr("the autopilot lands"));
+  EXPECT_THAT(bridge->output, HasSubstr("the autopilot has landed"));
+  EXPECT_NEAR(truth->motion.p.z(), 0.0, 0.05);
 }
 
 TEST_F(MavlinkProcesses, OutliveAShortCutAndStandBackAfterALongOne) {

@@ -25,8 +25,19 @@ Vec3 commanded(const UavState& setpoint, UTime t) {
   return m.p + s * (m.v + s * (0.5 * m.a + s / 6.0 * m.j));
 }
 
-/// The request whose plan, or whose consent to the committed trajectory, was in force at `t`. @return nullptr before
-/// the first one
+/// Those that were answered by a plan, or by consent to the committed trajectory, by t_s: what they promise holds then.
+std::vector<HorizonRequest> promises(const FlightRecord& record) {
+  std::vector<HorizonRequest> all;
+  for (const HorizonRequest& request : record.requests) {
+    const auto plan = std::find_if(record.plans.begin(), record.plans.end(),
+                                   [&](const Plan& p) { return p.inputs.request == request.header.name; });
+    if (plan != record.plans.end() && plan->outcome != PlanOutcome::NoPlan) all.push_back(request);
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.t_s < b.t_s; });
+  return all;
+}
+
+/// The one in force at `t`. @return nullptr before the first one
 const HorizonRequest* in_force(const std::vector<HorizonRequest>& requests, UTime t) {
   const auto later = std::upper_bound(requests.begin(), requests.end(), t,
                                       [](UTime at, const HorizonRequest& r) { return at < r.t_s; });
@@ -55,8 +66,7 @@ struct Widest {
 
 Check check_tube(const FlightRecord& record) {
   Check check{.name = "tube", .claim = "the vehicle stayed within the promised tube about its setpoints"};
-  std::vector<HorizonRequest> requests = record.requests;
-  std::stable_sort(requests.begin(), requests.end(), [](const auto& a, const auto& b) { return a.t_s < b.t_s; });
+  const std::vector<HorizonRequest> requests = promises(record);
   const Window window = judged(record);
   Widest worst;
   for (const UavState& state : record.states) {

@@ -1,0 +1,120 @@
+// What the bridge tells the autopilot: commands, parameters, setpoints, where it is.
+#include <fmt/format.h>
+
+#include <bit>
+#include <limits>
+
+#include "mavlink/axes.h"
+#include "mavlink/bridge.h"
+
+namespace tern::mavlink {
+namespace {
+
+constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000}, kStreamsPeriod{5'000'000};
+/// 50 Hz.
+constexpr Duration kVisionPeriod{20'000};
+constexpr std::uint16_t kAllButYawRate = 0x0800;
+constexpr std::uint8_t kLocalNed = 1, kInt32 = 6, kReal32 = 9, kVision = 2;
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
+
+void Bridge::command(UTime now, std::uint16_t number, std::array<float, 7> param) {
+  if (now < next_command_) return;
+  next_command_ = now + kCommandPeriod;
+  const Address to = *autopilot_.address();
+  say(CommandLong{.param = param, .command = number, .target_system = to.system, .target_component = to.component});
+}
+
+void Bridge::request_streams(UTime now) {
+  if (now < next_streams_ || !autopilot_.address()) return;
+  next_streams_ = now + kStreamsPeriod;
+  const Address to = *autopilot_.address();
+  const auto ask = [&](std::uint16_t number, float message, float interval_us) {
+    say(CommandLong{.param = {message, interval_us},
+                    .command = number,
+                    .target_system = to.system,
+                    .target_component = to.component});
+  };
+  ask(kSetMessageInterval, Odometry::kId, 10'000);
+  ask(kSetMessageInterval, HilStateQuaternion::kId, 10'000);
+  ask(kSetMessageInterval, EstimatorStatus::kId, 200'000);
+  ask(kSetMessageInterval, ExtendedSysState::kId, 200'000);
+  ask(kRequestMessage, GpsGlobalOrigin::kId, 0);
+}
+
+void Bridge::request_parameters(UTime now) {
+  if (now < next_parameters_ || !autopilot_.address()) return;
+  next_parameters_ = now + kParameterPeriod;
+  const Address to = *autopilot_.address();
+  for (const RequiredParameter& r : required()) {
+    const auto known = autopilot_.parameters().find(r.name);
+    const bool read = known != autopilot_.parameters().end();
+    if (read && known->second >= r.low && known->second <= r.high) continue;
+    if (read && config_.set_parameters && !autopilot_.armed()) {
+      const bool bytewise = r.integer && autopilot_.firmware() == Firmware::Px4;
+      const float value =
+          bytewise ? std::bit_cast<float>(static_cast<std::int32_t>(r.recommended)) : static_cast<float>(r.recommended);
+      words_.push_back(fmt::format("sets {} to {:g} (it was {:g})", r.name, r.recommended, known->second));
+      say(ParamSet{.param_value = value,
+                   .target_system = to.system,
+                   .target_component = to.component,
+                   .param_id = text_of<16>(r.name),
+                   .param_type = bytewise ? kInt32 : kReal32});
+    }
+    say(ParamRequestRead{
+        .target_system = to.system, .target_component = to.component, .param_id = text_of<16>(r.name)});
+  }
+}
+
+void Bridge::hear_vision(const UavState& seen) {
+  UavState local = seen;
+  local.motion.p -= origin_;
+  tell_vision(local);
+}
+
+/// Level: an estimator takes position, velocity and heading from it, its tilt from its own sensors.
+void Bridge::tell_vision(UavState local) {
+  if (!config_.external_vision || !autopilot_.address() || local.at < told_vision_ + kVisionPeriod) return;
+  told_vision_ = local.at;
+  const Eigen::Quaterniond level(Eigen::AngleAxisd(local.yaw, Vec3::UnitZ()));
+  Odometry m;
+  m.time_usec = static_cast<std::uint64_t>(local.at.us);
+  m.p = ned_of(local.motion.p);
+  m.q = wxyz_of(swapped(level));
+  m.v = ned_of(local.motion.v);
+  m.rates.fill(kUnknown);
+  m.pose_covariance[0] = m.velocity_covariance[0] = kUnknown;
+  m.frame_id = m.child_frame_id = kLocalNed;
+  m.estimator_type = kVision;
+  m.quality = 100;
+  say(m);
+}
+
+void Bridge::stream(UTime now) {
+  const bool silent = stage_ == Stage::Waiting || stage_ == Stage::Landed ||
+                      (stage_ == Stage::StoodBack && config_.start == Start::Arm) ||
+                      (stage_ == Stage::Landing && !streaming_since_);
+  if (silent || !state() || now < next_target_) return;
+  next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
+  if (!streaming_since_) streaming_since_ = now;
+  if (stage_ == Stage::StoodBack) hold_here(now);
+  const bool following = stage_ == Stage::Following && followed_;
+  const MotionSample m = following ? command_.sample(now) : own_.motion;
+  const Vec3 ahead = following ? command_.acceleration_ahead(now, Duration::from_seconds(config_.lead_s)) : m.a;
+  const Vec3 a = config_.acceleration_gain * ahead + config_.drag_per_s * m.v;
+  const Address to = *autopilot_.address();
+  SetPositionTargetLocalNed target;
+  target.time_boot_ms = static_cast<std::uint32_t>(autopilot_.clock().theirs_us(now).value_or(0) / 1000);
+  target.p = ned_of(m.p - origin_);
+  target.v = ned_of(m.v);
+  target.a = ned_of(a);
+  target.yaw = static_cast<float>(swapped_yaw(following ? command_.yaw() : own_.yaw));
+  target.type_mask = kAllButYawRate;
+  target.target_system = to.system;
+  target.target_component = to.component;
+  target.coordinate_frame = kLocalNed;
+  say(target);
+}
+
+}  // namespace tern::mavlink
