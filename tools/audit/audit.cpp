@@ -90,6 +90,36 @@ std::string words(Collision collision) {
   return "";
 }
 
+nlohmann::json coverage_json(const Audit& audit) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const KeptShare& s : audit.shares) {
+    nlohmann::json row = {{"what", s.what},         {"horizon", s.horizon},    {"promised", s.confidence},
+                          {"obstacles", s.groups},  {"made", s.made},          {"kept", s.kept},
+                          {"low", s.interval.low},  {"high", s.interval.high}, {"at_most", s.greatest},
+                          {"broken", s.is_broken()}};
+    if (std::isfinite(s.half_m)) row["half_m"] = s.half_m;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+nlohmann::json by_age_json(const ByAge& by_age) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (std::size_t bin = 0; bin < kAgeBins; ++bin) {
+    for (std::size_t h = 0; h < kHorizons; ++h) {
+      const PromiseCount& count = by_age[bin][h];
+      if (count.made == 0) continue;
+      const nlohmann::json until = bin < kAges.size() ? nlohmann::json(kAges[bin]) : nlohmann::json();
+      rows.push_back({{"until_s", until},
+                      {"horizon", horizon_name(h)},
+                      {"made", count.made},
+                      {"kept", count.kept[0]},
+                      {"half_m", count.half_sum_m / static_cast<double>(count.made)}});
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 const char* to_string(Verdict verdict) {
@@ -150,6 +180,7 @@ std::string to_text(const Audit& audit, const FlightRecord& record) {
     if (check.broken > 0 && more > 0)
       text += fmt::format("      and {} more of {} things checked\n", more, check.checked);
   }
+  if (!audit.shares.empty()) text += "\n" + to_text(audit.shares);
   std::string gaps;
   for (const std::string& what : audit.missing) gaps += fmt::format("  {}\n", what);
   for (const Check& check : audit.checks) {
@@ -183,10 +214,6 @@ nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
                       {"unchecked", check.unchecked},
                       {"measures", measures}});
   }
-  nlohmann::json coverage = nlohmann::json::array();
-  for (const Coverage& c : audit.coverage) {
-    coverage.push_back({{"from_s", c.from_s}, {"to_s", c.to_s}, {"samples", c.samples}, {"kept", c.kept}});
-  }
   nlohmann::json tracks = nlohmann::json::array();
   for (const TrackCoverage& t : audit.tracks) {
     tracks.push_back(
@@ -198,7 +225,9 @@ nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
           {"flight_s", (record.end() - record.zero()).seconds()},
           {"checks", checks},
           {"missing", audit.missing},
-          {"coverage", coverage},
+          {"coverage", coverage_json(audit)},
+          {"coverage_sums", to_text(audit.coverage)},
+          {"by_age", {{"moving", by_age_json(audit.moving_by_age)}, {"at rest", by_age_json(audit.rest_by_age)}}},
           {"tracks", tracks},
           {"confidence", audit.promised_confidence}};
 }

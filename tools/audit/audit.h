@@ -1,10 +1,12 @@
 // Recomputes a flight from what was recorded, and trusts nothing that the planner said of it.
 #pragma once
 
+#include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "campaign/statistics/coverage.h"
 #include "tools/audit/check.h"
 #include "tools/audit/flight_record.h"
 
@@ -17,11 +19,11 @@ struct ClearancePoint {
   std::int64_t obstacle = kNobody;
 };
 
-/// How many of the tracks predicted so far ahead were where they were promised.
-struct Coverage {
-  double from_s = 0.0, to_s = 0.0;  ///< ahead of the set's time
-  std::int64_t samples = 0, kept = 0;
-};
+/// Estimates by how long their track had been in PREDICTIONS, s: bin k is (kAges[k − 1], kAges[k]], the first one 0
+/// alone, the last one all that is older.
+inline constexpr std::array kAges{0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0};
+inline constexpr std::size_t kAgeBins = kAges.size() + 1;
+using ByAge = std::array<std::array<PromiseCount, kHorizons>, kAgeBins>;
 
 /// What one track promised and kept.
 struct TrackCoverage {
@@ -49,7 +51,9 @@ struct Audit {
   std::vector<ClearancePoint> clearance;
   Least least;
   Collision collision = Collision::None;
-  std::vector<Coverage> coverage;
+  Coverage coverage;                 ///< of the flight
+  std::vector<KeptShare> shares;     ///< the same with its intervals, the obstacles being groups
+  ByAge moving_by_age, rest_by_age;  ///< of estimates
   std::vector<TrackCoverage> tracks;
   double promised_confidence = 1.0;  ///< the least that a prediction set said
 

@@ -44,6 +44,7 @@ class Reading {
  public:
   explicit Reading(FlightRecord& record) : record_(record) {
     keep(channels::kHorizonRequest, record.requests);
+    keep(channels::kObstacleObservations, record.observations);
     keep(channels::kPlan, record.plans);
     keep(channels::kPlanTiming, record.timings);
     tell(channels::kUavState, [](Told& told, const UavState& s) { told.estimates.push_back(s); });
@@ -72,6 +73,8 @@ class Reading {
     put_in_order(record_.estimates, [](const UavState& s) { return s.at; });
     put_in_order(record_.setpoints, [](const UavState& s) { return s.at; });
     put_in_order(record_.statuses, [](const VehicleStatus& s) { return s.at; });
+    std::stable_sort(record_.observations.begin(), record_.observations.end(),
+                     [](const ObservationSet& a, const ObservationSet& b) { return a.at < b.at; });
     for (auto& [id, history] : record_.truth) {
       put_in_order(history.samples, [](const ObstacleHistory::Sample& s) { return s.at; });
     }

@@ -57,7 +57,8 @@ struct FlightRecord {
   std::map<std::int64_t, ObstacleHistory> truth;  ///< by obstacle
   /// What was declared of each mover, by obstacle: the newest word at each time, without overlap, in order.
   std::map<std::int64_t, std::vector<DeclaredPiece>> declared;
-  std::vector<HorizonRequest> requests;  ///< in the log's order, as all below
+  std::vector<ObservationSet> observations;  ///< OBSTACLE_OBSERVATIONS, of all sensors, by time
+  std::vector<HorizonRequest> requests;      ///< in the log's order, as all below
   std::vector<Plan> plans;
   std::vector<PlanTiming> timings;
   std::vector<Goal> goals;                          ///< each that differs from the one before

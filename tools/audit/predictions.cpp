@@ -1,231 +1,285 @@
-// Whether reality stayed within the α that the predictor promised: per track, and per time ahead.
+// Whether reality stayed within the α that the predictor promised, and within the α at which plans say that they fly.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "tools/audit/audit.h"
-#include "tools/audit/cubic.h"
 #include "tools/audit/flown.h"
+#include "tools/audit/promised.h"
 
 namespace tern::audit {
 namespace {
 
 /// A true box may stand out by this, m: rounding.
 constexpr double kTolerance = 1e-6;
-/// A track whose id is no true obstacle's is that obstacle's whose centre is nearest, if within this, m.
-constexpr double kSameThing = 2.0;
-constexpr double kAhead[] = {0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.5};
 /// Estimates are judged from so long after the flight's begin: the simulator sets everything in motion at once there,
 /// which no estimate from before foresees.
 constexpr Duration kStart{1'000'000};
-/// Deviations of the achieved share that are left to chance.
-constexpr double kDeviations = 3.0;
-/// The errors of a track have nothing to do with each other after this, s: a filter's memory.
-constexpr double kForgotten = 1.0;
+/// What is static promises for ever; so far it is looked at.
+constexpr Duration kForEver{4'500'000};
+/// Who was not in the sets for longer is new when it is there again.
+constexpr Duration kGone{500'000};
+constexpr std::array kClassAges{std::pair{0.1, PredictionClass::New}, std::pair{0.3, PredictionClass::Young},
+                                std::pair{1.0, PredictionClass::Grown}};
 
-/// The samples of a history within [from, to].
-std::pair<std::size_t, std::size_t> within(const ObstacleHistory& history, UTime from, UTime to) {
-  const auto& s = history.samples;
-  const auto first = std::lower_bound(s.begin(), s.end(), from, [](const auto& a, UTime t) { return a.at < t; });
-  const auto last = std::upper_bound(first, s.end(), to, [](UTime t, const auto& a) { return t < a.at; });
-  return {static_cast<std::size_t>(first - s.begin()), static_cast<std::size_t>(last - s.begin())};
+/// What became of one promise.
+struct Promise {
+  UTime from, until;
+  bool certain = false, complete = false;
+  double worst = -1e9;  ///< how far the true box stood out of it, m
+  UTime worst_at;
+  std::array<std::array<bool, kLevels>, kHorizons> kept;
+  std::array<double, kHorizons> half_m;
+  std::array<bool, kHorizons> judged;
+};
+
+bool is_certain(const TrackSet& set, const Track& track) {
+  return track.kind != TrackKind::Estimated || set.confidence >= 1.0;
 }
 
-class CoverageCheck {
- public:
-  CoverageCheck(const FlightRecord& record, Audit& audit, Check& check)
-      : record_(record), audit_(audit), check_(check), window_(judged(record)) {
-    for (std::size_t k = 0; k + 1 < std::size(kAhead); ++k) audit_.coverage.push_back({kAhead[k], kAhead[k + 1], 0, 0});
-  }
+UTime end_of(const TrackSet& set, const Track& track) {
+  return track.kind == TrackKind::Static ? set.made_at + kForEver : track.motion.end();
+}
 
-  void set(const TrackSet& set) {
+Vec3 centre_at(const Track& track, UTime at) {
+  return track.motion.pieces.size() == 1 && track.kind == TrackKind::Static
+             ? Vec3(track.motion.pieces.front().coefficients.col(3))
+             : motion_at(curves_of(track.motion), at).p;
+}
+
+std::size_t bin_of(double age_s) {
+  return static_cast<std::size_t>(std::lower_bound(kAges.begin(), kAges.end(), age_s) - kAges.begin());
+}
+
+class PredictionsCheck {
+ public:
+  PredictionsCheck(const FlightRecord& record, Audit& audit, Check& check)
+      : record_(record), audit_(audit), check_(check), window_(judged(record)), pairing_(record) {}
+
+  void take(const TrackSet& set) {
     if (set.made_at < window_.sure_from() || set.made_at > window_.sure_to() || record_.truth.empty()) return;
     audit_.promised_confidence = std::min(audit_.promised_confidence, set.confidence);
-    for (const Track& track : set.tracks) take(set, track);
+    const auto& pairs = pairing_.pair(set);
+    for (const Track& track : set.tracks) {
+      const double age_s = age(set, track.id);
+      const auto pair = pairs.find(track.id);
+      if (pair == pairs.end()) {
+        nobodys_.insert(track.id);
+      } else {
+        take(set, track, pair->second, age_s);
+      }
+    }
+    if (set.made_at >= window_.sure_from() + kStart) pairs_.emplace(set.header.name, pairs);
+  }
+
+  void take(const Plan& plan, const HorizonRequest& request) {
+    const auto set = record_.predictions.find(plan.inputs.predictions);
+    const auto pairs = pairs_.find(plan.inputs.predictions);
+    if (set == record_.predictions.end() || pairs == pairs_.end()) return;
+    std::set<std::int64_t> kept_clear_of;
+    for (const CertificatePlane& plane : plan.certificate) kept_clear_of.insert(plane.track);
+    for (const Track& track : set->second.tracks) {
+      const auto pair = pairs->second.find(track.id);
+      if (pair == pairs->second.end() || !kept_clear_of.contains(track.id)) continue;
+      if (!is_certain(set->second, track)) claim(plan, request, track, pair->second.obstacle);
+    }
   }
 
   void judge() {
     for (auto& [id, t] : tracks_) audit_.tracks.push_back(t);
-    if (!ghosts_.empty()) {
-      check_.unchecked["tracks that no true obstacle is near to"] = static_cast<std::int64_t>(ghosts_.size());
+    for (auto& [id, coverage] : by_obstacle_) {
+      audit_.coverage += coverage;
+      groups_.push_back(coverage);
     }
-    judge_estimates();
+    audit_.coverage.confidence = audit_.promised_confidence;
+    for (Coverage& group : groups_) group.confidence = audit_.promised_confidence;
+    audit_.shares = kept_shares(groups_);
+    if (!nobodys_.empty()) {
+      check_.unchecked["tracks that belong to no true obstacle, or to one that another track is nearer to"] =
+          static_cast<std::int64_t>(nobodys_.size());
+    }
+    judge_shares();
   }
 
   [[nodiscard]] std::string summary() const {
-    std::int64_t samples = 0, kept = 0;
-    for (const Coverage& c : audit_.coverage) samples += c.samples, kept += c.kept;
-    if (samples == 0) return "";
-    return fmt::format(
-        "{:.4f} of {} samples within their promise; {} of {} whole promises of {} tracks kept (confidence {})",
-        static_cast<double>(kept) / static_cast<double>(samples), samples, promises_kept_, promises_, tracks_.size(),
-        audit_.promised_confidence);
+    if (promises_ == 0) return "";
+    return fmt::format("{} of {} whole promises of {} tracks kept (confidence {})", promises_kept_, promises_,
+                       tracks_.size(), audit_.promised_confidence);
   }
+  [[nodiscard]] std::int64_t promises() const { return promises_; }
+  [[nodiscard]] std::int64_t promises_kept() const { return promises_kept_; }
 
  private:
-  [[nodiscard]] const ObstacleHistory* truth_of(const Track& track, UTime at, std::int64_t& id) {
-    const auto same = record_.truth.find(track.id);
-    if (same != record_.truth.end()) {
-      id = track.id;
-      return &same->second;
-    }
-    const Vec3 p = motion_at(curves_of(track.motion), at).p;
-    double nearest = kSameThing;
-    const ObstacleHistory* found = nullptr;
-    for (const auto& [other, history] : record_.truth) {
-      const auto [first, last] = within(history, at - kTruthHole, at + kTruthHole);
-      if (first == last) continue;
-      const double distance = (history.samples[first].p - p).norm();
-      if (distance >= nearest) continue;
-      nearest = distance;
-      found = &history;
-      id = other;
-    }
-    return found;
+  /// How long a track has been in the sets, s.
+  double age(const TrackSet& set, std::int64_t id) {
+    const std::pair key{set.header.name.sender_epoch_us, id};
+    auto [known, is_new] = seen_.try_emplace(key, Seen{set.made_at, set.made_at});
+    if (set.made_at - known->second.last > kGone) known->second.first = set.made_at;
+    known->second.last = set.made_at;
+    return (set.made_at - known->second.first).seconds();
   }
 
-  void take(const TrackSet& set, const Track& track) {
-    const UTime from = std::max({track.motion.start, set.made_at, window_.sure_from()});
-    const bool still = track.kind == TrackKind::Static;
-    const UTime until =
-        still ? set.made_at + Duration::from_seconds(kAhead[std::size(kAhead) - 1]) : track.motion.end();
-    std::int64_t obstacle = kNobody;
-    const ObstacleHistory* truth = truth_of(track, from, obstacle);
-    if (truth == nullptr) {
-      ghosts_.insert(track.id);
-      return;
+  void take(const TrackSet& set, const Track& track, const Spoken& of, double age_s) {
+    const Promise promise = look(set, track, record_.truth.at(of.obstacle));
+    if (promise.worst == -1e9) return;
+    TrackCoverage& own = tracks_.try_emplace(track.id, TrackCoverage{track.id, of.obstacle, 0, 0, -1e9}).first->second;
+    own.worst_m = std::max(own.worst_m, promise.worst);
+    const bool kept = promise.worst <= kTolerance;
+    if (promise.certain) ++check_.checked;
+    if (promise.certain && !kept) broken(track.id, of.obstacle, promise);
+    if (promise.complete || (promise.certain && !kept)) {
+      ++own.sets, ++promises_;
+      own.kept += kept ? 1 : 0;
+      promises_kept_ += kept ? 1 : 0;
     }
-    const auto [first, last] = within(*truth, from, std::min(until, window_.sure_to()));
-    if (first == last) return;
-    TrackCoverage& own = tracks_.try_emplace(track.id, TrackCoverage{track.id, obstacle, 0, 0, -1e9}).first->second;
-    double worst = -1e9;
-    UTime worst_at;
-    follow(set, track, *truth, first, last, worst, worst_at);
-    own.worst_m = std::max(own.worst_m, worst);
-    const bool kept = worst <= kTolerance;
-    const bool whole = truth->samples[last - 1].at + kTruthHole >= until;
-    const bool promised = set.confidence >= 1.0 || track.kind == TrackKind::Declared;
-    if (!promised && set.made_at >= window_.sure_from() + kStart) {
-      ++estimates_;
-      sets_.insert(set.made_at.us);
-    }
-    if (!kept && promised) broken(track, obstacle, worst, worst_at);
-    if (promised) ++check_.checked;
-    if (!whole && (kept || !promised)) return;  // what comes after the log could still break it
-    ++own.sets;
-    own.kept += kept ? 1 : 0;
-    ++promises_;
-    promises_kept_ += kept ? 1 : 0;
-    if (promised || set.made_at < window_.sure_from() + kStart) return;
-    whole_.add(kept);
-    horizon_s_ = std::max(horizon_s_, (until - set.made_at).seconds());
+    if (promise.certain || set.made_at >= window_.sure_from() + kStart) count(track, of, age_s, promise);
   }
 
-  /// The farthest that the true box stands out of its promise, over the samples [first, last).
-  void follow(const TrackSet& set, const Track& track, const ObstacleHistory& truth, std::size_t first,
-              std::size_t last, double& worst, UTime& worst_at) {
-    std::size_t piece = 0;
-    UTime piece_from = track.motion.start;
-    for (std::size_t k = first; k < last; ++k) {
-      const ObstacleHistory::Sample& s = truth.samples[k];
-      while (piece + 1 < track.motion.pieces.size() && s.at > piece_from + track.motion.pieces[piece].duration) {
-        piece_from = piece_from + track.motion.pieces[piece].duration;
-        ++piece;
-      }
-      const PowerCubic& c = track.motion.pieces[piece].coefficients;
-      const double t = track.kind == TrackKind::Static ? 0.0 : (s.at - piece_from).seconds();
-      const Vec3 p = ((c.col(0) * t + c.col(1)) * t + c.col(2)) * t + c.col(3);
-      const Vec3 promise = track.half_extents + track.alpha[piece];
-      const double out = ((s.p - p).cwiseAbs() + s.half_extents - promise).maxCoeff();
-      const bool estimated = set.confidence < 1.0 && track.kind != TrackKind::Declared;
-      count(set, (s.at - set.made_at).seconds(), out <= kTolerance, estimated);
-      if (out > worst) worst = out, worst_at = s.at;
+  [[nodiscard]] Promise look(const TrackSet& set, const Track& track, const ObstacleHistory& truth) const {
+    Promise promise;
+    promise.from = std::max({track.motion.start, set.made_at, window_.sure_from()});
+    promise.until = end_of(set, track);
+    promise.certain = is_certain(set, track);
+    for (auto& levels : promise.kept) levels.fill(true);
+    const UTime seen =
+        follow(track, truth, promise.from, std::min(promise.until, window_.sure_to()), [&](const Needed& n) {
+          const Vec3 out = n.alpha - track.alpha[n.piece];
+          if (out.maxCoeff() > promise.worst) promise.worst = out.maxCoeff(), promise.worst_at = n.at;
+          const double ahead_s = (n.at - promise.from).seconds();
+          for (std::size_t level = 0; level < kLevels; ++level) {
+            if ((n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kTolerance) continue;
+            for (std::size_t h = 0; h < kHorizons; ++h) {
+              if (ahead_s <= kCoveredAhead[h]) promise.kept[h][level] = false;
+            }
+          }
+        });
+    promise.complete = seen >= promise.until;
+    for (std::size_t h = 0; h < kHorizons; ++h) {
+      const bool whole = std::isinf(kCoveredAhead[h]);
+      const UTime end = whole ? promise.until : promise.from + Duration::from_seconds(kCoveredAhead[h]);
+      promise.judged[h] = end <= promise.until && seen >= end;
+      promise.half_m[h] = track.alpha[track.motion.locate(std::min(end, promise.until)).index].mean();
+    }
+    return promise;
+  }
+
+  [[nodiscard]] static PredictionClass class_of(const Track& track, const Promise& promise, bool in_view,
+                                                double age_s) {
+    if (promise.certain) return PredictionClass::Declared;
+    if (!in_view) return PredictionClass::Unseen;
+    if (is_at_rest(track, promise)) return PredictionClass::AtRest;
+    for (const auto& [until_s, kind] : kClassAges) {
+      if (age_s <= until_s) return kind;
+    }
+    return PredictionClass::Old;
+  }
+
+  [[nodiscard]] static bool is_at_rest(const Track& track, const Promise& promise) {
+    const UTime later = std::min(promise.from + Duration{1'000'000}, promise.until);
+    return (centre_at(track, later) - centre_at(track, promise.from)).norm() <= kRestingWay;
+  }
+
+  void count(const Track& track, const Spoken& of, double age_s, const Promise& promise) {
+    const PredictionClass kind = class_of(track, promise, of.in_view, age_s);
+    Coverage& coverage = by_obstacle_[of.obstacle];
+    for (std::size_t h = 0; h < kHorizons; ++h) {
+      if (!promise.judged[h]) continue;
+      PromiseCount one{1, {}, promise.half_m[h]};
+      for (std::size_t level = 0; level < kLevels; ++level) one.kept[level] = promise.kept[h][level] ? 1 : 0;
+      coverage.promises[{kind, h}] += one;
+      if (promise.certain || !of.in_view) continue;
+      (kind == PredictionClass::AtRest ? audit_.rest_by_age : audit_.moving_by_age)[bin_of(age_s)][h] += one;
     }
   }
 
-  void count(const TrackSet& set, double ahead_s, bool kept, bool estimated) {
-    for (std::size_t k = 0; k < audit_.coverage.size(); ++k) {
-      Coverage& c = audit_.coverage[k];
-      if (ahead_s < c.from_s || ahead_s >= c.to_s) continue;
-      ++c.samples;
-      c.kept += kept ? 1 : 0;
-      if (!estimated || set.made_at < window_.sure_from() + kStart) continue;
-      instants_[k].add(kept);
-    }
+  void claim(const Plan& plan, const HorizonRequest& request, const Track& track, std::int64_t obstacle) {
+    const auto level = static_cast<std::size_t>(plan.level);
+    const UTime until = std::min(std::max(plan.trajectory.end(), request.t_s) + plan.hold, track.motion.end());
+    if (request.t_s < track.motion.start || until > window_.sure_to()) return;
+    bool kept = true;
+    const UTime seen = follow(track, record_.truth.at(obstacle), request.t_s, until, [&](const Needed& n) {
+      kept = kept && (n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kTolerance;
+    });
+    if (seen < until) return;
+    by_obstacle_[obstacle].claims[level] += ClaimCount{1, kept ? 1 : 0};
   }
 
   /// A declared promise admits no exception. Each track is named once.
-  void broken(const Track& track, std::int64_t obstacle, double worst, UTime at) {
-    if (!named_.insert(track.id).second) {
+  void broken(std::int64_t track, std::int64_t obstacle, const Promise& promise) {
+    if (!named_.insert(track).second) {
       ++check_.broken;
       return;
     }
-    check_.fail(
-        {at, fmt::format("obstacle {} stood out of its declared motion by {:.4g} m", obstacle, worst), 0, obstacle});
+    check_.fail({promise.worst_at,
+                 fmt::format("obstacle {} stood out of its declared motion by {:.4g} m", obstacle, promise.worst), 0,
+                 obstacle});
   }
 
-  struct Share {
-    std::int64_t all = 0, kept = 0;
-    void add(bool ok) { ++all, kept += ok ? 1 : 0; }
-    [[nodiscard]] double value() const { return static_cast<double>(kept) / static_cast<double>(all); }
-  };
-
-  /// Estimates may fail as often as the confidence says, as whole promises and so also at each time ahead.
-  void judge_estimates() {
-    judge(whole_, "whole estimated promises held", horizon_s_);
-    for (std::size_t k = 0; k < audit_.coverage.size(); ++k) {
-      const Coverage& c = audit_.coverage[k];
-      judge(instants_[k], fmt::format("estimates held {} to {} s ahead", c.from_s, c.to_s), c.to_s);
+  /// Estimates may fail as often as their confidence says. Of each class and level the horizon is named that was missed
+  /// by most.
+  void judge_shares() {
+    std::map<std::pair<std::string, double>, const KeptShare*> worst;
+    for (const KeptShare& share : audit_.shares) {
+      if (share.what == to_string(PredictionClass::Declared)) continue;
+      ++check_.checked;
+      if (!share.is_broken()) continue;
+      const KeptShare*& one = worst[{share.what, share.confidence}];
+      if (one == nullptr || share.greatest < one->greatest) one = &share;
+    }
+    for (const auto& [key, share] : worst) {
+      const std::string of = share->what == kPlans ? "claims of plans" : "promises of class " + share->what;
+      const std::string until = std::isdigit(share->horizon.front()) ? "for " + share->horizon + " s" : "to the end";
+      check_.fail(
+          {window_.sure_from(),
+           fmt::format("{:.4f} of {} {} held {}, of {} obstacles; {} promised, at most {:.4f} can be true",
+                       share->share(), share->made, of, until, share->groups, share->confidence, share->greatest)});
     }
   }
 
-  /// Promises of one track overlap while they last and rest on the same detections for a while, so that about one per
-  /// horizon is independent of the others, and at most one per kForgotten.
-  void judge(const Share& share, const std::string& what, double horizon_s) {
-    if (share.all == 0) return;
-    ++check_.checked;
-    const double c = audit_.promised_confidence;
-    const double span_s = static_cast<double>(*sets_.rbegin() - *sets_.begin()) * 1e-6;
-    const double at_once = static_cast<double>(estimates_) / static_cast<double>(sets_.size());
-    const double independent = std::max(
-        1.0, std::min(static_cast<double>(share.all), at_once * (1.0 + span_s / std::max(horizon_s, kForgotten))));
-    const double least = c - kDeviations * std::sqrt(c * (1.0 - c) / independent);
-    if (share.value() >= least) return;
-    check_.fail({window_.sure_from(),
-                 fmt::format("{:.4f} of the {}; {:.4f} promised, {:.4f} is what chance allows ({:.0f} deviations, "
-                             "{:.0f} independent ones)",
-                             share.value(), what, c, least, kDeviations, independent)});
-  }
-
+  struct Seen {
+    UTime first, last;
+  };
   const FlightRecord& record_;
   Audit& audit_;
   Check& check_;
   Window window_;
+  Pairing pairing_;
+  std::map<std::pair<std::int64_t, std::int64_t>, Seen> seen_;
   std::map<std::int64_t, TrackCoverage> tracks_;
-  std::set<std::int64_t> ghosts_, named_, sets_;
-  std::int64_t promises_ = 0, promises_kept_ = 0, estimates_ = 0;
-  Share whole_;
-  std::array<Share, std::size(kAhead)> instants_;
-  double horizon_s_ = 0.1;
+  std::map<std::int64_t, Coverage> by_obstacle_;
+  std::map<MessageName, std::map<std::int64_t, Spoken>> pairs_;
+  std::vector<Coverage> groups_;
+  std::set<std::int64_t> nobodys_, named_;
+  std::int64_t promises_ = 0, promises_kept_ = 0;
 };
+
+/// A claim with a number: a level of confidence, and all of its α.
+bool claims_confidence(const Plan& plan) {
+  return plan.outcome != PlanOutcome::NoPlan && plan.alpha_scale >= 1.0 && !plan.relaxed;
+}
 
 }  // namespace
 
 Check check_predictions(const FlightRecord& record, Audit& audit) {
   Check check{.name = "predictions", .claim = "what was real stayed within the alpha that was promised of it"};
-  CoverageCheck coverage(record, audit, check);
-  for (const auto& [name, set] : record.predictions) coverage.set(set);
-  coverage.judge();
-  check.summary = coverage.summary();
-  std::int64_t samples = 0, kept = 0;
-  for (const Coverage& c : audit.coverage) samples += c.samples, kept += c.kept;
-  if (samples > 0)
-    check.measures.insert(check.measures.begin(),
-                          {"samples_kept_share", static_cast<double>(kept) / static_cast<double>(samples)});
+  PredictionsCheck predictions(record, audit, check);
+  for (const auto& [name, set] : record.predictions) predictions.take(set);
+  std::map<MessageName, const HorizonRequest*> requests;
+  for (const HorizonRequest& request : record.requests) requests[request.header.name] = &request;
+  for (const Plan& plan : record.plans) {
+    const auto request = requests.find(plan.inputs.request);
+    if (request != requests.end() && claims_confidence(plan)) predictions.take(plan, *request->second);
+  }
+  predictions.judge();
+  check.summary = predictions.summary();
+  if (predictions.promises() > 0) {
+    check.measures = {{"promises", static_cast<double>(predictions.promises())},
+                      {"promises_kept_share",
+                       static_cast<double>(predictions.promises_kept()) / static_cast<double>(predictions.promises())}};
+  }
   if (record.incomplete_predictions > 0)
     check.unchecked["prediction sets of which a batch is missing"] = record.incomplete_predictions;
   return check;

@@ -1,0 +1,230 @@
+#include "campaign/statistics/coverage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace tern {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, kPredictionClasses> kClassNames{"declared", "unseen", "at rest", "new",
+                                                                  "young",    "grown",  "old"};
+
+std::optional<PredictionClass> class_named(const std::string& name) {
+  const auto found = std::find(kClassNames.begin(), kClassNames.end(), name);
+  if (found == kClassNames.end()) return std::nullopt;
+  return static_cast<PredictionClass>(found - kClassNames.begin());
+}
+
+std::optional<std::size_t> horizon_named(const std::string& name) {
+  for (std::size_t h = 0; h < kHorizons; ++h) {
+    if (horizon_name(h) == name) return h;
+  }
+  return std::nullopt;
+}
+
+/// Bounds of a share from its groups, of which those without a promise say nothing.
+KeptShare bounded(KeptShare share, std::vector<GroupShare> groups) {
+  std::erase_if(groups, [](const GroupShare& g) { return g.all <= 0.0; });
+  share.groups = static_cast<std::int64_t>(groups.size());
+  share.interval = share_interval(groups);
+  share.greatest = greatest_share(std::move(groups), kFalseAlarm / kJudgedShares);
+  return share;
+}
+
+GroupShare group_of(std::int64_t made, std::int64_t kept) {
+  return {static_cast<double>(made), static_cast<double>(kept)};
+}
+
+KeptShare class_share(const std::vector<Coverage>& groups, const Coverage& sum, PredictionClass kind, std::size_t h,
+                      int level) {
+  const PromiseCount& all = sum.promises.at({kind, h});
+  const bool certain = kind == PredictionClass::Declared;
+  KeptShare share;
+  share.what = to_string(kind);
+  share.horizon = horizon_name(h);
+  share.made = all.made;
+  share.confidence = certain ? 1.0 : confidence_at(sum.confidence, level);
+  share.kept = all.kept[static_cast<std::size_t>(level)];
+  share.half_m = all.half_sum_m / static_cast<double>(all.made);
+  std::vector<GroupShare> counts;
+  for (const Coverage& group : groups) {
+    const auto one = group.promises.find({kind, h});
+    if (one == group.promises.end()) continue;
+    counts.push_back(group_of(one->second.made, one->second.kept[static_cast<std::size_t>(level)]));
+  }
+  return bounded(std::move(share), std::move(counts));
+}
+
+KeptShare claim_share(const std::vector<Coverage>& groups, const Coverage& sum, int level) {
+  const ClaimCount& all = sum.claims[static_cast<std::size_t>(level)];
+  KeptShare share;
+  share.what = kPlans;
+  share.horizon = horizon_name(kHorizons - 1);
+  share.made = all.made;
+  share.kept = all.kept;
+  share.confidence = confidence_at(sum.confidence, level);
+  std::vector<GroupShare> counts;
+  for (const Coverage& group : groups) {
+    const ClaimCount& one = group.claims[static_cast<std::size_t>(level)];
+    counts.push_back(group_of(one.made, one.kept));
+  }
+  return bounded(std::move(share), std::move(counts));
+}
+
+/// The shares of one class, or the plans' of one level.
+using Row = std::vector<const KeptShare*>;
+
+std::string heading(const char* title) {
+  std::string text = fmt::format("  {:<28}", title);
+  for (std::size_t h = 0; h < kHorizons; ++h) {
+    const std::string name = horizon_name(h);
+    text += fmt::format("{:<20}", std::isinf(kCoveredAhead[h]) ? name : "to " + name + " s");
+  }
+  return text + "\n";
+}
+
+/// The one that is promised, and those lower ones that are broken.
+std::vector<double> confidences(const Row& row) {
+  std::vector<double> all{row.front()->confidence};
+  for (const KeptShare* s : row) {
+    if (s->is_broken() && std::find(all.begin(), all.end(), s->confidence) == all.end()) all.push_back(s->confidence);
+  }
+  return all;
+}
+
+template <class Words>
+std::string line(const std::string& title, const Row& row, double confidence, const Words& words) {
+  std::string text = fmt::format("  {:<28}", title);
+  for (std::size_t h = 0; h < kHorizons; ++h) {
+    const auto here = std::find_if(row.begin(), row.end(), [&](const KeptShare* s) {
+      return s->confidence == confidence && s->horizon == horizon_name(h);
+    });
+    text += fmt::format("{:<20}", here == row.end() ? "" : words(**here));
+  }
+  return text + "\n";
+}
+
+std::string kept_line(const Row& row, double confidence) {
+  return line(fmt::format("{:<12}{}", row.front()->what, confidence), row, confidence, [](const KeptShare& s) {
+    return fmt::format("{:.3f} [{:.3f} {:.3f}]{}", s.share(), s.interval.low, s.interval.high,
+                       s.is_broken() ? "!" : "");
+  });
+}
+
+std::string width_line(const Row& row) {
+  return line(row.front()->what, row, row.front()->confidence,
+              [](const KeptShare& s) { return fmt::format("{:.3f}", s.half_m); });
+}
+
+PromiseCount promise_count(const Json& numbers) {
+  PromiseCount count;
+  count.made = numbers.at(0);
+  count.half_sum_m = numbers.at(1).get<double>() * static_cast<double>(count.made);
+  for (std::size_t level = 0; level < count.kept.size(); ++level) count.kept[level] = numbers.at(level + 2);
+  return count;
+}
+
+}  // namespace
+
+const char* to_string(PredictionClass kind) { return kClassNames[static_cast<std::size_t>(kind)]; }
+
+std::string horizon_name(std::size_t horizon) {
+  const double ahead_s = kCoveredAhead[horizon];
+  return std::isinf(ahead_s) ? "whole" : fmt::format("{}", ahead_s);
+}
+
+PromiseCount& PromiseCount::operator+=(const PromiseCount& other) {
+  made += other.made;
+  half_sum_m += other.half_sum_m;
+  for (std::size_t level = 0; level < kept.size(); ++level) kept[level] += other.kept[level];
+  return *this;
+}
+
+ClaimCount& ClaimCount::operator+=(const ClaimCount& other) {
+  made += other.made;
+  kept += other.kept;
+  return *this;
+}
+
+Coverage& Coverage::operator+=(const Coverage& other) {
+  confidence = std::min(confidence, other.confidence);
+  for (const auto& [key, count] : other.promises) promises[key] += count;
+  for (std::size_t level = 0; level < claims.size(); ++level) claims[level] += other.claims[level];
+  return *this;
+}
+
+std::string to_text(const Coverage& coverage) {
+  if (coverage.promises.empty()) return "";
+  Json json = {{"confidence", coverage.confidence}};
+  for (const auto& [key, count] : coverage.promises) {
+    const double half_m = count.half_sum_m / static_cast<double>(count.made);
+    Json numbers = {count.made, std::round(half_m * 1e4) * 1e-4};
+    for (const std::int64_t kept : count.kept) numbers.push_back(kept);
+    json[to_string(key.first)][horizon_name(key.second)] = std::move(numbers);
+  }
+  json["claims"] = Json::array();
+  for (const ClaimCount& claim : coverage.claims) json["claims"].push_back({claim.made, claim.kept});
+  return json.dump();
+}
+
+std::optional<Coverage> parse_coverage(std::string_view text) try {
+  Coverage coverage;
+  if (text.empty()) return coverage;
+  const Json json = Json::parse(text);
+  coverage.confidence = json.at("confidence");
+  for (std::size_t level = 0; level < coverage.claims.size(); ++level) {
+    coverage.claims[level] = {json.at("claims").at(level).at(0), json.at("claims").at(level).at(1)};
+  }
+  for (const auto& [name, horizons] : json.items()) {
+    if (name == "confidence" || name == "claims") continue;
+    const auto kind = class_named(name);
+    if (!kind) return std::nullopt;
+    for (const auto& [ahead, numbers] : horizons.items()) {
+      const auto horizon = horizon_named(ahead);
+      if (!horizon) return std::nullopt;
+      coverage.promises[{*kind, *horizon}] = promise_count(numbers);
+    }
+  }
+  return coverage;
+} catch (const Json::exception&) {
+  return std::nullopt;
+}
+
+std::vector<KeptShare> kept_shares(const std::vector<Coverage>& groups) {
+  Coverage sum;
+  for (const Coverage& group : groups) sum += group;
+  std::vector<KeptShare> shares;
+  for (const auto& [key, count] : sum.promises) {
+    const int levels = key.first == PredictionClass::Declared ? 1 : kLevels;
+    for (int level = 0; level < levels; ++level) {
+      shares.push_back(class_share(groups, sum, key.first, key.second, level));
+    }
+  }
+  for (int level = 0; level < kLevels; ++level) {
+    if (sum.claims[static_cast<std::size_t>(level)].made > 0) shares.push_back(claim_share(groups, sum, level));
+  }
+  return shares;
+}
+
+std::string to_text(const std::vector<KeptShare>& shares) {
+  if (shares.empty()) return "";
+  std::vector<Row> rows;
+  for (const KeptShare& s : shares) {
+    if (rows.empty() || rows.back().front()->what != s.what || s.what == kPlans) rows.emplace_back();
+    rows.back().push_back(&s);
+  }
+  std::string kept = heading("kept, of what was promised");
+  std::string widths = heading("half-width, m");
+  for (const Row& row : rows) {
+    for (const double confidence : confidences(row)) kept += kept_line(row, confidence);
+    if (row.front()->what != kPlans) widths += width_line(row);
+  }
+  return kept + widths;
+}
+
+}  // namespace tern

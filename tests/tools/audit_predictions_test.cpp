@@ -1,0 +1,253 @@
+// What was promised of obstacles is counted by class, horizon and confidence; what cannot have been true is broken.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/splines/piecewise_cubic.h"
+#include "tools/audit/audit.h"
+#include "tools/audit/promised.h"
+
+namespace tern::audit {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kHalf = 0.25, kAlpha = 0.1, kFlight = 12.0;
+UTime at(double s) { return UTime{1'000'000} + Duration::from_seconds(s); }
+
+/// Things that stand in a row, 5 m apart, and are predicted to go at 1 m/s along y (they do).
+struct World {
+  FlightRecord record;
+  int things = 0;
+
+  explicit World(int n) : things(n) {
+    for (int k = 0; k <= 100 * static_cast<int>(kFlight); ++k) {
+      UavState s;
+      s.at = at(0.01 * k);
+      record.states.push_back(s);
+    }
+    HorizonRequest request;
+    request.header = {{1, 1}, at(0.0)};
+    request.id = 1;
+    request.t_s = at(0.075);
+    request.deadline = at(0.07);
+    record.requests.push_back(request);
+    for (int id = 0; id < n; ++id) {
+      auto& history = record.truth[id];
+      history.moves = true;
+      for (int k = 0; k <= 50 * static_cast<int>(kFlight); ++k) {
+        history.samples.push_back({at(0.02 * k), place(id, 0.02 * k), Vec3::UnitY(), Vec3::Constant(kHalf)});
+      }
+    }
+  }
+  [[nodiscard]] static Vec3 place(std::int64_t id, double s) { return {5.0 * static_cast<double>(id), s, 1.0}; }
+
+  /// A thing at `s` as predicted for the next two seconds.
+  [[nodiscard]] static Track track(std::int64_t track_id, std::int64_t thing, double s) {
+    Track track;
+    track.id = track_id;
+    track.kind = TrackKind::Estimated;
+    track.half_extents = Vec3::Constant(kHalf);
+    PowerCubic cubic = PowerCubic::Zero();
+    cubic.col(2) = Vec3::UnitY();
+    cubic.col(3) = place(thing, s);
+    track.motion.start = at(s);
+    track.motion.pieces.push_back({Duration::from_seconds(2.0), cubic});
+    track.alpha.push_back(Vec3::Constant(kAlpha));
+    track.shares.push_back({0.8F, 0.6F, 0.4F, 0.2F});
+    track.top_speed = 5.0;
+    return track;
+  }
+
+  /// Every 0.05 s a set in which each thing has its track.
+  void predict(std::int64_t first_id) {
+    for (int k = 0; k < 20 * static_cast<int>(kFlight); ++k) {
+      TrackSet set;
+      set.header = {{2, k + 1}, at(0.05 * k)};
+      set.made_at = at(0.05 * k);
+      set.confidence = 0.99;
+      for (int id = 0; id < things; ++id) set.tracks.push_back(track(first_id + id, id, 0.05 * k));
+      record.predictions.emplace(set.header.name, set);
+    }
+  }
+
+  /// From s on for so long the thing is beside its place by `off`, m.
+  void push(std::int64_t thing, double s, double length_s, double off) {
+    for (auto& sample : record.truth[thing].samples) {
+      if (sample.at >= at(s) && sample.at < at(s + length_s)) sample.p.x() += off;
+    }
+  }
+  [[nodiscard]] std::pair<Audit, Check> audit() const {
+    Audit audit;
+    Check check = check_predictions(record, audit);
+    return {audit, check};
+  }
+};
+
+const KeptShare& share(const Audit& audit, const std::string& what, const std::string& horizon,
+                       double confidence = 0.99) {
+  for (const KeptShare& s : audit.shares) {
+    if (s.what == what && s.horizon == horizon && s.confidence == confidence) return s;
+  }
+  throw std::out_of_range(what);
+}
+
+TEST(AuditedPredictions, ThatHoldAreKeptInEveryClassAndAtEveryLevel) {
+  World world(20);
+  world.predict(1'000);
+  const auto [audit, check] = world.audit();
+  EXPECT_EQ(check.verdict(), Verdict::Held);
+  for (const KeptShare& s : audit.shares) {
+    EXPECT_EQ(s.kept, s.made) << s.what;
+    EXPECT_EQ(s.interval.high, 1.0);
+    EXPECT_NEAR(s.half_m, kAlpha, 1e-12);
+  }
+  EXPECT_EQ(share(audit, "old", "0.25").groups, 20);
+  EXPECT_FALSE(to_text(audit.shares).empty());
+}
+
+TEST(AuditedPredictions, AreBrokenForAllTimesUpToTheHorizonThatReachAMiss) {
+  World world(1);
+  world.predict(1'000);
+  // Out between 6.00 and 6.02 s: one sample. Promises made up to h before it are broken up to h, at all levels.
+  world.push(0, 6.0, 0.02, 0.5);
+  const auto [audit, check] = world.audit();
+  for (const auto& [horizon, length] :
+       std::map<std::string, double>{{"0.25", 0.25}, {"0.5", 0.5}, {"1", 1.0}, {"2", 2.0}}) {
+    const KeptShare& s = share(audit, "old", horizon);
+    EXPECT_EQ(s.made - s.kept, static_cast<int>(length / 0.05) + 1) << horizon;
+  }
+  EXPECT_EQ(check.verdict(), Verdict::Held) << "one thing of one flight says little of a probability";
+}
+
+TEST(AuditedPredictions, AreCountedAtEachLevelByTheAlphaOfThatLevel) {
+  World world(1);
+  world.predict(1'000);
+  world.push(0, 0.0, kFlight + 1.0, 0.07);  // within α and its 0.8, not within its 0.6
+  const auto [audit, check] = world.audit();
+  for (const double kept : {0.99, 0.95}) EXPECT_EQ(share(audit, "old", "1", kept).share(), 1.0);
+  for (const double broken : {0.9, 0.8, 0.6}) EXPECT_EQ(share(audit, "old", "1", broken).share(), 0.0);
+}
+
+TEST(AuditedPredictions, ThatCannotHaveKeptTheirPromiseFailTheFlight) {
+  World world(30);
+  world.predict(1'000);
+  for (int id = 0; id < 30; ++id) world.push(id, 3.0 + 0.2 * id, 0.5, 0.5);  // each misses some 10 % of the time
+  const auto [audit, check] = world.audit();
+  EXPECT_EQ(check.verdict(), Verdict::Broken);
+  EXPECT_TRUE(share(audit, "old", "0.5").is_broken());
+  EXPECT_THAT(check.findings.front().what, HasSubstr("promises of class old"));
+}
+
+TEST(AuditedPredictions, OfFewBadObstaclesAmongManyAreNotCalledBroken) {
+  World world(100);
+  world.predict(1'000);
+  world.push(7, 2.0, 8.0, 0.5);  // one of a hundred is missed nearly always: 0.99 of all promises hold
+  const auto [audit, check] = world.audit();
+  EXPECT_LT(share(audit, "old", "1").share(), 1.0);
+  EXPECT_EQ(check.verdict(), Verdict::Held);
+}
+
+TEST(AuditedPredictions, AreClassedByHowLongTheirTrackHasBeenInTheSets) {
+  World world(1);
+  world.predict(1'000);
+  for (auto& [name, set] : world.record.predictions) {
+    if (set.made_at < at(5.0)) set.tracks.clear();
+  }
+  const auto [audit, check] = world.audit();
+  EXPECT_EQ(share(audit, "new", "1").made, 3);     // 0, 0.05, 0.1 s
+  EXPECT_EQ(share(audit, "young", "1").made, 4);   // to 0.3 s
+  EXPECT_EQ(share(audit, "grown", "1").made, 14);  // to 1 s
+  EXPECT_GT(share(audit, "old", "1").made, 50);
+  EXPECT_EQ(audit.moving_by_age[0][0].made, 1);
+}
+
+TEST(AuditedPredictions, OfWhatIsPredictedToStayAreAtRest) {
+  World world(1);
+  world.predict(1'000);
+  for (auto& [name, set] : world.record.predictions) set.tracks[0].motion.pieces[0].coefficients.col(2).setZero();
+  const auto [audit, check] = world.audit();
+  EXPECT_GT(share(audit, "at rest", "0.25").made, 0);
+  EXPECT_EQ(share(audit, "at rest", "0.25").share(), 0.0) << "it goes";
+}
+
+/// A detection of each thing every 0.05 s, but of `hidden` from s on.
+void observe(World& world, int hidden, double s) {
+  for (int k = 0; k < 20 * static_cast<int>(kFlight); ++k) {
+    ObservationSet set;
+    set.at = at(0.05 * k);
+    for (int id = 0; id < world.things; ++id) {
+      if (id == hidden && 0.05 * k >= s) continue;
+      Detection d;
+      d.position = World::place(id, 0.05 * k);
+      d.half_extents = Vec3::Constant(kHalf);
+      set.detections.push_back(d);
+    }
+    world.record.observations.push_back(set);
+  }
+}
+
+TEST(AuditedPredictions, OfWhatNoSensorSeesAreAClassOfTheirOwn) {
+  World world(3);
+  world.predict(1'000);
+  observe(world, 1, 5.0);
+  const auto [audit, check] = world.audit();
+  const KeptShare& unseen = share(audit, "unseen", "0.25");
+  EXPECT_EQ(unseen.groups, 1);
+  EXPECT_NEAR(static_cast<double>(unseen.made), 20.0 * (kFlight - 5.0 - 0.25 - 0.25), 2.0);
+}
+
+TEST(AuditedPredictions, OfATrackOutOfViewAreHeldAgainstTheObstacleThatItHad) {
+  World world(2);
+  world.predict(1'000);
+  observe(world, 1, 5.0);
+  world.push(1, 6.0, kFlight, 30.0);  // nobody sees that it goes far away
+  const auto [audit, check] = world.audit();
+  EXPECT_LT(share(audit, "unseen", "0.25").share(), 0.1);
+  EXPECT_EQ(share(audit, "old", "0.25").share(), 1.0);
+}
+
+TEST(AuditedPredictions, OfASecondTrackOfAnObstacleAreNobodys) {
+  World world(3);
+  world.predict(1'000);
+  for (auto& [name, set] : world.record.predictions) {
+    Track ghost = set.tracks[1];
+    ghost.id = 5'000;
+    ghost.motion.pieces[0].coefficients.col(3).x() += 1.0;
+    set.tracks.push_back(ghost);
+  }
+  const auto [audit, check] = world.audit();
+  EXPECT_EQ(check.verdict(), Verdict::Held);
+  EXPECT_EQ(share(audit, "old", "1").share(), 1.0);
+  EXPECT_EQ(check.unchecked.begin()->second, 1);
+}
+
+TEST(AuditedPredictions, OfPlansAreHeldAgainstWhatTheyClaim) {
+  World world(2);
+  world.predict(1'000);
+  world.push(0, 0.0, kFlight + 1.0, 0.07);  // broken at 0.9, kept at 0.95
+  for (const int level : {1, 2}) {
+    HorizonRequest request = world.record.requests.front();
+    request.header.name.sequence = 10 + level;
+    request.t_s = at(5.1);
+    world.record.requests.push_back(request);
+    Plan plan;
+    plan.outcome = PlanOutcome::Optimized;
+    plan.inputs.request = request.header.name;
+    plan.inputs.predictions = {2, 101};  // made at 5 s
+    plan.level = level;
+    plan.confidence = kConfidenceLevels[static_cast<std::size_t>(level)];
+    plan.trajectory.start = request.t_s;
+    plan.hold = Duration::from_seconds(1.0);
+    plan.certificate = {{1'000, 0, 0, 1, {}}, {1'000, 1, 0, 1, {}}};
+    world.record.plans.push_back(plan);
+  }
+  const auto [audit, check] = world.audit();
+  EXPECT_EQ(audit.coverage.claims[1], (ClaimCount{1, 1})) << "the other track has no plane";
+  EXPECT_EQ(audit.coverage.claims[2], (ClaimCount{1, 0}));
+}
+
+}  // namespace
+}  // namespace tern::audit
