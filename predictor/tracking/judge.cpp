@@ -118,10 +118,10 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   history.issued = at;
   Issue issue;
   issue.at = at;
-  issue.pool = pool_of(&history, at);
+  issue.pool = pool_of(track, at, history.fastest);
   issue.score = -std::numeric_limits<double>::infinity();
   const HorizonWeights all = model_weights(pools_[issue.pool], history.own);
-  issue.judged.kind = class_of(&history, at, track.detections, all);
+  issue.judged.kind = class_of(track, at, all);
   issue.margins = calibration_.margins(issue.judged.kind);
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     issue.said[k] = mixed(*track.bank, looks_[k], weights_at(all, kJudgedAhead[k]));
@@ -188,26 +188,28 @@ const Judge::History* Judge::known(std::int64_t id, UTime born) const {
   return found == histories_.end() || found->second.born != born ? nullptr : &found->second;
 }
 
-std::size_t Judge::pool_of(const History* history, UTime last_seen) {
-  if (history == nullptr || (last_seen - history->born).seconds() < kYoungAge) return kAll;
-  return history->fastest >= kFastSpeed ? kFast : kSlow;
+std::size_t Judge::pool_of(const SeenTrack& track, UTime at, double fastest) {
+  if ((at - track.born).seconds() < kYoungAge) return kAll;
+  return std::max(fastest, track.bank->lead().velocity().norm()) >= kFastSpeed ? kFast : kSlow;
 }
 
-Judge::Verdict Judge::verdict(std::int64_t id, UTime born, UTime last_seen, int detections) const {
-  const History* history = known(id, born);
+Judge::Verdict Judge::verdict(const SeenTrack& track, UTime last_seen) const {
+  const History* history = known(track.id, track.born);
+  const ModelScores own = history == nullptr ? ModelScores{} : history->own;
+  const double fastest = history == nullptr ? 0.0 : history->fastest;
   Verdict verdict;
-  verdict.weights =
-      model_weights(pools_[pool_of(history, last_seen)], history == nullptr ? ModelScores{} : history->own);
-  verdict.kind = class_of(history, last_seen, detections, verdict.weights);
+  verdict.weights = model_weights(pools_[pool_of(track, last_seen, fastest)], own);
+  verdict.kind = class_of(track, last_seen, verdict.weights);
   return verdict;
 }
 
-TrackClass Judge::class_of(const History* history, UTime last_seen, int detections, const HorizonWeights& weights) {
-  if (detections <= 1) return TrackClass::New;
-  const double age = history == nullptr ? 0.0 : (last_seen - history->born).seconds();
+TrackClass Judge::class_of(const SeenTrack& track, UTime at, const HorizonWeights& weights) {
+  if (track.detections <= 1) return TrackClass::New;
+  const double age = (at - track.born).seconds();
   if (age < kYoungAge) return TrackClass::Young;
-  const auto weight = [&, at = weights[kClassHorizon].begin()](std::size_t first, std::size_t end) {
-    return std::accumulate(at + static_cast<std::ptrdiff_t>(first), at + static_cast<std::ptrdiff_t>(end), 0.0);
+  const auto weight = [first_of = weights[kClassHorizon].begin()](std::size_t first, std::size_t end) {
+    return std::accumulate(first_of + static_cast<std::ptrdiff_t>(first), first_of + static_cast<std::ptrdiff_t>(end),
+                           0.0);
   };
   const double steady = weight(0, kSteadyModels), calm = weight(kSteadyModels, kCalmModels);
   const bool old = age >= kGrownAge;

@@ -47,12 +47,13 @@ class Judge {
   /// The tracks that were detected at `at`. Those not detected for kWidestGap are forgotten.
   void take(UTime at, const std::vector<SeenTrack>& seen);
 
-  /// The models' weights for a track (of one that is not known, those of all tracks), and its class.
+  /// The models' weights for a track (of one that is not known, those of all tracks like it), and its class.
   struct Verdict {
     HorizonWeights weights;
     TrackClass kind = TrackClass::New;
   };
-  [[nodiscard]] Verdict verdict(std::int64_t id, UTime born, UTime last_seen, int detections) const;
+  /// @param track  as it is now: its speed and age count, whatever take() has come to hear of it
+  [[nodiscard]] Verdict verdict(const SeenTrack& track, UTime last_seen) const;
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
   /// The largest speed per axis that a track of more than kGrownAge had, m/s.
   [[nodiscard]] double fastest() const { return fastest_; }
@@ -90,9 +91,8 @@ class Judge {
   void score(History& history);
   void score(Issue& issue, const Sample& truth, History& history);
   [[nodiscard]] const History* known(std::int64_t id, UTime born) const;
-  [[nodiscard]] static std::size_t pool_of(const History* history, UTime last_seen);
-  [[nodiscard]] static TrackClass class_of(const History* history, UTime last_seen, int detections,
-                                           const HorizonWeights& weights);
+  [[nodiscard]] static std::size_t pool_of(const SeenTrack& track, UTime at, double fastest);
+  [[nodiscard]] static TrackClass class_of(const SeenTrack& track, UTime at, const HorizonWeights& weights);
 
   Calibration calibration_;
   std::array<ModelScores, 3> pools_;

@@ -267,15 +267,21 @@ double Tracker::distance2(const TrackedObject& object, UTime at, const Detection
   return object.moving.distance2(detection.position, detection.variance);
 }
 
+SeenTrack Tracker::seen(const TrackedObject& object) const {
+  return {object.id, object.born, object.detections, object.position, object.variance, &object.moving, rests(object)};
+}
+
 void Tracker::settle(const Step& step) {
   const ObservationSet& from = step.observations;
-  std::vector<SeenTrack> seen;
+  std::vector<SeenTrack> all;
   for (const TrackedObject& object : step.after.objects) {
-    if (object.last_seen != from.at || object.last_seen_by != from.sensor_id) continue;
-    seen.push_back(
-        {object.id, object.born, object.detections, object.position, object.variance, &object.moving, rests(object)});
+    if (object.last_seen == from.at && object.last_seen_by == from.sensor_id) all.push_back(seen(object));
   }
-  judge_.take(from.at, seen);
+  judge_.take(from.at, all);
+}
+
+Judge::Verdict Tracker::verdict(const TrackedObject& object) const {
+  return judge_.verdict(seen(object), object.last_seen);
 }
 
 bool Tracker::is_published(const TrackedObject& object, const ExistenceRecord& existence) const {
@@ -316,7 +322,7 @@ void Tracker::predict_resting(const TrackedObject& object, const State& state, U
 void Tracker::predict_moving(const TrackedObject& object, const ExistenceRecord& existence,
                              const std::vector<BankLook>& looks, UTime from, Track& track) const {
   const PredictionSpec& spec = config_.prediction;
-  const Judge::Verdict verdict = judge_.verdict(object.id, object.born, object.last_seen, object.detections);
+  const Judge::Verdict verdict = this->verdict(object);
   const double real = object.confirmed || object.detections > 1 ? 1.0 : existence.real();
   std::array<PerBand<double>, kConfidenceLevels.size()> margins;
   for (std::size_t level = 0; level < margins.size(); ++level) {

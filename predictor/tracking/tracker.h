@@ -132,6 +132,8 @@ class Tracker {
   [[nodiscard]] bool rests(const TrackedObject& object) const;
   /// What was learnt of predictions: models' weights and margins. It lags by kReorderWindow.
   [[nodiscard]] const Judge& judge() const { return judge_; }
+  /// The weights and the class that an object of objects() is predicted with.
+  [[nodiscard]] Judge::Verdict verdict(const TrackedObject& object) const;
 
  private:
   struct State {
@@ -155,6 +157,7 @@ class Tracker {
   [[nodiscard]] double distance2(const TrackedObject& object, UTime at, const Detection& detection) const;
   [[nodiscard]] bool is_published(const TrackedObject& object, const ExistenceRecord& existence) const;
   void settle(const Step& step);
+  [[nodiscard]] SeenTrack seen(const TrackedObject& object) const;
   [[nodiscard]] double top_speed() const;  // of what is new or starts
   [[nodiscard]] Waypoint resting_at(const TrackedObject& object, const State& state, UTime from, double ahead_s) const;
   void predict_resting(const TrackedObject& object, const State& state, UTime from, Track& track) const;

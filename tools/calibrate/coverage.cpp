@@ -91,7 +91,7 @@ class Watch {
     const auto older = std::find_if(kAges.begin(), kAges.end(), [&](const auto& a) { return age <= a.first; });
     const std::string by_age = older == kAges.end() ? "age above 2 s" : older->second;
     const bool rests = tracker_.rests(object);
-    const auto kind = tracker_.judge().verdict(object.id, object.born, object.last_seen, object.detections).kind;
+    const auto kind = tracker_.verdict(object).kind;
     const std::string name = rests ? "rest" : kClassNames[static_cast<std::size_t>(kind)];
     for (const std::string& what : {std::string(rests ? "all" : "all moving"), "class " + name, rests ? "" : by_age}) {
       if (what.empty()) continue;

@@ -1,0 +1,65 @@
+// What is met for less than a second: its promise holds from the first moment on, whatever else there is.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "predictor/tracking/tracker.h"
+#include "tests/predictor/simulated_motion.h"
+
+namespace tern {
+namespace {
+
+using testing::at_seconds;
+using testing::Path;
+
+constexpr double kRate = 30.0, kUntil = 60.0, kLatency = 0.05;
+constexpr double kLife = 1.2;  // s, then another one comes
+constexpr int kPlaces = 8;     // 20 m apart
+
+/// At each x one thing after the other, 20 m apart: it rests at every other x, and swings at 4 m/s at the others.
+Path at_place(int place, double t) {
+  const auto visit = static_cast<int>(t / kLife);
+  const Vec3 centre(20.0 * place, 20.0 * visit, 2.0);
+  if (place % 2 == 1) return [=](double) { return centre; };
+  Rng rng(static_cast<std::uint64_t>(1000 * place + visit));
+  return testing::trefoil(centre, Vec3(1.0, 1.0, 1.0), 1.1, rng.uniform(0.0, 2.0 * std::numbers::pi));
+}
+
+TEST(FirstSecond, KeepsThePromiseOfFastMoversAmongThingsThatRest) {
+  constexpr double kHorizon = 0.5, kAges = 0.2;
+  std::array<int, 4> kept{}, promises{};  // by age
+  Rng rng(17);
+  Tracker tracker(TrackerConfig{});
+  for (int frame = 0; frame < static_cast<int>(kRate * kUntil); ++frame) {
+    const double t = frame / kRate;
+    std::vector<Detection> seen;
+    for (int place = 0; place < kPlaces; ++place) {
+      if (rng.uniform() > 0.05) seen.push_back(testing::detection_of(at_place(place, t)(t), 0.05, rng));
+    }
+    tracker.update(testing::observations_at(t, std::move(seen)));
+    if (t < 10.0 || frame % 3 != 0) continue;
+    const std::vector<Track> tracks = tracker.predict(at_seconds(t + kLatency));
+    for (const TrackedObject& object : tracker.objects()) {
+      const auto place = static_cast<int>(std::lround(object.position.x() / 20.0));
+      const auto bin = static_cast<std::size_t>((object.last_seen - object.born).seconds() / kAges);
+      if (place % 2 == 1 || object.last_seen != tracker.newest() || bin >= kept.size()) continue;
+      for (const Track& track : tracks) {
+        if (track.id != object.id) continue;
+        ++promises[bin];
+        kept[bin] += testing::keeps_promise(track, at_place(place, t), kHorizon) ? 1 : 0;
+      }
+    }
+  }
+  for (std::size_t bin = 0; bin < kept.size(); ++bin) {
+    EXPECT_GT(promises[bin], 200) << bin;
+    EXPECT_GE(kept[bin], 0.985 * promises[bin])
+        << "from " << kAges * static_cast<double>(bin) << " s on: " << kept[bin] << " of " << promises[bin];
+  }
+}
+
+}  // namespace
+}  // namespace tern
