@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <CLI/CLI.hpp>
 #include <fstream>
 
 #include "runtime/config.h"
@@ -29,6 +30,28 @@ void write(const std::string& html, const std::string& file) {
 
 }  // namespace
 
+void add_export_options(CLI::App& app, ViewerOptions& options) {
+  app.add_option("--export", options.export_to, "Write the log there as one page that plays itself")
+      ->type_name("FILE.html");
+  auto* const video = app.add_option("--video", options.video_to, "Write the log there as a film (Chromium, ffmpeg)")
+                          ->type_name("FILE.mp4|FILE.webp");
+  app.add_option("--video-size", options.film.size, "Pixels, even (default 1280 720)")
+      ->type_name("WIDTH HEIGHT")
+      ->expected(2)
+      ->allow_extra_args(false)
+      ->check(CLI::Range(64, 4096))
+      ->needs(video);
+  app.add_option("--video-rate", options.film.rate, "Pictures a second (default 25)")
+      ->check(CLI::Range(1, 60))
+      ->needs(video);
+  app.add_option("--video-part", options.film.part, "Seconds since the log's begin (default: all)")
+      ->type_name("FROM TO")
+      ->expected(2)
+      ->allow_extra_args(false)
+      ->check(CLI::NonNegativeNumber)
+      ->needs(video);
+}
+
 std::unique_ptr<Node> make_viewer(Bus& bus, const Scenario& scenario, const ViewerOptions& options) {
   if (options.export_to.empty() && options.video_to.empty()) {
     return std::make_unique<ViewerNode>(bus, scenario, options);
@@ -41,9 +64,9 @@ std::unique_ptr<Node> make_viewer(Bus& bus, const Scenario& scenario, const View
     if (!page->left_out.empty()) spdlog::warn("{} are left out: too large", page->left_out);
   }
   if (!options.video_to.empty()) {
-    const auto made = make_film({page->html, options.video_to, page->seconds});
+    const auto made = make_film({page->html, options.video_to, page->seconds, options.film});
     if (!made) throw ConfigError(made.error().message);
-    spdlog::info("{}: {:.1f} s", options.video_to, page->seconds);
+    spdlog::info("{} is written", options.video_to);
   }
   return std::make_unique<DoneNode>();
 }

@@ -7,7 +7,14 @@
 #include "runtime/node.h"
 #include "viewer/bridge/app/viewer_node.h"
 
+namespace CLI {
+class App;
+}
+
 namespace tern {
+
+/// --export, --video and what goes with them. A film's options without --video are refused.
+void add_export_options(CLI::App& app, ViewerOptions& options);
 
 /// Writes the files that the options ask for, or shows the flight if they ask for none.
 /// @throws ConfigError when that cannot be done

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -11,6 +12,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "runtime/child_process.h"
 #include "viewer/bridge/app/devtools.h"
@@ -19,6 +22,11 @@ namespace tern {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// How ffmpeg writes them. An animation begins again at its end.
+const std::vector<const char*> kFilm = {"-pix_fmt", "yuv420p", "-movflags", "+faststart"};
+const std::vector<const char*> kAnimation = {"-c:v", "libwebp_anim",       "-loop", "0", "-quality",
+                                             "45",   "-compression_level", "6"};
 
 std::string program(const char* variable, const char* usual) {
   const char* named = std::getenv(variable);
@@ -48,15 +56,26 @@ struct Workplace {
 /// ffmpeg, which reads pictures from a pipe.
 class Encoder {
  public:
-  explicit Encoder(const std::string& file) {
+  Encoder(const std::string& file, int pictures_per_s) {
     int pictures[2];
     if (pipe2(pictures, O_CLOEXEC) != 0) throw std::runtime_error("no pipe can be made");
     to_ = pictures[1];
-    const std::string rate = std::to_string(kFilmRate);
-    ffmpeg_ = start_child({.command = {program("TERN_FFMPEG", "ffmpeg"), "-loglevel", "error", "-y", "-f", "image2pipe",
-                                       "-framerate", rate, "-c:v", "mjpeg", "-i", fmt::format("pipe:{}", pictures[0]),
-                                       "-pix_fmt", "yuv420p", "-movflags", "+faststart", file},
-                           .inherited = {pictures[0]}});
+    std::vector<std::string> command = {program("TERN_FFMPEG", "ffmpeg"),
+                                        "-loglevel",
+                                        "error",
+                                        "-y",
+                                        "-f",
+                                        "image2pipe",
+                                        "-framerate",
+                                        std::to_string(pictures_per_s),
+                                        "-c:v",
+                                        "mjpeg",
+                                        "-i",
+                                        fmt::format("pipe:{}", pictures[0])};
+    const bool is_animation = fs::path(file).extension() == ".webp";
+    for (const char* word : is_animation ? kAnimation : kFilm) command.emplace_back(word);
+    command.push_back(file);
+    ffmpeg_ = start_child({.command = std::move(command), .inherited = {pictures[0]}});
     close(pictures[0]);
   }
   void add(const std::string& picture) {
@@ -84,17 +103,21 @@ Result<bool> make_film(const Film& film) try {
   for (const std::string& name : {chromium, ffmpeg}) {
     if (!is_installed(name)) return fail(name + " is not installed: a film needs Chromium and ffmpeg");
   }
+  const auto& [size, rate, part] = film.form;
+  const double from = part.at(0), to = std::min(part.at(1), film.seconds);
+  const int pictures = static_cast<int>(std::ceil((to - from) * rate));
+  if (pictures < 1)
+    return fail(fmt::format("the flight has {:.1f} s: nothing is in {} to {} s", film.seconds, from, part.at(1)));
   std::signal(SIGPIPE, SIG_IGN);
   const Workplace workplace;
   const fs::path page = workplace.folder / "flight.html";
   std::ofstream(page, std::ios::binary) << film.html;
-  Devtools browser(chromium, workplace.folder / "profile", kFilmWidth, kFilmHeight);
-  browser.open("file://" + page.string() + "?quality=high&theme=dark#cam=" + film.camera,
-               "window.tern?.counts.drawn > 1");
-  Encoder encoder(film.file);
-  const int pictures = static_cast<int>(std::ceil(film.seconds * kFilmRate));
+  Devtools browser(chromium, workplace.folder / "profile", size.at(0), size.at(1));
+  browser.open("file://" + page.string() + "?quality=high&theme=dark#cam=chase", "window.tern?.counts.drawn > 1");
+  browser.evaluate("tern.setLayer('hulls', true)");
+  Encoder encoder(film.file, rate);
   for (int k = 0; k < pictures; ++k) {
-    browser.evaluate(fmt::format("tern.film({:.4f}, {:.4f})", static_cast<double>(k) / kFilmRate, 1.0 / kFilmRate));
+    browser.evaluate(fmt::format("tern.film({:.4f}, {:.4f})", from + static_cast<double>(k) / rate, 1.0 / rate));
     encoder.add(browser.picture());
   }
   encoder.finish();

@@ -1,24 +1,32 @@
 // A flight as a film: an exported page, drawn picture by picture by a headless Chromium, written by ffmpeg.
 #pragma once
 
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 
 namespace tern {
 
-struct Film {
-  std::string html;      ///< a page of export_page
-  std::string file;      ///< to be written, "flight.mp4"
-  double seconds = 0.0;  ///< of the flight
-  std::string camera = "chase";
+/// What a film is of, and how large it is.
+struct FilmForm {
+  std::vector<int> size{1280, 720};  ///< width and height, pixels, even
+  int rate = 25;                     ///< pictures a second, 1 ... 60
+  /// From, to: s since the log's begin.
+  std::vector<double> part{0.0, std::numeric_limits<double>::infinity()};
 };
 
-inline constexpr int kFilmWidth = 1280, kFilmHeight = 720, kFilmRate = 25;  ///< pixels; pictures a second
+struct Film {
+  std::string html;      ///< a page of export_page
+  std::string file;      ///< to be written; its name's end says what: "flight.mp4", "flight.webp" (an animation)
+  double seconds = 0.0;  ///< of the flight; no picture is after its end
+  FilmForm form;
+};
 
-/// The programs are `chromium` and `ffmpeg`, or what TERN_CHROMIUM and TERN_FFMPEG name. Takes some 0.3 s a picture
-/// without a GPU.
-/// @return an Error when one of them is not installed or fails
+/// The vehicle is chased, and predicted hulls are drawn. The programs are `chromium` and `ffmpeg`, or what
+/// TERN_CHROMIUM and TERN_FFMPEG name. Takes some 0.3 s a picture without a GPU.
+/// @return an Error when one of them is not installed or fails, or no picture is in that part of the flight
 Result<bool> make_film(const Film& film);
 
 }  // namespace tern

@@ -30,10 +30,7 @@ int main(int argc, char** argv) {
       .summary = "Shows a flight in the browser, live or from a log",
       .add_options = [&options](CLI::App& app) {
         app.add_option("--log,LOG", options.log, "Play this log instead of the live bus")->type_name("FILE");
-        app.add_option("--export", options.export_to, "Write the log there as one page that plays itself")
-            ->type_name("FILE.html");
-        app.add_option("--video", options.video_to, "Write the log there as a film (Chromium, ffmpeg)")
-            ->type_name("FILE.mp4");
+        tern::add_export_options(app, options);
         app.add_option("--ghost", options.ghost, "Draw this log's flight over it")->type_name("FILE");
         app.add_option("--listen", options.listen,
                        "Where browsers are awaited; without a port, the first free one from 8765 (default 127.0.0.1)")

@@ -8,6 +8,7 @@
 #include "core/world/scenario.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
+#include "viewer/bridge/app/film.h"
 #include "viewer/bridge/app/log_player.h"
 #include "viewer/bridge/app/scene_intake.h"
 #include "viewer/bridge/app/web_server.h"
@@ -25,6 +26,7 @@ struct ViewerOptions {
   std::string log;                       ///< plays this log; empty: live
   std::string export_to;                 ///< writes the log as one page there; empty: does not
   std::string video_to;                  ///< likewise, as a film
+  FilmForm film;                         ///< of video_to
   std::string ghost;                     ///< another log, drawn over it; empty: none
   std::optional<int> looked_fd;          ///< a byte is written there when the first page looks
   std::string url_file;                  ///< the page's URL is written there; empty: nowhere

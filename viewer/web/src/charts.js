@@ -4,7 +4,7 @@ import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { label } from './labels.js';
 import { palette } from './palette.js';
-import { valueAt } from './time_rows.js';
+import { curveAt, valueAt } from './time_rows.js';
 
 const HEIGHT = 96;
 const MOST_CURVES = 6;
@@ -116,7 +116,8 @@ class Chart {
   read(t) {
     this.names.forEach((name, k) => {
       const rows = this.charts.series[name];
-      const text = rows && t !== null ? ` ${brief(valueAt(rows, t))}` : '';
+      const read = DOTS.has(name) ? valueAt : curveAt;
+      const text = rows && t !== null ? ` ${brief(read(rows, t))}` : '';
       if (this.values[k].textContent !== text) this.values[k].textContent = text;
     });
   }

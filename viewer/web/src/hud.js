@@ -5,7 +5,7 @@ const ENDED_S = 6; // so long silent: it has ended
 const READ_MS = 100;
 
 const byId = (id) => document.getElementById(id);
-const fixed = (x, digits = 1) => (Number.isFinite(x) ? x.toFixed(digits) : '–');
+const fixed = (x, digits = 1, unit = '') => (Number.isFinite(x) ? `${x.toFixed(digits)}${unit && ` ${unit}`}` : '–');
 
 /** Every change is laid out and painted anew, even into the same. */
 function say(id, text) {
@@ -44,11 +44,11 @@ export function draw(now) {
   if (!waiting || now - shownAt < READ_MS) return; // Infinity: at once
   const { state, goal } = waiting;
   say('speed', fixed(Math.hypot(...state.v)));
-  say('acceleration', fixed(Math.hypot(...state.a)));
-  say('clearance', fixed(state.clearance, 2));
-  say('mapclearance', fixed(state.map_clearance, 2));
+  say('acceleration', fixed(Math.hypot(...state.a), 1, 'm/s²'));
+  say('clearance', fixed(state.clearance, 2, 'm'));
+  say('mapclearance', fixed(state.map_clearance, 2, 'm'));
   say('position', state.p.map((x) => fixed(x)).join('  '));
-  say('togoal', goal ? fixed(Math.hypot(...state.p.map((x, k) => goal.p[k] - x))) : '–');
+  say('togoal', goal ? fixed(Math.hypot(...state.p.map((x, k) => goal.p[k] - x)), 1, 'm') : '–');
   waiting = null;
   shownAt = Number.isFinite(now) ? now : 0;
 }
@@ -56,7 +56,7 @@ export function draw(now) {
 export function showPlan(plan) {
   chip('outcome', plan.outcome, plan.outcome.split(' ')[0]);
   say('reason', (plan.reason === 'none' ? '' : plan.reason) + (plan.relaxed ? ' relaxed' : ''));
-  say('hold', fixed(plan.hold_s, 2));
+  say('hold', fixed(plan.hold_s, 2, 's'));
 }
 
 export function showTiming(timing) {

@@ -13,7 +13,7 @@ export const LAYERS = [
   { name: 'committed', on: true, says: 'the trajectory in force', colors: [palette.committed] },
   { name: 'sphere', on: true, says: 'S, in which the local goal lies', colors: [palette.sphere] },
   { name: 'hulls', on: false, says: 'where movers may be, soon and later', colors: [palette.hull, palette.hullLater] },
-  { name: 'planes', on: false, says: 'that separate plan and obstacles', colors: [palette.plane] },
+  { name: 'planes', on: false, says: 'of the certificate, where bounding boxes do not separate plan and obstacle', colors: [palette.plane] },
   { name: 'search', on: false, says: 'tree of the last search', colors: [palette.search] },
   { name: 'ghost', on: true, says: 'the other log', colors: [palette.ghost] },
 ];
@@ -34,8 +34,15 @@ export function makeSwitches(root, set) {
       swatch.style.background = color;
       return swatch;
     });
-    row.append(box, name, ...swatches);
+    row.append(box, name, document.createElement('b'), ...swatches);
     root.append(row);
     set(name, on);
   }
+}
+
+/** How many of them are drawn now, beside a layer's name. @param count  null: it is off */
+export function showCount(name, count) {
+  const place = document.querySelector(`[data-layer=${name}] b`);
+  const text = count === null ? '' : String(count);
+  if (place.textContent !== text) place.textContent = text;
 }

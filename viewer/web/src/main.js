@@ -1,12 +1,15 @@
 // Wires what comes (a bridge's stream, or a tape in the page) to the scene and the panels.
 import * as THREE from 'three';
 import './style.css';
+import './panels.css';
+import './time.css';
+import './small.css';
 import { Charts } from './charts.js';
 import { Controls } from './controls.js';
 import { Ghost } from './ghost.js';
 import * as hud from './hud.js';
 import { Inspector } from './inspector.js';
-import { makeSwitches, ON_DEMAND } from './layers.js';
+import { makeSwitches, ON_DEMAND, showCount } from './layers.js';
 import { Obstacles } from './obstacles.js';
 import { watchFreeArea } from './panels.js';
 import { Pointer } from './picking.js';
@@ -162,6 +165,7 @@ function setLayer(name, on) {
   if (name === 'obstacles') obstacles.show(on);
   if (ON_DEMAND.includes(name)) send({ layers: ON_DEMAND.filter((other) => layers[other]) });
   if (name === 'planes') proofs.takePlanes(on ? known.plan : null, obstacles.pickedId);
+  if (name === 'planes' && on) hud.toast('planes stand only where bounding boxes do not separate plan and obstacle');
   if (name === 'search' && on && !known.search) hud.toast('the planner tells with --set planner.publish_search=true');
 }
 makeSwitches(document.getElementById('layers'), setLayer);
@@ -251,6 +255,7 @@ function picture(now, seconds) {
   const paused = known.player && !known.player.playing;
   const speed = paused ? 0 : (known.player?.speed ?? 1);
   const now_us = clock.at_us + (now - clock.arrived_ms) * 1e3 * speed;
+  for (const name of ON_DEMAND) showCount(name, layers[name] ? proofs.counts[name] : null);
   vehicle.draw(now_us);
   vehicle.showBody(cameras.mode !== 'first');
   trajectories.draw(now * 1e-3);
@@ -302,9 +307,9 @@ window.tern = {
   status: () => ({
     ...counts,
     obstacles: obstacles.count,
-    hulls: proofs.hullCount,
-    planes: proofs.planeCount,
-    nodes: proofs.nodeCount,
+    hulls: proofs.counts.hulls,
+    planes: proofs.counts.planes,
+    nodes: proofs.counts.search,
     regions: regions.group.children.length,
     vehicle: vehicle.state ? vehicle.p.toArray() : null,
     ghost: ghost.ball.visible ? ghost.ball.position.toArray() : null,

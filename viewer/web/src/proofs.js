@@ -31,9 +31,9 @@ export class Proofs {
     this.hulls = new THREE.Mesh(new THREE.BufferGeometry(), translucent('#ffffff', 0.09));
     this.hulls.material.vertexColors = true;
     this.planes = new THREE.Group();
-    this.patches = new THREE.Mesh(new THREE.BufferGeometry(), translucent(palette.plane, 0.07));
+    this.patches = new THREE.Mesh(new THREE.BufferGeometry(), translucent(palette.plane, 0.18));
     this.frames = new THREE.LineSegments(
-      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: palette.plane, transparent: true, opacity: 0.3 }));
+      new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: palette.plane, transparent: true, opacity: 0.8 }));
     this.planes.add(this.patches, this.frames);
     this.nodes = new THREE.LineSegments(
       new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: palette.search, transparent: true, opacity: 0.35 }));
@@ -43,7 +43,7 @@ export class Proofs {
   }
 
   clear() {
-    this.hullCount = this.planeCount = this.nodeCount = 0;
+    this.counts = { hulls: 0, planes: 0, search: 0 }; // what is shown of each
     for (const mesh of [this.hulls, this.patches, this.frames, this.nodes]) this.fill(mesh, []);
   }
 
@@ -68,7 +68,7 @@ export class Proofs {
       color.copy(SOON).lerp(LATER, Math.min(hull.interval / 6, 1));
       while (colors.length < positions.length) colors.push(color.r, color.g, color.b);
     }
-    this.hullCount = message?.hulls?.length ?? 0;
+    this.counts.hulls = message?.hulls?.length ?? 0;
     this.fill(this.hulls, positions, colors);
   }
 
@@ -81,7 +81,7 @@ export class Proofs {
     const frames = [];
     const planes = (plan?.planes ?? []).filter((plane) => picked === undefined || plane.track === picked);
     for (const plane of planes) this.patch(plane, new THREE.Vector3(...point(plane.at)), patches, frames);
-    this.planeCount = planes.length;
+    this.counts.planes = planes.length;
     this.fill(this.patches, patches);
     this.fill(this.frames, frames);
   }
@@ -102,7 +102,7 @@ export class Proofs {
   /** @param message  {nodes, edges}: how many, and six numbers per edge of the search's tree; null: none */
   takeSearch(message) {
     this.fill(this.nodes, numbers(message?.edges ?? [], 6));
-    this.nodeCount = message?.nodes ?? 0;
+    this.counts.search = message?.nodes ?? 0;
   }
 
   show(layer, on) {

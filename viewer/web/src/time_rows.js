@@ -18,6 +18,13 @@ export function valueAt([t, values], at) {
   return n > 0 ? values[n - 1] : null;
 }
 
+/** The value of a curve at that time, between two of its points; null before its first one. */
+export function curveAt([t, values], at) {
+  const n = countUpTo(t, at);
+  if (n === 0 || n === t.length || !Number.isFinite(values[n])) return n > 0 ? values[n - 1] : null;
+  return values[n - 1] + ((at - t[n - 1]) / (t[n] - t[n - 1])) * (values[n] - values[n - 1]);
+}
+
 /** Where a flown path is at that time, [x, y, z, speed], between two of its points; null before and after it. */
 export function placeAt({ t, curve }, at) {
   const n = countUpTo(t, at);

@@ -3,6 +3,7 @@ import { eventNear, QUIET } from './time_rows.js';
 import { palette } from './palette.js';
 
 const BAND_PX = 6;
+const INSET_PX = 8; // half a mark, and half the slider's thumb: a click and the band mean the same moment
 
 /** By kind of event: its mark and colour. */
 export const MARKS = {
@@ -40,7 +41,7 @@ export class Timeline {
   }
 
   place(t) {
-    return (t / this.end) * this.canvas.clientWidth;
+    return INSET_PX + (t / this.end) * (this.canvas.clientWidth - 2 * INSET_PX);
   }
 
   takeChart({ outcomes, end_s: end }) {
@@ -101,7 +102,7 @@ export class Timeline {
   drawBand(width, top) {
     const { context, outcomes: [t, kinds] } = this;
     context.fillStyle = palette.rule;
-    context.fillRect(0, top, width, BAND_PX);
+    context.fillRect(INSET_PX, top, width - 2 * INSET_PX, BAND_PX);
     for (let k = 0; k < t.length; ++k) {
       let last = k;
       while (last + 1 < t.length && kinds[last + 1] === kinds[k]) ++last;
