@@ -57,8 +57,8 @@ inline constexpr double kCoarseVelocityShare = 0.4;
 
 // ---- What a trajectory is worth (heading.h, refinement.h, standing_answer.h, planner.cpp)
 
-/// For how long a trajectory is taken to be flown before a better one follows, s; where a step takes minutes, this
-/// share of it: nothing better follows within a second.
+/// For how long a trajectory is taken to be flown before a better one follows, s. Where a step takes minutes, it is
+/// this share of the step: nothing better follows within a second.
 struct While {
   double least_s;
   double share;

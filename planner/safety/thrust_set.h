@@ -31,9 +31,9 @@ inline constexpr double kOctagon = 0.41421356237309503;
 /// ‖(x, y)‖₈ ≥ ‖(x, y)‖₂.
 double octagon_norm(double x, double y);
 
-/// Limits per axis from which the dynamics follow: all corners of the box of accelerations lie in the ThrustSet, and
-/// every jerk of the box turns no f above the floor faster than body_rate_max: √3 j ≤ rate · floor. Without dynamics
-/// the same limits. What is planned by these can always be flown; what is flown may do more.
+/// Limits per axis from which the dynamics follow. All corners of the box of accelerations lie in the ThrustSet. No
+/// jerk of the box turns an f above the floor faster than body_rate_max: √3 j ≤ rate · floor. Without dynamics the same
+/// limits. What is planned by these can always be flown; what is flown may do more.
 Limits boxed(const Limits& limits);
 
 }  // namespace tern

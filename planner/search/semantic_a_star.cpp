@@ -208,8 +208,8 @@ class Search {
     }
   }
 
-  /// Where the start drives v_1 beyond the limit, the velocity's peak inside interval 0 hangs on v_2: with Bézier
-  /// velocities v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it stays within v_max exactly if b_2 ≥ b_1²/b_0.
+  /// Where the start drives v_1 beyond the limit, the velocity's peak inside interval 0 depends on v_2. With Bézier
+  /// velocities c_k = v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it stays within v_max exactly if b_2 ≥ b_1²/b_0.
   void bound_first_peak(int axis, AxisReach::Interval& v2) const {
     const double limit = problem_.limits.v_max[axis];
     for (const double sign : {1.0, -1.0}) {
