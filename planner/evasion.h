@@ -8,7 +8,7 @@
 namespace tern {
 
 /// Tries up to 40 stops around the vehicle, in 26 directions, at leisure or in a hurry. They lie from a fraction of the
-/// width of vehicle and largest mover to 0.8 r away; to gain room, in 14 directions, at 0.35 r and 0.8 r. A cheap
+/// width of vehicle and largest mover to 0.8 r away. Room is sought in 14 directions, at 0.35 r and 0.8 r. A cheap
 /// forecast by the obstacles' boxes sorts them: longest clear first, of equals the nearest. The first try usually
 /// succeeds. Each stop's hold is followed as far as predictions reach. Ends early when the budget is spent. The outcome
 /// is Evade.

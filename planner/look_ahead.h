@@ -35,8 +35,8 @@ struct LocalAim {
   double least_s = 0.0;      ///< planned_duration() to it
 };
 
-/// The largest planned_duration() to the local goal, s, for which it and the hold after it fit into the horizon and Δt
-/// is at most kLongestInterval.
+/// The largest planned_duration() to the local goal, s: it and the hold after it fit into the horizon, and Δt is at
+/// most kLongestInterval.
 double longest_first_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config);
 
 /// The local goal at the first of `largest_radius` and radii that shrink by a sixth with planned_duration() ≤

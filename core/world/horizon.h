@@ -113,9 +113,9 @@ struct Plan {
   PlanReason reason = PlanReason::None;
   TimedSpline trajectory;  ///< starts at t_s unless KeepCommitted (then the committed one); meaningless for NoPlan
   Duration hold;           ///< how long after its end the end point stays clear of every predicted mover, ≤ the cap
-  /// What the trajectory is certified at: the boxes of estimated tracks with their α at `level`, times `alpha_scale`;
-  /// of what is declared or static all of it, always. Confidence: that each one of those tracks stays within its box;
-  /// 1 where nothing is estimated; 0 below the last level (there is no number for a scaled α), and for NoPlan.
+  /// What the trajectory is certified at: the boxes of estimated tracks with their α at `level`, times `alpha_scale`.
+  /// What is declared or static counts with all of its α. `confidence` is that of each such track to stay within its
+  /// box; 1 where nothing is estimated. It is 0 below the last level (a scaled α has no number) and for NoPlan.
   double confidence = 0.0;
   int level = 0;                   ///< into kConfidenceLevels; 0: what the predictions promise
   double alpha_scale = 1.0;        ///< [0, 1]; below 1 only at the last level
