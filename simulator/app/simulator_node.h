@@ -30,9 +30,9 @@ inline constexpr int kExitNotReady = 3;  ///< a process that the flight needs wa
 ///     says that the vehicle follows, upon which the executor asks for horizons, and the referee watches.
 ///   Ended: VEHICLE_STATUS says so, FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit
 ///     code is 0 whatever the verdict.
-/// The referee judges the vehicle's true motion. UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so.
-/// The goal is the scenario's (id 1, unless config.send_goal is false) until a GOAL with a larger id comes; the newest
-/// is repeated at 1 Hz.
+/// The referee judges the vehicle's true motion. UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so. The
+/// goal is the scenario's (id 1, unless config.send_goal is false) until a GOAL with a larger id comes. The newest is
+/// repeated at 1 Hz.
 class SimulatorNode final : public Node {
  public:
   /// Time begins at bus.clock().now().

@@ -38,9 +38,9 @@ class WorldObstacle {
   /// Largest |coordinate|, |half-extent|, |scale| of a world, m; times reach this many seconds.
   static constexpr double kMaxCoordinate = 1e5;
 
-  /// @return an Error that names field, value and limit when a number is not finite or out of range, waypoint times do
-  /// not ascend by ≥ 1 µs, a repeating motion does not end where it began or lasts no time, or the obstacle never
-  /// exists.
+  /// @return an Error that names field, value and limit. It is given when a number is not finite or out of range,
+  /// waypoint times do not ascend by ≥ 1 µs, or the obstacle never exists. Also when a repeating motion does not end
+  /// where it began or lasts no time.
   static Result<WorldObstacle> make(std::int64_t id, ObstacleSpec spec);
 
   [[nodiscard]] std::int64_t id() const { return id_; }  ///< ≥ 0: its place in World::obstacles
