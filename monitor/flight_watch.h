@@ -60,7 +60,7 @@ struct Ending {
 ///   the simulator started anew after the first request, and the one that the flight began with is silent: its world is
 ///   lost,
 ///   the referee says nothing kVerdictSlack after the scenario's timeout.
-/// Verdict and loss of the world are those of the simulator that the flight began with, whoever else says so; a verdict
+/// Verdict and loss of the world are those of the simulator that the flight began with, whoever else says so. A verdict
 /// that its own next heartbeat contradicts (it flies on) is dropped.
 class FlightWatch {
  public:

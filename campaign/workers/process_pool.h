@@ -19,8 +19,8 @@ struct FinishedProcess {
   int signal = 0;                ///< … this one
 };
 
-/// Children lead process groups of their own, so that a terminal's Ctrl-C reaches the parent alone, and are killed by
-/// the kernel when the parent dies, however that comes. Not thread-safe; the parent stays single-threaded.
+/// Children lead process groups of their own, so that a terminal's Ctrl-C reaches the parent alone. The kernel kills
+/// them when the parent dies, however that comes. Not thread-safe; the parent stays single-threaded.
 class ProcessPool {
  public:
   ProcessPool() = default;
