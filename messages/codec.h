@@ -19,10 +19,10 @@ using Bytes = std::vector<std::uint8_t>;
 template <class T>
 Bytes encode(const T& value);
 
-/// The value of exactly these bytes, or why they are refused. Checks, in this order: fingerprint; counts at fixed
-/// offsets within limits; length as the counts ask; numbers finite and in range; enumerations known; times in order;
-/// fields consistent. A trailer may follow (trailer.h); its tag is not checked here. Never throws, allocates no more
-/// than the message's own size asks for.
+/// The value of exactly these bytes, or why they are refused. Checks fingerprint, then counts (at fixed offsets, within
+/// limits), then the length that the counts ask for. Then: numbers finite and in range; enumerations known; times in
+/// order; fields consistent. A trailer may follow (trailer.h); its tag is not checked here. Never throws, allocates no
+/// more than the message's own size asks for.
 template <class T>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes);
 

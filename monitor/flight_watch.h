@@ -54,12 +54,12 @@ struct Ending {
 
 /// Pure: messages and times come in, values go out.
 ///
-/// The flight ends kLastWords after FLIGHT_RESULT, with its outcome; before that it has failed when
-///   fail() was called (the launcher knows of a process that cannot run),
-///   the simulator was not heard for kSimulatorSilence, from the watch's beginning on,
-///   the simulator started anew after the first request, and the one that the flight began with is silent: its world is
-///   lost,
-///   the referee says nothing kVerdictSlack after the scenario's timeout.
+/// The flight ends kLastWords after FLIGHT_RESULT, with its outcome. Before that it has failed in four cases:
+///  - fail() was called (the launcher knows of a process that cannot run).
+///  - The simulator was not heard for kSimulatorSilence, from the watch's beginning on.
+///  - The simulator started anew after the first request, and the one that the flight began with is silent: its world
+///    is lost.
+///  - The referee says nothing kVerdictSlack after the scenario's timeout.
 /// Verdict and loss of the world are those of the simulator that the flight began with, whoever else says so. A verdict
 /// that its own next heartbeat contradicts (it flies on) is dropped.
 class FlightWatch {

@@ -127,7 +127,7 @@ std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf
   return second ? second : first;
 }
 
-/// By how much the way to go is shorter at the end, m.
+/// By how much the cost-to-go is smaller at the end, m.
 double progress_of(const Attempt& attempt, const Candidate& candidate) {
   const WayToGo& way = attempt.heading.way;
   return way.from(attempt.problem.start.p) - way.from(candidate.trajectory.control_points.rightCols<1>());

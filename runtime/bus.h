@@ -54,7 +54,7 @@ class Bus {
   /// @param lcm  shared by all nodes of a process (memq:// delivers only within one instance)
   /// @param epoch_us  when the process started, > 0: the first half of every name it gives; no two buses may share it
   /// @param suffix  appended to every channel name ("" by default)
-  /// @param keys  what this end may say and hear; nothing: nobody's messages are signed or checked
+  /// @param keys  what this end may say and hear; nullopt: nobody's messages are signed or checked
   /// @throws std::invalid_argument if the suffix is not is_channel_name.
   Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix = "",
       std::optional<KeyRing> keys = {});

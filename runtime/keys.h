@@ -42,8 +42,8 @@ class KeyRing {
 };
 
 /// A file with a master key, or a ring for `process`.
-/// @return an Error that names the path and what is wrong: unreadable, no regular file, readable by others than its
-/// owner (mode & 077), no key in it.
+/// @return an Error that names the path and what is wrong: unreadable, no regular file, readable by others (mode &
+/// 077), no key in it.
 Result<KeyRing> read_key_file(const std::string& path, std::string_view process);
 
 /// The same of an open file without a name (memfd, an unlinked file), from its beginning, wherever its offset is;

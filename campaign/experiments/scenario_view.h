@@ -22,9 +22,9 @@ struct ScenarioView {
   Scenario scenario;
   World world;
   std::vector<Box> occupied;           ///< of the map, W
-  std::string map;                     ///< its extents in words
-  std::optional<PlannedWay> shortest;  ///< nothing: the goal cannot be reached
-  std::optional<PlannedWay> weighed;   ///< by the regions' λ; nothing: not reached, or nothing weighs
+  std::string map;                     ///< its extents as text
+  std::optional<PlannedWay> shortest;  ///< nullopt: the goal cannot be reached
+  std::optional<PlannedWay> weighed;   ///< by the regions' λ; nullopt: not reached, or nothing weighs
 };
 
 /// Reads the scenario as a flight would, every process's section too, and makes world, map and ways. The ways are the

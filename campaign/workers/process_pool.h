@@ -15,7 +15,7 @@ namespace tern {
 struct FinishedProcess {
   std::uint64_t key = 0;
   std::string output;            ///< all that it wrote to standard output
-  std::optional<int> exit_code;  ///< nothing: a signal ended it …
+  std::optional<int> exit_code;  ///< nullopt: a signal ended it …
   int signal = 0;                ///< … this one
 };
 

@@ -20,8 +20,8 @@ struct Separation {
   double gap = 0.0;  ///< width of the slab between A and B that the plane's normal proves, m; at most the distance
 };
 
-/// The plane of widest margin between conv(a) and conv(b), if they are more than `clearance` + kTouchingTolerance
-/// apart.
+/// The plane of widest margin between conv(a) and conv(b), if they are separated by more than `clearance` +
+/// kTouchingTolerance.
 ///
 /// @param a  obstacle's points, 3×n, n ≥ 1; @param b  vehicle's points, 3×m, m ≥ 1.
 /// @param clearance  m, ≥ 0: the radius of a spherical vehicle (0: a point or the shape is already in the hull).

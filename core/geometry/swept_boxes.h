@@ -17,13 +17,13 @@ struct CentredBox {
 
 /// What is_apart() can say.
 enum class Apart {
-  Yes,   ///< more than clearance + kTouchingTolerance apart, proven along a direction
+  Yes,   ///< separated by more than clearance + kTouchingTolerance, proven along a direction
   No,    ///< nearer than that
   Doubt  ///< rounding ended the descent before either was proven: ask separate()
 };
 
-/// Are the convex hull A of all boxes and B = conv(points) ⊕ conv(vertices) more than clearance + kTouchingTolerance
-/// apart?
+/// Are the convex hull A of all boxes and B = conv(points) ⊕ conv(vertices) separated by more than clearance +
+/// kTouchingTolerance?
 ///
 /// The same question as separate(hull_vertices(corners of the boxes), points ⊕ vertices, clearance) answers, and the
 /// same answer but for rounding within kTouchingTolerance of touching. It needs no hull, because the support point of a
@@ -42,7 +42,7 @@ Apart is_apart(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>
 
 /// The plane of widest margin without the hull, but for rounding the one of separate() of the hull's vertices. It has
 /// n·x + d ≥ 0 on all boxes ⊕ (−vertices), ≤ −max(clearance, kPlaneMargin) on all points, verified on every one.
-/// @return nullopt if they are not more than clearance + kTouchingTolerance apart, or in doubt. Arguments of
+/// @return nullopt if they are not separated by more than clearance + kTouchingTolerance, or in doubt. Arguments of
 /// is_apart(). About 0.2 µs.
 std::optional<Separation> separate_sweep(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,
                                          const Points& vertices, double clearance);

@@ -145,7 +145,7 @@ struct PlanTiming {
   std::int64_t pairs_by_index = 0;    ///< out of the vehicle's reach
   std::int64_t pairs_by_box = 0;      ///< bounding boxes are disjoint
   std::int64_t pairs_by_instant = 0;  ///< they touch at one of five instants
-  std::int64_t pairs_by_cache = 0;    ///< apart along the direction that separated that obstacle last
+  std::int64_t pairs_by_cache = 0;    ///< separated along the direction that separated that obstacle last
   std::int64_t pairs_by_plane = 0;    ///< fast separation
   std::int64_t pairs_by_lp = 0;       ///< handed to GLPK
   std::int64_t solver_calls = 0;      ///< of the optimizer: how often a problem was solved

@@ -30,7 +30,7 @@ class WorldIntake {
   WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background);
 
   [[nodiscard]] PlanningWorld snapshot() const;
-  /// What is still missing, in words; empty when a plan can be made.
+  /// What is still missing, as text; empty when a plan can be made.
   [[nodiscard]] std::string missing() const;
   /// Starts the preparation that the newest messages ask for, if none runs.
   void prepare();
@@ -38,7 +38,7 @@ class WorldIntake {
   /// means another vehicle and another flight: goals sent before it began and static tracks of the former one are
   /// forgotten.
   void set_vehicle(const HorizonRequest& request);
-  /// What a preparation threw, in words: none is made any more.
+  /// The text of what a preparation threw; none is made any more.
   [[nodiscard]] std::optional<std::string> failure() const { return worker_ ? worker_->failure() : std::nullopt; }
 
  private:

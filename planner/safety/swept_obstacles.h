@@ -79,7 +79,7 @@ class SweptObstacles {
   /// Both are valid until the next call.
   struct Sweep {
     std::span<const CentredBox> boxes;
-    Vec3& last_direction;  ///< memory of who asks whether something is apart: what separated it last; zero: none yet
+    Vec3& last_direction;  ///< memory of the narrow phase: what separated it last; zero: none yet
   };
   Sweep sweep(const Candidate& candidate, const TimePart& part);
   /// The extreme points of C_ij over that part. Valid until the next assign().

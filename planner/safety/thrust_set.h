@@ -10,9 +10,10 @@ namespace tern {
 ///
 ///     f_z ≥ floor ≥ thrust_min          a half-space, sufficient for |f| ≥ thrust_min (which is not convex)
 ///     |f| ≤ thrust_max                  a ball
-///     ‖f_xy‖₈ ≤ tan(tilt_max) f_z       ‖(x, y)‖₈ = max + (√2 − 1) min of |x|, |y|: a regular octagon with corners on
-///     the
-///                                       axes, inside the cone; it loses 7.6 % (1 − cos 22.5°) midway between corners
+///     ‖f_xy‖₈ ≤ tan(tilt_max) f_z       ‖(x, y)‖₈ = max + (√2 − 1) min of |x|, |y|
+///
+/// The last is a regular octagon with corners on the axes, inside the cone. It loses 7.6 % (1 − cos 22.5°) midway
+/// between corners.
 ///
 /// Between knots the acceleration is a weighted mean of theirs, so the whole plan keeps to the set. The floor is
 /// thrust_min or g/2, whichever is more: body rates are |j_⊥|/|f|, and who falls freely cannot turn.

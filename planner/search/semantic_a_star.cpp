@@ -30,7 +30,7 @@ struct Leaf {
   }
 };
 
-/// Bands of the way to go: `width` wide, and ten times finer within the last one, so that the goal itself is reached.
+/// Bands of the cost-to-go: `width` wide, and ten times finer within the last one, so that the goal itself is reached.
 std::int64_t band_of(double way_to_go, double width) {
   constexpr std::int64_t kFiner = 10;
   constexpr double kMostBands = 1e15;
@@ -38,7 +38,7 @@ std::int64_t band_of(double way_to_go, double width) {
   return bands < 1.0 ? static_cast<std::int64_t>(bands * kFiner) : kFiner - 1 + static_cast<std::int64_t>(bands);
 }
 
-/// No point of S has less way to go.
+/// No point of S has a smaller cost-to-go.
 double way_from_sphere(const SearchProblem& problem) {
   return std::max(0.0, (problem.way.point - problem.start.p).norm() - problem.sphere_radius) + problem.way.rest;
 }

@@ -17,8 +17,9 @@ namespace tern {
 ///
 ///     mean ‖p − v‖ = D + (tr Σ − uᵀΣu)/(2D) + e,   |e| ≤ (1/6)(2/√3) ρ tr Σ / (D − ρ)².
 ///
-/// (Taylor: the linear term vanishes at the centroid; the third derivative of ‖x‖ is at most 2/(√3 ‖x‖²).) A cluster is
-/// opened unless its bound is at most `error`; leaves are summed exactly. So the whole mean errs by at most `error`.
+/// This is Taylor: the linear term vanishes at the centroid, and the third derivative of ‖x‖ is at most 2/(√3 ‖x‖²). A
+/// cluster is opened unless its bound is at most `error`; leaves are summed exactly. So the whole mean errs by at most
+/// `error`.
 class VoxelTree {
  public:
   VoxelTree() = default;

@@ -14,8 +14,8 @@ namespace tern {
 /// withheld are left out.
 ///
 /// Hostile files are expected: everything is checked against the file's size and kMaxCloudPoints before memory is
-/// taken. Errors name `file`, offset, value and limit. It fails for another signature or version, LAZ compression, an
-/// unknown format, records shorter than their format, points beyond the file's end, and coordinates beyond
+/// taken. Errors name `file`, offset, value and limit. It fails for another signature or version, LAZ compression,
+/// unknown formats, records shorter than their format, points beyond the file's end. Likewise for coordinates beyond
 /// kMaxCoordinate in W. O(points).
 Result<PointCloud> parse_las(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame);
 

@@ -15,9 +15,9 @@ namespace tern {
 /// after the vertices are not looked at.
 ///
 /// Errors name `file`, offset, value and limit. It fails for no PLY, a header beyond kMaxPlyHeader bytes, elements
-/// before the vertices, list properties in a vertex, an unknown type, or a property given twice. It also fails for more
-/// vertices than kMaxCloudPoints or than the file has, text that is no number, a class that is no integer in [0, 255],
-/// or coordinates beyond kMaxCoordinate in W. O(bytes).
+/// before the vertices, list properties in a vertex, unknown types, properties given twice. It also fails for more
+/// vertices than kMaxCloudPoints or than the file has, and coordinates beyond kMaxCoordinate in W. Text must be a
+/// number, and a class an integer in [0, 255]. O(bytes).
 Result<PointCloud> parse_ply(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame);
 
 inline constexpr std::size_t kMaxPlyHeader = 65'536;

@@ -39,7 +39,7 @@ class WorldBroadcast {
   [[nodiscard]] UTime next_wakeup() const;
   /// Publishes what is due; the sensor is where the vehicle truly was when a frame was taken.
   void step(UTime now, const MotionHistory& uav);
-  /// Motions that the newest declaration had to leave out, in words; empty: none.
+  /// Motions that the newest declaration had to leave out, as text; empty: none.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:

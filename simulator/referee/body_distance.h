@@ -13,8 +13,8 @@ namespace tern {
 ///
 /// As a function of the body's position it is convex and 1-Lipschitz: it is the signed distance to the Minkowski sum of
 /// box and −body. The bounds of clearance.h rest on both. Spheres and boxes are closed forms (some ns). Other polytopes
-/// ask core/geometry's distance. In overlap they try every normal that a face of the Minkowski sum can have: of the
-/// box, of the body, and of an edge of each. These are O(m³) for m vertices, made once.
+/// ask core/geometry's distance. In overlap they try every possible face normal of the Minkowski sum: of the box, of
+/// the body, and of an edge of each. These are O(m³) for m vertices, made once.
 class BodyDistance {
  public:
   /// @throws std::invalid_argument for no vertex, a negative radius or numbers that are not finite.

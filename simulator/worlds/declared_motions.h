@@ -16,8 +16,8 @@ inline constexpr double kFitRounding = 1e-9;
 /// The grid of their joints: pieces are a multiple of it.
 inline constexpr Duration kGridUnit{10'000};
 
-/// Length of the Hermite pieces for a motion with these bounds: the longest multiple of 10 ms with h⁴/384 · max|p⁗| ≤
-/// kFitError, from 10 ms to 2 s. It is 0.43 s for the paper's trefoils, about 1.3 s for SANDO's.
+/// Length of the Hermite pieces for a motion with these bounds. It is the longest multiple of 10 ms with h⁴/384 ·
+/// max|p⁗| ≤ kFitError, from 10 ms to 2 s. It is 0.43 s for the paper's trefoils, about 1.3 s for SANDO's.
 Duration fit_piece(const ObstacleBounds& bounds);
 
 /// What is promised of the world over [from, to], by id ascending; nothing of those who are absent all that time.

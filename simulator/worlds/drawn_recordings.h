@@ -10,8 +10,8 @@
 
 namespace tern {
 
-/// Someone is met who comes this near, m, on the floor, to a vehicle that flies straight to the goal at even speed and
-/// arrives after the bound.
+/// Someone is met who comes this near on the floor, m, to a vehicle that flies straight from start to goal. It flies at
+/// even speed and arrives after the bound.
 inline constexpr double kMeeting = 1.0;
 
 /// A whole frame of the recording at which a flight begins, drawn anew until somebody is met. Who leaves no room for a

@@ -31,7 +31,7 @@ struct RecordedTrack {
 /// mixed. A row less than spec.least_step_s after the last one of its id that was kept is passed over.
 /// @param name how errors call the file.
 /// @return an Error "name:line: …" with value and limit for a wrong number of columns, no finite number, an id that is
-///   not whole, or frames out of order. Also for coordinates beyond WorldObstacle::kMaxCoordinate, too many rows, and
+///   not whole, frames out of order. Also for coordinates beyond WorldObstacle::kMaxCoordinate, too many rows, and
 ///   impossible column indices, unit or rate of the spec.
 Result<std::vector<RecordedTrack>> parse_recorded_tracks(std::string_view text, const std::string& name,
                                                          const RecordedTracksSpec& spec);
@@ -46,10 +46,10 @@ Result<std::string> find_track_file(const std::string& file, const std::string& 
 /// libraries.
 Result<std::vector<RecordedTrack>> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec);
 
-/// The time of the file at which world time is 0, where it is not drawn: spec.start_s itself, or with
-/// spec.wait_for_clear_start that of the first clear whole frame number from there on. (Recorded or not: a frame may
-/// show no one.) Clear means that for kStartQuiet no one's recorded position comes within kStartClearance of `start`,
-/// measured on the floor, sampled at most 10 ms apart.
+/// The time of the file at which world time is 0, where it is not drawn: spec.start_s itself. With
+/// spec.wait_for_clear_start it is that of the first clear whole frame number from there on, recorded or not: a frame
+/// may show no one. Clear means that for kStartQuiet no one's recorded position comes within kStartClearance of
+/// `start`, measured on the floor. It is sampled at most 10 ms apart.
 /// @return an Error when no frame up to the last recorded one is clear.
 Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
                               const Vec3& start);

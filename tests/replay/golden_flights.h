@@ -16,8 +16,8 @@ struct GoldenFlight {
 };
 
 /// corridor: movers and pillars; crowd: people whose motion is estimated; semantic: a region that draws and one that
-/// repels; evade: an intruder at a vehicle that rests. In stale_world the predictor dies and comes back, and so does
-/// the planner.
+/// repels. In evade an intruder comes at a vehicle that rests. In stale_world the predictor dies and comes back, and so
+/// does the planner.
 std::vector<GoldenFlight> golden_flights();
 
 }  // namespace tern::testing

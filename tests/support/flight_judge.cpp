@@ -17,7 +17,7 @@ namespace {
 constexpr int kCells = 48;
 
 /// Whether the centre gets from start to goal when every standing box is grown by the body's half-extents and by
-/// `slack`, by breadth-first search over cubes. Coarse, slow, and knows nothing of the planner's.
+/// `slack`. A breadth-first search over cubes: coarse, slow, and knows nothing of the planner's.
 bool way_exists(const Scenario& scenario, const std::vector<Box>& boxes, double slack_cells) {
   const UavSpec& uav = scenario.uav;
   Box all(uav.start.cwiseMin(uav.goal), uav.start.cwiseMax(uav.goal));

@@ -81,7 +81,7 @@ Knobs random_knobs(Rng& rng) {
 /// What surrounds the flight.
 enum class Around { Nothing, Statics, FarMovers, Movers };
 
-/// How fast the vehicle surely gets on by hops from rest to rest, each within the sphere and what is foreseen, no
+/// How fast the vehicle surely gets on by hops from rest to rest. Each is within the sphere and what is foreseen, no
 /// oftener than it may ask.
 double hopping_speed(const Limits& limits, const Knobs& knobs, const Vec3& direction, Around around) {
   const double foreseen_s = around == Around::Movers ? 1.2 : 60.0;

@@ -17,7 +17,7 @@ namespace tern::support {
 std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world,
                                             const Assurance& assurance = {});
 
-/// What is wrong with the answer, in words; empty: nothing. A new trajectory must begin at t_s, pass check_plan()
+/// What is wrong with the answer; empty: nothing. A new trajectory must begin at t_s, pass check_plan()
 /// against all obstacles and touch nothing at any sampled instant until its hold ends. A kept one must be the committed
 /// one and touch nothing either.
 std::string fault_of(const Plan& plan, const HorizonRequest& request, const PlanningWorld& world,

@@ -11,8 +11,8 @@
 
 namespace tern::support {
 
-/// The smooth mover: a Lissajous curve through `where`, up to 6 m/s, as Hermite pieces from `from` on. α differs from
-/// piece to piece; half-extents are 0.1 … 0.6 m.
+/// The smooth mover: a Lissajous curve through `where`, up to 6 m/s, as Hermite pieces from `from` on. Its α differs
+/// from piece to piece; half-extents are 0.1 … 0.6 m.
 Track random_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, double seconds);
 /// The nasty mover: arbitrary cubics that jump at their joints.
 Track jumping_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, double seconds);

@@ -73,7 +73,7 @@ class WorldRebuilder {
   std::vector<Field> fields_;                              ///< the newest last
   std::shared_ptr<const PredictionProducts> predictions_;
   std::map<std::pair<std::int64_t, std::int64_t>, StaticTracks> memories_;  ///< by epoch and first set
-  /// Those that plans name, by digest; nothing: not met yet.
+  /// Those that plans name, by digest; nullopt: not met yet.
   std::map<std::uint64_t, std::optional<std::vector<Box>>> statics_;
 };
 

@@ -27,8 +27,8 @@ struct VoxelSurface {
 /// has the gravest label within it (repulsive, occupied, attractive). O(voxels).
 VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels = 4'000'000);
 
-/// From p to the nearest occupied voxel as drawn, m (of a coarsened map no farther than it is). 0 within one, infinity
-/// where there is none. O(faces).
+/// From p to the nearest occupied voxel as drawn, m (of a coarsened map no farther than it is). It is 0 within one,
+/// infinity where there is none. O(faces).
 double distance_to_occupied(const VoxelSurface& surface, const Vec3& p);
 
 }  // namespace tern
