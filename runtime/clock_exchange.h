@@ -68,9 +68,9 @@ class ClockSkew {
   static constexpr std::size_t kWindow = 6;  ///< three seconds of heartbeats
 
   /// What came before it was sent (a clock was set, or the sender lies) is left out.
-  /// @param echo of a heartbeat of the listener
-  /// @param sent T3
-  /// @param received T4
+  /// @param echo  of a heartbeat of the listener
+  /// @param sent  T3
+  /// @param received  T4
   void add(const ClockEcho& echo, UTime sent, UTime received) {
     const Duration out = echo.received - echo.sent;
     const Duration back = received - sent;

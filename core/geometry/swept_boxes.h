@@ -34,7 +34,7 @@ enum class Apart {
 /// @param points     3×m, m ≥ 1, column-major, finite
 /// @param vertices   of the vehicle, added to the points; empty: none
 /// @param clearance  m, ≥ 0
-/// @param direction in: where to begin, from B to A, any length but 0. One that separated a similar pair before often
+/// @param direction  in: where to begin, from B to A, any length but 0. One that separated a similar pair before often
 ///   proves the answer at once; it is always verified on all boxes and points. Out, after Yes: one that proves it.
 /// About 20 ns when the direction does, 0.1 µs otherwise; no heap.
 Apart is_apart(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points, const Points& vertices,

@@ -37,7 +37,7 @@ struct Separated {
 /// A pair whose boxes are disjoint needs no plane. Otherwise a plane must separate the MINVO points of the whole
 /// interval, of both its halves, or of the quarters of a half that fails. Planes are made from (hull, points), so that
 /// anyone can make them again.
-/// @param planes gets every plane that was needed
+/// @param planes  gets every plane that was needed
 Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
                             std::vector<CertificatePlane>& planes);
 
