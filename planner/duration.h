@@ -22,7 +22,7 @@ Limits paced(const Limits& limits, double metres);
 
 /// What a plan's duration is counted from, s: least_duration() by the paced limits. On an axis with a jerk limit it is
 /// at most the time to stop and then to fly on from rest time-optimally. For gentle jerk least_duration() is far too
-/// long. It is the better measure of progress, because it falls as soon as the vehicle moves.
+/// long. Yet it is the better measure of progress, because it falls as soon as the vehicle moves.
 double planned_duration(const MotionSample& start, const Vec3& to, const Limits& limits);
 
 }  // namespace tern

@@ -19,7 +19,8 @@
 
 namespace tern {
 
-/// A worker is not taken for stuck before this: a busy machine may keep it waiting, and a restart loses the map.
+/// A worker is not taken for stuck before this, however near the deadline its request came. A busy machine may keep it
+/// waiting, and a restart loses the map.
 inline constexpr Duration kStuckAfter{500'000};
 
 /// How a node spends time.
