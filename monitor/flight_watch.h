@@ -42,7 +42,7 @@ struct LiveView {
   double nearest_m = 0.0;  ///< distance of the body's box to the nearest obstacle; NaN: none known
   double replan_p50_ms = 0.0, replan_p99_ms = 0.0;  ///< of all answers so far; NaN: none
   std::int64_t requests = 0, answered_in_time = 0;
-  PlanReason reason = PlanReason::None;  ///< the newest plan's excuse
+  PlanReason reason = PlanReason::None;  ///< the newest plan's
   std::int32_t left_out = 0;             ///< tracks that the newest plan knew nothing of
 };
 

@@ -22,7 +22,7 @@ struct Heading {
 Heading heading_nowhere(const Surroundings& near);
 
 /// Along a path around static obstacles, with the local goal at the largest radius that aim_along() allows. The way
-/// leads to the farthest corner of the path to which the straight line is hardly longer, or dearer. So small bends
+/// leads to the farthest corner of the path to which the straight line is hardly longer, or costlier. So small bends
 /// around posts are left to the search. The way into a window, out of a trap or around a region leads over its corners.
 /// @pre path is not empty
 Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, double largest_radius,

@@ -1,4 +1,4 @@
-// A start inside an obstacle inflated by its α is normal with noisy predictions: α gives way, as little as it must.
+// A start inside an obstacle inflated by its α is normal with noisy predictions: α is scaled, as little as it must be.
 #pragma once
 
 #include <vector>

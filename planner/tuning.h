@@ -8,7 +8,7 @@ namespace tern {
 
 // ---- Durations (duration.h, attempt.h)
 
-/// Below this Δt rounding of accelerations q/Δt² would eat the tolerances, s.
+/// Below this Δt rounding of accelerations q/Δt² would exceed the tolerances, s.
 inline constexpr double kLeastInterval = 0.02;
 /// A spline of J intervals from rest to rest takes this much longer than the per-axis bound of least_duration().
 inline constexpr double kStopScale = 1.5;

@@ -24,7 +24,7 @@ namespace tern {
 ///   α': per axis and exactly, max over the original pieces k of a run of α_k + max over k's time of |q − p_k|. It
 ///     comes from the extrema of the cubic q − p_k, plus kResamplingUlps of the largest term.
 /// At each level of confidence the same holds, α and α' at that level (Track::shares).
-/// A fit whose coefficients a message could not hold (message_limits.h) gives way to the constant of least squares.
+/// A fit whose coefficients a message could not hold (message_limits.h) is replaced by the constant of least squares.
 ///
 /// Pure; O(n log n) for n pieces. @throws std::invalid_argument unless most ≥ 1 and the track has a piece.
 Track resampled(const Track& track, std::size_t most);

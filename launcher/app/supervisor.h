@@ -33,7 +33,7 @@ class Supervisor {
   /// Keeps all running until one is gone for good or a signal comes. Restarts are said on the process's standard error.
   SupervisorEvent wait();
   /// Ends all within 2 s: SIGTERM to all but `last`, SIGKILL to those that are left after 1 s, then the same to `last`,
-  /// which hears the others out. Signals that come meanwhile stay pending.
+  /// which records their last messages. Signals that come meanwhile stay pending.
   void stop(const std::string& last);
 
  private:

@@ -82,7 +82,7 @@ class Search {
 
  private:
   static bool later(const Entry& a, const Entry& b) { return b.before(a); }
-  /// Of equals the deepest is expanded first, so that the search dives instead of widening.
+  /// Of equals the deepest is expanded first, so that the search goes deep instead of wide.
   [[nodiscard]] std::int64_t step_of(double f) const {
     return static_cast<std::int64_t>(std::floor(f / config_.cost_step_m));
   }

@@ -20,7 +20,7 @@ struct Extract {
 };
 
 /// @param options  which answers (its other settings are not used)
-/// @param every  of those, only each so-manieth, ≥ 1
+/// @param every  of those, keep every n-th, n ≥ 1
 Result<Extract> extract(const std::string& path, const ReplayOptions& options, int every = 1);
 
 /// Writes it as a log, which must not exist yet. A replay of it replays the same answers.
