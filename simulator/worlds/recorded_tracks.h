@@ -30,8 +30,8 @@ struct RecordedTrack {
 /// where spec.z_column is set, else spec.centre_z. Rows of one id have ascending frames; rows of several ids may be
 /// mixed. A row less than spec.least_step_s after the last one of its id that was kept is passed over.
 /// @param name how errors call the file.
-/// @return an Error "name:line: …" with value and limit for a wrong number of columns, no finite number, an id that is
-///   not whole, frames out of order. Also for coordinates beyond WorldObstacle::kMaxCoordinate, too many rows, and
+/// @return an Error "name:line: …" with value and limit for a wrong number of columns, no finite number, or an id that
+///   is not whole. Also for frames out of order, coordinates beyond WorldObstacle::kMaxCoordinate, too many rows, and
 ///   impossible column indices, unit or rate of the spec.
 Result<std::vector<RecordedTrack>> parse_recorded_tracks(std::string_view text, const std::string& name,
                                                          const RecordedTracksSpec& spec);
