@@ -1,5 +1,5 @@
-// What plans cost on the requests of whole flights: percentiles of the whole and of the first answer, the share of each
-// stage, the dearest requests. Thread CPU time.
+// What plans cost on the requests of whole flights: percentiles of the whole and of the first answer, each stage's
+// share, the dearest requests. Thread CPU time.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -27,7 +27,7 @@ constexpr double kNegligible = 0.05;
 struct Judged {
   double default_ms = 0.0, long_ms = 0.0;
   bool found = false, best_found = false, holds = false, best_holds = false;
-  double progress = 0.0, best_progress = 0.0;  ///< way to go at the start minus at the leaf, m
+  double progress = 0.0, best_progress = 0.0;  ///< cost-to-go at the start minus at the leaf, m
   [[nodiscard]] bool good() const {
     if (!best_found) return true;
     if (!found || (best_holds && !holds)) return false;

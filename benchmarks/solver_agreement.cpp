@@ -1,5 +1,5 @@
-// Holds the barrier method to Ipopt's optimum on problems recorded from flights: prints the comparison, exits with 1 if
-// one of them costs more than Ipopt's by a ten-thousandth.
+// Compares the barrier method with Ipopt's optimum on problems recorded from flights. Exits with 1 if one costs more
+// than Ipopt's by a ten-thousandth.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -23,9 +23,9 @@ struct FlightInputs {
   [[nodiscard]] std::vector<std::string> with_seed(std::uint64_t seed) const;
 };
 
-/// The path of a scenario: a file, or a name in ./scenarios, in the scenarios folder of the source tree from which the
-/// program was built (for build/PRESET/bin/PROGRAM: three folders up), or in share/tern/scenarios beside an installed
-/// one.
+/// The path of a scenario: a file, or a name in ./scenarios, in the source tree's scenarios folder, or in
+/// share/tern/scenarios beside an installed program. The source tree is the one from which the program was built (for
+/// build/PRESET/bin/PROGRAM: three folders up).
 /// @return an Error that lists the names that there are.
 Result<std::string> find_scenario(const std::string& wanted);
 
@@ -36,8 +36,9 @@ void read_every_section(ConfigDocument& document);
 /// refuse.
 CampaignIdentity check_inputs(const FlightInputs& inputs, std::uint64_t seed);
 
-/// A scenario file that makes the same flight wherever it lies, on this host: every obstacle of the seed's world
-/// listed, every process's section complete, files of points by absolute paths. @throws ConfigError as check_inputs.
+/// A scenario file that makes the same flight wherever it lies, on this host. Every obstacle of the seed's world is
+/// listed, every process's section complete, files of points by absolute paths.
+/// @throws ConfigError as check_inputs.
 std::string spell_out(const FlightInputs& inputs, std::uint64_t seed);
 
 }  // namespace tern

@@ -22,8 +22,9 @@ struct RecordedFlight {
   FlightTimes times;
 };
 
-/// Flies one seed. Into `folder`, which must exist, go scenario.yaml (spell_out; before the flight, so that a crash
-/// leaves it), flight.lcm (every message, with virtual times) and summary.json (tern-monitor's).
+/// Flies one seed. Three files go into `folder`, which must exist: flight.lcm (every message, with virtual times),
+/// summary.json (tern-monitor's) and scenario.yaml (spell_out). The last is written before the flight, so that a crash
+/// leaves it.
 /// @param audit  a program to run on the log, "tern-audit LOG", with its output in audit.txt: exit code 0 passed,
 /// 1 broken, anything else failed. Empty: none
 /// @throws ConfigError for bad inputs; CannotRecord.

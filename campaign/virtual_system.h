@@ -28,7 +28,7 @@ const char* to_string(Charge charge);
 class VirtualSystem {
  public:
   /// @param begin   when time begins, µs > 0
-  /// @param master  the flight's key: every process signs and verifies; nothing: none does
+  /// @param master  the flight's key: every process signs and verifies; nullopt: none does
   /// @throws ConfigError for what run_process would refuse.
   VirtualSystem(const std::string& scenario_file, const std::vector<std::string>& overrides,
                 Charge charge = Charge::Counts, UTime begin = UTime{1'000'000}, const std::optional<Key>& master = {});

@@ -1,5 +1,5 @@
-# `cmake --install`: the programs with tern-viewer's page, if it was built, what they fly and the scripts (share/tern), the
-# messages for other languages, and core/ as a package for others (find_package(tern); target tern::core).
+# `cmake --install`: the programs with tern-viewer's page, if it was built; what they fly and the scripts (share/tern);
+# the messages for other languages. core/ is a package for others (find_package(tern); target tern::core).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Channels beyond this are not told apart: damage that reads as names must not eat memory.
+/// Channels beyond this number count as one: damage that reads as names must not fill memory.
 constexpr std::size_t kMaxChannels = 1'000;
 constexpr char kOtherChannels[] = "(others)";
 /// Messages of a channel among which a repetition is found: it comes within milliseconds.

@@ -50,9 +50,8 @@ std::vector<std::string> log_parts(const std::string& path);
 ///     log.on(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) { … });
 ///     const Result<LogContents> contents = log.read("flight.lcm");
 ///
-/// Bounded memory: no more than one event is held (LogReader). Only what decode() accepts is handed over, and each
-/// message once, however often the network delivered it (of the newest 4096 of its channel; each message is another, by
-/// its name).
+/// Bounded memory: no more than one event is held (LogReader). Only what decode() accepts is handed over. Each message,
+/// by its name, is handed over once, however often the network delivered it among the newest 4096 of its channel.
 class FlightLog {
  public:
   /// @param suffix  what the vehicle's channels end with, "" for none

@@ -21,10 +21,10 @@ struct LogDamage {
   bool truncated = false;    ///< the file's end is no event's end
 };
 
-/// Reads one file in its order. An event counts as whole when the next one, or the end of the file, follows it; where
-/// that is not so, its length is doubted if another event begins within it. After damage the reader goes on at the next
-/// event that looks whole. The format has no checksum: damage within the data of a message is for the message's own
-/// decoder to find.
+/// Reads one file in its order. An event counts as whole when the next one, or the end of the file, follows it. Else
+/// its length is doubted if another event begins within it. After damage the reader goes on at the next event that
+/// looks whole. The format has no checksum: damage within the data of a message is for the message's own decoder to
+/// find.
 class LogReader {
  public:
   /// @return an Error that names path and reason when the file cannot be opened.

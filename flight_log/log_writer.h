@@ -24,10 +24,9 @@ struct LogWriterCounters {
 /// Appends events to a log. Events are numbered on through the parts, so that the parts one after the other are one log
 /// again.
 ///
-/// Nothing that exists is ever overwritten: a writer that starts anew beside an older log (a logger that died and came
-/// back) begins the next free part. What the disk does not take (full, gone) is counted and dropped, and the file is
-/// cut back to its last whole event; the next flush tries again. Events stay in memory until flush(), or until
-/// kBufferBytes wait.
+/// Nothing that exists is ever overwritten: beside an older log (a logger that died and came back) a writer begins the
+/// next free part. What the disk does not take (full, gone) is counted and dropped. The file is then cut back to its
+/// last whole event; the next flush tries again. Events stay in memory until flush(), or until kBufferBytes wait.
 class LogWriter {
  public:
   /// @param rotate_bytes  a part that has reached it is closed and the next one begun; 0: never

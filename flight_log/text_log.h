@@ -23,8 +23,8 @@ std::optional<LogEvent> event_of_line(std::string_view line);
 /// Whether a file begins with kTextLogHead.
 bool is_text_log(const std::string& path);
 
-/// Calls `use` for each event, in the file's order, numbered from 0. @return an Error that names file and line of what
-/// is neither an event nor a comment.
+/// Calls `use` for each event, in the file's order, numbered from 0.
+/// @return an Error that names file and line of what is neither an event nor a comment.
 Result<void> read_text_log(const std::string& path, const std::function<void(const LogEvent&)>& use);
 
 }  // namespace tern

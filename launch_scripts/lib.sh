@@ -34,8 +34,8 @@ die() {
   exit 3
 }
 
-# Builds the programs unless the environment says where they are: the first time with a word on how long that takes and ninja's
-# progress, later with one line that is gone when it is done, and what fails.
+# Builds the programs unless the environment says where they are. The first time it says how long that takes and shows
+# ninja's progress. Later it shows one line, gone when it is done, and what fails.
 build_programs() {
   [[ -z $TERN_BIN_GIVEN ]] || return 0
   local cores said failed=''
@@ -87,8 +87,8 @@ namespace_flags() {
 
 has_multicast_route() { ip -4 route get "$LCM_GROUP" >/dev/null 2>&1; }
 
-# lock_port: sets `port` to the first one that no other flight holds, and holds it by a lock on an open descriptor, which this
-# shell's children inherit: it is free again when the last of them has ended.
+# lock_port: sets `port` to the first one that no other flight holds, and holds it by a lock on an open descriptor. This
+# shell's children inherit it, so the port is free again when the last of them has ended.
 lock_port() {
   local file
   for ((port = FIRST_PORT; port <= LAST_PORT; port++)); do

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# view.sh [OPTION...]: builds tern-viewer's page when needed, runs tern-viewer, and opens the page where there is a display; the
-# options are tern-viewer's own (--help lists them), as --log flights/.../flight.lcm to play a recorded flight.
+# view.sh [OPTION...]: builds tern-viewer's page when needed, runs tern-viewer, and opens the page where there is a
+# display. The options are tern-viewer's own (--help lists them), as --log flights/.../flight.lcm to play a recorded
+# flight.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

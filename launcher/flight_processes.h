@@ -45,8 +45,8 @@ inline constexpr char kAutopilotDynamics[] =
 inline constexpr char kMavlink[] = "tern-mavlink";
 inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kViewer[] = "tern-viewer";
 
-/// The processes of a flight in the order of their start: the viewer, whose page is waited for, then who records and
-/// who judges, so that they miss nothing. All are restarted but the monitor, whose judgement rests on all that it
+/// The processes of a flight in the order of their start. First comes the viewer, whose page is waited for, then logger
+/// and monitor, so that they miss nothing. All are restarted but the monitor, whose judgement rests on all that it
 /// heard.
 /// @param record  the flight's folder  @param key_fds  by process, an open file of its keys; empty: unsigned
 std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, const std::string& record,

@@ -23,8 +23,8 @@ class Backoff {
   Duration delay_{};
 };
 
-/// Whether another run of the process cannot mend it: exit codes 0 (done), 2 (bad configuration), 3 (no network, nobody
-/// ready), 126 and 127 (cannot be run).
+/// Whether another run cannot mend it: exit codes 0 (done), 2 (bad configuration), 3 (no network, nobody ready), 126
+/// and 127 (cannot be run).
 bool is_final(const ProcessEnd& end);
 
 /// As a shell tells it: 128 + n for signal n.

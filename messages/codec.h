@@ -14,15 +14,15 @@ namespace tern {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// The message's LCM encoding (fingerprint first). @throws std::invalid_argument when the value breaks its own contract
-/// (a count beyond its limit, more than kMaxMessageBytes): a caller's bug.
+/// The message's LCM encoding (fingerprint first).
+/// @throws std::invalid_argument for a caller's bug: a count beyond its limit, more than kMaxMessageBytes.
 template <class T>
 Bytes encode(const T& value);
 
-/// The value of exactly these bytes, or why they are refused. Checks, in this order: fingerprint; counts at their fixed
-/// offsets within limits; length exactly as the counts ask (a trailer may follow: trailer.h, its tag is not checked
-/// here); numbers finite and in range; enumerations known; times in order; fields consistent. Never throws, allocates
-/// no more than the message's own size asks for.
+/// The value of exactly these bytes, or why they are refused. Checks fingerprint, then counts (at fixed offsets, within
+/// limits), then the length that the counts ask for. Then: numbers finite and in range; enumerations known; times in
+/// order; fields consistent. A trailer may follow (trailer.h); its tag is not checked here. Never throws, allocates no
+/// more than the message's own size asks for.
 template <class T>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes);
 
@@ -78,8 +78,8 @@ tl::expected<ObservationSet, Rejection> decode(std::span<const std::uint8_t> byt
 /// Pieces and α of all tracks travel as one flat array.
 template <>
 Bytes encode(const TrackSet& value);
-/// Inconsistent: the tracks' piece counts do not sum to the pieces; two tracks with one id; a static track that has
-/// more than one piece or moves.
+/// Inconsistent: the tracks' piece counts do not sum to the pieces; two tracks have one id; a static track moves or has
+/// several pieces.
 template <>
 tl::expected<TrackSet, Rejection> decode(std::span<const std::uint8_t> bytes);
 

@@ -73,9 +73,9 @@ class Slices {
 /// UTF-8 without control characters but tab and newline (U+0000 … U+001F, U+007F): safe to print and to put into JSON.
 bool is_plain_text(std::string_view text);
 
-/// Reads fields. A refused number, time or enumeration reads as the least legal one, so that later arithmetic is safe;
-/// the message is refused in the end by accept(), with the reason that comes first in the order of codec.h, whatever
-/// the order of reading.
+/// Reads fields. A refused number, time or enumeration reads as the least legal one, so that later arithmetic is safe.
+/// In the end accept() refuses the message, with the reason that comes first in the order of codec.h, whatever the
+/// order of reading.
 class FieldReader {
  public:
   /// low ≤ x ≤ high; never NaN. Number.

@@ -2,8 +2,8 @@
 //
 // 48 bytes, integers big-endian as LCM writes them:
 //   "TMAC" | u8 1 (version) | u8 role | u16 0 | i64 sender_epoch_us | i64 sequence | i64 utime_us | 16 bytes of tag
-// Generated decoders ignore what follows a message. decode() knows from the counts where a message ends: what is beyond
-// must be nothing, or exactly one trailer. It does not check the tag; runtime/authentication.h does.
+// Generated decoders ignore what follows a message. The counts tell decode() where a message ends; beyond must be
+// nothing, or exactly one trailer. It does not check the tag; runtime/authentication.h does.
 #pragma once
 
 #include <array>

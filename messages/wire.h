@@ -1,7 +1,7 @@
 // The form of every message: counts at fixed offsets right behind the fingerprint, then fixed fields, then flat arrays.
 //
-// So the exact length of a message follows from its first bytes, before a generated decoder sees it (they throw, or
-// wrap a hostile count and read beyond their buffer). A message states its arrays once, as a Layout, and encoder and
+// So the exact length of a message follows from its first bytes, before a generated decoder sees it. Those throw, or
+// wrap a hostile count and read beyond their buffer. A message states its arrays once, as a Layout, and encoder and
 // decoder do the rest.
 #pragma once
 
@@ -69,8 +69,8 @@ struct Layout {
   static constexpr std::size_t head_bytes() { return kFingerprintBytes + kCountBytes * sizeof...(E); }
 };
 
-/// Sets the counts from the arrays' sizes and encodes. @throws std::invalid_argument when a count is out of its range
-/// or the whole is longer than kMaxMessageBytes.
+/// Sets the counts from the arrays' sizes and encodes.
+/// @throws std::invalid_argument when a count is out of its range or the whole is longer than kMaxMessageBytes.
 template <class M, class... E>
 Bytes encode(M message, const Layout<M, E...>& layout) {
   layout.for_each([&](const auto& array) {
@@ -91,8 +91,8 @@ Bytes encode(M message, const Layout<M, E...>& layout) {
   return bytes;
 }
 
-/// How many of the bytes are an M, judged by fingerprint, counts and length alone: all, or all but one trailer; or why
-/// they cannot be one. Allocates nothing beyond an empty message.
+/// How many of the bytes are an M, judged by fingerprint, counts and length: all, or all but one trailer. Or why they
+/// cannot be one. Allocates nothing beyond an empty message.
 template <class M, class... E>
 tl::expected<std::size_t, Rejection> find_end(std::span<const std::uint8_t> bytes, const Layout<M, E...>& layout) {
   if (bytes.size() < kFingerprintBytes) return tl::make_unexpected(Rejection::Length);

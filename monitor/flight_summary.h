@@ -52,11 +52,12 @@ struct FlightSummary {
   std::string version;                ///< build id
 };
 
-/// One JSON object, two spaces of indent, with exactly the keys outcome, detail, scenario, seed, count, settings,
-/// flight_time_s, first_entry_s, path_length_m, mean_speed_mps, top_speed_mps, stops, min_clearance_m,
-/// min_map_clearance_m, limit_violations, contacts_moving, contacts_at_rest, obstacles, obstacles_left_out, requests,
-/// answered_in_time, second_answers, plans, confidence, left_out, replan_ms, exposure, messages, restarts, beside, log,
-/// command, version. What has no value (NaN, a measure that no referee gave) is null.
+/// One JSON object, two spaces of indent. What has no value (NaN, a measure that no referee gave) is null. Its keys:
+///
+///     outcome, detail, scenario, seed, count, settings, flight_time_s, first_entry_s, path_length_m, mean_speed_mps,
+///     top_speed_mps, stops, min_clearance_m, min_map_clearance_m, limit_violations, contacts_moving, contacts_at_rest,
+///     obstacles, obstacles_left_out, requests, answered_in_time, second_answers, plans, confidence, left_out,
+///     replan_ms, exposure, messages, restarts, beside, log, command, version
 std::string to_json(const FlightSummary& summary);
 
 /// The same for a person, at most 34 lines of at most 100 characters while there are at most 6 regions.

@@ -42,7 +42,7 @@ struct LiveView {
   double nearest_m = 0.0;  ///< distance of the body's box to the nearest obstacle; NaN: none known
   double replan_p50_ms = 0.0, replan_p99_ms = 0.0;  ///< of all answers so far; NaN: none
   std::int64_t requests = 0, answered_in_time = 0;
-  PlanReason reason = PlanReason::None;  ///< the newest plan's excuse
+  PlanReason reason = PlanReason::None;  ///< the newest plan's
   std::int32_t left_out = 0;             ///< tracks that the newest plan knew nothing of
 };
 
@@ -54,13 +54,13 @@ struct Ending {
 
 /// Pure: messages and times come in, values go out.
 ///
-/// The flight ends kLastWords after FLIGHT_RESULT, with its outcome; before that it has failed when
-///   fail() was called (the launcher knows of a process that cannot run),
-///   the simulator was not heard for kSimulatorSilence, from the watch's beginning on,
-///   the simulator started anew after the first request, and the one that the flight began with is silent: its world is
-///   lost,
-///   the referee says nothing kVerdictSlack after the scenario's timeout.
-/// Verdict and loss of the world are those of the simulator that the flight began with, whoever else says so; a verdict
+/// The flight ends kLastWords after FLIGHT_RESULT, with its outcome. Before that it has failed in four cases:
+///  - fail() was called (the launcher knows of a process that cannot run).
+///  - The simulator was not heard for kSimulatorSilence, from the watch's beginning on.
+///  - The simulator started anew after the first request, and the one that the flight began with is silent: its world
+///    is lost.
+///  - The referee says nothing kVerdictSlack after the scenario's timeout.
+/// Verdict and loss of the world are those of the simulator that the flight began with, whoever else says so. A verdict
 /// that its own next heartbeat contradicts (it flies on) is dropped.
 class FlightWatch {
  public:

@@ -8,8 +8,8 @@
 
 namespace tern {
 
-/// Remembers the names of the newest messages of one channel: a network may deliver a message more than once, and what
-/// is counted is counted once.
+/// Remembers the names of the newest messages of one channel. A network may deliver a message more than once; it is
+/// counted once.
 class Once {
  public:
   /// Names that are remembered; a repetition comes within milliseconds, a channel carries at most some hundred per

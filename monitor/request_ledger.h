@@ -27,7 +27,7 @@ struct LeftOut {
 using PlansByLevel = std::array<std::int64_t, kConfidenceLevels.size() + 1>;
 
 /// Matches PLAN with HORIZON_REQUEST by the request's id. A request is settled when its first answer came, or
-/// kAnswerGrace after its deadline; only settled ones are counted, so that the flight's end leaves no request half
+/// kAnswerGrace after its deadline. Only settled ones are counted, so that the flight's end leaves no request half
 /// open. What the network delivers twice counts once.
 class RequestLedger {
  public:

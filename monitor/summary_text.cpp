@@ -67,7 +67,7 @@ std::string flight_lines(const FlightResult& r) {
   return text;
 }
 
-/// The plans' commonest excuses; nothing when there was nothing to excuse.
+/// The plans' commonest reasons; "" when there was none.
 std::string reason_line(const FlightSummary& s) {
   std::vector<std::pair<std::int64_t, PlanReason>> reasons;
   for (int k = 1; k < kPlanReasons; ++k) {

@@ -42,8 +42,8 @@ struct Attempt {
 /// Adds the times of a hold of hold_s after the last of `times`, s, a step apart.
 void append_hold(std::vector<double>& times, double step, double hold_s);
 
-/// Δt of J intervals that last duration_s together, rounded up to a microsecond and not below 20 ms, where rounding of
-/// accelerations q/Δt² would eat the tolerances.
+/// Δt of J intervals that last duration_s together, rounded up to a microsecond and at least 20 ms. Below that,
+/// rounding of accelerations q/Δt² would exceed the tolerances.
 /// @return nullopt if it would exceed kLongestInterval
 std::optional<Duration> interval_of(double duration_s, int intervals);
 

@@ -88,7 +88,7 @@ bool comes_first(const Stop& a, const Stop& b) {
   return std::make_tuple(-a.clear_s, a.hurries, a.way_s) < std::make_tuple(-b.clear_s, b.hurries, b.way_s);
 }
 
-/// The stop at this point and pace; nothing: outside the flight box, or too slow to be flown.
+/// @return nullopt if the point is outside the flight box, or the pace too slow to be flown
 std::optional<Stop> stop_at(const Surroundings& near, const Box& box, const Vec3& point, double pace) {
   if (!box.contains(point)) return std::nullopt;
   const double least = least_duration(near.request.start, point, near.pace_limits);

@@ -22,8 +22,8 @@ struct Heading {
 Heading heading_nowhere(const Surroundings& near);
 
 /// Along a path around static obstacles, with the local goal at the largest radius that aim_along() allows. The way
-/// leads to the farthest corner of the path to which the straight line is hardly longer, or dearer: small bends around
-/// posts are the search's business, but the way into a window, out of a trap or around a region leads over its corners.
+/// leads to the farthest corner of the path to which the straight line is hardly longer, or costlier. So small bends
+/// around posts are left to the search. The way into a window, out of a trap or around a region leads over its corners.
 /// @pre path is not empty
 Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, double largest_radius,
                       const Surroundings& near);
@@ -31,15 +31,15 @@ Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, dou
 /// What regions cost on the way to the local goal. @pre fields is not null
 SemanticGuide guide_of(const Surroundings& near, const Heading& heading);
 
-/// When the goal would be reached if the trajectory were flown for a while and the rest time-optimally, per axis: the
-/// mean over two such whiles. Comparing ends instead would favour short plans, because every plan brakes at its end and
-/// hardly one is flown so far.
+/// When the goal would be reached if the trajectory were flown for a while and the rest time-optimally, per axis. It is
+/// the mean over two such whiles. Comparing ends instead would favour short plans, because every plan brakes at its end
+/// and hardly one is flown so far.
 /// @param from  the time on the trajectory that counts as 0
 double arrival_estimate(const Heading& heading, const TimedSpline& trajectory, UTime from);
 
-/// The arrival estimate from t_s on, plus the exposure cost over the same whiles and ahead (SemanticGuide), as if those
-/// metres were flown at v_max, s: the same exchange of metres for metres as in the search. The mean distance stays out:
-/// it has no measure of its own that seconds could be given for (flights of paper_repel took 0.3 s longer with it).
+/// The score, s: the arrival estimate from t_s on, plus the exposure cost over the same whiles and ahead
+/// (SemanticGuide), flown at v_max. That trades metres for metres as the search does. The mean distance stays out: it
+/// has no exchange rate to seconds (flights of paper_repel took 0.3 s longer with it).
 double worth_of(const Surroundings& near, const Heading& heading, const TimedSpline& trajectory);
 
 }  // namespace tern

@@ -20,9 +20,9 @@ struct HoldDemand {
   double width = 0.0;        ///< of vehicle and largest mover together: half-extents, added, m
 
   /// What an end reached at `end_s` should hold to be preferred, s. Where predictions widen with time, a hold after a
-  /// long plan asks for more than one after a short plan, and most of all for standing still: `until_s` makes them
-  /// equal. Besides, the plan must stay clear for as long as this vehicle needs to step aside, from t_s on and as far
-  /// as predictions reach: an evasion that begins when that no longer holds still has its time.
+  /// long plan asks for more than one after a short plan, so standing still would win. `until_s` makes them equal.
+  /// Besides, the plan must stay clear from t_s on for as long as this vehicle needs to step aside, as far as
+  /// predictions reach. An evasion that begins when that no longer holds still has its time.
   [[nodiscard]] double required(double end_s) const;
   /// How far the hold of an end reached at `end_s` is followed: never less than is asked for.
   [[nodiscard]] double cap(double end_s) const;
@@ -30,8 +30,9 @@ struct HoldDemand {
   [[nodiscard]] double cap_of_stop(double end_s) const;
 };
 
-/// The least time in which this vehicle, at rest, leaves the way of a mover, s: from rest to rest over what both are
-/// wide (half-extents), along the second quickest axis (a mover may come along the quickest), times kStopScale.
+/// The least time in which this vehicle, at rest, leaves the way of a mover, s. It is the time from rest to rest over
+/// the width of both (half-extents) along the second quickest axis, times kStopScale. (A mover may come along the
+/// quickest.)
 double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec3& mover_half);
 
 /// What the request asks for among these obstacles: the largest mover's size per axis, the predictions that reach

@@ -35,22 +35,21 @@ struct LocalAim {
   double least_s = 0.0;      ///< planned_duration() to it
 };
 
-/// The local goal goes by the first duration: how long planned_duration() may be, so that this and the hold after it
-/// fit into the horizon, and Δt does not exceed kLongestInterval, s.
+/// The largest planned_duration() to the local goal, s: it and the hold after it fit into the horizon, and Δt is at
+/// most kLongestInterval.
 double longest_first_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config);
 
-/// The local goal at `largest_radius`, or, where planned_duration() to it is longer than longest_s, at the next smaller
-/// of radii that shrink by a sixth which is not. Where none is (the start is too fast to stop so soon), the one that is
-/// reached first.
+/// The local goal at the first of `largest_radius` and radii that shrink by a sixth with planned_duration() ≤
+/// longest_s. Where there is none (the start is too fast to stop so soon), the one that is reached first.
 /// @pre path is not empty
 LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
                    double largest_radius, double longest_s);
 
 /// By how much lengths shrink with a local goal nearer than kFullStep, (0, 1].
 double step_scale(double goal_radius);
-/// The search's lengths (bands, steps of cost, voxels that prune) for local goals at this radius, and its coarse
-/// velocity for a flight there of so many seconds, so that small and slow steps are told apart as well as large ones.
-/// At kFullStep and beyond, within kFullStepTime, they are the configured ones.
+/// The search's lengths (bands, steps of cost, voxels that prune) for local goals at this radius. Likewise its coarse
+/// velocity for a flight there of so many seconds. So small and slow steps are resolved as well as large ones. At
+/// kFullStep and beyond, within kFullStepTime, they are the configured ones.
 SearchConfig scaled(SearchConfig search, double goal_radius, double least_s);
 
 }  // namespace tern

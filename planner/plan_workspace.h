@@ -11,9 +11,9 @@
 
 namespace tern {
 
-/// Give the same one to every call of a thread and, once it has seen requests as large, obstacles in reach, sweeps, the
-/// search's nodes, queue and closed set, and the convex problem and its solver allocate nothing. A fresh one gives the
-/// same answers, byte for byte. Not for two calls at once.
+/// Give the same one to every call of a thread. Once it has seen requests as large, obstacles in reach, sweeps, search,
+/// convex problem and its solver allocate nothing. A fresh one gives the same answers, byte for byte. Not for two calls
+/// at once.
 struct PlanWorkspace {
   std::vector<PlanningObstacle> obstacles;  ///< in reach of this request
   std::vector<std::int32_t> found;          ///< of an index

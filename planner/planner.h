@@ -15,12 +15,12 @@ struct PlanAnswer {
 };
 
 /// Plans from request.start within the sphere of radius r around it (paper §2), in this order:
-///  1. the committed trajectory is checked against these predictions: the fallback;
-///  2. a start inside a hull seeks room first; else the path around static obstacles gives the local goal, and the
-///     semantic A* looks for a leaf at a few durations;
-///  3. each leaf is optimized by Eq. 4 (`planner.optimization.method`; `alternating`: with its planes fixed);
-///  4. if neither that nor the committed trajectory holds long enough, an evasion is sought;
-///  5. the best certified trajectory is chosen: separated, hold long enough, least time to the goal, in that order.
+///  1. The committed trajectory is checked against these predictions: the fallback.
+///  2. A start inside a hull seeks room first. Else the path around static obstacles gives the local goal, and the
+///     semantic A* looks for a leaf at a few durations.
+///  3. Each leaf is optimized by Eq. 4 (`planner.optimization.method`; `alternating`: with its planes fixed).
+///  4. If neither that nor the committed trajectory holds long enough, an evasion is sought.
+///  5. The best certified trajectory is chosen: separated, hold long enough, least time to the goal, in that order.
 /// Every trajectory in an answer has passed check_plan() or check_separation(). Deterministic in its arguments; the
 /// workspace is memory, never meaning.
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,

@@ -29,8 +29,8 @@ struct Foresight {
   UTime followed_until = kFollowedForEver;   ///< until then the boxes of what is found there hold every track
 };
 
-/// A complete prediction set with boxes around each track's motion, and an index over them: a plan costs what is in its
-/// reach, not what is in the world.
+/// A complete prediction set with boxes around each track's motion, and an index over them. So a plan costs what is in
+/// its reach, not what is in the world.
 struct PredictionProducts {
   TrackSet set;
   std::vector<Box> piece_boxes;             ///< of all moving tracks, one per piece of their motions
@@ -78,8 +78,8 @@ struct GoalFieldKey {
   }
 };
 
-/// The distances to a goal around the map's boxes and the static tracks' boxes (not inflated), weighed by the exposure
-/// cost where the map says so. About 100 ms, with regions some 300. The field keeps the map.
+/// The distances to a goal around the boxes of map and static tracks (not inflated), weighed by the exposure cost where
+/// the map says so. About 100 ms, with regions some 300. The field keeps the map.
 /// @param start  enlarges the region that is searched
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const std::vector<Box>& static_boxes, const Vec3& start);

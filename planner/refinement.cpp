@@ -111,8 +111,8 @@ class Refinement {
   StopFunction stop_;
 };
 
-/// @return nullopt if the method is SearchOnly, or no iterate is better that the checker passes and that holds as long
-/// as was required (or as the leaf did)
+/// @return nullopt if the method is SearchOnly, or no better iterate passes the checker and holds as long as required
+/// (or as the leaf did)
 std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf, SweptObstacles& swept,
                                    PlanTools& tools) {
   Refinement refinement(attempt, leaf, swept, tools);
@@ -127,7 +127,7 @@ std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf
   return second ? second : first;
 }
 
-/// By how much the way to go is shorter at the end, m.
+/// By how much the cost-to-go is smaller at the end, m.
 double progress_of(const Attempt& attempt, const Candidate& candidate) {
   const WayToGo& way = attempt.heading.way;
   return way.from(attempt.problem.start.p) - way.from(candidate.trajectory.control_points.rightCols<1>());

@@ -10,12 +10,12 @@
 namespace tern {
 
 /// Optimizes a leaf by the configured method, within the budget's stage Optimization. An optimized trajectory may give
-/// up neither the leaf's hold, nor much of its arrival, nor most of its progress where intervals are short: to who
-/// crosses the sphere in a moment, arrivals say little.
+/// up neither the leaf's hold nor much of its arrival. Where intervals are short (kMoment), arrivals say little, and it
+/// keeps most of the leaf's progress.
 /// @return the best such trajectory that the checker passes, else the leaf
 Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools);
 
-/// Eq. 4 for a leaf. Its goal is the local goal; with semantics the leaf's own end, which stands where it does on
+/// Eq. 4 for a leaf. Its goal is the local goal. With semantics it is the leaf's own end, which stands there on
 /// purpose, unless that is in the last band.
 TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf);
 

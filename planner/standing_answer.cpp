@@ -50,9 +50,9 @@ Plan StandingAnswer::chosen(PlanReason reason) const {
   return is_worse && !sets_out() ? kept(PlanReason::WorsePlan) : filled(&*best_, PlanReason::None);
 }
 
-/// A vehicle at rest gains nothing by waiting: a plan that gets nearer is flown even if it is estimated to arrive as
-/// late, or later by what smoothness may cost. (Arrivals are counted per axis: where one axis is slow, those of rest
-/// and of a plan that begins gently are equal.)
+/// A vehicle at rest gains nothing by waiting: a plan that gets nearer is flown even if it arrives as late, or later by
+/// kSmoothnessPrice. (Arrivals are counted per axis: where one axis is slow, those of rest and of a plan that begins
+/// gently are equal.)
 bool StandingAnswer::sets_out() const {
   const bool rests = near_.request.t_s >= near_.request.committed.end();
   if (!rests || best_->holds != committed_->holds) return false;

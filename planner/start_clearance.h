@@ -1,4 +1,4 @@
-// A start inside an obstacle inflated by its α is normal with noisy predictions: α gives way, as little as it must.
+// A start inside an obstacle inflated by its α is normal with noisy predictions: α is scaled, as little as it must be.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ struct StartClearance {
   bool collides = false;  ///< the start touches an obstacle even without its α
 };
 
-/// Where the body at p touches a track's box (half-extents + α) at time t, scales what counts of its α by the largest
-/// value that leaves a millimetre of room, to 1e-6 by bisection of the true distance; to 0 where none does. The other
+/// Where the body at p touches a track's box (half-extents + α) at time t, what counts of its α is scaled. The factor
+/// is the largest one that leaves a millimetre of room, to 1e-6 by bisection of the true distance, or 0. The other
 /// obstacles are left as they are.
 StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p, UTime t);
 

@@ -11,9 +11,9 @@
 namespace tern {
 
 /// The static tracks of all prediction sets that one predictor sent since the first one heard: of each id the newest
-/// box. What fewer than kRememberedAfter sets have named is forgotten when the next one does not name it: a false track
-/// that came once bars no way for ever. Another predictor (a new sender epoch) starts a new memory. Deterministic in
-/// the sets added.
+/// box. What fewer than kRememberedAfter sets have named is forgotten when the next one does not name it. So a false
+/// track that came once bars no way for ever. Another predictor (a new sender epoch) starts a new memory. Deterministic
+/// in the sets added.
 class StaticTracks {
  public:
   static constexpr int kRememberedAfter = 3;

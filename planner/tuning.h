@@ -8,7 +8,7 @@ namespace tern {
 
 // ---- Durations (duration.h, attempt.h)
 
-/// Below this Δt rounding of accelerations q/Δt² would eat the tolerances, s.
+/// Below this Δt rounding of accelerations q/Δt² would exceed the tolerances, s.
 inline constexpr double kLeastInterval = 0.02;
 /// A spline of J intervals from rest to rest takes this much longer than the per-axis bound of least_duration().
 inline constexpr double kStopScale = 1.5;
@@ -57,8 +57,8 @@ inline constexpr double kCoarseVelocityShare = 0.4;
 
 // ---- What a trajectory is worth (heading.h, refinement.h, standing_answer.h, planner.cpp)
 
-/// For how long a trajectory is taken to be flown before a better one follows, s; where a step takes minutes, this
-/// share of it: nothing better follows within a second.
+/// For how long a trajectory is taken to be flown before a better one follows, s. Where a step takes minutes, it is
+/// this share of the step: nothing better follows within a second.
 struct While {
   double least_s;
   double share;

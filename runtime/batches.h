@@ -16,8 +16,8 @@ namespace tern {
 /// Collects batches of T (with members `header` and `batch`), of each sender by itself (whom to listen to is the bus's
 /// matter: SenderWatch). A newer set of a sender replaces an unfinished one, which is counted in incomplete().
 ///
-/// Newer is what was sent later (header.utime, then the sequence number), not what has a larger number: so a set number
-/// that nobody else has used mutes no later set.
+/// Newer is what was sent later (header.utime, then the sequence number), not what has a larger set number. So a false
+/// set number mutes no later set.
 template <class T>
 class BatchCollector {
  public:

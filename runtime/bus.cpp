@@ -32,7 +32,7 @@ void check_name(std::string_view name) {
 /// Says yes at most once per kLogInterval and counts the times between.
 class LogLimiter {
  public:
-  /// @return how many events this line stands for, or nothing if it is too soon.
+  /// @return how many events this line stands for, or nullopt if it is too soon.
   std::optional<std::int64_t> admit(UTime now) {
     ++pending_;
     if (last_ && now - *last_ < kLogInterval && now >= *last_) return std::nullopt;

@@ -39,12 +39,12 @@ inline constexpr int kListenCapacity = 50'000;
 /// One process's end of the LCM network. Not thread-safe but for publish() and counters() (a planner's worker publishes
 /// its answer).
 ///
-/// publish() fills in header.name and header.utime. subscribe() hands over only messages that decode exactly, pass
-/// validation, and come from who is heard on the channel, once and not from the future (SenderWatch); the others are
-/// counted by reason and logged at most once a second per channel, and change nothing. Gaps in a sender's sequence
-/// numbers are counted as lost until what is missing comes; the first message heard of a sender epoch begins its count,
-/// so neither a late joiner nor a sender's restart is loss. Messages of this bus's own epoch are delivered too (LCM
-/// loops back).
+/// publish() fills in header.name and header.utime. subscribe() hands over only messages that decode exactly and pass
+/// validation. They must come from who is heard on the channel, once and not from the future (SenderWatch). The others
+/// change nothing; they are counted by reason and logged at most once a second per channel. Gaps in a sender's sequence
+/// numbers count as lost until what is missing comes. The first message heard of a sender epoch begins its count, so
+/// neither a late joiner nor a sender's restart is loss. Messages of this bus's own epoch are delivered too (LCM loops
+/// back).
 ///
 /// With keys every message that leaves is signed, and only what verifies comes in (authentication.h); the tag is off
 /// before anything is decoded. A HEARTBEAT or CONFIGURATION that names one of Tern's processes must come from that
@@ -54,7 +54,7 @@ class Bus {
   /// @param lcm  shared by all nodes of a process (memq:// delivers only within one instance)
   /// @param epoch_us  when the process started, > 0: the first half of every name it gives; no two buses may share it
   /// @param suffix  appended to every channel name ("" by default)
-  /// @param keys  what this end may say and hear; nothing: nobody's messages are signed or checked
+  /// @param keys  what this end may say and hear; nullopt: nobody's messages are signed or checked
   /// @throws std::invalid_argument if the suffix is not is_channel_name.
   Bus(std::shared_ptr<lcm::LCM> lcm, const Clock& clock, std::int64_t epoch_us, std::string suffix = "",
       std::optional<KeyRing> keys = {});
@@ -128,14 +128,15 @@ class Bus {
   }
   [[nodiscard]] std::int64_t unsent() const;      ///< paced messages that a newer set replaced before they left
   [[nodiscard]] std::int64_t deliveries() const;  ///< messages that came in, accepted or not; with keys: that verified
-  /// When the kernel took the newest delivered message from the network, by this bus's clock: a handler may run much
-  /// later. @pre called from a handler
+  /// When the kernel took the newest delivered message from the network, by this bus's clock. A handler may run much
+  /// later.
+  /// @pre called from a handler
   [[nodiscard]] UTime received() const;
   /// Throws what a handler threw, if one did since the last call. Deliveries stop until then. Runners call it after a
   /// drain.
   void rethrow();
-  /// What is amiss with the senders that were heard lately, in words for HEARTBEAT: a second one beside the one that is
-  /// heard, a clock that is far ahead. Empty when nothing is.
+  /// Troubles of senders heard lately, as text for HEARTBEAT: a second one beside the one that is heard, a clock that
+  /// is far ahead. Empty when there is none.
   [[nodiscard]] std::string sender_troubles() const;
   [[nodiscard]] const Clock& clock() const { return clock_; }
   [[nodiscard]] std::int64_t epoch_us() const { return epoch_us_; }

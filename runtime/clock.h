@@ -19,9 +19,9 @@ class Clock {
   [[nodiscard]] virtual Duration drift() const { return {}; }
 };
 
-/// The system's real-time clock when this was made, and from there on its steady one: what slews the one (chrony, PTP)
-/// slews the other, but who sets the system's clock does not set this. Plus a fixed offset (`--clock-offset-us`, so
-/// that skew can be tested). Thread-safe.
+/// The system's real-time clock when this was made, and from there on its steady one. What slews the one (chrony, PTP)
+/// slews the other, but setting the system's clock does not set this. Plus a fixed offset (`--clock-offset-us`, so that
+/// skew can be tested). Thread-safe.
 class WallClock final : public Clock {
  public:
   explicit WallClock(Duration offset = {});
@@ -46,8 +46,8 @@ class VirtualClock final : public Clock {
   UTime now_;
 };
 
-/// A time from which only the calling thread's CPU time counts on: what the thread's work takes, whoever else uses the
-/// machine. @pre now() is called by the thread that made it
+/// A time from which only the calling thread's CPU time counts on, whoever else uses the machine.
+/// @pre now() is called by the thread that made it
 class ThreadCpuClock final : public Clock {
  public:
   explicit ThreadCpuClock(UTime start);

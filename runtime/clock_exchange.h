@@ -1,5 +1,5 @@
-// How far another process's clock is from this one's, and how long messages take between them, by heartbeats that say
-// what they heard (RFC 5905, the Network Time Protocol, section 8).
+// How far another process's clock is from this one's, and how long messages take between them. Heartbeats that echo
+// what they heard tell it (RFC 5905, the Network Time Protocol, section 8).
 #pragma once
 
 #include <algorithm>
@@ -58,17 +58,19 @@ struct ClockReading {
 
 /// One sender's clock against the listener's. Pure.
 ///
-/// An exchange is a heartbeat that the listener sent at T1, the other received at T2 and told back at T3, and that came
-/// at T4; T1 and T4 by the listener's clock, T2 and T3 by the other's. Then the other is ahead by
-/// ((T2 − T1) + (T3 − T4)) / 2, off by half the round trip (T4 − T1) − (T3 − T2) at most: a delay that is the same both
-/// ways moves nothing. Of the newest kWindow exchanges the one of the shortest round trip counts (section 10, the clock
+/// In an exchange the listener sends a heartbeat at T1, which the other receives at T2. The other echoes it at T3,
+/// which comes at T4. T1 and T4 are by the listener's clock, T2 and T3 by the other's. Then the other is ahead by ((T2
+/// − T1) + (T3 − T4)) / 2, off by at most half the round trip (T4 − T1) − (T3 − T2). A delay that is the same both ways
+/// moves nothing. Of the newest kWindow exchanges the one of the shortest round trip counts (section 10, the clock
 /// filter). A clock that is set while the sender runs is believed after kWindow exchanges at most.
 class ClockSkew {
  public:
   static constexpr std::size_t kWindow = 6;  ///< three seconds of heartbeats
 
-  /// @param echo  of a heartbeat of the listener   @param sent  T3   @param received  T4
   /// What came before it was sent (a clock was set, or the sender lies) is left out.
+  /// @param echo  of a heartbeat of the listener
+  /// @param sent  T3
+  /// @param received  T4
   void add(const ClockEcho& echo, UTime sent, UTime received) {
     const Duration out = echo.received - echo.sent;
     const Duration back = received - sent;

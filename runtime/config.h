@@ -18,8 +18,8 @@
 
 namespace tern {
 
-/// what() is for the user: "scenarios/x.yaml:12: uav.limits.v_max: -3 is out of range (0, 1000]"; for a value of the
-/// command line "--set uav.limits.v_max=-3: uav.limits.v_max: -3 is out of range (0, 1000]".
+/// what() is for the user: "scenarios/x.yaml:12: uav.limits.v_max: -3 is out of range (0, 1000]". For a value of the
+/// command line it is "--set uav.limits.v_max=-3: uav.limits.v_max: -3 is out of range (0, 1000]".
 class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -28,9 +28,8 @@ class ConfigError : public std::runtime_error {
 /// whole. All methods throw ConfigError. Call finish() when all keys are read: it refuses the unknown ones. Copies, and
 /// sections got twice by the same key, are the same section.
 ///
-/// Types are strict: a number is a plain scalar like 3, -0.5, 1e-3 or inf, an integer has no point, a flag is true or
-/// false; a quoted scalar is text only; a key without a value is an error, except that an empty section or list may be
-/// written so.
+/// Types are strict. A number is a plain scalar like 3, -0.5, 1e-3 or inf, an integer has no point, a flag is true or
+/// false. A quoted scalar is text only. A key without a value is an error, except for an empty section or list.
 class ConfigSection {
  public:
   double number(std::string_view key, double fallback, Range range = {}, std::string_view meaning = {});
@@ -63,7 +62,7 @@ class ConfigSection {
   void ignore(std::string_view key);
   /// @throws ConfigError at the first key that was neither read nor ignored; it lists the known ones.
   void finish() const;
-  /// A ConfigError that names this section's key: for rules between fields, which come after finish(), so that a
+  /// A ConfigError that names this section's key, for rules between fields. Those come after finish(), so that a
   /// misspelt key is called unknown and its default is not blamed.
   [[nodiscard]] ConfigError error(std::string_view key, const std::string& what) const;
 

@@ -1,8 +1,8 @@
 // The keys that a process holds: those of the channels that it says or hears, no others.
 //
-// All are derived from one master key of a flight, or of a fleet of hosts: one per channel that is one role's, under
-// the label "tern key 1 PLAN", and one per role for all other channels, "tern key 1 planner". A MAC's key signs as well
-// as it verifies, so who hears a channel could sign on it; who does not, cannot (docs/security.md).
+// All are derived from one master key of a flight, or of a fleet of hosts. Each channel that is one role's has a key,
+// under the label "tern key 1 PLAN". For all other channels each role has one, "tern key 1 planner". A MAC's key signs
+// as well as it verifies, so who hears a channel could sign on it; who does not, cannot (docs/security.md).
 #pragma once
 
 #include <map>
@@ -20,8 +20,9 @@ class KeyRing {
  public:
   /// The ring of one of Tern's processes (roles.h); of a process of another name: all keys, as Observer.
   static KeyRing derive(const Key& master, std::string_view process);
-  /// Reads what spell() wrote, or a master key (32 bytes, or 64 hexadecimal digits and an end of line), from which
-  /// `process`'s ring is derived. @return an Error that says what is wrong, and nothing of the contents.
+  /// Reads what spell() wrote. Or derives `process`'s ring from a master key: 32 bytes, or 64 hexadecimal digits and an
+  /// end of line.
+  /// @return an Error that says what is wrong, and nothing of the contents.
   static Result<KeyRing> parse(std::string_view text, std::string_view process);
 
   /// As lines of text: "tern keys 1", the role, and per key its name and 64 hexadecimal digits.
@@ -40,8 +41,9 @@ class KeyRing {
   std::map<std::string, Key, std::less<>> keys_;  ///< by channel, or by role's name
 };
 
-/// A file with a master key, or a ring for `process`. @return an Error that names the path and what is wrong: it cannot
-/// be read, is no regular file, others than its owner can read it (mode & 077), it holds no key.
+/// A file with a master key, or a ring for `process`.
+/// @return an Error that names the path and what is wrong: unreadable, no regular file, readable by others (mode &
+/// 077), no key in it.
 Result<KeyRing> read_key_file(const std::string& path, std::string_view process);
 
 /// The same of an open file without a name (memfd, an unlinked file), from its beginning, wherever its offset is;

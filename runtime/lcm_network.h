@@ -22,8 +22,9 @@ inline constexpr std::int64_t kReceiveBufferBytes = 8'000'000;
 /// kDefaultLcmUrl; a udpm URL without recv_buf_size gets kReceiveBufferBytes.
 std::string choose_lcm_url(const std::string& option, const char* environment);
 
-/// Opens LCM. Logs the receive buffer that the kernel grants where the URL asks for one, as a warning when it is less
-/// (the kernel cuts it silently at net.core.rmem_max). @return an Error that says what to do when LCM cannot be used.
+/// Opens LCM. Logs the receive buffer that the kernel grants where the URL asks for one, as a warning when it is less.
+/// (The kernel cuts it silently at net.core.rmem_max.)
+/// @return an Error that says what to do when LCM cannot be used.
 Result<std::shared_ptr<lcm::LCM>> open_lcm(const std::string& url);
 
 /// Handles the messages that wait, at most `limit` of them, without blocking. @return how many were handled.

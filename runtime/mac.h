@@ -35,8 +35,8 @@ Key random_key();
 /// BLAKE2b of `label`, 32 bytes, under `master`: who has it can find neither the master nor another label's key.
 Key derive_key(const Key& master, std::string_view label);
 
-/// The tag of a message: BLAKE2b, 16 bytes, under `key`, of the channel's name on the wire (one byte with its length
-/// before it) and of `signed_bytes`, the message with its trailer's head. Time grows with the length, 1 µs per kB.
+/// The tag of a message: BLAKE2b, 16 bytes, under `key`. It covers the channel's name on the wire, after one byte with
+/// its length, and `signed_bytes`, the message with its trailer's head. Time grows with the length, 1 µs per kB.
 /// @pre wire_name has at most 255 bytes
 Tag make_tag(const Key& key, std::string_view wire_name, std::span<const std::uint8_t> signed_bytes);
 

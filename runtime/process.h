@@ -33,8 +33,8 @@ struct ProcessContext {
   ConfigDocument& document;
 };
 
-/// The text that CONFIGURATION carries: the effective configuration, or its head with a last line that says how much
-/// was cut and the digest of the whole, so that texts differ when configurations do.
+/// The text that CONFIGURATION carries: the effective configuration, or its head. Then a last line says how much was
+/// cut and the digest of the whole, so that texts differ when configurations do.
 std::string reported_yaml(const std::string& effective_yaml);
 
 /// The hash that CONFIGURATION carries, and PLAN as its configuration_hash: digest(reported_yaml(effective_yaml)).
@@ -53,10 +53,10 @@ struct ProcessDescription {
 using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 
 /// Parses --help, --help-config, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL, --clock-offset-us N,
-/// --channel-suffix S,
-/// --log-level L, --key-file FILE, --key-fd N; loads the scenario (without --config: all defaults), makes the node,
-/// publishes CONFIGURATION (at start, then every 5 s) and HEARTBEAT (2 Hz), and runs until the node has finished, or
-/// SIGINT/SIGTERM (exit 0). Logs to stderr. The epoch is the wall clock's time at the start, without the offset.
+/// --channel-suffix S, --log-level L, --key-file FILE, --key-fd N. Loads the scenario (without --config: all defaults)
+/// and makes the node. Publishes CONFIGURATION (at start, then every 5 s) and HEARTBEAT (2 Hz). Runs until the node has
+/// finished, or SIGINT/SIGTERM (exit 0). Logs to stderr. The epoch is the wall clock's time at the start, without the
+/// offset.
 /// @return the exit code: the node's own, 0 after a signal, or kExit…. ConfigError and bad options: the message on
 /// stderr, exit 2. A node that finishes with kExitStuck ends the process here and now, nothing is destroyed: one of its
 /// threads may never end.
@@ -70,9 +70,9 @@ inline constexpr Duration kHeartbeatSpacing{50'000};
 
 /// Hosts one node: its heartbeat and configuration reports, its pacing. The same in a process and in virtual time.
 ///
-/// A heartbeat tells back the newest ones heard of others. One of a process that was not heard lately is answered at
-/// once, so that both can compare their clocks a round trip after the later one has started. While tern-logger says
-/// that it waits, CONFIGURATION is repeated with its heartbeats.
+/// A heartbeat echoes the newest ones heard of others. One of a process that was not heard lately is answered at once.
+/// So both can compare their clocks a round trip after the later one has started. While tern-logger says that it waits,
+/// CONFIGURATION is repeated with its heartbeats.
 class NodeHost {
  public:
   /// @param effective_yaml  reported on CONFIGURATION, by reported_yaml

@@ -18,9 +18,8 @@ inline constexpr const char* kGenerators[] = {"none",          "paper_corridor",
 
 /// Reads name, seed, world, uav, semantics, timeout_s (scenarios/README.md lists every key); process sections are left
 /// to their processes. A missing name is the file's name without folder and extension.
-/// @throws ConfigError for what a key may not be, and for what keys together may not be: start or goal (with the body)
-/// outside the flight box, names given twice, a polygon that crosses itself, a region's class that semantics.classes
-/// does not list …
+/// @throws ConfigError for what a key may not be, alone or together with others. The latter: start or goal (with the
+/// body) outside the flight box, names given twice, a polygon that crosses itself, a region's unlisted class …
 Scenario read_scenario(ConfigDocument& document);
 
 /// The scenario as YAML with every obstacle listed; read_scenario gives the same values back (doubles round-trip).

@@ -14,20 +14,21 @@ namespace tern {
 /// No message may claim a time farther ahead of the listener's clock: ten times what clocks may differ
 /// (docs/safety.md).
 inline constexpr Duration kMostAhead{100'000};
-/// What else is said of a channel on HEARTBEAT (a second sender, messages from the future) is said until it has not
-/// happened for so long.
+/// HEARTBEAT reports a channel's troubles (a second sender, messages from the future) until they have not happened for
+/// so long.
 inline constexpr Duration kSenderTroubleSaid{2'000'000};
 
-/// How long the sender that is heard on a channel must be silent before another one is heard. nullopt: any number may
-/// speak at a time (OBSTACLE_OBSERVATIONS, GOAL, HEARTBEAT, CONFIGURATION, and channels that Tern does not know).
+/// How long the sender that is heard on a channel must be silent before another one is heard.
+/// @return nullopt if any number may speak at a time: OBSTACLE_OBSERVATIONS, GOAL, HEARTBEAT, CONFIGURATION, and
+/// channels that Tern does not know.
 std::optional<Duration> speaker_silence(std::string_view channel);
 
 /// Judges the headers of one channel's messages in the order of their arrival. Pure.
 ///
 /// On a channel with one speaker, the sender that was heard first stays the speaker until it has been silent for
-/// `silence`; then whoever speaks next is. So a process that was started anew is heard as soon as the dead one has been
-/// silent for that long, and one that runs beside it by mistake changes nothing, neither while it lives nor when it
-/// ends (docs/decisions/who-is-heard.md). Sequence numbers are judged by sender (SequenceWindow).
+/// `silence`. Then whoever speaks next is. So a restarted process is heard as soon as the dead one has been silent for
+/// that long. One that runs beside it by mistake changes nothing, neither while it lives nor when it ends
+/// (docs/decisions/who-is-heard.md). Sequence numbers are judged by sender (SequenceWindow).
 class SenderWatch {
  public:
   /// @param own_epoch_us  of the listener's own messages, which come back to it

@@ -30,10 +30,10 @@ struct RunResult {
 
 /// A network of nodes that share one clock which moves only when all of them have nothing to do.
 ///
-/// At each instant, in turn until nothing is left: every message is delivered in the order of publishing, then the
-/// hosts that are due are stepped in the order of their start; then the clock jumps to the earliest wakeup (of a node,
-/// a report or a paced message). So a message takes no time, nothing is lost, and equal nodes with equal inputs give
-/// equal messages, byte for byte and in order.
+/// At each instant, two steps alternate until nothing is left. Every message is delivered in the order of publishing;
+/// the hosts that are due are stepped in the order of their start. Then the clock jumps to the earliest wakeup (of a
+/// node, a report or a paced message). So a message takes no time, nothing is lost, and equal nodes with equal inputs
+/// give equal messages, byte for byte and in order.
 class VirtualRunner {
  public:
   /// @param start  µs, > 0 so that it is a valid time in messages
@@ -42,12 +42,13 @@ class VirtualRunner {
   VirtualRunner(const VirtualRunner&) = delete;
   VirtualRunner& operator=(const VirtualRunner&) = delete;
 
-  /// Starts a process: a bus of its own (its epoch is the time now, made unique by counting up), the node that `make`
-  /// builds on it, their host. @return the node, which lives until stop() or the runner's end.
+  /// Starts a process: a bus of its own, the node that `make` builds on it, their host. The bus's epoch is the time
+  /// now, made unique by counting up.
+  /// @return the node, which lives until stop() or the runner's end.
   Node& start(std::string process, const std::function<std::unique_ptr<Node>(Bus&)>& make,
               const std::string& effective_yaml = "");
   /// Processes that start from now on, and an observer not yet made, have the keys that `master` gives them by their
-  /// names; nothing: no keys, as at first.
+  /// names. With nullopt they have none, as at first.
   void use_key(std::optional<Key> master) { master_ = std::move(master); }
   /// Puts bytes on the network, as somebody might who is none of the processes.
   void inject(const std::string& wire_name, std::span<const std::uint8_t> bytes);
@@ -56,9 +57,9 @@ class VirtualRunner {
   /// @throws std::invalid_argument when no process has this name.
   void stop(std::string_view process);
 
-  /// Runs until `until` (asked once per instant, when all messages of the instant are delivered; may be empty) holds, a
-  /// node has finished, or the time is `end`. Can be called again to go on. A finished node is still hosted; a later
-  /// run() reports it again.
+  /// Runs until `until` holds, a node has finished, or the time is `end`. `until` may be empty; it is asked once per
+  /// instant, when all its messages are delivered. Can be called again to go on. A finished node is still hosted; a
+  /// later run() reports it again.
   /// @throws what a handler or a node threw; std::logic_error when nodes keep each other busy without time passing.
   RunResult run(UTime end, const std::function<bool()>& until = {});
 

@@ -48,8 +48,8 @@ struct Anchored {
   Extent extent;
 };
 
-/// Builds the value while the parser reads: a document is refused at the place where it breaks a limit, before any more
-/// of it is held.
+/// Builds the value while the parser reads: a document is refused where it breaks a limit, before any more of it is
+/// held.
 class TreeBuilder final : public YAML::EventHandler {
  public:
   explicit TreeBuilder(const Locate& locate) : locate_(locate) {}

@@ -25,8 +25,8 @@ struct MoveSearch {
 };
 
 /// How many of the random moves keep clear of every obstacle from world time 0 to until_s. Each is a quintic from rest
-/// to rest, p(s) = s³ (10 − 15 s + 6 s²) of the way at s = t/T, so |v| ≤ 1.875 d/T, |a| ≤ 5.774 d/T², |j| ≤ 60 d/T³ per
-/// axis; half of them are followed by a second. Begin, direction, distance (0.05 … 12 m) and how much slower than the
+/// to rest, p(s) = s³ (10 − 15 s + 6 s²) of the way at s = t/T. So |v| ≤ 1.875 d/T, |a| ≤ 5.774 d/T², |j| ≤ 60 d/T³ per
+/// axis. Half of them are followed by a second. Begin, direction, distance (0.05 … 12 m) and how much slower than the
 /// limits it is are random. Sampled every 5 ms against boxes grown by the body's half-extents and the margin.
 /// @return the number of clear moves; ends at `enough` of them
 int clear_moves(const RestingVehicle& vehicle, const World& world, std::uint64_t seed, const MoveSearch& search,

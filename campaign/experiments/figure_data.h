@@ -9,9 +9,9 @@
 
 namespace tern {
 
-/// Per case of search_cases(): title, start, goal, regions, and if something was found per segment 25 points of the
-/// curve, both hulls, the plane (n, d of n·p = d; null: none separates the whole) and its gap, the obstacle's box in
-/// the segment's middle.
+/// Per case of search_cases(): title, start, goal, regions. If something was found, per segment: 25 points of the
+/// curve, both hulls, the plane and its gap, the obstacle's box in the segment's middle. The plane is n, d of n·p = d;
+/// null: none separates the whole.
 std::string search_data(const std::vector<SearchOutcome>& outcomes);
 
 /// Regions, obstacles (movers where they are as the flight with semantics passes them) and both flights as rows of

@@ -5,8 +5,8 @@
 
 namespace tern {
 
-/// Mean and half the width of its 95 % interval by Student's t (n − 1 degrees of freedom), which assumes no more than
-/// that means of so many flights are about normal.
+/// Mean and half the width of its 95 % interval by Student's t (n − 1 degrees of freedom). This assumes only that means
+/// of so many flights are about normal.
 struct MeanInterval {
   int n = 0;
   double mean = 0.0;

@@ -22,13 +22,13 @@ struct ScenarioView {
   Scenario scenario;
   World world;
   std::vector<Box> occupied;           ///< of the map, W
-  std::string map;                     ///< its extents in words
-  std::optional<PlannedWay> shortest;  ///< nothing: the goal cannot be reached
-  std::optional<PlannedWay> weighed;   ///< by the regions' λ; nothing: not reached, or nothing weighs
+  std::string map;                     ///< its extents as text
+  std::optional<PlannedWay> shortest;  ///< nullopt: the goal cannot be reached
+  std::optional<PlannedWay> weighed;   ///< by the regions' λ; nullopt: not reached, or nothing weighs
 };
 
-/// Reads the scenario as a flight would, every process's section too, and makes world, map and ways: the planner's own
-/// around static obstacles and occupied voxels, for this body and flight box. Movers are in no way.
+/// Reads the scenario as a flight would, every process's section too, and makes world, map and ways. The ways are the
+/// planner's own around static obstacles and occupied voxels, for this body and flight box. Movers are in no way.
 /// @throws ConfigError for what a flight would refuse.
 ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64_t> seed);
 

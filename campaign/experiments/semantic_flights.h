@@ -53,7 +53,7 @@ std::vector<SemanticCase> sweep_cases(std::uint64_t seeds);
 inline constexpr double kSweepLambdas[] = {0.5, 1.0, 2.0, 4.0, 8.0};
 
 /// What the scenario file is overridden with. The worlds have no walls, but here they have the corridor's floor and
-/// ceiling, z ∈ [0, 4]: as high as their regions, which therefore must be passed at their sides.
+/// ceiling, z ∈ [0, 4]. Their regions are as high, so they must be passed at their sides.
 std::vector<std::string> overrides_of(const SemanticCase& wanted);
 
 /// Flies on virtual time in this process, 15 ms charged per answer, so that the flight is a function of its inputs.
@@ -70,8 +70,8 @@ struct SemanticCampaign {
 };
 
 /// Flies what is not in the file yet.
-/// @return all flights wanted, in their order, the file sorted likewise; an Error when the file cannot be read or
-/// written or holds flights of another planner, or when a process dies.
+/// @return all flights wanted, in their order, the file sorted likewise. An Error when the file cannot be read or
+/// written, holds flights of another planner, or a process dies.
 Result<std::vector<SemanticFlight>> fly_semantic_cases(const SemanticCampaign& campaign);
 
 /// "paper_repel,exposure,2,17"

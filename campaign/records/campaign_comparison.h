@@ -28,7 +28,7 @@ struct CampaignComparison {
   [[nodiscard]] bool may_infer() const { return different_a == pairs && different_b == pairs; }
 };
 
-/// How many of the flights differ from each other in outcome, time, way, clearance or jerk: flights that a seed does
+/// How many of the flights differ from each other in outcome, time, way, clearance or jerk. Flights that a seed does
 /// not change are one flight, flown often. Flights that nobody judged count as different. O(n log n).
 std::int64_t different_flights(const std::map<std::uint64_t, FlightRecord>& records);
 

@@ -23,7 +23,7 @@ struct CampaignSummary {
   std::int64_t flights = 0, reached = 0, collisions = 0, timeouts = 0, failed = 0;  ///< by outcome
   std::int64_t successes = 0;  ///< reached, within all limits, kept by the audit (is_success)
   std::int64_t different = 0;  ///< flights that differ from each other (different_flights)
-  /// Wilson, of successes; nothing where flights are equal: they say no more than one.
+  /// Wilson, of successes; nullopt where flights are equal: they say no more than one.
   std::optional<Interval> success_ci95;
   // Over the flights that reached the goal:
   Distribution flight_time_s, first_entry_s, path_length_m, mean_speed_mps, jerk_integral;

@@ -20,7 +20,8 @@ struct Flights {
 std::string times_file(const std::string& flights_file);
 
 /// Reads both files; the companion may be missing. A rest without a line end is left out, and so are times of flights
-/// that are not in the book. @return an Error that names file, line and column; also when flights differ in identity.
+/// that are not in the book.
+/// @return an Error that names file, line and column; also when flights differ in identity.
 Result<Flights> read_flights(const std::string& file);
 
 /// Writes both files anew, by seed: first beside them, then in their place, so that there is always a whole one.

@@ -27,7 +27,7 @@ struct CampaignIdentity {
   friend bool operator==(const CampaignIdentity&, const CampaignIdentity&) = default;
 };
 
-/// The fields in which they differ, in words: `scenario "a" against "b"`; "" when they are equal.
+/// The fields in which they differ, as text: `scenario "a" against "b"`; "" when they are equal.
 std::string difference(const CampaignIdentity& a, const CampaignIdentity& b);
 
 struct FlightRecord {

@@ -20,8 +20,8 @@ struct PairedDifference {
 /// 2000 resamples of whole pairs, the same ones for equal numbers of pairs. O(2000 n). @pre all are finite
 PairedDifference paired_difference(const std::vector<std::pair<double, double>>& pairs);
 
-/// McNemar's exact test of two success rates over the same cases: the two-sided binomial probability, at rate 1/2, of
-/// as uneven a split of the pairs in which one alone succeeds. 1 where there are none.
+/// McNemar's exact test of two success rates over the same cases. It is the two-sided binomial probability, at rate
+/// 1/2, of as uneven a split of the pairs in which one alone succeeds. Without such pairs it is 1.
 double mcnemar(std::int64_t a_alone, std::int64_t b_alone);
 
 }  // namespace tern

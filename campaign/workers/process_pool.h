@@ -15,12 +15,12 @@ namespace tern {
 struct FinishedProcess {
   std::uint64_t key = 0;
   std::string output;            ///< all that it wrote to standard output
-  std::optional<int> exit_code;  ///< nothing: a signal ended it …
+  std::optional<int> exit_code;  ///< nullopt: a signal ended it …
   int signal = 0;                ///< … this one
 };
 
-/// Children lead process groups of their own, so that a terminal's Ctrl-C reaches the parent alone, and are killed by
-/// the kernel when the parent dies, however that comes. Not thread-safe; the parent stays single-threaded.
+/// Children lead process groups of their own, so that a terminal's Ctrl-C reaches the parent alone. The kernel kills
+/// them when the parent dies, however that comes. Not thread-safe; the parent stays single-threaded.
 class ProcessPool {
  public:
   ProcessPool() = default;

@@ -5,7 +5,7 @@
 
 namespace tern {
 
-/// The eight corners of a box, in W, m; corner k has the maximum in x, y, z where bit 0, 1, 2 of k is set.
+/// The eight corners of a box, in W, m. Corner k has the maximum in x, y, z where bit 0, 1, 2 of k is set.
 ///
 /// An empty box (default-constructed) has no corners and gives meaningless ones: ask isEmpty() first.
 inline Eigen::Matrix<double, 3, 8> box_corners(const Box& box) {

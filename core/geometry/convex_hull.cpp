@@ -89,8 +89,8 @@ struct HalfEdge {
   std::size_t from, to, opposite;
 };
 
-// The edges of a triangulated surface, each once: the lesser of its two vertices in `from`, the other in `to`, and the
-// two vertices opposite to it.
+// The edges of a triangulated surface, each once: its lesser vertex in `from`, the other in `to`, and the two vertices
+// opposite to it.
 template <class Visit>
 void for_each_edge(const std::vector<Triangle>& faces, std::size_t vertices, const Visit& visit) {
   std::vector<std::size_t> begin(vertices + 1, 0);

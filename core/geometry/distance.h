@@ -18,8 +18,8 @@ struct ShortestVector {
 ///
 /// @param a, b    3×n and 3×m points in W, n, m ≥ 1, finite. Need not be extreme; repeated and flat sets are allowed.
 /// @param enough  m, ≥ 0: a caller who only asks "farther apart than this?" saves the rest of the descent.
-/// Each step takes the support point of conv(a) − conv(b) against v and the point of the simplex (at most 4 such
-/// points) nearest to the origin. Pure; no heap. Both bounds are up to rounding, about 1e-15 of the greatest
+/// Each step takes the support point of conv(a) − conv(b) against v. Then it takes the point of the simplex (at most 4
+/// such points) nearest to the origin. Pure; no heap. Both bounds are up to rounding, about 1e-15 of the greatest
 /// coordinate. Some 5 steps of O(n + m).
 ShortestVector shortest_vector(const Points& a, const Points& b, double enough);
 

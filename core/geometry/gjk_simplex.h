@@ -139,9 +139,9 @@ struct Descent {
 // For descend(): no proof of a distance ends it.
 inline constexpr double kNoProof = std::numeric_limits<double>::infinity();
 
-// Descends from one support point of A − B until A and B are known to be no farther apart than `enough`, or proven to
-// be farther apart than `proof`, or as far as rounding allows. m. support(v): the point of A − B that is lowest along
-// v.
+// Descends from one support point of A − B, as far as rounding allows. Ends when the distance of A and B, m, is known
+// to be at most `enough` or proven to be more than `proof`. The argument support(v) gives the point of A − B that is
+// lowest along v.
 template <class Support>
 Descent descend(const Support& support, const Vertex& first, double enough, double proof) {
   Descent d;

@@ -20,17 +20,17 @@ struct Separation {
   double gap = 0.0;  ///< width of the slab between A and B that the plane's normal proves, m; at most the distance
 };
 
-/// The plane of widest margin between conv(a) and conv(b), if they are more than `clearance` + kTouchingTolerance
-/// apart.
+/// The plane of widest margin between conv(a) and conv(b), if they are separated by more than `clearance` +
+/// kTouchingTolerance.
 ///
 /// @param a  obstacle's points, 3×n, n ≥ 1; @param b  vehicle's points, 3×m, m ≥ 1.
 /// @param clearance  m, ≥ 0: the radius of a spherical vehicle (0: a point or the shape is already in the hull).
-/// @return The plane touches A (min n·a + d = 0 up to rounding, never below) and holds every b at
-///   n·b + d ≤ −max(clearance, kPlaneMargin); both hold in exact arithmetic and as Plane::signed_distance computes
-///   them, and are verified against all points before the plane is returned. Nothing when not separated, or when in
-///   doubt even after GLPK has been asked: for coordinates within 1e4 m that happens within kTouchingTolerance only.
-/// @throws std::invalid_argument for an empty set, a negative clearance, or a coordinate that is not finite (which may
-///   also end in "not separated", never in a plane).
+/// @return nullopt if not separated, or in doubt even after GLPK has been asked; for coordinates within 1e4 m doubt
+///   arises within kTouchingTolerance only. Else the plane touches A (min n·a + d = 0 up to rounding, never below) and
+///   has every b at n·b + d ≤ −max(clearance, kPlaneMargin). Both hold in exact arithmetic and as
+///   Plane::signed_distance computes them. Both are verified against all points.
+/// @throws std::invalid_argument for an empty set, a negative clearance, or a coordinate that is not finite. (The last
+///   may also end in "not separated", never in a plane.)
 /// O(n + m), about 0.3 µs for 30 + 4 points; no heap.
 /// Always computed anew from (a, b): no caller state, so that a replay gives the same bits.
 std::optional<Separation> separate(const Points& a, const Points& b, double clearance);

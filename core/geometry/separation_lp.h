@@ -12,9 +12,9 @@ namespace tern {
 ///
 /// @param a, b  3×n and 3×m points, n, m ≥ 1, finite.
 /// @throws std::invalid_argument for an empty set or a coordinate that is not finite.
-/// @return the plane half way between the hulls for its normal, which is not the one of widest margin; nullopt if the
-/// hulls touch or overlap, or if the numbers leave it in doubt. Thread-safe per thread (glp environment
-///   is thread-local in Debian's build). About 25 µs; infeasible problems are tried twice.
+/// @return the plane half way between the hulls for its normal, not the one of widest margin. Else nullopt: the hulls
+///   touch or overlap, or rounding leaves it in doubt. Thread-safe per thread (glp environment is thread-local in
+///   Debian's build). About 25 µs; infeasible problems are tried twice.
 std::optional<Plane> separate_by_lp(const Points& a, const Points& b);
 
 /// Frees GLPK's thread-local environment: before leak checks and at thread exit.

@@ -17,13 +17,13 @@ struct CentredBox {
 
 /// What is_apart() can say.
 enum class Apart {
-  Yes,   ///< more than clearance + kTouchingTolerance apart, proven along a direction
+  Yes,   ///< separated by more than clearance + kTouchingTolerance, proven along a direction
   No,    ///< nearer than that
   Doubt  ///< rounding ended the descent before either was proven: ask separate()
 };
 
-/// Are the convex hull A of all boxes and B = conv(points) ⊕ conv(vertices) more than clearance + kTouchingTolerance
-/// apart?
+/// Are the convex hull A of all boxes and B = conv(points) ⊕ conv(vertices) separated by more than clearance +
+/// kTouchingTolerance?
 ///
 /// The same question as separate(hull_vertices(corners of the boxes), points ⊕ vertices, clearance) answers, and the
 /// same answer but for rounding within kTouchingTolerance of touching. It needs no hull, because the support point of a
@@ -34,16 +34,15 @@ enum class Apart {
 /// @param points     3×m, m ≥ 1, column-major, finite
 /// @param vertices   of the vehicle, added to the points; empty: none
 /// @param clearance  m, ≥ 0
-/// @param direction  in: where to begin, from B to A, any length but 0: one that separated a similar pair before often
-///   proves the answer at once; never trusted, always verified on all boxes and points. Out, after Yes: one that
-///   proves it.
+/// @param direction  in: where to begin, from B to A, any length but 0. One that separated a similar pair before often
+///   proves the answer at once; it is always verified on all boxes and points. Out, after Yes: one that proves it.
 /// About 20 ns when the direction does, 0.1 µs otherwise; no heap.
 Apart is_apart(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points, const Points& vertices,
                double clearance, Vec3& direction);
 
-/// The plane of widest margin, as separate() of the hull's vertices would give it but for rounding, without the hull:
+/// The plane of widest margin without the hull, but for rounding the one of separate() of the hull's vertices. It has
 /// n·x + d ≥ 0 on all boxes ⊕ (−vertices), ≤ −max(clearance, kPlaneMargin) on all points, verified on every one.
-/// @return nullopt if they are not more than clearance + kTouchingTolerance apart, or in doubt. Arguments of
+/// @return nullopt if they are not separated by more than clearance + kTouchingTolerance, or in doubt. Arguments of
 /// is_apart(). About 0.2 µs.
 std::optional<Separation> separate_sweep(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,
                                          const Points& vertices, double clearance);

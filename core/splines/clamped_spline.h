@@ -69,8 +69,9 @@ class ClampedSpline {
   [[nodiscard]] const Points& control_points() const { return control_points_; }
   [[nodiscard]] const SplineBasis& basis() const { return *basis_; }
 
-  /// State at t_s ≥ 0. Jerk at an inner knot is the right-hand one, at duration_s() the left-hand one; after that p =
-  /// q_n and v, a, j are zero. @throws std::invalid_argument if t_s is negative or not a number.
+  /// State at t_s ≥ 0. Jerk at an inner knot is the right-hand one, at duration_s() the left-hand one. After that p =
+  /// q_n and v, a, j are zero.
+  /// @throws std::invalid_argument if t_s is negative or not a number.
   [[nodiscard]] MotionSample sample(double t_s) const;
   [[nodiscard]] PowerCubic power(int j) const;  ///< interval j as powers of u
   [[nodiscard]] Points4 minvo(int j) const;     ///< MINVO points of interval j, m
@@ -95,8 +96,8 @@ Points3 start_control_points(const MotionSample& start, double interval_s);
 /// The spline that stays at p (W, m): all control points equal.
 ClampedSpline at_rest(const Vec3& p, int intervals, double interval_s);
 
-/// Largest |v|, |a|, |j| per axis. True extrema, not bounds by control points: limits compared with these refuse
-/// nothing that is legal and pass nothing that is not (but for rounding, about 1e-15 of the value).
+/// Largest |v|, |a|, |j| per axis. True extrema, not bounds by control points. Limits compared with these refuse
+/// nothing legal and pass nothing illegal, but for rounding (about 1e-15 of the value).
 struct MotionBounds {
   Vec3 v_max = Vec3::Zero();  ///< m/s, ≥ 0
   Vec3 a_max = Vec3::Zero();  ///< m/s², ≥ 0
@@ -104,8 +105,10 @@ struct MotionBounds {
 };
 
 /// On interval j, with P(u) = c_3 u³ + c_2 u² + c_1 u + c_0 per axis:
-///   v(u) = (3c_3 u² + 2c_2 u + c_1)/Δt, largest at u = 0, u = 1 or the vertex u = −c_2/(3c_3) if that is inside;
-///   a(u) = (6c_3 u + 2c_2)/Δt², largest at u = 0 or u = 1;   j = 6c_3/Δt³, constant.
+///
+///     v(u) = (3c_3 u² + 2c_2 u + c_1)/Δt, largest at u = 0, u = 1 or the vertex u = −c_2/(3c_3) if that is inside
+///     a(u) = (6c_3 u + 2c_2)/Δt², largest at u = 0 or u = 1
+///     j = 6c_3/Δt³, constant
 MotionBounds motion_bounds(const ClampedSpline& spline, int j);
 
 /// The same over all intervals. O(J).

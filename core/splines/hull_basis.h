@@ -7,7 +7,7 @@ namespace tern {
 
 enum class HullBasis { Minvo, Bezier, Bspline };
 
-/// Power coefficients (3×4, of u³ u² u 1) times this are the basis's control points of the cubic over u ∈ [0, 1]; their
+/// Power coefficients (3×4, of u³ u² u 1) times this are the basis's control points of the cubic over u ∈ [0, 1]. Their
 /// hull holds it there. Bspline: of uniform knots.
 const Eigen::Matrix4d& hull_inverse_3(HullBasis basis);
 

@@ -27,8 +27,8 @@ struct PiecewiseCubic {
     std::size_t index = 0;
     UTime start;  ///< of that piece
   };
-  /// The piece that holds t (at a joint: the later one) and its start; clamps to the first and last piece
-  /// (extrapolation is the caller's business: see Track, whose region beyond its last piece is a growing box).
+  /// The piece that holds t (at a joint: the later one) and its start. Clamps to the first and last piece:
+  /// extrapolation is the caller's, as Track's growing box beyond its last piece.
   [[nodiscard]] Located locate(UTime t) const;
   [[nodiscard]] MotionSample sample(UTime t) const;  ///< within [start, end]; beyond, the end piece's polynomial
 };
@@ -62,13 +62,13 @@ using MotionFunction = std::function<MotionSample(Duration since_start)>;
 /// ≥ 1.
 PiecewiseCubic hermite_fit(UTime start, Duration piece, int pieces, const MotionFunction& motion);
 
-/// Largest distance per axis of a cubic Hermite piece of length h from the function that it interpolates:
-/// |p(t) − H(t)| = |p⁗(ξ)|/24 · τ²(h − τ)² ≤ h⁴/384 · max|p⁗|, m (the remainder of Hermite interpolation, at τ = h/2).
+/// Largest distance per axis of a cubic Hermite piece of length h from the function that it interpolates, m. It is the
+/// remainder of Hermite interpolation at τ = h/2: |p(t) − H(t)| = |p⁗(ξ)|/24 · τ²(h − τ)² ≤ h⁴/384 · max|p⁗|.
 /// @param max_fourth_derivative m/s⁴, ≥ 0, over the piece.
 double hermite_error_bound(double h_s, double max_fourth_derivative);
 
-/// What remains of a spline that started at `spline_start`, from `from` to its end: the first piece may be a part of an
-/// interval, the others are its intervals; the same curve to rounding.
+/// What remains of a spline that started at `spline_start`, from `from` to its end; the same curve to rounding. The
+/// first piece may be a part of an interval, the others are its intervals.
 /// @throws std::invalid_argument unless spline_start ≤ from < end and Δt is a whole number of µs (to 1e-3 µs).
 PiecewiseCubic remaining_motion(const ClampedSpline& spline, UTime spline_start, UTime from);
 

@@ -49,9 +49,9 @@ Box centre_box(const Box& flight_box, const Body& body);
 /// Whether thrust, tilt and body rates keep to the dynamics to kLimitTolerance of each, at true extrema. O(J).
 BreachReport breach_of(const ClampedSpline& spline, const Dynamics& dynamics);
 
-/// Whether `trajectory` may be flown from t_s and `start` on: its form, its start, joining `start`, resting at the end,
-/// |v|, |a|, |j|, thrust, tilt and body rates within limits to kLimitTolerance of each, positions within the centre box
-/// to kBoxTolerance, all at true extrema. O(J), allocates nothing but the spline.
+/// Whether `trajectory` may be flown from t_s and `start` on: its form, its start, joining `start`, resting at the end.
+/// Limits hold for |v|, |a|, |j|, thrust, tilt and body rates to kLimitTolerance of each, and the centre box to
+/// kBoxTolerance. All are judged at true extrema. O(J), allocates nothing but the spline.
 BreachReport breach_of(const TimedSpline& trajectory, UTime t_s, const MotionSample& start, const Limits& limits,
                        const Box& centre_box);
 

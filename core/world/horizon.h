@@ -113,9 +113,9 @@ struct Plan {
   PlanReason reason = PlanReason::None;
   TimedSpline trajectory;  ///< starts at t_s unless KeepCommitted (then the committed one); meaningless for NoPlan
   Duration hold;           ///< how long after its end the end point stays clear of every predicted mover, ≤ the cap
-  /// What the trajectory is certified at: the boxes of estimated tracks with their α at `level`, times `alpha_scale`;
-  /// of what is declared or static all of it, always. Confidence: that each one of those tracks stays within its box;
-  /// 1 where nothing is estimated; 0 below the last level (there is no number for a scaled α), and for NoPlan.
+  /// What the trajectory is certified at: the boxes of estimated tracks with their α at `level`, times `alpha_scale`.
+  /// What is declared or static counts with all of its α. `confidence` is that of each such track to stay within its
+  /// box; 1 where nothing is estimated. It is 0 below the last level (a scaled α has no number) and for NoPlan.
   double confidence = 0.0;
   int level = 0;                   ///< into kConfidenceLevels; 0: what the predictions promise
   double alpha_scale = 1.0;        ///< [0, 1]; below 1 only at the last level
@@ -145,7 +145,7 @@ struct PlanTiming {
   std::int64_t pairs_by_index = 0;    ///< out of the vehicle's reach
   std::int64_t pairs_by_box = 0;      ///< bounding boxes are disjoint
   std::int64_t pairs_by_instant = 0;  ///< they touch at one of five instants
-  std::int64_t pairs_by_cache = 0;    ///< apart along the direction that separated that obstacle last
+  std::int64_t pairs_by_cache = 0;    ///< separated along the direction that separated that obstacle last
   std::int64_t pairs_by_plane = 0;    ///< fast separation
   std::int64_t pairs_by_lp = 0;       ///< handed to GLPK
   std::int64_t solver_calls = 0;      ///< of the optimizer: how often a problem was solved

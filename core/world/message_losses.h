@@ -11,7 +11,7 @@
 namespace tern {
 
 /// The sequence numbers of one channel, by sender, in the order of arrival. Pure. SequenceWindow says what is new and
-/// what is lost; a sender whose numbers begin again after kPlayedAgain of silence is a log that is played once more.
+/// what is lost. A sender whose numbers begin again after kPlayedAgain of silence is a log that is played once more.
 class MessageLosses {
  public:
   static constexpr Duration kPlayedAgain{2'500'000};

@@ -57,7 +57,7 @@ struct RecordedTracksSpec {
   double metres_per_unit = 1.0;
   double frames_per_second = 25.0;
   double least_step_s = 0.0;  ///< positions of a track that follow sooner than this are passed over
-  /// World time 0 is this time of the file (frame / frames_per_second); nothing: the seed draws it.
+  /// World time 0 is this time of the file (frame / frames_per_second); nullopt: the seed draws it.
   std::optional<double> start_s;
   Vec3 half_extents = Vec3(0.25, 0.25, 1.0);  ///< of every person, m
   double centre_z = 1.0;                      ///< boxes stand here, m

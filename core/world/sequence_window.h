@@ -8,11 +8,11 @@ namespace tern {
 
 /// The sequence numbers of one sender on one channel, in the order of arrival. Pure.
 ///
-/// An honest sender counts its messages by one. What is missing up to kShortGap ahead is lost, once a later number has
-/// come, until it comes after all (the newest kRemembered numbers are known one by one). What lies farther ahead is
-/// believed to be the sender's numbering only when the next number continues it: one false number moves nothing. What
-/// lies behind all that is remembered is refused, until begin_anew(). The former numbering is remembered until the new
-/// one is established; its next number brings it back, and takes back what was counted as lost meanwhile.
+/// An honest sender counts its messages by one. What a number at most kShortGap ahead leaves out is lost, until it
+/// comes after all. The newest kRemembered numbers are known one by one. What lies farther ahead is believed only when
+/// the next number continues it: one false number moves nothing. What lies behind all that is remembered is refused,
+/// until begin_anew(). The former numbering is remembered until the new one is established. Its next number brings it
+/// back, and takes back what was counted as lost meanwhile.
 class SequenceWindow {
  public:
   static constexpr std::int64_t kRemembered = 64;

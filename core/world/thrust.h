@@ -1,8 +1,8 @@
 // What a multirotor must do to fly a trajectory: thrust, tilt and body rates, by differential flatness.
 //
-// With the acceleration a (W) the thrust per mass is f = a + g e₃, along the body's z axis z = f/|f|; the tilt is the
+// With the acceleration a (W) the thrust per mass is f = a + g e₃, along the body's z axis z = f/|f|. The tilt is the
 // angle of f from e₃. Its direction turns with ż = (j − (j·z) z)/|f|, and |ż| is the body rate about the axes x and y
-// together:  |ω_xy| = |f × j|/|f|²  (D. Mellinger and V. Kumar, "Minimum snap trajectory generation and control for
+// together: |ω_xy| = |f × j|/|f|² (D. Mellinger and V. Kumar, "Minimum snap trajectory generation and control for
 // quadrotors", ICRA 2011: h_ω). Yaw is free of it.
 //
 // On an interval of a cubic spline f is linear in time and j constant, so that everything below is exact.

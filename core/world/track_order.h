@@ -8,8 +8,8 @@
 
 namespace tern {
 
-/// Orders tracks by the distance from `vehicle` (W, m) to the region that each may occupy during [now, now + horizon]
-/// (0 for those that can reach the vehicle), then by the distance to it at `now`, then by id. O(n log n + pieces).
+/// Orders tracks by the distance from `vehicle` (W, m) to the region that each may occupy during [now, now + horizon].
+/// It is 0 for those that can reach the vehicle. Ties: by the distance to it at `now`, then by id. O(n log n + pieces).
 void sort_by_reach(std::vector<Track>& tracks, const Vec3& vehicle, UTime now, Duration horizon);
 
 }  // namespace tern

@@ -45,7 +45,7 @@ struct Limits {
   Vec3 v_max = Vec3::Constant(6.0);                                      ///< m/s
   Vec3 a_max = Vec3(20.0, 20.0, 10.0);                                   ///< m/s²
   Vec3 j_max = Vec3::Constant(std::numeric_limits<double>::infinity());  ///< m/s³
-  std::optional<Dynamics> dynamics = {};                                 ///< besides these; nothing: no more limits
+  std::optional<Dynamics> dynamics = {};                                 ///< besides these; nullopt: no more limits
 };
 /// A limit L is obeyed by x when |x| ≤ L·(1 + kLimitTolerance): the same in planner, checker, executor and referee.
 inline constexpr double kLimitTolerance = 1e-6;

@@ -81,8 +81,8 @@ std::vector<MapChunk> to_chunks(const VoxelMap& map);
 inline constexpr Duration kMapSilence{2'500'000};
 
 /// Collects chunks in any order, of any version; a newer version (one not seen in progress) replaces an unfinished one.
-/// Of two senders the one that was heard first is listened to until it has sent nothing for kMapSilence: chunks of both
-/// in turn would complete neither's map.
+/// Of two senders the one heard first is listened to until it has sent nothing for kMapSilence. Chunks of both in turn
+/// would complete neither's map.
 class MapAssembler {
  public:
   /// Takes a chunk. @return true when it completed a map, which `take` then gives. What another sender sends beside

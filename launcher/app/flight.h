@@ -9,10 +9,10 @@ namespace tern {
 
 /// Flies, and looks back as it was asked to. However it ends, nobody is left, and a summary is where it was asked for.
 ///
-/// Two processes do it. This one waits, with nothing to do that could fail, and sums up; its child, which leads a
-/// session and process group of its own, holds the keys, starts the flight's processes and keeps them running. If the
-/// child is killed, the kernel kills what it started, and this one whoever is left of its group; if this one is killed,
-/// the kernel sends the child SIGTERM, which ends the flight in order.
+/// Two processes do it. This one waits, with nothing to do that could fail, and sums up. Its child holds the keys,
+/// starts the flight's processes and keeps them running; it leads a session and process group of its own. If the child
+/// is killed, the kernel kills what it started, and this one whoever is left of its group. If this one is killed, the
+/// kernel sends the child SIGTERM, which ends the flight in order.
 /// @return the flight's exit code (exit_codes.h)
 int fly(const FlightOptions& options);
 

@@ -27,15 +27,15 @@ class Supervisor {
   /// @param signals  of block_signals
   explicit Supervisor(const sigset_t& signals) : signals_(signals) {}
 
-  /// Each process gets at most TERN_MEMORY_LIMIT_KB of address space (by default 4 GB; 0: no limit), so that a message
-  /// that asks for absurd memory ends the process, not the machine.
+  /// Each process gets at most TERN_MEMORY_LIMIT_KB of address space (by default 4 GB; 0: no limit). So a message that
+  /// asks for absurd memory ends the process, not the machine.
   void start(SupervisedProcess process);
   /// Keeps all running until one is gone for good or a signal comes. Restarts are said on the process's standard error.
   SupervisorEvent wait();
   /// Ends one before the others, if it runs: it may take half a minute, to land.
   void end_first(const std::string& name);
   /// Ends all within 2 s: SIGTERM to all but `last`, SIGKILL to those that are left after 1 s, then the same to `last`,
-  /// which hears the others out. Signals that come meanwhile stay pending.
+  /// which records their last messages. Signals that come meanwhile stay pending.
   void stop(const std::string& last);
 
  private:
@@ -56,9 +56,10 @@ class Supervisor {
   std::vector<Kept> kept_;
 };
 
-/// Runs a command, and runs it again when it dies. @param log  file for all that is said; empty: where this process
-/// says it  @return the command's exit code when another run cannot mend it; 0 after SIGTERM, SIGINT or SIGHUP: the
-/// command gets SIGTERM then, and SIGKILL 1 s later
+/// Runs a command, and runs it again when it dies. On SIGTERM, SIGINT or SIGHUP the command gets SIGTERM, and SIGKILL 1
+/// s later.
+/// @param log  file for all that is said; empty: where this process says it
+/// @return the command's exit code when another run cannot mend it; 0 after a signal
 int keep_alive(const std::vector<std::string>& command, const std::string& log);
 
 }  // namespace tern

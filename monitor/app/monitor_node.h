@@ -21,7 +21,7 @@ struct MonitorOptions {
       failure_file;  ///< once it exists, the flight has failed for the reason that is its text; empty: none is watched
 };
 
-/// Listens to the channels that it judges by and to those that nobody else may count; finishes with the outcome as exit
+/// Listens to the channels that it judges by and to those that nobody else may count. Finishes with the outcome as exit
 /// code: 0 reached, 1 collision, 2 timeout, 3 failed.
 class MonitorNode final : public Node {
  public:

@@ -19,8 +19,8 @@
 
 namespace tern {
 
-/// A worker is not taken for stuck before this, however near the deadline its request came: a busy machine may keep it
-/// waiting, and a planner that starts anew has lost its map.
+/// A worker is not taken for stuck before this, however near the deadline its request came. A busy machine may keep it
+/// waiting, and a restart loses the map.
 inline constexpr Duration kStuckAfter{500'000};
 
 /// How a node spends time.

@@ -6,7 +6,7 @@
 namespace tern {
 namespace {
 
-/// @return what it threw, in words.
+/// @return the text of what it threw.
 std::optional<std::string> failure_of(const std::function<void()>& job) {
   try {
     job();

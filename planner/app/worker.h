@@ -22,7 +22,7 @@ class Worker {
   /// Starts the job if the worker is idle. @return false when it is busy or has failed; the job is then not taken.
   bool try_start(std::function<void()> job);
   [[nodiscard]] bool busy() const;
-  /// What a job threw, in words.
+  /// The text of what a job threw.
   [[nodiscard]] std::optional<std::string> failure() const;
 
  private:

@@ -19,9 +19,9 @@ namespace tern {
 /// The vehicle hears a goal when the planner does, and repeats it from then on.
 inline constexpr Duration kGoalTaken{500'000};
 
-/// Subscribes PREDICTIONS, SEMANTIC_MAP and GOAL. A map's fields and a goal's distances take up to seconds: with a
-/// worker they are made in the background and used once they are ready, without one at once (virtual time). To hold or
-/// stop needs neither: such a goal counts from the moment it comes.
+/// Subscribes PREDICTIONS, SEMANTIC_MAP and GOAL. A map's fields and a goal's distances take up to seconds. A worker
+/// makes them in the background, and they are used once they are ready; without one (virtual time) they are made at
+/// once. To hold or stop needs neither: such a goal counts from the moment it comes.
 ///
 /// The goal with the largest id counts, but the vehicle knows best: what it repeats kGoalTaken after another one came
 /// is what it has taken.
@@ -30,15 +30,15 @@ class WorldIntake {
   WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background);
 
   [[nodiscard]] PlanningWorld snapshot() const;
-  /// What is still missing, in words; empty when a plan can be made.
+  /// What is still missing, as text; empty when a plan can be made.
   [[nodiscard]] std::string missing() const;
   /// Starts the preparation that the newest messages ask for, if none runs.
   void prepare();
-  /// The vehicle as a request describes it: paths are made for its body and flight box from then on. Another vehicle (a
-  /// new sender epoch) begins another flight: goals that were sent before it began, and static tracks that the former
-  /// one's planner was told of, are forgotten.
+  /// The vehicle as a request describes it: paths are made for its body and flight box from then on. A new sender epoch
+  /// means another vehicle and another flight: goals sent before it began and static tracks of the former one are
+  /// forgotten.
   void set_vehicle(const HorizonRequest& request);
-  /// What a preparation threw, in words: none is made any more.
+  /// The text of what a preparation threw; none is made any more.
   [[nodiscard]] std::optional<std::string> failure() const { return worker_ ? worker_->failure() : std::nullopt; }
 
  private:

@@ -9,8 +9,8 @@
 
 namespace tern {
 
-/// A path keeps at least this far from every box, metres: above the rounding of the slab test (1e-11 m at 10⁴ m from
-/// the origin), below anything that matters to a vehicle.
+/// A path keeps at least this far from every box, m. It is above the rounding of the slab test (1e-11 m at 10⁴ m from
+/// the origin) and below anything that matters to a vehicle.
 inline constexpr double kPathClearance = 1e-6;
 
 /// Does the closed segment ab meet the closed box? Slab method; exact but for rounding in the last places of a
@@ -27,8 +27,9 @@ class BoxIndex {
 
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
 
-  /// Calls visit(index of the box) for every box that meets the closed region, in an order fixed by the boxes alone;
-  /// stops when visit returns true. @return whether it was stopped.
+  /// Calls visit(index of the box) for every box that meets the closed region, in an order fixed by the boxes alone.
+  /// Stops when visit returns true.
+  /// @return whether it was stopped
   template <class Visit>
   bool visit(const Box& region, Visit&& visit) const {
     return walk([&](const Box& box) { return box.intersects(region); }, visit);

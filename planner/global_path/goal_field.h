@@ -22,22 +22,20 @@ struct GoalFieldOptions {
   TravelCost cost;                   ///< the field keeps a copy: what it calls must live as long
 };
 
-/// Goal distances on the nodes of a rectilinear grid, by an any-angle Dijkstra search from the goal (Lazy Theta*, Nash
-/// et al. 2010, without a heuristic): every node reached knows the turning point that it sees and that leads it on, so
-/// paths are not bound to the grid's directions.
+/// Goal distances on the nodes of a rectilinear grid. An any-angle Dijkstra search from the goal makes them (Lazy
+/// Theta*, Nash et al. 2010, without a heuristic). Every node reached knows the visible turning point that leads it on,
+/// so paths are not bound to the grid's directions.
 ///
-/// What is free is never decided by cells. Every segment used is tested against the exact boxes, and where two boxes
-/// (or a box and the flight box) leave a gap narrower than two steps without a grid line in it, a line is added at its
-/// middle: a 0.6 m window stays open for a vehicle of 0.2 m in a 0.25 m grid, wherever it lies, and so does one voxel's
-/// width.
+/// What is free is never decided by cells. Every segment used is tested against the exact boxes. Where two boxes (or
+/// box and flight box) leave a gap narrower than two steps without a grid line, one is added at its middle. So a 0.6 m
+/// window stays open for a vehicle of 0.2 m in a 0.25 m grid, as does one voxel's width.
 ///
-/// With a TravelCost the cheapest way is sought instead of the shortest, by the same search: every segment is weighed
-/// by the cost along it, so ways lead around what repels and through what attracts as far as that pays.
+/// With a TravelCost the same search seeks the cheapest way instead of the shortest: every segment is weighed by the
+/// cost along it. So ways lead around what repels and through what attracts as far as that pays.
 ///
 /// The region searched is the bounds of goal, options.start, obstacles and the cost's region plus a margin, cut by the
-/// flight box; open
-/// worlds (flight boxes of ±10⁴ m) cost no more than what stands in them. Deterministic: ties by node index, no libm
-/// but sqrt.
+/// flight box. Open worlds (flight boxes of ±10⁴ m) cost no more than what stands in them. Deterministic: ties by node
+/// index, no libm but sqrt.
 class GoalField {
  public:
   GoalField() = default;
@@ -51,10 +49,10 @@ class GoalField {
   static GoalField build(std::vector<Box> inflated_statics, const Box& flight_box, const Vec3& goal,
                          const GoalFieldOptions& options = {});
 
-  /// A taut piecewise-linear path (no vertex could be pulled to a cheaper place) from start to the goal, both included,
-  /// clear of every box; nullopt if there is none. A start inside boxes is allowed to leave them: the first segment
-  /// passes over the boxes that contain it. A few percent longer than the shortest at most in simple cases (tested);
-  /// about 10 µs, with a TravelCost some 100.
+  /// A taut piecewise-linear path from start to the goal, both included, clear of every box; nullopt if there is none.
+  /// Taut: no vertex could be pulled to a cheaper place. A start inside boxes may leave them: the first segment passes
+  /// over the boxes that contain it. A few percent longer than the shortest at most in simple cases (tested); about 10
+  /// µs, with a TravelCost some 100.
   [[nodiscard]] std::optional<std::vector<Vec3>> path_from(const Vec3& start) const;
 
   [[nodiscard]] const Vec3& goal() const { return goal_; }

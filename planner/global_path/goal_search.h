@@ -18,11 +18,10 @@ namespace tern {
 inline constexpr std::int32_t kGoalNode = -1;
 inline constexpr std::int32_t kNoNode = -2;
 
-/// Invariant of a closed node: the segment to its `next` (a node, or the goal) is free, and to_go is its cost plus
-/// to_go of that. Where cost is more than length, the way by way of the node itself is also tried, because a straight
-/// line need not be the cheapest then (Theta* on weighted grids). A node is queued as if it saw the turning point of
-/// the node that found it; only when it is popped is that tested, and if it is false, the best closed neighbour takes
-/// its place.
+/// Invariant of a closed node: the segment to its `next` (a node, or the goal) is free; to_go is its cost plus next's
+/// to_go. Where cost is more than length, a straight line need not be the cheapest. Then the way over the node itself
+/// is also tried (Theta* on weighted grids). A node is queued as if it saw the turning point of the node that found it.
+/// That is tested only when it is popped; if it is false, the best closed neighbour takes its place.
 class GoalSearch {
  public:
   /// Keeps references: grid, obstacles and cost must live as long as the search.

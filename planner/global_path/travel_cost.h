@@ -8,8 +8,8 @@
 namespace tern {
 
 /// The cost of the straight way from a to b, in metres of way: |b − a| + extra(a, b), extra ≥ 0, additive along a line.
-/// No region is ever closed by it: what costs λ per metre is crossed when going around is longer by more than λ times
-/// the metres inside.
+/// It closes no region: what costs λ per metre is crossed when going around is longer by more than λ times the metres
+/// inside.
 struct TravelCost {
   std::function<double(const Vec3& a, const Vec3& b)> extra;  ///< none: length alone. Deterministic
   Box region;  ///< outside it the cost per metre is the same everywhere; empty: none

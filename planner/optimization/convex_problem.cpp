@@ -52,8 +52,8 @@ class Builder {
     }
   }
 
-  /// The first two intervals are bounded by their velocity control points, because their hull points hang almost wholly
-  /// on the start, which may move at the limit.
+  /// The first two intervals are bounded by velocity control points: their hull points depend almost wholly on the
+  /// start, which may move at the limit.
   void add_limits() {
     for (int j = 0; j < problem_.intervals; ++j) {
       if (j < 2) {

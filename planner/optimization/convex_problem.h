@@ -43,15 +43,15 @@ struct ConvexProblem {
   void add_row(const FreeVariables& row, double bound);
 };
 
-/// Room that x0 has to every bound, in the bound's unit (m, m/s, m/s², m/s³, m²): a leaf that lies on opposite bounds
-/// would leave no interior, and an interior point method no way (of 10,000 recorded problems, one). A tenth of the
+/// Room that x0 has to every bound, in the bound's unit (m, m/s, m/s², m/s³, m²). If x0 lay on opposite bounds, the
+/// feasible set would have no interior, and the solver would fail (one in 10,000 recorded problems). A tenth of the
 /// checker's tolerance (kLimitTolerance) for limits of 1, less for larger ones; what a smaller limit refuses, the
 /// checker refuses.
 inline constexpr double kStartRoom = 1e-7;
 
-/// Builds the problem. Bounds that x0 (the search's result) breaks a little — MINVO points bulge beyond the curve — are
-/// widened to x0's own value, so that x0 is always strictly feasible (by kStartRoom); the checker decides with true
-/// extrema. What x0 is far from is left out: each row costs.
+/// Builds the problem. x0 is the search's result; MINVO points bulge beyond the curve, so it may break bounds a little.
+/// Such bounds are widened to x0's own value: x0 is always strictly feasible (by kStartRoom), and the checker decides
+/// with true extrema. What x0 is far from is left out: each row costs.
 ///
 /// @param out  filled anew; allocates only where it has never been as large
 void make_convex_problem(const TrajectoryProblem& problem, const std::vector<PlaneConstraint>& planes,

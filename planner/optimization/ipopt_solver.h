@@ -20,8 +20,8 @@ using Visit = std::function<void(const Eigen::VectorXd& x, const Eigen::VectorXd
 IpoptRun minimise_by_ipopt(const NonlinearProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
                            const StopFunction& stop, const Visit& visit);
 
-/// The convex problem from x0; every feasible point that Ipopt evaluates is harvested, so that the answer is anytime.
-/// No certified gap.
+/// The convex problem from x0; every feasible point that Ipopt evaluates is a candidate, so the solve can be ended at
+/// any time. No certified gap.
 ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                               const StopFunction& stop);
 

@@ -20,10 +20,10 @@ struct SeparatedPair {
 ///     min ω_u Σ ‖jerk_j‖² + ω_g ‖q_{n-2} − s_g^temp‖²
 ///     n·c + d ≥ 0 for the hull's vertices c,   n·q(x) + d ≤ −margin for the curve's hull points q,   |n|² ≤ 1
 ///
-/// and the limits, boxes and spheres of make_convex_problem. |n|² ≤ 1 rather than = 1: it keeps an interior, which an
-/// interior point method needs, and a shorter n only asks for more, n·q + d ≤ −margin being a distance of margin/|n|.
-/// Positions count from the start, so that d stays small. The products n·q make it non-convex: what is found is a local
-/// optimum that depends on where it begins.
+/// and the limits, boxes and spheres of make_convex_problem. It is |n|² ≤ 1 and not = 1, because an interior point
+/// method needs an interior. A shorter n only asks for more: n·q + d ≤ −margin is a distance of margin/|n|. Positions
+/// count from the start, so that d stays small. The products n·q make it non-convex: what is found is a local optimum
+/// that depends on where it begins.
 ///
 /// Variables: 3(J − 2) of x, then n and d of each pair.
 class JointProblem final : public NonlinearProblem {
@@ -73,8 +73,8 @@ inline constexpr double kJointTolerance = 1e-6;
 /// Decides over a feasible point that is better than all before: true keeps it.
 using Certify = std::function<bool(const FreeVariables& x)>;
 
-/// By Ipopt. Every point that it evaluates and that keeps all constraints to kJointTolerance is offered to `certify` if
-/// it costs less than the best kept so far, so that the answer is anytime. x: the free control points alone.
+/// By Ipopt. Every point that it evaluates is offered to `certify` if it keeps all constraints to kJointTolerance and
+/// costs less than the best kept so far. So the solve can be ended at any time. x: the free control points alone.
 /// @param stop  asked once per iteration
 ConvexSolution solve_joint(const JointProblem& problem, int max_iterations, const StopFunction& stop,
                            const Certify& certify);

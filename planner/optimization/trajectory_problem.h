@@ -24,8 +24,8 @@ struct TrajectoryProblem : HorizonProblem {
   double reach = 1e9;  ///< constraints on position farther than this from x0 are left out, m; the checker sees all
 };
 
-/// Kept between the optimizer's planes and the vehicle, beyond the radius, m: so that the checker, which refuses what
-/// lies within kTouchingTolerance of touching, accepts an iterate that sits on its bound.
+/// Kept between the optimizer's planes and the vehicle, beyond the radius, m. The checker refuses what lies within
+/// kTouchingTolerance of touching, and shall accept an iterate that lies on its bound.
 inline constexpr double kOptimizerMargin = 5e-6;
 
 /// How far beyond its plane the curve must stay: at −this or less.

@@ -20,8 +20,8 @@ struct CheckReport : BreachReport {
 };
 
 /// Checks a new plan against everything: breach_of(), then S with kLimitTolerance, then Eq. 1.
-/// @param obstacles  origin t_s, its first J intervals are the plan's, and it holds every obstacle that can touch the
-/// sphere: not only those that a solver saw.
+/// @param obstacles  origin t_s; its first J intervals are the plan's. It holds every obstacle that can touch the
+/// sphere, not only those that a solver saw.
 CheckReport check_plan(const TimedSpline& plan, const HorizonProblem& problem, SweptObstacles& obstacles);
 
 /// Checks only Eq. 1 for a motion already committed to: pieces in powers of u, one per interval of `obstacles`.

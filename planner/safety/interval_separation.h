@@ -14,7 +14,7 @@ namespace tern {
 struct PairCounts {
   std::int64_t by_box = 0;      ///< their boxes are disjoint
   std::int64_t by_instant = 0;  ///< they touch at one of five instants
-  std::int64_t by_cache = 0;    ///< apart along the direction that separated the obstacle's part last
+  std::int64_t by_cache = 0;    ///< separated along the direction that separated the obstacle's part last
   std::int64_t by_plane = 0;    ///< by the distance algorithm
 
   PairCounts& operator+=(const PairCounts& o) {
@@ -34,22 +34,23 @@ struct Separated {
 
 /// Eq. 1 for one interval: is the curve (powers of u ∈ [0, 1] over the whole interval) separated from every obstacle?
 ///
-/// A pair whose boxes are disjoint needs no plane. Otherwise a plane must hold the MINVO points of the whole interval,
-/// or of both its halves, or of the quarters of a half that fails. Planes are made from (hull, points), so that anyone
-/// can make them again. @param planes  gets every plane that was needed
+/// A pair whose boxes are disjoint needs no plane. Otherwise a plane must separate the MINVO points of the whole
+/// interval, of both its halves, or of the quarters of a half that fails. Planes are made from (hull, points), so that
+/// anyone can make them again.
+/// @param planes  gets every plane that was needed
 Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
                             std::vector<CertificatePlane>& planes);
 
-/// Planes for a solver, by the same splitting: of every obstacle whose boxes come nearer than `reach`, m, to the
-/// spline's, made from the sweeps, without hulls. In each interval they end at the first obstacle that is not
+/// Planes for a solver, by the same splitting, from every obstacle whose boxes come nearer than `reach`, m, to the
+/// spline's. They are made from the sweeps, without hulls. In each interval they end at the first obstacle that is not
 /// separated.
 /// @param basis   whose hull points stand for the curve
 /// @param planes  gets them
 void find_planes(SweptObstacles& obstacles, const ClampedSpline& spline, HullBasis basis, double reach,
                  PairCounts& counts, std::vector<CertificatePlane>& planes);
 
-/// The question of separate_interval() for those who ask it of many curves: no planes, no hulls, only yes or no, the
-/// same but for rounding within kTouchingTolerance of touching. What blocked the interval last is asked first.
+/// The question of separate_interval() for many curves: only yes or no, without planes or hulls. The answer is the same
+/// but for rounding within kTouchingTolerance of touching. What blocked the interval last is asked first.
 /// @param points  the curve's hull points (of `form`, MINVO) over the whole interval
 bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
               PairCounts& counts, HullForm form = {});

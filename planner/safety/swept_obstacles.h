@@ -37,13 +37,13 @@ struct PlanningObstacle {
 /// asked of it (interval_separation.h).
 ///
 /// C_ij = conv of V_i^o ⊕ (−V^U) ⊕ box(α_ij) ⊕ box(β_ij) along the predicted motion (paper §3.2). A sphere's radius is
-/// not in the hull: it is the clearance that separation asks for. β: within a cubic piece |ξ''| ≤ a per axis, and the
-/// chord between samples h apart leaves the curve by at most a h²/8; samples stand at every piece break and h keeps β ≤
-/// kBetaMax. The sweep is conv of boxes at the samples: many questions are asked of those boxes themselves, and only
-/// published planes and the optimizer's need the hull's vertices. Boxes of all candidates are made by assign(), sweeps
-/// and hulls lazily; each is a pure function of its inputs.
+/// not in the hull: it is the clearance that separation asks for. On β: with |ξ''| ≤ a per axis within a cubic piece,
+/// the chord between samples h apart leaves the curve by at most a h²/8. Samples stand at every piece break, and h
+/// keeps β ≤ kBetaMax. The sweep is conv of boxes at the samples, and most questions are asked of those boxes
+/// themselves. Only published planes and `method: joint` need the hull's vertices. Boxes of all candidates are made by
+/// assign(), sweeps and hulls lazily; each is a pure function of its inputs.
 ///
-/// The object keeps its memory from one assign() to the next: once it has seen the largest horizon, boxes and sweeps
+/// The object keeps its memory from one assign() to the next. Once it has seen the largest horizon, boxes and sweeps
 /// allocate nothing (hulls do, in CGAL).
 class SweptObstacles {
  public:
@@ -79,7 +79,7 @@ class SweptObstacles {
   /// Both are valid until the next call.
   struct Sweep {
     std::span<const CentredBox> boxes;
-    Vec3& last_direction;  ///< memory of who asks whether something is apart: what separated it last; zero: none yet
+    Vec3& last_direction;  ///< memory of the narrow phase: what separated it last; zero: none yet
   };
   Sweep sweep(const Candidate& candidate, const TimePart& part);
   /// The extreme points of C_ij over that part. Valid until the next assign().

@@ -10,9 +10,10 @@ namespace tern {
 ///
 ///     f_z ≥ floor ≥ thrust_min          a half-space, sufficient for |f| ≥ thrust_min (which is not convex)
 ///     |f| ≤ thrust_max                  a ball
-///     ‖f_xy‖₈ ≤ tan(tilt_max) f_z       ‖(x, y)‖₈ = max + (√2 − 1) min of |x|, |y|: a regular octagon with corners on
-///     the
-///                                       axes, inside the cone; it loses 7.6 % (1 − cos 22.5°) midway between corners
+///     ‖f_xy‖₈ ≤ tan(tilt_max) f_z       ‖(x, y)‖₈ = max + (√2 − 1) min of |x|, |y|
+///
+/// The last is a regular octagon with corners on the axes, inside the cone. It loses 7.6 % (1 − cos 22.5°) midway
+/// between corners.
 ///
 /// Between knots the acceleration is a weighted mean of theirs, so the whole plan keeps to the set. The floor is
 /// thrust_min or g/2, whichever is more: body rates are |j_⊥|/|f|, and who falls freely cannot turn.
@@ -31,9 +32,9 @@ inline constexpr double kOctagon = 0.41421356237309503;
 /// ‖(x, y)‖₈ ≥ ‖(x, y)‖₂.
 double octagon_norm(double x, double y);
 
-/// Limits per axis from which the dynamics follow: all corners of the box of accelerations lie in the ThrustSet, and
-/// every jerk of the box turns no f above the floor faster than body_rate_max: √3 j ≤ rate · floor. Without dynamics
-/// the same limits. What is planned by these can always be flown; what is flown may do more.
+/// Limits per axis from which the dynamics follow. All corners of the box of accelerations lie in the ThrustSet. No
+/// jerk of the box turns an f above the floor faster than body_rate_max: √3 j ≤ rate · floor. Without dynamics the same
+/// limits. What is planned by these can always be flown; what is flown may do more.
 Limits boxed(const Limits& limits);
 
 }  // namespace tern

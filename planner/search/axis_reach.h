@@ -10,10 +10,10 @@ namespace tern {
 /// The limits of one axis for one Δt and J: the exact set of (velocity, acceleration) from which the spline can end at
 /// rest.
 ///
-/// With v_l the velocity control points and a_l the accelerations at the knots, v_{l+1} = v_l + a_l Δt for l = 1 … n−3,
-/// and the end at rest asks v_{n-2} = 0, a_{n-2} = 0. Limits: |v_l| ≤ v_max, |a_l| ≤ a_max, |a_l − a_{l-1}| ≤ j_max Δt
-/// (the jerk of an interval). The sets K_l of (v_l, a_{l-1}) that can be finished are convex polygons, computed
-/// backwards from K_{n-2}.
+/// Let v_l be the velocity control points and a_l the accelerations at the knots. Then v_{l+1} = v_l + a_l Δt for l = 1
+/// … n−3, and the end at rest asks v_{n-2} = 0, a_{n-2} = 0. Limits: |v_l| ≤ v_max, |a_l| ≤ a_max, |a_l − a_{l-1}| ≤
+/// j_max Δt (the jerk of an interval). The sets K_l of (v_l, a_{l-1}) that can be finished are convex polygons,
+/// computed backwards from K_{n-2}.
 class AxisReach {
  public:
   /// Nothing until assign().
@@ -23,8 +23,8 @@ class AxisReach {
   }
   /// @param intervals J ≥ 4; @param interval_s Δt, s; limits > 0, j_max may be infinite. Keeps its memory.
   void assign(int intervals, double interval_s, double v_max, double a_max, double j_max);
-  /// One step by these limits, all later ones by those of `rest` (whose a_max and j_max are not larger): the states
-  /// from which `rest` can still finish.
+  /// One step by these limits, all later ones by those of `rest`, whose a_max and j_max are not larger. The states are
+  /// those from which `rest` can still finish.
   void assign_before(const AxisReach& rest, double a_max, double j_max);
 
   struct Interval {

@@ -30,7 +30,7 @@ struct Leaf {
   }
 };
 
-/// Bands of the way to go: `width` wide, and ten times finer within the last one, so that the goal itself is reached.
+/// Bands of the cost-to-go: `width` wide, and ten times finer within the last one, so that the goal itself is reached.
 std::int64_t band_of(double way_to_go, double width) {
   constexpr std::int64_t kFiner = 10;
   constexpr double kMostBands = 1e15;
@@ -38,7 +38,7 @@ std::int64_t band_of(double way_to_go, double width) {
   return bands < 1.0 ? static_cast<std::int64_t>(bands * kFiner) : kFiner - 1 + static_cast<std::int64_t>(bands);
 }
 
-/// No point of S has less way to go.
+/// No point of S has a smaller cost-to-go.
 double way_from_sphere(const SearchProblem& problem) {
   return std::max(0.0, (problem.way.point - problem.start.p).norm() - problem.sphere_radius) + problem.way.rest;
 }
@@ -82,7 +82,7 @@ class Search {
 
  private:
   static bool later(const Entry& a, const Entry& b) { return b.before(a); }
-  /// Of equals the deepest is expanded first, so that the search dives instead of widening.
+  /// Of equals the deepest is expanded first, so that the search goes deep instead of wide.
   [[nodiscard]] std::int64_t step_of(double f) const {
     return static_cast<std::int64_t>(std::floor(f / config_.cost_step_m));
   }
@@ -208,8 +208,8 @@ class Search {
     }
   }
 
-  /// Where the start drives v_1 beyond the limit, the velocity's peak inside interval 0 hangs on v_2: with Bézier
-  /// velocities v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it stays within v_max exactly if b_2 ≥ b_1²/b_0.
+  /// Where the start drives v_1 beyond the limit, the velocity's peak inside interval 0 depends on v_2. With Bézier
+  /// velocities c_k = v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it stays within v_max exactly if b_2 ≥ b_1²/b_0.
   void bound_first_peak(int axis, AxisReach::Interval& v2) const {
     const double limit = problem_.limits.v_max[axis];
     for (const double sign : {1.0, -1.0}) {

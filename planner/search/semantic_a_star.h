@@ -15,12 +15,12 @@
 
 namespace tern {
 
-/// The way to go from p: |p − point| + rest, m. `point` is the next corner of the path around static obstacles.
+/// The cost-to-go from p: |p − point| + rest, m. `point` is the next corner of the path around static obstacles.
 struct WayToGo {
   Vec3 point = Vec3::Zero();
   double rest = 0.0;
   [[nodiscard]] double from(const Vec3& p) const { return (p - point).norm() + rest; }
-  /// The least way to go from anywhere in a box.
+  /// The least cost-to-go from anywhere in a box.
   [[nodiscard]] double from(const Box& box) const { return box.exteriorDistance(point) + rest; }
 };
 
@@ -48,15 +48,15 @@ struct SearchResult {
   std::vector<SearchViewNode> nodes;  ///< what was found clear, in that order, if they are kept
 };
 
-/// Best-first over (hold, band of the way to go that is still reachable within S, f, index).
+/// Best-first over (hold, band of the cost-to-go that is still reachable within S, f, index).
 ///
-/// Nodes are control points q_l with their index l, from q_2 on. A child's velocity control point v_l is sampled
-/// uniformly per axis in the interval that v_max, a_max, j_max and the end at rest leave (AxisReach), and one child
-/// aims at the goal, or, where a first step may leave S, at where the way leaves S; q_{l+1} = q_l + v_l (t_{l+4} −
-/// t_{l+1})/3. A node is tested for collision when it is popped: interval l−3, at a leaf (l = n−2) also the two closing
-/// intervals. Leaves are ranked: hold ≥ required first, then the band of the way to go, then f; the search ends when no
-/// open node can still win (by more than a step of f), when max_expansions are spent, hold_expansions after the first
-/// leaf, or when the budget is. Ties by depth, f and index: deterministic.
+/// Nodes are control points q_l with their index l, from q_2 on. A child is q_{l+1} = q_l + v_l (t_{l+4} − t_{l+1})/3.
+/// Its velocity control point v_l is sampled uniformly per axis in the interval that v_max, a_max, j_max and the end at
+/// rest leave (AxisReach). One child aims at the goal, or, where a first step may leave S, at where the way leaves S. A
+/// node is tested for collision when it is popped: interval l−3, at a leaf (l = n−2) also the two closing intervals.
+/// Leaves are ranked: hold ≥ required first, then the band of the cost-to-go, then f. The search ends when no open node
+/// can still win (by more than a step of f), or after max_expansions. It also ends hold_expansions after the first
+/// leaf, or with the budget. Ties by depth, f and index: deterministic.
 /// @param obstacles  origin at the start, intervals 0 … J−1 the plan's, the others after its end for the hold.
 /// @param memory     used again from call to call: a search as large as an earlier one allocates only its result's
 /// control points.

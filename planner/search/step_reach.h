@@ -13,9 +13,9 @@ namespace tern {
 /// Three AxisReach by plan_limits, and a multirotor's thrust where they have dynamics.
 ///
 /// Dynamics couple the axes. The limits per axis that boxed() finds imply them, so an end at rest that is reachable by
-/// these can be flown. One step may do more: any acceleration in the ThrustSet, at any body rate that is allowed, as
-/// long as the steps after it can end at rest by the boxed limits. So every state that flyable() leads to has such a
-/// step again, and the set of states is larger than what boxed limits alone would reach.
+/// these can be flown. One step may use any acceleration in the ThrustSet, at any allowed body rate, if later steps can
+/// end at rest by boxed limits. So every state that flyable() leads to has such a step again. The set of states is
+/// larger than what boxed limits alone would reach.
 class StepReach {
  public:
   /// Keeps its memory.

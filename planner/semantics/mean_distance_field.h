@@ -16,12 +16,12 @@ struct MeanDistanceOptions {
   double far_error = 0.05;          ///< bound of the answer outside the grid, where the tree is asked directly, m
 };
 
-/// f(p) = mean ‖p − v‖ is convex and 1-Lipschitz. So the trilinear interpolation lies above f, by at most error(), the
-/// sum of
-///  * the clusters' error at the nodes (either sign) and 1e-6 of the largest value for storage in floats, and
-///  * the interpolation's: for one voxel at distance δ from p at most min(√3/2·h, 3h²/(8(δ − √3h))) with h the spacing
-///    (1-Lipschitz; |f''| ≤ 1/δ per axis); averaged over the worst arrangement of n voxels on their lattice, a ball
-///    about p. A region of a few hundred cubic metres at h = 0.5 m: a few centimetres; a single voxel: 0.44 m.
+/// f(p) = mean ‖p − v‖ is convex and 1-Lipschitz. So the trilinear interpolation lies above f by at most error(). This
+/// is a sum of two:
+///  * The clusters' error at the nodes (either sign) and 1e-6 of the largest value for storage in floats.
+///  * The interpolation's, for one voxel at distance δ from p at most min(√3/2·h, 3h²/(8(δ − √3h))) with h the spacing
+///    (1-Lipschitz; |f''| ≤ 1/δ per axis). It is averaged over the worst arrangement of n voxels on their lattice, a
+///    ball about p. For a few hundred cubic metres at h = 0.5 m it is a few centimetres; for a single voxel, 0.44 m.
 class MeanDistanceField {
  public:
   MeanDistanceField() = default;

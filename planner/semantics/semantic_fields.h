@@ -23,10 +23,10 @@ struct SemanticFieldsOptions {
 
 /// How far p is from the nearest voxel of a label, in the band where exposure varies.
 ///
-/// The exact Euclidean distance transform between voxel centres, less half a voxel, interpolated trilinearly: exact
-/// along the normal of a flat face that follows the grid. Against the true distance to the union of the label's cubes
-/// it errs by at most kBandError voxels (√3/2 by interpolation of a 1-Lipschitz function, (√3−1)/2 because a cube is
-/// not a ball).
+/// The exact Euclidean distance transform between voxel centres, less half a voxel, interpolated trilinearly. It is
+/// exact along the normal of a flat face that follows the grid. The true distance to the union of the label's cubes
+/// differs by at most kBandError voxels. That is √3/2 by interpolation of a 1-Lipschitz function and (√3−1)/2 because a
+/// cube is no ball.
 class DistanceBand {
  public:
   static constexpr double kBandError = 1.233;
@@ -52,11 +52,11 @@ class DistanceBand {
 /// and distinct λ inside the fields' grids. Building: about 0.5 s for 10⁶ labelled voxels; memory 4 bytes per voxel of
 /// the labels' bounding boxes.
 ///
-/// Exposure with several classes: what repels most counts, max_c λ_c e_c(p) with e_c = 1 inside and falling linearly to
-/// 0 at the margin outside; and what is missed of the strongest attraction, λ* − max_c λ_c e_c(p) with λ* = max_c λ_c.
-/// So a metre costs the same in one region as where two of a class overlap, and nothing is ever a reward.
-/// Mean distance: C = (1/|M|) Σ_{v ∈ M} w_v ‖p − v‖ over the centres of all voxels of the label, w_v the λ of v's
-/// class: λ C of Eq. 3 where the λ are equal.
+/// Exposure with several classes: e_c = 1 inside a class c, falling linearly to 0 at the margin outside. What repels
+/// most counts, max_c λ_c e_c(p). So does what is missed of the strongest attraction: λ* − max_c λ_c e_c(p), λ* = max_c
+/// λ_c. So a metre costs the same in one region as where two of a class overlap, and nothing is ever a reward. Mean
+/// distance: C = (1/|M|) Σ_{v ∈ M} w_v ‖p − v‖ over all voxel centres of the label, w_v the λ of v's class. Where the λ
+/// are equal, that is λ C of Eq. 3.
 class SemanticFields {
  public:
   SemanticFields() = default;

@@ -10,11 +10,12 @@ namespace tern {
 
 /// Either cost, in metres of way, as what was flown (`along`) plus what is expected of the rest (`ahead`).
 ///
-/// Exposure: both are integrals of λ-weighted exposure, `ahead` along the straight line to the local goal; straight on,
-/// the sum stays the same and a search dives; leaving what repels, or reaching what attracts, lowers it.
-/// Mean distance (Eq. 3): `along` is 0; `ahead` is λ_att C_att − λ_rep C_rep at the node, counted from the same at the
-/// point of the straight way with equal progress: among nodes of equal progress, which alone compete, the order is
-/// Eq. 2's, but going forward is not paid for by coming nearer to what repels.
+/// Exposure: both are integrals of λ-weighted exposure, `ahead` along the straight line to the local goal. Straight on,
+/// the sum stays the same and a search goes deep. Leaving what repels, or reaching what attracts, lowers it.
+///
+/// Mean distance (Eq. 3): `along` is 0. `ahead` is λ_att C_att − λ_rep C_rep at the node, counted from the same at the
+/// point of the straight way with equal progress. Only nodes of equal progress compete, so the order is Eq. 2's. But
+/// progress is not penalized for coming nearer to what repels.
 class SemanticGuide {
  public:
   /// Keeps a reference to the fields.

@@ -13,10 +13,13 @@ namespace tern {
 
 /// The mean distance from a point to a set of voxel centres (Eq. 3), by clusters.
 ///
-/// For a cluster with centroid c, covariance Σ and radius ρ, seen from p at distance D = ‖p − c‖ > ρ in direction u,
-///   mean ‖p − v‖ = D + (tr Σ − uᵀΣu)/(2D) + e,   |e| ≤ (1/6)(2/√3) ρ tr Σ / (D − ρ)²
-/// (Taylor: the linear term vanishes at the centroid; the third derivative of ‖x‖ is at most 2/(√3 ‖x‖²)). A cluster is
-/// opened unless its bound is at most `error`; leaves are summed exactly. So the whole mean errs by at most `error`.
+/// A cluster has centroid c, covariance Σ and radius ρ. From p at distance D = ‖p − c‖ > ρ in direction u,
+///
+///     mean ‖p − v‖ = D + (tr Σ − uᵀΣu)/(2D) + e,   |e| ≤ (1/6)(2/√3) ρ tr Σ / (D − ρ)².
+///
+/// This is Taylor: the linear term vanishes at the centroid, and the third derivative of ‖x‖ is at most 2/(√3 ‖x‖²). A
+/// cluster is opened unless its bound is at most `error`; leaves are summed exactly. So the whole mean errs by at most
+/// `error`.
 class VoxelTree {
  public:
   VoxelTree() = default;

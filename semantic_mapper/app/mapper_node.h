@@ -17,8 +17,8 @@ inline constexpr Duration kMapPeriod{1'000'000};
 /// SEMANTIC_MAP takes no more than this of the network, bytes/s.
 inline constexpr std::int64_t kMapBytesPerSecond = 1'000'000;
 
-/// Publishes the chunks of a map in rotation: one at a time, at least kPacing apart and kMapBytesPerSecond on average,
-/// so that a small map is whole once a second and a large one keeps going round.
+/// Publishes the chunks of a map in rotation: one at a time, at least kPacing apart and kMapBytesPerSecond on average.
+/// So a small map is whole once a second, and a large one repeats without a pause.
 class MapperNode final : public Node {
  public:
   /// @throws std::invalid_argument when the map takes more than kMaxMapChunks.

@@ -6,10 +6,10 @@
 
 namespace tern {
 
-/// Paints a cloud: each point marks its voxel and those whose centre lies within point_radius; a voxel with min_points
-/// marks of one label or more is painted with it, under the class with the most marks (ties: the lower number); columns
-/// below voxels of the fill_below classes are painted alike, down to the map's floor. So an airborne scan's roofs
-/// become solid buildings. Points outside the grid are left out.
+/// Paints a cloud. Each point marks its voxel and those whose centre lies within point_radius. A voxel with at least
+/// min_points marks of one label is painted with it, under the class with the most marks (ties: the lower number).
+/// Columns below voxels of the fill_below classes are painted alike, down to the map's floor. So an airborne scan's
+/// roofs become solid buildings. Points outside the grid are left out.
 void paint_cloud(const CloudLayer& cloud, VoxelPainter& painter);
 
 }  // namespace tern

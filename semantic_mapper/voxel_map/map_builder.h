@@ -49,14 +49,14 @@ struct MapBuildOptions {
 /// Where a map's extents are our choice, it stays handy.
 inline constexpr std::int64_t kMaxRoomyVoxels = 8'000'000;
 
-/// Where sources disagree about a voxel, the stronger label stays: occupied > repulsive > attractive > free > unknown;
-/// of equal labels the first source's class, regions before obstacles before clouds.
+/// Where sources disagree about a voxel, the stronger label stays: occupied > repulsive > attractive > free > unknown.
+/// Of equal labels the first source's class stays, regions before obstacles before clouds.
 ///
-/// Regions labelled occupied and obstacles mark every voxel that they overlap, so nothing solid is lost (a prism: also
-/// voxels whose square only comes within the half-diagonal of its outline); other regions mark the voxels whose centre
-/// they contain. The grid's corner lies on a multiple of the resolution, so equal sources give equal voxels whatever
-/// the extents. Sources outside the extents are cut. Fails when the map would have more than kMaxVoxels, naming extents
-/// and limits. O(voxels + points·(point_radius/resolution)³ + points·log(points)).
+/// Regions labelled occupied and obstacles mark every voxel that they overlap, so nothing solid is lost. (A prism also
+/// marks voxels whose square only comes within the half-diagonal of its outline.) Other regions mark the voxels whose
+/// centre they contain. The grid's corner lies on a multiple of the resolution, so equal sources give equal voxels
+/// whatever the extents. Sources outside the extents are cut. Fails when the map would have more than kMaxVoxels,
+/// naming extents and limits. O(voxels + points·(point_radius/resolution)³ + points·log(points)).
 Result<VoxelMap> build_map(const MapSources& sources, const MapBuildOptions& options);
 
 }  // namespace tern

@@ -32,9 +32,9 @@ inline constexpr int kExitNotReady = 3;  ///< a process that the flight needs wa
 ///     code is 0 whatever the verdict.
 /// A simulator that was held up may have missed setpoints: for kLookAround the vehicle flies on along what it knows to
 /// be committed, and VEHICLE_STATUS says that it does not follow, so that the executor leads on from where it is.
-/// The referee judges the vehicle's true motion. UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so.
-/// The goal is the scenario's (id 1, unless config.send_goal is false) until a GOAL with a larger id comes; the newest
-/// is repeated at 1 Hz.
+/// The referee judges the vehicle's true motion. UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so. The
+/// goal is the scenario's (id 1, unless config.send_goal is false) until a GOAL with a larger id comes. The newest is
+/// repeated at 1 Hz.
 class SimulatorNode final : public Node {
  public:
   /// Time begins at bus.clock().now().

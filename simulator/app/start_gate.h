@@ -13,17 +13,17 @@
 namespace tern {
 
 /// What a clock may be away from the vehicle's, in which t_s and deadlines are. With the executor's default lead the
-/// optimizer ends 14 ms before the deadline at the latest, so that a clock 10 ms behind still answers in time; one as
-/// far ahead takes as much from the 66 ms that the planner has.
+/// optimizer ends 14 ms before the deadline at the latest. So a clock 10 ms behind still answers in time. One 10 ms
+/// ahead takes as much from the 66 ms that the planner has.
 inline constexpr Duration kMaxClockSkew{10'000};
 
 /// Whom a flight that is recorded waits for, too.
 inline constexpr const char* kRecorder = "tern-logger";
 
-/// Listens to heartbeats. A process is ready when its newest heartbeat says Ready, is at most kHeartbeatAge old, and
-/// its clock was compared with the listener's and is not surely beyond max_skew: ahead or behind by more than max_skew
-/// and half the round trip, by which a measurement may be off. So no delay of the network, alike both ways or not, is
-/// taken for skew; but a skew that is smaller than half the round trip is not seen.
+/// Listens to heartbeats. A process is ready when its newest heartbeat says Ready and is at most kHeartbeatAge old, and
+/// its clock was compared with the listener's. The clock must not be off by more than max_skew and half the round trip,
+/// by which a measurement may err. So no delay of the network, alike both ways or not, is taken for skew. But a skew
+/// below half the round trip is not seen.
 class StartGate {
  public:
   /// Four heartbeats in a row (2 Hz) may be lost before a process counts as gone.

@@ -23,14 +23,14 @@ inline constexpr Duration kDeclaredAhead{4'500'000};
 inline constexpr Duration kDeclaredApart{20'000};
 
 /// The world of the scenario (make_world) if what moves in it can be declared, or if config.declare is false.
-/// @return an Error for the person who wrote the scenario: besides make_world's, more obstacles at once than a set of
-/// DECLARED_MOTIONS holds, or a faster one than a message may say.
+/// @return make_world's Errors, and one for more obstacles at once than a set of DECLARED_MOTIONS holds, or one faster
+/// than a message may say.
 Result<World> make_flyable_world(const Scenario& scenario, const SimulatorConfig& config, const std::string& data_dir);
 
 /// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, DECLARED_MOTIONS at 5 Hz and when someone appears
-/// (kDeclaredApart later at most), OBSTACLE_TRUTH at 30 Hz. Motions with too many pieces are declared coarser.
-/// Until start() the world rests as it is at world time 0, and is declared so; after it, it rests until world_zero and
-/// is declared to move from there on.
+/// (kDeclaredApart later at most), OBSTACLE_TRUTH at 30 Hz. Motions with too many pieces are declared coarser. Until
+/// start() the world rests as it is at world time 0, and is declared so. Then it rests until world_zero and is declared
+/// to move from there on.
 class WorldBroadcast {
  public:
   WorldBroadcast(Bus& bus, const World& world, const SimulatorConfig& config, UTime now);
@@ -39,7 +39,7 @@ class WorldBroadcast {
   [[nodiscard]] UTime next_wakeup() const;
   /// Publishes what is due; the sensor is where the vehicle truly was when a frame was taken.
   void step(UTime now, const MotionHistory& uav);
-  /// Motions that the newest declaration had to leave out, in words; empty: none.
+  /// Motions that the newest declaration had to leave out, as text; empty: none.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:

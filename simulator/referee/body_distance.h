@@ -8,13 +8,13 @@
 
 namespace tern {
 
-/// Signed distance from the body conv(vertices) ⊕ ball(radius) to a box, m: the Euclidean distance where they are
-/// apart, minus the shortest shift that parts them where they overlap.
+/// Signed distance from the body conv(vertices) ⊕ ball(radius) to a box, m. It is the Euclidean distance where they are
+/// separated, minus the shortest shift that separates them where they overlap.
 ///
-/// As a function of the body's position it is convex and 1-Lipschitz (the signed distance to the Minkowski sum of box,
-/// −body): the bounds of clearance.h rest on both. Spheres and boxes are closed forms (some ns); other polytopes ask
-/// core/geometry's distance, and in overlap try every normal that a face of the Minkowski sum can have: those of the
-/// box, of the body, and of an edge of each (O(m³) of them for m vertices, made once).
+/// As a function of the body's position it is convex and 1-Lipschitz: it is the signed distance to the Minkowski sum of
+/// box and −body. The bounds of clearance.h rest on both. Spheres and boxes are closed forms (some ns). Other polytopes
+/// ask core/geometry's distance. In overlap they try every possible face normal of the Minkowski sum: of the box, of
+/// the body, and of an edge of each. These are O(m³) for m vertices, made once.
 class BodyDistance {
  public:
   /// @throws std::invalid_argument for no vertex, a negative radius or numbers that are not finite.

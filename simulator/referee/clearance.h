@@ -28,11 +28,11 @@ struct Contact {
 
 /// Follows the clearance along a flight, step by step.
 ///
-/// Over [t0, t1] without a corner, the position relative to an obstacle leaves its chord by at most a (t1 − t0)²/8, a
-/// being the sum of both bounds on acceleration. Along the chord the signed distance is convex, so its minimum is found
-/// by golden section to a known error; the sum of the three is a proven lower bound. Intervals are halved until lower
+/// Over [t0, t1] without a corner, the position relative to an obstacle leaves its chord by at most a (t1 − t0)²/8.
+/// Here a is the sum of both bounds on acceleration. Along the chord the signed distance is convex, so golden section
+/// finds its minimum to a known error. The sum of the three is a proven lower bound. Intervals are halved until lower
 /// and upper bound agree to kClearanceTolerance, and further while they disagree about the sign. Prefilter: an obstacle
-/// seen at distance d cannot come nearer than d − (metres flown since) − (its speed bound)·(time since), so most steps
+/// seen at distance d cannot come nearer than d − (metres flown since) − (its speed bound)·(time since). So most steps
 /// look at few obstacles: 300 obstacles at 100 Hz cost microseconds a step.
 class ClearanceWatch {
  public:

@@ -27,10 +27,10 @@ std::optional<double> first_arrival(const FlownPiece& piece, double t0_s, double
 
 /// Counts how often limits or the flight box are left, and where first.
 ///
-/// Speed, acceleration, jerk per axis against Limits·(1 + kLimitTolerance), at the true extrema of the pieces; the
-/// body's bounding box against the flight box; jumps between consecutive pieces (position, velocity, and acceleration
-/// where jerk is limited) against kJoinTolerance. A violation that lasts over consecutive pieces counts once; a jump
-/// counts each time.
+/// Compares speed, acceleration, jerk per axis with Limits·(1 + kLimitTolerance), at the true extrema of the pieces.
+/// Compares the body's bounding box with the flight box, and jumps between consecutive pieces with kJoinTolerance: in
+/// position, velocity, and acceleration where jerk is limited. A violation that lasts over consecutive pieces counts
+/// once; a jump counts each time.
 class LimitWatch {
  public:
   /// @param body_bounds the body's bounding box about its position, m.

@@ -21,11 +21,11 @@ namespace tern {
 
 /// Judges one flight, fed as consecutive cubic pieces of the vehicle's true motion from world time 0 on.
 ///
-/// The flight ends, and the verdict stands, at the first of
-///   arrival    within 0.2 m of the goal at under 0.1 m/s: Reached, or Failed if a limit or the flight box was ever
-///   left; collision  clearance of obstacles or of the map below 0 in continuous time: Collision; timeout
-///   scenario.timeout_s, or 3 × rest_to_rest_bound_s + 10 s: Timeout.
-/// min_clearance_m is attained and at most kClearanceTolerance above the true minimum; with a collision it is taken
+/// The flight ends, and the verdict stands, at the first of three:
+///  - Arrival within 0.2 m of the goal at under 0.1 m/s: Reached, or Failed if a limit or the flight box was ever left.
+///  - Clearance of obstacles or of the map below 0 in continuous time: Collision.
+///  - scenario.timeout_s, or 3 × rest_to_rest_bound_s + 10 s: Timeout.
+/// min_clearance_m is attained and at most kClearanceTolerance above the true minimum. With a collision it is taken
 /// until the end of that step (≤ 10 ms), so that it says how deep. Pieces are cut to steps of at most 10 ms; a step
 /// costs microseconds.
 class Referee {

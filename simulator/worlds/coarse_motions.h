@@ -22,10 +22,10 @@ using CoarseMotion = std::variant<Duration, Track, Box>;
 using CoarseMotions = std::map<std::int64_t, CoarseMotion>;
 
 /// The motions of the world that need more than `pieces` pieces for a span of `window`, on average over their way, made
-/// so coarse that they do not. Oscillations: pieces of the least multiple of 10 ms with window/h + 1 ≤ pieces.
-/// Waypoints: resampled (core/world/resampling.h) once for the whole way, to pieces · max(1, its length/window): so
-/// successive sets agree, and what stands for long leaves its pieces to what turns. Where the error would exceed the
-/// box of all places, or a repeating way is shorter than its pieces, it is that box.
+/// coarser to fit. Oscillations: pieces of the least multiple of 10 ms with window/h + 1 ≤ pieces. Waypoints: resampled
+/// (core/world/resampling.h) once for the whole way, to pieces · max(1, its length/window). So successive sets agree,
+/// and long rests leave their pieces to turns. Where the error would exceed the box of all places, or a repeating way
+/// is shorter than its pieces, it is that box.
 ///
 /// Pure. O(n log n) of the waypoints. @param pieces ≥ 1.
 CoarseMotions coarse_motions(const World& world, Duration window, std::size_t pieces);

@@ -34,7 +34,7 @@ class TrackMaker {
   TrackMaker(const WorldObstacle& obstacle, UTime world_zero, Span wanted, const CoarseMotion* coarse)
       : obstacle_(obstacle), zero_(world_zero), wanted_(wanted), coarse_(coarse) {}
 
-  /// Nothing if the obstacle is absent all the time.
+  /// @return nullopt if the obstacle is absent all the time
   std::optional<Track> make() {
     track_.id = obstacle_.id();
     track_.kind = TrackKind::Declared;

@@ -16,19 +16,19 @@ inline constexpr double kFitRounding = 1e-9;
 /// The grid of their joints: pieces are a multiple of it.
 inline constexpr Duration kGridUnit{10'000};
 
-/// Length of the Hermite pieces for a motion with these bounds: the longest multiple of 10 ms with
-/// h⁴/384 · max|p⁗| ≤ kFitError, from 10 ms to 2 s. 0.43 s for the paper's trefoils, about 1.3 s for SANDO's.
+/// Length of the Hermite pieces for a motion with these bounds. It is the longest multiple of 10 ms with h⁴/384 ·
+/// max|p⁗| ≤ kFitError, from 10 ms to 2 s. It is 0.43 s for the paper's trefoils, about 1.3 s for SANDO's.
 Duration fit_piece(const ObstacleBounds& bounds);
 
 /// What is promised of the world over [from, to], by id ascending; nothing of those who are absent all that time.
 ///
 /// Static obstacles: one piece, kind Static, α = 0. Oscillations: cubic Hermite pieces on the fixed grid k·fit_piece of
-/// world time (so that successive sets agree piece by piece), covering [from, to], α = hermite_error_bound per axis +
+/// world time, covering [from, to]. So successive sets agree piece by piece. α = hermite_error_bound per axis +
 /// kFitRounding. Linear and waypoint motions: their own straight pieces, α = kFitRounding. Before world_zero everything
 /// rests. A track of an obstacle that appears or vanishes covers only the time of its presence. top_speed is the
-/// largest axis' true bound. Who is in `coarse` is declared as it says, with kFitRounding more: too fast to be followed
-/// means one piece at rest in the middle of its box, half the box being its α. made_at = from, confidence 1, header and
-/// batch are empty. Pure; O(pieces).
+/// largest axis' true bound. Who is in `coarse` is declared as it says, with kFitRounding more. Too fast to be followed
+/// means one piece at rest in the middle of its box, with half the box as α. The set has made_at = from, confidence 1,
+/// empty header and batch. Pure; O(pieces).
 /// @throws std::invalid_argument unless from < to.
 TrackSet declare_motions(const World& world, UTime world_zero, UTime from, UTime to, const CoarseMotions& coarse = {});
 

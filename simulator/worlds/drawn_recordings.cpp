@@ -21,7 +21,7 @@ constexpr int kMaxRedraws = 1000;
 constexpr double kStartSample = 0.01;    // s
 constexpr double kMeetingSample = 0.05;  // s
 
-/// Where someone is at file time t_s; nothing: not there.
+/// Where someone is at file time t_s. @return nullopt if not there
 std::optional<Vec3> place_at(const RecordedTrack& track, double t_s) {
   const auto& points = track.points;
   if (t_s < points.front().first || t_s > points.back().first) return std::nullopt;

@@ -10,8 +10,8 @@
 
 namespace tern {
 
-/// Someone is met who comes this near, on the floor, to a vehicle that flies straight from start to goal at even speed
-/// and arrives after the bound, m.
+/// Someone is met who comes this near on the floor, m, to a vehicle that flies straight from start to goal. It flies at
+/// even speed and arrives after the bound.
 inline constexpr double kMeeting = 1.0;
 
 /// A whole frame of the recording at which a flight begins, drawn anew until somebody is met. Who leaves no room for a
@@ -29,8 +29,9 @@ struct ScatteredCopies {
 
 /// spec.copies movers, "<file's stem>~<k>", each on a piece of a track that lasts `duration_s` (shorter where the track
 /// is: then it rests at its end). Drawn in this order: track, where the piece begins, a turn about z, mirrored in x or
-/// not, and where the piece's bounding box is: its centre uniform per axis among the places where it is inside
-/// spec.within, in the middle where it is too long. @return an Error when a start refuses 1000 draws in a row.
+/// not, the place of the piece's bounding box. Its centre is uniform per axis where the box is inside spec.within, in
+/// the middle where it is too long.
+/// @return an Error when a start refuses 1000 draws in a row.
 Result<ScatteredCopies> scatter_copies(Rng& rng, const std::vector<RecordedTrack>& tracks,
                                        const RecordedTracksSpec& spec, const Vec3& start, double duration_s);
 

@@ -96,7 +96,7 @@ bool within(const Vec3& v, double limit) { return v.allFinite() && v.cwiseAbs().
 
 std::string text(const Vec3& v) { return fmt::format("({}, {}, {})", v.x(), v.y(), v.z()); }
 
-/// What is wrong with a motion, or nothing; rounds its times.
+/// Rounds a motion's times. @return what is wrong with it; "" if nothing
 std::string settle(StaticMotion&) { return {}; }
 
 std::string settle_oscillation(double slowness, double phase) {

@@ -30,17 +30,16 @@ struct ObstacleBounds {
 ///   trefoil  c + (k_x (sin(w+φ) + 2 sin(2w+φ)), k_y (cos(w+φ) − 2 cos(2w+φ)), −k_z sin(3w+φ)), so that
 ///            |v| ≤ (5, 5, 3)·k/s, |a| ≤ (9, 9, 9)·k/s², |p⁗| ≤ (33, 33, 81)·k/s⁴ per axis;
 ///   wave     c + A sin(w+φ): |v| ≤ |A|/s, |a| ≤ |A|/s², |p⁗| ≤ |A|/s⁴;
-///   linear, waypoints: straight between corners, a = 0. Waypoints do not use c: the spec here holds the first one as
-///   c.
+///   linear, waypoints: straight between corners, a = 0. Waypoints do not use c: here c is the first one.
 /// An obstacle whose waypoint motion vanishes is absent outside [first_s, last_s]; all others are always present.
 class WorldObstacle {
  public:
   /// Largest |coordinate|, |half-extent|, |scale| of a world, m; times reach this many seconds.
   static constexpr double kMaxCoordinate = 1e5;
 
-  /// @return an Error that names field, value and limit when a number is not finite or out of range, waypoint times do
-  /// not ascend by ≥ 1 µs, a repeating motion does not end where it began or lasts no time, or the obstacle never
-  /// exists.
+  /// @return an Error that names field, value and limit. It says that a number is not finite or out of range, waypoint
+  /// times do not ascend by ≥ 1 µs, or the obstacle never exists. Or a repeating motion does not end where it began or
+  /// lasts no time.
   static Result<WorldObstacle> make(std::int64_t id, ObstacleSpec spec);
 
   [[nodiscard]] std::int64_t id() const { return id_; }  ///< ≥ 0: its place in World::obstacles

@@ -30,15 +30,15 @@ struct RecordedTrack {
 /// where spec.z_column is set, else spec.centre_z. Rows of one id have ascending frames; rows of several ids may be
 /// mixed. A row less than spec.least_step_s after the last one of its id that was kept is passed over.
 /// @param name how errors call the file.
-/// @return an Error "name:line: …" with value and limit for a wrong number of columns, what is not a finite number, an
-/// id
-///   that is not whole, frames out of order, coordinates beyond WorldObstacle::kMaxCoordinate, too many rows; an Error
-///   also for column indices, unit or rate of the spec that make no sense.
+/// @return an Error "name:line: …" with value and limit for a wrong number of columns, no finite number, or an id that
+///   is not whole. Also for frames out of order, coordinates beyond WorldObstacle::kMaxCoordinate, too many rows, and
+///   impossible column indices, unit or rate of the spec.
 Result<std::vector<RecordedTrack>> parse_recorded_tracks(std::string_view text, const std::string& name,
                                                          const RecordedTracksSpec& spec);
 
-/// Where `file` is: itself if absolute, else in the folder of `scenario_file`, else in `data_dir` ("": none); the first
-/// that exists. @return an Error that lists the places tried.
+/// Where `file` is: itself if absolute, else in the folder of `scenario_file`, else in `data_dir` ("": none). The first
+/// that exists counts.
+/// @return an Error that lists the places tried.
 Result<std::string> find_track_file(const std::string& file, const std::string& scenario_file,
                                     const std::string& data_dir);
 
@@ -46,10 +46,10 @@ Result<std::string> find_track_file(const std::string& file, const std::string& 
 /// libraries.
 Result<std::vector<RecordedTrack>> load_recorded_tracks(const std::string& path, const RecordedTracksSpec& spec);
 
-/// The time of the file at which world time is 0, where it is not drawn: spec.start_s itself, or with
-/// spec.wait_for_clear_start that of the first whole frame number from there on (recorded or not: a frame may show no
-/// one) after which no one's recorded position comes within kStartClearance of `start`, measured on the floor, for
-/// kStartQuiet (sampled at most 10 ms apart).
+/// The time of the file at which world time is 0, where it is not drawn: spec.start_s itself. With
+/// spec.wait_for_clear_start it is that of the first clear whole frame number from there on, recorded or not: a frame
+/// may show no one. Clear means that for kStartQuiet no one's recorded position comes within kStartClearance of
+/// `start`, measured on the floor. It is sampled at most 10 ms apart.
 /// @return an Error when no frame up to the last recorded one is clear.
 Result<double> recorded_start(const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
                               const Vec3& start);

@@ -28,8 +28,8 @@ struct World {
 /// @return an Error for the person who wrote the scenario.
 Result<World> make_world(const Scenario& scenario, const std::string& data_dir);
 
-/// The scenario with every obstacle of its world listed: generator none, nothing recorded. make_world of it gives
-/// obstacles that are equal to the last bit, with the same ids.
+/// The scenario with every obstacle of its world listed: generator none, nothing recorded. From it make_world gives the
+/// same obstacles to the last bit, with the same ids.
 Scenario list_obstacles(const Scenario& scenario, const World& world);
 
 /// Digest over names, shapes and motions of all obstacles, in order: equal worlds have equal digests.

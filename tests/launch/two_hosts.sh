@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# two_hosts.sh NAME: flights over two hosts, which are two network namespaces with a cable between them (a veth pair): simulator,
-# mapper, logger and monitor on the vehicle, planner and predictor on the ground. Run by hermetic.sh, whose namespace is the
-# vehicle. Environment: TERN_BIN, where the programs are.
+# two_hosts.sh NAME: flights over two hosts, two network namespaces with a cable between them (a veth pair). Simulator,
+# mapper, logger and monitor are on the vehicle, planner and predictor on the ground. Run by hermetic.sh, whose
+# namespace is the vehicle. Environment: TERN_BIN, where the programs are.
 set -euo pipefail
 # shellcheck source=tests/launch/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

@@ -1,5 +1,5 @@
-// A process for tests: answers each GOAL with one of the next id on GOAL_ANSWER; finishes with exit code 7 on a goal
-// with id 777, and throws in its handler on 666. `section.period_s` exists so that configuration errors can be made.
+// A process for tests: answers each GOAL with one of the next id on GOAL_ANSWER. Goal id 777 ends it with exit code 7;
+// its handler throws on 666. `section.period_s` exists so that configuration errors can be made.
 #include <CLI/CLI.hpp>
 #include <stdexcept>
 

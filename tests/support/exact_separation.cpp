@@ -50,8 +50,8 @@ Vec<Int> cross(const Vec<Int>& a, const Vec<Int>& b) {
 template <class Int>
 using Set = std::vector<Vec<Int>>;
 
-// A vector along the shortest one from the origin to the affine hull of a face, if its foot is strictly inside the
-// face; zero if the origin is in the face.
+// A vector along the shortest one from the origin to a face's affine hull, if its foot is strictly inside the face.
+// Zero if the origin is in the face.
 template <class Int>
 std::optional<Vec<Int>> foot(const Set<Int>& face) {
   const Vec<Int>& p = face[0];

@@ -6,8 +6,8 @@
 
 namespace tern {
 
-/// Points whose coordinates are multiples of this and whose sets are within 16 m of each other are decided in 128 bits
-/// (about 5 µs); all others in 2048 (about a millisecond). Metres.
+/// Metres. If coordinates are multiples of this and the sets lie within 16 m of each other, 128 bits decide (about 5
+/// µs). Else 2048 bits do (about a millisecond).
 inline constexpr double kExactGrid = 0x1.0p-24;
 
 /// What is true of conv(a) and conv(b).
@@ -16,8 +16,8 @@ struct ExactSeparation {
   double distance = 0.0;  ///< m, the exact distance rounded (to about 1e-15 of itself); 0 if not disjoint
 };
 
-/// Decides by descent to the point of conv(a) − conv(b) nearest to the origin, and proves its answer: either a vector
-/// with positive product with every a − b, or positive integer weights with which some a − b sum to zero.
+/// Decides by descent to the point of conv(a) − conv(b) nearest to the origin, and proves its answer. The proof is a
+/// vector with positive product with every a − b, or positive integer weights with which some a − b sum to zero.
 /// @throws std::invalid_argument for empty sets, not finite coordinates, or such that span more than 2¹⁵⁰ of their last
 /// bit.
 ExactSeparation exact_separation(const Points& a, const Points& b);

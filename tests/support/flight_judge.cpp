@@ -16,8 +16,8 @@ namespace {
 /// Cells of a grid along its longest side.
 constexpr int kCells = 48;
 
-/// A breadth-first search over cubes: whether the centre gets from start to goal when every standing box is grown by
-/// the body's half-extents and by `slack`. Coarse, slow, and knows nothing of the planner's.
+/// Whether the centre gets from start to goal when every standing box is grown by the body's half-extents and by
+/// `slack`. A breadth-first search over cubes: coarse, slow, and knows nothing of the planner's.
 bool way_exists(const Scenario& scenario, const std::vector<Box>& boxes, double slack_cells) {
   const UavSpec& uav = scenario.uav;
   Box all(uav.start.cwiseMin(uav.goal), uav.start.cwiseMax(uav.goal));

@@ -81,8 +81,8 @@ Knobs random_knobs(Rng& rng) {
 /// What surrounds the flight.
 enum class Around { Nothing, Statics, FarMovers, Movers };
 
-/// How fast the vehicle surely gets on by hops from rest to rest: each within the sphere, within what is foreseen, and
-/// not more often than it may ask.
+/// How fast the vehicle surely gets on by hops from rest to rest. Each is within the sphere and what is foreseen, no
+/// oftener than it may ask.
 double hopping_speed(const Limits& limits, const Knobs& knobs, const Vec3& direction, Around around) {
   const double foreseen_s = around == Around::Movers ? 1.2 : 60.0;
   double hop = 0.8 * knobs.sphere_radius_m;

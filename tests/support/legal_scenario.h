@@ -44,7 +44,7 @@ const char* to_string(FlightReason reason);
 
 struct FlightJudgement {
   FlightReason reason = FlightReason::Reached;
-  std::string fault;  ///< in words; empty: the flight ended with a reason that is true
+  std::string fault;  ///< empty: the flight ended with a reason that is true
 };
 FlightJudgement judge(const LegalScenario& legal, const VirtualFlight& flight, const PromiseWatch& watch);
 

@@ -12,13 +12,13 @@
 
 namespace tern::support {
 
-/// The obstacles that an answer must be clear of: all tracks and all boxes of the map, α as the plan counts it, scaled
-/// as clear_start() has it.
+/// The obstacles from which an answer must be separated: all tracks and map boxes, α as the plan counts it, scaled as
+/// clear_start() has it.
 std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world,
                                             const Assurance& assurance = {});
 
-/// What is wrong with the answer, in words; empty: nothing. A new trajectory must begin at t_s, pass check_plan()
-/// against all obstacles and touch nothing at any sampled instant until its hold ends; a kept one must be the committed
+/// What is wrong with the answer; empty: nothing. A new trajectory must begin at t_s, pass check_plan()
+/// against all obstacles and touch nothing at any sampled instant until its hold ends. A kept one must be the committed
 /// one and touch nothing either.
 std::string fault_of(const Plan& plan, const HorizonRequest& request, const PlanningWorld& world,
                      const PlannerConfig& config);

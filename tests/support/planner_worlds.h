@@ -11,8 +11,8 @@
 
 namespace tern::support {
 
-/// The smooth mover: a Lissajous curve through `where`, up to 6 m/s, as Hermite pieces from `from` on; α differs from
-/// piece to piece; half-extents 0.1 … 0.6 m.
+/// The smooth mover: a Lissajous curve through `where`, up to 6 m/s, as Hermite pieces from `from` on. Its α differs
+/// from piece to piece; half-extents are 0.1 … 0.6 m.
 Track random_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, double seconds);
 /// The nasty mover: arbitrary cubics that jump at their joints.
 Track jumping_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, double seconds);
@@ -42,8 +42,9 @@ double gap(const Body& body, const Vec3& p, const Box& box);
 double least_gap(const TimedSpline& trajectory, const Body& body, const std::vector<PlanningObstacle>& obstacles,
                  UTime from, UTime to, Duration step = Duration{2'000});
 
-/// Control points from `start` to rest within the limits, drawn at their edges as often as inside; nothing where J
-/// intervals of dt do not suffice. (A v_1 that the start drives beyond v_max is not held against it.)
+/// Control points from `start` to rest within the limits, drawn at their edges as often as inside. (A v_1 that the
+/// start drives beyond v_max is not held against it.)
+/// @return nullopt if J intervals of dt do not suffice
 std::optional<Points> random_way_to_rest(Rng& rng, const MotionSample& start, const Limits& limits, int intervals,
                                          double dt);
 /// The same from rest at p, in time.

@@ -13,7 +13,8 @@ struct ReachProgram {
   double v_max = 6.0, a_max = 20.0, j_max = 1e30;
 };
 
-/// The least and the greatest v_{l+1} from which rest can be reached, given v_l and a_{l-1}; nothing: it cannot.
+/// The least and the greatest v_{l+1} from which rest can be reached, given v_l and a_{l-1}. @return nullopt if it
+/// cannot.
 struct Reach {
   double low, high;
 };

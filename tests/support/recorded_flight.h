@@ -12,8 +12,9 @@
 namespace tern::testing {
 
 /// Flies a scenario file on virtual time and records every message as tern-logger would. Ends a second after the
-/// verdict. @param start  when its time begins. @throws std::runtime_error when the log cannot be written or the flight
-/// has no end.
+/// verdict.
+/// @param start  when its time begins
+/// @throws std::runtime_error when the log cannot be written or the flight has no end.
 void record_flight(const std::string& scenario_file, const std::vector<std::string>& overrides, const std::string& log,
                    UTime start = UTime{1'000'000});
 

@@ -12,8 +12,8 @@ struct StraightPlanOptions {
 };
 
 /// Answers `request` without looking at any obstacle. From the request's start to the goal, or as far towards it as
-/// reach_m, at rest there; q_3 … q_{n-3} minimize Σ‖jerk‖², the interval is the first of a geometric scan that keeps
-/// the limits. KeepCommitted (AtGoal) when it rests at the goal; KeepCommitted (WorsePlan) when the committed
+/// reach_m, at rest there. The q_3 … q_{n-3} minimize Σ‖jerk‖²; the interval is the first of a geometric scan that
+/// keeps the limits. KeepCommitted (AtGoal) when it rests at the goal; KeepCommitted (WorsePlan) when the committed
 /// trajectory ends there already; KeepCommitted (Infeasible) when no duration keeps the limits.
 Plan straight_plan(const HorizonRequest& request, const Vec3& goal, const StraightPlanOptions& options = {});
 

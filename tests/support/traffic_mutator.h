@@ -15,8 +15,8 @@
 
 namespace tern::testing {
 
-/// Of the messages that it heard lately, on any channel, it makes copies with one or two places changed: a bit, a byte,
-/// or eight bytes at once. Its own copies, which it hears, too, it passes over. A function of seed and traffic.
+/// It copies messages that it heard lately, on any channel, with one or two places changed: a bit, a byte, or eight
+/// bytes at once. Its own copies, which it hears, too, it passes over. A function of seed and traffic.
 class TrafficMutator {
  public:
   struct Message {

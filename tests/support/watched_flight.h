@@ -25,8 +25,8 @@ std::string scenario_file(const std::string& name);
 /// Fails the running test unless the flight ended at its goal, unharmed and within every limit.
 void expect_reached(const FlightResult& result);
 
-/// Fails the running test unless each request was answered once, by its deadline and acceptably (the last may be open),
-/// by the executor's counts and by what went over the bus.
+/// Fails the running test unless each request was answered once, by its deadline and acceptably (the last may be open).
+/// The executor's counts and what went over the bus must both say so.
 void expect_answered_once_and_in_time(const ExecutorCounters& counters, const Exchange& exchange);
 
 /// Flies, and expects both.

@@ -25,8 +25,8 @@ struct MadeUpSource {
 /// All of them; turners, whom nothing but a reach set foresees, are few in this world.
 const std::vector<MadeUpSource>& made_up_sources();
 
-/// A minute and a half of twelve of them at once, 20 m apart, each of 1.5 to 9 s, seen as BENCHMARKS' `near` sensor
-/// sees (σ 0.05 m, 30 Hz, 50 ms late, 5 % dropped), with the truth at each frame. A function of the seed.
+/// 90 s of twelve of them at once, 20 m apart, each of 1.5 to 9 s, with the truth at each frame. The sensor has σ 0.05
+/// m, 30 Hz, 50 ms delay, 5 % dropped. A function of the seed.
 Recording made_up(const MadeUpSource& source, std::uint64_t seed);
 
 }  // namespace tern::calibrate

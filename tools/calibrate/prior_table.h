@@ -20,9 +20,9 @@ inline constexpr std::size_t kFewPromises = 150;
 
 /// The rows of the table: per class and band the level θ, and quantiles of the scores.
 ///
-/// Margins are found band by band: of the promises that the bands before have not broken, so many may break in this one
-/// that all broken ones together are Calibration::allowed; θ is the share of all scores above that margin. A source
-/// counts in a class by its weight and the share of its promises that are of that class.
+/// Margins are found band by band. Of the promises that the bands before have not broken, so many may break in this one
+/// that all broken ones together are Calibration::allowed. The θ of a band is the share of all scores above that
+/// margin. A source counts in a class by its weight and the share of its promises that are of that class.
 std::string prior_table(const std::vector<Source>& sources);
 
 }  // namespace tern::calibrate

@@ -14,7 +14,7 @@ struct ExportOptions {
   std::string suffix;      ///< what the vehicle's channels end with
 };
 
-/// @return what was written and what the log did not give, for people; an Error when nothing was asked for, the log
+/// @return what was written and what the log did not give, for people. An Error when nothing was asked for, the log
 /// cannot be opened or holds no message of Tern's, or something cannot be written.
 Result<std::string> export_log(const ExportOptions& options);
 

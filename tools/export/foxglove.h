@@ -25,15 +25,15 @@ struct Drawing {
 /// as lines. All in frame "W", at the time of receipt. Nothing for other messages, and for an answer without a plan.
 std::optional<Drawing> drawing_of(const LoggedMessage& message);
 
-/// What a plan stands on: where the moving obstacles within 3 m of it may be while it is flown (predicted_hulls.h),
-/// and of each plane of its certificate a patch where it stands between vehicle and obstacle (plane_place.h). Each
-/// takes the place of those of the plan before. Nothing for an answer without a plan.
+/// What a plan stands on: where the moving obstacles within 3 m of it may be while it is flown (predicted_hulls.h).
+/// Besides, of each certificate plane a patch where it stands between vehicle and obstacle (plane_place.h). Each takes
+/// the place of those of the plan before. Nothing for an answer without a plan.
 /// @param t_s     of the request that was answered
 /// @param tracks  the prediction set that the plan names
 std::vector<Drawing> drawings_of(const Plan& plan, UTime t_s, const TrackSet& tracks, std::int64_t received_us);
 
 /// A semantic map: an entity per label and class, of boxes (map_boxes.h), named by class in its text and its metadata
-/// ("label", "class"); it takes the place of the map before.
+/// ("label", "class"). It replaces the map before.
 Drawing drawing_of(const VoxelMap& map, std::int64_t received_us);
 
 /// The part of Foxglove's schema that drawing_of() uses.

@@ -13,8 +13,8 @@ struct MapBox {
   Eigen::Vector3i low, high;                ///< first and last voxel
 };
 
-/// Boxes of equal label and class, each grown along x, then y, then z: every occupied, attractive and repulsive voxel
-/// is in exactly one, no other is in any. Takes time and a bit per voxel.
+/// Boxes of equal label and class, each grown along x, then y, then z. Every occupied, attractive and repulsive voxel
+/// is in exactly one, no other in any. Takes time and a bit per voxel.
 std::vector<MapBox> map_boxes(const VoxelMap& map);
 
 }  // namespace tern::exporting

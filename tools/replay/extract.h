@@ -20,14 +20,14 @@ struct Extract {
 };
 
 /// @param options  which answers (its other settings are not used)
-/// @param every  of those, only each so-manieth, ≥ 1
+/// @param every  of those, keep every n-th, n ≥ 1
 Result<Extract> extract(const std::string& path, const ReplayOptions& options, int every = 1);
 
 /// Writes it as a log, which must not exist yet. A replay of it replays the same answers.
 Result<void> write_log(const Extract& extract, const std::string& path);
 
-/// Writes it as text (text_log.h), with a comment that says in words what was asked and answered. tern-replay takes it
-/// as a log; a unit test takes it by load_fixture.
+/// Writes it as text (text_log.h), with a comment that says what was asked and answered. A replay takes it as a log; a
+/// unit test takes it by load_fixture.
 Result<void> write_fixture(const Extract& extract, const std::string& path);
 
 /// Extracts answers of the log at `path` into a log, a fixture, or both; an empty name: not that.

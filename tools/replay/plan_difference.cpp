@@ -17,8 +17,8 @@ std::string text(const BudgetCut& cut) {
   return fmt::format("{} {}, {}, after {}", to_string(cut.phase), cut.attempt, to_string(cut.stage), cut.count);
 }
 
-/// The largest distance between the trajectories at one time: at their control points where those belong to the same
-/// knots (a bound by the convex hull), else at times close enough together.
+/// The largest distance between the trajectories at one time. It is taken at control points of the same knots (a bound
+/// by the convex hull), else at times close enough together.
 double distance_between(const TimedSpline& a, const TimedSpline& b) {
   const bool same_knots =
       a.start == b.start && a.interval == b.interval && a.control_points.cols() == b.control_points.cols();

@@ -31,7 +31,7 @@ struct PlanDifference {
 };
 
 /// @param recorded, again  answers to one request; the header is not compared
-/// @param recorded_work, work  what they cost in countable things, where known: tells stages apart that leave no trace
+/// @param recorded_work, work what they cost in countable things, where known. Tells apart stages that leave no trace
 /// in the plan (an optimizer that made the same of another search's leaf)
 PlanDifference difference_of(const Plan& recorded, const Plan& again, const PlanTiming* recorded_work,
                              const PlanStatistics* work);

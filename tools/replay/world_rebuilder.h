@@ -30,8 +30,8 @@ struct OtherSettings {
   std::string file;                   ///< a scenario file whose `planner:` (and `semantics:`, if it has one) holds; ""
   std::vector<std::string> settings;  ///< "planner.search.samples_xy=5": over the file's, or over the log's own
   [[nodiscard]] bool empty() const { return file.empty() && settings.empty(); }
-  /// @throws ConfigError for a setting that a replay cannot give effect: only `planner` and of `semantics` enabled,
-  /// lambda_attractive, lambda_repulsive, lambdas and cost are planned with; all else stands in the recorded messages.
+  /// @throws ConfigError for a setting that has no effect in a replay. Planned with are `planner` and, of `semantics`,
+  /// enabled, lambda_attractive, lambda_repulsive, lambdas and cost. All else stands in the recorded messages.
   void check() const;
 };
 
@@ -73,7 +73,7 @@ class WorldRebuilder {
   std::vector<Field> fields_;                              ///< the newest last
   std::shared_ptr<const PredictionProducts> predictions_;
   std::map<std::pair<std::int64_t, std::int64_t>, StaticTracks> memories_;  ///< by epoch and first set
-  /// Those that plans name, by digest; nothing: not met yet.
+  /// Those that plans name, by digest; nullopt: not met yet.
   std::map<std::uint64_t, std::optional<std::vector<Box>>> statics_;
 };
 

@@ -10,8 +10,8 @@ namespace tern {
 /// Decides by the headers Host and Origin, which a browser sets and a page cannot forge.
 ///
 /// Host must name this machine: a loopback name or address, the address that was bound, or a name that the user
-/// allowed; so a foreign name that resolves to 127.0.0.1 (DNS rebinding) is refused. Origin, when there is one, must be
-/// the page that this host served, "http://" + Host; so another site's page, or another server's on this machine, is
+/// allowed. So a foreign name that resolves to 127.0.0.1 (DNS rebinding) is refused. Origin, when there is one, must be
+/// the page that this host served, "http://" + Host. So another site's page, or another server's on this machine, is
 /// refused. A request without Origin does not come from a page.
 class Access {
  public:

@@ -34,8 +34,8 @@ enum class Topic : std::uint8_t {
 inline constexpr int kTopics = 19;
 const char* to_string(Topic topic);
 
-/// The newest text per topic. A writer never waits for a reader: a text that a reader has not taken when the next one
-/// comes is dropped for that reader, and counted. Thread-safe.
+/// The newest text per topic. A writer never waits for a reader. A text that a reader has not taken when the next one
+/// comes is dropped for that reader and counted. Thread-safe.
 class Board {
  public:
   /// What one reader has been given.

@@ -39,7 +39,7 @@ class FlightHistory {
   /// The names of all fields that were ever heard, sorted.
   [[nodiscard]] std::vector<std::string> fields() const;
   [[nodiscard]] UTime begin() const { return motion_.empty() ? UTime{} : motion_.front().at; }
-  /// When it flew first (faster than 0.05 m/s); nothing before.
+  /// When it flew first (faster than 0.05 m/s); nullopt before.
   [[nodiscard]] std::optional<UTime> departure() const;
 
   /// {"begin_us", "end_s", "series": {name: [[t…], [value…]]}, "outcomes": [[t…], [outcome…]]}, t in seconds from

@@ -9,8 +9,8 @@
 
 namespace tern {
 
-/// Is repeated at 1 Hz until somebody sends a goal with a larger id, or another vehicle (a new sender epoch) flies:
-/// that one has nothing to do with it. Pure.
+/// It is repeated at 1 Hz until somebody sends a goal with a larger id, or another vehicle (a new sender epoch) flies.
+/// Pure.
 class OwnGoal {
  public:
   /// @param goal  to be sent from `now` on

@@ -20,9 +20,9 @@ struct PredictedHulls {
   int left_out = 0;                  ///< hulls that were not made because there were `most` already
 };
 
-/// For each interval of the plan and each moving track that may come within `reach` of it: conv of the track's box
-/// grown by its α and by β, swept along the prediction (the paper's C_ij without the vehicle's body). β: sampled at
-/// steps h of a piece with |ξ''| ≤ a, the chord leaves the curve by at most a h²/8. Beyond a track's last piece it is
+/// A hull for each interval of the plan and each moving track that may come within `reach` of it. It is conv of the
+/// track's box grown by its α and by β, swept along the prediction (the paper's C_ij without the vehicle's body). The
+/// chord between samples h apart leaves a piece with |ξ''| ≤ a by at most β = a h²/8. Beyond a track's last piece it is
 /// the box that grows at top speed.
 /// @param reach  m, ≥ 0: a hull is made where the track's box in that interval is no farther from the plan's curve
 /// @param most   hulls made at most; each costs about 40 µs

@@ -82,11 +82,11 @@ class Scene {
   [[nodiscard]] const std::optional<SeenMap>& map() const { return map_; }
   [[nodiscard]] const std::map<std::string, HeardProcess>& processes() const { return processes_; }
 
-  /// From the body to the nearest true obstacle, m; nothing before both were heard. A body of vertices counts as the
+  /// From the body to the nearest true obstacle, m; nullopt before both were heard. A body of vertices counts as the
   /// ball around it.
   [[nodiscard]] std::optional<double> clearance() const;
-  /// From the body, taken for a ball as well, to the nearest occupied voxel of the map, m; nothing before both were
-  /// heard, or where nothing is occupied.
+  /// From the body, taken for a ball as well, to the nearest occupied voxel of the map, m.
+  /// @return nullopt before both were heard, or if nothing is occupied.
   [[nodiscard]] std::optional<double> map_clearance() const;
   /// Of the ball around the vehicle's body, m; 0 before a request says it.
   [[nodiscard]] double body_radius() const;

@@ -6,7 +6,7 @@
 namespace tern {
 namespace {
 
-/// Hulls are of what may come as near as this to the plan, m; at most so many at a time (about 10 ms of work).
+/// Hulls are of what may come as near as this to the plan, m. At most so many at a time (about 10 ms of work).
 constexpr double kHullReach = 2.0;
 constexpr int kMostHulls = 240;
 

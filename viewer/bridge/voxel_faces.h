@@ -27,7 +27,7 @@ struct VoxelSurface {
 /// has the gravest label within it (repulsive, occupied, attractive). O(voxels).
 VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels = 4'000'000);
 
-/// From p to the nearest occupied voxel as it is drawn (of a coarsened map no farther than it is), m; 0 within one,
+/// From p to the nearest occupied voxel as drawn, m (of a coarsened map no farther than it is). It is 0 within one,
 /// infinity where there is none. O(faces).
 double distance_to_occupied(const VoxelSurface& surface, const Vec3& p);
 

@@ -14,8 +14,8 @@ Limits limits_of(const Vec3& v, const Vec3& a, double j = std::numeric_limits<do
   return {v, a, Vec3::Constant(j)};
 }
 
-/// One axis by simulation: the largest distance that a jerk-limited rest-to-rest motion of duration T covers, by its
-/// known shape: a symmetric ramp up in half the time, integrated in small steps.
+/// One axis by simulation: the largest distance that a jerk-limited rest-to-rest motion of duration T covers. Its shape
+/// is known: a symmetric ramp up in half the time, integrated in small steps.
 double distance_in(double time, double v_max, double a_max, double j_max) {
   const int steps = 20'000;
   const double dt = 0.5 * time / steps;

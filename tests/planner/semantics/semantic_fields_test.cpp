@@ -98,7 +98,7 @@ TEST(SemanticFields, AnswersNothingWithoutVoxels) {
   }
 }
 
-/// As two_regions, but of classes: the attractive voxels below y = 2 are "moss", the rest "mural"; the repulsive ones
+/// As two_regions, but of classes. The attractive voxels below y = 2 are "moss", the rest "mural". The repulsive ones
 /// are "water" but for a "fire" in their middle.
 VoxelMap four_classes() {
   VoxelMap map = two_regions();

@@ -24,8 +24,9 @@ struct McapFile {
   std::uint64_t first_ns = 0, last_ns = 0;  ///< what its Statistics say
 };
 
-/// Reads all of a file. @throws std::runtime_error that says what contradicts what: the magic, a length, a checksum, an
-/// offset of the index, the summary against the data.
+/// Reads all of a file.
+/// @throws std::runtime_error that says what is contradicted: the magic, a length, a checksum, an offset of the index,
+/// the summary against the data.
 McapFile parse_mcap(std::string bytes);
 McapFile read_mcap(const std::string& path);
 

@@ -26,8 +26,8 @@ struct ExportedPage {
 inline constexpr std::int64_t kMostBytesPerMinute = 10'000'000;
 
 /// Plays the log and packs what the page would have been told, 20 times a second, into the page: deflated JSON
-/// (web/src/tape.js). Hulls are left out first where it becomes too large, then planes; an Error when that is not
-/// enough, when the log cannot be read or the page is not built.
+/// (web/src/tape.js). Where it becomes too large, hulls are left out first, then planes. An Error when that is not
+/// enough, the log cannot be read or the page is not built.
 Result<ExportedPage> export_page(const PageExport& wanted);
 
 /// The page in one file: scripts and styles of `files` written into its index.html, its licences, and `tape`.

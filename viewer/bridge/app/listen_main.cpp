@@ -1,6 +1,6 @@
-// tern-listen ADDRESS[:PORT] COMMAND [ARG...]: opens a listening socket and becomes COMMAND, which inherits it. So a
-// program in a network namespace of its own can be reached from outside: the socket belongs to the namespace in which
-// it was made.
+// tern-listen ADDRESS[:PORT] COMMAND [ARG...]: opens a listening socket and becomes COMMAND, which inherits it. The
+// socket belongs to the namespace in which it was made. So a program in a network namespace can be reached from
+// outside.
 #include <fmt/format.h>
 #include <unistd.h>
 

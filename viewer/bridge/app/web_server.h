@@ -15,8 +15,8 @@ namespace tern {
 /// Beyond these, browsers are refused (503) and connections closed.
 inline constexpr int kMostStreams = 16;
 inline constexpr int kMostConnections = 64;
-/// A page tells which frame it has drawn, {"seen": n}; it gets no more than this many ahead, so that nothing piles up
-/// in any buffer on the way: what comes meanwhile waits on the board, where only the newest counts.
+/// A page tells which frame it has drawn, {"seen": n}. It gets no more than this many ahead, so that nothing piles up
+/// in any buffer. What comes meanwhile waits on the board, where only the newest counts.
 inline constexpr int kFramesAhead = 2;
 /// What a page may say at once, bytes, and how many of its commands wait to be read.
 inline constexpr std::size_t kLongestCommand = 4096;
