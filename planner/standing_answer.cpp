@@ -40,14 +40,23 @@ void StandingAnswer::replace(std::optional<Candidate> evasion) {
 
 void StandingAnswer::tell(const Candidate& candidate) {
   PlanObserver* observer = tools_.log.observer();
-  if (observer == nullptr || (committed_ && !candidate.better_than(*committed_))) return;
+  if (observer == nullptr || is_worse(candidate)) return;
   observer->answer(filled(&candidate, PlanReason::None));
 }
 
 Plan StandingAnswer::chosen(PlanReason reason) const {
   if (!best_) return kept(!committed_ && reason == PlanReason::None ? PlanReason::Infeasible : reason);
-  const bool is_worse = committed_ && best_->outcome != PlanOutcome::Evade && !best_->better_than(*committed_);
-  return is_worse && !sets_out() ? kept(PlanReason::WorsePlan) : filled(&*best_, PlanReason::None);
+  const bool stays = best_->outcome != PlanOutcome::Evade && is_worse(*best_) && !sets_out();
+  return stays ? kept(PlanReason::WorsePlan) : filled(&*best_, PlanReason::None);
+}
+
+/// Of two ends that do not hold, the one that stays clear longer leaves more time to step aside. (Of estimates the
+/// farther future is known worse: there it is the arrival that counts.)
+bool StandingAnswer::is_worse(const Candidate& candidate) const {
+  if (!committed_) return false;
+  const bool neither_holds = !candidate.holds && !committed_->holds;
+  if (near_.hold.promised && neither_holds && candidate.clear_s < committed_->clear_s) return true;
+  return !candidate.better_than(*committed_);
 }
 
 /// A vehicle at rest gains nothing by waiting: a plan that gets nearer is flown even if it arrives as late, or later by

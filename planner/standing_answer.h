@@ -38,6 +38,8 @@ class StandingAnswer {
  private:
   void tell(const Candidate& candidate);
   [[nodiscard]] bool sets_out() const;
+  /// than what is committed
+  [[nodiscard]] bool is_worse(const Candidate& candidate) const;
   [[nodiscard]] Plan filled(const Candidate* candidate, PlanReason reason) const;
 
   const Surroundings& near_;
