@@ -105,9 +105,6 @@ void Judge::follow(const SeenTrack& track, UTime at, History& history) {
   if ((at - track.born).seconds() >= kYoungAge) {
     history.fastest = std::max(history.fastest, track.bank->lead().velocity().norm());
   }
-  if ((at - track.born).seconds() >= kGrownAge) {
-    fastest_ = std::max(fastest_, track.bank->lead().velocity().cwiseAbs().maxCoeff());
-  }
   history.samples.push_back({at, track.position, track.variance.cwiseMax(kLeastVariance)});
   std::erase_if(history.samples, [&](const Sample& s) { return (at - s.at).seconds() > 2.0 * kSmoothed + kWidestGap; });
 }
@@ -118,6 +115,7 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   history.issued = at;
   Issue issue;
   issue.at = at;
+  issue.from = track.position;
   issue.pool = pool_of(track, at, history.fastest);
   issue.score = -std::numeric_limits<double>::infinity();
   const HorizonWeights all = model_weights(pools_[issue.pool], history.own);
@@ -156,6 +154,9 @@ void Judge::score(History& history) {
 void Judge::score(Issue& issue, const Sample& truth, History& history) {
   const std::size_t k = issue.next, band = band_of(kJudgedAhead[k]);
   const Mixed& said = issue.said[k];
+  if (kJudgedAhead[k] == kSpeedSpan) {
+    fastest_ = std::max(fastest_, (truth.z - issue.from).cwiseAbs().maxCoeff() / kSpeedSpan);
+  }
   const Vec3 error = ((truth.z - said.centre).cwiseAbs2() - kNoiseTaken * truth.r).cwiseMax(0.0).cwiseSqrt();
   const double growth = margin_growth(band, kJudgedAhead[k]);
   issue.score = std::max(issue.score, (error - kModelSigmas * said.deviation).maxCoeff() / growth);

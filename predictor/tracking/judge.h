@@ -30,6 +30,10 @@ inline constexpr std::array<double, 2 * kBands> kJudgedAhead{0.125, 0.25, 0.375,
 /// straight line between two neighbours at most kWidestGap apart.
 inline constexpr double kSmoothed = 0.2, kWidestGap = 0.5;
 
+/// Of kJudgedAhead, s: the speed that a track had is its way in this time, which noise and one exchanged detection
+/// falsify little.
+inline constexpr double kSpeedSpan = 0.5;
+
 /// What became of one promise.
 struct Judged {
   TrackClass kind = TrackClass::New;
@@ -55,7 +59,7 @@ class Judge {
   /// @param track  as it is now: its speed and age count, whatever take() has come to hear of it
   [[nodiscard]] Verdict verdict(const SeenTrack& track, UTime last_seen) const;
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
-  /// The largest speed per axis that a track of more than kGrownAge had, m/s.
+  /// The largest mean speed per axis over kSpeedSpan that any track had, m/s.
   [[nodiscard]] double fastest() const { return fastest_; }
   /// The promises that the last take() came to an end with.
   [[nodiscard]] const std::vector<Judged>& judged() const { return judged_; }
@@ -70,6 +74,7 @@ class Judge {
   };
   struct Issue {
     UTime at;
+    Vec3 from;  // where it was detected
     Judged judged;
     std::size_t pool = 0;
     std::size_t next = 0;  // of kJudgedAhead

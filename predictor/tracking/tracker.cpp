@@ -84,14 +84,13 @@ Matching match(const std::vector<TrackedObject>& objects, const std::vector<Dete
   return matching;
 }
 
+bool is_beyond(double range_m, const Vec3& from, const Vec3& centre, const Vec3& half) {
+  return range_m > 0.0 && ((centre - from).cwiseAbs() - half).cwiseMax(0.0).norm() > range_m - kRangeMargin;
+}
+
 bool is_out_of_range(const TrackedObject& object, const ObservationSet& observations) {
-  if (observations.range_m <= 0.0) return false;
-  Vec3 away;
-  for (int i = 0; i < 3; ++i) {
-    const double offset = std::abs(object.resting[static_cast<std::size_t>(i)].x - observations.sensor_position[i]);
-    away[i] = std::max(0.0, offset - object.half_extents[i]);
-  }
-  return away.norm() > observations.range_m - kRangeMargin;
+  const Vec3 centre(object.resting[0].x, object.resting[1].x, object.resting[2].x);
+  return is_beyond(observations.range_m, observations.sensor_position, centre, object.half_extents);
 }
 
 void restart(TrackedObject& object, const Detection& detection, const ObservationSet& from) {
@@ -104,8 +103,9 @@ std::pair<UTime, std::int32_t> key(const ObservationSet& set) { return {set.at, 
 
 }  // namespace
 
-Tracker::Tracker(const TrackerConfig& config) : config_(config), judge_(config.prediction.confidence) {
-  for (const Duration end : piece_ends(config.prediction)) ahead_.push_back(bank_step(end.seconds()));
+Tracker::Tracker(const TrackerConfig& config)
+    : config_(config), ends_(piece_ends(config.prediction)), judge_(config.prediction.confidence) {
+  for (const Duration end : ends_) ahead_.push_back(bank_step(end.seconds()));
   for (std::size_t level = 0; level < rest_quantiles_.size(); ++level) {
     const double broken = 1.0 - confidence_at(config.prediction.confidence, static_cast<int>(level));
     rest_quantiles_[level] = quantile_for((1.0 - kStartShare) * broken / 3.0, kRestCrossings);
@@ -133,6 +133,8 @@ Taken Tracker::update(const ObservationSet& observations) {
 
 Tracker::State Tracker::advanced(State state, const ObservationSet& observations) const {
   const UTime at = observations.at;
+  std::erase_if(state.views, [&](const View& view) { return view.sensor_id == observations.sensor_id; });
+  state.views.push_back({observations.sensor_id, at, observations.range_m, observations.sensor_position});
   predict_to(state, at);
   const std::vector<Detection>& detections = observations.detections;
   const Matching matching =
@@ -295,9 +297,10 @@ Waypoint Tracker::resting_at(const TrackedObject& object, const State& state, UT
   const double to_s = (from - state.at).seconds() + ahead_s;
   const double unseen_s = (from - object.last_seen).seconds() + ahead_s;
   Waypoint waypoint;
-  Vec3 sigma;
+  Vec3 sigma, unnoticed;
   for (int axis = 0; axis < 3; ++axis) {
     AxisFilter at = object.resting[static_cast<std::size_t>(axis)];
+    unnoticed[axis] = std::abs(object.position[axis] - at.x);
     at.predict(to_s, kRestingSigma * kRestingSigma);
     waypoint.centre[axis] = at.x;
     waypoint.velocity[axis] = at.v;
@@ -306,44 +309,48 @@ Waypoint Tracker::resting_at(const TrackedObject& object, const State& state, UT
   for (std::size_t level = 0; level < waypoint.half.size(); ++level) {
     const double broken = 1.0 - confidence_at(config_.prediction.confidence, static_cast<int>(level));
     const double moved_s = std::max(0.0, unseen_s - trusted_rest_s(state.rest, kStartShare * broken));
-    waypoint.half[level] = rest_quantiles_[level] * sigma + Vec3::Constant(top_speed() * moved_s);
+    waypoint.half[level] = rest_quantiles_[level] * sigma;
+    if (moved_s > 0.0) waypoint.half[level] += unnoticed + Vec3::Constant(top_speed() * moved_s);
   }
   return waypoint;
 }
 
-void Tracker::predict_resting(const TrackedObject& object, const State& state, UTime from, Track& track) const {
+std::vector<Waypoint> Tracker::resting_waypoints(const TrackedObject& object, const State& state, UTime from) const {
   std::vector<Waypoint> waypoints;
-  for (const Duration end : piece_ends(config_.prediction)) {
-    waypoints.push_back(resting_at(object, state, from, end.seconds()));
-  }
-  set_motion(waypoints, from, config_.prediction, top_speed(), track);
+  for (const Duration end : ends_) waypoints.push_back(resting_at(object, state, from, end.seconds()));
+  return waypoints;
 }
 
-void Tracker::predict_moving(const TrackedObject& object, const ExistenceRecord& existence,
-                             const std::vector<BankLook>& looks, UTime from, Track& track) const {
+std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, const State& state,
+                                                const std::vector<BankLook>& looks, UTime from) const {
   const PredictionSpec& spec = config_.prediction;
   const Judge::Verdict verdict = this->verdict(object);
-  const double real = object.confirmed || object.detections > 1 ? 1.0 : existence.real();
+  const double real = object.confirmed || object.detections > 1 ? 1.0 : state.existence.real();
   std::array<PerBand<double>, kConfidenceLevels.size()> margins;
   for (std::size_t level = 0; level < margins.size(); ++level) {
     const double broken = 1.0 - confidence_at(spec.confidence, static_cast<int>(level));
     margins[level] = judge_.calibration().margins(verdict.kind, broken / ((1.0 - spec.confidence) * real));
   }
-  const std::vector<Duration> ends = piece_ends(spec);
   const double since_s = (from - object.last_seen).seconds();
-  std::vector<Waypoint> waypoints(ends.size());
-  double speed = top_speed();
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const double ahead_s = since_s + ends[k].seconds();
+  std::vector<Waypoint> waypoints(ends_.size());
+  for (std::size_t k = 0; k < ends_.size(); ++k) {
+    const double ahead_s = since_s + ends_[k].seconds();
     const Mixed said = mixed(object.moving, looks[k], weights_at(verdict.weights, ahead_s));
     waypoints[k].centre = said.centre;
     waypoints[k].velocity = said.velocity;
     for (std::size_t level = 0; level < margins.size(); ++level) {
       waypoints[k].half[level] = promised_half(said.deviation, margins[level], ahead_s);
     }
-    if (k == 0) speed = std::max(speed, said.velocity.cwiseAbs().maxCoeff());
   }
-  set_motion(waypoints, from, spec, speed, track);
+  return waypoints;
+}
+
+bool Tracker::is_lost(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start) {
+  if (start.half.front().maxCoeff() <= kKnownWithin) return false;
+  return std::any_of(views.begin(), views.end(), [&](const View& view) {
+    return view.sensor_id == object.last_seen_by && object.last_seen < view.at &&
+           is_beyond(view.range_m, view.from, start.centre, object.half_extents);
+  });
 }
 
 std::vector<Track> Tracker::predict(UTime now) const {
@@ -355,15 +362,16 @@ std::vector<Track> Tracker::predict(UTime now) const {
   std::vector<Track> tracks;
   for (const TrackedObject& object : newest.objects) {
     if (!is_published(object, newest.existence)) continue;
+    const bool is_resting = rests(object);
+    const std::vector<Waypoint> waypoints =
+        is_resting ? resting_waypoints(object, newest, from) : moving_waypoints(object, newest, looks, from);
+    if (is_lost(object, newest.views, waypoints.front())) continue;
+    const double seen_speed = is_resting ? 0.0 : waypoints.front().velocity.cwiseAbs().maxCoeff();
     Track track;
     track.id = object.id;
     track.kind = TrackKind::Estimated;
     track.half_extents = object.half_extents;
-    if (rests(object)) {
-      predict_resting(object, newest, from, track);
-    } else {
-      predict_moving(object, newest.existence, looks, from, track);
-    }
+    set_motion(waypoints, from, config_.prediction, std::max(top_speed(), seen_speed), track);
     tracks.push_back(std::move(track));
   }
   return tracks;

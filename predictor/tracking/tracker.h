@@ -37,9 +37,11 @@ inline constexpr double kRestingForgetting = 0.1;
 /// A tentative track is buried after so long without a detection even if the sensor that saw it sends no more sets: 15
 /// frames of a sensor at 10 Hz.
 inline constexpr Duration kTentativeUnseen{1'500'000};
-/// A remembered thing whose box is farther from the sensor than its range less this should not be seen, m: some σ and
-/// the vehicle's way within the sensor's frame.
+/// A thing whose box is farther from the sensor than its range less this should not be seen, m: some σ and the
+/// vehicle's way within the sensor's frame.
 inline constexpr double kRangeMargin = 0.5;
+/// What is not seen beyond its sensor's range is predicted while it is known where it is, to so many metres.
+inline constexpr double kKnownWithin = 1.0;
 /// Of 1 − confidence, the share that is left to a start that the α of what rests does not contain.
 inline constexpr double kStartShare = 0.5;
 /// The crossings of Rice's formula for what rests: π/2 of a speed that does not change, and room for noise.
@@ -119,7 +121,9 @@ class Tracker {
 
   /// The tracks predicted from `now` over the horizon, kind Estimated, by id ascending: what is new from its first
   /// detection on, if it is real more often than promises are broken. Tracks whose detections have stopped altogether
-  /// remain, with growing α. If `now` lies before the newest observation, that is where they start.
+  /// remain, with growing α; but what has left its sensor's range is left out once its α at the start exceeds
+  /// kKnownWithin: then it says no more than that anything may come from there, and that nobody promises. If `now` lies
+  /// before the newest observation, that is where they start.
   [[nodiscard]] std::vector<Track> predict(UTime now) const;
 
   /// All tracks, tentative ones too, by id ascending, at newest().
@@ -136,8 +140,16 @@ class Tracker {
   [[nodiscard]] Judge::Verdict verdict(const TrackedObject& object) const;
 
  private:
+  /// What a sensor saw last.
+  struct View {
+    std::int32_t sensor_id = 0;
+    UTime at;
+    double range_m = 0.0;  // 0: without limit
+    Vec3 from = Vec3::Zero();
+  };
   struct State {
     UTime at;
+    std::vector<View> views;  // one per sensor
     std::int64_t next_id = kFirstOwnTrackId;
     std::vector<TrackedObject> objects;
     RestRecord rest;
@@ -156,16 +168,20 @@ class Tracker {
   [[nodiscard]] bool is_dead(const TrackedObject& object, const ObservationSet& observations) const;
   [[nodiscard]] double distance2(const TrackedObject& object, UTime at, const Detection& detection) const;
   [[nodiscard]] bool is_published(const TrackedObject& object, const ExistenceRecord& existence) const;
+  [[nodiscard]] static bool is_lost(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start);
   void settle(const Step& step);
   [[nodiscard]] SeenTrack seen(const TrackedObject& object) const;
   [[nodiscard]] double top_speed() const;  // of what is new or starts
+  /// Where a start is contained, so is one that the last detection shows and the filter does not yet believe.
   [[nodiscard]] Waypoint resting_at(const TrackedObject& object, const State& state, UTime from, double ahead_s) const;
-  void predict_resting(const TrackedObject& object, const State& state, UTime from, Track& track) const;
-  void predict_moving(const TrackedObject& object, const ExistenceRecord& existence, const std::vector<BankLook>& looks,
-                      UTime from, Track& track) const;
+  [[nodiscard]] std::vector<Waypoint> resting_waypoints(const TrackedObject& object, const State& state,
+                                                        UTime from) const;
+  [[nodiscard]] std::vector<Waypoint> moving_waypoints(const TrackedObject& object, const State& state,
+                                                       const std::vector<BankLook>& looks, UTime from) const;
 
   TrackerConfig config_;
-  std::vector<BankStep> ahead_;  // to the ends of pieces
+  std::vector<Duration> ends_;   // of pieces
+  std::vector<BankStep> ahead_;  // to them
   std::array<double, kConfidenceLevels.size()> rest_quantiles_{};
   State before_steps_;
   std::deque<Step> steps_;  // ascending by (time, sensor), the newest kReorderWindow

@@ -99,7 +99,7 @@ TEST(TrackerOfTwoSensors, RangeIsThatOfTheOneThatSawIt) {
     tracker.update(gone_by);
     tracker.update(frame(kCamera, 2.01 + k / 10.0, {}));  // sees without limit, and never saw it
   }
-  EXPECT_EQ(tracker.predict(tracker.newest()).size(), 1u);
+  EXPECT_EQ(tracker.objects().size(), 1u);
 }
 
 }  // namespace

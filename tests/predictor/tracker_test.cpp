@@ -245,13 +245,16 @@ TEST(Tracker, CoastsWithGrowingAlphaThenDies) {
   EXPECT_TRUE(tracker.predict(at_seconds(last + k / kRate)).empty());
 }
 
-// A pillar seen for 2 s; then the sensor, which sees 8 m far, stands at `eye_x` for 5 s and sees nothing.
-std::size_t tracks_left(double eye_x, const TrackerConfig& config) {
+// Of pillars that are seen for `seen_s`, the tracks predicted `unseen_s` later; then the sensor, which sees 8 m far,
+// stands at `eye_x` and sees nothing.
+std::size_t tracks_left(double seen_s, double eye_x, double unseen_s, const TrackerConfig& config) {
   Rng rng(5);
   Tracker tracker(config);
-  const double t = feed(tracker, {straight(Vec3(1.0, 0.0, 1.0), Vec3::Zero())}, 0.0, 2.0, rng);
+  std::vector<Path> pillars;
+  for (int k = 0; k < 20; ++k) pillars.push_back(straight(Vec3(1.0, 0.0, 3.0 * k), Vec3::Zero()));
+  const double t = feed(tracker, pillars, 0.0, seen_s, rng);
   double now = t;
-  for (; now < t + 5.0; now += 1.0 / kRate) {
+  for (; now < t + unseen_s; now += 1.0 / kRate) {
     ObservationSet empty = observations_at(now + 1.0 / kRate, {});
     empty.range_m = 8.0;
     empty.sensor_position = Vec3(eye_x, 0.0, 1.0);
@@ -260,14 +263,23 @@ std::size_t tracks_left(double eye_x, const TrackerConfig& config) {
   return tracker.predict(at_seconds(now)).size();
 }
 
-TEST(Tracker, RemembersWhatRestsBeyondTheSensorsRange) {
+TEST(Tracker, RemembersWhatRestsBeyondTheSensorsRangeWhileRestIsTrusted) {
   TrackerConfig config;
-  EXPECT_EQ(tracks_left(10.0, config), 1u);
+  EXPECT_EQ(tracks_left(60.0, 1000.0, 5.0, config), 20u) << "1200 s of rest: a start within 6 s is unlikely";
+  EXPECT_EQ(tracks_left(60.0, 1000.0, 8.0, config), 0u);
   config.remember_rest = Duration{3'000'000};
-  EXPECT_EQ(tracks_left(10.0, config), 0u);
+  EXPECT_EQ(tracks_left(60.0, 1000.0, 5.0, config), 0u);
 }
 
-TEST(Tracker, ForgetsWhatRestedWhereTheSensorSeesThatItIsGone) { EXPECT_EQ(tracks_left(5.0, TrackerConfig{}), 0u); }
+TEST(Tracker, PredictsWhatLeftTheRangeOnlyWhileItIsKnownWhereItIs) {
+  EXPECT_EQ(tracks_left(2.0, 1000.0, 0.2, TrackerConfig{}), 20u);
+  EXPECT_EQ(tracks_left(2.0, 1000.0, 0.8, TrackerConfig{}), 0u) << "40 s of rest: who knows";
+  EXPECT_EQ(tracks_left(2.0, 1.0, 0.8, TrackerConfig{}), 3u) << "what is within the range may be hidden";
+}
+
+TEST(Tracker, ForgetsWhatRestedWhereTheSensorSeesThatItIsGone) {
+  EXPECT_EQ(tracks_left(60.0, 1.0, 5.0, TrackerConfig{}), 17u);
+}
 
 TEST(Tracker, KeepsTracksWhenTheSensorFallsSilent) {
   Rng rng(6);
