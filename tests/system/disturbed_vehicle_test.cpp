@@ -50,10 +50,9 @@ TEST(DisturbedVehicle, PushedOutByAGustAmongObstaclesRejoinsWithoutAContact) {
 }
 
 TEST(DisturbedVehicle, WithAControllerThreeTimesTooSoftFliesWithoutAContact) {
-  const DisturbedFlight flight(
-      "quadrotor_corridor",
-      {"seed=1", "simulator.quadrotor.controller.position_p=0.83", "simulator.quadrotor.controller.velocity_p=1.7",
-       "simulator.quadrotor.controller.velocity_i=0.67"});
+  const DisturbedFlight flight("quadrotor_corridor", {"seed=1", "simulator.quadrotor.controller.position_p=0.83",
+                                                      "simulator.quadrotor.controller.velocity_p=1.7",
+                                                      "simulator.quadrotor.controller.velocity_i=0.67"});
   EXPECT_EQ(flight.result().outcome, FlightOutcome::Reached) << flight.result().detail;
   EXPECT_GT(flight.exits(), 0);
 }

@@ -137,7 +137,7 @@ Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanIn
   if (from.vehicle != MessageName{}) {
     const auto request = inputs_.requests.find(from.vehicle);
     if (request == inputs_.requests.end()) return fail("request " + text(from.vehicle) + " (for the way to the goal)");
-    key.body_half = request->second.body.half_extents();
+    key.body_half = request->second.body.half_extents() + request->second.tube;
     key.flight_box = request->second.flight_box;
     start = request->second.start.p;
   }
