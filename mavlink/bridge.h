@@ -33,6 +33,7 @@ const char* to_string(Stage stage);
 /// HEARTBEAT 2 Hz, TIMESYNC 10 Hz, and from the moment that its position is known SET_POSITION_TARGET_LOCAL_NED at
 /// rate_hz, so that the stream runs before OFFBOARD is asked for. It carries
 ///   p, v of the command now, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
+/// The gain is for level axes: the D term of an autopilot's vertical loop is 0.
 /// While the vehicle is not following, the command is to stay where it is.
 ///
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves

@@ -37,7 +37,7 @@ struct BridgeConfig {
     v("system", system, Range{0, 255}, "MAVLink system id of the autopilot; 0: the first that is heard");
     v("rate_hz", rate_hz, Range{20.0, 100.0}, "setpoints per second to the autopilot");
     v("acceleration_gain", acceleration_gain, Range{0.0, 3.0},
-      "on the commanded acceleration: 1 + MPC_XY_VEL_D_ACC, whose term opposes all of it");
+      "on the commanded level acceleration: 1 + MPC_XY_VEL_D_ACC, whose term opposes all of it");
     v("drag_per_s", drag_per_s, Range{0.0, 5.0}, "acceleration added per commanded velocity, against drag, 1/s");
     v("lead_s", lead_s, Range{0.0, 0.5}, "the acceleration is taken this much ahead, against the lag of tilting, s");
     v("climb_speed", climb_speed, Range{0.1, 5.0}, "of the climb to `uav.start`, m/s");

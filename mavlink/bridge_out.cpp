@@ -102,7 +102,8 @@ void Bridge::stream(UTime now) {
   const bool following = stage_ == Stage::Following && followed_;
   const MotionSample m = following ? command_.sample(now) : own_.motion;
   const Vec3 ahead = following ? command_.acceleration_ahead(now, Duration::from_seconds(config_.lead_s)) : m.a;
-  const Vec3 a = config_.acceleration_gain * ahead + config_.drag_per_s * m.v;
+  const double gain = config_.acceleration_gain;
+  const Vec3 a = ahead.cwiseProduct(Vec3(gain, gain, 1.0)) + config_.drag_per_s * m.v;
   const Address to = *autopilot_.address();
   SetPositionTargetLocalNed target;
   target.time_boot_ms = static_cast<std::uint32_t>(autopilot_.clock().theirs_us(now).value_or(0) / 1000);

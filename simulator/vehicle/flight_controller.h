@@ -11,7 +11,7 @@ struct FlightControllerSpec {
   double position_p = 2.5;    ///< [MPC_XY_P, MPC_Z_P]
   double velocity_p = 5.0;    ///< [MPC_XY_VEL_P_ACC]
   double velocity_i = 2.0;    ///< [MPC_XY_VEL_I_ACC]
-  double velocity_d = 0.0;    ///< [MPC_XY_VEL_D_ACC]: opposes the whole acceleration
+  double velocity_d = 0.0;    ///< [MPC_XY_VEL_D_ACC]: opposes the whole level acceleration
   double attitude_p = 12.0;   ///< [MC_ROLL_P]
   double yaw_p = 2.5;         ///< [MC_YAW_P]
   double rate_p = 30.0;       ///< [MC_ROLLRATE_P over inertia]
@@ -26,7 +26,7 @@ struct FlightControllerSpec {
     v("position_p", position_p, Range{0.0, 20.0}, "velocity per position error, 1/s");
     v("velocity_p", velocity_p, Range{0.0, 50.0}, "acceleration per velocity error, 1/s");
     v("velocity_i", velocity_i, Range{0.0, 50.0}, "acceleration per second of velocity error, 1/s²");
-    v("velocity_d", velocity_d, Range{0.0, 2.0}, "acceleration against the estimated acceleration, share of it");
+    v("velocity_d", velocity_d, Range{0.0, 2.0}, "level acceleration against the estimated one, share of it");
     v("attitude_p", attitude_p, Range{0.1, 50.0}, "body rate per tilt error, 1/s");
     v("yaw_p", yaw_p, Range{0.1, 20.0}, "body rate per heading error, 1/s");
     v("rate_p", rate_p, Range{0.1, 200.0}, "angular acceleration per rate error, 1/s");
@@ -55,7 +55,7 @@ struct FlightEstimate {
 };
 
 /// velocity:     v_c = v + position_p (p − p̂), at most speed_max
-/// acceleration: a_c = a + lead_s j + drag_per_s v + velocity_p (v_c − v̂) + ∫ velocity_i (v_c − v̂) − velocity_d â
+/// acceleration: a_c = a + lead_s j + drag_per_s v + velocity_p (v_c − v̂) + ∫ velocity_i (v_c − v̂) − velocity_d â_xy
 /// thrust:       m (a_c + g), tilted by at most tilt_max and within what the rotors have; vertical comes first
 /// rates:        by the quaternion error of that direction, then of the heading (Brescianini, D'Andrea 2018)
 /// torque:       J rate_p (ω_c − ω̂) + ω̂ × J ω̂

@@ -19,8 +19,12 @@ double yaw_of(const Eigen::Quaterniond& q) {
 
 }  // namespace
 
-FlightControllerSpec QuadrotorConfig::controller_for(const QuadrotorSpec& body) {
+FlightControllerSpec QuadrotorConfig::controller_for(QuadrotorClass kind, const QuadrotorSpec& body) {
   FlightControllerSpec gains;
+  if (kind == QuadrotorClass::Racer) {
+    gains.tilt_max = 1.4;
+    gains.rate_max = 20.0;
+  }
   gains.drag_per_s = body.drag_per_s;
   gains.lead_s = 1.0 / gains.attitude_p;
   return gains;

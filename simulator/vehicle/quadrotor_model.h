@@ -21,17 +21,18 @@ inline constexpr Duration kVehicleStep{1'000};
 struct QuadrotorConfig {
   QuadrotorClass kind = QuadrotorClass::Camera;
   QuadrotorSpec body = quadrotor_spec(kind);
-  FlightControllerSpec controller = controller_for(body);
+  FlightControllerSpec controller = controller_for(kind, body);
 
-  /// The default gains, with the body's own drag and tilting lag fed forward.
-  static FlightControllerSpec controller_for(const QuadrotorSpec& body);
+  /// The default gains, with the body's own drag and tilting lag fed forward; a racer tilts and turns beyond what is
+  /// planned for one (70°, 900°/s).
+  static FlightControllerSpec controller_for(QuadrotorClass kind, const QuadrotorSpec& body);
   template <typename V>
   void visit(V& v) {
     v("class", kind, KnobWords<QuadrotorClass>{{"camera", QuadrotorClass::Camera}, {"racer", QuadrotorClass::Racer}},
       "`camera`: 0.5 m, thrust/weight 2; `racer`: 0.25 m, thrust/weight 4; defaults of all other keys");
     body = quadrotor_spec(kind);
     v("body", body);
-    controller = controller_for(body);
+    controller = controller_for(kind, body);
     v("controller", controller);
   }
 };

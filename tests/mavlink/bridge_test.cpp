@@ -281,14 +281,70 @@ TEST(Bridge, StrangersChangeNothing) {
   EXPECT_EQ(flight.bridge.autopilot().strangers(), 9);
 }
 
-TEST(Bridge, TellsTheTruthOfASimulator) {
+TEST(Bridge, ShiftsTheTruthToWhereTheVehicleStandsBeforeItIsArmed) {
   SimulatedAutopilotConfig drifting;
   drifting.estimator.drift_m = 0.5;
-  FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, drifting);
-  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
-  flight.run(3.0);
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, drifting, 3);
+  ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Engaging; }));
   ASSERT_TRUE(flight.bridge.truth());
-  EXPECT_LT((flight.bridge.truth()->motion.p - flight.autopilot.model().truth().motion.p).norm(), 0.05);
+  EXPECT_GT((flight.bridge.state()->motion.p - flight.autopilot.model().truth().motion.p).norm(), 0.1);
+  EXPECT_LT((flight.bridge.truth()->motion.p - flight.bridge.state()->motion.p).norm(), 0.05);
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  const Vec3 shift = flight.bridge.truth()->motion.p - flight.autopilot.model().truth().motion.p;
+  flight.run(5.0);
+  const Vec3 later = flight.bridge.truth()->motion.p - flight.autopilot.model().truth().motion.p;
+  EXPECT_LT((later - shift).norm(), 0.05) << "what drifts in flight is an error";
+}
+
+TEST(Bridge, TellsExternalVisionInTheAutopilotsFrameAndOnlyWhenAsked) {
+  for (const bool asked : {true, false}) {
+    UavSpec uav;
+    uav.start = Vec3(10, 20, 2);
+    UTime now{1'000'000'000};
+    Bridge bridge({.external_vision = asked}, uav, now);
+    bridge.hear(to_frame(Heartbeat{.autopilot = 12}, {1, 1}, 0), now);
+    UavState seen;
+    seen.at = now;
+    seen.motion.p = Vec3(11, 22, 3);
+    seen.motion.v = Vec3(0.5, 0, 0);
+    bridge.hear_vision(seen);
+    bridge.hear_vision(seen);
+    std::vector<Odometry> told;
+    for (const Frame& frame : bridge.take_frames()) {
+      if (const auto m = from_frame<Odometry>(frame)) told.push_back(*m);
+    }
+    ASSERT_EQ(told.size(), asked ? 1U : 0U) << "no state twice";
+    if (!asked) continue;
+    EXPECT_EQ(told[0].p, (std::array<float, 3>{2, 1, -3}));
+    EXPECT_EQ(told[0].v, (std::array<float, 3>{0, 0.5F, 0}));
+    EXPECT_NEAR(yaw_of(swapped(quaternion_of(told[0].q))), 0.0, 1e-6);
+    EXPECT_EQ(told[0].time_usec, 1'000'000'000U);
+  }
+}
+
+TEST(RequiredParameters, AskForNoNarrowerBoundsThanPlansHave) {
+  UavSpec uav;
+  uav.limits.v_max = Vec3(3, 4, 2);
+  uav.limits.dynamics = Dynamics{.tilt_max_deg = 60.0, .body_rate_max_deg_s = 500.0};
+  std::map<std::string, double> values{{"COM_OBL_RC_ACT", 4},     {"COM_OF_LOSS_T", 0.5},    {"MPC_XY_VEL_MAX", 5},
+                                       {"MPC_Z_VEL_MAX_UP", 3},   {"MPC_Z_VEL_MAX_DN", 1.5}, {"MPC_TILTMAX_AIR", 45},
+                                       {"MC_ROLLRATE_MAX", 1000}, {"MC_PITCHRATE_MAX", 220}};
+  const auto faults = [&](bool without_remote, bool vision) {
+    return parameter_faults(required_parameters(Firmware::Px4, uav, without_remote, vision), values);
+  };
+  EXPECT_THAT(faults(false, false), HasSubstr("MPC_Z_VEL_MAX_DN is 1.5, below 2: it clips"));
+  EXPECT_THAT(faults(false, false), HasSubstr("MPC_TILTMAX_AIR is 45, below 60: plans may tilt as far"));
+  EXPECT_THAT(faults(false, false), HasSubstr("MC_PITCHRATE_MAX is 220, below 500"));
+  values["MPC_Z_VEL_MAX_DN"] = 2, values["MPC_TILTMAX_AIR"] = 60, values["MC_PITCHRATE_MAX"] = 500;
+  EXPECT_EQ(faults(false, false), "");
+  EXPECT_THAT(faults(true, false), HasSubstr("COM_RC_IN_MODE was not read"));
+  EXPECT_THAT(faults(false, true), HasSubstr("EKF2_EV_CTRL was not read"));
+  for (const RequiredParameter& r : required_parameters(Firmware::Px4, uav, true, true)) {
+    values[r.name] = r.recommended;
+  }
+  EXPECT_EQ(faults(true, true), "") << "what is recommended is allowed";
+  uav.limits.dynamics.reset();
+  EXPECT_THAT(faults(false, false), HasSubstr("MPC_TILTMAX_AIR is 60, below 85")) << "plans may ask for any tilt";
 }
 
 TEST(Axes, TurnBothWaysAndAgree) {

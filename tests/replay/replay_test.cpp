@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "executor/app/executor_node.h"
 #include "flight_log/log_writer.h"
@@ -132,6 +133,22 @@ TEST_F(ReplayTest, OfHoldingAndOfASecondFlightGivesTheSameBytes) {
   EXPECT_GT(modes[GoalMode::Hold], 10);
   EXPECT_EQ(statics.size(), 2U) << "one world each, none of both";
   EXPECT_LT(all.inputs.plans.back().plan.trajectory.control_points(0, 7), -1.0) << "the second goal";
+}
+
+TEST_F(ReplayTest, OfAVehicleWhoseTubeChangesGivesTheSameBytes) {
+  const std::string path = folder_->file("tube.lcm");
+  record_virtually({std::string(TERN_SCENARIO_FOLDER) + "/closing_in.yaml",
+                    {"world.obstacles=[{name: post, centre: [4, 0.2, 2], half_extents: [0.3, 0.3, 2]}]",
+                     "uav.goal=[8, 0, 2]", "simulator.vehicle=quadrotor", "simulator.wind.speed=6",
+                     "simulator.wind.burst=15", "simulator.wind.burst_at_s=2"},
+                    6.0,
+                    {}},
+                   path);
+  const Replay all = replay(path);
+  std::set<double> tubes;
+  for (const auto& [name, request] : all.inputs.requests) tubes.insert(request.tube.y());
+  EXPECT_GT(tubes.size(), 1U);
+  EXPECT_EQ(all.count(Agreement::Identical), static_cast<std::int64_t>(all.plans.size())) << replay_text(all, false);
 }
 
 TEST_F(ReplayTest, AnAnswerThatIsNotThePlannersIsFoundWithItsStage) {

@@ -16,7 +16,7 @@ constexpr double kDt = 1e-3;
 struct Loop {
   explicit Loop(QuadrotorClass kind = QuadrotorClass::Camera)
       : body(quadrotor_spec(kind)),
-        gains(QuadrotorConfig::controller_for(body)),
+        gains(QuadrotorConfig::controller_for(kind, body)),
         state(hovering(body, Vec3::Zero(), 0.0)) {}
 
   /// Flies `command` for so long and calls `look` after each step.

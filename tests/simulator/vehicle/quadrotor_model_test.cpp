@@ -14,7 +14,7 @@ QuadrotorConfig config_of(QuadrotorClass kind) {
   QuadrotorConfig config;
   config.kind = kind;
   config.body = quadrotor_spec(kind);
-  config.controller = QuadrotorConfig::controller_for(config.body);
+  config.controller = QuadrotorConfig::controller_for(kind, config.body);
   return config;
 }
 
