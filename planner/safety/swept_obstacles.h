@@ -11,13 +11,11 @@
 #include "core/geometry/swept_boxes.h"
 #include "core/world/alpha_count.h"
 #include "core/world/track.h"
+#include "core/world/track_sweep.h"
 #include "core/world/vehicle.h"
 #include "planner/safety/time_part.h"
 
 namespace tern {
-
-/// β ≤ this, m: how far a hull may exceed the true sweep because motion is sampled.
-inline constexpr double kBetaMax = 0.005;
 
 /// An obstacle as the planner takes it: a track, or a box of the map that never moves.
 struct PlanningObstacle {
@@ -37,9 +35,8 @@ struct PlanningObstacle {
 /// asked of it (interval_separation.h).
 ///
 /// C_ij = conv of V_i^o ⊕ (−V^U) ⊕ box(α_ij) ⊕ box(β_ij) along the predicted motion (paper §3.2). A sphere's radius is
-/// not in the hull: it is the clearance that separation asks for. β: within a cubic piece |ξ''| ≤ a per axis, and the
-/// chord between samples h apart leaves the curve by at most a h²/8; samples stand at every piece break and h keeps β ≤
-/// kBetaMax. The sweep is conv of boxes at the samples: many questions are asked of those boxes themselves, and only
+/// not in the hull: it is the clearance that separation asks for. The sweep is conv of the boxes of
+/// track_sweep.h, which says what β is: many questions are asked of those boxes themselves, and only
 /// published planes and the optimizer's need the hull's vertices. Boxes of all candidates are made by assign(), sweeps
 /// and hulls lazily; each is a pure function of its inputs.
 ///

@@ -9,7 +9,7 @@ namespace tern {
 namespace {
 
 constexpr Duration kEvery{50'000};
-constexpr Duration kRowEvery{25'000};  ///< answers, 50 ms apart more or less, are all kept
+constexpr Duration kRowEvery{40'000};  ///< answers, 50 ms apart more or less, are all kept
 constexpr std::size_t kMostSamples = 432'000;
 constexpr std::size_t kMostFields = 64;  ///< of one table
 constexpr double kDepartureSpeed = 0.05;

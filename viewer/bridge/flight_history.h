@@ -24,12 +24,12 @@ using NumberFields = std::vector<std::pair<std::string, double>>;
 NumberFields numbers_of(std::string_view detail_json);
 
 /// Times are the vehicle's clock; what comes out of order is left out. A row that is full (432,000: six hours of
-/// answers, three of states) forgets its older half.
+/// answers, nearly five of states) forgets its older half.
 class FlightHistory {
  public:
   /// At most one per 50 ms is kept.
   void add(const UavState& state);
-  /// Whether a row of this name would be kept now: at most one per 25 ms is. Who asks before saves the work.
+  /// Whether a row of this name would be kept now: at most one per 40 ms is. Who asks before saves the work.
   [[nodiscard]] bool wants(const std::string& table, UTime at) const;
   /// @param fields  of one message; its first row says which fields a table has
   /// @return whether it is the first
