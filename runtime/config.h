@@ -107,9 +107,10 @@ class KnobReader {
     value = static_cast<int>(section_.integer(key, value, static_cast<std::int64_t>(range.low),
                                               static_cast<std::int64_t>(range.high), meaning));
   }
-  /// In seconds.
+  /// In seconds. Divided, not multiplied as by seconds(): the shortest decimal is that of the whole microseconds.
   void operator()(std::string_view key, Duration& value, Range range, std::string_view meaning) {
-    value = Duration::from_seconds(section_.number(key, value.seconds(), range, meaning));
+    const double seconds = static_cast<double>(value.us) / 1e6;
+    value = Duration::from_seconds(section_.number(key, seconds, range, meaning));
   }
   void operator()(std::string_view key, bool& value, std::string_view meaning) {
     value = section_.flag(key, value, meaning);

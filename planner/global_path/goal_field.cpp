@@ -131,6 +131,32 @@ std::optional<std::vector<Vec3>> GoalField::path_from(const Vec3& start) const {
   return path;
 }
 
+std::optional<Box> GoalField::blocker(const Vec3& start) const {
+  Vec3 from = goal_, to = goal_;  // of the line that is looked along
+  if (goal_free_) {
+    from = start;
+    for (std::int32_t node = 0; node < static_cast<std::int32_t>(to_go_.size()); ++node) {
+      if (!(to_go(node) < kInfinity)) continue;
+      if ((position(node) - start).squaredNorm() < (to - start).squaredNorm()) to = position(node);
+    }
+  }
+  std::optional<Box> first;
+  double nearest = kInfinity;
+  Box line(from);
+  line.extend(to);
+  obstacles_.visit(grown(line, Vec3::Constant(kPathClearance)), [&](std::int32_t k) {
+    const Box& box = obstacles_.boxes()[static_cast<std::size_t>(k)];
+    const double distance = box.exteriorDistance(from);
+    const bool passed_over = goal_free_ && box.contains(start);
+    if (!passed_over && distance < nearest && segment_meets_box(from, to, box)) {
+      nearest = distance;
+      first = box;
+    }
+    return false;
+  });
+  return first;
+}
+
 void GoalField::tighten(std::vector<Vec3>& path) const {
   constexpr int kPasses = 3;
   constexpr double kLeastPull = 1.0 / 64.0;

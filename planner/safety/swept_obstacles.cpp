@@ -31,48 +31,7 @@ Points minkowski_difference(const Points& cloud, const Points& vertices) {
   return sum;
 }
 
-/// Boxes along a part of a piece: what is accelerated more than β ≤ kBetaMax allows for with these gets a larger β.
-constexpr double kMostSteps = 256.0;
-
-/// Boxes along the part of a piece between local times a and b; half-extents grow by the sampling error β.
-void add_piece(std::vector<CentredBox>& out, const PowerCubic& cubic, double a, double b, const Vec3& half) {
-  const Vec3 acceleration = max_abs_acceleration(cubic, a, b);
-  const double span = b - a;
-  const double steps = std::ceil(span * std::sqrt(acceleration.maxCoeff() / (8.0 * kBetaMax)));
-  const int n = static_cast<int>(std::clamp(steps, 1.0, kMostSteps));
-  const double h = span / n;
-  const Vec3 grown_half = half + acceleration * (h * h / 8.0);
-  for (int k = 0; k <= n; ++k) out.push_back({sample_cubic(cubic, a + h * k).p, grown_half});
-}
-
-/// The sweep of a track (with its α) over [from, to] seconds after origin; outside its pieces a box that grows.
-void add_track_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaCount& count, const Vec3& body_half,
-                     UTime origin, double from, double to) {
-  const double start = (track.motion.start - origin).seconds();
-  double piece_from = start;
-  for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
-    const CubicPiece& piece = track.motion.pieces[k];
-    const double piece_to = piece_from + piece.duration.seconds();
-    const double a = std::max(from, piece_from);
-    const double b = std::min(to, piece_to);
-    if (a <= b) {
-      const Vec3 half = track.half_extents + count.of(track, k) + body_half;
-      add_piece(out, piece.coefficients, a - piece_from, b - piece_from, half);
-    }
-    piece_from = piece_to;
-  }
-  const auto add_growing = [&](double seconds, const Vec3& p, const Vec3& alpha) {
-    out.push_back({p, track.half_extents + alpha + body_half + Vec3::Constant(track.top_speed * seconds)});
-  };
-  if (to > piece_from) {
-    const CubicPiece& last = track.motion.pieces.back();
-    add_growing(to - piece_from, sample_cubic(last.coefficients, last.duration.seconds()).p,
-                count.of(track, track.alpha.size() - 1));
-  }
-  if (from < start) add_growing(start - from, track.motion.pieces.front().coefficients.col(3), count.of(track, 0));
-}
-
-/// Where the track's box is at one instant, as add_track_sweep() has it but without β.
+/// Where the track's box is at one instant, as add_sweep() has it but without β.
 CentredBox box_at(const Track& track, const AlphaCount& count, const Vec3& body_half, UTime origin, double at) {
   double piece_from = (track.motion.start - origin).seconds();
   const auto grown_half = [&](const Vec3& alpha, double seconds) -> Vec3 {
@@ -290,7 +249,7 @@ void SweptObstacles::make_sweep(const PlanningObstacle& o, Span s) {
     const Vec3 p = o.track->motion.pieces.front().coefficients.col(3);
     boxes_.push_back({p, o.track->half_extents + o.alpha.of(*o.track, 0) + box_half_});
   } else {
-    add_track_sweep(boxes_, *o.track, o.alpha, box_half_, origin_, s.from, s.to);
+    add_sweep(boxes_, *o.track, o.alpha, box_half_, origin_, s.from, s.to);
   }
 }
 

@@ -11,13 +11,11 @@
 #include "core/geometry/swept_boxes.h"
 #include "core/world/alpha_count.h"
 #include "core/world/track.h"
+#include "core/world/track_sweep.h"
 #include "core/world/vehicle.h"
 #include "planner/safety/time_part.h"
 
 namespace tern {
-
-/// β ≤ this, m: how far a hull may exceed the true sweep because motion is sampled.
-inline constexpr double kBetaMax = 0.005;
 
 /// An obstacle as the planner takes it: a track, or a box of the map that never moves.
 struct PlanningObstacle {
@@ -37,11 +35,10 @@ struct PlanningObstacle {
 /// asked of it (interval_separation.h).
 ///
 /// C_ij = conv of V_i^o ⊕ (−V^U) ⊕ box(α_ij) ⊕ box(β_ij) along the predicted motion (paper §3.2). A sphere's radius is
-/// not in the hull: it is the clearance that separation asks for. On β: with |ξ''| ≤ a per axis within a cubic piece,
-/// the chord between samples h apart leaves the curve by at most a h²/8. Samples stand at every piece break, and h
-/// keeps β ≤ kBetaMax. The sweep is conv of boxes at the samples, and most questions are asked of those boxes
-/// themselves. Only published planes and `method: joint` need the hull's vertices. Boxes of all candidates are made by
-/// assign(), sweeps and hulls lazily; each is a pure function of its inputs.
+/// not in the hull: it is the clearance that separation asks for. The sweep is conv of the boxes of track_sweep.h,
+/// which says what β is. Most questions are asked of those boxes themselves. Only published planes and `method: joint`
+/// need the hull's vertices. Boxes of all candidates are made by assign(), sweeps and hulls lazily; each is a pure
+/// function of its inputs.
 ///
 /// The object keeps its memory from one assign() to the next. Once it has seen the largest horizon, boxes and sweeps
 /// allocate nothing (hulls do, in CGAL).

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -49,6 +50,29 @@ TEST(Report, IsOneFileThatAsksTheNetworkForNothing) {
       std::regex_search(page, std::regex(R"((<link|<img|<iframe|\ssrc=|@import|url\(|fetch\(|XMLHttpRequest))")));
   EXPECT_EQ(count(page, "</script>"), 3U) << "data, charts, page";
   EXPECT_THAT(page, HasSubstr("The MIT License (MIT)"));
+}
+
+TEST(Report, SaysWhatTheFlightWasFlownWith) {
+  const FlightRecord record = short_flight();
+  const nlohmann::json flight = data_in(report_page(record, audit::audit_flight(record), "fly.sh --count 40"))["flight"];
+  EXPECT_EQ(flight["command"], "fly.sh --count 40");
+  EXPECT_FALSE(flight["version"].get<std::string>().empty());
+  std::map<std::string, std::string> settings;
+  for (const auto& words : flight["settings"]) settings[words[0]] = words[1];
+  EXPECT_EQ(settings["seed"], "1");
+  EXPECT_EQ(settings["count"], "40");
+  EXPECT_EQ(settings["λ away"], "2");
+  EXPECT_EQ(settings["v_max"], "[6, 6, 6]");
+}
+
+TEST(Setting, IsReadWhereItsSectionIs) {
+  const std::string yaml = "seed: 7\nworld:\n  name: a\n  box:\n    min: [1, 2]\n  count: 3\nuav:\n  count: 5\n";
+  EXPECT_EQ(setting(yaml, "seed"), "7");
+  EXPECT_EQ(setting(yaml, "world.box.min"), "[1, 2]");
+  EXPECT_EQ(setting(yaml, "world.count"), "3");
+  EXPECT_EQ(setting(yaml, "uav.count"), "5");
+  EXPECT_EQ(setting(yaml, "uav.box.min"), "");
+  EXPECT_EQ(setting(yaml, "world.see"), "");
 }
 
 TEST(Report, TellsWhatTheLogTells) {

@@ -144,7 +144,7 @@ test('tape: an unchanged topic is not told again', () => {
 test('labels: fields as people read them', () => {
   assert.equal(label('UAV_STATE.speed_mps'), 'speed m/s');
   assert.equal(label('UAV_STATE.velocity_mps.x'), 'velocity.x m/s');
-  assert.equal(label('clearance.obstacles_m'), 'clearance to obstacles m');
+  assert.equal(label('clearance.obstacles_m'), 'to obstacles m');
   assert.equal(label('PLAN_TIMING.local_goal_ms'), 'local goal ms');
   assert.equal(label('PLAN.cost_jerk'), 'plan cost jerk');
   assert.equal(label('PLAN_TIMING.hulls'), 'hulls');

@@ -1,5 +1,5 @@
 // view_tests.mjs NAME: one test of how tern-viewer's page shows a flight, in a headless Chromium.
-import { statSync } from 'node:fs';
+import { chmodSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
   atRest, end, eventually, expect, knownLog, openPage, run, scrubTo, shows, start, startViewer, status, work,
@@ -151,6 +151,27 @@ await run({
     await page.click('#eventlist');
     await eventually('the goal is listed', async () => (await text(page, '#messages')).includes('goal 1: 20.0, 0.0, 1.0'));
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async a_film_has_the_pictures_that_were_asked_for() {
+    const film = join(work, 'film.mp4');
+    // In ffmpeg's place: what it was told, and what it was given.
+    const encoder = join(work, 'encoder');
+    writeFileSync(encoder, `#!/bin/sh\necho "$@" >"${film}.told"\nfor last; do :; done\ncat /dev/fd/$(echo "$@" | sed 's/.*pipe:\\([0-9]*\\).*/\\1/') >"$last"\n`);
+    chmodSync(encoder, 0o755);
+    const made = start(`${TERN_BIN}/tern-viewer`, [
+      '--page', TERN_PAGE, '--video', film, '--video-size', '320', '180', '--video-rate', '4', '--video-part', '0', '1.5', await knownLog(),
+    ], { TERN_FFMPEG: encoder });
+    expect(`filmed: ${made.said}`, (await made.gone) === 0);
+    const bytes = readFileSync(film);
+    let pictures = 0;
+    for (let at = 0; (at = bytes.indexOf(Buffer.from([0xff, 0xd8, 0xff]), at)) >= 0; ++at) ++pictures;
+    expect(`six pictures, not ${pictures}`, pictures === 6);
+    expect('their rate is told', readFileSync(`${film}.told`, 'utf8').includes('-framerate 4 '));
+    const none = start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, '--video', film, '--video-part', '900', '901', await knownLog()]);
+    expect('no picture is an error', (await none.gone) !== 0 && /nothing is in 900 to 901 s/.test(none.said));
+    const alone = start(`${TERN_BIN}/tern-viewer`, ['--video-rate', '4', '--log', await knownLog()]);
+    expect('without --video it has no effect and is refused', (await alone.gone) !== 0 && /requires --video/.test(alone.said));
   },
 
   async an_exported_page_plays_by_itself() {

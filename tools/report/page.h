@@ -6,6 +6,6 @@ namespace tern::report {
 extern const char* const kPageStyle;          ///< CSS: uPlot's and ours
 extern const char* const kPageCharts;         ///< uPlot
 extern const char* const kPageChartsLicence;  ///< MIT
-extern const char* const kPageScript;         ///< page/report.js
+extern const char* const kPageScript;         ///< page/*.js, one function
 
 }  // namespace tern::report

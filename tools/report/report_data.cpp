@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
 
 #include "core/base/percentiles.h"
 #include "core/world/names.h"
@@ -224,6 +226,17 @@ json log_of(const FlightRecord& record) {
   return {{"channels", channels}, {"processes", processes}};
 }
 
+/// What a flight was flown with, as CONFIGURATION says it, and the words for it.
+constexpr std::array<std::pair<const char*, const char*>, 8> kSettings = {
+    {{"seed", "seed"},
+     {"world.count", "count"},
+     {"semantics.enabled", "semantics"},
+     {"semantics.lambda_attractive", "λ to"},
+     {"semantics.lambda_repulsive", "λ away"},
+     {"uav.limits.v_max", "v_max"},
+     {"uav.limits.a_max", "a_max"},
+     {"uav.limits.j_max", "j_max"}}};
+
 json flight_of(const FlightRecord& record) {
   json flight = {{"log", record.path},
                  {"recorded_us", record.contents.first_us},
@@ -248,16 +261,40 @@ json flight_of(const FlightRecord& record) {
                         {"left_out", r.obstacles_left_out}};
   }
   for (const ConfigurationReport& c : record.configurations) {
-    const std::size_t name = c.yaml.rfind("name: ", 0) == 0 ? 6 : std::string::npos;
-    if (name != std::string::npos) flight["scenario"] = c.yaml.substr(name, c.yaml.find('\n') - name);
+    if (const std::string name = setting(c.yaml, "name"); !name.empty()) flight["scenario"] = name;
+    if (flight.contains("settings")) continue;
+    for (const auto& [key, words] : kSettings) {
+      const std::string value = setting(c.yaml, key);
+      if (!value.empty()) flight["settings"].push_back({words, value});
+    }
+    flight["version"] = c.build_id;
   }
   return flight;
 }
 
 }  // namespace
 
-json report_data(const FlightRecord& record, const Audit& audit) {
-  return {{"flight", flight_of(record)},
+std::string setting(const std::string& yaml, std::string_view path) {
+  std::size_t depth = 0;  // of what is looked for now
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (indent == std::string::npos || indent > depth) continue;
+    if (indent < depth) return "";  // the section has ended
+    const std::string_view wanted = path.substr(0, path.find('.'));
+    const std::string_view text = std::string_view(line).substr(indent);
+    if (!text.starts_with(wanted) || text.substr(wanted.size()).substr(0, 1) != ":") continue;
+    if (wanted.size() == path.size()) return std::string(text.substr(std::min(wanted.size() + 2, text.size())));
+    path.remove_prefix(wanted.size() + 1);
+    depth += 2;
+  }
+  return "";
+}
+
+json report_data(const FlightRecord& record, const Audit& audit, const std::string& command) {
+  json flight = flight_of(record);
+  if (!command.empty()) flight["command"] = command;
+  return {{"flight", flight},
           {"path", path_of(record, audit)},
           {"obstacles", obstacles_of(record)},
           {"regions", regions_of(record)},

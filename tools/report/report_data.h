@@ -2,6 +2,8 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
 
 #include "tools/audit/audit.h"
 
@@ -18,10 +20,15 @@ inline constexpr std::size_t kMostAnswers = 6'000;
 /// At most so many runs of the map's voxels.
 inline constexpr std::size_t kMostMapRuns = 20'000;
 
-/// The keys are those that page/report.js reads.
-nlohmann::json report_data(const audit::FlightRecord& record, const audit::Audit& audit);
+/// The keys are those that page/*.js read.
+/// @param command  what was typed to fly; empty: not known
+nlohmann::json report_data(const audit::FlightRecord& record, const audit::Audit& audit,
+                           const std::string& command = "");
 
 /// The whole page, self-contained: style, script, charts' library and data within.
-std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit);
+std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const std::string& command = "");
+
+/// A value of CONFIGURATION's YAML as it is written there, "uav.limits.v_max"; empty: it says none.
+std::string setting(const std::string& yaml, std::string_view path);
 
 }  // namespace tern::report

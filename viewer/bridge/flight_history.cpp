@@ -9,6 +9,7 @@ namespace tern {
 namespace {
 
 constexpr Duration kEvery{50'000};
+constexpr Duration kRowEvery{40'000};  ///< answers, 50 ms apart more or less, are all kept
 constexpr std::size_t kMostSamples = 432'000;
 constexpr std::size_t kMostFields = 64;  ///< of one table
 constexpr double kDepartureSpeed = 0.05;
@@ -78,7 +79,7 @@ void FlightHistory::add(const UavState& state) {
 
 bool FlightHistory::wants(const std::string& table, UTime at) const {
   const auto found = tables_.find(table);
-  return found == tables_.end() || found->second.at.empty() || at - found->second.at.back() >= kEvery;
+  return found == tables_.end() || found->second.at.empty() || at - found->second.at.back() >= kRowEvery;
 }
 
 bool FlightHistory::add_row(const std::string& name, UTime at, const NumberFields& fields) {

@@ -23,13 +23,13 @@ using NumberFields = std::vector<std::pair<std::string, double>>;
 /// µs since the epoch and longer lists are left out.
 NumberFields numbers_of(std::string_view detail_json);
 
-/// Times are the vehicle's clock; what comes out of order is left out. A row that is full (six hours of flight, of a
-/// channel twenty times a second) forgets its older half.
+/// Times are the vehicle's clock; what comes out of order is left out. A row that is full (432,000: six hours of
+/// answers, nearly five of states) forgets its older half.
 class FlightHistory {
  public:
   /// At most one per 50 ms is kept.
   void add(const UavState& state);
-  /// Whether a row of this name would be kept now: at most one per 50 ms is. Who asks before saves the work.
+  /// Whether a row of this name would be kept now: at most one per 40 ms is. Who asks before saves the work.
   [[nodiscard]] bool wants(const std::string& table, UTime at) const;
   /// @param fields  of one message; its first row says which fields a table has
   /// @return whether it is the first

@@ -5,42 +5,20 @@
 
 #include "core/geometry/box.h"
 #include "core/geometry/convex_hull.h"
+#include "core/world/track_sweep.h"
 
 namespace tern {
 namespace {
 
-/// Per piece and interval: enough for the eye; β keeps the hull on the safe side.
-constexpr int kSamples = 4;
-
-struct Cloud {
-  std::vector<double> xyz;
-
-  void add(const Vec3& centre, const Vec3& half) {
-    const auto corners = box_corners(box_around(centre, half));
-    xyz.insert(xyz.end(), corners.data(), corners.data() + corners.size());
-  }
-};
-
 Points sweep(const Track& track, UTime from, UTime to) {
-  Cloud cloud;
-  UTime piece_start = track.motion.start;
-  for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
-    const CubicPiece& piece = track.motion.pieces[k];
-    const UTime a = std::max(from, piece_start);
-    const UTime b = std::min(to, piece_start + piece.duration);
-    if (a <= b) {
-      const double t0 = (a - piece_start).seconds();
-      const double h = ((b - piece_start).seconds() - t0) / kSamples;
-      const Vec3 beta = max_abs_acceleration(piece.coefficients, t0, t0 + kSamples * h) * (h * h / 8.0);
-      const Vec3 half = track.half_extents + track.alpha[k] + beta;
-      for (int i = 0; i <= kSamples; ++i) cloud.add(sample_cubic(piece.coefficients, t0 + i * h).p, half);
-    }
-    piece_start = piece_start + piece.duration;
+  std::vector<CentredBox> boxes;
+  add_sweep(boxes, track, {}, Vec3::Zero(), from, 0.0, (to - from).seconds());
+  Points corners(3, 8 * static_cast<Eigen::Index>(boxes.size()));
+  for (Eigen::Index k = 0; k < corners.cols() / 8; ++k) {
+    const CentredBox& box = boxes[static_cast<std::size_t>(k)];
+    corners.middleCols<8>(8 * k) = box_corners(box_around(box.centre, box.half));
   }
-  const auto add_box = [&](const Box& box) { cloud.add(box.center(), 0.5 * box.sizes()); };
-  if (to > piece_start) add_box(track.bounds(std::max(from, piece_start), to));
-  if (from < track.motion.start) add_box(track.bounds(from, std::min(to, track.motion.start)));
-  return hull_vertices(Eigen::Map<const Points>(cloud.xyz.data(), 3, static_cast<Eigen::Index>(cloud.xyz.size() / 3)));
+  return hull_vertices(corners);
 }
 
 struct Candidate {

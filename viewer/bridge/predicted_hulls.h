@@ -21,9 +21,8 @@ struct PredictedHulls {
 };
 
 /// A hull for each interval of the plan and each moving track that may come within `reach` of it. It is conv of the
-/// track's box grown by its α and by β, swept along the prediction (the paper's C_ij without the vehicle's body). The
-/// chord between samples h apart leaves a piece with |ξ''| ≤ a by at most β = a h²/8. Beyond a track's last piece it is
-/// the box that grows at top speed.
+/// track's box grown by its α, swept along the prediction (core/world/track_sweep.h): the paper's C_ij without the
+/// vehicle's body.
 /// @param reach  m, ≥ 0: a hull is made where the track's box in that interval is no farther from the plan's curve
 /// @param most   hulls made at most; each costs about 40 µs
 PredictedHulls predicted_hulls(const TrackSet& tracks, const TimedSpline& plan, double reach, int most);

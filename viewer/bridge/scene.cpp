@@ -142,8 +142,10 @@ void Scene::clear() {
 std::optional<double> Scene::clearance() const {
   if (!state_ || !truth_ || truth_->obstacles.empty()) return std::nullopt;
   double nearest = std::numeric_limits<double>::infinity();
+  const double since = (state_->at - truth_->at).seconds();
   for (const TrueObstacle& o : truth_->obstacles) {
-    nearest = std::min(nearest, box_around(o.position, o.half_extents).exteriorDistance(state_->motion.p));
+    const Box now = box_around(o.position + since * o.velocity, o.half_extents);
+    nearest = std::min(nearest, now.exteriorDistance(state_->motion.p));
   }
   return nearest - body_radius();
 }

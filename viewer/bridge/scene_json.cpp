@@ -112,6 +112,7 @@ std::string request_json(const Scene& scene) {
   json.begin_object().key("id").integer(r.id).key("t_s_us").integer(r.t_s.us).key("p").vec3(r.start.p);
   json.key("v_max").vec3(r.limits.v_max).key("a_max").vec3(r.limits.a_max);
   json.key("radius").number(r.body.radius).key("half").vec3(r.body.half_extents());
+  json.key("tube").vec3(r.tube);
   json.key("box").begin_list().point(r.flight_box.min()).point(r.flight_box.max()).end_list();
   write_trajectory(json, r.committed);
   return json.end_object().take();

@@ -181,6 +181,25 @@ TEST(GoalField, SaysNothingWhenTheGoalIsBlocked) {
   EXPECT_TRUE(behind.path_from(Vec3(7, 0, 1)));
 }
 
+TEST(GoalField, NamesTheBoxThatBlocks) {
+  const Box flight_box(Vec3(-1, -3, 0), Vec3(12, 3, 3));
+  const Vec3 start(0, 0, 1);
+  const Box wall(Vec3(5, -4, -1), Vec3(6, 4, 4)), post(Vec3(2, 1, 0), Vec3(2.2, 1.2, 3)),
+      held(Vec3(9, -1, 0), Vec3(11, 1, 2));
+  const auto blocker = [&](const std::vector<Box>& boxes, const Vec3& goal) {
+    const GoalField field = GoalField::build(boxes, flight_box, goal);
+    EXPECT_FALSE(field.path_from(start));
+    return field.blocker(start);
+  };
+  const auto behind = blocker({post, wall}, Vec3(8, 0, 1));
+  ASSERT_TRUE(behind);
+  EXPECT_TRUE(behind->isApprox(wall));
+  const auto inside = blocker({post, held}, Vec3(10, 0, 1));
+  ASSERT_TRUE(inside);
+  EXPECT_TRUE(inside->isApprox(held));
+  EXPECT_FALSE(blocker({post}, Vec3(10, 4, 1))) << "outside the flight box";
+}
+
 TEST(GoalField, LetsAStartInsideABoxLeaveIt) {
   const std::vector<Box> boxes{Box(Vec3(-1, -1, -1), Vec3(1, 1, 3)), Box(Vec3(4, -2, -1), Vec3(5, 2, 5))};
   const Box flight_box(Vec3(-2, -4, 0), Vec3(12, 4, 4));

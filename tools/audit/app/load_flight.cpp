@@ -1,5 +1,8 @@
 #include "tools/audit/app/load_flight.h"
 
+#include <filesystem>
+#include <fstream>
+
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 
@@ -21,6 +24,14 @@ Result<FlightRecord> load_flight(const std::string& path) {
     }
   }
   return record;
+}
+
+std::string typed_command(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::ifstream file((fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path()) / "command");
+  std::string typed;
+  std::getline(file, typed);
+  return typed;
 }
 
 }  // namespace tern::audit

@@ -10,4 +10,7 @@ namespace tern::audit {
 /// read_flight(), and the scenario's regions from a CONFIGURATION in the log (every process publishes the scenario).
 Result<FlightRecord> load_flight(const std::string& path);
 
+/// What was typed to fly, as the folder of a flight keeps it beside the log; empty: not known.
+std::string typed_command(const std::string& path);
+
 }  // namespace tern::audit

@@ -25,7 +25,7 @@ int run(const std::string& log, const std::string& page) {
   if (!record) return complain(record.error().message);
   if (record->contents.events == 0) return complain(log + ": not one whole event in it");
   std::ofstream file(page);
-  file << tern::report::report_page(*record, tern::audit::audit_flight(*record));
+  file << tern::report::report_page(*record, tern::audit::audit_flight(*record), tern::audit::typed_command(log));
   if (!file.flush()) return complain(page + " cannot be written");
   fmt::print("{}\n", page);
   return 0;

@@ -44,11 +44,11 @@ void add_export_options(CLI::App& app, ViewerOptions& options) {
   app.add_option("--video-rate", options.film.rate, "Pictures a second (default 25)")
       ->check(CLI::Range(1, 60))
       ->needs(video);
-  app.add_option("--video-part", options.film.part, "Seconds since the log's begin (default: all)")
+  app.add_option("--video-part", options.film.part,
+                 "Seconds since the vehicle first flies (default: from -0.5 to the end)")
       ->type_name("FROM TO")
       ->expected(2)
       ->allow_extra_args(false)
-      ->check(CLI::NonNegativeNumber)
       ->needs(video);
 }
 
@@ -64,7 +64,7 @@ std::unique_ptr<Node> make_viewer(Bus& bus, const Scenario& scenario, const View
     if (!page->left_out.empty()) spdlog::warn("{} are left out: too large", page->left_out);
   }
   if (!options.video_to.empty()) {
-    const auto made = make_film({page->html, options.video_to, page->seconds, options.film});
+    const auto made = make_film({*page, options.video_to, options.film});
     if (!made) throw ConfigError(made.error().message);
     spdlog::info("{} is written", options.video_to);
   }

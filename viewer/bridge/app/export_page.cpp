@@ -185,13 +185,15 @@ Result<ExportedPage> export_page(const PageExport& wanted) {
   const auto still = still_json(wanted, *player);
   if (!still) return fail(still.error().message);
   const double seconds = (player->end() - player->begin()).seconds(), minutes = std::max(seconds / 60.0, 1.0);
+  const UTime departure = player->memory().history.departure().value_or(player->begin());
+  const double departure_s = (departure - player->begin()).seconds();
   const auto most = static_cast<std::size_t>(minutes * static_cast<double>(kMostBytesPerMinute));
   constexpr std::array<std::pair<LayersCommand, const char*>, 3> kDetails = {
       {{{true, true, true}, ""}, {{false, true, true}, "hulls"}, {{false, false, true}, "hulls and planes"}}};
   for (const auto& [layers, left_out] : kDetails) {
     auto html = inline_page(*files, base64(deflated(tape_json(*player, *still, play(*player, layers)))));
     if (!html) return fail(html.error().message);
-    if (html->size() <= most) return ExportedPage{std::move(*html), seconds, left_out};
+    if (html->size() <= most) return ExportedPage{std::move(*html), seconds, departure_s, left_out};
   }
   return fail(
       fmt::format("{}: a page of it is larger than {} MB a minute", wanted.log, kMostBytesPerMinute / 1'000'000));

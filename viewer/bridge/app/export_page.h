@@ -18,8 +18,9 @@ struct PageExport {
 
 struct ExportedPage {
   std::string html;
-  double seconds = 0.0;  ///< of flight that it shows
-  std::string left_out;  ///< what did not fit, in words; "" when everything did
+  double seconds = 0.0;      ///< of flight that it shows
+  double departure_s = 0.0;  ///< when the vehicle first flies, s since the log's begin; 0: never
+  std::string left_out;      ///< what did not fit, in words; "" when everything did
 };
 
 /// A page is at most as large as this for each minute of flight that it shows, bytes, and never needs to be smaller.

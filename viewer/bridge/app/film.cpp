@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 /// How ffmpeg writes them. An animation begins again at its end.
 const std::vector<const char*> kFilm = {"-pix_fmt", "yuv420p", "-movflags", "+faststart"};
 const std::vector<const char*> kAnimation = {"-c:v", "libwebp_anim",       "-loop", "0", "-quality",
-                                             "45",   "-compression_level", "6"};
+                                             "55",   "-compression_level", "6"};
 
 std::string program(const char* variable, const char* usual) {
   const char* named = std::getenv(variable);
@@ -104,14 +104,17 @@ Result<bool> make_film(const Film& film) try {
     if (!is_installed(name)) return fail(name + " is not installed: a film needs Chromium and ffmpeg");
   }
   const auto& [size, rate, part] = film.form;
-  const double from = part.at(0), to = std::min(part.at(1), film.seconds);
+  const double departure = film.page.departure_s;
+  const double from = std::max(departure + part.at(0), 0.0), to = std::min(departure + part.at(1), film.page.seconds);
   const int pictures = static_cast<int>(std::ceil((to - from) * rate));
-  if (pictures < 1)
-    return fail(fmt::format("the flight has {:.1f} s: nothing is in {} to {} s", film.seconds, from, part.at(1)));
+  if (pictures < 1) {
+    return fail(fmt::format("nothing is in {} to {} s: it flies at {:.1f} s of a log of {:.1f} s", part.at(0),
+                            part.at(1), departure, film.page.seconds));
+  }
   std::signal(SIGPIPE, SIG_IGN);
   const Workplace workplace;
   const fs::path page = workplace.folder / "flight.html";
-  std::ofstream(page, std::ios::binary) << film.html;
+  std::ofstream(page, std::ios::binary) << film.page.html;
   Devtools browser(chromium, workplace.folder / "profile", size.at(0), size.at(1));
   browser.open("file://" + page.string() + "?quality=high&theme=dark#cam=chase", "window.tern?.counts.drawn > 1");
   browser.evaluate("tern.setLayer('hulls', true)");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "viewer/bridge/app/export_page.h"
 
 namespace tern {
 
@@ -13,14 +14,13 @@ namespace tern {
 struct FilmForm {
   std::vector<int> size{1280, 720};  ///< width and height, pixels, even
   int rate = 25;                     ///< pictures a second, 1 ... 60
-  /// From, to: s since the log's begin.
-  std::vector<double> part{0.0, std::numeric_limits<double>::infinity()};
+  /// From, to: s since the vehicle first flies; what is outside the log is left out.
+  std::vector<double> part{-0.5, std::numeric_limits<double>::infinity()};
 };
 
 struct Film {
-  std::string html;      ///< a page of export_page
-  std::string file;      ///< to be written; its name's end says what: "flight.mp4", "flight.webp" (an animation)
-  double seconds = 0.0;  ///< of the flight; no picture is after its end
+  ExportedPage page;
+  std::string file;  ///< to be written; its name's end says what: "flight.mp4", "flight.webp" (an animation)
   FilmForm form;
 };
 

@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
-const CHASE = { behind: 4.5, right: 1.2, above: 4.2, ahead: 2 }; // of the vehicle, m
+const CHASE = { behind: 5, right: 1.2, above: 3.8, ahead: 2.2 }; // of the vehicle, m
 const ORBIT = { back: 5, above: 2.5 };
 const EYE_ABOVE = 0.16; // of the vehicle's middle, first person: the plan is seen from above
 const FAR_AWAY = 120; // of an orthographic camera, m

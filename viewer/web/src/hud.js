@@ -46,6 +46,7 @@ export function draw(now) {
   say('speed', fixed(Math.hypot(...state.v)));
   say('acceleration', fixed(Math.hypot(...state.a), 1, 'm/s²'));
   say('clearance', fixed(state.clearance, 2, 'm'));
+  document.body.classList.toggle('nomap', !Number.isFinite(state.map_clearance));
   say('mapclearance', fixed(state.map_clearance, 2, 'm'));
   say('position', state.p.map((x) => fixed(x)).join('  '));
   say('togoal', goal ? fixed(Math.hypot(...state.p.map((x, k) => goal.p[k] - x)), 1, 'm') : '–');

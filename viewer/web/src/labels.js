@@ -7,6 +7,6 @@ export function label(name) {
   const [table, field] = [name.slice(0, name.indexOf('.')), name.slice(name.indexOf('.') + 1)];
   const [, base, unit, component = ''] = /^(.*?)(?:_([a-z0-9]+))?(\.[xyz])?$/.exec(field);
   const words = (UNITS[unit] ? `${base}${component} ${UNITS[unit]}` : field).replaceAll('_', ' ');
-  if (table === 'clearance') return `clearance to ${words}`;
+  if (table === 'clearance') return `to ${words}`;
   return table === 'UAV_STATE' || table === 'PLAN_TIMING' ? words : `${table.toLowerCase().replaceAll('_', ' ')} ${words}`;
 }

@@ -88,7 +88,7 @@ const topics = {
   request(request) {
     if (!request) return;
     trajectories.takeRequest(request);
-    vehicle.setBody(request.half);
+    vehicle.setBody(request.half, request.tube);
   },
   state(state) {
     if (!state) return vehicle.clear();

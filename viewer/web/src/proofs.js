@@ -5,6 +5,8 @@ import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const PATCH = 0.9; // half the side of a drawn plane, m
+const HULL = 0.09; // opacity of a few hulls; of more than MANY each gets less
+const MANY = 16;
 const SOON = new THREE.Color(palette.hull);
 const LATER = new THREE.Color(palette.hullLater);
 
@@ -28,7 +30,7 @@ function translucent(color, opacity) {
 
 export class Proofs {
   constructor(scene) {
-    this.hulls = new THREE.Mesh(new THREE.BufferGeometry(), translucent('#ffffff', 0.09));
+    this.hulls = new THREE.Mesh(new THREE.BufferGeometry(), translucent('#ffffff', HULL));
     this.hulls.material.vertexColors = true;
     this.planes = new THREE.Group();
     this.patches = new THREE.Mesh(new THREE.BufferGeometry(), translucent(palette.plane, 0.18));
@@ -69,6 +71,7 @@ export class Proofs {
       while (colors.length < positions.length) colors.push(color.r, color.g, color.b);
     }
     this.counts.hulls = message?.hulls?.length ?? 0;
+    this.hulls.material.opacity = HULL * Math.min(1, Math.sqrt(MANY / Math.max(this.counts.hulls, 1))); // many lie over each other
     this.fill(this.hulls, positions, colors);
   }
 

@@ -36,6 +36,9 @@ export class Vehicle {
     this.ball = new THREE.Mesh(
       new THREE.SphereGeometry(1, 24, 16),
       new THREE.MeshBasicMaterial({ color: palette.plan, transparent: true, opacity: 0.1, depthWrite: false }));
+    this.tube = new THREE.LineSegments(
+      new THREE.WireframeGeometry(new THREE.SphereGeometry(1, 12, 8)),
+      new THREE.LineBasicMaterial({ color: palette.committed, transparent: true, opacity: 0.35, depthWrite: false }));
     this.stem = new THREE.Line(
       new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(new Float32Array(6), 3)),
       new THREE.LineBasicMaterial({ color: palette.plan, transparent: true, opacity: 0.35 }));
@@ -44,7 +47,7 @@ export class Vehicle {
       new THREE.RingGeometry(0.16, 0.2, 40),
       new THREE.MeshBasicMaterial({ color: palette.plan, transparent: true, opacity: 0.6, depthWrite: false }));
     this.group = new THREE.Group();
-    this.group.add(this.body, this.ball);
+    this.group.add(this.body, this.ball, this.tube);
     scene.add(this.group, this.stem, this.spot);
     this.p = new THREE.Vector3();
     this.setBody([0.1, 0.1, 0.1]);
@@ -63,17 +66,23 @@ export class Vehicle {
     for (const part of [this.group, this.stem, this.spot]) part.visible = true;
   }
 
-  /** @param half  of the body's box per axis, m: the rotors reach its ends, the ball is round when it is */
-  setBody(half) {
+  /**
+   * @param half  of the body's box per axis, m: the rotors reach its ends, the ball is round when it is
+   * @param tube  what the vehicle may be off its setpoints per axis, m: the planner keeps the body clear by it
+   */
+  setBody(half, tube = [0, 0, 0]) {
     const [x, y, z] = point(half).map((metres) => Math.max(metres, 0.02));
     this.ball.scale.set(x, y, z);
+    const [off_x, off_y, off_z] = point(tube);
+    this.tube.scale.set(x + off_x, y + off_y, z + off_z);
+    this.tube.visible = Math.max(off_x, off_y, off_z) > 0;
     this.body.scale.setScalar(Math.min(x, y) / MODEL_RADIUS);
     this.reach = Math.hypot(x, y, z);
   }
 
   /** Seen from within, there is no vehicle. */
   showBody(on) {
-    this.body.visible = this.ball.visible = on;
+    this.group.visible = on && this.state !== null;
   }
 
   draw(now_us) {
