@@ -48,6 +48,8 @@ MavlinkNode::~MavlinkNode() {
     publish(now);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  next_status_ = bus_.clock().now();
+  publish(next_status_);
   const bool landed = bridge_.stage() == Stage::Landed;
   spdlog::log(landed ? spdlog::level::info : spdlog::level::err, "the autopilot {}",
               landed ? "has landed" : "did not say that it has landed");

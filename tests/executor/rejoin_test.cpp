@@ -60,7 +60,7 @@ TEST(Rejoin, AShareOfTheLimitsIsAskedForButNoLessThanIsFlown) {
   fast.motion.v = Vec3(4.0, 0.0, 0.0);
   executor.rejoin(fast);
   const auto request = executor.next_request(kZero + kMs * 210);
-  EXPECT_GE(request->limits.v_max.x(), 4.0);
+  EXPECT_NEAR(request->limits.v_max.x(), 4.0, 1e-9);
   EXPECT_EQ(request->limits.v_max.y(), 0.25 * vehicle().limits.v_max.y());
 }
 
