@@ -24,6 +24,7 @@ struct ScenarioView {
   std::vector<Box> occupied;           ///< of the map, W
   std::string map;                     ///< its extents in words
   std::optional<PlannedWay> shortest;  ///< nothing: the goal cannot be reached
+  std::string blocked;                 ///< then: what stands in the way, in words
   std::optional<PlannedWay> weighed;   ///< by the regions' λ; nothing: not reached, or nothing weighs
 };
 
