@@ -10,6 +10,8 @@
 
 #include "campaign/flight_inputs.h"
 #include "logger/app/logger_node.h"
+#include "mavlink/bridge_config.h"
+#include "mavlink/sim/simulated_autopilot.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -23,10 +25,11 @@ constexpr const char* kExamples[] = {
     "world: {obstacles: [{centre: [5, 0, 1]}], recorded: [{file: a.txt, columns: 6, z_column: 4}]}\n"
     "uav: {body: {radius: 0.1}, flight_box: {min: [-9, -9, 0], max: [99, 9, 9]}}\n"
     "semantics: {regions: [{name: a, class: texture, box: {min: [0, 0, 0], max: [1, 1, 1]}}]}\n"
-    "simulator: {sensor: {mode: noisy}}\n"
+    "simulator: {sensor: {mode: noisy}, vehicle: quadrotor}\n"
     "mapper: {extents: {min: [0, 0, 0], max: [1, 1, 1]}, sources: [{file: town.las}]}\n",
     "world: {obstacles: [{motion: trefoil, centre: [5, 0, 1]}]}\n"
-    "uav: {body: {half_extents: [0.1, 0.1, 0.1]}}\n"
+    "uav: {body: {half_extents: [0.1, 0.1, 0.1]}, dynamics: {thrust_min: 2, thrust_max: 39, tilt_max: 70, "
+    "body_rate_max: 900}}\n"
     "semantics: {regions: [{name: a, class: texture, ball: {centre: [0, 0, 0], radius: 1}}]}\n",
     "world: {obstacles: [{motion: wave, centre: [5, 0, 1], amplitude: [0, 1, 0]}]}\n"
     "uav: {body: {vertices: [[0, 0, 0]]}}\n"
@@ -120,9 +123,13 @@ std::string scenario_schema() {
   Json root{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "A scenario of Tern"}};
   root.update(closed_object());
   for (const char* example : kExamples) {
+    mavlink::BridgeConfig bridge;
+    mavlink::SimulatedAutopilotConfig autopilot;
     ConfigDocument document = ConfigDocument::parse(example, "example");
     read_every_section(document);
     (void)read_logger_config(document.root().section("logger"));
+    document.root().section("mavlink").read(bridge);
+    document.root().section("autopilot_sim").read(autopilot);
     for (const Knob& knob : document.knobs()) insert(root, knob);
   }
   Json lambda{{"type", "number"}, {"minimum", 0}};

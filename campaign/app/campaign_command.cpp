@@ -78,6 +78,7 @@ int fly(const Options& options) {
   std::vector<std::string> flight_command = {std::filesystem::read_symlink("/proc/self/exe").string(), "fly-one"};
   const std::vector<std::string> words = words_of(options.flight);
   flight_command.insert(flight_command.end(), words.begin(), words.end());
+  const std::int64_t audited_before = count_audited(campaign.out);
   ProgressOutput output;
   const int stop_fd = catch_signals();
   const auto end = run_campaign(campaign, flight_command, stop_fd, [&](const CampaignProgress& p) { output.show(p); });
@@ -90,7 +91,11 @@ int fly(const Options& options) {
     fmt::print(stderr, "interrupted; the same command goes on where this one stopped\n");
     return kExitInterrupted;
   }
-  return write_summary(campaign.out, options.summary, command_line());
+  const int code = write_summary(campaign.out, options.summary, command_line());
+  if (!campaign.audit.empty() && code == 0) {
+    fmt::print("    {} were audited now, {} before\n", count_audited(campaign.out) - audited_before, audited_before);
+  }
+  return code;
 }
 
 /// Before a subcommand they would say nothing.

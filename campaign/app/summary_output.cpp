@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
@@ -42,6 +43,13 @@ int write_summary(const std::string& flights_file, const std::string& summary_fi
   if (out.flush()) return 0;
   fmt::print(stderr, "{}: cannot be written\n", summary_file);
   return kExitNoFile;
+}
+
+std::int64_t count_audited(const std::string& flights_file) {
+  const auto flights = read_flights(flights_file);
+  if (!flights) return 0;
+  return std::count_if(flights->records.begin(), flights->records.end(),
+                       [](const auto& record) { return !record.second.audit.empty(); });
 }
 
 std::string command_line() {

@@ -9,6 +9,7 @@
 
 #include "campaign/experiments/svg.h"
 #include "core/world/names.h"
+#include "planner/app/blocked_goal.h"
 #include "planner/app/config_reader.h"
 #include "planner/planning_world.h"
 #include "runtime/data_folder.h"
@@ -38,11 +39,14 @@ PlannedWay measured(std::vector<Vec3> points, const std::vector<Region>& regions
   return way;
 }
 
-std::optional<PlannedWay> way_of(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map) {
+/// @return the way, or in words why there is none
+Result<PlannedWay> way_of(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map) {
   const UavSpec& uav = view.scenario.uav;
   const GoalFieldKey key{uav.goal, map->version, 0, uav.body.half_extents(), uav.flight_box};
-  auto points = make_goal_field(key, map, static_boxes(view.world), uav.start).path_from(uav.start);
-  if (!points) return std::nullopt;
+  const std::vector<Box> statics = static_boxes(view.world);
+  const GoalField field = make_goal_field(key, map, statics, uav.start);
+  auto points = field.path_from(uav.start);
+  if (!points) return fail(blocked_in_words(field, key, statics, uav.start));
   return measured(std::move(*points), view.scenario.semantics.regions);
 }
 
@@ -162,8 +166,14 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
   view.map = fmt::format("{} x {} x {} voxels of {:g} m, occupied ones as {} boxes", map.grid.size.x(),
                          map.grid.size.y(), map.grid.size.z(), map.grid.resolution, view.occupied.size());
   planner.semantics = false;
-  view.shortest = way_of(view, std::make_shared<const MapProducts>(map, planner));
-  if (weighed->weighs_paths) view.weighed = way_of(view, weighed);
+  const auto shortest = way_of(view, std::make_shared<const MapProducts>(map, planner));
+  if (!shortest) {
+    view.blocked = shortest.error().message;
+    return view;
+  }
+  view.shortest = *shortest;
+  const auto weighed_way = weighed->weighs_paths ? way_of(view, weighed) : shortest;
+  if (weighed->weighs_paths && weighed_way) view.weighed = *weighed_way;
   return view;
 }
 
@@ -173,9 +183,7 @@ std::string to_text(const ScenarioView& view) {
   text += fmt::format("  vehicle   from {} to {}, {:.1f} m straight\n", place(s.uav.start), place(s.uav.goal),
                       (s.uav.goal - s.uav.start).norm());
   text += fmt::format("  world     {}\n  map       {}\n", world_text(view.world), view.map) + regions_text(view);
-  if (!view.shortest) {
-    return text + "  goal      cannot be reached: what rests, or the flight box, leaves no way for this body\n";
-  }
+  if (!view.shortest) return text + fmt::format("  goal      cannot be reached by this body: {}\n", view.blocked);
   text += fmt::format("  goal      can be reached: {:.1f} m around what rests (movers are not counted)\n",
                       view.shortest->length_m);
   if (!view.weighed) return text;

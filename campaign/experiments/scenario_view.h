@@ -24,6 +24,7 @@ struct ScenarioView {
   std::vector<Box> occupied;           ///< of the map, W
   std::string map;                     ///< its extents as text
   std::optional<PlannedWay> shortest;  ///< nullopt: the goal cannot be reached
+  std::string blocked;                 ///< then: what stands in the way, as text
   std::optional<PlannedWay> weighed;   ///< by the regions' λ; nullopt: not reached, or nothing weighs
 };
 

@@ -4,8 +4,10 @@
 
 #include <utility>
 
+#include "core/world/body.h"
 #include "messages/batching.h"
 #include "messages/channels.h"
+#include "planner/app/blocked_goal.h"
 
 namespace tern {
 
@@ -127,6 +129,9 @@ void WorldIntake::prepare() {
   start([this, number = goal_number_, goal = *newest_goal_, key, names, map = world.map, boxes = statics_.boxes(),
          at = at_] {
     auto field = std::make_shared<const GoalField>(make_goal_field(key, map, boxes, at));
+    if (!field->path_from(at)) {
+      spdlog::warn("goal {} is blocked: {}", goal.id, blocked_in_words(*field, key, boxes, at));
+    }
     publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names}));
   });
 }

@@ -174,6 +174,18 @@ a_full_disk_ends_the_campaign_and_fails_no_flight() {
   fly "$work/other.csv" --seeds 1:1
 }
 
+a_resumed_campaign_says_how_many_were_audited_now_before_and_not() {
+  local out=$work/flights.csv
+  fly "$out" --seeds 1:2
+  ! grep -q audited "$out.said" || fail "audited: $(cat "$out.said")"
+  fly "$out" --seeds 1:3 --audit true
+  grep -q 'audited 1 of 3' "$out.said" || fail "$(cat "$out.said")"
+  fly "$out" --seeds 1:5 --audit true
+  for words in 'audited 3 of 5' '2 were flown before without --audit' '2 were audited now, 1 before'; do
+    grep -q -- "$words" "$out.said" || fail "not said: $words, but $(cat "$out.said")"
+  done
+}
+
 an_audit_that_finds_a_breach_fails_the_flight() {
   # shellcheck disable=SC2016  # the audit expands it
   printf '#!/bin/sh\ntest -s "$1" && echo "a breach in $1"\nexit 1\n' >"$work/audit"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/world/body.h"
 #include "planner/app/config_reader.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"

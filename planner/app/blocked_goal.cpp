@@ -1,0 +1,27 @@
+#include "planner/app/blocked_goal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/geometry/box.h"
+#include "planner/tuning.h"
+
+namespace tern {
+
+std::string blocked_in_words(const GoalField& field, const GoalFieldKey& key, const std::vector<Box>& static_boxes,
+                             const Vec3& start) {
+  if (!grown(key.flight_box, -key.body_half).contains(key.goal)) return "it is not within the flight box";
+  const auto blocker = field.blocker(start);
+  if (!blocker) return "no way within the flight box leads there";
+  const Vec3 growth = key.body_half + Vec3::Constant(kPathSpacing);
+  const bool is_static = std::any_of(static_boxes.begin(), static_boxes.end(),
+                                     [&](const Box& box) { return grown(box, growth).isApprox(*blocker); });
+  const Box box = grown(*blocker, -growth);
+  const auto place = [](const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z()); };
+  return fmt::format("{} from {} to {} {}", is_static ? "an obstacle" : "what the map says is occupied",
+                     place(box.min()), place(box.max()),
+                     blocker->contains(key.goal) ? "leaves no room there" : "is the first in the way");
+}
+
+}  // namespace tern
