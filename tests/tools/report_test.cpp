@@ -54,7 +54,8 @@ TEST(Report, IsOneFileThatAsksTheNetworkForNothing) {
 
 TEST(Report, SaysWhatTheFlightWasFlownWith) {
   const FlightRecord record = short_flight();
-  const nlohmann::json flight = data_in(report_page(record, audit::audit_flight(record), "fly.sh --count 40"))["flight"];
+  const nlohmann::json flight =
+      data_in(report_page(record, audit::audit_flight(record), "fly.sh --count 40"))["flight"];
   EXPECT_EQ(flight["command"], "fly.sh --count 40");
   EXPECT_FALSE(flight["version"].get<std::string>().empty());
   std::map<std::string, std::string> settings;

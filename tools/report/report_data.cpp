@@ -227,15 +227,14 @@ json log_of(const FlightRecord& record) {
 }
 
 /// What a flight was flown with, as CONFIGURATION says it, and the words for it.
-constexpr std::array<std::pair<const char*, const char*>, 8> kSettings = {
-    {{"seed", "seed"},
-     {"world.count", "count"},
-     {"semantics.enabled", "semantics"},
-     {"semantics.lambda_attractive", "λ to"},
-     {"semantics.lambda_repulsive", "λ away"},
-     {"uav.limits.v_max", "v_max"},
-     {"uav.limits.a_max", "a_max"},
-     {"uav.limits.j_max", "j_max"}}};
+constexpr std::array<std::pair<const char*, const char*>, 8> kSettings = {{{"seed", "seed"},
+                                                                           {"world.count", "count"},
+                                                                           {"semantics.enabled", "semantics"},
+                                                                           {"semantics.lambda_attractive", "λ to"},
+                                                                           {"semantics.lambda_repulsive", "λ away"},
+                                                                           {"uav.limits.v_max", "v_max"},
+                                                                           {"uav.limits.a_max", "a_max"},
+                                                                           {"uav.limits.j_max", "j_max"}}};
 
 json flight_of(const FlightRecord& record) {
   json flight = {{"log", record.path},
