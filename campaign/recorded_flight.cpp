@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "executor/app/executor_node.h"
@@ -93,12 +95,12 @@ FlightRecord make_record(const FlightSummary& summary, const ExecutorCounters& e
 
 /// @return "passed", "broken" or "failed".
 std::string run_audit(const std::string& audit, const std::string& folder) {
-  const std::string log = folder + "/flight.lcm", out = folder + "/audit.txt";
+  const std::string log = folder + "/flight.lcm", out = folder + "/audit.txt", json = folder + "/audit.json";
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  const char* arguments[] = {audit.c_str(), log.c_str(), nullptr};
+  const char* arguments[] = {audit.c_str(), log.c_str(), "--json", json.c_str(), nullptr};
   pid_t pid = 0;
   const int error = posix_spawnp(&pid, audit.c_str(), &files, nullptr, const_cast<char* const*>(arguments), environ);
   posix_spawn_file_actions_destroy(&files);
@@ -108,10 +110,29 @@ std::string run_audit(const std::string& audit, const std::string& folder) {
   return WEXITSTATUS(status) == 1 ? "broken" : "failed";
 }
 
+/// What the audit counted. @throws std::runtime_error where it wrote what nobody can read.
+Coverage audited_coverage(const std::string& folder) {
+  std::ifstream file(folder + "/audit.json");
+  if (!file) return {};
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  const auto sums = json.is_object() ? json.find("coverage_sums") : json.end();
+  const auto coverage =
+      sums != json.end() && sums->is_string() ? parse_coverage(sums->get<std::string>()) : std::nullopt;
+  if (!coverage) throw std::runtime_error(folder + "/audit.json: no coverage_sums that can be read");
+  return *coverage;
+}
+
+void audit(const Auditor& auditor, const std::string& folder, FlightRecord& record) {
+  if (auditor.program.empty()) return;
+  const std::string verdict = run_audit(auditor.program, folder);
+  if (auditor.judges || verdict == "failed") record.audit = verdict;
+  if (verdict != "failed") record.coverage = audited_coverage(folder);
+}
+
 }  // namespace
 
 RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, const CampaignIdentity& identity,
-                            const std::string& folder, const std::string& audit, FlightObserver* observer) {
+                            const std::string& folder, const Auditor& auditor, FlightObserver* observer) {
   write_text(folder + "/scenario.yaml", spell_out(inputs, seed));
   const std::string log = folder + "/flight.lcm";
   auto writer = LogWriter::open(log, 0);
@@ -136,7 +157,7 @@ RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, cons
   }
   if (const auto flushed = writer->flush(); !flushed) throw CannotRecord(flushed.error().message);
   if (writer->counters().unwritten > 0) throw CannotRecord(log + ": not all messages could be written");
-  if (!audit.empty()) flight.record.audit = run_audit(audit, folder);
+  audit(auditor, folder, flight.record);
   return flight;
 }
 

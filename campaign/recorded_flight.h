@@ -17,6 +17,14 @@ class CannotRecord : public std::runtime_error {
 /// The exit code of a flying process that says so, and of a campaign that ends for it.
 inline constexpr int kExitCannotWrite = 3;
 
+/// A program that looks at each flight's log afterwards: "tern-audit LOG --json FILE". From FILE comes what it says of
+/// coverage (its key coverage_sums); a program that writes none says nothing.
+struct Auditor {
+  std::string program;  ///< empty: none
+  bool judges =
+      true;  ///< its exit code is a verdict: 0 passed, 1 broken; anything else failed, whether it judges or not
+};
+
 struct RecordedFlight {
   FlightRecord record;
   FlightTimes times;
@@ -25,11 +33,10 @@ struct RecordedFlight {
 /// Flies one seed. Three files go into `folder`, which must exist: flight.lcm (every message, with virtual times),
 /// summary.json (tern-monitor's) and scenario.yaml (spell_out). The last is written before the flight, so that a crash
 /// leaves it.
-/// @param audit  a program to run on the log, "tern-audit LOG", with its output in audit.txt: exit code 0 passed,
-/// 1 broken, anything else failed. Empty: none
+/// @param auditor  its output goes into audit.txt and audit.json
 /// @throws ConfigError for bad inputs; CannotRecord.
 RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, const CampaignIdentity& identity,
-                            const std::string& folder, const std::string& audit, FlightObserver* observer = nullptr);
+                            const std::string& folder, const Auditor& auditor, FlightObserver* observer = nullptr);
 
 /// "Intel(R) Xeon(R) CPU @ 2.20GHz, 2 cores".
 std::string machine_name();

@@ -19,8 +19,13 @@ void add_flight_options(CLI::App& app, FlightOptions& options) {
   app.add_option("--charge", options.charge, "What planning takes of virtual time: its thread's CPU time, or 15 ms")
       ->check(CLI::IsMember({"cpu", "counts"}))
       ->capture_default_str();
-  app.add_option("--audit", options.audit, "Run this program on every log: exit code 0 passed, 1 broken")
-      ->type_name("PROGRAM");
+  CLI::Option* audit = app.add_option("--audit", options.audit,
+                                      "Run this program on every log: exit code 0 passed, 1 broken; and keep the "
+                                      "coverage of predictions that it says")
+                           ->type_name("PROGRAM");
+  app.add_option("--coverage", options.coverage, "The same, for the coverage alone: it judges no flight")
+      ->type_name("PROGRAM")
+      ->excludes(audit);
   app.add_flag("--oracle", options.oracle,
                "The same flights with all motions declared: what perfect prediction reaches");
 }
@@ -50,6 +55,7 @@ std::vector<std::string> words_of(const FlightOptions& options) {
   for (const std::string& setting : options.settings) words.insert(words.end(), {"--set", setting});
   if (options.oracle) words.emplace_back("--oracle");
   if (!options.audit.empty()) words.insert(words.end(), {"--audit", options.audit});
+  if (!options.coverage.empty()) words.insert(words.end(), {"--coverage", options.coverage});
   return words;
 }
 

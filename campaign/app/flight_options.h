@@ -17,14 +17,14 @@ struct FlightOptions {
   std::string count;                  ///< "" when not given
   std::vector<std::string> settings;  ///< key=value
   std::string charge = "cpu";
-  std::string audit;
-  bool oracle = false;  ///< motions declared, whatever the scenario says
+  std::string audit, coverage;  ///< programs
+  bool oracle = false;          ///< motions declared, whatever the scenario says
 };
 
 /// --world, --count, --set: what a world is made from.
 void add_world_options(CLI::App& app, FlightOptions& options);
 
-/// Those, --charge, --audit and --oracle.
+/// Those, --charge, --audit, --coverage and --oracle.
 void add_flight_options(CLI::App& app, FlightOptions& options);
 
 /// @throws ConfigError when there is no such world, or a setting sets the seed or has no effect.

@@ -29,8 +29,10 @@ int fly_one(const Options& options) try {
   const CampaignIdentity identity = check_inputs(inputs, options.seed);
   std::filesystem::create_directories(options.folder);
   PlanTracer tracer;
-  const RecordedFlight flight = fly_recorded(inputs, options.seed, identity, options.folder, options.flight.audit,
-                                             options.trace ? &tracer : nullptr);
+  const bool judges = options.flight.coverage.empty();
+  const Auditor auditor{judges ? options.flight.audit : options.flight.coverage, judges};
+  const RecordedFlight flight =
+      fly_recorded(inputs, options.seed, identity, options.folder, auditor, options.trace ? &tracer : nullptr);
   fmt::print("{}", encode_flight(flight.record, flight.times));
   return std::fflush(stdout) == 0 ? 0 : kExitCannotWrite;
 } catch (const CannotRecord& error) {

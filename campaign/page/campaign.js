@@ -87,8 +87,44 @@ function failures() {
   }
 }
 
+/** A share kept with its interval, on a bar from 0.5 to 1 with a tick at what was promised. */
+function kept(cell, share) {
+  const at = (x) => `${200 * Math.min(0.5, Math.max(0, x - 0.5))}%`;
+  const box = element(cell, "div", { class: "kept", title: `${share.kept} of ${share.made} in ${share.flights} flights, ` +
+    `${share.ci95[0].toFixed(4)} to ${share.ci95[1].toFixed(4)}; half-width ${share.half_m === null ? "–" : short(share.half_m)} m` });
+  element(box, "span", share.broken ? { class: "out" } : {}, share.share.toFixed(3));
+  const bar = element(box, "div", { class: "bar" });
+  const from = Math.max(0.5, Math.min(share.ci95[0], 0.998));
+  element(bar, "i", { class: share.broken ? "below" : "", style: `left: ${at(from)}; width: ${200 * Math.max(0.002, share.ci95[1] - from)}%` });
+  element(bar, "s", { style: `left: ${at(share.promised)}` });
+}
+
+function coverage() {
+  if (!s.coverage.length) return;
+  const card = element(page, "section", { class: "card" });
+  element(card, "h2", {}, "Predictions: promised and kept");
+  element(card, "p", { class: "note" }, "Share of predictions that held on all axes at all times up to so long ahead; plans: claims that held to the plan's end. " +
+    "Bar: 95 % interval, from 0.5 to 1; tick: what was promised; red: cannot have been true.");
+  const table = element(element(card, "div", { class: "scroll" }), "table");
+  const horizons = ["0.25", "0.5", "1", "2", "whole"];
+  const head = element(table, "tr");
+  for (const word of ["", "promised", ...horizons.map((h) => (h === "whole" ? "to the end" : h + " s"))]) element(head, "th", {}, word);
+  for (const key of new Set(s.coverage.map((k) => k.what + "|" + k.promised))) {
+    const [what, promised] = key.split("|");
+    const row = element(table, "tr");
+    element(element(row, "td"), "b", {}, what);
+    element(row, "td", {}, promised);
+    for (const h of horizons) {
+      const share = s.coverage.find((k) => k.what === what && String(k.promised) === promised && k.horizon === h);
+      const cell = element(row, "td");
+      if (share) kept(cell, share);
+    }
+  }
+}
+
 header();
 tiles();
+coverage();
 failures();
 const shown = data.measures.map((m) => [m, m.values.filter((x) => x !== null)]).filter(([, values]) => values.length);
 const varied = shown.filter(([, values]) => values.some((x) => x !== values[0]));

@@ -95,6 +95,14 @@ void add_times(CampaignSummary& s, const Flights& flights) {
   s.compilers.assign(compilers.begin(), compilers.end());
 }
 
+void add_coverage(CampaignSummary& s, const Records& all) {
+  std::vector<Coverage> flights;
+  for (const FlightRecord* r : all) {
+    if (!r->coverage.promises.empty()) flights.push_back(r->coverage);
+  }
+  s.coverage = kept_shares(flights);
+}
+
 /// Six decimals: micrometres, nanoseconds of a time in milliseconds.
 Json to_json(const Distribution& d) {
   const auto rounded = [](double x) { return std::round(x * 1e6) / 1e6; };
@@ -115,6 +123,23 @@ Json exposure_json(const CampaignSummary& s) {
                        {"near_metres", to_json(e.near_metres)}};
   }
   return regions;
+}
+
+Json coverage_json(const CampaignSummary& s) {
+  Json shares = Json::array();
+  for (const KeptShare& k : s.coverage) {
+    shares.push_back({{"what", k.what},
+                      {"horizon", k.horizon},
+                      {"promised", k.confidence},
+                      {"flights", k.groups},
+                      {"made", k.made},
+                      {"kept", k.kept},
+                      {"share", k.share()},
+                      {"ci95", {k.interval.low, k.interval.high}},
+                      {"broken", k.is_broken()},
+                      {"half_m", std::isfinite(k.half_m) ? Json(k.half_m) : Json(nullptr)}});
+  }
+  return shares;
 }
 
 /// The interval of the success, or why there is none.
@@ -161,6 +186,7 @@ CampaignSummary summarize(const Flights& flights) {
   s.min_clearance_m = over(all, &FlightResult::min_clearance_m);
   add_exposure(s, all);
   add_times(s, flights);
+  add_coverage(s, all);
   return s;
 }
 
@@ -202,6 +228,7 @@ std::string to_json(const CampaignSummary& s, const std::string& command) {
   for (std::size_t k = 0; k < kMeasuredTimes.size(); ++k) json[kMeasuredTimes[k]] = to_json(s.times[k]);
   json["exposure"] = exposure_json(s);
   json["audits"] = s.audits;
+  json["coverage"] = coverage_json(s);
   json["failed_seeds"] = s.failed_seeds;
   json["configuration"] = s.identity.configuration;
   json["version"] = s.identity.version;
@@ -235,6 +262,7 @@ std::string to_text(const CampaignSummary& s) {
   text += fmt::format("  stops {} in {} flights, limit violations {}, requests {}, deadlines missed {}\n", s.stops,
                       s.flights_with_stops, s.limit_violations, s.requests, s.deadlines_missed);
   text += audit_line(s);
+  text += to_text(s.coverage);
   if (!s.failed_seeds.empty()) text += fmt::format("  failed seeds: {}\n", fmt::join(s.failed_seeds, " "));
   return text;
 }

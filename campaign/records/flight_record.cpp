@@ -41,6 +41,8 @@ std::string write(const std::map<std::string, MessageCount>& messages) {
   return channels.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string write(const Coverage& coverage) { return to_text(coverage); }
+
 template <class Number>
 bool read_number(const std::string& cell, Number& value) {
   const char* end = cell.data() + cell.size();
@@ -84,6 +86,12 @@ bool read(const std::string& cell, std::map<std::string, MessageCount>& value) t
   return channels.is_object();
 } catch (const Json::exception&) {
   return false;
+}
+
+bool read(const std::string& cell, Coverage& value) {
+  const auto coverage = parse_coverage(cell);
+  value = coverage.value_or(Coverage{});
+  return coverage.has_value();
 }
 
 struct Column {
@@ -187,6 +195,11 @@ std::vector<Column> make_columns() {
   columns.push_back(column("exposure", "JSON, per region: seconds and metres inside and within 1 m", kNo, &R::result,
                            &FlightResult::exposure));
   columns.push_back(column("messages", "JSON, per channel: received, rejected, lost", kNo, &R::messages));
+  columns.push_back(
+      column("coverage",
+             "JSON of --audit or --coverage, per class and time ahead: predictions, mean half-width m, kept "
+             "at each confidence; claims: of plans, made and kept at each",
+             kNo, &R::coverage));
   columns.push_back(column("restarts", "of processes in flight", kNo, &R::restarts));
   columns.push_back(column("audit", "passed, broken, failed; empty: not audited", kNo, &R::audit));
   columns.push_back(column("log", "of a failed flight, relative to the failures' folder", kNo, &R::log));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "campaign/records/csv.h"
+#include "campaign/statistics/coverage.h"
 #include "campaign/statistics/log_histogram.h"
 #include "core/base/result.h"
 #include "core/world/flight_result.h"
@@ -41,6 +42,7 @@ struct FlightRecord {
   ReplanTimes replan_ms;  ///< NaN where times are not charged: they would differ from run to run
   std::map<std::string, MessageCount> messages;
   std::int64_t restarts = 0;
+  Coverage coverage;  ///< of predictions, by the audit; nothing when none was asked for
   std::string audit;  ///< "passed", "broken", "failed"; "" when none was asked for
   std::string log;    ///< of a failed flight: its log, relative to the campaign's failures
 };

@@ -53,6 +53,25 @@ def time_row(name, s):
     ]
 
 
+AHEAD = ("0.25", "0.5", "1", "2")
+
+
+def coverage_rows(name, s):
+    """Promised against kept, and half-width, by class."""
+    found = {(k["what"], k["horizon"], k["promised"]): k for k in s.get("coverage", [])}
+    rows = []
+    for what, promised in sorted({(k["what"], k["promised"]) for k in s.get("coverage", [])}, key=lambda p: (p[0] == "plans", p[0], -p[1])):
+        ahead = ("whole",) if what == "plans" else AHEAD
+        cells = [found.get((what, h, promised)) for h in ahead]
+        kept = [f"{k['share']:.3f} [{k['ci95'][0]:.3f}, {k['ci95'][1]:.3f}]" if k else "–" for k in cells]
+        width = [f"{k['half_m']:.2f}" if k and k["half_m"] is not None else "–" for k in cells]
+        made = max((k["made"] for k in cells if k), default=0)
+        if what == "plans":
+            kept, width = ["–"] * 3 + kept, ["–"] * 4
+        rows.append([name, what, f"{promised}", str(made)] + kept + [" / ".join(width)])
+    return rows
+
+
 def main():
     summaries = [(pathlib.Path(p).stem, json.loads(pathlib.Path(p).read_text())) for p in sys.argv[1:]]
     summaries.sort(key=lambda item: (item[1]["scenario"], item[1]["count"]))
@@ -67,6 +86,13 @@ def main():
          "optimized / search / kept / evade / none, %"],
         [time_row(name, s) for name, s in summaries],
     )
+    rows = [row for name, s in summaries for row in coverage_rows(name, s)]
+    if rows:
+        table(
+            ["world", "class", "promised", "predictions"] + [f"kept to {h} s" for h in AHEAD[:3]]
+            + ["kept to 2 s (plans: to the end)", "half-width at 0.25 / 0.5 / 1 / 2 s, m"],
+            rows,
+        )
     kinds = sorted({(s["version"], ", ".join(s["compiler"]), " and ".join(s["machine"])) for _, s in summaries})
     for version, compiler, machine in kinds:
         print(f"Made by {version}, {compiler}, on {machine}.")

@@ -9,6 +9,7 @@
 #include "messages/batching.h"
 #include "messages/channels.h"
 #include "predictor/models/declared.h"
+#include "predictor/tracking/usable.h"
 
 namespace tern {
 namespace {
@@ -40,7 +41,13 @@ void PredictorNode::on_declared(const TrackSet& batch) {
 
 void PredictorNode::on_observations(const ObservationSet& observations) {
   const std::string input = fmt::format("obstacle observations of sensor {}", observations.sensor_id);
-  const Taken taken = tracker_.update(without_explained(observations, declared_));
+  ObservationSet usable = without_explained(observations, declared_);
+  if (const std::size_t unusable = remove_unusable(usable); unusable > 0) {
+    const std::string text = fmt::format("{}: {} detections whose standard deviation is above {} m are not used", input,
+                                         unusable, kLargestDeviation);
+    watch_.trouble("unusable", text, bus_.clock().now());
+  }
+  const Taken taken = tracker_.update(usable);
   if (taken == Taken::Yes) return have_input(input, observations.at);
   bus_.count_late(channels::kObstacleObservations);
   if (taken == Taken::Repeated) {

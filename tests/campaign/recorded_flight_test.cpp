@@ -17,7 +17,7 @@ FlightInputs short_hop(Charge charge, std::vector<std::string> overrides = {}) {
 }
 
 FlightRecord fly(const FlightInputs& inputs, std::uint64_t seed, const TempFolder& folder) {
-  return fly_recorded(inputs, seed, check_inputs(inputs, seed), folder.file(""), "").record;
+  return fly_recorded(inputs, seed, check_inputs(inputs, seed), folder.file(""), {}).record;
 }
 
 TEST(RecordedFlight, ASpeltOutScenarioMakesTheSameFlight) {
@@ -68,7 +68,7 @@ TEST(RecordedFlight, AChargedPlanArrivesWhenItsCpuTimeIsOver) {
     }
   } watch;
   const FlightInputs inputs = short_hop(Charge::Cpu);
-  const RecordedFlight flight = fly_recorded(inputs, 1, check_inputs(inputs, 1), folder.file(""), "", &watch);
+  const RecordedFlight flight = fly_recorded(inputs, 1, check_inputs(inputs, 1), folder.file(""), {}, &watch);
   const Distribution charged = describe(watch.latency_ms), measured = flight.times.times[0].describe();
   EXPECT_EQ(charged.count, measured.count);
   EXPECT_NEAR(charged.mean, measured.mean, 1e-6);

@@ -39,6 +39,22 @@ TEST(CampaignSummary, TimesAreOverAllAnswers) {
   EXPECT_EQ(s.times[1].count, 0);
 }
 
+TEST(CampaignSummary, SumsPromisesAndClaimsOverFlights) {
+  const CampaignSummary s = summarize(thirty_flights());
+  ASSERT_EQ(s.coverage.size(), 6U) << "a class with one horizon and five confidences; the plans of one";
+  EXPECT_EQ(s.coverage[0].made, 3000);
+  EXPECT_EQ(s.coverage[0].kept, 2940);
+  EXPECT_EQ(s.coverage[0].groups, 30);
+  EXPECT_NEAR(s.coverage[0].half_m, 0.125, 1e-12);
+  EXPECT_TRUE(s.coverage[0].is_broken()) << "0.98 in each of thirty flights is not 0.99";
+  EXPECT_FALSE(s.coverage[1].is_broken());
+  EXPECT_EQ(s.coverage[5].what, kPlans);
+  EXPECT_EQ(s.coverage[5].made, 300);
+  const auto json = nlohmann::json::parse(to_json(s, ""));
+  EXPECT_EQ(json["coverage"].size(), 6U);
+  EXPECT_EQ(json["coverage"][0]["broken"], true);
+}
+
 TEST(CampaignSummary, ALimitBrokenIsNoSuccess) {
   Flights flights;
   flights.records[1] = some_flight(1);
