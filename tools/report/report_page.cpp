@@ -31,8 +31,8 @@ std::string report_page(const audit::FlightRecord& record, const audit::Audit& a
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
          "script-src 'unsafe-inline'; img-src data:\">\n<title>Tern flight report</title>\n<style>" +
          kPageStyle + "</style>\n</head>\n<body>\n<main></main>\n<script type=\"application/json\" id=\"data\">" +
-         escaped(report_data(record, audit, command)) + "</script>\n<!-- uPlot\n" + kPageChartsLicence + "-->\n<script>" +
-         kPageCharts + "</script>\n<script>" + kPageScript + "</script>\n</body>\n</html>\n";
+         escaped(report_data(record, audit, command)) + "</script>\n<!-- uPlot\n" + kPageChartsLicence +
+         "-->\n<script>" + kPageCharts + "</script>\n<script>" + kPageScript + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace tern::report
