@@ -245,7 +245,15 @@ std::int64_t FlightRecord::unread(const std::string& channel) const {
 }
 
 UTime FlightRecord::zero() const {
-  if (!requests.empty()) return requests.front().header.utime;
+  if (!requests.empty()) {
+    const auto goes = [](const Goal& goal) { return goal.mode == GoalMode::Go; };
+    const auto go = std::find_if(goals.begin(), goals.end(), goes);
+    const bool held_first = go != goals.end() && go != goals.begin();
+    const auto begun = std::find_if(requests.begin(), requests.end(), [&](const HorizonRequest& r) {
+      return !held_first || r.header.utime >= go->header.utime;
+    });
+    return (begun == requests.end() ? requests.begin() : begun)->header.utime;
+  }
   return states.empty() ? UTime{} : states.front().at;
 }
 

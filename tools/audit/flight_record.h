@@ -75,7 +75,8 @@ struct FlightRecord {
 
   /// Messages of a channel that were sent but cannot be read: lost by their numbers, or refused.
   [[nodiscard]] std::int64_t unread(const std::string& channel) const;
-  /// When the flight began: the first request's time, else the first state's.
+  /// When the flight began: the first request's time, else the first state's. An autopilot is told to hold until world
+  /// time begins: there it is the first request after the goal to go to.
   [[nodiscard]] UTime zero() const;
   /// Until when it is judged: the last state's time.
   [[nodiscard]] UTime end() const;

@@ -213,7 +213,7 @@ Window judged(const FlightRecord& record) {
   if (std::isnan(result.flight_time_s)) return {record.zero(), record.end(), Duration{}};
   const Duration time = Duration::from_seconds(result.flight_time_s);
   UTime latest = result.header.utime;
-  if (record.requests.front().id == 1) latest = std::min(latest, record.requests.front().header.utime + time);
+  if (record.requests.front().id == 1) latest = std::min(latest, record.zero() + time);
   const bool is_first = result.header.name.sequence <= 1;
   const UTime told = is_first ? result.header.utime : result.header.utime - kResultRepeated;
   const auto after = std::upper_bound(record.states.begin(), record.states.end(), told,

@@ -55,6 +55,7 @@ struct Window {
   Duration unsure;  ///< it began at most this after `from` and ended at most this before `to`: a step of the referee
   [[nodiscard]] UTime sure_from() const { return from + unsure; }
   [[nodiscard]] UTime sure_to() const { return to - unsure; }
+  [[nodiscard]] bool contains(UTime t) const { return t >= from && t <= to; }
 };
 /// The verdict came after the state before the last one that precedes FLIGHT_RESULT (each state is judged when it is
 /// published), no later than FLIGHT_RESULT, and no later than flight_time after the first request.

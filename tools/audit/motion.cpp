@@ -6,6 +6,7 @@
 
 #include "tools/audit/audit.h"
 #include "tools/audit/commitment.h"
+#include "tools/audit/flown.h"
 
 namespace tern::audit {
 namespace {
@@ -183,7 +184,10 @@ Check check_limits(const FlightRecord& record) {
     }
   }
   if (!record.requests.empty()) {
-    for (const UavState& state : record.states) limits.state(state, record.requests.front());
+    const Window window = judged(record);
+    for (const UavState& state : record.states) {
+      if (window.contains(state.at)) limits.state(state, record.requests.front());
+    }
   }
   check.summary = fmt::format("at most {:.1f} % of the speed, {:.1f} % of the acceleration allowed",
                               limits.used(1) * 100.0, limits.used(2) * 100.0);
@@ -253,7 +257,9 @@ Check check_commitment(const FlightRecord& record) {
     check.unchecked["setpoints: several executors sent requests"] = static_cast<std::int64_t>(all.size());
   double worst = 0.0;
   if (all.size() == 1) {
+    const Window window = judged(record);
     for (const UavState& s : record.setpoints) {
+      if (!window.contains(s.at)) continue;
       if (s.at < all.front().list.front().spline.start) {
         ++check.unchecked["setpoints from before the first request in the log"];
         continue;

@@ -70,7 +70,7 @@ Check check_tube(const FlightRecord& record) {
   const Window window = judged(record);
   Widest worst;
   for (const UavState& state : record.states) {
-    if (state.at < window.from || state.at > window.to) continue;
+    if (!window.contains(state.at)) continue;
     const HorizonRequest* request = in_force(requests, state.at);
     if (request == nullptr) continue;
     if (!followed(record.statuses, state.at)) {
