@@ -175,14 +175,14 @@ a_full_disk_ends_the_campaign_and_fails_no_flight() {
 }
 
 a_resumed_campaign_says_how_many_were_audited_now_before_and_not() {
-  local out=$work/flights.csv
-  fly "$out" --seeds 1:2
-  ! grep -q audited "$out.said" || fail "audited: $(cat "$out.said")"
-  fly "$out" --seeds 1:3 --audit true
-  grep -q 'audited 1 of 3' "$out.said" || fail "$(cat "$out.said")"
-  fly "$out" --seeds 1:5 --audit true
+  local resumed=$work/flights.csv
+  fly "$resumed" --seeds 1:2
+  ! grep -q audited "$resumed.said" || fail "audited: $(cat "$resumed.said")"
+  fly "$resumed" --seeds 1:3 --audit true
+  grep -q 'audited 1 of 3' "$resumed.said" || fail "$(cat "$resumed.said")"
+  fly "$resumed" --seeds 1:5 --audit true
   for words in 'audited 3 of 5' '2 were flown before without --audit' '2 were audited now, 1 before'; do
-    grep -q -- "$words" "$out.said" || fail "not said: $words, but $(cat "$out.said")"
+    grep -q -- "$words" "$resumed.said" || fail "not said: $words, but $(cat "$resumed.said")"
   done
 }
 
