@@ -35,7 +35,9 @@ constexpr const char* kExamples[] = {
     "uav: {body: {vertices: [[0, 0, 0]]}}\n"
     "semantics: {regions: [{name: a, class: texture, prism: {corners: [[0, 0], [1, 0], [0, 1]], z_min: 0, z_max: "
     "1}}]}\n",
-    "world: {obstacles: [{motion: linear, centre: [5, 0, 1], velocity: [0, 1, 0]}]}\n",
+    "world: {obstacles: [{motion: linear, centre: [5, 0, 1], velocity: [0, 1, 0]}], recorded: [{file: a.txt, columns: "
+    "6, z_column: 4, copies: 2, within: {min: [0, 0, 0], max: [9, 9, 9]}}]}\n"
+    "uav: {routes: [{from: [0, 0, 1], to: [9, 0, 1]}]}\n",
     "world: {obstacles: [{motion: waypoints, points: [[0, 5, 0, 1]]}]}\n"};
 
 /// Tables whose keys the user names: every value is like the table's default ones.

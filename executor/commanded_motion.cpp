@@ -35,6 +35,10 @@ CubicPiece cubic_of(const MotionSample& from, Duration duration) {
   return piece;
 }
 
+MotionSample start_of(const ClampedSpline& spline) {
+  return sample_cubic(reparametrized(spline.power(0), 0.0, 1.0 / spline.interval_s()), 0.0);
+}
+
 TimedSpline braking_in(const MotionSample& from, UTime at, Duration interval) {
   TimedSpline stop{at, interval, Points(3, kBrakingPoints)};
   const Points3 first = start_control_points(from, interval.seconds());
@@ -134,8 +138,14 @@ bool CommandedMotion::leads_elsewhere(const UavState& setpoint, bool is_far) {
 }
 
 void CommandedMotion::hear(const TimedSpline& committed) {
-  if (committed.start <= committed_.newest_start() || !committed.spline().ends_at_rest()) return;
-  committed_.splice(committed);
+  const ClampedSpline spline = committed.spline();
+  if (!spline.ends_at_rest()) return;
+  if (committed.start <= committed_.newest_start()) {
+    const bool is_old = committed.start == committed_.newest_start() || committed.start < settled_.end();
+    if (is_old || !agree(committed_.sample(committed.start), start_of(spline))) return;
+    committed_.take_back_from(committed.start);
+  }
+  if (committed.start > committed_.newest_start()) committed_.splice(committed);
   committed_.forget_before(settled_.end());
   if (braking_) choose_after(newest_, settled_.end());
 }

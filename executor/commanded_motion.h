@@ -30,7 +30,8 @@ class CommandedMotion {
   /// no single message makes the vehicle jump. After kSetpointSilence setpoints that are more than 0.1 m off count only
   /// when they have gone on for 0.5 s: an executor that sees where the vehicle is leads it on from there before.
   void hear(const UavState& setpoint);
-  /// HORIZON_REQUEST.committed. Only one that starts after all earlier ones is news.
+  /// HORIZON_REQUEST.committed. One that starts after all earlier ones is news. So is one that leaves, before they
+  /// start, the way that the vehicle is on: the executor leads it on from where it is, and they are taken back.
   void hear(const TimedSpline& committed);
 
   /// The command at any time; before settled().end() as it was, after it as it would be without another setpoint.

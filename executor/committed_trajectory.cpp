@@ -51,6 +51,10 @@ void CommittedTrajectory::splice(const TimedSpline& next) {
   segments_.push_back({next, std::move(spline)});
 }
 
+void CommittedTrajectory::take_back_from(UTime t) {
+  while (segments_.size() > 1 && segments_.back().timed.start >= t) segments_.pop_back();
+}
+
 std::size_t CommittedTrajectory::index_at(UTime t) const {
   std::size_t k = segments_.size() - 1;
   while (k > 0 && segments_[k].timed.start > t) --k;

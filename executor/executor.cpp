@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kRemembered = 64;
 /// A flight box that is widened grows by whole steps, m: the planner prepares its goal field for each one.
 constexpr double kBoxStep = 0.25;
+/// Plans that were adopted may leave the flight box by kBoxTolerance, m.
+constexpr double kFlownOutside = 2.0 * kBoxTolerance;
 
 Duration checked_period(double rate_hz) {
   if (!(rate_hz >= 1e-3 && rate_hz <= 1000.0)) {
@@ -68,6 +70,7 @@ void Executor::rejoin(const UavState& measured) {
   }
   committed_ = stopping(measured, limits_);
   promises_.clear();
+  last_request_.reset();
 }
 
 void Executor::set_tube(const Vec3& tube, double share) {
@@ -86,13 +89,15 @@ void Executor::forget_before(UTime t) {
 }
 
 Box Executor::flight_box_for(const TimedSpline& committed) const {
-  const Vec3 half = body_.half_extents();
-  const Points& q = committed.control_points;
+  const ClampedSpline spline = committed.spline();
+  Box flown;
+  for (int j = 0; j < spline.intervals(); ++j) flown.extend(spline.position_bounds(j));
+  flown = grown(flown, body_.half_extents());
   Box box = flight_box_;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = q.row(axis).minCoeff() - half[axis], high = q.row(axis).maxCoeff() + half[axis];
-    if (low < box.min()[axis] - kBoxTolerance) box.min()[axis] = std::floor(low / kBoxStep) * kBoxStep;
-    if (high > box.max()[axis] + kBoxTolerance) box.max()[axis] = std::ceil(high / kBoxStep) * kBoxStep;
+    const double low = flown.min()[axis], high = flown.max()[axis];
+    if (low < box.min()[axis] - kFlownOutside) box.min()[axis] = std::floor(low / kBoxStep) * kBoxStep;
+    if (high > box.max()[axis] + kFlownOutside) box.max()[axis] = std::ceil(high / kBoxStep) * kBoxStep;
   }
   return box;
 }

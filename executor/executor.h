@@ -73,7 +73,8 @@ class Executor {
   /// by the committed trajectory. Before the first one, and after rejoin(), that of the next request.
   [[nodiscard]] Vec3 promised(UTime t) const;
   /// The vehicle is not where it was committed to be: from here on it is committed to come to rest from the measured
-  /// state. The open request is closed. Until that rest, limits and flight box are as wide as the way to it needs.
+  /// state. The open request is closed, and the next one, by which the vehicle hears of it, goes out at once. Until
+  /// that rest, limits and flight box are as wide as the way to it needs.
   void rejoin(const UavState& measured);
   /// What the newest goal wants; nothing: no goal yet.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }

@@ -102,7 +102,11 @@ void ExecutorNode::watch(const UavState& state) {
 
 void ExecutorNode::look(const UavState& state, const Vec3& error) {
   look_from_.reset();
-  if (((error - executor_->promised(state.at)).array() > kJoinTolerance).any()) rejoin(state);
+  const Vec3 promised = executor_->promised(state.at);
+  const MotionSample mine = executor_->sample(state.at);
+  const bool turns = promised.isZero(0.0) && ((state.motion.v - mine.v).cwiseAbs().maxCoeff() > kJoinTolerance ||
+                                              (state.motion.a - mine.a).cwiseAbs().maxCoeff() > kJoinTolerance);
+  if (turns || ((error - promised).array() > kJoinTolerance).any()) rejoin(state);
   last_setpoint_ = std::max(last_setpoint_, state.at);
 }
 
