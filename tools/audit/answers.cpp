@@ -71,6 +71,14 @@ class AnswerCheck {
       fail(plan, fmt::format("planned on predictions {:.3f} s old, limit {:.3f} s", age_s, stale_after_));
   }
 
+  /// Who has to lead a vehicle on from where it is asks anew at once.
+  [[nodiscard]] bool was_replaced(const HorizonRequest& request) const {
+    return std::any_of(record_.requests.begin(), record_.requests.end(), [&](const HorizonRequest& r) {
+      const bool same_sender = r.header.name.sender_epoch_us == request.header.name.sender_epoch_us;
+      return same_sender && r.id > request.id && r.header.utime < request.deadline;
+    });
+  }
+
   void unanswered() {
     std::int64_t unread = record_.unread(channels::kPlan.name);
     for (const HorizonRequest& r : record_.requests) {
@@ -80,6 +88,8 @@ class AnswerCheck {
       } else if (unread > 0) {
         --unread;
         ++check_.unchecked["requests whose answer may be among the PLANs that were lost or refused"];
+      } else if (was_replaced(r)) {
+        ++check_.unchecked["requests that another one replaced before their deadline"];
       } else if (planner_changed(record_, r.header.utime)) {
         ++check_.unchecked["requests while no planner was there"];
       } else {
