@@ -72,6 +72,8 @@ bool ExecutorNode::is_confirmed(const UavState& state) {
 }
 
 void ExecutorNode::watch(const UavState& state) {
+  look_if_held_up(bus_.received());
+  if (look_from_ && state.at < *look_from_) return;  // what was, tells nothing of what the vehicle has heard since
   if (state.at < last_setpoint_ - kRemembered) return;
   const Vec3 error = (state.motion.p - executor_->sample(state.at).p).cwiseAbs();
   if (!(error.maxCoeff() > kRejoinBeyond)) {
@@ -79,9 +81,9 @@ void ExecutorNode::watch(const UavState& state) {
   } else if (!is_confirmed(state)) {
     return;
   }
-  if (look_from_ && state.at >= *look_from_) look(state, error);
+  if (look_from_ && look(state, error)) return;
   if (!following_) {
-    tube_.saw(error);
+    if (!was_following_) tube_.saw(error);
     if (error.maxCoeff() > kRejoinBeyond) rejoin(state);
     return;
   }
@@ -100,14 +102,20 @@ void ExecutorNode::watch(const UavState& state) {
   if (lost) rejoin(state);
 }
 
-void ExecutorNode::look(const UavState& state, const Vec3& error) {
+void ExecutorNode::look_if_held_up(UTime now) {
+  if (!look_from_ && now - last_setpoint_ > kSetpointSilence) look_from_ = now;
+}
+
+bool ExecutorNode::look(const UavState& state, const Vec3& error) {
   look_from_.reset();
   const Vec3 promised = executor_->promised(state.at);
   const MotionSample mine = executor_->sample(state.at);
   const bool turns = promised.isZero(0.0) && ((state.motion.v - mine.v).cwiseAbs().maxCoeff() > kJoinTolerance ||
                                               (state.motion.a - mine.a).cwiseAbs().maxCoeff() > kJoinTolerance);
-  if (turns || ((error - promised).array() > kJoinTolerance).any()) rejoin(state);
-  last_setpoint_ = std::max(last_setpoint_, state.at);
+  const bool parted = turns || ((error - promised).array() > kJoinTolerance).any();
+  if (parted) rejoin(state);
+  last_setpoint_ = std::max(last_setpoint_, bus_.received());
+  return parted;
 }
 
 void ExecutorNode::promise(UTime now) { executor_->set_tube(tube_.width(sigma_, now), tube_.share()); }
@@ -185,7 +193,7 @@ UTime ExecutorNode::next_wakeup() const {
 
 void ExecutorNode::step(UTime now) {
   if (executor_) {
-    if (!look_from_ && now - last_setpoint_ > kSetpointSilence) look_from_ = now;  // this process was held up
+    look_if_held_up(now);
     const auto request = look_from_ ? std::nullopt : executor_->next_request(now);
     if (request) bus_.publish(channels::kHorizonRequest, *request);
     if (now >= next_setpoint_) {

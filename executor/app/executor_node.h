@@ -59,8 +59,10 @@ class ExecutorNode final : public Node {
   /// Whether a state that is far from its setpoint is no single message's word.
   bool is_confirmed(const UavState& state);
   void rejoin(const UavState& state);
-  /// The first state since the vehicle and what is committed may have parted.
-  void look(const UavState& state, const Vec3& error);
+  /// Without a step for kSetpointSilence: a plan may have been adopted of which the vehicle has not heard.
+  void look_if_held_up(UTime now);
+  /// The first state since the vehicle and what is committed may have parted. @return whether they have
+  bool look(const UavState& state, const Vec3& error);
   void promise(UTime now);
   void publish_setpoints(UTime now);
   void publish_setpoint(UTime at);

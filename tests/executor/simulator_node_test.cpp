@@ -368,6 +368,8 @@ TEST(SimulatorNode, WhoeverIsHeldUpTheVehicleDoesNotJumpAndArrives) {
         EXPECT_EQ(result.outcome, FlightOutcome::Reached) << result.detail;
         EXPECT_EQ(result.limit_violations, 0) << (is_executor ? "executor" : "simulator") << " held up for " << span_ms
                                               << " ms from " << begins_ms << ": " << result.detail;
+        EXPECT_EQ(flight.executor->exits(), 0) << "that is no error of tracking";
+        EXPECT_TRUE(flight.requests.back().tube.isZero(0.0));
       }
     }
   }
