@@ -27,4 +27,9 @@ double AxisFilter::distance2(double z, double r) const {
   return (z - x) * (z - x) / (xx + std::max(r, kLeastVariance));
 }
 
+Fit fit(const Vec3& x, const Vec3& variance, const Vec3& z, const Vec3& r) {
+  const Vec3 s = variance + r.cwiseMax(kLeastVariance);
+  return {s, ((z - x).array().square() / s.array()).sum()};
+}
+
 }  // namespace tern

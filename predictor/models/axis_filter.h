@@ -2,6 +2,8 @@
 // Y. Bar-Shalom, X. R. Li, T. Kirubarajan, "Estimation with Applications to Tracking and Navigation", §5.2, §6.2.2.
 #pragma once
 
+#include "core/base/types.h"
+
 namespace tern {
 
 /// No measurement is taken to be better than this, m²: 0.1 mm standard deviation. A sensor may say 0 (it gives truth),
@@ -28,5 +30,17 @@ struct AxisFilter {
   /// (z − x)²/S: χ² with one degree of freedom where the model holds.
   [[nodiscard]] double distance2(double z, double r) const;
 };
+
+/// How well a detection fits an estimate, over three axes with S the variance of their difference.
+struct Fit {
+  Vec3 s = Vec3::Zero();   ///< S, m²
+  double distance2 = 0.0;  ///< Σ (z − x)²/S: χ² with three degrees of freedom where the model holds
+  /// −2 ln of the density of the detection, but for a constant; ≥ 0. A distance alone is least for the estimate that
+  /// knows least.
+  [[nodiscard]] double surprise() const { return distance2 + (s / kLeastVariance).array().log().sum(); }
+};
+
+/// @param x, variance  m, m², of the estimate; @param z, r  of the detection, r taken as kLeastVariance if less
+Fit fit(const Vec3& x, const Vec3& variance, const Vec3& z, const Vec3& r);
 
 }  // namespace tern

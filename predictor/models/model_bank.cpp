@@ -1,7 +1,7 @@
 #include "predictor/models/model_bank.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "predictor/models/axis_filter.h"
 
@@ -9,6 +9,10 @@ namespace tern {
 namespace {
 
 constexpr double kEvidenceForgetting = 0.95;
+
+Fit fit_of(const MotionFilter& filter, const Vec3& z, const Vec3& r) {
+  return fit(filter.position(), filter.variance(), z, r);
+}
 
 }  // namespace
 
@@ -54,21 +58,23 @@ void BankFilter::predict(const BankStep& step) {
 
 void BankFilter::update(const Vec3& z, const Vec3& r) {
   for (std::size_t j = 0; j < kModels; ++j) {
-    const Vec3 s = filters_[j].variance() + r.cwiseMax(kLeastVariance);
-    const Vec3 innovation = z - filters_[j].position();
-    const double fit = (innovation.array().square() / s.array() + s.array().log()).sum();
-    evidence_[j] = kEvidenceForgetting * evidence_[j] - 0.5 * fit;
+    evidence_[j] = kEvidenceForgetting * evidence_[j] - 0.5 * fit_of(filters_[j], z, r).surprise();
     filters_[j].update(z, r);
   }
   lead_ = static_cast<std::size_t>(std::max_element(evidence_.begin(), evidence_.end()) - evidence_.begin());
 }
 
 double BankFilter::distance2(const Vec3& z, const Vec3& r) const {
-  const auto to = [&](const MotionFilter& filter) {
-    const Vec3 s = filter.variance() + r.cwiseMax(kLeastVariance);
-    return ((z - filter.position()).array().square() / s.array()).sum();
-  };
-  return std::min(to(lead()), to(filters_[kWidestModel]));
+  return std::min(fit_of(lead(), z, r).distance2, fit_of(filters_[kWidestModel], z, r).distance2);
+}
+
+double BankFilter::surprise_within(double gate, const Vec3& z, const Vec3& r) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const MotionFilter* filter : {&lead(), &filters_[kWidestModel]}) {
+    const Fit of = fit_of(*filter, z, r);
+    if (of.distance2 <= gate) least = std::min(least, of.surprise());
+  }
+  return least;
 }
 
 }  // namespace tern

@@ -42,6 +42,9 @@ class BankFilter {
   /// Σ over axes of (z − x)²/S, by the model of the most evidence or the widest, whichever is nearer: χ² of three
   /// degrees of freedom where it holds.
   [[nodiscard]] double distance2(const Vec3& z, const Vec3& r) const;
+  /// How unlikely the detection is: the less of the two models' surprise() that are nearer than the gate.
+  /// @return infinite if neither is
+  [[nodiscard]] double surprise_within(double gate, const Vec3& z, const Vec3& r) const;
   [[nodiscard]] const MotionFilter& of(std::size_t model) const { return filters_[model]; }
   /// The model of the most evidence.
   [[nodiscard]] const MotionFilter& lead() const { return filters_[lead_]; }

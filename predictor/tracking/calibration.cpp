@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "predictor/tracking/calibration_prior.h"
 
@@ -10,7 +9,10 @@ namespace tern {
 namespace {
 
 // Of 1 − confidence, what may be broken by the end of each band: errors of the later bands come on top.
-constexpr PerBand<double> kAllowedShare{0.5, 0.65, 0.8, 1.0, 1.3};
+constexpr PerBand<double> kAllowedShare{0.5, 0.6, 0.7, 0.85, 1.0};
+// No margin is sought beyond, m: nothing is known there, and the reach set rules. Halvings of the range, to 0.1 mm.
+constexpr double kLargestMargin = 100.0;
+constexpr int kHalvings = 20;
 
 }  // namespace
 
@@ -24,48 +26,107 @@ double margin_growth(std::size_t band, double ahead_s) {
   return (ahead_s + kMarginStart) / (kBandEnds[band] + kMarginStart);
 }
 
-BandScores::BandScores(std::vector<float> scores, double level)
-    : newest_(std::move(scores)), sorted_(newest_), level_(level) {
-  std::sort(sorted_.begin(), sorted_.end());
+Vec3 promised_half(const Vec3& deviation, const PerBand<double>& margins, double ahead_s) {
+  const std::size_t band = band_of(ahead_s);
+  const double margin = margins[band] * margin_growth(band, ahead_s);
+  if (margin > 0.0) return kModelSigmas * deviation + Vec3::Constant(margin);
+  return std::max(0.0, kModelSigmas + margin) * deviation;
 }
 
-void BandScores::add(float score, bool missed, double epsilon) {
-  level_ = std::min(kLargestLevel, std::max(kLeastLevel, level_ + kAdaption * (epsilon - (missed ? 1.0 : 0.0))));
-  if (newest_.size() < kWindow) {
+double containing_margin(const Vec3& error, const Vec3& deviation, std::size_t band, double ahead_s) {
+  double margin = -kModelSigmas;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double beyond = std::abs(error[axis]) - kModelSigmas * deviation[axis];
+    margin = std::max(margin, beyond > 0.0 ? beyond : beyond / deviation[axis]);
+  }
+  return std::max(-kModelSigmas, margin / margin_growth(band, ahead_s));
+}
+
+void NewestScores::add(float score) {
+  if (newest_.size() < most_) {
     newest_.push_back(score);
   } else {
     sorted_.erase(std::lower_bound(sorted_.begin(), sorted_.end(), newest_[oldest_]));
     newest_[oldest_] = score;
-    oldest_ = (oldest_ + 1) % kWindow;
+    oldest_ = (oldest_ + 1) % most_;
   }
   sorted_.insert(std::upper_bound(sorted_.begin(), sorted_.end(), score), score);
 }
 
-double BandScores::margin(double ratio) const {
-  const auto n = static_cast<double>(sorted_.size());
-  const double rank = std::ceil((n + 1.0) * (1.0 - level_ * ratio));
-  return sorted_[static_cast<std::size_t>(std::min(std::max(rank, 1.0), n)) - 1];
+double NewestScores::above(double q) const {
+  const auto beyond = std::upper_bound(sorted_.begin(), sorted_.end(), q,
+                                       [](double value, float score) { return value < static_cast<double>(score); });
+  return static_cast<double>(sorted_.end() - beyond);
 }
 
 Calibration::Calibration(double confidence) {
-  for (std::size_t band = 0; band < kBands; ++band) allowed_[band] = kAllowedShare[band] * (1.0 - confidence);
+  for (std::size_t level = 0; level < confidence_.size(); ++level) {
+    confidence_[level] = confidence_at(confidence, static_cast<int>(level));
+  }
+  for (auto& pool : pools_) pool.assign(kBands, NewestScores(kPoolScores));
   for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
-    for (std::size_t band = 0; band < kBands; ++band) {
-      scores_[kind].emplace_back(prior_scores(kind, band), prior_level(kind, band) * (1.0 - confidence) / kPriorMiss);
+    classes_[kind].scores.assign(kBands, NewestScores(kOwnScores));
+    for (std::size_t level = 0; level < confidence_.size(); ++level) {
+      const double scale =
+          (level == 0 ? 1.0 : kFirstLevel) * (1.0 - confidence_[level]) / (1.0 - kConfidenceLevels[level]);
+      for (std::size_t band = 0; band < kBands; ++band) {
+        classes_[kind].log_theta[level][band] = std::log(scale * prior_level(kind, band, level));
+      }
     }
   }
+  is_stale_.fill(true);
+  refresh();
 }
 
-PerBand<double> Calibration::margins(TrackClass kind, double ratio) const {
-  PerBand<double> all;
-  for (std::size_t band = 0; band < kBands; ++band) {
-    all[band] = scores_[static_cast<std::size_t>(kind)][band].margin(ratio);
+double Calibration::allowed(std::size_t level, std::size_t band) const {
+  return kAllowedShare[band] * (1.0 - confidence_[level]);
+}
+
+double Calibration::margin(TrackClass kind, std::size_t band, double level) const {
+  const auto row = static_cast<std::size_t>(kind);
+  const NewestScores &own = classes_[row].scores[band], &pool = pools_[pool_of(kind)][band];
+  const double of_pool = kPoolWeight / (kPriorWeight + pool.size());
+  const double allowed = level * (kPoolWeight + own.size());
+  double low = -kModelSigmas, high = kLargestMargin;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    const double q = 0.5 * (low + high);
+    const double above = of_pool * (kPriorWeight * prior_above(row, band, q) + pool.above(q)) + own.above(q);
+    (above <= allowed ? high : low) = q;
   }
-  return all;
+  return high;
 }
 
-void Calibration::add(TrackClass kind, std::size_t band, float score, bool missed) {
-  scores_[static_cast<std::size_t>(kind)][band].add(score, missed, allowed_[band]);
+PerLevel Calibration::margins(TrackClass kind, double real) const {
+  const Class& of = classes_[static_cast<std::size_t>(kind)];
+  PerLevel margins;
+  for (std::size_t level = 0; level < margins.size(); ++level) {
+    for (std::size_t band = 0; band < kBands; ++band) {
+      margins[level][band] = margin(kind, band, std::exp(of.log_theta[level][band]) / real);
+    }
+  }
+  return margins;
+}
+
+void Calibration::add(TrackClass kind, std::size_t band, float score,
+                      const std::array<bool, kConfidenceLevels.size()>& broken) {
+  Class& of = classes_[static_cast<std::size_t>(kind)];
+  if (pool_of(kind) == kPools - 1) of.scores[band].add(score);
+  pools_[pool_of(kind)][band].add(score);
+  is_stale_[pool_of(kind)] = true;
+  for (std::size_t level = 0; level < broken.size(); ++level) {
+    const double share = allowed(level, band);
+    double& log_theta = of.log_theta[level][band];
+    log_theta += kAdaption * (share - (broken[level] ? 1.0 : 0.0));
+    log_theta = std::min(std::log(kLargestLevel * share), std::max(std::log(kLeastLevel * share), log_theta));
+  }
+}
+
+void Calibration::refresh() {
+  for (std::size_t k = 0; k < kTrackClasses; ++k) {
+    const auto kind = static_cast<TrackClass>(k);
+    if (is_stale_[pool_of(kind)]) classes_[k].margins = margins(kind, 1.0);
+  }
+  is_stale_.fill(false);
 }
 
 }  // namespace tern

@@ -1,4 +1,5 @@
-// How far what was predicted came out: split-conformal margins per class of track and horizon, adapted while flying.
+// How far what was predicted came out: split-conformal margins per class of track, horizon and level of confidence,
+// adapted while flying.
 // J. Lei et al., "Distribution-free predictive inference for regression", JASA 2018; I. Gibbs, E. Candès, "Adaptive
 // conformal inference under distribution shift", NeurIPS 2021.
 #pragma once
@@ -6,6 +7,9 @@
 #include <array>
 #include <cstddef>
 #include <vector>
+
+#include "core/base/types.h"
+#include "core/world/track.h"
 
 namespace tern {
 
@@ -21,6 +25,13 @@ enum class TrackClass {
   LivelyOld,    ///<
 };
 inline constexpr std::size_t kTrackClasses = 8;
+/// Classes of one pool learn from each other's scores: the old ones, of which a flight sees most. What is younger moves
+/// in ways that its kind hardly foretells; such a class learns from its own scores alone.
+inline constexpr std::size_t kPools = 6;
+constexpr std::size_t pool_of(TrackClass kind) {
+  const auto k = static_cast<std::size_t>(kind);
+  return k < 2 ? k : k % 2 == 1 ? kPools - 1 : 1 + k / 2;
+}
 inline constexpr double kYoungAge = 0.3;  ///< s
 inline constexpr double kGrownAge = 1.0;  ///< s
 
@@ -30,58 +41,93 @@ inline constexpr std::size_t kBands = kBandEnds.size();
 template <typename T>
 using PerBand = std::array<T, kBands>;
 
-/// Half-width of a promise: kModelSigmas σ(t) of the model and a margin q g(t), which may be negative. Of the model's
-/// share at least kLeastSigmas σ(t) remain.
+/// Half-width of a promise, by a number q that data choose: (kModelSigmas + q g(t)) σ(t) for −kModelSigmas ≤ q ≤ 0,
+/// kModelSigmas σ(t) + q g(t) beyond, q in metres. What the model knows shrinks with it, whatever the sensor. What it
+/// does not know comes on top. Where that falls with t, who publishes or judges takes the largest so far.
 inline constexpr double kModelSigmas = 2.0;
-inline constexpr double kLeastSigmas = 1.0;
 /// g(t) = (t + kMarginStart)/(end of the band + kMarginStart): errors grow with time.
 inline constexpr double kMarginStart = 0.1;
 std::size_t band_of(double ahead_s);  ///< the last one beyond its end
 double margin_growth(std::size_t band, double ahead_s);
 
-/// Scores of one class and band, the newest kWindow of them, and the level that makes the promise true.
+/// The newest scores, at most so many.
 ///
-/// The score of a prediction is the least q that would have contained, at all times of the band and on all axes at
-/// once, what came: max over them of (|error| − kModelSigmas σ)/g. The margin at level θ is the ⌈(n + 1)(1 − θ)⌉-th
-/// least of n scores. θ follows what was missed: θ ← θ + γ(ε − 1[missed by the end of the band]), so that the share of
-/// missed promises tends to ε whatever the scores' distribution does.
-class BandScores {
+/// The score of a prediction is the least q that would have contained, at all times of a band and on all axes at once,
+/// what came.
+class NewestScores {
  public:
-  static constexpr std::size_t kWindow = 800;
-  static constexpr double kAdaption = 0.001;  ///< γ
-  static constexpr double kLargestLevel = 0.2, kLeastLevel = 1e-3;
-
-  /// @param scores the prior's, oldest first; @param level θ.
-  BandScores(std::vector<float> scores, double level);
-  void add(float score, bool missed, double epsilon);
-  /// The margin at θ·ratio (a ladder of confidences asks with ratio > 1): the largest score where that level needs
-  /// more scores than there are.
-  [[nodiscard]] double margin(double ratio) const;
-  [[nodiscard]] double level() const { return level_; }
-  [[nodiscard]] const std::vector<float>& sorted() const { return sorted_; }
+  explicit NewestScores(std::size_t most) : most_(most) {}
+  void add(float score);
+  [[nodiscard]] double size() const { return static_cast<double>(sorted_.size()); }
+  /// How many are larger than q.
+  [[nodiscard]] double above(double q) const;
 
  private:
+  std::size_t most_;
   std::vector<float> newest_;  // a ring
   std::size_t oldest_ = 0;
   std::vector<float> sorted_;
-  double level_;
 };
 
-/// All classes and bands. A value: the same scores in the same order give the same margins.
+using PerLevel = std::array<PerBand<double>, kConfidenceLevels.size()>;
+
+/// All classes and bands, for each level of confidence. A value: the same scores in the same order give the same
+/// margins.
+///
+/// Three distributions stand one upon the other in each band (Y. W. Teh et al., "Hierarchical Dirichlet processes",
+/// JASA 2006): the prior's of the class, the scores of all tracks, beside which the prior counts as kPriorWeight
+/// scores, and the class's own, beside which those two count as kPoolWeight. So a flight's first seconds tell what all
+/// its tracks are like, and the prior is hardly heard any more; a class with scores of its own goes by them.
+///
+/// Level c breaks allowed(c, k) of its promises by the end of band k. The margin of a band is the one that the share θ
+/// of scores exceeds, and θ follows what became of promises at that level (adaptive conformal inference, on log θ so
+/// that rare and frequent misses are learnt alike): log θ ← log θ + kAdaption (allowed − 1[broken by the end of the
+/// band]). So the share that is broken tends to what is allowed, whatever the scores' distribution does.
 class Calibration {
  public:
+  static constexpr std::size_t kOwnScores = 800, kPoolScores = 1600;
+  static constexpr double kPriorWeight = 30.0, kPoolWeight = 30.0;
+  static constexpr double kAdaption = 0.2;
+  /// At the lower confidences θ begins with this part of the prior's: how fast things are in this world some ten scores
+  /// tell, and until then little is made of not being sure.
+  static constexpr double kFirstLevel = 0.25;
+  /// θ/allowed stays within these.
+  static constexpr double kLeastLevel = 0.1, kLargestLevel = 2.0;
+
+  /// @param confidence of level 0, in (0, 1)
   explicit Calibration(double confidence);
-  /// Promises broken by the end of band k, as a share: rises to 1 − confidence at the horizon.
-  [[nodiscard]] double allowed(std::size_t band) const { return allowed_[band]; }
-  [[nodiscard]] PerBand<double> margins(TrackClass kind, double ratio = 1.0) const;
-  void add(TrackClass kind, std::size_t band, float score, bool missed);
-  [[nodiscard]] const BandScores& scores(TrackClass kind, std::size_t band) const {
-    return scores_[static_cast<std::size_t>(kind)][band];
+  /// Of all promises of a level, the share that may be broken by the end of a band: rises to 1 − its confidence at the
+  /// horizon.
+  [[nodiscard]] double allowed(std::size_t level, std::size_t band) const;
+  [[nodiscard]] const PerLevel& margins(TrackClass kind) const {
+    return classes_[static_cast<std::size_t>(kind)].margins;
   }
+  /// Of tracks of which only the share `real` exists: what does not exist breaks no promise. O(halvings · log scores).
+  [[nodiscard]] PerLevel margins(TrackClass kind, double real) const;
+  /// Counts from the next refresh() on.
+  /// @param broken by level: whether the promise that was made had been broken by the end of the band
+  void add(TrackClass kind, std::size_t band, float score, const std::array<bool, kConfidenceLevels.size()>& broken);
+  /// margins() by all that was added.
+  void refresh();
 
  private:
-  PerBand<double> allowed_;
-  std::array<std::vector<BandScores>, kTrackClasses> scores_;
+  struct Class {
+    std::vector<NewestScores> scores;  // by band; none where the class is all of its pool
+    PerLevel log_theta, margins;
+  };
+  /// The least q that at most the share `level` of the class's scores exceeds.
+  [[nodiscard]] double margin(TrackClass kind, std::size_t band, double level) const;
+
+  std::array<double, kConfidenceLevels.size()> confidence_;
+  std::array<std::vector<NewestScores>, kPools> pools_;  // by band
+  std::array<Class, kTrackClasses> classes_;
+  std::array<bool, kPools> is_stale_;
 };
+
+/// Half-width of the promise per axis so long after the last detection, m.
+Vec3 promised_half(const Vec3& deviation, const PerBand<double>& margins, double ahead_s);
+
+/// The least q of the band that contains this error, per axis, at this time. @pre deviation > 0
+double containing_margin(const Vec3& error, const Vec3& deviation, std::size_t band, double ahead_s);
 
 }  // namespace tern

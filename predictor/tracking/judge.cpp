@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -21,9 +20,6 @@ constexpr double kSpeedMemory = 3.0;
 constexpr std::size_t kClassHorizon = 2;
 // A new track's predictions are scored at its first detections of these numbers; then once in kScorePeriod.
 constexpr std::array kFirstScored{1, 2, 3, 5, 8};
-// The noise of the truth, which smoothing leaves, adds to the error in squares: so many of its variances are taken off
-// the square of an error, as a quantile of 0.99 is 2.5 deviations from the mean.
-constexpr double kNoiseTaken = 10.0;
 
 // The truth at a time from detections near it, or between two neighbours.
 template <typename Sample>
@@ -38,7 +34,7 @@ std::optional<Sample> truth_at(const std::vector<Sample>& samples, UTime at) {
   };
   for (; last < samples.size() && (samples[last].at - at).seconds() <= kSmoothed; ++last) {
     normal += row(last) * row(last).transpose();
-    before += samples[last].at <= at ? 1 : 0;
+    before += samples[last].at <= at ? 1U : 0U;
   }
   Sample truth{at, Vec3::Zero(), Vec3::Zero()};
   if (last - first >= 4 && before > 0 && before < last - first) {
@@ -65,14 +61,6 @@ UTime judged_at(UTime at, std::size_t k) { return at + Duration::from_seconds(kJ
 
 }  // namespace
 
-Vec3 promised_half(const Vec3& deviation, const PerBand<double>& margins, double ahead_s) {
-  const std::size_t band = band_of(ahead_s);
-  const double before = band == 0 ? margins[0] * margin_growth(0, 0.0)
-                                  : *std::max_element(margins.begin(), margins.begin() + static_cast<int>(band));
-  const double margin = std::max(before, margins[band] * margin_growth(band, ahead_s));
-  return (kModelSigmas * deviation + Vec3::Constant(margin)).cwiseMax(kLeastSigmas * deviation);
-}
-
 Judge::Judge(double confidence) : calibration_(confidence) {
   const BankStep none = bank_step(0.0);
   for (std::size_t k = 0; k < looks_.size(); ++k) looks_[k] = bank_look(bank_step(kJudgedAhead[k]), none);
@@ -88,7 +76,10 @@ void Judge::take(UTime at, const std::vector<SeenTrack>& seen) {
     }
     follow(track, at, history);
     score(history);
-    if (!track.rests) issue(track, at, history);
+  }
+  calibration_.refresh();
+  for (const SeenTrack& track : seen) {
+    if (!track.rests) issue(track, at, histories_[track.id]);
   }
   std::erase_if(histories_, [&](const auto& entry) {
     const History& history = entry.second;
@@ -117,7 +108,8 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   issue.at = at;
   issue.from = track.position;
   issue.pool = pool_of(track, at, history.fastest);
-  issue.score = -std::numeric_limits<double>::infinity();
+  issue.score = -kModelSigmas;
+  issue.half.fill(Vec3::Zero());
   const HorizonWeights all = model_weights(pools_[issue.pool], history.own);
   issue.judged.kind = class_of(track, at, all);
   issue.margins = calibration_.margins(issue.judged.kind);
@@ -157,17 +149,22 @@ void Judge::score(Issue& issue, const Sample& truth, History& history) {
   if (kJudgedAhead[k] == kSpeedSpan) {
     fastest_ = std::max(fastest_, (truth.z - issue.from).cwiseAbs().maxCoeff() / kSpeedSpan);
   }
-  const Vec3 error = ((truth.z - said.centre).cwiseAbs2() - kNoiseTaken * truth.r).cwiseMax(0.0).cwiseSqrt();
-  const double growth = margin_growth(band, kJudgedAhead[k]);
-  issue.score = std::max(issue.score, (error - kModelSigmas * said.deviation).maxCoeff() / growth);
-  const Vec3 half = promised_half(said.deviation, issue.margins, kJudgedAhead[k]);
-  issue.missed = issue.missed || (error.array() > half.array()).any();
+  // An error of variance σ² + r is seen; the part that the truth's own noise r has in it is taken off.
+  const Vec3 variance = said.deviation.cwiseAbs2();
+  const Vec3 of_prediction = variance.cwiseQuotient(variance + truth.r).cwiseSqrt();
+  const Vec3 error = (truth.z - said.centre).cwiseAbs().cwiseProduct(of_prediction);
+  issue.score = std::max(issue.score, containing_margin(error, said.deviation, band, kJudgedAhead[k]));
+  for (std::size_t level = 0; level < issue.margins.size(); ++level) {
+    Vec3& half = issue.half[level];
+    half = half.cwiseMax(promised_half(said.deviation, issue.margins[level], kJudgedAhead[k]));
+    issue.broken[level] = issue.broken[level] || (error.array() > half.array()).any();
+  }
   if (kJudgedAhead[k] < kBandEnds[band]) return;
   const auto final_score = static_cast<float>(issue.score);
-  calibration_.add(issue.judged.kind, band, final_score, issue.missed);
+  calibration_.add(issue.judged.kind, band, final_score, issue.broken);
   issue.judged.scores[band] = final_score;
   issue.judged.bands = band + 1;
-  issue.score = -std::numeric_limits<double>::infinity();
+  issue.score = -kModelSigmas;
 
   const auto scored = std::find(kScoredAhead.begin(), kScoredAhead.end(), kJudgedAhead[k]);
   if (scored == kScoredAhead.end()) return;

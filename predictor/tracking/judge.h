@@ -24,8 +24,9 @@ struct SeenTrack {
   bool rests = false;  ///< then nothing is predicted of it here
 };
 
-/// A promise is judged at these times after its making, s: two per band.
-inline constexpr std::array<double, 2 * kBands> kJudgedAhead{0.125, 0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.5};
+/// A promise is judged at these times after its making, s: near its beginning, and twice per band.
+inline constexpr std::array<double, 1 + 2 * kBands> kJudgedAhead{0.05, 0.125, 0.25, 0.375, 0.5, 0.75,
+                                                                 1.0,  1.5,   2.0,  3.0,   4.5};
 /// The truth at a time is a parabola through the detections so near to it, s; where none lie on both sides of it, the
 /// straight line between two neighbours at most kWidestGap apart.
 inline constexpr double kSmoothed = 0.2, kWidestGap = 0.5;
@@ -38,7 +39,7 @@ inline constexpr double kSpeedSpan = 0.5;
 struct Judged {
   TrackClass kind = TrackClass::New;
   std::size_t bands = 0;    ///< so many were seen to their end
-  PerBand<float> scores{};  ///< of BandScores
+  PerBand<float> scores{};  ///< containing_margin(), the largest of the band
 };
 
 /// Feeds on observation sets in order of time, once nothing older can come, and predicts for itself at the times of
@@ -78,11 +79,13 @@ class Judge {
     Judged judged;
     std::size_t pool = 0;
     std::size_t next = 0;  // of kJudgedAhead
-    bool missed = false;
-    double score = 0.0;  // of the band so far
+    double score = 0.0;    // of the band so far
+    // By level of confidence: what was promised, its half-width so far, and whether it was too little.
+    PerLevel margins;
+    std::array<Vec3, kConfidenceLevels.size()> half;
+    std::array<bool, kConfidenceLevels.size()> broken{};
     std::array<Mixed, kJudgedAhead.size()> said;
     std::array<PerModel<Said>, kScoredHorizons> models_said;
-    PerBand<double> margins;
   };
   struct History {
     UTime born, issued;
@@ -106,9 +109,5 @@ class Judge {
   double fastest_ = 0.0;
   std::array<BankLook, kJudgedAhead.size()> looks_;
 };
-
-/// Half-width of the promise per axis so long after the last detection, m: kModelSigmas σ + q g, of which at least
-/// kLeastSigmas σ remain; q g is no less than the margins of the bands before.
-Vec3 promised_half(const Vec3& deviation, const PerBand<double>& margins, double ahead_s);
 
 }  // namespace tern

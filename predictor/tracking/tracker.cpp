@@ -4,21 +4,13 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <functional>
+#include <limits>
 #include <utility>
 
-#include "predictor/tracking/assignment.h"
+#include "predictor/tracking/matching.h"
 
 namespace tern {
 namespace {
-
-constexpr int kNoDetection = -1;
-
-// For each object the index of its detection, and which detections are taken.
-struct Matching {
-  std::vector<int> detection_of;
-  std::vector<bool> taken;
-};
 
 std::array<AxisFilter, 3> start_filters(const Detection& detection, double speed_variance) {
   std::array<AxisFilter, 3> axes;
@@ -33,55 +25,9 @@ void update_axes(std::array<AxisFilter, 3>& axes, const Detection& detection) {
   for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].update(detection.position[i], detection.variance[i]);
 }
 
-void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-                 Matching& matching) {
-  for (std::size_t d = 0; d < detections.size(); ++d) {
-    if (detections[d].track_id == kNoTrackId) continue;
-    const auto object = std::find_if(objects.begin(), objects.end(),
-                                     [&](const TrackedObject& o) { return o.id == detections[d].track_id; });
-    if (object == objects.end()) continue;
-    int& mine = matching.detection_of[static_cast<std::size_t>(object - objects.begin())];
-    if (mine != kNoDetection) continue;
-    mine = static_cast<int>(d);
-    matching.taken[d] = true;
-  }
-}
-
-using Distance2 = std::function<double(const TrackedObject&, const Detection&)>;
-
-// Among objects with the given confirmation, and detections without an id, that are still free.
-void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-                       bool confirmed, const Distance2& distance2, Matching& matching) {
-  std::vector<std::size_t> rows, columns;
-  for (std::size_t o = 0; o < objects.size(); ++o) {
-    if (objects[o].confirmed == confirmed && matching.detection_of[o] == kNoDetection) rows.push_back(o);
-  }
-  for (std::size_t d = 0; d < detections.size(); ++d) {
-    if (!matching.taken[d] && detections[d].track_id == kNoTrackId) columns.push_back(d);
-  }
-  Eigen::MatrixXd cost(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
-  for (Eigen::Index r = 0; r < cost.rows(); ++r) {
-    for (Eigen::Index c = 0; c < cost.cols(); ++c) {
-      cost(r, c) =
-          distance2(objects[rows[static_cast<std::size_t>(r)]], detections[columns[static_cast<std::size_t>(c)]]);
-    }
-  }
-  const std::vector<int> column_of = assign(cost, kAssociationGate);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (column_of[r] == kUnassigned) continue;
-    const std::size_t d = columns[static_cast<std::size_t>(column_of[r])];
-    matching.detection_of[rows[r]] = static_cast<int>(d);
-    matching.taken[d] = true;
-  }
-}
-
-Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-               const Distance2& distance2) {
-  Matching matching{std::vector<int>(objects.size(), kNoDetection), std::vector<bool>(detections.size(), false)};
-  match_by_id(objects, detections, matching);
-  match_by_distance(objects, detections, true, distance2, matching);
-  match_by_distance(objects, detections, false, distance2, matching);
-  return matching;
+Fit fit_of(const std::array<AxisFilter, 3>& axes, const Detection& detection) {
+  return fit(Vec3(axes[0].x, axes[1].x, axes[2].x), Vec3(axes[0].xx, axes[1].xx, axes[2].xx), detection.position,
+             detection.variance);
 }
 
 bool is_beyond(double range_m, const Vec3& from, const Vec3& centre, const Vec3& half) {
@@ -139,7 +85,7 @@ Tracker::State Tracker::advanced(State state, const ObservationSet& observations
   const std::vector<Detection>& detections = observations.detections;
   const Matching matching =
       match(state.objects, detections,
-            [&](const TrackedObject& object, const Detection& detection) { return distance2(object, at, detection); });
+            [&](const TrackedObject& object, const Detection& detection) { return surprise(object, at, detection); });
   for (std::size_t o = 0; o < state.objects.size(); ++o) {
     TrackedObject& object = state.objects[o];
     const int d = matching.detection_of[o];
@@ -195,7 +141,7 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
   } else if (rested) {
     rest.rested_s += (from.at - seen).seconds();
     object.stood.reset();
-  } else if (object.stood && mahalanobis2(*object.stood, detection) > kJumpGate) {
+  } else if (object.stood && fit_of(*object.stood, detection).distance2 > kJumpGate) {
     ++rest.starts;
     object.stood.reset();
   }
@@ -209,7 +155,7 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
     object.resting_since = from.at;
     object.resting_average = anew.resting_average;
   } else {
-    const double resting2 = mahalanobis2(object.resting, detection);
+    const double resting2 = fit_of(object.resting, detection).distance2;
     object.resting_average += kRestingForgetting * (resting2 - object.resting_average);
     object.moving.update(detection.position, detection.variance);
     ++object.detections;
@@ -263,10 +209,13 @@ bool Tracker::rests(const TrackedObject& object) const {
   });
 }
 
-double Tracker::distance2(const TrackedObject& object, UTime at, const Detection& detection) const {
+double Tracker::surprise(const TrackedObject& object, UTime at, const Detection& detection) const {
   // Remembered: what is found there again belongs to it, not whatever a mover could have become.
-  if (at - object.last_seen > config_.coast && rests(object)) return mahalanobis2(object.resting, detection);
-  return object.moving.distance2(detection.position, detection.variance);
+  if (at - object.last_seen > config_.coast && rests(object)) {
+    const Fit fit = fit_of(object.resting, detection);
+    return fit.distance2 <= kAssociationGate ? fit.surprise() : std::numeric_limits<double>::infinity();
+  }
+  return object.moving.surprise_within(kAssociationGate, detection.position, detection.variance);
 }
 
 SeenTrack Tracker::seen(const TrackedObject& object) const {
@@ -321,17 +270,13 @@ std::vector<Waypoint> Tracker::resting_waypoints(const TrackedObject& object, co
   return waypoints;
 }
 
-std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, const State& state,
+std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, const PerLevel& of_unsure,
                                                 const std::vector<BankLook>& looks, UTime from) const {
-  const PredictionSpec& spec = config_.prediction;
   const Judge::Verdict verdict = this->verdict(object);
-  const double real = object.confirmed || object.detections > 1 ? 1.0 : state.existence.real();
-  std::array<PerBand<double>, kConfidenceLevels.size()> margins;
-  for (std::size_t level = 0; level < margins.size(); ++level) {
-    const double broken = 1.0 - confidence_at(spec.confidence, static_cast<int>(level));
-    margins[level] = judge_.calibration().margins(verdict.kind, broken / ((1.0 - spec.confidence) * real));
-  }
+  const bool is_sure = object.confirmed || object.detections > 1;
+  const PerLevel& margins = is_sure ? judge_.calibration().margins(verdict.kind) : of_unsure;
   const double since_s = (from - object.last_seen).seconds();
+  const bool is_unseen = since_s > kUnseen;
   std::vector<Waypoint> waypoints(ends_.size());
   for (std::size_t k = 0; k < ends_.size(); ++k) {
     const double ahead_s = since_s + ends_[k].seconds();
@@ -339,7 +284,7 @@ std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, con
     waypoints[k].centre = said.centre;
     waypoints[k].velocity = said.velocity;
     for (std::size_t level = 0; level < margins.size(); ++level) {
-      waypoints[k].half[level] = promised_half(said.deviation, margins[level], ahead_s);
+      waypoints[k].half[level] = promised_half(said.deviation, margins[is_unseen ? 0 : level], ahead_s);
     }
   }
   return waypoints;
@@ -359,12 +304,13 @@ std::vector<Track> Tracker::predict(UTime now) const {
   const BankStep first = bank_step((from - newest.at).seconds());
   std::vector<BankLook> looks;
   for (const BankStep& ahead : ahead_) looks.push_back(bank_look(ahead, first));
+  const PerLevel of_unsure = judge_.calibration().margins(TrackClass::New, newest.existence.real());
   std::vector<Track> tracks;
   for (const TrackedObject& object : newest.objects) {
     if (!is_published(object, newest.existence)) continue;
     const bool is_resting = rests(object);
     const std::vector<Waypoint> waypoints =
-        is_resting ? resting_waypoints(object, newest, from) : moving_waypoints(object, newest, looks, from);
+        is_resting ? resting_waypoints(object, newest, from) : moving_waypoints(object, of_unsure, looks, from);
     if (is_lost(object, newest.views, waypoints.front())) continue;
     const double seen_speed = is_resting ? 0.0 : waypoints.front().velocity.cwiseAbs().maxCoeff();
     Track track;

@@ -4,24 +4,19 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <optional>
 #include <vector>
 
 #include "core/world/observation.h"
 #include "core/world/track.h"
-#include "predictor/models/axis_filter.h"
-#include "predictor/models/model_bank.h"
 #include "predictor/models/promise.h"
 #include "predictor/tracking/judge.h"
 #include "predictor/tracking/rest_record.h"
+#include "predictor/tracking/tracked_object.h"
 
 namespace tern {
 
 /// Tracks of detections without an id get ids from here on; sensors and owners use smaller ones.
 inline constexpr std::int64_t kFirstOwnTrackId = 1'000'000'000;
-/// A detection belongs to a track only if Σ over axes (z − x)²/S is at most this: χ² of three degrees of freedom,
-/// 0.9999.
-inline constexpr double kAssociationGate = 21.1;
 /// A detection with its track's id farther than this is another thing, or a jump: the track starts anew there.
 inline constexpr double kJumpGate = 100.0;
 /// How far back observations may come out of order.
@@ -42,6 +37,8 @@ inline constexpr Duration kTentativeUnseen{1'500'000};
 inline constexpr double kRangeMargin = 0.5;
 /// What is not seen beyond its sensor's range is predicted while it is known where it is, to so many metres.
 inline constexpr double kKnownWithin = 1.0;
+/// What is unseen for longer, s, has one α for all confidences: they are calibrated by what is seen again and again.
+inline constexpr double kUnseen = 0.3;
 /// Of 1 − confidence, the share that is left to a start that the α of what rests does not contain.
 inline constexpr double kStartShare = 0.5;
 /// The crossings of Rice's formula for what rests: π/2 of a speed that does not change, and room for noise.
@@ -63,27 +60,6 @@ struct TrackerConfig {
   Duration remember_rest{30'000'000};
 };
 
-/// One tracked thing, all at the time of the tracker's state.
-struct TrackedObject {
-  std::int64_t id = 0;
-  bool confirmed = false;
-  std::uint32_t hits = 1;  ///< bit k: detected in the set k sets ago, of those that count (Tracker)
-  int age = 1;             ///< sets since birth that count, this one included
-  UTime last_seen;
-  std::int32_t last_seen_by = 0;  ///< sensor_id
-  Vec3 half_extents = Vec3::Zero();
-  UTime born;                                             ///< when `moving` began
-  int detections = 1;                                     ///< since then
-  Vec3 position = Vec3::Zero(), variance = Vec3::Zero();  ///< of the last detection: W, m; m²
-  BankFilter moving;
-  std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
-  UTime resting_since;
-  double resting_average = 3.0;  ///< of its χ²₃, see kRestingLimit
-  /// Where it rested until the resting hypothesis failed. It has started once it is beyond kJumpGate of that; noise
-  /// alone comes back.
-  std::optional<std::array<AxisFilter, 3>> stood;
-};
-
 /// How often what was detected once was detected again: what of it was real.
 struct ExistenceRecord {
   int again = 0, never = 0;  ///< tracks
@@ -98,10 +74,10 @@ enum class Taken {
   Repeated,  ///< there was a set of that sensor and time
 };
 
-/// Steps of one update, in this order: predict every track to the observation's time; match detections that have ids by
-/// id; match the others by the optimal assignment of Mahalanobis distances, first to confirmed tracks, what remains to
-/// tentative ones; update what is matched; count hits and misses, confirm (n of m), bury; start a tentative track from
-/// each detection that is left. Ids, sensors': one space for all sensors.
+/// Steps of one update, in this order. Predict every track to the observation's time. Match detections that have ids by
+/// id, unless ids were exchanged; the others within the gate by the most likely assignment, first to confirmed tracks,
+/// what remains to tentative ones. Update what is matched; count hits and misses, confirm (n of m), bury. Start a
+/// tentative track from each detection that is left. Ids, sensors': one space for all sensors.
 ///
 /// Only the sensor that saw a track last can miss it: sensors see different things at different rates, and that one of
 /// them does not see what another does says nothing. So a set counts in a track's age and hits if it holds a detection
@@ -166,7 +142,7 @@ class Tracker {
   void take(TrackedObject& object, const Detection& detection, const ObservationSet& from, RestRecord& rest) const;
   [[nodiscard]] TrackedObject born(const Detection& detection, const ObservationSet& from, std::int64_t id) const;
   [[nodiscard]] bool is_dead(const TrackedObject& object, const ObservationSet& observations) const;
-  [[nodiscard]] double distance2(const TrackedObject& object, UTime at, const Detection& detection) const;
+  [[nodiscard]] double surprise(const TrackedObject& object, UTime at, const Detection& detection) const;
   [[nodiscard]] bool is_published(const TrackedObject& object, const ExistenceRecord& existence) const;
   [[nodiscard]] static bool is_lost(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start);
   void settle(const Step& step);
@@ -176,7 +152,8 @@ class Tracker {
   [[nodiscard]] Waypoint resting_at(const TrackedObject& object, const State& state, UTime from, double ahead_s) const;
   [[nodiscard]] std::vector<Waypoint> resting_waypoints(const TrackedObject& object, const State& state,
                                                         UTime from) const;
-  [[nodiscard]] std::vector<Waypoint> moving_waypoints(const TrackedObject& object, const State& state,
+  /// @param of_unsure margins of what was detected once, and may be a false alarm
+  [[nodiscard]] std::vector<Waypoint> moving_waypoints(const TrackedObject& object, const PerLevel& of_unsure,
                                                        const std::vector<BankLook>& looks, UTime from) const;
 
   TrackerConfig config_;
@@ -187,15 +164,5 @@ class Tracker {
   std::deque<Step> steps_;  // ascending by (time, sensor), the newest kReorderWindow
   Judge judge_;
 };
-
-/// Σ over axes of (z − x)²/S for the detection's position.
-template <typename Filter>
-double mahalanobis2(const std::array<Filter, 3>& axes, const Detection& detection) {
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    sum += axes[static_cast<std::size_t>(i)].distance2(detection.position[i], detection.variance[i]);
-  }
-  return sum;
-}
 
 }  // namespace tern

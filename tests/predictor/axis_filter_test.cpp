@@ -108,5 +108,21 @@ TEST(AxisFilter, ItsDistanceHasTheMeanOfChiSquare) {
   EXPECT_NEAR(sum / trials, 1.0, 0.04);  // deviation of the mean: √(2/20000) = 0.01
 }
 
+TEST(Fit, SurprisesByTheLogarithmOfTheDensity) {
+  Rng rng(1);
+  const auto log_density = [](const Vec3& error, const Vec3& s) {
+    double density = 1.0;
+    for (int i = 0; i < 3; ++i) density *= std::exp(-0.5 * error[i] * error[i] / s[i]) / std::sqrt(s[i]);
+    return std::log(density);
+  };
+  const Vec3 z = Vec3::Zero(), r = Vec3::Constant(0.01);
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 x(rng.normal(), rng.normal(), rng.normal()), y(rng.normal(), rng.normal(), rng.normal());
+    const Vec3 of_x = Vec3::Constant(rng.uniform(0.1, 2.0)), of_y = Vec3::Constant(rng.uniform(0.1, 2.0));
+    EXPECT_NEAR(fit(x, of_x, z, r).surprise() - fit(y, of_y, z, r).surprise(),
+                -2.0 * (log_density(x, of_x + r) - log_density(y, of_y + r)), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace tern

@@ -157,8 +157,7 @@ TEST_F(BadInput, TimesThatJump) {
 }
 
 TEST_F(BadInput, IdsThatSwap) {
-  // Nearer than a metre a swap is within what a mover may do in a frame.
-  for (const double apart : {1.0, 3.0}) {
+  for (const double apart : {0.6, 1.0, 3.0}) {
     const double from = now_s();
     const Path left = straight(Vec3(-from, apart, 1), Vec3(1, 0, 0)),
                right = straight(Vec3(-from, 0, 1), Vec3(1, 0, 0));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,6 +59,51 @@ TEST(FirstSecond, KeepsThePromiseOfFastMoversAmongThingsThatRest) {
     EXPECT_GT(promises[bin], 200) << bin;
     EXPECT_GE(kept[bin], 0.985 * promises[bin])
         << "from " << kAges * static_cast<double>(bin) << " s on: " << kept[bin] << " of " << promises[bin];
+  }
+}
+
+/// How many tracks of a set keep their α at each level for `ahead` seconds, by the movers of their ids.
+void count_kept(const std::vector<Track>& tracks, const std::vector<Path>& movers, double ahead,
+                std::array<int, kLevels>& kept, int& promises) {
+  for (const Track& track : tracks) {
+    ++promises;
+    for (int level = 0; level < kLevels; ++level) {
+      Track at_level = track;
+      for (std::size_t k = 0; k < track.alpha.size(); ++k) at_level.alpha[k] *= track.share_at(k, level);
+      const Path& truth = movers.at(static_cast<std::size_t>(track.id));
+      kept.at(static_cast<std::size_t>(level)) += testing::keeps_promise(at_level, truth, ahead) ? 1 : 0;
+    }
+  }
+}
+
+// A predictor that starts anew among fast movers, which an exact sensor sees: it knows nothing of this world.
+TEST(FirstSecond, KeepsEachConfidenceFromTheFirstPromisesOfAFlightOn) {
+  constexpr int kFlights = 40, kMovers = 25;
+  for (const int frames : {2, 3, 4, 6}) {
+    std::array<int, kLevels> kept{};
+    int promises = 0;
+    for (int flight = 0; flight < kFlights; ++flight) {
+      Rng rng(static_cast<std::uint64_t>(flight));
+      std::vector<Path> movers;
+      for (int k = 0; k < kMovers; ++k) {
+        const double phase = rng.uniform(0.0, 2.0 * std::numbers::pi);
+        movers.push_back(testing::trefoil(Vec3(20.0 * k, 0.0, 2.0), Vec3::Ones(), 1.1, phase));
+      }
+      Tracker tracker(TrackerConfig{});
+      for (int frame = 0; frame < frames; ++frame) {
+        std::vector<Detection> seen;
+        for (int k = 0; k < kMovers; ++k) {
+          seen.push_back(testing::detection_of(movers[static_cast<std::size_t>(k)](frame / kRate), 0.0, rng, k));
+        }
+        tracker.update(testing::observations_at(frame / kRate, std::move(seen)));
+      }
+      count_kept(tracker.predict(at_seconds(frames / kRate)), movers, 2.0, kept, promises);
+    }
+    for (int level = 0; level < kLevels; ++level) {
+      const double share = static_cast<double>(kept.at(static_cast<std::size_t>(level))) / promises;
+      EXPECT_GE(share, confidence_at(0.99, level)) << "after " << frames << " frames";
+      RecordProperty("kept_" + std::to_string(frames) + "_" + std::to_string(level), std::to_string(share));
+    }
   }
 }
 

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "tests/predictor/simulated_motion.h"
 
@@ -71,6 +73,19 @@ TEST(TrackerCoverage, KeepsThePromiseOfMotionsThatItWasNotMadeFor) {
        [](Rng& rng) {
          const Vec3 v(rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-1, 1));
          return testing::random_path(rng, Vec3::Zero(), v, 1.0, 7.0);
+       }},
+      {"lasting acceleration",
+       [](Rng& rng) -> Path {
+         constexpr double kStep = 0.005;
+         std::vector<Vec3> points{Vec3::Zero()};
+         Vec3 v = Vec3::Zero(), a(rng.normal(), rng.normal(), rng.normal());
+         const double fall = std::exp(-kStep), push = std::sqrt(1.0 - fall * fall);
+         while (static_cast<double>(points.size()) * kStep < 7.0) {
+           points.push_back(points.back() + kStep * v + 0.5 * kStep * kStep * a);
+           v += kStep * a;
+           for (int axis = 0; axis < 3; ++axis) a[axis] = fall * a[axis] + push * rng.normal();
+         }
+         return [points](double t) -> Vec3 { return points[static_cast<std::size_t>(t / kStep)]; };
        }},
       {"swinging",
        [](Rng& rng) -> Path {
@@ -288,6 +303,24 @@ TEST(Tracker, KeepsTracksWhenTheSensorFallsSilent) {
   const std::vector<Track> soon = tracker.predict(at_seconds(last)), late = tracker.predict(at_seconds(last + 20.0));
   ASSERT_EQ(late.size(), 1u);
   EXPECT_GT(late[0].alpha.front().minCoeff(), soon[0].alpha.front().maxCoeff());
+}
+
+TEST(Tracker, WhatIsLostTakesNothingFromWhatIsSeen) {
+  constexpr double kSeen = 1.0, kLost = 1.0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    Rng rng(seed);
+    const Path post = straight(Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), 0), Vec3::Zero());
+    const Path walker = straight(Vec3(rng.uniform(2, 3), 0, 0), Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), 0));
+    const Vec3 v(rng.uniform(2, 5), rng.uniform(-1, 1), 0);
+    const Path lost = straight(Vec3(0, 0, 0.8) - v * kSeen, v);
+    Tracker tracker(TrackerConfig{});
+    const double t = feed(tracker, {post, walker, lost}, 0.0, kSeen, rng);
+    ASSERT_EQ(tracker.objects().size(), 3u) << "seed " << seed;
+    feed(tracker, {post, walker}, t + 1.0 / kRate, kLost, rng, 0.05);
+    const std::vector<TrackedObject>& objects = tracker.objects();
+    ASSERT_EQ(objects.size(), 3u) << "seed " << seed;
+    EXPECT_EQ(objects[2].last_seen, at_seconds(t)) << "seed " << seed;
+  }
 }
 
 TEST(Tracker, FollowsIdsOfTheSensor) {

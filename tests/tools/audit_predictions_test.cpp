@@ -6,7 +6,9 @@
 
 #include "core/base/random.h"
 #include "core/splines/piecewise_cubic.h"
+#include "core/world/alpha_count.h"
 #include "tools/audit/audit.h"
+#include "tools/audit/plan_case.h"
 #include "tools/audit/promised.h"
 
 namespace tern::audit {
@@ -247,6 +249,56 @@ TEST(AuditedPredictions, OfPlansAreHeldAgainstWhatTheyClaim) {
   const auto [audit, check] = world.audit();
   EXPECT_EQ(audit.coverage.claims[1], (ClaimCount{1, 1})) << "the other track has no plane";
   EXPECT_EQ(audit.coverage.claims[2], (ClaimCount{1, 0}));
+}
+
+TEST(AuditedPredictions, OfPlansEndWhereTheyAreSure) {
+  World world(2);
+  world.predict(1'000);
+  world.push(0, 5.6, kFlight, 0.07);  // broken at 0.9 from then on
+  HorizonRequest request = world.record.requests.front();
+  for (const Duration sure_for : {Duration{300'000}, kMaxSpan}) {
+    ++request.header.name.sequence;
+    request.t_s = at(5.1);
+    world.record.requests.push_back(request);
+    Plan plan;
+    plan.outcome = PlanOutcome::Optimized;
+    plan.inputs.request = request.header.name;
+    plan.inputs.predictions = {2, 101};  // made at 5 s
+    plan.level = 2;
+    plan.confidence = kConfidenceLevels[2];
+    plan.sure_for = sure_for;
+    plan.trajectory.start = request.t_s;
+    plan.hold = Duration::from_seconds(1.0);
+    plan.certificate = {{1'000, 0, 0, 1, {}}};
+    world.record.plans.push_back(plan);
+  }
+  const auto [audit, check] = world.audit();
+  EXPECT_EQ(audit.coverage.claims[2], (ClaimCount{2, 1}));
+}
+
+TEST(ClaimedAlpha, IsWhatThePlannerCounts) {
+  Rng rng(1);
+  for (int n = 0; n < 200; ++n) {
+    Track track = World::track(1, 0, 5.0);
+    track.motion.pieces.assign(6, {Duration{200'000}, track.motion.pieces.front().coefficients});
+    track.alpha.clear();
+    track.shares.clear();
+    for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
+      track.alpha.emplace_back(rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0, 1));
+      const auto share = [&] { return static_cast<float>(rng.uniform(0.1, 1)); };
+      track.shares.push_back({share(), share(), share(), share()});
+    }
+    Plan plan;
+    plan.level = static_cast<int>(rng.uniform(0, kLevels));
+    plan.alpha_scale = rng.uniform(0.1, 1.0);
+    plan.sure_for = n % 2 == 0 ? Duration{200'000 * (n % 8)} : Duration::from_seconds(rng.uniform(0.0, 2.0));
+    const std::size_t last = track.motion.locate(at(5.0) + plan.sure_for).index;
+    const std::vector<Vec3> claimed = claimed_alpha(track, plan, at(5.0));
+    for (std::size_t k = 0; k < claimed.size(); ++k) {
+      const Vec3 counted = AlphaCount{plan.level, plan.alpha_scale, last}.of(track, k);
+      EXPECT_LT((claimed[k] - counted).norm(), 1e-12) << n << " piece " << k;
+    }
+  }
 }
 
 }  // namespace

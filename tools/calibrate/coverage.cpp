@@ -22,15 +22,19 @@ constexpr std::array<std::pair<double, const char*>, 5> kAges{std::pair{0.1, "ag
                                                               {0.5, "age to 0.5 s"},
                                                               {1.0, "age to 1 s"},
                                                               {2.0, "age to 2 s"}};
+constexpr std::array<std::pair<double, const char*>, 4> kLearning{
+    std::pair{1.0, "flight to 1 s"}, {3.0, "flight to 3 s"}, {10.0, "flight to 10 s"}, {1e9, "flight above 10 s"}};
 
 using Key = std::tuple<std::string, double, std::int64_t>;  // what, time ahead, track
 
 class Watch {
  public:
-  Watch(const Recording& recording, const TrackerConfig& config) : recording_(recording), tracker_(config) {}
+  Watch(const Recording& recording, const TrackerConfig& config)
+      : recording_(recording), tracker_(config), confidence_(config.prediction.confidence) {}
 
   Study run() {
     Study result;
+    result.confidence = confidence_;
     int sets = 0;
     for (const Received& received : recording_.observations) {
       tracker_.update(received.set);
@@ -71,52 +75,68 @@ class Watch {
   }
 
   void judge(const Track& track, const TrackedObject& object, const TruePath& truth) {
-    bool kept = true;
+    std::array<bool, kLevels> kept;
+    kept.fill(true);
     std::size_t h = 0;
     for (int k = 0; h < kCoveredAhead.size(); ++k) {
       const UTime at = track.motion.start + Duration::from_seconds(k * kStep);
       const std::optional<Vec3> centre = truth.at(at);
-      if (!centre) return;  // what comes later nobody knows
-      const PiecewiseCubic::Located piece = track.motion.locate(at);
-      const Vec3 half = track.half_extents + track.alpha[piece.index];
-      const Vec3 out = (*centre - track.motion.sample(at).p).cwiseAbs() + truth.half_extents - half;
-      kept = kept && out.maxCoeff() <= kTolerance;
+      if (!centre || at > track.motion.end()) return;  // what comes later nobody knows
+      const std::size_t piece = track.motion.locate(at).index;
+      const Vec3 needed = (*centre - track.motion.sample(at).p).cwiseAbs() + truth.half_extents - track.half_extents;
+      std::array<double, kLevels> half;
+      for (int level = 0; level < kLevels; ++level) {
+        const auto l = static_cast<std::size_t>(level);
+        const Vec3 alpha = track.share_at(piece, level) * track.alpha[piece];
+        kept[l] = kept[l] && (needed - alpha).maxCoeff() <= kTolerance;
+        half[l] = alpha.mean();
+      }
       if ((k + 1) * kStep <= kCoveredAhead[h] + 1e-9) continue;
-      count(track, object, kCoveredAhead[h++], kept, track.alpha[piece.index].mean());
+      count(track, object, kCoveredAhead[h++], kept, half);
     }
   }
 
-  void count(const Track& track, const TrackedObject& object, double ahead_s, bool kept, double half) {
-    const double age = (object.last_seen - object.born).seconds();
-    const auto older = std::find_if(kAges.begin(), kAges.end(), [&](const auto& a) { return age <= a.first; });
-    const std::string by_age = older == kAges.end() ? "age above 2 s" : older->second;
-    const bool rests = tracker_.rests(object);
-    const auto kind = tracker_.verdict(object).kind;
-    const std::string name = rests ? "rest" : kClassNames[static_cast<std::size_t>(kind)];
-    for (const std::string& what : {std::string(rests ? "all" : "all moving"), "class " + name, rests ? "" : by_age}) {
-      if (what.empty()) continue;
+  void count(const Track& track, const TrackedObject& object, double ahead_s, const std::array<bool, kLevels>& kept,
+             const std::array<double, kLevels>& half) {
+    for (const std::string& what : cells_of(track, object)) {
       TrackPromises& promises = promises_[{what, ahead_s, track.id}];
       ++promises.promises;
-      promises.kept += kept ? 1 : 0;
-      promises.half_sum += half;
+      for (std::size_t level = 0; level < kept.size(); ++level) {
+        promises.kept[level] += kept[level] ? 1 : 0;
+        promises.half_sum[level] += half[level];
+      }
     }
+  }
+
+  [[nodiscard]] std::vector<std::string> cells_of(const Track& track, const TrackedObject& object) const {
+    if (tracker_.rests(object)) return {"class rest"};
+    const auto until = [](const auto& table, double s) {
+      return std::find_if(table.begin(), table.end(), [&](const auto& a) { return s <= a.first; });
+    };
+    const auto age = until(kAges, (object.last_seen - object.born).seconds());
+    const auto learning = until(kLearning, (track.motion.start - recording_.observations.front().set.at).seconds());
+    const auto kind = static_cast<std::size_t>(tracker_.verdict(object).kind);
+    return {"all moving", std::string("class ") + kClassNames[kind], age == kAges.end() ? "age above 2 s" : age->second,
+            learning->second};
   }
 
   const Recording& recording_;
   Tracker tracker_;
+  double confidence_;
   std::map<Key, TrackPromises> promises_;
 };
 
 }  // namespace
 
-Covered covered(const CoverageCell& cell) {
+Covered covered(const CoverageCell& cell, int level) {
+  const auto l = static_cast<std::size_t>(level);
   Covered result;
   result.tracks = static_cast<int>(cell.tracks.size());
   double kept = 0.0, half = 0.0;
   for (const TrackPromises& track : cell.tracks) {
     result.promises += track.promises;
-    kept += track.kept;
-    half += track.half_sum;
+    kept += track.kept[l];
+    half += track.half_sum[l];
   }
   result.share = kept / result.promises;
   result.half_m = half / result.promises;
@@ -127,7 +147,7 @@ Covered covered(const CoverageCell& cell) {
     for (std::size_t i = 0; i < cell.tracks.size(); ++i) {
       const auto at = static_cast<std::size_t>(rng.uniform(0.0, static_cast<double>(cell.tracks.size())));
       all += cell.tracks[at].promises;
-      of_them += cell.tracks[at].kept;
+      of_them += cell.tracks[at].kept[l];
     }
     shares.push_back(of_them / all);
   }
@@ -140,11 +160,14 @@ Covered covered(const CoverageCell& cell) {
 Study study(const Recording& recording, const TrackerConfig& config) { return Watch(recording, config).run(); }
 
 std::string coverage_table(const Study& study) {
-  std::string text = "what,ahead_s,promises,tracks,kept,kept_low,kept_high,half_m\n";
+  std::string text = "what,ahead_s,confidence,promises,tracks,kept,kept_low,kept_high,half_m\n";
   for (const CoverageCell& cell : study.cells) {
-    const Covered c = covered(cell);
-    text += fmt::format("{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f}\n", cell.what, cell.ahead_s, c.promises, c.tracks,
-                        c.share, c.low, c.high, c.half_m);
+    for (int level = 0; level < kLevels; ++level) {
+      const Covered c = covered(cell, level);
+      text +=
+          fmt::format("{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f}\n", cell.what, cell.ahead_s,
+                      confidence_at(study.confidence, level), c.promises, c.tracks, c.share, c.low, c.high, c.half_m);
+    }
   }
   return text;
 }

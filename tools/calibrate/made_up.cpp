@@ -10,7 +10,12 @@
 namespace tern::calibrate {
 namespace {
 
-constexpr double kLasts = 90.0, kRate = 30.0, kSigma = 0.05, kLatency = 0.05, kDropout = 0.05;
+constexpr double kLasts = 12.0, kRate = 30.0, kLatency = 0.05, kDropout = 0.05;
+struct Sensor {
+  double sigma;  // m
+  int every;     // of kRate frames
+};
+constexpr std::array<Sensor, 4> kSensors{{{0.05, 1}, {0.0, 1}, {0.02, 3}, {0.1, 2}}};
 constexpr int kAtOnce = 12;
 constexpr double kApart = 20.0;  // m
 constexpr std::array kShortest{1.5, 9.0};
@@ -99,6 +104,7 @@ Recording made_up(const MadeUpSource& source, std::uint64_t seed) {
     std::int64_t id;
   };
   Rng rng(seed);
+  const Sensor& sensor = kSensors[seed % kSensors.size()];
   Recording recording;
   recording.name = std::string(source.name);
   std::vector<Present> present;
@@ -119,14 +125,14 @@ Recording made_up(const MadeUpSource& source, std::uint64_t seed) {
       truth.half_extents = Vec3::Constant(0.3);
       const Vec3 p = one.mover.step(rng);
       truth.centres[received.set.at] = p;
-      if (rng.uniform() < kDropout) continue;
+      if (rng.uniform() < kDropout || frame % sensor.every != 0) continue;
       Detection detection;
-      for (int axis = 0; axis < 3; ++axis) detection.position[axis] = p[axis] + kSigma * rng.normal();
+      for (int axis = 0; axis < 3; ++axis) detection.position[axis] = p[axis] + sensor.sigma * rng.normal();
       detection.half_extents = truth.half_extents;
-      detection.variance = Vec3::Constant(kSigma * kSigma);
+      detection.variance = Vec3::Constant(sensor.sigma * sensor.sigma);
       received.set.detections.push_back(detection);
     }
-    recording.observations.push_back(received);
+    if (frame % sensor.every == 0) recording.observations.push_back(received);
   }
   return recording;
 }

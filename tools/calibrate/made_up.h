@@ -22,11 +22,12 @@ struct MadeUpSource {
   std::string_view name;
   double weight;  ///< of Source
 };
-/// All of them; turners, whom nothing but a reach set foresees, are few in this world.
+/// All of them. Turners, whom nothing but a reach set foresees, are rare, and little is promised of them.
 const std::vector<MadeUpSource>& made_up_sources();
 
-/// 90 s of twelve of them at once, 20 m apart, each of 1.5 to 9 s, with the truth at each frame. The sensor has σ 0.05
-/// m, 30 Hz, 50 ms delay, 5 % dropped. A function of the seed.
+/// The first 12 s of a flight among twelve of them, 20 m apart, each of which is there for 1.5 to 9 s, with the truth
+/// at 30 Hz. By the seed the sensor sees them 30, 15 or 10 times a second, exactly or with σ up to 0.1 m, 50 ms late; 5
+/// % are dropped. A function of the seed.
 Recording made_up(const MadeUpSource& source, std::uint64_t seed);
 
 }  // namespace tern::calibrate

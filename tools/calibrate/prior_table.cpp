@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include "predictor/tracking/calibration.h"
 #include "predictor/tracking/calibration_prior.h"
@@ -11,104 +14,133 @@
 namespace tern::calibrate {
 namespace {
 
-// θ is at least this, or no window of scores would hold it.
-constexpr double kLeastLevel = 0.003;
-// Of all promises, what each band may break even if those before it broke all that is allowed.
-constexpr double kLeastBroken = 0.0005;
+// θ is at least this share of what is allowed.
+constexpr double kLeastShare = 0.1;
+// Of what is allowed, the share that each band may break even if those before it broke all that is allowed.
+constexpr double kLeastBroken = 0.05;
+constexpr int kHalvings = 20;  // of [0, 1], for θ
 
-struct Weighed {
+constexpr double kKinds = 3.0;  // of motion: steady, calm, lively
+
+struct Promise {
   const Judged* judged;
+  std::array<bool, kConfidenceLevels.size()> broken{};
+};
+
+// The promises of a class that one source made.
+struct OfSource {
   double weight;
-  bool broken = false;
+  std::vector<Promise> promises;
 };
 
-struct Score {
-  double score, weight;
-  Weighed* of;
+// Those of a source that were seen to the end of a band, by their scores there.
+struct Band {
+  double weight;
+  std::vector<std::pair<double, Promise*>> scores;  // ascending
 };
 
-std::vector<Weighed> of_class(const std::vector<Source>& sources, TrackClass kind) {
-  std::vector<Weighed> all;
+// How long tracks of a class have been seen: New, Young, grown, old.
+std::size_t age_of(TrackClass kind) {
+  const auto k = static_cast<std::size_t>(kind);
+  return k < 2 ? k : 2 + k % 2;
+}
+
+std::vector<OfSource> of_class(const std::vector<Source>& sources, TrackClass kind) {
+  std::vector<OfSource> all;
   for (const Source& source : sources) {
-    std::vector<const Judged*> own;
+    OfSource own{source.weight, {}};
+    double of_age = 0.0;
     for (const Judged& judged : source.judged) {
-      if (judged.kind == kind) own.push_back(&judged);
+      if (judged.kind == kind) own.promises.push_back({&judged});
+      of_age += age_of(judged.kind) == age_of(kind) ? 1.0 : 0.0;
     }
-    if (own.size() < kFewPromises) continue;
-    const double weight = source.weight / static_cast<double>(source.judged.size());
-    for (const Judged* judged : own) all.push_back({judged, weight});
+    if (own.promises.size() < kFewPromises) continue;
+    own.weight *= std::min(1.0, kKinds * static_cast<double>(own.promises.size()) / of_age);
+    all.push_back(std::move(own));
   }
   return all;
 }
 
-double weight_of(const std::vector<Score>& scores) {
-  double sum = 0.0;
-  for (const Score& score : scores) sum += score.weight;
-  return sum;
+std::vector<Band> seen_to(std::vector<OfSource>& all, std::size_t band) {
+  std::vector<Band> bands;
+  for (OfSource& source : all) {
+    Band own{source.weight, {}};
+    for (Promise& promise : source.promises) {
+      if (promise.judged->bands > band) own.scores.emplace_back(promise.judged->scores[band], &promise);
+    }
+    std::sort(own.scores.begin(), own.scores.end());
+    if (!own.scores.empty()) bands.push_back(std::move(own));
+  }
+  return bands;
 }
 
-// The score below which the share `p` of the weight lies. @pre ascending, not empty.
-double quantile(const std::vector<Score>& scores, double p) {
-  const double until = p * weight_of(scores);
-  double sum = 0.0;
-  for (const Score& score : scores) {
-    sum += score.weight;
-    if (sum >= until) return score.score;
+double quantile(const std::vector<Band>& sources, double p) {
+  double largest = -kModelSigmas;
+  for (const Band& source : sources) {
+    const double own = 1.0 - (1.0 - p) / source.weight;
+    if (own < 0.0) continue;
+    const auto n = static_cast<double>(source.scores.size());
+    const auto rank = static_cast<std::size_t>(std::min(n - 1.0, std::floor(own * n)));
+    largest = std::max(largest, source.scores[rank].first);
   }
-  return scores.back().score;
+  return largest;
+}
+
+// The least margin beyond which a source breaks no more than the share `allowed`.
+double margin_of(const Band& source, std::size_t level, double allowed) {
+  const auto n = static_cast<double>(source.scores.size());
+  double left = allowed * n;
+  for (const auto& [score, promise] : source.scores) left -= promise->broken[level] ? 1.0 : 0.0;
+  left = std::max(left, kLeastBroken * allowed * n);
+  for (auto at = source.scores.rbegin(); at != source.scores.rend(); ++at) {
+    if (at->second->broken[level]) continue;
+    left -= 1.0;
+    if (left < 0.0) return at->first;
+  }
+  return -kModelSigmas;
 }
 
 // Breaks what is beyond the band's margin. @return θ.
-double break_band(std::vector<Score>& scores, double allowed) {
-  const double all = weight_of(scores);
-  double left = allowed * all;
-  for (const Score& score : scores) left -= score.of->broken ? score.weight : 0.0;
-  left = std::max(left, kLeastBroken * all);
-  double margin = scores.back().score;
-  for (auto score = scores.rbegin(); score != scores.rend(); ++score) {
-    if (score->of->broken) continue;
-    margin = score->score;
-    left -= score->weight;
-    if (left < 0.0) break;
+double break_band(std::vector<Band>& sources, std::size_t level, double allowed) {
+  double margin = -kModelSigmas;
+  for (const Band& source : sources) margin = std::max(margin, margin_of(source, level, allowed / source.weight));
+  for (Band& source : sources) {
+    for (auto& [score, promise] : source.scores) promise->broken[level] = promise->broken[level] || score > margin;
   }
-  double above = 0.0;
-  for (const Score& score : scores) {
-    if (score.score <= margin) continue;
-    above += score.weight;
-    score.of->broken = true;
+  double low = 0.0, high = 1.0;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    const double p = 0.5 * (low + high);
+    (quantile(sources, p) < margin ? low : high) = p;
   }
-  return std::max(kLeastLevel, above / all);
+  return std::max(kLeastShare * allowed, 1.0 - high);
 }
 
-std::string row(std::vector<Weighed>& all, std::size_t band, double allowed) {
-  std::vector<Score> scores;
-  for (Weighed& weighed : all) {
-    if (weighed.judged->bands > band) {
-      scores.push_back({static_cast<double>(weighed.judged->scores[band]), weighed.weight, &weighed});
-    }
+std::string row(std::vector<OfSource>& all, std::size_t band, const Calibration& calibration) {
+  std::vector<Band> sources = seen_to(all, band);
+  if (sources.empty()) {
+    throw std::runtime_error(
+        fmt::format("no source has {} promises of each class, seen to {} s", kFewPromises, kBandEnds[band]));
   }
-  std::sort(scores.begin(), scores.end(), [](const Score& a, const Score& b) { return a.score < b.score; });
-  std::string text = "    {";
-  if (scores.empty()) return text + "0.01, {}},";
-  text += fmt::format("{:.4f}, {{", break_band(scores, allowed));
-  for (std::size_t k = 0; k < kPriorProbabilities.size(); ++k) {
-    const double p = std::min(kPriorProbabilities[k], kPriorLast);
-    text += fmt::format("{}{:.3f}", k == 0 ? "" : ", ", quantile(scores, p));
+  std::vector<double> levels, quantiles;
+  std::size_t promises = 0;
+  for (const Band& source : sources) promises += source.scores.size();
+  for (std::size_t level = 0; level < kConfidenceLevels.size(); ++level) {
+    levels.push_back(break_band(sources, level, calibration.allowed(level, band)));
   }
-  return text + "}},";
+  for (const double p : kPriorProbabilities) quantiles.push_back(quantile(sources, std::min(p, kPriorLast)));
+  return fmt::format("    {{{{{:.4f}}}, {{{:.3f}}}}},  // to {} s, of {} promises\n", fmt::join(levels, ", "),
+                     fmt::join(quantiles, ", "), kBandEnds[band], promises);
 }
 
 }  // namespace
 
 std::string prior_table(const std::vector<Source>& sources) {
-  const Calibration calibration(1.0 - kPriorMiss);
+  const Calibration calibration(kConfidenceLevels.front());
   std::string text;
   for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
-    std::vector<Weighed> all = of_class(sources, static_cast<TrackClass>(kind));
-    for (std::size_t band = 0; band < kBands; ++band) {
-      text += row(all, band, calibration.allowed(band)) +
-              fmt::format("  // class {}, to {} s, of {} promises\n", kind, kBandEnds[band], all.size());
-    }
+    text += fmt::format("    // class {}\n", kind);
+    std::vector<OfSource> all = of_class(sources, static_cast<TrackClass>(kind));
+    for (std::size_t band = 0; band < kBands; ++band) text += row(all, band, calibration);
   }
   return text;
 }

@@ -8,7 +8,7 @@
 
 namespace tern::calibrate {
 
-/// The scores of one source, and what they weigh beside those of the others, > 0.
+/// The scores of one source, and how much is promised of it, in (0, 1]: 1 where all is.
 struct Source {
   std::string name;
   double weight = 1.0;
@@ -18,11 +18,14 @@ struct Source {
 /// A class of one source with fewer promises than this says nothing.
 inline constexpr std::size_t kFewPromises = 150;
 
-/// The rows of the table: per class and band the level θ, and quantiles of the scores.
+/// The rows of the table: per class and band the level θ for each confidence, and quantiles of the scores.
 ///
-/// Margins are found band by band. Of the promises that the bands before have not broken, so many may break in this one
-/// that all broken ones together are Calibration::allowed. The θ of a band is the share of all scores above that
-/// margin. A source counts in a class by its weight and the share of its promises that are of that class.
+/// A flight does not know in which world it is, so the promise is to hold in each. For no source may its broken
+/// promises, times its weight, be more than Calibration::allowed. The quantile at p is the largest of the sources' at
+/// 1 − (1 − p)/weight. Where few of a source's promises of an age are of one kind of motion, it counts there by three
+/// times their share: each kind may break a third of what is allowed. Margins are found band by band: of the promises
+/// that the bands before have not broken, so many may break in this one. θ is the share of the scores of that
+/// distribution above the margin.
 std::string prior_table(const std::vector<Source>& sources);
 
 }  // namespace tern::calibrate

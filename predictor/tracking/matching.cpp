@@ -1,0 +1,82 @@
+#include "predictor/tracking/matching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "predictor/tracking/assignment.h"
+
+namespace tern {
+namespace {
+
+void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
+                 Matching& matching) {
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    if (detections[d].track_id == kNoTrackId || matching.taken[d] || matching.anonymous[d]) continue;
+    const auto object = std::find_if(objects.begin(), objects.end(),
+                                     [&](const TrackedObject& o) { return o.id == detections[d].track_id; });
+    if (object == objects.end()) continue;
+    int& mine = matching.detection_of[static_cast<std::size_t>(object - objects.begin())];
+    if (mine != kNoDetection) continue;
+    mine = static_cast<int>(d);
+    matching.taken[d] = true;
+  }
+}
+
+// Whether a detection is not where the track of its id can be, but where another one can: ids were exchanged.
+bool is_exchanged(const std::vector<TrackedObject>& objects, const Detection& detection, const Surprise& surprise) {
+  const auto fits = [&](const TrackedObject& o) { return std::isfinite(surprise(o, detection)); };
+  const auto own =
+      std::find_if(objects.begin(), objects.end(), [&](const TrackedObject& o) { return o.id == detection.track_id; });
+  return own != objects.end() && !fits(*own) && std::any_of(objects.begin(), objects.end(), fits);
+}
+
+// Of the pairs within the gate; 0 if there is none.
+double dearest(const Eigen::MatrixXd& cost) {
+  return cost.unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; }).maxCoeff();
+}
+
+// Among objects with the given confirmation, and detections without an id, that are still free.
+void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
+                       bool confirmed, const Surprise& surprise, Matching& matching) {
+  std::vector<std::size_t> rows, columns;
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    if (objects[o].confirmed == confirmed && matching.detection_of[o] == kNoDetection) rows.push_back(o);
+  }
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    if (!matching.taken[d] && matching.anonymous[d]) columns.push_back(d);
+  }
+  if (rows.empty() || columns.empty()) return;
+  Eigen::MatrixXd cost(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index r = 0; r < cost.rows(); ++r) {
+    for (Eigen::Index c = 0; c < cost.cols(); ++c) {
+      cost(r, c) =
+          surprise(objects[rows[static_cast<std::size_t>(r)]], detections[columns[static_cast<std::size_t>(c)]]);
+    }
+  }
+  const std::vector<int> column_of = assign(cost, dearest(cost) + 1.0);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (column_of[r] == kUnassigned) continue;
+    const std::size_t d = columns[static_cast<std::size_t>(column_of[r])];
+    matching.detection_of[rows[r]] = static_cast<int>(d);
+    matching.taken[d] = true;
+  }
+}
+
+}  // namespace
+
+Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
+               const Surprise& surprise) {
+  Matching matching{std::vector<int>(objects.size(), kNoDetection), std::vector<bool>(detections.size(), false), {}};
+  for (const Detection& detection : detections) {
+    matching.anonymous.push_back(detection.track_id == kNoTrackId || is_exchanged(objects, detection, surprise));
+  }
+  match_by_id(objects, detections, matching);
+  match_by_distance(objects, detections, true, surprise, matching);
+  match_by_distance(objects, detections, false, surprise, matching);
+  matching.anonymous.assign(detections.size(), false);
+  match_by_id(objects, detections, matching);
+  return matching;
+}
+
+}  // namespace tern

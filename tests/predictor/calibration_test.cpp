@@ -1,0 +1,118 @@
+// Margins and levels of the conformal calibration, against slow oracles and its long-run promise.
+#include "predictor/tracking/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/base/random.h"
+#include "predictor/tracking/calibration_prior.h"
+
+namespace tern {
+namespace {
+
+/// Of everything that is known of a class and band, counted anew: the share of scores above q.
+double above(double q, std::size_t kind, std::size_t band, const std::vector<float>& own,
+             const std::vector<float>& all) {
+  const auto larger = [&](const std::vector<float>& scores) {
+    return static_cast<double>(
+        std::count_if(scores.begin(), scores.end(), [&](float s) { return static_cast<double>(s) > q; }));
+  };
+  const double prior = Calibration::kPriorWeight * prior_above(kind, band, q);
+  const double pool = (prior + larger(all)) / (Calibration::kPriorWeight + static_cast<double>(all.size()));
+  return (Calibration::kPoolWeight * pool + larger(own)) / (Calibration::kPoolWeight + static_cast<double>(own.size()));
+}
+
+TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
+  constexpr auto kKind = static_cast<std::size_t>(TrackClass::CalmOld);
+  constexpr std::size_t kBand = 1;
+  for (const int scores : {0, 3, 30, 300, 3000}) {
+    Rng rng(1);
+    Calibration calibration(0.99);
+    std::vector<float> own, all;
+    for (int k = 0; k < scores; ++k) {
+      const bool is_own = k % 3 == 0;
+      all.push_back(static_cast<float>(rng.uniform(-1.5, 0.5)));
+      if (is_own) own.push_back(all.back());
+      calibration.add(is_own ? TrackClass::CalmOld : TrackClass::LivelyOld, kBand, all.back(), {});
+    }
+    const auto newest = [](std::vector<float>& s, std::size_t most) {
+      if (s.size() > most) s.erase(s.begin(), s.end() - static_cast<std::ptrdiff_t>(most));
+    };
+    newest(own, Calibration::kOwnScores);
+    newest(all, Calibration::kPoolScores);
+    calibration.refresh();
+    const PerLevel margins = calibration.margins(TrackClass::CalmOld);
+    for (std::size_t level = 0; level < margins.size(); ++level) {
+      // None was broken: theta has risen with each.
+      const double allowed = calibration.allowed(level, kBand);
+      const double risen = (level == 0 ? 1.0 : Calibration::kFirstLevel) * prior_level(kKind, kBand, level) *
+                           std::exp(Calibration::kAdaption * allowed * static_cast<double>((scores + 2) / 3));
+      const double theta = std::min(Calibration::kLargestLevel * allowed, risen);
+      const double q = margins[level][kBand];
+      EXPECT_LE(above(q + 1e-6, kKind, kBand, own, all), theta * (1.0 + 1e-9)) << scores << ", " << level;
+      if (q > -kModelSigmas + 1e-3) {
+        EXPECT_GT(above(q - 1e-3, kKind, kBand, own, all), theta) << "less would do";
+      }
+    }
+  }
+}
+
+TEST(PromisedHalf, ContainsAnErrorByItsOwnMarginAndByNoLess) {
+  Rng rng(2);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double ahead = rng.uniform(0.01, 4.5);
+    const std::size_t band = band_of(ahead);
+    Vec3 error, deviation;
+    for (int axis = 0; axis < 3; ++axis) {
+      error[axis] = rng.normal();
+      deviation[axis] = std::exp(rng.uniform(-4.0, 1.0));
+    }
+    PerBand<double> margins{};
+    margins[band] = containing_margin(error, deviation, band, ahead);
+    EXPECT_LE((error.cwiseAbs() - promised_half(deviation, margins, ahead)).maxCoeff(), 1e-9);
+    if (margins[band] < 1e-3 - kModelSigmas) continue;
+    margins[band] -= 1e-3;
+    EXPECT_GT((error.cwiseAbs() - promised_half(deviation, margins, ahead)).maxCoeff(), 0.0);
+  }
+}
+
+/// Promises whose errors grow from band to band, `scale` times as large as some that the prior might know.
+TEST(Calibration, BreaksWhatItMayAtEachLevelWhateverTheWorldIs) {
+  for (const double scale : {0.1, 8.0}) {
+    Rng rng(3);
+    Calibration calibration(0.99);
+    constexpr int kPromises = 8'000, kLearning = 2'000;
+    std::array<std::array<int, kBands>, kLevels> broken{};
+    for (int promise = 0; promise < kPromises; ++promise) {
+      const PerLevel margins = calibration.margins(TrackClass::CalmOld);
+      std::array<bool, kLevels> out{};
+      double q = 0.0;
+      for (std::size_t band = 0; band < kBands; ++band) {
+        q = 0.5 * q + scale * kBandEnds[band] * rng.normal();
+        for (std::size_t level = 0; level < out.size(); ++level) {
+          out[level] = out[level] || q > margins[level][band];
+          broken[level][band] += promise >= kLearning && out[level] ? 1 : 0;
+        }
+        calibration.add(TrackClass::CalmOld, band, static_cast<float>(q), out);
+      }
+      calibration.refresh();
+    }
+    for (std::size_t level = 0; level < kConfidenceLevels.size(); ++level) {
+      EXPECT_LE(calibration.allowed(level, kBands - 1), 1.0 - kConfidenceLevels[level] + 1e-12);
+      for (std::size_t band = 0; band < kBands; ++band) {
+        const double share = static_cast<double>(broken[level][band]) / (kPromises - kLearning);
+        // Four deviations of so many that are broken independently.
+        const double allowed = calibration.allowed(level, band);
+        const double deviation = std::sqrt((1.0 - allowed) / (allowed * (kPromises - kLearning)));
+        EXPECT_NEAR(share / allowed, 1.0, 4.0 * deviation) << scale << ", " << level << ", " << band;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tern
