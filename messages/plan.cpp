@@ -89,6 +89,7 @@ Message to_lcm(const Plan& plan) {
   m.confidence = plan.confidence;
   m.level = static_cast<std::int8_t>(plan.level);
   m.alpha_scale = plan.alpha_scale;
+  m.sure_for_us = plan.sure_for.us;
   m.from_watchdog = plan.standing.has_value();
   m.standing = plan.standing.value_or(0);
   m.relaxed = plan.relaxed;
@@ -160,6 +161,8 @@ tl::expected<Plan, Rejection> from_lcm(const Message& m) {
   plan.level = read.integer<int>(m.level, 0, kLevels - 1);
   plan.alpha_scale = read.number(m.alpha_scale, 0.0, 1.0);
   if (plan.alpha_scale < 1.0) read.consistent(plan.level == kLevels - 1 && plan.confidence == 0.0);
+  plan.sure_for = read.duration(m.sure_for_us, Duration{0}, kMaxSpan);
+  if (plan.sure_for == Duration{0}) read.consistent(plan.confidence == 0.0);
   const std::int64_t standing = read.counter(m.standing);
   if (read.flag(m.from_watchdog)) {
     plan.standing = standing;

@@ -29,15 +29,37 @@ double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec
 
 namespace {
 
-/// How long from t_s on α stays within `width`, s: beyond, a prediction says little more than that it may be there.
+/// How long from t_s on α, if it grows to the end, stays within `width`, s: beyond, a prediction says little more than
+/// that it may be there.
 double known_for(const PlanningObstacle& obstacle, double width, UTime t_s) {
   const PiecewiseCubic& motion = obstacle.track->motion;
+  const AlphaCount growing{obstacle.alpha.level, obstacle.alpha.scale};
   UTime until = motion.start;
   for (std::size_t k = 0; k < motion.pieces.size(); ++k) {
-    if (obstacle.alpha.of(*obstacle.track, k).maxCoeff() > width) break;
+    if (growing.of(*obstacle.track, k).maxCoeff() > width) break;
     until = until + motion.pieces[k].duration;
   }
   return std::max(0.0, (until - t_s).seconds());
+}
+
+double middle_of(Vec3 sides) {
+  std::sort(sides.data(), sides.data() + 3);
+  return sides[1];
+}
+
+/// The longest of time_to_step_aside() out of their ways. A box no larger than another one on any axis asks no more.
+double longest_to_step_aside(const HorizonRequest& request, const std::vector<PlanningObstacle>& obstacles) {
+  const Limits limits = boxed(request.limits);
+  std::vector<Vec3> sizes;
+  double longest_s = 0.0;
+  for (const PlanningObstacle& obstacle : obstacles) {
+    const Vec3& half = obstacle.track->half_extents;
+    const auto covers = [&](const Vec3& size) { return (half.array() <= size.array()).all(); };
+    if (!obstacle.moves() || std::any_of(sizes.begin(), sizes.end(), covers)) continue;
+    sizes.push_back(half);
+    longest_s = std::max(longest_s, time_to_step_aside(limits, request.body.half_extents(), half));
+  }
+  return longest_s;
 }
 
 }  // namespace
@@ -45,28 +67,24 @@ double known_for(const PlanningObstacle& obstacle, double width, UTime t_s) {
 HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& config,
                        const std::vector<PlanningObstacle>& obstacles, double horizon_s) {
   const double longest_s = std::max(0.5 * horizon_s, kLeastHold);
-  HoldDemand hold{std::min(config.hold_required_s, longest_s), std::min(config.hold_cap_s, longest_s),
-                  config.hold_until_s};
-  Vec3 largest = Vec3::Zero();
+  HoldDemand hold;
+  hold.required_s = std::min(config.hold_required_s, longest_s);
+  hold.cap_s = std::min(config.hold_cap_s, longest_s);
+  const Vec3 body = request.body.half_extents();
+  double known_s = 0.0;
   int estimated = 0;
   for (const PlanningObstacle& obstacle : obstacles) {
     if (!obstacle.moves()) continue;
-    hold.promised = hold.promised && obstacle.is_promised();
-    estimated += obstacle.is_promised() ? 0 : 1;
-    largest = largest.cwiseMax(obstacle.track->half_extents);
+    const Vec3 both = body + obstacle.track->half_extents;
+    hold.width = std::max(hold.width, both.maxCoeff());
     hold.predicted_s = std::max(hold.predicted_s, (obstacle.track->motion.end() - request.t_s).seconds());
+    if (obstacle.is_promised()) continue;
+    hold.promised = false;
+    known_s += known_for(obstacle, middle_of(both), request.t_s);
+    ++estimated;
   }
-  if (largest.isZero(0.0)) return hold;
-  const Vec3 body = request.body.half_extents();
-  hold.aside_s = time_to_step_aside(boxed(request.limits), body, largest);
-  hold.width = (body + largest).maxCoeff();
-  Vec3 sides = body + largest;
-  std::sort(sides.data(), sides.data() + 3);
-  double known_s = 0.0;
-  for (const PlanningObstacle& obstacle : obstacles) {
-    if (!obstacle.is_promised()) known_s += known_for(obstacle, sides[1], request.t_s) / estimated;
-  }
-  if (estimated > 0) hold.until_s = std::min(hold.until_s, known_s);
+  hold.aside_s = longest_to_step_aside(request, obstacles);
+  if (estimated > 0) hold.until_s = known_s / estimated;
   return hold;
 }
 

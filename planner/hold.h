@@ -1,6 +1,7 @@
 // The hold: how long an end of a plan must stay clear, and how far ahead that is looked at.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/world/horizon.h"
@@ -11,9 +12,9 @@ namespace tern {
 
 /// What one request asks of the ends of its plans. Times are seconds from t_s.
 struct HoldDemand {
-  double required_s = 0.5;   ///< an end that stays clear this long is preferred to one that does not
-  double cap_s = 1.5;        ///< how far a hold is followed
-  double until_s = 60.0;     ///< no hold is asked for later than this
+  double required_s = 0.5;  ///< an end that stays clear this long is preferred to one that does not
+  double cap_s = 1.5;       ///< how far a hold is followed
+  double until_s = std::numeric_limits<double>::infinity();  ///< no hold is asked for later than this
   double aside_s = 0.0;      ///< what this vehicle needs to step out of a mover's way (time_to_step_aside)
   double predicted_s = 0.0;  ///< how far the predictions of what moves nearby reach
   bool promised = true;      ///< all that moves nearby is promised, nothing estimated

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "planner/durations.h"
 #include "planner/evasion.h"
@@ -13,20 +14,25 @@
 namespace tern {
 namespace {
 
-bool is_at_rest(const Surroundings& near) { return near.request.t_s >= near.request.committed.end(); }
-
-/// By how much of the way to the local goal the candidate gets nearer to it.
-double share_of_way(const Surroundings& near, const Heading& heading, const Candidate& candidate) {
+/// By how much of the way to the local goal the trajectory's end gets nearer to it.
+double share_of_way(const Surroundings& near, const Heading& heading, const TimedSpline& trajectory) {
   const double to_go = (heading.local.goal - near.request.start.p).norm();
-  return to_go > 0.0 ? 1.0 - candidate.cost.distance_to_goal / to_go : 0.0;
+  const Vec3 end = trajectory.control_points.rightCols<1>();
+  return to_go > 0.0 ? 1.0 - (heading.local.goal - end).norm() / to_go : 0.0;
+}
+
+/// At rest for longer than kPatience, be it before it set out.
+bool has_waited(const Surroundings& near) {
+  return (near.request.t_s - near.request.committed.end()).seconds() > kPatience;
 }
 
 }  // namespace
 
 bool is_settled(const Surroundings& near, const Heading& heading, const StandingAnswer& standing) {
-  const bool holds = standing.best() && standing.best()->holds;
-  if (is_at_rest(near)) return holds && share_of_way(near, heading, *standing.best()) >= kGetsOn;
-  return holds || (standing.committed() && standing.committed()->holds);
+  const auto settles = [&](const std::optional<Candidate>& candidate) {
+    return candidate && candidate->holds && share_of_way(near, heading, candidate->trajectory) >= kGetsOn;
+  };
+  return settles(standing.best()) || settles(standing.committed());
 }
 
 PlanReason plan_less_sure(const Heading& heading, Surroundings& near, StandingAnswer& standing, PlanTools& tools) {
@@ -34,12 +40,14 @@ PlanReason plan_less_sure(const Heading& heading, Surroundings& near, StandingAn
   search.max_expansions = std::min(search.max_expansions, kLessSureExpansions);
   search.hold_expansions = std::min(search.hold_expansions, kLessSureHoldExpansions);
   PlanReason reason = PlanReason::Infeasible;
-  const Assurance& last = lower_assurances().back();
-  for (const Assurance& less : lower_assurances()) {
+  const double aside_s = near.hold.aside_s;
+  const std::vector<Assurance> all = lower_assurances(aside_s);
+  for (const Assurance& less : all) {
     if (is_settled(near, heading, standing)) break;
-    if (less.scale < 1.0 && (standing.best() || standing.committed())) break;
+    if (less.level == 0 && less.sure_for.seconds() >= near.hold.predicted_s) continue;  // that is all there is
+    if (is_too_short(less, aside_s) && (standing.best() || standing.committed()) && !has_waited(near)) break;
     count_less(less, tools.memory, near);
-    if (near.start.relaxed && &less != &last) continue;
+    if (near.start.relaxed && &less != &all.back()) continue;
     if (!standing.committed()) standing.keep(check_committed(near, false, tools).committed, heading);
     reason = try_durations(near, heading, Phase::Evasion, search, standing, tools);
   }

@@ -8,13 +8,14 @@
 
 namespace tern {
 
-/// Whether no less of α need be counted: something stands that holds, new or committed. For a vehicle that rests on its
-/// way it must be new and get it on (kGetsOn).
+/// Whether no less of α need be counted: something stands that holds and gets on (kGetsOn), new or committed. What
+/// waits or flies back does not settle it: among boxes that grow, the surest plan leads away from the goal for ever.
 bool is_settled(const Surroundings& near, const Heading& heading, const StandingAnswer& standing);
 
-/// Counts less and less of α (lower_assurances()) until that is settled. Below the known confidences it goes on only
-/// while nothing stands at all. A committed trajectory separated at a larger α is surer than a new plan among parts of
-/// α. Who finds nothing even so flies to the stop that stays clear longest.
+/// Counts less and less of α (lower_assurances()) until that is settled. Below what the vehicle needs (is_too_short) it
+/// goes on only while nothing stands at all: a committed trajectory separated at a larger α is surer. Who has rested
+/// for longer than kPatience goes on all the same. Who finds nothing even so flies to the stop that stays clear
+/// longest.
 /// @param near  afterwards the surroundings as they were counted last
 /// @return why there is no plan
 PlanReason plan_less_sure(const Heading& heading, Surroundings& near, StandingAnswer& standing, PlanTools& tools);

@@ -80,7 +80,6 @@ struct PlannerConfig {
   std::vector<double> duration_scales = {1.1, 1.35, 1.8, 2.6};
   double hold_required_s = 0.5;
   double hold_cap_s = 1.5;
-  double hold_until_s = 60.0;
   double stale_after_s = 0.3;
   double velocity_share = 0.998;
   HullBasis hull_basis = HullBasis::Minvo;  ///< of search and optimizer; the checker's is MINVO
@@ -107,8 +106,6 @@ struct PlannerConfig {
       "asks for that. Where movers are predicted for less than twice that, half of what is predicted is asked for");
     v("hold_cap_s", hold_cap_s, Range{0.1, 10.0},
       "how far the hold is followed at least, the same half at most, s; ≥ `hold_required_s`");
-    v("hold_until_s", hold_until_s, Range{0.0, 60.0},
-      "no hold is asked for later than this after t_s: small where predictions widen quickly (perception)");
     v("stale_after_s", stale_after_s, Range::positive(10.0), "predictions older than this are stale, s");
     v("velocity_share", velocity_share, Range{0.1, 1.0}, "plans stay below this share of v_max");
     v("unknown", unknown_is_obstacle, KnobWords<bool>{{"free", false}, {"obstacle", true}},

@@ -78,7 +78,9 @@ Plan StandingAnswer::filled(const Candidate* candidate, PlanReason reason) const
   plan.relaxed = candidate->relaxed;
   plan.level = candidate->assurance.level;
   plan.alpha_scale = candidate->assurance.scale;
-  plan.confidence = plan.alpha_scale < 1.0 ? 0.0 : confidence_at(promised_, plan.level);
+  plan.sure_for = candidate->assurance.sure_for;
+  const bool has_number = plan.alpha_scale == 1.0 && plan.sure_for > Duration{0};
+  plan.confidence = has_number ? confidence_at(promised_, plan.level) : 0.0;
   plan.trajectory = candidate->trajectory;
   plan.hold = Duration::from_seconds(candidate->hold_s);
   plan.cost = candidate->cost;

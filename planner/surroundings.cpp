@@ -56,7 +56,7 @@ Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& wo
 
 void count_less(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near) {
   near.assurance = assurance;
-  count_alpha(assurance, memory.obstacles);
+  count_alpha(assurance, near.request.t_s, memory.obstacles);
   near.start = clear_start(memory.obstacles, near.request.body, near.request.start.p, near.request.t_s);
   near.hold = hold_demand(near.request, near.config, memory.obstacles, near.look.horizon_s);
 }

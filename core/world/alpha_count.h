@@ -1,6 +1,9 @@
 // How much of a prediction's α counts: all of it, at the promised level, or less.
 #pragma once
 
+#include <cstddef>
+#include <limits>
+
 #include "core/world/track.h"
 
 namespace tern {
@@ -9,9 +12,12 @@ namespace tern {
 struct AlphaCount {
   int level = 0;       ///< of kConfidenceLevels
   double scale = 1.0;  ///< [0, 1], on top of it
+  /// The piece from which on α counts as there at most: it grows no more.
+  std::size_t grows_to = std::numeric_limits<std::size_t>::max();
 
   [[nodiscard]] Vec3 of(const Track& track, std::size_t piece) const {
-    return (scale * track.share_at(piece, level)) * track.alpha[piece];
+    const auto at = [&](std::size_t k) -> Vec3 { return (scale * track.share_at(k, level)) * track.alpha[k]; };
+    return piece <= grows_to ? at(piece) : Vec3(at(piece).cwiseMin(at(grows_to)));
   }
 };
 

@@ -8,6 +8,7 @@
 #include "core/base/types.h"
 #include "core/geometry/plane.h"
 #include "core/world/header.h"
+#include "core/world/message_limits.h"
 #include "core/world/vehicle.h"
 
 namespace tern {
@@ -117,8 +118,11 @@ struct Plan {
   /// What is declared or static counts with all of its α. `confidence` is that of each such track to stay within its
   /// box; 1 where nothing is estimated. It is 0 below the last level (a scaled α has no number) and for NoPlan.
   double confidence = 0.0;
-  int level = 0;                   ///< into kConfidenceLevels; 0: what the predictions promise
-  double alpha_scale = 1.0;        ///< [0, 1]; below 1 only at the last level
+  int level = 0;             ///< into kConfidenceLevels; 0: what the predictions promise
+  double alpha_scale = 1.0;  ///< [0, 1]; below 1 only at the last level
+  /// How long after t_s α grows, [0, kMaxSpan]: what is later counts with the α of then. `confidence` speaks of this
+  /// time alone (0 where there is none); kMaxSpan: of all.
+  Duration sure_for = kMaxSpan;
   bool relaxed = false;            ///< the start lay inside a hull and α was scaled to the largest clear value
   Vec3 local_goal = Vec3::Zero();  ///< W
   double sphere_radius = 0.0;      ///< r, m

@@ -100,7 +100,8 @@ struct Words {
   }
   void add(const Plan& p) {
     (*this)(p.header, p.request_id, p.outcome, p.reason, p.trajectory, p.hold, p.confidence, p.level, p.alpha_scale,
-            p.relaxed, p.local_goal, p.sphere_radius, p.cost, p.inputs, p.certificate, p.cuts, p.standing.value_or(-1));
+            p.sure_for, p.relaxed, p.local_goal, p.sphere_radius, p.cost, p.inputs, p.certificate, p.cuts,
+            p.standing.value_or(-1));
   }
   void add(const SearchViewNode& n) { (*this)(n.position, n.parent); }
   void add(const SearchView& v) { (*this)(v.header, v.request_id, v.left_out, v.nodes); }

@@ -344,6 +344,9 @@ TEST(Rejection, OfPlan) {
   EXPECT_EQ(after<Plan>([](auto& p) { p.level = kLevels - 1, p.alpha_scale = 0.5, p.confidence = 0.1; }),
             "Inconsistent");
   EXPECT_EQ(after<Plan>([](auto& p) { p.level = 0, p.alpha_scale = 0.5, p.confidence = 0.0; }), "Inconsistent");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.sure_for = Duration{-1}; }), "Time");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.sure_for = Duration{0}, p.confidence = 0.6; }), "Inconsistent");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.sure_for = kMaxSpan + Duration{1}; }), "Time");
 }
 
 TEST(Rejection, OfSearchView) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "planner/planner.h"
 #include "tests/support/plan_judge.h"
 
@@ -12,6 +14,7 @@ using namespace support;
 
 constexpr UTime kStart{50'000'000};
 constexpr AlphaShares kShares{0.9F, 0.5F, 0.3F, 0.1F};
+constexpr double kAsideS = 0.5;
 
 /// A post that is believed to stand there, α as wide.
 Track believed_post(std::int64_t id, const Vec3& p, double alpha) {
@@ -20,6 +23,19 @@ Track believed_post(std::int64_t id, const Vec3& p, double alpha) {
   track.kind = TrackKind::Estimated;
   track.alpha = {Vec3(alpha, alpha, 0.0)};
   track.shares = {kShares};
+  return track;
+}
+
+/// New in view at p at that time: nothing but its place is known, and that it moves at 5 m/s at most.
+Track new_thing(std::int64_t id, const Vec3& p, UTime at) {
+  constexpr int kPieces = 45;
+  Track track = straight_mover(id, p, Vec3::Zero(), 0.3, at, 0.1);
+  track.kind = TrackKind::Estimated;
+  track.motion.pieces.assign(kPieces, track.motion.pieces.front());
+  track.alpha.clear();
+  for (int k = 1; k <= kPieces; ++k) track.alpha.push_back(Vec3::Constant(0.1 + 0.5 * k));
+  track.shares.assign(kPieces, {0.98F, 0.96F, 0.94F, 0.92F});
+  track.top_speed = 5.0;
   return track;
 }
 
@@ -54,28 +70,49 @@ TEST(CountAlpha, LeavesWhatIsDeclaredOrStaticAsItIs) {
                                believed_post(3, Vec3::Zero(), 1.0)};
   for (Track& track : tracks) track.alpha[0] = Vec3::Ones();
   std::vector<PlanningObstacle> obstacles = obstacles_of(tracks);
-  for (const Assurance& assurance : lower_assurances()) {
-    count_alpha(assurance, obstacles);
+  for (const Assurance& assurance : lower_assurances(kAsideS)) {
+    count_alpha(assurance, kStart, obstacles);
     EXPECT_EQ(obstacles[0].alpha.of(tracks[0], 0), Vec3::Ones());
     EXPECT_EQ(obstacles[1].alpha.of(tracks[1], 0), Vec3::Ones());
     EXPECT_LE(obstacles[2].alpha.of(tracks[2], 0).maxCoeff(), 1.0);
   }
-  count_alpha({}, obstacles);
+  count_alpha({}, kStart, obstacles);
   EXPECT_EQ(obstacles[2].alpha.of(tracks[2], 0), Vec3::Ones());
 }
 
 TEST(LowerAssurances, CountLessAndLess) {
-  const Track track = believed_post(1, Vec3::Zero(), 1.0);
-  double before = 1.0;
-  for (const Assurance& assurance : lower_assurances()) {
+  const Track track = new_thing(1, Vec3::Zero(), kStart);
+  std::vector<Vec3> before = track.alpha;
+  for (const Assurance& assurance : lower_assurances(kAsideS)) {
     std::vector<PlanningObstacle> obstacles = obstacles_of({track});
     obstacles[0].track = &track;
-    count_alpha(assurance, obstacles);
-    const double now = obstacles[0].alpha.of(track, 0).x();
-    EXPECT_LE(now, before);
-    EXPECT_GT(now, 0.0);
-    before = now;
+    count_alpha(assurance, kStart, obstacles);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const Vec3 now = obstacles[0].alpha.of(track, k);
+      EXPECT_LE(now.x(), before[k].x());
+      EXPECT_GT(now.x(), 0.0);
+      before[k] = now;
+    }
   }
+}
+
+TEST(LowerAssurances, CountThePromisedAlphaForAsLongAsItIsSure) {
+  const Track track = new_thing(1, Vec3::Zero(), kStart);
+  std::vector<PlanningObstacle> obstacles = obstacles_of({track});
+  obstacles[0].track = &track;
+  count_alpha({0, 1.0, Duration{450'000}}, kStart, obstacles);
+  for (std::size_t k = 0; k < track.alpha.size(); ++k) {
+    EXPECT_EQ(obstacles[0].alpha.of(track, k), track.alpha[std::min<std::size_t>(k, 4)]) << k;
+  }
+}
+
+TEST(LowerAssurances, AreTooShortOnlyAfterAllThatAreNot) {
+  bool was_too_short = false;
+  for (const Assurance& assurance : lower_assurances(kAsideS)) {
+    EXPECT_GE(is_too_short(assurance, kAsideS), was_too_short);
+    was_too_short = is_too_short(assurance, kAsideS);
+  }
+  EXPECT_TRUE(was_too_short);
 }
 
 TEST_F(InACorridor, WhatIsPromisedIsFlownWhereThereIsRoom) {
@@ -91,6 +128,46 @@ TEST_F(InACorridor, ThePlanIsOfTheGreatestConfidenceThatLeavesAWay) {
   EXPECT_EQ(got.level, 2);
   EXPECT_EQ(got.confidence, kConfidenceLevels[2]);
   EXPECT_EQ(got.alpha_scale, 1.0);
+}
+
+TEST_F(InACorridor, WhatIsNewFarAheadLeavesAPlanThatIsSureForTheTimeToStepAside) {
+  const Plan got = answer({new_thing(1, Vec3(6.5, 0, 1), request_.t_s)});
+  EXPECT_EQ(got.outcome, PlanOutcome::Optimized);
+  EXPECT_EQ(got.confidence, kConfidenceLevels[0]);
+  EXPECT_LT(got.sure_for, kMaxSpan);
+  EXPECT_GT(got.sure_for.seconds(), 0.1);
+  EXPECT_GT(got.trajectory.control_points.row(0).maxCoeff(), 1.0);
+}
+
+TEST_F(InACorridor, WhoFliesBackBeforeWhatIsNewTurnsRoundWhileItIsFar) {
+  const HorizonRequest back = request_at(request_.t_s, resting_at(Vec3(4, 0, 1), kStart));
+  const PlanningWorld empty = world_of({}, go_to(Vec3(-4, 0, 1)), back);
+  Budget budget = Budget::unlimited();
+  const Plan retreat = plan(back, empty, PlannerConfig{}, budget).plan;
+  ASSERT_EQ(retreat.outcome, PlanOutcome::Optimized);
+  const Box corridor = request_.flight_box;
+  request_ = request_at(request_.t_s + Duration{300'000}, retreat.trajectory);
+  request_.flight_box = corridor;
+  ASSERT_LT(request_.start.v.x(), -1.0);
+  const Plan got = answer({new_thing(1, Vec3(8.5, 0, 1), request_.t_s)});
+  EXPECT_EQ(got.outcome, PlanOutcome::Optimized);
+  EXPECT_GT(got.trajectory.control_points.rightCols<1>().x(), request_.start.p.x());
+}
+
+TEST_F(InACorridor, WhoHasRestedOnTheWayForLongTakesWhatHasNoNumber) {
+  Track post = believed_post(1, Vec3(1.52, 0, 1), 1.1);
+  post.shares = {{1.0F, 1.0F, 1.0F, 1.0F}};
+  const Plan at_first = answer({post});
+  EXPECT_EQ(at_first.alpha_scale, 1.0);
+  EXPECT_LT(at_first.trajectory.control_points.row(0).maxCoeff(), 0.1);
+  const Box corridor = request_.flight_box;
+  request_ = request_at(request_.t_s + Duration{2'000'000}, request_.committed);
+  request_.flight_box = corridor;
+  const Plan later = answer({post});
+  EXPECT_EQ(later.outcome, PlanOutcome::Optimized);
+  EXPECT_LT(later.alpha_scale, 1.0);
+  EXPECT_EQ(later.confidence, 0.0);
+  EXPECT_GT(later.trajectory.control_points.row(0).maxCoeff(), 1.0);
 }
 
 TEST_F(InACorridor, WhatIsDeclaredIsCertainAtEveryLevel) {

@@ -3,13 +3,19 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "planner/duration.h"
+#include "planner/safety/thrust_set.h"
 #include "planner/tuning.h"
+#include "tests/support/planner_worlds.h"
 
 namespace tern {
 namespace {
+
+using namespace support;
 
 Limits limits_of(double v, double a, double j) { return {Vec3::Constant(v), Vec3::Constant(a), Vec3::Constant(j)}; }
 
@@ -55,6 +61,25 @@ TEST(HoldDemand, TakesHalfTheHorizonAtMost) {
   EXPECT_EQ(shorter.cap_s, 2.15);
   EXPECT_EQ(shorter.required_s, 2.15);
   EXPECT_EQ(hold_demand(HorizonRequest{}, config, {}, 1e9).cap_s, 10.0);
+}
+
+// Not for what a box would ask that is as wide as the widest and as high as the highest.
+TEST(HoldDemand, GivesTheTimeToLeaveTheWayOfEachMover) {
+  Rng rng(1);
+  for (int k = 0; k < 100; ++k) {
+    std::vector<Track> tracks;
+    for (int id = 0; id < 20; ++id) {
+      tracks.push_back(straight_mover(id, Vec3::Zero(), Vec3::UnitX(), 0.3, UTime{}, 3.0));
+      tracks.back().half_extents = Vec3(rng.uniform(0.1, 2.0), rng.uniform(0.1, 2.0), rng.uniform(0.1, 2.0));
+    }
+    const HorizonRequest request = request_at(UTime{1'000'000}, resting_at(Vec3::Zero(), UTime{}));
+    double longest_s = 0.0;
+    for (const Track& track : tracks) {
+      const Vec3 body = request.body.half_extents();
+      longest_s = std::max(longest_s, time_to_step_aside(boxed(request.limits), body, track.half_extents));
+    }
+    EXPECT_EQ(hold_demand(request, PlannerConfig{}, obstacles_of(tracks), 4.5).aside_s, longest_s);
+  }
 }
 
 RC_GTEST_PROP(HoldDemand, AsksForNothingAfterItsEnd, ()) {

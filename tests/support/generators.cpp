@@ -270,6 +270,7 @@ Plan random_message(Rng& rng, Fill fill) {
   plan.confidence = rng.uniform();
   plan.level = random_integer(rng, 0, kLevels - 1);
   if (flag(rng)) plan.confidence = 0.0, plan.level = kLevels - 1, plan.alpha_scale = rng.uniform();
+  plan.sure_for = {integer(rng, plan.confidence > 0.0 ? 1 : 0, kMaxSpan.us)};
   plan.relaxed = flag(rng);
   plan.local_goal = position(rng);
   plan.sphere_radius = number(rng, 0.0, kMaxCoordinate);

@@ -40,7 +40,7 @@ std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const
   std::vector<PlanningObstacle> obstacles = world.predictions->obstacles;
   std::int64_t id = -1;
   for (const Box& box : world.map->occupied.boxes()) obstacles.push_back({id--, nullptr, box, {}});
-  count_alpha(assurance, obstacles);
+  count_alpha(assurance, request.t_s, obstacles);
   (void)clear_start(obstacles, request.body, request.start.p, request.t_s);
   return obstacles;
 }
@@ -49,7 +49,7 @@ std::string fault_of(const Plan& plan, const HorizonRequest& request, const Plan
                      const PlannerConfig& config) {
   if (plan.request_id != request.id) return "answers another request";
   if (plan.outcome == PlanOutcome::NoPlan) return "";
-  const auto obstacles = obstacles_for(request, world, {plan.level, plan.alpha_scale});
+  const auto obstacles = obstacles_for(request, world, {plan.level, plan.alpha_scale, plan.sure_for});
   if (plan.outcome == PlanOutcome::KeepCommitted) {
     if (!same(plan.trajectory, request.committed)) return "keeps what was not committed";
   } else if (std::string fault = fault_of_new(plan, request, obstacles, config); !fault.empty()) {

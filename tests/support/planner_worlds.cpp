@@ -29,8 +29,12 @@ Vec3 random_alpha(Rng& rng) {
 /// Oracle of AlphaCount::of.
 Vec3 counted(const Track& track, std::size_t piece, const AlphaCount& count) {
   const bool is_lower = count.level > 0 && !track.shares.empty();
-  const double share = is_lower ? track.shares[piece][static_cast<std::size_t>(count.level) - 1] : 1.0F;
-  return count.scale * share * track.alpha[piece];
+  Vec3 least = Vec3::Constant(1e9);
+  for (const std::size_t k : {piece, std::min(piece, count.grows_to)}) {
+    const double share = is_lower ? track.shares[k][static_cast<std::size_t>(count.level) - 1] : 1.0F;
+    least = least.cwiseMin(count.scale * share * track.alpha[k]);
+  }
+  return least;
 }
 
 Track shell(Rng& rng, std::int64_t id) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <thread>
 
 #include "messages/batching.h"
@@ -59,7 +60,8 @@ class PlannerNodeTest : public ::testing::Test {
   }
   /// Until the map's fields and the goal's distances are ready.
   void prepare() {
-    for (int k = 0; k < 100'000 && node_->health().state != ProcessState::Ready; ++k) {
+    for (const auto end = patience(); std::chrono::steady_clock::now() < end;) {
+      if (node_->health().state == ProcessState::Ready) break;
       node_->step(clock_.now());
       std::this_thread::yield();
     }
@@ -95,12 +97,18 @@ class PlannerNodeTest : public ::testing::Test {
     node_->step(t);
     answers_.hear();
   }
-  /// Lets the worker come to its end.
+  /// Lets the worker come to its end. It may have answered and not be free yet: the next request then waits for a step.
   void until_heard(std::size_t plans) {
-    for (int k = 0; k < 10'000'000 && answers_.plans.size() < plans; ++k) {
+    for (const auto end = patience(); answers_.plans.size() < plans && std::chrono::steady_clock::now() < end;) {
+      node_->step(clock_.now());
       answers_.hear();
       std::this_thread::yield();
     }
+  }
+
+  /// For what takes milliseconds, if the machine gives the worker a core.
+  static std::chrono::steady_clock::time_point patience() {
+    return std::chrono::steady_clock::now() + std::chrono::seconds(60);
   }
 
   SharedClock clock_{kStart};

@@ -41,6 +41,7 @@ Case random_case(Rng& rng) {
   AlphaCount& count = c.obstacles[0].alpha;
   if (rng.uniform() < 0.3) count.scale = rng.uniform();
   if (rng.uniform() < 0.5) count.level = random_integer(rng, 0, kLevels - 1);
+  if (rng.uniform() < 0.5) count.grows_to = static_cast<std::size_t>(random_integer(rng, 0, 4));
   c.body = body_of(kBodyKinds[random_integer(rng, 0, 2)]);
   double t = rng.uniform() < 0.5 ? 0.0 : rng.uniform(0.0, 0.5);
   for (int k = random_integer(rng, 2, 8); k >= 0; --k) {
