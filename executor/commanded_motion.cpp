@@ -10,9 +10,11 @@
 namespace tern {
 namespace {
 
-constexpr int kBrakingPoints = 7;
-constexpr Duration kShortestBraking{20'000};  ///< of an interval
-constexpr Duration kLongestBraking{5'000'000};
+/// Intervals of a braking trajectory, and in how many of them its acceleration may come and go.
+constexpr int kBrakingIntervals = 16;
+constexpr int kRamps[] = {1, 2, 4, 8};
+constexpr Duration kShortestBraking{5'000};  ///< of an interval
+constexpr Duration kLongestBraking{1'250'000};
 /// By then the next setpoint is expected: no braking yet.
 constexpr Duration kNextSetpoint{20'000};
 /// No honest setpoint is this much later than the one before: until then the vehicle goes on by itself.
@@ -39,12 +41,34 @@ MotionSample start_of(const ClampedSpline& spline) {
   return sample_cubic(reparametrized(spline.power(0), 0.0, 1.0 / spline.interval_s()), 0.0);
 }
 
-TimedSpline braking_in(const MotionSample& from, UTime at, Duration interval) {
-  TimedSpline stop{at, interval, Points(3, kBrakingPoints)};
-  const Points3 first = start_control_points(from, interval.seconds());
-  stop.control_points.leftCols<3>() = first;
-  stop.control_points.rightCols<kBrakingPoints - 3>().colwise() = Vec3(first.col(2));
-  return stop;
+/// Control points of a spline that leaves `from` with these accelerations at its knots, the first one's being from.a
+/// (a column per knot, m/s²). In between it is linear, so the velocity's control points differ by a_k Δt, the first and
+/// the last two by half of it. @pre they bring it to rest: the last two of those are taken for zero.
+Points points_with(const MotionSample& from, const Points& accelerations, double interval_s) {
+  const Eigen::Index intervals = accelerations.cols() - 1;
+  Points q(3, intervals + 3);
+  q.col(0) = from.p;
+  Vec3 v = from.v;
+  for (Eigen::Index k = 0; k <= intervals + 1; ++k) {
+    const auto knots_ahead = std::min({k + 1, intervals + 2 - k, Eigen::Index{3}});
+    q.col(k + 1) = q.col(k) + v * (interval_s * static_cast<double>(knots_ahead) / 3.0);
+    if (k <= intervals) v += accelerations.col(k) * (interval_s * (k == 0 || k == intervals ? 0.5 : 1.0));
+    if (k >= intervals - 1) v.setZero();
+  }
+  return q;
+}
+
+/// From `from` to rest: from.a fades within `ramp` intervals, and another acceleration, constant but for as long a ramp
+/// at either end, takes the velocity: a_k = f_k from.a + w_k c, v + Δt (a_0/2 + Σ a_k) = 0.
+TimedSpline braking_in(const MotionSample& from, UTime at, Duration interval, int ramp) {
+  Eigen::Matrix<double, 1, kBrakingIntervals + 1> fades, weights;
+  for (int k = 0; k <= kBrakingIntervals; ++k) {
+    fades[k] = std::max(0.0, 1.0 - static_cast<double>(k) / ramp);
+    weights[k] = std::min({1.0, static_cast<double>(k) / ramp, static_cast<double>(kBrakingIntervals - k) / ramp});
+  }
+  const double dt = interval.seconds();
+  const Vec3 c = -(from.v / dt + (fades.sum() - 0.5) * from.a) / weights.sum();
+  return {at, interval, points_with(from, from.a * fades + c * weights, dt)};
 }
 
 /// Whether the second of two setpoints is about where the first leads: a stream of somebody who states no jerk, too.
@@ -87,10 +111,12 @@ struct Braking {
 Braking best_braking(const MotionSample& from, UTime at, const Limits& limits) {
   Braking best;
   for (Duration interval = kShortestBraking; interval <= kLongestBraking; interval.us += interval.us / 8) {
-    TimedSpline stop = braking_in(from, at, interval);
-    const double share = share_of(limits, stop);
-    if (share < best.share || best.share == std::numeric_limits<double>::infinity()) best = {std::move(stop), share};
-    if (share <= 1.0 + kLimitTolerance) break;
+    for (const int ramp : kRamps) {
+      TimedSpline stop = braking_in(from, at, interval, ramp);
+      const double share = share_of(limits, stop);
+      if (share < best.share || best.share == std::numeric_limits<double>::infinity()) best = {std::move(stop), share};
+      if (share <= 1.0 + kLimitTolerance) return best;
+    }
   }
   return best;
 }
@@ -145,7 +171,10 @@ void CommandedMotion::hear(const TimedSpline& committed) {
     if (is_old || !agree(committed_.sample(committed.start), start_of(spline))) return;
     committed_.take_back_from(committed.start);
   }
-  if (committed.start > committed_.newest_start()) committed_.splice(committed);
+  const bool is_led_to = apart_ && apart_->at >= committed.start &&
+                         agree(spline.sample((apart_->at - committed.start).seconds()), apart_->motion);
+  const bool joins = braking_ || is_led_to || agree(committed_.sample(committed.start), start_of(spline));
+  if (committed.start > committed_.newest_start() && joins) committed_.splice(committed);
   committed_.forget_before(settled_.end());
   if (braking_) choose_after(newest_, settled_.end());
 }

@@ -30,8 +30,9 @@ class CommandedMotion {
   /// no single message makes the vehicle jump. After kSetpointSilence setpoints that are more than 0.1 m off count only
   /// when they have gone on for 0.5 s: an executor that sees where the vehicle is leads it on from there before.
   void hear(const UavState& setpoint);
-  /// HORIZON_REQUEST.committed. One that starts after all earlier ones is news. So is one that leaves, before they
-  /// start, the way that the vehicle is on: the executor leads it on from where it is, and they are taken back.
+  /// HORIZON_REQUEST.committed. One that starts after all earlier ones is news, if it joins them, what came before it
+  /// was not heard, or setpoints that the command does not lead to lie on it. So is one that leaves, before they start,
+  /// the way that the vehicle is on: the executor leads it on from where it is, and they are taken back.
   void hear(const TimedSpline& committed);
 
   /// The command at any time; before settled().end() as it was, after it as it would be without another setpoint.
@@ -69,9 +70,9 @@ class CommandedMotion {
   std::optional<CommittedTrajectory> braking_;  ///< when committed_ does not pass through the newest setpoint
 };
 
-/// The trajectory that leaves `from` at `at` and comes to rest soonest among splines of four equal intervals that keep
-/// `limits`, dynamics included; if none keeps them (the vehicle is beyond them already), the one that exceeds those per
-/// axis least.
+/// The trajectory that leaves `from` at `at` and comes to rest soonest among splines of sixteen equal intervals whose
+/// acceleration is constant per axis but where it comes and goes, and that keep `limits`, dynamics included; if none
+/// keeps them (the vehicle is beyond them already), the one that exceeds those per axis least.
 TimedSpline braking_trajectory(const MotionSample& from, UTime at, const Limits& limits);
 
 }  // namespace tern

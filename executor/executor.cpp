@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/world/flyable.h"
 #include "core/world/message_limits.h"
 #include "executor/commanded_motion.h"
 
@@ -61,7 +62,8 @@ Executor::Executor(const UavSpec& uav, const UavState& measured, const ExecutorC
       flight_box_(uav.flight_box),
       period_(checked_period(config.rate_hz)),
       lead_(checked_lead(config.lead)),
-      committed_(stopping(measured, uav.limits)) {}
+      committed_(stopping(measured, uav.limits)),
+      told_(committed_.newest_start()) {}
 
 void Executor::rejoin(const UavState& measured) {
   if (outstanding_) {
@@ -69,8 +71,17 @@ void Executor::rejoin(const UavState& measured) {
     close(false);
   }
   committed_ = stopping(measured, limits_);
+  told_ = committed_.newest_start();
   promises_.clear();
   last_request_.reset();
+}
+
+bool Executor::take_back_untold(UTime said) {
+  const UTime start = committed_.newest_start();
+  if (start <= told_ || start <= said) return false;
+  committed_.take_back_from(start);
+  while (!promises_.empty() && promises_.back().from >= start) promises_.pop_back();
+  return true;
 }
 
 void Executor::set_tube(const Vec3& tube, double share) {
@@ -92,22 +103,29 @@ Box Executor::flight_box_for(const TimedSpline& committed) const {
   const ClampedSpline spline = committed.spline();
   Box flown;
   for (int j = 0; j < spline.intervals(); ++j) flown.extend(spline.position_bounds(j));
-  flown = grown(flown, body_.half_extents());
+  const Box allowed = centre_box(flight_box_, body_);
   Box box = flight_box_;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = flown.min()[axis], high = flown.max()[axis];
-    if (low < box.min()[axis] - kFlownOutside) box.min()[axis] = std::floor(low / kBoxStep) * kBoxStep;
-    if (high > box.max()[axis] + kFlownOutside) box.max()[axis] = std::ceil(high / kBoxStep) * kBoxStep;
+    const double below = allowed.min()[axis] - flown.min()[axis], above = flown.max()[axis] - allowed.max()[axis];
+    if (below > kFlownOutside) box.min()[axis] = std::floor((box.min()[axis] - below) / kBoxStep) * kBoxStep;
+    if (above > kFlownOutside) box.max()[axis] = std::ceil((box.max()[axis] + above) / kBoxStep) * kBoxStep;
   }
   return box;
 }
 
-Limits Executor::limits_for(const TimedSpline& committed) const {
+Limits Executor::limits_for(const TimedSpline& committed, UTime from) const {
   const auto widened = [](const Vec3& limit, const Vec3& needed) {
     return Vec3((needed.array() > limit.array() * (1.0 + kLimitTolerance)).select(needed, limit));
   };
   const ClampedSpline spline = committed.spline();
-  const MotionBounds bounds = motion_bounds(spline);
+  MotionBounds bounds;
+  for (int j = 0; j < spline.intervals(); ++j) {
+    if (committed.start + committed.interval * (j + 1) <= from) continue;
+    const MotionBounds part = motion_bounds(spline, j);
+    bounds.v_max = bounds.v_max.cwiseMax(part.v_max);
+    bounds.a_max = bounds.a_max.cwiseMax(part.a_max);
+    bounds.j_max = bounds.j_max.cwiseMax(part.j_max);
+  }
   Limits limits{widened(share_ * limits_.v_max, bounds.v_max), widened(share_ * limits_.a_max, bounds.a_max),
                 widened(share_ * limits_.j_max, bounds.j_max)};
   if (limits_.dynamics && breach_of(spline, *limits_.dynamics).ok()) limits.dynamics = limits_.dynamics;
@@ -143,10 +161,11 @@ std::optional<HorizonRequest> Executor::next_request(UTime now) {
   request.deadline = request.t_s - kDeadlineLead;
   request.committed = committed_.in_force_at(request.t_s);
   request.start = committed_.sample(request.t_s);
-  request.limits = limits_for(request.committed);
+  request.limits = limits_for(request.committed, request.t_s);
   request.body = body_;
   request.flight_box = flight_box_for(request.committed);
   request.tube = tube_;
+  told_ = request.committed.start;
   last_request_ = now;
   outstanding_ = request;
   return request;

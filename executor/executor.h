@@ -76,6 +76,10 @@ class Executor {
   /// state. The open request is closed, and the next one, by which the vehicle hears of it, goes out at once. Until
   /// that rest, limits and flight box are as wide as the way to it needs.
   void rejoin(const UavState& measured);
+  /// The plan that was adopted last is not flown after all, if no request has carried it and it starts after `said`,
+  /// the newest setpoint: the vehicle, which cannot have heard of it, flies on along what it has heard.
+  /// @return whether there was one
+  bool take_back_untold(UTime said);
   /// What the newest goal wants; nothing: no goal yet.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
 
@@ -96,6 +100,8 @@ class Executor {
   void forget_before(UTime t);
   [[nodiscard]] bool at_rest(UTime t) const { return t >= committed_.end(); }
   [[nodiscard]] bool request_open() const { return outstanding_.has_value(); }
+  /// Whether requests go out: the vehicle follows, and the newest goal wants to be flown to.
+  [[nodiscard]] bool asking() const { return go_ && mode_ && *mode_ != GoalMode::Stop; }
   [[nodiscard]] const ExecutorCounters& counters() const { return counters_; }
 
  private:
@@ -105,13 +111,12 @@ class Executor {
     UTime t_s;
     bool answered = false;
   };
-  [[nodiscard]] bool asking() const { return go_ && mode_ && *mode_ != GoalMode::Stop; }
   struct Promise {
     UTime from;
     Vec3 tube;
   };
-  /// The share of the vehicle's limits, or what the trajectory needs where it is beyond them (see rejoin).
-  [[nodiscard]] Limits limits_for(const TimedSpline& committed) const;
+  /// The share of the vehicle's limits, or what is left of the trajectory needs where that is more (see rejoin).
+  [[nodiscard]] Limits limits_for(const TimedSpline& committed, UTime from) const;
   /// The flight box, or a larger one where the trajectory is already outside.
   [[nodiscard]] Box flight_box_for(const TimedSpline& committed) const;
   [[nodiscard]] Adoption judge(const Plan& plan, UTime now);
@@ -124,6 +129,7 @@ class Executor {
   Box flight_box_;
   Duration period_, lead_;
   CommittedTrajectory committed_;
+  UTime told_;  ///< the start of the newest segment that the vehicle may have heard of
   Vec3 tube_ = Vec3::Zero();
   double share_ = 1.0;
   std::deque<Promise> promises_;

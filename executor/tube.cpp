@@ -14,25 +14,40 @@ double rounded_up(double width) {
   return width >= kNothing ? std::ceil(width / Tube::kTubeStep - 1e-9) * Tube::kTubeStep : 0.0;
 }
 
+/// There is no way out of here.
+bool is_blocked(const Plan& plan) {
+  if (plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted) return false;
+  return plan.reason == PlanReason::Infeasible || plan.reason == PlanReason::StartInCollision ||
+         plan.reason == PlanReason::GoalBlocked;
+}
+
 }  // namespace
+
+void Tube::answered(const Plan& plan, bool rests, UTime at) {
+  if (plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted) flown(at);
+  if (rests && is_blocked(plan)) blocked(at);
+}
 
 void Tube::add(const Vec3& error, bool rests, UTime at) {
   saw(error);
-  Seconds& seconds = rests ? resting_ : moving_;
+  Seconds& seconds = rests ? resting_ : moving_[static_cast<std::size_t>(halvings_)];
   if (seconds.empty() || at - seconds.back().start >= kSecond) seconds.push_back({at, Vec3::Zero()});
   seconds.back().largest = seconds.back().largest.cwiseMax(error);
   if (seconds.size() > kRemembered) seconds.pop_front();
 }
 
 void Tube::blocked(UTime at) {
-  if (!has_error_ || halvings_ == kMostHalvings || !may_step(at)) return;
+  if (!has_error_ || halvings_ == kMostHalvings || !stands_for(kStep, at)) return;
+  if (stepped_up_) patience_ = stands_for(patience(), at) ? kPatience : std::min(patience_ * 2, kMostPatience);
   ++halvings_;
+  stepped_up_ = false;
   stepped_ = at;
 }
 
 void Tube::flown(UTime at) {
-  if (halvings_ == 0 || !may_step(at)) return;
+  if (halvings_ == 0 || !stands_for(patience(), at)) return;
   --halvings_;
+  stepped_up_ = true;
   stepped_ = at;
 }
 
@@ -47,15 +62,24 @@ double Tube::quantile(const Seconds& seconds, double prior, int axis) {
   return errors[static_cast<std::size_t>(std::ceil((n + 1.0) * (1.0 - kMissed))) - 1];
 }
 
+double Tube::moving(int axis, double unsure) const {
+  double width = 0.0;
+  for (int k = 0; k <= halvings_; ++k) {
+    const double prior = k == 0 && has_error_ ? kPriorError : 0.0;
+    width = std::max(width / 2.0,
+                     rounded_up(kMargin * quantile(moving_[static_cast<std::size_t>(k)], prior, axis) + unsure));
+  }
+  return width;
+}
+
 Vec3 Tube::width(const Vec3& sigma, UTime now) const {
   const double wider = left_ && now - *left_ < kWidened ? kWider : 1.0;
   Vec3 width;
   for (int axis = 0; axis < 3; ++axis) {
     const double unsure = kSigmas * sigma[axis];
-    const double moving = kMargin * quantile(moving_, has_error_ ? kPriorError : 0.0, axis) + unsure;
-    const double resting = kMargin * quantile(resting_, 0.0, axis) + unsure;
-    const double whole = std::max(rounded_up(resting), share() * rounded_up(moving));
-    width[axis] = std::clamp(std::max(whole, floor_m_) * wider, floor_m_, kWidestTube);
+    const double resting = rounded_up(kMargin * quantile(resting_, 0.0, axis) + unsure);
+    const double whole = std::max({resting, moving(axis, unsure), floor_m_});
+    width[axis] = std::min(wider * whole, kWidestTube);
   }
   return width;
 }

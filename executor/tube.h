@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <optional>
 
 #include "core/base/time.h"
 #include "core/base/types.h"
+#include "core/world/horizon.h"
 
 namespace tern {
 
@@ -28,8 +30,10 @@ inline constexpr double kNothing = 1e-3;
 /// are not for add(); for kWidened the tube is half as wide again.
 ///
 /// Where the vehicle rests and the tube leaves no way (blocked), it is asked to fly slower: errors of tracking grow
-/// with speed and acceleration. The next request promises half the tube, but no less than was measured at rest, and
-/// has limits of half the size (share); again until plans are flown, one step in kStep at most.
+/// with speed and acceleration. The next request has limits of half the size (share) and promises half the tube, but
+/// no less than was measured at rest, or so slowly; again until plans are flown, one step in kStep at most. So it goes
+/// on for kPatience/share, as long as an opening may be ahead; then a step up is tried. One that ends blocked doubles
+/// the patience, one that lasts ends that.
 class Tube {
  public:
   static constexpr double kTubeStep = 0.05;         ///< m
@@ -42,6 +46,7 @@ class Tube {
   static constexpr Duration kWidened{5'000'000};
   static constexpr Duration kStep{250'000};
   static constexpr int kMostHalvings = 5;
+  static constexpr Duration kPatience{2'000'000}, kMostPatience{60'000'000};
 
   /// @param floor_m  promised at least, [0, kWidestTube]
   explicit Tube(double floor_m) : floor_m_(floor_m) {}
@@ -52,28 +57,37 @@ class Tube {
   /// An error that tells only that the vehicle is not perfect.
   void saw(const Vec3& error) { has_error_ = has_error_ || (error.array() >= kNothing).any(); }
   void left(UTime at) { left_ = at; }
-  /// At rest, and no plan was found.
-  void blocked(UTime at);
-  void flown(UTime at);
+  /// What came of a request. @param rests  the vehicle is commanded to rest
+  void answered(const Plan& plan, bool rests, UTime at);
   /// @param sigma  of the estimate per axis, m, ≥ 0
   [[nodiscard]] Vec3 width(const Vec3& sigma, UTime now) const;
   /// Of the vehicle's limits that requests ask for, (0, 1].
   [[nodiscard]] double share() const;
 
  private:
+  void blocked(UTime at);
+  void flown(UTime at);
   struct Second {
     UTime start;
     Vec3 largest = Vec3::Zero();
   };
   using Seconds = std::deque<Second>;
+  /// Of a vehicle that moves, m.
+  [[nodiscard]] double moving(int axis, double unsure) const;
   [[nodiscard]] static double quantile(const Seconds& seconds, double prior, int axis);
-  [[nodiscard]] bool may_step(UTime at) const { return !stepped_ || at - *stepped_ >= kStep; }
+  /// The newest step is this long ago, or there was none.
+  [[nodiscard]] bool stands_for(Duration span, UTime at) const { return !stepped_ || at - *stepped_ >= span; }
+  /// For how long it flies so slowly.
+  [[nodiscard]] Duration patience() const { return std::min(patience_ * (1 << halvings_), kMostPatience); }
 
   double floor_m_;
   std::optional<UTime> left_, stepped_;
   int halvings_ = 0;
+  bool stepped_up_ = false;  ///< the newest step was one up
+  Duration patience_ = kPatience;
   bool has_error_ = false;
-  Seconds moving_, resting_;
+  std::array<Seconds, kMostHalvings + 1> moving_;  ///< by halvings
+  Seconds resting_;
 };
 
 }  // namespace tern

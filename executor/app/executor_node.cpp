@@ -25,13 +25,6 @@ constexpr Duration kStrayedFor{20'000};
 /// After this long at rest what is measured is the error of hovering.
 constexpr Duration kSettled{1'000'000};
 
-/// There is no way out of here.
-bool is_blocked(const Plan& plan) {
-  if (plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted) return false;
-  return plan.reason == PlanReason::Infeasible || plan.reason == PlanReason::StartInCollision ||
-         plan.reason == PlanReason::GoalBlocked;
-}
-
 }  // namespace
 
 ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config)
@@ -92,7 +85,6 @@ void ExecutorNode::watch(const UavState& state) {
   const bool lost = beyond.maxCoeff() > kRejoinBeyond;
   if (!lost) tube_.add(error, executor_->at_rest(state.at - kSettled), state.at);
   if (outside) tube_.left(state.at);
-  promise(state.at);
   if (outside && !outside_) {
     ++exits_;
     spdlog::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
@@ -103,7 +95,17 @@ void ExecutorNode::watch(const UavState& state) {
 }
 
 void ExecutorNode::look_if_held_up(UTime now) {
-  if (!look_from_ && now - last_setpoint_ > kSetpointSilence) look_from_ = now;
+  if (!look_from_ && now - last_setpoint_ > kSetpointSilence) look_from(now);
+}
+
+void ExecutorNode::look_from(UTime now) {
+  look_from_ = now;
+  take_back_untold();
+}
+
+void ExecutorNode::take_back_untold() {
+  if (!executor_->take_back_untold(last_setpoint_)) return;
+  spdlog::info("the newest plan is not flown: no request could tell the vehicle of it");
 }
 
 bool ExecutorNode::look(const UavState& state, const Vec3& error) {
@@ -151,11 +153,12 @@ void ExecutorNode::on_status(const VehicleStatus& status) {
   if (!executor_) return;
   if (following_) {
     const UTime now = bus_.clock().now();
-    if (std::exchange(was_following_, true)) look_from_ = now;
+    if (std::exchange(was_following_, true)) look_from(now);
     promise(status.at);
     return executor_->begin(now);
   }
   executor_->pause();
+  take_back_untold();
   log_counters();
 }
 
@@ -172,9 +175,7 @@ void ExecutorNode::on_plan(const Plan& plan) {
   if (!executor_) return;
   const UTime now = bus_.clock().now();
   const Adoption adoption = executor_->consider(plan, now);
-  if (adoption.verdict == Verdict::Adopted) tube_.flown(now);
-  if (is_blocked(plan) && !is_refusal(adoption.verdict) && executor_->at_rest(now)) tube_.blocked(now);
-  if (!is_refusal(adoption.verdict)) return;
+  if (!is_refusal(adoption.verdict)) return tube_.answered(plan, executor_->at_rest(now), now);
   if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
   ++refusals_unsaid_;
   if (now < next_refusal_log_) return;
@@ -194,8 +195,11 @@ UTime ExecutorNode::next_wakeup() const {
 void ExecutorNode::step(UTime now) {
   if (executor_) {
     look_if_held_up(now);
+    const auto due = look_from_ ? std::nullopt : executor_->next_wakeup();
+    if (due && now >= *due) promise(now);
     const auto request = look_from_ ? std::nullopt : executor_->next_request(now);
     if (request) bus_.publish(channels::kHorizonRequest, *request);
+    if (!executor_->asking()) take_back_untold();
     if (now >= next_setpoint_) {
       if (!look_from_) publish_setpoints(now);
       executor_->forget_before(now - kRemembered);

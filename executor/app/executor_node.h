@@ -61,6 +61,9 @@ class ExecutorNode final : public Node {
   void rejoin(const UavState& state);
   /// Without a step for kSetpointSilence: a plan may have been adopted of which the vehicle has not heard.
   void look_if_held_up(UTime now);
+  void look_from(UTime now);
+  /// What could not be told is not flown, or the vehicle would be elsewhere.
+  void take_back_untold();
   /// The first state since the vehicle and what is committed may have parted. @return whether they have
   bool look(const UavState& state, const Vec3& error);
   void promise(UTime now);

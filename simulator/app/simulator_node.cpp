@@ -18,8 +18,12 @@ namespace {
 constexpr Duration kStatePeriod{10'000};
 constexpr Duration kStatusPeriod{100'000};
 constexpr Duration kGoalPeriod{1'000'000};
+/// Held up for longer than this, a vehicle has lost setpoints, or hears them too late to have flown them.
+constexpr Duration kMissed{400'000};
 /// UAV_STATE comes several times in it.
 constexpr Duration kLookAround{50'000};
+/// What this process said is back by then, or was lost.
+constexpr Duration kEcho{300'000};
 constexpr Duration kResultPeriod{200'000};
 constexpr int kResults = 6;
 constexpr Duration kCountdown{300'000};
@@ -65,10 +69,14 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) {
     const UTime now = bus_.received();
-    if (!is_held_up(now) && now >= follows_from_) vehicle_->hear(setpoint);
+    if (!has_missed(now) && now >= follows_from_) vehicle_->hear(setpoint);
   });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->hear(m.committed); });
   if (config.external) hear_external_vehicle();
+  bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) {
+    const bool is_own = status.header.name.sender_epoch_us == bus_.epoch_us();
+    if (is_own && behind_since_ && status.at >= *behind_since_) behind_since_.reset();
+  });
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
 }
 
@@ -82,21 +90,28 @@ void SimulatorNode::hear_external_vehicle() {
   bus_.subscribe(channels::kUavState, [&external](const UavState& state) { external.hear_estimate(state); });
 }
 
-void SimulatorNode::step(UTime now) {
-  if (is_held_up(now)) {
-    follows_from_ = now + kLookAround;
-    next_status_ = std::min(next_status_, now);
-  }
+bool SimulatorNode::has_missed(UTime now) const { return now - last_step_ > kMissed; }
+
+bool SimulatorNode::catches_up(UTime now) {
+  if (now - last_step_ > kSetpointSilence) behind_since_ = next_status_ = now;
+  if (has_missed(now)) follows_from_ = now + kLookAround;
+  if (behind_since_ && now - *behind_since_ >= kEcho) behind_since_.reset();
   last_step_ = now;
+  return behind_since_.has_value();
+}
+
+void SimulatorNode::step(UTime now) {
+  const bool behind = catches_up(now) && !config_.external;
   if (!world_zero_ && !result_) wait_for_processes(now);
-  const bool beat = now >= next_state_;
+  const bool due = now >= next_state_;
+  const bool beat = due && !behind;
   if (beat) vehicle_->advance(now);
   admit(now);
   if (beat) {
     if (!config_.external) publish_state(now);
     judge(now);
-    next_state_ = next_beat(next_state_, kStatePeriod, now);
   }
+  if (due) next_state_ = next_beat(next_state_, kStatePeriod, now);
   broadcast_.step(now, vehicle_->truth());
   if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {

@@ -30,11 +30,12 @@ inline constexpr int kExitNotReady = 3;  ///< a process that the flight needs wa
 ///     says that the vehicle follows, upon which the executor asks for horizons, and the referee watches.
 ///   Ended: VEHICLE_STATUS says so, FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit
 ///     code is 0 whatever the verdict.
-/// A simulator that was held up may have missed setpoints: for kLookAround the vehicle flies on along what it knows to
-/// be committed, and VEHICLE_STATUS says that it does not follow, so that the executor leads on from where it is.
-/// The referee judges the vehicle's true motion. UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so. The
-/// goal is the scenario's (id 1, unless config.send_goal is false) until a GOAL with a larger id comes. The newest is
-/// repeated at 1 Hz.
+/// A simulator that was held up for over kSetpointSilence says nothing of the vehicle before it has heard what was sent
+/// meanwhile: its own VEHICLE_STATUS comes back to it after all of that. Held up for over 0.4 s it may have missed
+/// setpoints: for a moment the vehicle flies on along what it knows to be committed, and VEHICLE_STATUS says that it
+/// does not follow, so that the executor leads on from where it is. The referee judges the vehicle's true motion.
+/// UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so. The goal is the scenario's (id 1, unless
+/// config.send_goal is false) until a GOAL with a larger id comes. The newest is repeated at 1 Hz.
 class SimulatorNode final : public Node {
  public:
   /// Time begins at bus.clock().now().
@@ -61,8 +62,10 @@ class SimulatorNode final : public Node {
   void publish_state(UTime now);
   void publish_status(UTime now);
   [[nodiscard]] bool has_begun(UTime now) const;
-  /// Whether setpoints may have been missed: no step for kSetpointSilence.
-  [[nodiscard]] bool is_held_up(UTime now) const { return now - last_step_ > kSetpointSilence; }
+  /// Whether setpoints may have been missed: no step for long.
+  [[nodiscard]] bool has_missed(UTime now) const;
+  /// Whether messages of the time in which this process was held up may still be on their way to it.
+  [[nodiscard]] bool catches_up(UTime now);
   [[nodiscard]] std::string why_not_flying(UTime now) const;
   void admit(UTime now);
   void judge(UTime now);
@@ -84,6 +87,7 @@ class SimulatorNode final : public Node {
   int results_left_ = 0;
   bool said_skewed_ = false;
   UTime last_step_, follows_from_;
+  std::optional<UTime> behind_since_;  ///< held up until then, and not everything sent before was heard
   UTime next_state_, next_truth_, next_goal_, next_status_, next_result_ = kNever;
 };
 

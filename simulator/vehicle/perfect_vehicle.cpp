@@ -5,11 +5,14 @@ namespace {
 
 /// The longest time that anybody looks back: the sensor's latency and the referee's lag.
 constexpr Duration kRemembered{4'000'000};
+/// Setpoints come so late at most: a busy machine holds up the executor, then the thread that receives them. Truth that
+/// has gone on along an older trajectory by then could only jump to the one that they are of.
+constexpr Duration kLatest{500'000};
 
 }  // namespace
 
 void PerfectVehicle::advance(UTime now) {
-  command_.settle(now - kSetpointSilence);
+  command_.settle(now - kLatest);
   command_.forget_before(now - kRemembered);
 }
 

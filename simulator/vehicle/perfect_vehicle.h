@@ -8,7 +8,7 @@
 namespace tern {
 
 /// Follows the commanded motion exactly, and knows its state exactly. Its truth ends at its newest setpoint, and during
-/// a silence kSetpointSilence ago, so that setpoints that come late after all are followed. A setpoint that jumps makes
+/// a silence 0.5 s ago, so that setpoints that come late after all are followed. A setpoint that jumps makes
 /// it jump, which the referee counts.
 class PerfectVehicle final : public Vehicle {
  public:

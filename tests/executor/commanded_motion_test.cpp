@@ -124,6 +124,19 @@ TEST(CommandedMotion, BrakesWithinTheLimitsFromASetpointThatIsOnNoCommittedCurve
   }
 }
 
+// A vehicle that was held up told the executor where it was before it had heard of what it was on by then.
+TEST(CommandedMotion, ATrajectoryThatDoesNotJoinTheCommittedOneIsNotTaken) {
+  Flight flight;
+  flight.fly(Duration{600'000}, [] { return false; });
+  const UTime begins = flight.now_ + Duration{1'000'000};
+  ASSERT_TRUE(flight.command_.is_committed());
+  MotionSample elsewhere = flight.command_.sample(begins);
+  elsewhere.v.x() += 0.5;
+  flight.command_.hear(braking_trajectory(elsewhere, begins, uav().limits));
+  const MotionSample there = flight.command_.sample(begins);
+  EXPECT_EQ(there.v.x(), elsewhere.v.x() - 0.5);
+}
+
 TEST(CommandedMotion, AfterASilenceAStreamThatIsFarOffIsFollowedWhenItHasGoneOn) {
   CommandedMotion command(Vec3::Zero(), kZero, uav().limits);
   const MotionSample there{.p = Vec3(2.0, 0.0, 0.0)};

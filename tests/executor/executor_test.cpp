@@ -72,6 +72,17 @@ TEST(Executor, RequestCarriesTheStateTheLimitsAndItsTimes) {
   EXPECT_TRUE(request->committed.spline().ends_at_rest());
 }
 
+TEST(Executor, ABodyThatTouchesItsFlightBoxDoesNotWidenItHoweverLopsided) {
+  UavSpec uav = vehicle();
+  uav.body.radius = 0.0;
+  uav.body.vertices.resize(3, 2);
+  uav.body.vertices << -0.1, 0.4, -0.2, 0.3, -0.3, 0.1;
+  uav.start = uav.flight_box.min() - uav.body.vertices.rowwise().minCoeff();
+  EXPECT_TRUE(flying(uav).next_request(kZero)->flight_box.isApprox(uav.flight_box));
+  uav.start = uav.flight_box.max() - uav.body.vertices.rowwise().maxCoeff();
+  EXPECT_TRUE(flying(uav).next_request(kZero)->flight_box.isApprox(uav.flight_box));
+}
+
 TEST(Executor, AsksAgainAfterTheAnswerButNoFasterThanItsRate) {
   Executor executor = flying();
   const auto first = executor.next_request(kZero);

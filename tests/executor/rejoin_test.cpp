@@ -1,9 +1,12 @@
 // What the executor promises of a vehicle that is not where it was told to be, and how it goes on from there.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "core/world/flyable.h"
 #include "executor/commanded_motion.h"
 #include "executor/executor.h"
+#include "tests/support/straight_plan.h"
 
 namespace tern {
 namespace {
@@ -60,7 +63,9 @@ TEST(Rejoin, AShareOfTheLimitsIsAskedForButNoLessThanIsFlown) {
   fast.motion.v = Vec3(4.0, 0.0, 0.0);
   executor.rejoin(fast);
   const auto request = executor.next_request(kZero + kMs * 210);
-  EXPECT_NEAR(request->limits.v_max.x(), 4.0, 1e-9);
+  EXPECT_GT(request->start.v.x(), 0.25 * vehicle().limits.v_max.x());
+  EXPECT_GE(request->limits.v_max.x(), request->start.v.x());
+  EXPECT_LE(request->limits.v_max.x(), 4.0);
   EXPECT_EQ(request->limits.v_max.y(), 0.25 * vehicle().limits.v_max.y());
 }
 
@@ -75,6 +80,43 @@ TEST(Rejoin, OutsideTheFlightBoxItAsksForOneThatHasAWayBack) {
   EXPECT_GE(request->flight_box.max().y(), executor.committed().sample(executor.committed().end()).p.y() + 0.1);
   EXPECT_EQ(request->flight_box.min(), vehicle().flight_box.min());
   EXPECT_EQ(request->flight_box.max().z(), 5.0);
+}
+
+// Speeding up hard, near the largest speed: what was planned kept the limits, and so does what brakes from it.
+TEST(Rejoin, BrakingKeepsTheLimitsOfWhoeverKeepsThem) {
+  const Limits limits = vehicle().limits;
+  std::mt19937 rng(1);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  for (int k = 0; k < 1'000; ++k) {
+    MotionSample from;
+    for (int axis = 0; axis < 3; ++axis) {
+      from.a[axis] = share(rng) * limits.a_max[axis];
+      from.v[axis] = share(rng) * (limits.v_max[axis] - 0.01 * std::abs(from.a[axis]));
+    }
+    const TimedSpline stop = braking_trajectory(from, kZero, limits);
+    const ClampedSpline spline = stop.spline();
+    const MotionBounds bounds = motion_bounds(spline);
+    EXPECT_TRUE(spline.ends_at_rest());
+    EXPECT_LT((spline.sample(0.0).v - from.v).norm() + (spline.sample(0.0).a - from.a).norm(), 1e-9);
+    EXPECT_LE(bounds.v_max.cwiseQuotient(limits.v_max).maxCoeff(), 1.0 + kLimitTolerance) << from.v << "\n" << from.a;
+    EXPECT_LE(bounds.a_max.cwiseQuotient(limits.a_max).maxCoeff(), 1.0 + kLimitTolerance);
+    const double least_s = from.v.cwiseAbs().cwiseQuotient(limits.a_max).maxCoeff();
+    EXPECT_LT((stop.end() - stop.start).seconds(), 1.4 * least_s + 0.15) << "no slower than it must be";
+  }
+}
+
+TEST(Rejoin, WhatNoRequestHasToldTheVehicleIsTakenBack) {
+  Executor executor = flying();
+  const auto request = executor.next_request(kZero);
+  ASSERT_EQ(executor.consider(straight_plan(*request, Vec3(8.0, 0.0, 1.0)), kZero + kMs * 10).verdict,
+            Verdict::Adopted);
+  Executor told = executor;
+  EXPECT_FALSE(executor.take_back_untold(request->t_s + kMs)) << "setpoints have told the vehicle of it";
+  EXPECT_TRUE(executor.take_back_untold(request->t_s - kMs));
+  EXPECT_EQ(executor.committed().newest_start(), request->committed.start);
+  EXPECT_FALSE(executor.take_back_untold(request->t_s - kMs));
+  ASSERT_TRUE(told.next_request(kZero + kMs * 50));
+  EXPECT_FALSE(told.take_back_untold(request->t_s - kMs));
 }
 
 TEST(Rejoin, BrakingKeepsTheDynamicsWhereItCan) {

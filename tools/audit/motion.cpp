@@ -169,6 +169,13 @@ void ends_at_rest(const Plan& plan, const std::vector<Curve>& curves, Check& che
               plan.request_id});
 }
 
+/// Whether an answer consented to it: its certificate is then checked as every other.
+bool is_kept(const FlightRecord& record, const Commitment& commitment) {
+  return std::any_of(record.plans.begin(), record.plans.end(), [&](const Plan& plan) {
+    return plan.outcome == PlanOutcome::KeepCommitted && same(plan.trajectory, commitment.spline);
+  });
+}
+
 }  // namespace
 
 Check check_limits(const FlightRecord& record) {
@@ -225,6 +232,10 @@ Check check_continuity(const FlightRecord& record) {
         ++check.unchecked["splices between requests that were lost"];
         continue;
       }
+      if (own.list[k].is_stop) {
+        ++check.unchecked["stops from a measured state: the vehicle was not where it was committed to be"];
+        continue;
+      }
       const UTime at = own.list[k].spline.start;
       join(at, own.list[k].request, "the splice", motion_at(own.list[k].curves, at),
            motion_at(own.list[k - 1].curves, at), check, worst);
@@ -241,13 +252,19 @@ Check check_commitment(const FlightRecord& record) {
               .claim = "what was commanded is the committed trajectory, and that is a logged plan"};
   const std::vector<Commitments> all = commitments(record);
   const bool plans_unread = record.unread(channels::kPlan.name) > 0;
+  const bool states_unread = record.unread(channels::kUavState.name) > 0;
   const bool requests_unread = record.unread(channels::kHorizonRequest.name) > 0;
   for (const Commitments& own : all) {
     for (std::size_t k = 1; k < own.list.size(); ++k) {
       ++check.checked;
       if (own.list[k].request != 0) continue;
-      if (plans_unread) {
+      if (own.list[k].is_stop) {
+        const char* const since = is_kept(record, own.list[k]) ? "before the next answer" : "at all";
+        ++check.unchecked[fmt::format("stops from a measured state, which no plan certified {}", since)];
+      } else if (plans_unread) {
         ++check.unchecked["committed trajectories whose plan may be among the PLANs that were lost or refused"];
+      } else if (states_unread) {
+        ++check.unchecked["committed trajectories that may be stops from a UAV_STATE that was lost or refused"];
       } else {
         check.fail({own.list[k].spline.start, "flies a trajectory that no plan in the log brought"});
       }

@@ -30,8 +30,8 @@ std::vector<Curve> remaining(const Plan& plan, UTime t_s) {
 
 }  // namespace
 
-PredictedBox::PredictedBox(const Track& track, std::vector<double> share)
-    : track_(track), share_(std::move(share)), curves_(curves_of(track.motion)) {}
+PredictedBox::PredictedBox(const Track& track, std::vector<Vec3> alpha)
+    : track_(track), alpha_(std::move(alpha)), curves_(curves_of(track.motion)) {}
 
 std::vector<PredictedBox::Stretch> PredictedBox::stretches(UTime origin, double from, double to) const {
   if (track_.kind == TrackKind::Static) return {{resting(curves_.front().p(0.0)), 0.0, 0.0, half(0)}};
@@ -68,26 +68,30 @@ Box PredictedBox::bounds(UTime origin, double from, double to) const {
   return {low, high};
 }
 
-std::vector<double> claimed_shares(const Track& track, const Plan& plan) {
-  std::vector<double> shares(track.alpha.size(), 1.0);
-  if (track.kind != TrackKind::Estimated) return shares;
-  for (std::size_t k = 0; k < shares.size(); ++k) {
+std::vector<Vec3> claimed_alpha(const Track& track, const Plan& plan, UTime t_s) {
+  std::vector<Vec3> alpha = track.alpha;
+  if (track.kind != TrackKind::Estimated) return alpha;
+  const UTime sure_to = t_s + plan.sure_for;
+  UTime begin = track.motion.start;
+  Vec3 held = Vec3::Zero();
+  for (std::size_t k = 0; k < alpha.size(); ++k) {
     if (plan.level > 0)
-      shares[k] = static_cast<double>(track.shares.at(k).at(static_cast<std::size_t>(plan.level) - 1));
-    shares[k] *= plan.alpha_scale;
+      alpha[k] *= static_cast<double>(track.shares.at(k).at(static_cast<std::size_t>(plan.level) - 1));
+    alpha[k] *= plan.alpha_scale;
+    if (k == 0 || begin <= sure_to) held = alpha[k];
+    alpha[k] = alpha[k].cwiseMin(held);
+    begin = begin + track.motion.pieces[k].duration;
   }
-  return shares;
+  return alpha;
 }
 
-double relaxed_share(const Track& track, const std::vector<double>& shares, const Body& body, const Vec3& p, UTime t) {
+double relaxed_share(const Track& track, const std::vector<Vec3>& alpha, const Body& body, const Vec3& p, UTime t) {
   const std::vector<Curve> curves = curves_of(track.motion);
   const UTime at = std::clamp(t, curves.front().from, curves.back().to);
   std::size_t k = 0;
   while (k + 1 < curves.size() && curves[k].to <= at) ++k;
   const Vec3 relative = p - curves[k].p((at - curves[k].from).seconds());
-  const auto room = [&](double share) {
-    return body_gap(body, relative, track.half_extents + share * shares[k] * track.alpha[k]).low;
-  };
+  const auto room = [&](double share) { return body_gap(body, relative, track.half_extents + share * alpha[k]).low; };
   if (room(1.0) > kTouching) return 1.0;
   double low = 0.0;
   double high = 1.0;
@@ -115,12 +119,12 @@ std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, 
                   remaining(plan, request->t_s),
                   {}};
   for (const Track& track : result.predictions.tracks) {
-    std::vector<double> shares = claimed_shares(track, plan);
+    std::vector<Vec3> alpha = claimed_alpha(track, plan, request->t_s);
     if (plan.relaxed) {
-      const double part = relaxed_share(track, shares, request->body, request->start.p, request->t_s);
-      for (double& share : shares) share *= part;
+      const double part = relaxed_share(track, alpha, request->body, request->start.p, request->t_s);
+      for (Vec3& a : alpha) a *= part;
     }
-    result.obstacles.emplace_back(track, std::move(shares));
+    result.obstacles.emplace_back(track, std::move(alpha));
   }
   return result;
 }

@@ -14,8 +14,8 @@ namespace tern::audit {
 /// piece and after its last it stays where the piece begins or ends, and grows at its top speed.
 class PredictedBox {
  public:
-  /// @param share  of each piece's α, 0 … 1: see PlanCase
-  PredictedBox(const Track& track, std::vector<double> share);
+  /// @param alpha  that counts, per piece, m: see PlanCase
+  PredictedBox(const Track& track, std::vector<Vec3> alpha);
 
   /// A stretch of time: the centre moves along `curve` for its parameter in [a, b]; half-extents are the largest ones
   /// where they grow.
@@ -31,10 +31,10 @@ class PredictedBox {
   [[nodiscard]] const Track& track() const { return track_; }
 
  private:
-  [[nodiscard]] Vec3 half(std::size_t piece) const { return track_.half_extents + share_[piece] * track_.alpha[piece]; }
+  [[nodiscard]] Vec3 half(std::size_t piece) const { return track_.half_extents + alpha_[piece]; }
 
   const Track& track_;
-  std::vector<double> share_;
+  std::vector<Vec3> alpha_;
   std::vector<Curve> curves_;
 };
 
@@ -50,14 +50,14 @@ struct PlanCase {
   [[nodiscard]] Vec3 end_point() const { return plan.trajectory.control_points.rightCols<1>(); }
 };
 
-/// Per piece, the share of α that the plan counts: of what is estimated that of its level, times its scale; of the rest
-/// all. @pre the track's shares are complete
-std::vector<double> claimed_shares(const Track& track, const Plan& plan);
+/// Per piece, the α that the plan counts, m: of what is estimated that of its level, times its scale, which grows no
+/// more from `sure_for` after t_s on; of the rest all. @pre the track's shares are complete
+std::vector<Vec3> claimed_alpha(const Track& track, const Plan& plan, UTime t_s);
 
-/// Of those shares, the part that leaves the body at p a millimetre of room from the track at t (what `relaxed`
+/// Of that α, the part that leaves the body at p a millimetre of room from the track at t (what `relaxed`
 /// promises: the largest clear value); 1 where it is clear with all of it, 0 where there is no room without any. To
 /// 1e-6, low.
-double relaxed_share(const Track& track, const std::vector<double>& shares, const Body& body, const Vec3& p, UTime t);
+double relaxed_share(const Track& track, const std::vector<Vec3>& alpha, const Body& body, const Vec3& p, UTime t);
 
 /// Puts a plan together with its inputs. @return nullopt, and the reason in `why`, if the log lacks one of them.
 std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, std::string& why);

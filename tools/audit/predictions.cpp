@@ -197,7 +197,8 @@ class PredictionsCheck {
 
   void claim(const Plan& plan, const HorizonRequest& request, const Track& track, std::int64_t obstacle) {
     const auto level = static_cast<std::size_t>(plan.level);
-    const UTime until = std::min(std::max(plan.trajectory.end(), request.t_s) + plan.hold, track.motion.end());
+    const UTime ends = std::max(plan.trajectory.end(), request.t_s) + plan.hold;
+    const UTime until = std::min({ends, request.t_s + plan.sure_for, track.motion.end()});
     if (request.t_s < track.motion.start || until > window_.sure_to()) return;
     bool kept = true;
     const UTime seen = follow(track, record_.truth.at(obstacle), request.t_s, until, [&](const Needed& n) {
@@ -256,9 +257,9 @@ class PredictionsCheck {
   std::int64_t promises_ = 0, promises_kept_ = 0;
 };
 
-/// A claim with a number: a level of confidence, and all of its α.
+/// A claim with a number: a level of confidence, all of its α, for some time.
 bool claims_confidence(const Plan& plan) {
-  return plan.outcome != PlanOutcome::NoPlan && plan.alpha_scale >= 1.0 && !plan.relaxed;
+  return plan.outcome != PlanOutcome::NoPlan && plan.confidence > 0.0 && !plan.relaxed;
 }
 
 }  // namespace

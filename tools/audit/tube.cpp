@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "tools/audit/audit.h"
 #include "tools/audit/flown.h"
@@ -29,11 +30,12 @@ Vec3 commanded(const UavState& setpoint, UTime t) {
 
 /// Those that were answered by a plan, or by consent to the committed trajectory, by t_s: what they promise holds then.
 std::vector<HorizonRequest> promises(const FlightRecord& record) {
+  std::map<MessageName, PlanOutcome> answers;  // the first one counts
+  for (const Plan& plan : record.plans) answers.emplace(plan.inputs.request, plan.outcome);
   std::vector<HorizonRequest> all;
   for (const HorizonRequest& request : record.requests) {
-    const auto plan = std::find_if(record.plans.begin(), record.plans.end(),
-                                   [&](const Plan& p) { return p.inputs.request == request.header.name; });
-    if (plan != record.plans.end() && plan->outcome != PlanOutcome::NoPlan) all.push_back(request);
+    const auto answer = answers.find(request.header.name);
+    if (answer != answers.end() && answer->second != PlanOutcome::NoPlan) all.push_back(request);
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.t_s < b.t_s; });
   return all;

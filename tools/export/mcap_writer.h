@@ -22,7 +22,7 @@ namespace tern::exporting {
 class McapWriter {
  public:
   /// A chunk is ended when its records are more than this, bytes.
-  static constexpr std::size_t kChunkBytes = 1 << 20;
+  static constexpr std::size_t kChunkBytes = 4 << 20;
 
   explicit McapWriter(const std::string& path);
 

@@ -43,6 +43,7 @@ class Comparison {
     note_numbers(Stage::Hulls, "relaxed", static_cast<int>(a_.relaxed), static_cast<int>(b_.relaxed));
     note_numbers(Stage::Hulls, "level", a_.level, b_.level);
     note_numbers(Stage::Hulls, "share of alpha", a_.alpha_scale, b_.alpha_scale);
+    note_numbers(Stage::Hulls, "sure for, µs", a_.sure_for.us, b_.sure_for.us);
     if (a_.local_goal != b_.local_goal) {
       add(Stage::LocalGoal, fmt::format("local goal: {}, now {}", text(a_.local_goal), text(b_.local_goal)));
     }

@@ -118,7 +118,7 @@ RC_GTEST_PROP(HullFaces, AreAClosedSurfaceWithEveryPointInside, ()) {
   for (const auto& face : hull_faces(vertices)) {
     const Vec3 a = vertices.col(face[0]), b = vertices.col(face[1]), c = vertices.col(face[2]);
     for (int k = 0; k < n; ++k) RC_ASSERT((b - a).cross(c - a).dot(points.col(k) - a) <= 1e-9);
-    for (int k = 0; k < 3; ++k) ++edges[{face[k], face[(k + 1) % 3]}];
+    for (std::size_t k = 0; k < 3; ++k) ++edges[{face[k], face[(k + 1) % 3]}];
   }
   for (const auto& [edge, count] : edges) {
     RC_ASSERT(count == 1);
