@@ -15,7 +15,7 @@ if(TERN_CCACHE)
 endif()
 
 # -Wno-restrict: false alarms of g++ 12 in std::string.
-set(TERN_WARNINGS -Wall -Wextra -Wconversion -Wshadow -Wno-restrict)
+set(TERN_WARNINGS -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wno-restrict)
 # Of the compiler that they are held against; a newer one's new warnings shall not keep a user from flying.
 if(TERN_WARNINGS_AS_ERRORS AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   list(APPEND TERN_WARNINGS -Werror)

@@ -19,6 +19,7 @@ fly.sh [OPTION...]: installs what is missing, builds, starts Tern's processes, f
   --summary FILE        write the summary as JSON there, too
   --lcm-url URL         the LCM network to use (default: this host only, on the first port that no other flight uses)
   --key [FILE]          sign every message: with a new key for this flight, or with that of FILE (mode 600; tern-key new FILE)
+  --pace P              so many seconds of flight per second, 0.01 to 1: for a machine that is too slow, or to look closely
   --isolated            fly in a network namespace of its own; enter.sh gives a shell in it
   --view[=ADDRESS]      show the flight in the browser: builds the page (Node 18 or newer), prints its URL and opens it
                         (default 127.0.0.1, on the first free port from 8765)
@@ -75,7 +76,7 @@ parse() {
         shift
         ;;
       --*=*) value=${option#*=} option=${option%%=*} ;;
-      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url | --autopilot | --view-wait)
+      --scenario | --seed | --count | --goal | --semantics | --set | --record | --summary | --lcm-url | --pace | --autopilot | --view-wait)
         [[ $# -gt 0 ]] || die "$option needs a value (--help)"
         value=$1
         shift
@@ -88,7 +89,7 @@ parse() {
       --view) view=$value ;;
       --lcm-url) url=$value ;;
       --autopilot) autopilot=$value ;;
-      --set | --record | --summary) flight+=("$option=$value") ;;
+      --set | --pace | --record | --summary) flight+=("$option=$value") ;;
       --view-wait)
         [[ $value =~ ^[0-9]+$ ]] || die "--view-wait $value: not whole seconds"
         flight+=("--view-wait=$value")

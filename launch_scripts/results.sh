@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # The flight campaigns of docs/results.md. What has been flown is not flown again, so it may be stopped and started at will.
-#   launch_scripts/results.sh [--perception] [--share S] [--out DIR] [NAME...]
+#   launch_scripts/results.sh [--perception | --sensors] [--share S] [--out DIR] [NAME...]
 # S: a share of the seeds, 1 = all (3000 flights of the hard worlds, 200 of each other one); NAME: only these campaigns;
-# --perception: instead the worlds without declared motions, 200 flights each, and their oracles.
+# --perception: instead the worlds without declared motions, 200 flights each, and their oracles; --sensors: instead
+# perception_only with other ranges, noise, latencies and speeds of what moves, one at a time, 200 flights each.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
@@ -29,6 +30,14 @@ for world in perception_only,100 mader_perception_only,100 sando_perception,200 
   people_hermes_120,0 people_eth,0 people_hotel,0 drones,0; do
   perception+="${world%,*} ${world%,*} ${world#*,} 200"$'\n'"${world%,*}_oracle ${world%,*} ${world#*,} 200 --oracle"$'\n'
 done
+sensors="perception_only perception_only 100 200 --charge counts"$'\n'
+for other in range_m=6 range_m=12 range_m=20 sigma_m=0 sigma_m=0.02 sigma_m=0.1 latency_s=0 latency_s=0.1 latency_s=0.2; do
+  sensors+="${other/=/_} perception_only 100 200 --charge counts --set simulator.sensor.$other"$'\n'
+done
+for slowness in 1.1 2 3 4; do
+  slow="perception_only 100 200 --charge counts --set world.slowness=$slowness"
+  sensors+="slowness_$slowness $slow"$'\n'"slowness_${slowness}_oracle $slow --oracle"$'\n'
+done
 
 share=1 out=$TERN_ROOT/build/results only=" "
 while (($#)); do
@@ -36,7 +45,8 @@ while (($#)); do
     --share) share=${2:?} && shift 2 ;;
     --out) out=${2:?} && shift 2 ;;
     --perception) campaigns=$perception && shift ;;
-    -h | --help) sed -n '2,5s/^# //p' "$0" && exit ;;
+    --sensors) campaigns=$sensors && shift ;;
+    -h | --help) sed -n '2,6s/^# //p' "$0" && exit ;;
     -*) die "no option $1" ;;
     *) only+="$1 " && shift ;;
   esac

@@ -1,5 +1,7 @@
 #include "launcher/flight_processes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace tern {
@@ -32,6 +34,7 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
     auto& words = process.child.command = {options.programs + "/" + name, "--config", options.scenario};
     for (const std::string& value : overrides) words.insert(words.end(), {"--set", value});
     words.insert(words.end(), {"--lcm-url", options.lcm_url});
+    words.insert(words.end(), {"--pace", fmt::format("{}", options.pace)});
     if (const auto key = key_fds.find(name); key != key_fds.end()) {
       words.insert(words.end(), {"--key-fd", std::to_string(key->second)});
       process.child.inherited.push_back(key->second);

@@ -15,6 +15,7 @@ struct FlightOptions {
   std::string scenario;                ///< file
   std::vector<std::string> overrides;  ///< of the scenario's values, KEY=VALUE
   std::string lcm_url;
+  double pace = 1.0;                   ///< seconds of flight per second of the system's clock, (0, 1]
   std::string namespace_flags;         ///< of unshare(1), by which the flight's network was made; empty: the host's
   std::string record;                  ///< folder for log, process logs and summary; empty: a new one in `flights`
   std::string flights;                 ///< folder of records

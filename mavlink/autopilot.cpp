@@ -161,10 +161,12 @@ void Autopilot::hear_position(const Frame& frame, UTime received) {
 }
 
 void Autopilot::hear_truth(const HilStateQuaternion& hil, UTime received) {
-  const auto at = ours(hil.time_usec, received);
+  if (hil.lat == 0 && hil.lon == 0 && hil.alt == 0) return;  // it does not know yet
+  const std::optional<UTime> at = hil.time_usec == 0 ? received : ours(hil.time_usec, received);
   if (!at || (truth_ && *at <= truth_->at)) return;
   if (!origin_ && own_origin_)
     origin_ = GpsGlobalOrigin{.latitude = hil.lat, .longitude = hil.lon, .altitude = hil.alt};
+  if (!origin_) return;
   UavState truth;
   truth.at = *at;
   truth.motion.p = swapped(ned_from(*origin_, hil.lat, hil.lon, hil.alt));

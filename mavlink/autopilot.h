@@ -20,7 +20,7 @@ enum class Firmware : std::uint8_t { Px4, ArduPilot, Other };
 inline constexpr std::uint16_t kNavLand = 21, kNavTakeoff = 22, kDoSetMode = 176, kArmDisarm = 400,
                                kSetMessageInterval = 511, kRequestMessage = 512;
 /// MAV_RESULT.
-inline constexpr std::uint8_t kAccepted = 0;
+inline constexpr std::uint8_t kAccepted = 0, kInProgress = 5;
 inline constexpr std::uint8_t kArmedBit = 128;
 /// Silent for longer, and the link counts as lost: its states come at 30 to 100 Hz.
 inline constexpr Duration kLinkSilence{300'000};
@@ -58,7 +58,8 @@ class Autopilot {
   /// The newest state in its local frame, as ENU; `at` is ours. a and j are zero: it does not say them.
   [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
   /// The newest true state by HIL_STATE_QUATERNION, as ENU from GPS_GLOBAL_ORIGIN, or from where the first one was
-  /// (take_own_origin). Only simulators say it.
+  /// (take_own_origin); nothing before an origin is known. Only simulators say it. One that states no time, as PX4's
+  /// does, counts for when it was received.
   [[nodiscard]] const std::optional<UavState>& truth() const { return truth_; }
   /// An estimator without GPS says no origin: external vision gives it one.
   void take_own_origin() { own_origin_ = true; }

@@ -23,6 +23,9 @@ constexpr float kPx4Offboard = 6, kArduPilotGuided = 4;
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
+/// Old senders do not say to whom.
+bool is_mine(const CommandAck& ack) { return ack.target_component == 0 || ack.target_component == kOwnComponent; }
+
 std::string seconds(Duration d) { return fmt::format("{:.1f} s", d.seconds()); }
 
 }  // namespace
@@ -76,7 +79,8 @@ void Bridge::hear(const Frame& frame, UTime received) {
     say(Timesync{.tc1 = received.us * 1000, .ts1 = question->ts1});
   }
   for (const CommandAck& ack : autopilot_.take_acks()) {
-    if (ack.command == kSetMessageInterval || ack.command == kRequestMessage || ack.result == kAccepted) continue;
+    const bool is_done = ack.result == kAccepted || ack.result == kInProgress;
+    if (ack.command == kSetMessageInterval || ack.command == kRequestMessage || is_done || !is_mine(ack)) continue;
     refusal_ = fmt::format("{} {}", ack.command == kArmDisarm ? "arming" : fmt::format("command {}", ack.command),
                            result_words(ack.result));
     if (!autopilot_.last_warning().empty()) refusal_ += ": " + autopilot_.last_warning();

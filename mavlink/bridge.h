@@ -12,6 +12,9 @@
 
 namespace tern::mavlink {
 
+/// MAV_COMP_ID_ONBOARD_COMPUTER.
+inline constexpr std::uint8_t kOwnComponent = 191;
+
 /// Where a flight is.
 enum class Stage : std::uint8_t {
   Waiting,    ///< for a link, an estimate, a clock, parameters
@@ -76,7 +79,8 @@ class Bridge {
   }
 
  private:
-  static constexpr Address kSelf{1, 191};  ///< onboard computer; the system is the autopilot's when that is known
+  /// The system is the autopilot's when that is known.
+  static constexpr Address kSelf{1, kOwnComponent};
   void enter(Stage stage, const std::string& why = {});
   void hear_answers();
   void step_stage(UTime now);

@@ -42,6 +42,7 @@ struct FlightSummary {
   std::array<std::int64_t, kPlanOutcomes> plans = {};   ///< first answers, by PlanOutcome
   std::array<std::int64_t, kPlanReasons> reasons = {};  ///< of the plans, by PlanReason; not in the JSON
   PlansByLevel by_level = {};
+  std::int64_t for_a_time = 0;  ///< of them, RequestLedger::plans_for_a_time
   LeftOut left_out;
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel

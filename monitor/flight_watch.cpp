@@ -137,6 +137,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
     summary.reasons[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanReason>(k));
   }
   summary.by_level = ledger_.plans_by_level();
+  summary.for_a_time = ledger_.plans_for_a_time();
   summary.left_out = ledger_.left_out();
   summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::Hulls),
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};

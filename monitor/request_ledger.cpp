@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace tern {
+namespace {
+
+std::size_t level_of(const Plan& plan) {
+  return plan.confidence <= 0.0 ? kConfidenceLevels.size() : static_cast<std::size_t>(plan.level);
+}
+
+}  // namespace
 
 void RequestLedger::add(const HorizonRequest& request) {
   if (!requests_heard_.is_first(request.header.name)) return;
@@ -20,7 +27,8 @@ void RequestLedger::add(const Plan& plan) {
   ++plans_[static_cast<std::size_t>(plan.outcome)];
   ++reasons_[static_cast<std::size_t>(plan.reason)];
   if (plan.outcome != PlanOutcome::NoPlan) {
-    ++by_level_[static_cast<std::size_t>(plan.alpha_scale < 1.0 ? kLevels : plan.level)];
+    ++by_level_[level_of(plan)];
+    if (plan.confidence > 0.0 && plan.sure_for < kMaxSpan) ++for_a_time_;
   }
   last_reason_ = plan.reason;
   last_left_out_ = plan.inputs.left_out;

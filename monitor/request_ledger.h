@@ -23,7 +23,7 @@ struct LeftOut {
 };
 
 /// First answers with a trajectory, by the confidence that they are certified at: the levels of kConfidenceLevels, then
-/// those below the last one.
+/// those without a number.
 using PlansByLevel = std::array<std::int64_t, kConfidenceLevels.size() + 1>;
 
 /// Matches PLAN with HORIZON_REQUEST by the request's id. A request is settled when its first answer came, or
@@ -45,6 +45,8 @@ class RequestLedger {
   [[nodiscard]] std::int64_t plans(PlanOutcome outcome) const { return plans_[static_cast<std::size_t>(outcome)]; }
   [[nodiscard]] std::int64_t plans(PlanReason reason) const { return reasons_[static_cast<std::size_t>(reason)]; }
   [[nodiscard]] const PlansByLevel& plans_by_level() const { return by_level_; }
+  /// Of those with a number, how many have it for a time only (Plan::sure_for).
+  [[nodiscard]] std::int64_t plans_for_a_time() const { return for_a_time_; }
   /// The newest first answer's; None before it.
   [[nodiscard]] PlanReason last_reason() const { return last_reason_; }
   /// Tracks that the newest plan's predictions had left out.
@@ -59,6 +61,7 @@ class RequestLedger {
   std::array<std::int64_t, kPlanOutcomes> plans_ = {};
   std::array<std::int64_t, kPlanReasons> reasons_ = {};
   PlansByLevel by_level_ = {};
+  std::int64_t for_a_time_ = 0;
   PlanReason last_reason_ = PlanReason::None;
   std::int32_t last_left_out_ = 0;
   LeftOut left_out_;

@@ -53,7 +53,8 @@ Json plans_by_outcome(const FlightSummary& summary) {
 }
 
 Json plans_by_confidence(const FlightSummary& summary) {
-  Json plans = {{"promised", summary.by_level.front()}, {"below", summary.by_level.back()}};
+  Json plans = {
+      {"promised", summary.by_level.front()}, {"for_a_time", summary.for_a_time}, {"below", summary.by_level.back()}};
   for (std::size_t k = 1; k < kConfidenceLevels.size(); ++k) {
     plans[fmt::format("{}", kConfidenceLevels[k])] = summary.by_level[k];
   }

@@ -92,10 +92,11 @@ std::string plan_lines(const FlightSummary& s) {
     if (k + 1 < kPlanOutcomes) text += ",";
   }
   text += "\n" + reason_line(s);
-  const std::int64_t all = std::accumulate(s.by_level.begin(), s.by_level.end(), std::int64_t{0});
-  if (const std::int64_t less = all - s.by_level.front(); less > 0) {
-    text += fmt::format("  confidence    {} of {} plans at less than what is promised, {} below {}\n", less, all,
-                        s.by_level.back(), kConfidenceLevels.back());
+  const std::int64_t less = std::accumulate(s.by_level.begin() + 1, s.by_level.end(), std::int64_t{0});
+  if (less > 0 || s.for_a_time > 0) {
+    text += fmt::format("  confidence    {} plans as promised, {} at less, {} below {}; {} for a time only\n",
+                        s.by_level.front(), less - s.by_level.back(), s.by_level.back(), kConfidenceLevels.back(),
+                        s.for_a_time);
   }
   if (s.left_out.plans == 0) return text;
   return text +

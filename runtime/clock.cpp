@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -37,13 +38,20 @@ std::int64_t system_ahead_ns() {
 
 }  // namespace
 
-WallClock::WallClock(Duration offset) : offset_(offset), ahead_ns_(system_ahead_ns()) {}
+WallClock::WallClock(Duration offset, double pace) : offset_(offset), pace_(pace), ahead_ns_(system_ahead_ns()) {}
 
-UTime WallClock::now() const { return UTime{(read_ns<std::chrono::steady_clock>() + ahead_ns_) / 1'000} + offset_; }
+UTime WallClock::at(std::int64_t unix_us) const {
+  if (pace_ == 1.0) return UTime{unix_us} + offset_;
+  return UTime{kPaceOriginUs + std::llround(static_cast<double>(unix_us - kPaceOriginUs) * pace_)} + offset_;
+}
 
-UTime WallClock::at_system_time(std::int64_t unix_us) const { return UTime{unix_us} - drift() + offset_; }
+UTime WallClock::now() const { return at((read_ns<std::chrono::steady_clock>() + ahead_ns_) / 1'000); }
+
+UTime WallClock::at_system_time(std::int64_t unix_us) const { return at(unix_us - drift().us); }
 
 Duration WallClock::drift() const { return {(system_ahead_ns() - ahead_ns_) / 1'000}; }
+
+Duration WallClock::in_system_time(Duration span) const { return {std::llround(static_cast<double>(span.us) / pace_)}; }
 
 void VirtualClock::advance_to(UTime t) {
   if (t < now_) throw std::invalid_argument(fmt::format("VirtualClock: {} us is before now, {} us", t.us, now_.us));

@@ -17,20 +17,32 @@ class Clock {
   [[nodiscard]] virtual UTime at_system_time(std::int64_t /*unix_us*/) const { return now(); }
   /// How far the system's real-time clock has been set forward (negative: back) since this clock was made.
   [[nodiscard]] virtual Duration drift() const { return {}; }
+  /// How long this clock takes for `span` by the system's.
+  [[nodiscard]] virtual Duration in_system_time(Duration span) const { return span; }
 };
 
 /// The system's real-time clock when this was made, and from there on its steady one. What slews the one (chrony, PTP)
 /// slews the other, but setting the system's clock does not set this. Plus a fixed offset (`--clock-offset-us`, so that
-/// skew can be tested). Thread-safe.
+/// skew can be tested). At a pace below 1 it is the slower of that factor since kPaceOriginUs (`--pace`): all clocks of
+/// one pace agree, and a flight has more of the machine for each of its seconds. Thread-safe.
 class WallClock final : public Clock {
  public:
-  explicit WallClock(Duration offset = {});
+  /// 2026-01-01 00:00 UTC, µs since the Unix epoch.
+  static constexpr std::int64_t kPaceOriginUs = 1'767'225'600'000'000;
+
+  /// @pre 0 < pace ≤ 1
+  explicit WallClock(Duration offset = {}, double pace = 1.0);
   [[nodiscard]] UTime now() const override;
   [[nodiscard]] UTime at_system_time(std::int64_t unix_us) const override;
   [[nodiscard]] Duration drift() const override;
+  [[nodiscard]] Duration in_system_time(Duration span) const override;
 
  private:
+  /// What this shows when the system's steady clock plus ahead_ns_ shows `unix_us`.
+  [[nodiscard]] UTime at(std::int64_t unix_us) const;
+
   Duration offset_;
+  double pace_;
   std::int64_t ahead_ns_;  ///< the system's clock, of the steady one, when this was made
 };
 

@@ -57,7 +57,11 @@ int run(int argc, char** argv) {
   derive_command->add_option("MASTER", master)->required();
   derive_command->add_option("PROCESS", process, "As tern-planner")->required();
   derive_command->add_option("FILE", out)->required();
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kExitMistake;
+  }
   if (*make_command) return make(out);
   return derive(master, process, out);
 }

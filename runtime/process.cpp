@@ -50,6 +50,7 @@ struct Options {
   std::vector<std::string> overrides;
   std::string lcm_url;
   std::int64_t clock_offset_us = 0;
+  double pace = 1.0;
   std::string channel_suffix;
   std::string log_level = "info";
   std::optional<std::string> key_file;
@@ -72,6 +73,11 @@ void declare(CLI::App& app, Options& options, const ProcessDescription& descript
       ->type_name("URL");
   app.add_option("--clock-offset-us", options.clock_offset_us, "Added to the system clock, to test skew")
       ->type_name("N");
+  app.add_option("--pace", options.pace,
+                 "Seconds of flight per second of the system's clock, the same for all processes")
+      ->envname("TERN_PACE")
+      ->type_name("P")
+      ->check(CLI::Range(0.01, 1.0));
   const auto plain = [](const std::string& suffix) {
     return Bus::is_channel_name(suffix) ? std::string() : suffix + ": only letters, digits, '_' and '-'";
   };
@@ -139,16 +145,9 @@ void print_knobs(const ProcessDescription& description) {
   }
 }
 
-/// Of processes that start in the same microsecond one would be taken for the other: the last ten bits are the process
-/// id's. At most 2 ms before now.
-std::int64_t unique_epoch(std::int64_t now_us, std::int64_t process_id) {
-  constexpr std::int64_t kProcesses = 1024;
-  return (now_us / kProcesses - 1) * kProcesses + process_id % kProcesses;
-}
-
 int run(const Options& options, const ProcessDescription& description, const NodeFactory& make_node) {
-  const std::int64_t epoch_us = unique_epoch(WallClock().now().us, ::getpid());
-  const WallClock clock(Duration{options.clock_offset_us});
+  const std::int64_t epoch_us = unique_epoch(WallClock({}, options.pace).now().us, ::getpid());
+  const WallClock clock(Duration{options.clock_offset_us}, options.pace);
   ConfigDocument document = ConfigDocument::load(options.config, options.overrides);
   const Scenario scenario = read_scenario(document);
   const ConfigSection section = description.section.empty() ? ConfigDocument::parse("", options.config).root()
@@ -166,7 +165,8 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   ProcessContext context{scenario, section, bus, document};
   const std::unique_ptr<Node> node = make_node(context);
   NodeHost host(bus, *node, description.name, document.effective());
-  spdlog::info("{} runs{}", build_id(), keys ? ", signs and verifies messages" : "");
+  spdlog::info("{} runs{}{}", build_id(), keys ? ", signs and verifies messages" : "",
+               options.pace == 1.0 ? "" : fmt::format(", at a pace of {}", options.pace));
   const int code = run_on_wall_clock(**lcm, host, stop.fd());
   spdlog::info("ends with exit code {}", code);
   if (code == kExitStuck) end_at_once(code);
@@ -174,6 +174,11 @@ int run(const Options& options, const ProcessDescription& description, const Nod
 }
 
 }  // namespace
+
+std::int64_t unique_epoch(std::int64_t now_us, std::int64_t process_id) {
+  constexpr std::int64_t kProcesses = 1024;
+  return (now_us / kProcesses - 1) * kProcesses + process_id % kProcesses;
+}
 
 int run_process(int argc, char** argv, const ProcessDescription& description, const NodeFactory& make_node) {
   Options options;

@@ -52,11 +52,16 @@ struct ProcessDescription {
 
 using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 
+/// A sender's epoch, µs: at most 2048 µs before now. Of processes that start in the same microsecond one would be taken
+/// for the other, so the last ten bits are the process id's. Who starts 2048 µs later has the larger one.
+/// @pre process_id ≥ 0
+std::int64_t unique_epoch(std::int64_t now_us, std::int64_t process_id);
+
 /// Parses --help, --help-config, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL, --clock-offset-us N,
-/// --channel-suffix S, --log-level L, --key-file FILE, --key-fd N. Loads the scenario (without --config: all defaults)
-/// and makes the node. Publishes CONFIGURATION (at start, then every 5 s) and HEARTBEAT (2 Hz). Runs until the node has
-/// finished, or SIGINT/SIGTERM (exit 0). Logs to stderr. The epoch is the wall clock's time at the start, without the
-/// offset.
+/// --pace P, --channel-suffix S, --log-level L, --key-file FILE, --key-fd N. Loads the scenario (without --config: all
+/// defaults) and makes the node. Publishes CONFIGURATION (at start, then every 5 s) and HEARTBEAT (2 Hz). Runs until
+/// the node has finished, or SIGINT/SIGTERM (exit 0). Logs to stderr. The epoch is unique_epoch of the wall clock's
+/// time at the start, without the offset.
 /// @return the exit code: the node's own, 0 after a signal, or kExit…. ConfigError and bad options: the message on
 /// stderr, exit 2. A node that finishes with kExitStuck ends the process here and now, nothing is destroyed: one of its
 /// threads may never end.

@@ -43,8 +43,8 @@ int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
     if (host.is_due(now)) host.step(now);
     if (const auto code = host.node().finished()) return *code;
     const UTime wakeup = host.next_wakeup();
-    const Duration sleep = wakeup == kNever ? kLongestSleep : wakeup - clock.now();
-    if (wait(fds, sleep)) {
+    const Duration sleep = std::min(wakeup - clock.now(), kLongestSleep);
+    if (wait(fds, clock.in_system_time(sleep))) {
       drain(lcm, kListenCapacity);  // a recorder keeps what has come in already
       host.bus().rethrow();
       return 0;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -25,10 +26,11 @@ int check(const Options& options) {
   const ScenarioView view = view_scenario(inputs_of(options.flight), options.seed);
   fmt::print("{}", to_text(view));
   if (!options.out.empty()) {
+    const bool was_there = std::filesystem::exists(options.out);
     std::ofstream file(options.out);
     file << draw_scenario(view);
     if (!file.flush()) throw ConfigError(options.out + ": cannot be written");
-    fmt::print("  drawn     {}\n", options.out);
+    fmt::print("  drawn     {}{}\n", options.out, was_there ? ", in place of the one that was there" : "");
   }
   return view.shortest ? 0 : kExitUnreachable;
 }

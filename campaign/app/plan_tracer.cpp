@@ -18,7 +18,9 @@ void PlanTracer::on_plan(const Plan& p) {
              static_cast<double>(request_.t_s.us) * 1e-6, text(s.p), text(s.v), key(p.outcome),
              static_cast<int>(p.reason), p.trajectory.interval.seconds() * static_cast<double>(q.cols() - 3), text(end),
              text(p.local_goal), p.hold.seconds(), p.confidence,
-             p.alpha_scale < 1.0 ? fmt::format(" alpha x {:.2f}", p.alpha_scale) : "", p.relaxed ? " relaxed" : "");
+             (p.alpha_scale < 1.0 ? fmt::format(" alpha x {:.2f}", p.alpha_scale) : "") +
+                 (p.sure_for < kMaxSpan ? fmt::format(" for {:.2f}", p.sure_for.seconds()) : ""),
+             p.relaxed ? " relaxed" : "");
 }
 
 }  // namespace tern

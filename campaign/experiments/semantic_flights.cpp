@@ -202,7 +202,7 @@ Result<std::vector<SemanticFlight>> fly_semantic_cases(const SemanticCampaign& c
   ProcessPool pool;
   std::size_t next = 0;
   std::size_t done = 0;
-  for (const SemanticCase& c : campaign.cases) done += flown.contains(words_of(c)) ? 1 : 0;
+  for (const SemanticCase& c : campaign.cases) done += flown.contains(words_of(c)) ? 1U : 0U;
   while (next < campaign.cases.size() || pool.running() > 0) {
     while (next < campaign.cases.size() && pool.running() < static_cast<std::size_t>(campaign.jobs)) {
       const std::string words = words_of(campaign.cases[next++]);

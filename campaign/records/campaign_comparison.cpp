@@ -188,7 +188,9 @@ std::string to_text(const CampaignComparison& c, TableForm form) {
       continue;
     }
     rows.push_back({m.name, fmt::format("{}", d.pairs), number(d.mean_a), number(d.mean_b), number(d.difference),
-                    c.may_infer() ? fmt::format("[{}, {}]", number(d.interval.low), number(d.interval.high)) : "-"});
+                    c.may_infer() && d.may_infer()
+                        ? fmt::format("[{}, {}]", number(d.interval.low), number(d.interval.high))
+                        : "-"});
   }
   const std::string gap = form == TableForm::Text ? "" : "\n";
   const std::string notes = heading(c) + gap + success_lines(c) + gap;

@@ -39,7 +39,7 @@ Result<CampaignComparison> compare(const Flights& a, const Flights& b);
 enum class TableForm { Text, Markdown, Latex };
 
 /// Measures in which no pair differs are named, not listed. Intervals are left out, with a word on why, unless
-/// may_infer().
+/// may_infer(), and of measures that have too few pairs.
 std::string to_text(const CampaignComparison& comparison, TableForm form);
 
 }  // namespace tern

@@ -15,6 +15,8 @@ struct PairedDifference {
   double mean_a = 0.0, mean_b = 0.0;
   double difference = 0.0;
   Interval interval;  ///< of the difference; both ends 0 where no pair differs
+  /// Of five pairs or fewer not even differences of one sign are more than chance at 5 %: 2 · 2^−5 > 0.05.
+  [[nodiscard]] bool may_infer() const { return pairs >= 6; }
 };
 
 /// 2000 resamples of whole pairs, the same ones for equal numbers of pairs. O(2000 n). @pre all are finite

@@ -123,7 +123,8 @@ std::map<std::string, int> hold_keys(const FlightOptions& options) {
 }
 
 void announce(const FlightOptions& options, const fs::path& record, const std::vector<SupervisedProcess>& processes) {
-  std::ofstream(record / "env.sh") << fmt::format("export LCM_DEFAULT_URL='{}'\n", options.lcm_url);
+  std::ofstream(record / "env.sh") << fmt::format("export LCM_DEFAULT_URL='{}' TERN_PACE={}\n", options.lcm_url,
+                                                  options.pace);
   std::ofstream commands(record / "command");
   commands << options.typed << '\n';
   for (const SupervisedProcess& process : processes) commands << shell_line(process.child.command) << '\n';
@@ -138,6 +139,7 @@ void announce(const FlightOptions& options, const fs::path& record, const std::v
     std::ofstream(record / "namespace") << getpid() << ' ' << options.namespace_flags << '\n';
     say("  network  its own namespace; a shell in it: launch_scripts/enter.sh {}", record.string());
   }
+  if (options.pace != 1.0) say("  pace     {} s of flight per second", options.pace);
   if (options.view_fd) say("  view     {}", options.view_url);
   if (options.key) say("  key      messages are signed");
 }
@@ -173,6 +175,9 @@ int await_page(const FlightOptions& options, int looked, const sigset_t& signals
 int supervise(FlightOptions options, const fs::path& record, const sigset_t& signals) try {
   ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
   const Scenario scenario = read_scenario(document);  // refused once, not by each process
+  if (options.pace != 1.0 && !options.autopilot.empty() && !options.autopilot_sim) {
+    throw std::runtime_error("--pace: the clock of a real autopilot cannot be slowed");
+  }
   options.default_dynamics = !options.autopilot.empty() && !scenario.uav.limits.dynamics;
   int looked[2] = {-1, -1};
   if (options.view_fd && pipe2(looked, O_CLOEXEC) == 0) options.looked_fd = looked[1];
@@ -191,7 +196,7 @@ int supervise(FlightOptions options, const fs::path& record, const sigset_t& sig
   }
   std::optional<int> code;
   while (!code) code = verdict(record, supervisor.wait());
-  supervisor.end_first(kMavlink);
+  supervisor.end_first(kMavlink, options.pace);
   supervisor.stop(kLogger);
   return *code;
 } catch (const std::exception& e) {

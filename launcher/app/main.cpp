@@ -13,7 +13,6 @@ int main(int argc, char** argv) {
   CLI::App app("Starts processes, keeps them running, and ends them", "tern-launch");
   app.set_version_flag("--version", std::string("tern-launch ") + tern::build_id());
   app.require_subcommand(1);
-
   tern::FlightOptions options;
   std::string failed, log;
   std::vector<std::string> command;
@@ -23,6 +22,7 @@ int main(int argc, char** argv) {
   fly.add_option("--set", options.overrides, "As of every process")->allow_extra_args(false);
   fly.option_defaults()->take_last();
   fly.add_option("--lcm-url", options.lcm_url, "LCM network");
+  fly.add_option("--pace", options.pace, "Of time")->envname("TERN_PACE")->check(CLI::Range(0.01, 1.0));
   fly.add_option("--namespace", options.namespace_flags, "The flags of unshare that made its network namespace");
   fly.add_option("--record", options.record, "The flight's folder (default: a new one in --flights)");
   fly.add_option("--flights", options.flights, "The folder of records");

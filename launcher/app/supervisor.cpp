@@ -1,5 +1,7 @@
 #include "launcher/app/supervisor.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -10,8 +12,8 @@
 namespace tern {
 namespace {
 
-/// Together less than the 2 s within which a flight ends.
-constexpr Duration kPatience{1'000'000}, kLastPatience{600'000};
+/// Who has nothing to finish, and the logger, which on a busy machine still has to write what it has heard.
+constexpr Duration kPatience{1'000'000}, kLastPatience{5'000'000};
 /// Of tern-mavlink, and a little more.
 constexpr Duration kLandingPatience{32'000'000};
 constexpr Duration kLongPause{3'600'000'000};
@@ -87,12 +89,12 @@ void Supervisor::plan_restart(Kept& kept, const ProcessEnd& end) {
           to_text(end).c_str(), ++kept.restarts, static_cast<int>(delay.us / 1000));
 }
 
-void Supervisor::end_first(const std::string& name) {
+void Supervisor::end_first(const std::string& name, double pace) {
   std::vector<Kept*> one;
   for (Kept& kept : kept_) {
     if (kept.process.name == name) one.push_back(&kept);
   }
-  end(one, kLandingPatience);
+  end(one, Duration::from_seconds(kLandingPatience.seconds() / pace));
 }
 
 void Supervisor::stop(const std::string& last) {
@@ -119,6 +121,7 @@ void Supervisor::end(const std::vector<Kept*>& group, Duration patience) {
   while (!all_ended() && clock_.now() < deadline) next_signal(set_of(SIGCHLD), deadline - clock_.now());
   for (Kept* kept : group) {
     if (!kept->pid) continue;
+    fmt::print(stderr, "tern-launch: {} did not end in time and is killed\n", kept->process.name);
     kill(*kept->pid, SIGKILL);
     (void)await_child(*kept->pid);
     kept->pid.reset();

@@ -32,10 +32,10 @@ class Supervisor {
   void start(SupervisedProcess process);
   /// Keeps all running until one is gone for good or a signal comes. Restarts are said on the process's standard error.
   SupervisorEvent wait();
-  /// Ends one before the others, if it runs: it may take half a minute, to land.
-  void end_first(const std::string& name);
-  /// Ends all within 2 s: SIGTERM to all but `last`, SIGKILL to those that are left after 1 s, then the same to `last`,
-  /// which records their last messages. Signals that come meanwhile stay pending.
+  /// Ends one before the others, if it runs: it may take half a minute of its clock, whose pace this is, to land.
+  void end_first(const std::string& name, double pace);
+  /// Ends all: SIGTERM to all but `last`, SIGKILL to those that are left after 1 s, then the same to `last`, which
+  /// records their last messages, with 5 s. Signals that come meanwhile stay pending.
   void stop(const std::string& last);
 
  private:

@@ -38,13 +38,15 @@ LoggerConfig read_logger_config(ConfigSection section) {
 LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path)
     : writer_(open_writer(path, config.rotate_bytes)), table_(bus.suffix()), bus_(bus), next_flush_(bus.clock().now()) {
   spdlog::info("writes {}", writer_.part_path());
-  bus.listen([this](std::string_view channel, std::int64_t received_us, std::span<const std::uint8_t> data) {
-    table_.add(channel, UTime{received_us}, data);
+  bus.listen([this](std::string_view channel, std::int64_t system_us, std::span<const std::uint8_t> data) {
+    // By the flight's clock, as all times in its messages are.
+    const UTime received = bus_.clock().at_system_time(system_us);
+    table_.add(channel, received, data);
     if (data.size() > kLogMaxDataBytes) {
       ++too_large_;
       return;
     }
-    writer_.append(channel, received_us, data);
+    writer_.append(channel, received.us, data);
   });
   bus.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) {
     if (!role_of_process(heartbeat.process)) return;

@@ -36,6 +36,10 @@ int main(int argc, char** argv) {
       key->sha256 = tern::sha256;
     }
     if (url.empty()) throw tern::ConfigError("--connect URL is needed");
+    constexpr tern::Duration kSecond{1'000'000};
+    if (url.starts_with("serial://") && context.bus.clock().in_system_time(kSecond) != kSecond) {
+      throw tern::ConfigError("--pace: the clock of a real autopilot cannot be slowed");
+    }
     auto link = open_link(url);
     if (!link) throw tern::ConfigError("--connect " + link.error().message);
     return std::make_unique<MavlinkNode>(context.bus, std::move(*link), context.scenario.uav, config, key);

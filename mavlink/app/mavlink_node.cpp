@@ -72,8 +72,10 @@ bool MavlinkNode::alone(UTime now) const {
 
 void MavlinkNode::exchange(UTime now) {
   const std::uint64_t time = signature_time(now.us);
-  while (const auto bytes = link_->receive(now)) {
-    for (const Frame& frame : parser_.push(*bytes, time)) bridge_.hear(frame, now);
+  while (const auto portion = link_->receive(now)) {
+    const UTime came = portion->unix_us ? bus_.clock().at_system_time(*portion->unix_us) : now;
+    received_ = std::max(received_, std::min(came, now));
+    for (const Frame& frame : parser_.push(portion->bytes, time)) bridge_.hear(frame, received_);
     if (link_->datagrams()) parser_.drop_rest();
   }
   bridge_.step(now);

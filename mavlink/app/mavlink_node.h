@@ -46,6 +46,7 @@ class MavlinkNode final : public Node {
   Parser parser_;
   Bridge bridge_;
   UTime begun_, next_, next_status_;
+  UTime received_;  ///< when the newest bytes came, at most now
   std::optional<UTime> other_heard_;
   std::optional<std::int64_t> goal_id_;
   UTime said_state_, said_truth_;

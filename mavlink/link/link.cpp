@@ -54,22 +54,19 @@ class UdpLink final : public Link {
   UdpLink(Descriptor socket, std::optional<sockaddr_in> peer)
       : socket_(std::move(socket)), peer_(peer), fixed_(peer.has_value()) {}
 
-  std::optional<Bytes> receive(UTime now) override {
-    Bytes bytes(kLargest);
+  std::optional<Portion> receive(UTime now) override {
+    Portion portion{Bytes(kLargest), {}};
     while (true) {
       sockaddr_in from{};
-      socklen_t length = sizeof(from);
-      const ssize_t n =
-          recvfrom(socket_.get(), bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
+      const ssize_t n = receive_into(portion, from);
       if (n < 0) return std::nullopt;
-      const auto portion = std::span(bytes).first(static_cast<std::size_t>(n));
-      if (!is_peer(from, portion, now)) {
+      if (!is_peer(from, std::span(portion.bytes).first(static_cast<std::size_t>(n)), now)) {
         ++strangers_;
         continue;
       }
       last_ = now;
-      bytes.resize(static_cast<std::size_t>(n));
-      return bytes;
+      portion.bytes.resize(static_cast<std::size_t>(n));
+      return portion;
     }
   }
 
@@ -91,6 +88,27 @@ class UdpLink final : public Link {
     return true;
   }
 
+  ssize_t receive_into(Portion& portion, sockaddr_in& from) const {
+    iovec place{portion.bytes.data(), portion.bytes.size()};
+    alignas(cmsghdr) std::array<std::uint8_t, CMSG_SPACE(sizeof(timeval))> control{};
+    msghdr message{};
+    message.msg_name = &from;
+    message.msg_namelen = sizeof(from);
+    message.msg_iov = &place;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    const ssize_t n = recvmsg(socket_.get(), &message, 0);
+    portion.unix_us.reset();
+    const cmsghdr* const head = n < 0 ? nullptr : CMSG_FIRSTHDR(&message);
+    if (head != nullptr && head->cmsg_level == SOL_SOCKET && head->cmsg_type == SCM_TIMESTAMP) {
+      timeval came{};
+      std::memcpy(&came, CMSG_DATA(head), sizeof(came));
+      portion.unix_us = std::int64_t{came.tv_sec} * 1'000'000 + came.tv_usec;
+    }
+    return n;
+  }
+
   Descriptor socket_;
   std::optional<sockaddr_in> peer_;
   bool fixed_;
@@ -101,12 +119,12 @@ class UdpLink final : public Link {
 class SerialLink final : public Link {
  public:
   explicit SerialLink(Descriptor port) : port_(std::move(port)) {}
-  std::optional<Bytes> receive(UTime) override {
+  std::optional<Portion> receive(UTime) override {
     Bytes bytes(4096);
     const ssize_t n = read(port_.get(), bytes.data(), bytes.size());
     if (n <= 0) return std::nullopt;
     bytes.resize(static_cast<std::size_t>(n));
-    return bytes;
+    return Portion{std::move(bytes), {}};
   }
   void send(std::span<const std::uint8_t> bytes) override { (void)!write(port_.get(), bytes.data(), bytes.size()); }
   [[nodiscard]] bool datagrams() const override { return false; }
@@ -136,6 +154,8 @@ Result<std::unique_ptr<Link>> open_udp(const std::string& url, const std::string
   address.sin_port = htons(static_cast<std::uint16_t>(parts->second));
   Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (socket.get() < 0) return fail(url + ": " + std::strerror(errno));
+  const int stamped = 1;
+  setsockopt(socket.get(), SOL_SOCKET, SO_TIMESTAMP, &stamped, sizeof(stamped));
   if (!listens) return std::make_unique<UdpLink>(std::move(socket), address);
   if (bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     return fail(fmt::format("{}: {}{}", url, std::strerror(errno),

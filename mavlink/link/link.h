@@ -12,12 +12,19 @@
 
 namespace tern::mavlink {
 
+/// What has come at once.
+struct Portion {
+  Bytes bytes;
+  /// When, µs by the system's clock, however late it is fetched; nothing: just now.
+  std::optional<std::int64_t> unix_us;
+};
+
 /// One end. Never blocks: what a full buffer does not take is lost, as on any link.
 class Link {
  public:
   virtual ~Link() = default;
   /// The next bytes that have come. @return nullopt if there are none
-  virtual std::optional<Bytes> receive(UTime now) = 0;
+  virtual std::optional<Portion> receive(UTime now) = 0;
   virtual void send(std::span<const std::uint8_t> bytes) = 0;
   /// Whether each portion is a whole number of frames.
   [[nodiscard]] virtual bool datagrams() const = 0;

@@ -280,7 +280,6 @@ void SimulatedAutopilot::say_truth() {
   constexpr double kMetres = 6'371'000.0 * std::numbers::pi / 180.0 * 1e-7;  // per unit of latitude
   const double shrink = std::cos(kLatitude * 1e-7 * std::numbers::pi / 180.0);
   HilStateQuaternion m;
-  m.time_usec = clock_us(truth.at);
   m.q = wxyz_of(swapped(truth.q));
   m.rates = rates_frd(truth.w);
   m.lat = kLatitude + static_cast<std::int32_t>(std::lround(truth.motion.p.y() / kMetres));

@@ -36,8 +36,8 @@ struct SimulatedAutopilotConfig {
 /// As PX4 does: HEARTBEAT 1 Hz, SYS_STATUS and EXTENDED_SYS_STATE 5 Hz, LOCAL_POSITION_NED and ODOMETRY 30 Hz,
 /// ATTITUDE_QUATERNION 50 Hz, TIMESYNC 10 Hz, other rates by SET_MESSAGE_INTERVAL. OFFBOARD is taken only while
 /// setpoints have come for half a second, and is left COM_OF_LOSS_T after the last one for what COM_OBL_RC_ACT says.
-/// Setpoints are held, not carried on. Any system may command it. The velocity loop has a D term, MPC_XY_VEL_D_ACC,
-/// which opposes the whole acceleration. It disarms when it has landed.
+/// HIL_STATE_QUATERNION states no time. Setpoints are held, not carried on. Any system may command it. The velocity
+/// loop has a D term, MPC_XY_VEL_D_ACC, which opposes the whole acceleration. It disarms when it has landed.
 ///
 /// Parameters beside PX4's: SIM_ARM_REFUSE (it refuses to arm), SIM_BAT_PCT (what is left, %), SIM_EST_JUMP (writing it
 /// shifts the estimate by so many metres).

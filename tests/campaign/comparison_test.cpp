@@ -70,7 +70,7 @@ TEST(Comparison, PairsBySeedAndCountsWhatOneAloneFlew) {
 
 TEST(Comparison, OfSuccessNamesTheSeedsThatTell) {
   Flights b = flights_of(1, 30);
-  for (const std::uint64_t seed : {3, 6, 9, 12, 15}) b.records[seed].result.outcome = FlightOutcome::Reached;
+  for (const std::uint64_t seed : {3U, 6U, 9U, 12U, 15U}) b.records[seed].result.outcome = FlightOutcome::Reached;
   const CampaignComparison c = compare(flights_of(1, 30), b).value();
   EXPECT_EQ(c.successes_a, 20);
   EXPECT_EQ(c.successes_b, 25);

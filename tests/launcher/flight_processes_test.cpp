@@ -62,8 +62,8 @@ TEST(FlightProcesses, TellTheSimulatorThatTheLoggerRecords) {
 }
 
 TEST(FlightProcesses, AllGetScenarioOverridesAndNetwork) {
-  const Words common = {"--config", "demo.yaml",        "--set",     "seed=2",
-                        "--set",    "uav.goal=[1,2,3]", "--lcm-url", "udpm://"};
+  const Words common = {"--config",         "demo.yaml", "--set",   "seed=2", "--set",
+                        "uav.goal=[1,2,3]", "--lcm-url", "udpm://", "--pace", "1"};
   for (const SupervisedProcess& p : flight_processes(demo(), "r", {})) {
     const Words& words = p.child.command;
     EXPECT_EQ(words.front(), "bin/" + p.name);

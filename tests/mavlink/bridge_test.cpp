@@ -322,6 +322,39 @@ TEST(Bridge, TellsExternalVisionInTheAutopilotsFrameAndOnlyWhenAsked) {
   }
 }
 
+TEST(Autopilot, TakesTheTruthThatStatesNoTimeForWhenItCameButNoneWithoutAnOrigin) {
+  const HilStateQuaternion hil{.q = {1, 0, 0, 0}, .lat = 473977418, .lon = 85455938, .alt = 488'500};
+  UTime now{1'000'000'000};
+  Autopilot autopilot;
+  const auto hear = [&](const auto& message) { autopilot.hear(to_frame(message, {1, 1}, 0), now); };
+  hear(Heartbeat{.autopilot = 12});
+  hear(hil);
+  EXPECT_FALSE(autopilot.truth()) << "above where, is not known yet";
+  hear(GpsGlobalOrigin{.latitude = 473977418, .longitude = 85455938, .altitude = 488'000});
+  hear(hil);
+  ASSERT_TRUE(autopilot.truth());
+  EXPECT_EQ(autopilot.truth()->at, now);
+  EXPECT_LT((autopilot.truth()->motion.p - Vec3(0.0, 0.0, 0.5)).norm(), 1e-6);
+  now = now + Duration{10'000};
+  hear(HilStateQuaternion{.q = {1, 0, 0, 0}});
+  EXPECT_LT(autopilot.truth()->at, now) << "a simulation that does not know yet where it is";
+}
+
+TEST(Bridge, AnswersToOthersAreNoneOfItsOwn) {
+  FlightInMemory flight;
+  flight.set_parameter("SIM_ARM_REFUSE", 1.0F);
+  ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Engaging; }));
+  const auto say = [&](std::uint8_t result, std::uint8_t component) {
+    flight.bridge.hear(to_frame(CommandAck{.command = 400, .result = result, .target_component = component}, {1, 1}, 0),
+                       flight.now);
+  };
+  say(2, 190);
+  say(5, 0);
+  EXPECT_EQ(flight.bridge.status(flight.now).why_not, "engaging");
+  say(2, 191);
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("arming denied"));
+}
+
 TEST(RequiredParameters, AskForNoNarrowerBoundsThanPlansHave) {
   UavSpec uav;
   uav.limits.v_max = Vec3(3, 4, 2);

@@ -204,6 +204,23 @@ TEST_F(MavlinkProcesses, OutliveAShortCutAndStandBackAfterALongOne) {
   EXPECT_TRUE(until([&] { return !status.armed; })) << "it has landed by its failsafe";
 }
 
+TEST_F(MavlinkProcesses, AfterACutOfFiveSecondsFindTheVehicleLandedAndLeaveItThere) {
+  start_bridge();
+  ASSERT_TRUE(until_following()) << status.why_not;
+  say_goal(1);
+  relay.cut = true;
+  run_ms(5000);
+  EXPECT_FALSE(status.following);
+  EXPECT_THAT(status.why_not, HasSubstr("nothing heard of the autopilot"));
+  relay.cut = false;
+  ASSERT_TRUE(until([&] { return !status.armed; })) << "its failsafe has landed it";
+  run_ms(1500);
+  EXPECT_FALSE(status.armed);
+  EXPECT_THAT(status.why_not, HasSubstr("stood back"));
+  say_goal(2);
+  EXPECT_TRUE(until_following()) << status.why_not;
+}
+
 TEST_F(MavlinkProcesses, GiveWayToAPilotAndFlyAgainWhenTold) {
   start_bridge();
   ASSERT_TRUE(until_following()) << status.why_not;

@@ -122,16 +122,23 @@ TEST(RequestLedger, CountsThePlansOfIncompleteSetsAndKeepsTheNewest) {
 
 TEST(RequestLedger, CountsTrajectoriesByTheirConfidence) {
   RequestLedger ledger;
-  ledger.add(plan(1, kDeadline));
+  const auto sure = [](std::int64_t id, double confidence, int level) {
+    Plan one = plan(id, kDeadline);
+    one.confidence = confidence;
+    one.level = level;
+    return one;
+  };
+  ledger.add(sure(1, 0.99, 0));
   ledger.add(plan(2, kDeadline, PlanOutcome::NoPlan));
-  Plan less = plan(3, kDeadline);
-  less.level = kLevels - 1;
-  ledger.add(less);
-  less = plan(4, kDeadline);
-  less.level = kLevels - 1;
+  ledger.add(sure(3, 0.6, kLevels - 1));
+  Plan less = sure(4, 0.0, kLevels - 1);
   less.alpha_scale = 0.5;
   ledger.add(less);
-  EXPECT_EQ(ledger.plans_by_level(), (PlansByLevel{1, 0, 0, 0, 1, 1}));
+  less = sure(5, 0.99, 0);
+  less.sure_for = Duration{300'000};
+  ledger.add(less);
+  EXPECT_EQ(ledger.plans_by_level(), (PlansByLevel{2, 0, 0, 0, 1, 1}));
+  EXPECT_EQ(ledger.plans_for_a_time(), 1);
 }
 
 TEST(RequestLedger, AnAnswerToNobodySettlesNothing) {

@@ -105,6 +105,7 @@ TEST(Summary, FitsOneScreen) {
   s.reasons.fill(99);
   s.left_out = {99'999, 99'999};
   s.by_level.fill(99'999);
+  s.for_a_time = 99'999;
   std::istringstream text(to_text(s));
   int lines = 0;
   for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 100U) << line;
@@ -126,9 +127,11 @@ TEST(Summary, SaysHowManyPlansWereLessSureThanPromised) {
   s.by_level = {200, 0, 0, 0, 0, 0};
   EXPECT_EQ(to_text(s).find("confidence"), std::string::npos);
   s.by_level = {200, 10, 9, 8, 7, 6};
-  EXPECT_NE(to_text(s).find("40 of 240 plans at less than what is promised, 6 below 0.6"), std::string::npos);
-  EXPECT_EQ(json::parse(to_json(s))["confidence"],
-            (json{{"promised", 200}, {"0.95", 10}, {"0.9", 9}, {"0.8", 8}, {"0.6", 7}, {"below", 6}}));
+  s.for_a_time = 5;
+  EXPECT_NE(to_text(s).find("200 plans as promised, 34 at less, 6 below 0.6; 5 for a time only"), std::string::npos);
+  EXPECT_EQ(
+      json::parse(to_json(s))["confidence"],
+      (json{{"promised", 200}, {"0.95", 10}, {"0.9", 9}, {"0.8", 8}, {"0.6", 7}, {"for_a_time", 5}, {"below", 6}}));
 }
 
 TEST(Summary, TellsAPersonTheOutcomeFirst) {

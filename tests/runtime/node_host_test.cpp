@@ -166,6 +166,17 @@ TEST(WallClock, IsTheSystemClockPlusItsOffset) {
   EXPECT_GT(plain.us, 1'600'000'000'000'000) << "microseconds since 1970";
 }
 
+RC_GTEST_PROP(UniqueEpoch, TellsProcessesOfOneMomentApartAndAscendsWithTime, ()) {
+  const auto now = *rc::gen::inRange<std::int64_t>(1'600'000'000'000'000, 2'000'000'000'000'000);
+  const auto later = now + *rc::gen::inRange<std::int64_t>(2'048, 1'000'000);
+  const auto one = *rc::gen::inRange<std::int64_t>(1, 4'194'304);
+  const auto other = *rc::gen::inRange<std::int64_t>(1, 4'194'304);
+  const std::int64_t epoch = unique_epoch(now, one);
+  RC_ASSERT(epoch <= now && epoch >= now - 2'048);
+  RC_ASSERT((epoch == unique_epoch(now, other)) == (one % 1024 == other % 1024));
+  RC_ASSERT(unique_epoch(later, other) > epoch);
+}
+
 TEST(VirtualClock, NeverGoesBack) {
   VirtualClock clock(kStart);
   clock.advance_to(kStart);

@@ -78,6 +78,20 @@ TEST_F(WallClockTest, KnowsWhenAMessageCameAlthoughTheKernelSaysItByTheSystemsCl
   }
 }
 
+TEST_F(WallClockTest, AtAPaceAllClocksAgreeAndTakeTheirTime) {
+  const WallClock slow({}, 0.25), other({}, 0.25);
+  const UTime begin = slow.now();
+  const std::int64_t begin_us = system_us();
+  EXPECT_NEAR((other.now() - slow.now()).seconds(), 0.0, 0.01);
+  EXPECT_NEAR((slow.at_system_time(begin_us + 4 * kSecond) - begin).seconds(), 1.0, 0.01);
+  EXPECT_EQ(slow.in_system_time(Duration{kSecond}).us, 4 * kSecond);
+  while (slow.now() - begin < Duration{20'000}) continue;
+  EXPECT_GE(system_us() - begin_us, 79'000);
+  set_forward_s = 8;
+  EXPECT_NEAR(slow.drift().seconds(), 8.0, 0.01);
+  EXPECT_LT((slow.now() - begin).seconds(), 600.0) << "setting the system's clock does not set it";
+}
+
 TEST_F(WallClockTest, ANodeDoesNotStandStillWhenTheSystemsClockIsSetBack) {
   TwentySteps node(bus_);
   NodeHost host(bus_, node, "tern-stepper", "");

@@ -80,6 +80,13 @@ TEST(VoxelSurface, CoarsensWhatIsTooLargeAndLosesNoHazard) {
   EXPECT_EQ(surface.faces.front().low, Eigen::Vector3i(5, 1, 8));
 }
 
+TEST(VoxelSurface, CoarsensAWallBesideAHazardToAWall) {
+  VoxelMap map = random_map({40, 40, 40}, {static_cast<int>(VoxelLabel::Free)});
+  map.labels[static_cast<std::size_t>(map.grid.index({21, 5, 33}))] = VoxelLabel::Repulsive;
+  map.labels[static_cast<std::size_t>(map.grid.index({22, 5, 33}))] = VoxelLabel::Occupied;
+  EXPECT_EQ(voxel_surface(map, 1'000).faces.front().label, VoxelLabel::Occupied);
+}
+
 RC_GTEST_PROP(VoxelSurface, TellsTheDistanceToWhatIsOccupied, ()) {
   const auto axis = rc::gen::inRange(1, 6);
   const Eigen::Vector3i size(*axis, *axis, *axis);

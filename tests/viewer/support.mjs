@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { chromium } from '../../viewer/web/node_modules/playwright-core/index.mjs';
 
 const { TERN_BIN, TERN_PAGE, TERN_CHROMIUM } = process.env;
-const PATIENCE_MS = 60_000; // for what takes milliseconds on an idle machine
+const PATIENCE_MS = 180_000; // for what takes milliseconds on an idle machine, and for flights at a pace
 
 export const work = mkdtempSync(join(tmpdir(), 'tern-viewer-'));
 const running = new Set();
@@ -39,6 +39,13 @@ export function start(program, args, env = {}) {
   process_.gone = new Promise((resolve) => child.on('close', (code) => resolve((process_.ended = true) && code)));
   running.add(process_);
   return process_;
+}
+
+/** Starts a flight, at a pace that this machine has time for. */
+export function startFlight(...options) {
+  const at_its_pace = new URL('../support/at_machine_pace.sh', import.meta.url).pathname;
+  const fly = new URL('../../launch_scripts/fly.sh', import.meta.url).pathname;
+  return start(at_its_pace, [fly, '--no-install', '--isolated', ...options]);
 }
 
 export async function end(process_, signal = 'SIGTERM') {
@@ -117,12 +124,15 @@ export function onScreen(page, point) {
   }, point);
 }
 
-/** Where a point of W is on the screen once the camera has come to rest: it follows smoothly. */
+/**
+ * Where a point of W is on the screen once the camera has come to rest: it follows smoothly, and two pictures may be drawn at nearly
+ * the same time.
+ */
 export async function atRest(page, point) {
   let at = await onScreen(page, point);
   await eventually('the camera rests', async () => {
-    const { drawn } = await status(page);
-    await page.waitForFunction((before) => window.tern.counts.drawn > before, drawn);
+    const since = await page.evaluate(() => ({ drawn: window.tern.counts.drawn, ms: performance.now() }));
+    await page.waitForFunction((s) => window.tern.counts.drawn > s.drawn && performance.now() > s.ms + 300, since);
     const last = at;
     at = await onScreen(page, point);
     return Math.hypot(at.x - last.x, at.y - last.y) < 0.1;

@@ -2,13 +2,12 @@
 import { chmodSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
-  atRest, end, eventually, expect, knownLog, openPage, run, scrubTo, shows, start, startViewer, status, work,
+  atRest, end, eventually, expect, knownLog, openPage, run, scrubTo, shows, start, startFlight, startViewer, status, work,
 } from './support.mjs';
 
 const OBSTACLES = 30; // of the known scene
 const REGIONS = 2;
 const { TERN_BIN, TERN_PAGE } = process.env;
-const scripts = new URL('../../launch_scripts', import.meta.url).pathname;
 
 const text = (page, selector) => page.textContent(selector);
 
@@ -194,10 +193,9 @@ await run({
 
   async a_flight_that_has_ended_is_played_by_the_same_page() {
     const record = join(work, 'flight');
-    const flight = start(`${scripts}/fly.sh`, [
-      '--no-install', '--isolated', '--view', '--view-wait', '60', '--record', record, '--scenario',
-      new URL('pillar.yaml', import.meta.url).pathname, '--set', 'simulator.send_goal=true',
-    ]);
+    const pillar = new URL('pillar.yaml', import.meta.url).pathname;
+    const flight = startFlight('--view', '--view-wait', '60', '--record', record, '--scenario', pillar,
+      '--set', 'simulator.send_goal=true');
     await eventually('it waits for a page', () => /begins when a page looks/.test(flight.said) || flight.ended);
     const page = await openPage(/view +(\S+)/.exec(flight.said)[1]);
     await eventually('the log', async () => (await text(page, '#mode')) === 'log');

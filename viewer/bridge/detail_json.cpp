@@ -90,6 +90,7 @@ void write_plan(JsonWriter& json, const Scene& scene) {
   json.key("start_us").integer(p.trajectory.start.us).key("interval_s").number(p.trajectory.interval.seconds());
   json.key("intervals").integer(p.trajectory.control_points.cols() - 3).key("hold_s").number(p.hold.seconds());
   json.key("confidence").number(p.confidence).key("alpha_scale").number(p.alpha_scale);
+  if (p.sure_for < kMaxSpan) json.key("sure_for_s").number(p.sure_for.seconds());
   json.key("relaxed").flag(p.relaxed).key("local_goal_m").vec3(p.local_goal);
   json.key("sphere_radius_m").number(p.sphere_radius).key("cost_total").number(p.cost.total);
   json.key("cost_distance_to_goal_m").number(p.cost.distance_to_goal).key("cost_jerk").number(p.cost.jerk);

@@ -13,8 +13,8 @@ bool is_drawn(VoxelLabel label) {
 
 int gravity(VoxelLabel label) {
   switch (label) {
-    case VoxelLabel::Repulsive: return 4;
-    case VoxelLabel::Occupied: return 3;
+    case VoxelLabel::Occupied: return 4;
+    case VoxelLabel::Repulsive: return 3;
     case VoxelLabel::Attractive: return 2;
     case VoxelLabel::Free: return 1;
     case VoxelLabel::Unknown: return 0;

@@ -24,7 +24,7 @@ struct VoxelSurface {
 
 /// Every face between an occupied, attractive or repulsive voxel and one of another label (or the grid's outside),
 /// joined greedily to rectangles. A grid of more than `max_voxels` is coarsened first by a whole factor: a coarse voxel
-/// has the gravest label within it (repulsive, occupied, attractive). O(voxels).
+/// has the gravest label within it (occupied, repulsive, attractive). O(voxels).
 VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels = 4'000'000);
 
 /// From p to the nearest occupied voxel as drawn, m (of a coarsened map no farther than it is). It is 0 within one,

@@ -16,8 +16,8 @@ AutopilotSimNode::AutopilotSimNode(Bus& bus, std::unique_ptr<Link> link, const S
 void AutopilotSimNode::step(UTime now) {
   if (now < next_) return;
   next_ = now + kLook;
-  while (const auto bytes = link_->receive(now)) {
-    for (const Frame& frame : parser_.push(*bytes)) autopilot_.hear(frame, now);
+  while (const auto portion = link_->receive(now)) {
+    for (const Frame& frame : parser_.push(portion->bytes)) autopilot_.hear(frame, now);
     if (link_->datagrams()) parser_.drop_rest();
   }
   autopilot_.step(now);

@@ -90,6 +90,8 @@ void ViewerNode::post_session() {
   JsonWriter json;
   json.begin_object().key("mode").text(player_ ? "log" : "live").key("goals").flag(options_.allow_goals && !player_);
   json.key("name").text(player_ ? options_.log : scenario_.name).key("build").text(build_id());
+  constexpr Duration kSecond{1'000'000};
+  json.key("pace").number(1.0 / bus_.clock().in_system_time(kSecond).seconds());
   json.key("epoch").integer(bus_.epoch_us()).end_object();
   board_.post(Topic::Session, json.take());
 }

@@ -253,7 +253,7 @@ function draw(now) {
 function picture(now, seconds) {
   stream.drawn();
   const paused = known.player && !known.player.playing;
-  const speed = paused ? 0 : (known.player?.speed ?? 1);
+  const speed = paused ? 0 : (known.player?.speed ?? known.session?.pace ?? 1);
   const now_us = clock.at_us + (now - clock.arrived_ms) * 1e3 * speed;
   for (const name of ON_DEMAND) showCount(name, layers[name] ? proofs.counts[name] : null);
   vehicle.draw(now_us);
