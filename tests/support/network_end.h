@@ -4,10 +4,12 @@
 #include <poll.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "messages/codec.h"
@@ -46,7 +48,8 @@ struct NetworkEnd {
   }
 
   std::shared_ptr<lcm::LCM> lcm;
-  WallClock clock;
+  /// At the pace of the processes that this test starts.
+  WallClock clock{{}, std::getenv("TERN_PACE") != nullptr ? std::stod(std::getenv("TERN_PACE")) : 1.0};
   std::unique_ptr<Bus> bus;
   std::vector<Heartbeat> beats;
 };
