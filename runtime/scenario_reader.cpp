@@ -151,7 +151,7 @@ RecordedTracksSpec read_recorded(ConfigSection section) {
   spec.frame_column = column("frame_column", spec.frame_column);
   spec.x_column = column("x_column", spec.x_column);
   spec.y_column = column("y_column", spec.y_column);
-  if (section.has("z_column")) spec.z_column = column("z_column", 0);
+  if (const int z_column = column("z_column", spec.z_column.value_or(-1), -1); z_column >= 0) spec.z_column = z_column;
   spec.metres_per_unit = section.number("metres_per_unit", spec.metres_per_unit, Range::positive(1e6));
   spec.frames_per_second = section.number("frames_per_second", spec.frames_per_second, Range::positive(1e6));
   spec.least_step_s = section.number("least_step_s", spec.least_step_s, Range::at_least(0.0, 3600.0));
@@ -163,7 +163,8 @@ RecordedTracksSpec read_recorded(ConfigSection section) {
   std::set<int> used;
   for (const auto& [key, c] : columns) {
     if (c >= spec.columns) throw section.error(key, fmt::format("{} is out of range [0, {}]", c, spec.columns - 1));
-    if (!used.insert(c).second) throw section.error(key, fmt::format("column {} is another key's column too", c));
+    if (c >= 0 && !used.insert(c).second)
+      throw section.error(key, fmt::format("column {} is another key's column too", c));
   }
   return spec;
 }

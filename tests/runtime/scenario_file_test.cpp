@@ -346,6 +346,7 @@ TEST(ScenarioFile, RefusesRecordedColumnsBeyondTheLineOrUsedTwice) {
             "a.yaml:5: world.recorded[0].y_column: 4 is out of range [0, 3]");
   EXPECT_EQ(recorded("      z_column: 2\n"),
             "a.yaml:4: world.recorded[0].z_column: column 2 is another key's column too");
+  EXPECT_EQ(recorded("      id_column: -1\n      z_column: -1\n"), "") << "two that were not recorded";
   EXPECT_EQ(error_of("world:\n  recorded:\n    - columns: 5\n"), "a.yaml:3: world.recorded[0].file: is missing");
 }
 
