@@ -45,6 +45,12 @@ Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, dou
           paced(near.pace_limits, (local.goal - start.p).norm()), near.fields};
 }
 
+Heading step_along(Heading heading) {
+  heading.way = {heading.local.goal, heading.way.from(heading.local.goal)};
+  heading.fields = nullptr;
+  return heading;
+}
+
 SemanticGuide guide_of(const Surroundings& near, const Heading& heading) {
   return {*heading.fields, near.config.semantic_cost, near.request.start.p, heading.local.goal};
 }

@@ -28,6 +28,9 @@ Heading heading_nowhere(const Surroundings& near);
 Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, double largest_radius,
                       const Surroundings& near);
 
+/// The same by way of its local goal, whatever regions cost: for small steps of who found no other.
+Heading step_along(Heading heading);
+
 /// What regions cost on the way to the local goal. @pre fields is not null
 SemanticGuide guide_of(const Surroundings& near, const Heading& heading);
 

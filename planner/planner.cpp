@@ -56,6 +56,27 @@ std::optional<std::vector<Vec3>> path_to_goal(const GoalProducts& goal, const Ve
   return goal.field->path_from(from);
 }
 
+/// Whether there is something new that leads at least a little of the way to the local goal.
+bool gets_on(const StandingAnswer& standing, const Heading& heading, const HorizonRequest& request) {
+  if (!standing.best()) return false;
+  const Vec3 end = standing.best()->trajectory.control_points.rightCols<1>();
+  const Vec3& goal = heading.local.goal;
+  return (goal - end).norm() < (1.0 - kStepsOn) * (goal - request.start.p).norm();
+}
+
+/// Smaller and smaller steps, while nothing gets on. @param head  heads along the path, to a local goal so far away
+/// @param reason  why nothing was found so far @return why there is nothing
+PlanReason creep(const Surroundings& near, const auto& head, Heading& heading, PlanReason reason,
+                 StandingAnswer& standing, PlanTools& tools) {
+  for (int k = 0; k < kSmallerSteps && !gets_on(standing, heading, near.request); ++k) {
+    if (tools.budget.expired(Stage::LocalGoal)) break;
+    heading = step_along(head(heading.local.radius / kSmallerStep));
+    standing.head_for(heading);
+    reason = try_durations(near, heading, Phase::Durations, near.config.search, standing, tools);
+  }
+  return reason;
+}
+
 bool needs_evasion(const StandingAnswer& standing, const Fallback& fallback) {
   if (standing.best() && standing.best()->holds) return false;
   return fallback.is_hit_at_rest || !(standing.committed() && standing.committed()->holds);
@@ -110,11 +131,7 @@ PlanAnswer plan(const HorizonRequest& asked, const PlanningWorld& world, const P
     if (!is_settled(near, heading, standing)) reason = plan_less_sure(heading, near, standing, tools);
     return {standing.chosen(standing.best() ? PlanReason::None : reason), log.statistics};
   }
-  const bool may_creep = goes && !rests && is_at_rest(request);
-  for (int k = 0; may_creep && k < kSmallerSteps && !standing.best() && !budget.expired(Stage::LocalGoal); ++k) {
-    heading = head(heading.local.radius / kSmallerStep);
-    reason = try_durations(near, heading, Phase::Durations, config.search, standing, tools);
-  }
+  if (goes && !rests && is_at_rest(request)) reason = creep(near, head, heading, reason, standing, tools);
   if (needs_evasion(standing, fallback)) evade(near, heading, standing, tools);
   return {standing.chosen(reason), log.statistics};
 }

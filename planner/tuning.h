@@ -2,6 +2,7 @@
 // defined.
 #pragma once
 
+#include "core/base/time.h"
 #include "core/base/types.h"
 
 namespace tern {
@@ -45,6 +46,8 @@ inline constexpr double kBendIgnored = 0.15;
 /// At rest on the way to a goal and without a plan: how many smaller steps are tried, and by what they shrink.
 inline constexpr int kSmallerSteps = 3;
 inline constexpr double kSmallerStep = 3.0;
+/// A plan from there that leads no further than this share of the way to the local goal is none.
+inline constexpr double kStepsOn = 0.01;
 
 // ---- The search's lengths for near local goals (look_ahead.h)
 
@@ -68,7 +71,7 @@ inline constexpr While kWhiles[] = {{0.3, 0.15}, {0.8, 0.4}};
 inline constexpr double kChord = 0.1;
 /// An optimized trajectory may arrive so much later than the search's, and one that sets out than waiting, s.
 inline constexpr double kSmoothnessPrice = 0.05;
-/// Where Δt is shorter than this arrivals say little …
+/// Where Δt is shorter than this arrivals say little, and one step may cross the sphere …
 inline constexpr Duration kMoment{40'000};
 /// … and an optimized trajectory keeps this share of the leaf's progress at least.
 inline constexpr double kProgressKept = 0.5;

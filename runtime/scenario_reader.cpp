@@ -160,11 +160,10 @@ RecordedTracksSpec read_recorded(ConfigSection section) {
   read_use(section, spec);
   section.finish();
   if (spec.file.empty()) throw section.error("file", "is empty");
-  std::set<int> used;
-  for (const auto& [key, c] : columns) {
+  for (std::set<int> used; const auto& [key, c] : columns) {
     if (c >= spec.columns) throw section.error(key, fmt::format("{} is out of range [0, {}]", c, spec.columns - 1));
-    if (c >= 0 && !used.insert(c).second)
-      throw section.error(key, fmt::format("column {} is another key's column too", c));
+    if (c < 0 || used.insert(c).second) continue;
+    throw section.error(key, fmt::format("column {} is another key's column too", c));
   }
   return spec;
 }

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/splines/piecewise_cubic.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {
@@ -226,10 +227,12 @@ class Search {
     return (q - problem_.start.p).squaredNorm() <= problem_.sphere_radius * problem_.sphere_radius;
   }
 
-  /// Where the first step to a goal outside S may already leave S, children aim at where the way leaves it.
+  /// Where the first step to a goal outside S may already leave S, or any step in a moment, children aim at where the
+  /// way leaves it.
   void aim_within_sphere(const Node& root, const std::array<AxisReach::Interval, 3>& range) {
     const Vec3 to_goal = problem_.way.point - problem_.start.p;
-    if (in_sphere(problem_.way.point) || in_sphere(root.q + aimed_velocity(root, range) * dt_)) return;
+    if (in_sphere(problem_.way.point)) return;
+    if (problem_.interval >= kMoment && in_sphere(root.q + aimed_velocity(root, range) * dt_)) return;
     aim_ = problem_.start.p + to_goal * (kWithinSphere * problem_.sphere_radius / to_goal.norm());
   }
 

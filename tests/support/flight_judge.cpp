@@ -27,7 +27,7 @@ bool way_exists(const Scenario& scenario, const std::vector<Box>& boxes, double 
   const double side = std::max(1e-3, all.sizes().maxCoeff() / kCells);
   const double slack = slack_cells * side;
   const Eigen::Vector3i size = (all.sizes() / side).array().ceil().cast<int>().max(1);
-  const auto cell_of = [&](const Vec3& p) {
+  const auto cell_of = [&](const Vec3& p) -> Eigen::Vector3i {
     return Eigen::Vector3i(((p - all.min()) / side).array().floor().cast<int>())
         .cwiseMax(0)
         .cwiseMin(size.array().matrix() - Eigen::Vector3i::Ones());
@@ -94,11 +94,22 @@ std::optional<std::string> fault_of_exchange(const VirtualFlight& flight) {
   return std::nullopt;
 }
 
+/// Motions are declared every 0.2 s, predicted every 0.05 s.
+constexpr double kUntilPredictedS = 0.25;
+
+/// Whether the obstacle that was touched came into being too late for the predictions of the last plan.
+bool is_newcomer(const World& world, const std::string& detail, double asked_s) {
+  return std::any_of(world.obstacles.begin(), world.obstacles.end(), [&](const WorldObstacle& o) {
+    return o.first_s() > asked_s - kUntilPredictedS && detail.starts_with(fmt::format("touched obstacle {} ", o.id()));
+  });
+}
+
 }  // namespace
 
 void PromiseWatch::on_request(const HorizonRequest& request) {
   if (!world_zero) world_zero = request.header.utime;
   at = request.start.p;
+  asked_at = request.header.utime;
 }
 
 void PromiseWatch::on_plan(const Plan& plan) {
@@ -107,8 +118,8 @@ void PromiseWatch::on_plan(const Plan& plan) {
 }
 
 const char* to_string(FlightReason reason) {
-  constexpr const char* kNames[] = {"reached",    "start in obstacle", "way blocked",
-                                    "way narrow", "held up",           "hit after its promise"};
+  constexpr const char* kNames[] = {"reached", "start in obstacle",     "way blocked",      "way narrow",
+                                    "held up", "hit after its promise", "hit by a newcomer"};
   return kNames[static_cast<int>(reason)];
 }
 
@@ -127,6 +138,8 @@ FlightJudgement judge(const LegalScenario& legal, const VirtualFlight& flight, c
   const bool movers =
       std::any_of(world.obstacles.begin(), world.obstacles.end(), [](const auto& o) { return o.moves(); });
   if (result.outcome == FlightOutcome::Collision) {
+    if (is_newcomer(world, result.detail, (watch.asked_at - *watch.world_zero).seconds()))
+      return {FlightReason::HitByNewcomer, ""};
     const UTime at = *watch.world_zero + Duration::from_seconds(result.flight_time_s);
     if (at <= watch.promised_until)
       return {FlightReason::HitAfterPromise, "touched within a promise: " + result.detail};

@@ -23,6 +23,7 @@ LegalScenario legal_scenario(std::uint64_t seed);
 /// Notes what a flight promised last.
 struct PromiseWatch final : FlightObserver {
   std::optional<UTime> world_zero;  ///< the first request comes then
+  UTime asked_at;                   ///< when the newest plan was asked for
   UTime promised_until;             ///< by what is flown, the hold after it included
   PlanReason last_reason = PlanReason::None;
   Vec3 at = Vec3::Zero();  ///< where the last request began, W
@@ -38,8 +39,9 @@ enum class FlightReason {
   WayNarrow,        ///< the grid is too coarse to tell whether there is a way
   HeldUp,           ///< something moves where the vehicle, or what is left of its way, is
   HitAfterPromise,  ///< touched by a mover when the last hold had ended
+  HitByNewcomer,    ///< touched by what came into being too late for the last plan
 };
-inline constexpr int kFlightReasons = 6;
+inline constexpr int kFlightReasons = 7;
 const char* to_string(FlightReason reason);
 
 struct FlightJudgement {

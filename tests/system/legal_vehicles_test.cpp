@@ -46,9 +46,14 @@ TEST(LegalScenario, EndsAtItsGoalOrWithAReasonThatIsTrue) {
   EXPECT_GE(reasons[static_cast<std::size_t>(FlightReason::Reached)] * 10, count * 8);
 }
 
-/// Lopsided bodies at the edge of their flight boxes, which were widened for them.
+/// Lopsided bodies at the edge of their flight boxes, which were widened for them; limits that cross the sphere in one
+/// interval, or differ between axes by hundreds; an obstacle that appears within a vehicle's reach.
 TEST(LegalScenario, EndsSoForSeedsThatOnceDidNot) {
-  for (const std::int64_t seed : {301, 378}) expect_true_end(seed);
+  for (const std::int64_t seed : {301, 378, 706, 763, 857, 886, 3173}) {
+    EXPECT_EQ(expect_true_end(seed), FlightReason::Reached) << seed;
+  }
+  EXPECT_EQ(expect_true_end(1040), FlightReason::WayBlocked);
+  EXPECT_EQ(expect_true_end(822), FlightReason::HitByNewcomer);
 }
 
 }  // namespace
