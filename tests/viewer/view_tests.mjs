@@ -184,11 +184,16 @@ await run({
     const there = await status(page);
     expect('all that stands there', there.obstacles === OBSTACLES && there.regions === REGIONS);
     expect('its ghost is where it is', Math.abs(there.ghost[0] - there.vehicle[0]) < 0.1);
+    expect('and in the legend', await page.isVisible('[data-layer=ghost]'));
     await page.keyboard.press(' ');
     await shows(page, 'it plays', (s) => s.vehicle[0] > 7);
     await page.check('input[name=planes]');
     await shows(page, 'planes', (s) => s.planes === 1);
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+    const alone = join(work, 'alone.html');
+    const made_alone = start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, '--export', alone, log]);
+    expect(`exported: ${made_alone.said}`, (await made_alone.gone) === 0);
+    expect('no legend of another log', !(await (await openPage(`file://${alone}`)).isVisible('[data-layer=ghost]')));
   },
 
   async a_flight_that_has_ended_is_played_by_the_same_page() {

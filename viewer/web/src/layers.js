@@ -40,6 +40,11 @@ export function makeSwitches(root, set) {
   }
 }
 
+/** A layer whose things this flight does not have is not in the legend. */
+export function offer(name, there) {
+  document.querySelector(`[data-layer=${name}]`).hidden = !there;
+}
+
 /** How many of them are drawn now, beside a layer's name. @param count  null: it is off */
 export function showCount(name, count) {
   const place = document.querySelector(`[data-layer=${name}] b`);

@@ -9,7 +9,7 @@ import { Controls } from './controls.js';
 import { Ghost } from './ghost.js';
 import * as hud from './hud.js';
 import { Inspector } from './inspector.js';
-import { makeSwitches, ON_DEMAND, showCount } from './layers.js';
+import { makeSwitches, offer, ON_DEMAND, showCount } from './layers.js';
 import { Obstacles } from './obstacles.js';
 import { watchFreeArea } from './panels.js';
 import { Pointer } from './picking.js';
@@ -118,7 +118,11 @@ const topics = {
     showCut();
   },
   health: (processes) => hud.showHealth(processes, (name) => inspector.open({ kind: 'process', name })),
-  ghost: (told) => (told ? ghost.take(told) : ghost.clear()),
+  ghost(told) {
+    if (told) ghost.take(told);
+    else ghost.clear();
+    offer('ghost', told);
+  },
 };
 
 function takeFrame(frame) {
@@ -150,6 +154,7 @@ function forget() {
   for (const key of Object.keys(known)) delete known[key];
   for (const part of [obstacles, trajectories, proofs, vehicle, regions, ghost, cameras]) part.clear();
   timeline.takeEvents([]);
+  offer('ghost', false);
 }
 
 // Layers -------------------------------------------------------------------------------------------------------------
@@ -169,6 +174,7 @@ function setLayer(name, on) {
   if (name === 'search' && on && !known.search) hud.toast('the planner tells with --set planner.publish_search=true');
 }
 makeSwitches(document.getElementById('layers'), setLayer);
+offer('ghost', false);
 
 let cutShare = 1;
 function showCut() {
