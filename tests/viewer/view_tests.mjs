@@ -167,7 +167,7 @@ await run({
     for (let at = 0; (at = bytes.indexOf(Buffer.from([0xff, 0xd8, 0xff]), at)) >= 0; ++at) ++pictures;
     expect(`six pictures, not ${pictures}`, pictures === 6);
     expect('their rate is told', readFileSync(`${film}.told`, 'utf8').includes('-framerate 4 '));
-    const none = start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, '--video', film, '--video-part', '900', '901', await knownLog()]);
+    const none = start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, '--video', film, '--video-part', '900', '901', await knownLog()], { TERN_FFMPEG: encoder });
     expect('no picture is an error', (await none.gone) !== 0 && /nothing is in 900 to 901 s/.test(none.said));
     const alone = start(`${TERN_BIN}/tern-viewer`, ['--video-rate', '4', '--log', await knownLog()]);
     expect('without --video it has no effect and is refused', (await alone.gone) !== 0 && /requires --video/.test(alone.said));

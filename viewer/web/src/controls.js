@@ -79,12 +79,13 @@ export class Controls {
     for (const button of this.buttons) button.classList.toggle('on', button.dataset.camera === this.cameras.mode);
   }
 
-  /** Goes where the address says. @return whether it says a moment */
-  follow() {
+  /** Goes where the address says. @param pause  called before it goes to a moment */
+  follow(pause = () => {}) {
     const { t, cam, eye } = readLink(location.hash);
     if (cam) this.setCamera(cam, eye);
-    if (t !== undefined) this.does.jump(t);
-    return t !== undefined;
+    if (t === undefined) return;
+    pause(); // first: who plays on leaves the moment
+    this.does.jump(t);
   }
 
   address() {

@@ -69,7 +69,7 @@ const topics = {
     const isFirst = !known.player;
     known.player = state;
     player.take(state);
-    if (isFirst && controls.follow()) send({ player: { play: false } });
+    if (isFirst) controls.follow(() => send({ player: { play: false } }));
   },
   chart(chart) {
     if (!chart) return;
