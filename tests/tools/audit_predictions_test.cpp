@@ -226,6 +226,18 @@ TEST(AuditedPredictions, OfASecondTrackOfAnObstacleAreNobodys) {
   EXPECT_EQ(check.unchecked.begin()->second, 1);
 }
 
+/// A plan certified at this level, of the predictions made at 5 s.
+Plan answer_to(const HorizonRequest& request, int level) {
+  Plan plan;
+  plan.outcome = PlanOutcome::Optimized;
+  plan.inputs.request = request.header.name;
+  plan.inputs.predictions = {2, 101};
+  plan.level = level;
+  plan.confidence = kConfidenceLevels[static_cast<std::size_t>(level)];
+  plan.trajectory.start = request.t_s;
+  return plan;
+}
+
 TEST(AuditedPredictions, OfPlansAreHeldAgainstWhatTheyClaim) {
   World world(2);
   world.predict(1'000);
@@ -235,13 +247,7 @@ TEST(AuditedPredictions, OfPlansAreHeldAgainstWhatTheyClaim) {
     request.header.name.sequence = 10 + level;
     request.t_s = at(5.1);
     world.record.requests.push_back(request);
-    Plan plan;
-    plan.outcome = PlanOutcome::Optimized;
-    plan.inputs.request = request.header.name;
-    plan.inputs.predictions = {2, 101};  // made at 5 s
-    plan.level = level;
-    plan.confidence = kConfidenceLevels[static_cast<std::size_t>(level)];
-    plan.trajectory.start = request.t_s;
+    Plan plan = answer_to(request, level);
     plan.hold = Duration::from_seconds(1.0);
     plan.certificate = {{1'000, 0, 0, 1, {}}, {1'000, 1, 0, 1, {}}};
     world.record.plans.push_back(plan);
@@ -260,14 +266,8 @@ TEST(AuditedPredictions, OfPlansEndWhereTheyAreSure) {
     ++request.header.name.sequence;
     request.t_s = at(5.1);
     world.record.requests.push_back(request);
-    Plan plan;
-    plan.outcome = PlanOutcome::Optimized;
-    plan.inputs.request = request.header.name;
-    plan.inputs.predictions = {2, 101};  // made at 5 s
-    plan.level = 2;
-    plan.confidence = kConfidenceLevels[2];
+    Plan plan = answer_to(request, 2);
     plan.sure_for = sure_for;
-    plan.trajectory.start = request.t_s;
     plan.hold = Duration::from_seconds(1.0);
     plan.certificate = {{1'000, 0, 0, 1, {}}};
     world.record.plans.push_back(plan);
