@@ -115,12 +115,9 @@ PlanAnswer plan(const HorizonRequest& asked, const PlanningWorld& world, const P
   log.enter(Stage::LocalGoal);
   const auto path = path_to_goal(*world.goal, request.start.p);
   const bool goes = path && !path->empty();
-  const auto head = [&](double radius) {
-    const Heading ahead = heading_along(*path, world.goal->field->cost(), radius, near);
-    standing.head_for(ahead);
-    return ahead;
-  };
+  const auto head = [&](double radius) { return heading_along(*path, world.goal->field->cost(), radius, near); };
   Heading heading = goes ? head(kLocalGoalShare * config.sphere_radius_m) : heading_nowhere(near);
+  if (goes) standing.head_for(heading);
   const bool has_less = goes && !rests && !near.hold.promised;
   if (near.start.relaxed && !has_less) standing.replace(find_evasion(near, heading, Phase::Room, tools));
   PlanReason reason = path ? PlanReason::None : PlanReason::GoalBlocked;

@@ -56,7 +56,18 @@ bool StandingAnswer::is_worse(const Candidate& candidate) const {
   if (!committed_) return false;
   const bool neither_holds = !candidate.holds && !committed_->holds;
   if (near_.hold.promised && neither_holds && candidate.clear_s < committed_->clear_s) return true;
-  return !candidate.better_than(*committed_);
+  return puts_off(candidate) || !candidate.better_than(*committed_);
+}
+
+/// From rest, what ends where the committed one does, but later. (Half-way, the later one is faster, and its arrival is
+/// estimated as earlier. If it were flown for that, it would be put off again at the next request, for ever.)
+bool StandingAnswer::puts_off(const Candidate& candidate) const {
+  const MotionSample& start = near_.request.start;
+  const TimedSpline& now = committed_->trajectory;
+  const bool rests = start.v.isZero() && start.a.isZero();
+  if (!rests || candidate.holds != committed_->holds || candidate.trajectory.end() < now.end()) return false;
+  const Vec3 apart = candidate.trajectory.control_points.rightCols<1>() - now.control_points.rightCols<1>();
+  return apart.norm() < kNearer;
 }
 
 /// A vehicle at rest gains nothing by waiting: a plan that gets nearer is flown even if it arrives as late, or later by

@@ -38,6 +38,7 @@ class StandingAnswer {
  private:
   void tell(const Candidate& candidate);
   [[nodiscard]] bool sets_out() const;
+  [[nodiscard]] bool puts_off(const Candidate& candidate) const;
   /// than what is committed
   [[nodiscard]] bool is_worse(const Candidate& candidate) const;
   [[nodiscard]] Plan filled(const Candidate* candidate, PlanReason reason) const;
