@@ -47,6 +47,11 @@ class Slabs {
 
 bool segment_meets_box(const Vec3& a, const Vec3& b, const Box& box) { return Slabs(a, b).meets(box, 0.0); }
 
+Box core_beyond(const Box& box, const Vec3& p) {
+  const double outside = std::max((box.min() - p).maxCoeff(), (p - box.max()).maxCoeff());
+  return outside > kPathClearance ? box : grown(box, Vec3::Constant(outside - 2.0 * kPathClearance));
+}
+
 BoxIndex::BoxIndex(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   order_.reserve(boxes_.size());
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
@@ -105,12 +110,12 @@ bool BoxIndex::blocks(const Vec3& a, const Vec3& b) const {
   return walk([&](const Box& box) { return slabs.meets(box, kPathClearance); }, [](std::int32_t) { return true; });
 }
 
-bool BoxIndex::blocks(const Vec3& a, const Vec3& b, const Vec3& exempt) const {
+bool BoxIndex::blocks(const Vec3& a, const Vec3& b, const Vec3& start) const {
   const Slabs slabs(a, b);
   return walk([&](const Box& box) { return slabs.meets(box, kPathClearance); },
               [&](std::int32_t i) {
-                const Box& box = boxes_[static_cast<std::size_t>(i)];
-                return !grown(box, Vec3::Constant(kPathClearance)).contains(exempt);
+                const Box core = core_beyond(boxes_[static_cast<std::size_t>(i)], start);
+                return !core.isEmpty() && slabs.meets(core, kPathClearance);
               });
 }
 

@@ -17,6 +17,10 @@ inline constexpr double kPathClearance = 1e-6;
 /// parameter.
 bool segment_meets_box(const Vec3& a, const Vec3& b, const Box& box);
 
+/// What of a box stands in the way of a path from p: all of it, or, if p lies in it, what lies deeper than p. So who is
+/// in the margin of an obstacle leaves it, or goes along it, and does not go through. Empty if p is in its middle.
+Box core_beyond(const Box& box, const Vec3& p);
+
 /// A tree of bounding boxes (split at the median of the longest axis, ties by index). Immutable; queries do not
 /// allocate.
 class BoxIndex {
@@ -43,8 +47,8 @@ class BoxIndex {
   /// Does the closed segment come nearer than kPathClearance (per axis) to any box?
   [[nodiscard]] bool blocks(const Vec3& a, const Vec3& b) const;
 
-  /// The same, but boxes that contain `exempt` (to kPathClearance) are passed over.
-  [[nodiscard]] bool blocks(const Vec3& a, const Vec3& b, const Vec3& exempt) const;
+  /// The same, but of boxes that contain `start` (to kPathClearance) only the core beyond it blocks.
+  [[nodiscard]] bool blocks(const Vec3& a, const Vec3& b, const Vec3& start) const;
 
   /// Is p within kPathClearance (per axis) of any box?
   [[nodiscard]] bool covers(const Vec3& p) const { return blocks(p, p); }

@@ -147,8 +147,8 @@ std::optional<Box> GoalField::blocker(const Vec3& start) const {
   obstacles_.visit(grown(line, Vec3::Constant(kPathClearance)), [&](std::int32_t k) {
     const Box& box = obstacles_.boxes()[static_cast<std::size_t>(k)];
     const double distance = box.exteriorDistance(from);
-    const bool passed_over = goal_free_ && box.contains(start);
-    if (!passed_over && distance < nearest && segment_meets_box(from, to, box)) {
+    const Box core = goal_free_ ? core_beyond(box, start) : box;
+    if (!core.isEmpty() && distance < nearest && segment_meets_box(from, to, core)) {
       nearest = distance;
       first = box;
     }

@@ -85,6 +85,34 @@ TEST(BoxIndex, PassesOverTheBoxesThatHoldTheExemptPoint) {
   EXPECT_TRUE(index.blocks(inside, {5, 0.5, 0.5}, inside));
 }
 
+/// A thin wall, and who rests in the margin by which it was grown: the way on is around it.
+TEST(BoxIndex, WhoIsInTheMarginOfABoxLeavesItButDoesNotGoThrough) {
+  const BoxIndex index({Box(Vec3(0, 0, 0), Vec3(0.2, 10, 10))});
+  const Vec3 start(0.19, 5, 5);
+  EXPECT_TRUE(index.blocks(start, {-1, 5, 5}, start)) << "through";
+  EXPECT_TRUE(index.blocks(start, {0.15, 5, 5}, start)) << "deeper";
+  EXPECT_FALSE(index.blocks(start, {1, 5, 5}, start)) << "out";
+  EXPECT_FALSE(index.blocks(start, {0.19, 9, 5}, start)) << "along";
+  EXPECT_FALSE(index.blocks(start, start, start));
+}
+
+/// Whatever blocks a path from a point is what lies deeper than it, and never that point itself.
+TEST(BoxIndex, TheCoreBeyondAPointIsAllOfTheBoxOrExcludesThePoint) {
+  Rng rng(11);
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const Vec3 half(rng.uniform(0.01, 1.0), rng.uniform(0.01, 1.0), rng.uniform(0.01, 1.0));
+    const Box box(-half, half);
+    const Vec3 p(rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2));
+    const Box core = core_beyond(box, p);
+    if (!grown(box, Vec3::Constant(kPathClearance)).contains(p)) {
+      EXPECT_TRUE(core.isApprox(box));
+    } else if (!core.isEmpty()) {
+      EXPECT_FALSE(grown(core, Vec3::Constant(kPathClearance)).contains(p));
+      EXPECT_TRUE(box.contains(core));
+    }
+  }
+}
+
 TEST(BoxIndex, TakesManyEqualBoxes) {
   const BoxIndex index(std::vector<Box>(1000, Box(Vec3(0, 0, 0), Vec3(1, 1, 1))));
   EXPECT_EQ(index.query(Box(Vec3(1, 1, 1), Vec3(2, 2, 2))).size(), 1000u);
