@@ -17,10 +17,12 @@ PlanReason reason_of_nothing(const Surroundings& near, const Budget& budget) {
 }
 
 /// Whether a longer duration need not be tried.
-bool is_enough(const std::optional<Candidate>& best, const Heading& heading, Budget& budget) {
+bool is_enough(const Surroundings& near, const Heading& heading, const StandingAnswer& standing, Budget& budget) {
+  const std::optional<Candidate>& best = standing.best();
   if (!best) return false;
-  const double near = kNearLocalGoal * step_scale(heading.local.radius);
-  return (best->holds && best->cost.distance_to_goal <= near) || budget.expired(Stage::LocalGoal);
+  const bool arrives = best->holds && best->cost.distance_to_goal <= kNearLocalGoal * step_scale(heading.local.radius);
+  const bool stays = is_at_rest(near.request) && !standing.gets_on();
+  return (arrives && !stays) || budget.expired(Stage::LocalGoal);
 }
 
 }  // namespace
@@ -31,7 +33,7 @@ PlanReason try_durations(const Surroundings& near, const Heading& heading, Phase
   const SearchConfig lengths = scaled(search, heading.local.radius, heading.local.least_s);
   for (const double scale : config.duration_scales) {
     if (!tools.budget.begin_attempt(phase)) break;
-    if (is_enough(standing.best(), heading, tools.budget)) break;
+    if (is_enough(near, heading, standing, tools.budget)) break;
     const std::optional<Duration> interval = interval_of(scale * heading.local.least_s, config.intervals);
     if (!interval) break;
     const double end_s = interval->seconds() * config.intervals;

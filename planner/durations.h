@@ -9,7 +9,7 @@
 namespace tern {
 
 /// Tries the scales of the least duration, in order; each leaf is optimized, and the best stands. Ends with the first
-/// end that holds near the local goal, or with the budget.
+/// end that holds near the local goal (from rest: that gets on, too), or with the budget.
 /// @param phase   whose attempts these are
 /// @param search  its lengths are for local goals at kFullStep and beyond
 /// @return why there is no plan

@@ -51,6 +51,12 @@ Heading step_along(Heading heading) {
   return heading;
 }
 
+double share_of_way(const Vec3& from, const Vec3& local_goal, const TimedSpline& trajectory) {
+  const double to_go = (local_goal - from).norm();
+  const Vec3 end = trajectory.control_points.rightCols<1>();
+  return to_go > 0.0 ? 1.0 - (local_goal - end).norm() / to_go : 0.0;
+}
+
 SemanticGuide guide_of(const Surroundings& near, const Heading& heading) {
   return {*heading.fields, near.config.semantic_cost, near.request.start.p, heading.local.goal};
 }

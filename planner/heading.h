@@ -31,6 +31,9 @@ Heading heading_along(const std::vector<Vec3>& path, const TravelCost& cost, dou
 /// The same by way of its local goal, whatever regions cost: for small steps of who found no other.
 Heading step_along(Heading heading);
 
+/// By how much of the way from there to the local goal the trajectory's end gets nearer to it.
+double share_of_way(const Vec3& from, const Vec3& local_goal, const TimedSpline& trajectory);
+
 /// What regions cost on the way to the local goal. @pre fields is not null
 SemanticGuide guide_of(const Surroundings& near, const Heading& heading);
 

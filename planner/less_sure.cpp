@@ -12,25 +12,10 @@
 #include "planner/tuning.h"
 
 namespace tern {
-namespace {
-
-/// By how much of the way to the local goal the trajectory's end gets nearer to it.
-double share_of_way(const Surroundings& near, const Heading& heading, const TimedSpline& trajectory) {
-  const double to_go = (heading.local.goal - near.request.start.p).norm();
-  const Vec3 end = trajectory.control_points.rightCols<1>();
-  return to_go > 0.0 ? 1.0 - (heading.local.goal - end).norm() / to_go : 0.0;
-}
-
-/// At rest for longer than kPatience, be it before it set out.
-bool has_waited(const Surroundings& near) {
-  return (near.request.t_s - near.request.committed.end()).seconds() > kPatience;
-}
-
-}  // namespace
-
 bool is_settled(const Surroundings& near, const Heading& heading, const StandingAnswer& standing) {
   const auto settles = [&](const std::optional<Candidate>& candidate) {
-    return candidate && candidate->holds && share_of_way(near, heading, candidate->trajectory) >= kGetsOn;
+    return candidate && candidate->holds &&
+           share_of_way(near.request.start.p, heading.local.goal, candidate->trajectory) >= kGetsOn;
   };
   return settles(standing.best()) || settles(standing.committed());
 }
@@ -45,7 +30,7 @@ PlanReason plan_less_sure(const Heading& heading, Surroundings& near, StandingAn
   for (const Assurance& less : all) {
     if (is_settled(near, heading, standing)) break;
     if (less.level == 0 && less.sure_for.seconds() >= near.hold.predicted_s) continue;  // that is all there is
-    if (is_too_short(less, aside_s) && (standing.best() || standing.committed()) && !has_waited(near)) break;
+    if (is_too_short(less, aside_s) && (standing.best() || standing.committed()) && !has_waited(near.request)) break;
     count_less(less, tools.memory, near);
     if (near.start.relaxed && &less != &all.back()) continue;
     if (!standing.committed()) standing.keep(check_committed(near, false, tools).committed, heading);

@@ -42,8 +42,6 @@ bool is_usable(const PlanningWorld& world, const HorizonRequest& request, const 
   return (request.header.utime - world.predictions->set.made_at).seconds() <= config.stale_after_s;
 }
 
-bool is_at_rest(const HorizonRequest& request) { return request.t_s >= request.committed.end(); }
-
 /// At rest where it shall be: nothing to do but to stay clear.
 bool rests_where_it_shall(const HorizonRequest& request, const Goal& goal, const PlannerConfig& config) {
   if (!is_at_rest(request)) return false;
@@ -56,21 +54,14 @@ std::optional<std::vector<Vec3>> path_to_goal(const GoalProducts& goal, const Ve
   return goal.field->path_from(from);
 }
 
-/// Whether there is something new that leads at least a little of the way to the local goal.
-bool gets_on(const StandingAnswer& standing, const Heading& heading, const HorizonRequest& request) {
-  if (!standing.best()) return false;
-  const Vec3 end = standing.best()->trajectory.control_points.rightCols<1>();
-  const Vec3& goal = heading.local.goal;
-  return (goal - end).norm() < (1.0 - kStepsOn) * (goal - request.start.p).norm();
-}
-
 /// Smaller and smaller steps, while nothing gets on. @param head  heads along the path, to a local goal so far away
 /// @param reason  why nothing was found so far @return why there is nothing
 PlanReason creep(const Surroundings& near, const auto& head, Heading& heading, PlanReason reason,
                  StandingAnswer& standing, PlanTools& tools) {
-  for (int k = 0; k < kSmallerSteps && !gets_on(standing, heading, near.request); ++k) {
+  for (int k = 0; k < kSmallerSteps && !standing.gets_on(); ++k) {
     if (tools.budget.expired(Stage::LocalGoal)) break;
-    heading = step_along(head(heading.local.radius / kSmallerStep));
+    const double step = std::min(heading.local.radius, (heading.local.goal - near.request.start.p).norm());
+    heading = step_along(head(step / kSmallerStep));
     standing.head_for(heading);
     reason = try_durations(near, heading, Phase::Durations, near.config.search, standing, tools);
   }
@@ -120,15 +111,17 @@ PlanAnswer plan(const HorizonRequest& asked, const PlanningWorld& world, const P
   if (goes) standing.head_for(heading);
   const bool has_less = goes && !rests && !near.hold.promised;
   if (near.start.relaxed && !has_less) standing.replace(find_evasion(near, heading, Phase::Room, tools));
+  const bool makes_room = standing.best().has_value();
   PlanReason reason = path ? PlanReason::None : PlanReason::GoalBlocked;
-  if (path && !rests && !standing.best() && !(has_less && near.start.relaxed))
+  if (path && !rests && !makes_room && !(has_less && near.start.relaxed))
     reason = try_durations(near, heading, Phase::Durations, config.search, standing, tools);
   if (has_less) {
     if (near.start.relaxed) standing.keep(std::nullopt, heading);
     if (!is_settled(near, heading, standing)) reason = plan_less_sure(heading, near, standing, tools);
     return {standing.chosen(standing.best() ? PlanReason::None : reason), log.statistics};
   }
-  if (goes && !rests && is_at_rest(request)) reason = creep(near, head, heading, reason, standing, tools);
+  if (goes && !rests && !makes_room && is_at_rest(request))
+    reason = creep(near, head, heading, reason, standing, tools);
   if (needs_evasion(standing, fallback)) evade(near, heading, standing, tools);
   return {standing.chosen(reason), log.statistics};
 }

@@ -78,7 +78,11 @@ GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const M
                           const std::vector<Box>& static_boxes, const Vec3& start) {
   std::vector<Box> boxes = static_boxes;
   boxes.insert(boxes.end(), map->occupied.boxes().begin(), map->occupied.boxes().end());
-  for (Box& box : boxes) box = grown(box, key.body_half + Vec3::Constant(kPathSpacing));
+  for (Box& box : boxes) {
+    const Box solid = grown(box, key.body_half);
+    box = grown(solid, Vec3::Constant(kPathSpacing));
+    if (!solid.contains(key.goal)) box = core_beyond(box, key.goal);  // a goal beside a wall is not in it
+  }
   GoalFieldOptions options;
   options.start = start;
   if (map->weighs_paths) {

@@ -17,6 +17,9 @@ StandingAnswer::StandingAnswer(const Surroundings& near, Plan blank, std::option
 void StandingAnswer::head_for(const Heading& heading) {
   blank_.local_goal = heading.local.goal;
   if (committed_) committed_->arrival_s = worth_of(near_, heading, committed_->trajectory);
+  if (!best_) return;
+  best_->arrival_s = worth_of(near_, heading, best_->trajectory);
+  best_->cost.distance_to_goal = (heading.local.goal - best_->trajectory.control_points.rightCols<1>()).norm();
 }
 
 void StandingAnswer::keep(std::optional<Candidate> committed, const Heading& heading) {
@@ -25,11 +28,11 @@ void StandingAnswer::keep(std::optional<Candidate> committed, const Heading& hea
 }
 
 void StandingAnswer::announce(const Candidate& leaf) {
-  if (!best_ || leaf.better_than(*best_)) tell(leaf);
+  if (is_best(leaf)) tell(leaf);
 }
 
 void StandingAnswer::take(Candidate candidate) {
-  if (!best_ || candidate.better_than(*best_)) replace(std::move(candidate));
+  if (is_best(candidate)) replace(std::move(candidate));
 }
 
 void StandingAnswer::replace(std::optional<Candidate> evasion) {
@@ -59,24 +62,38 @@ bool StandingAnswer::is_worse(const Candidate& candidate) const {
   return puts_off(candidate) || !candidate.better_than(*committed_);
 }
 
-/// From rest, what ends where the committed one does, but later. (Half-way, the later one is faster, and its arrival is
-/// estimated as earlier. If it were flown for that, it would be put off again at the next request, for ever.)
+bool StandingAnswer::gets_on(const Candidate& candidate) const {
+  return share_of_way(near_.request.start.p, blank_.local_goal, candidate.trajectory) > kStepsOn;
+}
+
+/// To stay at rest is no way to arrive, however early it is estimated to.
+bool StandingAnswer::is_best(const Candidate& candidate) const {
+  if (!best_) return true;
+  const bool leads = gets_on(candidate);
+  if (is_at_rest(near_.request) && candidate.holds == best_->holds && leads != gets_on(*best_)) return leads;
+  return candidate.better_than(*best_);
+}
+
+/// What leads nowhere while the committed one leads on; from rest, also what ends where that does, but later.
+/// (Half-way, a later one is faster, and its arrival is estimated as earlier. If it were flown for that, it would be
+/// put off again at the next request, for ever.)
 bool StandingAnswer::puts_off(const Candidate& candidate) const {
+  if (candidate.holds != committed_->holds) return false;
+  if (gets_on(*committed_) && !gets_on(candidate)) return true;
   const MotionSample& start = near_.request.start;
   const TimedSpline& now = committed_->trajectory;
   const bool rests = start.v.isZero() && start.a.isZero();
-  if (!rests || candidate.holds != committed_->holds || candidate.trajectory.end() < now.end()) return false;
+  if (!rests || candidate.trajectory.end() < now.end()) return false;
   const Vec3 apart = candidate.trajectory.control_points.rightCols<1>() - now.control_points.rightCols<1>();
   return apart.norm() < kNearer;
 }
 
 /// A vehicle at rest gains nothing by waiting: a plan that gets nearer is flown even if it arrives as late, or later by
-/// kSmoothnessPrice. (Arrivals are counted per axis: where one axis is slow, those of rest and of a plan that begins
-/// gently are equal.)
+/// kSmoothnessPrice, and whenever it arrives by who has waited. (Arrivals are counted per axis: where one axis is slow,
+/// those of rest and of a plan that begins gently are equal, and a plan that strays on that axis arrives later.)
 bool StandingAnswer::sets_out() const {
-  const bool rests = near_.request.t_s >= near_.request.committed.end();
-  if (!rests || best_->holds != committed_->holds) return false;
-  if (best_->arrival_s > committed_->arrival_s + kSmoothnessPrice) return false;
+  if (!is_at_rest(near_.request) || best_->holds != committed_->holds) return false;
+  if (!has_waited(near_.request) && best_->arrival_s > committed_->arrival_s + kSmoothnessPrice) return false;
   return best_->cost.distance_to_goal < (blank_.local_goal - near_.request.start.p).norm() - kNearer;
 }
 

@@ -19,7 +19,10 @@ class StandingAnswer {
   /// What is new.
   [[nodiscard]] const std::optional<Candidate>& best() const { return best_; }
 
-  /// From now on, plans head there, and what is committed is judged by that.
+  /// Whether there is something new that leads at least a little of the way to the local goal.
+  [[nodiscard]] bool gets_on() const { return best_ && gets_on(*best_); }
+
+  /// From now on, plans head there, and what is committed and what is new are judged by that.
   void head_for(const Heading& heading);
   /// What is committed, certified at less than was looked for so far.
   void keep(std::optional<Candidate> committed, const Heading& heading);
@@ -37,6 +40,8 @@ class StandingAnswer {
 
  private:
   void tell(const Candidate& candidate);
+  [[nodiscard]] bool gets_on(const Candidate& candidate) const;
+  [[nodiscard]] bool is_best(const Candidate& candidate) const;
   [[nodiscard]] bool sets_out() const;
   [[nodiscard]] bool puts_off(const Candidate& candidate) const;
   /// than what is committed

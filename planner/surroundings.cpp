@@ -4,6 +4,7 @@
 #include "core/world/flyable.h"
 #include "planner/plan_workspace.h"
 #include "planner/safety/thrust_set.h"
+#include "planner/tuning.h"
 
 namespace tern {
 namespace {
@@ -77,5 +78,9 @@ bool is_followed(const Surroundings& near, Duration interval, double hold_s) {
   const Duration looks = interval * near.config.intervals + Duration::from_seconds(hold_s);
   return near.request.t_s + looks <= near.look.followed_until;
 }
+
+bool is_at_rest(const HorizonRequest& request) { return request.t_s >= request.committed.end(); }
+
+bool has_waited(const HorizonRequest& request) { return (request.t_s - request.committed.end()).seconds() > kPatience; }
 
 }  // namespace tern

@@ -29,6 +29,11 @@ struct Surroundings {
   const SemanticFields* fields = nullptr;  ///< null: nothing that they cost differs anywhere in the sphere
 };
 
+/// Whether what is committed has ended by then …
+bool is_at_rest(const HorizonRequest& request);
+/// … for longer than kPatience, be it before it set out.
+bool has_waited(const HorizonRequest& request);
+
 /// @pre the world has predictions and a map. @param memory  keeps the obstacles until the next call
 Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
                           PlanWorkspace& memory);

@@ -15,9 +15,11 @@ std::string blocked_in_words(const GoalField& field, const GoalFieldKey& key, co
   const auto blocker = field.blocker(start);
   if (!blocker) return "no way within the flight box leads there";
   const Vec3 growth = key.body_half + Vec3::Constant(kPathSpacing);
-  const bool is_static = std::any_of(static_boxes.begin(), static_boxes.end(),
-                                     [&](const Box& box) { return grown(box, growth).isApprox(*blocker); });
   const Box box = grown(*blocker, -growth);
+  const bool is_static = std::any_of(static_boxes.begin(), static_boxes.end(), [&](const Box& b) {
+    const Vec3 apart = (b.min() - box.min()).cwiseAbs().cwiseMax((b.max() - box.max()).cwiseAbs());
+    return apart.maxCoeff() <= kPathSpacing;  // what holds goal or start counts a little less
+  });
   const auto place = [](const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z()); };
   return fmt::format("{} from {} to {} {}", is_static ? "an obstacle" : "what the map says is occupied",
                      place(box.min()), place(box.max()),

@@ -227,12 +227,24 @@ class Search {
     return (q - problem_.start.p).squaredNorm() <= problem_.sphere_radius * problem_.sphere_radius;
   }
 
-  /// Where the first step to a goal outside S may already leave S, or any step in a moment, children aim at where the
-  /// way leaves it.
+  /// Whether steps by neighbouring samples end farther apart than S is wide.
+  [[nodiscard]] bool oversteps(const std::array<AxisReach::Interval, 3>& range) const {
+    const auto apart = [&](int axis, int samples) {
+      const AxisReach::Interval& r = range[static_cast<std::size_t>(axis)];
+      return (r.high - r.low) / (samples - 1) * dt_;
+    };
+    const double widest =
+        std::max({apart(0, config_.samples_xy), apart(1, config_.samples_xy), apart(2, config_.samples_z)});
+    return widest > problem_.sphere_radius;
+  }
+
+  /// Where the first step to a goal outside S may already leave S, or any other would, children aim at where the way
+  /// leaves it.
   void aim_within_sphere(const Node& root, const std::array<AxisReach::Interval, 3>& range) {
     const Vec3 to_goal = problem_.way.point - problem_.start.p;
     if (in_sphere(problem_.way.point)) return;
-    if (problem_.interval >= kMoment && in_sphere(root.q + aimed_velocity(root, range) * dt_)) return;
+    const bool is_fine = problem_.interval >= kMoment && !oversteps(range);
+    if (is_fine && in_sphere(root.q + aimed_velocity(root, range) * dt_)) return;
     aim_ = problem_.start.p + to_goal * (kWithinSphere * problem_.sphere_radius / to_goal.norm());
   }
 

@@ -231,6 +231,15 @@ TEST_F(PlannerAlone, AGoalBehindWallsIsSaidToBeBlocked) {
   EXPECT_EQ(got.reason, PlanReason::GoalBlocked);
 }
 
+TEST_F(PlannerAlone, AGoalBesideAWallIsNotBlocked) {
+  const Vec3 half = request_.body.half_extents();
+  const auto wall_at = [&](double gap) {
+    return standing_box(1, box_around(goal_.position + Vec3(half.x() + 0.5 + gap, 0, 0), Vec3(0.5, 5, 5)), kStart);
+  };
+  EXPECT_NE(answer(request_, world_of({wall_at(0.005)}, goal_, request_)).reason, PlanReason::GoalBlocked);
+  EXPECT_EQ(answer(request_, world_of({wall_at(-0.005)}, goal_, request_)).reason, PlanReason::GoalBlocked);
+}
+
 TEST_F(PlannerAlone, AVehicleBehindWallsSaysSoToo) {
   const Plan got = answer(request_, world_of(cage(request_.start.p, 1.0), goal_, request_));
   EXPECT_EQ(got.outcome, PlanOutcome::KeepCommitted);

@@ -146,6 +146,10 @@ FlightJudgement judge(const LegalScenario& legal, const VirtualFlight& flight, c
     return {FlightReason::HitAfterPromise, movers ? "" : "touched what stands: " + result.detail};
   }
   const std::vector<Box> boxes = static_boxes(world);
+  const Box at_goal = box_around(scenario.uav.goal, scenario.uav.body.half_extents());
+  const bool goal_taken =
+      std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return box.intersects(at_goal); });
+  if (goal_taken && watch.last_reason == PlanReason::GoalBlocked) return {FlightReason::WayBlocked, ""};
   if (!way_exists(scenario, boxes, -1.0)) {
     const bool said = watch.last_reason == PlanReason::GoalBlocked;
     return {FlightReason::WayBlocked, said ? "" : "no way, and the planner did not say so"};

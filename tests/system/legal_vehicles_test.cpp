@@ -47,13 +47,15 @@ TEST(LegalScenario, EndsAtItsGoalOrWithAReasonThatIsTrue) {
 }
 
 /// Lopsided bodies at the edge of their flight boxes, which were widened for them; limits that cross the sphere in one
-/// interval, or differ between axes by hundreds; a setting out that is put off at every request; a wall that
-/// stands beside the vehicle; an obstacle that appears within a vehicle's reach.
+/// interval, or differ between axes by hundreds; a setting out that is put off at every request; a wall beside
+/// the vehicle; staying that is estimated to arrive earlier than any way on; an obstacle that appears within a
+/// vehicle's reach.
 TEST(LegalScenario, EndsSoForSeedsThatOnceDidNot) {
-  for (const std::int64_t seed : {301, 378, 706, 763, 857, 886, 2828, 3173, 6178}) {
+  for (const std::int64_t seed : {301, 378, 706, 763, 857, 886, 2828, 3173, 3569, 4932, 6178, 7046, 7158, 7479, 8329}) {
     EXPECT_EQ(expect_true_end(seed), FlightReason::Reached) << seed;
   }
   EXPECT_EQ(expect_true_end(1040), FlightReason::WayBlocked);
+  EXPECT_EQ(expect_true_end(4596), FlightReason::WayBlocked) << "its goal lies in an obstacle, half a millimetre deep";
   EXPECT_EQ(expect_true_end(822), FlightReason::HitByNewcomer);
 }
 
