@@ -50,9 +50,9 @@ class GoalField {
                          const GoalFieldOptions& options = {});
 
   /// A taut piecewise-linear path from start to the goal, both included, clear of every box; nullopt if there is none.
-  /// Taut: no vertex could be pulled to a cheaper place. A start inside boxes may leave them: the first segment passes
-  /// over the boxes that contain it. A few percent longer than the shortest at most in simple cases (tested); about 10
-  /// µs, with a TravelCost some 100.
+  /// Taut: no vertex could be pulled to a cheaper place. Of boxes that contain the start only what
+  /// lies deeper than it is in the way: the path leaves them. A few percent longer than the shortest at most in simple
+  /// cases (tested); about 10 µs, with a TravelCost some 100.
   [[nodiscard]] std::optional<std::vector<Vec3>> path_from(const Vec3& start) const;
 
   /// What stands in the way where there is no path, for words to a person: the box that holds the goal, or else the

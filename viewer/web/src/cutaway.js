@@ -2,26 +2,38 @@
 
 export const SIEVE_RADIUS = 1.5; // m about the line to the vehicle
 
-/** Of a fragment shader that has `seen`, its place in the camera's frame, and the uniform `vehicle`. */
-export const SIEVE = `
+/** Both shaders: how far along the line a place is (1: at the vehicle; orthographic: metres before it), and how far aside. */
+export const SIEVE_WAY = 'varying float along; varying vec3 aside;';
+
+/** Of a vertex shader that has `seen`, its place in the camera's frame, and the uniform `vehicle`. Both are linear there. */
+export const SIEVE_PLACE = `
   vec3 target = (viewMatrix * vec4(vehicle, 1.0)).xyz;
-  float along = isOrthographic ? (seen.z > target.z + 0.1 ? 0.5 : 1.0) : dot(seen, target) / dot(target, target);
-  float aside = isOrthographic ? length(seen.xy - target.xy) : length(seen - along * target) / (0.35 + 0.65 * along);
-  if (along < 0.97 && aside < ${SIEVE_RADIUS.toFixed(1)} && dot(target, target) > 1.0) { // not for who sits in it
-    float keep = mix(0.12, 1.0, smoothstep(0.7, ${SIEVE_RADIUS.toFixed(1)}, aside));
-    float sieve = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
-    if (sieve > keep) discard;
+  along = isOrthographic ? seen.z - target.z : dot(seen, target) / dot(target, target);
+  aside = isOrthographic ? vec3(seen.xy - target.xy, 0.0) : seen - along * target;
+  if (dot(target, target) < 1.0) along = isOrthographic ? 0.0 : 1.0; // not for who sits in it`;
+
+/** Of a fragment shader. */
+export const SIEVE = `
+  if (isOrthographic ? along > 0.1 : along < 0.97) {
+    float off = length(aside) / (isOrthographic ? 1.0 : 0.35 + 0.65 * along);
+    if (off < ${SIEVE_RADIUS.toFixed(1)}) {
+      float keep = mix(0.12, 1.0, smoothstep(0.7, ${SIEVE_RADIUS.toFixed(1)}, off));
+      float sieve = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+      if (sieve > keep) discard;
+    }
   }`;
 
 /** Makes a sieve of a material of three's. @param vehicle  where it is; kept */
 export function cutaway(material, vehicle) {
+  const before = material.onBeforeCompile;
   material.onBeforeCompile = (shader) => {
+    before(shader);
     shader.uniforms.vehicle = { value: vehicle };
     shader.vertexShader = shader.vertexShader
-      .replace('#include <common>', '#include <common>\nvarying vec3 seen;')
-      .replace('#include <project_vertex>', '#include <project_vertex>\nseen = mvPosition.xyz;');
+      .replace('#include <common>', `#include <common>\n${SIEVE_WAY} uniform vec3 vehicle;`)
+      .replace('#include <project_vertex>', `#include <project_vertex>\nvec3 seen = mvPosition.xyz; ${SIEVE_PLACE}`);
     shader.fragmentShader = shader.fragmentShader
-      .replace('#include <common>', '#include <common>\nvarying vec3 seen; uniform vec3 vehicle;')
+      .replace('#include <common>', `#include <common>\n${SIEVE_WAY}`)
       .replace('#include <clipping_planes_fragment>', SIEVE);
   };
   return material;

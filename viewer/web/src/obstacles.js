@@ -1,4 +1,4 @@
-// Obstacles as instanced boxes, with a soft dark spot below each, so that one sees where it hovers. Only those in view
+// Obstacles as boxes, with a soft dark spot below each, so that one sees where it hovers. Only those in view
 // are given to the renderer: without a GPU it pays for every corner.
 import * as THREE from 'three';
 import { cutaway, SIEVE_RADIUS } from './cutaway.js';
@@ -24,22 +24,23 @@ function spotTexture() {
   return new THREE.CanvasTexture(canvas);
 }
 
-/** Faces a little darker within than at their edges: boxes keep their outline without lines. */
-function faceTexture(thrifty) {
-  const size = 128;
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = size;
-  const context = canvas.getContext('2d');
-  context.fillStyle = '#fff';
-  context.fillRect(0, 0, size, size);
-  context.fillStyle = '#d2d2d2';
-  context.fillRect(4, 4, size - 8, size - 8);
-  const texture = new THREE.CanvasTexture(canvas);
-  texture.colorSpace = THREE.SRGBColorSpace;
-  texture.generateMipmaps = true;
-  texture.anisotropy = thrifty ? 1 : 4;
-  if (thrifty) texture.minFilter = THREE.LinearMipmapNearestFilter;
-  return texture;
+const RIM = 0.031; // of a face's width
+const WITHIN = 0.65; // how bright a face is within its rim
+
+/**
+ * Faces a little darker within than at their edges: boxes keep their outline without lines, and without a texture.
+ * Vertices bring light and fog along; alpha is what the fog leaves.
+ */
+function rimmed(within) {
+  const material = new THREE.MeshBasicMaterial({ vertexColors: true, fog: false });
+  material.defines = { USE_UV: '' };
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace('#include <map_fragment>', `
+      float inset = 0.5 - max(abs(vUv.x - 0.5), abs(vUv.y - 0.5));
+      float soft = fwidth(inset);
+      diffuseColor.rgb *= 1.0 - ${(1 - within).toFixed(2)} * vColor.a * smoothstep(${RIM} - soft, ${RIM} + soft, inset);`);
+  };
+  return material;
 }
 
 /** A box whose faces are lit as they will always be: boxes do not turn. */
@@ -48,74 +49,99 @@ function litBox(world) {
   const { normal } = geometry.attributes;
   const colors = [];
   for (let k = 0; k < normal.count; ++k) {
-    colors.push(...world.lightOn(new THREE.Vector3().fromBufferAttribute(normal, k)).toArray());
+    colors.push(...world.lightOn(new THREE.Vector3().fromBufferAttribute(normal, k)).toArray(), 1);
   }
-  return geometry.setAttribute('color', new THREE.Float32BufferAttribute(colors, 3));
+  return geometry.setAttribute('color', new THREE.Float32BufferAttribute(colors, 4));
 }
 
-/** Tells the renderer that the first `count` instances have changed. */
+/** Tells the renderer that the first `count` vertices have changed. */
 function touch(attribute, count) {
   attribute.clearUpdateRanges();
   attribute.addUpdateRange(0, count * attribute.itemSize);
   attribute.needsUpdate = true;
 }
 
+/** MOST copies of a shape in one geometry. No instances: without a GPU each of them costs as much as a mesh. */
+function copies(shape) {
+  const vertices = shape.attributes.position.count;
+  const { array: corners } = shape.index;
+  const geometry = new THREE.BufferGeometry();
+  const index = new Uint32Array(MOST * corners.length);
+  for (let k = 0; k < index.length; ++k) index[k] = corners[k % corners.length] + vertices * Math.floor(k / corners.length);
+  geometry.setIndex(new THREE.BufferAttribute(index, 1));
+  for (const [name, { array, itemSize }] of Object.entries(shape.attributes)) {
+    if (name === 'normal') continue; // nothing is lit anew
+    const all = new Float32Array(MOST * array.length);
+    for (let k = 0; k < MOST; ++k) all.set(array, k * array.length);
+    geometry.setAttribute(name, new THREE.BufferAttribute(all, itemSize).setUsage(THREE.DynamicDrawUsage));
+  }
+  return geometry;
+}
+
 /** Boxes of one material, as many as are drawn this time. */
 class Boxes {
-  constructor(scene, geometry, material) {
-    this.mesh = new THREE.InstancedMesh(geometry, material, MOST);
-    this.mesh.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * MOST), 3);
-    this.mesh.instanceColor.setUsage(THREE.DynamicDrawUsage);
-    this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+  /** @param shape  one of them, of unit size; if it has colours, they are what light makes of white */
+  constructor(scene, shape, material) {
+    this.shape = shape;
+    this.mesh = new THREE.Mesh(copies(shape), material);
     this.mesh.frustumCulled = false;
     this.rows = new Int32Array(MOST); // in the set
+    this.count = 0;
     scene.add(this.mesh);
   }
 
-  add(row, [x, y, z], [width, depth, height], color) {
-    color?.toArray(this.mesh.instanceColor.array, 3 * this.mesh.count);
-    this.rows[this.mesh.count] = row;
-    const matrix = this.mesh.instanceMatrix.array;
-    const m = 16 * this.mesh.count++;
-    matrix[m] = width;
-    matrix[m + 5] = depth;
-    matrix[m + 10] = height;
-    matrix[m + 12] = x;
-    matrix[m + 13] = y;
-    matrix[m + 14] = z;
-    matrix[m + 15] = 1;
+  /** @param paint  of what has colours: [r, g, b] @param clear  what fog leaves of it  @param fog  [r, g, b] */
+  add(row, at, size, paint, clear, fog) {
+    const { position, color: light } = this.shape.attributes;
+    const all = this.mesh.geometry.attributes;
+    const first = this.count * position.array.length;
+    for (let k = 0; k < position.array.length; ++k) {
+      all.position.array[first + k] = at[k % 3] + size[k % 3] * position.array[k];
+    }
+    if (light) this.paint(this.count * light.array.length, paint, clear, fog);
+    this.rows[this.count++] = row;
+  }
+
+  paint(first, paint, clear, fog) {
+    const { array: light } = this.shape.attributes.color;
+    const { array } = this.mesh.geometry.attributes.color;
+    for (let k = 0; k < light.length; k += 4) {
+      for (let c = 0; c < 3; ++c) array[first + k + c] = clear * paint[c] * light[k + c] + (1 - clear) * fog[c];
+      array[first + k + 3] = clear;
+    }
   }
 
   done() {
-    touch(this.mesh.instanceMatrix, this.mesh.count);
-    if (this.mesh.instanceColor) touch(this.mesh.instanceColor, this.mesh.count);
+    const { position, color } = this.mesh.geometry.attributes;
+    const vertices = this.count * this.shape.attributes.position.count;
+    for (const attribute of [position, color]) if (attribute) touch(attribute, vertices);
+    this.mesh.geometry.setDrawRange(0, this.count * this.shape.index.count);
   }
 
   /** {row, distance} of the first under a ray, or null. */
   hit(raycaster) {
-    this.mesh.computeBoundingSphere();
+    this.mesh.geometry.computeBoundingSphere();
     const [first] = raycaster.intersectObject(this.mesh);
-    return first ? { row: this.rows[first.instanceId], distance: first.distance } : null;
+    return first ? { row: this.rows[Math.floor((3 * first.faceIndex) / this.shape.index.count)], distance: first.distance } : null;
   }
 }
 
 export class Obstacles {
   /** @param vehicle  where it is; kept */
   constructor(world, vehicle) {
-    const faces = faceTexture(world.thrifty);
-    const look = { map: faces, vertexColors: true };
+    const faces = () => rimmed(world.shade(WITHIN));
     const box = litBox(world);
-    this.boxes = new Boxes(world.scene, box, new THREE.MeshBasicMaterial(look));
+    this.boxes = new Boxes(world.scene, box, faces());
     // What may stand before the vehicle: a sieve, whose every pixel costs more.
-    this.sieves = new Boxes(world.scene, box, cutaway(new THREE.MeshBasicMaterial(look), vehicle));
+    this.sieves = new Boxes(world.scene, box, cutaway(faces(), vehicle));
     this.spots = new Boxes(world.scene, new THREE.PlaneGeometry(1, 1), new THREE.MeshBasicMaterial({
       map: spotTexture(), transparent: true, depthWrite: false }));
     this.spots.mesh.renderOrder = -1;
-    this.spots.mesh.instanceColor = null;
     this.vehicle = vehicle;
     this.spotReach = world.thrifty ? THRIFTY_SPOTS : Infinity;
-    this.colors = { 0: new THREE.Color(palette.pillar), 1: new THREE.Color(palette.mover) };
-    this.picked = new THREE.Color(palette.picked);
+    const rgb = (color) => new THREE.Color(color).toArray();
+    this.colors = { 0: rgb(palette.pillar), 1: rgb(palette.mover), picked: rgb(palette.picked), fog: rgb(palette.back) };
+    this.world = world;
     this.frustum = new THREE.Frustum();
     this.sphere = new THREE.Sphere();
     this.clear();
@@ -124,7 +150,10 @@ export class Obstacles {
   clear() {
     this.set = null;
     this.count = 0;
-    for (const boxes of this.all()) boxes.mesh.count = 0;
+    for (const boxes of this.all()) {
+      boxes.count = 0;
+      boxes.done();
+    }
   }
 
   /**
@@ -172,7 +201,7 @@ export class Obstacles {
       rows.push({ k, at, away: at.distanceToSquared(eye) });
     }
     rows.sort((a, b) => a.away - b.away);
-    for (const boxes of this.all()) boxes.mesh.count = 0;
+    for (const boxes of this.all()) boxes.count = 0;
     const before = this.before(camera);
     for (const row of rows) this.place(row, before, camera.isOrthographicCamera ? Infinity : FOG_END);
     for (const boxes of this.all()) boxes.done();
@@ -188,8 +217,9 @@ export class Obstacles {
     const radius = Math.hypot(hx, hy, hz);
     if (away > (reach + radius) ** 2) return;
     if (this.isSeen(at.x, at.y, at.z, radius)) {
-      const color = this.set.id[k] === this.pickedId ? this.picked : this.colors[this.set.moves[k]];
-      (before(at, half) ? this.sieves : this.boxes).add(k, at.toArray(), half.map((h) => 2 * h), color);
+      const paint = this.colors[this.set.id[k] === this.pickedId ? 'picked' : this.set.moves[k]];
+      const boxes = before(at, half) ? this.sieves : this.boxes;
+      boxes.add(k, at.toArray(), half.map((h) => 2 * h), paint, this.world.clear(Math.sqrt(away)), this.colors.fog);
     }
     const spread = 2.6 + 0.25 * Math.max(at.z - hz, 0);
     if (away < this.spotReach ** 2 && this.isSeen(at.x, at.y, 0.02, 0.5 * spread * Math.hypot(hx, hy))) {

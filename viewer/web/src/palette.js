@@ -72,10 +72,11 @@ export const theme = asked ?? (matchMedia('(prefers-color-scheme: light)').match
 export const palette = theme === 'light' ? light : dark;
 document.documentElement.dataset.theme = theme === 'light' ? 'light' : 'dark';
 
-const stops = palette.speeds.map((c) => new Color(c));
+let stops = null; // made when the renderer has said what colours are (World)
 
 /** Writes the colour of a share of the top speed, 0 … 1, to `target`. */
 export function speedColor(share, target) {
+  stops ??= palette.speeds.map((c) => new Color(c));
   const x = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
   const k = Math.min(Math.floor(x), stops.length - 2);
   return target.copy(stops[k]).lerp(stops[k + 1], x - k);

@@ -1,6 +1,6 @@
 // The semantic map: outer faces of labelled voxels; what is occupied is solid, regions are translucent volumes.
 import * as THREE from 'three';
-import { SIEVE } from './cutaway.js';
+import { SIEVE, SIEVE_PLACE, SIEVE_WAY } from './cutaway.js';
 import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
@@ -13,10 +13,11 @@ const LABELS = {
   4: { color: palette.repulsive, opacity: 0.15 },
 };
 
-const VERTEX = `varying vec3 at; varying vec3 n; varying vec3 seen; void main() {
+const VERTEX = `varying vec3 at; varying vec3 n; uniform vec3 vehicle; ${SIEVE_WAY} void main() {
   at = position; n = normal;
-  vec4 p = modelViewMatrix * vec4(position, 1.0);
-  seen = p.xyz; gl_Position = projectionMatrix * p; }`;
+  vec3 seen = (modelViewMatrix * vec4(position, 1.0)).xyz;
+  ${SIEVE_PLACE}
+  gl_Position = projectionMatrix * vec4(seen, 1.0); }`;
 
 /** How much of a line between voxels there is here, 0 … 1. */
 const GRID = `float grid() {
@@ -26,7 +27,7 @@ const GRID = `float grid() {
   }`;
 
 /** A region that one may fly through: translucent. */
-const AIRY = `varying vec3 at; varying vec3 n; varying vec3 seen; uniform vec3 color, origin; uniform float opacity, resolution;
+const AIRY = `varying vec3 at; varying vec3 n; uniform vec3 color, origin; uniform float opacity, resolution;
   ${GRID}
   void main() {
     float rise = 0.75 + 0.5 * smoothstep(4.0, 0.0, at.z);
@@ -35,8 +36,8 @@ const AIRY = `varying vec3 at; varying vec3 n; varying vec3 seen; uniform vec3 c
   }`;
 
 /** What is occupied: solid, with the edges of its voxels, cut off above `cut`; where it is cut one sees its inside, darker. */
-const SOLID = `varying vec3 at; varying vec3 n; varying vec3 seen;
-  uniform vec3 color, origin, vehicle, lit[6]; uniform float resolution, cut;
+const SOLID = `varying vec3 at; varying vec3 n; ${SIEVE_WAY}
+  uniform vec3 color, origin, lit[6]; uniform float resolution, cut;
   ${GRID}
   void main() {
     if (at.z > cut) discard;

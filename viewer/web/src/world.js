@@ -4,7 +4,9 @@ import { Cameras } from './camera.js';
 import { palette } from './palette.js';
 import { Quality } from './quality.js';
 
+const FOG_BEGIN = 26; // m
 export const FOG_END = 80; // m: nothing is seen beyond
+const GAMMA = 2.2; // of displays, nearly
 const FEWEST_PIXELS = 0.3; // of the window's, per axis
 
 /** Whether WebGL draws on the CPU: then it gets no more pixels than it can pay for. */
@@ -43,10 +45,11 @@ export class World {
     this.quality = new Quality({ pixels, fewest: FEWEST_PIXELS, most: 1 });
     this.renderer.setPixelRatio(pixels);
     this.scene = new THREE.Scene();
-    this.scene.background = sky();
-    this.fog = new THREE.Fog(palette.back, 26, FOG_END);
-    this.cameras = new Cameras(canvas);
     this.light();
+    if (this.thrifty) this.countColoursAsSeen();
+    this.scene.background = this.thrifty ? new THREE.Color(palette.back) : sky();
+    this.fog = new THREE.Fog(palette.back, FOG_BEGIN, FOG_END);
+    this.cameras = new Cameras(canvas);
     this.floor = this.thrifty ? this.lineGround() : this.shadedGround();
     this.floor.renderOrder = -2;
     this.scene.add(this.floor);
@@ -71,6 +74,23 @@ export class World {
     this.scene.add(sky, sun, rim);
   }
 
+  /** Colours are summed as they are seen, not as light is: no pixel pays for two powers of three channels. */
+  countColoursAsSeen() {
+    THREE.ColorManagement.enabled = false;
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+  }
+
+  /** A share of light, as colours are counted. */
+  shade(share) {
+    return this.thrifty ? share ** (1 / GAMMA) : share;
+  }
+
+  /** How much of what is so far away is left in the fog, 0 … 1. @param distance  m */
+  clear(distance) {
+    if (this.camera.isOrthographicCamera) return 1; // it is far from everything
+    return 1 - THREE.MathUtils.smoothstep(distance, FOG_BEGIN, FOG_END);
+  }
+
   /** What these lights make of a white matt face with that normal: what MeshLambertMaterial would. */
   lightOn(normal) {
     const { sky, lamps } = this.lights;
@@ -80,7 +100,7 @@ export class World {
       const share = Math.max(normal.dot(position) / position.length(), 0);
       color.add(own.clone().multiplyScalar(share * intensity));
     }
-    return color.multiplyScalar(1 / Math.PI);
+    return color.setRGB(...color.toArray().map((light) => this.shade(light / Math.PI)));
   }
 
   /** A plane with lines every metre and every five, which fade with distance. */
@@ -139,7 +159,7 @@ export class World {
   render() {
     const { target } = this.cameras.controls;
     const isFlat = this.camera.isOrthographicCamera;
-    this.scene.fog = isFlat ? null : this.fog; // an orthographic camera is far from everything
+    this.scene.fog = isFlat ? null : this.fog;
     this.floor.position.set(Math.round(target.x / 5) * 5, Math.round(target.y / 5) * 5, -0.02); // below what stands on it
     const { x, y } = isFlat ? target : this.camera.position;
     this.floor.material.uniforms?.eye.value.set((x + target.x) / 2, (y + target.y) / 2);
