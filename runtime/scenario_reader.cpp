@@ -288,7 +288,7 @@ PrismRegion read_prism(ConfigSection section) {
 }
 
 BallRegion read_ball(ConfigSection section) {
-  const BallRegion ball{section.required_vec3("centre", kPosition), section.required_number("radius", kHalfExtent)};
+  BallRegion ball{section.required_vec3("centre", kPosition), section.required_number("radius", kHalfExtent)};
   section.finish();
   return ball;
 }

@@ -79,6 +79,7 @@ void GoalField::open_gaps(double step) {
     gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
     gaps.resize(std::min(gaps.size(), static_cast<std::size_t>(8 + axis.size() / 4)));
     std::vector<double> lines;
+    lines.reserve(gaps.size());
     for (const auto& gap : gaps) lines.push_back(gap.second);
     grid_.axis[i].add(lines);
   }
@@ -159,7 +160,8 @@ std::optional<Box> GoalField::blocker(const Vec3& start) const {
 
 void GoalField::tighten(std::vector<Vec3>& path) const {
   constexpr int kPasses = 3;
-  constexpr double kLeastPull = 1.0 / 64.0;
+  constexpr int kPullHalvings = 6;
+  constexpr double kLeastPull = 1.0 / 64.0;  // 2^-kPullHalvings
   const Vec3 start = path.front();
   const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
   // Length alone needs no asking: erasing a vertex or pulling it to a chord never makes a path longer.
@@ -184,7 +186,8 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
         };
         if (!reaches(kLeastPull)) return;
         double free = kLeastPull;
-        for (double step = 0.5; step >= kLeastPull; step *= 0.5) {
+        for (int halving = 1; halving <= kPullHalvings; ++halving) {
+          const double step = std::ldexp(1.0, -halving);
           if (free + step < 1.0 && reaches(free + step)) free += step;
         }
         path[i] = v + free * (target - v);

@@ -31,7 +31,8 @@ struct ConvexProblem {
   [[nodiscard]] double row_times(int r, const FreeVariables& x) const;
   /// The weight in W_k of the free control point that variable c belongs to.
   [[nodiscard]] double sphere_weight(int k, int c) const {
-    return sphere_weights[static_cast<std::size_t>(k * (variables() / 3) + c / 3)];
+    const int weight = k * (variables() / 3) + c / 3;
+    return sphere_weights[static_cast<std::size_t>(weight)];
   }
   /// W_k x + p_k.
   [[nodiscard]] Vec3 sphere_point(int k, const FreeVariables& x) const;

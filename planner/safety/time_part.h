@@ -20,7 +20,10 @@ struct TimePart {
   [[nodiscard]] bool has_halves() const { return of < kMost; }
   [[nodiscard]] TimePart half(int k) const { return {interval, 2 * index + k, 2 * of}; }
   /// 0 … kSlots − 1: another one for each part of an interval.
-  [[nodiscard]] std::size_t slot() const { return static_cast<std::size_t>(of - 1 + index); }
+  [[nodiscard]] std::size_t slot() const {
+    const int place = of - 1 + index;
+    return static_cast<std::size_t>(place);
+  }
 };
 
 }  // namespace tern

@@ -263,7 +263,7 @@ class Search {
   void add_child(int index, const Node& n, const StepReach::Steps& steps, const Vec3& wanted) {
     const std::optional<Vec3> flyable = reach_.flyable(steps, wanted);
     if (!flyable) return;
-    const Vec3 v = *flyable;
+    const Vec3& v = *flyable;
     Node child;
     child.q = n.q + v * dt_;
     if (!in_sphere(child.q)) return;
