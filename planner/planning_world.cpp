@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/splines/piecewise_cubic.h"
+#include "core/world/body.h"
 #include "core/world/box_cover.h"
 #include "planner/tuning.h"
 
@@ -79,7 +80,7 @@ GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const M
   std::vector<Box> boxes = static_boxes;
   boxes.insert(boxes.end(), map->occupied.boxes().begin(), map->occupied.boxes().end());
   for (Box& box : boxes) {
-    const Box solid = grown(box, key.body_half);
+    const Box solid = places_at(box, key.body);
     box = grown(solid, Vec3::Constant(kPathSpacing));
     if (!solid.contains(key.goal)) box = core_beyond(box, key.goal);  // a goal beside a wall is not in it
   }
@@ -89,7 +90,7 @@ GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const M
     options.cost = {[map](const Vec3& a, const Vec3& b) { return map->fields.exposure_cost(a, b); },
                     map->fields.influence()};
   }
-  return GoalField::build(std::move(boxes), grown(key.flight_box, -key.body_half), key.goal, options);
+  return GoalField::build(std::move(boxes), places_within(key.flight_box, key.body), key.goal, options);
 }
 
 }  // namespace tern

@@ -69,12 +69,13 @@ struct MapProducts {
 struct GoalFieldKey {
   Vec3 goal = Vec3::Zero();
   std::uint64_t map_version = 0;
-  std::uint64_t statics = 0;      ///< digest of the static boxes
-  Vec3 body_half = Vec3::Zero();  ///< what the obstacles were grown by, m
+  std::uint64_t statics = 0;               ///< digest of the static boxes
+  Box body{Vec3(0, 0, 0), Vec3(0, 0, 0)};  ///< about its position: what the obstacles were grown by, m
   Box flight_box;
   friend bool operator==(const GoalFieldKey& a, const GoalFieldKey& b) {
-    return a.goal == b.goal && a.map_version == b.map_version && a.statics == b.statics && a.body_half == b.body_half &&
-           a.flight_box.min() == b.flight_box.min() && a.flight_box.max() == b.flight_box.max();
+    return a.goal == b.goal && a.map_version == b.map_version && a.statics == b.statics &&
+           a.body.min() == b.body.min() && a.body.max() == b.body.max() && a.flight_box.min() == b.flight_box.min() &&
+           a.flight_box.max() == b.flight_box.max();
   }
 };
 

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "campaign/experiments/svg.h"
+#include "core/world/body.h"
 #include "core/world/names.h"
 #include "planner/app/blocked_goal.h"
 #include "planner/app/config_reader.h"
@@ -42,7 +43,7 @@ PlannedWay measured(std::vector<Vec3> points, const std::vector<Region>& regions
 /// @return the way, or in words why there is none
 Result<PlannedWay> way_of(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map) {
   const UavSpec& uav = view.scenario.uav;
-  const GoalFieldKey key{uav.goal, map->version, 0, uav.body.half_extents(), uav.flight_box};
+  const GoalFieldKey key{uav.goal, map->version, 0, body_box(uav.body), uav.flight_box};
   const std::vector<Box> statics = static_boxes(view.world);
   const GoalField field = make_goal_field(key, map, statics, uav.start);
   auto points = field.path_from(uav.start);

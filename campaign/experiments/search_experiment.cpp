@@ -8,6 +8,7 @@
 
 #include "campaign/flight_inputs.h"
 #include "core/geometry/separation.h"
+#include "core/world/body.h"
 #include "core/world/budget.h"
 #include "planner/app/config_reader.h"
 #include "planner/planner.h"
@@ -51,7 +52,7 @@ PlanningWorld world_of(const Scenario& scenario, TrackSet tracks, const VoxelMap
   Goal goal;
   goal.id = 1;
   goal.position = scenario.uav.goal;
-  const GoalFieldKey key{goal.position, products->version, digest_of({}), scenario.uav.body.half_extents(),
+  const GoalFieldKey key{goal.position, products->version, digest_of({}), body_box(scenario.uav.body),
                          scenario.uav.flight_box};
   auto field = std::make_shared<const GoalField>(make_goal_field(key, products, {}, scenario.uav.start));
   world.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), {}});

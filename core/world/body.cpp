@@ -22,6 +22,15 @@ bool is_box(const Points& vertices, const Box& bounds) {
 
 }  // namespace
 
+Box body_box(const Body& body) {
+  return {body.vertices.rowwise().minCoeff().array() - body.radius,
+          body.vertices.rowwise().maxCoeff().array() + body.radius};
+}
+
+Box places_at(const Box& box, const Box& body) { return {box.min() - body.max(), box.max() - body.min()}; }
+
+Box places_within(const Box& room, const Box& body) { return {room.min() - body.min(), room.max() - body.max()}; }
+
 Body grown(const Body& body, const Vec3& margin) {
   if (margin.isZero(0.0)) return body;
   const Points& v = body.vertices;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/world/body.h"
 #include "core/world/message_limits.h"
 #include "core/world/thrust.h"
 
@@ -71,11 +72,7 @@ std::string BreachReport::text() const {
   return fmt::format(fmt::runtime(format), value, limit, axis < 0 ? '?' : "xyz"[axis]);
 }
 
-Box centre_box(const Box& flight_box, const Body& body) {
-  const Vec3 low = body.vertices.rowwise().minCoeff().array() - body.radius;
-  const Vec3 high = body.vertices.rowwise().maxCoeff().array() + body.radius;
-  return {flight_box.min() - low, flight_box.max() - high};
-}
+Box centre_box(const Box& flight_box, const Body& body) { return places_within(flight_box, body_box(body)); }
 
 BreachReport breach_of(const ClampedSpline& spline, const Dynamics& dynamics) {
   constexpr double kMore = 1.0 + kLimitTolerance;

@@ -12,7 +12,7 @@
 namespace tern {
 
 WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background)
-    : bus_(bus), config_(config), body_half_(uav.body.half_extents()), flight_box_(uav.flight_box), at_(uav.start) {
+    : bus_(bus), config_(config), body_(body_box(uav.body)), flight_box_(uav.flight_box), at_(uav.start) {
   if (in_background) worker_ = std::make_unique<Worker>();
   bus.subscribe(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
   bus.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
@@ -36,7 +36,7 @@ std::string WorldIntake::missing() const {
 void WorldIntake::set_vehicle(const HorizonRequest& request) {
   const std::int64_t run_us = request.header.name.sender_epoch_us;
   if (vehicle_ != MessageName{} && run_us != vehicle_.sender_epoch_us) forget_before(run_us);
-  body_half_ = grown(request.body, request.tube).half_extents();
+  body_ = body_box(grown(request.body, request.tube));
   flight_box_ = request.flight_box;
   at_ = request.start.p;
   vehicle_ = request.header.name;
@@ -118,7 +118,7 @@ void WorldIntake::prepare() {
   }
   const PlanningWorld world = snapshot();
   if (!newest_goal_ || newest_goal_->mode != GoalMode::Go || !world.map || !world.predictions) return;
-  const GoalFieldKey key{newest_goal_->position, world.map->version, statics_.digest(), body_half_, flight_box_};
+  const GoalFieldKey key{newest_goal_->position, world.map->version, statics_.digest(), body_, flight_box_};
   if (world.goal && world.goal->field && world.goal->key == key) {
     // A repetition is named, too: plans name what a logger that joined late has heard.
     if (world.goal->goal.header.name == newest_goal_->header.name) return;

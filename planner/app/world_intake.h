@@ -61,7 +61,7 @@ class WorldIntake {
   UTime goal_heard_;
   std::optional<Goal> overruled_goal_;  ///< the newest with a smaller id: another flight's, if there comes one
   std::int64_t goal_number_ = 0;        ///< counts what newest_goal_ was
-  Vec3 body_half_;
+  Box body_;                            ///< about its position
   Box flight_box_;
   Vec3 at_;
   MessageName vehicle_;  ///< the request that described it last; none: as configured

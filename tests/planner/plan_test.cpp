@@ -240,6 +240,17 @@ TEST_F(PlannerAlone, AGoalBesideAWallIsNotBlocked) {
   EXPECT_EQ(answer(request_, world_of({wall_at(-0.005)}, goal_, request_)).reason, PlanReason::GoalBlocked);
 }
 
+/// A load that hangs 0.6 m below: there is room for it under the goal, and none above.
+TEST_F(PlannerAlone, WhatHangsBelowTheVehicleNeedsNoRoomAboveIt) {
+  request_.body.vertices.resize(3, 2);
+  request_.body.vertices << 0, 0, 0, 0, 0, -0.6;
+  const auto slab_at = [&](double z) {
+    return standing_box(1, box_around(goal_.position + Vec3(0, 0, z), Vec3(1, 1, 0.1)), kStart);
+  };
+  EXPECT_NE(answer(request_, world_of({slab_at(0.4)}, goal_, request_)).reason, PlanReason::GoalBlocked);
+  EXPECT_EQ(answer(request_, world_of({slab_at(-0.4)}, goal_, request_)).reason, PlanReason::GoalBlocked);
+}
+
 TEST_F(PlannerAlone, AVehicleBehindWallsSaysSoToo) {
   const Plan got = answer(request_, world_of(cage(request_.start.p, 1.0), goal_, request_));
   EXPECT_EQ(got.outcome, PlanOutcome::KeepCommitted);

@@ -6,6 +6,7 @@
 
 #include "core/geometry/box.h"
 #include "core/geometry/distance.h"
+#include "core/world/body.h"
 #include "planner/search/axis_reach.h"
 #include "planner/tuning.h"
 #include "tests/support/random_shares.h"
@@ -257,7 +258,7 @@ PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const Horizo
   for (const Track& track : world.predictions->set.tracks) {
     if (track.kind == TrackKind::Static) statics.push_back(track.bounds(track.motion.start, track.motion.start));
   }
-  const GoalFieldKey key{goal.position, products->version, digest_of(statics), request.body.half_extents(),
+  const GoalFieldKey key{goal.position, products->version, digest_of(statics), body_box(request.body),
                          request.flight_box};
   auto field = std::make_shared<const GoalField>(make_goal_field(key, products, statics, request.start.p));
   world.goal = std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), {}});
