@@ -17,23 +17,42 @@ open_display() {
   export DISPLAY=:$number
 }
 
-lcm_spy_stays_up_and_every_message_of_a_flight_decodes() {
-  local spy result=0 types
+# start_spied_flight OPTION...: sets `flight`, and `spy` that watches it.
+start_spied_flight() {
   open_display
+  mkdir "$work/classes"
   javac -classpath "$JARS" -d "$work/classes" "$root"/tests/spy/*.java
   expect "the jar is built" test "$("$scripts/spy.sh" --no-install --types)" = "$TERN_TYPES_JAR"
   scenario=$root/tests/launch/pillars.yaml
-  start_flight flight --goal 12,0,1 --set simulator.min_flight_s=6
+  start_flight flight --goal 12,0,1 "$@"
   "$scripts/spy.sh" --no-install "$work/flight" >"$work/spy.out" 2>&1 &
   spy=$!
   flights+=("$spy")
-  expect "it shows every channel" timeout 60 java -classpath "$work/classes" PhotographScreen "$work/spy.png" 12
+}
+
+# expect_end CODE: the flight ends with it, and lcm-spy stays up.
+expect_end() {
+  local result=0
   wait "$flight" || result=$?
-  [[ $result == 0 ]] || fail "the flight ended with exit code $result: $(cat "$work/flight.out")"
+  [[ $result == "$1" ]] || fail "the flight ended with exit code $result: $(cat "$work/flight.out")"
   ! is_gone "$spy" || fail "lcm-spy ended: $(cat "$work/spy.out")"
   kill -TERM "$spy"
-  [[ -z ${TERN_SPY_PICTURE:-} ]] || cp "$work/spy.png" "$TERN_SPY_PICTURE"
+}
 
+lcm_spy_shows_every_channel() {
+  local rows=16 # 15 channels and the table's head
+  start_spied_flight --set simulator.min_flight_s=600 # until the picture is taken
+  timeout 60 java -classpath "$work/classes" PhotographScreen "$work/spy.png" "$rows" ||
+    fail "no $rows rows; lcm-spy: $(cat "$work/spy.out") flight: $(tail -n 5 "$work/flight.out")"
+  kill -INT -- "-$flight"
+  expect_end 130
+  [[ -z ${TERN_SPY_PICTURE:-} ]] || cp "$work/spy.png" "$TERN_SPY_PICTURE"
+}
+
+lcm_spy_stays_up_and_every_message_of_a_flight_decodes() {
+  local types
+  start_spied_flight --set simulator.min_flight_s=6
+  expect_end 0
   types=$(cd "$root/lcmtypes" && printf '%s ' *.lcm)
   # shellcheck disable=SC2086  # one word per type
   java -classpath "$TERN_TYPES_JAR:$JARS:$work/classes" ResolveTypes "$work/flight/flight.lcm" ${types//.lcm/} >"$work/decoded"
