@@ -17,13 +17,13 @@ struct Assurance {
 
 /// What is tried, in this order, where nothing is had at the promised level to the end. What is later than the vehicle
 /// needs to step aside will be predicted anew before it must be acted on. So α stops growing first (kSureTimes), then
-/// the level falls (kLowerLevels). What follows is less than the vehicle needs: α for shorter times (kShortTimes), then
-/// parts of the α at t_s itself (kAlphaScales).
+/// the level falls (kLowerLevels). Of what follows no confidence is known: parts of that α (kAlphaScales). They grow
+/// for the same time: α that did not would leave plans that speed up past what is near.
 /// @param aside_s  what the vehicle needs to step aside (HoldDemand), s
 std::vector<Assurance> lower_assurances(double aside_s);
 
-/// Whether that is less than a vehicle needs that steps aside in aside_s.
-bool is_too_short(const Assurance& assurance, double aside_s);
+/// For as long as it is sure; 0 where none is known.
+double confidence_of(const Assurance& assurance);
 
 /// Counts α of the estimated obstacles so, whatever was counted before, and those of others in full.
 void count_alpha(const Assurance& assurance, UTime t_s, std::vector<PlanningObstacle>& obstacles);

@@ -53,9 +53,10 @@ double longest_to_step_aside(const HorizonRequest& request, const std::vector<Pl
   std::vector<Vec3> sizes;
   double longest_s = 0.0;
   for (const PlanningObstacle& obstacle : obstacles) {
+    if (!obstacle.moves()) continue;
     const Vec3& half = obstacle.track->half_extents;
     const auto covers = [&](const Vec3& size) { return (half.array() <= size.array()).all(); };
-    if (!obstacle.moves() || std::any_of(sizes.begin(), sizes.end(), covers)) continue;
+    if (std::any_of(sizes.begin(), sizes.end(), covers)) continue;
     sizes.push_back(half);
     longest_s = std::max(longest_s, time_to_step_aside(limits, request.body.half_extents(), half));
   }

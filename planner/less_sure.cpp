@@ -25,15 +25,17 @@ PlanReason plan_less_sure(const Heading& heading, Surroundings& near, StandingAn
   search.max_expansions = std::min(search.max_expansions, kLessSureExpansions);
   search.hold_expansions = std::min(search.hold_expansions, kLessSureHoldExpansions);
   PlanReason reason = PlanReason::Infeasible;
-  const double aside_s = near.hold.aside_s;
-  const std::vector<Assurance> all = lower_assurances(aside_s);
+  const std::vector<Assurance> all = lower_assurances(near.hold.aside_s);
   for (const Assurance& less : all) {
     if (is_settled(near, heading, standing)) break;
     if (less.level == 0 && less.sure_for.seconds() >= near.hold.predicted_s) continue;  // that is all there is
-    if (is_too_short(less, aside_s) && (standing.best() || standing.committed()) && !has_waited(near.request)) break;
+    const bool has_waited = rested_s(near.request) > kPatience * (1.0 - confidence_of(less));
+    if (less.scale < 1.0 && (standing.best() || standing.committed()) && !has_waited) break;
     count_less(less, tools.memory, near);
     if (near.start.relaxed && &less != &all.back()) continue;
     if (!standing.committed()) standing.keep(check_committed(near, false, tools).committed, heading);
+    const bool may_stay = less.scale == 1.0 && standing.committed() && standing.committed()->holds;
+    if (stands_still(near.request) && may_stay && !has_waited) break;
     reason = try_durations(near, heading, Phase::Evasion, search, standing, tools);
   }
   if (!standing.best() && !standing.committed()) standing.replace(find_evasion(near, heading, Phase::Evasion, tools));

@@ -80,10 +80,8 @@ bool StandingAnswer::is_best(const Candidate& candidate) const {
 bool StandingAnswer::puts_off(const Candidate& candidate) const {
   if (candidate.holds != committed_->holds) return false;
   if (gets_on(*committed_) && !gets_on(candidate)) return true;
-  const MotionSample& start = near_.request.start;
   const TimedSpline& now = committed_->trajectory;
-  const bool rests = start.v.isZero() && start.a.isZero();
-  if (!rests || candidate.trajectory.end() < now.end()) return false;
+  if (!stands_still(near_.request) || candidate.trajectory.end() < now.end()) return false;
   const Vec3 apart = candidate.trajectory.control_points.rightCols<1>() - now.control_points.rightCols<1>();
   return apart.norm() < kNearer;
 }
@@ -93,7 +91,7 @@ bool StandingAnswer::puts_off(const Candidate& candidate) const {
 /// those of rest and of a plan that begins gently are equal, and a plan that strays on that axis arrives later.)
 bool StandingAnswer::sets_out() const {
   if (!is_at_rest(near_.request) || best_->holds != committed_->holds) return false;
-  if (!has_waited(near_.request) && best_->arrival_s > committed_->arrival_s + kSmoothnessPrice) return false;
+  if (rested_s(near_.request) <= kPatience && best_->arrival_s > committed_->arrival_s + kSmoothnessPrice) return false;
   return best_->cost.distance_to_goal < (blank_.local_goal - near_.request.start.p).norm() - kNearer;
 }
 

@@ -81,6 +81,8 @@ bool is_followed(const Surroundings& near, Duration interval, double hold_s) {
 
 bool is_at_rest(const HorizonRequest& request) { return request.t_s >= request.committed.end(); }
 
-bool has_waited(const HorizonRequest& request) { return (request.t_s - request.committed.end()).seconds() > kPatience; }
+double rested_s(const HorizonRequest& request) { return (request.t_s - request.committed.end()).seconds(); }
+
+bool stands_still(const HorizonRequest& request) { return request.start.v.isZero() && request.start.a.isZero(); }
 
 }  // namespace tern

@@ -31,8 +31,10 @@ struct Surroundings {
 
 /// Whether what is committed has ended by then …
 bool is_at_rest(const HorizonRequest& request);
-/// … for longer than kPatience, be it before it set out.
-bool has_waited(const HorizonRequest& request);
+/// … and since when, s; negative before.
+double rested_s(const HorizonRequest& request);
+/// Neither moves nor is about to.
+bool stands_still(const HorizonRequest& request);
 
 /// @pre the world has predictions and a map. @param memory  keeps the obstacles until the next call
 Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,

@@ -84,18 +84,16 @@ inline constexpr double kNearLocalGoal = 1.0;
 
 /// How long α grows, in times that the vehicle needs to step aside: at the promised level …
 inline constexpr double kSureTimes[] = {2.0, 1.0};
-/// … then once that time at these levels …
+/// … then once that time at these levels.
 inline constexpr int kLowerLevels[] = {2, 4};
-/// … and, at the last one, for less than it needs.
-inline constexpr double kShortTimes[] = {0.5, 0.25, 0.0};
-/// Parts of the last level's α at t_s that are counted where even that leaves nothing.
-inline constexpr double kAlphaScales[] = {0.5, 0.25, 0.1};
+/// Parts of the last level's α, growing for that time, that are counted where even that leaves nothing.
+inline constexpr double kAlphaScales[] = {0.7, 0.5, 0.35, 0.25, 0.1};
 /// Nodes expanded per duration there, at most, in all and after the first leaf: several such searches share the time.
 inline constexpr int kLessSureExpansions = 300;
 inline constexpr int kLessSureHoldExpansions = 100;
 /// Less of α is counted until something leads at least this share of the way to the local goal.
 inline constexpr double kGetsOn = 0.25;
-/// Who has rested short of the goal for longer than this takes a risk without a number, s.
+/// Who rests short of the goal sets out at a confidence after this times what is missing to 1, if it may stay, s.
 inline constexpr double kPatience = 1.0;
 
 // ---- A multirotor's thrust (safety/thrust_set.h, search/step_reach.h, optimization/convex_problem.h)

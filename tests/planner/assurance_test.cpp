@@ -48,7 +48,7 @@ PlanningWorld promised_world(std::vector<Track> tracks, const HorizonRequest& re
   return world;
 }
 
-/// At rest in a corridor 3 m wide, with a post in its middle 1.5 m ahead.
+/// At rest for 0.5 s in a corridor 3 m wide, with a post in its middle 1.5 m ahead.
 class InACorridor : public ::testing::Test {
  protected:
   InACorridor() { request_.flight_box = Box(Vec3(-5, -1.5, 0), Vec3(20, 1.5, 2)); }
@@ -61,7 +61,8 @@ class InACorridor : public ::testing::Test {
     return got;
   }
 
-  HorizonRequest request_ = request_at(kStart + Duration{1'000'000}, resting_at(Vec3(0, 0, 1), kStart));
+  const TimedSpline rest_ = resting_at(Vec3(0, 0, 1), kStart);
+  HorizonRequest request_ = request_at(rest_.end() + Duration{500'000}, rest_);
 };
 
 TEST(CountAlpha, LeavesWhatIsDeclaredOrStaticAsItIs) {
@@ -106,13 +107,26 @@ TEST(LowerAssurances, CountThePromisedAlphaForAsLongAsItIsSure) {
   }
 }
 
-TEST(LowerAssurances, AreTooShortOnlyAfterAllThatAreNot) {
-  bool was_too_short = false;
+TEST(LowerAssurances, AreNeverMoreConfidentThanTheOneBefore) {
+  double before = 1.0;
   for (const Assurance& assurance : lower_assurances(kAsideS)) {
-    EXPECT_GE(is_too_short(assurance, kAsideS), was_too_short);
-    was_too_short = is_too_short(assurance, kAsideS);
+    EXPECT_LE(confidence_of(assurance), before);
+    before = confidence_of(assurance);
   }
-  EXPECT_TRUE(was_too_short);
+  EXPECT_EQ(before, 0.0);
+}
+
+TEST(LowerAssurances, CountAlphaThatGrowsForTheTimeToStepAside) {
+  const Track track = new_thing(1, Vec3::Zero(), kStart);
+  std::vector<PlanningObstacle> obstacles = obstacles_of({track});
+  obstacles[0].track = &track;
+  for (const Assurance& assurance : lower_assurances(kAsideS)) {
+    count_alpha(assurance, kStart, obstacles);
+    const AlphaCount& count = obstacles[0].alpha;
+    const double last_s = kAsideS - 0.05;  // in the last piece before
+    EXPECT_GT(count.of(track, track.motion.locate(kStart + Duration::from_seconds(last_s)).index).x(),
+              2.0 * count.of(track, 0).x());
+  }
 }
 
 TEST_F(InACorridor, WhatIsPromisedIsFlownWhereThereIsRoom) {
@@ -168,6 +182,20 @@ TEST_F(InACorridor, WhoHasRestedOnTheWayForLongTakesWhatHasNoNumber) {
   EXPECT_LT(later.alpha_scale, 1.0);
   EXPECT_EQ(later.confidence, 0.0);
   EXPECT_GT(later.trajectory.control_points.row(0).maxCoeff(), 1.0);
+}
+
+TEST_F(InACorridor, WhoMayStayWaitsTheLongerTheLessSureItIsToGo) {
+  // Ways are left at level 2, and where it is wider at level 4 alone.
+  const auto sets_out_after = [&](double alpha, double rested_s) {
+    const Box corridor = request_.flight_box;
+    request_ = request_at(rest_.end() + Duration::from_seconds(rested_s), rest_);
+    request_.flight_box = corridor;
+    return answer({believed_post(1, Vec3(1.8, 0, 1), alpha)}).trajectory.control_points.row(0).maxCoeff() > 1.0;
+  };
+  EXPECT_FALSE(sets_out_after(1.15, 0.05));
+  EXPECT_TRUE(sets_out_after(1.15, 0.15));
+  EXPECT_FALSE(sets_out_after(1.6, 0.35));
+  EXPECT_TRUE(sets_out_after(1.6, 0.45));
 }
 
 TEST_F(InACorridor, WhatIsDeclaredIsCertainAtEveryLevel) {
