@@ -28,7 +28,8 @@ quadrotor_forest_200 quadrotor_forest 200 200
 perception=""
 for world in perception_only,100 mader_perception_only,100 sando_perception,200 people_hermes_050,0 people_hermes_090,0 \
   people_hermes_120,0 people_eth,0 people_hotel,0 drones,0; do
-  perception+="${world%,*} ${world%,*} ${world#*,} 200"$'\n'"${world%,*}_oracle ${world%,*} ${world#*,} 200 --oracle"$'\n'
+  seen="${world%,*} ${world#*,} 200 --charge counts"
+  perception+="${world%,*} $seen"$'\n'"${world%,*}_oracle $seen --oracle"$'\n'
 done
 sensors="perception_only perception_only 100 200 --charge counts"$'\n'
 for other in range_m=6 range_m=12 range_m=20 sigma_m=0 sigma_m=0.02 sigma_m=0.1 latency_s=0 latency_s=0.1 latency_s=0.2; do
@@ -39,12 +40,12 @@ for slowness in 1.1 2 3 4; do
   sensors+="slowness_$slowness $slow"$'\n'"slowness_${slowness}_oracle $slow --oracle"$'\n'
 done
 
-share=1 out=$TERN_ROOT/build/results only=" "
+share=1 out=$TERN_ROOT/build/results only=" " coverage=()
 while (($#)); do
   case $1 in
     --share) share=${2:?} && shift 2 ;;
     --out) out=${2:?} && shift 2 ;;
-    --perception) campaigns=$perception && shift ;;
+    --perception) campaigns=$perception coverage=(--coverage "$TERN_BIN/tern-audit") && shift ;;
     --sensors) campaigns=$sensors && shift ;;
     -h | --help) sed -n '2,6s/^# //p' "$0" && exit ;;
     -*) die "no option $1" ;;
@@ -62,6 +63,6 @@ while read -r name scenario count seeds settings; do
   say "== $name: seeds 1 to $last"
   # shellcheck disable=SC2086  # settings are words
   "$TERN_BIN/tern-campaign" --world "$TERN_ROOT/scenarios/$scenario.yaml" --count "$count" --seeds "1:$last" $settings \
-    --out "$out/$name.csv" --summary "$out/$name.json"
+    "${coverage[@]}" --out "$out/$name.csv" --summary "$out/$name.json"
 done <<<"$campaigns"
 "$TERN_ROOT/docs/results/table.py" "$out"/*.json
