@@ -85,8 +85,8 @@ void measure(SearchOutcome& outcome) {
   const auto& regions = outcome.scenario.semantics.regions;
   Vec3 at = spline.sample(0.0).p;
   double weighed = 0.0;
-  for (double t = kStep; t < spline.duration_s() + kStep; t += kStep) {
-    const Vec3 next = spline.sample(t).p;
+  for (int k = 1; (k - 1) * kStep < spline.duration_s(); ++k) {
+    const Vec3 next = spline.sample(k * kStep).p;
     const double step = (next - at).norm();
     outcome.path_length_m += step;
     at = next;

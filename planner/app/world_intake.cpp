@@ -113,7 +113,7 @@ void WorldIntake::start(std::function<void()> job) {
 void WorldIntake::prepare() {
   if (worker_ != nullptr && worker_->busy()) return;
   if (pending_map_) {
-    start([this, map = std::exchange(pending_map_, std::nullopt)]() mutable { make_map(std::move(*map)); });
+    start([this, map = std::exchange(pending_map_, std::nullopt)] { make_map(*map); });
     if (worker_ != nullptr) return;
   }
   const PlanningWorld world = snapshot();
@@ -136,7 +136,7 @@ void WorldIntake::prepare() {
   });
 }
 
-void WorldIntake::make_map(VoxelMap map) {
+void WorldIntake::make_map(const VoxelMap& map) {
   auto products = std::make_shared<const MapProducts>(map, config_);
   const std::lock_guard lock(mutex_);
   ready_.map = std::move(products);

@@ -49,7 +49,7 @@ class WorldIntake {
   void hold();
   void publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal);
   void start(std::function<void()> job);
-  void make_map(VoxelMap map);
+  void make_map(const VoxelMap& map);
 
   Bus& bus_;
   PlannerConfig config_;
