@@ -10,7 +10,6 @@
 
 #include "core/base/types.h"
 #include "core/world/track.h"
-#include "predictor/tracking/calibration_prior.h"
 
 namespace tern {
 
@@ -105,8 +104,6 @@ class Calibration {
   }
   /// Of tracks of which only the share `real` exists: what does not exist breaks no promise. O(halvings · log scores).
   [[nodiscard]] PerLevel margins(TrackClass kind, double real) const;
-  /// Another prior rules from the next refresh() on. What θ has learnt stays: its ratio to the prior's.
-  void set_pace(WorldPace pace);
   /// Counts from the next refresh() on.
   /// @param broken by level: whether the promise that was made had been broken by the end of the band
   void add(TrackClass kind, std::size_t band, float score, const std::array<bool, kConfidenceLevels.size()>& broken);
@@ -122,7 +119,6 @@ class Calibration {
   [[nodiscard]] double margin(TrackClass kind, std::size_t band, double level) const;
 
   std::array<double, kConfidenceLevels.size()> confidence_;
-  WorldPace pace_ = WorldPace::Any;
   std::array<std::vector<NewestScores>, kPools> pools_;  // by band
   std::array<Class, kTrackClasses> classes_;
   std::array<bool, kPools> is_stale_;

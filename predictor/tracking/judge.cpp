@@ -77,7 +77,6 @@ void Judge::take(UTime at, const std::vector<SeenTrack>& seen) {
     follow(track, at, history);
     score(history);
   }
-  calibration_.set_pace(tracks_ >= kTracksOfAWorld && fastest_ < kSlowSpeed ? WorldPace::Slow : WorldPace::Any);
   calibration_.refresh();
   for (const SeenTrack& track : seen) {
     if (!track.rests) issue(track, at, histories_[track.id]);
@@ -149,8 +148,6 @@ void Judge::score(Issue& issue, const Sample& truth, History& history) {
   const Mixed& said = issue.said[k];
   if (kJudgedAhead[k] == kSpeedSpan) {
     fastest_ = std::max(fastest_, (truth.z - issue.from).cwiseAbs().maxCoeff() / kSpeedSpan);
-    tracks_ += history.is_counted ? 0 : 1;
-    history.is_counted = true;
   }
   // An error of variance σ² + r is seen; the part that the truth's own noise r has in it is taken off.
   const Vec3 variance = said.deviation.cwiseAbs2();

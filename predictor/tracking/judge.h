@@ -35,10 +35,6 @@ inline constexpr double kSmoothed = 0.2, kWidestGap = 0.5;
 /// falsify little.
 inline constexpr double kSpeedSpan = 0.5;
 
-/// A world is known to be slow when the speeds of so many tracks were seen, all below kSlowSpeed. One that is faster
-/// makes it one of any kind, for good.
-inline constexpr int kTracksOfAWorld = 8;
-
 /// What became of one promise.
 struct Judged {
   TrackClass kind = TrackClass::New;
@@ -94,7 +90,6 @@ class Judge {
   struct History {
     UTime born, issued;
     double fastest = 0.0;  // m/s, forgotten slowly
-    bool is_counted = false;
     ModelScores own;
     std::vector<Sample> samples;
     std::vector<Issue> issues;
@@ -112,7 +107,6 @@ class Judge {
   std::map<std::int64_t, History> histories_;
   std::vector<Judged> judged_;
   double fastest_ = 0.0;
-  int tracks_ = 0;  // whose speed was seen
   std::array<BankLook, kJudgedAhead.size()> looks_;
 };
 

@@ -46,8 +46,7 @@ inline constexpr double kSameThing = 1.0;  ///< m
 struct Study {
   double confidence = 0.99;         ///< promised
   std::vector<CoverageCell> cells;  ///< by class, then by the track's age
-  std::vector<Judged> judged;       ///< the tracker's own scores …
-  std::vector<Judged> slow;         ///< … those in slow worlds
+  std::vector<Judged> judged;       ///< the tracker's own scores
 };
 
 /// Feeds a recording to a tracker that is new.

@@ -18,8 +18,7 @@ struct Source {
 /// A class of one source with fewer promises than this says nothing.
 inline constexpr std::size_t kFewPromises = 150;
 
-/// The rows of one table (calibration_prior.inc holds two: of all sources, then of their slow recordings): per class
-/// and band the level θ for each confidence, and quantiles of the scores.
+/// The rows of the table: per class and band the level θ for each confidence, and quantiles of the scores.
 ///
 /// A flight does not know in which world it is, so the promise is to hold in each. For no source may its broken
 /// promises, times its weight, be more than Calibration::allowed. The quantile at p is the largest of the sources' at
