@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -55,6 +56,30 @@ std::optional<Sample> truth_at(const std::vector<Sample>& samples, UTime at) {
   truth.z = (1.0 - u) * a.z + u * after->z;
   truth.r = (1.0 - u) * (1.0 - u) * a.r + u * u * after->r;
   return truth;
+}
+
+// An error of variance σ² + r is seen; the part that the truth's own noise r has in it is taken off.
+template <typename Sample>
+Vec3 error_of(const Mixed& said, const Sample& truth) {
+  const Vec3 variance = said.deviation.cwiseAbs2();
+  const Vec3 of_prediction = variance.cwiseQuotient(variance + truth.r).cwiseSqrt();
+  return (truth.z - said.centre).cwiseAbs().cwiseProduct(of_prediction);
+}
+
+template <typename Sample>
+double margin_for(const Mixed& said, const Sample& truth, double ahead_s) {
+  return containing_margin(error_of(said, truth), said.deviation, band_of(ahead_s), ahead_s);
+}
+
+// Between the times at which something was said, in a straight line.
+Mixed said_at(const std::array<Mixed, kJudgedAhead.size()>& said, double ahead_s) {
+  const auto next = std::lower_bound(kJudgedAhead.begin() + 1, kJudgedAhead.end() - 1, ahead_s);
+  const auto k = static_cast<std::size_t>(next - kJudgedAhead.begin());
+  const double u = (ahead_s - kJudgedAhead[k - 1]) / (kJudgedAhead[k] - kJudgedAhead[k - 1]);
+  Mixed between;
+  between.centre = said[k - 1].centre + u * (said[k].centre - said[k - 1].centre);
+  between.deviation = said[k - 1].deviation + std::max(0.0, u) * (said[k].deviation - said[k - 1].deviation);
+  return between;
 }
 
 UTime judged_at(UTime at, std::size_t k) { return at + Duration::from_seconds(kJudgedAhead[k]); }
@@ -127,19 +152,20 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
 }
 
 void Judge::score(History& history) {
-  const auto over = [&](const Issue& issue) {
-    judged_.push_back(issue.judged);
-    return true;
-  };
   const UTime settled = history.samples.back().at - Duration::from_seconds(kSmoothed);
-  std::erase_if(history.issues, [&](Issue& issue) {
+  for (Issue& issue : history.issues) {
     while (issue.next < kJudgedAhead.size() && judged_at(issue.at, issue.next) <= settled) {
       const std::optional<Sample> truth = truth_at(history.samples, judged_at(issue.at, issue.next));
-      if (!truth) return over(issue);  // nobody saw what came
+      if (!truth) break;
       score(issue, *truth, history);
       ++issue.next;
     }
-    return issue.next == kJudgedAhead.size() && over(issue);
+  }
+  // Over: judged to its end, or nobody saw what came.
+  std::erase_if(history.issues, [&](const Issue& issue) {
+    const bool is_over = issue.next == kJudgedAhead.size() || judged_at(issue.at, issue.next) <= settled;
+    if (is_over) judged_.push_back(issue.judged);
+    return is_over;
   });
 }
 
@@ -149,15 +175,15 @@ void Judge::score(Issue& issue, const Sample& truth, History& history) {
   if (kJudgedAhead[k] == kSpeedSpan) {
     fastest_ = std::max(fastest_, (truth.z - issue.from).cwiseAbs().maxCoeff() / kSpeedSpan);
   }
-  // An error of variance σ² + r is seen; the part that the truth's own noise r has in it is taken off.
-  const Vec3 variance = said.deviation.cwiseAbs2();
-  const Vec3 of_prediction = variance.cwiseQuotient(variance + truth.r).cwiseSqrt();
-  const Vec3 error = (truth.z - said.centre).cwiseAbs().cwiseProduct(of_prediction);
-  issue.score = std::max(issue.score, containing_margin(error, said.deviation, band, kJudgedAhead[k]));
+  const double own = margin_for(said, truth, kJudgedAhead[k]);
+  const double score = own > 0.0 ? std::min(own, exchanged_margin(issue, truth, history)) : own;
+  issue.score = std::max(issue.score, score);
+  const Vec3 error = error_of(said, truth);
   for (std::size_t level = 0; level < issue.margins.size(); ++level) {
     Vec3& half = issue.half[level];
     half = half.cwiseMax(promised_half(said.deviation, issue.margins[level], kJudgedAhead[k]));
-    issue.broken[level] = issue.broken[level] || (error.array() > half.array()).any();
+    const bool is_outside = (error.array() > half.array()).any() && score > issue.margins[level][band];
+    issue.broken[level] = issue.broken[level] || is_outside;
   }
   if (kJudgedAhead[k] < kBandEnds[band]) return;
   const auto final_score = static_cast<float>(issue.score);
@@ -167,7 +193,7 @@ void Judge::score(Issue& issue, const Sample& truth, History& history) {
   issue.score = -kModelSigmas;
 
   const auto scored = std::find(kScoredAhead.begin(), kScoredAhead.end(), kJudgedAhead[k]);
-  if (scored == kScoredAhead.end()) return;
+  if (scored == kScoredAhead.end() || score < own) return;  // the models said nothing of another thing
   const auto h = static_cast<std::size_t>(scored - kScoredAhead.begin());
   PerModel<double> scores{};
   for (std::size_t j = 0; j < kModels; ++j) {
@@ -179,6 +205,29 @@ void Judge::score(Issue& issue, const Sample& truth, History& history) {
   history.own.add(h, scores, kOwnForgetting);
   pools_[kAll].add(h, scores, kPoolForgetting);
   if (issue.pool != kAll) pools_[issue.pool].add(h, scores, kPoolForgetting);
+}
+
+double Judge::exchanged_margin(const Issue& issue, const Sample& truth, const History& own) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [id, other] : histories_) {
+    if (&other == &own || other.samples.empty()) continue;
+    const std::optional<Sample> there = truth_at(other.samples, truth.at);
+    if (!there) continue;
+    const double here = margin_for(issue.said[issue.next], *there, kJudgedAhead[issue.next]);
+    if (here >= least) continue;
+    if (other.born > issue.at) {
+      least = here;
+      continue;
+    }
+    const auto is_nearer = [&](const Issue& a, const Issue& b) {
+      return std::abs((a.at - issue.at).us) < std::abs((b.at - issue.at).us);
+    };
+    const auto said = std::min_element(other.issues.begin(), other.issues.end(), is_nearer);
+    if (said == other.issues.end() || std::abs((said->at - issue.at).seconds()) > kScorePeriod) continue;
+    const double ahead_s = (truth.at - said->at).seconds();
+    least = std::min(least, std::max(here, margin_for(said_at(said->said, ahead_s), truth, ahead_s)));
+  }
+  return least;
 }
 
 const Judge::History* Judge::known(std::int64_t id, UTime born) const {

@@ -98,6 +98,11 @@ class Judge {
   void issue(const SeenTrack& track, UTime at, History& history) const;
   void score(History& history);
   void score(Issue& issue, const Sample& truth, History& history);
+  /// The least q by which two promises hold what came, had their tracks exchanged detections since:
+  /// each thing is where the other track's was promised. Of a track that was not there yet, that the promise holds it.
+  /// So things that pass each other closely do not make promises wide that are kept: who keeps clear of both boxes
+  /// keeps clear of both things, whatever they are called. Infinite where there is none. O(tracks).
+  [[nodiscard]] double exchanged_margin(const Issue& issue, const Sample& truth, const History& own) const;
   [[nodiscard]] const History* known(std::int64_t id, UTime born) const;
   [[nodiscard]] static std::size_t pool_of(const SeenTrack& track, UTime at, double fastest);
   [[nodiscard]] static TrackClass class_of(const SeenTrack& track, UTime at, const HorizonWeights& weights);

@@ -30,6 +30,18 @@ Fit fit_of(const std::array<AxisFilter, 3>& axes, const Detection& detection) {
              detection.variance);
 }
 
+bool is_seen_at(const std::array<AxisFilter, 3>& place, const ObservationSet& set) {
+  return std::any_of(set.detections.begin(), set.detections.end(),
+                     [&](const Detection& d) { return fit_of(place, d).distance2 <= kAssociationGate; });
+}
+
+// How much less likely it is that these are one thing, by their sizes.
+double size_surprise(const Vec3& half, const Detection& detection) {
+  const double scale = std::max(half.maxCoeff(), detection.half_extents.maxCoeff());
+  const Vec3 variance = 2.0 * detection.variance + Vec3::Constant(std::pow(kSizeShare * scale, 2) + kLeastVariance);
+  return std::min(kMostOfSize, (half - detection.half_extents).cwiseAbs2().cwiseQuotient(variance).sum());
+}
+
 bool is_beyond(double range_m, const Vec3& from, const Vec3& centre, const Vec3& half) {
   return range_m > 0.0 && ((centre - from).cwiseAbs() - half).cwiseMax(0.0).norm() > range_m - kRangeMargin;
 }
@@ -142,7 +154,8 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
     rest.rested_s += (from.at - seen).seconds();
     object.stood.reset();
   } else if (object.stood && fit_of(*object.stood, detection).distance2 > kJumpGate) {
-    ++rest.starts;
+    // Else something still stands there, and this is another thing.
+    if (!is_seen_at(*object.stood, from)) ++rest.starts;
     object.stood.reset();
   }
 }
@@ -210,12 +223,13 @@ bool Tracker::rests(const TrackedObject& object) const {
 }
 
 double Tracker::surprise(const TrackedObject& object, UTime at, const Detection& detection) const {
+  const double of_size = size_surprise(object.half_extents, detection);
   // Remembered: what is found there again belongs to it, not whatever a mover could have become.
   if (at - object.last_seen > config_.coast && rests(object)) {
     const Fit fit = fit_of(object.resting, detection);
-    return fit.distance2 <= kAssociationGate ? fit.surprise() : std::numeric_limits<double>::infinity();
+    return fit.distance2 <= kAssociationGate ? fit.surprise() + of_size : std::numeric_limits<double>::infinity();
   }
-  return object.moving.surprise_within(kAssociationGate, detection.position, detection.variance);
+  return object.moving.surprise_within(kAssociationGate, detection.position, detection.variance) + of_size;
 }
 
 SeenTrack Tracker::seen(const TrackedObject& object) const {

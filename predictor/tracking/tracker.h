@@ -19,6 +19,9 @@ namespace tern {
 inline constexpr std::int64_t kFirstOwnTrackId = 1'000'000'000;
 /// A detection with its track's id farther than this is another thing, or a jump: the track starts anew there.
 inline constexpr double kJumpGate = 100.0;
+/// Sizes tell who is who, but alone they exclude nobody, whatever part of a thing is seen: standard deviation of a
+/// half-extent as a share of the largest, beside that of a face; and the most that they count for, of a surprise.
+inline constexpr double kSizeShare = 0.25, kMostOfSize = 20.0;
 /// How far back observations may come out of order.
 inline constexpr Duration kReorderWindow{300'000};
 /// Extents grow at once to the largest seen and shrink by this share of the difference per detection.

@@ -27,6 +27,8 @@ constexpr Duration kEcho{300'000};
 constexpr Duration kResultPeriod{200'000};
 constexpr int kResults = 6;
 constexpr Duration kCountdown{300'000};
+/// Where nothing is declared: a vehicle looks around before it takes off, and learns how fast things are.
+constexpr Duration kLooksAround{1'500'000};
 constexpr const char* kMapperProcess = "tern-mapper";
 
 UTime whole_ms(UTime t) { return {(t.us + 999) / 1'000 * 1'000}; }
@@ -135,7 +137,7 @@ std::string SimulatorNode::missing(UTime now) const {
 void SimulatorNode::wait_for_processes(UTime now) {
   const std::string missing = this->missing(now);
   if (missing.empty()) {
-    world_zero_ = whole_ms(now + kCountdown);
+    world_zero_ = whole_ms(now + (config_.declare ? kCountdown : kLooksAround));
     next_status_ = std::min(next_status_, *world_zero_);
     broadcast_.start(*world_zero_, now);
     spdlog::info("everyone is ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);

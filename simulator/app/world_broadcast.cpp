@@ -35,6 +35,13 @@ World at_rest_at_zero(const World& world) {
   return resting;
 }
 
+/// Of a world, what never moves, with the ids that it has.
+World never_moving(const World& world) {
+  World resting = world;
+  std::erase_if(resting.obstacles, [](const WorldObstacle& obstacle) { return obstacle.moves(); });
+  return resting;
+}
+
 /// Why the world's motions cannot be declared; empty: they can.
 std::string undeclarable(const World& world) {
   const PresentAtOnce present = most_present(world, kDeclaredPast);
@@ -82,7 +89,7 @@ Result<World> make_flyable_world(const Scenario& scenario, const SimulatorConfig
 WorldBroadcast::WorldBroadcast(Bus& bus, const World& world, const SimulatorConfig& config, UTime now)
     : bus_(bus),
       world_(world),
-      resting_(at_rest_at_zero(world)),
+      before_(config.declare ? at_rest_at_zero(world) : never_moving(world)),
       config_(config),
       frames_zero_(now),
       next_declared_(now),
@@ -94,7 +101,8 @@ WorldBroadcast::WorldBroadcast(Bus& bus, const World& world, const SimulatorConf
 }
 
 void WorldBroadcast::start(UTime world_zero, UTime now) {
-  world_zero_ = world_zero;
+  world_zero_ = frames_zero_ = world_zero;
+  frame_ = static_cast<std::int64_t>(std::ceil((now - world_zero).seconds() * config_.sensor.rate_hz));
   // What was declared until now is no longer so.
   next_declared_ = now;
 }
@@ -122,19 +130,16 @@ void WorldBroadcast::step(UTime now, const MotionHistory& uav) {
   }
 }
 
-void WorldBroadcast::choose_epoch() {
-  if (!frames_rest_ || frame_taken(config_.sensor, frames_zero_, frame_) < world_zero_) return;
-  frames_rest_ = false;
-  frames_zero_ = world_zero_;
-  frame_ = 0;
+bool WorldBroadcast::is_before_world(UTime t) const {
+  return world_zero_ == kFarFuture || (config_.declare && t < world_zero_);
 }
 
 void WorldBroadcast::publish_observations(UTime now, const MotionHistory& uav) {
-  for (choose_epoch(); frame_arrives(config_.sensor, frames_zero_, frame_) <= now; choose_epoch()) {
-    const Vec3 eye = uav.sample(std::min(frame_taken(config_.sensor, frames_zero_, frame_), uav.end())).p;
-    const World& seen = frames_rest_ ? resting_ : world_;
+  for (; frame_arrives(config_.sensor, frames_zero_, frame_) <= now; ++frame_) {
+    const UTime taken = frame_taken(config_.sensor, frames_zero_, frame_);
+    const Vec3 eye = uav.sample(std::min(taken, uav.end())).p;
+    const World& seen = is_before_world(taken) ? before_ : world_;
     bus_.publish(channels::kObstacleObservations, observe(seen, config_.sensor, frames_zero_, frame_, eye));
-    ++frame_;
   }
 }
 
@@ -163,11 +168,8 @@ void WorldBroadcast::publish_truth(UTime now) {
   ObstacleTruth truth;
   truth.batch.set = ++truth_set_;
   truth.at = now;
-  if (now < world_zero_) {
-    truth.obstacles = true_obstacles(resting_, 0.0);
-  } else {
-    truth.obstacles = true_obstacles(world_, (now - world_zero_).seconds());
-  }
+  truth.obstacles =
+      is_before_world(now) ? true_obstacles(before_, 0.0) : true_obstacles(world_, (now - world_zero_).seconds());
   bus_.publish_paced(channels::kObstacleTruth, split_batches(truth));
 }
 

@@ -28,9 +28,12 @@ inline constexpr Duration kDeclaredApart{20'000};
 Result<World> make_flyable_world(const Scenario& scenario, const SimulatorConfig& config, const std::string& data_dir);
 
 /// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, DECLARED_MOTIONS at 5 Hz and when someone appears
-/// (kDeclaredApart later at most), OBSTACLE_TRUTH at 30 Hz. Motions with too many pieces are declared coarser. Until
-/// start() the world rests as it is at world time 0, and is declared so. Then it rests until world_zero and is declared
-/// to move from there on.
+/// (kDeclaredApart later at most), OBSTACLE_TRUTH at 30 Hz. Motions with too many pieces are declared coarser.
+///
+/// Until start() a declared world rests as it is at world time 0, and is declared so. Then it rests until world_zero
+/// and is declared to move from there on. Of a world that is not declared only what never moves is there until start().
+/// Then it moves on its way to world time 0: who saw its movers rest till then would learn that what rests starts at
+/// any moment.
 class WorldBroadcast {
  public:
   WorldBroadcast(Bus& bus, const World& world, const SimulatorConfig& config, UTime now);
@@ -47,17 +50,16 @@ class WorldBroadcast {
   void publish_declared(UTime now, const Vec3& uav);
   void say_left_out(std::int32_t left_out, std::size_t of);
   void publish_truth(UTime now);
-  void choose_epoch();
+  [[nodiscard]] bool is_before_world(UTime t) const;
   [[nodiscard]] UTime declared_due() const;
 
   Bus& bus_;
   const World& world_;
-  World resting_;  // the world at time 0, for ever
+  World before_;  // what is there until start(), or until world zero
   SimulatorConfig config_;
   UTime world_zero_ = kFarFuture;
-  // Frames count from the start of an epoch: the process's start while the world rests, then world zero.
+  // Frames count from the process's start, then from world zero: those before that have numbers below 0.
   UTime frames_zero_;
-  bool frames_rest_ = true;
   std::int64_t frame_ = 0;
   std::int64_t declared_set_ = 0, truth_set_ = 0;
   CoarseMotions coarse_;

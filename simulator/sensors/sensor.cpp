@@ -66,7 +66,6 @@ UTime frame_arrives(const SensorConfig& config, UTime world_zero, std::int64_t f
 ObservationSet observe(const World& world, const SensorConfig& config, UTime world_zero, std::int64_t frame,
                        const Vec3& sensor_position) {
   require_valid(config);
-  require(frame >= 0, "frame negative:", static_cast<double>(frame));
   ObservationSet set;
   set.at = frame_taken(config, world_zero, frame);
   set.sensor_id = config.sensor_id;

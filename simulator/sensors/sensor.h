@@ -26,14 +26,14 @@ struct SensorConfig {
 /// BENCHMARKS' perception-only sensor: 8 m all around, σ 0.05 m, 30 Hz, 50 ms late, 5 % dropped, no ids.
 SensorConfig perception_only(std::uint64_t seed);
 
-/// When frame k ≥ 0 is taken: world_zero + k / rate_hz, and when it arrives.
+/// When frame k is taken: world_zero + k / rate_hz, and when it arrives. Those before world zero have k < 0.
 UTime frame_taken(const SensorConfig& config, UTime world_zero, std::int64_t frame);
 UTime frame_arrives(const SensorConfig& config, UTime world_zero, std::int64_t frame);
 
 /// Frame k: the obstacles present at that instant, seen from sensor_position (W). There is no occlusion. Noise and
 /// dropout come from (seed, k) alone, so that frames may be asked for in any order. Detections are by id ascending when
 /// the sensor knows ids, else by position (x, then y, then z, as measured). variance = sigma². The header is empty.
-/// @throws std::invalid_argument when the configuration is out of range or frame < 0.
+/// @throws std::invalid_argument when the configuration is out of range.
 ObservationSet observe(const World& world, const SensorConfig& config, UTime world_zero, std::int64_t frame,
                        const Vec3& sensor_position);
 

@@ -20,6 +20,7 @@ constexpr int kMaxDraws = 10'000;
 constexpr int kMaxRedraws = 1000;
 constexpr double kStartSample = 0.01;    // s
 constexpr double kMeetingSample = 0.05;  // s
+constexpr double kBefore = 2.0;          // s: of a copy's motion before world time 0
 
 /// Where someone is at file time t_s. @return nullopt if not there
 std::optional<Vec3> place_at(const RecordedTrack& track, double t_s) {
@@ -47,14 +48,15 @@ bool meets(const RecordedTrack& track, double t_s, const UavSpec& uav) {
 
 using Points = std::vector<std::pair<double, Vec3>>;
 
-/// The piece of a track from the first position at or after `from_s` on; its time 0 is there.
+/// The piece of a track whose time 0 is the first position at or after `from_s`: who looks around before that sees it
+/// come.
 Points cut(const RecordedTrack& track, double from_s, double duration_s) {
   Points piece;
-  double zero = from_s;
+  const auto first =
+      std::find_if(track.points.begin(), track.points.end(), [&](const auto& p) { return p.first >= from_s; });
   for (const auto& [t, p] : track.points) {
-    if (t < from_s || (!piece.empty() && t > zero + duration_s)) continue;
-    if (piece.empty()) zero = t;
-    piece.emplace_back(t - zero, p);
+    const double since = t - first->first;
+    if (since >= -kBefore && since <= duration_s) piece.emplace_back(since, p);
   }
   return piece;
 }
@@ -67,7 +69,7 @@ void scatter(Rng& rng, Points& piece, const Box& within) {
   for (auto& [t, p] : piece) {
     const double x = side * p.x();
     p = Vec3(std::cos(turn) * x - std::sin(turn) * p.y(), std::sin(turn) * x + std::cos(turn) * p.y(), p.z());
-    path.extend(p);
+    if (t >= 0.0) path.extend(p);
   }
   Vec3 shift;
   for (int axis = 0; axis < 3; ++axis) {

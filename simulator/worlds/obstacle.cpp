@@ -188,6 +188,12 @@ ObstacleState WorldObstacle::at(double t_s) const {
   return {motion_state(spec_, 0.0).p, Vec3::Zero()};
 }
 
+double WorldObstacle::begins_s() const {
+  if (const auto* linear = std::get_if<LinearMotion>(&spec_.motion)) return linear->from_s;
+  const auto* way = std::get_if<WaypointMotion>(&spec_.motion);
+  return way == nullptr || way->repeat ? -kInfinity : way->points.front().first;
+}
+
 double WorldObstacle::next_corner(double t_s) const {
   if (!moves_) return kInfinity;
   if (t_s < 0.0) return 0.0;

@@ -51,6 +51,8 @@ class WorldObstacle {
   [[nodiscard]] double first_s() const { return first_s_; }  ///< present from here on (−∞ where it always was)
   [[nodiscard]] double last_s() const { return last_s_; }    ///< present until here (∞ where it always will be)
   [[nodiscard]] bool present(double t_s) const { return t_s >= first_s_ && t_s <= last_s_; }
+  /// When its motion begins; −∞ where it always moved, or never does.
+  [[nodiscard]] double begins_s() const;
   /// From now on it never was and never will be there: present from a time that no flight reaches to one before all.
   void leave_out() {
     first_s_ = 1e9;
@@ -76,7 +78,7 @@ class WorldObstacle {
   double last_s_ = 0.0;
 };
 
-/// The state of a motion at t_s ≥ 0 (the formulas above), whatever the presence. @pre the spec passed
+/// The state of a motion at t_s (the formulas above, before t = 0 as well), whatever the presence. @pre the spec passed
 /// WorldObstacle::make.
 ObstacleState motion_state(const ObstacleSpec& spec, double t_s);
 

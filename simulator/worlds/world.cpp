@@ -113,8 +113,9 @@ std::vector<TrueObstacle> true_obstacles(const World& world, double t_s) {
   std::vector<TrueObstacle> present;
   present.reserve(world.obstacles.size());
   for (const WorldObstacle& o : world.obstacles) {
-    if (!o.present(t_s)) continue;
-    const ObstacleState state = o.at(t_s);
+    const double begins_s = o.begins_s();
+    if (!o.present(t_s) || (t_s < begins_s && begins_s <= 0.0)) continue;
+    const ObstacleState state = motion_state(o.spec(), t_s);
     present.push_back({o.id(), state.p, state.v, o.half_extents(), o.moves()});
   }
   return present;

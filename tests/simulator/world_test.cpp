@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -41,6 +42,33 @@ TEST(World, NumbersItsObstaclesGeneratedThenListed) {
   for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(world.obstacles[i].id(), static_cast<std::int64_t>(i));
   EXPECT_EQ(world.obstacles[10].spec().name, "still");
   EXPECT_FALSE(world.obstacles[10].moves());
+}
+
+TEST(World, BeforeTimeZeroWhatMovesIsOnItsWayAndNothingThatSetsOutByThenIsThere) {
+  Scenario scenario;
+  const WaypointMotion walk{{{-1.0, Vec3::Zero()}, {1.0, Vec3::Ones()}}, false, true};
+  scenario.world.obstacles = {spec("still", StaticMotion{}), spec("trefoil", TrefoilMotion{}),
+                              spec("sets out at 0", LinearMotion{Vec3::UnitY(), 0.0}),
+                              spec("sets out later", LinearMotion{Vec3::UnitY(), 3.0}), spec("comes", walk)};
+  const World world = make_world(scenario, "").value();
+  const auto ids = [&](double t) {
+    std::vector<std::int64_t> seen;
+    for (const TrueObstacle& o : true_obstacles(world, t)) seen.push_back(o.id);
+    return seen;
+  };
+  EXPECT_EQ(ids(-1.5), (std::vector<std::int64_t>{0, 1, 3}));
+  EXPECT_EQ(ids(-0.5), (std::vector<std::int64_t>{0, 1, 3, 4}));
+  EXPECT_EQ(ids(0.0), (std::vector<std::int64_t>{0, 1, 2, 3, 4}));
+  for (const double t : {-0.9, -0.3, 0.0, 0.4}) {
+    constexpr double kStep = 1e-4;
+    for (const TrueObstacle& o : true_obstacles(world, t - kStep)) {
+      if (o.id == 2) continue;
+      const auto later = true_obstacles(world, t + kStep);
+      const auto same = std::find_if(later.begin(), later.end(), [&](const TrueObstacle& l) { return l.id == o.id; });
+      ASSERT_NE(same, later.end());
+      EXPECT_LT((same->position - o.position - 2.0 * kStep * o.velocity).norm(), 1e-6) << o.id << " at " << t;
+    }
+  }
 }
 
 TEST(World, WrittenOutAsAListIsTheSameWorld) {
