@@ -161,7 +161,7 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
 }
 
 void Tracker::take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const {
-  if (object.moving.distance2(detection.position, detection.variance) > kJumpGate) {
+  if (is_lost(object, from.at) || object.moving.distance2(detection.position, detection.variance) > kJumpGate) {
     const TrackedObject anew = born(detection, from, object.id);
     restart(object, detection, from);
     object.resting = anew.resting;
@@ -213,6 +213,10 @@ bool Tracker::is_dead(const TrackedObject& object, const ObservationSet& observa
   if (unseen <= config_.coast) return false;
   const bool is_missed = can_miss && !(rests(object) && is_out_of_range(object, observations));
   return is_missed || unseen > config_.remember_rest;
+}
+
+bool Tracker::is_lost(const TrackedObject& object, UTime at) const {
+  return (at - object.last_seen).seconds() > kUnseen && std::countr_zero(object.hits) > kMissesOfLost && !rests(object);
 }
 
 bool Tracker::rests(const TrackedObject& object) const {

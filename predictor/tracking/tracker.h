@@ -42,6 +42,9 @@ inline constexpr double kRangeMargin = 0.5;
 inline constexpr double kKnownWithin = 1.0;
 /// What is unseen for longer, s, has one α for all confidences: they are calibrated by what is seen again and again.
 inline constexpr double kUnseen = 0.3;
+/// Who has been unseen for that long, and was missed by so many of its sensor's sets, is not surely what is found there
+/// next: that may have come into view just now. Its motion begins anew.
+inline constexpr int kMissesOfLost = 3;
 /// Of 1 − confidence, the share that is left to a start that the α of what rests does not contain.
 inline constexpr double kStartShare = 0.5;
 /// The crossings of Rice's formula for what rests: π/2 of a speed that does not change, and room for noise.
@@ -112,6 +115,8 @@ class Tracker {
   /// Time of the newest observation; 0 when there was none.
   [[nodiscard]] UTime newest() const { return steps_.empty() ? UTime{} : steps_.back().observations.at; }
   /// True if it is predicted at rest.
+  /// Whether what is detected as this track may as well be something new.
+  [[nodiscard]] bool is_lost(const TrackedObject& object, UTime at) const;
   [[nodiscard]] bool rests(const TrackedObject& object) const;
   /// What was learnt of predictions: models' weights and margins. It lags by kReorderWindow.
   [[nodiscard]] const Judge& judge() const { return judge_; }

@@ -323,6 +323,28 @@ TEST(Tracker, WhatIsLostTakesNothingFromWhatIsSeen) {
   }
 }
 
+/// One leaves the sensor's range, and another comes into view where the first could be by now.
+TEST(Tracker, WhatComesIntoViewIsNotTheOneThatLeftIt) {
+  int wrong = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    Rng rng(seed);
+    Tracker tracker(TrackerConfig{});
+    const Path left = straight(Vec3::Zero(), Vec3(3, 0, 0));
+    const double t = feed(tracker, {left}, 0.0, 1.5, rng, 0.05);
+    feed(tracker, {}, t + 1.0 / kRate, 0.5, rng);
+    const Vec3 apart(rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5), 0);
+    const Path comes = straight(left(t + 0.5) + apart + Vec3(3, 0, 0) * (t + 0.5), Vec3(-3, 0, 0));
+    const double last = feed(tracker, {comes}, t + 0.5 + 1.0 / kRate, 0.2, rng);
+    ASSERT_GE(tracker.objects().size(), 1u);
+    for (const TrackedObject& object : tracker.objects()) {
+      if (object.last_seen != at_seconds(last)) continue;
+      const auto deviation = std::sqrt(object.moving.lead().marginal(0).vv);
+      wrong += std::abs(object.moving.lead().velocity().x() + 3.0) > 4.0 * deviation ? 1 : 0;
+    }
+  }
+  EXPECT_LE(wrong, 4);
+}
+
 /// A cube flies by a post, through it or near it, and 5 % of detections are missing.
 TEST(Tracker, APostByWhichSomethingFliesHasNotStarted) {
   const auto seen = [](const Vec3& at, const Vec3& half, Rng& rng) {
