@@ -41,12 +41,15 @@ PlanCost cost_of(const Attempt& attempt, const TimedSpline& trajectory) {
       }
     }
   }
-  const OptimizationConfig& w = config.optimization;
-  cost.total = w.weight_jerk * cost.jerk + w.weight_goal * cost.distance_to_goal * cost.distance_to_goal;
+  cost.total = total_cost(cost, config.optimization);
   return cost;
 }
 
 }  // namespace
+
+double total_cost(const PlanCost& cost, const OptimizationConfig& weights) {
+  return weights.weight_jerk * cost.jerk + weights.weight_goal * cost.distance_to_goal * cost.distance_to_goal;
+}
 
 void append_hold(std::vector<double>& times, double step, double hold_s) {
   const double end = times.back();

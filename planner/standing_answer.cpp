@@ -20,6 +20,7 @@ void StandingAnswer::head_for(const Heading& heading) {
   if (!best_) return;
   best_->arrival_s = worth_of(near_, heading, best_->trajectory);
   best_->cost.distance_to_goal = (heading.local.goal - best_->trajectory.control_points.rightCols<1>()).norm();
+  best_->cost.total = total_cost(best_->cost, near_.config.optimization);
 }
 
 void StandingAnswer::keep(std::optional<Candidate> committed, const Heading& heading) {
