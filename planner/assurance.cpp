@@ -15,8 +15,9 @@ std::vector<Assurance> lower_assurances(double aside_s) {
   return made;
 }
 
-double confidence_of(const Assurance& assurance) {
-  return assurance.scale < 1.0 ? 0.0 : kConfidenceLevels[static_cast<std::size_t>(assurance.level)];
+double confidence_of(const Assurance& assurance, double promised) {
+  const bool is_known = assurance.scale == 1.0 && assurance.sure_for > Duration{0};
+  return is_known ? confidence_at(promised, assurance.level) : 0.0;
 }
 
 void count_alpha(const Assurance& assurance, UTime t_s, std::vector<PlanningObstacle>& obstacles) {

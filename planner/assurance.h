@@ -22,8 +22,9 @@ struct Assurance {
 /// @param aside_s  what the vehicle needs to step aside (HoldDemand), s
 std::vector<Assurance> lower_assurances(double aside_s);
 
-/// For as long as it is sure; 0 where none is known.
-double confidence_of(const Assurance& assurance);
+/// For as long as it is sure; 0 where none is known: below scale 1, or sure for no time.
+/// @param promised  the prediction set's (TrackSet::confidence)
+double confidence_of(const Assurance& assurance, double promised);
 
 /// Counts α of the estimated obstacles so, whatever was counted before, and those of others in full.
 void count_alpha(const Assurance& assurance, UTime t_s, std::vector<PlanningObstacle>& obstacles);

@@ -29,7 +29,7 @@ PlanReason plan_less_sure(const Heading& heading, Surroundings& near, StandingAn
   for (const Assurance& less : all) {
     if (is_settled(near, heading, standing)) break;
     if (less.level == 0 && less.sure_for.seconds() >= near.hold.predicted_s) continue;  // that is all there is
-    const bool has_waited = rested_s(near.request) > kPatience * (1.0 - confidence_of(less));
+    const bool has_waited = rested_s(near.request) > kPatience * (1.0 - confidence_of(less, standing.promised()));
     if (less.scale < 1.0 && (standing.best() || standing.committed()) && !has_waited) break;
     count_less(less, tools.memory, near);
     if (near.start.relaxed && &less != &all.back()) continue;

@@ -106,8 +106,7 @@ Plan StandingAnswer::filled(const Candidate* candidate, PlanReason reason) const
   plan.level = candidate->assurance.level;
   plan.alpha_scale = candidate->assurance.scale;
   plan.sure_for = candidate->assurance.sure_for;
-  const bool has_number = plan.alpha_scale == 1.0 && plan.sure_for > Duration{0};
-  plan.confidence = has_number ? confidence_at(promised_, plan.level) : 0.0;
+  plan.confidence = confidence_of(candidate->assurance, promised_);
   plan.trajectory = candidate->trajectory;
   plan.hold = Duration::from_seconds(candidate->hold_s);
   plan.cost = candidate->cost;

@@ -16,6 +16,8 @@ class StandingAnswer {
                  PlanTools& tools);
 
   [[nodiscard]] const std::optional<Candidate>& committed() const { return committed_; }
+  /// The predictions' confidence.
+  [[nodiscard]] double promised() const { return promised_; }
   /// What is new.
   [[nodiscard]] const std::optional<Candidate>& best() const { return best_; }
 

@@ -110,10 +110,18 @@ TEST(LowerAssurances, CountThePromisedAlphaForAsLongAsItIsSure) {
 TEST(LowerAssurances, AreNeverMoreConfidentThanTheOneBefore) {
   double before = 1.0;
   for (const Assurance& assurance : lower_assurances(kAsideS)) {
-    EXPECT_LE(confidence_of(assurance), before);
-    before = confidence_of(assurance);
+    EXPECT_LE(confidence_of(assurance, 0.99), before);
+    before = confidence_of(assurance, 0.99);
   }
   EXPECT_EQ(before, 0.0);
+}
+
+TEST(ConfidenceOf, IsThatOfTheSetsPromiseWhereANumberIsKnown) {
+  EXPECT_EQ(confidence_of({}, 0.97), 0.97);
+  EXPECT_EQ(confidence_of({2, 1.0, Duration{450'000}}, 0.97), kConfidenceLevels[2]);
+  EXPECT_EQ(confidence_of({2, 1.0, Duration{450'000}}, 0.85), 0.85) << "no level lies above the promise";
+  EXPECT_EQ(confidence_of({0, 1.0, Duration{0}}, 0.97), 0.0) << "sure for no time";
+  EXPECT_EQ(confidence_of({kLevels - 1, 0.5, Duration{450'000}}, 0.97), 0.0);
 }
 
 TEST(LowerAssurances, CountAlphaThatGrowsForTheTimeToStepAside) {
