@@ -15,7 +15,7 @@ namespace tern {
 bool is_settled(const Surroundings& near, const Heading& heading, const StandingAnswer& standing) {
   const auto settles = [&](const std::optional<Candidate>& candidate) {
     return candidate && candidate->holds &&
-           share_of_way(near.request.start.p, heading.local.goal, candidate->trajectory) >= kGetsOn;
+           share_of_way(near.request.start.p, heading.local.goal, candidate->trajectory) >= kSettles;
   };
   return settles(standing.best()) || settles(standing.committed());
 }

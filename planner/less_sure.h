@@ -8,8 +8,9 @@
 
 namespace tern {
 
-/// Whether no less of α need be counted: something stands that holds and gets on (kGetsOn), new or committed. What
-/// waits or flies back does not settle it: among boxes that grow, the surest plan leads away from the goal for ever.
+/// Whether no less of α need be counted: something stands that holds and leads far enough (kSettles), new or committed.
+/// What waits or flies back does not settle it: among boxes that grow, the surest plan leads away from the goal for
+/// ever.
 bool is_settled(const Surroundings& near, const Heading& heading, const StandingAnswer& standing);
 
 /// Counts less and less of α (lower_assurances()) until that is settled. Where no confidence is known any more it goes

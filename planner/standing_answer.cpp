@@ -64,7 +64,7 @@ bool StandingAnswer::is_worse(const Candidate& candidate) const {
 }
 
 bool StandingAnswer::gets_on(const Candidate& candidate) const {
-  return share_of_way(near_.request.start.p, blank_.local_goal, candidate.trajectory) > kStepsOn;
+  return share_of_way(near_.request.start.p, blank_.local_goal, candidate.trajectory) > kGetsOn;
 }
 
 /// To stay at rest is no way to arrive, however early it is estimated to.

@@ -47,7 +47,7 @@ inline constexpr double kBendIgnored = 0.15;
 inline constexpr int kSmallerSteps = 3;
 inline constexpr double kSmallerStep = 3.0;
 /// A plan from there that leads no further than this share of the way to the local goal is none.
-inline constexpr double kStepsOn = 0.01;
+inline constexpr double kGetsOn = 0.01;
 
 // ---- The search's lengths for near local goals (look_ahead.h)
 
@@ -92,7 +92,7 @@ inline constexpr double kAlphaScales[] = {0.7, 0.5, 0.35, 0.25, 0.1};
 inline constexpr int kLessSureExpansions = 300;
 inline constexpr int kLessSureHoldExpansions = 100;
 /// Less of α is counted until something leads at least this share of the way to the local goal.
-inline constexpr double kGetsOn = 0.25;
+inline constexpr double kSettles = 0.25;
 /// Who rests short of the goal sets out at a confidence after this times what is missing to 1, if it may stay, s.
 inline constexpr double kPatience = 1.0;
 

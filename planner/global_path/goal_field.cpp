@@ -161,7 +161,7 @@ std::optional<Box> GoalField::blocker(const Vec3& start) const {
 void GoalField::tighten(std::vector<Vec3>& path) const {
   constexpr int kPasses = 3;
   constexpr int kPullHalvings = 6;
-  constexpr double kLeastPull = 1.0 / 64.0;  // 2^-kPullHalvings
+  constexpr double kLeastPull = 1.0 / (1 << kPullHalvings);
   const Vec3 start = path.front();
   const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
   // Length alone needs no asking: erasing a vertex or pulling it to a chord never makes a path longer.
