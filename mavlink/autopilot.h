@@ -64,7 +64,6 @@ class Autopilot {
   /// An estimator without GPS says no origin: external vision gives it one.
   void take_own_origin() { own_origin_ = true; }
   [[nodiscard]] const std::map<std::string, double>& parameters() const { return parameters_; }
-  void forget_parameters() { parameters_.clear(); }
   [[nodiscard]] const std::string& last_warning() const { return warning_; }  ///< newest STATUSTEXT, warning or worse
   /// Acknowledgements and texts since the last call.
   std::deque<CommandAck> take_acks() { return std::exchange(acks_, {}); }

@@ -88,8 +88,7 @@ void Bridge::hear(const Frame& frame, UTime received) {
   for (const StatusText& text : autopilot_.take_texts()) words_.push_back("autopilot: " + words_of(text.text));
 }
 
-void Bridge::hear(const UavState& setpoint, UTime now) {
-  (void)now;
+void Bridge::hear(const UavState& setpoint) {
   setpoint_heard_ = true;
   command_.hear(setpoint);
 }

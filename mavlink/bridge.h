@@ -49,7 +49,7 @@ class Bridge {
   Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
 
   void hear(const Frame& frame, UTime received);
-  void hear(const UavState& setpoint, UTime now);
+  void hear(const UavState& setpoint);
   void hear(const TimedSpline& committed) { command_.hear(committed); }
   /// Where a motion-capture system sees the vehicle, W. Nothing comes of it unless external_vision is on.
   void hear_vision(const UavState& seen);
@@ -82,7 +82,6 @@ class Bridge {
   /// The system is the autopilot's when that is known.
   static constexpr Address kSelf{1, kOwnComponent};
   void enter(Stage stage, const std::string& why = {});
-  void hear_answers();
   void step_stage(UTime now);
   void step_waiting(UTime now);
   void step_ready(UTime now);

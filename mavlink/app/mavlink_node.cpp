@@ -29,7 +29,7 @@ MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& ua
       begun_(bus.clock().now()),
       next_(begun_),
       next_status_(begun_) {
-  bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { bridge_.hear(setpoint, bus_.clock().now()); });
+  bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { bridge_.hear(setpoint); });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { bridge_.hear(m.committed); });
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });

@@ -48,7 +48,7 @@ class FlightInMemory {
     } else {
       setpoint.motion.p = last.p;
     }
-    if (state && speaks) bridge.hear(setpoint, now);
+    if (state && speaks) bridge.hear(setpoint);
   }
 
   void run(double seconds) {
