@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/audit/audit.h"
+#include "tools/audit/body_gap.h"
 #include "tools/audit/commitment.h"
 #include "tools/audit/flown.h"
 
@@ -122,18 +123,14 @@ class LimitCheck {
       ++check_.checked;
       const Vec3 n = Vec3::Unit(axis);
       const double high =
-          positions.max()[axis] + body_high(request.body, n) + off[axis] - request.flight_box.max()[axis];
+          positions.max()[axis] + body_support(request.body, n) + off[axis] - request.flight_box.max()[axis];
       const double low =
-          request.flight_box.min()[axis] - positions.min()[axis] + body_high(request.body, -n) + off[axis];
+          request.flight_box.min()[axis] - positions.min()[axis] + body_support(request.body, -n) + off[axis];
       const double out = std::max(high, low);
       if (out <= kBoxTolerance * 1.2) continue;
       check_.fail(
           {at, fmt::format("the body leaves the flight box by {:.6g} m along {}", out, kAxes[axis]), request.id});
     }
-  }
-
-  static double body_high(const Body& body, const Vec3& n) {
-    return (n.transpose() * body.vertices).maxCoeff() + body.radius;
   }
 
   Check& check_;
