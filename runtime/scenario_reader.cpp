@@ -11,6 +11,7 @@
 #include "core/base/digest.h"
 #include "core/base/random.h"
 #include "core/geometry/box.h"
+#include "core/world/body.h"
 #include "core/world/message_limits.h"
 #include "core/world/names.h"
 #include "core/world/step_aside.h"
@@ -244,11 +245,11 @@ UavSpec read_uav(ConfigSection section, UavSpec uav, std::uint64_t seed) {
   uav.body = read_body(section.section("body"), uav.body);
   if (section.has("flight_box")) uav.flight_box = read_box(section.section("flight_box"));
   section.finish();
-  const Vec3 h = uav.body.half_extents();
+  const Box places = places_within(uav.flight_box, body_box(uav.body));
   const auto check = [&](const char* key, const Vec3& p) {
-    if (uav.flight_box.contains(box_around(p, h))) return;
-    const Vec3 low = uav.flight_box.min() + h;
-    const Vec3 high = uav.flight_box.max() - h;
+    if (places.contains(p)) return;
+    const Vec3& low = places.min();
+    const Vec3& high = places.max();
     throw section.error(key,
                         fmt::format("[{}, {}, {}] is outside the flight box, body included (limits [{}, {}, {}] to "
                                     "[{}, {}, {}])",

@@ -234,6 +234,18 @@ TEST(ScenarioFile, TheWholeBodyMustStartAndEndInsideTheFlightBox) {
             "a.yaml:4: uav.flight_box.max: is not greater than min on every axis");
 }
 
+TEST(ScenarioFile, WhatHangsBelowNeedsNoRoomAbove) {
+  const std::string load =
+      "  flight_box: {min: [-1, -1, 0], max: [9, 1, 4]}\n  body: {vertices: [[0, 0, 0.1], [0, 0, -1]]}\n";
+  EXPECT_EQ(error_of("uav:\n  start: [0, 0, 3.9]\n  goal: [8, 0, 1]\n" + load), "");
+  EXPECT_EQ(error_of("uav:\n  start: [0, 0, 3.95]\n  goal: [8, 0, 1]\n" + load),
+            "a.yaml:2: uav.start: [0, 0, 3.95] is outside the flight box, body included (limits [-1, -1, 1] to [9, 1, "
+            "3.9])");
+  EXPECT_EQ(error_of("uav:\n  start: [0, 0, 2]\n  goal: [8, 0, 0.9]\n" + load),
+            "a.yaml:3: uav.goal: [8, 0, 0.9] is outside the flight box, body included (limits [-1, -1, 1] to [9, 1, "
+            "3.9])");
+}
+
 TEST(ScenarioFile, OfSeveralRoutesTheSeedDrawsOneAndTheWay) {
   const std::string routes =
       "uav:\n  routes:\n    - {from: [0, 0, 1], to: [9, 0, 1]}\n    - {from: [0, 2, 1], to: [9, 2, 1]}\n";
