@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/world/body.h"
+
 namespace tern {
 FlightWatch::FlightWatch(const Scenario& scenario, UTime now)
     : scenario_(scenario), goal_(scenario.uav.goal), began_(now) {}
@@ -85,10 +87,19 @@ std::optional<Ending> FlightWatch::ending(UTime now) const {
 
 double FlightWatch::nearest_obstacle() const {
   double nearest = std::numeric_limits<double>::quiet_NaN();
+  const Box body = body_box(scenario_.uav.body);
   for (const TrueObstacle& obstacle : obstacles_) {
-    const Vec3 apart =
-        (obstacle.position - state_->motion.p).cwiseAbs() - obstacle.half_extents - scenario_.uav.body.half_extents();
-    nearest = std::fmin(nearest, apart.cwiseMax(0.0).norm());
+    const Box touching = places_at(box_around(obstacle.position, obstacle.half_extents), body);
+    nearest = std::fmin(nearest, touching.exteriorDistance(state_->motion.p));
+  }
+  return nearest;
+}
+
+double FlightWatch::nearest_wall() const {
+  double nearest = std::numeric_limits<double>::quiet_NaN();
+  const Box body = body_box(scenario_.uav.body);
+  for (const Box& box : occupied_) {
+    nearest = std::fmin(nearest, places_at(box, body).exteriorDistance(state_->motion.p));
   }
   return nearest;
 }
@@ -105,6 +116,7 @@ LiveView FlightWatch::live() const {
   view.progress = way > 0.0 ? std::clamp(1.0 - (goal_ - p).norm() / way, 0.0, 1.0) : 1.0;
   view.speed_mps = state_->motion.v.norm();
   view.nearest_m = nearest_obstacle();
+  view.nearest_wall_m = nearest_wall();
   const Percentiles replan = percentiles(replan_.total);
   view.replan_p50_ms = replan.p50;
   view.replan_p99_ms = replan.p99;

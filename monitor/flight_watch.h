@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ struct LiveView {
   double progress = 0.0;   ///< of the straight distance from start to goal, 0 … 1
   double speed_mps = 0.0;
   double nearest_m = 0.0;  ///< distance of the body's box to the nearest obstacle; NaN: none known
+  /// The same to the map's occupied voxels; NaN: none known.
+  double nearest_wall_m = std::numeric_limits<double>::quiet_NaN();
   double replan_p50_ms = 0.0, replan_p99_ms = 0.0;  ///< of all answers so far; NaN: none
   std::int64_t requests = 0, answered_in_time = 0;
   PlanReason reason = PlanReason::None;  ///< the newest plan's
@@ -76,6 +79,8 @@ class FlightWatch {
   void hear(const FlightResult& result, UTime now);
   /// A complete set.
   void hear(std::vector<TrueObstacle> obstacles) { obstacles_ = std::move(obstacles); }
+  /// The newest map's occupied voxels (cover_with_boxes()).
+  void hear_map(std::vector<Box> occupied) { occupied_ = std::move(occupied); }
   /// Something outside of the messages made the flight impossible. The first reason stays.
   void fail(std::string detail);
 
@@ -86,6 +91,7 @@ class FlightWatch {
 
  private:
   [[nodiscard]] double nearest_obstacle() const;
+  [[nodiscard]] double nearest_wall() const;
   [[nodiscard]] std::int64_t simulator_epoch_us() const;
   [[nodiscard]] std::optional<std::string> failure(UTime now) const;
 
@@ -100,6 +106,7 @@ class FlightWatch {
   std::int64_t world_epoch_us_ = 0;  ///< the simulator's at the first request; 0: none yet
   UTime beat_;                       ///< when a heartbeat was heard last
   std::vector<TrueObstacle> obstacles_;
+  std::vector<Box> occupied_;
   Once timings_heard_;
   ReplanSamples replan_;
   std::optional<FlightResult> result_;

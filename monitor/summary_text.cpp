@@ -31,6 +31,7 @@ std::string row(std::string_view name, const Percentiles& p) {
 std::string obstacles_met(const FlightSummary& s) {
   if (!s.result) return "";
   std::string text = fmt::format(", {} obstacles", s.result->obstacles);
+  if (!std::isnan(s.result->min_map_clearance_m)) text += " and a map's walls";
   if (s.result->obstacles_left_out > 0) {
     text += fmt::format(" ({} left out: they began beside the vehicle)", s.result->obstacles_left_out);
   }

@@ -2,13 +2,16 @@
 
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <utility>
 
+#include "core/world/box_cover.h"
 #include "messages/codec.h"
 #include "monitor/app/hear_flight.h"
 #include "monitor/live_line.h"
+#include "runtime/config.h"
 #include "runtime/version.h"
 
 namespace tern {
@@ -24,7 +27,17 @@ MonitorNode::MonitorNode(Bus& bus, const Scenario& scenario, MonitorOptions opti
       watch_(scenario, bus.clock().now()),
       next_look_(bus.clock().now()),
       next_line_(next_look_ + output_.period()) {
+  check_summary_file();
   subscribe();
+}
+
+/// A flight is long: what cannot be written is said before it.
+void MonitorNode::check_summary_file() const {
+  const std::string& path = options_.summary_file;
+  if (path.empty()) return;
+  const bool was_there = std::filesystem::exists(path);
+  if (!std::ofstream(path, std::ios::app)) throw ConfigError(path + ": the summary cannot be written");
+  if (!was_there) std::filesystem::remove(path);
 }
 
 void MonitorNode::subscribe() {
@@ -37,6 +50,10 @@ void MonitorNode::subscribe() {
       obstacles.insert(obstacles.end(), batch.obstacles.begin(), batch.obstacles.end());
     }
     watch_.hear(std::move(obstacles));
+  });
+  bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) {
+    const Result<bool> complete = map_.add(chunk);
+    if (complete && *complete) watch_.hear_map(cover_with_boxes(map_.take(), false));
   });
   // Nothing to learn from these but whether they arrive.
   bus_.subscribe(channels::kSetpoint, [](const UavState&) {});

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/world/scenario.h"
+#include "core/world/voxel_map.h"
 #include "monitor/app/terminal.h"
 #include "monitor/flight_watch.h"
 #include "runtime/batches.h"
@@ -25,6 +26,7 @@ struct MonitorOptions {
 /// code: 0 reached, 1 collision, 2 timeout, 3 failed.
 class MonitorNode final : public Node {
  public:
+  /// @throws ConfigError if the summary's file cannot be written
   MonitorNode(Bus& bus, const Scenario& scenario, MonitorOptions options);
 
   [[nodiscard]] UTime next_wakeup() const override { return next_look_; }
@@ -33,6 +35,7 @@ class MonitorNode final : public Node {
   [[nodiscard]] std::optional<int> finished() const override { return exit_code_; }
 
  private:
+  void check_summary_file() const;
   void subscribe();
   void look_for_failure();
   void finish(const Ending& ending);
@@ -41,6 +44,7 @@ class MonitorNode final : public Node {
   MonitorOptions options_;
   FlightWatch watch_;
   BatchCollector<ObstacleTruth> truth_;
+  MapAssembler map_;
   LiveOutput output_;
   UTime next_look_, next_line_;
   std::optional<int> exit_code_;

@@ -201,6 +201,33 @@ TEST(FlightWatch, ShowsProgressSpeedAndTheNearestObstacle) {
   EXPECT_NEAR(view.nearest_m, 2.0, 1e-12);  // 3 m less the obstacle's half and the body's radius
 }
 
+TEST(FlightWatch, ShowsTheNearestWallOfTheMapBesideTheObstacles) {
+  FlightWatch watch(scenario(), kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
+  watch.hear(state(Vec3(4, 0, 1), Vec3::Zero(), kStart + Duration{2'000'000}));
+  EXPECT_TRUE(std::isnan(watch.live().nearest_wall_m));
+  watch.hear_map({Box(Vec3(6, -1, 0), Vec3(7, 1, 2)), Box(Vec3(4, 8, 0), Vec3(5, 9, 2))});
+  EXPECT_NEAR(watch.live().nearest_wall_m, 1.5, 1e-12);
+  EXPECT_TRUE(std::isnan(watch.live().nearest_m));
+}
+
+TEST(FlightWatch, MeasuresWhatHangsBelowFromWhereItHangs) {
+  Scenario hanging = scenario();
+  hanging.uav.body.radius = 0.0;
+  hanging.uav.body.vertices = Points(3, 2);
+  hanging.uav.body.vertices << 0, 0, 0, 0, 0.1, -1.0;
+  FlightWatch watch(hanging, kStart);
+  watch.hear(executor(), kStart);
+  watch.hear(request(), kStart);
+  watch.hear(state(Vec3(0, 0, 3), Vec3::Zero(), kStart + Duration{2'000'000}));
+  TrueObstacle above;
+  above.position = Vec3(0, 0, 4);
+  above.half_extents = Vec3::Constant(0.5);
+  watch.hear(std::vector{above});
+  EXPECT_NEAR(watch.live().nearest_m, 0.4, 1e-12);
+}
+
 TEST(FlightWatch, MeasuresProgressToANewGoal) {
   FlightWatch watch(scenario(), kStart);
   watch.hear(executor(), kStart);

@@ -22,6 +22,15 @@ TEST(LiveLine, ShowsWhatAPersonWantsToKnow) {
             "   6.4 s   48 %   5.93 m/s  nearest 0.72 m  replan 4.1/12.3 ms (p50/p99)  in time 127/128");
 }
 
+TEST(LiveLine, ShowsTheNearestWallWhereAMapHasOne) {
+  LiveView view;
+  view.flying = true;
+  view.nearest_m = 0.717;
+  EXPECT_EQ(live_line(view).find("wall"), std::string::npos);
+  view.nearest_wall_m = 0.032;
+  EXPECT_NE(live_line(view).find("nearest 0.72 m, wall 0.03 m"), std::string::npos) << live_line(view);
+}
+
 TEST(LiveLine, ShowsADashForWhatIsNotKnown) {
   LiveView view;
   view.flying = true;

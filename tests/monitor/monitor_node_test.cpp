@@ -9,6 +9,7 @@
 
 #include "core/world/names.h"
 #include "messages/codec.h"
+#include "runtime/config.h"
 #include "runtime/virtual_runner.h"
 
 namespace tern {
@@ -53,6 +54,18 @@ TEST(Monitor, ExitCodeAndSummaryAreTheRefereesOutcome) {
     EXPECT_EQ(summary["messages"]["FLIGHT_RESULT"]["received"], 1);
     std::filesystem::remove(options.summary_file);
   }
+}
+
+TEST(Monitor, RefusesASummaryThatCannotBeWrittenBeforeTheFlight) {
+  MonitorOptions options;
+  options.summary_file = temp_file("no_such_folder") + "/summary.json";
+  VirtualRunner runner;
+  EXPECT_THROW(
+      runner.start("tern-monitor", [&](Bus& bus) { return std::make_unique<MonitorNode>(bus, kScenario, options); }),
+      ConfigError);
+  options.summary_file = temp_file("summary");
+  runner.start("tern-monitor", [&](Bus& bus) { return std::make_unique<MonitorNode>(bus, kScenario, options); });
+  EXPECT_FALSE(std::filesystem::exists(options.summary_file)) << "to ask leaves no file behind";
 }
 
 TEST(Monitor, FailsWithoutASimulator) {

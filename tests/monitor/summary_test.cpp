@@ -92,6 +92,15 @@ TEST(Summary, WhatHasNoValueIsNull) {
   EXPECT_EQ(unjudged["exposure"], json::object());
 }
 
+TEST(Summary, SaysThatWallsComeFromAMap) {
+  FlightSummary s = flown();
+  s.result->obstacles = 0;
+  s.result->min_map_clearance_m = 0.032;
+  EXPECT_THAT(to_text(s), testing::HasSubstr("0 obstacles and a map's walls\n"));
+  s.result->min_map_clearance_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(to_text(s), testing::HasSubstr("0 obstacles\n"));
+}
+
 TEST(Summary, KeepsTheRangeOfASeed) {
   FlightSummary s = flown();
   s.seed = std::numeric_limits<std::uint64_t>::max();
