@@ -35,6 +35,8 @@ function tiles() {
     [time.p50 === null ? "–" : short(time.p50), " s", "flight time, median of those that reached"],
     [s.contacts_moving, " / " + s.contacts_at_rest, "contacts while moving / at rest"],
     [s.timeouts, " / " + s.failed, "timeouts / failed otherwise"],
+    [s.min_clearance_m.min === null ? "–" : short(s.min_clearance_m.min), " m", "least clearance of obstacles"],
+    [s.min_map_clearance_m.min === null ? "–" : short(s.min_map_clearance_m.min), " m", "least clearance of the map"],
   ]) {
     const tile = element(grid, "div", { class: "tile" });
     element(element(tile, "b", {}, String(value)), "small", {}, unit);

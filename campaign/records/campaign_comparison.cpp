@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -119,7 +120,9 @@ std::string success_lines(const CampaignComparison& c) {
   text += c.may_infer() ? fmt::format("; McNemar p = {:.3g}\n", c.p_value) : "\n";
   if (!c.a_alone.empty()) text += fmt::format("A alone succeeds at seeds {}\n", fmt::join(c.a_alone, " "));
   if (!c.b_alone.empty()) text += fmt::format("B alone succeeds at seeds {}\n", fmt::join(c.b_alone, " "));
-  if (!c.may_infer()) {
+  if (c.same_flights) {
+    text += "no intervals: A and B are the same flights, of one configuration and version\n";
+  } else if (!c.may_infer()) {
     text += fmt::format(
         "no intervals: of {} flights, {} of A and {} of B differ from the others; equal flights say no more than one\n",
         c.pairs, c.different_a, c.different_b);
@@ -170,11 +173,18 @@ Result<CampaignComparison> compare(const Flights& a, const Flights& b) {
   c.only_in_b = static_cast<std::int64_t>(b.records.size()) - c.pairs;
   c.a = pairs.front().first->identity;
   c.b = pairs.front().second->identity;
+  if (c.a.scenario != c.b.scenario) {
+    return fail(fmt::format("their scenarios differ, \"{}\" and \"{}\": a seed makes no pair of them", c.a.scenario,
+                            c.b.scenario));
+  }
   c.p_value = mcnemar(static_cast<std::int64_t>(c.a_alone.size()), static_cast<std::int64_t>(c.b_alone.size()));
   c.different_a = different_flights(paired_a);
   c.different_b = different_flights(paired_b);
   add_columns(c, pairs);
   add_exposure(c, pairs);
+  c.same_flights = c.a == c.b && c.a_alone.empty() && c.b_alone.empty() &&
+                   std::all_of(c.measures.begin(), c.measures.end(),
+                               [](const ComparedMeasure& m) { return m.difference.different == 0; });
   return c;
 }
 

@@ -24,8 +24,9 @@ struct CampaignComparison {
   double p_value = 1.0;                           ///< McNemar's, of a_alone against b_alone
   std::int64_t different_a = 0, different_b = 0;  ///< flights of the pairs that differ from each other
   std::vector<ComparedMeasure> measures;          ///< over the pairs that have it (Compared), at least one pair
+  bool same_flights = false;  ///< of one configuration and version, and no pair differs in any measure
   /// Pairs that are independent of each other; if not, no interval and no probability means anything.
-  [[nodiscard]] bool may_infer() const { return different_a == pairs && different_b == pairs; }
+  [[nodiscard]] bool may_infer() const { return !same_flights && different_a == pairs && different_b == pairs; }
 };
 
 /// How many of the flights differ from each other in outcome, time, way, clearance or jerk. Flights that a seed does
@@ -33,7 +34,7 @@ struct CampaignComparison {
 std::int64_t different_flights(const std::map<std::uint64_t, FlightRecord>& records);
 
 /// Every measure of the columns (column_notes) and the metres inside each region. @return an Error without common
-/// seeds.
+/// seeds, or of two scenarios: their worlds have nothing in common but the seed's number.
 Result<CampaignComparison> compare(const Flights& a, const Flights& b);
 
 enum class TableForm { Text, Markdown, Latex };

@@ -184,6 +184,7 @@ CampaignSummary summarize(const Flights& flights) {
   s.jerk_integral = over(reached, &FlightResult::jerk_integral);
   s.top_speed_mps = over(all, &FlightResult::top_speed_mps);
   s.min_clearance_m = over(all, &FlightResult::min_clearance_m);
+  s.min_map_clearance_m = over(all, &FlightResult::min_map_clearance_m);
   add_exposure(s, all);
   add_times(s, flights);
   add_coverage(s, all);
@@ -210,6 +211,7 @@ std::string to_json(const CampaignSummary& s, const std::string& command) {
       {"mean_speed_mps", to_json(s.mean_speed_mps)},
       {"top_speed_mps", to_json(s.top_speed_mps)},
       {"min_clearance_m", to_json(s.min_clearance_m)},
+      {"min_map_clearance_m", to_json(s.min_map_clearance_m)},
       {"jerk_integral", to_json(s.jerk_integral)},
       {"stops", s.stops},
       {"flights_with_stops", s.flights_with_stops},
@@ -256,7 +258,8 @@ std::string to_text(const CampaignSummary& s) {
   };
   row("flight_time_s", s.flight_time_s), row("first_entry_s", s.first_entry_s);
   row("mean_speed_mps", s.mean_speed_mps), row("top_speed_mps", s.top_speed_mps);
-  row("min_clearance_m", s.min_clearance_m), row("jerk_integral", s.jerk_integral);
+  row("min_clearance_m", s.min_clearance_m), row("min_map_clearance_m", s.min_map_clearance_m);
+  row("jerk_integral", s.jerk_integral);
   for (std::size_t k = 0; k < kMeasuredTimes.size(); ++k) row(kMeasuredTimes[k], s.times[k]);
   for (const auto& [region, e] : s.exposure) row(fmt::format("{} m", region).c_str(), e.metres);
   text += fmt::format("  stops {} in {} flights, limit violations {}, requests {}, deadlines missed {}\n", s.stops,

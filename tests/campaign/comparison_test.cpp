@@ -94,6 +94,24 @@ TEST(Comparison, OfEqualFlightsHasNoIntervals) {
   EXPECT_THAT(to_text(compare(a, a).value(), TableForm::Text), HasSubstr("A and B are the same flights"));
 }
 
+TEST(Comparison, OfACampaignWithItselfInfersNothing) {
+  const CampaignComparison c = compare(flights_of(1, 9), flights_of(1, 9)).value();
+  EXPECT_FALSE(c.may_infer());
+  EXPECT_THAT(to_text(c, TableForm::Text), HasSubstr("no intervals: A and B are the same flights"));
+  EXPECT_THAT(to_text(c, TableForm::Text), Not(HasSubstr("McNemar")));
+  Flights other = flights_of(1, 9);
+  for (auto& [seed, record] : other.records) record.identity.configuration = "fedcba9876543210";
+  EXPECT_TRUE(compare(flights_of(1, 9), other)->may_infer()) << "that nothing changed is a result";
+}
+
+TEST(Comparison, OfTwoScenariosIsAnError) {
+  Flights other = flights_of(1, 9);
+  for (auto& [seed, record] : other.records) record.identity.scenario = "elsewhere";
+  const auto c = compare(flights_of(1, 9), other);
+  ASSERT_FALSE(c);
+  EXPECT_THAT(c.error().message, HasSubstr("\"elsewhere\""));
+}
+
 TEST(Comparison, WithoutACommonSeedIsAnError) { EXPECT_FALSE(compare(flights_of(1, 3), flights_of(4, 6))); }
 
 TEST(Comparison, IsATableOfLatex) {

@@ -65,6 +65,19 @@ TEST(CampaignSummary, ALimitBrokenIsNoSuccess) {
   EXPECT_EQ(s.failed_seeds, std::vector<std::uint64_t>{1});
 }
 
+TEST(CampaignSummary, SaysTheClearanceOfObstaclesAndOfTheMap) {
+  Flights flights = thirty_flights();
+  for (auto& [seed, record] : flights.records) {
+    record.result.min_map_clearance_m = seed % 2 == 0 ? std::nan("") : 0.032 * static_cast<double>(seed);
+  }
+  const CampaignSummary s = summarize(flights);
+  EXPECT_EQ(s.min_map_clearance_m.count, 15) << "of flights that have a map";
+  EXPECT_NEAR(s.min_map_clearance_m.min, 0.032, 1e-12);
+  const auto json = nlohmann::json::parse(to_json(s, ""));
+  EXPECT_NEAR(json["min_map_clearance_m"]["min"].get<double>(), 0.032, 1e-9);
+  EXPECT_NE(to_text(s).find("min_map_clearance_m"), std::string::npos);
+}
+
 TEST(CampaignSummary, AsJsonHasEveryKeyAndNullForWhatIsUnknown) {
   const auto json = nlohmann::json::parse(to_json(summarize(thirty_flights()), "tern-campaign --world x"));
   for (const char* key : {"flights",       "reached",         "collisions",    "timeouts",        "failed",
