@@ -12,6 +12,7 @@
 #include "simulator/worlds/world.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/voxel_maps.h"
 #include "tools/audit/audit.h"
 
 namespace tern::audit {
@@ -178,6 +179,84 @@ RC_GTEST_PROP(AuditClearance, LiesWithinItsBoundsWhateverMovesBetweenTheSamples,
   RC_ASSERT(audit.least.high >= dense.least - dense.slack - 1e-9);
   if (audit.least.proven) RC_ASSERT(audit.least.low <= dense.least + 1e-9);
   if (audit.check("clearance").broken > 0) RC_ASSERT(dense.least < 0.0);
+}
+
+/// A map with some occupied voxels about the flight.
+VoxelMap random_walls(Rng& rng) {
+  VoxelMap map = test_support::free_map({20, 20, 20}, 0.4, Vec3(-4, -4, -4));
+  test_support::sprinkle(map, rng, 0.003, VoxelLabel::Occupied);
+  map.labels.front() = VoxelLabel::Occupied;
+  map.version = map.compute_version();
+  return map;
+}
+
+RC_GTEST_PROP(AuditMap, ClearanceOfTheMapLiesWithinItsBounds, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const Case c = random_case(rng);
+  const TempFolder folder;
+  const std::string path = folder.file("flight.lcm");
+  { Recording recording(c, rng, path); }
+  FlightRecord record = read_flight(path).value();
+  const VoxelMap map = random_walls(rng);
+  record.maps[map.version] = map;
+  const Audit audit = audit_flight(record);
+  Case walls{.committed = c.committed, .flown = c.flown, .body = c.body};
+  Scenario scenario;
+  for (std::int64_t k = 0; k < map.grid.voxels(); ++k) {
+    if (map.labels[static_cast<std::size_t>(k)] != VoxelLabel::Occupied) continue;
+    ObstacleSpec voxel;
+    voxel.centre = map.grid.centre(map.grid.cell(k));
+    voxel.half_extents = Vec3::Constant(0.2);
+    scenario.world.obstacles.push_back(voxel);
+  }
+  walls.world = make_world(scenario, "").value();
+  const Dense dense = look_densely(walls, kZero, record.states.back().at);
+  RC_LOG() << to_text(audit, record) << dense.least << "\n";
+  RC_ASSERT(audit.least_of_map.known);
+  // Voxels that touch are one box: an overlap is deeper in it.
+  if (dense.least > 0.0) RC_ASSERT(audit.least_of_map.high >= dense.least - dense.slack - 1e-9);
+  if (audit.least_of_map.proven) RC_ASSERT(audit.least_of_map.low <= dense.least + 1e-9);
+  if (audit.check("map").broken > 0) RC_ASSERT(dense.least < 0.0);
+}
+
+TEST(AuditMap, IsNotJudgedWhereItChangedInFlight) {
+  Rng rng(1);
+  const TempFolder folder;
+  const std::string path = folder.file("flight.lcm");
+  { Recording recording(random_case(rng), rng, path); }
+  FlightRecord record = read_flight(path).value();
+  for (int k = 0; k < 2; ++k) {
+    const VoxelMap map = random_walls(rng);
+    record.maps[map.version] = map;
+  }
+  const Audit audit = audit_flight(record);
+  EXPECT_EQ(audit.check("map").verdict(), Verdict::NotChecked);
+  EXPECT_FALSE(audit.least_of_map.known);
+}
+
+TEST(AuditMap, ACollisionWithItDoesNotContradictTheClearanceOfObstacles) {
+  Rng rng(3);
+  Case c = random_case(rng);
+  c.flown = c.committed;
+  c.share_of_states = 1.0;
+  const TempFolder folder;
+  const std::string path = folder.file("flight.lcm");
+  { Recording recording(c, rng, path); }
+  FlightRecord record = read_flight(path).value();
+  VoxelMap map = test_support::free_map({20, 20, 20}, 0.4, Vec3(-4, -4, -4));
+  const Vec3 at = record.states[record.states.size() / 2].motion.p;
+  const Eigen::Vector3i cell = map.grid.cell_of(at).cwiseMax(0).cwiseMin(19);
+  test_support::paint(map, cell, cell, VoxelLabel::Occupied);
+  record.maps[map.version] = map;
+  FlightResult result;
+  result.outcome = FlightOutcome::Collision;
+  result.header.utime = record.states.back().at;
+  result.flight_time_s = kFlight;
+  result.min_map_clearance_m = -0.01;
+  record.results.push_back(result);
+  const Audit audit = audit_flight(record);
+  EXPECT_EQ(audit.check("map").verdict(), Verdict::Broken);
+  EXPECT_EQ(audit.collision, Collision::Agrees);
 }
 
 /// What the property would not notice: that nothing is ever proven.

@@ -150,6 +150,7 @@ Audit audit_flight(const FlightRecord& record) {
   for (std::string& what : named_and_missing(record)) audit.missing.push_back(std::move(what));
   audit.missing.insert(audit.missing.end(), record.other_flights.begin(), record.other_flights.end());
   audit.checks.push_back(check_clearance(record, audit));
+  audit.checks.push_back(check_map(record, audit));
   audit.checks.push_back(check_limits(record));
   audit.checks.push_back(check_continuity(record));
   audit.checks.push_back(check_commitment(record));

@@ -34,7 +34,7 @@ struct TrackCoverage {
 
 /// The least clearance of the flight.
 struct Least {
-  bool known = false;            ///< there was an obstacle to be near to
+  bool known = false;            ///< there was something to be near to
   double low = 0.0, high = 0.0;  ///< it lies between them, m
   bool proven = false;      ///< low is a bound; false: between samples by interpolation, or without what is missing
   bool touch_open = false;  ///< whether some obstacle was touched is too close to tell
@@ -49,7 +49,7 @@ struct Audit {
   std::vector<Check> checks;
   std::vector<std::string> missing;  ///< what the log lacks, in words
   std::vector<ClearancePoint> clearance;
-  Least least;
+  Least least, least_of_map;  ///< to the true obstacles; to the occupied voxels
   Collision collision = Collision::None;
   Coverage coverage;                 ///< of the flight
   std::vector<KeptShare> shares;     ///< the same with its intervals, the obstacles being groups
@@ -73,6 +73,7 @@ double distance_to(const Region& region, const Vec3& p);
 
 // The checks, in files of their own.
 Check check_clearance(const FlightRecord& record, Audit& audit);
+Check check_map(const FlightRecord& record, Audit& audit);
 Check check_limits(const FlightRecord& record);
 Check check_continuity(const FlightRecord& record);
 Check check_commitment(const FlightRecord& record);

@@ -1,9 +1,10 @@
-// True clearance in continuous time, from states and truth alone.
+// True clearance in continuous time, from states, truth and map alone.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "core/world/box_cover.h"
 #include "tools/audit/audit.h"
 #include "tools/audit/body_gap.h"
 #include "tools/audit/flown.h"
@@ -178,10 +179,20 @@ std::int64_t count_passers(const FlightRecord& record, const Window& window) {
   return count;
 }
 
+/// What obstacles are called: "obstacle 3", "box 0 of the map" (−1 − k names the k-th, as in a certificate).
+struct Names {
+  const char* all;
+  bool of_map;
+  [[nodiscard]] std::string operator()(std::int64_t id) const {
+    return of_map ? fmt::format("box {} of the map", -1 - id) : fmt::format("obstacle {}", id);
+  }
+};
+
 /// What all obstacles came to.
 class Verdicts {
  public:
-  Verdicts(const FlightRecord& record, Check& check) : record_(record), check_(check) {}
+  Verdicts(const FlightRecord& record, Check& check, Names names = {"obstacles", false})
+      : record_(record), check_(check), names_(names) {}
 
   /// How near it came so far, for all that is known, m.
   [[nodiscard]] double nearest() const { return std::min(proven_.low, interpolated_.low); }
@@ -195,7 +206,7 @@ class Verdicts {
       lower(a.interpolated, interpolated_);
     if (a.proven.high < 0.0) {
       const Closest& c = a.proven;
-      check_.fail({c.at, fmt::format("overlaps obstacle {} by {:.3f} m", c.obstacle, -c.high), 0, c.obstacle});
+      check_.fail({c.at, fmt::format("overlaps {} by {:.3f} m", names_(c.obstacle), -c.high), 0, c.obstacle});
     } else if (a.proven.obstacle != kNobody && a.proven.low < passed_over(a.proven.low)) {
       undecided(a.proven, "the log tells no better");
     } else if (a.interpolated.obstacle != kNobody && a.interpolated.low < passed_over(a.interpolated.low)) {
@@ -224,29 +235,99 @@ class Verdicts {
 
   void undecided(const Closest& c, const char* why) {
     ++undecided_;
-    ++check_.unchecked[fmt::format("whether obstacle {} was touched at {:.3f} s: {:.6f} to {:.6f} m, {}", c.obstacle,
+    ++check_.unchecked[fmt::format("whether {} was touched at {:.3f} s: {:.6f} to {:.6f} m, {}", names_(c.obstacle),
                                    record_.seconds(c.at), c.low - passed_over(c.low), c.high, why)];
   }
 
   void say(const Least& least, const Closest& closest) {
-    check_.summary = fmt::format("least {:.4f} to {:.4f} m, to obstacle {} at {:.3f} s{}; {} obstacles{}", least.low,
-                                 least.high, closest.obstacle, record_.seconds(closest.at),
+    check_.summary = fmt::format("least {:.4f} to {:.4f} m, to {} at {:.3f} s{}; {} {}{}", least.low, least.high,
+                                 names_(closest.obstacle), record_.seconds(closest.at),
                                  undeclared_ > 0 ? " (between samples by interpolation)" : "", check_.checked,
-                                 undecided_ > 0 ? fmt::format(", {} too close to tell", undecided_) : "");
+                                 names_.all, undecided_ > 0 ? fmt::format(", {} too close to tell", undecided_) : "");
     check_.measures = {{least.proven ? "least_m_at_least" : "least_m_by_interpolation", least.low},
                        {"least_m_at_most", least.high},
-                       {"least_obstacle", static_cast<double>(closest.obstacle)},
+                       {names_.of_map ? "least_box" : "least_obstacle",
+                        static_cast<double>(names_.of_map ? -1 - closest.obstacle : closest.obstacle)},
                        {"least_at_s", record_.seconds(closest.at)},
-                       {"obstacles", static_cast<double>(check_.checked)}};
+                       {names_.all, static_cast<double>(check_.checked)}};
   }
 
   const FlightRecord& record_;
   Check& check_;
+  Names names_;
   Closest proven_, interpolated_;
   std::int64_t undeclared_ = 0, undecided_ = 0;
 };
 
+/// One box of the map.
+struct Wall {
+  std::int64_t id;
+  Box box;
+  double at_least;  ///< how far the body stays away from it at least, by boxes of what was flown, m
+};
+
+/// Nearest first.
+std::vector<Wall> walls_of(const VoxelMap& map, const Watch& watch) {
+  std::vector<Box> flown;
+  for (const Sampled& span : watch.vehicle.spans) {
+    if (span.hole || span.curve.to <= watch.window.from || span.curve.from >= watch.window.to) continue;
+    const auto points = bernstein_points(span.curve, 0.0, span.curve.length_s());
+    flown.push_back(grown(Box(points.rowwise().minCoeff(), points.rowwise().maxCoeff()), span.error));
+  }
+  const double reach = watch.body.vertices.colwise().norm().maxCoeff() + watch.body.radius;
+  std::vector<Wall> walls;
+  for (const Box& box : cover_with_boxes(map, false)) {
+    Wall wall{-1 - static_cast<std::int64_t>(walls.size()), box, kFar};
+    for (const Box& b : flown) wall.at_least = std::min(wall.at_least, b.exteriorDistance(box) - reach);
+    walls.push_back(wall);
+  }
+  std::stable_sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.at_least < b.at_least; });
+  return walls;
+}
+
+/// At rest for as long as is judged.
+SampledMotion standing(const Vec3& p, const Window& window) {
+  Sampled span;
+  span.curve.from = window.from;
+  span.curve.to = window.to;
+  for (int axis = 0; axis < 3; ++axis) span.curve.axis[static_cast<std::size_t>(axis)].c[0] = p[axis];
+  SampledMotion motion;
+  motion.spans.push_back(span);
+  return motion;
+}
+
+bool collided(const FlightRecord& record) {
+  return !record.results.empty() && record.results.back().outcome == FlightOutcome::Collision;
+}
+
 }  // namespace
+
+Check check_map(const FlightRecord& record, Audit& audit) {
+  Check check{.name = "map", .claim = "the body stayed clear of the map's occupied voxels, in continuous time"};
+  if (record.requests.empty()) check.unchecked["the body is not known: no HORIZON_REQUEST"] = 1;
+  if (record.maps.size() > 1)
+    check.unchecked["the map changed in flight: which one was in force when is not in the log"] = 1;
+  if (record.requests.empty() || record.maps.size() != 1) return check;
+  std::vector<ClearancePoint> nobodys;
+  Watch watch{record, record.requests.front().body, judged(record), flown(record), nobodys};
+  if (collided(record)) watch.window.to = watch.window.to + kAfterCollision;
+  const std::vector<Wall> walls = walls_of(record.maps.begin()->second, watch);
+  if (walls.empty()) {
+    check.checked = 1;
+    check.summary = "no voxel is occupied";
+    return check;
+  }
+  count_holes(watch.vehicle, channels::kUavState.name, check);
+  Verdicts verdicts(record, check, {"boxes", true});
+  for (const Wall& wall : walls) {
+    if (wall.at_least > verdicts.nearest()) break;
+    const Vec3 centre = wall.box.center();
+    const ObstacleHistory history{{{watch.window.from, centre, Vec3::Zero(), 0.5 * wall.box.sizes()}}, false};
+    verdicts.take(watch.watch(wall.id, history, standing(centre, watch.window), verdicts.nearest()));
+  }
+  audit.least_of_map = verdicts.finish(watch.vehicle.hole_count == 0);
+  return check;
+}
 
 Check check_clearance(const FlightRecord& record, Audit& audit) {
   Check check{.name = "clearance", .claim = "the body stayed clear of every true obstacle, in continuous time"};
@@ -255,8 +336,7 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
     return check;
   }
   Watch watch{record, record.requests.front().body, judged(record), flown(record), audit.clearance};
-  const bool collided = !record.results.empty() && record.results.back().outcome == FlightOutcome::Collision;
-  if (collided) watch.window.to = watch.window.to + kAfterCollision;
+  if (collided(record)) watch.window.to = watch.window.to + kAfterCollision;
   count_holes(watch.vehicle, channels::kUavState.name, check);
   for (const UavState& s : record.states) {
     if (s.at >= watch.window.from && s.at <= watch.window.to) audit.clearance.push_back({s.at, kFar, kNobody});

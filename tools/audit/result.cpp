@@ -41,7 +41,8 @@ class ResultCheck {
 
   void run() {
     collision();
-    if (audit_.least.known && std::isfinite(result_.min_clearance_m)) clearance();
+    clearance("clearance", audit_.least, result_.min_clearance_m);
+    clearance("clearance of the map", audit_.least_of_map, result_.min_map_clearance_m);
     agree("path length", result_.path_length_m, measures_.path_m, path_off());
     agree("top speed", result_.top_speed_mps, measures_.top_speed, kRounding + kSpeedShare * measures_.top_speed.best);
     if (measures_.unseen_s > 0.0) {
@@ -68,26 +69,28 @@ class ResultCheck {
   void collision() {
     ++check_.checked;
     const Least& least = audit_.least;
-    const bool overlapped = audit_.check("clearance").broken > 0;
+    const bool overlapped = audit_.check("clearance").broken + audit_.check("map").broken > 0;
     if (result_.outcome != FlightOutcome::Collision) {
-      if (overlapped) fail(fmt::format("says {}, but an obstacle was overlapped", to_string(result_.outcome)));
+      if (overlapped)
+        fail(fmt::format("says {}, but an obstacle or the map was overlapped", to_string(result_.outcome)));
       return;
     }
-    const bool contradicted = least.known && least.proven && least.low > 0.0;
+    const auto is_clear = [](const Least& l) { return l.known && l.proven && l.low > 0.0; };
+    const bool by_map = std::isfinite(result_.min_map_clearance_m) && !is_clear(audit_.least_of_map);
+    const bool contradicted = is_clear(least) && !by_map;
     audit_.collision = overlapped ? Collision::Agrees : contradicted ? Collision::Contradicts : Collision::CannotTell;
     if (contradicted) fail(fmt::format("says collision, but the least clearance is at least {:.4f} m", least.low));
     if (audit_.collision == Collision::CannotTell) ++check_.unchecked["the collision that FLIGHT_RESULT tells of"];
   }
 
-  void clearance() {
+  void clearance(const char* what, const Least& least, double said) {
+    if (!least.known || !std::isfinite(said)) return;
     if (result_.outcome == FlightOutcome::Collision) return;  // until the end of the referee's step only
     ++check_.checked;
-    const Least& least = audit_.least;
-    const double said = result_.min_clearance_m;
     const bool too_low = least.proven && said < least.low - kRounding;
-    if (!least.proven) ++check_.unchecked["whether FLIGHT_RESULT's least clearance is too low"];
+    if (!least.proven) ++check_.unchecked[fmt::format("whether FLIGHT_RESULT's least {} is too low", what)];
     if (too_low || said > least.high + kClearanceOff) {
-      fail(fmt::format("says least clearance {:.4f} m, recomputed {:.4f} to {:.4f} m", said, least.low, least.high));
+      fail(fmt::format("says least {} {:.4f} m, recomputed {:.4f} to {:.4f} m", what, said, least.low, least.high));
     }
   }
 
