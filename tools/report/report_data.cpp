@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/percentiles.h"
+#include "core/world/body.h"
 #include "core/world/names.h"
 #include "core/world/replan_samples.h"
 #include "tools/report/map_runs.h"
@@ -244,7 +245,7 @@ json flight_of(const FlightRecord& record) {
     const HorizonRequest& r = record.requests.front();
     flight["v_max"] = row(r.limits.v_max);
     flight["a_max"] = row(r.limits.a_max);
-    flight["body_half"] = row(r.body.half_extents());
+    flight["body_half"] = row(0.5 * body_box(r.body).sizes());
     flight["flight_box"] = {row(r.flight_box.min()), row(r.flight_box.max())};
   }
   if (!record.goals.empty()) flight["goal"] = row(record.goals.back().position);

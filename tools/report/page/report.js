@@ -14,13 +14,15 @@ function head() {
     flight.command ? el("div", { class: "where" }, "Command: ", el("code", {}, flight.command)) : null,
     result && result.detail ? el("div", { class: "where" }, "Referee: " + result.detail) : null));
   const total = data.costs[0].ms;
-  const clearance = check("clearance").measures;
+  const clearance = check("clearance").measures, walls = check("map").measures;
+  const least = (m, of) => [fixed(leastOf(m), 3), "m", (m.least_m_at_least === undefined ? "least clearance of " + of + ", about" : "least clearance of " + of + ", at least")];
   const tiles = [
     [result ? fixed(result.time_s, 2) : fixed(flight.length_s, 2), "s", "flight time"],
     [result ? fixed(result.path_m, 1) : "–", "m", "path"],
     [result ? fixed(result.mean_speed, 2) : "–", "m/s", "mean speed to the goal"],
     [fixed(most(path.speed), 2), "m/s", "top speed"],
-    [fixed(leastOf(clearance), 3), "m", clearance.least_m_at_least === undefined ? "least clearance, about" : "least clearance, at least"],
+    least(clearance, "obstacles"),
+    ...(leastOf(walls) === undefined ? [] : [least(walls, "the map")]),
     [whole(answers.t.length), "", "plans asked for"],
     [fixed(total[0], 1) + " / " + fixed(total[2], 1), "ms", "replan p50 / p99"],
     [percent(check("predictions").measures.promises_kept_share, 2), "", "predictions kept"],
