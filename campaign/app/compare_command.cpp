@@ -10,6 +10,7 @@
 
 #include "campaign/app/commands.h"
 #include "campaign/campaign.h"
+#include "campaign/experiments/comparison_figure.h"
 #include "campaign/page/campaign_page.h"
 #include "campaign/records/campaign_comparison.h"
 #include "runtime/config.h"
@@ -17,9 +18,13 @@
 namespace tern {
 namespace {
 
+const std::map<std::string, TableForm> kTables{
+    {"text", TableForm::Text}, {"markdown", TableForm::Markdown}, {"latex", TableForm::Latex}};
+constexpr int kExitEqualFlights = 2;
+
 struct Options {
   std::string a, b;
-  TableForm form = TableForm::Text;
+  std::string form = "text";
 };
 
 Flights flights_of(const std::string& file) {
@@ -31,8 +36,14 @@ Flights flights_of(const std::string& file) {
 int compare_files(const Options& options) {
   const auto comparison = compare(flights_of(options.a), flights_of(options.b));
   if (!comparison) throw ConfigError(fmt::format("{} and {}: {}", options.a, options.b, comparison.error().message));
-  fmt::print("{}", to_text(*comparison, options.form));
-  return 0;
+  if (options.form == "svg") {
+    fmt::print("{}", draw_comparison(*comparison));
+  } else {
+    fmt::print("{}", to_text(*comparison, kTables.at(options.form)));
+  }
+  if (comparison->may_infer()) return 0;
+  fmt::print(stderr, "{} and {}: no interval means anything, flights are equal\n", options.a, options.b);
+  return kExitEqualFlights;
 }
 
 struct PageOptions {
@@ -60,12 +71,14 @@ int print_columns() {
 
 void add_compare(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("compare", "Two campaigns over the same seeds: every measure, B against A");
+  CLI::App* command = app.add_subcommand("compare",
+                                         "Two campaigns of a scenario over the same seeds: every measure, B against A; "
+                                         "exit code 2: their flights are equal, "
+                                         "nothing can be inferred");
   command->add_option("a", options->a, "One campaign's flights")->required()->type_name("A.csv");
   command->add_option("b", options->b, "The other's")->required()->type_name("B.csv");
-  command->add_option("--form", options->form, "How the table is written (default text)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, TableForm>{
-          {"text", TableForm::Text}, {"markdown", TableForm::Markdown}, {"latex", TableForm::Latex}}));
+  command->add_option("--form", options->form, "A table in this form, or a drawing (default text)")
+      ->check(CLI::IsMember({"text", "markdown", "latex", "svg"}));
   command->callback([&chosen, options] { chosen = [options] { return compare_files(*options); }; });
   auto page = std::make_shared<PageOptions>();
   CLI::App* html =

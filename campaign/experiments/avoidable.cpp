@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/world/body.h"
 
 namespace tern {
 namespace {
@@ -67,11 +68,11 @@ int clear_moves(const RestingVehicle& vehicle, const World& world, std::uint64_t
                 int enough) {
   Rng rng(seed);
   const auto centres = sampled(world, search.until_s);
-  const Vec3 body = vehicle.body.half_extents();
-  const Box room(vehicle.flight_box.min() + body, vehicle.flight_box.max() - body);
-  std::vector<Vec3> reach;
+  const Box body = body_box(vehicle.body);
+  const Box room = places_within(vehicle.flight_box, body);
+  std::vector<Box> reach;  // of positions about the obstacle's
   for (const WorldObstacle& o : world.obstacles) {
-    reach.push_back(o.half_extents() + body + Vec3::Constant(search.margin));
+    reach.push_back(grown(places_at(box_around(Vec3::Zero(), o.half_extents()), body), Vec3::Constant(search.margin)));
   }
   const auto is_clear = [&](const Move& first, const Move& second) {
     for (std::size_t k = 0; static_cast<double>(k) * kStep <= search.until_s; ++k) {
@@ -79,7 +80,9 @@ int clear_moves(const RestingVehicle& vehicle, const World& world, std::uint64_t
       const Vec3 p = vehicle.start + first.at(t) + second.at(t);
       if (!room.contains(p)) return false;
       for (std::size_t i = 0; i < centres.size(); ++i) {
-        if (((p - centres[i][k]).cwiseAbs().array() < reach[i].array()).all()) return false;
+        const Vec3 apart = p - centres[i][k];
+        if ((apart.array() > reach[i].min().array()).all() && (apart.array() < reach[i].max().array()).all())
+          return false;
       }
     }
     return true;

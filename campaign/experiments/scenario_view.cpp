@@ -18,6 +18,7 @@
 #include "semantic_mapper/app/load_map.h"
 #include "simulator/app/simulator_config.h"
 #include "simulator/app/world_broadcast.h"
+#include "simulator/referee/body_distance.h"
 
 namespace tern {
 namespace {
@@ -49,6 +50,18 @@ Result<PlannedWay> way_of(const ScenarioView& view, const std::shared_ptr<const 
   auto points = field.path_from(uav.start);
   if (!points) return fail(blocked_in_words(field, key, statics, uav.start));
   return measured(std::move(*points), view.scenario.semantics.regions);
+}
+
+/// "obstacle 3 'post'", in which the body begins; "" in none.
+std::string around_the_start(const ScenarioView& view) {
+  const UavSpec& uav = view.scenario.uav;
+  const BodyDistance distance(uav.body);
+  for (const WorldObstacle& o : view.world.obstacles) {
+    if (!o.present(0.0) || distance(uav.start - o.at(0.0).p, o.half_extents()) > 0.0) continue;
+    const std::string& name = o.spec().name;
+    return fmt::format("obstacle {}{}", o.id(), name.empty() ? "" : fmt::format(" '{}'", name));
+  }
+  return "";
 }
 
 std::string place(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g})", p.x(), p.y(), p.z()); }
@@ -168,8 +181,9 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
                          map.grid.size.y(), map.grid.size.z(), map.grid.resolution, view.occupied.size());
   planner.semantics = false;
   const auto shortest = way_of(view, std::make_shared<const MapProducts>(map, planner));
-  if (!shortest) {
-    view.blocked = shortest.error().message;
+  const std::string around = around_the_start(view);
+  if (!around.empty() || !shortest) {
+    view.blocked = around.empty() ? shortest.error().message : "the start lies in " + around;
     return view;
   }
   view.shortest = *shortest;

@@ -97,6 +97,18 @@ shards_merged_equal_the_whole() {
     <(grep -A7 -E '"(flights|success|flight_time_s)"' "$work/merged.json") || fail "summaries differ"
 }
 
+a_comparison_is_of_one_scenario_and_of_different_flights() {
+  fly "$work/a.csv" --seeds 1:2
+  fly "$work/b.csv" --seeds 1:2 --set uav.limits.v_max=3
+  [[ $(code "$campaign" compare --form svg "$work/a.csv" "$work/b.csv") == 0 ]] || fail "$(cat "$work/out")"
+  said "^<svg" && said "</svg>"
+  [[ $(code "$campaign" compare "$work/a.csv" "$work/a.csv") == 2 ]] || fail "equal flights: $(cat "$work/out")"
+  said "A and B are the same flights"
+  sed 's/short_hop/elsewhere/' "$work/b.csv" >"$work/other.csv"
+  [[ $(code "$campaign" compare "$work/a.csv" "$work/other.csv") == 2 ]] || fail "two scenarios: $(cat "$work/out")"
+  said 'their scenarios differ, "short_hop" and "elsewhere"'
+}
+
 a_killed_campaign_goes_on_and_loses_or_repeats_nothing() {
   "$campaign" --world "$here/short_hop.yaml" --charge counts --seeds 1:24 --jobs 2 --out "$work/flights.csv" \
     >"$work/said" 2>&1 &

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/box.h"
+#include "core/world/body.h"
 #include "simulator/referee/body_distance.h"
 #include "simulator/worlds/world.h"
 #include "tests/support/legal_scenario.h"
@@ -16,14 +17,14 @@ namespace {
 /// Cells of a grid along its longest side.
 constexpr int kCells = 48;
 
-/// Whether the centre gets from start to goal when every standing box is grown by the body's half-extents and by
+/// Whether the centre gets from start to goal when every standing box is grown by the body's box and by
 /// `slack`. A breadth-first search over cubes: coarse, slow, and knows nothing of the planner's.
 bool way_exists(const Scenario& scenario, const std::vector<Box>& boxes, double slack_cells) {
   const UavSpec& uav = scenario.uav;
   Box all(uav.start.cwiseMin(uav.goal), uav.start.cwiseMax(uav.goal));
   for (const Box& box : boxes) all.extend(box);
-  const Vec3 half = uav.body.half_extents();
-  all = grown(all, 2.0 * half + Vec3::Constant(1.0)).intersection(grown(uav.flight_box, -half));
+  const Box body = body_box(uav.body);
+  all = grown(all, body.sizes() + Vec3::Constant(1.0)).intersection(places_within(uav.flight_box, body));
   const double side = std::max(1e-3, all.sizes().maxCoeff() / kCells);
   const double slack = slack_cells * side;
   const Eigen::Vector3i size = (all.sizes() / side).array().ceil().cast<int>().max(1);
@@ -41,7 +42,7 @@ bool way_exists(const Scenario& scenario, const std::vector<Box>& boxes, double 
     if (c == from || c == to) return true;
     const Vec3 p = all.min() + side * (c.cast<double>() + Vec3::Constant(0.5));
     return std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) {
-      const Box solid = grown(box, half + Vec3::Constant(slack));
+      const Box solid = grown(places_at(box, body), Vec3::Constant(slack));
       return !solid.isEmpty() && solid.contains(p);
     });
   };
@@ -146,7 +147,7 @@ FlightJudgement judge(const LegalScenario& legal, const VirtualFlight& flight, c
     return {FlightReason::HitAfterPromise, movers ? "" : "touched what stands: " + result.detail};
   }
   const std::vector<Box> boxes = static_boxes(world);
-  const Box at_goal = box_around(scenario.uav.goal, scenario.uav.body.half_extents());
+  const Box at_goal = body_box(scenario.uav.body).translated(scenario.uav.goal);
   const bool goal_taken =
       std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return box.intersects(at_goal); });
   if (goal_taken && watch.last_reason == PlanReason::GoalBlocked) return {FlightReason::WayBlocked, ""};
