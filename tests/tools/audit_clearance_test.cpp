@@ -200,7 +200,7 @@ RC_GTEST_PROP(AuditMap, ClearanceOfTheMapLiesWithinItsBounds, (std::uint64_t see
   const VoxelMap map = random_walls(rng);
   record.maps[map.version] = map;
   const Audit audit = audit_flight(record);
-  Case walls{.committed = c.committed, .flown = c.flown, .body = c.body};
+  Case walls = c;
   Scenario scenario;
   for (std::int64_t k = 0; k < map.grid.voxels(); ++k) {
     if (map.labels[static_cast<std::size_t>(k)] != VoxelLabel::Occupied) continue;
