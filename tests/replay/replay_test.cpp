@@ -314,6 +314,16 @@ TEST_F(ReplayTest, RefusesAChoiceOfNoAnswer) {
   EXPECT_FALSE(replay_log(log(), options));
 }
 
+TEST_F(ReplayTest, RefusesAFileWithoutAWholeEvent) {
+  const std::string path = folder_->file("no_log.lcm");
+  for (const std::string& bytes : {std::string(), std::string(10'000, '?')}) {
+    std::ofstream(path, std::ios::trunc) << bytes;
+    const auto none = replay_log(path, {});
+    ASSERT_FALSE(none) << bytes.size() << " bytes";
+    EXPECT_EQ(none.error().message, path + ": not one whole event in it");
+  }
+}
+
 /// Problems of the log, solved anew.
 class ReplanTest : public ReplayTest {
  protected:

@@ -52,7 +52,8 @@ struct Replay {
 };
 
 /// Reads the log twice, the predictions in the second pass; memory is bounded by what answers, requests and maps take.
-/// Costs what planning cost. @return an Error when the log cannot be opened, or has answers of which none is chosen.
+/// Costs what planning cost. @return an Error when the log cannot be opened, holds not one whole event, or has answers
+/// of which none is chosen.
 /// @throws ConfigError for other settings that are not well-formed or cannot take effect.
 Result<Replay> replay_log(const std::string& path, const ReplayOptions& options);
 
