@@ -12,10 +12,14 @@
 #include "viewer/bridge/app/listening_socket.h"
 
 int main(int argc, char** argv) {
+  const bool asks_for_help = argc == 2 && (std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h");
   if (argc < 3) {
-    fmt::print(stderr, "tern-listen ADDRESS[:PORT] COMMAND [ARG...]: sets {} and {} for COMMAND\n",
-               tern::kListenFdVariable, tern::kListenUrlVariable);
-    return 3;
+    fmt::print(
+        asks_for_help ? stdout : stderr,
+        "tern-listen ADDRESS[:PORT] COMMAND [ARG...]: opens a listening socket and becomes COMMAND, which inherits "
+        "it.\nSets {} and {} for COMMAND.\n",
+        tern::kListenFdVariable, tern::kListenUrlVariable);
+    return asks_for_help ? 0 : 3;
   }
   const auto fd = tern::open_listening_socket(argv[1], true);
   if (!fd) {
