@@ -8,10 +8,8 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 readonly MOST_BYTES=3000000
 animation=$TERN_ROOT/docs/images/flight.webp
 log=${1:-}
-if [[ $log == -* ]]; then
-  sed -n '2,3s/^# //p' "${BASH_SOURCE[0]}"
-  if [[ $log == --help ]]; then exit 0; else exit 2; fi
-fi
+help_if_asked "$@"
+[[ $log != -* ]] || { say "animation.sh: no option $log (--help)" >&2 && exit 2; }
 "$TERN_ROOT/launch_scripts/view_page.sh"
 build_programs
 work=$(mktemp -d)

@@ -4,6 +4,7 @@ set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
+help_if_asked "$@"
 cd "$TERN_ROOT"
 configuring=$(cmake --preset release 2>&1) || { printf '%s\n' "$configuring" >&2 && die "cmake could not configure"; }
 exec cmake --build --preset release --target "${@:-apps}"

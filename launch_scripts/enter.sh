@@ -5,6 +5,8 @@ set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
+help_if_asked "$@"
+
 # running RECORD_DIR: whether its flight runs in a namespace; sets pid and flags.
 running() {
   [[ -r $1/namespace ]] && read -r pid flags <"$1/namespace" && [[ -e /proc/$pid/ns/net ]]

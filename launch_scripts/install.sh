@@ -5,6 +5,10 @@ set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
+help_if_asked "$@"
+for list; do
+  [[ -f $list && -r $list ]] || { say "install.sh: $list: no list of packages that can be read (--help)" >&2 && exit 2; }
+done
 [[ $# -gt 0 ]] || set -- "$TERN_ROOT/launch_scripts/packages.txt"
 missing=()
 while read -r package condition command; do

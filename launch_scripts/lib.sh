@@ -34,6 +34,13 @@ die() {
   exit 3
 }
 
+# help_if_asked OPTION...: prints the comment at the head of the script and ends it, if the first option is --help.
+help_if_asked() {
+  [[ ${1:-} == --help || ${1:-} == -h ]] || return 0
+  sed -n '2,/^[^#]/s/^# //p' "$0"
+  exit 0
+}
+
 # Builds the programs unless the environment says where they are. The first time it says how long that takes and shows
 # ninja's progress. Later it shows one line, gone when it is done, and what fails.
 build_programs() {

@@ -5,7 +5,8 @@ set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
-[[ $# == 0 ]] || die "takes no options; see the head of this file"
+help_if_asked "$@"
+[[ $# == 0 ]] || die "takes no options (--help)"
 [[ -n $TERN_BIN_GIVEN ]] || "$TERN_ROOT/launch_scripts/build.sh" record_golden tern-replay
 golden=$TERN_ROOT/tests/replay/golden
 fresh=$(mktemp -d)

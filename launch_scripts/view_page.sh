@@ -5,6 +5,7 @@ set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
+help_if_asked "$@"
 web=$TERN_ROOT/viewer/web
 exec {lock}<"$web"
 flock "$lock"

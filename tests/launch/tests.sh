@@ -226,4 +226,37 @@ every_program_starts_alone() {
   done
 }
 
+# Programs that would install, build or fetch: here they only leave a trace.
+with_nothing_to_do() {
+  local name
+  mkdir "$work/path"
+  for name in apt-get cmake ctest npm npx; do
+    printf '#!/bin/sh\necho "%s $*" >>"%s/done"\n' "$name" "$work" >"$work/path/$name"
+    chmod +x "$work/path/$name"
+  done
+  export PATH=$work/path:$PATH
+}
+
+asked_for_help_scripts_say_what_they_do_and_do_nothing() {
+  local script name
+  with_nothing_to_do
+  for script in "$scripts"/*.sh "$TERN_BIN/tern-listen"; do
+    name=$(basename "$script" .sh)
+    [[ $name != lib && $name != run ]] || continue # the one is sourced, the other called by other names
+    [[ $(code "$script" --help) == 0 ]] || fail "$name --help: $(cat "$work/out")"
+    expect "$name says what it is" has_text "${name%%_*}" "$work/out"
+    [[ ! -e $work/done ]] || fail "$name --help did something: $(cat "$work/done")"
+  done
+}
+
+install_refuses_a_list_that_cannot_be_read() {
+  local list
+  with_nothing_to_do
+  for list in "$work/nowhere.txt" "$work" --nonsense; do
+    [[ $(code "$scripts/install.sh" "$list") == 2 ]] || fail "exit code of $list"
+    expect "it is named" has_text "$list" "$work/out"
+  done
+  [[ ! -e $work/done ]] || fail "something was done: $(cat "$work/done")"
+}
+
 run_test "$1"
