@@ -5,6 +5,6 @@ set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 help_if_asked "$@"
-cd "$TERN_ROOT"
-configuring=$(cmake --preset release 2>&1) || { printf '%s\n' "$configuring" >&2 && die "cmake could not configure"; }
+lock_build
+configure_build || die "cmake could not configure"
 exec cmake --build --preset release --target "${@:-apps}"

@@ -20,6 +20,7 @@ readonly TERN_BIN TERN_BIN_GIVEN
 # The built page of tern-viewer.
 readonly TERN_PAGE=${TERN_PAGE:-$TERN_ROOT/build/viewer-page}
 
+readonly MANY_STEPS=20 # of a build that shows its progress
 readonly FIRST_PORT=7667
 readonly LAST_PORT=7766
 readonly LCM_GROUP=239.255.76.67
@@ -41,22 +42,38 @@ help_if_asked() {
   exit 0
 }
 
-# Builds the programs unless the environment says where they are. The first time it says how long that takes and shows
-# ninja's progress. Later it shows one line, gone when it is done, and what fails.
-build_programs() {
-  [[ -z $TERN_BIN_GIVEN ]] || return 0
-  local cores said failed=''
-  if [[ ! -e $TERN_BIN/tern-launch ]]; then
-    cores=$(nproc)
-    say "Building Tern's programs, this once: up to $(((10 + cores - 1) / cores)) minutes on $cores cores. Later only what has changed."
-    "$TERN_ROOT/launch_scripts/build.sh"
-    return
-  fi
-  [[ ! -t 2 ]] || printf 'Building what has changed …' >&2
-  said=$("$TERN_ROOT/launch_scripts/build.sh" 2>&1) || failed=yes
-  [[ ! -t 2 ]] || printf '\r\033[K' >&2
-  [[ -z $failed ]] || { printf '%s\n' "$said" >&2 && return 1; }
+# lock_build: holds the lock of this tree's builds until the (sub)shell and its children have ended.
+lock_build() {
+  local lock
+  mkdir -p "$TERN_ROOT/build"
+  exec {lock}<"$TERN_ROOT/build"
+  flock --nonblock "$lock" || { say 'Another build is running, waiting …' >&2 && flock "$lock"; }
 }
+
+# configure_build: goes to the tree and configures the release preset; says something only if that fails.
+configure_build() {
+  local said
+  cd "$TERN_ROOT" || return 1
+  said=$(cmake --preset release 2>&1) || { printf '%s\n' "$said" >&2 && return 1; }
+}
+
+# Builds the programs unless the environment says where they are. When much is left to do, it says how long that takes and
+# shows ninja's progress. Else it shows one line, gone when it is done, and what fails. A subshell, with which the lock ends.
+build_programs() (
+  [[ -z $TERN_BIN_GIVEN ]] || exit 0
+  lock_build
+  build=(cmake --build --preset release --target apps) failed=''
+  [[ ! -t 2 ]] || printf 'Building what has changed …' >&2
+  configure_build || exit 1
+  steps=$("${build[@]}" -- -n 2>/dev/null | wc -l)
+  ((steps > MANY_STEPS)) || said=$("${build[@]}" 2>&1) || failed=yes
+  [[ ! -t 2 ]] || printf '\r\033[K' >&2
+  [[ -z $failed ]] || { printf '%s\n' "$said" >&2 && exit 1; }
+  ((steps > MANY_STEPS)) || exit 0
+  cores=$(nproc)
+  say "Building Tern's programs, $steps steps: up to $(((10 + cores - 1) / cores)) minutes on $cores cores. Later only what has changed."
+  "${build[@]}"
+)
 
 # exec_process NAME ARG...: becomes the program, which is built first if it is not there.
 exec_process() {

@@ -259,4 +259,61 @@ install_refuses_a_list_that_cannot_be_read() {
   [[ ! -e $work/done ]] || fail "something was done: $(cat "$work/done")"
 }
 
+# make_tree STEPS COMMAND: a tree with these scripts, whose build takes so many steps, each of them COMMAND; sets `tree`.
+make_tree() {
+  tree=$work/tree
+  mkdir "$tree"
+  cp -r "$scripts" "$tree"
+  cat >"$tree/CMakePresets.json" <<'END'
+{"version": 3,
+ "configurePresets": [{"name": "release", "generator": "Ninja", "binaryDir": "${sourceDir}/build/release"}],
+ "buildPresets": [{"name": "release", "configurePreset": "release"}]}
+END
+  cat >"$tree/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.22)
+project(tree NONE)
+foreach(k RANGE 1 $1)
+  add_custom_command(OUTPUT \${k} COMMAND $2 COMMAND \${CMAKE_COMMAND} -E touch \${k} VERBATIM)
+  list(APPEND steps \${k})
+endforeach()
+add_custom_target(first DEPENDS 1)
+add_custom_target(apps DEPENDS \${steps})
+END
+  unset TERN_BIN
+}
+
+two_builds_of_one_tree_wait_for_each_other() {
+  printf '#!/bin/sh\necho begins >>"%s/steps"\nread -r _ <"%s/fifo"\necho ends >>"%s/steps"\n' "$work" "$work" "$work" >"$work/step"
+  chmod +x "$work/step"
+  mkfifo "$work/fifo"
+  make_tree 1 "$work/step"
+  "$tree/launch_scripts/build.sh" >"$work/one.out" 2>&1 &
+  local one=$!
+  eventually "the first one builds" 20 test -s "$work/steps"
+  "$tree/launch_scripts/build.sh" >"$work/two.out" 2>&1 &
+  local two=$!
+  eventually "the second one says that it waits" 20 has_text "Another build is running, waiting" "$work/two.out"
+  echo >"$work/fifo"
+  wait "$one" || fail "the first one: $(cat "$work/one.out")"
+  wait "$two" || fail "the second one: $(cat "$work/two.out")"
+  [[ $(tr '\n' ' ' <"$work/steps") == 'begins ends ' ]] || fail "steps: $(cat "$work/steps")"
+}
+
+a_build_shows_its_progress_while_much_is_left() {
+  make_tree 40 true
+  # shellcheck disable=SC2016  # the inner shell expands it
+  local build=(bash -c 'source "$0" && build_programs' "$tree/launch_scripts/lib.sh")
+  # A build that ended early, when the program that starts flights was there.
+  expect "a part is built" "$tree/launch_scripts/build.sh" first
+  mkdir "$tree/build/release/bin"
+  touch "$tree/build/release/bin/tern-launch"
+  [[ $(code "${build[@]}") == 0 ]] || fail "exit code: $(cat "$work/out")"
+  expect "how much" has_text "programs, [0-9]* steps: up to" "$work/out"
+  expect "ninja's progress" has_text "^\[39/39\]" "$work/out"
+  rm "$tree/build/release/7"
+  [[ $(code "${build[@]}") == 0 ]] || fail "exit code: $(cat "$work/out")"
+  [[ ! -s $work/out ]] || fail "little was left, and it said: $(cat "$work/out")"
+  expect "it is built" test -e "$tree/build/release/7"
+}
+
 run_test "$1"
