@@ -20,7 +20,7 @@ await run({
     await page.waitForFunction(() => window.tern.known.player?.playing === false);
     await scrubTo(page, 0.5);
     await shows(page, 'the vehicle at 10 m', (s) => Math.abs(s.vehicle[0] - 10) < 0.05);
-    for (const [width, height] of [[800, 600], [1600, 900], [390, 844]]) {
+    for (const [width, height] of [[800, 600], [1600, 900], [390, 844], [844, 390]]) {
       await page.setViewportSize({ width, height });
       for (const camera of ['chase', 'top', 'side']) {
         await page.evaluate((mode) => window.tern.setCamera(mode), camera); // a phone has the buttons behind its menu
@@ -40,7 +40,7 @@ await run({
     const viewer = await startViewer('--log', await knownLog());
     const page = await openPage(viewer.url);
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
-    for (const [width, height] of [[390, 844], [360, 640], [800, 600], [1024, 768], [1600, 1000]]) {
+    for (const [width, height] of [[390, 844], [844, 390], [667, 375], [360, 640], [800, 600], [1024, 768], [1600, 1000]]) {
       await page.setViewportSize({ width, height });
       const overlaps = await page.evaluate(() => {
         const boxes = ['#head', '#flight', '#side', 'footer'].map((name) => [name, document.querySelector(name).getBoundingClientRect()]);
@@ -54,6 +54,30 @@ await run({
         return bad.map(([name]) => name);
       });
       expect(`at ${width}×${height}: ${overlaps}`, overlaps.length === 0);
+    }
+  },
+
+  async a_phone_reaches_every_button() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url);
+    await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    for (const [width, height] of [[390, 844], [844, 390], [667, 375]]) {
+      await page.setViewportSize({ width, height });
+      await page.click('#menu');
+      const hidden = await page.$$eval('#side button, #side input[type=checkbox]', (all) => all.filter((button) => {
+        if (button.closest('[hidden]')) return false;
+        button.scrollIntoView({ block: 'nearest' });
+        const { left, top, width: wide, height: high } = button.getBoundingClientRect();
+        return document.elementFromPoint(left + wide / 2, top + high / 2) !== button;
+      }).map((button) => button.id || button.name || button.dataset.camera));
+      expect(`at ${width}×${height}: ${hidden}`, hidden.length === 0);
+      await page.click('#showcharts');
+      await page.click('#menu');
+      const [flight, foot] = await page.$$eval('#flight, footer', (all) => all.map((panel) => panel.getBoundingClientRect()));
+      expect(`at ${width}×${height}: charts cover the numbers`, foot.height > 100 && foot.top > flight.bottom);
+      await page.click('#menu');
+      await page.click('#showcharts');
+      await page.click('#menu');
     }
   },
 
@@ -112,6 +136,15 @@ await run({
       let view = null;
       await eventually(`${camera}: ${JSON.stringify(view)}`, async () => holds((view = await looks())));
     }
+    const clearness = () => page.evaluate(() => {
+      const { world } = window.tern;
+      return world.clear(world.camera.position.distanceTo(world.camera.position.clone().set(20, 0, 1)));
+    });
+    await page.evaluate(() => window.tern.setCamera('free'));
+    await page.setViewportSize({ width: 390, height: 844 }); // so narrow, the camera stands far away
+    await page.evaluate(() => document.getElementById('fit').click());
+    await eventually('what fits is not in the fog', async () => (await clearness()) > 0.9);
+    await page.setViewportSize({ width: 800, height: 600 });
     await page.click('#fit');
     const ends = await Promise.all([[0, 0, 1], [20, 0, 1]].map((p) => atRest(page, p)));
     expect(`all of the path: ${JSON.stringify(ends)}`, ends.every(({ x, y }) => x > 0 && x < 800 && y > 0 && y < 600));

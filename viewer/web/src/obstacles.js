@@ -4,7 +4,6 @@ import * as THREE from 'three';
 import { cutaway, SIEVE_RADIUS } from './cutaway.js';
 import { numbers } from './form.js';
 import { palette } from './palette.js';
-import { FOG_END } from './world.js';
 
 const MOST = 4096; // what is drawn at most
 const SIEVE_FAR = 40; // m from the vehicle towards the camera
@@ -203,7 +202,8 @@ export class Obstacles {
     rows.sort((a, b) => a.away - b.away);
     for (const boxes of this.all()) boxes.count = 0;
     const before = this.before(camera);
-    for (const row of rows) this.place(row, before, camera.isOrthographicCamera ? Infinity : FOG_END);
+    const sight = this.world.sight();
+    for (const row of rows) this.place(row, before, sight);
     for (const boxes of this.all()) boxes.done();
   }
 

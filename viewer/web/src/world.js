@@ -5,7 +5,8 @@ import { palette } from './palette.js';
 import { Quality } from './quality.js';
 
 const FOG_BEGIN = 26; // m
-export const FOG_END = 80; // m: nothing is seen beyond
+const FOG_END = 80; // m: nothing is seen beyond
+const FOG_NEAR = 20; // m: a camera that is farther from what it looks at has so much thinner fog
 const GAMMA = 2.2; // of displays, nearly
 const FEWEST_PIXELS = 0.3; // of the window's, per axis
 
@@ -85,10 +86,21 @@ export class World {
     return this.thrifty ? share ** (1 / GAMMA) : share;
   }
 
+  /** How many times thinner the fog is than near the ground. */
+  thinness() {
+    if (this.camera.isOrthographicCamera) return 1;
+    return Math.max(this.camera.position.distanceTo(this.cameras.controls.target) / FOG_NEAR, 1);
+  }
+
+  /** Nothing is seen farther away, m. */
+  sight() {
+    return this.camera.isOrthographicCamera ? Infinity : FOG_END * this.thinness(); // the one is far from everything
+  }
+
   /** How much of what is so far away is left in the fog, 0 … 1. @param distance  m */
   clear(distance) {
-    if (this.camera.isOrthographicCamera) return 1; // it is far from everything
-    return 1 - THREE.MathUtils.smoothstep(distance, FOG_BEGIN, FOG_END);
+    if (this.camera.isOrthographicCamera) return 1;
+    return 1 - THREE.MathUtils.smoothstep(distance / this.thinness(), FOG_BEGIN, FOG_END);
   }
 
   /** What these lights make of a white matt face with that normal: what MeshLambertMaterial would. */
@@ -111,16 +123,17 @@ export class World {
         line: { value: new THREE.Color(palette.grid) },
         back: { value: new THREE.Color(palette.back) },
         eye: { value: new THREE.Vector2() },
+        thinness: { value: 1 },
       },
       vertexShader: `varying vec2 at; void main() {
         vec4 p = modelMatrix * vec4(position, 1.0); at = p.xy; gl_Position = projectionMatrix * viewMatrix * p; }`,
-      fragmentShader: `varying vec2 at; uniform vec3 base, line, back; uniform vec2 eye;
+      fragmentShader: `varying vec2 at; uniform vec3 base, line, back; uniform vec2 eye; uniform float thinness;
         float grid(float step) {
           vec2 q = at / step; vec2 w = fwidth(q); vec2 d = abs(fract(q - 0.5) - 0.5) / max(w, 1e-5);
           return (1.0 - min(min(d.x, d.y), 1.0)) * clamp(0.6 - 1.2 * max(w.x, w.y), 0.0, 1.0);
         }
         void main() {
-          float far = smoothstep(10.0, 75.0, distance(at, eye));
+          float far = smoothstep(10.0, 75.0, distance(at, eye) / thinness);
           vec3 c = mix(base, line, 0.55 * grid(1.0) + 0.9 * grid(5.0));
           gl_FragColor = vec4(mix(c, back, far), 1.0);
           #include <colorspace_fragment>
@@ -159,10 +172,13 @@ export class World {
   render() {
     const { target } = this.cameras.controls;
     const isFlat = this.camera.isOrthographicCamera;
-    this.scene.fog = isFlat ? null : this.fog;
+    const thinness = this.thinness();
+    this.scene.fog = isFlat ? null : Object.assign(this.fog, { near: FOG_BEGIN * thinness, far: FOG_END * thinness });
     this.floor.position.set(Math.round(target.x / 5) * 5, Math.round(target.y / 5) * 5, -0.02); // below what stands on it
     const { x, y } = isFlat ? target : this.camera.position;
-    this.floor.material.uniforms?.eye.value.set((x + target.x) / 2, (y + target.y) / 2);
+    const { uniforms } = this.floor.material;
+    uniforms?.eye.value.set((x + target.x) / 2, (y + target.y) / 2);
+    if (uniforms) uniforms.thinness.value = thinness;
     this.renderer.render(this.scene, this.camera);
   }
 }
