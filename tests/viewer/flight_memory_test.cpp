@@ -155,10 +155,9 @@ TEST(FlightEvents, AreGoalsStopsLateAnswersRestartsAndTheResultOnce) {
   EXPECT_EQ(told(events, "stop"), Texts{"at rest at 1.0, 0.0, 0.0"});
   PlanTiming timing;
   timing.request_id = 5;
-  timing.total_ms = 80.0;
-  events.hear(timing, 0.0);
-  events.hear(timing, 90.0);
-  events.hear(timing, 70.0);
+  events.hear(timing, 80.0, 0.0);
+  events.hear(timing, 80.0, 90.0);
+  events.hear(timing, 80.0, 70.0);
   EXPECT_EQ(told(events, "late"), Texts{"answer 5: 80.0 of 70 ms"});
   Heartbeat heartbeat;
   heartbeat.process = "tern-planner";
@@ -173,6 +172,25 @@ TEST(FlightEvents, AreGoalsStopsLateAnswersRestartsAndTheResultOnce) {
   events.hear(result);
   events.hear(result);
   EXPECT_EQ(told(events, "result"), Texts{"collision: mover 3"});
+}
+
+TEST(Scene, CallsAnAnswerLateByTheFlightsClockWhateverThePace) {
+  const support::KnownScene known(kStart);
+  Scene::Memory memory;
+  Scene scene(&memory);
+  for (const std::int64_t id : {1, 2}) {  // 70 ms are allowed; at half the pace 80 ms of the wall are 40 ms
+    const HorizonRequest request = known.request(at(0.1 * static_cast<double>(id)), id);
+    Plan plan = known.plan(request);
+    plan.header.utime = request.header.utime + Duration{40'000 * id};
+    PlanTiming timing = known.timing(id);
+    timing.header.utime = plan.header.utime;
+    timing.total_ms = 80.0;
+    scene.hear(request);
+    scene.hear(plan);
+    scene.hear(timing);
+    EXPECT_EQ(json::parse(timing_json(scene))["late"], id == 2);
+  }
+  EXPECT_EQ(told(memory.events, "late"), Texts{"answer 2: 80.0 of 70 ms"});
 }
 
 TEST(FlightEvents, AreTheFiveNearestPasses) {

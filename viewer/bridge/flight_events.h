@@ -27,8 +27,8 @@ class FlightEvents {
  public:
   void hear(const UavState& message);
   void hear(const Plan& message);
-  /// @param allowed_ms  from the request to its deadline; 0: unknown
-  void hear(const PlanTiming& message, double allowed_ms);
+  /// @param taken_ms, allowed_ms  by the flight's clock, from the request to its answer and to its deadline; 0: unknown
+  void hear(const PlanTiming& message, double taken_ms, double allowed_ms);
   void hear(const Goal& message);
   void hear(const FlightResult& message);
   void hear(const Heartbeat& message);

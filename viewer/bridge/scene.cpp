@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/world/flyable.h"
 #include "messages/channels.h"
 #include "viewer/bridge/scene_json.h"
 
@@ -60,8 +61,8 @@ void Scene::hear(TrackSet complete_set) {
 
 void Scene::hear(const HorizonRequest& message) {
   request_ = message;
-  allowed_ms_[message.id] = (message.deadline - message.header.utime).seconds() * 1e3;
-  while (allowed_ms_.size() > kRememberedRequests) allowed_ms_.erase(allowed_ms_.begin());
+  asked_[message.id] = {message.header.utime, message.deadline};
+  while (asked_.size() > kRememberedRequests) asked_.erase(asked_.begin());
   mark(Topic::Request);
 }
 
@@ -77,7 +78,7 @@ void Scene::hear(const PlanTiming& message) {
   mark(Topic::Timing);
   if (memory_ == nullptr || !plan_ || plan_->request_id != message.request_id) return;
   const UTime at = message.header.utime;
-  memory_->events.hear(message, allowed_ms());
+  memory_->events.hear(message, taken_ms(), allowed_ms());
   memory_->history.add_answer(at, plan_->outcome);
   if (!memory_->history.wants(channels::kPlan.name, at)) return;
   remember(channels::kPlan.name, at, numbers_of(detail_json(*this, {PickKind::Plan, 0, ""})));
@@ -133,7 +134,7 @@ void Scene::clear() {
   goal_.reset();
   result_.reset();
   processes_.clear();
-  allowed_ms_.clear();
+  asked_.clear();
   const bool map_changed = changed_.test(static_cast<std::size_t>(Topic::Map));
   changed_.set();
   changed_.set(static_cast<std::size_t>(Topic::Map), map_changed);
@@ -158,10 +159,21 @@ std::optional<double> Scene::map_clearance() const {
 
 double Scene::body_radius() const { return request_ ? ball_radius(request_->body) : 0.0; }
 
-double Scene::allowed_ms() const {
-  if (!timing_) return 0.0;
-  const auto found = allowed_ms_.find(timing_->request_id);
-  return found == allowed_ms_.end() ? 0.0 : found->second;
+bool Scene::has_room_at(const Vec3& p) const {
+  return !request_ || centre_box(request_->flight_box, request_->body).contains(p);
+}
+
+const Scene::Asked* Scene::asked() const {
+  if (!timing_) return nullptr;
+  const auto found = asked_.find(timing_->request_id);
+  return found == asked_.end() ? nullptr : &found->second;
+}
+
+double Scene::allowed_ms() const { return asked() ? (asked()->deadline - asked()->at).seconds() * 1e3 : 0.0; }
+
+double Scene::taken_ms() const {
+  const bool is_answer = asked() && plan_ && plan_->request_id == timing_->request_id;
+  return is_answer ? (plan_->header.utime - asked()->at).seconds() * 1e3 : 0.0;
 }
 
 bool Scene::take_change(Topic topic) {

@@ -90,8 +90,14 @@ class Scene {
   [[nodiscard]] std::optional<double> map_clearance() const;
   /// Of the ball around the vehicle's body, m; 0 before a request says it.
   [[nodiscard]] double body_radius() const;
-  /// What the planner was given for the answer that `timing` tells of, ms; 0: not known.
+  /// Whether the body is within the flight box when its centre is there; true before a request says both.
+  [[nodiscard]] bool has_room_at(const Vec3& p) const;
+  /// What the planner was given for the answer that `timing` tells of, ms by the flight's clock; 0: not known.
   [[nodiscard]] double allowed_ms() const;
+  /// From that request to that answer, ms by the flight's clock; 0: not known.
+  /// At a pace below 1 the wall time that `timing` tells is longer.
+  [[nodiscard]] double taken_ms() const;
+  [[nodiscard]] bool is_late() const { return allowed_ms() > 0.0 && taken_ms() > allowed_ms(); }
 
   /// True once per change.
   bool take_change(Topic topic);
@@ -113,7 +119,11 @@ class Scene {
   std::optional<FlightResult> result_;
   std::optional<SeenMap> map_;
   std::map<std::string, HeardProcess> processes_;
-  std::map<std::int64_t, double> allowed_ms_;  ///< of the last requests, by id
+  struct Asked {
+    UTime at, deadline;
+  };
+  [[nodiscard]] const Asked* asked() const;  ///< of the request that `timing` answers; null: not known
+  std::map<std::int64_t, Asked> asked_;      ///< of the last requests, by id
   std::bitset<kTopics> changed_;
 };
 

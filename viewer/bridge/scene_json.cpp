@@ -151,7 +151,7 @@ std::string timing_json(const Scene& scene) {
   json.key("stage_ms").begin_list();
   for (const double ms : t.stage_ms) json.number(ms);
   json.end_list().key("expansions").integer(t.expansions).key("hulls").integer(t.hulls);
-  json.key("watchdog").flag(t.from_watchdog);
+  json.key("watchdog").flag(t.from_watchdog).key("late").flag(scene.is_late());
   return json.end_object().take();
 }
 
@@ -216,7 +216,8 @@ std::string goal_json(const Scene& scene) {
   const Goal& goal = *scene.goal();
   JsonWriter json;
   json.begin_object().key("id").integer(goal.id).key("mode").text(to_string(goal.mode));
-  return json.key("p").vec3(goal.position).end_object().take();
+  if (goal.mode == GoalMode::Go) json.key("p").vec3(goal.position);  // the others name no place
+  return json.end_object().take();
 }
 
 std::string result_json(const Scene& scene) {

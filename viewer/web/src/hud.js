@@ -49,7 +49,7 @@ export function draw(now) {
   document.body.classList.toggle('nomap', !Number.isFinite(state.map_clearance));
   say('mapclearance', fixed(state.map_clearance, 2, 'm'));
   say('position', state.p.map((x) => fixed(x)).join('  '));
-  say('togoal', goal ? fixed(Math.hypot(...state.p.map((x, k) => goal.p[k] - x)), 1, 'm') : '–');
+  say('togoal', goal?.p ? fixed(Math.hypot(...state.p.map((x, k) => goal.p[k] - x)), 1, 'm') : '–');
   waiting = null;
   shownAt = Number.isFinite(now) ? now : 0;
 }
@@ -60,14 +60,16 @@ export function showPlan(plan) {
   say('hold', fixed(plan.hold_s, 2, 's'));
 }
 
-export function showTiming(timing) {
-  const { total_ms, allowed_ms } = timing;
+/** @param pace  seconds of flight per second of the wall, by which an answer's time is told */
+export function showTiming(timing, pace) {
+  const { total_ms } = timing;
+  const allowed_ms = timing.allowed_ms / pace;
   say('replan', fixed(total_ms) + (allowed_ms > 0 ? ` of ${fixed(allowed_ms, 0)} ms` : ' ms'));
   say('work', `${timing.expansions} · ${timing.hulls}`);
   const meter = byId('meter');
   const share = allowed_ms > 0 ? total_ms / allowed_ms : 0;
   meter.style.width = `${Math.min(100 * share, 100)}%`;
-  meter.className = share > 1 || timing.watchdog ? 'late' : '';
+  meter.className = timing.late || timing.watchdog ? 'late' : '';
 }
 
 export function showResult(result) {
