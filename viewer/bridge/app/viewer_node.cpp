@@ -164,12 +164,11 @@ void ViewerNode::obey(std::int64_t, const SpeedCommand& speed, UTime) {
 void ViewerNode::obey(std::int64_t client, const GoalCommand& command, UTime now) {
   JsonWriter json;
   json.begin_object().key("goal").begin_object();
-  const char* refusal =
-      player_                 ? "a log is played"
-      : !options_.allow_goals ? "tern-viewer was started without --allow-goals"
-      : command.mode == GoalMode::Go && scene_.request() && !scene_.request()->flight_box.contains(command.position)
-          ? "outside the flight box"
-          : nullptr;
+  const char* refusal = player_                 ? "a log is played"
+                        : !options_.allow_goals ? "tern-viewer was started without --allow-goals"
+                        : command.mode == GoalMode::Go && !scene_.has_room_at(command.position)
+                            ? "the body would not be within the flight box"
+                            : nullptr;
   if (refusal != nullptr) {
     json.key("refused").text(refusal);
   } else {

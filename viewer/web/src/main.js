@@ -84,7 +84,10 @@ const topics = {
     trajectories.takePath(path);
     if (known.state) trajectories.takeState(known.state, flightTime(known.state.at_us));
   },
-  goal: (goal) => trajectories.takeGoal(goal),
+  goal(goal) {
+    if (goal?.p) known.place = goal.p; // where to fly: that of the last goal that says it
+    trajectories.takeGoal(goal);
+  },
   request(request) {
     if (!request) return;
     trajectories.takeRequest(request);
@@ -95,7 +98,7 @@ const topics = {
     vehicle.take(state);
     clock = { at_us: state.at_us, arrived_ms: performance.now() };
     trajectories.takeState(state, flightTime(state.at_us));
-    if (known.goal) cameras.head(state.p, known.goal.p);
+    if (known.goal?.p) cameras.head(state.p, known.goal.p);
     hud.takeState(state, known.goal);
   },
   truth: (set) => (set ? obstacles.take(set) : obstacles.clear()),
@@ -108,7 +111,7 @@ const topics = {
     proofs.takePlanes(layers.planes ? plan : null, obstacles.pickedId);
     hud.showPlan(plan);
   },
-  timing: (timing) => timing && hud.showTiming(timing),
+  timing: (timing) => timing && hud.showTiming(timing, known.session?.pace ?? 1),
   result: (result) => hud.showResult(result),
   hulls: (hulls) => proofs.takeHulls(hulls),
   search: (search) => proofs.takeSearch(search),
@@ -240,7 +243,7 @@ const pointer = new Pointer(canvas, world, {
     cameras.controls.target.copy(centre);
     controls.setCamera('orbit');
   },
-  height: () => known.goal?.p[2] ?? vehicle.p.z,
+  height: () => known.place?.[2] ?? vehicle.p.z,
   aim: (at) => send({ goal: { mode: 'go', position: at.toArray() } }),
 });
 

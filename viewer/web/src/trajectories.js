@@ -197,8 +197,8 @@ export class Trajectories {
   }
 
   takeGoal(goal) {
-    this.goal.visible = goal !== null;
-    if (!goal) return;
+    this.goal.visible = Boolean(goal?.p); // who holds or stops flies nowhere
+    if (!this.goal.visible) return;
     this.goal.position.set(...point(goal.p));
     this.goal.stem.scale.y = Math.max(goal.p[2], 0.01);
     this.goal.stem.position.z = -goal.p[2] / 2;
