@@ -142,7 +142,41 @@ await run({
     await other.waitForFunction(() => window.tern.known.goal.id === 2);
     await other.evaluate(() => window.tern.send({ goal: { position: [1000, 0, 1] } }));
     await other.waitForFunction(() => /flight box/.test(window.tern.counts.goals[1]?.refused));
+    await other.evaluate(() => window.tern.send({ goal: { position: [1, 0, 0.05] } })); // the centre alone would be within
+    await other.waitForFunction(() => /body .* flight box/.test(window.tern.counts.goals[2]?.refused));
     expect('nobody sent a third', !/^goal 3 /m.test(scene.said));
+  },
+
+  async after_hold_or_stop_a_click_sends_a_goal_that_can_be_flown_to() {
+    const scene = startScene();
+    const viewer = await startViewer('--allow-goals');
+    const open = async () => {
+      const page = await openPage(viewer.url);
+      await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES && s.vehicle);
+      await page.waitForFunction(() => window.tern.known.goal && window.tern.known.request);
+      return page;
+    };
+    const knows = (page, id) => page.waitForFunction((n) => window.tern.known.goal.id === n, id);
+    const click = async (page, id) => {
+      await page.click('#goalmode');
+      await page.mouse.click(400, 300);
+      await eventually(`the bus heard goal ${id}`, () => new RegExp(`^goal ${id} `, 'm').test(scene.said));
+      return Number(new RegExp(`^goal ${id} \\S+ \\S+ (\\S+)`, 'm').exec(scene.said)[1]);
+    };
+    const page = await open();
+    await page.evaluate(() => window.tern.send({ goal: { position: [5, 0, 2] } }));
+    await knows(page, 2);
+    await page.click('#hold-goal');
+    await knows(page, 3);
+    await eventually('holding, there is nothing to fly to', async () => (await text(page, '#togoal')) === '–');
+    expect('at the height of the last place', (await click(page, 4)) === 2);
+    await knows(page, 4);
+    await page.click('#stop-goal');
+    await knows(page, 5);
+    const other = await open(); // it has never heard of a place
+    await knows(other, 5);
+    expect('at the height of the vehicle', (await click(other, 6)) === 1);
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
   },
 
   async the_vehicle_flies_to_where_a_page_clicks_and_rests_there() {
