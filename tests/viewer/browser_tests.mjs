@@ -173,6 +173,7 @@ await run({
     await knows(page, 4);
     await page.click('#stop-goal');
     await knows(page, 5);
+    await page.close();
     const other = await open(); // it has never heard of a place
     await knows(other, 5);
     expect('at the height of the vehicle', (await click(other, 6)) === 1);
