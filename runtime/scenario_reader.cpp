@@ -248,8 +248,7 @@ UavSpec read_uav(ConfigSection section, UavSpec uav, std::uint64_t seed) {
   const Box places = places_within(uav.flight_box, body_box(uav.body));
   const auto check = [&](const char* key, const Vec3& p) {
     if (places.contains(p)) return;
-    const Vec3& low = places.min();
-    const Vec3& high = places.max();
+    const Vec3 &low = places.min(), &high = places.max();
     throw section.error(key,
                         fmt::format("[{}, {}, {}] is outside the flight box, body included (limits [{}, {}, {}] to "
                                     "[{}, {}, {}])",

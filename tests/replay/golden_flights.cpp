@@ -18,7 +18,7 @@ std::vector<GoldenFlight> golden_flights() {
   const std::string people = std::string(TERN_SOURCE_FOLDER) + "/tests/replay/people.yaml";
   std::vector<GoldenFlight> flights;
   flights.push_back({"corridor", {scenario("paper_corridor"), {"world.count=60", "seed=2"}, 6.0}, 2.0, 2});
-  flights.push_back({"crowd", {people, {}, 4.5}, 1.0, 2});
+  flights.push_back({"crowd", {people, {}, 5.7}, 1.0, 2});
   flights.push_back({"semantic", {scenario("corridor_demo"), {"seed=3", "semantics.cost=exposure"}, 8.0}, 4.0, 2});
   const std::string intruder =
       "world.obstacles=[{name: intruder, half_extents: 0.4, motion: waypoints, vanish: true, "
