@@ -87,7 +87,7 @@ inline constexpr double kSureTimes[] = {2.0, 1.0};
 /// … then once that time at these levels.
 inline constexpr int kLowerLevels[] = {2, 4};
 /// Parts of the last level's α, growing for that time, that are counted where even that leaves nothing.
-inline constexpr double kAlphaScales[] = {0.7, 0.5, 0.35, 0.25, 0.1};
+inline constexpr double kAlphaScales[] = {0.8, 0.6, 0.45, 0.35, 0.25};
 /// Nodes expanded per duration there, at most, in all and after the first leaf: several such searches share the time.
 inline constexpr int kLessSureExpansions = 300;
 inline constexpr int kLessSureHoldExpansions = 100;

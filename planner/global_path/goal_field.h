@@ -40,8 +40,8 @@ class GoalField {
  public:
   GoalField() = default;
 
-  /// @param inflated_statics  obstacles grown by the vehicle's half-extents, and by the clearance that the caller
-  /// wishes:
+  /// @param inflated_statics  places of the centre at which the body touches an obstacle, grown by the clearance that
+  /// the caller wishes:
   ///   paths keep only kPathClearance from them. Their order matters to nothing.
   /// @param flight_box  where the vehicle's centre may be. @param goal  in W, m.
   /// A goal in a box or outside the flight box gives a field in which nothing reaches it.

@@ -227,7 +227,7 @@ class Search {
     return (q - problem_.start.p).squaredNorm() <= problem_.sphere_radius * problem_.sphere_radius;
   }
 
-  /// Whether steps by neighbouring samples end farther apart than S is wide.
+  /// Whether steps by neighbouring samples end farther apart than the radius of S.
   [[nodiscard]] bool oversteps(const std::array<AxisReach::Interval, 3>& range) const {
     const auto apart = [&](int axis, int samples) {
       const AxisReach::Interval& r = range[static_cast<std::size_t>(axis)];
