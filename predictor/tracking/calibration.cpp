@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "predictor/tracking/calibration_prior.h"
-
 namespace tern {
 namespace {
 
@@ -70,7 +68,7 @@ Calibration::Calibration(double confidence) {
       const double scale =
           (level == 0 ? 1.0 : kFirstLevel) * (1.0 - confidence_[level]) / (1.0 - kConfidenceLevels[level]);
       for (std::size_t band = 0; band < kBands; ++band) {
-        classes_[kind].log_theta[level][band] = std::log(scale * prior_level(kind, band, level));
+        classes_[kind].log_theta[level][band] = std::log(scale * prior_level(pace_, kind, band, level));
       }
     }
   }
@@ -90,7 +88,7 @@ double Calibration::margin(TrackClass kind, std::size_t band, double level) cons
   double low = -kModelSigmas, high = kLargestMargin;
   for (int halving = 0; halving < kHalvings; ++halving) {
     const double q = 0.5 * (low + high);
-    const double above = of_pool * (kPriorWeight * prior_above(row, band, q) + pool.above(q)) + own.above(q);
+    const double above = of_pool * (kPriorWeight * prior_above(pace_, row, band, q) + pool.above(q)) + own.above(q);
     (above <= allowed ? high : low) = q;
   }
   return high;
@@ -105,6 +103,20 @@ PerLevel Calibration::margins(TrackClass kind, double real) const {
     }
   }
   return margins;
+}
+
+void Calibration::set_pace(WorldPace pace) {
+  if (pace == pace_) return;
+  for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
+    for (std::size_t level = 0; level < confidence_.size(); ++level) {
+      for (std::size_t band = 0; band < kBands; ++band) {
+        const double ratio = prior_level(pace, kind, band, level) / prior_level(pace_, kind, band, level);
+        classes_[kind].log_theta[level][band] += std::log(ratio);
+      }
+    }
+  }
+  pace_ = pace;
+  is_stale_.fill(true);
 }
 
 void Calibration::add(TrackClass kind, std::size_t band, float score,

@@ -10,6 +10,7 @@
 
 #include "core/base/types.h"
 #include "core/world/track.h"
+#include "predictor/tracking/calibration_prior.h"
 
 namespace tern {
 
@@ -104,6 +105,9 @@ class Calibration {
   }
   /// Of tracks of which only the share `real` exists: what does not exist breaks no promise. O(halvings · log scores).
   [[nodiscard]] PerLevel margins(TrackClass kind, double real) const;
+  /// Another prior rules from the next refresh() on. What θ has learnt stays: its ratio to the prior's, but for its
+  /// bounds (kLeastLevel, kLargestLevel), which the next add() applies.
+  void set_pace(WorldPace pace);
   /// Counts from the next refresh() on.
   /// @param broken by level: whether the promise that was made had been broken by the end of the band
   void add(TrackClass kind, std::size_t band, float score, const std::array<bool, kConfidenceLevels.size()>& broken);
@@ -119,6 +123,7 @@ class Calibration {
   [[nodiscard]] double margin(TrackClass kind, std::size_t band, double level) const;
 
   std::array<double, kConfidenceLevels.size()> confidence_;
+  WorldPace pace_ = WorldPace::Any;
   std::array<std::vector<NewestScores>, kPools> pools_;  // by band
   std::array<Class, kTrackClasses> classes_;
   std::array<bool, kPools> is_stale_;

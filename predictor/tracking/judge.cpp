@@ -100,8 +100,9 @@ void Judge::take(UTime at, const std::vector<SeenTrack>& seen) {
       history.born = track.born;
     }
     follow(track, at, history);
-    score(history);
+    score(track.id, history);
   }
+  calibration_.set_pace(pace());
   calibration_.refresh();
   for (const SeenTrack& track : seen) {
     if (!track.rests) issue(track, at, histories_[track.id]);
@@ -151,13 +152,13 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   history.issues.push_back(issue);
 }
 
-void Judge::score(History& history) {
+void Judge::score(std::int64_t id, History& history) {
   const UTime settled = history.samples.back().at - Duration::from_seconds(kSmoothed);
   for (Issue& issue : history.issues) {
     while (issue.next < kJudgedAhead.size() && judged_at(issue.at, issue.next) <= settled) {
       const std::optional<Sample> truth = truth_at(history.samples, judged_at(issue.at, issue.next));
       if (!truth) break;
-      score(issue, *truth, history);
+      score(issue, *truth, id, history);
       ++issue.next;
     }
   }
@@ -169,12 +170,10 @@ void Judge::score(History& history) {
   });
 }
 
-void Judge::score(Issue& issue, const Sample& truth, History& history) {
+void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& history) {
   const std::size_t k = issue.next, band = band_of(kJudgedAhead[k]);
   const Mixed& said = issue.said[k];
-  if (kJudgedAhead[k] == kSpeedSpan) {
-    fastest_ = std::max(fastest_, (truth.z - issue.from).cwiseAbs().maxCoeff() / kSpeedSpan);
-  }
+  if (kJudgedAhead[k] == kSpeedSpan) see_speed((truth.z - issue.from) / kSpeedSpan, id);
   const double own = margin_for(said, truth, kJudgedAhead[k]);
   const double score = own > 0.0 ? std::min(own, exchanged_margin(issue, truth, history)) : own;
   issue.score = std::max(issue.score, score);
@@ -205,6 +204,16 @@ void Judge::score(Issue& issue, const Sample& truth, History& history) {
   history.own.add(h, scores, kOwnForgetting);
   pools_[kAll].add(h, scores, kPoolForgetting);
   if (issue.pool != kAll) pools_[issue.pool].add(h, scores, kPoolForgetting);
+}
+
+void Judge::see_speed(const Vec3& velocity, std::int64_t id) {
+  fastest_ = std::max(fastest_, velocity.cwiseAbs().maxCoeff());
+  top_speed_ = std::max(top_speed_, velocity.norm());
+  if (velocity.norm() > kStill && movers_.size() < kMoversOfAWorld) movers_.insert(id);
+}
+
+WorldPace Judge::pace() const {
+  return movers_.size() >= kMoversOfAWorld && top_speed_ < kSlowSpeed ? WorldPace::Slow : WorldPace::Any;
 }
 
 double Judge::exchanged_margin(const Issue& issue, const Sample& truth, const History& own) const {

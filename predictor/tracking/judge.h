@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "core/base/time.h"
@@ -35,6 +36,12 @@ inline constexpr double kSmoothed = 0.2, kWidestGap = 0.5;
 /// falsify little.
 inline constexpr double kSpeedSpan = 0.5;
 
+/// A world is taken for slow when so many tracks were seen to move, none of them as fast as kSlowSpeed: by the rule of
+/// succession the next is faster once in 18 times. One that is makes it a world of any pace, for good. What is slower
+/// than kStill says nothing.
+inline constexpr std::size_t kMoversOfAWorld = 16;
+inline constexpr double kStill = 0.5;  ///< m/s
+
 /// What became of one promise.
 struct Judged {
   TrackClass kind = TrackClass::New;
@@ -62,6 +69,7 @@ class Judge {
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
   /// The largest mean speed per axis over kSpeedSpan that any track had, m/s.
   [[nodiscard]] double fastest() const { return fastest_; }
+  [[nodiscard]] WorldPace pace() const;
   /// The promises that the last take() came to an end with.
   [[nodiscard]] const std::vector<Judged>& judged() const { return judged_; }
 
@@ -96,8 +104,9 @@ class Judge {
   };
   void follow(const SeenTrack& track, UTime at, History& history);
   void issue(const SeenTrack& track, UTime at, History& history) const;
-  void score(History& history);
-  void score(Issue& issue, const Sample& truth, History& history);
+  void score(std::int64_t id, History& history);
+  void score(Issue& issue, const Sample& truth, std::int64_t id, History& history);
+  void see_speed(const Vec3& velocity, std::int64_t id);
   /// The least q by which two promises hold what came, had their tracks exchanged detections since:
   /// each thing is where the other track's was promised. Of a track that was not there yet, that the promise holds it.
   /// So things that pass each other closely do not make promises wide that are kept: who keeps clear of both boxes
@@ -112,6 +121,8 @@ class Judge {
   std::map<std::int64_t, History> histories_;
   std::vector<Judged> judged_;
   double fastest_ = 0.0;
+  double top_speed_ = 0.0;         // over all axes, m/s
+  std::set<std::int64_t> movers_;  // kMoversOfAWorld at most
   std::array<BankLook, kJudgedAhead.size()> looks_;
 };
 

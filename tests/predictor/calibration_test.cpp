@@ -21,7 +21,7 @@ double above(double q, std::size_t kind, std::size_t band, const std::vector<flo
     return static_cast<double>(
         std::count_if(scores.begin(), scores.end(), [&](float s) { return static_cast<double>(s) > q; }));
   };
-  const double prior = Calibration::kPriorWeight * prior_above(kind, band, q);
+  const double prior = Calibration::kPriorWeight * prior_above(WorldPace::Any, kind, band, q);
   const double pool = (prior + larger(all)) / (Calibration::kPriorWeight + static_cast<double>(all.size()));
   return (Calibration::kPoolWeight * pool + larger(own)) / (Calibration::kPoolWeight + static_cast<double>(own.size()));
 }
@@ -49,7 +49,8 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
     for (std::size_t level = 0; level < margins.size(); ++level) {
       // None was broken: theta has risen with each.
       const double allowed = calibration.allowed(level, kBand);
-      const double risen = (level == 0 ? 1.0 : Calibration::kFirstLevel) * prior_level(kKind, kBand, level) *
+      const double risen = (level == 0 ? 1.0 : Calibration::kFirstLevel) *
+                           prior_level(WorldPace::Any, kKind, kBand, level) *
                            std::exp(Calibration::kAdaption * allowed * static_cast<double>((scores + 2) / 3));
       const double theta = std::min(Calibration::kLargestLevel * allowed, risen);
       const double q = margins[level][kBand];
@@ -77,6 +78,28 @@ TEST(PromisedHalf, ContainsAnErrorByItsOwnMarginAndByNoLess) {
     if (margins[band] < 1e-3 - kModelSigmas) continue;
     margins[band] -= 1e-3;
     EXPECT_GT((error.cwiseAbs() - promised_half(deviation, margins, ahead)).maxCoeff(), 0.0);
+  }
+}
+
+TEST(Calibration, ASlowWorldsPriorIsTakenBackAsIfItHadNotRuled) {
+  const Calibration fresh(0.99);
+  Calibration calibration(0.99);
+  calibration.set_pace(WorldPace::Slow);
+  calibration.refresh();
+  for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
+    const PerLevel &slow = calibration.margins(static_cast<TrackClass>(kind)),
+                   &any = fresh.margins(static_cast<TrackClass>(kind));
+    for (std::size_t band = 1; band < kBands; ++band)
+      EXPECT_LT(slow[0][band], any[0][band] + 0.05) << kind << ", " << band;
+  }
+  const auto young = TrackClass::Young;
+  EXPECT_LT(calibration.margins(young)[0][2], 0.5 * fresh.margins(young)[0][2]);
+  calibration.set_pace(WorldPace::Any);
+  calibration.refresh();
+  for (std::size_t level = 0; level < kConfidenceLevels.size(); ++level) {
+    for (std::size_t band = 0; band < kBands; ++band) {
+      EXPECT_NEAR(calibration.margins(young)[level][band], fresh.margins(young)[level][band], 1e-3);
+    }
   }
 }
 

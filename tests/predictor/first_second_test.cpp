@@ -76,6 +76,27 @@ void count_kept(const std::vector<Track>& tracks, const std::vector<Path>& mover
   }
 }
 
+/// Twenty walk at 1.2 m/s; later one comes that flies at 4 m/s.
+TEST(FirstSecond, OfWhatIsNewLessIsFearedWhereNothingWasFastUntilSomethingIs) {
+  Rng rng(5);
+  Tracker tracker(TrackerConfig{});
+  const auto feared = [&] { return tracker.judge().calibration().margins(TrackClass::New)[0][band_of(0.5)]; };
+  const double at_first = feared();
+  double among_walkers = at_first;
+  for (int frame = 0; frame < static_cast<int>(kRate * 5.0); ++frame) {
+    const double t = frame / kRate;
+    std::vector<Detection> seen;
+    for (int k = 0; k < 20; ++k) {
+      seen.push_back(testing::detection_of(Vec3(1.2 * t, 20.0 * k, 1.0), 0.05, rng));
+    }
+    if (t > 3.0) seen.push_back(testing::detection_of(Vec3(4.0 * t, -20.0, 1.0), 0.05, rng));
+    tracker.update(testing::observations_at(t, std::move(seen)));
+    if (t < 3.0) among_walkers = feared();
+  }
+  EXPECT_LT(among_walkers, 0.5 * at_first);
+  EXPECT_GT(feared(), 2.0 * among_walkers);
+}
+
 // A predictor that starts anew among fast movers, which an exact sensor sees: it knows nothing of this world.
 TEST(FirstSecond, KeepsEachConfidenceFromTheFirstPromisesOfAFlightOn) {
   constexpr int kFlights = 40, kMovers = 25;

@@ -22,7 +22,7 @@ void write(const std::string& file, const std::string& text) {
 
 void calibrate(const CalibrationRequest& request) {
   Study sum;
-  std::vector<Source> sources;
+  std::vector<Source> sources, slow;
   for (const MadeUpSource& source : made_up_sources()) {
     Study all;
     for (int seed = 1; seed <= request.made_up; ++seed) {
@@ -31,6 +31,7 @@ void calibrate(const CalibrationRequest& request) {
     }
     add(sum, all);
     sources.push_back({std::string(source.name), source.weight, all.judged});
+    slow.push_back({std::string(source.name), source.weight, all.slow});
   }
   for (const std::string& log : request.logs) {
     const auto recording = read_recording(log);
@@ -38,11 +39,14 @@ void calibrate(const CalibrationRequest& request) {
     const Study of_log = study(*recording, TrackerConfig{});
     add(sum, of_log);
     sources.push_back({recording->name, 1.0, of_log.judged});
+    slow.push_back({recording->name, 1.0, of_log.slow});
   }
   const std::string table = coverage_table(sum);
   fmt::print("{}", table);
   if (!request.csv.empty()) write(request.csv, table);
-  if (!request.prior.empty()) write(request.prior, prior_table(sources));
+  if (!request.prior.empty())
+    write(request.prior, "    // worlds of any pace\n" + prior_table(sources, sources) + "    // slow worlds\n" +
+                             prior_table(slow, sources));
 }
 
 }  // namespace tern::calibrate

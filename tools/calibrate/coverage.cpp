@@ -48,6 +48,7 @@ class Watch {
       }
       result.cells.back().tracks.push_back(promises);
     }
+    if (tracker_.judge().fastest() < kSlowSpeed) result.slow = result.judged;
     return result;
   }
 
@@ -174,6 +175,7 @@ std::string coverage_table(const Study& study) {
 
 void add(Study& sum, const Study& other) {
   sum.judged.insert(sum.judged.end(), other.judged.begin(), other.judged.end());
+  sum.slow.insert(sum.slow.end(), other.slow.begin(), other.slow.end());
   for (const CoverageCell& cell : other.cells) {
     const auto same = std::find_if(sum.cells.begin(), sum.cells.end(), [&](const CoverageCell& c) {
       return c.what == cell.what && c.ahead_s == cell.ahead_s;

@@ -46,7 +46,8 @@ inline constexpr double kSameThing = 1.0;  ///< m
 struct Study {
   double confidence = 0.99;         ///< promised
   std::vector<CoverageCell> cells;  ///< by class, then by the track's age
-  std::vector<Judged> judged;       ///< the tracker's own scores
+  std::vector<Judged> judged;       ///< the tracker's own scores …
+  std::vector<Judged> slow;         ///< … those in slow worlds
 };
 
 /// Feeds a recording to a tracker that is new.

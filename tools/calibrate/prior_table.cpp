@@ -21,6 +21,8 @@ constexpr double kLeastBroken = 0.05;
 constexpr int kHalvings = 20;  // of [0, 1], for θ
 
 constexpr double kKinds = 3.0;  // of motion: steady, calm, lively
+// A class is known where a source counts so much there.
+constexpr double kWeightOfAKind = 0.5;
 
 struct Promise {
   const Judged* judged;
@@ -112,7 +114,7 @@ double break_band(std::vector<Band>& sources, std::size_t level, double allowed)
     const double p = 0.5 * (low + high);
     (quantile(sources, p) < margin ? low : high) = p;
   }
-  return std::max(kLeastShare * allowed, 1.0 - high);
+  return std::clamp(1.0 - high, kLeastShare * allowed, allowed);
 }
 
 std::string row(std::vector<OfSource>& all, std::size_t band, const Calibration& calibration) {
@@ -134,12 +136,14 @@ std::string row(std::vector<OfSource>& all, std::size_t band, const Calibration&
 
 }  // namespace
 
-std::string prior_table(const std::vector<Source>& sources) {
+std::string prior_table(const std::vector<Source>& sources, const std::vector<Source>& otherwise) {
   const Calibration calibration(kConfidenceLevels.front());
   std::string text;
   for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
     text += fmt::format("    // class {}\n", kind);
     std::vector<OfSource> all = of_class(sources, static_cast<TrackClass>(kind));
+    const auto is_known = [](const OfSource& source) { return source.weight >= kWeightOfAKind; };
+    if (std::none_of(all.begin(), all.end(), is_known)) all = of_class(otherwise, static_cast<TrackClass>(kind));
     for (std::size_t band = 0; band < kBands; ++band) text += row(all, band, calibration);
   }
   return text;
