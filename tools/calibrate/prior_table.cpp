@@ -94,12 +94,11 @@ double margin_of(const Band& source, std::size_t level, double allowed) {
   double left = allowed * n;
   for (const auto& [score, promise] : source.scores) left -= promise->broken[level] ? 1.0 : 0.0;
   left = std::max(left, kLeastBroken * allowed * n);
-  for (auto at = source.scores.rbegin(); at != source.scores.rend(); ++at) {
-    if (at->second->broken[level]) continue;
-    left -= 1.0;
-    if (left < 0.0) return at->first;
-  }
-  return -kModelSigmas;
+  const auto last = std::find_if(source.scores.rbegin(), source.scores.rend(), [&](const auto& score) {
+    left -= score.second->broken[level] ? 0.0 : 1.0;
+    return left < 0.0;
+  });
+  return last == source.scores.rend() ? -kModelSigmas : last->first;
 }
 
 // Breaks what is beyond the band's margin. @return θ.
