@@ -61,8 +61,8 @@ const std::vector<Part>& parts() {
       {"tern-mapper", Role::Mapper, names_of(kSemanticMap)},
       {"tern-logger", Role::Observer, {}},
       {"tern-monitor", Role::Observer,
-       names_of(kUavState, kSetpoint, kVehicleStatus, kGoal, kHorizonRequest, kPlan, kPlanTiming, kObstacleTruth,
-                kVehicleTruth, kFlightResult)},
+       names_of(kUavState, kSetpoint, kVehicleStatus, kGoal, kHorizonRequest, kPlan, kPlanTiming, kSemanticMap,
+                kObstacleTruth, kVehicleTruth, kFlightResult)},
       {"tern-viewer", Role::Operator, all_owned()},
   };
   return kParts;

@@ -68,6 +68,14 @@ TEST(Monitor, RefusesASummaryThatCannotBeWrittenBeforeTheFlight) {
   EXPECT_FALSE(std::filesystem::exists(options.summary_file)) << "to ask leaves no file behind";
 }
 
+TEST(Monitor, HoldsTheKeysOfAllThatItHears) {
+  VirtualRunner runner;
+  runner.use_key(random_key());
+  const MonitorOptions options;
+  EXPECT_NO_THROW(
+      runner.start("tern-monitor", [&](Bus& bus) { return std::make_unique<MonitorNode>(bus, kScenario, options); }));
+}
+
 TEST(Monitor, FailsWithoutASimulator) {
   const RunResult result = run_monitor({}, [](Bus&) {});
   EXPECT_EQ(result.end, RunEnd::Finished);
