@@ -71,14 +71,14 @@ double margin_for(const Mixed& said, const Sample& truth, double ahead_s) {
   return containing_margin(error_of(said, truth), said.deviation, band_of(ahead_s), ahead_s);
 }
 
-// Between the times at which something was said, in a straight line.
+// Between the times at which something was said, in a straight line. @pre kJudgedAhead reaches `ahead_s`
 Mixed said_at(const std::array<Mixed, kJudgedAhead.size()>& said, double ahead_s) {
   const auto next = std::lower_bound(kJudgedAhead.begin() + 1, kJudgedAhead.end() - 1, ahead_s);
   const auto k = static_cast<std::size_t>(next - kJudgedAhead.begin());
   const double u = (ahead_s - kJudgedAhead[k - 1]) / (kJudgedAhead[k] - kJudgedAhead[k - 1]);
   Mixed between;
   between.centre = said[k - 1].centre + u * (said[k].centre - said[k - 1].centre);
-  between.deviation = said[k - 1].deviation + std::max(0.0, u) * (said[k].deviation - said[k - 1].deviation);
+  between.deviation = said[k - 1].deviation + u * (said[k].deviation - said[k - 1].deviation);
   return between;
 }
 
@@ -234,6 +234,7 @@ double Judge::exchanged_margin(const Issue& issue, const Sample& truth, const Hi
     const auto said = std::min_element(other.issues.begin(), other.issues.end(), is_nearer);
     if (said == other.issues.end() || std::abs((said->at - issue.at).seconds()) > kScorePeriod) continue;
     const double ahead_s = (truth.at - said->at).seconds();
+    if (ahead_s < kJudgedAhead.front() || ahead_s > kJudgedAhead.back()) continue;  // it said nothing of that time
     least = std::min(least, std::max(here, margin_for(said_at(said->said, ahead_s), truth, ahead_s)));
   }
   return least;

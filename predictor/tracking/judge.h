@@ -69,7 +69,6 @@ class Judge {
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
   /// The largest mean speed per axis over kSpeedSpan that any track had, m/s.
   [[nodiscard]] double fastest() const { return fastest_; }
-  [[nodiscard]] WorldPace pace() const;
   /// The promises that the last take() came to an end with.
   [[nodiscard]] const std::vector<Judged>& judged() const { return judged_; }
 
@@ -107,6 +106,7 @@ class Judge {
   void score(std::int64_t id, History& history);
   void score(Issue& issue, const Sample& truth, std::int64_t id, History& history);
   void see_speed(const Vec3& velocity, std::int64_t id);
+  [[nodiscard]] WorldPace pace() const;
   /// The least q by which two promises hold what came, had their tracks exchanged detections since:
   /// each thing is where the other track's was promised. Of a track that was not there yet, that the promise holds it.
   /// So things that pass each other closely do not make promises wide that are kept: who keeps clear of both boxes

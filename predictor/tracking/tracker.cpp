@@ -227,13 +227,16 @@ bool Tracker::rests(const TrackedObject& object) const {
 }
 
 double Tracker::surprise(const TrackedObject& object, UTime at, const Detection& detection) const {
-  const double of_size = size_surprise(object.half_extents, detection);
+  constexpr double kBeyond = std::numeric_limits<double>::infinity();
+  double of_place = kBeyond;
   // Remembered: what is found there again belongs to it, not whatever a mover could have become.
   if (at - object.last_seen > config_.coast && rests(object)) {
     const Fit fit = fit_of(object.resting, detection);
-    return fit.distance2 <= kAssociationGate ? fit.surprise() + of_size : std::numeric_limits<double>::infinity();
+    if (fit.distance2 <= kAssociationGate) of_place = fit.surprise();
+  } else {
+    of_place = object.moving.surprise_within(kAssociationGate, detection.position, detection.variance);
   }
-  return object.moving.surprise_within(kAssociationGate, detection.position, detection.variance) + of_size;
+  return of_place < kBeyond ? of_place + size_surprise(object.half_extents, detection) : kBeyond;
 }
 
 SeenTrack Tracker::seen(const TrackedObject& object) const {
@@ -308,7 +311,7 @@ std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, con
   return waypoints;
 }
 
-bool Tracker::is_lost(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start) {
+bool Tracker::is_gone(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start) {
   if (start.half.front().maxCoeff() <= kKnownWithin) return false;
   return std::any_of(views.begin(), views.end(), [&](const View& view) {
     return view.sensor_id == object.last_seen_by && object.last_seen < view.at &&
@@ -329,7 +332,7 @@ std::vector<Track> Tracker::predict(UTime now) const {
     const bool is_resting = rests(object);
     const std::vector<Waypoint> waypoints =
         is_resting ? resting_waypoints(object, newest, from) : moving_waypoints(object, of_unsure, looks, from);
-    if (is_lost(object, newest.views, waypoints.front())) continue;
+    if (is_gone(object, newest.views, waypoints.front())) continue;
     const double seen_speed = is_resting ? 0.0 : waypoints.front().velocity.cwiseAbs().maxCoeff();
     Track track;
     track.id = object.id;

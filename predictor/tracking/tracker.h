@@ -115,8 +115,6 @@ class Tracker {
   /// Time of the newest observation; 0 when there was none.
   [[nodiscard]] UTime newest() const { return steps_.empty() ? UTime{} : steps_.back().observations.at; }
   /// True if it is predicted at rest.
-  /// Whether what is detected as this track may as well be something new.
-  [[nodiscard]] bool is_lost(const TrackedObject& object, UTime at) const;
   [[nodiscard]] bool rests(const TrackedObject& object) const;
   /// What was learnt of predictions: models' weights and margins. It lags by kReorderWindow.
   [[nodiscard]] const Judge& judge() const { return judge_; }
@@ -152,7 +150,10 @@ class Tracker {
   [[nodiscard]] bool is_dead(const TrackedObject& object, const ObservationSet& observations) const;
   [[nodiscard]] double surprise(const TrackedObject& object, UTime at, const Detection& detection) const;
   [[nodiscard]] bool is_published(const TrackedObject& object, const ExistenceRecord& existence) const;
-  [[nodiscard]] static bool is_lost(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start);
+  /// Whether what is detected as this track may as well be something new.
+  [[nodiscard]] bool is_lost(const TrackedObject& object, UTime at) const;
+  /// Whether it has left its sensor's range and says no more than that anything may come from there.
+  [[nodiscard]] static bool is_gone(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start);
   void settle(const Step& step);
   [[nodiscard]] SeenTrack seen(const TrackedObject& object) const;
   [[nodiscard]] double top_speed() const;  // of what is new or starts

@@ -27,8 +27,6 @@ constexpr Duration kEcho{300'000};
 constexpr Duration kResultPeriod{200'000};
 constexpr int kResults = 6;
 constexpr Duration kCountdown{300'000};
-/// Where nothing is declared: a vehicle looks around before it takes off, and learns how fast things are.
-constexpr Duration kLooksAround{1'500'000};
 constexpr const char* kMapperProcess = "tern-mapper";
 
 UTime whole_ms(UTime t) { return {(t.us + 999) / 1'000 * 1'000}; }

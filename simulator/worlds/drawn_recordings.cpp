@@ -20,7 +20,8 @@ constexpr int kMaxDraws = 10'000;
 constexpr int kMaxRedraws = 1000;
 constexpr double kStartSample = 0.01;    // s
 constexpr double kMeetingSample = 0.05;  // s
-constexpr double kBefore = 2.0;          // s: of a copy's motion before world time 0
+// Of a copy's motion before world time 0, s: what the sensor sees of it, and points on both sides of that.
+constexpr double kBefore = kLooksAround.seconds() + 0.5;
 
 /// Where someone is at file time t_s. @return nullopt if not there
 std::optional<Vec3> place_at(const RecordedTrack& track, double t_s) {

@@ -5,10 +5,15 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/base/time.h"
 #include "core/base/types.h"
 #include "core/world/scenario.h"
 
 namespace tern {
+
+/// Where nothing is declared, the sensor sees the world on its way for so long before world time 0: a vehicle looks
+/// around before it takes off, and learns how fast things are.
+inline constexpr Duration kLooksAround{1'500'000};
 
 /// Where an obstacle's centre is and how fast it goes, W.
 struct ObstacleState {
@@ -25,8 +30,9 @@ struct ObstacleBounds {
 
 /// An obstacle of the world: the spec of its motion, checked, with times rounded to whole µs (the world's clock).
 ///
-/// Time t is world time in seconds. Before t = 0 everything rests where it is at t = 0. For w = t/s and c, k, φ of the
-/// spec:
+/// Time t is world time in seconds. Before t = 0 the world rests where it is at t = 0, but for the
+/// sensor of one that is not declared: that sees it on its way there (kLooksAround, begins_s). For w = t/s and c, k, φ
+/// of the spec:
 ///   trefoil  c + (k_x (sin(w+φ) + 2 sin(2w+φ)), k_y (cos(w+φ) − 2 cos(2w+φ)), −k_z sin(3w+φ)), so that
 ///            |v| ≤ (5, 5, 3)·k/s, |a| ≤ (9, 9, 9)·k/s², |p⁗| ≤ (33, 33, 81)·k/s⁴ per axis;
 ///   wave     c + A sin(w+φ): |v| ≤ |A|/s, |a| ≤ |A|/s², |p⁗| ≤ |A|/s⁴;
