@@ -22,12 +22,12 @@ void add_semantics(const SemanticGuide* guide, SearchProblem& problem) {
   problem.pointwise = [guide](const Vec3& q) { return guide->ahead(q); };
 }
 
+/// But for what weigh() adds.
 PlanCost cost_of(const Attempt& attempt, const TimedSpline& trajectory) {
   PlanCost cost;
   const Points& q = trajectory.control_points;
   const Vec3 end = q.col(q.cols() - 1);
   const PlannerConfig& config = attempt.near.config;
-  cost.distance_to_goal = (end - attempt.heading.local.goal).norm();
   cost.jerk = jerk_cost(q, trajectory.interval.seconds());
   if (attempt.heading.fields != nullptr) {
     const SemanticFields& fields = *attempt.heading.fields;
@@ -41,14 +41,17 @@ PlanCost cost_of(const Attempt& attempt, const TimedSpline& trajectory) {
       }
     }
   }
-  cost.total = total_cost(cost, config.optimization);
   return cost;
 }
 
 }  // namespace
 
-double total_cost(const PlanCost& cost, const OptimizationConfig& weights) {
-  return weights.weight_jerk * cost.jerk + weights.weight_goal * cost.distance_to_goal * cost.distance_to_goal;
+void weigh(const Surroundings& near, const Heading& heading, Candidate& candidate) {
+  candidate.arrival_s = worth_of(near, heading, candidate.trajectory);
+  const OptimizationConfig& weights = near.config.optimization;
+  PlanCost& cost = candidate.cost;
+  cost.distance_to_goal = (candidate.trajectory.control_points.rightCols<1>() - heading.local.goal).norm();
+  cost.total = weights.weight_jerk * cost.jerk + weights.weight_goal * cost.distance_to_goal * cost.distance_to_goal;
 }
 
 void append_hold(std::vector<double>& times, double step, double hold_s) {
@@ -108,8 +111,8 @@ std::optional<Candidate> certify(const Attempt& attempt, const Points& control_p
   c.hold_s = clear_time_at(swept, attempt.problem.intervals, end, pairs).seconds;
   c.holds = lasts(c.hold_s, attempt.hold_required_s);
   c.clear_s = attempt.problem.interval_s() * attempt.problem.intervals + c.hold_s;
-  c.arrival_s = worth_of(attempt.near, attempt.heading, c.trajectory);
   c.cost = cost_of(attempt, c.trajectory);
+  weigh(attempt.near, attempt.heading, c);
   return c;
 }
 

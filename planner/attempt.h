@@ -39,9 +39,8 @@ struct Attempt {
   double hold_required_s = 0.0;  ///< what its end must hold to count as holding
 };
 
-/// The optimizer's objective: of the jerk and of the distance to the local goal (core/world/horizon.h,
-/// PlanCost::total).
-double total_cost(const PlanCost& cost, const OptimizationConfig& weights);
+/// What the candidate is worth on the way to the heading's local goal: its arrival, and of its cost what depends on it.
+void weigh(const Surroundings& near, const Heading& heading, Candidate& candidate);
 
 /// Adds the times of a hold of hold_s after the last of `times`, s, a step apart.
 void append_hold(std::vector<double>& times, double step, double hold_s);

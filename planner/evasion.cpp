@@ -150,7 +150,7 @@ std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& h
     tools.log.statistics.count(swept);
     if (!found) continue;
     found->outcome = PlanOutcome::Evade;
-    found->arrival_s = worth_of(near, heading, found->trajectory);
+    weigh(near, heading, *found);
     found->holds = lasts(found->hold_s, near.hold.required(stop.way_s));
     const bool by_time = phase == Phase::Evasion;
     if (!by_time && !found->holds) continue;

@@ -16,16 +16,14 @@ StandingAnswer::StandingAnswer(const Surroundings& near, Plan blank, std::option
 
 void StandingAnswer::head_for(const Heading& heading) {
   blank_.local_goal = heading.local.goal;
-  if (committed_) committed_->arrival_s = worth_of(near_, heading, committed_->trajectory);
-  if (!best_) return;
-  best_->arrival_s = worth_of(near_, heading, best_->trajectory);
-  best_->cost.distance_to_goal = (heading.local.goal - best_->trajectory.control_points.rightCols<1>()).norm();
-  best_->cost.total = total_cost(best_->cost, near_.config.optimization);
+  for (auto* standing : {&committed_, &best_}) {
+    if (*standing) weigh(near_, heading, **standing);
+  }
 }
 
 void StandingAnswer::keep(std::optional<Candidate> committed, const Heading& heading) {
   committed_ = std::move(committed);
-  if (committed_) committed_->arrival_s = worth_of(near_, heading, committed_->trajectory);
+  if (committed_) weigh(near_, heading, *committed_);
 }
 
 void StandingAnswer::announce(const Candidate& leaf) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/safety/checker.h"
 #include "planner/start_clearance.h"
@@ -15,6 +16,8 @@ constexpr Duration kStep{5'000};
 std::string fault_of_new(const Plan& plan, const HorizonRequest& request,
                          const std::vector<PlanningObstacle>& obstacles, const PlannerConfig& config) {
   if (plan.trajectory.start != request.t_s) return "does not begin at t_s";
+  const double to_goal = (plan.trajectory.control_points.rightCols<1>() - plan.local_goal).norm();
+  if (std::abs(plan.cost.distance_to_goal - to_goal) > 1e-9) return "its cost is of another local goal";
   const int intervals = static_cast<int>(plan.trajectory.control_points.cols()) - 3;
   std::vector<double> times;
   for (int k = 0; k <= intervals; ++k) times.push_back(k * plan.trajectory.interval.seconds());
