@@ -81,7 +81,8 @@ parse() {
         value=$1
         shift
         ;;
-      *) die "unknown option $option (--help)" ;;
+      -*) die "unknown option $option (--help)" ;;
+      *) die "what is $option? To fly a scenario: --scenario $option (--help)" ;;
     esac
     [[ -n $value ]] || die "$option: its value is empty (--help)"
     case $option in

@@ -266,6 +266,7 @@ void keep_playing(pid_t player, const std::string& url) {
 
 }  // namespace
 
+// A flight that never began leaves no folder that was not asked for.
 int fly(const FlightOptions& options) {
   const auto record = make_record(options);
   if (!record) {
@@ -284,6 +285,7 @@ int fly(const FlightOptions& options) {
   if (!options.summary.empty() && fs::exists(summary)) {
     fs::copy_file(summary, options.summary, fs::copy_options::overwrite_existing);
   }
+  if (code == kExitFailed && options.record.empty() && !fs::exists(*record / "command")) fs::remove_all(*record);
   if (is_played) {
     keep_playing(player, options.view_url);
     say("See it again: launch_scripts/view.sh --log {}/flight.lcm", record->string());

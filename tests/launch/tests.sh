@@ -97,6 +97,9 @@ fly_refuses_a_bad_setting_of_one_process() {
   [[ $(code "$scripts/fly.sh" --no-install --set planner.bogus=3 --record "$work/r") == 3 ]] || fail "exit code"
   expect "override, key" has_text "planner.bogus=3: planner.bogus: unknown key" "$work/out"
   expect "a summary" has_text '"outcome": "failed"' "$work/r/summary.json"
+  [[ $(code "$TERN_BIN/tern-launch" fly --programs="$TERN_BIN" --config="$scenario" --flights="$work/flights" \
+    --set=uav.bogus=3) == 3 ]] || fail "exit code"
+  [[ -z $(ls "$work/flights") ]] || fail "a flight that never began left a folder"
 }
 
 fly_refuses_bad_options() {
@@ -106,6 +109,8 @@ fly_refuses_bad_options() {
     # shellcheck disable=SC2086  # an option and its value
     [[ $(code "$scripts/fly.sh" --no-install --record "$work/$RANDOM" $options) == 3 ]] || fail "exit code of $options"
   done
+  [[ $(code "$scripts/fly.sh" --no-install paper_corridor) == 3 ]] || fail "exit code of a name"
+  expect "how to fly it" has_text "--scenario paper_corridor" "$work/out"
   [[ $(code "$scripts/fly.sh" --help) == 0 ]] || fail "--help"
 }
 
