@@ -58,12 +58,10 @@ std::optional<Sample> truth_at(const std::vector<Sample>& samples, UTime at) {
   return truth;
 }
 
-// An error of variance σ² + r is seen; the part that the truth's own noise r has in it is taken off.
+// The truth's own noise adds its variance to what is seen of an error.
 template <typename Sample>
 Vec3 error_of(const Mixed& said, const Sample& truth) {
-  const Vec3 variance = said.deviation.cwiseAbs2();
-  const Vec3 of_prediction = variance.cwiseQuotient(variance + truth.r).cwiseSqrt();
-  return (truth.z - said.centre).cwiseAbs().cwiseProduct(of_prediction);
+  return ((truth.z - said.centre).cwiseAbs2() - truth.r).cwiseMax(0.0).cwiseSqrt();
 }
 
 template <typename Sample>
@@ -91,7 +89,7 @@ Judge::Judge(double confidence) : calibration_(confidence) {
   for (std::size_t k = 0; k < looks_.size(); ++k) looks_[k] = bank_look(bank_step(kJudgedAhead[k]), none);
 }
 
-void Judge::take(UTime at, const std::vector<SeenTrack>& seen) {
+void Judge::take(UTime at, const std::vector<SeenTrack>& seen, const std::set<std::int64_t>& tracks) {
   judged_.clear();
   for (const SeenTrack& track : seen) {
     History& history = histories_[track.id];
@@ -108,8 +106,8 @@ void Judge::take(UTime at, const std::vector<SeenTrack>& seen) {
     if (!track.rests) issue(track, at, histories_[track.id]);
   }
   std::erase_if(histories_, [&](const auto& entry) {
-    const History& history = entry.second;
-    if ((at - history.samples.back().at).seconds() <= kWidestGap) return false;
+    const auto& [id, history] = entry;
+    if (tracks.contains(id)) return false;
     for (const Issue& issue : history.issues) judged_.push_back(issue.judged);
     return true;
   });

@@ -56,8 +56,9 @@ class Judge {
  public:
   explicit Judge(double confidence);
 
-  /// The tracks that were detected at `at`. Those not detected for kWidestGap are forgotten.
-  void take(UTime at, const std::vector<SeenTrack>& seen);
+  /// @param seen  the tracks that were detected at `at`
+  /// @param tracks  the ids of all that there are: the others are forgotten
+  void take(UTime at, const std::vector<SeenTrack>& seen, const std::set<std::int64_t>& tracks);
 
   /// The models' weights for a track (of one that is not known, those of all tracks like it), and its class.
   struct Verdict {

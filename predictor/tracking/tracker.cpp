@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "predictor/tracking/matching.h"
@@ -245,11 +246,13 @@ SeenTrack Tracker::seen(const TrackedObject& object) const {
 
 void Tracker::settle(const Step& step) {
   const ObservationSet& from = step.observations;
-  std::vector<SeenTrack> all;
+  std::vector<SeenTrack> detected;
+  std::set<std::int64_t> all;
   for (const TrackedObject& object : step.after.objects) {
-    if (object.last_seen == from.at && object.last_seen_by == from.sensor_id) all.push_back(seen(object));
+    all.insert(object.id);
+    if (object.last_seen == from.at && object.last_seen_by == from.sensor_id) detected.push_back(seen(object));
   }
-  judge_.take(from.at, all);
+  judge_.take(from.at, detected, all);
 }
 
 Judge::Verdict Tracker::verdict(const TrackedObject& object) const {

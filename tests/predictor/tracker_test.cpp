@@ -260,6 +260,31 @@ TEST(Tracker, CoastsWithGrowingAlphaThenDies) {
   EXPECT_TRUE(tracker.predict(at_seconds(last + k / kRate)).empty());
 }
 
+/// What was learnt of a track is not forgotten while it is out of sight.
+TEST(Tracker, WhatIsUnseenIsKnownLessAndLess) {
+  Rng rng(7);
+  Tracker tracker(TrackerConfig{});
+  std::vector<Path> all;
+  for (int k = 0; k < 8; ++k) all.push_back(straight(Vec3(6.0 * k, 20.0, 1.0), Vec3::Zero()));
+  const std::vector<Path> posts = all;
+  for (int k = 0; k < 8; ++k) all.push_back(testing::trefoil(Vec3(12.0 * k, 0, 2), Vec3::Ones(), 1.1, 0.7 * k));
+  const double last = feed(tracker, all, 0.0, 6.0, rng);
+  std::map<std::int64_t, double> least;
+  for (int k = 1; k / kRate <= 1.4; ++k) {
+    feed(tracker, posts, last + k / kRate, 1.0 / kRate, rng);
+    const UTime now = at_seconds(last + k / kRate);
+    for (const Track& track : tracker.predict(now)) {
+      const auto object = std::find_if(tracker.objects().begin(), tracker.objects().end(),
+                                       [&](const TrackedObject& o) { return o.id == track.id; });
+      if (object->last_seen == now) continue;
+      const double alpha = track.alpha.front().minCoeff();
+      EXPECT_GE(alpha, least[track.id] - 1e-9) << "track " << track.id << " after " << k / kRate << " s";
+      least[track.id] = alpha;
+    }
+  }
+  EXPECT_EQ(least.size(), 8u);
+}
+
 // Of pillars that are seen for `seen_s`, the tracks predicted `unseen_s` later; then the sensor, which sees 8 m far,
 // stands at `eye_x` and sees nothing.
 std::size_t tracks_left(double seen_s, double eye_x, double unseen_s, const TrackerConfig& config) {
