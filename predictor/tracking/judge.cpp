@@ -22,6 +22,8 @@ constexpr std::size_t kClassHorizon = 2;
 // A new track's predictions are scored at its first detections of these numbers; then once in kScorePeriod.
 constexpr std::array kFirstScored{1, 2, 3, 5, 8};
 
+static_assert(std::find(kJudgedAhead.begin(), kJudgedAhead.end(), kSpeedSpan) != kJudgedAhead.end());
+
 // The truth at a time from detections near it, or between two neighbours.
 template <typename Sample>
 std::optional<Sample> truth_at(const std::vector<Sample>& samples, UTime at) {
