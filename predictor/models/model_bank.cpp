@@ -14,6 +14,15 @@ Fit fit_of(const MotionFilter& filter, const Vec3& z, const Vec3& r) {
   return fit(filter.position(), filter.variance(), z, r);
 }
 
+// Whether one axis alone is beyond the gate: most pairs of a track and a detection are, and cost no more than that.
+bool is_beyond(const MotionFilter& filter, double gate, const Vec3& z, const Vec3& r) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const AxisFilter of = filter.marginal(axis);
+    if (std::pow(z[axis] - of.x, 2) > gate * (of.xx + std::max(r[axis], kLeastVariance))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 const PerModel<MotionModel>& motion_models() {
@@ -71,6 +80,7 @@ double BankFilter::distance2(const Vec3& z, const Vec3& r) const {
 double BankFilter::surprise_within(double gate, const Vec3& z, const Vec3& r) const {
   double least = std::numeric_limits<double>::infinity();
   for (const MotionFilter* filter : {&lead(), &filters_[kWidestModel]}) {
+    if (is_beyond(*filter, gate, z, r)) continue;
     const Fit of = fit_of(*filter, z, r);
     if (of.distance2 <= gate) least = std::min(least, of.surprise());
   }

@@ -22,6 +22,8 @@ constexpr std::size_t kClassHorizon = 2;
 // A new track's predictions are scored at its first detections of these numbers; then once in kScorePeriod.
 constexpr std::array kFirstScored{1, 2, 3, 5, 8};
 
+// A thing whose nearest detection is so much farther off than what is judged, m, is no better explanation of it.
+constexpr double kFarApart = 2.0;
 static_assert(std::find(kJudgedAhead.begin(), kJudgedAhead.end(), kSpeedSpan) != kJudgedAhead.end());
 
 // The truth at a time from detections near it, or between two neighbours.
@@ -58,6 +60,14 @@ std::optional<Sample> truth_at(const std::vector<Sample>& samples, UTime at) {
   truth.z = (1.0 - u) * a.z + u * after->z;
   truth.r = (1.0 - u) * (1.0 - u) * a.r + u * u * after->r;
   return truth;
+}
+
+// Where it was detected nearest to that time.
+template <typename Sample>
+const Sample& nearest(const std::vector<Sample>& samples, UTime at) {
+  const auto after =
+      std::lower_bound(samples.begin(), samples.end() - 1, at, [](const Sample& s, UTime t) { return s.at < t; });
+  return after == samples.begin() || after->at - at < at - (after - 1)->at ? *after : *(after - 1);
 }
 
 // The truth's own noise adds its variance to what is seen of an error.
@@ -217,9 +227,12 @@ WorldPace Judge::pace() const {
 }
 
 double Judge::exchanged_margin(const Issue& issue, const Sample& truth, const History& own) const {
+  const Vec3 far = (truth.z - issue.said[issue.next].centre).cwiseAbs().array() + kFarApart;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [id, other] : histories_) {
     if (&other == &own || other.samples.empty()) continue;
+    const Vec3 apart = (nearest(other.samples, truth.at).z - issue.said[issue.next].centre).cwiseAbs();
+    if ((apart.array() > far.array()).any()) continue;
     const std::optional<Sample> there = truth_at(other.samples, truth.at);
     if (!there) continue;
     const double here = margin_for(issue.said[issue.next], *there, kJudgedAhead[issue.next]);
