@@ -26,121 +26,52 @@ Bytes encode(const T& value);
 template <class T>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes);
 
-/// What lcmtypes/ calls the message.
+/// What lcmtypes/ calls the message. Beside each: the rules between its fields for which decode refuses it.
 template <class T>
 inline constexpr const char* kLcmType = nullptr;
+
 template <>
 inline constexpr const char* kLcmType<UavState> = "uav_state_t";
+/// Inconsistent: following though not armed; following with a reason why not, or not following without one.
 template <>
 inline constexpr const char* kLcmType<VehicleStatus> = "vehicle_status_t";
+/// Inconsistent: two detections with one track id.
 template <>
 inline constexpr const char* kLcmType<ObservationSet> = "observation_set_t";
+/// Pieces and α of all tracks travel as one flat array.
+/// Inconsistent: the tracks' piece counts do not sum to the pieces; two tracks have one id; a static track moves or has
+/// several pieces.
 template <>
 inline constexpr const char* kLcmType<TrackSet> = "track_set_t";
+/// Inconsistent: runs that end beyond the grid, a class that has no name, a first class name that is not empty.
 template <>
 inline constexpr const char* kLcmType<MapChunk> = "map_chunk_t";
 template <>
 inline constexpr const char* kLcmType<Goal> = "goal_t";
+/// Time: t_s before the committed trajectory, a deadline later than t_s − kDeadlineLead. Inconsistent: a committed
+/// trajectory that does not end at rest, a start that is not its state at t_s (to kJoinTolerance), an empty flight box.
 template <>
 inline constexpr const char* kLcmType<HorizonRequest> = "horizon_request_t";
+/// Inconsistent: a certificate plane of an interval or part that the trajectory does not have, or whose normal is not
+/// of length 1 (to 1e-6). Whether the trajectory is a good one is the executor's and the audit's to judge.
 template <>
 inline constexpr const char* kLcmType<Plan> = "plan_t";
 template <>
 inline constexpr const char* kLcmType<PlanTiming> = "plan_timing_t";
-template <>
-inline constexpr const char* kLcmType<SearchView> = "search_view_t";
-template <>
-inline constexpr const char* kLcmType<Heartbeat> = "heartbeat_t";
-template <>
-inline constexpr const char* kLcmType<ConfigurationReport> = "configuration_t";
-template <>
-inline constexpr const char* kLcmType<ObstacleTruth> = "obstacle_truth_t";
-template <>
-inline constexpr const char* kLcmType<FlightResult> = "flight_result_t";
-
-template <>
-Bytes encode(const UavState& value);
-template <>
-tl::expected<UavState, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const VehicleStatus& value);
-/// Inconsistent: following though not armed; following with a reason why not, or not following without one.
-template <>
-tl::expected<VehicleStatus, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const ObservationSet& value);
-/// Inconsistent: two detections with one track id.
-template <>
-tl::expected<ObservationSet, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-/// Pieces and α of all tracks travel as one flat array.
-template <>
-Bytes encode(const TrackSet& value);
-/// Inconsistent: the tracks' piece counts do not sum to the pieces; two tracks have one id; a static track moves or has
-/// several pieces.
-template <>
-tl::expected<TrackSet, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const MapChunk& value);
-/// Inconsistent: runs that end beyond the grid, a class that has no name, a first class name that is not empty.
-template <>
-tl::expected<MapChunk, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const Goal& value);
-template <>
-tl::expected<Goal, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const HorizonRequest& value);
-/// Time: t_s before the committed trajectory, a deadline later than t_s − kDeadlineLead. Inconsistent: a committed
-/// trajectory that does not end at rest, a start that is not its state at t_s (to kJoinTolerance), an empty flight box.
-template <>
-tl::expected<HorizonRequest, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const Plan& value);
-/// Inconsistent: a certificate plane of an interval or part that the trajectory does not have, or whose normal is not
-/// of length 1 (to 1e-6). Whether the trajectory is a good one is the executor's and the audit's to judge.
-template <>
-tl::expected<Plan, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const PlanTiming& value);
-template <>
-tl::expected<PlanTiming, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const SearchView& value);
 /// Inconsistent: a node whose parent does not come before it.
 template <>
-tl::expected<SearchView, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const Heartbeat& value);
+inline constexpr const char* kLcmType<SearchView> = "search_view_t";
 /// Inconsistent: name lengths that do not sum to the names' bytes, channels or echoes that are not in ascending order.
 template <>
-tl::expected<Heartbeat, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const ConfigurationReport& value);
+inline constexpr const char* kLcmType<Heartbeat> = "heartbeat_t";
 /// Inconsistent: a hash that is not digest(yaml).
 template <>
-tl::expected<ConfigurationReport, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const ObstacleTruth& value);
+inline constexpr const char* kLcmType<ConfigurationReport> = "configuration_t";
 /// Inconsistent: two obstacles with one id.
 template <>
-tl::expected<ObstacleTruth, Rejection> decode(std::span<const std::uint8_t> bytes);
-
-template <>
-Bytes encode(const FlightResult& value);
+inline constexpr const char* kLcmType<ObstacleTruth> = "obstacle_truth_t";
 /// Inconsistent: name lengths that do not sum to the names' bytes. The seven measures may be NaN.
 template <>
-tl::expected<FlightResult, Rejection> decode(std::span<const std::uint8_t> bytes);
+inline constexpr const char* kLcmType<FlightResult> = "flight_result_t";
 
 }  // namespace tern

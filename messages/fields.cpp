@@ -81,8 +81,6 @@ void append(std::vector<std::uint8_t>& bytes, std::string_view text) {
   bytes.insert(bytes.end(), text.begin(), text.end());
 }
 
-std::vector<std::uint8_t> to_lcm(std::string_view text) { return {text.begin(), text.end()}; }
-
 bool is_plain_text(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i]);
@@ -105,19 +103,18 @@ Vec3 FieldReader::vec3(const tern_msgs::vec3_t& v, double low, double high) {
   return {number(v.x, low, high), number(v.y, low, high), number(v.z, low, high)};
 }
 
-Points FieldReader::points(const std::vector<tern_msgs::vec3_t>& list, double limit) {
-  Points result(3, static_cast<Eigen::Index>(list.size()));
-  for (std::size_t i = 0; i < list.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = vec3(list[i], -limit, limit);
-  return result;
+void FieldReader::points(const std::vector<tern_msgs::vec3_t>& list, Points& x, double limit) {
+  x.resize(3, static_cast<Eigen::Index>(list.size()));
+  for (std::size_t i = 0; i < list.size(); ++i) x.col(static_cast<Eigen::Index>(i)) = vec3(list[i], -limit, limit);
 }
 
-MotionSample FieldReader::motion(const tern_msgs::motion_t& m) {
-  return {position(m.position), vec3(m.velocity, -kMaxSpeed, kMaxSpeed),
-          vec3(m.acceleration, -kMaxAcceleration, kMaxAcceleration), vec3(m.jerk, -kMaxJerk, kMaxJerk)};
+void FieldReader::motion(const tern_msgs::motion_t& m, MotionSample& x) {
+  x = {position(m.position), vec3(m.velocity, -kMaxSpeed, kMaxSpeed),
+       vec3(m.acceleration, -kMaxAcceleration, kMaxAcceleration), vec3(m.jerk, -kMaxJerk, kMaxJerk)};
 }
 
-UTime FieldReader::time(std::int64_t us) {
-  return note(-kMaxTimeUs <= us && us <= kMaxTimeUs, Rejection::Time) ? UTime{us} : UTime{};
+void FieldReader::time(std::int64_t us, UTime& x) {
+  x = note(-kMaxTimeUs <= us && us <= kMaxTimeUs, Rejection::Time) ? UTime{us} : UTime{};
 }
 
 Duration FieldReader::duration(std::int64_t us, Duration low, Duration high) {
@@ -130,22 +127,22 @@ std::string FieldReader::text(std::span<const std::uint8_t> bytes) {
   return result;
 }
 
-MessageName FieldReader::name(const tern_msgs::message_name_t& n) {
-  note(0 <= n.sender_epoch_us && n.sender_epoch_us <= kMaxTimeUs, Rejection::Time);
-  return {n.sender_epoch_us, counter(n.sequence)};
+void FieldReader::name(const tern_msgs::message_name_t& m, MessageName& x) {
+  note(0 <= m.sender_epoch_us && m.sender_epoch_us <= kMaxTimeUs, Rejection::Time);
+  x = {m.sender_epoch_us, counter(m.sequence)};
 }
 
-Header FieldReader::header(const tern_msgs::header_t& h) {
-  integer<std::int64_t>(h.name.sequence, 1, kMaxCounter);
-  return {name(h.name), time(h.utime_us)};
+void FieldReader::header(const tern_msgs::header_t& m, Header& x) {
+  note(m.name.sequence >= 1, Rejection::Number);
+  name(m.name, x.name);
+  time(m.utime_us, x.utime);
 }
 
-BatchHeader FieldReader::batch(const tern_msgs::batch_t& b) {
-  const BatchHeader batch{integer<std::int64_t>(b.set, 1, kMaxCounter),
-                          integer<std::int32_t>(b.index, 0, kMaxBatches - 1),
-                          integer<std::int32_t>(b.count, 1, kMaxBatches)};
-  consistent(batch.index < batch.count);
-  return batch;
+void FieldReader::batch(const tern_msgs::batch_t& m, BatchHeader& x) {
+  integer(m.set, x.set, 1, kMaxCounter);
+  integer(m.index, x.index, 0, kMaxBatches - 1);
+  integer(m.count, x.count, 1, kMaxBatches);
+  consistent(x.index < x.count);
 }
 
 bool all_different(std::vector<std::int64_t> values) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -40,13 +41,48 @@ tern_msgs::batch_t to_lcm(const BatchHeader& batch);
 tern_msgs::motion_t to_lcm(const MotionSample& motion);
 std::vector<tern_msgs::vec3_t> to_lcm(const Points& points);
 void append(std::vector<std::uint8_t>& bytes, std::string_view text);
-std::vector<std::uint8_t> to_lcm(std::string_view text);
 
 /// An enumeration or a bool as a message carries it.
 template <class Enum>
 std::int8_t to_int8(Enum value) {
   return static_cast<std::int8_t>(value);
 }
+
+/// Writes fields by the calls with which FieldReader reads them, so that a message lists its fields once, for both
+/// ways: the field on the wire, the value, and the value's range, which here is the caller's to keep.
+class FieldWriter {
+ public:
+  template <class M, class T>
+  void any(M& m, T x) {
+    m = static_cast<M>(x);
+  }
+  void number(double& m, double x, double, double) { m = x; }
+  template <class M, class Integer>
+  void integer(M& m, Integer x, std::type_identity_t<Integer>, std::type_identity_t<Integer>) {
+    m = static_cast<M>(x);
+  }
+  void counter(std::int64_t& m, std::int64_t x) { m = x; }
+  void vec3(tern_msgs::vec3_t& m, const Vec3& x, double, double) { m = to_lcm(x); }
+  void position(tern_msgs::vec3_t& m, const Vec3& x) { m = to_lcm(x); }
+  void extents(tern_msgs::vec3_t& m, const Vec3& x) { m = to_lcm(x); }
+  void points(std::vector<tern_msgs::vec3_t>& m, const Points& x, double) { m = to_lcm(x); }
+  void motion(tern_msgs::motion_t& m, const MotionSample& x) { m = to_lcm(x); }
+  template <class Enum>
+  void enumeration(std::int8_t& m, Enum x, Enum) {
+    m = to_int8(x);
+  }
+  void flag(std::int8_t& m, bool x) { m = to_int8(x); }
+  void time(std::int64_t& m, UTime x) { m = x.us; }
+  void duration(std::int64_t& m, Duration x, Duration, Duration) { m = x.us; }
+  void text(std::vector<std::uint8_t>& m, std::string_view x) { m.assign(x.begin(), x.end()); }
+  void name(tern_msgs::message_name_t& m, const MessageName& x) { m = to_lcm(x); }
+  void header(tern_msgs::header_t& m, const Header& x) { m = to_lcm(x); }
+  void batch(tern_msgs::batch_t& m, const BatchHeader& x) { m = to_lcm(x); }
+  template <class M, class T, class Each>
+  void list(std::vector<M>& m, const std::vector<T>& values, const Each& each) {
+    for (const T& value : values) each(m.emplace_back(), value);
+  }
+};
 
 /// Hands out a flat array in pieces, one after the other.
 template <class E>
@@ -78,6 +114,43 @@ bool is_plain_text(std::string_view text);
 /// order of reading.
 class FieldReader {
  public:
+  /// The two ways' form (FieldWriter): the field, where its value goes, its range. `any` takes every value, `list`
+  /// calls each(element, value).
+  template <class M, class T>
+  void any(M m, T& x) {
+    x = static_cast<T>(m);
+  }
+  void number(double m, double& x, double low, double high) { x = number(m, low, high); }
+  template <class M, class Integer>
+  void integer(M m, Integer& x, std::type_identity_t<Integer> low, std::type_identity_t<Integer> high) {
+    static_assert(sizeof(M) <= sizeof(Integer));
+    x = integer<Integer>(static_cast<Integer>(m), low, high);
+  }
+  void counter(std::int64_t m, std::int64_t& x) { x = counter(m); }
+  void vec3(const tern_msgs::vec3_t& m, Vec3& x, double low, double high) { x = vec3(m, low, high); }
+  void position(const tern_msgs::vec3_t& m, Vec3& x) { x = position(m); }
+  void extents(const tern_msgs::vec3_t& m, Vec3& x) { x = extents(m); }
+  /// A column for each, components within ±limit.
+  void points(const std::vector<tern_msgs::vec3_t>& list, Points& x, double limit);
+  void motion(const tern_msgs::motion_t& m, MotionSample& x);
+  /// Enumerators count from 0 to `last`.
+  template <class Enum>
+  void enumeration(std::int8_t m, Enum& x, Enum last) {
+    x = static_cast<Enum>(note(0 <= m && m <= to_int8(last), Rejection::Enumeration) ? m : std::int8_t{0});
+  }
+  void flag(std::int8_t m, bool& x) { x = flag(m); }
+  void time(std::int64_t us, UTime& x);
+  void duration(std::int64_t m, Duration& x, Duration low, Duration high) { x = duration(m, low, high); }
+  void text(const std::vector<std::uint8_t>& m, std::string& x) { x = text(m); }
+  void name(const tern_msgs::message_name_t& m, MessageName& x);
+  void header(const tern_msgs::header_t& m, Header& x);
+  void batch(const tern_msgs::batch_t& m, BatchHeader& x);
+  template <class M, class T, class Each>
+  void list(const std::vector<M>& m, std::vector<T>& values, const Each& each) {
+    values.resize(m.size());
+    for (std::size_t i = 0; i < m.size(); ++i) each(m[i], values[i]);
+  }
+
   /// low ≤ x ≤ high; never NaN. Number.
   double number(double x, double low, double high);
   template <class Integer>
@@ -89,22 +162,10 @@ class FieldReader {
   Vec3 vec3(const tern_msgs::vec3_t& v, double low, double high);
   Vec3 position(const tern_msgs::vec3_t& v) { return vec3(v, -kMaxCoordinate, kMaxCoordinate); }
   Vec3 extents(const tern_msgs::vec3_t& v) { return vec3(v, 0.0, kMaxCoordinate); }
-  /// A column for each, components within ±limit.
-  Points points(const std::vector<tern_msgs::vec3_t>& list, double limit);
-  MotionSample motion(const tern_msgs::motion_t& m);
-  /// Enumerators count from 0 to `last`.
-  template <class Enum>
-  Enum enumeration(std::int8_t x, Enum last) {
-    return static_cast<Enum>(note(0 <= x && x <= to_int8(last), Rejection::Enumeration) ? x : std::int8_t{0});
-  }
   bool flag(std::int8_t x) { return note(x == 0 || x == 1, Rejection::Enumeration) && x == 1; }
-  UTime time(std::int64_t us);
   Duration duration(std::int64_t us, Duration low, Duration high);
   /// Plain text; Number when a byte is not.
   std::string text(std::span<const std::uint8_t> bytes);
-  MessageName name(const tern_msgs::message_name_t& n);
-  Header header(const tern_msgs::header_t& h);
-  BatchHeader batch(const tern_msgs::batch_t& b);
   /// Rules between fields.
   bool in_order(bool ok) { return note(ok, Rejection::Time); }
   bool consistent(bool ok) { return note(ok, Rejection::Inconsistent); }

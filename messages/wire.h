@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -113,22 +112,6 @@ tl::expected<std::size_t, Rejection> find_end(std::span<const std::uint8_t> byte
     return tl::make_unexpected(Rejection::Length);
   }
   return expected_bytes;
-}
-
-/// Form first, then the generated decoder, then `from_lcm` for the fields. Never throws.
-template <class T, class M, class... E>
-tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes, const Layout<M, E...>& layout,
-                                  tl::expected<T, Rejection> (*from_lcm)(const M&)) {
-  try {
-    const auto end = find_end(bytes, layout);
-    if (!end) return tl::make_unexpected(end.error());
-    M message{};
-    const auto size = static_cast<int>(*end);
-    if (message.decode(bytes.data(), 0, size) != size) return tl::make_unexpected(Rejection::Length);
-    return from_lcm(message);
-  } catch (const std::exception&) {  // out of memory, or a check that a value's own class repeats
-    return tl::make_unexpected(Rejection::Length);
-  }
 }
 
 }  // namespace tern::wire

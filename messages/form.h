@@ -1,0 +1,63 @@
+// A message on the wire: its arrays and its fields, stated once for both ways. encode and decode (codec.h) follow.
+#pragma once
+
+#include <exception>
+#include <span>
+#include <tl/expected.hpp>
+#include <utility>
+
+#include "messages/codec.h"
+#include "messages/fields.h"
+#include "messages/wire.h"
+
+namespace tern::wire {
+
+/// Each message's source specializes it.
+///
+///     using Message = …;                                     the generated type
+///     static constexpr Layout kLayout{…};                    its arrays
+///     static void fields(auto& io, auto& m, auto& value);    its fields, by a FieldWriter or a FieldReader
+///     static void write_rest(Message&, const T&);            optional: fields that have another form on the wire
+///     static void read_rest(FieldReader&, const Message&, T&);  optional: the same, and the rules between fields
+template <class T>
+struct Form;
+
+template <class T>
+tl::expected<T, Rejection> read_fields(const typename Form<T>::Message& message) {
+  FieldReader read;
+  T value;
+  Form<T>::fields(read, message, value);
+  if constexpr (requires { Form<T>::read_rest(read, message, value); }) Form<T>::read_rest(read, message, value);
+  return read.accept(std::move(value));
+}
+
+}  // namespace tern::wire
+
+namespace tern {
+
+template <class T>
+Bytes encode(const T& value) {
+  using Form = wire::Form<T>;
+  wire::FieldWriter write;
+  typename Form::Message message{};
+  Form::fields(write, message, value);
+  if constexpr (requires { Form::write_rest(message, value); }) Form::write_rest(message, value);
+  return wire::encode(std::move(message), Form::kLayout);
+}
+
+/// Form first, then the generated decoder, then the fields.
+template <class T>
+tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes) {
+  try {
+    const auto end = wire::find_end(bytes, wire::Form<T>::kLayout);
+    if (!end) return tl::make_unexpected(end.error());
+    typename wire::Form<T>::Message message{};
+    const auto size = static_cast<int>(*end);
+    if (message.decode(bytes.data(), 0, size) != size) return tl::make_unexpected(Rejection::Length);
+    return wire::read_fields<T>(message);
+  } catch (const std::exception&) {  // out of memory, or a check that a value's own class repeats
+    return tl::make_unexpected(Rejection::Length);
+  }
+}
+
+}  // namespace tern
