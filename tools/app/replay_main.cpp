@@ -2,12 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <fstream>
 
 #include "runtime/config.h"
-#include "runtime/process.h"
+#include "runtime/tool.h"
 #include "runtime/version.h"
 #include "tools/replay/extract.h"
 #include "tools/replay/replay_report.h"
@@ -34,8 +32,7 @@ int main(int argc, char** argv) {
   app.add_option("--dump", dump, "Write the answer to --request ID with its world as a text fixture for a unit test")
       ->type_name("FILE")
       ->needs("--request");
-  try {
-    app.parse(argc, argv);
+  return tern::run_tool(app, "tern-replay", argc, argv, [&] {
     const bool what_if = !options.other.empty();
     const auto replay = tern::replay_log(log, options);
     if (!replay) throw tern::ConfigError(replay.error().message);
@@ -46,10 +43,5 @@ int main(int argc, char** argv) {
       throw tern::ConfigError(json + ": cannot be written");
     }
     return tern::replay_exit_code(*replay, what_if);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : tern::kExitBadConfiguration;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "tern-replay: {}\n", error.what());
-    return tern::kExitBadConfiguration;
-  }
+  });
 }

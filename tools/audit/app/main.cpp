@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
+#include "runtime/tool.h"
 #include "runtime/version.h"
 #include "tools/audit/app/load_flight.h"
 #include "tools/audit/audit.h"
@@ -14,23 +15,17 @@
 namespace {
 
 constexpr int kBroken = 1;
-constexpr int kUnreadable = 2;
-
-int complain(const std::string& what) {
-  fmt::print(stderr, "tern-audit: {}\n", what);
-  return kUnreadable;
-}
 
 int run(const std::string& log, const std::string& json_file) {
   const auto record = tern::audit::load_flight(log);
-  if (!record) return complain(record.error().message);
-  if (record->contents.events == 0) return complain(log + ": not one whole event in it");
+  if (!record) throw std::runtime_error(record.error().message);
+  if (record->contents.events == 0) throw std::runtime_error(log + ": not one whole event in it");
   const tern::audit::Audit audit = tern::audit::audit_flight(*record);
   fmt::print("{}", tern::audit::to_text(audit, *record));
   if (!json_file.empty()) {
     std::ofstream file(json_file);
     file << tern::audit::to_json(audit, *record).dump(1) << '\n';
-    if (!file.flush()) return complain(json_file + " cannot be written");
+    if (!file.flush()) throw std::runtime_error(json_file + " cannot be written");
   }
   return audit.verdict() == tern::audit::Verdict::Broken ? kBroken : 0;
 }
@@ -44,12 +39,5 @@ int main(int argc, char** argv) {
   std::string log, json;
   app.add_option("LOG", log, "The log: a file (its parts are found), or the folder of flight.lcm")->required();
   app.add_option("--json", json, "Write the audit as JSON there, too")->type_name("FILE");
-  try {
-    app.parse(argc, argv);
-    return run(log, json);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUnreadable;
-  } catch (const std::exception& error) {
-    return complain(error.what());
-  }
+  return tern::run_tool(app, "tern-audit", argc, argv, [&] { return run(log, json); });
 }

@@ -1,15 +1,9 @@
 // tern-calibrate: holds predictions against what came, in logs of flights, and makes the table that calibration begins
 // with.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <exception>
 
+#include "runtime/tool.h"
 #include "tools/calibrate/calibrate.h"
-
-namespace {
-constexpr int kUnreadable = 2;
-}
 
 int main(int argc, char** argv) {
   CLI::App app{
@@ -22,14 +16,8 @@ int main(int argc, char** argv) {
   app.add_option("--csv", request.csv, "Write the table there, too")->type_name("FILE");
   app.add_option("--prior", request.prior, "Write the table that calibration begins with, of these logs")
       ->type_name("FILE");
-  try {
-    app.parse(argc, argv);
+  return tern::run_tool(app, "tern-calibrate", argc, argv, [&] {
     tern::calibrate::calibrate(request);
     return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUnreadable;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "tern-calibrate: {}\n", error.what());
-    return kUnreadable;
-  }
+  });
 }

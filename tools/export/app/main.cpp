@@ -2,15 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
-#include <string>
+#include <stdexcept>
 
+#include "runtime/tool.h"
 #include "runtime/version.h"
 #include "tools/export/export_log.h"
 
 int main(int argc, char** argv) {
-  constexpr int kFailed = 2;
   CLI::App app{
       "Writes a recorded flight for other programs. Exit code: 0 written, 2 bad arguments or log, or not writable."};
   app.set_version_flag("--version", fmt::format("tern-export {}", tern::build_id()));
@@ -20,18 +18,10 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   app.add_option("--mcap", options.mcap_file, "Write an MCAP file, as Foxglove opens it")->type_name("FILE");
   app.add_option("--channel-suffix", options.suffix, "What the vehicle's channels end with")->type_name("S");
-  try {
-    app.parse(argc, argv);
+  return tern::run_tool(app, "tern-export", argc, argv, [&] {
     const auto told = tern::exporting::export_log(options);
-    if (told) {
-      fmt::print("{}", *told);
-      return 0;
-    }
-    fmt::print(stderr, "tern-export: {}\n", told.error().message);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kFailed;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "tern-export: {}\n", error.what());
-  }
-  return kFailed;
+    if (!told) throw std::runtime_error(told.error().message);
+    fmt::print("{}", *told);
+    return 0;
+  });
 }

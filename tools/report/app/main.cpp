@@ -2,31 +2,25 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
+#include "runtime/tool.h"
 #include "runtime/version.h"
 #include "tools/audit/app/load_flight.h"
 #include "tools/report/report_data.h"
 
 namespace {
 
-constexpr int kUnreadable = 2;
-
-int complain(const std::string& what) {
-  fmt::print(stderr, "tern-report: {}\n", what);
-  return kUnreadable;
-}
-
 int run(const std::string& log, const std::string& page) {
   const auto record = tern::audit::load_flight(log);
-  if (!record) return complain(record.error().message);
-  if (record->contents.events == 0) return complain(log + ": not one whole event in it");
+  if (!record) throw std::runtime_error(record.error().message);
+  if (record->contents.events == 0) throw std::runtime_error(log + ": not one whole event in it");
   std::ofstream file(page);
   file << tern::report::report_page(*record, tern::audit::audit_flight(*record), tern::audit::typed_command(log));
-  if (!file.flush()) return complain(page + " cannot be written");
+  if (!file.flush()) throw std::runtime_error(page + " cannot be written");
   fmt::print("{}\n", page);
   return 0;
 }
@@ -45,12 +39,5 @@ int main(int argc, char** argv) {
   std::string log, page;
   app.add_option("LOG", log, "The log: a file (its parts are found), or the folder of flight.lcm")->required();
   app.add_option("-o,--output", page, "The file to write (default: beside the log)")->type_name("FILE.html");
-  try {
-    app.parse(argc, argv);
-    return run(log, page.empty() ? beside(log) : page);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUnreadable;
-  } catch (const std::exception& error) {
-    return complain(error.what());
-  }
+  return tern::run_tool(app, "tern-report", argc, argv, [&] { return run(log, page.empty() ? beside(log) : page); });
 }
