@@ -20,6 +20,7 @@ namespace {
 constexpr int kSamplesPerInterval = 8;  // a cubic interval looks round
 constexpr std::int64_t kNoPlan = 4;     // plan_t.NO_PLAN
 constexpr char kFrame[] = "W";
+constexpr char kScene[] = "foxglove.SceneUpdate";
 constexpr double kHullReach = 3.0;  // m
 constexpr int kMostHulls = 60;
 constexpr double kPatchSide = 1.0;  // m
@@ -54,14 +55,11 @@ Json entity_of(std::int64_t received_us, const std::string& id) {
   return entity;
 }
 
-Json scene(const LoggedMessage& message, const std::string& id, const Json& cubes, const Json& lines) {
-  Json entity = entity_of(message.received_us, id);
-  entity["cubes"] = cubes;
-  entity["lines"] = lines;
-  Json update;
-  update["deletions"] = Json::array();
-  update["entities"] = Json::array({entity});
-  return update;
+/// A scene of one entity, which has these shapes alone.
+Json scene(std::int64_t received_us, const std::string& id, const char* list, const Json& shapes) {
+  Json entity = entity_of(received_us, id);
+  entity[list] = shapes;
+  return {{"deletions", Json::array()}, {"entities", Json::array({entity})}};
 }
 
 /// Triangles of one colour.
@@ -76,13 +74,12 @@ struct Triangles {
     }
   }
   [[nodiscard]] Json scene(const std::string& id, const Json& its_color, std::int64_t received_us) const {
-    Json entity = entity_of(received_us, id);
-    entity["triangles"] = {{{"pose", pose(vector_of(Vec3::Zero()), 0.0)},
+    const Json triangles = {{"pose", pose(vector_of(Vec3::Zero()), 0.0)},
                             {"points", points},
                             {"color", its_color},
                             {"colors", Json::array()},
-                            {"indices", indices}}};
-    return {{"deletions", Json::array()}, {"entities", Json::array({entity})}};
+                            {"indices", indices}};
+    return exporting::scene(received_us, id, "triangles", Json::array({triangles}));
   }
 };
 
@@ -198,20 +195,20 @@ std::optional<Drawing> drawing_of(const LoggedMessage& message) {
                     {"frame_id", kFrame},
                     {"pose", pose(m["motion"]["position"], m["yaw"].get<double>())}}};
   }
-  const std::string scene_name = "foxglove.SceneUpdate";
   if (message.type == "obstacle_truth_t") {
-    return Drawing{"/tern/obstacles", scene_name,
-                   scene(message, "obstacles " + m["batch"]["index"].dump(), cubes_of(m["obstacles"]), Json::array())};
+    return Drawing{
+        "/tern/obstacles", kScene,
+        scene(message.received_us, "obstacles " + m["batch"]["index"].dump(), "cubes", cubes_of(m["obstacles"]))};
   }
   if (message.type == "horizon_request_t") {
     const double interval_s = m["committed_interval_us"].get<double>() * 1e-6;
     const Json line = line_along(m["control_points"], interval_s, color(0.09, 0.2, 0.31, 1.0));
-    return Drawing{"/tern/committed", scene_name, scene(message, "committed", Json::array(), line)};
+    return Drawing{"/tern/committed", kScene, scene(message.received_us, "committed", "lines", line)};
   }
   if (message.type == "plan_t" && m["outcome"].get<std::int64_t>() != kNoPlan) {
     const double interval_s = m["interval_us"].get<double>() * 1e-6;
     const Json line = line_along(m["control_points"], interval_s, color(0.25, 0.64, 0.3, 1.0));
-    return Drawing{"/tern/plan", scene_name, scene(message, "plan", Json::array(), line)};
+    return Drawing{"/tern/plan", kScene, scene(message.received_us, "plan", "lines", line)};
   }
   return std::nullopt;
 }
@@ -225,7 +222,6 @@ std::vector<Drawing> drawings_of(const Plan& plan, UTime t_s, const TrackSet& tr
   for (const CertificatePlane& c : plan.certificate) {
     planes.add(patch_of(c.plane, place_of(c, plan.trajectory, t_s)), {{0, 1, 2}, {0, 2, 3}});
   }
-  constexpr char kScene[] = "foxglove.SceneUpdate";
   return {{"/tern/hulls", kScene, hulls.scene("hulls", color(0.95, 0.5, 0.1, 0.15), received_us)},
           {"/tern/planes", kScene, planes.scene("planes", color(0.35, 0.55, 0.95, 0.12), received_us)}};
 }
@@ -238,7 +234,7 @@ Drawing drawing_of(const VoxelMap& map, std::int64_t received_us) {
   update["deletions"] = Json::array({{{"timestamp", time_of(received_us)}, {"type", kDeleteAll}, {"id", ""}}});
   update["entities"] = Json::array();
   for (const auto& [key, boxes] : regions) update["entities"].push_back(region(map, boxes, received_us));
-  return {"/tern/regions", "foxglove.SceneUpdate", update};
+  return {"/tern/regions", kScene, update};
 }
 
 Json foxglove_schema(const std::string& name) {
@@ -250,7 +246,7 @@ Json foxglove_schema(const std::string& name) {
   const Json time = object_schema({{"sec", integer}, {"nsec", integer}});
   const Json its_color = object_schema({{"r", number}, {"g", number}, {"b", number}, {"a", number}});
   Json schema = object_schema({{"timestamp", time}, {"frame_id", text}, {"pose", its_pose}});
-  if (name == "foxglove.SceneUpdate") {
+  if (name == kScene) {
     const Json cube = object_schema({{"pose", its_pose}, {"size", vector}, {"color", its_color}});
     const Json line = object_schema({{"type", integer},
                                      {"pose", its_pose},
