@@ -18,15 +18,14 @@ namespace tern::mavlink {
 template <std::size_t N>
 using Text = std::array<char, N>;  ///< zero-terminated unless it is full
 
-/// Each message: its id, CRC_EXTRA, length without extensions, and its fields by their members.
+/// Each message: its id, CRC_EXTRA, length without extensions, and its fields.
 struct Heartbeat {
   static constexpr std::uint32_t kId = 0;
   static constexpr std::uint8_t kCrcExtra = 50, kLeastLength = 9;
   std::uint32_t custom_mode = 0;
   std::uint8_t type = 0, autopilot = 0, base_mode = 0, system_status = 0, mavlink_version = 3;
-  static constexpr auto fields() {
-    using M = Heartbeat;
-    return std::tuple(&M::custom_mode, &M::type, &M::autopilot, &M::base_mode, &M::system_status, &M::mavlink_version);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.custom_mode, m.type, m.autopilot, m.base_mode, m.system_status, m.mavlink_version);
   }
 };
 
@@ -39,10 +38,9 @@ struct SysStatus {
   std::array<std::uint16_t, 6> errors{};        ///< drop_rate_comm, errors_comm, errors_count1 … 4
   std::int8_t battery_remaining = -1;           ///< %; −1: unknown
   std::array<std::uint32_t, 3> sensors_extended{};
-  static constexpr auto fields() {
-    using M = SysStatus;
-    return std::tuple(&M::sensors, &M::load, &M::voltage_battery, &M::current_battery, &M::errors,
-                      &M::battery_remaining, &M::sensors_extended);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.sensors, m.load, m.voltage_battery, m.current_battery, m.errors, m.battery_remaining,
+                    m.sensors_extended);
   }
 };
 
@@ -52,9 +50,8 @@ struct ParamRequestRead {
   std::int16_t param_index = -1;  ///< −1: by its name
   std::uint8_t target_system = 0, target_component = 0;
   Text<16> param_id{};
-  static constexpr auto fields() {
-    using M = ParamRequestRead;
-    return std::tuple(&M::param_index, &M::target_system, &M::target_component, &M::param_id);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.param_index, m.target_system, m.target_component, m.param_id);
   }
 };
 
@@ -65,9 +62,8 @@ struct ParamValue {
   std::uint16_t param_count = 0, param_index = 0;
   Text<16> param_id{};
   std::uint8_t param_type = 0;
-  static constexpr auto fields() {
-    using M = ParamValue;
-    return std::tuple(&M::param_value, &M::param_count, &M::param_index, &M::param_id, &M::param_type);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.param_value, m.param_count, m.param_index, m.param_id, m.param_type);
   }
 };
 
@@ -78,9 +74,8 @@ struct ParamSet {
   std::uint8_t target_system = 0, target_component = 0;
   Text<16> param_id{};
   std::uint8_t param_type = 0;
-  static constexpr auto fields() {
-    using M = ParamSet;
-    return std::tuple(&M::param_value, &M::target_system, &M::target_component, &M::param_id, &M::param_type);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.param_value, m.target_system, m.target_component, m.param_id, m.param_type);
   }
 };
 
@@ -91,10 +86,7 @@ struct AttitudeQuaternion {
   std::array<float, 4> q{};  ///< w x y z, FRD to NED
   std::array<float, 3> rates{};
   std::array<float, 4> repr_offset_q{};
-  static constexpr auto fields() {
-    using M = AttitudeQuaternion;
-    return std::tuple(&M::time_boot_ms, &M::q, &M::rates, &M::repr_offset_q);
-  }
+  static constexpr auto fields(auto& m) { return std::tie(m.time_boot_ms, m.q, m.rates, m.repr_offset_q); }
 };
 
 struct LocalPositionNed {
@@ -102,10 +94,7 @@ struct LocalPositionNed {
   static constexpr std::uint8_t kCrcExtra = 185, kLeastLength = 28;
   std::uint32_t time_boot_ms = 0;
   std::array<float, 3> p{}, v{};
-  static constexpr auto fields() {
-    using M = LocalPositionNed;
-    return std::tuple(&M::time_boot_ms, &M::p, &M::v);
-  }
+  static constexpr auto fields(auto& m) { return std::tie(m.time_boot_ms, m.p, m.v); }
 };
 
 struct GpsGlobalOrigin {
@@ -113,10 +102,7 @@ struct GpsGlobalOrigin {
   static constexpr std::uint8_t kCrcExtra = 39, kLeastLength = 12;
   std::int32_t latitude = 0, longitude = 0, altitude = 0;  ///< 1e-7 degrees, mm
   std::uint64_t time_usec = 0;
-  static constexpr auto fields() {
-    using M = GpsGlobalOrigin;
-    return std::tuple(&M::latitude, &M::longitude, &M::altitude, &M::time_usec);
-  }
+  static constexpr auto fields(auto& m) { return std::tie(m.latitude, m.longitude, m.altitude, m.time_usec); }
 };
 
 struct CommandLong {
@@ -125,9 +111,8 @@ struct CommandLong {
   std::array<float, 7> param{};
   std::uint16_t command = 0;
   std::uint8_t target_system = 0, target_component = 0, confirmation = 0;
-  static constexpr auto fields() {
-    using M = CommandLong;
-    return std::tuple(&M::param, &M::command, &M::target_system, &M::target_component, &M::confirmation);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.param, m.command, m.target_system, m.target_component, m.confirmation);
   }
 };
 
@@ -138,10 +123,8 @@ struct CommandAck {
   std::uint8_t result = 0, progress = 0;
   std::int32_t result_param2 = 0;
   std::uint8_t target_system = 0, target_component = 0;
-  static constexpr auto fields() {
-    using M = CommandAck;
-    return std::tuple(&M::command, &M::result, &M::progress, &M::result_param2, &M::target_system,
-                      &M::target_component);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.command, m.result, m.progress, m.result_param2, m.target_system, m.target_component);
   }
 };
 
@@ -153,10 +136,9 @@ struct SetPositionTargetLocalNed {
   float yaw = 0.0F, yaw_rate = 0.0F;
   std::uint16_t type_mask = 0;  ///< a set bit: that field does not count
   std::uint8_t target_system = 0, target_component = 0, coordinate_frame = 0;
-  static constexpr auto fields() {
-    using M = SetPositionTargetLocalNed;
-    return std::tuple(&M::time_boot_ms, &M::p, &M::v, &M::a, &M::yaw, &M::yaw_rate, &M::type_mask, &M::target_system,
-                      &M::target_component, &M::coordinate_frame);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.time_boot_ms, m.p, m.v, m.a, m.yaw, m.yaw_rate, m.type_mask, m.target_system, m.target_component,
+                    m.coordinate_frame);
   }
 };
 
@@ -165,10 +147,7 @@ struct Timesync {
   static constexpr std::uint8_t kCrcExtra = 34, kLeastLength = 16;
   std::int64_t tc1 = 0, ts1 = 0;  ///< ns; tc1 = 0: a question, answered with the own time in tc1 and ts1 copied
   std::uint8_t target_system = 0, target_component = 0;
-  static constexpr auto fields() {
-    using M = Timesync;
-    return std::tuple(&M::tc1, &M::ts1, &M::target_system, &M::target_component);
-  }
+  static constexpr auto fields(auto& m) { return std::tie(m.tc1, m.ts1, m.target_system, m.target_component); }
 };
 
 struct HilStateQuaternion {
@@ -181,10 +160,8 @@ struct HilStateQuaternion {
   std::array<std::int16_t, 3> v{};         ///< NED, cm/s
   std::uint16_t ind_airspeed = 0, true_airspeed = 0;
   std::array<std::int16_t, 3> acc{};  ///< milli-g
-  static constexpr auto fields() {
-    using M = HilStateQuaternion;
-    return std::tuple(&M::time_usec, &M::q, &M::rates, &M::lat, &M::lon, &M::alt, &M::v, &M::ind_airspeed,
-                      &M::true_airspeed, &M::acc);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.time_usec, m.q, m.rates, m.lat, m.lon, m.alt, m.v, m.ind_airspeed, m.true_airspeed, m.acc);
   }
 };
 
@@ -195,9 +172,8 @@ struct EstimatorStatus {
   std::array<float, 6> ratios{};  ///< vel, pos_horiz, pos_vert, mag, hagl, tas: innovations over what is still believed
   float pos_horiz_accuracy = 0.0F, pos_vert_accuracy = 0.0F;  ///< m
   std::uint16_t flags = 0;
-  static constexpr auto fields() {
-    using M = EstimatorStatus;
-    return std::tuple(&M::time_usec, &M::ratios, &M::pos_horiz_accuracy, &M::pos_vert_accuracy, &M::flags);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.time_usec, m.ratios, m.pos_horiz_accuracy, m.pos_vert_accuracy, m.flags);
   }
 };
 
@@ -205,10 +181,7 @@ struct ExtendedSysState {
   static constexpr std::uint32_t kId = 245;
   static constexpr std::uint8_t kCrcExtra = 130, kLeastLength = 2;
   std::uint8_t vtol_state = 0, landed_state = 0;
-  static constexpr auto fields() {
-    using M = ExtendedSysState;
-    return std::tuple(&M::vtol_state, &M::landed_state);
-  }
+  static constexpr auto fields(auto& m) { return std::tie(m.vtol_state, m.landed_state); }
 };
 
 struct StatusText {
@@ -218,10 +191,7 @@ struct StatusText {
   Text<50> text{};
   std::uint16_t id = 0;
   std::uint8_t chunk_seq = 0;
-  static constexpr auto fields() {
-    using M = StatusText;
-    return std::tuple(&M::severity, &M::text, &M::id, &M::chunk_seq);
-  }
+  static constexpr auto fields(auto& m) { return std::tie(m.severity, m.text, m.id, m.chunk_seq); }
 };
 
 struct Odometry {
@@ -234,10 +204,9 @@ struct Odometry {
   std::array<float, 21> pose_covariance{}, velocity_covariance{};
   std::uint8_t frame_id = 0, child_frame_id = 0, reset_counter = 0, estimator_type = 0;
   std::int8_t quality = 0;
-  static constexpr auto fields() {
-    using M = Odometry;
-    return std::tuple(&M::time_usec, &M::p, &M::q, &M::v, &M::rates, &M::pose_covariance, &M::velocity_covariance,
-                      &M::frame_id, &M::child_frame_id, &M::reset_counter, &M::estimator_type, &M::quality);
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.time_usec, m.p, m.q, m.v, m.rates, m.pose_covariance, m.velocity_covariance, m.frame_id,
+                    m.child_frame_id, m.reset_counter, m.estimator_type, m.quality);
   }
 };
 
@@ -248,9 +217,8 @@ using AllMessages = std::tuple<Heartbeat, SysStatus, ParamRequestRead, ParamValu
 /// Bytes of a message's fields together.
 template <class M>
 constexpr std::size_t length_of() {
-  return std::apply(
-      [](auto... member) { return (sizeof(std::remove_reference_t<decltype(std::declval<M>().*member)>) + ...); },
-      M::fields());
+  M message;
+  return std::apply([](const auto&... field) { return (sizeof(field) + ...); }, M::fields(message));
 }
 
 /// The payload, little-endian, uncut.
@@ -263,7 +231,7 @@ Frame to_frame(const M& message, Address from, std::uint8_t sequence) {
     std::memcpy(frame.payload.data() + at, &field, sizeof(field));
     at += sizeof(field);
   };
-  std::apply([&](auto... member) { (put(message.*member), ...); }, M::fields());
+  std::apply([&](const auto&... field) { (put(field), ...); }, M::fields(message));
   return frame;
 }
 
@@ -277,7 +245,7 @@ std::optional<M> from_frame(const Frame& frame) {
     std::memcpy(&field, frame.payload.data() + at, sizeof(field));
     at += sizeof(field);
   };
-  std::apply([&](auto... member) { (take(message.*member), ...); }, M::fields());
+  std::apply([&](auto&... field) { (take(field), ...); }, M::fields(message));
   return message;
 }
 

@@ -77,7 +77,7 @@ void check(const Recorded& r, const Frame& frame, std::type_identity<std::tuple<
     if (!message) return;
     ++kinds;
     std::vector<std::string> values;
-    std::apply([&](auto... member) { (append(values, (*message).*member), ...); }, T::fields());
+    std::apply([&](const auto&... field) { (append(values, field), ...); }, T::fields(*message));
     EXPECT_EQ(values, r.values) << T::kId;
     const Frame again = to_frame(*message, frame.from, frame.sequence);
     EXPECT_EQ(to_bytes(again, r.key ? &*r.key : nullptr, r.time), r.bytes) << T::kId;
