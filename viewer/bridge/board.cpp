@@ -21,14 +21,6 @@ void Board::post(Topic topic, std::string json) {
   entry.json = std::move(text);
 }
 
-bool Board::has_news(const Reader& reader) const {
-  const std::lock_guard lock(mutex_);
-  for (std::size_t k = 0; k < kTopics; ++k) {
-    if (entries_[k].version > reader.taken[k]) return true;
-  }
-  return false;
-}
-
 std::string Board::take(Reader& reader) const {
   std::array<std::shared_ptr<const std::string>, kTopics> news;
   bool any = false;

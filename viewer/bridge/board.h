@@ -47,7 +47,6 @@ class Board {
 
   /// @param json  a JSON value; "null" takes back what the topic said
   void post(Topic topic, std::string json);
-  [[nodiscard]] bool has_news(const Reader& reader) const;
   /// The next frame for this reader: {"frame": n, "dropped": k, topic: value …}; empty when there is nothing new. A new
   /// reader gets everything, and has dropped nothing.
   std::string take(Reader& reader) const;

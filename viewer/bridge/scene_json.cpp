@@ -55,6 +55,14 @@ void write_planes(JsonWriter& json, const Plan& plan, UTime t_s) {
   json.end_list();
 }
 
+/// A list of what `write` says of each, under its name.
+template <class T, class Write>
+void write_column(JsonWriter& json, const char* name, const std::vector<T>& all, const Write& write) {
+  json.key(name).begin_list();
+  for (const T& one : all) write(one);
+  json.end_list();
+}
+
 }  // namespace
 
 std::string state_json(const Scene& scene) {
@@ -73,11 +81,7 @@ std::string truth_json(const Scene& scene) {
   const ObstacleTruth& truth = *scene.truth();
   JsonWriter json;
   json.begin_object().key("at_us").integer(truth.at.us).key("left_out").integer(truth.left_out);
-  const auto column = [&](const char* name, auto&& write) {
-    json.key(name).begin_list();
-    for (const TrueObstacle& o : truth.obstacles) write(o);
-    json.end_list();
-  };
+  const auto column = [&](const char* name, const auto& write) { write_column(json, name, truth.obstacles, write); };
   column("id", [&](const TrueObstacle& o) { json.integer(o.id); });
   column("moves", [&](const TrueObstacle& o) { json.integer(o.moves ? 1 : 0); });
   column("p", [&](const TrueObstacle& o) { json.point(o.position); });
@@ -92,11 +96,7 @@ std::string tracks_json(const Scene& scene) {
   JsonWriter json;
   json.begin_object().key("at_us").integer(set.made_at.us).key("left_out").integer(set.left_out);
   json.key("confidence").number(set.confidence);
-  const auto column = [&](const char* name, auto&& write) {
-    json.key(name).begin_list();
-    for (const Track& t : set.tracks) write(t);
-    json.end_list();
-  };
+  const auto column = [&](const char* name, const auto& write) { write_column(json, name, set.tracks, write); };
   column("id", [&](const Track& t) { json.integer(t.id); });
   column("moves", [&](const Track& t) { json.integer(t.kind == TrackKind::Static ? 0 : 1); });
   column("p", [&](const Track& t) { json.point(t.motion.sample(set.made_at).p); });
@@ -124,12 +124,8 @@ std::string plan_json(const Scene& scene, bool planes) {
   JsonWriter json;
   json.begin_object().key("request").integer(plan.request_id).key("outcome").text(to_string(plan.outcome));
   json.key("reason").text(to_string(plan.reason)).key("hold_s").number(plan.hold.seconds());
-  json.key("confidence")
-      .number(plan.confidence)
-      .key("relaxed")
-      .flag(plan.relaxed)
-      .key("local_goal")
-      .vec3(plan.local_goal);
+  json.key("confidence").number(plan.confidence).key("relaxed").flag(plan.relaxed);
+  json.key("local_goal").vec3(plan.local_goal);
   json.key("radius").number(plan.sphere_radius).key("cost").number(plan.cost.total);
   json.key("certificate").integer(static_cast<std::int64_t>(plan.certificate.size()));
   if (plan.outcome != PlanOutcome::NoPlan) write_trajectory(json, plan.trajectory);
