@@ -1,12 +1,10 @@
 #include "campaign/recorded_flight.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +14,7 @@
 #include "flight_log/log_writer.h"
 #include "messages/codec.h"
 #include "monitor/app/hear_flight.h"
+#include "runtime/child_process.h"
 
 namespace tern {
 namespace {
@@ -95,19 +94,15 @@ FlightRecord make_record(const FlightSummary& summary, const ExecutorCounters& e
 
 /// @return "passed", "broken" or "failed".
 std::string run_audit(const std::string& audit, const std::string& folder) {
-  const std::string log = folder + "/flight.lcm", out = folder + "/audit.txt", json = folder + "/audit.json";
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  const char* arguments[] = {audit.c_str(), log.c_str(), "--json", json.c_str(), nullptr};
-  pid_t pid = 0;
-  const int error = posix_spawnp(&pid, audit.c_str(), &files, nullptr, const_cast<char* const*>(arguments), environ);
-  posix_spawn_file_actions_destroy(&files);
-  int status = 0;
-  if (error != 0 || waitpid(pid, &status, 0) != pid || !WIFEXITED(status)) return "failed";
-  if (WEXITSTATUS(status) == 0) return "passed";
-  return WEXITSTATUS(status) == 1 ? "broken" : "failed";
+  const std::string said = folder + "/audit.txt";
+  std::filesystem::remove(said);
+  const int out = open_log(said);
+  const pid_t child = start_child(
+      {.command = {audit, folder + "/flight.lcm", "--json", folder + "/audit.json"}, .out = out, .error = out});
+  close(out);
+  const ProcessEnd end = await_child(child);
+  if (end.signal != 0 || end.exit_code > 1) return "failed";
+  return end.exit_code == 0 ? "passed" : "broken";
 }
 
 /// What the audit counted. @throws std::runtime_error where it wrote what nobody can read.
