@@ -50,6 +50,8 @@ struct Array {
     }
   }
 };
+template <class M, class E>
+Array(std::int32_t M::*, std::vector<E> M::*, std::int32_t, std::int32_t) -> Array<M, E>;
 
 /// All arrays of M, in the order in which M declares their counts (first) and the arrays (last).
 template <class M, class... E>
