@@ -161,6 +161,16 @@ TEST_F(AuditOfALog, OfALoggerThatCameLateSaysSoAndBreaksNothing) {
   EXPECT_THAT(text(late), HasSubstr("lie before the log's first state or after its last"));
 }
 
+TEST_F(AuditOfALog, OfALoggerThatMissedTheFirstMapLacksNothingAsThatIsRepeated) {
+  const auto after_the_first = [](const auto& m) { return m.header.name.sequence > 1; };
+  const std::string log = with<MapChunk>(good(), channels::kSemanticMap.name, after_the_first);
+  const Audit audited = audit(log);
+  EXPECT_EQ(read_.contents.channels.at("SEMANTIC_MAP").before_first, 1);
+  EXPECT_THAT(audited.missing, IsEmpty());
+  EXPECT_THAT(audit(with<TrackSet>(log, channels::kPredictions.name, after_the_first)).missing,
+              Contains(HasSubstr("PREDICTIONS: the log lacks the first")));
+}
+
 TEST_F(AuditOfALog, WithoutTheFirstRequestsDoesNotKnowWhatWasCommittedBefore) {
   const Audit audited = audit(
       with<HorizonRequest>(good(), channels::kHorizonRequest.name, [](const HorizonRequest& r) { return r.id > 4; }));

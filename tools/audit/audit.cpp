@@ -42,9 +42,15 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
     if (!there) missing.push_back(fmt::format("no {}", needed.name));
   };
   for_each_channel(look_for, kNeeded);
+  // Of what is repeated the log's first message says as much as those before it.
+  const auto is_latched = [](const std::string& name) {
+    bool latched = false;
+    visit_channel(name, [&latched](const auto& channel) { latched = channel.latched; });
+    return latched;
+  };
   for (const auto& [name, channel] : log.channels) {
     if (channel.lost > 0) missing.push_back(fmt::format("{}: {} messages lost, by their numbers", name, channel.lost));
-    if (channel.before_first > 0) {
+    if (channel.before_first > 0 && !is_latched(name)) {
       missing.push_back(fmt::format("{}: the log lacks the first {} messages", name, channel.before_first));
     }
     std::int64_t refused = 0;
