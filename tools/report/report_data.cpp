@@ -251,7 +251,8 @@ json flight_of(const FlightRecord& record) {
   if (!record.goals.empty()) flight["goal"] = row(record.goals.back().position);
   if (!record.results.empty()) {
     const FlightResult& r = record.results.back();
-    const auto number = [](double x) { return std::isfinite(x) ? json(rounded(x)) : json(); };
+    // Whole: what is rounded twice would not be what the summary says.
+    const auto number = [](double x) { return std::isfinite(x) ? json(x) : json(); };
     flight["result"] = {{"outcome", to_string(r.outcome)},        {"detail", r.detail},
                         {"time_s", number(r.flight_time_s)},      {"path_m", number(r.path_length_m)},
                         {"mean_speed", number(r.mean_speed_mps)}, {"top_speed", number(r.top_speed_mps)},
@@ -265,7 +266,8 @@ json flight_of(const FlightRecord& record) {
     if (flight.contains("settings")) continue;
     for (const auto& [key, words] : kSettings) {
       const std::string value = setting(c.yaml, key);
-      if (!value.empty()) flight["settings"].push_back({words, value});
+      const bool has_generator = key != std::string_view("world.count") || value != "0";
+      if (!value.empty() && has_generator) flight["settings"].push_back({words, value});
     }
     flight["version"] = c.build_id;
   }

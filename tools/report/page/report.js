@@ -7,10 +7,11 @@ function head() {
   const verdict = { held: ["good", "audit held"], broken: ["bad", "audit broken"], "not checked": ["warn", "not audited"] }[audit.verdict];
   if (audit.collision === "cannot tell") verdict.splice(0, 2, "warn", "audit " + audit.verdict + ", the collision too close to tell");
   const date = flight.recorded_us > 1e15 ? new Date(flight.recorded_us / 1000).toISOString().slice(0, 16).replace("T", " ") + " UTC, " : "";
+  const met = result ? `, ${whole(result.obstacles)} obstacles` + (result.left_out ? ` (${whole(result.left_out)} left out: they began beside the vehicle)` : "") : "";
   main.append(el("header", {}, el("div", { class: "kind" }, "Tern flight report"),
     el("h1", {}, flight.scenario || "flight", el("span", { class: "badge " + tone }, outcome), el("span", { class: "badge " + verdict[0] }, verdict[1])),
     el("div", { class: "where" }, `${date}${fixed(flight.length_s, 1)} s recorded in ${flight.log}`),
-    flight.settings ? el("div", { class: "where" }, "Flown with: " + flight.settings.map(([key, value]) => `${key} ${value.includes(".inf") ? "none" : value}`).join(", ") + ` (SI); version ${flight.version}`) : null,
+    flight.settings ? el("div", { class: "where" }, "Flown with: " + flight.settings.map(([key, value]) => `${key} ${value.includes(".inf") ? "none" : value}`).join(", ") + ` (SI)${met}; version ${flight.version}`) : null,
     flight.command ? el("div", { class: "where" }, "Command: ", el("code", {}, flight.command)) : null,
     result && result.detail ? el("div", { class: "where" }, "Referee: " + result.detail) : null));
   const total = data.costs[0].ms;
