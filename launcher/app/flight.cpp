@@ -224,18 +224,43 @@ int watch_over(const FlightOptions& options, const fs::path& record) {
   return end.signal == 0 ? end.exit_code : give_up(record, fmt::format("tern-launch ended with {}", to_text(end)));
 }
 
+struct Awaited {
+  ProcessEnd end;
+  int told = 0;  ///< the signal by which the user ended it, or 0
+};
+
+/// Waits for a child. What would end tern-launch ends the child.
+Awaited await_unless_told(pid_t child) {
+  const sigset_t signals = block_signals();
+  while (true) {
+    if (const auto end = poll_child(child)) return {*end, 0};
+    const int signal = sigwaitinfo(&signals, nullptr);
+    if (signal <= 0 || signal == SIGCHLD) continue;
+    kill(child, SIGTERM);
+    return {await_child(child), signal};
+  }
+}
+
 /// What was asked for after the flight, from its log. @return the exit code after it
 int look_back(const FlightOptions& options, const fs::path& record, int code) {
+  int told = 0;
   const auto run = [&](std::vector<std::string> command, int out) {
     command.front() = options.programs + "/" + command.front();
-    return shell_code(await_child(start_child({.command = std::move(command), .out = out, .own_group = true})));
+    const auto [end, signal] =
+        await_unless_told(start_child({.command = std::move(command), .out = out, .own_group = true}));
+    told = signal;
+    return shell_code(end);
   };
   const std::string log = record / "flight.lcm", audit = record / "audit.txt";
   if (options.audit) {
-    code = audited(code, run({"tern-audit", log, "--json", record / "audit.json"}, open_log(audit)));
+    const int audit_code = run({"tern-audit", log, "--json", record / "audit.json"}, open_log(audit));
+    if (told != 0) return kExitSignalled + told;
+    code = audited(code, audit_code);
     say("\n{}", without_end(text_of(audit)));
   }
-  if (options.report && run({"tern-report", log, "-o", record / "report.html"}, STDOUT_FILENO) != 0) return kExitFailed;
+  if (options.report && run({"tern-report", log, "-o", record / "report.html"}, STDOUT_FILENO) != 0) {
+    return told != 0 ? kExitSignalled + told : kExitFailed;
+  }
   return code;
 }
 
@@ -253,15 +278,7 @@ pid_t play_again(const FlightOptions& options, const fs::path& record) {
 /// Until the user ends it, or it ends itself.
 void keep_playing(pid_t player, const std::string& url) {
   say("\nThe page plays the flight again, until Ctrl-C: {}", url);
-  const sigset_t signals = block_signals();
-  while (true) {
-    if (poll_child(player)) return;
-    const int signal = sigwaitinfo(&signals, nullptr);
-    if (signal <= 0 || signal == SIGCHLD) continue;
-    kill(player, SIGTERM);
-    (void)await_child(player);
-    return;
-  }
+  (void)await_unless_told(player);
 }
 
 }  // namespace
@@ -276,7 +293,8 @@ int fly(const FlightOptions& options) {
   int code = watch_over(options, *record);
   const bool is_played = options.view_fd && code < kExitSignalled && fs::exists(*record / "flight.lcm");
   const pid_t player = is_played ? play_again(options, *record) : 0;
-  if (code < kExitFailed && fs::exists(*record / "flight.lcm")) code = look_back(options, *record, code);
+  const bool is_over = code < kExitFailed || (options.allow_goals && code > kExitSignalled);
+  if (is_over && fs::exists(*record / "flight.lcm")) code = look_back(options, *record, code);
   if (code > kExitSignalled) say("\nEnded by a signal; what was recorded: {}", record->string());
   const fs::path summary = *record / "summary.json";
   if (code == kExitFailed && !fs::exists(summary)) {

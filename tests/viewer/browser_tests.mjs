@@ -1,4 +1,5 @@
 // browser_tests.mjs NAME: one test of tern-viewer's page in a headless Chromium.
+import { existsSync } from 'node:fs';
 import http from 'node:http';
 import { join } from 'node:path';
 import {
@@ -183,7 +184,7 @@ await run({
   async the_vehicle_flies_to_where_a_page_clicks_and_rests_there() {
     const record = join(work, 'flight');
     const pillar = new URL('pillar.yaml', import.meta.url).pathname;
-    const flight = startFlight('--view', '--allow-goals', '--record', record, '--scenario', pillar);
+    const flight = startFlight('--view', '--allow-goals', '--report', '--record', record, '--scenario', pillar);
     await eventually('the URL', () => /view +http/.test(flight.said) || flight.ended);
     const page = await openPage(/view +(\S+)/.exec(flight.said)[1]);
     await shows(page, 'the vehicle waits', (s) => s.vehicle && s.obstacles === 1);
@@ -201,7 +202,8 @@ await run({
       await shows(page, 'and seen there', (s) => Math.hypot(s.vehicle[0] - goal[0], s.vehicle[1] - goal[1]) < 0.12);
     }
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
-    await end(flight, 'SIGINT');
+    expect('Ctrl-C is how such a flight ends', (await end(flight, 'SIGINT')) === 130);
+    expect('it is drawn then, as it was asked for', existsSync(join(record, 'report.html')));
     const audit = start(`${TERN_BIN}/tern-audit`, [join(record, 'flight.lcm')]);
     await audit.gone;
     // A browser without a GPU takes the planner's core now and then: whether answers come in time, other tests ask.
