@@ -146,6 +146,22 @@ ctrl_c_ends_everything() {
   expect "the logger had the last word" has_text "ends with exit code 0" "$work/flight/tern-logger.log"
 }
 
+ctrl_c_ends_a_long_audit() {
+  mkdir "$work/bin"
+  ln -s "$TERN_BIN"/tern-* "$work/bin"
+  rm "$work/bin/tern-audit"
+  printf '#!/bin/sh\ntouch "%s"\nexec sleep 1000\n' "$work/looks" >"$work/bin/tern-audit"
+  chmod +x "$work/bin/tern-audit"
+  scenario=$root/scenarios/window.yaml
+  TERN_BIN=$work/bin start_flight flight --audit
+  eventually "the audit has begun" 60 test -e "$work/looks"
+  kill -INT -- "-$flight"
+  local code=0
+  wait "$flight" || code=$?
+  expect "the exit code $code" test "$code" = 130
+  eventually "nobody is left" 2 nobody_left
+}
+
 a_killed_launcher_leaves_no_orphan() {
   with_stubborn_planner
   start_flight flight
