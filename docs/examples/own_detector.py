@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """A detector of one's own: publishes a box that flies to and fro as OBSTACLE_OBSERVATIONS, 30 Hz, until Ctrl-C.
 
-Needs only the messages' Python types, which launch_scripts/build.sh python_types makes; LCM_DEFAULT_URL names the network:
+Needs only the messages' Python types, which launch_scripts/build.sh python_types makes. The flight's env.sh names the network
+(LCM_DEFAULT_URL) and its pace (TERN_PACE):
 PYTHONPATH=build/release/python python3 docs/examples/own_detector.py [KEY_FILE]
 Of a flight with keys it must be given the key (fly.sh --key FILE).
 """
@@ -17,10 +18,12 @@ import urllib.parse
 import tern_msgs as msgs
 
 VEHICLE = 1  # the role of sensors
+PACE = float(os.environ.get("TERN_PACE", 1))
+PACE_ORIGIN_US = 1_767_225_600_000_000  # since when the flight's clock shows PACE seconds for each of the system's
 
 
 def now_us():
-    return time.time_ns() // 1000
+    return int(PACE_ORIGIN_US + (time.time_ns() // 1000 - PACE_ORIGIN_US) * PACE)
 
 
 def signed(master, role, channel, message, header, suffix=""):
@@ -74,4 +77,4 @@ while True:
     box.half_extents, box.variance, box.track_id = vec3(0.4, 0.4, 0.4), vec3(1e-4, 1e-4, 1e-4), -1
     frame.detections, frame.detection_count = [box], 1  # none seen: publish the empty list, not nothing
     bus.publish("OBSTACLE_OBSERVATIONS", frame)
-    time.sleep(1 / 30)
+    time.sleep(1 / 30 / PACE)
