@@ -190,17 +190,22 @@ VoxelMap random_walls(Rng& rng) {
   return map;
 }
 
-RC_GTEST_PROP(AuditMap, ClearanceOfTheMapLiesWithinItsBounds, (std::uint64_t seed)) {
+struct MapCase {
+  FlightRecord record;
+  Audit audit;
+  Dense dense;  // by single voxels
+};
+MapCase flown_among_walls(std::uint64_t seed) {
   Rng rng(seed);
-  const Case c = random_case(rng);
+  Case c = random_case(rng);
   const TempFolder folder;
   const std::string path = folder.file("flight.lcm");
   { Recording recording(c, rng, path); }
-  FlightRecord record = read_flight(path).value();
+  MapCase made;
+  made.record = read_flight(path).value();
   const VoxelMap map = random_walls(rng);
-  record.maps[map.version] = map;
-  const Audit audit = audit_flight(record);
-  Case walls = c;
+  made.record.maps[map.version] = map;
+  made.audit = audit_flight(made.record);
   Scenario scenario;
   for (std::int64_t k = 0; k < map.grid.voxels(); ++k) {
     if (map.labels[static_cast<std::size_t>(k)] != VoxelLabel::Occupied) continue;
@@ -209,14 +214,27 @@ RC_GTEST_PROP(AuditMap, ClearanceOfTheMapLiesWithinItsBounds, (std::uint64_t see
     voxel.half_extents = Vec3::Constant(0.2);
     scenario.world.obstacles.push_back(voxel);
   }
-  walls.world = make_world(scenario, "").value();
-  const Dense dense = look_densely(walls, kZero, record.states.back().at);
+  c.world = make_world(scenario, "").value();
+  made.dense = look_densely(c, kZero, made.record.states.back().at);
+  return made;
+}
+
+RC_GTEST_PROP(AuditMap, ClearanceOfTheMapLiesWithinItsBounds, (std::uint64_t seed)) {
+  const auto [record, audit, dense] = flown_among_walls(seed);
   RC_LOG() << to_text(audit, record) << dense.least << "\n";
   RC_ASSERT(audit.least_of_map.known);
   // Voxels that touch are one box: an overlap is deeper in it.
   if (dense.least > 0.0) RC_ASSERT(audit.least_of_map.high >= dense.least - dense.slack - 1e-9);
   if (audit.least_of_map.proven) RC_ASSERT(audit.least_of_map.low <= dense.least + 1e-9);
   if (audit.check("map").broken > 0) RC_ASSERT(dense.least < 0.0);
+}
+
+TEST(AuditMap, TheDeepestOverlapCountsWhereTheBodyIsDeepInTwoWalls) {
+  for (const std::uint64_t seed : {28ULL, 14'669'610ULL, 59'066'242'470'765ULL}) {
+    const MapCase made = flown_among_walls(seed);
+    EXPECT_LT(made.dense.least, 0.0);
+    EXPECT_LE(made.audit.least_of_map.low, made.dense.least + 1e-9) << "seed " << seed;
+  }
 }
 
 TEST(AuditMap, IsNotJudgedWhereItChangedInFlight) {

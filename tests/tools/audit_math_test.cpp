@@ -7,6 +7,7 @@
 #include "tests/support/random_splines.h"
 #include "tools/audit/body_gap.h"
 #include "tools/audit/cubic.h"
+#include "tools/audit/plan_case.h"
 
 namespace tern::audit {
 namespace {
@@ -83,6 +84,24 @@ TEST(AuditHermite, ErrsByAnEighthOfTheJumpTimesTheSpanWhereVelocityJumpsInTheMid
   const Curve curve =
       hermite(UTime{0}, Vec3::Zero(), Vec3::UnitX(), UTime{1'000'000}, 1.5 * Vec3::UnitX(), 2.0 * Vec3::UnitX());
   EXPECT_NEAR(curve.p(0.5).x() - 0.5, 1.0 / 8.0, 1e-15);
+}
+
+TEST(AuditPredictedBox, OfTwoPiecesThatMeetTheLaterOneRules) {
+  Track track;
+  CubicPiece piece;
+  piece.duration = Duration{100'000};
+  track.motion.start = UTime{1'000'000};
+  track.motion.pieces = {piece, piece};
+  track.alpha = {Vec3::Constant(0.5), Vec3::Constant(0.1)};
+  const PredictedBox box(track, track.alpha);
+  const UTime joint = track.motion.start + piece.duration;
+  for (const double to : {0.0, 0.05}) {
+    const auto stretches = box.stretches(joint, 0.0, to);
+    ASSERT_EQ(stretches.size(), 1U) << to;
+    EXPECT_EQ(stretches.front().half, track.alpha[1]);
+  }
+  EXPECT_EQ(box.stretches(joint, -0.05, 0.05).size(), 2U);
+  EXPECT_EQ(box.stretches(joint + piece.duration, 0.0, 0.0).size(), 1U) << "its end";
 }
 
 }  // namespace

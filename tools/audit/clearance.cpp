@@ -278,7 +278,10 @@ std::vector<Wall> walls_of(const VoxelMap& map, const Watch& watch) {
   std::vector<Wall> walls;
   for (const Box& box : cover_with_boxes(map, false)) {
     Wall wall{-1 - static_cast<std::int64_t>(walls.size()), box, kFar};
-    for (const Box& b : flown) wall.at_least = std::min(wall.at_least, b.exteriorDistance(box) - reach);
+    for (const Box& b : flown) {
+      const double apart = b.exteriorDistance(box);
+      wall.at_least = std::min(wall.at_least, apart > 0.0 ? apart - reach : -kFar);  // inside, as deep as the box is
+    }
     walls.push_back(wall);
   }
   std::stable_sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.at_least < b.at_least; });

@@ -46,7 +46,9 @@ std::vector<PredictedBox::Stretch> PredictedBox::stretches(UTime origin, double 
     const double start = (curves_[k].from - origin).seconds();
     const double a = std::max(from - start, 0.0);
     const double b = std::min(to - start, curves_[k].length_s());
-    if (a <= b) all.push_back({curves_[k], a, b, half(k)});
+    // Where two pieces meet the later one rules.
+    const bool is_now = a == b && from == to && (b < curves_[k].length_s() || k + 1 == curves_.size());
+    if (a < b || is_now) all.push_back({curves_[k], a, b, half(k)});
   }
   if (to > last) {
     const Curve& end = curves_.back();
