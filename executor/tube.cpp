@@ -23,6 +23,15 @@ bool is_blocked(const Plan& plan) {
 
 }  // namespace
 
+Vec3 LastingError::add(const Vec3& error, UTime received) {
+  newest_.push_back({received, error});
+  while (newest_.size() > kFewest && received - newest_[1].received >= kLasting) newest_.pop_front();
+  if (newest_.size() < kFewest) return Vec3::Zero();
+  Vec3 least = error;
+  for (const Seen& seen : newest_) least = least.cwiseMin(seen.error);
+  return least;
+}
+
 void Tube::answered(const Plan& plan, bool rests, UTime at) {
   if (plan.outcome != PlanOutcome::NoPlan && plan.outcome != PlanOutcome::KeepCommitted) flown(at);
   if (rests && is_blocked(plan)) blocked(at);

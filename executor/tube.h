@@ -19,6 +19,25 @@ inline constexpr double kWidestTube = 2.0;
 /// An error of less is none, m: rounding, and a trajectory that the vehicle has not heard of yet.
 inline constexpr double kNothing = 1e-3;
 
+/// What all of the newest states show of an error, per axis: those of the last kLasting, kFewest at least. A state that
+/// tells another tale than those beside it, be it noise or a lie in the vehicle's name, shows nothing.
+class LastingError {
+ public:
+  static constexpr Duration kLasting{20'000};
+  static constexpr std::size_t kFewest = 3;
+  /// @param error  |measured − commanded| per axis, m
+  /// @param received  by the listener's clock: what the state says of its time may be wrong as well. Ascending
+  /// @return zero before kFewest states have come
+  Vec3 add(const Vec3& error, UTime received);
+
+ private:
+  struct Seen {
+    UTime received;
+    Vec3 error;
+  };
+  std::deque<Seen> newest_;
+};
+
 /// The tube from what was measured, per axis: kMargin times the split-conformal quantile of the largest errors of the
 /// last two minutes' seconds (errors of neighbouring instants are alike, those of whole seconds nearly exchangeable),
 /// plus three standard deviations of the estimate that the errors were measured by. Until there are kPrior seconds the

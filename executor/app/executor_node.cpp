@@ -20,8 +20,6 @@ constexpr Duration kRemembered{1'000'000};
 /// A vehicle that was slower for so long stands, or hovers.
 constexpr double kStillSpeed = 0.3;
 constexpr Duration kStillFor{200'000};
-/// A state far from its setpoint counts when another one goes on from it this much later, and none between is near.
-constexpr Duration kStrayedFor{20'000};
 /// After this long at rest what is measured is the error of hovering.
 constexpr Duration kSettled{1'000'000};
 
@@ -52,29 +50,14 @@ void ExecutorNode::wait_for_rest(const UavState& state) {
   if (state.at - *still_since_ >= kStillFor) begin(state);
 }
 
-bool ExecutorNode::is_confirmed(const UavState& state) {
-  if (strayed_) {
-    const double later_s = (state.at - strayed_->at).seconds();
-    const Vec3 led_to = strayed_->motion.p + later_s * strayed_->motion.v;
-    if (later_s >= 0.0 && (state.motion.p - led_to).norm() <= kRejoinBeyond) {
-      return state.at - strayed_->at >= kStrayedFor;
-    }
-  }
-  strayed_ = state;
-  return false;
-}
-
 void ExecutorNode::watch(const UavState& state) {
   look_if_held_up(bus_.received());
   if (look_from_ && state.at < *look_from_) return;  // what was, tells nothing of what the vehicle has heard since
   if (state.at < last_setpoint_ - kRemembered) return;
-  const Vec3 error = (state.motion.p - executor_->sample(state.at).p).cwiseAbs();
-  if (!(error.maxCoeff() > kRejoinBeyond)) {
-    strayed_.reset();
-  } else if (!is_confirmed(state)) {
-    return;
-  }
-  if (look_from_ && look(state, error)) return;
+  const Vec3 seen = (state.motion.p - executor_->sample(state.at).p).cwiseAbs();
+  const Vec3 error = lasting_.add(seen, bus_.received());
+  if (seen.maxCoeff() > kRejoinBeyond && !(error.maxCoeff() > kRejoinBeyond)) return;
+  if (look_from_ && look(state, seen)) return;
   if (!following_) {
     if (!was_following_) tube_.saw(error);
     if (error.maxCoeff() > kRejoinBeyond) rejoin(state);

@@ -56,8 +56,6 @@ class ExecutorNode final : public Node {
   void wait_for_rest(const UavState& state);
   void begin(const UavState& state);
   void watch(const UavState& state);
-  /// Whether a state that is far from its setpoint is no single message's word.
-  bool is_confirmed(const UavState& state);
   void rejoin(const UavState& state);
   /// Without a step for kSetpointSilence: a plan may have been adopted of which the vehicle has not heard.
   void look_if_held_up(UTime now);
@@ -83,8 +81,8 @@ class ExecutorNode final : public Node {
   Vec3 sigma_ = Vec3::Zero();  // of the estimate, m
   std::int64_t exits_ = 0;     // how often the vehicle has left its tube
   bool outside_ = false;
-  std::optional<UavState> strayed_;  ///< the first of those that are far from their setpoints
-  std::optional<Heading> heading_;   ///< once the executor has begun
+  LastingError lasting_;
+  std::optional<Heading> heading_;  ///< once the executor has begun
   UTime last_setpoint_;
   UTime next_setpoint_, next_goal_;
   UTime next_refusal_log_;

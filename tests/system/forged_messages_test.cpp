@@ -192,6 +192,30 @@ TEST_F(ForgedMessages, AGoalInTheVehiclesNameIsBelievedAsAnybodysIs) {
   EXPECT_LT(simulator().result()->flight_time_s, 18.0);
 }
 
+TEST_F(ForgedMessages, TwoStatesInTheVehiclesNameMoveNobody) {
+  Header header = forger_.next(channels::kUavState.name);
+  for (int k = 0; k < 2; ++k) {
+    UavState lie;
+    lie.at = runner().now() + Duration{30'000 * k};
+    lie.motion.p = executor().sample(runner().now()).p + Vec3(4.0, 1.0, 0.0);
+    forger_.send(channels::kUavState.name, lie, header);
+    ++header.name.sequence;
+  }
+  expect_undisturbed();
+  EXPECT_EQ(system_.executor().exits(), 0);
+}
+
+TEST_F(ForgedMessages, AStateInTheVehiclesNameThatIsALittleOffMakesNoTube) {
+  UavState lie;
+  lie.at = runner().now();
+  lie.motion = executor().sample(lie.at);
+  lie.motion.p.y() += 0.002;
+  forger_.send(channels::kUavState.name, lie, forger_.next(channels::kUavState.name));
+  fly(1.0);
+  EXPECT_EQ(executor().tube(), Vec3(Vec3::Zero()));
+  expect_undisturbed();
+}
+
 TEST_F(ForgedMessages, AVerdictOfAnotherSimulatorEndsNothing) {
   FlightResult result;
   result.outcome = FlightOutcome::Reached;
