@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "predictor/models/model_scores.h"
+
 namespace tern {
 namespace {
 
@@ -62,33 +64,42 @@ Calibration::Calibration(double confidence) {
     confidence_[level] = confidence_at(confidence, static_cast<int>(level));
   }
   for (auto& pool : pools_) pool.assign(kBands, NewestScores(kPoolScores));
+  for (Class& of : classes_) of.scores.assign(kBands, NewestScores(kOwnScores));
+  begin(WorldPace::Any);
+  refresh();
+}
+
+void Calibration::begin(WorldPace pace) {
+  pace_ = pace;
   for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
-    classes_[kind].scores.assign(kBands, NewestScores(kOwnScores));
     for (std::size_t level = 0; level < confidence_.size(); ++level) {
       const double scale =
           (level == 0 ? 1.0 : kFirstLevel) * (1.0 - confidence_[level]) / (1.0 - kConfidenceLevels[level]);
       for (std::size_t band = 0; band < kBands; ++band) {
-        classes_[kind].log_theta[level][band] = std::log(scale * prior_level(pace_, kind, band, level));
+        classes_[kind].log_theta[level][band] = std::log(scale * prior_level(pace, kind, band, level));
       }
     }
   }
   is_stale_.fill(true);
-  refresh();
 }
 
 double Calibration::allowed(std::size_t level, std::size_t band) const {
   return kAllowedShare[band] * (1.0 - confidence_[level]);
 }
 
+double Calibration::worth(std::size_t band) { return std::min(1.0, kScorePeriod / kBandEnds[band]); }
+
 double Calibration::margin(TrackClass kind, std::size_t band, double level) const {
   const auto row = static_cast<std::size_t>(kind);
   const NewestScores &own = classes_[row].scores[band], &pool = pools_[pool_of(kind)][band];
-  const double of_pool = kPoolWeight / (kPriorWeight + pool.size());
-  const double allowed = level * (kPoolWeight + own.size());
+  const double each = worth(band);
+  const double of_pool = kPoolWeight / (kPriorWeight + each * pool.size());
+  const double allowed = level * (kPoolWeight + each * own.size());
   double low = -kModelSigmas, high = kLargestMargin;
   for (int halving = 0; halving < kHalvings; ++halving) {
     const double q = 0.5 * (low + high);
-    const double above = of_pool * (kPriorWeight * prior_above(pace_, row, band, q) + pool.above(q)) + own.above(q);
+    const double above =
+        of_pool * (kPriorWeight * prior_above(pace_, row, band, q) + each * pool.above(q)) + each * own.above(q);
     (above <= allowed ? high : low) = q;
   }
   return high;
@@ -106,25 +117,16 @@ PerLevel Calibration::margins(TrackClass kind, double real) const {
 }
 
 void Calibration::set_pace(WorldPace pace) {
-  if (pace == pace_) return;
-  for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
-    for (std::size_t level = 0; level < confidence_.size(); ++level) {
-      for (std::size_t band = 0; band < kBands; ++band) {
-        const double ratio = prior_level(pace, kind, band, level) / prior_level(pace_, kind, band, level);
-        classes_[kind].log_theta[level][band] += std::log(ratio);
-      }
-    }
-  }
-  pace_ = pace;
-  is_stale_.fill(true);
+  if (pace != pace_) begin(pace);
 }
 
 void Calibration::add(TrackClass kind, std::size_t band, float score,
-                      const std::array<bool, kConfidenceLevels.size()>& broken) {
+                      const std::array<bool, kConfidenceLevels.size()>& broken, WorldPace made_in) {
   Class& of = classes_[static_cast<std::size_t>(kind)];
   if (pool_of(kind) == kPools - 1) of.scores[band].add(score);
   pools_[pool_of(kind)][band].add(score);
   is_stale_[pool_of(kind)] = true;
+  if (made_in != pace_) return;
   for (std::size_t level = 0; level < broken.size(); ++level) {
     const double share = allowed(level, band);
     double& log_theta = of.log_theta[level][band];

@@ -78,7 +78,8 @@ using PerLevel = std::array<PerBand<double>, kConfidenceLevels.size()>;
 /// Three distributions stand one upon the other in each band (Y. W. Teh et al., "Hierarchical Dirichlet processes",
 /// JASA 2006): the prior's of the class, the scores of all tracks, beside which the prior counts as kPriorWeight
 /// scores, and the class's own, beside which those two count as kPoolWeight. So a flight's first seconds tell what all
-/// its tracks are like, and the prior is hardly heard any more; a class with scores of its own goes by them.
+/// its tracks are like, and the prior is hardly heard any more; a class with scores of its own goes by them. Scores of
+/// spans that overlap are alike: one over the span t counts kScorePeriod/t.
 ///
 /// Level c breaks allowed(c, k) of its promises by the end of band k. The margin of a band is the one that the share θ
 /// of scores exceeds, and θ follows what became of promises at that level (adaptive conformal inference, on log θ so
@@ -100,17 +101,22 @@ class Calibration {
   /// Of all promises of a level, the share that may be broken by the end of a band: rises to 1 − its confidence at the
   /// horizon.
   [[nodiscard]] double allowed(std::size_t level, std::size_t band) const;
+  /// For how many independent scores one of a band counts: (0, 1].
+  [[nodiscard]] static double worth(std::size_t band);
   [[nodiscard]] const PerLevel& margins(TrackClass kind) const {
     return classes_[static_cast<std::size_t>(kind)].margins;
   }
   /// Of tracks of which only the share `real` exists: what does not exist breaks no promise. O(halvings · log scores).
   [[nodiscard]] PerLevel margins(TrackClass kind, double real) const;
-  /// Another prior rules from the next refresh() on. What θ has learnt stays: its ratio to the prior's, but for its
-  /// bounds (kLeastLevel, kLargestLevel), which the next add() applies.
+  /// Another prior rules from the next refresh() on. Scores stay; θ begins anew: that one prior was too wide says
+  /// nothing of the other.
   void set_pace(WorldPace pace);
   /// Counts from the next refresh() on.
-  /// @param broken by level: whether the promise that was made had been broken by the end of the band
-  void add(TrackClass kind, std::size_t band, float score, const std::array<bool, kConfidenceLevels.size()>& broken);
+  /// @param broken  by level: whether the promise that was made had been broken by the end of the band
+  /// @param made_in  what ruled when it was made: another prior's promises teach θ nothing
+  void add(TrackClass kind, std::size_t band, float score, const std::array<bool, kConfidenceLevels.size()>& broken,
+           WorldPace made_in);
+  [[nodiscard]] WorldPace pace() const { return pace_; }
   /// margins() by all that was added.
   void refresh();
 
@@ -119,6 +125,7 @@ class Calibration {
     std::vector<NewestScores> scores;  // by band; none where the class is all of its pool
     PerLevel log_theta, margins;
   };
+  void begin(WorldPace pace);
   /// The least q that at most the share `level` of the class's scores exceeds.
   [[nodiscard]] double margin(TrackClass kind, std::size_t band, double level) const;
 

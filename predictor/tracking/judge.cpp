@@ -143,6 +143,7 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   Issue issue;
   issue.at = at;
   issue.from = track.position;
+  issue.pace = calibration_.pace();
   issue.pool = pool_of(track, at, history.fastest);
   issue.score = -kModelSigmas;
   issue.half.fill(Vec3::Zero());
@@ -196,7 +197,7 @@ void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& h
   }
   if (kJudgedAhead[k] < kBandEnds[band]) return;
   const auto final_score = static_cast<float>(issue.score);
-  calibration_.add(issue.judged.kind, band, final_score, issue.broken);
+  calibration_.add(issue.judged.kind, band, final_score, issue.broken, issue.pace);
   issue.judged.scores[band] = final_score;
   issue.judged.bands = band + 1;
   issue.score = -kModelSigmas;

@@ -84,6 +84,7 @@ class Judge {
   struct Issue {
     UTime at;
     Vec3 from;  // where it was detected
+    WorldPace pace = WorldPace::Any;
     Judged judged;
     std::size_t pool = 0;
     std::size_t next = 0;  // of kJudgedAhead

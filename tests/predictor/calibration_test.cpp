@@ -18,12 +18,16 @@ namespace {
 double above(double q, std::size_t kind, std::size_t band, const std::vector<float>& own,
              const std::vector<float>& all) {
   const auto larger = [&](const std::vector<float>& scores) {
-    return static_cast<double>(
-        std::count_if(scores.begin(), scores.end(), [&](float s) { return static_cast<double>(s) > q; }));
+    return Calibration::worth(band) * static_cast<double>(std::count_if(scores.begin(), scores.end(), [&](float s) {
+             return static_cast<double>(s) > q;
+           }));
+  };
+  const auto count = [&](const std::vector<float>& scores) {
+    return Calibration::worth(band) * static_cast<double>(scores.size());
   };
   const double prior = Calibration::kPriorWeight * prior_above(WorldPace::Any, kind, band, q);
-  const double pool = (prior + larger(all)) / (Calibration::kPriorWeight + static_cast<double>(all.size()));
-  return (Calibration::kPoolWeight * pool + larger(own)) / (Calibration::kPoolWeight + static_cast<double>(own.size()));
+  const double pool = (prior + larger(all)) / (Calibration::kPriorWeight + count(all));
+  return (Calibration::kPoolWeight * pool + larger(own)) / (Calibration::kPoolWeight + count(own));
 }
 
 TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
@@ -37,7 +41,7 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
       const bool is_own = k % 3 == 0;
       all.push_back(static_cast<float>(rng.uniform(-1.5, 0.5)));
       if (is_own) own.push_back(all.back());
-      calibration.add(is_own ? TrackClass::CalmOld : TrackClass::LivelyOld, kBand, all.back(), {});
+      calibration.add(is_own ? TrackClass::CalmOld : TrackClass::LivelyOld, kBand, all.back(), {}, WorldPace::Any);
     }
     const auto newest = [](std::vector<float>& s, std::size_t most) {
       if (s.size() > most) s.erase(s.begin(), s.end() - static_cast<std::ptrdiff_t>(most));
@@ -59,6 +63,23 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
         EXPECT_GT(above(q - 1e-3, kKind, kBand, own, all), theta) << "less would do";
       }
     }
+  }
+}
+
+TEST(Calibration, WhatWasPromisedByAnotherPriorTeachesNothing) {
+  std::array<PerLevel, 2> margins;
+  for (const WorldPace made_in : {WorldPace::Any, WorldPace::Slow}) {
+    Rng rng(4);
+    Calibration calibration(0.99);
+    calibration.set_pace(WorldPace::Slow);
+    for (int k = 0; k < 100; ++k) {
+      calibration.add(TrackClass::New, 1, static_cast<float>(rng.uniform()), {}, made_in);
+    }
+    calibration.refresh();
+    margins[made_in == WorldPace::Slow ? 1 : 0] = calibration.margins(TrackClass::New);
+  }
+  for (std::size_t level = 1; level < kConfidenceLevels.size(); ++level) {
+    EXPECT_LT(margins[1][level][1], margins[0][level][1]) << "none was broken, so less will do";
   }
 }
 
@@ -120,7 +141,7 @@ TEST(Calibration, BreaksWhatItMayAtEachLevelWhateverTheWorldIs) {
           out[level] = out[level] || q > margins[level][band];
           broken[level][band] += promise >= kLearning && out[level] ? 1 : 0;
         }
-        calibration.add(TrackClass::CalmOld, band, static_cast<float>(q), out);
+        calibration.add(TrackClass::CalmOld, band, static_cast<float>(q), out, WorldPace::Any);
       }
       calibration.refresh();
     }
