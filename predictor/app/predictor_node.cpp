@@ -39,8 +39,21 @@ void PredictorNode::on_declared(const TrackSet& batch) {
   have_input(kDeclaredInput, declared.made_at);
 }
 
+bool PredictorNode::may_speak(const ObservationSet& observations, UTime now) {
+  std::erase_if(speakers_, [now](const auto& entry) { return now - entry.second.at > kSensorSilence; });
+  if (speakers_.size() >= kMaxInputs && !speakers_.contains(observations.sensor_id)) return true;
+  const std::int64_t epoch_us = observations.header.name.sender_epoch_us;
+  Speaker& speaker = speakers_.try_emplace(observations.sensor_id, Speaker{epoch_us, now}).first->second;
+  if (speaker.epoch_us == epoch_us) speaker.at = now;
+  return speaker.epoch_us == epoch_us;
+}
+
 void PredictorNode::on_observations(const ObservationSet& observations) {
   const std::string input = fmt::format("obstacle observations of sensor {}", observations.sensor_id);
+  if (!may_speak(observations, bus_.clock().now())) {
+    bus_.count_late(channels::kObstacleObservations);
+    return watch_.trouble("speakers", input + ": a second process sends some, which are not used", bus_.clock().now());
+  }
   ObservationSet usable = without_explained(observations, declared_);
   if (const std::size_t unusable = remove_unusable(usable); unusable > 0) {
     const std::string text = fmt::format("{}: {} detections whose standard deviation is above {} m are not used", input,

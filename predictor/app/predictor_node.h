@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,11 +19,15 @@
 
 namespace tern {
 
+/// So long must the process that speaks for a sensor be silent before another one is heard.
+inline constexpr Duration kSensorSilence{1'000'000};
+
 /// Publishes a complete set of predictions each period from the first input on, for ever: when inputs stop, made_at
 /// stays and the α of what was tracked grows, so that the planner sees for itself how old the world is. A world without
 /// obstacles is an empty set. made_at is the newest of the declared set's made_at and the observations' times, as far
-/// as the model uses them. What is too old or repeated is not used and counted as late; what is stamped in the future
-/// does not come through the bus.
+/// as the model uses them. What is too old or repeated is not used and counted as late, as is what another process says
+/// for a sensor whose own process was heard within kSensorSilence; what is stamped in the future does not come through
+/// the bus.
 ///
 /// Waiting until there is an input, while the newest is older than kInputsStopped, and while one that was used is
 /// silent for so long: a dead sensor beside another input does not show in made_at. Troubles (a repeated input, tracks
@@ -38,6 +43,8 @@ class PredictorNode final : public Node {
  private:
   void on_declared(const TrackSet& batch);
   void on_observations(const ObservationSet& observations);
+  /// Of a sensor one process is heard at a time, as on a channel with one speaker.
+  bool may_speak(const ObservationSet& observations, UTime now);
   void have_input(const std::string& input, UTime made_at);
   void publish(UTime now);
   [[nodiscard]] std::vector<Track> predictions(UTime now) const;
@@ -45,6 +52,11 @@ class PredictorNode final : public Node {
   Bus& bus_;
   PredictorConfig config_;
   InputWatch watch_;
+  struct Speaker {
+    std::int64_t epoch_us = 0;
+    UTime at;
+  };
+  std::map<std::int32_t, Speaker> speakers_;  // by sensor; none that has fallen silent
   BatchCollector<TrackSet> collector_;
   std::vector<Track> declared_;
   std::int32_t declared_left_out_ = 0;

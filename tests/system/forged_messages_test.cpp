@@ -288,6 +288,37 @@ TEST_F(ForgedMessages, ASecondPredictorForAWhileBlindsNobody) {
   expect_undisturbed();
 }
 
+TEST_F(ForgedMessages, AnotherProcessThatSpeaksForASensorMakesNoGhosts) {
+  VirtualSystem system(scenario_file("perception_only"), {"world.count=20", "uav.goal=[20, 0, 1]"});
+  Forger forger(system.runner());
+  std::int64_t ghosts = 0;
+  Header header{{1, 0}, {}};
+  ObservationSet last;
+  system.runner().observer().subscribe(channels::kObstacleObservations, [&](const ObservationSet& true_one) {
+    if (true_one.header.name.sender_epoch_us != 1) last = true_one;
+  });
+  const Vec3 ghost(-3.0, 0.0, 1.0);
+  system.runner().observer().subscribe(channels::kPredictions, [&](const TrackSet& set) {
+    for (const Track& track : set.tracks) {
+      ghosts += (track.motion.pieces.front().coefficients.col(3) - ghost).norm() < 0.5 ? 1 : 0;
+    }
+  });
+  for (int k = 0; k < 100; ++k) {
+    system.runner().run(system.runner().now() + Duration::from_seconds(0.033));
+    if (last.at == UTime{}) continue;
+    ObservationSet lie = last;
+    lie.at = system.runner().now();
+    lie.detections.assign(1, Detection{});
+    lie.detections.front().position = ghost;
+    lie.detections.front().half_extents = lie.detections.front().variance = Vec3::Constant(0.1);
+    ++header.name.sequence;
+    header.utime = lie.at;
+    forger.send(channels::kObstacleObservations.name, lie, header);
+  }
+  EXPECT_GT(header.name.sequence, 20);
+  EXPECT_EQ(ghosts, 0);
+}
+
 TEST_F(ForgedMessages, WhenTheFirstOfTwoPredictorsEndsTheOtherIsHeard) {
   runner().start("second", [](Bus& bus) { return std::make_unique<PredictorNode>(bus, PredictorConfig()); });
   fly(0.5);
