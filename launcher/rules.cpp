@@ -34,7 +34,7 @@ int judged(int monitor_code, bool has_summary) {
 int audited(int code, int audit_code) {
   if (audit_code == 0) return code;
   if (audit_code != 1) return kExitFailed;
-  return code == 1 ? code : kExitBroken;
+  return code == 1 || code == kExitFailed ? code : kExitBroken;
 }
 
 }  // namespace tern

@@ -37,7 +37,7 @@ std::string to_text(const ProcessEnd& end);
 /// the monitor's code is no judgement.
 int judged(int monitor_code, bool has_summary);
 
-/// The flight's exit code after tern-audit. @param code  before, 0 … 2  @param audit_code  0 held, 1 broken, else
+/// The flight's exit code after tern-audit. @param code  before, 0 … 3  @param audit_code  0 held, 1 broken, else
 /// failed
 int audited(int code, int audit_code);
 

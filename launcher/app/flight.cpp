@@ -256,7 +256,7 @@ int look_back(const FlightOptions& options, const fs::path& record, int code) {
     const int audit_code = run({"tern-audit", log, "--json", record / "audit.json"}, open_log(audit));
     if (told != 0) return kExitSignalled + told;
     code = audited(code, audit_code);
-    say("\n{}", without_end(text_of(audit)));
+    say("\n{}", code == kExitFailed ? "Audit: " + audit : without_end(text_of(audit)));
   }
   if (options.report && run({"tern-report", log, "-o", record / "report.html"}, STDOUT_FILENO) != 0) {
     return told != 0 ? kExitSignalled + told : kExitFailed;
@@ -293,7 +293,7 @@ int fly(const FlightOptions& options) {
   int code = watch_over(options, *record);
   const bool is_played = options.view_fd && code < kExitSignalled && fs::exists(*record / "flight.lcm");
   const pid_t player = is_played ? play_again(options, *record) : 0;
-  const bool is_over = code < kExitFailed || (options.allow_goals && code > kExitSignalled);
+  const bool is_over = code <= kExitFailed || (options.allow_goals && code > kExitSignalled);
   if (is_over && fs::exists(*record / "flight.lcm")) code = look_back(options, *record, code);
   if (code > kExitSignalled) say("\nEnded by a signal; what was recorded: {}", record->string());
   const fs::path summary = *record / "summary.json";

@@ -50,6 +50,7 @@ TEST(FlightExitCode, OfABrokenAuditGivesWayToACollision) {
   for (const int code : {0, 1, 2}) EXPECT_EQ(audited(code, 0), code);
   EXPECT_EQ(audited(0, 1), kExitBroken);
   EXPECT_EQ(audited(1, 1), 1);
+  EXPECT_EQ(audited(kExitFailed, 1), kExitFailed);
   EXPECT_EQ(audited(2, 1), kExitBroken);
   for (const int no_audit : {2, 70, 139}) EXPECT_EQ(audited(0, no_audit), kExitFailed);
 }
