@@ -25,7 +25,7 @@ class LastingError {
  public:
   static constexpr Duration kLasting{20'000};
   static constexpr std::size_t kFewest = 3;
-  /// @param error  |measured − commanded| per axis, m
+  /// @param error  per axis, m
   /// @param received  by the listener's clock: what the state says of its time may be wrong as well. Ascending
   /// @return zero before kFewest states have come
   Vec3 add(const Vec3& error, UTime received);

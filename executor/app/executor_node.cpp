@@ -55,7 +55,9 @@ void ExecutorNode::watch(const UavState& state) {
   if (look_from_ && state.at < *look_from_) return;  // what was, tells nothing of what the vehicle has heard since
   if (state.at < last_setpoint_ - kRemembered) return;
   const Vec3 seen = (state.motion.p - executor_->sample(state.at).p).cwiseAbs();
+  const Vec3 promised = executor_->promised(state.at);
   const Vec3 error = lasting_.add(seen, bus_.received());
+  const Vec3 beyond = seen - promised, before = std::exchange(beyond_, beyond);
   if (seen.maxCoeff() > kRejoinBeyond && !(error.maxCoeff() > kRejoinBeyond)) return;
   if (look_from_ && look(state, seen)) return;
   if (!following_) {
@@ -63,9 +65,8 @@ void ExecutorNode::watch(const UavState& state) {
     if (error.maxCoeff() > kRejoinBeyond) rejoin(state);
     return;
   }
-  const Vec3 beyond = error - executor_->promised(state.at);
-  const bool outside = (beyond.array() > kNothing).any();
-  const bool lost = beyond.maxCoeff() > kRejoinBeyond;
+  const bool outside = (beyond.cwiseMin(before).array() > kNothing).any();
+  const bool lost = (error - promised).maxCoeff() > kRejoinBeyond;
   if (!lost) tube_.add(error, executor_->at_rest(state.at - kSettled), state.at);
   if (outside) tube_.left(state.at);
   if (outside && !outside_) {
