@@ -81,6 +81,7 @@ std::vector<std::string> named_and_missing(const FlightRecord& record) {
     }
   }
   std::vector<std::string> missing;
+  missing.reserve(plans.size());
   for (const auto& [what, n] : plans) missing.push_back(fmt::format("{}: named by {} plans, not in the log", what, n));
   return missing;
 }
