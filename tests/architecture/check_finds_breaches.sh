@@ -23,6 +23,7 @@ planted() {
 }
 
 planted planner/x.cpp '#include <lcm/lcm-cpp.hpp>\n'
+planted planner/CMakeLists.txt 'file(GLOB found CONFIGURE_DEPENDS *.cpp)\n'
 planted planner/x.cpp '#include "tern_msgs/plan_t.hpp"\n'
 planted core/base/x.h '#include "core/world/track.h"\n'
 planted core/geometry/x.h '#include "core/splines/minvo.h"\n'

@@ -34,11 +34,11 @@ void Scene::hear(const UavState& message) {
 void Scene::remember_state() {
   if (memory_ == nullptr) return;
   memory_->events.hear(*state_);
+  const auto obstacles = clearance(), map = map_clearance();
+  memory_->events.hear_clearance(state_->at, obstacles, map);  // the least may lie where the history is thinned out
   if (!memory_->history.wants(channels::kUavState.name, state_->at)) return;
   memory_->history.add(*state_);
   remember(channels::kUavState.name, state_->at, numbers_of(detail_json(*this, {})));
-  const auto obstacles = clearance(), map = map_clearance();
-  memory_->events.hear_clearance(state_->at, obstacles, map);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const NumberFields fields{{"clearance.obstacles_m", obstacles.value_or(kNone)},
                             {"clearance.map_m", map.value_or(kNone)}};

@@ -67,7 +67,9 @@ function tables() {
     data.log.channels.map((c) => [c.name, whole(c.messages), fixed(c.bytes / 1e6, 2), whole(c.lost), whole(c.refused)]));
   const processes = card("Processes", null, row);
   table(processes, [["process", false], ["build", false]], data.log.processes.map((p) => [p.process, p.build]));
-  if (data.log.processes.length) processes.append(el("p", { class: "note" }, data.log.processes[0].platform));
+  // The planner's: its answers may differ by it (BLAS).
+  const planner = data.log.processes.find((p) => p.process === "tern-planner") || data.log.processes[0];
+  if (planner) processes.append(el("p", { class: "note" }, planner.platform));
   const rules = [];
   if (path.share > 1) rules.push(`states: one point for ${path.share}, with their greatest speed and acceleration and their least clearance`);
   if (obstacles.share > 1) rules.push(`obstacles: every ${obstacles.share}th sample`);
