@@ -1,4 +1,4 @@
-// tern-key: makes files of keys. A key is on no command line and in no environment.
+// tern-key: makes files of keys, and parts what a log holds by one. A key is on no command line and in no environment.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,8 +7,14 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <map>
 #include <string>
 
+#include "flight_log/flight_log.h"
+#include "flight_log/log_reader.h"
+#include "flight_log/log_writer.h"
+#include "runtime/authentication.h"
 #include "runtime/keys.h"
 
 namespace tern {
@@ -47,6 +53,54 @@ int derive(const std::string& master_path, const std::string& process, const std
   return write_file(path, KeyRing::derive(*master, process).spell());
 }
 
+/// Whether a message of a log is one that a holder of the flight's keys would have taken.
+class Sieve {
+ public:
+  Sieve(const Key& master, std::string suffix)
+      : keys_(KeyRing::derive(master, "tern-key")), suffix_(std::move(suffix)) {}
+
+  bool takes(const LogEvent& event) {
+    if (!event.channel.ends_with(suffix_)) return false;
+    const std::string channel = event.channel.substr(0, event.channel.size() - suffix_.size());
+    const UTime received{event.received_us};
+    return verify(event.data, keys_, guards_[event.channel], channel, event.channel, received).has_value();
+  }
+
+ private:
+  KeyRing keys_;
+  std::string suffix_;
+  std::map<std::string, ReplayGuard> guards_;
+};
+
+/// Copies what the key verifies into a log of its own. What a log of a flight with keys holds besides changed nothing
+/// in flight, but tools that read logs have no keys.
+int sift(const std::string& master_path, const std::string& log, const std::string& out, const std::string& suffix) {
+  const auto master = read_master_key(master_path);
+  if (!master) return complain(master.error().message);
+  if (std::filesystem::exists(out)) return complain(out + ": is there already");
+  auto writer = LogWriter::open(out, 0);
+  if (!writer) return complain(writer.error().message);
+  Sieve sieve(*master, suffix);
+  std::int64_t taken = 0, all = 0;
+  std::map<std::string, std::int64_t> refused;
+  for (const std::string& part : log_parts(log)) {
+    auto reader = LogReader::open(part);
+    if (!reader) return complain(reader.error().message);
+    for (auto event = reader->next(); event; event = reader->next(), ++all) {
+      if (!sieve.takes(*event)) {
+        ++refused[event->channel];
+        continue;
+      }
+      writer->append(event->channel, event->received_us, event->data);
+      ++taken;
+    }
+  }
+  if (const auto flushed = writer->flush(); !flushed) return complain(flushed.error().message);
+  fmt::print("{} of {} messages verify\n", taken, all);
+  for (const auto& [channel, count] : refused) fmt::print("  {}: {} do not\n", channel, count);
+  return 0;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Makes the keys by which Tern's processes sign their messages", "tern-key");
   app.require_subcommand(1);
@@ -57,12 +111,20 @@ int run(int argc, char** argv) {
   derive_command->add_option("MASTER", master)->required();
   derive_command->add_option("PROCESS", process, "As tern-planner")->required();
   derive_command->add_option("FILE", out)->required();
+  std::string log, suffix;
+  auto* const sift_command = app.add_subcommand("sift", "Copy the messages of a log that a master key verifies");
+  sift_command->add_option("MASTER", master)->required();
+  sift_command->add_option("LOG", log, "The log: a file (its parts are found), or the folder of flight.lcm")
+      ->required();
+  sift_command->add_option("OUT", out, "A log that is not there yet")->required();
+  sift_command->add_option("--channel-suffix", suffix, "What the vehicle's channels end with");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kExitMistake;
   }
   if (*make_command) return make(out);
+  if (*sift_command) return sift(master, log, out, suffix);
   return derive(master, process, out);
 }
 
