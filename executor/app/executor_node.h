@@ -30,9 +30,9 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// where the vehicle is: what it adopted last the vehicle may not have heard of. Who is not where he was committed to
 /// be gets a trajectory to rest from where he is.
 ///
-/// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves what was promised, by
-/// two states in turn, is said, widens it, and beyond kRejoinBeyond gets a trajectory to rest from where it is, from which the next plan goes
-/// on.
+/// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves what was promised,
+/// by two states in turn, is said, widens it, and beyond kRejoinBeyond gets a trajectory to rest from where it is, from
+/// which the next plan goes on.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);
