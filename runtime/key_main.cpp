@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "flight_log/flight_log.h"
 #include "flight_log/log_reader.h"
@@ -77,13 +78,17 @@ class Sieve {
 int sift(const std::string& master_path, const std::string& log, const std::string& out, const std::string& suffix) {
   const auto master = read_master_key(master_path);
   if (!master) return complain(master.error().message);
+  const std::vector<std::string> parts = log_parts(log);
+  for (const std::string& part : parts) {
+    if (const auto reader = LogReader::open(part); !reader) return complain(reader.error().message);
+  }
   if (std::filesystem::exists(out)) return complain(out + ": is there already");
   auto writer = LogWriter::open(out, 0);
   if (!writer) return complain(writer.error().message);
   Sieve sieve(*master, suffix);
   std::int64_t taken = 0, all = 0;
   std::map<std::string, std::int64_t> refused;
-  for (const std::string& part : log_parts(log)) {
+  for (const std::string& part : parts) {
     auto reader = LogReader::open(part);
     if (!reader) return complain(reader.error().message);
     for (auto event = reader->next(); event; event = reader->next(), ++all) {
@@ -93,6 +98,9 @@ int sift(const std::string& master_path, const std::string& log, const std::stri
       }
       writer->append(event->channel, event->received_us, event->data);
       ++taken;
+    }
+    if (const LogDamage& damage = reader->damage(); damage.places > 0 || damage.truncated) {
+      fmt::print("{}: damaged; {} bytes left out\n", part, damage.bytes);
     }
   }
   if (const auto flushed = writer->flush(); !flushed) return complain(flushed.error().message);

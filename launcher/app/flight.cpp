@@ -244,6 +244,7 @@ Awaited await_unless_told(pid_t child) {
 /// What was asked for after the flight, from its log. @return the exit code after it
 int look_back(const FlightOptions& options, const fs::path& record, int code) {
   int told = 0;
+  const bool has_failed = code == kExitFailed;  // then that is what the user has to read
   const auto run = [&](std::vector<std::string> command, int out) {
     command.front() = options.programs + "/" + command.front();
     const auto [end, signal] =
@@ -256,7 +257,7 @@ int look_back(const FlightOptions& options, const fs::path& record, int code) {
     const int audit_code = run({"tern-audit", log, "--json", record / "audit.json"}, open_log(audit));
     if (told != 0) return kExitSignalled + told;
     code = audited(code, audit_code);
-    say("\n{}", code == kExitFailed ? "Audit: " + audit : without_end(text_of(audit)));
+    say("\n{}", has_failed ? "Audit: " + audit : without_end(text_of(audit)));
   }
   if (options.report && run({"tern-report", log, "-o", record / "report.html"}, STDOUT_FILENO) != 0) {
     return told != 0 ? kExitSignalled + told : kExitFailed;
