@@ -105,23 +105,31 @@ std::string run_audit(const std::string& audit, const std::string& folder) {
   return end.exit_code == 0 ? "passed" : "broken";
 }
 
-/// What the audit counted. @throws std::runtime_error where it wrote what nobody can read.
-Coverage audited_coverage(const std::string& folder) {
+/// What the audit counted and measured. @throws std::runtime_error where it wrote what nobody can read.
+void take_measures(const std::string& folder, FlightRecord& record) {
   std::ifstream file(folder + "/audit.json");
-  if (!file) return {};
+  if (!file) return;
   const auto json = nlohmann::json::parse(file, nullptr, false);
   const auto sums = json.is_object() ? json.find("coverage_sums") : json.end();
   const auto coverage =
       sums != json.end() && sums->is_string() ? parse_coverage(sums->get<std::string>()) : std::nullopt;
   if (!coverage) throw std::runtime_error(folder + "/audit.json: no coverage_sums that can be read");
-  return *coverage;
+  record.coverage = *coverage;
+  for (const auto& check : json.value("checks", nlohmann::json::array())) {
+    const auto measures = check.value("measures", nlohmann::json::object());
+    const auto measure = [&](const char* name, double& value) { value = measures.value(name, value); };
+    measure("tracking_rmse_m", record.tracking.rmse_m);
+    measure("tracking_error_m", record.tracking.error_m);
+    measure("tube_m", record.tracking.tube_m);
+    measure("tube_margin_m", record.tracking.margin_m);
+  }
 }
 
 void audit(const Auditor& auditor, const std::string& folder, FlightRecord& record) {
   if (auditor.program.empty()) return;
   const std::string verdict = run_audit(auditor.program, folder);
   if (auditor.judges || verdict == "failed") record.audit = verdict;
-  if (verdict != "failed") record.coverage = audited_coverage(folder);
+  if (verdict != "failed") take_measures(folder, record);
 }
 
 }  // namespace

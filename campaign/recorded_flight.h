@@ -18,7 +18,8 @@ class CannotRecord : public std::runtime_error {
 inline constexpr int kExitCannotWrite = 3;
 
 /// A program that looks at each flight's log afterwards: "tern-audit LOG --json FILE". From FILE comes what it says of
-/// coverage (its key coverage_sums); a program that writes none says nothing.
+/// coverage (its key coverage_sums) and of tracking (measures of its check "tube"); a program that writes none says
+/// nothing.
 struct Auditor {
   std::string program;  ///< empty: none
   bool judges =

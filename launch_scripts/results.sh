@@ -22,8 +22,8 @@ mader_corridor_250 mader_corridor 250 200
 mader_own_limits_140 mader_corridor_own_limits 140 200
 sando_forest_50 sando_forest 50 200
 sando_forest_100 sando_forest 100 200
-quadrotor_corridor_100 quadrotor_corridor 100 1000
-quadrotor_forest_200 quadrotor_forest 200 200
+quadrotor_corridor_100 quadrotor_corridor 100 1000 --charge counts --audit $TERN_BIN/tern-audit
+quadrotor_forest_200 quadrotor_forest 200 200 --charge counts --audit $TERN_BIN/tern-audit
 "
 perception=""
 for world in perception_only,100 mader_perception_only,100 sando_perception,200 people_hermes_050,0 people_hermes_090,0 \

@@ -16,9 +16,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Records = std::vector<const FlightRecord*>;
 
-Distribution over(const Records& records, double FlightResult::*measure) {
+/// Of the numbers to which the member pointers lead, one after the other.
+template <class... Members>
+Distribution over(const Records& records, Members... path) {
   std::vector<double> numbers;
-  for (const FlightRecord* r : records) numbers.push_back(r->result.*measure);
+  for (const FlightRecord* r : records) numbers.push_back((*r.*....*path));
   return describe(std::move(numbers));
 }
 
@@ -61,6 +63,23 @@ void add_counts(CampaignSummary& s, const Records& all) {
   if (s.different < s.flights) return;
   s.success_ci95 = wilson_interval(s.successes, s.flights);
   s.contact_moving_ci95 = wilson_interval(moving, s.flights);
+}
+
+void add_measures(CampaignSummary& s, const Records& all, const Records& reached) {
+  constexpr auto kResult = &FlightRecord::result;
+  s.flight_time_s = over(reached, kResult, &FlightResult::flight_time_s);
+  s.first_entry_s = over(reached, kResult, &FlightResult::first_entry_s);
+  s.path_length_m = over(reached, kResult, &FlightResult::path_length_m);
+  s.mean_speed_mps = over(reached, kResult, &FlightResult::mean_speed_mps);
+  s.jerk_integral = over(reached, kResult, &FlightResult::jerk_integral);
+  s.top_speed_mps = over(all, kResult, &FlightResult::top_speed_mps);
+  s.min_clearance_m = over(all, kResult, &FlightResult::min_clearance_m);
+  s.min_map_clearance_m = over(all, kResult, &FlightResult::min_map_clearance_m);
+  constexpr auto kTracking = &FlightRecord::tracking;
+  s.tracking_rmse_m = over(all, kTracking, &Tracking::rmse_m);
+  s.tracking_error_m = over(all, kTracking, &Tracking::error_m);
+  s.tube_m = over(all, kTracking, &Tracking::tube_m);
+  s.tube_margin_m = over(all, kTracking, &Tracking::margin_m);
 }
 
 void add_exposure(CampaignSummary& s, const Records& all) {
@@ -177,14 +196,7 @@ CampaignSummary summarize(const Flights& flights) {
   s.different = different_flights(flights.records);
   count_outcomes(s, all);
   add_counts(s, all);
-  s.flight_time_s = over(reached, &FlightResult::flight_time_s);
-  s.first_entry_s = over(reached, &FlightResult::first_entry_s);
-  s.path_length_m = over(reached, &FlightResult::path_length_m);
-  s.mean_speed_mps = over(reached, &FlightResult::mean_speed_mps);
-  s.jerk_integral = over(reached, &FlightResult::jerk_integral);
-  s.top_speed_mps = over(all, &FlightResult::top_speed_mps);
-  s.min_clearance_m = over(all, &FlightResult::min_clearance_m);
-  s.min_map_clearance_m = over(all, &FlightResult::min_map_clearance_m);
+  add_measures(s, all, reached);
   add_exposure(s, all);
   add_times(s, flights);
   add_coverage(s, all);
@@ -213,6 +225,10 @@ std::string to_json(const CampaignSummary& s, const std::string& command) {
       {"min_clearance_m", to_json(s.min_clearance_m)},
       {"min_map_clearance_m", to_json(s.min_map_clearance_m)},
       {"jerk_integral", to_json(s.jerk_integral)},
+      {"tracking_rmse_m", to_json(s.tracking_rmse_m)},
+      {"tracking_error_m", to_json(s.tracking_error_m)},
+      {"tube_m", to_json(s.tube_m)},
+      {"tube_margin_m", to_json(s.tube_margin_m)},
       {"stops", s.stops},
       {"flights_with_stops", s.flights_with_stops},
       {"limit_violations", s.limit_violations},
@@ -260,6 +276,8 @@ std::string to_text(const CampaignSummary& s) {
   row("mean_speed_mps", s.mean_speed_mps), row("top_speed_mps", s.top_speed_mps);
   row("min_clearance_m", s.min_clearance_m), row("min_map_clearance_m", s.min_map_clearance_m);
   row("jerk_integral", s.jerk_integral);
+  row("tracking_rmse_m", s.tracking_rmse_m), row("tracking_error_m", s.tracking_error_m);
+  row("tube_m", s.tube_m), row("tube_margin_m", s.tube_margin_m);
   for (std::size_t k = 0; k < kMeasuredTimes.size(); ++k) row(kMeasuredTimes[k], s.times[k]);
   for (const auto& [region, e] : s.exposure) row(fmt::format("{} m", region).c_str(), e.metres);
   text += fmt::format("  stops {} in {} flights, limit violations {}, requests {}, deadlines missed {}\n", s.stops,

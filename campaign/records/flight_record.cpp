@@ -181,6 +181,16 @@ void add_times(std::vector<Column>& columns) {
   }
 }
 
+void add_tracking(std::vector<Column>& columns) {
+  const auto add = [&](const char* name, const char* meaning, double Tracking::*member) {
+    columns.push_back(column(name, meaning, Compared::Reached, &FlightRecord::tracking, member));
+  };
+  add("tracking_rmse_m", "of --audit: RMSE of the vehicle about its setpoints, m", &Tracking::rmse_m);
+  add("tracking_error_m", "of --audit: its greatest distance to them, m", &Tracking::error_m);
+  add("tube_m", "of --audit: greatest half-width of the tubes that were promised, m", &Tracking::tube_m);
+  add("tube_margin_m", "of --audit: least distance left to a tube's face, negative outside, m", &Tracking::margin_m);
+}
+
 std::vector<Column> make_columns() {
   using R = FlightRecord;
   constexpr Compared kNo = Compared::No;
@@ -195,6 +205,7 @@ std::vector<Column> make_columns() {
   columns.push_back(column("exposure", "JSON, per region: seconds and metres inside and within 1 m", kNo, &R::result,
                            &FlightResult::exposure));
   columns.push_back(column("messages", "JSON, per channel: received, rejected, lost", kNo, &R::messages));
+  add_tracking(columns);
   columns.push_back(
       column("coverage",
              "JSON of --audit or --coverage, per class and time ahead: predictions, mean half-width m, kept "

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -31,6 +32,14 @@ struct CampaignIdentity {
 /// The fields in which they differ, as text: `scenario "a" against "b"`; "" when they are equal.
 std::string difference(const CampaignIdentity& a, const CampaignIdentity& b);
 
+/// How the vehicle followed its setpoints, by the audit; NaN when none was asked for.
+struct Tracking {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  double rmse_m = kNone, error_m = kNone;  ///< of its distance to them: RMSE and greatest
+  double tube_m = kNone;                   ///< greatest half-width of the tubes that were promised
+  double margin_m = kNone;                 ///< least distance that was left to a tube's face, negative outside
+};
+
 struct FlightRecord {
   CampaignIdentity identity;
   std::uint64_t seed = 0;
@@ -42,6 +51,7 @@ struct FlightRecord {
   ReplanTimes replan_ms;  ///< NaN where times are not charged: they would differ from run to run
   std::map<std::string, MessageCount> messages;
   std::int64_t restarts = 0;
+  Tracking tracking;
   Coverage coverage;  ///< of predictions, by the audit; nothing when none was asked for
   std::string audit;  ///< "passed", "broken", "failed"; "" when none was asked for
   std::string log;    ///< of a failed flight: its log, relative to the campaign's failures

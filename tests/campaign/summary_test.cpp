@@ -55,6 +55,15 @@ TEST(CampaignSummary, SumsPromisesAndClaimsOverFlights) {
   EXPECT_EQ(json["coverage"][0]["broken"], true);
 }
 
+TEST(CampaignSummary, SaysHowTheVehicleFollowedOfAuditedFlights) {
+  Flights flights = thirty_flights();
+  flights.records[7].tracking = {};
+  const CampaignSummary s = summarize(flights);
+  EXPECT_EQ(s.tracking_rmse_m.count, 29);
+  EXPECT_EQ(s.tube_m.max, 0.25);
+  EXPECT_NEAR(s.tube_margin_m.min, 0.1 / 30.0, 1e-12);
+}
+
 TEST(CampaignSummary, ALimitBrokenIsNoSuccess) {
   Flights flights;
   flights.records[1] = some_flight(1);
