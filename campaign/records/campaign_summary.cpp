@@ -144,6 +144,13 @@ Json exposure_json(const CampaignSummary& s) {
   return regions;
 }
 
+void add_tracking(Json& json, const CampaignSummary& s) {
+  json["tracking_rmse_m"] = to_json(s.tracking_rmse_m);
+  json["tracking_error_m"] = to_json(s.tracking_error_m);
+  json["tube_m"] = to_json(s.tube_m);
+  json["tube_margin_m"] = to_json(s.tube_margin_m);
+}
+
 Json coverage_json(const CampaignSummary& s) {
   Json shares = Json::array();
   for (const KeptShare& k : s.coverage) {
@@ -225,10 +232,6 @@ std::string to_json(const CampaignSummary& s, const std::string& command) {
       {"min_clearance_m", to_json(s.min_clearance_m)},
       {"min_map_clearance_m", to_json(s.min_map_clearance_m)},
       {"jerk_integral", to_json(s.jerk_integral)},
-      {"tracking_rmse_m", to_json(s.tracking_rmse_m)},
-      {"tracking_error_m", to_json(s.tracking_error_m)},
-      {"tube_m", to_json(s.tube_m)},
-      {"tube_margin_m", to_json(s.tube_margin_m)},
       {"stops", s.stops},
       {"flights_with_stops", s.flights_with_stops},
       {"limit_violations", s.limit_violations},
@@ -244,6 +247,7 @@ std::string to_json(const CampaignSummary& s, const std::string& command) {
       {"timed_flights", s.timed_flights},
   };
   for (std::size_t k = 0; k < kMeasuredTimes.size(); ++k) json[kMeasuredTimes[k]] = to_json(s.times[k]);
+  add_tracking(json, s);
   json["exposure"] = exposure_json(s);
   json["audits"] = s.audits;
   json["coverage"] = coverage_json(s);
