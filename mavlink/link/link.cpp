@@ -51,8 +51,9 @@ bool introduces_autopilot(std::span<const std::uint8_t> bytes) {
 
 class UdpLink final : public Link {
  public:
-  UdpLink(Descriptor socket, std::optional<sockaddr_in> peer)
-      : socket_(std::move(socket)), peer_(peer), fixed_(peer.has_value()) {}
+  /// @param peer  nullopt: who first introduces itself  @param hears_all  and not the peer alone
+  UdpLink(Descriptor socket, std::optional<sockaddr_in> peer, bool hears_all)
+      : socket_(std::move(socket)), peer_(peer), fixed_(peer.has_value()), hears_all_(hears_all) {}
 
   std::optional<Portion> receive(UTime now) override {
     Portion portion{Bytes(kLargest), {}};
@@ -80,9 +81,9 @@ class UdpLink final : public Link {
 
  private:
   bool is_peer(const sockaddr_in& from, std::span<const std::uint8_t> bytes, UTime now) {
-    if (fixed_) return true;
+    if (hears_all_) return true;
     const bool same = peer_ && from.sin_port == peer_->sin_port && from.sin_addr.s_addr == peer_->sin_addr.s_addr;
-    if (same) return true;
+    if (same || fixed_) return same;
     if ((peer_ && now - last_ < kPeerSilence) || !introduces_autopilot(bytes)) return false;
     peer_ = from;
     return true;
@@ -111,7 +112,7 @@ class UdpLink final : public Link {
 
   Descriptor socket_;
   std::optional<sockaddr_in> peer_;
-  bool fixed_;
+  bool fixed_, hears_all_;
   UTime last_;
   std::int64_t strangers_ = 0;
 };
@@ -144,24 +145,29 @@ std::optional<std::pair<std::string, int>> split(const std::string& text) {
   return std::pair(text.substr(0, colon), number);
 }
 
-Result<std::unique_ptr<Link>> open_udp(const std::string& url, const std::string& place, bool listens) {
+std::optional<sockaddr_in> address_of(const std::string& place) {
   const auto parts = split(place);
   sockaddr_in address{};
   address.sin_family = AF_INET;
-  if (!parts || parts->second > 65535 || inet_pton(AF_INET, parts->first.c_str(), &address.sin_addr) != 1) {
-    return fail(url + ": not ADDRESS:PORT with a numeric IPv4 address");
-  }
+  if (!parts || parts->second > 65535 || inet_pton(AF_INET, parts->first.c_str(), &address.sin_addr) != 1) return {};
   address.sin_port = htons(static_cast<std::uint16_t>(parts->second));
+  return address;
+}
+
+/// @param here  where it listens; nullopt: at any port  @param there  its peer; nullopt: who speaks first
+Result<std::unique_ptr<Link>> open_udp(const std::string& url, const std::optional<std::string>& here,
+                                       const std::optional<std::string>& there) {
+  const auto own = here ? address_of(*here) : std::nullopt, peer = there ? address_of(*there) : std::nullopt;
+  if ((here && !own) || (there && !peer)) return fail(url + ": not ADDRESS:PORT with a numeric IPv4 address");
   Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (socket.get() < 0) return fail(url + ": " + std::strerror(errno));
   const int stamped = 1;
   setsockopt(socket.get(), SOL_SOCKET, SO_TIMESTAMP, &stamped, sizeof(stamped));
-  if (!listens) return std::make_unique<UdpLink>(std::move(socket), address);
-  if (bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+  if (own && bind(socket.get(), reinterpret_cast<const sockaddr*>(&*own), sizeof(*own)) != 0) {
     return fail(fmt::format("{}: {}{}", url, std::strerror(errno),
                             errno == EADDRINUSE ? ": another bridge or ground station listens there" : ""));
   }
-  return std::make_unique<UdpLink>(std::move(socket), std::nullopt);
+  return std::make_unique<UdpLink>(std::move(socket), peer, !own);
 }
 
 Result<std::unique_ptr<Link>> open_serial(const std::string& url, const std::string& place) {
@@ -190,8 +196,12 @@ Result<std::unique_ptr<Link>> open_link(const std::string& url) {
     if (!url.starts_with(scheme)) return std::nullopt;
     return url.substr(scheme.size());
   };
-  if (const auto place = after("udp://")) return open_udp(url, *place, true);
-  if (const auto place = after("udpout://")) return open_udp(url, *place, false);
+  if (const auto place = after("udp://")) {
+    const std::size_t at = place->find('@');
+    if (at == std::string::npos) return open_udp(url, *place, {});
+    return open_udp(url, place->substr(0, at), place->substr(at + 1));
+  }
+  if (const auto place = after("udpout://")) return open_udp(url, {}, *place);
   if (const auto place = after("serial://")) return open_serial(url, *place);
   return fail(url + ": neither udp://, udpout:// nor serial://");
 }

@@ -33,8 +33,10 @@ class Link {
 };
 
 /// udp://ADDRESS:PORT listens there, as PX4 expects it of a companion computer; the peer is who first sends an
-/// autopilot's HEARTBEAT, and again after 3 s of its silence. udpout://ADDRESS:PORT speaks to that place first.
-/// serial:///dev/NAME:BAUD is a serial port, raw, 8N1. ADDRESS is numeric.
+/// autopilot's HEARTBEAT, and again after 3 s of its silence. udp://ADDRESS:PORT@ADDRESS:PORT listens at the first
+/// place and speaks to the second, who is the peer: to an autopilot that answers the first who speaks to it, and ever
+/// after that port alone (PX4 does). udpout://ADDRESS:PORT speaks to that place, from any port. serial:///dev/NAME:BAUD
+/// is a serial port, raw, 8N1. ADDRESS is numeric.
 Result<std::unique_ptr<Link>> open_link(const std::string& url);
 
 }  // namespace tern::mavlink
