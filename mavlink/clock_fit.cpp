@@ -8,6 +8,8 @@ namespace {
 
 /// Below this span a rate is noise.
 constexpr double kRateSpan_us = 1e6;
+/// A clock that is off by more is another one.
+constexpr Duration kRestart{1'000'000};
 /// Queues that are shorter than this are none.
 constexpr Duration kQueue{1'000};
 
@@ -18,7 +20,14 @@ void ClockFit::add(UTime sent, std::int64_t theirs_us, UTime received) {
   const UTime middle{sent.us + (received.us - sent.us) / 2};
   if (const auto expected = ours(theirs_us)) {
     const Duration off = middle - *expected;
-    if (off > kStep || off < kStep * -1) exchanges_.clear();
+    // An exchange that waited tells the offset to half its round trip only; a rate is unknown at first.
+    const Duration span = middle - exchanges_.front().middle, unknown{rate_is_known_ ? 0 : span.us / 2};
+    const Duration most = kStep + (middle - sent) + unknown;
+    if (off > kRestart || off < kRestart * -1) {
+      exchanges_.clear();
+    } else if (off > most || off < most * -1) {
+      while (exchanges_.size() >= kLeast) exchanges_.pop_front();
+    }
   }
   exchanges_.push_back({middle, theirs_us, received - sent});
   while (exchanges_.front().middle + kWindow < middle) exchanges_.pop_front();
@@ -43,7 +52,8 @@ void ClockFit::fit() {
     first = std::min(first, dx), last = std::max(last, dx);
   }
   const double spread = xx - x * x / n;
-  rate_ = last - first >= kRateSpan_us ? (xy - x * y / n) / spread : 1.0;
+  rate_is_known_ = last - first >= kRateSpan_us;
+  rate_ = rate_is_known_ ? (xy - x * y / n) / spread : 1.0;
   theirs_origin_us_ = static_cast<double>(theirs_origin) + (y - rate_ * x) / n;
 }
 

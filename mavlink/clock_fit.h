@@ -11,7 +11,8 @@ namespace tern::mavlink {
 
 /// Its time as a line over ours, fitted to the exchanges of the last kWindow whose round trip is short: the offset of
 /// one is known to half its round trip, its clock may run another rate (1 % was seen). An exchange that is off the line
-/// by more than kStep begins anew: the autopilot has restarted.
+/// by more than kStep and half its round trip leaves the latest ones only, since the rate has changed; one that is off
+/// by more than a second begins anew: the autopilot has restarted.
 class ClockFit {
  public:
   static constexpr Duration kWindow{10'000'000};
@@ -38,6 +39,7 @@ class ClockFit {
   UTime origin_;  // the line: theirs = theirs_origin_us_ + rate_ (ours − origin_)
   double theirs_origin_us_ = 0.0;
   double rate_ = 1.0;
+  bool rate_is_known_ = false;
 };
 
 }  // namespace tern::mavlink
