@@ -11,7 +11,7 @@ namespace {
 std::vector<std::string> overrides_of(const FlightOptions& options) {
   std::vector<std::string> values;
   if (!options.autopilot.empty()) {
-    values = {"simulator.vehicle=external", "simulator.wait_s=120", "mavlink.start=arm",
+    values = {"simulator.vehicle=external", "simulator.wait_s=180", "mavlink.start=arm",
               "simulator.wait_for=tern-mavlink, tern-executor, tern-predictor, tern-mapper, tern-planner"};
   }
   if (options.default_dynamics) values.emplace_back(kAutopilotDynamics);

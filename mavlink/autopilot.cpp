@@ -16,10 +16,12 @@ constexpr std::uint8_t kInt32 = 6;
 constexpr std::uint8_t kFrameLocalNed = 1;
 constexpr std::uint8_t kOnGround = 1;
 constexpr std::uint8_t kWarning = 4;
+/// MAV_STATE: while armed, PX4 says this in a failsafe.
+constexpr std::uint8_t kCritical = 5;
 constexpr Duration kOdometryRules{500'000};
 /// Answers and texts that wait at most.
 constexpr std::size_t kMostWaiting = 64;
-constexpr std::size_t kMostParameters = 4096;
+constexpr std::size_t kMostParameters = 4096, kLongestText = 400;
 
 /// ESTIMATOR_STATUS_FLAGS.
 constexpr unsigned kVelocity = 2, kPositionRelative = 8, kPositionAbsolute = 16, kAccelerometerWrong = 2048;
@@ -84,6 +86,27 @@ bool Autopilot::follows() const { return mode() == (firmware() == Firmware::Ardu
 
 bool Autopilot::landing() const { return mode() == (firmware() == Firmware::ArduPilot ? "LAND" : "AUTO.LAND"); }
 
+bool Autopilot::in_failsafe() const { return armed() && heartbeat_.system_status == kCritical; }
+
+std::string Autopilot::last_warning() const {
+  const bool says_no_reason = warning_.starts_with("Arming denied") && !failed_check_.empty();
+  return says_no_reason ? warning_ + "; " + failed_check_ : warning_;
+}
+
+void Autopilot::hear_text(const StatusText& chunk) {
+  // Longer texts come in chunks of one id, the last one zero-terminated.
+  if (chunk.id == 0 || chunk.id != text_id_ || chunk.chunk_seq == 0) text_.clear();
+  text_id_ = chunk.id;
+  const std::string_view bytes = bytes_of(chunk.text);
+  text_ += bytes;
+  if (chunk.id != 0 && bytes.size() == chunk.text.size() && text_.size() < kLongestText) return;
+  const std::string words = printable(std::exchange(text_, {}));
+  keep(texts_, words);
+  if (chunk.severity > kWarning) return;
+  warning_ = words;
+  if (words.starts_with("Preflight Fail")) failed_check_ = words;
+}
+
 bool Autopilot::hear(const Frame& frame, UTime received) {
   const auto heartbeat = from_frame<Heartbeat>(frame);
   if (!address_ && heartbeat && frame.from.component == kAutopilotComponent && heartbeat->autopilot != kInvalid &&
@@ -95,10 +118,13 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
     return false;
   }
   if (received - last_heard_ > kLinkSilence) mode_is_old_ = true;
+  longest_gap_ = std::max(longest_gap_, received - last_heard_);
   last_heard_ = received;
   if (heartbeat) {
     heartbeat_ = *heartbeat;
     mode_is_old_ = false;
+    longest_gap_ = Duration{};
+    if (armed()) failed_check_.clear();
   }
   if (const auto m = from_frame<SysStatus>(frame); m && m->battery_remaining >= 0) {
     battery_ = std::min(m->battery_remaining / 100.0, 1.0);
@@ -113,10 +139,7 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
   if (const auto m = from_frame<GpsGlobalOrigin>(frame); m && !own_origin_) origin_ = *m;
   if (const auto m = from_frame<ParamValue>(frame)) hear_parameter(*m);
   if (const auto m = from_frame<CommandAck>(frame)) keep(acks_, *m);
-  if (const auto m = from_frame<StatusText>(frame)) {
-    keep(texts_, *m);
-    if (m->severity <= kWarning) warning_ = words_of(m->text);
-  }
+  if (const auto m = from_frame<StatusText>(frame)) hear_text(*m);
   hear_position(frame, received);
   if (const auto m = from_frame<HilStateQuaternion>(frame)) hear_truth(*m, received);
   return true;

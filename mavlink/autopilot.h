@@ -1,6 +1,7 @@
 // What is known of an autopilot from its messages: mode, position, health, clock, parameters.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <map>
 #include <optional>
@@ -43,12 +44,18 @@ class Autopilot {
   /// It is heard, and its mode too since the last silence: HEARTBEAT comes at 1 Hz only.
   [[nodiscard]] bool linked(UTime now) const { return address_ && !mode_is_old_ && now - last_heard_ <= kLinkSilence; }
   [[nodiscard]] UTime last_heard() const { return last_heard_; }
+  /// Whether frames come again after a silence, but no HEARTBEAT yet.
+  [[nodiscard]] bool mode_is_old() const { return mode_is_old_; }
+  /// The longest silence since the newest HEARTBEAT, the one that lasts included: so long nobody knows its mode.
+  [[nodiscard]] Duration silence(UTime now) const { return std::max(longest_gap_, now - last_heard_); }
   [[nodiscard]] bool armed() const { return (heartbeat_.base_mode & kArmedBit) != 0; }
   /// Its own word: "OFFBOARD", "GUIDED", "AUTO.LAND".
   [[nodiscard]] std::string mode() const;
   /// Whether it follows setpoints: OFFBOARD of PX4, GUIDED of ArduPilot.
   [[nodiscard]] bool follows() const;
   [[nodiscard]] bool landing() const;
+  /// It does not what it was told, but what its failsafe is set to (PX4: HEARTBEAT's system_status is critical).
+  [[nodiscard]] bool in_failsafe() const;
   [[nodiscard]] std::optional<bool> landed() const { return landed_; }
   [[nodiscard]] std::optional<double> battery() const { return battery_; }  ///< [0, 1]
   [[nodiscard]] EstimatorHealth estimator() const;
@@ -64,16 +71,19 @@ class Autopilot {
   /// An estimator without GPS says no origin: external vision gives it one.
   void take_own_origin() { own_origin_ = true; }
   [[nodiscard]] const std::map<std::string, double>& parameters() const { return parameters_; }
-  [[nodiscard]] const std::string& last_warning() const { return warning_; }  ///< newest STATUSTEXT, warning or worse
+  /// The newest STATUSTEXT, warning or worse. To "Arming denied …" the newest "Preflight Fail …" is added, which says
+  /// why.
+  [[nodiscard]] std::string last_warning() const;
   /// Acknowledgements and texts since the last call.
   std::deque<CommandAck> take_acks() { return std::exchange(acks_, {}); }
-  std::deque<StatusText> take_texts() { return std::exchange(texts_, {}); }
+  std::deque<std::string> take_texts() { return std::exchange(texts_, {}); }
   [[nodiscard]] std::int64_t strangers() const { return strangers_; }  ///< frames of others
 
  private:
   void hear_position(const Frame& frame, UTime received);
   void hear_truth(const HilStateQuaternion& hil, UTime received);
   void hear_parameter(const ParamValue& value);
+  void hear_text(const StatusText& chunk);
   [[nodiscard]] std::optional<UTime> ours(std::uint64_t theirs_us, UTime received) const;
 
   std::uint8_t wanted_;
@@ -81,6 +91,7 @@ class Autopilot {
   Heartbeat heartbeat_;
   UTime last_heard_;
   bool mode_is_old_ = false;
+  Duration longest_gap_;
   std::optional<bool> landed_;
   std::optional<double> battery_;
   std::optional<EstimatorStatus> health_;
@@ -93,9 +104,11 @@ class Autopilot {
   std::optional<GpsGlobalOrigin> origin_;
   bool own_origin_ = false;
   std::map<std::string, double> parameters_;
-  std::string warning_;
+  std::string warning_, failed_check_;
   std::deque<CommandAck> acks_;
-  std::deque<StatusText> texts_;
+  std::deque<std::string> texts_;
+  std::string text_;  ///< what has come of a text in several chunks
+  std::uint16_t text_id_ = 0;
   std::int64_t strangers_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tern::mavlink {
@@ -12,10 +13,15 @@ constexpr Duration kHeartbeatPeriod{500'000}, kTimesyncPeriod{100'000};
 /// A stream of setpoints has to run before OFFBOARD is asked for.
 constexpr Duration kStreamFirst{1'000'000};
 constexpr Duration kStateAge{500'000};
-constexpr Duration kEngagePatience{60'000'000};
+/// A simulation's estimator takes this long on a slow machine until it may be armed.
+constexpr Duration kEngagePatience{120'000'000};
+/// Of the autopilot's clock: a simulation that is slower moves in slow motion and cannot follow.
+constexpr double kClockOff = 0.05;
 constexpr Duration kHeld{4'000'000};
 /// Arrived at the top of the climb.
 constexpr double kThere_m = 0.3, kThereSpeed = 0.4;
+/// The climb's setpoint waits when it is so far above the vehicle: rotors spin up, and PX4 takes off gently.
+constexpr double kClimbAhead_m = 0.5;
 /// By this it stops when it is taken over in flight, m/s².
 constexpr double kStop = 4.0;
 constexpr std::uint8_t kOnboardController = 18, kNoAutopilot = 8, kActive = 4;
@@ -50,7 +56,8 @@ Bridge::Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now)
       next_target_(now),
       next_command_(now),
       next_parameters_(now),
-      next_streams_(now) {
+      next_streams_(now),
+      next_mode_(now) {
   if (config.external_vision) autopilot_.take_own_origin();
 }
 
@@ -85,7 +92,7 @@ void Bridge::hear(const Frame& frame, UTime received) {
                            result_words(ack.result));
     if (!autopilot_.last_warning().empty()) refusal_ += ": " + autopilot_.last_warning();
   }
-  for (const StatusText& text : autopilot_.take_texts()) words_.push_back("autopilot: " + words_of(text.text));
+  for (const std::string& text : autopilot_.take_texts()) words_.push_back("autopilot: " + text);
 }
 
 void Bridge::hear(const UavState& setpoint) {
@@ -106,7 +113,7 @@ void Bridge::flight_is_under_way() {
 void Bridge::land(const std::string& why) {
   told_ = told_again_ = false;
   if (!flies() || stage_ == Stage::Landing) return;
-  if (!followed_) hold_here(now_);
+  if (!followed_) hold_here();
   enter(Stage::Landing, why);
 }
 
@@ -130,11 +137,24 @@ std::vector<RequiredParameter> Bridge::required() const {
   return required_parameters(autopilot_.firmware(), uav_, config_.without_remote, config_.external_vision);
 }
 
+std::string Bridge::clock_fault() const {
+  const double rate = autopilot_.clock().rate();
+  if (std::abs(rate - 1.0) <= kClockOff) return {};
+  return fmt::format("its clock runs at {:.2f} of ours: its simulation does not keep real time", rate);
+}
+
+void Bridge::watch_clock() {
+  const std::string fault = clock_fault();
+  if (!fault.empty() && !clock_is_off_) words_.push_back(fault);
+  clock_is_off_ = !fault.empty();
+}
+
 std::string Bridge::not_ready(UTime now) const {
   const auto& state = autopilot_.state();
   if (!autopilot_.address()) return "no autopilot is heard";
   if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_heard());
   if (!autopilot_.clock().ready()) return "its clock is not yet known (TIMESYNC)";
+  if (const std::string fault = clock_fault(); !fault.empty()) return fault;
   if (!state || now - state->at > kStateAge) return "it says no position (ODOMETRY, LOCAL_POSITION_NED)";
   if (autopilot_.estimator() == EstimatorHealth::Lost) return "its estimator has no position (ESTIMATOR_STATUS)";
   if (!autopilot_.landed()) return "it does not say whether it has landed (EXTENDED_SYS_STATE)";
@@ -181,8 +201,7 @@ bool Bridge::setpoint_near(UTime now) const {
   return here && (command_.sample(now).p - here->motion.p).norm() <= config_.far_m;
 }
 
-void Bridge::hold_here(UTime now) {
-  (void)now;
+void Bridge::hold_here() {
   const auto here = state();
   if (!here) return;
   own_ = *here;
@@ -200,7 +219,7 @@ void Bridge::step_waiting(UTime now) {
 
 void Bridge::step_ready(UTime now) {
   if (!not_ready(now).empty()) return enter(Stage::Waiting, not_ready(now));
-  if (!followed_) hold_here(now);
+  if (!followed_) hold_here();
   if (!in_air()) anchor_truth();
   const bool armed = autopilot_.armed(), ours = armed && autopilot_.follows();
   if (ours && in_air()) return enter(Stage::Following);
@@ -235,13 +254,18 @@ void Bridge::step_engaging(UTime now) {
     return stand_back(refusal_.empty() ? "the autopilot does not answer" : refusal_);
   }
   if (!autopilot_.linked(now)) return;
-  if (!in_air()) hold_here(now);
+  if (!in_air()) {
+    anchor_truth();
+    hold_here();
+  }
   engage_next(now);
 }
 
 void Bridge::climb(UTime now) {
   const Vec3 way = uav_.start - own_.motion.p;
-  const double left = way.norm(), next = config_.climb_speed * std::min((now - now_).seconds(), 0.1);
+  const auto here = state();
+  const bool waits = here && own_.motion.p.z() - here->motion.p.z() > kClimbAhead_m;
+  const double left = way.norm(), next = waits ? 0.0 : config_.climb_speed * std::min((now - now_).seconds(), 0.1);
   own_.motion.v = left > 1e-9 ? Vec3(way * (config_.climb_speed / left)) : Vec3::Zero();
   if (left <= next) {
     own_.motion.p = uav_.start;
@@ -249,7 +273,6 @@ void Bridge::climb(UTime now) {
   } else {
     own_.motion.p += way * (next / left);
   }
-  const auto here = state();
   if (here && own_.motion.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere_m &&
       here->motion.v.norm() < kThereSpeed && in_air()) {
     enter(Stage::Following);
@@ -265,9 +288,10 @@ void Bridge::step_flying(UTime now) {
   if (autopilot_.battery().value_or(1.0) < config_.battery_land) {
     return land(fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
   }
+  watch_clock();
   if (stage_ == Stage::Climbing) return climb(now);
   const bool near = setpoint_heard_ && setpoint_near(now);
-  if (!near && followed_) hold_here(now);
+  if (!near && followed_) hold_here();
   followed_ = near;
 }
 
@@ -277,7 +301,7 @@ void Bridge::step_landing(UTime now) {
     followed_ = false;
     return enter(Stage::Landed, why_);
   }
-  if (followed_) hold_here(now);
+  if (followed_) hold_here();
   followed_ = false;
   if (autopilot_.landing()) {
     streaming_since_.reset();
@@ -317,6 +341,7 @@ void Bridge::step(UTime now) {
     say(Timesync{.ts1 = now.us * 1000});
   }
   request_streams(now);
+  request_mode(now);
   stream(now);
 }
 

@@ -33,8 +33,9 @@ const char* to_string(Stage stage);
 ///
 /// W is the autopilot's local frame, shifted: the local origin lies at (uav.start.x, uav.start.y, 0), so that a vehicle
 /// that has started its estimator where it stands climbs straight up to uav.start. What is said to the autopilot:
-/// HEARTBEAT 2 Hz, TIMESYNC 10 Hz, and from the moment that its position is known SET_POSITION_TARGET_LOCAL_NED at
-/// rate_hz, so that the stream runs before OFFBOARD is asked for. It carries
+/// HEARTBEAT 2 Hz, TIMESYNC 10 Hz, in flight five times a second the question for its HEARTBEAT, and from the moment
+/// that its position is known SET_POSITION_TARGET_LOCAL_NED at rate_hz, so that the stream runs before OFFBOARD is
+/// asked for. It carries
 ///   p, v of the command now, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
 /// The gain is for level axes: the D term of an autopilot's vertical loop is 0.
 /// While the vehicle is not following, the command is to stay where it is.
@@ -44,6 +45,10 @@ const char* to_string(Stage stage);
 /// (with start pilot it goes on, saying the vehicle's own place), and flies again only when told: by a new GOAL, or
 /// with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody else's, too. A
 /// bridge that was started anew and finds the vehicle armed and in OFFBOARD in the air goes on following.
+///
+/// PX4 takes OFFBOARD up again by itself as soon as setpoints come again, whatever its failsafe was doing. So none is
+/// sent while the vehicle may be in one: after a silence of COM_OF_LOSS_T none until HEARTBEAT has told the mode, and
+/// while HEARTBEAT tells of a failsafe none, unless somebody told the bridge to fly.
 class Bridge {
  public:
   Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
@@ -93,16 +98,21 @@ class Bridge {
   void engage_next(UTime now);
   void request_parameters(UTime now);
   void request_streams(UTime now);
+  void request_mode(UTime now);
   void stream(UTime now);
-  void hold_here(UTime now);
+  void hold_here();
   void anchor_truth();
+  void watch_clock();
   void tell_vision(UavState local);
   void command(UTime now, std::uint16_t number, std::array<float, 7> param);
+  void ask(std::uint16_t number, std::uint32_t message, float interval_us = 0.0F);
   [[nodiscard]] std::vector<RequiredParameter> required() const;
   [[nodiscard]] std::string not_ready(UTime now) const;
   [[nodiscard]] MotionSample commanded(UTime now) const;
   [[nodiscard]] std::string why_not_following(UTime now) const;
   [[nodiscard]] bool setpoint_near(UTime now) const;
+  [[nodiscard]] std::string clock_fault() const;
+  [[nodiscard]] bool may_be_in_failsafe(UTime now) const;
   [[nodiscard]] bool in_air() const { return autopilot_.landed() == std::optional(false); }
   [[nodiscard]] std::optional<UavState> in_world(std::optional<UavState> local) const;
   template <class M>
@@ -124,11 +134,12 @@ class Bridge {
   bool told_;                ///< to fly
   bool told_again_ = false;  ///< by somebody, not by the configuration: also a vehicle that is in somebody's hands
   UTime stage_since_, now_;
-  UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_;
+  UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
   std::optional<UTime> streaming_since_;
-  bool followed_ = false;  ///< at the last setpoint that was sent
-  UavState own_;           ///< the command while it does not follow: at rest here, or on its way up
-  std::string refusal_;    ///< the newest answer to a command that was not taken, in words
+  bool followed_ = false;      ///< at the last setpoint that was sent
+  bool clock_is_off_ = false;  ///< was said of the vehicle in flight
+  UavState own_;               ///< the command while it does not follow: at rest here, or on its way up
+  std::string refusal_;        ///< the newest answer to a command that was not taken, in words
   std::uint8_t sequence_ = 0;
   std::vector<Frame> out_;
   std::vector<std::string> words_;

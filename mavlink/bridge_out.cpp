@@ -11,6 +11,10 @@ namespace tern::mavlink {
 namespace {
 
 constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000}, kStreamsPeriod{5'000'000};
+/// HEARTBEAT comes by itself once a second.
+constexpr Duration kModePeriod{200'000}, kOldModePeriod{50'000};
+/// COM_OF_LOSS_T's default.
+constexpr double kOffboardLoss_s = 1.0;
 /// 50 Hz.
 constexpr Duration kVisionPeriod{20'000};
 constexpr std::uint16_t kAllButYawRate = 0x0800;
@@ -26,21 +30,33 @@ void Bridge::command(UTime now, std::uint16_t number, std::array<float, 7> param
   say(CommandLong{.param = param, .command = number, .target_system = to.system, .target_component = to.component});
 }
 
+void Bridge::ask(std::uint16_t number, std::uint32_t message, float interval_us) {
+  const Address to = *autopilot_.address();
+  say(CommandLong{.param = {static_cast<float>(message), interval_us},
+                  .command = number,
+                  .target_system = to.system,
+                  .target_component = to.component});
+}
+
 void Bridge::request_streams(UTime now) {
   if (now < next_streams_ || !autopilot_.address()) return;
   next_streams_ = now + kStreamsPeriod;
-  const Address to = *autopilot_.address();
-  const auto ask = [&](std::uint16_t number, float message, float interval_us) {
-    say(CommandLong{.param = {message, interval_us},
-                    .command = number,
-                    .target_system = to.system,
-                    .target_component = to.component});
-  };
   ask(kSetMessageInterval, Odometry::kId, 10'000);
   ask(kSetMessageInterval, HilStateQuaternion::kId, 10'000);
   ask(kSetMessageInterval, EstimatorStatus::kId, 200'000);
   ask(kSetMessageInterval, ExtendedSysState::kId, 200'000);
-  ask(kRequestMessage, GpsGlobalOrigin::kId, 0);
+  if (autopilot_.firmware() == Firmware::ArduPilot) {  // it says neither unasked, nor its heading by ODOMETRY
+    ask(kSetMessageInterval, AttitudeQuaternion::kId, 20'000);
+    ask(kSetMessageInterval, LocalPositionNed::kId, 20'000);
+  }
+  ask(kRequestMessage, GpsGlobalOrigin::kId);
+}
+
+void Bridge::request_mode(UTime now) {
+  const bool old = autopilot_.mode_is_old();
+  if (now < next_mode_ || !autopilot_.address() || !(old || flies())) return;
+  next_mode_ = now + (old ? kOldModePeriod : kModePeriod);
+  ask(kRequestMessage, Heartbeat::kId);
 }
 
 void Bridge::request_parameters(UTime now) {
@@ -50,7 +66,7 @@ void Bridge::request_parameters(UTime now) {
   for (const RequiredParameter& r : required()) {
     const auto known = autopilot_.parameters().find(r.name);
     const bool read = known != autopilot_.parameters().end();
-    if (read && known->second >= r.low && known->second <= r.high) continue;
+    if (read && r.allows(known->second)) continue;
     if (read && config_.set_parameters && !autopilot_.armed()) {
       const bool bytewise = r.integer && autopilot_.firmware() == Firmware::Px4;
       const float value =
@@ -91,14 +107,22 @@ void Bridge::tell_vision(UavState local) {
   say(m);
 }
 
+bool Bridge::may_be_in_failsafe(UTime now) const {
+  if (autopilot_.firmware() == Firmware::ArduPilot) return false;  // it stays in GUIDED, and stops
+  if (!flies()) return autopilot_.in_failsafe() && !told_again_;
+  const auto known = autopilot_.parameters().find("COM_OF_LOSS_T");
+  const double loss_s = known != autopilot_.parameters().end() ? known->second : kOffboardLoss_s;
+  return autopilot_.silence(now).seconds() > loss_s;
+}
+
 void Bridge::stream(UTime now) {
   const bool silent = stage_ == Stage::Waiting || stage_ == Stage::Landed ||
                       (stage_ == Stage::StoodBack && config_.start == Start::Arm) ||
                       (stage_ == Stage::Landing && !streaming_since_);
-  if (silent || !state() || now < next_target_) return;
+  if (silent || may_be_in_failsafe(now) || !state() || now < next_target_) return;
   next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
   if (!streaming_since_) streaming_since_ = now;
-  if (stage_ == Stage::StoodBack) hold_here(now);
+  if (stage_ == Stage::StoodBack) hold_here();
   const bool following = stage_ == Stage::Following && followed_;
   const MotionSample m = following ? command_.sample(now) : own_.motion;
   const Vec3 ahead = following ? command_.acceleration_ahead(now, Duration::from_seconds(config_.lead_s)) : m.a;

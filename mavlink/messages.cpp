@@ -15,6 +15,14 @@ std::optional<MessageForm> find(std::uint32_t id, std::type_identity<std::tuple<
 
 }  // namespace
 
+std::string printable(std::string words) {
+  if (words.ends_with('\t')) words.pop_back();
+  for (char& c : words) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return words;
+}
+
 std::optional<MessageForm> form_of(std::uint32_t id) { return find(id, std::type_identity<AllMessages>{}); }
 
 }  // namespace tern::mavlink

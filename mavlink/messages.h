@@ -1,6 +1,7 @@
 // The messages that a bridge needs, field by field in wire order. https://mavlink.io/en/messages/common.html
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -255,15 +256,17 @@ Text<N> text_of(std::string_view words) {
   words.copy(text.data(), N);
   return text;
 }
-/// Up to the first zero; what is not printable ASCII becomes '?'.
+/// Up to the first zero.
+template <std::size_t N>
+std::string_view bytes_of(const Text<N>& text) {
+  return {text.data(), static_cast<std::size_t>(std::find(text.begin(), text.end(), '\0') - text.begin())};
+}
+/// What is not printable ASCII becomes '?'. A tab at the end, by which PX4 marks texts that it says as events, too, is
+/// left out.
+std::string printable(std::string words);
 template <std::size_t N>
 std::string words_of(const Text<N>& text) {
-  std::string words;
-  for (const char c : text) {
-    if (c == '\0') break;
-    words += c >= ' ' && c <= '~' ? c : '?';
-  }
-  return words;
+  return printable(std::string(bytes_of(text)));
 }
 
 }  // namespace tern::mavlink

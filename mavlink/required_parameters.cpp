@@ -35,6 +35,10 @@ std::vector<RequiredParameter> bounds_of_px4(const UavSpec& uav) {
 
 }  // namespace
 
+bool RequiredParameter::allows(double value) const {
+  return value >= low && value <= high && (static_cast<int>(bits != 0 ? value : 0.0) & bits) == bits;
+}
+
 std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavSpec& uav, bool without_remote,
                                                    bool external_vision) {
   const char* const blind = "so long it flies on blindly when setpoints cease, s";
@@ -48,7 +52,7 @@ std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavS
       {"COM_OF_LOSS_T", 0.2, 1.0, 0.5, false, blind}};
   if (without_remote) {
     required.push_back({"COM_RC_IN_MODE", 4, 4, 4, true, "there is no remote control, and it would not be armed"});
-    required.push_back({"COM_RCL_EXCEPT", 4, 7, 7, true, "without remote control it would leave OFFBOARD"});
+    required.push_back({"COM_RCL_EXCEPT", 4, 31, 7, true, "without remote control it would leave OFFBOARD (bit 2)", 4});
     required.push_back({"NAV_DLL_ACT", 0, 0, 0, true, "there is no ground station, whose loss it would act on"});
   }
   for (const RequiredParameter& bound : bounds_of_px4(uav)) required.push_back(bound);
@@ -73,9 +77,10 @@ std::string parameter_faults(const std::vector<RequiredParameter>& required,
     std::string fault;
     if (found == values.end()) {
       fault = fmt::format("{} was not read", r.name);
-    } else if (!(found->second >= r.low && found->second <= r.high)) {
-      const std::string range = std::isfinite(r.high) ? fmt::format("not within [{:g}, {:g}]", r.low, r.high)
-                                                      : fmt::format("below {:g}", r.low);
+    } else if (!r.allows(found->second)) {
+      const std::string range = r.bits != 0             ? fmt::format("has not all bits of {}", r.bits)
+                                : std::isfinite(r.high) ? fmt::format("not within [{:g}, {:g}]", r.low, r.high)
+                                                        : fmt::format("below {:g}", r.low);
       fault = fmt::format("{} is {:g}, {}: {}", r.name, found->second, range, r.why);
     }
     if (!fault.empty()) faults += (faults.empty() ? "" : "; ") + fault;

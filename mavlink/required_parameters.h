@@ -17,6 +17,9 @@ struct RequiredParameter {
   double recommended;  ///< what docs/autopilot.md says
   bool integer;        ///< by its type in PX4, where an integer travels bytewise
   const char* why;     ///< "the aircraft flies home at another height when setpoints cease"
+  int bits = 0;        ///< which have to be set among those of an integer
+
+  [[nodiscard]] bool allows(double value) const;
 };
 
 /// The table of docs/autopilot.md: what happens when something is lost, and bounds of the autopilot's own that must not

@@ -11,21 +11,19 @@
 namespace tern::mavlink {
 namespace {
 
-constexpr Address kSelf{1, 1};
 constexpr std::uint8_t kRejected = 1, kDenied = 2, kUnsupported = 3;
 constexpr std::uint8_t kInt32 = 6, kReal32 = 9;
+constexpr std::uint8_t kGroundStation = 6;
 constexpr Duration kOldTarget{500'000}, kStreamFirst{500'000}, kDisarmAfter{1'000'000};
+/// COM_SPOOLUP_TIME, MPC_TKO_RAMP_T, COM_DISARM_PRFLT, COM_DL_LOSS_T.
+constexpr Duration kSpoolUp{1'000'000}, kRamp{3'000'000}, kTakeOffPatience{10'000'000}, kLinkLoss{10'000'000};
+/// Of the speed that the ramp begins with, so that it is one.
+constexpr double kRampFrom = 0.02;
 constexpr double kDescend = 0.7, kStop = 4.0;
-/// Of the place on a map where it stands, 1e-7 degrees and mm.
-constexpr std::int32_t kLatitude = 473977418, kLongitude = 85455938, kAltitude = 488'000;
-constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCEPT", "NAV_DLL_ACT", "SIM_ARM_REFUSE"};
+constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCEPT", "NAV_DLL_ACT"};
 
 bool is_integer(const std::string& name) {
   return std::find(kIntegers.begin(), kIntegers.end(), name) != kIntegers.end();
-}
-
-std::array<float, 3> rates_frd(const Vec3& w) {
-  return {static_cast<float>(w.x()), static_cast<float>(-w.y()), static_cast<float>(-w.z())};
 }
 
 /// Without the feed-forward that a bridge sends.
@@ -61,17 +59,17 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
   every(Timesync::kId, 100'000);
 }
 
-std::uint64_t SimulatedAutopilot::clock_us(UTime now) const {
-  return static_cast<std::uint64_t>(config_.clock_rate * static_cast<double>((now - started_).us));
-}
-
-template <class M>
-void SimulatedAutopilot::say(const M& message) {
-  out_.push_back(to_frame(message, kSelf, sequence_++));
-}
-
+/// PX4 ends such texts by a tab, and cuts them where they are longer than a message.
 void SimulatedAutopilot::complain(const std::string& words) {
-  say(StatusText{.severity = 3, .text = text_of<50>(words)});
+  constexpr std::size_t kChunk = 50;
+  const std::string text = words + "\t";
+  ++text_id_;
+  for (std::size_t at = 0; at < text.size(); at += kChunk) {
+    say(StatusText{.severity = 3,
+                   .text = text_of<kChunk>(text.substr(at)),
+                   .id = text.size() < kChunk ? std::uint16_t{0} : text_id_,
+                   .chunk_seq = static_cast<std::uint8_t>(at / kChunk)});
+  }
 }
 
 std::string SimulatedAutopilot::mode() const {
@@ -82,17 +80,6 @@ std::string SimulatedAutopilot::mode() const {
     case Mode::Offboard: return "OFFBOARD";
   }
   return "";
-}
-
-std::uint32_t SimulatedAutopilot::custom_mode() const {
-  const auto automatic = [](std::uint32_t sub) { return 4U << 16U | sub << 24U; };
-  switch (mode_) {
-    case Mode::Loiter: return automatic(3);
-    case Mode::Land: return automatic(6);
-    case Mode::Position: return 3U << 16U;
-    case Mode::Offboard: return 6U << 16U;
-  }
-  return 0;
 }
 
 void SimulatedAutopilot::enter(Mode mode) {
@@ -108,19 +95,49 @@ bool SimulatedAutopilot::has_stream(UTime now) const {
   return last_target_ && now - *last_target_ < kOldTarget && now - *streaming_since_ >= kStreamFirst;
 }
 
+void SimulatedAutopilot::intend(Mode mode) {
+  intended_ = mode;
+  failsafe_ = false;
+  if (mode != Mode::Land) after_disarming_ = mode;
+  enter(mode);
+}
+
 std::uint8_t SimulatedAutopilot::set_mode(int main, int sub, UTime now) {
   if (main == 6) {
-    if (!has_stream(now)) {
+    if (armed_ && !has_stream(now)) {
       complain("Switching to Offboard is currently not available");
       return kRejected;
     }
-    enter(Mode::Offboard);
+    intend(Mode::Offboard);
     return kAccepted;
   }
-  if (main == 3) enter(Mode::Position);
-  if (main == 4 && sub == 3) enter(Mode::Loiter);
-  if (main == 4 && sub == 6) enter(Mode::Land);
+  if (main == 3) intend(Mode::Position);
+  if (main == 4 && sub == 3) intend(Mode::Loiter);
+  if (main == 4 && sub == 6) intend(Mode::Land);
   return main == 3 || (main == 4 && (sub == 3 || sub == 6)) ? kAccepted : kUnsupported;
+}
+
+std::uint8_t SimulatedAutopilot::arm(UTime now) {
+  const bool no_ground_station = !ground_station_heard_ || now - *ground_station_heard_ > kLinkLoss;
+  std::string fault;
+  if (parameters_["SIM_ARM_REFUSE"] != 0.0) fault = "Preflight Fail: Accel 0 uncalibrated";
+  if (parameters_["NAV_DLL_ACT"] > 0.0 && no_ground_station) fault = "Preflight Fail: No connection to the GCS";
+  const bool no_setpoints = mode_ == Mode::Offboard && !has_stream(now);
+  if (!fault.empty() || no_setpoints || mode_ == Mode::Land) {
+    if (!fault.empty()) complain(fault);
+    complain("Arming denied: Resolve system health failures first");
+    return kRejected;
+  }
+  if (!armed_) armed_since_ = now;
+  armed_ = true;
+  return kAccepted;
+}
+
+void SimulatedAutopilot::disarm() {
+  armed_ = false;
+  ramp_since_.reset();
+  landed_since_.reset();
+  intend(after_disarming_);
 }
 
 std::uint8_t SimulatedAutopilot::obey(const CommandLong& c, UTime now) {
@@ -131,27 +148,24 @@ std::uint8_t SimulatedAutopilot::obey(const CommandLong& c, UTime now) {
     return kAccepted;
   }
   if (c.command == kRequestMessage) {
+    if (c.param[0] == static_cast<float>(Heartbeat::kId)) {
+      say_stream(Heartbeat::kId, now);
+      return kAccepted;
+    }
     if (c.param[0] != static_cast<float>(GpsGlobalOrigin::kId)) return kUnsupported;
-    say(GpsGlobalOrigin{.latitude = kLatitude, .longitude = kLongitude, .altitude = kAltitude});
+    say_stream(GpsGlobalOrigin::kId, now);
     return kAccepted;
   }
-  if (now - started_ < config_.busy_for) return kRejected;
+  if (is_busy(now)) return kRejected;
   if (c.command == kDoSetMode) return set_mode(static_cast<int>(c.param[1]), static_cast<int>(c.param[2]), now);
   if (c.command == kNavLand) {
-    enter(Mode::Land);
+    intend(Mode::Land);
     return kAccepted;
   }
   if (c.command != kArmDisarm) return kUnsupported;
-  if (c.param[0] == 0.0F) {
-    if (!model_.truth().on_ground) return kDenied;
-    armed_ = false;
-    return kAccepted;
-  }
-  if (parameters_["SIM_ARM_REFUSE"] != 0.0) {
-    complain("Arming denied: Resolve system health failures first");
-    return kRejected;
-  }
-  armed_ = true;
+  if (c.param[0] != 0.0F) return arm(now);
+  if (!model_.truth().on_ground) return kDenied;
+  disarm();
   return kAccepted;
 }
 
@@ -186,7 +200,7 @@ void SimulatedAutopilot::tune() {
   FlightControllerSpec gains = bare(config_).controller;
   gains.tilt_max = parameters_["MPC_TILTMAX_AIR"] * kRadians;
   gains.rate_max = std::min(parameters_["MC_ROLLRATE_MAX"], parameters_["MC_PITCHRATE_MAX"]) * kRadians;
-  gains.speed_max = std::hypot(parameters_["MPC_XY_VEL_MAX"], parameters_["MPC_Z_VEL_MAX_UP"]);
+  gains.speed_max = ramp_ * std::hypot(parameters_["MPC_XY_VEL_MAX"], parameters_["MPC_Z_VEL_MAX_UP"]);
   model_.tune(gains);
 }
 
@@ -204,13 +218,14 @@ void SimulatedAutopilot::say_parameter(const std::string& name) {
 
 void SimulatedAutopilot::hear(const Frame& frame, UTime now) {
   const auto mine = [](std::uint8_t system, std::uint8_t component) {
-    return (system == 0 || system == kSelf.system) && (component == 0 || component == kSelf.component);
+    return system == kSelf.system && (component == 0 || component == kSelf.component);
   };
+  if (const auto m = from_frame<Heartbeat>(frame); m && m->type == kGroundStation) ground_station_heard_ = now;
   if (const auto m = from_frame<CommandLong>(frame); m && mine(m->target_system, m->target_component)) {
     hear_command(*m, frame.from, now);
   }
-  if (const auto m = from_frame<SetPositionTargetLocalNed>(frame); m && mine(m->target_system, m->target_component)) {
-    hear_target(*m, now);
+  if (const auto m = from_frame<SetPositionTargetLocalNed>(frame)) {
+    if (m->target_system == 0 || mine(m->target_system, m->target_component)) hear_target(*m, now);
   }
   if (const auto m = from_frame<Timesync>(frame); m && m->tc1 == 0) {
     say(Timesync{.tc1 = static_cast<std::int64_t>(clock_us(now)) * 1000, .ts1 = m->ts1});
@@ -219,19 +234,45 @@ void SimulatedAutopilot::hear(const Frame& frame, UTime now) {
     say_parameter(words_of(m->param_id));
   }
   if (const auto m = from_frame<ParamSet>(frame); m && mine(m->target_system, m->target_component)) {
-    const double value = m->param_type == kInt32 ? static_cast<double>(std::bit_cast<std::int32_t>(m->param_value))
-                                                 : static_cast<double>(m->param_value);
-    set_parameter(words_of(m->param_id), value);
-    say_parameter(words_of(m->param_id));
+    const std::string name = words_of(m->param_id);
+    const bool integer = is_integer(name);
+    if (m->param_type != (integer ? kInt32 : kReal32)) return;
+    set_parameter(name, integer ? std::bit_cast<std::int32_t>(m->param_value) : static_cast<double>(m->param_value));
+    say_parameter(name);
   }
 }
 
 void SimulatedAutopilot::watch_offboard(UTime now) {
-  if (mode_ != Mode::Offboard || !last_target_) return;
-  if (now - *last_target_ <= Duration::from_seconds(parameters_["COM_OF_LOSS_T"])) return;
-  complain("Offboard control lost");
+  if (!armed_ || intended_ != Mode::Offboard || !last_target_) return;
+  const bool lost = now - *last_target_ > Duration::from_seconds(parameters_["COM_OF_LOSS_T"]);
+  if (lost == failsafe_) return;
+  failsafe_ = lost;
+  if (!lost) return enter(Mode::Offboard);
+  complain("Failsafe activated");
   const int action = static_cast<int>(parameters_["COM_OBL_RC_ACT"]);
   enter(action == 4 ? Mode::Land : action == 5 ? Mode::Loiter : Mode::Position);
+}
+
+/// Rotors idle on the ground until they have spun up and a setpoint is above; then speed is had bit by bit.
+bool SimulatedAutopilot::rotors_lift(UTime t) {
+  if (!armed_) return false;
+  if (ramp_since_) {
+    const double progress = std::min((t - *ramp_since_).seconds() / kRamp.seconds(), 1.0);
+    if (ramp_ < 1.0) {
+      ramp_ = std::max(progress, kRampFrom);
+      tune();
+    }
+    return mode_ == Mode::Offboard || !model_.truth().on_ground;
+  }
+  const bool rises = command_.motion.p.z() > model_.truth().motion.p.z() + 0.02 || command_.motion.v.z() > 0.0;
+  if (mode_ == Mode::Offboard && rises && t - armed_since_ >= kSpoolUp) {
+    ramp_since_ = t;
+    ramp_ = kRampFrom;
+    tune();
+  } else if (t - armed_since_ > kTakeOffPatience) {
+    disarm();
+  }
+  return false;
 }
 
 void SimulatedAutopilot::fly(UTime now) {
@@ -245,94 +286,15 @@ void SimulatedAutopilot::fly(UTime now) {
     command_.at = t;
     command_.motion.j = Vec3::Zero();
     model_.command(command_);
-    // On the ground rotors idle until it is told to rise.
-    const bool rises = command_.motion.p.z() > model_.truth().motion.p.z() + 0.02 || command_.motion.v.z() > 0.0;
-    model_.set_armed(armed_ && (!model_.truth().on_ground || (mode_ == Mode::Offboard && rises)));
+    model_.set_armed(rotors_lift(t));
     model_.advance(t);
     if (!model_.truth().on_ground || mode_ != Mode::Land || !armed_) {
       landed_since_.reset();
     } else if (!landed_since_) {
       landed_since_ = t;
     } else if (t - *landed_since_ >= kDisarmAfter) {
-      armed_ = false;
+      disarm();
     }
-  }
-}
-
-void SimulatedAutopilot::say_odometry() {
-  const UavState estimate = model_.estimate();
-  const Eigen::Quaterniond q = swapped(model_.truth().q);
-  Odometry m;
-  m.time_usec = clock_us(estimate.at);
-  m.p = ned_of(estimate.motion.p);
-  m.q = wxyz_of(q);
-  const Vec3 v = q.conjugate() * swapped(estimate.motion.v);
-  m.v = {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-  m.rates = rates_frd(model_.truth().w);
-  m.frame_id = 1;
-  m.child_frame_id = 12;
-  m.reset_counter = static_cast<std::uint8_t>(model_.resets());
-  say(m);
-}
-
-void SimulatedAutopilot::say_truth() {
-  const VehicleTruth truth = model_.truth();
-  constexpr double kMetres = 6'371'000.0 * std::numbers::pi / 180.0 * 1e-7;  // per unit of latitude
-  const double shrink = std::cos(kLatitude * 1e-7 * std::numbers::pi / 180.0);
-  HilStateQuaternion m;
-  m.q = wxyz_of(swapped(truth.q));
-  m.rates = rates_frd(truth.w);
-  m.lat = kLatitude + static_cast<std::int32_t>(std::lround(truth.motion.p.y() / kMetres));
-  m.lon = kLongitude + static_cast<std::int32_t>(std::lround(truth.motion.p.x() / (kMetres * shrink)));
-  m.alt = kAltitude + static_cast<std::int32_t>(std::lround(truth.motion.p.z() * 1e3));
-  const Vec3 v = 100.0 * swapped(truth.motion.v);
-  for (int k = 0; k < 3; ++k)
-    m.v[static_cast<std::size_t>(k)] = static_cast<std::int16_t>(std::lround(std::clamp(v[k], -3e4, 3e4)));
-  say(m);
-}
-
-void SimulatedAutopilot::say_stream(std::uint32_t id, UTime now) {
-  const UavState estimate = model_.estimate();
-  const auto boot_ms = static_cast<std::uint32_t>(clock_us(estimate.at) / 1000);
-  const bool on_ground = model_.truth().on_ground;
-  switch (id) {
-    case Heartbeat::kId:
-      return say(Heartbeat{.custom_mode = custom_mode(),
-                           .type = 2,
-                           .autopilot = 12,
-                           .base_mode = static_cast<std::uint8_t>(1 | (armed_ ? kArmedBit : 0)),
-                           .system_status = static_cast<std::uint8_t>(armed_ ? 4 : 3)});
-    case SysStatus::kId:
-      return say(SysStatus{.voltage_battery = 15'000,
-                           .battery_remaining = static_cast<std::int8_t>(std::lround(100.0 * battery_))});
-    case ExtendedSysState::kId:
-      return say(ExtendedSysState{.landed_state = static_cast<std::uint8_t>(on_ground ? 1 : 2)});
-    case EstimatorStatus::kId:
-      return say(EstimatorStatus{.time_usec = clock_us(now),
-                                 .ratios = {0.1F, 0.1F, 0.1F, 0.1F, 0.0F, 0.0F},
-                                 .pos_horiz_accuracy = static_cast<float>(config_.estimator.position_sigma_m),
-                                 .pos_vert_accuracy = static_cast<float>(config_.estimator.position_sigma_m),
-                                 .flags = 0x033F});
-    case LocalPositionNed::kId:
-      return say(LocalPositionNed{boot_ms, ned_of(estimate.motion.p), ned_of(estimate.motion.v)});
-    case AttitudeQuaternion::kId:
-      return say(AttitudeQuaternion{boot_ms, wxyz_of(swapped(model_.truth().q)), rates_frd(model_.truth().w), {}});
-    case Timesync::kId: return say(Timesync{.ts1 = static_cast<std::int64_t>(clock_us(now)) * 1000});
-    case Odometry::kId: return say_odometry();
-    case HilStateQuaternion::kId: return say_truth();
-    default: return;
-  }
-}
-
-void SimulatedAutopilot::say_streams(UTime now) {
-  for (auto& [id, stream] : streams_) {
-    if (now < stream.next) continue;
-    say_stream(id, now);
-    stream.next = std::max(stream.next + stream.period, now - stream.period);
-  }
-  while (!answers_.empty() && answers_.front().due <= now) {
-    say(answers_.front().ack);
-    answers_.pop_front();
   }
 }
 

@@ -34,10 +34,15 @@ struct SimulatedAutopilotConfig {
 /// It stands on the ground at the origin of its local frame until it is armed. Pure: frames and times in, frames out.
 ///
 /// As PX4 does: HEARTBEAT 1 Hz, SYS_STATUS and EXTENDED_SYS_STATE 5 Hz, LOCAL_POSITION_NED and ODOMETRY 30 Hz,
-/// ATTITUDE_QUATERNION 50 Hz, TIMESYNC 10 Hz, other rates by SET_MESSAGE_INTERVAL. OFFBOARD is taken only while
-/// setpoints have come for half a second, and is left COM_OF_LOSS_T after the last one for what COM_OBL_RC_ACT says.
-/// HIL_STATE_QUATERNION states no time. Setpoints are held, not carried on. Any system may command it. The velocity
-/// loop has a D term, MPC_XY_VEL_D_ACC, which opposes the whole acceleration. It disarms when it has landed.
+/// ATTITUDE_QUATERNION 50 Hz, TIMESYNC 10 Hz, other rates by SET_MESSAGE_INTERVAL. Disarmed, it takes any mode; to be
+/// armed in OFFBOARD, or to take OFFBOARD in flight, setpoints must have come for half a second. COM_OF_LOSS_T after
+/// the last one it does what COM_OBL_RC_ACT says, and takes OFFBOARD up again as soon as they come again. It is not
+/// armed while NAV_DLL_ACT asks for a ground station that is not heard. After arming, rotors spin up for a second, and
+/// take-off has its speed bit by bit within three more; who has not begun within 10 s is disarmed. It disarms when it
+/// has landed, and is then in the mode in which it was before it landed. HIL_STATE_QUATERNION states no time. Setpoints
+/// are held, not carried on. Any system may command it, but has to say whom it means. Parameters are set by their own
+/// type only, and of those it does not have nothing is said. The velocity loop has a D term, MPC_XY_VEL_D_ACC, which
+/// opposes the whole acceleration.
 ///
 /// Parameters beside PX4's: SIM_ARM_REFUSE (it refuses to arm), SIM_BAT_PCT (what is left, %), SIM_EST_JUMP (writing it
 /// shifts the estimate by so many metres).
@@ -65,7 +70,12 @@ class SimulatedAutopilot {
   void hear_command(const CommandLong& command, Address from, UTime now);
   [[nodiscard]] std::uint8_t obey(const CommandLong& command, UTime now);
   [[nodiscard]] std::uint8_t set_mode(int main, int sub, UTime now);
+  [[nodiscard]] std::uint8_t arm(UTime now);
+  void disarm();
+  void intend(Mode mode);
   void enter(Mode mode);
+  [[nodiscard]] bool is_busy(UTime now) const { return now - started_ < config_.busy_for; }
+  bool rotors_lift(UTime t);
   void hear_target(const SetPositionTargetLocalNed& target, UTime now);
   void set_parameter(const std::string& name, double value);
   void tune();
@@ -81,22 +91,30 @@ class SimulatedAutopilot {
   [[nodiscard]] bool has_stream(UTime now) const;
   [[nodiscard]] std::uint32_t custom_mode() const;
   template <class M>
-  void say(const M& message);
+  void say(const M& message) {
+    out_.push_back(to_frame(message, kSelf, sequence_++));
+  }
 
+  static constexpr Address kSelf{1, 1};
   SimulatedAutopilotConfig config_;
   QuadrotorModel model_;
   UTime started_;
   bool armed_ = false;
   Mode mode_ = Mode::Position;
+  Mode intended_ = Mode::Position, after_disarming_ = Mode::Position;
+  bool failsafe_ = false;  ///< it flies mode_, not what was intended
   UavState command_;
   UavState target_;  ///< the newest setpoint, local ENU
-  std::optional<UTime> streaming_since_, last_target_, landed_since_;
+  std::optional<UTime> streaming_since_, last_target_, landed_since_, ramp_since_, ground_station_heard_;
+  UTime armed_since_;
+  double ramp_ = 1.0;  ///< of its speed, while it takes off
   UTime last_step_;
   double battery_ = 0.9;
   std::map<std::string, double> parameters_;
   std::map<std::uint32_t, Stream> streams_;
   std::deque<Answer> answers_;
   std::uint8_t sequence_ = 0;
+  std::uint16_t text_id_ = 0;
   std::vector<Frame> out_;
 };
 

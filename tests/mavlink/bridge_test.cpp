@@ -94,6 +94,7 @@ TEST(Bridge, RefusesParametersThatFlyAwayWhenTheLinkIsLost) {
   EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("COM_OBL_RC_ACT is 0, not within [4, 5]"));
   EXPECT_FALSE(flight.autopilot.armed());
   flight.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{4}),
+                                          .target_system = 1,
                                           .param_id = text_of<16>("COM_OBL_RC_ACT"),
                                           .param_type = 6},
                                  {255, 190}, 0),
@@ -113,7 +114,7 @@ TEST(Bridge, SaysWhyItIsNotArmed) {
   EXPECT_FALSE(flight.autopilot.armed());
   EXPECT_EQ(flight.bridge.stage(), Stage::Engaging);
   EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("arming temporarily rejected: Arming denied"));
-  flight.run(60.0);
+  flight.run(120.0);
   EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
   flight.set_parameter("SIM_ARM_REFUSE", 0.0F);
   flight.run(5.0);
@@ -174,8 +175,8 @@ TEST(Bridge, ALongCutLeavesTheAutopilotToItsFailsafe) {
     EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("nothing heard of the autopilot"));
     flight.run(seconds - 0.5);
     flight.cut = false;
+    flight.each = [&] { ASSERT_TRUE(flight.autopilot.mode() == "AUTO.LAND" || !flight.autopilot.armed()) << seconds; };
     flight.run(2.0);
-    EXPECT_EQ(flight.autopilot.mode(), "AUTO.LAND") << seconds;
     EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
     ASSERT_TRUE(flight.run_until([&] { return !flight.autopilot.armed(); }));
   }
@@ -241,11 +242,16 @@ TEST(Bridge, FliesOverALinkThatLosesDoublesAndReorders) {
 TEST(Bridge, ABridgeStartedAnewInFlightLeavesTheVehicleToTheFailsafeThatCameFirst) {
   FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.bridge_runs = false;
+  flight.run(1.1);
+  flight.bridge_runs = true;
   flight.bridge = Bridge({.start = Start::Pilot, .set_parameters = true}, FlightInMemory::uav(), flight.now);
+  flight.each = [&] {
+    ASSERT_FALSE(flight.bridge.flies());
+    ASSERT_TRUE(flight.autopilot.mode() == "AUTO.LAND" || !flight.autopilot.armed());
+  };
   flight.run(5.0);
-  EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
-  EXPECT_FALSE(flight.following());
-  EXPECT_EQ(flight.autopilot.mode(), "AUTO.LAND");
+  EXPECT_FALSE(flight.autopilot.armed());
 }
 
 TEST(Bridge, StartedAnewItLeavesAVehicleInSomebodysHands) {

@@ -55,6 +55,7 @@ class FlightInMemory {
     const UTime end = now + Duration::from_seconds(seconds);
     for (; now < end; now = now + Duration{2'000}) {
       deliver();
+      if (ground_station_there && beats % 500 == 0) autopilot.hear(to_frame(Heartbeat{.type = 6}, {255, 190}, 0), now);
       if (beats++ % 5 == 0) say_setpoint();
       if (bridge_runs) bridge.step(now);
       autopilot.step(now);
@@ -72,10 +73,15 @@ class FlightInMemory {
   bool following() const { return bridge.status(now).following; }
 
   /// Of a ground station: any system may command.
-  void ground_station(const CommandLong& command) { autopilot.hear(to_frame(command, {255, 190}, 0), now); }
+  void ground_station(CommandLong command) {
+    command.target_system = 1;
+    autopilot.hear(to_frame(command, {255, 190}, 0), now);
+  }
   void set_parameter(const std::string& name, float value) {
     autopilot.hear(
-        to_frame(ParamSet{.param_value = value, .param_id = text_of<16>(name), .param_type = 9}, {255, 190}, 0), now);
+        to_frame(ParamSet{.param_value = value, .target_system = 1, .param_id = text_of<16>(name), .param_type = 9},
+                 {255, 190}, 0),
+        now);
   }
 
   BridgeConfig config;
@@ -84,7 +90,7 @@ class FlightInMemory {
   Bridge bridge;
   SimulatedAutopilot autopilot;
   LinkFaults faults;
-  bool cut = false, bridge_runs = true, speaks = true;
+  bool cut = false, bridge_runs = true, speaks = true, ground_station_there = true;
   std::function<MotionSample(double)> path;
   std::function<void()> each;
   std::optional<UTime> follows_since;

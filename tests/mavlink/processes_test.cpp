@@ -113,7 +113,8 @@ class MavlinkProcesses : public testing::Test, protected NetworkEnd {
   }
   std::unique_ptr<Child> make_bridge(int port, std::vector<std::string> more = {}) {
     std::vector<std::string> words{TERN_MAVLINK, "--connect", "udp://127.0.0.1:" + std::to_string(port)};
-    for (const char* value : {"mavlink.start=arm", "mavlink.set_parameters=true", "mavlink.climb_speed=3"}) {
+    for (const char* value :
+         {"mavlink.start=arm", "mavlink.set_parameters=true", "mavlink.without_remote=true", "mavlink.climb_speed=3"}) {
       more.insert(more.begin(), {"--set", value});
     }
     words.insert(words.end(), more.begin(), more.end());
@@ -159,7 +160,7 @@ class MavlinkProcesses : public testing::Test, protected NetworkEnd {
     bus->publish(channels::kGoal, goal);
   }
   void set_parameter(const char* name, float value) {
-    ground_station(ParamSet{.param_value = value, .param_id = text_of<16>(name), .param_type = 9});
+    ground_station(ParamSet{.param_value = value, .target_system = 1, .param_id = text_of<16>(name), .param_type = 9});
   }
 
   Relay relay;
@@ -171,7 +172,7 @@ class MavlinkProcesses : public testing::Test, protected NetworkEnd {
   bool speaks = true;
 };
 
-const CommandLong kPilot{.param = {1, 3, 0}, .command = kDoSetMode};
+const CommandLong kPilot{.param = {1, 3, 0}, .command = kDoSetMode, .target_system = 1};
 
 TEST_F(MavlinkProcesses, FlyAndLandWhenAskedToEnd) {
   start_bridge();
@@ -238,7 +239,7 @@ TEST_F(MavlinkProcesses, GiveWayToAPilotAndFlyAgainWhenTold) {
 
 TEST_F(MavlinkProcesses, SayWhyArmingIsRefused) {
   ASSERT_TRUE(until([&] { return relay.autopilot_port != 0; }));
-  ground_station(ParamSet{.param_value = 1.0F, .param_id = text_of<16>("SIM_ARM_REFUSE"), .param_type = 9});
+  set_parameter("SIM_ARM_REFUSE", 1.0F);
   start_bridge();
   EXPECT_TRUE(until([&] { return status.why_not.find("Arming denied") != std::string::npos; })) << status.why_not;
   EXPECT_FALSE(status.armed);

@@ -1,0 +1,175 @@
+// What PX4 does where it is stricter, or does more by itself, than its documents let expect; of its source, v1.15 to
+// v1.17. The simulated autopilot has these manners, and the bridge copes with them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mavlink/bridge.h"
+#include "tests/mavlink/flight_in_memory.h"
+
+namespace tern::mavlink {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+CommandLong switch_to(float main) { return {.param = {1, main}, .command = kDoSetMode}; }
+
+TEST(Px4Manners, OffboardIsTakenUpAgainByItselfWhenSetpointsCome) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.bridge_runs = false;
+  flight.run(1.1);
+  EXPECT_EQ(flight.autopilot.mode(), "AUTO.LAND");
+  const SetPositionTargetLocalNed target{
+      .p = {0, 0, -2}, .type_mask = 0x0800, .target_system = 1, .coordinate_frame = 1};
+  flight.autopilot.hear(to_frame(target, {1, 191}, 0), flight.now);
+  flight.run(0.1);
+  EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
+}
+
+TEST(Px4Manners, TheBridgeDoesNotWakeAVehicleFromItsFailsafe) {
+  for (const double seconds : {1.1, 1.5, 2.5}) {
+    FlightInMemory flight;
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+    flight.cut = true;
+    flight.run(seconds);
+    ASSERT_EQ(flight.autopilot.mode(), "AUTO.LAND");
+    flight.cut = false;
+    flight.each = [&] { ASSERT_TRUE(flight.autopilot.mode() == "AUTO.LAND" || !flight.autopilot.armed()); };
+    ASSERT_TRUE(flight.run_until([&] { return !flight.autopilot.armed(); })) << seconds;
+    EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
+  }
+}
+
+TEST(Px4Manners, NorDoesOneThatLetsAPilotSwitchBeforeThePilotHasIt) {
+  FlightInMemory flight({.start = Start::Pilot, .set_parameters = true});
+  flight.run(5.0);
+  flight.ground_station(switch_to(6));
+  flight.ground_station({.param = {1}, .command = kArmDisarm});
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.cut = true;
+  flight.run(1.1);
+  flight.cut = false;
+  flight.each = [&] { ASSERT_EQ(flight.autopilot.mode(), "AUTO.LAND"); };
+  flight.run(0.5);
+  flight.each = nullptr;
+  ASSERT_TRUE(flight.autopilot.armed());
+  flight.ground_station(switch_to(3));
+  flight.run(2.0);
+  flight.ground_station(switch_to(6));
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); })) << "the stream for the pilot's switch runs again";
+}
+
+TEST(Px4Manners, ABridgeStartedAnewDoesNotWakeItEither) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.bridge_runs = false;
+  flight.run(1.1);
+  flight.bridge_runs = true;
+  flight.bridge = Bridge(flight.config, FlightInMemory::uav(), flight.now);
+  flight.each = [&] { ASSERT_TRUE(flight.autopilot.mode() == "AUTO.LAND" || !flight.autopilot.armed()); };
+  ASSERT_TRUE(flight.run_until([&] { return !flight.autopilot.armed(); }));
+}
+
+TEST(Px4Manners, AfterASilenceTheModeIsAskedForAndFlightGoesOn) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.cut = true;
+  flight.run(0.4);
+  EXPECT_FALSE(flight.following());
+  flight.cut = false;
+  flight.run(0.15);
+  EXPECT_TRUE(flight.following()) << "though HEARTBEAT comes by itself once a second only";
+}
+
+TEST(Px4Manners, APilotsSwitchIsSeenWithinAQuarterOfASecond) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  for (int k = 0; k < 3; ++k) {
+    flight.run(1.27);
+    flight.ground_station(switch_to(3));
+    flight.run(0.25);
+    EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
+    flight.bridge.told_to_fly();
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  }
+}
+
+TEST(Px4Manners, ArmingIsDeniedWithoutTheGroundStationThatIsAskedForAndTheReasonIsSaid) {
+  FlightInMemory flight;
+  flight.ground_station_there = false;
+  flight.run(12.0);
+  EXPECT_FALSE(flight.autopilot.armed());
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not,
+              AllOf(HasSubstr("Arming denied: Resolve system health failures first; "
+                              "Preflight Fail: No connection to the GCS"),
+                    Not(HasSubstr("?"))));
+  FlightInMemory alone({.start = Start::Arm, .set_parameters = true, .without_remote = true});
+  alone.ground_station_there = false;
+  EXPECT_TRUE(alone.run_until([&] { return alone.following(); })) << alone.bridge.status(alone.now).why_not;
+}
+
+TEST(Px4Manners, TheClimbWaitsForRotorsThatSpinUp) {
+  FlightInMemory flight({.start = Start::Arm, .climb_speed = 5.0, .set_parameters = true});
+  double highest = 0.0;
+  flight.each = [&] { highest = std::max(highest, flight.autopilot.model().truth().motion.p.z()); };
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  EXPECT_LT(highest, 2.4) << "what it lagged behind on the ground is not caught up with speed";
+}
+
+TEST(Px4Manners, AfterLandingItIsInOffboardAgainAndFliesWhenTold) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.bridge.land("the flight has ended");
+  ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Landed; }));
+  EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
+  flight.run(5.0);
+  EXPECT_FALSE(flight.autopilot.armed());
+  flight.bridge.told_to_fly();
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
+}
+
+TEST(Px4Manners, ASimulationInSlowMotionIsNotFlown) {
+  SimulatedAutopilotConfig slow;
+  slow.clock_rate = 0.7;
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, slow);
+  flight.run(20.0);
+  EXPECT_FALSE(flight.autopilot.armed());
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("its clock runs at 0.70 of ours"));
+}
+
+TEST(Px4Manners, ParametersAreSetByTheirOwnTypeAndCommandsNameWhomTheyMean) {
+  SimulatedAutopilot autopilot({}, 1, UTime{0});
+  const auto answers = [&](const auto& message) {
+    autopilot.take_frames();
+    autopilot.hear(to_frame(message, {255, 190}, 0), UTime{0});
+    return autopilot.take_frames().size();
+  };
+  ParamSet set{.param_value = 4.0F, .target_system = 1, .param_id = text_of<16>("COM_OBL_RC_ACT"), .param_type = 9};
+  EXPECT_EQ(answers(set), 0U) << "a float for an integer";
+  set.param_value = std::bit_cast<float>(std::int32_t{4}), set.param_type = 6;
+  EXPECT_EQ(answers(set), 1U);
+  set.target_system = 0;
+  EXPECT_EQ(answers(set), 0U);
+  EXPECT_EQ(answers(ParamRequestRead{.target_system = 1, .param_id = text_of<16>("COM_OBL_ACT")}), 0U)
+      << "of what it does not have it says nothing";
+}
+
+TEST(Px4Manners, RemoteLossMayBeExceptedInOtherModesToo) {
+  const auto required = required_parameters(Firmware::Px4, FlightInMemory::uav(), true, false);
+  std::map<std::string, double> values;
+  for (const RequiredParameter& r : required) values[r.name] = r.recommended;
+  for (const double value : {4.0, 7.0, 12.0, 15.0, 31.0}) {
+    values["COM_RCL_EXCEPT"] = value;
+    EXPECT_EQ(parameter_faults(required, values), "") << value;
+  }
+  for (const double value : {0.0, 3.0, 8.0, 11.0}) {
+    values["COM_RCL_EXCEPT"] = value;
+    EXPECT_THAT(parameter_faults(required, values), HasSubstr("COM_RCL_EXCEPT is")) << value;
+  }
+}
+
+}  // namespace
+}  // namespace tern::mavlink
