@@ -78,7 +78,7 @@ std::string parameter_faults(const std::vector<RequiredParameter>& required,
     if (found == values.end()) {
       fault = fmt::format("{} was not read", r.name);
     } else if (!r.allows(found->second)) {
-      const std::string range = r.bits != 0             ? fmt::format("has not all bits of {}", r.bits)
+      const std::string range = r.bits != 0             ? fmt::format("without bits {}", r.bits)
                                 : std::isfinite(r.high) ? fmt::format("not within [{:g}, {:g}]", r.low, r.high)
                                                         : fmt::format("below {:g}", r.low);
       fault = fmt::format("{} is {:g}, {}: {}", r.name, found->second, range, r.why);

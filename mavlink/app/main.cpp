@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
       .add_options =
           [&](CLI::App& app) {
             app.add_option("--connect", url,
-                           "udp://ADDRESS:PORT (listens), udpout://ADDRESS:PORT, serial:///dev/NAME:BAUD");
+                           "udp://ADDRESS:PORT (listens), udp://ADDRESS:PORT@ADDRESS:PORT (and speaks first), "
+                           "udpout://ADDRESS:PORT, serial:///dev/NAME:BAUD");
             app.add_option("--signing-key", key_file, "Sign MAVLink's frames by this secret (32 bytes, mode 600)");
           },
       .read_sections =

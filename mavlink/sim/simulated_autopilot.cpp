@@ -20,7 +20,11 @@ constexpr Duration kSpoolUp{1'000'000}, kRamp{3'000'000}, kTakeOffPatience{10'00
 /// Of the speed that the ramp begins with, so that it is one.
 constexpr double kRampFrom = 0.02;
 constexpr double kDescend = 0.7, kStop = 4.0;
-constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCEPT", "NAV_DLL_ACT"};
+constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCEPT", "NAV_DLL_ACT",   "EKF2_EV_CTRL",
+                               "EKF2_HGT_REF",   "EKF2_GPS_CTRL",  "EKF2_MAG_TYPE",  "EKF2_BARO_CTRL"};
+constexpr std::uint8_t kUnknownSource = 0, kNaive = 1, kVision = 2, kVio = 3, kLocalNed = 1;
+/// Without any the estimator has no position (EKF2_NOAID_TOUT is longer).
+constexpr Duration kVisionLoss{1'000'000};
 
 bool is_integer(const std::string& name) {
   return std::find(kIntegers.begin(), kIntegers.end(), name) != kIntegers.end();
@@ -45,7 +49,9 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
                   {"COM_RC_IN_MODE", 3.0},   {"COM_RCL_EXCEPT", 0.0},    {"NAV_DLL_ACT", 2.0},
                   {"MPC_XY_VEL_MAX", 12.0},  {"MPC_Z_VEL_MAX_UP", 3.0},  {"MPC_Z_VEL_MAX_DN", 1.5},
                   {"MPC_TILTMAX_AIR", 45.0}, {"MC_ROLLRATE_MAX", 220.0}, {"MC_PITCHRATE_MAX", 220.0},
-                  {"SIM_ARM_REFUSE", 0.0},   {"SIM_BAT_PCT", 90.0},      {"SIM_EST_JUMP", 0.0}} {
+                  {"EKF2_EV_CTRL", 0.0},     {"EKF2_HGT_REF", 1.0},      {"EKF2_GPS_CTRL", 7.0},
+                  {"EKF2_MAG_TYPE", 0.0},    {"EKF2_BARO_CTRL", 1.0},    {"SIM_ARM_REFUSE", 0.0},
+                  {"SIM_BAT_PCT", 90.0},     {"SIM_EST_JUMP", 0.0}} {
   model_.set_armed(false);
   tune();
   const auto every = [&](std::uint32_t id, std::int64_t us) { streams_[id] = {Duration{us}, now}; };
@@ -121,6 +127,7 @@ std::uint8_t SimulatedAutopilot::arm(UTime now) {
   const bool no_ground_station = !ground_station_heard_ || now - *ground_station_heard_ > kLinkLoss;
   std::string fault;
   if (parameters_["SIM_ARM_REFUSE"] != 0.0) fault = "Preflight Fail: Accel 0 uncalibrated";
+  if (!has_position(now)) fault = "Preflight Fail: ekf2 missing data";
   if (parameters_["NAV_DLL_ACT"] > 0.0 && no_ground_station) fault = "Preflight Fail: No connection to the GCS";
   const bool no_setpoints = mode_ == Mode::Offboard && !has_stream(now);
   if (!fault.empty() || no_setpoints || mode_ == Mode::Land) {
@@ -131,6 +138,22 @@ std::uint8_t SimulatedAutopilot::arm(UTime now) {
   if (!armed_) armed_since_ = now;
   armed_ = true;
   return kAccepted;
+}
+
+bool SimulatedAutopilot::has_position(UTime now) const {
+  const auto value = [&](const char* name) { return parameters_.at(name); };
+  if (is_busy(now)) return false;
+  const bool sees = value("EKF2_EV_CTRL") == 15.0 && vision_heard_ && now - *vision_heard_ < kVisionLoss;
+  return value("EKF2_GPS_CTRL") != 0.0 || sees;
+}
+
+void SimulatedAutopilot::hear_vision(const Odometry& seen, UTime now) {
+  const bool known = seen.estimator_type == kUnknownSource || seen.estimator_type == kNaive ||
+                     seen.estimator_type == kVision || seen.estimator_type == kVio;
+  const auto finite = [](const auto& values) {
+    return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
+  };
+  if (known && seen.frame_id == kLocalNed && finite(seen.p) && finite(seen.q)) vision_heard_ = now;
 }
 
 void SimulatedAutopilot::disarm() {
@@ -153,6 +176,7 @@ std::uint8_t SimulatedAutopilot::obey(const CommandLong& c, UTime now) {
       return kAccepted;
     }
     if (c.param[0] != static_cast<float>(GpsGlobalOrigin::kId)) return kUnsupported;
+    if (parameters_["EKF2_GPS_CTRL"] == 0.0) return kDenied;
     say_stream(GpsGlobalOrigin::kId, now);
     return kAccepted;
   }
@@ -227,6 +251,7 @@ void SimulatedAutopilot::hear(const Frame& frame, UTime now) {
   if (const auto m = from_frame<SetPositionTargetLocalNed>(frame)) {
     if (m->target_system == 0 || mine(m->target_system, m->target_component)) hear_target(*m, now);
   }
+  if (const auto m = from_frame<Odometry>(frame)) hear_vision(*m, now);
   if (const auto m = from_frame<Timesync>(frame); m && m->tc1 == 0) {
     say(Timesync{.tc1 = static_cast<std::int64_t>(clock_us(now)) * 1000, .ts1 = m->ts1});
   }

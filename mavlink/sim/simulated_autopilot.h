@@ -34,15 +34,19 @@ struct SimulatedAutopilotConfig {
 /// It stands on the ground at the origin of its local frame until it is armed. Pure: frames and times in, frames out.
 ///
 /// As PX4 does: HEARTBEAT 1 Hz, SYS_STATUS and EXTENDED_SYS_STATE 5 Hz, LOCAL_POSITION_NED and ODOMETRY 30 Hz,
-/// ATTITUDE_QUATERNION 50 Hz, TIMESYNC 10 Hz, other rates by SET_MESSAGE_INTERVAL. Disarmed, it takes any mode; to be
-/// armed in OFFBOARD, or to take OFFBOARD in flight, setpoints must have come for half a second. COM_OF_LOSS_T after
-/// the last one it does what COM_OBL_RC_ACT says, and takes OFFBOARD up again as soon as they come again. It is not
-/// armed while NAV_DLL_ACT asks for a ground station that is not heard. After arming, rotors spin up for a second, and
-/// take-off has its speed bit by bit within three more; who has not begun within 10 s is disarmed. It disarms when it
-/// has landed, and is then in the mode in which it was before it landed. HIL_STATE_QUATERNION states no time. Setpoints
-/// are held, not carried on. Any system may command it, but has to say whom it means. Parameters are set by their own
-/// type only, and of those it does not have nothing is said. The velocity loop has a D term, MPC_XY_VEL_D_ACC, which
-/// opposes the whole acceleration.
+/// ATTITUDE_QUATERNION 50 Hz, TIMESYNC 10 Hz, other rates by SET_MESSAGE_INTERVAL. HIL_STATE_QUATERNION states no time.
+///
+/// Disarmed, it takes any mode. To be armed in OFFBOARD, or to take it in flight, it must have heard setpoints for half
+/// a second. COM_OF_LOSS_T after the last one it does what COM_OBL_RC_ACT says; as soon as they come again, it takes
+/// OFFBOARD up again. Setpoints are held, not carried on.
+///
+/// It is not armed while NAV_DLL_ACT asks for a ground station that is not heard. With EKF2_GPS_CTRL 0 it has a
+/// position only while EKF2_EV_CTRL is 15 and ODOMETRY tells it; what it takes for its position is its model's all the
+/// same. After arming, rotors spin up for a second, and take-off has its speed bit by bit within three more. Who has
+/// not begun within 10 s is disarmed. It disarms when it has landed, and is then in the mode from before it landed.
+///
+/// Any system may command it, but has to say whom it means. A parameter is set by its own type only; of those it does
+/// not have, it says nothing. The velocity loop has a D term, MPC_XY_VEL_D_ACC, which opposes the whole acceleration.
 ///
 /// Parameters beside PX4's: SIM_ARM_REFUSE (it refuses to arm), SIM_BAT_PCT (what is left, %), SIM_EST_JUMP (writing it
 /// shifts the estimate by so many metres).
@@ -76,6 +80,7 @@ class SimulatedAutopilot {
   void enter(Mode mode);
   [[nodiscard]] bool is_busy(UTime now) const { return now - started_ < config_.busy_for; }
   bool rotors_lift(UTime t);
+  void hear_vision(const Odometry& seen, UTime now);
   void hear_target(const SetPositionTargetLocalNed& target, UTime now);
   void set_parameter(const std::string& name, double value);
   void tune();
@@ -89,6 +94,7 @@ class SimulatedAutopilot {
   void complain(const std::string& words);
   [[nodiscard]] std::uint64_t clock_us(UTime now) const;
   [[nodiscard]] bool has_stream(UTime now) const;
+  [[nodiscard]] bool has_position(UTime now) const;
   [[nodiscard]] std::uint32_t custom_mode() const;
   template <class M>
   void say(const M& message) {
@@ -105,7 +111,8 @@ class SimulatedAutopilot {
   bool failsafe_ = false;  ///< it flies mode_, not what was intended
   UavState command_;
   UavState target_;  ///< the newest setpoint, local ENU
-  std::optional<UTime> streaming_since_, last_target_, landed_since_, ramp_since_, ground_station_heard_;
+  std::optional<UTime> streaming_since_, last_target_, landed_since_, ramp_since_;
+  std::optional<UTime> ground_station_heard_, vision_heard_;
   UTime armed_since_;
   double ramp_ = 1.0;  ///< of its speed, while it takes off
   UTime last_step_;

@@ -95,7 +95,7 @@ void SimulatedAutopilot::say_stream(std::uint32_t id, UTime now) {
                                  .ratios = {0.1F, 0.1F, 0.1F, 0.1F, 0.0F, 0.0F},
                                  .pos_horiz_accuracy = static_cast<float>(config_.estimator.position_sigma_m),
                                  .pos_vert_accuracy = static_cast<float>(config_.estimator.position_sigma_m),
-                                 .flags = is_busy(now) ? kAttitudeAlone : kAllAiding});
+                                 .flags = has_position(now) ? kAllAiding : kAttitudeAlone});
     case LocalPositionNed::kId:
       return say(LocalPositionNed{boot_ms, ned_of(estimate.motion.p), ned_of(estimate.motion.v)});
     case AttitudeQuaternion::kId:

@@ -1,5 +1,6 @@
-// What PX4 does where it is stricter, or does more by itself, than its documents let expect; of its source, v1.15 to
-// v1.17. The simulated autopilot has these manners, and the bridge copes with them.
+// What PX4 does where it is stricter, or does more by itself, than its documents let expect; by its source
+// (commander/failsafe, UserModeIntention, mavlink_parameters, mc_pos_control). The simulated autopilot has these
+// manners, and the bridge copes with them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -155,6 +156,23 @@ TEST(Px4Manners, ParametersAreSetByTheirOwnTypeAndCommandsNameWhomTheyMean) {
   EXPECT_EQ(answers(set), 0U);
   EXPECT_EQ(answers(ParamRequestRead{.target_system = 1, .param_id = text_of<16>("COM_OBL_ACT")}), 0U)
       << "of what it does not have it says nothing";
+}
+
+TEST(Px4Manners, WithoutGpsItFliesByWhatTheBridgeTellsItOfItsPlace) {
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true, .external_vision = true});
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
+  ASSERT_TRUE(flight.bridge.truth());
+  EXPECT_LT((flight.bridge.truth()->motion.p - flight.autopilot.model().truth().motion.p).norm(), 0.05);
+  FlightInMemory blind({.start = Start::Arm, .set_parameters = true});
+  blind.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{0}),
+                                         .target_system = 1,
+                                         .param_id = text_of<16>("EKF2_GPS_CTRL"),
+                                         .param_type = 6},
+                                {255, 190}, 0),
+                       blind.now);
+  blind.run(10.0);
+  EXPECT_FALSE(blind.autopilot.armed());
+  EXPECT_THAT(blind.bridge.status(blind.now).why_not, HasSubstr("its estimator has no position"));
 }
 
 TEST(Px4Manners, RemoteLossMayBeExceptedInOtherModesToo) {
