@@ -18,6 +18,8 @@ constexpr Duration kEngagePatience{120'000'000};
 /// Of the autopilot's clock: a simulation that is slower moves in slow motion and cannot follow.
 constexpr double kClockOff = 0.05;
 constexpr Duration kHeld{4'000'000};
+/// A lag that long is no noise: well tuned, it is a hundredth of a second or two.
+constexpr double kLag_s = 0.1;
 /// Arrived at the top of the climb.
 constexpr double kThere_m = 0.3, kThereSpeed = 0.4;
 /// The climb's setpoint waits when it is so far above the vehicle: rotors spin up, and PX4 takes off gently.
@@ -147,6 +149,20 @@ void Bridge::watch_clock() {
   const std::string fault = clock_fault();
   if (!fault.empty() && !clock_is_off_) words_.push_back(fault);
   clock_is_off_ = !fault.empty();
+}
+
+void Bridge::watch_lag() {
+  const auto here = state();
+  if (!here || here->at <= lag_at_) return;
+  const MotionSample commanded = command_.sample(here->at);
+  lag_.add(std::min((here->at - lag_at_).seconds(), 0.1), commanded.p, commanded.v, here->motion.p);
+  lag_at_ = here->at;
+  const double lag_s = lag_.seconds().value_or(0.0);
+  if (lag_was_said_ || std::abs(lag_s) < kLag_s) return;
+  lag_was_said_ = true;
+  words_.push_back(fmt::format(
+      "the vehicle is {:.2f} s {} its setpoints: mavlink.drag_per_s is {:g}, too {} for its drag", std::abs(lag_s),
+      lag_s > 0 ? "behind" : "ahead of", config_.drag_per_s, lag_s > 0 ? "small" : "large"));
 }
 
 std::string Bridge::not_ready(UTime now) const {
@@ -293,6 +309,7 @@ void Bridge::step_flying(UTime now) {
   const bool near = setpoint_heard_ && setpoint_near(now);
   if (!near && followed_) hold_here();
   followed_ = near;
+  if (near) watch_lag();
 }
 
 void Bridge::step_landing(UTime now) {

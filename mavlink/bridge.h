@@ -9,6 +9,7 @@
 #include "mavlink/autopilot.h"
 #include "mavlink/bridge_config.h"
 #include "mavlink/required_parameters.h"
+#include "mavlink/tracking_lag.h"
 
 namespace tern::mavlink {
 
@@ -103,6 +104,7 @@ class Bridge {
   void hold_here();
   void anchor_truth();
   void watch_clock();
+  void watch_lag();
   void tell_vision(UavState local);
   void command(UTime now, std::uint16_t number, std::array<float, 7> param);
   void ask(std::uint16_t number, std::uint32_t message, float interval_us = 0.0F);
@@ -136,7 +138,10 @@ class Bridge {
   UTime stage_since_, now_;
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
   std::optional<UTime> streaming_since_;
-  bool followed_ = false;      ///< at the last setpoint that was sent
+  bool followed_ = false;  ///< at the last setpoint that was sent
+  TrackingLag lag_;
+  UTime lag_at_;
+  bool lag_was_said_ = false;
   bool clock_is_off_ = false;  ///< was said of the vehicle in flight
   UavState own_;               ///< the command while it does not follow: at rest here, or on its way up
   std::string refusal_;        ///< the newest answer to a command that was not taken, in words

@@ -10,7 +10,9 @@
 namespace tern::mavlink {
 namespace {
 
-constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000}, kStreamsPeriod{5'000'000};
+constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000};
+/// PX4 hears nothing else for some 10 ms per stream that it is asked for: seldom in flight.
+constexpr Duration kStreamsPeriod{2'000'000}, kStreamsPeriodInFlight{30'000'000};
 /// HEARTBEAT comes by itself once a second.
 constexpr Duration kModePeriod{200'000}, kOldModePeriod{50'000};
 /// COM_OF_LOSS_T's default.
@@ -40,7 +42,7 @@ void Bridge::ask(std::uint16_t number, std::uint32_t message, float interval_us)
 
 void Bridge::request_streams(UTime now) {
   if (now < next_streams_ || !autopilot_.address()) return;
-  next_streams_ = now + kStreamsPeriod;
+  next_streams_ = now + (flies() ? kStreamsPeriodInFlight : kStreamsPeriod);
   ask(kSetMessageInterval, Odometry::kId, 10'000);
   ask(kSetMessageInterval, HilStateQuaternion::kId, 10'000);
   ask(kSetMessageInterval, EstimatorStatus::kId, 200'000);

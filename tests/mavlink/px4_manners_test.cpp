@@ -132,6 +132,37 @@ TEST(Px4Manners, AfterLandingItIsInOffboardAgainAndFliesWhenTold) {
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
 }
 
+/// Along x, from rest, 3 m/s at last.
+MotionSample straight(double t) {
+  constexpr double kSpeed = 3.0, kA = 1.5, kUntil = kSpeed / kA;
+  MotionSample m{Vec3(0, 0, 2), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  m.p.x() = t < kUntil ? 0.5 * kA * t * t : kSpeed * (t - 0.5 * kUntil);
+  m.v.x() = t < kUntil ? kA * t : kSpeed;
+  m.a.x() = t < kUntil ? kA : 0.0;
+  return m;
+}
+
+TEST(Px4Manners, DragThatNothingIsFedForwardAgainstIsSaid) {
+  SimulatedAutopilotConfig sih;
+  sih.quadrotor.body.drag_per_s = sih.quadrotor.body.drag_up_per_s = 1.0;
+  sih.quadrotor.controller.position_p = 0.95;
+  sih.quadrotor.controller.velocity_p = 1.8;
+  sih.quadrotor.controller.velocity_i = 0.4;
+  for (const double drag : {0.3, 1.0}) {
+    FlightInMemory flight({.start = Start::Arm, .drag_per_s = drag, .set_parameters = true}, sih);
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+    flight.path = straight;
+    flight.run(12.0);
+    ASSERT_TRUE(flight.following());
+    const auto said = Contains(HasSubstr("behind its setpoints: mavlink.drag_per_s is 0.3, too small"));
+    if (drag < 1.0) {
+      EXPECT_THAT(flight.words, said);
+    } else {
+      EXPECT_THAT(flight.words, Not(Contains(HasSubstr("mavlink.drag_per_s"))));
+    }
+  }
+}
+
 TEST(Px4Manners, ASimulationInSlowMotionIsNotFlown) {
   SimulatedAutopilotConfig slow;
   slow.clock_rate = 0.7;
