@@ -55,13 +55,13 @@ std::string ardupilot_mode(std::uint32_t custom) {
 
 /// Metres north and east of the origin on a sphere, as PX4 projects (azimuthal equidistant).
 Vec3 ned_from(const GpsGlobalOrigin& origin, std::int32_t lat, std::int32_t lon, std::int32_t alt_mm) {
-  constexpr double kEarth_m = 6'371'000.0, kRadians = std::numbers::pi / 180.0 * 1e-7;
+  constexpr double kEarthRadius = 6'371'000.0, kRadians = std::numbers::pi / 180.0 * 1e-7;
   const double a = origin.latitude * kRadians, b = lat * kRadians;
   const double turn = (static_cast<double>(lon) - origin.longitude) * kRadians;
   const double cosine = std::clamp(std::sin(a) * std::sin(b) + std::cos(a) * std::cos(b) * std::cos(turn), -1.0, 1.0);
   const double angle = std::acos(cosine), k = angle < 1e-9 ? 1.0 : angle / std::sin(angle);
-  return {k * (std::cos(a) * std::sin(b) - std::sin(a) * std::cos(b) * std::cos(turn)) * kEarth_m,
-          k * std::cos(b) * std::sin(turn) * kEarth_m, (origin.altitude - alt_mm) * 1e-3};
+  return {k * (std::cos(a) * std::sin(b) - std::sin(a) * std::cos(b) * std::cos(turn)) * kEarthRadius,
+          k * std::cos(b) * std::sin(turn) * kEarthRadius, (origin.altitude - alt_mm) * 1e-3};
 }
 
 }  // namespace

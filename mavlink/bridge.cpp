@@ -18,12 +18,12 @@ constexpr Duration kEngagePatience{120'000'000};
 /// Of the autopilot's clock: a simulation that is slower moves in slow motion and cannot follow.
 constexpr double kClockOff = 0.05;
 constexpr Duration kHeld{4'000'000};
-/// A lag that long is no noise: well tuned, it is a hundredth of a second or two.
-constexpr double kLag_s = 0.1;
-/// Arrived at the top of the climb.
-constexpr double kThere_m = 0.3, kThereSpeed = 0.4;
-/// The climb's setpoint waits when it is so far above the vehicle: rotors spin up, and PX4 takes off gently.
-constexpr double kClimbAhead_m = 0.5;
+/// A lag that long is no noise: well tuned, it is a hundredth of a second or two, s.
+constexpr double kLag = 0.1;
+/// Arrived at the top of the climb, m and m/s.
+constexpr double kThere = 0.3, kThereSpeed = 0.4;
+/// The climb's setpoint waits when it is so far above the vehicle, m: rotors spin up, and PX4 takes off gently.
+constexpr double kClimbAhead = 0.5;
 /// By this it stops when it is taken over in flight, m/s².
 constexpr double kStop = 4.0;
 constexpr std::uint8_t kOnboardController = 18, kNoAutopilot = 8, kActive = 4;
@@ -158,7 +158,7 @@ void Bridge::watch_lag() {
   lag_.add(std::min((here->at - lag_at_).seconds(), 0.1), commanded.p, commanded.v, here->motion.p);
   lag_at_ = here->at;
   const double lag_s = lag_.seconds().value_or(0.0);
-  if (lag_was_said_ || std::abs(lag_s) < kLag_s) return;
+  if (lag_was_said_ || std::abs(lag_s) < kLag) return;
   lag_was_said_ = true;
   words_.push_back(fmt::format(
       "the vehicle is {:.2f} s {} its setpoints: mavlink.drag_per_s is {:g}, too {} for its drag", std::abs(lag_s),
@@ -170,7 +170,7 @@ std::string Bridge::not_ready(UTime now) const {
   if (!autopilot_.address()) return "no autopilot is heard";
   if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_heard());
   if (!autopilot_.clock().ready()) return "its clock is not yet known (TIMESYNC)";
-  if (const std::string fault = clock_fault(); !fault.empty()) return fault;
+  if (std::string fault = clock_fault(); !fault.empty()) return fault;
   if (!state || now - state->at > kStateAge) return "it says no position (ODOMETRY, LOCAL_POSITION_NED)";
   if (autopilot_.estimator() == EstimatorHealth::Lost) return "its estimator has no position (ESTIMATOR_STATUS)";
   if (!autopilot_.landed()) return "it does not say whether it has landed (EXTENDED_SYS_STATE)";
@@ -280,7 +280,7 @@ void Bridge::step_engaging(UTime now) {
 void Bridge::climb(UTime now) {
   const Vec3 way = uav_.start - own_.motion.p;
   const auto here = state();
-  const bool waits = here && own_.motion.p.z() - here->motion.p.z() > kClimbAhead_m;
+  const bool waits = here && own_.motion.p.z() - here->motion.p.z() > kClimbAhead;
   const double left = way.norm(), next = waits ? 0.0 : config_.climb_speed * std::min((now - now_).seconds(), 0.1);
   own_.motion.v = left > 1e-9 ? Vec3(way * (config_.climb_speed / left)) : Vec3::Zero();
   if (left <= next) {
@@ -289,7 +289,7 @@ void Bridge::climb(UTime now) {
   } else {
     own_.motion.p += way * (next / left);
   }
-  if (here && own_.motion.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere_m &&
+  if (here && own_.motion.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere &&
       here->motion.v.norm() < kThereSpeed && in_air()) {
     enter(Stage::Following);
   }

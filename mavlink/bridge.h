@@ -48,8 +48,8 @@ const char* to_string(Stage stage);
 /// bridge that was started anew and finds the vehicle armed and in OFFBOARD in the air goes on following.
 ///
 /// PX4 takes OFFBOARD up again by itself as soon as setpoints come again, whatever its failsafe was doing. So none is
-/// sent while the vehicle may be in one: after a silence of COM_OF_LOSS_T none until HEARTBEAT has told the mode, and
-/// while HEARTBEAT tells of a failsafe none, unless somebody told the bridge to fly.
+/// sent while the vehicle may be in one. After a silence of COM_OF_LOSS_T, HEARTBEAT has to tell the mode first. While
+/// it tells of a failsafe there are none, unless somebody told the bridge to fly.
 class Bridge {
  public:
   Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
@@ -105,7 +105,7 @@ class Bridge {
   void anchor_truth();
   void watch_clock();
   void watch_lag();
-  void tell_vision(UavState local);
+  void tell_vision(const UavState& local);
   void command(UTime now, std::uint16_t number, std::array<float, 7> param);
   void ask(std::uint16_t number, std::uint32_t message, float interval_us = 0.0F);
   [[nodiscard]] std::vector<RequiredParameter> required() const;

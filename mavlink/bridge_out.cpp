@@ -15,8 +15,8 @@ constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000};
 constexpr Duration kStreamsPeriod{2'000'000}, kStreamsPeriodInFlight{30'000'000};
 /// HEARTBEAT comes by itself once a second.
 constexpr Duration kModePeriod{200'000}, kOldModePeriod{50'000};
-/// COM_OF_LOSS_T's default.
-constexpr double kOffboardLoss_s = 1.0;
+/// COM_OF_LOSS_T's default, s.
+constexpr double kOffboardLoss = 1.0;
 /// 50 Hz.
 constexpr Duration kVisionPeriod{20'000};
 constexpr std::uint16_t kAllButYawRate = 0x0800;
@@ -92,7 +92,7 @@ void Bridge::hear_vision(const UavState& seen) {
 }
 
 /// Level: an estimator takes position, velocity and heading from it, its tilt from its own sensors.
-void Bridge::tell_vision(UavState local) {
+void Bridge::tell_vision(const UavState& local) {
   if (!config_.external_vision || !autopilot_.address() || local.at < told_vision_ + kVisionPeriod) return;
   told_vision_ = local.at;
   const Eigen::Quaterniond level(Eigen::AngleAxisd(local.yaw, Vec3::UnitZ()));
@@ -113,7 +113,7 @@ bool Bridge::may_be_in_failsafe(UTime now) const {
   if (autopilot_.firmware() == Firmware::ArduPilot) return false;  // it stays in GUIDED, and stops
   if (!flies()) return autopilot_.in_failsafe() && !told_again_;
   const auto known = autopilot_.parameters().find("COM_OF_LOSS_T");
-  const double loss_s = known != autopilot_.parameters().end() ? known->second : kOffboardLoss_s;
+  const double loss_s = known != autopilot_.parameters().end() ? known->second : kOffboardLoss;
   return autopilot_.silence(now).seconds() > loss_s;
 }
 

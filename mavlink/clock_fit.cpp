@@ -6,8 +6,8 @@
 namespace tern::mavlink {
 namespace {
 
-/// Below this span a rate is noise.
-constexpr double kRateSpan_us = 1e6;
+/// Below this span, µs, a rate is noise.
+constexpr double kRateSpan = 1e6;
 /// A clock that is off by more is another one.
 constexpr Duration kRestart{1'000'000};
 /// Queues that are shorter than this are none.
@@ -52,7 +52,7 @@ void ClockFit::fit() {
     first = std::min(first, dx), last = std::max(last, dx);
   }
   const double spread = xx - x * x / n;
-  rate_is_known_ = last - first >= kRateSpan_us;
+  rate_is_known_ = last - first >= kRateSpan;
   rate_ = rate_is_known_ ? (xy - x * y / n) / spread : 1.0;
   theirs_origin_us_ = static_cast<double>(theirs_origin) + (y - rate_ * x) / n;
 }
