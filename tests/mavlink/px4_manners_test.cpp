@@ -113,11 +113,11 @@ TEST(Px4Manners, ArmingIsDeniedWithoutTheGroundStationThatIsAskedForAndTheReason
 }
 
 TEST(Px4Manners, TheClimbWaitsForRotorsThatSpinUp) {
-  FlightInMemory flight({.start = Start::Arm, .climb_speed = 5.0, .set_parameters = true});
-  double highest = 0.0;
-  flight.each = [&] { highest = std::max(highest, flight.autopilot.model().truth().motion.p.z()); };
+  FlightInMemory flight;
+  double fastest = 0.0;
+  flight.each = [&] { fastest = std::max(fastest, flight.autopilot.model().truth().motion.v.z()); };
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
-  EXPECT_LT(highest, 2.4) << "what it lagged behind on the ground is not caught up with speed";
+  EXPECT_LT(fastest, 2.0) << "what it lagged behind on the ground is not caught up with speed; climb_speed is 1 m/s";
 }
 
 TEST(Px4Manners, AfterLandingItIsInOffboardAgainAndFliesWhenTold) {
