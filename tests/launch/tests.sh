@@ -94,9 +94,17 @@ fly_refuses_a_bad_scenario_with_file_and_line() {
 }
 
 fly_refuses_a_bad_setting_of_one_process() {
+  local setting
   [[ $(code "$scripts/fly.sh" --no-install --set planner.bogus=3 --record "$work/r") == 3 ]] || fail "exit code"
   expect "override, key" has_text "planner.bogus=3: planner.bogus: unknown key" "$work/out"
   expect "a summary" has_text '"outcome": "failed"' "$work/r/summary.json"
+  # Nor is a mistake of one that does not fly left unsaid.
+  for setting in mavlink.bogus=3 autopilot_sim.bogus=3 mavlink.rate_hz=1; do
+    [[ $(code "$scripts/fly.sh" --no-install --set "$setting" --record "$work/$setting") == 3 ]] || fail "exit code of $setting"
+    expect "override, key" has_text "--set $setting: ${setting%=*}: " "$work/out"
+  done
+  [[ $(code "$scripts/fly.sh" --no-install --check --set mavlink.bogus=3) == 2 ]] || fail "exit code of a check"
+  expect "key" has_text "mavlink.bogus: unknown key" "$work/out"
   [[ $(code "$TERN_BIN/tern-launch" fly --programs="$TERN_BIN" --config="$scenario" --flights="$work/flights" \
     --set=uav.bogus=3) == 3 ]] || fail "exit code"
   [[ -z $(ls "$work/flights") ]] || fail "a flight that never began left a folder"
