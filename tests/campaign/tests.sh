@@ -68,7 +68,8 @@ bad_arguments_end_with_a_clear_word_and_exit_code_2() {
   refused "unknown key" --world "$hop" "${out[@]}" --set planner.hold=1
   refused "mavlink.hold: unknown key" --world "$hop" "${out[@]}" --set mavlink.hold=1
   refused "autopilot_sim.hold: unknown key" --world "$hop" "${out[@]}" --set autopilot_sim.hold=1
-  refused "logger.hold: unknown key" --world "$hop" "${out[@]}" --set logger.hold=1
+  { cat "$hop" && echo "logger: {hold: 1}"; } >"$work/logger.yaml"
+  refused "logger.hold: unknown key" --world "$work/logger.yaml" "${out[@]}"
   refused "out of range" --world "$hop" "${out[@]}" --set uav.limits.v_max=-1
   refused "seeds are set by --seeds" --world "$hop" "${out[@]}" --set seed=3
   refused "--charge" --world "$hop" "${out[@]}" --charge wall
