@@ -75,7 +75,10 @@ std::string blocked_in_words(const GoalField& field, const GoalFieldKey& key, co
   const std::string what = is_static       ? (names.empty() ? "an obstacle" : names)
                            : names.empty() ? "what the map says is occupied"
                                            : fmt::format("what the map says is occupied ({})", names);
-  const auto place = [](const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z()); };
+  const auto place = [](const Vec3& p) {
+    const Vec3 r = (p * 100.0).array().round() / 100.0 + 0.0;  // never -0.00
+    return fmt::format("({:.2f}, {:.2f}, {:.2f})", r.x(), r.y(), r.z());
+  };
   return fmt::format("{} from {} to {} {}", what, place(box.min()), place(box.max()),
                      blocker->contains(key.goal) ? "leaves no room there" : "is the first in the way");
 }
