@@ -345,4 +345,25 @@ a_build_shows_its_progress_while_much_is_left() {
   expect "it is built" test -e "$tree/build/release/7"
 }
 
+programs_that_need_not_be_linked_anew_are_no_build_to_speak_of() {
+  make_tree 1 true
+  cat >>"$tree/CMakeLists.txt" <<'END'
+add_custom_command(OUTPUT always BYPRODUCTS version COMMAND sh -c "test -e version || touch version" VERBATIM)
+foreach(k RANGE 1 30)
+  add_custom_command(OUTPUT program${k} DEPENDS version COMMENT "Linking CXX executable program${k}"
+    COMMAND ${CMAKE_COMMAND} -E touch program${k} VERBATIM)
+  list(APPEND programs program${k})
+endforeach()
+add_custom_target(versions DEPENDS always)
+add_custom_target(programs DEPENDS ${programs})
+add_dependencies(apps versions programs)
+END
+  # shellcheck disable=SC2016  # the inner shell expands it
+  local build=(bash -c 'source "$0" && build_programs' "$tree/launch_scripts/lib.sh")
+  expect "it is built" "$tree/launch_scripts/build.sh"
+  (($(ninja -C "$tree/build/release" -n apps | grep -c Linking) == 30)) || fail "ninja -n knows that nothing changes"
+  [[ $(code "${build[@]}") == 0 ]] || fail "exit code: $(cat "$work/out")"
+  [[ ! -s $work/out ]] || fail "nothing was left, and it said: $(cat "$work/out")"
+}
+
 run_test "$1"
