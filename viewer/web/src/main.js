@@ -273,9 +273,9 @@ function picture(now, seconds) {
   if (vehicle.state) {
     const centre = cameras.mode === 'orbit' ? obstacles.where(obstacles.pickedId, now_us) : null;
     cameras.follow(vehicle.p, vehicle.state.v, centre, seconds);
-    showTime(flightTime(known.player?.at_us ?? clock.at_us));
     ghost.draw(flightTime(now_us));
   }
+  if (vehicle.state || known.player) showTime(flightTime(known.player?.at_us ?? clock.at_us));
   cameras.update();
   obstacles.draw(now_us, world.camera);
   world.adapt(now);
