@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "campaign/recorded_flight.h"
+#include "campaign/records/distinct_flights.h"
 #include "campaign/workers/process_pool.h"
 
 namespace tern {
@@ -69,6 +70,8 @@ class Run {
   void count(const FlightRecord& record) {
     ++progress_.done;
     progress_.successes += is_success(record) ? 1 : 0;
+    distinct_.add(record);
+    progress_.different = distinct_.count();
   }
 
   /// Where a flight's files are until it is known whether they are kept.
@@ -142,6 +145,7 @@ class Run {
   FlightBook& book_;
   std::vector<std::uint64_t> waiting_;
   CampaignProgress progress_;
+  DistinctFlights distinct_;
   ProcessPool pool_;
 };
 

@@ -32,6 +32,7 @@ struct CampaignProgress {
   std::int64_t total = 0;      ///< flights of this call's seeds
   std::int64_t done = 0;       ///< of these, in the book
   std::int64_t successes = 0;  ///< of those
+  std::int64_t different = 0;  ///< of those, flights that differ from each other (DistinctFlights)
   std::int64_t flown = 0;      ///< by this call
 };
 

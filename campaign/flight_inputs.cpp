@@ -8,6 +8,9 @@
 #include <set>
 
 #include "executor/app/executor_config.h"
+#include "logger/app/logger_node.h"
+#include "mavlink/bridge_config.h"
+#include "mavlink/sim/simulated_autopilot.h"
 #include "planner/app/config_reader.h"
 #include "predictor/app/predictor_config.h"
 #include "runtime/config.h"
@@ -30,7 +33,7 @@ std::vector<fs::path> scenario_folders() {
   return {"scenarios", programs / ".." / ".." / ".." / "scenarios", programs / ".." / "share" / "tern" / "scenarios"};
 }
 
-/// Reads every process's section, as the processes would.
+/// Reads the sections of who flies in a campaign, as the processes would.
 MapperConfig read_sections(ConfigDocument& document, const Scenario& scenario) {
   ConfigSection root = document.root();
   (void)read_simulator_config(root.section("simulator"), scenario.seed);
@@ -87,9 +90,20 @@ Result<std::string> find_scenario(const std::string& wanted) {
   return fail(fmt::format("no scenario {}; there are:{}", wanted, list.empty() ? " none" : list));
 }
 
-void read_every_section(ConfigDocument& document) { (void)read_sections(document, read_scenario(document)); }
+void read_every_section(ConfigDocument& document) {
+  (void)read_sections(document, read_scenario(document));
+  mavlink::BridgeConfig bridge;
+  mavlink::SimulatedAutopilotConfig autopilot;
+  ConfigSection root = document.root();
+  (void)read_logger_config(root.section("logger"));
+  root.section("mavlink").read(bridge);
+  root.section("autopilot_sim").read(autopilot);
+}
 
 CampaignIdentity check_inputs(const FlightInputs& inputs, std::uint64_t seed) {
+  // Apart: the configuration that names a campaign is that of the processes that fly in it.
+  ConfigDocument all = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(0));
+  read_every_section(all);
   ConfigDocument document = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(0));
   Scenario scenario = read_scenario(document);
   (void)read_sections(document, scenario);

@@ -29,7 +29,7 @@ struct FlightInputs {
 /// @return an Error that lists the names that there are.
 Result<std::string> find_scenario(const std::string& wanted);
 
-/// The scenario, and every section of a process that a virtual flight has. @throws ConfigError.
+/// The scenario, and the section of every process, whoever flies. @throws ConfigError.
 void read_every_section(ConfigDocument& document);
 
 /// Reads all that a flight would read, and makes the world of the seed. @throws ConfigError for what run_process would

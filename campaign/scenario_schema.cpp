@@ -9,9 +9,6 @@
 #include <vector>
 
 #include "campaign/flight_inputs.h"
-#include "logger/app/logger_node.h"
-#include "mavlink/bridge_config.h"
-#include "mavlink/sim/simulated_autopilot.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -125,13 +122,8 @@ std::string scenario_schema() {
   Json root{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "A scenario of Tern"}};
   root.update(closed_object());
   for (const char* example : kExamples) {
-    mavlink::BridgeConfig bridge;
-    mavlink::SimulatedAutopilotConfig autopilot;
     ConfigDocument document = ConfigDocument::parse(example, "example");
     read_every_section(document);
-    (void)read_logger_config(document.root().section("logger"));
-    document.root().section("mavlink").read(bridge);
-    document.root().section("autopilot_sim").read(autopilot);
     for (const Knob& knob : document.knobs()) insert(root, knob);
   }
   Json lambda{{"type", "number"}, {"minimum", 0}};

@@ -58,15 +58,28 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
       .restarted = false;
   for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"})
     add(name, {});
-  if (!options.autopilot.empty()) add("tern-mavlink", {"--connect", options.autopilot});
+  if (!options.autopilot.empty()) add(kMavlink, {"--connect", options.autopilot});
   if (options.autopilot_sim) {
     const std::string place = options.autopilot.substr(options.autopilot.find("//"));
-    add("tern-autopilot-sim", {"--connect", "udpout:" + place}).restarted = false;
+    add(kAutopilotSim, {"--connect", "udpout:" + place}).restarted = false;
   }
   const auto simulator = std::find_if(processes.begin(), processes.end(),
                                       [](const SupervisedProcess& p) { return p.name == "tern-simulator"; });
   simulator->child.command.emplace_back("--recorded");
   return processes;
+}
+
+std::vector<std::vector<std::string>> checks_of_absent(const FlightOptions& options,
+                                                       const std::vector<SupervisedProcess>& processes) {
+  std::vector<std::vector<std::string>> checks;
+  for (const char* name : {kMavlink, kAutopilotSim}) {
+    const auto flies = [&](const SupervisedProcess& p) { return p.name == name; };
+    if (std::any_of(processes.begin(), processes.end(), flies)) continue;
+    auto& words = checks.emplace_back();
+    words = {options.programs + "/" + name, "--check-config", "--config", options.scenario};
+    for (const std::string& value : options.overrides) words.insert(words.end(), {"--set", value});
+  }
+  return checks;
 }
 
 std::string shell_line(const std::vector<std::string>& words) {

@@ -43,7 +43,7 @@ struct SupervisedProcess {
 /// correct.
 inline constexpr char kAutopilotDynamics[] =
     "uav.dynamics={thrust_min: 4, thrust_max: 16, tilt_max: 38, body_rate_max: 170}";
-inline constexpr char kMavlink[] = "tern-mavlink";
+inline constexpr char kMavlink[] = "tern-mavlink", kAutopilotSim[] = "tern-autopilot-sim";
 inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kViewer[] = "tern-viewer";
 
 /// The processes of a flight in the order of their start. First comes the viewer, whose page is waited for, then logger
@@ -52,6 +52,11 @@ inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kV
 /// @param record  the flight's folder  @param key_fds  by process, an open file of its keys; empty: unsigned
 std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, const std::string& record,
                                                 const std::map<std::string, int>& key_fds);
+
+/// What asks each program that this flight does without to check its section of the scenario: a misspelt key is a
+/// mistake of the file, whoever flies. Each command ends with 0, or says on standard error what it refuses.
+std::vector<std::vector<std::string>> checks_of_absent(const FlightOptions& options,
+                                                       const std::vector<SupervisedProcess>& processes);
 
 /// Words as a line that a shell reads back as these words.
 std::string shell_line(const std::vector<std::string>& words);

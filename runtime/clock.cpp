@@ -45,6 +45,11 @@ UTime WallClock::at(std::int64_t unix_us) const {
   return UTime{kPaceOriginUs + std::llround(static_cast<double>(unix_us - kPaceOriginUs) * pace_)} + offset_;
 }
 
+std::int64_t WallClock::system_time_us(UTime t, double pace) {
+  if (pace == 1.0) return t.us;
+  return kPaceOriginUs + std::llround(static_cast<double>(t.us - kPaceOriginUs) / pace);
+}
+
 UTime WallClock::now() const { return at((read_ns<std::chrono::steady_clock>() + ahead_ns_) / 1'000); }
 
 UTime WallClock::at_system_time(std::int64_t unix_us) const { return at(unix_us - drift().us); }

@@ -32,6 +32,8 @@ class WallClock final : public Clock {
 
   /// @pre 0 < pace ≤ 1
   explicit WallClock(Duration offset = {}, double pace = 1.0);
+  /// What the system's clock showed, µs since the Unix epoch, when one of this pace without an offset showed `t`.
+  static std::int64_t system_time_us(UTime t, double pace);
   [[nodiscard]] UTime now() const override;
   [[nodiscard]] UTime at_system_time(std::int64_t unix_us) const override;
   [[nodiscard]] Duration drift() const override;

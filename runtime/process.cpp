@@ -55,13 +55,14 @@ struct Options {
   std::string log_level = "info";
   std::optional<std::string> key_file;
   std::optional<int> key_fd;
-  bool help_config = false;
+  bool help_config = false, check_config = false;
 };
 
 void declare(CLI::App& app, Options& options, const ProcessDescription& description) {
   app.set_version_flag("--version", fmt::format("{} {}", description.name, build_id()));
   if (description.read_sections) {
     app.add_flag("--help-config", options.help_config, "Say every key of this process in the scenario file, and end");
+    app.add_flag("--check-config", options.check_config, "Read the scenario and this process's keys in it, and end");
   }
   app.add_option("--config", options.config, "Scenario file (YAML); without it, all defaults")->type_name("FILE");
   app.add_option("--set", options.overrides,
@@ -150,6 +151,10 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   const WallClock clock(Duration{options.clock_offset_us}, options.pace);
   ConfigDocument document = ConfigDocument::load(options.config, options.overrides);
   const Scenario scenario = read_scenario(document);
+  if (options.check_config) {
+    description.read_sections(document);
+    return 0;
+  }
   const ConfigSection section = description.section.empty() ? ConfigDocument::parse("", options.config).root()
                                                             : document.root().section(description.section);
 

@@ -45,7 +45,7 @@ struct ProcessDescription {
   std::string section;                              ///< "planner": its key in the scenario file; "" if it has none
   std::string summary;                              ///< one line for --help
   std::function<void(CLI::App&)> add_options = {};  ///< options besides the common ones
-  /// Reads every section that is this process's, for --help-config. Empty: it has none.
+  /// Reads every section that is this process's, for --help-config and --check-config. Empty: it has none.
   std::function<void(ConfigDocument&)> read_sections = {};
   std::string example = {};  ///< a scenario that makes every key known, where some depend on another
 };
@@ -57,7 +57,8 @@ using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 /// @pre process_id ≥ 0
 std::int64_t unique_epoch(std::int64_t now_us, std::int64_t process_id);
 
-/// Parses --help, --help-config, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL, --clock-offset-us N,
+/// Parses --help, --help-config, --check-config, --version, --config FILE, --set KEY=VALUE …, --lcm-url URL,
+/// --clock-offset-us N,
 /// --pace P, --channel-suffix S, --log-level L, --key-file FILE, --key-fd N. Loads the scenario (without --config: all
 /// defaults) and makes the node. Publishes CONFIGURATION (at start, then every 5 s) and HEARTBEAT (2 Hz). Runs until
 /// the node has finished, or SIGINT/SIGTERM (exit 0). Logs to stderr. The epoch is unique_epoch of the wall clock's

@@ -27,9 +27,9 @@ std::string progress_line(const CampaignProgress& p, double elapsed_s) {
       fmt::format("[{}{}] {:>5}/{}", std::string(filled, '#'), std::string(kBarWidth - filled, '.'), p.done, p.total);
   if (p.done > 0) {
     const Interval interval = wilson_interval(p.successes, p.done);
-    line += fmt::format("  success {:.2f} % [{:.2f}, {:.2f}]",
-                        100.0 * static_cast<double>(p.successes) / static_cast<double>(p.done), 100.0 * interval.low,
-                        100.0 * interval.high);
+    line += fmt::format("  success {:.2f} %", 100.0 * static_cast<double>(p.successes) / static_cast<double>(p.done));
+    line += p.different == p.done ? fmt::format(" [{:.2f}, {:.2f}]", 100.0 * interval.low, 100.0 * interval.high)
+                                  : fmt::format(", {} different flights", p.different);
   }
   if (p.flown == 0 || elapsed_s <= 0.0) return line;
   const double rate = static_cast<double>(p.flown) / elapsed_s;

@@ -8,7 +8,8 @@
 
 namespace tern {
 
-/// "[######..............]  37/1000  success 97.30 % [86.18, 99.52]  8.1 flights/min, 1 h 58 min left".
+/// "[######..............]  37/1000  success 97.30 % [86.18, 99.52]  8.1 flights/min, 1 h 58 min left". Where flights
+/// are equal, how many differ stands in the interval's place: they say no more than those.
 /// @param elapsed_s  since this call's first flight began
 std::string progress_line(const CampaignProgress& progress, double elapsed_s);
 

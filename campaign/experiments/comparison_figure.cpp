@@ -43,6 +43,37 @@ std::string heading(const char* which, const CampaignIdentity& id) {
                      id.count > 0 ? fmt::format(" {}", id.count) : "", id.charge, id.configuration, id.version);
 }
 
+std::string axis_name(const std::vector<const ComparedMeasure*>& rows) {
+  const bool has_hollow =
+      std::any_of(rows.begin(), rows.end(), [](const auto* m) { return m->difference.mean_a == 0.0; });
+  return has_hollow ? "B - A, % of A's mean; hollow: A's mean is 0, the interval is B - A itself"
+                    : "B - A, % of A's mean";
+}
+
+/// Of a mean of 0 nothing is a share: the numbers say it, and the mark says the side.
+void draw_of_nothing(Svg& page, const PlotFrame& frame, const PairedDifference& d, double y, bool may_infer) {
+  const double edge = frame.x_range.second, side = d.difference > 0.0 ? edge : d.difference < 0.0 ? -edge : 0.0;
+  page.circle({frame.at(side, 0.0).first, y}, 4.0, "fill=\"white\" stroke=\"#1357a6\" stroke-width=\"1.5\"");
+  if (!may_infer) return;
+  page.text({frame.at(-edge, 0.0).first + 8, y + 4}, fmt::format("[{:.4g}, {:.4g}]", d.interval.low, d.interval.high),
+            "fill=\"#555\"");
+}
+
+void draw_row(Svg& page, const PlotFrame& frame, const ComparedMeasure& measure, double y, bool flights_differ) {
+  const PairedDifference& d = measure.difference;
+  const bool may_infer = flights_differ && d.may_infer();
+  page.text({kNames - 8, y + 4}, measure.name, "text-anchor=\"end\"");
+  page.text({kNames + kPlot + 8, y + 4}, fmt::format("{:.4g} to {:.4g}, {} pairs", d.mean_a, d.mean_b, d.pairs));
+  if (d.mean_a == 0.0) return draw_of_nothing(page, frame, d, y, may_infer);
+  const auto place = [&](double difference) {
+    return frame.at(std::clamp(percent(difference, d.mean_a), frame.x_range.first, frame.x_range.second), 0.0).first;
+  };
+  if (may_infer) {
+    page.line({place(d.interval.low), y}, {place(d.interval.high), y}, "stroke=\"#1357a6\" stroke-width=\"3\"");
+  }
+  page.circle({place(d.difference), y}, 4.0, "fill=\"#1357a6\"");
+}
+
 }  // namespace
 
 std::string draw_comparison(const CampaignComparison& c) {
@@ -65,20 +96,9 @@ std::string draw_comparison(const CampaignComparison& c) {
     page.text({px, kTop + frame.height + 16.0}, fmt::format("{:g}", x), "text-anchor=\"middle\" fill=\"#555\"");
   }
   page.rect(frame.corner, frame.width, frame.height, "fill=\"none\" stroke=\"#999\"");
-  page.text({kNames + 0.5 * kPlot, kTop + frame.height + 36.0}, "B - A, % of A's mean", "text-anchor=\"middle\"");
+  page.text({kNames + 0.5 * kPlot, kTop + frame.height + 36.0}, axis_name(rows), "text-anchor=\"middle\"");
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const PairedDifference& d = rows[k]->difference;
-    const double y = kTop + kRow * (static_cast<double>(k) + 0.5);
-    page.text({kNames - 8, y + 4}, rows[k]->name, "text-anchor=\"end\"");
-    page.text({kNames + kPlot + 8, y + 4}, fmt::format("{:.4g} to {:.4g}, {} pairs", d.mean_a, d.mean_b, d.pairs));
-    if (d.mean_a == 0.0) continue;
-    const auto place = [&](double difference) {
-      return frame.at(std::clamp(percent(difference, d.mean_a), -reach, reach), 0.0).first;
-    };
-    if (c.may_infer() && d.may_infer()) {
-      page.line({place(d.interval.low), y}, {place(d.interval.high), y}, "stroke=\"#1357a6\" stroke-width=\"3\"");
-    }
-    page.circle({place(d.difference), y}, 4.0, "fill=\"#1357a6\"");
+    draw_row(page, frame, *rows[k], kTop + kRow * (static_cast<double>(k) + 0.5), c.may_infer());
   }
   return page.finish();
 }

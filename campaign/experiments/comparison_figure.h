@@ -8,7 +8,8 @@
 namespace tern {
 
 /// SVG: a row per measure in which a pair differs, its difference B − A as a share of A's mean, with its 95 % interval
-/// where one may be inferred (CampaignComparison::may_infer). Measures whose mean is 0 in A have their numbers only.
+/// where one may be inferred (CampaignComparison::may_infer). A measure whose mean is 0 in A has
+/// a hollow mark at the frame's edge, on the side of B, and its interval in numbers.
 std::string draw_comparison(const CampaignComparison& comparison);
 
 }  // namespace tern

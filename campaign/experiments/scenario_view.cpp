@@ -48,7 +48,9 @@ Result<PlannedWay> way_of(const ScenarioView& view, const std::shared_ptr<const 
   const std::vector<Box> statics = static_boxes(view.world);
   const GoalField field = make_goal_field(key, map, statics, uav.start);
   auto points = field.path_from(uav.start);
-  if (!points) return fail(blocked_in_words(field, key, statics, uav.start));
+  if (!points) {
+    return fail(blocked_in_words(field, key, statics, uav.start, named_places(view.scenario)));
+  }
   return measured(std::move(*points), view.scenario.semantics.regions);
 }
 

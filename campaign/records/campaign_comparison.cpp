@@ -4,12 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
-#include <set>
-#include <tuple>
 #include <utility>
+
+#include "campaign/records/distinct_flights.h"
 
 namespace tern {
 namespace {
@@ -133,19 +132,9 @@ std::string success_lines(const CampaignComparison& c) {
 }  // namespace
 
 std::int64_t different_flights(const std::map<std::uint64_t, FlightRecord>& records) {
-  std::set<std::tuple<FlightOutcome, double, double, double, double>> different;
-  std::int64_t unjudged = 0;
-  for (const auto& [seed, record] : records) {
-    const FlightResult& r = record.result;
-    if (std::isnan(r.flight_time_s)) {
-      ++unjudged;
-      continue;
-    }
-    const auto value = [](double x) { return std::isnan(x) ? HUGE_VAL : x; };
-    different.insert(
-        {r.outcome, r.flight_time_s, value(r.path_length_m), value(r.min_clearance_m), value(r.jerk_integral)});
-  }
-  return unjudged + static_cast<std::int64_t>(different.size());
+  DistinctFlights different;
+  for (const auto& [seed, record] : records) different.add(record);
+  return different.count();
 }
 
 Result<CampaignComparison> compare(const Flights& a, const Flights& b) {

@@ -29,8 +29,7 @@ struct CampaignComparison {
   [[nodiscard]] bool may_infer() const { return !same_flights && different_a == pairs && different_b == pairs; }
 };
 
-/// How many of the flights differ from each other in outcome, time, way, clearance or jerk. Flights that a seed does
-/// not change are one flight, flown often. Flights that nobody judged count as different. O(n log n).
+/// How many of the flights differ from each other (DistinctFlights). O(n log n).
 std::int64_t different_flights(const std::map<std::uint64_t, FlightRecord>& records);
 
 /// Every measure of the columns (column_notes) and the metres inside each region. @return an Error without common

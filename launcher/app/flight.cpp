@@ -172,6 +172,18 @@ int await_page(const FlightOptions& options, int looked, const sigset_t& signals
   return 0;
 }
 
+/// @throws std::runtime_error with what one of them refuses
+void run_checks(const std::vector<std::vector<std::string>>& checks, const fs::path& record) {
+  const fs::path log = record / "check.log";
+  for (const std::vector<std::string>& command : checks) {
+    const int out = open_log(log);
+    const ProcessEnd end = await_child(start_child({.command = command, .out = out, .error = out}));
+    close(out);
+    if (shell_code(end) != 0) throw std::runtime_error(last_line(text_of(log)));
+    fs::remove(log);
+  }
+}
+
 int supervise(FlightOptions options, const fs::path& record, const sigset_t& signals) try {
   ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
   const Scenario scenario = read_scenario(document);  // refused once, not by each process
@@ -182,6 +194,7 @@ int supervise(FlightOptions options, const fs::path& record, const sigset_t& sig
   int looked[2] = {-1, -1};
   if (options.view_fd && pipe2(looked, O_CLOEXEC) == 0) options.looked_fd = looked[1];
   auto processes = flight_processes(options, record, hold_keys(options));
+  run_checks(checks_of_absent(options, processes), record);
   announce(options, record, processes);
   Supervisor supervisor(signals);
   for (SupervisedProcess& process : processes) {

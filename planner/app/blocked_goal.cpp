@@ -1,29 +1,85 @@
 #include "planner/app/blocked_goal.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "core/geometry/box.h"
 #include "core/world/body.h"
+#include "core/world/names.h"
 #include "planner/tuning.h"
 
 namespace tern {
+namespace {
+
+/// Boxes are the same within this: what holds goal or start counts a little less.
+bool are_same(const Box& a, const Box& b) {
+  const Vec3 apart = (a.min() - b.min()).cwiseAbs().cwiseMax((a.max() - b.max()).cwiseAbs());
+  return apart.maxCoeff() <= kPathSpacing;
+}
+
+/// Whether a region reaches into a box: looked for at the middles of so many parts per axis of what both bounds share.
+bool reaches_into(const Region& region, const Box& box) {
+  constexpr int kParts = 8;
+  const Box both = region.bounds().intersection(box);
+  if (both.isEmpty()) return false;
+  const Vec3 part = both.sizes() / kParts;
+  for (int k = 0; k < kParts * kParts * kParts; ++k) {
+    const Vec3 index(k % kParts, k / kParts % kParts, k / kParts / kParts);
+    if (region.contains(both.min() + part.cwiseProduct(index + Vec3::Constant(0.5)))) return true;
+  }
+  return false;
+}
+
+/// What the box is of: "obstacle 'post'", "region 'left', region 'back'"; "" where it has no name.
+std::string names_of(const Box& box, bool is_obstacle, const std::vector<NamedPlace>& places) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> names;
+  for (const NamedPlace& place : places) {
+    if (place.is_obstacle != is_obstacle || names.size() >= kMost) continue;
+    const bool is_it = is_obstacle ? are_same(place.where.bounds(), box) : reaches_into(place.where, box);
+    if (is_it) names.push_back(fmt::format("{} '{}'", is_obstacle ? "obstacle" : "region", place.where.name));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::vector<NamedPlace> named_places(const Scenario& scenario) {
+  std::vector<NamedPlace> places;
+  for (const ObstacleSpec& o : scenario.world.obstacles) {
+    if (o.name.empty() || !std::holds_alternative<StaticMotion>(o.motion)) continue;
+    places.push_back({true, {o.name, "", box_around(o.centre, o.half_extents)}});
+  }
+  for (const Region& region : scenario.semantics.regions) {
+    const auto& classes = scenario.semantics.classes;
+    const bool is_occupied = std::any_of(classes.begin(), classes.end(), [&](const auto& c) {
+      return c.first == region.class_name && c.second == to_string(VoxelLabel::Occupied);
+    });
+    if (is_occupied) places.push_back({false, region});
+  }
+  return places;
+}
 
 std::string blocked_in_words(const GoalField& field, const GoalFieldKey& key, const std::vector<Box>& static_boxes,
-                             const Vec3& start) {
+                             const Vec3& start, const std::vector<NamedPlace>& places) {
   if (!places_within(key.flight_box, key.body).contains(key.goal)) return "it is not within the flight box";
   const auto blocker = field.blocker(start);
   if (!blocker) return "no way within the flight box leads there";
   const Vec3 spacing = Vec3::Constant(kPathSpacing);
   const Box box(blocker->min() + key.body.max() + spacing, blocker->max() + key.body.min() - spacing);
-  const bool is_static = std::any_of(static_boxes.begin(), static_boxes.end(), [&](const Box& b) {
-    const Vec3 apart = (b.min() - box.min()).cwiseAbs().cwiseMax((b.max() - box.max()).cwiseAbs());
-    return apart.maxCoeff() <= kPathSpacing;  // what holds goal or start counts a little less
-  });
-  const auto place = [](const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z()); };
-  return fmt::format("{} from {} to {} {}", is_static ? "an obstacle" : "what the map says is occupied",
-                     place(box.min()), place(box.max()),
+  const bool is_static =
+      std::any_of(static_boxes.begin(), static_boxes.end(), [&](const Box& b) { return are_same(b, box); });
+  const std::string names = names_of(box, is_static, places);
+  const std::string what = is_static       ? (names.empty() ? "an obstacle" : names)
+                           : names.empty() ? "what the map says is occupied"
+                                           : fmt::format("what the map says is occupied ({})", names);
+  const auto place = [](const Vec3& p) {
+    const Vec3 r = (p * 100.0).array().round() / 100.0 + 0.0;  // never -0.00
+    return fmt::format("({:.2f}, {:.2f}, {:.2f})", r.x(), r.y(), r.z());
+  };
+  return fmt::format("{} from {} to {} {}", what, place(box.min()), place(box.max()),
                      blocker->contains(key.goal) ? "leaves no room there" : "is the first in the way");
 }
 

@@ -18,6 +18,6 @@ int main(int argc, char** argv) {
     const tern::PlannerConfig config = tern::read_planner_config(context.section, context.scenario.semantics);
     const std::uint64_t hash = tern::configuration_hash(context.document.effective());
     return std::make_unique<tern::PlannerNode>(context.bus, context.scenario.uav, config, hash,
-                                               tern::PlannerExecution{});
+                                               tern::PlannerExecution{}, tern::named_places(context.scenario));
   });
 }

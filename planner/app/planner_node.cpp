@@ -58,11 +58,11 @@ std::pair<Plan, PlanTiming> timed_plan(const HorizonRequest& request, const Plan
 }  // namespace
 
 PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& config, std::uint64_t configuration_hash,
-                         const PlannerExecution& execution)
+                         const PlannerExecution& execution, std::vector<NamedPlace> places)
     : bus_(bus),
       config_(config),
       execution_(execution),
-      intake_(bus, config, uav, execution.threaded),
+      intake_(bus, config, uav, execution.threaded, std::move(places)),
       desk_(bus, configuration_hash) {
   bus.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& r) { on_request(r); });
   if (execution.threaded) worker_ = std::make_unique<Worker>();

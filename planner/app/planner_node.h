@@ -34,8 +34,9 @@ struct PlannerExecution {
 
 class PlannerNode final : public Node {
  public:
+  /// @param places  what may be called by its name where no way leads to a goal
   PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& config, std::uint64_t configuration_hash,
-              const PlannerExecution& execution);
+              const PlannerExecution& execution, std::vector<NamedPlace> places = {});
   ~PlannerNode() override;
 
   [[nodiscard]] UTime next_wakeup() const override;

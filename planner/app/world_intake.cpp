@@ -7,12 +7,17 @@
 #include "core/world/body.h"
 #include "messages/batching.h"
 #include "messages/channels.h"
-#include "planner/app/blocked_goal.h"
 
 namespace tern {
 
-WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background)
-    : bus_(bus), config_(config), body_(body_box(uav.body)), flight_box_(uav.flight_box), at_(uav.start) {
+WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background,
+                         std::vector<NamedPlace> places)
+    : bus_(bus),
+      config_(config),
+      places_(std::move(places)),
+      body_(body_box(uav.body)),
+      flight_box_(uav.flight_box),
+      at_(uav.start) {
   if (in_background) worker_ = std::make_unique<Worker>();
   bus.subscribe(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
   bus.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
@@ -130,7 +135,7 @@ void WorldIntake::prepare() {
          at = at_] {
     auto field = std::make_shared<const GoalField>(make_goal_field(key, map, boxes, at));
     if (!field->path_from(at)) {
-      spdlog::warn("goal {} is blocked: {}", goal.id, blocked_in_words(*field, key, boxes, at));
+      spdlog::warn("goal {} is blocked: {}", goal.id, blocked_in_words(*field, key, boxes, at, places_));
     }
     publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names}));
   });

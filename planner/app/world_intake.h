@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/world/scenario.h"
+#include "planner/app/blocked_goal.h"
 #include "planner/app/worker.h"
 #include "planner/planning_world.h"
 #include "planner/static_tracks.h"
@@ -27,7 +28,9 @@ inline constexpr Duration kGoalTaken{500'000};
 /// is what it has taken.
 class WorldIntake {
  public:
-  WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background);
+  /// @param places  what may be called by its name where no way leads to a goal
+  WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background,
+              std::vector<NamedPlace> places);
 
   [[nodiscard]] PlanningWorld snapshot() const;
   /// What is still missing, as text; empty when a plan can be made.
@@ -53,6 +56,7 @@ class WorldIntake {
 
   Bus& bus_;
   PlannerConfig config_;
+  const std::vector<NamedPlace> places_;
   BatchCollector<TrackSet> batches_;
   MapAssembler assembler_;
   StaticTracks statics_;

@@ -66,6 +66,10 @@ bad_arguments_end_with_a_clear_word_and_exit_code_2() {
   refused "--seeds 1-5: not A:B" --world "$hop" "${out[@]}" --seeds 1-5
   refused "--shard 3/2: not I/N" --world "$hop" "${out[@]}" --shard 3/2
   refused "unknown key" --world "$hop" "${out[@]}" --set planner.hold=1
+  refused "mavlink.hold: unknown key" --world "$hop" "${out[@]}" --set mavlink.hold=1
+  refused "autopilot_sim.hold: unknown key" --world "$hop" "${out[@]}" --set autopilot_sim.hold=1
+  { cat "$hop" && echo "logger: {hold: 1}"; } >"$work/logger.yaml"
+  refused "logger.hold: unknown key" --world "$work/logger.yaml" "${out[@]}"
   refused "out of range" --world "$hop" "${out[@]}" --set uav.limits.v_max=-1
   refused "seeds are set by --seeds" --world "$hop" "${out[@]}" --set seed=3
   refused "--charge" --world "$hop" "${out[@]}" --charge wall
@@ -107,6 +111,13 @@ a_comparison_is_of_one_scenario_and_of_different_flights() {
   sed 's/short_hop/elsewhere/' "$work/b.csv" >"$work/other.csv"
   [[ $(code "$campaign" compare "$work/a.csv" "$work/other.csv") == 2 ]] || fail "two scenarios: $(cat "$work/out")"
   said 'their scenarios differ, "short_hop" and "elsewhere"'
+}
+
+flights_that_are_equal_have_no_interval_while_they_are_flown() {
+  fly "$work/different.csv" --seeds 1:3
+  grep -q "3/3  success 100.00 % \[" "$work/different.csv.said" || fail "$(cat "$work/different.csv.said")"
+  fly "$work/equal.csv" --seeds 1:3 --set world.generator=none --set world.count=0
+  grep -q "3/3  success 100.00 %, 1 different flights" "$work/equal.csv.said" || fail "$(cat "$work/equal.csv.said")"
 }
 
 a_killed_campaign_goes_on_and_loses_or_repeats_nothing() {

@@ -94,9 +94,17 @@ fly_refuses_a_bad_scenario_with_file_and_line() {
 }
 
 fly_refuses_a_bad_setting_of_one_process() {
+  local setting
   [[ $(code "$scripts/fly.sh" --no-install --set planner.bogus=3 --record "$work/r") == 3 ]] || fail "exit code"
   expect "override, key" has_text "planner.bogus=3: planner.bogus: unknown key" "$work/out"
   expect "a summary" has_text '"outcome": "failed"' "$work/r/summary.json"
+  # Nor is a mistake of one that does not fly left unsaid.
+  for setting in mavlink.bogus=3 autopilot_sim.bogus=3 mavlink.rate_hz=1; do
+    [[ $(code "$scripts/fly.sh" --no-install --set "$setting" --record "$work/$setting") == 3 ]] || fail "exit code of $setting"
+    expect "override, key" has_text "--set $setting: ${setting%=*}: " "$work/out"
+  done
+  [[ $(code "$scripts/fly.sh" --no-install --check --set mavlink.bogus=3) == 2 ]] || fail "exit code of a check"
+  expect "key" has_text "mavlink.bogus: unknown key" "$work/out"
   [[ $(code "$TERN_BIN/tern-launch" fly --programs="$TERN_BIN" --config="$scenario" --flights="$work/flights" \
     --set=uav.bogus=3) == 3 ]] || fail "exit code"
   [[ -z $(ls "$work/flights") ]] || fail "a flight that never began left a folder"
@@ -335,6 +343,27 @@ a_build_shows_its_progress_while_much_is_left() {
   [[ $(code "${build[@]}") == 0 ]] || fail "exit code: $(cat "$work/out")"
   [[ ! -s $work/out ]] || fail "little was left, and it said: $(cat "$work/out")"
   expect "it is built" test -e "$tree/build/release/7"
+}
+
+programs_that_need_not_be_linked_anew_are_no_build_to_speak_of() {
+  make_tree 1 true
+  cat >>"$tree/CMakeLists.txt" <<'END'
+add_custom_command(OUTPUT always BYPRODUCTS version COMMAND sh -c "test -e version || touch version" VERBATIM)
+foreach(k RANGE 1 30)
+  add_custom_command(OUTPUT program${k} DEPENDS version COMMENT "Linking CXX executable program${k}"
+    COMMAND ${CMAKE_COMMAND} -E touch program${k} VERBATIM)
+  list(APPEND programs program${k})
+endforeach()
+add_custom_target(versions DEPENDS always)
+add_custom_target(programs DEPENDS ${programs})
+add_dependencies(apps versions programs)
+END
+  # shellcheck disable=SC2016  # the inner shell expands it
+  local build=(bash -c 'source "$0" && build_programs' "$tree/launch_scripts/lib.sh")
+  expect "it is built" "$tree/launch_scripts/build.sh"
+  (($(ninja -C "$tree/build/release" -n apps | grep -c Linking) == 30)) || fail "ninja -n knows that nothing changes"
+  [[ $(code "${build[@]}") == 0 ]] || fail "exit code: $(cat "$work/out")"
+  [[ ! -s $work/out ]] || fail "nothing was left, and it said: $(cat "$work/out")"
 }
 
 run_test "$1"

@@ -86,6 +86,24 @@ TEST(FlightProcesses, InheritTheirOwnKeysAndTheViewerTheSocket) {
   }
 }
 
+TEST(FlightProcesses, WhoDoesNotFlyChecksItsSectionNevertheless) {
+  FlightOptions options = demo();
+  const auto checked = [&] {
+    Words programs;
+    for (const Words& words : checks_of_absent(options, flight_processes(options, "r", {}))) {
+      EXPECT_EQ(Words(words.begin() + 1, words.end()),
+                (Words{"--check-config", "--config", "demo.yaml", "--set", "seed=2", "--set", "uav.goal=[1,2,3]"}));
+      programs.push_back(words.front());
+    }
+    return programs;
+  };
+  EXPECT_EQ(checked(), (Words{"bin/tern-mavlink", "bin/tern-autopilot-sim"}));
+  options.autopilot = "udp://127.0.0.1:14540";
+  EXPECT_EQ(checked(), Words{"bin/tern-autopilot-sim"});
+  options.autopilot_sim = true;
+  EXPECT_EQ(checked(), Words{});
+}
+
 TEST(ShellLine, QuotesWhatAShellWouldTakeApart) {
   EXPECT_EQ(shell_line({"a", "b c", "it's", ""}), R"('a' 'b c' 'it'\''s' '')");
 }

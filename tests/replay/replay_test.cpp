@@ -296,6 +296,11 @@ TEST_F(ReplayTest, RefusesSettingsThatCannotTakeEffect) {
     options.other.settings = {"planner.hold_required_s=1", setting};
     EXPECT_THROW((void)replay_log(log(), options), ConfigError) << setting;
   }
+  for (const char* setting : {"planner.bogus=1", "planner.hold_required_s=-1"}) {
+    ReplayOptions options;
+    options.other.settings = {setting};
+    EXPECT_THROW((void)replay_log(log(), options), ConfigError) << setting;
+  }
   for (const char* setting :
        {"semantics.lambda_attractive=3", "semantics.lambdas.texture=1", "semantics.cost=exposure"}) {
     EXPECT_NO_THROW((OtherSettings{"", {setting}}.check())) << setting;

@@ -85,6 +85,8 @@ TEST_F(WallClockTest, AtAPaceAllClocksAgreeAndTakeTheirTime) {
   EXPECT_NEAR((other.now() - slow.now()).seconds(), 0.0, 0.01);
   EXPECT_NEAR((slow.at_system_time(begin_us + 4 * kSecond) - begin).seconds(), 1.0, 0.01);
   EXPECT_EQ(slow.in_system_time(Duration{kSecond}).us, 4 * kSecond);
+  EXPECT_NEAR(1e-6 * static_cast<double>(WallClock::system_time_us(begin, 0.25) - begin_us), 0.0, 0.01);
+  EXPECT_EQ(WallClock::system_time_us(begin, 1.0), begin.us);
   while (slow.now() - begin < Duration{20'000}) continue;
   EXPECT_GE(system_us() - begin_us, 79'000);
   set_forward_s = 8;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
 #include "monitor/flight_watch.h"
+#include "runtime/clock.h"
 #include "tests/support/recorded_flight.h"
 #include "tests/support/temp_folder.h"
 #include "tools/audit/app/load_flight.h"
@@ -55,7 +57,7 @@ TEST(Report, IsOneFileThatAsksTheNetworkForNothing) {
 TEST(Report, SaysWhatTheFlightWasFlownWith) {
   const FlightRecord record = short_flight();
   const nlohmann::json flight =
-      data_in(report_page(record, audit::audit_flight(record), "fly.sh --count 40"))["flight"];
+      data_in(report_page(record, audit::audit_flight(record), {"fly.sh --count 40"}))["flight"];
   EXPECT_EQ(flight["command"], "fly.sh --count 40");
   EXPECT_FALSE(flight["version"].get<std::string>().empty());
   std::map<std::string, std::string> settings;
@@ -64,6 +66,30 @@ TEST(Report, SaysWhatTheFlightWasFlownWith) {
   EXPECT_EQ(settings["count"], "40");
   EXPECT_EQ(settings["λ away"], "2");
   EXPECT_EQ(settings["v_max"], "[6, 6, 6]");
+}
+
+TEST(Report, OfAPacedFlightHasTheDateAtWhichItWasFlown) {
+  FlightRecord record;
+  constexpr std::int64_t kFlownUs = 1'795'521'600'000'000;  // 2026-11-24 12:00 UTC
+  constexpr double kPace = 0.25;
+  // So do that pace's clocks show it.
+  record.contents.first_us = WallClock::kPaceOriginUs + (kFlownUs - WallClock::kPaceOriginUs) / 4;
+  EXPECT_EQ(data_in(report_page(record, Audit{}, {"", kPace}))["flight"]["recorded_us"], kFlownUs);
+  EXPECT_EQ(data_in(report_page(record, Audit{}))["flight"]["recorded_us"], record.contents.first_us);
+}
+
+TEST(FlownPace, IsWhatTheFlightsFolderSays) {
+  const TempFolder folder;
+  const std::string log = folder.file("flight.lcm");
+  EXPECT_EQ(audit::flown_pace(log), 1.0);
+  for (const auto& [line, pace] :
+       std::map<std::string, double>{{"export LCM_DEFAULT_URL='udpm://' TERN_PACE=0.25", 0.25},
+                                     {"export TERN_PACE=1", 1.0},
+                                     {"export TERN_PACE=7", 1.0},
+                                     {"export TERN_PACE=", 1.0}}) {
+    std::ofstream(folder.file("env.sh")) << line << '\n';
+    EXPECT_EQ(audit::flown_pace(log), pace) << line;
+  }
 }
 
 TEST(Setting, IsReadWhereItsSectionIs) {

@@ -256,7 +256,10 @@ await run({
     const viewer = await startViewer();
     const page = await openPage(viewer.url);
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
+    const dots = () => page.$$eval('#health li', (all) => all.map(({ className }) => className).join());
+    await eventually('a process is ready', async () => (await dots()).includes('ready'));
     await end(viewer, 'SIGKILL');
+    await eventually('no process is said to be ready', async () => /^unknown(,unknown)*$/.test(await dots()));
     await eventually('it says so', async () => (await text(page, '#mode')) === 'bridge gone');
     const before = await status(page);
     await startViewer('--listen', new URL(viewer.url).host);

@@ -97,6 +97,53 @@ TEST(FlightHistory, HasEveryNumberOfAMessage) {
   for (const auto& [name, number] : fields) EXPECT_FALSE(name.ends_with("_us")) << name;
 }
 
+HorizonRequest request_at(double seconds) {
+  HorizonRequest request;
+  request.header.utime = at(seconds);
+  return request;
+}
+
+Goal goal_at(double seconds, GoalMode mode) {
+  Goal goal;
+  goal.header.utime = at(seconds);
+  goal.mode = mode;
+  return goal;
+}
+
+TEST(WorldTime, BeginsWithTheFirstRequest) {
+  WorldTime time;
+  EXPECT_EQ(time.zero(), std::nullopt);
+  time.hear(goal_at(1.0, GoalMode::Go));
+  EXPECT_EQ(time.zero(), std::nullopt);
+  for (const double t : {2.0, 2.05}) time.hear(request_at(t));
+  EXPECT_EQ(time.zero(), at(2.0));
+}
+
+TEST(WorldTime, OfAVehicleThatIsToldToHoldFirstBeginsWhenItIsToGo) {
+  WorldTime time;
+  time.hear(goal_at(1.0, GoalMode::Hold));
+  time.hear(request_at(2.0));
+  time.hear(goal_at(9.0, GoalMode::Go));
+  time.hear(request_at(8.99));  // overtaken by the goal
+  EXPECT_EQ(time.zero(), std::nullopt);
+  time.hear(request_at(9.05));
+  time.hear(goal_at(20.0, GoalMode::Go));
+  time.hear(request_at(21.0));
+  EXPECT_EQ(time.zero(), at(9.05));
+}
+
+TEST(Scene, CountsTimeFromWorldTime0) {
+  Scene::Memory memory;
+  Scene scene(&memory);
+  scene.hear(state_at(0.0, Vec3::Zero(), Vec3::Zero()));
+  EXPECT_EQ(memory.zero(), kStart) << "as long as it is not known";
+  scene.hear(request_at(3.0));
+  EXPECT_EQ(memory.zero(), at(3.0));
+  const json chart = json::parse(memory.history.chart_json(memory.zero(), at(5.0), {}));
+  EXPECT_EQ(chart["begin_s"], -3.0);
+  EXPECT_EQ(chart["end_s"], 2.0);
+}
+
 TEST(Scene, RemembersClearancesToObstaclesAndToTheMapApart) {
   const support::KnownScene known(kStart);
   Scene::Memory memory;

@@ -26,9 +26,10 @@ class Recorder {
 
 }  // namespace
 
-void write_known_log(const std::string& path) {
+void write_known_log(const std::string& path, Duration lead) {
   Recorder recorder(path);
   const KnownScene scene(kKnownLogStart);
+  if (lead > Duration{}) recorder.publish(channels::kHeartbeat, scene.heartbeat(), kKnownLogStart - lead);
   std::int64_t requests = 0;
   for (int tick = 0; tick <= 2'000; ++tick) {
     const UTime now = kKnownLogStart + Duration{tick * 10'000};

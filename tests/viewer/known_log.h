@@ -10,6 +10,7 @@ namespace tern::support {
 inline constexpr UTime kKnownLogStart{1'700'000'000'000'000};
 
 /// Writes the whole flight as tern-logger would have recorded it.
-void write_known_log(const std::string& path);
+/// @param lead  so long before world time 0 a process is heard first, and the log begins
+void write_known_log(const std::string& path, Duration lead = {});
 
 }  // namespace tern::support

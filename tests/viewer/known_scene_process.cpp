@@ -56,7 +56,8 @@ class KnownSceneNode final : public Node {
 
 int main(int argc, char** argv) {
   if (const char* log = std::getenv("KNOWN_LOG")) {
-    tern::support::write_known_log(log);
+    const char* lead_s = std::getenv("KNOWN_LEAD_S");
+    tern::support::write_known_log(log, tern::Duration::from_seconds(lead_s == nullptr ? 0.0 : std::atof(lead_s)));
     return 0;
   }
   const tern::ProcessDescription description{.name = "tern-scene", .section = "", .summary = "A known scene"};

@@ -66,10 +66,10 @@ export async function awaitPage(viewer) {
 
 export const startScene = () => start(`${TERN_BIN}/viewer_known_scene_process`, []);
 
-/** The known scene as a log; its path. */
-export async function knownLog() {
+/** The known scene as a log, which begins `lead` s before world time; its path. */
+export async function knownLog(lead = 0) {
   const path = join(work, 'flight.lcm');
-  const code = await start(`${TERN_BIN}/viewer_known_scene_process`, [], { KNOWN_LOG: path }).gone;
+  const code = await start(`${TERN_BIN}/viewer_known_scene_process`, [], { KNOWN_LOG: path, KNOWN_LEAD_S: `${lead}` }).gone;
   expect('the log is written', code === 0);
   return path;
 }

@@ -72,12 +72,13 @@ await run({
       }).map((button) => button.id || button.name || button.dataset.camera));
       expect(`at ${width}×${height}: ${hidden}`, hidden.length === 0);
       await page.click('#showcharts');
-      await page.click('#menu');
+      expect('the menu makes room', !(await page.isVisible('#side')));
       const [flight, foot] = await page.$$eval('#flight, footer', (all) => all.map((panel) => panel.getBoundingClientRect()));
       expect(`at ${width}×${height}: charts cover the numbers`, foot.height > 100 && foot.top > flight.bottom);
       await page.click('#menu');
+      expect('charts are not under the menu', !(await page.isVisible('#charts')));
       await page.click('#showcharts');
-      await page.click('#menu');
+      expect('they are gone', !(await page.isVisible('#charts')) && !(await page.isVisible('#side')));
     }
   },
 
@@ -114,6 +115,28 @@ await run({
     expect('from above', await page.evaluate(() => window.tern.world.camera.isOrthographicCamera));
     await page.evaluate(() => window.tern.jump(12));
     await eventually('the address follows', () => page.evaluate(() => location.hash === '#t=12&cam=top'));
+  },
+
+  async times_are_those_of_the_world() {
+    const log = await knownLog(2);
+    const file = join(work, 'flight.html');
+    const made = start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, '--export', file, log]);
+    expect(`exported: ${made.said}`, (await made.gone) === 0);
+    const viewer = await startViewer('--log', log);
+    for (const url of [viewer.url, `file://${file}`]) {
+      const page = await openPage(url, undefined, '#t=6.3&cam=top'); // the vehicle's x is its time
+      await shows(page, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.06);
+      await eventually('so says the clock', async () => (await text(page, '#clock')) === '6.3 s');
+      await eventually('charts', () => page.evaluate(() => window.tern.charts.range().join() === '-2,20'));
+      const [at, begin] = await page.evaluate(() => [6.3, -2].map((t) => window.tern.timeline.place(t)));
+      const now = await page.evaluate(() => window.tern.timeline.place(window.tern.timeline.now));
+      expect(`the line is at ${now}, not ${at}`, Math.abs(now - at) < 1 && begin === 8);
+      await scrubTo(page, 0);
+      await eventually('it begins before', async () => (await text(page, '#clock')) === '-2.0 s');
+      await scrubTo(page, 0.5);
+      await eventually('half of the log is 9 s', async () => (await text(page, '#at')) === '9.0 s');
+      await eventually('as the address says', () => page.evaluate(() => location.hash === '#t=9&cam=top'));
+    }
   },
 
   async the_cameras_look_along_the_flight() {
@@ -200,6 +223,20 @@ await run({
     expect('no picture is an error', (await none.gone) !== 0 && /nothing is in 900 to 901 s/.test(none.said));
     const alone = start(`${TERN_BIN}/tern-viewer`, ['--video-rate', '4', '--log', await knownLog()]);
     expect('without --video it has no effect and is refused', (await alone.gone) !== 0 && /requires --video/.test(alone.said));
+  },
+
+  async what_has_no_effect_on_a_log_is_refused() {
+    const log = await knownLog();
+    const played = [['--set', 'seed=3'], ['--config', 'x.yaml'], ['--lcm-url', 'udpm://'], ['--clock-offset-us', '5'], ['--allow-goals'],
+      ['--key-file', 'key']];
+    const written = [['--listen', '127.0.0.1'], ['--url-file', 'x'], ['--allow-host', 'x'], ['--pace', '0.5']]
+      .map((options) => [...options, '--export', join(work, 'refused.html')]);
+    for (const options of [...played, ...written]) {
+      for (const where of [[log], ['--log', log]]) {
+        const viewer = start(`${TERN_BIN}/tern-viewer`, ['--page', TERN_PAGE, ...options, ...where]);
+        expect(`${options}: ${viewer.said}`, (await viewer.gone) === 2 && viewer.said.includes(`${options[0]}: has no effect where a`));
+      }
+    }
   },
 
   async an_exported_page_plays_by_itself() {

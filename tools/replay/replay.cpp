@@ -10,6 +10,7 @@
 
 #include "messages/channels.h"
 #include "planner/planner_build.h"
+#include "runtime/config.h"
 #include "runtime/platform.h"
 #include "tools/replay/extract.h"
 #include "tools/replay/replan.h"
@@ -21,7 +22,7 @@ namespace {
 class Replayer {
  public:
   Replayer(const RecordedInputs& inputs, const ReplayOptions& options)
-      : inputs_(inputs), rebuilder_(inputs, options.other) {
+      : inputs_(inputs), has_other_settings_(!options.other.empty()), rebuilder_(inputs, options.other) {
     for (std::size_t k = 0; k < inputs.plans.size(); ++k) {
       if (!is_chosen(inputs.plans[k], inputs.log, options)) continue;
       const PlanInputs& names = inputs.plans[k].plan.inputs;
@@ -53,10 +54,13 @@ class Replayer {
   }
 
   /// A planner that fails on what a log names answered otherwise then: that is a difference, and the rest is replayed.
+  /// @throws ConfigError for other settings that the planner refuses
   ReplayedPlan replay_or_say_why(std::size_t index) {
     try {
       return replay(index);
     } catch (const std::exception& e) {
+      const bool is_users = has_other_settings_ && dynamic_cast<const ConfigError*>(&e) != nullptr;
+      if (is_users) throw;
       ReplayedPlan failed;
       failed.index = index;
       failed.weaker = weaker_promise(inputs_, inputs_.plans[index].plan);
@@ -84,6 +88,7 @@ class Replayer {
   }
 
   const RecordedInputs& inputs_;
+  bool has_other_settings_;
   WorldRebuilder rebuilder_;
   std::map<SetName, std::vector<std::size_t>> waiting_;  ///< answers by the set that they name
   std::vector<ReplayedPlan> done_;

@@ -12,6 +12,7 @@
 #include "core/world/body.h"
 #include "core/world/names.h"
 #include "core/world/replan_samples.h"
+#include "runtime/clock.h"
 #include "tools/report/map_runs.h"
 
 namespace tern::report {
@@ -238,9 +239,7 @@ constexpr std::array<std::pair<const char*, const char*>, 8> kSettings = {{{"see
                                                                            {"uav.limits.j_max", "j_max"}}};
 
 json flight_of(const FlightRecord& record) {
-  json flight = {{"log", record.path},
-                 {"recorded_us", record.contents.first_us},
-                 {"length_s", rounded((record.end() - record.zero()).seconds())}};
+  json flight = {{"log", record.path}, {"length_s", rounded((record.end() - record.zero()).seconds())}};
   if (!record.requests.empty()) {
     const HorizonRequest& r = record.requests.front();
     flight["v_max"] = row(r.limits.v_max);
@@ -293,9 +292,11 @@ std::string setting(const std::string& yaml, std::string_view path) {
   return "";
 }
 
-json report_data(const FlightRecord& record, const Audit& audit, const std::string& command) {
+json report_data(const FlightRecord& record, const Audit& audit, const Flown& flown) {
   json flight = flight_of(record);
-  if (!command.empty()) flight["command"] = command;
+  flight["recorded_us"] = WallClock::system_time_us(UTime{record.contents.first_us}, flown.pace);
+  if (flown.pace != 1.0) flight["pace"] = flown.pace;
+  if (!flown.command.empty()) flight["command"] = flown.command;
   return {{"flight", flight},
           {"path", path_of(record, audit)},
           {"obstacles", obstacles_of(record)},

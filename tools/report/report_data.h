@@ -20,13 +20,17 @@ inline constexpr std::size_t kMostAnswers = 6'000;
 /// At most so many runs of the map's voxels.
 inline constexpr std::size_t kMostMapRuns = 20'000;
 
+/// What a log does not tell of its flight.
+struct Flown {
+  std::string command = {};  ///< what was typed to fly; empty: not known
+  double pace = 1.0;         ///< of the flight's clocks, (0, 1]: the log's times are theirs, the date is not
+};
+
 /// The keys are those that page/*.js read.
-/// @param command  what was typed to fly; empty: not known
-nlohmann::json report_data(const audit::FlightRecord& record, const audit::Audit& audit,
-                           const std::string& command = "");
+nlohmann::json report_data(const audit::FlightRecord& record, const audit::Audit& audit, const Flown& flown = {});
 
 /// The whole page, self-contained: style, script, charts' library and data within.
-std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const std::string& command = "");
+std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const Flown& flown = {});
 
 /// A value of CONFIGURATION's YAML as it is written there, "uav.limits.v_max"; empty: it says none.
 std::string setting(const std::string& yaml, std::string_view path);

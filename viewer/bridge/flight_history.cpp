@@ -145,7 +145,8 @@ void FlightHistory::write_series(JsonWriter& json, UTime zero, UTime until, cons
 std::string FlightHistory::chart_json(UTime zero, UTime until, const std::vector<std::string>& names,
                                       std::size_t most) const {
   JsonWriter json;
-  json.begin_object().key("begin_us").integer(zero.us).key("end_s").number((until - zero).seconds());
+  json.begin_object().key("zero_us").integer(zero.us).key("begin_s").number((begin() - zero).seconds());
+  json.key("end_s").number((until - zero).seconds());
   json.key("series").begin_object();
   for (const std::string& name : names) write_series(json, zero, until, name, most);
   json.end_object().key("outcomes").begin_list().begin_list();

@@ -42,9 +42,9 @@ class FlightHistory {
   /// When it flew first (faster than 0.05 m/s); nullopt before.
   [[nodiscard]] std::optional<UTime> departure() const;
 
-  /// {"begin_us", "end_s", "series": {name: [[t…], [value…]]}, "outcomes": [[t…], [outcome…]]}, t in seconds from
-  /// `zero`, all of the flight until `until`. A series has at most 2·`most` points: of every stretch the least and the
-  /// greatest, so that no extreme is lost.
+  /// {"zero_us", "begin_s", "end_s", "series": {name: [[t…], [value…]]}, "outcomes": [[t…], [outcome…]]}, t in seconds
+  /// from `zero`, all of the flight until `until`. A series has at most 2·`most` points: of every stretch the least and
+  /// the greatest, so that no extreme is lost.
   [[nodiscard]] std::string chart_json(UTime zero, UTime until, const std::vector<std::string>& names,
                                        std::size_t most = 600) const;
   /// Members "t": [s from `zero`…], "curve": [x, y, z, speed, …] from the start to `until`, at most `most` points.

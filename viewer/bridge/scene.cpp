@@ -61,6 +61,7 @@ void Scene::hear(TrackSet complete_set) {
 
 void Scene::hear(const HorizonRequest& message) {
   request_ = message;
+  if (memory_ != nullptr) memory_->world_time.hear(message);
   asked_[message.id] = {message.header.utime, message.deadline};
   while (asked_.size() > kRememberedRequests) asked_.erase(asked_.begin());
   mark(Topic::Request);
@@ -92,7 +93,10 @@ void Scene::hear(const SearchView& message) {
 void Scene::hear(const Goal& message) {
   if (goal_ && message.id < goal_->id) return;
   goal_ = message;
-  if (memory_ != nullptr) memory_->events.hear(message);
+  if (memory_ != nullptr) {
+    memory_->events.hear(message);
+    memory_->world_time.hear(message);
+  }
   mark(Topic::Goal);
 }
 

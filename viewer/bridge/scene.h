@@ -18,6 +18,7 @@
 #include "viewer/bridge/flight_events.h"
 #include "viewer/bridge/flight_history.h"
 #include "viewer/bridge/voxel_faces.h"
+#include "viewer/bridge/world_time.h"
 
 namespace tern {
 
@@ -47,6 +48,9 @@ class Scene {
   struct Memory {
     FlightHistory history;
     FlightEvents events;
+    WorldTime world_time;
+    /// The flight's time 0: that of the world, and before it is known, that of the first state.
+    [[nodiscard]] UTime zero() const { return world_time.zero().value_or(history.begin()); }
   };
   /// @param memory  is told of everything that is heard; may be null
   explicit Scene(Memory* memory = nullptr) : memory_(memory) {}

@@ -28,6 +28,17 @@ TEST(ComparisonFigure, DrawsEveryMeasureThatDiffersWithItsInterval) {
   EXPECT_THAT(svg, Not(HasSubstr("min_clearance_m"))) << "equal in all pairs";
 }
 
+TEST(ComparisonFigure, MarksTheSideOfAMeasureOfWhichAHasNone) {
+  Flights a = nine_flights(0.0), b = nine_flights(0.1);
+  for (auto& [seed, record] : a.records) record.result.stops = 0;
+  const auto hollow = HasSubstr("fill=\"white\" stroke=\"#1357a6\"");
+  const std::string svg = draw_comparison(compare(a, b).value());
+  EXPECT_THAT(svg, HasSubstr(">stops</text>"));
+  EXPECT_THAT(svg, hollow);
+  EXPECT_THAT(svg, HasSubstr("hollow: A's mean is 0"));
+  EXPECT_THAT(draw_comparison(compare(nine_flights(0.0), b).value()), Not(hollow));
+}
+
 TEST(ComparisonFigure, OfEqualFlightsHasNoIntervals) {
   const std::string svg = draw_comparison(compare(nine_flights(0.0), nine_flights(0.0)).value());
   EXPECT_THAT(svg, HasSubstr("no intervals"));

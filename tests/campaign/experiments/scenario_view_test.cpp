@@ -33,5 +33,30 @@ TEST(ScenarioView, SaysInWhichObstacleTheStartLies) {
   EXPECT_THAT(to_text(beside), HasSubstr("can be reached"));
 }
 
+/// A wall across the flight box, of two parts.
+std::string blocked_by(const std::string& wall) {
+  const TempFolder folder;
+  FlightInputs inputs;
+  inputs.scenario_file = folder.file("a.yaml");
+  std::ofstream(inputs.scenario_file)
+      << "uav: {start: [0, 0, 1], goal: [9, 0, 1], flight_box: {min: [-2, -3, 0], max: [12, 3, 3]}}\n"
+      << wall;
+  return view_scenario(inputs, std::nullopt).blocked;
+}
+
+TEST(ScenarioView, CallsWhatBlocksTheGoalByItsName) {
+  EXPECT_THAT(blocked_by("world: {obstacles: [{name: gate, centre: [5, 0, 1.5], half_extents: [0.2, 3, 1.5]}]}\n"),
+              HasSubstr("obstacle 'gate' from (4.80, -3.00, 0.00) to (5.20, 3.00, 3.00) is the first in the way"));
+  EXPECT_THAT(blocked_by("world: {obstacles: [{centre: [5, 0, 1.5], half_extents: [0.2, 3, 1.5]}]}\n"),
+              HasSubstr("an obstacle from"));
+  const std::string regions =
+      "    - {name: facade, class: wall, box: {min: [4.8, -3, 0], max: [5.2, 3, 3]}}\n"
+      "    - {name: elsewhere, class: wall, box: {min: [10.5, 2, 0], max: [11, 2.5, 1]}}\n"
+      "    - {name: meadow, class: grass, box: {min: [4, -3, 0], max: [6, 3, 3]}}\n";
+  const std::string by_map =
+      blocked_by("semantics:\n  classes: {wall: occupied, grass: attractive}\n  regions:\n" + regions);
+  EXPECT_THAT(by_map, HasSubstr("what the map says is occupied (region 'facade') from"));
+}
+
 }  // namespace
 }  // namespace tern

@@ -1,5 +1,6 @@
 #include "tools/audit/app/load_flight.h"
 
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 
@@ -7,6 +8,18 @@
 #include "runtime/scenario_file.h"
 
 namespace tern::audit {
+namespace {
+
+/// Of a file in the flight's folder; empty: there is none.
+std::string first_line(const std::string& log, const char* file) {
+  namespace fs = std::filesystem;
+  std::ifstream in((fs::is_directory(log) ? fs::path(log) : fs::path(log).parent_path()) / file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+}  // namespace
 
 Result<FlightRecord> load_flight(const std::string& path) {
   auto record = read_flight(path);
@@ -26,12 +39,15 @@ Result<FlightRecord> load_flight(const std::string& path) {
   return record;
 }
 
-std::string typed_command(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::ifstream file((fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path()) / "command");
-  std::string typed;
-  std::getline(file, typed);
-  return typed;
+std::string typed_command(const std::string& path) { return first_line(path, "command"); }
+
+double flown_pace(const std::string& path) {
+  const std::string line = first_line(path, "env.sh"), name = "TERN_PACE=";
+  const std::size_t at = line.find(name);
+  if (at == std::string::npos) return 1.0;
+  double pace = 0.0;
+  const std::from_chars_result read = std::from_chars(line.data() + at + name.size(), line.data() + line.size(), pace);
+  return read.ec == std::errc{} && pace > 0.0 && pace <= 1.0 ? pace : 1.0;
 }
 
 }  // namespace tern::audit

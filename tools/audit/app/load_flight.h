@@ -13,4 +13,7 @@ Result<FlightRecord> load_flight(const std::string& path);
 /// What was typed to fly, as the folder of a flight keeps it beside the log; empty: not known.
 std::string typed_command(const std::string& path);
 
+/// The pace of the flight's clocks, (0, 1], as the folder of a flight keeps it beside the log; 1 where it says none.
+double flown_pace(const std::string& path);
+
 }  // namespace tern::audit

@@ -19,7 +19,8 @@ int run(const std::string& log, const std::string& page) {
   if (!record) throw std::runtime_error(record.error().message);
   if (record->contents.events == 0) throw std::runtime_error(log + ": not one whole event in it");
   std::ofstream file(page);
-  file << tern::report::report_page(*record, tern::audit::audit_flight(*record), tern::audit::typed_command(log));
+  file << tern::report::report_page(*record, tern::audit::audit_flight(*record),
+                                    {tern::audit::typed_command(log), tern::audit::flown_pace(log)});
   if (!file.flush()) throw std::runtime_error(page + " cannot be written");
   fmt::print("{}\n", page);
   return 0;

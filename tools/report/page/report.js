@@ -10,7 +10,7 @@ function head() {
   const met = result ? `, ${whole(result.obstacles)} obstacles` + (result.left_out ? ` (${whole(result.left_out)} left out: they began beside the vehicle)` : "") : "";
   main.append(el("header", {}, el("div", { class: "kind" }, "Tern flight report"),
     el("h1", {}, flight.scenario || "flight", el("span", { class: "badge " + tone }, outcome), el("span", { class: "badge " + verdict[0] }, verdict[1])),
-    el("div", { class: "where" }, `${date}${fixed(flight.length_s, 1)} s recorded in ${flight.log}`),
+    el("div", { class: "where" }, `${date}${fixed(flight.length_s, 1)} s recorded${flight.pace ? ` at a pace of ${flight.pace}` : ""} in ${flight.log}`),
     flight.settings ? el("div", { class: "where" }, "Flown with: " + flight.settings.map(([key, value]) => `${key} ${value.includes(".inf") ? "none" : value}`).join(", ") + ` (SI)${met}; version ${flight.version}`) : null,
     flight.command ? el("div", { class: "where" }, "Command: ", el("code", {}, flight.command)) : null,
     result && result.detail ? el("div", { class: "where" }, "Referee: " + result.detail) : null));

@@ -1,8 +1,10 @@
 #include "viewer/bridge/app/export_node.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <fstream>
 
 #include "runtime/config.h"
@@ -50,6 +52,27 @@ void add_export_options(CLI::App& app, ViewerOptions& options) {
       ->expected(2)
       ->allow_extra_args(false)
       ->needs(video);
+}
+
+void keep_logs_apart(CLI::App& app, const ViewerOptions& options) {
+  app.final_callback([&app, &options] {
+    if (options.log.empty()) return;
+    const auto refuse = [&app](const char* name, const char* where) {
+      if (app.get_option(name)->count() == 0) return;
+      throw CLI::ValidationError(name, fmt::format("has no effect where {}", where));
+    };
+    for (const char* name : {"--config", "--set", "--lcm-url", "--clock-offset-us", "--allow-goals"}) {
+      refuse(name, "a log is played");
+    }
+    for (const char* name : {"--key-file", "--key-fd"}) refuse(name, "a log is played (tern-key sift verifies one)");
+    CLI::Option& url = *app.get_option("--lcm-url");
+    url.add_result("memq://");
+    url.run_callback();
+    if (options.export_to.empty() && options.video_to.empty()) return;
+    for (const char* name : {"--listen", "--allow-host", "--url-file", "--looked-fd"})
+      refuse(name, "a file is written");
+    if (std::getenv("TERN_PACE") == nullptr) refuse("--pace", "a file is written");
+  });
 }
 
 std::unique_ptr<Node> make_viewer(Bus& bus, const Scenario& scenario, const ViewerOptions& options) {

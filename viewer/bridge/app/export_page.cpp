@@ -86,7 +86,7 @@ Rows play(LogPlayer& player, const LayersCommand& layers) {
       const bool is_due = row.at.empty() || now - row.at.back() >= spacing(topic) || now == player.end();
       const bool is_hidden = (topic == Topic::Hulls && !layers.hulls) || (topic == Topic::Tracks && scene.truth());
       if (is_hidden || is_of_the_past(topic) || !is_due || !scene.take_change(topic)) continue;
-      std::string json = topic_json(topic, {scene, player.memory(), player.begin(), player.end(), now, layers, {}});
+      std::string json = topic_json(topic, {scene, player.memory(), player.zero(), player.end(), now, layers, {}});
       if (row.json.empty() ? json == "null" : json == row.json.back()) continue;
       row.at.push_back(now);
       row.json.push_back(std::move(json));
@@ -105,7 +105,7 @@ std::string session_json(const PageExport& wanted) {
 Result<std::string> still_json(const PageExport& wanted, const LogPlayer& player) {
   const auto fields = player.memory().history.fields();
   const Scene nothing;
-  const Telling telling{nothing, player.memory(), player.begin(), player.end(), player.end(), {}, fields};
+  const Telling telling{nothing, player.memory(), player.zero(), player.end(), player.end(), {}, fields};
   JsonWriter json;
   json.begin_object().key("session").raw(session_json(wanted));
   for (const Topic topic : {Topic::Chart, Topic::Path, Topic::Fields, Topic::Events}) {
@@ -115,14 +115,15 @@ Result<std::string> still_json(const PageExport& wanted, const LogPlayer& player
     const auto ghost = LogPlayer::open(wanted.ghost, wanted.suffix);
     if (!ghost) return fail(ghost.error().message);
     json.key("ghost").raw(ghost_json(wanted.ghost, ghost->body_radius(), ghost->memory().history,
-                                     player.memory().history, player.begin()));
+                                     player.memory().history, player.zero()));
   }
   return json.end_object().take();
 }
 
 std::string tape_json(const LogPlayer& player, const std::string& still, const Rows& rows) {
   JsonWriter json;
-  json.begin_object().key("begin_us").integer(player.begin().us).key("end_us").integer(player.end().us);
+  json.begin_object().key("begin_us").integer(player.begin().us).key("zero_us").integer(player.zero().us);
+  json.key("end_us").integer(player.end().us);
   json.key("still").raw(still).key("rows").begin_object();
   for (const auto& [topic, row] : rows) {
     if (row.at.empty()) continue;
@@ -184,16 +185,17 @@ Result<ExportedPage> export_page(const PageExport& wanted) {
   if (!files) return fail(files.error().message);
   const auto still = still_json(wanted, *player);
   if (!still) return fail(still.error().message);
-  const double seconds = (player->end() - player->begin()).seconds(), minutes = std::max(seconds / 60.0, 1.0);
-  const UTime departure = player->memory().history.departure().value_or(player->begin());
-  const double departure_s = (departure - player->begin()).seconds();
+  const auto seconds = [zero = player->zero()](UTime t) { return (t - zero).seconds(); };
+  const double begin_s = seconds(player->begin()), end_s = seconds(player->end());
+  const double departure_s = seconds(player->memory().history.departure().value_or(player->begin()));
+  const double minutes = std::max((end_s - begin_s) / 60.0, 1.0);
   const auto most = static_cast<std::size_t>(minutes * static_cast<double>(kMostBytesPerMinute));
   constexpr std::array<std::pair<LayersCommand, const char*>, 3> kDetails = {
       {{{true, true, true}, ""}, {{false, true, true}, "hulls"}, {{false, false, true}, "hulls and planes"}}};
   for (const auto& [layers, left_out] : kDetails) {
     auto html = inline_page(*files, base64(deflated(tape_json(*player, *still, play(*player, layers)))));
     if (!html) return fail(html.error().message);
-    if (html->size() <= most) return ExportedPage{std::move(*html), seconds, departure_s, left_out};
+    if (html->size() <= most) return ExportedPage{std::move(*html), begin_s, end_s, departure_s, left_out};
   }
   return fail(
       fmt::format("{}: a page of it is larger than {} MB a minute", wanted.log, kMostBytesPerMinute / 1'000'000));

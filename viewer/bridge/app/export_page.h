@@ -18,9 +18,9 @@ struct PageExport {
 
 struct ExportedPage {
   std::string html;
-  double seconds = 0.0;      ///< of flight that it shows
-  double departure_s = 0.0;  ///< when the vehicle first flies, s since the log's begin; 0: never
-  std::string left_out;      ///< what did not fit, in words; "" when everything did
+  double begin_s = 0.0, end_s = 0.0;  ///< of what it shows, s since the flight's time 0
+  double departure_s = 0.0;           ///< when the vehicle first flies, likewise; begin_s: never
+  std::string left_out;               ///< what did not fit, in words; "" when everything did
 };
 
 /// A page is at most as large as this for each minute of flight that it shows, bytes, and never needs to be smaller.

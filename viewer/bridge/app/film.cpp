@@ -104,12 +104,14 @@ Result<bool> make_film(const Film& film) try {
     if (!is_installed(name)) return fail(name + " is not installed: a film needs Chromium and ffmpeg");
   }
   const auto& [size, rate, part] = film.form;
-  const double departure = film.page.departure_s;
-  const double from = std::max(departure + part.at(0), 0.0), to = std::min(departure + part.at(1), film.page.seconds);
+  const ExportedPage& shown = film.page;
+  const double departure = shown.departure_s;
+  const double from = std::max(departure + part.at(0), shown.begin_s);
+  const double to = std::min(departure + part.at(1), shown.end_s);
   const int pictures = static_cast<int>(std::ceil((to - from) * rate));
   if (pictures < 1) {
-    return fail(fmt::format("nothing is in {} to {} s: it flies at {:.1f} s of a log of {:.1f} s", part.at(0),
-                            part.at(1), departure, film.page.seconds));
+    return fail(fmt::format("nothing is in {} to {} s: it flies at {:.1f} s, the log is of {:.1f} to {:.1f} s",
+                            part.at(0), part.at(1), departure, shown.begin_s, shown.end_s));
   }
   std::signal(SIGPIPE, SIG_IGN);
   const Workplace workplace;

@@ -201,7 +201,13 @@ void LogPlayer::feed(std::size_t entry, SceneIntake& intake) {
 
 std::string LogPlayer::json() const {
   JsonWriter json;
-  json.begin_object().key("begin_us").integer(begin().us).key("end_us").integer(end().us);
+  json.begin_object()
+      .key("begin_us")
+      .integer(begin().us)
+      .key("zero_us")
+      .integer(zero().us)
+      .key("end_us")
+      .integer(end().us);
   json.key("at_us").integer(position_.us).key("playing").flag(playing_).key("speed").number(speed_);
   json.key("refused").integer(refused_).key("damage").text(index_.damage);
   return json.end_object().take();

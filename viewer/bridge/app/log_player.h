@@ -38,6 +38,8 @@ class LogPlayer {
 
   [[nodiscard]] UTime begin() const { return index_.entries.front().received; }
   [[nodiscard]] UTime end() const { return index_.entries.back().received; }
+  /// The flight's time 0: that of the world, or the log's begin where that is not known.
+  [[nodiscard]] UTime zero() const { return memory_.world_time.zero().value_or(begin()); }
   [[nodiscard]] UTime position() const { return position_; }
   [[nodiscard]] bool playing() const { return playing_; }
   [[nodiscard]] const Scene::Memory& memory() const { return memory_; }
@@ -53,7 +55,7 @@ class LogPlayer {
   /// Plays on to what the wall clock asks for; pauses at the log's end.
   void advance(UTime wall_now, SceneIntake& intake);
 
-  /// {"begin_us", "end_us", "at_us", "playing", "speed", "refused", "damage"}
+  /// {"begin_us", "zero_us", "end_us", "at_us", "playing", "speed", "refused", "damage"}
   [[nodiscard]] std::string json() const;
 
  private:

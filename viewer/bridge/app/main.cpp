@@ -1,26 +1,7 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <string>
-#include <vector>
 
 #include "runtime/process.h"
 #include "viewer/bridge/app/export_node.h"
-
-namespace {
-
-/// A log is played on a bus that ends in this process: no network is needed, and none is disturbed.
-std::vector<char*> arguments(int argc, char** argv) {
-  static char url_option[] = "--lcm-url", url[] = "memq://";
-  std::vector<char*> all(argv, argv + argc);
-  const bool has_log = std::any_of(all.begin() + 1, all.end(), [](const std::string& argument) {
-    const std::string name = argument.substr(0, argument.find('='));
-    return name == "--log" || name == "--export" || name == "--video";
-  });
-  if (has_log) all.insert(all.end(), {url_option, url});
-  return all;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   tern::ViewerOptions options;
@@ -42,9 +23,9 @@ int main(int argc, char** argv) {
             ->allow_extra_args(false);
         app.add_option("--looked-fd", options.looked_fd, "Write a byte there when the first page looks");
         app.add_option("--url-file", options.url_file, "Write the page's URL there")->type_name("FILE");
+        tern::keep_logs_apart(app, options);
       }};
-  std::vector<char*> all = arguments(argc, argv);
-  return tern::run_process(
-      static_cast<int>(all.size()), all.data(), description,
-      [&options](tern::ProcessContext& context) { return tern::make_viewer(context.bus, context.scenario, options); });
+  return tern::run_process(argc, argv, description, [&options](tern::ProcessContext& context) {
+    return tern::make_viewer(context.bus, context.scenario, options);
+  });
 }

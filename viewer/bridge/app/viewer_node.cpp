@@ -220,7 +220,7 @@ void ViewerNode::post_if_changed(Topic topic, UTime now) {
 
 std::string ViewerNode::json_of(Topic topic, UTime now) const {
   const Scene::Memory& memory = player_ ? player_->memory() : memory_;
-  const UTime zero = player_ ? player_->begin() : memory.history.begin();
+  const UTime zero = player_ ? player_->zero() : memory_.zero();
   if (topic == Topic::Player) return player_ ? player_->json() : "null";
   if (topic == Topic::Ghost) {
     return ghost_json(options_.ghost, ghost_->body_radius(), ghost_->memory().history, memory.history, zero);

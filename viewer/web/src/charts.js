@@ -66,7 +66,7 @@ class Chart {
       padding: [6, 10, 0, 0],
       cursor: { sync: { key: 'flight' }, drag: { x: true, y: false, setScale: false }, points: { size: 5 }, y: false,
         bind: { dblclick: () => () => charts.zoom(null) } },
-      scales: { x: { time: false, range: () => charts.range() }, y: { range: (_, low, high) => span(low, high) } },
+      scales: { x: { time: false, range: () => charts.range() }, y: { range: (_, low, high) => room(low, high) } },
       axes: [{ ...axis, size: 20, values: (_, ticks) => ticks.map((t) => `${t} s`) }, { ...axis, size: 38, space: 26 }],
       series: [{}, ...series],
       hooks: {
@@ -131,16 +131,16 @@ class Chart {
 }
 
 /** From 0, with room above; a field that is below 0 shows so. */
-function span(low, high) {
+function room(low, high) {
   if (low === null || high === null) return [0, 1];
-  const room = 0.08 * Math.max(high - low, 1e-3);
-  return [low >= 0 && low < 0.6 * high ? 0 : low - room, high + room];
+  const more = 0.08 * Math.max(high - low, 1e-3);
+  return [low >= 0 && low < 0.6 * high ? 0 : low - more, high + more];
 }
 
 export class Charts {
   /** @param handlers  {jump(t), wants(names), hover(t)}; t in seconds of the flight */
   constructor(handlers) {
-    Object.assign(this, { handlers, series: {}, end: 1, now: 0, zoomed: null, charts: [], fields: [] });
+    Object.assign(this, { handlers, series: {}, span: [0, 1], now: 0, zoomed: null, charts: [], fields: [] });
     this.root = document.getElementById('charts');
     for (const names of DEFAULT) this.append(names);
   }
@@ -150,7 +150,8 @@ export class Charts {
   }
 
   range() {
-    return this.zoomed ?? [0, Math.max(this.end, 1)];
+    const [begin, end] = this.span;
+    return this.zoomed ?? [begin, Math.max(end, begin + 1)];
   }
 
   append(names) {
@@ -185,13 +186,13 @@ export class Charts {
     this.handlers.wants(this.names());
   }
 
-  /** @param chart  as FlightHistory::chart_json tells it */
-  take({ series, end_s: end }) {
+  /** @param chart  as FlightHistory::chart_json tells it  @param span  begin and end of what is known, s */
+  take({ series }, span) {
     for (const rows of Object.values(series)) {
       if (rows.length !== 2 || rows[0].length !== rows[1].length) throw new RangeError('not two rows of one length');
     }
     this.series = series;
-    this.end = end;
+    this.span = span;
     for (const chart of this.charts) chart.draw();
   }
 

@@ -50,10 +50,10 @@ export class Controls {
     byId('theme').textContent = theme === 'light' ? 'dark' : 'light';
     byId('theme').onclick = () => location.assign(otherTheme());
     byId('link').onclick = () => this.copy();
-    byId('menu').onclick = () => byId('menu').setAttribute('aria-expanded', document.body.classList.toggle('menu'));
+    byId('menu').onclick = () => this.showMenu(!document.body.classList.contains('menu'));
     byId('showcharts').onclick = () => {
       document.body.classList.toggle('charts');
-      does.changed();
+      this.showMenu(false); // it is where the charts are seen
     };
     giveBackKeys();
     const camera = Object.fromEntries(MODES.map((mode, k) => [k + 1, () => this.setCamera(mode)]));
@@ -62,6 +62,13 @@ export class Controls {
       ArrowLeft: () => does.step(-1), ArrowRight: () => does.step(1),
     });
     window.addEventListener('hashchange', () => this.follow());
+  }
+
+  /** On a phone. */
+  showMenu(on) {
+    document.body.classList.toggle('menu', on);
+    byId('menu').setAttribute('aria-expanded', on);
+    this.does.changed();
   }
 
   setCamera(mode, eye) {

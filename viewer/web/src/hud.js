@@ -28,8 +28,10 @@ export function showSession(session) {
   }
 }
 
+/** Nobody says any more how anything is. */
 export function showGone() {
   chip('mode', 'bridge gone', 'gone');
+  for (const item of byId('health').children) item.className = 'unknown';
 }
 
 let waiting = null; // a state that is not shown yet, and the goal
@@ -81,7 +83,7 @@ export function showResult(result) {
 }
 
 export function showClock(seconds) {
-  say('clock', `${fixed(seconds)} s`);
+  say('clock', `${fixed(Math.round(10 * seconds) / 10)} s`); // never -0.0
 }
 
 /** @param pick  is called with the name of a process that was clicked */

@@ -2,12 +2,12 @@
 
 export const MODES = ['chase', 'first', 'top', 'side', 'free'];
 
-/** @return {t, cam, eye}: seconds from the log's begin, a mode, six numbers; what is missing or wrong is left out */
+/** @return {t, cam, eye}: seconds of the flight, a mode, six numbers; what is missing or wrong is left out */
 export function readLink(hash) {
   const said = new URLSearchParams(hash.replace(/^#/, ''));
   const link = {};
   const t = Number(said.get('t'));
-  if (said.has('t') && Number.isFinite(t) && t >= 0) link.t = t;
+  if (said.has('t') && Number.isFinite(t)) link.t = t;
   const [mode, place] = (said.get('cam') ?? '').split(':');
   if (!MODES.includes(mode)) return link;
   link.cam = mode;

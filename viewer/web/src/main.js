@@ -54,8 +54,10 @@ const charts = new Charts({
   unknown: (name) => hud.toast(`no such field: ${name}`),
 });
 
-/** Seconds of the flight: since the log's begin, or since the first state was heard. */
-const flightTime = (at_us) => (at_us - (known.player?.begin_us ?? known.chart?.begin_us ?? at_us)) * 1e-6;
+/** Seconds of the flight: world time, or since the first state was heard where that is not known. */
+const flightTime = (at_us) => (at_us - (known.player?.zero_us ?? known.chart?.zero_us ?? at_us)) * 1e-6;
+/** What of the flight is known, s: the log's begin and end, or the first state and the newest. */
+const flightSpan = (chart) => [known.player ? flightTime(known.player.begin_us) : chart.begin_s, chart.end_s];
 
 /** What each topic does; null takes back what it said. */
 const topics = {
@@ -74,8 +76,8 @@ const topics = {
   chart(chart) {
     if (!chart) return;
     known.chart = chart;
-    charts.take(chart);
-    timeline.takeChart(chart);
+    charts.take(chart, flightSpan(chart));
+    timeline.takeChart(chart, flightSpan(chart));
   },
   fields: (names) => names && charts.takeFields(names),
   events: (told) => timeline.takeEvents(told?.events ?? []),
@@ -271,9 +273,9 @@ function picture(now, seconds) {
   if (vehicle.state) {
     const centre = cameras.mode === 'orbit' ? obstacles.where(obstacles.pickedId, now_us) : null;
     cameras.follow(vehicle.p, vehicle.state.v, centre, seconds);
-    showTime(flightTime(known.player?.at_us ?? clock.at_us));
     ghost.draw(flightTime(now_us));
   }
+  if (vehicle.state || known.player) showTime(flightTime(known.player?.at_us ?? clock.at_us));
   cameras.update();
   obstacles.draw(now_us, world.camera);
   world.adapt(now);
@@ -297,7 +299,7 @@ function showTime(t) {
   charts.setNow(t);
   timeline.setNow(t);
   hud.showClock(t);
-  if (!known.player) player.show(t, known.chart?.end_s ?? t);
+  if (!known.player) player.show(t, known.chart ? flightSpan(known.chart) : [t, t]);
   else controls.writeLink();
 }
 

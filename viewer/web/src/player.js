@@ -3,7 +3,7 @@
 const RATES = [0.1, 0.25, 0.5, 1, 2, 4, 8];
 
 const byId = (id) => document.getElementById(id);
-const seconds = (s) => `${s.toFixed(1)} s`;
+const seconds = (s) => `${(Math.round(10 * s) / 10).toFixed(1)} s`; // never -0.0
 
 export class Player {
   /** @param send  a command to the bridge  @param refuse  says why there is nothing to play */
@@ -16,7 +16,10 @@ export class Player {
     byId('forth').onclick = () => this.step(1);
     byId('rate').append(...RATES.map((rate) => new Option(`${rate}×`, rate, rate === 1, rate === 1)));
     byId('rate').onchange = () => this.ask({ speed: Number(byId('rate').value) });
-    byId('scrub').oninput = () => this.jump(this.length() * (byId('scrub').value / byId('scrub').max));
+    byId('scrub').oninput = () => {
+      const [begin, end] = this.span();
+      this.jump(begin + (end - begin) * (byId('scrub').value / byId('scrub').max));
+    };
     this.take(null);
   }
 
@@ -34,13 +37,15 @@ export class Player {
     this.ask({ step: plans });
   }
 
-  /** @param t  seconds from the log's begin */
+  /** @param t  seconds of the flight */
   jump(t) {
-    this.ask({ seek_us: Math.round((this.state?.begin_us ?? 0) + 1e6 * t) });
+    this.ask({ seek_us: Math.round((this.state?.zero_us ?? 0) + 1e6 * t) });
   }
 
-  length() {
-    return this.state ? (this.state.end_us - this.state.begin_us) * 1e-6 : 0;
+  /** Begin and end of the log, seconds of the flight. */
+  span() {
+    const { begin_us: begin, zero_us: zero, end_us: end } = this.state ?? { begin_us: 0, zero_us: 0, end_us: 0 };
+    return [(begin - zero) * 1e-6, (end - zero) * 1e-6];
   }
 
   /** @param state  as LogPlayer::json tells it; null: a live flight */
@@ -50,15 +55,15 @@ export class Player {
     if (!state) return;
     byId('play').textContent = state.playing ? '❚❚' : '▶';
     byId('damage').textContent = state.damage || (state.refused ? `${state.refused} refused` : '');
-    this.show((state.at_us - state.begin_us) * 1e-6, this.length());
+    this.show((state.at_us - state.zero_us) * 1e-6, this.span());
   }
 
-  /** Where the flight is. @param at, length  s */
-  show(at, length) {
-    for (const [id, text] of [['at', seconds(at)], ['length', seconds(length)]]) {
+  /** Where the flight is. @param at  s  @param span  begin and end of what is known, s */
+  show(at, [begin, end]) {
+    for (const [id, text] of [['at', seconds(at)], ['length', seconds(end)]]) {
       if (byId(id).textContent !== text) byId(id).textContent = text;
     }
     const scrub = byId('scrub');
-    if (!scrub.matches(':active')) scrub.value = (scrub.max * at) / Math.max(length, 1e-6);
+    if (!scrub.matches(':active')) scrub.value = (scrub.max * (at - begin)) / Math.max(end - begin, 1e-6);
   }
 }

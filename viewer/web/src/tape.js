@@ -14,7 +14,7 @@ export async function readTape() {
 
 export class Tape {
   /**
-   * @param tape  {begin_us, end_us, still: {topic: value}, rows: {topic: [[at_us…], [value…]]}}
+   * @param tape  {begin_us, zero_us, end_us, still: {topic: value}, rows: {topic: [[at_us…], [value…]]}}
    * @param handlers  as of a Stream
    */
   constructor(tape, handlers, clock = () => performance.now()) {
@@ -29,9 +29,9 @@ export class Tape {
   }
 
   player() {
-    const { begin_us, end_us, damage } = this.tape;
+    const { begin_us, zero_us, end_us, damage } = this.tape;
     const { at, playing, speed } = this;
-    return { begin_us, end_us, at_us: at, playing, speed, refused: 0, damage: damage ?? '' };
+    return { begin_us, zero_us, end_us, at_us: at, playing, speed, refused: 0, damage: damage ?? '' };
   }
 
   send(command) {

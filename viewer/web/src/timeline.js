@@ -25,7 +25,7 @@ export class Timeline {
     this.jump = jump;
     this.events = [];
     this.outcomes = [[], []];
-    this.end = 1;
+    this.span = [0, 1];
     this.now = 0;
     this.hovered = null;
     this.canvas = byId('events');
@@ -41,12 +41,14 @@ export class Timeline {
   }
 
   place(t) {
-    return INSET_PX + (t / this.end) * (this.canvas.clientWidth - 2 * INSET_PX);
+    const [begin, end] = this.span;
+    return INSET_PX + ((t - begin) / (end - begin)) * (this.canvas.clientWidth - 2 * INSET_PX);
   }
 
-  takeChart({ outcomes, end_s: end }) {
+  /** @param span  begin and end of what is known, s */
+  takeChart({ outcomes }, [begin, end]) {
     this.outcomes = outcomes;
-    this.end = Math.max(end, 0.1);
+    this.span = [begin, Math.max(end, begin + 0.1)];
     this.draw();
   }
 
@@ -107,7 +109,7 @@ export class Timeline {
       let last = k;
       while (last + 1 < t.length && kinds[last + 1] === kinds[k]) ++last;
       const from = this.place(t[k]);
-      const to = this.place(last + 1 < t.length ? t[last + 1] : Math.min(t[last] + 0.1, this.end));
+      const to = this.place(last + 1 < t.length ? t[last + 1] : Math.min(t[last] + 0.1, this.span[1]));
       context.fillStyle = palette.outcomes[kinds[k]] ?? palette.axis;
       context.fillRect(from, top, Math.max(to - from, 1), BAND_PX);
       k = last;
