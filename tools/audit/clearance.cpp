@@ -222,7 +222,6 @@ class Verdicts {
     least.high = proven_.high;
     least.proven = undeclared_ == 0 && whole;
     least.low = nearest() - passed_over(nearest());
-    least.touch_open = undecided_ > 0;
     say(least, closest);
     return least;
   }
