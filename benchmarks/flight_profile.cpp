@@ -5,17 +5,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/flight_recording.h"
-#include "core/base/percentiles.h"
 #include "core/world/names.h"
 #include "planner/plan_workspace.h"
-#include "runtime/config.h"
 #include "runtime/stopwatch.h"
 
 namespace tern {
@@ -79,9 +78,7 @@ template <class Get>
 std::string percentiles(const std::vector<Cost>& costs, const Get& get) {
   std::vector<double> values;
   for (const Cost& c : costs) values.push_back(get(c));
-  std::sort(values.begin(), values.end());
-  const auto at = [&](std::size_t percent) { return percentile_of_sorted(values, percent); };
-  return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  max {:.3f}", at(50), at(90), at(99), values.back());
+  return percentiles_text(std::move(values));
 }
 
 void report(const std::vector<Cost>& costs, int worst) {
@@ -115,40 +112,28 @@ void report(const std::vector<Cost>& costs, int worst) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Replans the requests of virtual flights and says what they cost, ms of thread CPU time."};
-  std::string scenario;
-  std::vector<std::string> overrides;
-  std::int64_t first = 1;
-  std::int64_t last = 1;
+  tern::WantedFlights flights;
   int repeats = 3;
   int worst = 10;
-  app.add_option("--config", scenario, "Scenario file")->required();
-  app.add_option("--set", overrides, "Override key=value (repeatable)");
-  app.add_option("--first", first, "First seed");
-  app.add_option("--last", last, "Last seed");
+  flights.add_options(app);
   app.add_option("--repeats", repeats, "Measurements per request; the least counts");
   app.add_option("--worst", worst, "How many of the dearest requests are listed");
   CLI11_PARSE(app, argc, argv);
   std::vector<tern::Cost> costs;
   tern::PlanWorkspace workspace;
-  for (std::int64_t seed = first; seed <= last; ++seed) {
-    std::vector<std::string> with_seed = overrides;
-    with_seed.push_back("seed=" + std::to_string(seed));
-    const tern::FlightRecording flight = tern::record_flight(scenario, with_seed);
+  flights.each([&](std::int64_t seed, const tern::FlightRecording& flight) {
     std::uint64_t h = 14695981039346656037ULL;
     for (std::size_t k = 0; k < flight.moments.size(); ++k) {
       tern::Cost cost = tern::cost_of(flight.moments[k], flight.config, repeats, workspace);
       cost.request = k;
       const auto& q = cost.answer.plan.trajectory.control_points;
-      for (Eigen::Index i = 0; i < q.size(); ++i) {
-        std::uint64_t bits = 0;
-        std::memcpy(&bits, q.data() + i, sizeof(bits));
-        h = (h ^ bits) * 1099511628211ULL;
-      }
+      for (Eigen::Index i = 0; i < q.size(); ++i)
+        h = (h ^ std::bit_cast<std::uint64_t>(q.data()[i])) * 1099511628211ULL;
       costs.push_back(std::move(cost));
     }
     fmt::print("seed {}: {} requests, {} in {:.2f} s, answers {:016x}\n", seed, flight.moments.size(),
                to_string(flight.result.outcome), flight.result.flight_time_s, h);
-  }
+  });
   tern::report(costs, worst);
   return 0;
 }

@@ -10,13 +10,9 @@
 #include "core/base/percentiles.h"
 #include "core/splines/minvo.h"
 #include "core/world/flyable.h"
-#include "planner/optimization/barrier_solver.h"
-#include "planner/optimization/convex_problem.h"
-#include "planner/optimization/ipopt_solver.h"
 #include "planner/plan_workspace.h"
 #include "planner/safety/checker.h"
 #include "planner/search/semantic_a_star.h"
-#include "runtime/stopwatch.h"
 
 namespace tern {
 namespace {
@@ -50,10 +46,7 @@ void plan_of_a_flight(benchmark::State& state) {
   PlanWorkspace workspace;
   for (auto _ : state) {
     for (const Answered& m : flight()) {
-      Budget budget = Budget::unlimited();
-      const double begin = thread_cpu_ms();
-      benchmark::DoNotOptimize(plan(m.request, m.world, recording().config, budget, workspace));
-      ms.push_back(thread_cpu_ms() - begin);
+      ms.push_back(plan_ms(m, recording().config, workspace));
     }
   }
   std::sort(ms.begin(), ms.end());
@@ -238,50 +231,6 @@ void search(benchmark::State& state) {
   state.counters["expansions/s"] = benchmark::Counter(static_cast<double>(expansions), benchmark::Counter::kIsRate);
 }
 BENCHMARK(search)->Unit(benchmark::kMillisecond);
-
-ConvexProblem convex_problem_of(const Answered& m) {
-  TrajectoryProblem problem{problem_of(m)};
-  problem.goal = m.answer.local_goal;
-  problem.weight_jerk = OptimizationConfig{}.weight_jerk;
-  std::vector<PlaneConstraint> planes;
-  for (const CertificatePlane& c : m.answer.certificate) {
-    planes.push_back({c.interval, static_cast<double>(c.part) / c.parts, (c.part + 1.0) / c.parts, c.plane});
-  }
-  return make_convex_problem(problem, planes, m.answer.trajectory.control_points);
-}
-
-/// Eq. 4 with the answer's own planes: making the problem.
-void make_problem(benchmark::State& state) {
-  const auto moments = planned();
-  std::size_t k = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(convex_problem_of(*moments[k++ % moments.size()]).bounds.data());
-}
-BENCHMARK(make_problem)->Unit(benchmark::kMicrosecond);
-
-/// Solving it.
-template <class Solve>
-void solve(benchmark::State& state, const Solve& by) {
-  const auto moments = planned();
-  std::vector<ConvexProblem> problems;
-  for (const Answered* m : moments) problems.push_back(convex_problem_of(*m));
-  std::size_t k = 0;
-  std::int64_t iterations = 0;
-  for (auto _ : state) {
-    const std::size_t i = k++ % moments.size();
-    iterations += by(problems[i], free_variables(moments[i]->answer.trajectory.control_points), 60, [] {
-                    return false;
-                  }).iterations;
-  }
-  state.counters["iterations"] =
-      benchmark::Counter(static_cast<double>(iterations), benchmark::Counter::kAvgIterations);
-}
-void solve_barrier(benchmark::State& state) {
-  BarrierSolver solver;
-  solve(state, [&](const auto&... arguments) { return solver.solve(arguments...); });
-}
-void solve_ipopt(benchmark::State& state) { solve(state, solve_by_ipopt); }
-BENCHMARK(solve_barrier)->Unit(benchmark::kMicrosecond);
-BENCHMARK(solve_ipopt)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace tern

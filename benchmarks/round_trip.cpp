@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/base/digest.h"
+#include "core/base/percentiles.h"
 #include "messages/codec.h"
 #include "runtime/bus.h"
 #include "runtime/lcm_network.h"
@@ -52,9 +53,9 @@ struct End {
   while (true) end.hear();
 }
 
-double percentile(std::vector<double> values, double share) {
+double percentile(std::vector<double> values, std::size_t percent) {
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  return percentile_of_sorted(values, percent);
 }
 
 struct Round {
@@ -98,7 +99,7 @@ Round play(const std::optional<Key>& master, std::size_t bytes) {
   const double cpu = (cpu_us() - cpu_before) / kPings;
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
-  return {percentile(times, 0.5), percentile(times, 0.99), cpu};
+  return {percentile(times, 50), percentile(times, 99), cpu};
 }
 
 void measure(std::size_t bytes) {
@@ -114,8 +115,7 @@ void measure(std::size_t bytes) {
   for (const int with_keys : {0, 1}) {
     const auto* v = values[with_keys];
     fmt::print("{:>6} bytes, {:>7} keys: p50 {:6.0f} us, p99 {:6.0f} us, CPU {:5.0f} us\n", bytes,
-               with_keys == 1 ? "with" : "without", percentile(v[0], 0.5), percentile(v[1], 0.5),
-               percentile(v[2], 0.5));
+               with_keys == 1 ? "with" : "without", percentile(v[0], 50), percentile(v[1], 50), percentile(v[2], 50));
   }
 }
 

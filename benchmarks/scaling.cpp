@@ -33,11 +33,7 @@ void print(const char* table, std::int64_t size, const std::string& quantity, do
 
 double median_ms(int runs, const std::function<void()>& work) {
   std::vector<double> ms;
-  for (int k = 0; k < runs; ++k) {
-    const double begin = thread_cpu_ms();
-    work();
-    ms.push_back(thread_cpu_ms() - begin);
-  }
+  for (int k = 0; k < runs; ++k) ms.push_back(cpu_ms_of(work));
   std::nth_element(ms.begin(), ms.begin() + runs / 2, ms.end());
   return ms[static_cast<std::size_t>(runs / 2)];
 }
@@ -61,10 +57,9 @@ Track swinging(std::int64_t id, const Vec3& centre, double half, double amplitud
   return track;
 }
 
-struct Setting {
-  HorizonRequest request;
+/// … and what the planner is set to.
+struct Setting : Moment {
   PlannerConfig config;
-  PlanningWorld world;
 };
 
 /// From rest at the origin 30 m ahead, nothing but these tracks.
@@ -221,12 +216,7 @@ void intervals(const std::string& scenario) {
         record_flight(scenario, {"seed=1", "world.count=100", fmt::format("planner.intervals={}", j)});
     PlanWorkspace workspace;
     std::vector<double> ms;
-    for (const Moment& m : flight.moments) {
-      Budget budget = Budget::unlimited();
-      const double begin = thread_cpu_ms();
-      plan(m.request, m.world, flight.config, budget, workspace);
-      ms.push_back(thread_cpu_ms() - begin);
-    }
+    for (const Moment& m : flight.moments) ms.push_back(plan_ms(m, flight.config, workspace));
     std::sort(ms.begin(), ms.end());
     print("intervals", j, "plan_p50_ms", ms[ms.size() / 2]);
     print("intervals", j, "plan_p99_ms", ms[ms.size() * 99 / 100]);

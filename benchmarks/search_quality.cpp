@@ -5,14 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "benchmarks/flight_recording.h"
-#include "core/base/percentiles.h"
 #include "planner/plan_workspace.h"
 #include "planner/search/semantic_a_star.h"
-#include "runtime/config.h"
 #include "runtime/stopwatch.h"
 
 namespace tern {
@@ -107,15 +104,10 @@ void report(const std::vector<Judged>& all) {
     missed += j.found ? 0 : 1;
     not_holding += j.found && j.best_holds && !j.holds ? 1 : 0;
   }
-  const auto percentiles = [](std::vector<double>& values) {
-    std::sort(values.begin(), values.end());
-    const auto at = [&](std::size_t percent) { return percentile_of_sorted(values, percent); };
-    return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  max {:.3f}", at(50), at(90), at(99), values.back());
-  };
   fmt::print("searches {}; in {} of them 5 s find no leaf either\n", all.size(), without);
   fmt::print("within 5 % of the best: {} of {} ({:.1f} %); no leaf: {}; a leaf that does not hold: {}\n", good,
              with_leaf, 100.0 * good / std::max(1, with_leaf), missed, not_holding);
-  fmt::print("default, ms: {}\n5 s, ms:     {}\n", percentiles(ms), percentiles(long_ms));
+  fmt::print("default, ms: {}\n5 s, ms:     {}\n", percentiles_text(ms), percentiles_text(long_ms));
 }
 
 }  // namespace
@@ -123,23 +115,13 @@ void report(const std::vector<Judged>& all) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Compares the searches of virtual flights with searches of five seconds. Thread CPU time."};
-  std::string scenario;
-  std::vector<std::string> overrides;
-  std::int64_t first = 1;
-  std::int64_t last = 1;
+  tern::WantedFlights flights;
   std::size_t every = 4;
-  app.add_option("--config", scenario, "Scenario file")->required();
-  app.add_option("--set", overrides, "Override key=value (repeatable)");
-  app.add_option("--first", first, "First seed");
-  app.add_option("--last", last, "Last seed");
+  flights.add_options(app);
   app.add_option("--every", every, "Every how many requests one is judged")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   std::vector<tern::Judged> all;
-  for (std::int64_t seed = first; seed <= last; ++seed) {
-    std::vector<std::string> with_seed = overrides;
-    with_seed.push_back("seed=" + std::to_string(seed));
-    tern::judge_flight(tern::record_flight(scenario, with_seed), every, all);
-  }
+  flights.each([&](std::int64_t, const tern::FlightRecording& flight) { tern::judge_flight(flight, every, all); });
   if (all.empty()) return 1;
   tern::report(all);
   return 0;

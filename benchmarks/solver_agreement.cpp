@@ -7,11 +7,12 @@
 #include <cstdio>
 
 #include "benchmarks/recorded_problems.h"
+#include "core/base/percentiles.h"
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/ipopt_solver.h"
 #include "runtime/stopwatch.h"
 
-namespace tern::benchmarks {
+namespace tern {
 namespace {
 
 constexpr double kAllowed = 1e-4;       ///< relative excess over Ipopt's cost
@@ -52,22 +53,17 @@ struct Comparison {
 void print(const char* name, std::vector<double> values) {
   if (values.empty()) return;
   std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
-  };
-  fmt::print("{:<22} p50 {:9.3g}   p99 {:9.3g}   max {:9.3g}\n", name, at(0.5), at(0.99), values.back());
+  const auto at = [&](std::size_t percent) { return percentile_of_sorted(values, percent); };
+  fmt::print("{:<22} p50 {:9.3g}   p99 {:9.3g}   max {:9.3g}\n", name, at(50), at(99), values.back());
 }
 
 int compare(int count, std::uint64_t seed) {
   Comparison comparison;
-  while (static_cast<int>(comparison.excess.size()) < count) {
-    for (const char* world : kRecordedWorlds) {
-      record_problems(world, seed, [&](const RecordedProblem& problem) {
-        if (static_cast<int>(comparison.excess.size()) < count) comparison.add(problem);
-        return static_cast<int>(comparison.excess.size()) < count;
-      });
-    }
-    ++seed;
+  for (; static_cast<int>(comparison.excess.size()) < count; ++seed) {
+    record_problems(seed, [&](const RecordedProblem& problem) {
+      comparison.add(problem);
+      return static_cast<int>(comparison.excess.size()) < count;
+    });
   }
   fmt::print("{} problems, {} cost more than Ipopt's by over {}, barrier failed on {}, Ipopt on {}\n",
              comparison.excess.size(), comparison.broken(), kAllowed, comparison.unsolved, comparison.ipopt_unsolved);
@@ -80,7 +76,7 @@ int compare(int count, std::uint64_t seed) {
 }
 
 }  // namespace
-}  // namespace tern::benchmarks
+}  // namespace tern
 
 int main(int argc, char** argv) {
   CLI::App app("Compares the solvers of Eq. 4 with fixed planes on problems recorded from flights.");
@@ -89,5 +85,5 @@ int main(int argc, char** argv) {
   app.add_option("--count", count, "how many problems")->capture_default_str();
   app.add_option("--seed", seed, "the first world's seed")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  return tern::benchmarks::compare(count, seed);
+  return tern::compare(count, seed);
 }

@@ -2,11 +2,13 @@
 // problems, as a share of the search's.
 #include <benchmark/benchmark.h>
 
+#include <vector>
+
 #include "benchmarks/recorded_problems.h"
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/ipopt_solver.h"
 
-namespace tern::benchmarks {
+namespace tern {
 namespace {
 
 constexpr int kProblems = 100;  // the same for each method, so that costs can be compared
@@ -14,17 +16,15 @@ constexpr int kProblems = 100;  // the same for each method, so that costs can b
 bool never() { return false; }
 bool anything(const Eigen::VectorXd&) { return true; }
 
-/// Every tenth problem of a flight through each world.
+/// Every tenth problem of the flights.
 const std::vector<RecordedProblem>& problems() {
   static const std::vector<RecordedProblem> all = [] {
     std::vector<RecordedProblem> taken;
-    for (const char* world : kRecordedWorlds) {
-      int k = 0;
-      record_problems(world, 1, [&](const RecordedProblem& p) {
-        if (k++ % 10 == 0) taken.push_back(p);
-        return true;
-      });
-    }
+    int k = 0;
+    record_problems(1, [&](const RecordedProblem& p) {
+      if (k++ % 10 == 0) taken.push_back(p);
+      return true;
+    });
     return taken;
   }();
   return all;
@@ -56,19 +56,19 @@ void make_problem(benchmark::State& state) {
 }
 BENCHMARK(make_problem)->Unit(benchmark::kMicrosecond);
 
-void barrier(benchmark::State& state) {
+void solve_barrier(benchmark::State& state) {
   run(state, [](const RecordedProblem& p, const ConvexProblem& convex) {
     return BarrierSolver().solve(convex, free_variables(p.initial), 60, never);
   });
 }
-BENCHMARK(barrier)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
+BENCHMARK(solve_barrier)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
 
-void ipopt(benchmark::State& state) {
+void solve_ipopt(benchmark::State& state) {
   run(state, [](const RecordedProblem& p, const ConvexProblem& convex) {
     return solve_by_ipopt(convex, free_variables(p.initial), 60, never);
   });
 }
-BENCHMARK(ipopt)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
+BENCHMARK(solve_ipopt)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
 
 void joint(benchmark::State& state) {
   run(state, [](const RecordedProblem& p, const ConvexProblem&) {
@@ -88,4 +88,4 @@ void joint_from_alternating(benchmark::State& state) {
 BENCHMARK(joint_from_alternating)->Unit(benchmark::kMicrosecond)->Iterations(kProblems);
 
 }  // namespace
-}  // namespace tern::benchmarks
+}  // namespace tern

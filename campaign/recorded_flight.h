@@ -6,7 +6,6 @@
 
 #include "campaign/flight_inputs.h"
 #include "campaign/records/flight_record.h"
-#include "campaign/virtual_flight.h"
 
 namespace tern {
 
@@ -24,6 +23,13 @@ struct Auditor {
   std::string program;  ///< empty: none
   bool judges =
       true;  ///< its exit code is a verdict: 0 passed, 1 broken; anything else failed, whether it judges or not
+};
+
+/// Watches a flight from outside: called with every plan and its request.
+struct FlightObserver {
+  virtual ~FlightObserver() = default;
+  virtual void on_request(const HorizonRequest&) {}
+  virtual void on_plan(const Plan&) {}
 };
 
 struct RecordedFlight {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,6 +31,11 @@ struct LogChannel {
   bool read =
       false;  ///< it was asked for: only then its messages were decoded, and refused, lost and repeated are known
   bool foreign = false;  ///< not one of Tern's channels
+
+  /// Refused, whatever the reason.
+  [[nodiscard]] std::int64_t refused_in_all() const {
+    return std::accumulate(std::begin(refused), std::end(refused), std::int64_t{0});
+  }
 };
 
 /// What a log holds.

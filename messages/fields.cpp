@@ -31,43 +31,23 @@ bool is_control(unsigned char c) { return (c < 0x20 && c != '\t' && c != '\n') |
 
 }  // namespace
 
-tern_msgs::vec3_t to_lcm(const Vec3& v) {
-  tern_msgs::vec3_t m{};
-  m.x = v.x();
-  m.y = v.y();
-  m.z = v.z();
-  return m;
-}
+tern_msgs::vec3_t to_lcm(const Vec3& v) { return {.x = v.x(), .y = v.y(), .z = v.z()}; }
 
 tern_msgs::message_name_t to_lcm(const MessageName& name) {
-  tern_msgs::message_name_t m{};
-  m.sender_epoch_us = name.sender_epoch_us;
-  m.sequence = name.sequence;
-  return m;
+  return {.sender_epoch_us = name.sender_epoch_us, .sequence = name.sequence};
 }
 
-tern_msgs::header_t to_lcm(const Header& header) {
-  tern_msgs::header_t m{};
-  m.name = to_lcm(header.name);
-  m.utime_us = header.utime.us;
-  return m;
-}
+tern_msgs::header_t to_lcm(const Header& header) { return {.name = to_lcm(header.name), .utime_us = header.utime.us}; }
 
 tern_msgs::batch_t to_lcm(const BatchHeader& batch) {
-  tern_msgs::batch_t m{};
-  m.set = batch.set;
-  m.index = batch.index;
-  m.count = batch.count;
-  return m;
+  return {.set = batch.set, .index = batch.index, .count = batch.count};
 }
 
 tern_msgs::motion_t to_lcm(const MotionSample& motion) {
-  tern_msgs::motion_t m{};
-  m.position = to_lcm(motion.p);
-  m.velocity = to_lcm(motion.v);
-  m.acceleration = to_lcm(motion.a);
-  m.jerk = to_lcm(motion.j);
-  return m;
+  return {.position = to_lcm(motion.p),
+          .velocity = to_lcm(motion.v),
+          .acceleration = to_lcm(motion.a),
+          .jerk = to_lcm(motion.j)};
 }
 
 std::vector<tern_msgs::vec3_t> to_lcm(const Points& points) {

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <system_error>
 #include <thread>
@@ -75,13 +74,11 @@ int catch_signals() {
 
 int fly(const Options& options) {
   const CampaignOptions campaign = campaign_of(options);
-  std::vector<std::string> flight_command = {std::filesystem::read_symlink("/proc/self/exe").string(), "fly-one"};
-  const std::vector<std::string> words = words_of(options.flight);
-  flight_command.insert(flight_command.end(), words.begin(), words.end());
   const std::int64_t audited_before = count_audited(campaign.out);
   ProgressOutput output;
   const int stop_fd = catch_signals();
-  const auto end = run_campaign(campaign, flight_command, stop_fd, [&](const CampaignProgress& p) { output.show(p); });
+  const auto end = run_campaign(campaign, flight_command(options.flight), stop_fd,
+                                [&](const CampaignProgress& p) { output.show(p); });
   output.finish();
   if (!end) {
     fmt::print(stderr, "{}\n", end.error().message);

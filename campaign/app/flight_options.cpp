@@ -1,6 +1,7 @@
 #include "campaign/app/flight_options.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "runtime/config.h"
 
@@ -49,8 +50,9 @@ FlightInputs inputs_of(const FlightOptions& options) {
   return inputs;
 }
 
-std::vector<std::string> words_of(const FlightOptions& options) {
-  std::vector<std::string> words = {"--world", options.world, "--charge", options.charge};
+std::vector<std::string> flight_command(const FlightOptions& options) {
+  std::vector<std::string> words = {std::filesystem::read_symlink("/proc/self/exe").string(), "fly-one"};
+  words.insert(words.end(), {"--world", options.world, "--charge", options.charge});
   if (!options.count.empty()) words.insert(words.end(), {"--count", options.count});
   for (const std::string& setting : options.settings) words.insert(words.end(), {"--set", setting});
   if (options.oracle) words.emplace_back("--oracle");

@@ -30,7 +30,7 @@ void add_flight_options(CLI::App& app, FlightOptions& options);
 /// @throws ConfigError when there is no such world, or a setting sets the seed or has no effect.
 FlightInputs inputs_of(const FlightOptions& options);
 
-/// The same options as words of a command line.
-std::vector<std::string> words_of(const FlightOptions& options);
+/// This program's command to fly one of them: "--seed N --folder DIR" is to be added.
+std::vector<std::string> flight_command(const FlightOptions& options);
 
 }  // namespace tern

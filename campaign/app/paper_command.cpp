@@ -1,19 +1,21 @@
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 
 #include "campaign/app/commands.h"
+#include "campaign/app/flight_options.h"
+#include "campaign/app/progress_output.h"
+#include "campaign/campaign.h"
 #include "campaign/experiments/exposure_summary.h"
 #include "campaign/experiments/figure_data.h"
 #include "campaign/experiments/search_experiment.h"
 #include "campaign/experiments/semantic_flights.h"
-#include "campaign/flight_inputs.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -22,7 +24,6 @@ namespace {
 struct Options {
   std::string out = "results";
   std::vector<std::string> settings;  ///< key=value
-  std::string one;                    ///< a single flight's case: this process flies it
   std::uint64_t seeds = 0;
   int jobs = 1;
   bool sweep = false;
@@ -50,44 +51,60 @@ int search(const Options& options) {
   return 0;
 }
 
-int fly_one_case(const std::string& words) {
-  spdlog::set_default_logger(spdlog::stderr_color_st("tern"));  // standard output is for the result
-  const auto wanted = parse_semantic_case(words);
-  if (!wanted) throw ConfigError(wanted.error().message);
-  fmt::print("{}\n", to_csv(fly_semantic_case(*wanted)));
-  return std::fflush(stdout) == 0 ? 0 : 1;
+/// The flights of seeds 1 to `seeds`: a campaign of its own, in the folder.
+std::vector<SemanticFlight> fly(const SemanticCase& wanted, std::uint64_t seeds, int jobs, const std::string& folder) {
+  FlightOptions flight;
+  flight.world = wanted.world;
+  flight.settings = overrides_of(wanted);
+  flight.charge = "counts";
+  CampaignOptions campaign;
+  campaign.inputs = inputs_of(flight);
+  campaign.last_seed = seeds;
+  campaign.jobs = jobs;
+  campaign.out = fmt::format("{}/{}-{}-{}.csv", folder, wanted.world, wanted.method, wanted.lambda);
+  campaign.failures = default_failures(campaign.out);
+  fmt::print(stderr, "{}\n", campaign.out);
+  ProgressOutput output;
+  const auto end =
+      run_campaign(campaign, flight_command(flight), -1, [&](const CampaignProgress& p) { output.show(p); });
+  output.finish();
+  if (!end) throw ConfigError(end.error().message);
+  const auto flown = read_flights(campaign.out);
+  if (!flown) throw ConfigError(flown.error().message);
+  std::vector<SemanticFlight> flights;
+  for (const auto& [seed, record] : flown->records) flights.push_back(semantic_flight(wanted, record));
+  std::erase_if(flights, [seeds](const SemanticFlight& f) { return f.seed > seeds; });
+  return flights;
 }
 
 FlightTrack track_of(const SemanticCase& wanted) {
   const auto file = find_scenario(wanted.world);
   if (!file) throw ConfigError(file.error().message);
-  return fly_and_track(*file, overrides_of(wanted));
+  std::vector<std::string> overrides = overrides_of(wanted);
+  overrides.emplace_back("seed=1");
+  return fly_and_track(*file, overrides);
 }
 
 int corridor(const Options& options) {
-  if (!options.one.empty()) return fly_one_case(options.one);
   spdlog::set_level(spdlog::level::warn);
-  std::filesystem::create_directories(options.out);
   const std::string name = options.sweep ? "paper_6_2_sweep" : "paper_6_2";
+  const std::string folder = options.out + "/" + name;
+  std::filesystem::create_directories(folder);
   const std::uint64_t seeds = options.seeds > 0 ? options.seeds : (options.sweep ? 10 : 100);
-  SemanticCampaign campaign;
-  campaign.file = options.out + "/" + name + "_flights.csv";
-  campaign.cases = options.sweep ? sweep_cases(seeds) : on_off_cases(seeds);
-  campaign.command = {std::filesystem::read_symlink("/proc/self/exe").string(), "paper-6.2", "--one"};
-  campaign.jobs = options.jobs;
-  campaign.report = [](std::size_t done, std::size_t all) { fmt::print(stderr, "\r{} of {} flights", done, all); };
-  const auto flights = fly_semantic_cases(campaign);
-  fmt::print(stderr, "\n");
-  if (!flights) throw ConfigError(flights.error().message);
-  const std::vector<ExposureSummary> summaries = summarize_exposure(*flights);
-  fmt::print("{}\n", campaign.file);
+  std::vector<SemanticFlight> flights;
+  for (const SemanticCase& wanted : options.sweep ? sweep_cases() : on_off_cases()) {
+    const std::vector<SemanticFlight> own = fly(wanted, seeds, options.jobs, folder);
+    flights.insert(flights.end(), own.begin(), own.end());
+  }
+  std::stable_sort(flights.begin(), flights.end(), [](const auto& a, const auto& b) { return a.seed < b.seed; });
+  const std::vector<ExposureSummary> summaries = summarize_exposure(flights);
+  write(options.out, name + "_flights.csv", to_csv(flights));
   write(options.out, name + ".csv", to_csv(summaries));
   write(options.out, name + ".md", to_markdown(summaries));
   if (options.sweep) return 0;
   for (const SemanticWorld& world : semantic_worlds()) {
-    write(
-        options.out, name + "_" + world.scenario + ".json",
-        corridor_data(track_of({world.scenario, "off", 0.0, 1}), track_of({world.scenario, "exposure+path", 2.0, 1})));
+    write(options.out, name + "_" + world.scenario + ".json",
+          corridor_data(track_of({world.scenario, "off", 0.0}), track_of({world.scenario, "exposure+path", 2.0})));
   }
   return 0;
 }
@@ -104,16 +121,9 @@ void add_paper(CLI::App& app, Command& chosen) {
     command->add_option("--out", options->out, "Folder for the files")->type_name("DIR")->capture_default_str();
   }
   alone->add_option("--set", options->settings, "Override key=value (repeatable)")->type_name("KEY=VALUE");
-  auto* const seeds =
-      flights->add_option("--seeds", options->seeds, "Seeds 1 to N of each (default 100, with --sweep 10)")
-          ->type_name("N");
-  auto* const jobs = flights->add_option("--jobs", options->jobs, "Flights at once");
-  jobs->check(CLI::Range(1, 10'000))->capture_default_str();
-  auto* const sweep = flights->add_flag("--sweep", options->sweep, "λ from 0 to 8 with each method instead");
-  flights->add_option("--one", options->one, "Fly WORLD,METHOD,LAMBDA,SEED in this process: one line of CSV")
-      ->excludes(seeds)
-      ->excludes(jobs)
-      ->excludes(sweep);
+  flights->add_option("--seeds", options->seeds, "Seeds 1 to N of each (default 100, with --sweep 10)")->type_name("N");
+  flights->add_option("--jobs", options->jobs, "Flights at once")->check(CLI::Range(1, 10'000))->capture_default_str();
+  flights->add_flag("--sweep", options->sweep, "λ from 0 to 8 with each method instead");
   alone->callback([&chosen, options] { chosen = [options] { return search(*options); }; });
   flights->callback([&chosen, options] { chosen = [options] { return corridor(*options); }; });
 }

@@ -1,7 +1,7 @@
 // Says every answer of a flight on stderr: where the vehicle was, what it got, how far the plan goes.
 #pragma once
 
-#include "campaign/virtual_flight.h"
+#include "campaign/recorded_flight.h"
 
 namespace tern {
 

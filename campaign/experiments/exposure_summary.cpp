@@ -19,7 +19,7 @@ MeanInterval mean_of(const std::vector<const SemanticFlight*>& flights, const Ge
 const SemanticFlight* without_semantics(const std::vector<SemanticFlight>& flights, const SemanticFlight& with) {
   for (const SemanticFlight& f : flights) {
     const SemanticCase& c = f.flown;
-    if (c.method != "off" || c.world != with.flown.world || c.seed != with.flown.seed) continue;
+    if (c.method != "off" || c.world != with.flown.world || f.seed != with.seed) continue;
     return f.outcome == FlightOutcome::Reached ? &f : nullptr;
   }
   return nullptr;

@@ -21,7 +21,7 @@ struct FlightTrack {
   std::vector<TrackPoint> points;  ///< every 50 ms
 };
 
-/// Flies a scenario file on virtual time. @throws ConfigError as fly_virtually.
+/// Flies a scenario file on virtual time. @throws ConfigError for what run_process would refuse.
 FlightTrack fly_and_track(const std::string& scenario_file, const std::vector<std::string>& overrides);
 
 }  // namespace tern

@@ -4,6 +4,6 @@
 namespace tern {
 
 extern const char* const kCampaignStyle;   ///< CSS: that of a flight's report
-extern const char* const kCampaignScript;  ///< campaign.js
+extern const char* const kCampaignScript;  ///< its helpers.js, then campaign.js
 
 }  // namespace tern

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace tern {
 namespace {
@@ -11,11 +12,7 @@ using Cell = Eigen::Vector3i;
 /// Voxels still to be covered.
 class Remaining {
  public:
-  Remaining(const VoxelMap& map, bool unknown_is_obstacle) : grid_(map.grid), open_(map.labels.size()) {
-    for (std::size_t i = 0; i < open_.size(); ++i) {
-      open_[i] = map.labels[i] == VoxelLabel::Occupied || (unknown_is_obstacle && map.labels[i] == VoxelLabel::Unknown);
-    }
-  }
+  Remaining(const VoxelGrid& grid, std::vector<bool> open) : grid_(grid), open_(std::move(open)) {}
 
   [[nodiscard]] bool has(std::size_t i) const { return open_[i]; }
 
@@ -62,13 +59,14 @@ class Remaining {
 
 }  // namespace
 
-std::vector<Box> cover_with_boxes(const VoxelMap& map, bool unknown_is_obstacle) {
+std::vector<Box> cover_with_boxes(const VoxelGrid& grid, std::vector<bool> wanted) {
   constexpr std::array<std::array<int, 3>, 3> kOrders{{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}};
   std::vector<Box> boxes;
-  Remaining remaining(map, unknown_is_obstacle);
-  for (std::size_t i = 0; i < map.labels.size(); ++i) {
+  const std::size_t voxels = wanted.size();
+  Remaining remaining(grid, std::move(wanted));
+  for (std::size_t i = 0; i < voxels; ++i) {
     if (!remaining.has(i)) continue;
-    const Cell low = map.grid.cell(static_cast<std::int64_t>(i));
+    const Cell low = grid.cell(static_cast<std::int64_t>(i));
     Cell best = low;
     std::int64_t best_volume = 0;
     for (const auto& axes : kOrders) {
@@ -79,9 +77,18 @@ std::vector<Box> cover_with_boxes(const VoxelMap& map, bool unknown_is_obstacle)
       best_volume = volume;
     }
     remaining.close(low, best);
-    boxes.emplace_back(map.grid.box(low).min(), map.grid.box(best).max());
+    boxes.emplace_back(grid.box(low).min(), grid.box(best).max());
   }
   return boxes;
+}
+
+std::vector<Box> cover_with_boxes(const VoxelMap& map, bool unknown_is_obstacle) {
+  std::vector<bool> obstacle(map.labels.size());
+  for (std::size_t i = 0; i < obstacle.size(); ++i) {
+    const VoxelLabel label = map.labels[i];
+    obstacle[i] = label == VoxelLabel::Occupied || (unknown_is_obstacle && label == VoxelLabel::Unknown);
+  }
+  return cover_with_boxes(map.grid, std::move(obstacle));
 }
 
 }  // namespace tern

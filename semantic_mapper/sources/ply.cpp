@@ -57,6 +57,29 @@ double read_value(Bytes bytes, std::size_t at, PlyType type, std::endian order) 
   return 0.0;
 }
 
+/// The vertices' points. `next` reads the value at a place and moves the place behind it; nothing when there is none.
+template <class Next>
+Result<PointCloud> read_points(const std::string& file, const PlyHeader& header, const Vertices& vertices,
+                               const Next& next) {
+  PointCloud cloud;
+  cloud.reserve(header.count);
+  std::vector<double> values;
+  std::size_t at = header.data_offset;
+  for (std::size_t i = 0; i < header.count; ++i) {
+    const std::size_t begin = at;
+    values.clear();
+    for (const PlyType type : header.properties) {
+      const std::optional<double> value = next(at, type);
+      if (!value) return bad_file(file, at, fmt::format("no number where vertex {} needs one", i));
+      values.push_back(*value);
+    }
+    const auto point = vertices.point(values, begin);
+    if (!point) return tl::unexpected(point.error());
+    cloud.push_back(*point);
+  }
+  return cloud;
+}
+
 Result<PointCloud> read_binary(Bytes bytes, const std::string& file, const PlyHeader& header,
                                const Vertices& vertices) {
   std::size_t stride = 0;
@@ -67,33 +90,22 @@ Result<PointCloud> read_binary(Bytes bytes, const std::string& file, const PlyHe
                     fmt::format("{} vertices, but the file ends after {}", header.count, fit));
   }
   const std::endian order = header.format == PlyFormat::BigEndian ? std::endian::big : std::endian::little;
-  PointCloud cloud;
-  cloud.reserve(header.count);
-  std::vector<double> values(header.properties.size());
-  std::size_t at = header.data_offset;
-  for (std::size_t i = 0; i < header.count; ++i) {
-    const std::size_t begin = at;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      values[k] = read_value(bytes, at, header.properties[k], order);
-      at += size_of(header.properties[k]);
-    }
-    const auto point = vertices.point(values, begin);
-    if (!point) return tl::unexpected(point.error());
-    cloud.push_back(*point);
-  }
-  return cloud;
+  return read_points(file, header, vertices, [&](std::size_t& at, PlyType type) -> std::optional<double> {
+    return read_value(bytes, std::exchange(at, at + size_of(type)), type, order);
+  });
 }
 
-/// One number of white-space separated text; `at` moves behind it. False when there is none.
-bool next_number(std::string_view text, std::size_t& at, double& value) {
+/// One number of white-space separated text; `at` moves behind it.
+std::optional<double> next_number(std::string_view text, std::size_t& at) {
   at = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
   if (at < text.size() && text[at] == '+') ++at;
+  double value = 0.0;
   const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
   const auto stop = static_cast<std::size_t>(end - text.data());
   const bool ends_well = stop == text.size() || std::string_view(" \t\r\n").find(text[stop]) != std::string_view::npos;
-  if (error != std::errc() || !ends_well) return false;
+  if (error != std::errc() || !ends_well) return std::nullopt;
   at = stop;
-  return true;
+  return value;
 }
 
 Result<PointCloud> read_ascii(Bytes bytes, const std::string& file, const PlyHeader& header, const Vertices& vertices) {
@@ -104,21 +116,7 @@ Result<PointCloud> read_ascii(Bytes bytes, const std::string& file, const PlyHea
     return bad_file(file, header.data_offset,
                     fmt::format("{} vertices, but the file has room for {}", header.count, most));
   }
-  PointCloud cloud;
-  cloud.reserve(header.count);
-  std::vector<double> values(header.properties.size());
-  std::size_t at = header.data_offset;
-  for (std::size_t i = 0; i < header.count; ++i) {
-    const std::size_t begin = at;
-    for (double& value : values) {
-      if (!next_number(text, at, value))
-        return bad_file(file, at, fmt::format("no number where vertex {} needs one", i));
-    }
-    const auto point = vertices.point(values, begin);
-    if (!point) return tl::unexpected(point.error());
-    cloud.push_back(*point);
-  }
-  return cloud;
+  return read_points(file, header, vertices, [&](std::size_t& at, PlyType) { return next_number(text, at); });
 }
 
 }  // namespace

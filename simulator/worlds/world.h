@@ -32,9 +32,6 @@ Result<World> make_world(const Scenario& scenario, const std::string& data_dir);
 /// same obstacles to the last bit, with the same ids.
 Scenario list_obstacles(const Scenario& scenario, const World& world);
 
-/// Digest over names, shapes and motions of all obstacles, in order: equal worlds have equal digests.
-std::uint64_t world_digest(const World& world);
-
 /// The obstacles present at t_s (world time), by id ascending: what OBSTACLE_TRUTH says. At t_s < 0 they are on their
 /// way to where they are at 0. Whose motion begins between then and 0 is not there yet.
 std::vector<TrueObstacle> true_obstacles(const World& world, double t_s);

@@ -96,6 +96,17 @@ while IFS=$'\t' read -r file header; do
   [[ ${file%%/app/*} == "${header%%/app/*}" ]] || breach "$file includes $header: another process's node"
 done < <(awk -F'\t' '$2 ~ /\/app\//' <<<"$includes")
 
+# In the planner: what is given <- safety, semantics, global path <- search, optimization <- the plan.
+given='planner/(horizon_problem|planner_config|tuning)[.]h'
+never "^$given\$" '^planner/' 'what is given stands on core'
+while IFS=$'\t' read -r file header; do
+  [[ $header =~ ^$given$ ]] || breach "$file includes $header: a room of the planner does not know the plan"
+done < <(awk -F'\t' '$1 ~ /^planner\/(safety|semantics|global_path|search|optimization)\// && $2 ~ /^planner\/[^\/]+$/' <<<"$includes")
+never '^planner/(safety|semantics|global_path)/' '^planner/(search|optimization)/' 'search and optimization stand on it'
+
+# No circle: tsort names the files of one.
+circle=$(awk -F'\t' -v o="$ours" '$2 ~ o' <<<"$includes" | tsort 2>&1 >/dev/null) || breach "includes in a circle: $circle"
+
 # An auditor shares data types with what it audits, no algorithms.
 never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|executor|simulator)' 'audit shares no algorithm'
 

@@ -36,6 +36,11 @@ planted planner/x.h '#include "runtime/bus.h"\n'
 planted launcher/app/x.h '#include "messages/plan.h"\n'
 planted planner/x.h '#include "planner/app/planner_node.h"\n'
 planted planner/x.h '#include "predictor/tracking/tracker.h"\n'
+planted planner/search/x.h '#include "planner/attempt.h"\n'
+planted planner/safety/x.h '#include "planner/search/search_memory.h"\n'
+echo '#include "core/world/x.h"' >"$copy/core/world/y.h"
+planted core/world/x.h '#include "core/world/y.h"\n' 'in a circle'
+rm "$copy/core/world/y.h"
 planted planner/app/x.h '#include "predictor/app/predictor_node.h"\n'
 planted core/world/x.h '#include <yaml-cpp/yaml.h>\n'
 planted monitor/x.h '#include <CLI/CLI.hpp>\n'

@@ -8,6 +8,7 @@
 
 #include "simulator/worlds/obstacle.h"
 #include "simulator/worlds/world.h"
+#include "tests/support/world_digest.h"
 
 namespace tern {
 namespace {

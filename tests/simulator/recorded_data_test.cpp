@@ -9,6 +9,7 @@
 #include "simulator/worlds/generators.h"
 #include "simulator/worlds/recorded_tracks.h"
 #include "simulator/worlds/world.h"
+#include "tests/support/world_digest.h"
 
 namespace tern {
 namespace {

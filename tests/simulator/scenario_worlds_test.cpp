@@ -5,6 +5,7 @@
 
 #include "runtime/scenario_file.h"
 #include "simulator/worlds/world.h"
+#include "tests/support/world_digest.h"
 
 namespace tern {
 namespace {

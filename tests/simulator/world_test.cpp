@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/world_digest.h"
+
 namespace tern {
 namespace {
 

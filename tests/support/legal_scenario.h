@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "campaign/virtual_flight.h"
 #include "core/world/scenario.h"
+#include "tests/support/virtual_flight.h"
 
 namespace tern::testing {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/virtual_flight.h"
+#include "tests/support/virtual_flight.h"
 
 namespace tern::testing {
 

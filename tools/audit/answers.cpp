@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 
 #include "tools/audit/audit.h"
@@ -11,6 +12,10 @@ namespace tern::audit {
 namespace {
 
 constexpr double kDefaultStaleAfter = 0.3;  // s
+
+double stale_after_of(const std::string& setting) {
+  return setting.empty() ? kDefaultStaleAfter : std::strtod(setting.c_str(), nullptr);
+}
 
 /// True when the answers around `when` come from two planners: one died, another came.
 bool planner_changed(const FlightRecord& record, UTime when) {
@@ -27,19 +32,15 @@ bool planner_changed(const FlightRecord& record, UTime when) {
 class AnswerCheck {
  public:
   AnswerCheck(const FlightRecord& record, Check& check)
-      : record_(record),
-        check_(check),
-        stale_after_(planner_configured_number(record, "stale_after_s").value_or(kDefaultStaleAfter)) {
-    for (const HorizonRequest& r : record.requests) requests_.emplace(r.header.name, &r);
-  }
+      : record_(record), check_(check), stale_after_(stale_after_of(planner_setting(record, "stale_after_s"))) {}
 
   void plan(const Plan& plan) {
-    const auto found = requests_.find(plan.inputs.request);
-    if (found == requests_.end()) {
+    const HorizonRequest* found = record_.request(plan.inputs.request);
+    if (found == nullptr) {
       ++check_.unchecked["plans whose request is not in the log"];
       return;
     }
-    const HorizonRequest& request = *found->second;
+    const HorizonRequest& request = *found;
     ++check_.checked;
     const auto [first, is_first] = answers_.try_emplace(request.header.name, plan.header.name.sender_epoch_us);
     if (!is_first) return again(plan, first->second);
@@ -116,7 +117,6 @@ class AnswerCheck {
   const FlightRecord& record_;
   Check& check_;
   double stale_after_;
-  std::map<MessageName, const HorizonRequest*> requests_;
   std::map<MessageName, std::int64_t> answers_;  ///< who answered first, by request
   std::int64_t second_answers_ = 0;
   double least_spare_s_ = 1e9, oldest_s_ = 0.0;

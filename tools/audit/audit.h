@@ -36,8 +36,7 @@ struct TrackCoverage {
 struct Least {
   bool known = false;            ///< there was something to be near to
   double low = 0.0, high = 0.0;  ///< it lies between them, m
-  bool proven = false;      ///< low is a bound; false: between samples by interpolation, or without what is missing
-  bool touch_open = false;  ///< whether some obstacle was touched is too close to tell
+  bool proven = false;  ///< low is a bound; false: between samples by interpolation, or without what is missing
 };
 
 /// What the referee saw of a collision, against what was recomputed.

@@ -74,8 +74,10 @@ Vec3 point_of(const std::vector<Atom>& atoms) {
 
 }  // namespace
 
-double body_support(const Body& body, const Vec3& n) {
-  return (n.transpose() * body.vertices).maxCoeff() + body.radius;
+Box covered(const Body& body, const Box& positions) {
+  const Vec3 radius = Vec3::Constant(body.radius);
+  return {positions.min() - (radius - body.vertices.rowwise().minCoeff()),
+          positions.max() + (body.vertices.rowwise().maxCoeff() + radius)};
 }
 
 Gap body_gap(const Body& body, const Vec3& p, const Vec3& h) {

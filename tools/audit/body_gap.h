@@ -18,7 +18,7 @@ struct Gap {
 /// the radius less): the depth is not asked for.
 Gap body_gap(const Body& body, const Vec3& p, const Vec3& h);
 
-/// max over the body about its position of n · x, m. @pre |n| = 1
-double body_support(const Body& body, const Vec3& n);
+/// The smallest box that holds the body at all of these positions.
+Box covered(const Body& body, const Box& positions);
 
 }  // namespace tern::audit

@@ -116,13 +116,8 @@ class CaseCheck {
     const auto known = vehicle_boxes_.find(part);
     if (known != vehicle_boxes_.end()) return known->second;
     const Span s = span(part);
-    Vec3 low, high;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Enclosure e = enclose(curve(part).axis[static_cast<std::size_t>(axis)], s.a, s.b, kExtremum);
-      low[axis] = e.low - body_support(body_, -Vec3::Unit(axis)) - tube_[axis];
-      high[axis] = e.high + body_support(body_, Vec3::Unit(axis)) + tube_[axis];
-    }
-    return vehicle_boxes_.emplace(part, Box(low, high)).first->second;
+    const Box centre = enclose(curve(part), s.a, s.b, kExtremum);
+    return vehicle_boxes_.emplace(part, grown(covered(body_, centre), tube_)).first->second;
   }
 
   static bool apart(const Box& a, const Box& b) {
@@ -254,7 +249,7 @@ void for_each_case(const FlightRecord& record, Check& check, const Visit& visit)
 Check check_certificates(const FlightRecord& record) {
   Check check{.name = "certificates",
               .claim = "each plan is separated from all that was predicted, as its certificate says"};
-  const bool unknown = planner_configured(record, "unknown") == "obstacle";
+  const bool unknown = planner_setting(record, "unknown") == "obstacle";
   std::int64_t plans = 0, planes = 0, voxels = 0, relaxed = 0;
   for_each_case(record, check, [&](const PlanCase& plan) {
     CaseCheck one(plan, unknown, check);

@@ -33,6 +33,11 @@ struct Closest {
   double low = kFar, high = kFar;
   UTime at;
   std::int64_t obstacle = kNobody;  ///< nobody: none nearer than where the search began
+
+  /// Takes what is lower.
+  void lower(double than, UTime when, std::int64_t whom) {
+    if (than < low) low = than, at = when, obstacle = whom;
+  }
 };
 
 /// One stretch of time of the vehicle against one obstacle.
@@ -64,11 +69,7 @@ void search(const Encounter& e, double a, double b, Closest& best, int depth = 0
   if (at >= e.sure_from && at <= e.sure_to) best.high = std::min(best.high, gap.high);
   const double stray = (bernstein_points(e.relative, a, b).colwise() - p).colwise().norm().maxCoeff();
   const double low = depth == kDeepest ? gap.low - stray : gap.low;
-  if (low < best.low) {
-    best.low = low;
-    best.at = at;
-    best.obstacle = e.obstacle;
-  }
+  best.lower(low, at, e.obstacle);
   if (depth == kDeepest || gap.low - stray >= best.low - resolution(best.low)) return;
   search(e, a, middle, best, depth + 1);
   search(e, middle, b, best, depth + 1);
@@ -143,11 +144,7 @@ struct Watch {
       const Encounter e{body, s.half_extents, own.curve, own.error, id, window.sure_from(), window.sure_to()};
       const Gap gap = gap_within(e, own.curve.p((s.at - own.curve.from).seconds()) - s.p);
       best.high = std::min(best.high, gap.high);
-      if (gap.low < best.low) {
-        best.low = gap.low;
-        best.at = s.at;
-        best.obstacle = id;
-      }
+      best.lower(gap.low, s.at, id);
     }
   }
 
@@ -201,9 +198,9 @@ class Verdicts {
     ++check_.checked;
     if (!a.between_samples) ++undeclared_;
     proven_.high = std::min(proven_.high, a.proven.high);
-    if (a.proven.obstacle != kNobody && a.proven.low < proven_.low) lower(a.proven, proven_);
-    if (a.interpolated.obstacle != kNobody && a.interpolated.low < interpolated_.low)
-      lower(a.interpolated, interpolated_);
+    for (const auto& [from, to] : {std::pair{&a.proven, &proven_}, {&a.interpolated, &interpolated_}}) {
+      if (from->obstacle != kNobody) to->lower(from->low, from->at, from->obstacle);
+    }
     if (a.proven.high < 0.0) {
       const Closest& c = a.proven;
       check_.fail({c.at, fmt::format("overlaps {} by {:.3f} m", names_(c.obstacle), -c.high), 0, c.obstacle});
@@ -225,14 +222,11 @@ class Verdicts {
     least.high = proven_.high;
     least.proven = undeclared_ == 0 && whole;
     least.low = nearest() - passed_over(nearest());
-    least.touch_open = undecided_ > 0;
     say(least, closest);
     return least;
   }
 
  private:
-  static void lower(const Closest& by, Closest& c) { c.low = by.low, c.at = by.at, c.obstacle = by.obstacle; }
-
   void undecided(const Closest& c, const char* why) {
     ++undecided_;
     ++check_.unchecked[fmt::format("whether {} was touched at {:.3f} s: {:.6f} to {:.6f} m, {}", names_(c.obstacle),
@@ -288,17 +282,6 @@ std::vector<Wall> walls_of(const VoxelMap& map, const Watch& watch) {
   return walls;
 }
 
-/// At rest for as long as is judged.
-SampledMotion standing(const Vec3& p, const Window& window) {
-  Sampled span;
-  span.curve.from = window.from;
-  span.curve.to = window.to;
-  for (int axis = 0; axis < 3; ++axis) span.curve.axis[static_cast<std::size_t>(axis)].c[0] = p[axis];
-  SampledMotion motion;
-  motion.spans.push_back(span);
-  return motion;
-}
-
 bool collided(const FlightRecord& record) {
   return !record.results.empty() && record.results.back().outcome == FlightOutcome::Collision;
 }
@@ -326,7 +309,8 @@ Check check_map(const FlightRecord& record, Audit& audit) {
     if (wall.at_least > verdicts.nearest()) break;
     const Vec3 centre = wall.box.center();
     const ObstacleHistory history{{{watch.window.from, centre, Vec3::Zero(), 0.5 * wall.box.sizes()}}, false};
-    verdicts.take(watch.watch(wall.id, history, standing(centre, watch.window), verdicts.nearest()));
+    const SampledMotion at_rest{{{resting(centre, watch.window.from, watch.window.to)}}, {}, 0};
+    verdicts.take(watch.watch(wall.id, history, at_rest, verdicts.nearest()));
   }
   check.checked = static_cast<std::int64_t>(walls.size());  // the others are farther by their boxes
   audit.least_of_map = verdicts.finish(watch.vehicle.hole_count == 0);

@@ -1,6 +1,6 @@
 #include "tools/audit/configured.h"
 
-#include <cstdlib>
+#include <algorithm>
 #include <sstream>
 
 namespace tern::audit {
@@ -18,27 +18,26 @@ const ConfigurationReport* planners_configuration(const FlightRecord& record) {
 
 }  // namespace
 
-std::optional<std::string> planner_configured(const FlightRecord& record, std::string_view key) {
-  const ConfigurationReport* report = planners_configuration(record);
-  if (report == nullptr) return std::nullopt;
-  std::optional<std::string> value;
-  std::istringstream lines(report->yaml);
+std::string setting(const std::string& yaml, std::string_view path) {
+  std::size_t depth = 0;  // of what is looked for now
+  std::istringstream lines(yaml);
   for (std::string line; std::getline(lines, line);) {
-    const std::size_t begin = line.find_first_not_of(' ');
-    if (begin == std::string::npos || line.compare(begin, key.size(), key) != 0) continue;
-    const std::size_t colon = begin + key.size();
-    if (line.compare(colon, 2, ": ") == 0) value = line.substr(colon + 2);
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (indent == std::string::npos || indent > depth) continue;
+    if (indent < depth) return "";  // the section has ended
+    const std::string_view wanted = path.substr(0, path.find('.'));
+    const std::string_view text = std::string_view(line).substr(indent);
+    if (!text.starts_with(wanted) || text.substr(wanted.size()).substr(0, 1) != ":") continue;
+    if (wanted.size() == path.size()) return std::string(text.substr(std::min(wanted.size() + 2, text.size())));
+    path.remove_prefix(wanted.size() + 1);
+    depth += 2;
   }
-  return value;
+  return "";
 }
 
-std::optional<double> planner_configured_number(const FlightRecord& record, std::string_view key) {
-  const auto text = planner_configured(record, key);
-  if (!text) return std::nullopt;
-  char* end = nullptr;
-  const double number = std::strtod(text->c_str(), &end);
-  if (end == text->c_str()) return std::nullopt;
-  return number;
+std::string planner_setting(const FlightRecord& record, const std::string& key) {
+  const ConfigurationReport* report = planners_configuration(record);
+  return report == nullptr ? "" : setting(report->yaml, "planner." + key);
 }
 
 }  // namespace tern::audit

@@ -1,7 +1,6 @@
 // Single values from the configurations that processes published.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,10 +8,11 @@
 
 namespace tern::audit {
 
-/// The text behind the last line `key: text` of the planner's effective configuration, however deep it is indented. For
-/// keys that occur once. It is the configuration that plans name, whoever published it, else tern-planner's own;
-/// nothing when the log has neither.
-std::optional<std::string> planner_configured(const FlightRecord& record, std::string_view key);
-std::optional<double> planner_configured_number(const FlightRecord& record, std::string_view key);
+/// A value of CONFIGURATION's YAML as it is written there, "uav.limits.v_max"; empty: it says none.
+std::string setting(const std::string& yaml, std::string_view path);
+
+/// A value of the section `planner`. It is of the configuration that plans name, whoever published it, else of
+/// tern-planner's own; empty when the log has neither.
+std::string planner_setting(const FlightRecord& record, const std::string& key);
 
 }  // namespace tern::audit

@@ -99,6 +99,19 @@ Curve Curve::cut(UTime later, UTime end) const {
   return part;
 }
 
+Curve resting(const Vec3& p, UTime from, UTime to) {
+  return {from, to, {Cubic{{p.x()}}, Cubic{{p.y()}}, Cubic{{p.z()}}}};
+}
+
+Box enclose(const Curve& curve, double a, double b, double tolerance) {
+  Vec3 low, high;
+  for (int k = 0; k < 3; ++k) {
+    const Enclosure e = enclose(curve.axis[static_cast<std::size_t>(k)], a, b, tolerance);
+    low[k] = e.low, high[k] = e.high;
+  }
+  return {low, high};
+}
+
 Eigen::Matrix<double, 3, 4> bernstein_points(const Curve& curve, double a, double b) {
   Eigen::Matrix<double, 3, 4> points;
   for (int k = 0; k < 3; ++k) {

@@ -51,6 +51,12 @@ struct Curve {
   [[nodiscard]] Vec3 derivative(int order, double s) const;
 };
 
+/// At p all the time.
+Curve resting(const Vec3& p, UTime from = {}, UTime to = {});
+
+/// Holds the curve over [a, b] seconds; each face is within `tolerance` of it.
+Box enclose(const Curve& curve, double a, double b, double tolerance);
+
 /// Four points whose hull holds the curve over [a, b] seconds.
 Eigen::Matrix<double, 3, 4> bernstein_points(const Curve& curve, double a, double b);
 

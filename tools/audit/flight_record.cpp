@@ -239,9 +239,13 @@ class Reading {
 std::int64_t FlightRecord::unread(const std::string& channel) const {
   const auto found = contents.channels.find(channel);
   if (found == contents.channels.end()) return 0;
-  std::int64_t sum = found->second.lost + found->second.before_first;
-  for (const std::int64_t n : found->second.refused) sum += n;
-  return sum;
+  return found->second.lost + found->second.before_first + found->second.refused_in_all();
+}
+
+const HorizonRequest* FlightRecord::request(const MessageName& name) const {
+  const auto found =
+      std::find_if(requests.begin(), requests.end(), [&](const HorizonRequest& r) { return r.header.name == name; });
+  return found == requests.end() ? nullptr : &*found;
 }
 
 UTime FlightRecord::zero() const {

@@ -75,6 +75,8 @@ struct FlightRecord {
 
   /// Messages of a channel that were sent but cannot be read: lost by their numbers, or refused.
   [[nodiscard]] std::int64_t unread(const std::string& channel) const;
+  /// The request of this name, to which a plan answers. @return nullptr if it is not in the log
+  [[nodiscard]] const HorizonRequest* request(const MessageName& name) const;
   /// When the flight began: the first request's time, else the first state's. An autopilot is told to hold until world
   /// time begins: there it is the first request after the goal to go to.
   [[nodiscard]] UTime zero() const;

@@ -17,12 +17,6 @@ constexpr double kRounding = 1e-6;
 /// FLIGHT_RESULT is repeated for so long; a later one of them tells that much less of when the first was.
 constexpr Duration kResultRepeated{1'200'000};
 
-Curve resting(const Vec3& p, UTime from, UTime to) {
-  Curve curve{from, to, {}};
-  for (int k = 0; k < 3; ++k) curve.axis[static_cast<std::size_t>(k)].c[0] = p[k];
-  return curve;
-}
-
 /// What the vehicle flew as far as its requests tell.
 class Committed {
  public:

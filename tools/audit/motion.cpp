@@ -53,15 +53,7 @@ class LimitCheck {
     }
     if (l.dynamics) dynamics(plan.trajectory.start, request.id, *l.dynamics, curves);
     Box box;
-    for (const Curve& c : curves) {
-      Vec3 low, high;
-      for (int axis = 0; axis < 3; ++axis) {
-        const Enclosure e = enclose(c.axis[static_cast<std::size_t>(axis)], 0.0, c.length_s(), kBoxTolerance * 0.1);
-        low[axis] = e.low;
-        high[axis] = e.high;
-      }
-      box.extend(Box(low, high));
-    }
+    for (const Curve& c : curves) box.extend(enclose(c, 0.0, c.length_s(), kBoxTolerance * 0.1));
     inside(plan.trajectory.start, request, box, request.tube);
   }
 
@@ -119,14 +111,11 @@ class LimitCheck {
 
   /// @param off  what the position may be off these, m
   void inside(UTime at, const HorizonRequest& request, const Box& positions, const Vec3& off) {
+    const Box body = grown(covered(request.body, positions), off);
+    const Box& room = request.flight_box;
     for (int axis = 0; axis < 3; ++axis) {
       ++check_.checked;
-      const Vec3 n = Vec3::Unit(axis);
-      const double high =
-          positions.max()[axis] + body_support(request.body, n) + off[axis] - request.flight_box.max()[axis];
-      const double low =
-          request.flight_box.min()[axis] - positions.min()[axis] + body_support(request.body, -n) + off[axis];
-      const double out = std::max(high, low);
+      const double out = std::max(body.max()[axis] - room.max()[axis], room.min()[axis] - body.min()[axis]);
       if (out <= kBoxTolerance * 1.2) continue;
       check_.fail(
           {at, fmt::format("the body leaves the flight box by {:.6g} m along {}", out, kAxes[axis]), request.id});
@@ -136,13 +125,6 @@ class LimitCheck {
   Check& check_;
   double used_[4] = {};  ///< greatest share of a limit, by order of derivative
 };
-
-const HorizonRequest* request_of(const FlightRecord& record, const Plan& plan) {
-  for (const HorizonRequest& r : record.requests) {
-    if (r.header.name == plan.inputs.request) return &r;
-  }
-  return nullptr;
-}
 
 void join(UTime at, std::int64_t request, const char* what, const MotionSample& a, const MotionSample& b, Check& check,
           double& worst) {
@@ -180,7 +162,7 @@ Check check_limits(const FlightRecord& record) {
   LimitCheck limits(check);
   for (const Plan& plan : record.plans) {
     if (!brings_trajectory(plan)) continue;
-    const HorizonRequest* request = request_of(record, plan);
+    const HorizonRequest* request = record.request(plan.inputs.request);
     if (request == nullptr) {
       ++check.unchecked["plans whose request is not in the log"];
     } else {
@@ -210,7 +192,7 @@ Check check_continuity(const FlightRecord& record) {
     if (!brings_trajectory(plan)) continue;
     const std::vector<Curve> curves = curves_of(plan.trajectory);
     ends_at_rest(plan, curves, check);
-    const HorizonRequest* request = request_of(record, plan);
+    const HorizonRequest* request = record.request(plan.inputs.request);
     if (request == nullptr) {
       ++check.unchecked["plans whose request is not in the log"];
       continue;

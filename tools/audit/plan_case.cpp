@@ -1,7 +1,6 @@
 #include "tools/audit/plan_case.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "tools/audit/body_gap.h"
 
@@ -12,12 +11,6 @@ constexpr double kBoundsTolerance = 1e-4;  // m
 constexpr double kStartRoom = 1e-3;        // m
 constexpr int kHalvings = 40;
 constexpr double kTouching = 1e-6;  // m
-
-Curve resting(const Vec3& p) {
-  Curve curve;
-  for (int k = 0; k < 3; ++k) curve.axis[static_cast<std::size_t>(k)].c[0] = p[k];
-  return curve;
-}
 
 /// What is left of the trajectory from t_s on: a first part of an interval, then whole ones.
 std::vector<Curve> remaining(const Plan& plan, UTime t_s) {
@@ -58,16 +51,11 @@ std::vector<PredictedBox::Stretch> PredictedBox::stretches(UTime origin, double 
 }
 
 Box PredictedBox::bounds(UTime origin, double from, double to) const {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 high = -low;
+  Box all;
   for (const Stretch& s : stretches(origin, from, to)) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const Enclosure e = enclose(s.curve.axis[static_cast<std::size_t>(axis)], s.a, s.b, kBoundsTolerance);
-      low[axis] = std::min(low[axis], e.low - s.half[axis]);
-      high[axis] = std::max(high[axis], e.high + s.half[axis]);
-    }
+    all.extend(grown(enclose(s.curve, s.a, s.b, kBoundsTolerance), s.half));
   }
-  return {low, high};
+  return all;
 }
 
 std::vector<Vec3> claimed_alpha(const Track& track, const Plan& plan, UTime t_s) {
@@ -105,12 +93,11 @@ double relaxed_share(const Track& track, const std::vector<Vec3>& alpha, const B
 }
 
 std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, std::string& why) {
-  const auto request = std::find_if(record.requests.begin(), record.requests.end(),
-                                    [&](const HorizonRequest& r) { return r.header.name == plan.inputs.request; });
+  const HorizonRequest* request = record.request(plan.inputs.request);
   const auto predictions = record.predictions.find(plan.inputs.predictions);
   const auto map = record.maps.find(plan.inputs.map_version);
   why = "";
-  if (request == record.requests.end()) why = "plans whose request is not in the log";
+  if (request == nullptr) why = "plans whose request is not in the log";
   if (predictions == record.predictions.end()) why = "plans whose predictions are not in the log";
   if (plan.inputs.map_version != 0 && map == record.maps.end()) why = "plans whose map is not in the log";
   if (!why.empty()) return std::nullopt;

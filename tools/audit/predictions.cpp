@@ -268,11 +268,9 @@ Check check_predictions(const FlightRecord& record, Audit& audit) {
   Check check{.name = "predictions", .claim = "what was real stayed within the alpha that was promised of it"};
   PredictionsCheck predictions(record, audit, check);
   for (const auto& [name, set] : record.predictions) predictions.take(set);
-  std::map<MessageName, const HorizonRequest*> requests;
-  for (const HorizonRequest& request : record.requests) requests[request.header.name] = &request;
   for (const Plan& plan : record.plans) {
-    const auto request = requests.find(plan.inputs.request);
-    if (request != requests.end() && claims_confidence(plan)) predictions.take(plan, *request->second);
+    const HorizonRequest* request = record.request(plan.inputs.request);
+    if (request != nullptr && claims_confidence(plan)) predictions.take(plan, *request);
   }
   predictions.judge();
   check.summary = predictions.summary();

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -20,17 +19,13 @@
 namespace tern::exporting {
 namespace {
 
-std::int64_t refused(const LogChannel& channel) {
-  return std::accumulate(std::begin(channel.refused), std::end(channel.refused), std::int64_t{0});
-}
-
 /// What the log did not give.
 std::string shortfalls(const LogContents& contents) {
   std::string text;
   for (const auto& [name, channel] : contents.channels) {
     if (channel.foreign) text += fmt::format("{}: left out, not a channel of Tern's\n", name);
-    if (refused(channel) > 0) {
-      text += fmt::format("{}: {} of {} messages left out, damaged or of another version\n", name, refused(channel),
+    if (const std::int64_t refused = channel.refused_in_all(); refused > 0) {
+      text += fmt::format("{}: {} of {} messages left out, damaged or of another version\n", name, refused,
                           channel.messages);
     }
     if (channel.lost > 0) text += fmt::format("{}: {} messages are not in the log\n", name, channel.lost);

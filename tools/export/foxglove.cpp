@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/splines/clamped_spline.h"
+#include "core/world/box_cover.h"
 #include "core/world/names.h"
 #include "tools/export/hull_faces.h"
-#include "tools/export/map_boxes.h"
 #include "viewer/bridge/plane_place.h"
 #include "viewer/bridge/predicted_hulls.h"
 
@@ -133,18 +133,19 @@ Json color_of(VoxelLabel label) {
   return color(0.48, 0.56, 0.64, 0.7);
 }
 
+using LabelAndClass = std::pair<VoxelLabel, std::uint8_t>;
+
 /// All voxels of one label and class: their boxes, and above them the name of the class.
-Json region(const VoxelMap& map, const std::vector<MapBox>& boxes, std::int64_t received_us) {
-  const std::string label = to_string(boxes.front().label);
-  const std::string& name = map.class_names.at(boxes.front().class_index);
+Json region(const VoxelMap& map, const LabelAndClass& of, const std::vector<Box>& boxes, std::int64_t received_us) {
+  const std::string label = to_string(of.first);
+  const std::string& name = map.class_names.at(of.second);
   Json entity = entity_of(received_us, name.empty() ? label : label + ": " + name);
   Box all;
-  for (const MapBox& cells : boxes) {
-    const Box box(map.grid.box(cells.low).min(), map.grid.box(cells.high).max());
+  for (const Box& box : boxes) {
     all.extend(box);
     entity["cubes"].push_back({{"pose", pose(vector_of(box.center()), 0.0)},
                                {"size", vector_of(box.sizes())},
-                               {"color", color_of(boxes.front().label)}});
+                               {"color", color_of(of.first)}});
   }
   entity["metadata"] = {{{"key", "label"}, {"value", label}}, {{"key", "class"}, {"value", name}}};
   if (!name.empty()) {
@@ -228,12 +229,18 @@ std::vector<Drawing> drawings_of(const Plan& plan, UTime t_s, const TrackSet& tr
 
 Drawing drawing_of(const VoxelMap& map, std::int64_t received_us) {
   constexpr int kDeleteAll = 1;  // foxglove.SceneEntityDeletion
-  std::map<std::pair<VoxelLabel, std::uint8_t>, std::vector<MapBox>> regions;
-  for (const MapBox& box : map_boxes(map)) regions[{box.label, box.class_index}].push_back(box);
+  const std::size_t voxels = map.labels.size();
+  std::map<LabelAndClass, std::vector<bool>> regions;
+  for (std::size_t k = 0; k < voxels; ++k) {
+    if (map.labels[k] < VoxelLabel::Occupied) continue;
+    regions.try_emplace({map.labels[k], map.classes[k]}, voxels).first->second[k] = true;
+  }
   Json update;
   update["deletions"] = Json::array({{{"timestamp", time_of(received_us)}, {"type", kDeleteAll}, {"id", ""}}});
   update["entities"] = Json::array();
-  for (const auto& [key, boxes] : regions) update["entities"].push_back(region(map, boxes, received_us));
+  for (const auto& [key, its_voxels] : regions) {
+    update["entities"].push_back(region(map, key, cover_with_boxes(map.grid, its_voxels), received_us));
+  }
   return {"/tern/regions", kScene, update};
 }
 

@@ -32,7 +32,7 @@ std::optional<Drawing> drawing_of(const LoggedMessage& message);
 /// @param tracks  the prediction set that the plan names
 std::vector<Drawing> drawings_of(const Plan& plan, UTime t_s, const TrackSet& tracks, std::int64_t received_us);
 
-/// A semantic map: an entity per label and class, of boxes (map_boxes.h), named by class in its text and its metadata
+/// A semantic map: an entity per label and class, of boxes (box_cover.h), named by class in its text and its metadata
 /// ("label", "class"). It replaces the map before.
 Drawing drawing_of(const VoxelMap& map, std::int64_t received_us);
 

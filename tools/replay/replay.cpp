@@ -106,10 +106,6 @@ Result<void> check_choice(const RecordedInputs& inputs, const ReplayOptions& opt
                           at_s(first), first.plan.request_id, at_s(last), last.plan.request_id));
 }
 
-std::int64_t refused(const LogChannel& channel) {
-  return std::accumulate(std::begin(channel.refused), std::end(channel.refused), std::int64_t{0});
-}
-
 }  // namespace
 
 bool is_chosen(const RecordedPlan& recorded, const LogContents& log, const ReplayOptions& options) {
@@ -166,7 +162,7 @@ bool Replay::incomplete() const {
   const auto answers = inputs.log.channels.find(channels::kPlan.name + suffix);
   const bool known = answers != inputs.log.channels.end();
   return missing() > 0 || answers_before() > 0 || inputs.plans.empty() || damage.places > 0 || damage.missing > 0 ||
-         (known && answers->second.lost > 0 && !is_extract()) || (known && refused(answers->second) > 0);
+         (known && answers->second.lost > 0 && !is_extract()) || (known && answers->second.refused_in_all() > 0);
 }
 
 Result<Replay> replay_log(const std::string& path, const ReplayOptions& options) {
@@ -183,16 +179,6 @@ Result<Replay> replay_log(const std::string& path, const ReplayOptions& options)
   replay.plans = replayer.finish();
   replay.predictions = std::move(*predictions);
   replay.inputs = std::move(*inputs);
-  return replay;
-}
-
-Replay replay_inputs(RecordedInputs inputs, const std::vector<TrackSet>& predictions, const ReplayOptions& options) {
-  Replay replay;
-  replay.suffix = options.suffix;
-  Replayer replayer(inputs, options);
-  for (const TrackSet& set : predictions) replayer.add(set);
-  replay.plans = replayer.finish();
-  replay.inputs = std::move(inputs);
   return replay;
 }
 

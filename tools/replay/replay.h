@@ -57,9 +57,6 @@ struct Replay {
 /// @throws ConfigError for other settings that are not well-formed or cannot take effect.
 Result<Replay> replay_log(const std::string& path, const ReplayOptions& options);
 
-/// The same of inputs in memory (a fixture).
-Replay replay_inputs(RecordedInputs inputs, const std::vector<TrackSet>& predictions, const ReplayOptions& options);
-
 /// Why a replay here of an answer of that log may differ in its last bits; empty: it may not.
 std::string weaker_promise(const RecordedInputs& inputs, const Plan& plan);
 

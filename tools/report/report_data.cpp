@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <utility>
 
 #include "core/base/percentiles.h"
@@ -13,6 +12,7 @@
 #include "core/world/names.h"
 #include "core/world/replan_samples.h"
 #include "runtime/clock.h"
+#include "tools/audit/configured.h"
 #include "tools/report/map_runs.h"
 
 namespace tern::report {
@@ -216,10 +216,11 @@ json costs_of(const FlightRecord& record) {
 json log_of(const FlightRecord& record) {
   json channels = json::array();
   for (const auto& [name, c] : record.contents.channels) {
-    std::int64_t refused = 0;
-    for (const std::int64_t n : c.refused) refused += n;
-    channels.push_back(
-        {{"name", name}, {"messages", c.messages}, {"bytes", c.bytes}, {"lost", c.lost}, {"refused", refused}});
+    channels.push_back({{"name", name},
+                        {"messages", c.messages},
+                        {"bytes", c.bytes},
+                        {"lost", c.lost},
+                        {"refused", c.refused_in_all()}});
   }
   json processes = json::array();
   for (const ConfigurationReport& c : record.configurations) {
@@ -261,10 +262,10 @@ json flight_of(const FlightRecord& record) {
                         {"left_out", r.obstacles_left_out}};
   }
   for (const ConfigurationReport& c : record.configurations) {
-    if (const std::string name = setting(c.yaml, "name"); !name.empty()) flight["scenario"] = name;
+    if (const std::string name = audit::setting(c.yaml, "name"); !name.empty()) flight["scenario"] = name;
     if (flight.contains("settings")) continue;
     for (const auto& [key, words] : kSettings) {
-      const std::string value = setting(c.yaml, key);
+      const std::string value = audit::setting(c.yaml, key);
       const bool has_generator = key != std::string_view("world.count") || value != "0";
       if (!value.empty() && has_generator) flight["settings"].push_back({words, value});
     }
@@ -274,23 +275,6 @@ json flight_of(const FlightRecord& record) {
 }
 
 }  // namespace
-
-std::string setting(const std::string& yaml, std::string_view path) {
-  std::size_t depth = 0;  // of what is looked for now
-  std::istringstream lines(yaml);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t indent = line.find_first_not_of(' ');
-    if (indent == std::string::npos || indent > depth) continue;
-    if (indent < depth) return "";  // the section has ended
-    const std::string_view wanted = path.substr(0, path.find('.'));
-    const std::string_view text = std::string_view(line).substr(indent);
-    if (!text.starts_with(wanted) || text.substr(wanted.size()).substr(0, 1) != ":") continue;
-    if (wanted.size() == path.size()) return std::string(text.substr(std::min(wanted.size() + 2, text.size())));
-    path.remove_prefix(wanted.size() + 1);
-    depth += 2;
-  }
-  return "";
-}
 
 json report_data(const FlightRecord& record, const Audit& audit, const Flown& flown) {
   json flight = flight_of(record);

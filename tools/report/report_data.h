@@ -3,7 +3,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
 
 #include "tools/audit/audit.h"
 
@@ -31,8 +30,5 @@ nlohmann::json report_data(const audit::FlightRecord& record, const audit::Audit
 
 /// The whole page, self-contained: style, script, charts' library and data within.
 std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const Flown& flown = {});
-
-/// A value of CONFIGURATION's YAML as it is written there, "uav.limits.v_max"; empty: it says none.
-std::string setting(const std::string& yaml, std::string_view path);
 
 }  // namespace tern::report

@@ -14,22 +14,14 @@ void JsonWriter::separate() {
   if (last != '{' && last != '[' && last != ':') out_ += ',';
 }
 
-JsonWriter& JsonWriter::begin_object() {
-  separate();
-  out_ += '{';
-  return *this;
-}
+JsonWriter& JsonWriter::begin_object() { return raw("{"); }
 
 JsonWriter& JsonWriter::end_object() {
   out_ += '}';
   return *this;
 }
 
-JsonWriter& JsonWriter::begin_list() {
-  separate();
-  out_ += '[';
-  return *this;
-}
+JsonWriter& JsonWriter::begin_list() { return raw("["); }
 
 JsonWriter& JsonWriter::end_list() {
   out_ += ']';
@@ -43,11 +35,8 @@ JsonWriter& JsonWriter::key(std::string_view name) {
 }
 
 JsonWriter& JsonWriter::number(double x) {
+  if (!std::isfinite(x)) return raw("null");
   separate();
-  if (!std::isfinite(x)) {
-    out_ += "null";
-    return *this;
-  }
   fmt::format_to(std::back_inserter(out_), "{:.4f}", x);
   while (out_.back() == '0') out_.pop_back();
   if (out_.back() == '.') out_.pop_back();

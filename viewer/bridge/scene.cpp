@@ -128,18 +128,10 @@ void Scene::hear(const VoxelMap& map) {
 }
 
 void Scene::clear() {
-  state_.reset();
-  truth_.reset();
-  tracks_.reset();
-  request_.reset();
-  plan_.reset();
-  timing_.reset();
-  search_.reset();
-  goal_.reset();
-  result_.reset();
-  processes_.clear();
-  asked_.clear();
   const bool map_changed = changed_.test(static_cast<std::size_t>(Topic::Map));
+  auto map = std::move(map_);
+  *this = Scene(memory_);
+  map_ = std::move(map);
   changed_.set();
   changed_.set(static_cast<std::size_t>(Topic::Map), map_changed);
 }

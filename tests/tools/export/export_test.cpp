@@ -10,6 +10,8 @@
 #include <iterator>
 
 #include "core/geometry/convex_hull.h"
+#include "core/world/box_cover.h"
+#include "core/world/names.h"
 #include "tests/support/recorded_flight.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tools/export/mcap_file.h"
@@ -17,7 +19,6 @@
 #include "tools/export/foxglove.h"
 #include "tools/export/hull_faces.h"
 #include "tools/export/logged_messages.h"
-#include "tools/export/map_boxes.h"
 #include "tools/export/mcap_writer.h"
 
 namespace tern::exporting {
@@ -150,7 +151,13 @@ TEST(McapWriter, SaysWhenItCannotWrite) {
   EXPECT_THAT(written.error().message, HasSubstr("/nowhere/a.mcap"));
 }
 
-RC_GTEST_PROP(MapBoxes, CoverTheLabelledVoxelsOnceAndNothingElse, ()) {
+Box box_of(const Json& cube) {
+  const auto vector = [](const Json& v) { return Vec3(v["x"], v["y"], v["z"]); };
+  const Vec3 centre = vector(cube["pose"]["position"]), half = 0.5 * vector(cube["size"]);
+  return {Vec3(centre - half), Vec3(centre + half)};
+}
+
+RC_GTEST_PROP(MapRegions, CoverTheLabelledVoxelsOnceAndNothingElse, ()) {
   VoxelMap map;
   for (int axis = 0; axis < 3; ++axis) map.grid.size[axis] = *rc::gen::inRange(1, 7);
   const auto n = static_cast<std::size_t>(map.grid.voxels());
@@ -161,25 +168,37 @@ RC_GTEST_PROP(MapBoxes, CoverTheLabelledVoxelsOnceAndNothingElse, ()) {
     map.classes.push_back(*rc::gen::weightedElement<std::uint8_t>({{1, 0}, {5, 1}}));
   }
   std::vector<int> covered(n, 0);
-  for (const MapBox& box : map_boxes(map)) {
-    for (std::size_t k = 0; k < n; ++k) {
-      const Eigen::Vector3i v = map.grid.cell(static_cast<std::int64_t>(k));
-      if (!((v.array() >= box.low.array()).all() && (v.array() <= box.high.array()).all())) continue;
-      ++covered[k];
-      RC_ASSERT(map.labels[k] == box.label);
-      RC_ASSERT(map.classes[k] == box.class_index);
+  const Json entities = drawing_of(map, 0).message["entities"];
+  for (const auto& entity : entities) {
+    for (const auto& cube : entity["cubes"]) {
+      const Box box = box_of(cube);
+      for (std::size_t k = 0; k < n; ++k) {
+        if (!box.contains(map.grid.centre(map.grid.cell(static_cast<std::int64_t>(k))))) continue;
+        ++covered[k];
+        RC_ASSERT(to_string(map.labels[k]) == entity["metadata"][0]["value"].get<std::string>());
+        RC_ASSERT(map.class_names[map.classes[k]] == entity["metadata"][1]["value"].get<std::string>());
+      }
     }
   }
   for (std::size_t k = 0; k < n; ++k) RC_ASSERT(covered[k] == (map.labels[k] >= VoxelLabel::Occupied ? 1 : 0));
 }
 
-TEST(MapBoxes, ABlockIsOneBox) {
+/// A wall of 1 × 9 voxels along y that has a corner of 4 along x: two boxes, whichever is begun with.
+TEST(MapRegions, AreThePlannersBoxes) {
   VoxelMap map;
-  map.grid.size = {30, 20, 10};
-  map.labels.assign(6000, VoxelLabel::Repulsive);
-  map.classes.assign(6000, 0);
+  map.grid.size = {5, 9, 1};
+  map.labels.assign(45, VoxelLabel::Free);
+  map.classes.assign(45, 0);
   map.class_names = {""};
-  EXPECT_EQ(map_boxes(map).size(), 1U);
+  const auto fill = [&](int x, int y) {
+    map.labels[static_cast<std::size_t>(map.grid.index({x, y, 0}))] = VoxelLabel::Occupied;
+  };
+  for (int y = 0; y < 9; ++y) fill(0, y);
+  for (int x = 1; x < 5; ++x) fill(x, 0);
+  const std::vector<Box> wanted = cover_with_boxes(map, false);
+  const Json cubes = drawing_of(map, 0).message["entities"][0]["cubes"];
+  ASSERT_EQ(cubes.size(), wanted.size());
+  for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_TRUE(box_of(cubes[k]).isApprox(wanted[k])) << "box " << k;
 }
 
 }  // namespace

@@ -1,20 +1,13 @@
 // How often predictions were kept: tables by class, horizon and confidence; charts by the age of a track.
-/** A share with its interval as a bar from 0.5 to 1, and a tick at what was promised. */
-function keptCell(share) {
+function keptOf(share) {
   if (!share) return "";
-  const at = (x) => `${Math.min(1, Math.max(0, 2 * x - 1)) * 100}%`;
-  const bar = el("i", share.broken ? { class: "below" } : {});
-  const from = Math.max(0.5, share.low), width = Math.max(0.004, share.high - from);
-  bar.style.left = at(Math.min(from, 0.998)), bar.style.width = `${2 * width * 100}%`;
-  const tick = el("s"); // the promise
-  tick.style.left = at(share.promised);
   const words = `${whole(share.kept)} of ${whole(share.made)}, of ${share.obstacles} obstacles: ${fixed(share.low, 3)} to ${fixed(share.high, 3)}; ${share.promised} promised`;
-  return el("div", { class: "kept", title: words }, el("span", share.broken ? { class: "out" } : {}, fixed(share.kept / share.made, 3)), el("div", { class: "bar" }, bar, tick));
+  return keptCell({ ...share, share: share.kept / share.made }, words);
 }
 function keptTable(box, titles, shares, keyOf, keys) {
   const rows = [...new Set(shares.map((s) => s.what))];
   table(box, [["", false], ...titles.map((t) => [t, false])], rows.map((what) =>
-    [el("b", {}, what), ...keys.map((key) => keptCell(shares.find((s) => s.what === what && keyOf(s) === key)))]));
+    [el("b", {}, what), ...keys.map((key) => keptOf(shares.find((s) => s.what === what && keyOf(s) === key)))]));
 }
 function coverage() {
   const shares = audit.coverage, horizons = ["0.25", "0.5", "1", "2", "whole"];

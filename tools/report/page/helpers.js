@@ -1,12 +1,6 @@
-// The report's page is one function of these parts, in this order: helpers, map, charts, report.
+// What the pages of a flight and of a campaign are made with. A report is one function of these parts, in this order:
+// helpers, map, charts, coverage, report.
 const data = JSON.parse(document.getElementById("data").textContent);
-const { flight, path, obstacles, regions, answers, audit } = data;
-const { outcomes: OUTCOMES, reasons: REASONS, stages: STAGES } = data.names;
-const STAGE_COLOURS = ["c6", "c3", "c4", "c1", "c2", "c5"];
-const PRINT_WIDTH = 660;
-let printing = false;
-
-// ---- small helpers
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 const el = (tag, attributes = {}, ...children) => {
   const node = document.createElement(tag);
@@ -36,6 +30,11 @@ const table = (parent, columns, rows) => {
   const body = rows.map((row) => el("tr", {}, ...row.map((cell, k) => el("td", columns[k][1] ? { class: "n" } : {}, cell))));
   parent.append(el("div", { class: "scroll" }, el("table", {}, el("thead", {}, head), el("tbody", {}, ...body))));
 };
-const leastOf = (measures) => measures.least_m_at_least ?? measures.least_m_by_interpolation;
-const check = (name) => audit.checks.find((c) => c.name === name) || { measures: {} };
-const redraws = []; // what is drawn again when the window or the colours change
+/** A share with its interval as a bar from 0.5 to 1, and a tick at what was promised. */
+const keptCell = ({ share, low, high, promised, broken }, words) => {
+  const at = (x) => `${Math.min(1, Math.max(0, 2 * x - 1)) * 100}%`;
+  const from = Math.max(0.5, low), width = Math.max(0.004, high - from);
+  const bar = el("i", { class: broken ? "below" : "", style: `left: ${at(Math.min(from, 0.998))}; width: ${2 * width * 100}%` });
+  return el("div", { class: "kept", title: words }, el("span", { class: broken ? "out" : "" }, fixed(share, 3)),
+    el("div", { class: "bar" }, bar, el("s", { style: `left: ${at(promised)}` })));
+};

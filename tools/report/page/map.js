@@ -1,4 +1,13 @@
 // Where it flew: from above and from the side.
+const { flight, path, obstacles, regions, answers, audit } = data;
+const { outcomes: OUTCOMES, reasons: REASONS, stages: STAGES } = data.names;
+const STAGE_COLOURS = ["c6", "c3", "c4", "c1", "c2", "c5"];
+const PRINT_WIDTH = 660;
+let printing = false;
+const leastOf = (measures) => measures.least_m_at_least ?? measures.least_m_by_interpolation;
+const check = (name) => audit.checks.find((c) => c.name === name) || { measures: {} };
+const redraws = []; // what is drawn again when the window or the colours change
+
 // ---- colours of speed (viridis, cut where it would vanish on a light or a dark card)
 const RAMP = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
 const isDark = () => getComputedStyle(document.documentElement).colorScheme === "dark";

@@ -6,6 +6,9 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <boost/archive/iterators/binary_from_base64.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -21,20 +24,12 @@ using nlohmann::json;
 constexpr int kPatienceMs = 60'000;
 constexpr int kLookMs = 100;
 
+/// @pre whole groups of four digits
 std::string from_base64(const std::string& text) {
-  std::string bytes;
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (const char c : text) {
-    const bool is_upper = c >= 'A' && c <= 'Z', is_lower = c >= 'a' && c <= 'z', is_digit = c >= '0' && c <= '9';
-    if (!is_upper && !is_lower && !is_digit && c != '+' && c != '/') continue;
-    const int value = is_upper ? c - 'A' : is_lower ? c - 'a' + 26 : is_digit ? c - '0' + 52 : c == '+' ? 62 : 63;
-    group = group << 6U | static_cast<std::uint32_t>(value);
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes += static_cast<char>(group >> static_cast<std::uint32_t>(bits) & 0xffU);
-  }
+  using boost::archive::iterators::binary_from_base64, boost::archive::iterators::transform_width;
+  using Bytes = transform_width<binary_from_base64<std::string::const_iterator>, 8, 6>;
+  std::string bytes(Bytes(text.begin()), Bytes(text.end()));
+  bytes.resize(bytes.size() - static_cast<std::size_t>(std::count(text.begin(), text.end(), '=')));
   return bytes;
 }
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <boost/algorithm/string/replace.hpp>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <boost/beast/zlib/deflate_stream.hpp>
 #include <map>
 #include <utility>
@@ -21,24 +24,9 @@ constexpr char kPolicy[] =
     "'unsafe-inline'; img-src data:; connect-src data:\">";
 
 std::string base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      group = group << 8U | (k + i < bytes.size() ? static_cast<std::uint8_t>(bytes[k + i]) : 0U);
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      out += k + i > bytes.size() ? '=' : kDigits[group >> (18U - 6U * i) & 63U];
-    }
-  }
-  return out;
-}
-
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
+  using boost::archive::iterators::base64_from_binary, boost::archive::iterators::transform_width;
+  using Digits = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
+  return std::string(Digits(bytes.begin()), Digits(bytes.end())) + std::string((3 - bytes.size() % 3) % 3, '=');
 }
 
 /// Puts `text` where the element stands that refers to a file; nothing where none does.
@@ -162,14 +150,14 @@ Result<std::string> inline_page(const PageFiles& files, const std::string& packe
   for (const auto& [path, file] : files) {
     std::string text = file.bytes;
     if (path.ends_with(".js")) {
-      replace_all(text, "</script", "<\\/script");
+      boost::replace_all(text, "</script", "<\\/script");
       put_for(html, path, "</script>", "<script type=\"module\">" + text + "</script>");
     } else if (path.ends_with(".css")) {
       put_for(html, path, ">", "<style>" + text + "</style>");
     }
   }
   std::string said = licences->second.bytes;
-  replace_all(said, "</script", "<\\/script");
+  boost::replace_all(said, "</script", "<\\/script");
   const std::size_t head = html.find("<head>") + 6;
   html.insert(head, kPolicy);
   const std::string kept = fmt::format("<script type=\"text/plain\" id=\"licences\">{}</script>", said) +

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/recorded_flight.h"
 #include "core/world/flight_result.h"
 #include "core/world/horizon.h"
 #include "executor/executor.h"
@@ -18,13 +19,6 @@ struct VirtualFlight {
   std::array<std::int64_t, kPlanReasons> reasons = {};    ///< answers by PlanReason
   std::vector<PlanTiming> timings;  ///< one per answer; wall and CPU times are those of this machine
   std::string end;                  ///< how the run ended when there is no result
-};
-
-/// Watches a flight from outside: called with every plan and its request.
-struct FlightObserver {
-  virtual ~FlightObserver() = default;
-  virtual void on_request(const HorizonRequest&) {}
-  virtual void on_plan(const Plan&) {}
 };
 
 /// Flies a scenario file (with `key=value` overrides) to its end. @throws ConfigError for what run_process would

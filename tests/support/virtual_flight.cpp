@@ -1,4 +1,4 @@
-#include "campaign/virtual_flight.h"
+#include "tests/support/virtual_flight.h"
 
 #include "campaign/virtual_system.h"
 #include "executor/app/executor_node.h"
