@@ -2,6 +2,8 @@
 // Y. Bar-Shalom, X. R. Li, T. Kirubarajan, "Estimation with Applications to Tracking and Navigation", §5.2, §6.2.2.
 #pragma once
 
+#include <cmath>
+
 #include "core/base/types.h"
 
 namespace tern {
@@ -37,7 +39,7 @@ struct Fit {
   double distance2 = 0.0;  ///< Σ (z − x)²/S: χ² with three degrees of freedom where the model holds
   /// −2 ln of the density of the detection, but for a constant; ≥ 0. A distance alone is least for the estimate that
   /// knows least.
-  [[nodiscard]] double surprise() const { return distance2 + (s / kLeastVariance).array().log().sum(); }
+  [[nodiscard]] double surprise() const { return distance2 + std::log((s / kLeastVariance).prod()); }
 };
 
 /// @param x, variance  m, m², of the estimate; @param z, r  of the detection, r taken as kLeastVariance if less

@@ -10,17 +10,21 @@ namespace {
 
 constexpr double kEvidenceForgetting = 0.95;
 
+// Where a model's states begin in the bank's memory.
+struct Begin {
+  int mean = 0, covariance = 0;
+};
+constexpr PerModel<Begin> kBegins = [] {
+  PerModel<Begin> begins{};
+  for (std::size_t j = 1; j < kModels; ++j) {
+    const int order = kOrders[j - 1];
+    begins[j] = {begins[j - 1].mean + 3 * order, begins[j - 1].covariance + order * order};
+  }
+  return begins;
+}();
+
 Fit fit_of(const MotionFilter& filter, const Vec3& z, const Vec3& r) {
   return fit(filter.position(), filter.variance(), z, r);
-}
-
-// Whether one axis alone is beyond the gate: most pairs of a track and a detection are, and cost no more than that.
-bool is_beyond(const MotionFilter& filter, double gate, const Vec3& z, const Vec3& r) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const AxisFilter of = filter.marginal(axis);
-    if (std::pow(z[axis] - of.x, 2) > gate * (of.xx + std::max(r[axis], kLeastVariance))) return true;
-  }
-  return false;
 }
 
 }  // namespace
@@ -56,35 +60,67 @@ BankLook bank_look(const BankStep& ahead, const BankStep& first) {
   return looks;
 }
 
-BankFilter::BankFilter(const Vec3& z, const Vec3& r) {
-  for (std::size_t j = 0; j < kModels; ++j) filters_[j] = MotionFilter(motion_models()[j], z, r);
-  lead_ = kWidestModel;
+template <typename Number, typename Bank>
+FilterStates<Number> BankFilter::states(Bank& bank, std::size_t model) {
+  const auto [mean, covariance] = kBegins[model];
+  FilterStates<Number> of{kOrders[model], bank.means_.data() + mean, {}};
+  of.covariance.fill(bank.covariances_.data() + covariance);
+  if (bank.others_.empty()) return of;
+  of.covariance[1] = bank.others_.data() + covariance;
+  of.covariance[2] = bank.others_.data() + kCovariances + covariance;
+  return of;
+}
+
+MotionFilter BankFilter::of(std::size_t model) const { return MotionFilter(states<const double>(*this, model)); }
+
+BankFilter::BankFilter(const Vec3& z, const Vec3& r) : lead_(kWidestModel) {
+  part(r);
+  for (std::size_t j = 0; j < kModels; ++j) start(motion_models()[j], z, r, states<double>(*this, j));
+}
+
+void BankFilter::part(const Vec3& r) {
+  const Vec3 known = r.cwiseMax(kLeastVariance);
+  if (!others_.empty() || (known[0] == known[1] && known[1] == known[2])) return;
+  others_.assign(covariances_.begin(), covariances_.end());
+  others_.insert(others_.end(), covariances_.begin(), covariances_.end());
 }
 
 void BankFilter::predict(const BankStep& step) {
-  for (std::size_t j = 0; j < kModels; ++j) filters_[j].predict(step[j]);
+  for (std::size_t j = 0; j < kModels; ++j) tern::predict(step[j], states<double>(*this, j));
 }
 
 void BankFilter::update(const Vec3& z, const Vec3& r) {
+  part(r);
   for (std::size_t j = 0; j < kModels; ++j) {
-    evidence_[j] = kEvidenceForgetting * evidence_[j] - 0.5 * fit_of(filters_[j], z, r).surprise();
-    filters_[j].update(z, r);
+    evidence_[j] = kEvidenceForgetting * evidence_[j] - 0.5 * fit_of(of(j), z, r).surprise();
+    tern::update(z, r, states<double>(*this, j));
   }
   lead_ = static_cast<std::size_t>(std::max_element(evidence_.begin(), evidence_.end()) - evidence_.begin());
 }
 
 double BankFilter::distance2(const Vec3& z, const Vec3& r) const {
-  return std::min(fit_of(lead(), z, r).distance2, fit_of(filters_[kWidestModel], z, r).distance2);
+  return std::min(fit_of(lead(), z, r).distance2, fit_of(of(kWidestModel), z, r).distance2);
 }
 
 double BankFilter::surprise_within(double gate, const Vec3& z, const Vec3& r) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const MotionFilter* filter : {&lead(), &filters_[kWidestModel]}) {
-    if (is_beyond(*filter, gate, z, r)) continue;
-    const Fit of = fit_of(*filter, z, r);
-    if (of.distance2 <= gate) least = std::min(least, of.surprise());
+  for (const std::size_t model : {lead_, kWidestModel}) {
+    if (is_beyond(model, gate, z, r)) continue;
+    const Fit fit = fit_of(of(model), z, r);
+    if (fit.distance2 <= gate) least = std::min(least, fit.surprise());
   }
   return least;
+}
+
+bool BankFilter::is_beyond(std::size_t model, double gate, const Vec3& z, const Vec3& r) const {
+  const auto [mean, covariance] = kBegins[model];
+  const double* x = means_.data() + mean;
+  const double* variance = covariances_.data() + covariance;
+  for (int axis = 0; axis < 3; ++axis, x += kOrders[model]) {
+    if (axis > 0 && !others_.empty()) variance = others_.data() + (axis - 1) * kCovariances + covariance;
+    if (std::pow(z[axis] - *x, 2) > gate * (*variance + std::max(r[axis], kLeastVariance))) return true;
+  }
+  return false;
 }
 
 }  // namespace tern

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
+#include <vector>
 
 #include "core/base/types.h"
 #include "predictor/models/motion_filter.h"
@@ -18,6 +20,8 @@ using PerModel = std::array<T, kModels>;
 /// apart. Which of them a track follows, and at which horizon, its weights say (model_scores.h): none is fitted to a
 /// world.
 const PerModel<MotionModel>& motion_models();
+/// Their orders.
+inline constexpr PerModel<int> kOrders{2, 2, 3, 4, 7, 7, 7, 2, 3, 4, 4, 7, 7, 7, 7};
 /// The first so many are steady (calm constant velocities), the next ones up to the second number calm (they accelerate
 /// slowly), the others lively.
 inline constexpr std::size_t kSteadyModels = 2, kCalmModels = 7;
@@ -45,12 +49,24 @@ class BankFilter {
   /// How unlikely the detection is: the less of the two models' surprise() that are nearer than the gate.
   /// @return infinite if neither is
   [[nodiscard]] double surprise_within(double gate, const Vec3& z, const Vec3& r) const;
-  [[nodiscard]] const MotionFilter& of(std::size_t model) const { return filters_[model]; }
+  [[nodiscard]] MotionFilter of(std::size_t model) const;
   /// The model of the most evidence.
-  [[nodiscard]] const MotionFilter& lead() const { return filters_[lead_]; }
+  [[nodiscard]] std::size_t leading() const { return lead_; }
+  [[nodiscard]] MotionFilter lead() const { return of(leading()); }
 
  private:
-  PerModel<MotionFilter> filters_;
+  static constexpr int kMeans = 3 * std::accumulate(kOrders.begin(), kOrders.end(), 0);
+  static constexpr int kCovariances = std::inner_product(kOrders.begin(), kOrders.end(), kOrders.begin(), 0);
+  template <typename Number, typename Bank>
+  static FilterStates<Number> states(Bank& bank, std::size_t model);
+  /// Whether one axis alone is beyond the gate: most pairs of a track and a detection are, and cost no more than that.
+  [[nodiscard]] bool is_beyond(std::size_t model, double gate, const Vec3& z, const Vec3& r) const;
+  /// Gives each axis a covariance of its own, where they begin to differ.
+  void part(const Vec3& r);
+
+  std::array<double, kMeans> means_{};              // of one model after the other
+  std::array<double, kCovariances> covariances_{};  // of the first axis
+  std::vector<double> others_;                      // of the two others; empty while all are alike
   PerModel<double> evidence_{};
   std::size_t lead_ = 0;
 };

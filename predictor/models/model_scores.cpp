@@ -45,7 +45,7 @@ PerModel<double> weights_at(const HorizonWeights& weights, double ahead_s) {
   if (ahead_s >= kScoredAhead.back()) return weights.back();
   std::size_t h = 0;
   while (ahead_s > kScoredAhead[h + 1]) ++h;
-  const double u = std::log(ahead_s / kScoredAhead[h]) / std::log(kScoredAhead[h + 1] / kScoredAhead[h]);
+  const double u = std::log2(ahead_s / kScoredAhead[h]);  // each is twice the one before
   PerModel<double> between;
   for (std::size_t j = 0; j < kModels; ++j) between[j] = (1.0 - u) * weights[h][j] + u * weights[h + 1][j];
   return between;
@@ -53,17 +53,17 @@ PerModel<double> weights_at(const HorizonWeights& weights, double ahead_s) {
 
 Mixed mixed(const BankFilter& bank, const BankLook& ahead, const PerModel<double>& weights) {
   Mixed sum;
-  PerModel<Vec3> centres;
+  std::array<FilterLook, kModels> said;
   for (std::size_t j = 0; j < kModels; ++j) {
     if (weights[j] <= 0.0) continue;
-    centres[j] = bank.of(j).position_at(ahead[j]);
-    sum.centre += weights[j] * centres[j];
-    sum.velocity += weights[j] * bank.of(j).velocity_at(ahead[j]);
+    said[j] = bank.of(j).at(ahead[j]);
+    sum.centre += weights[j] * said[j].position;
+    sum.velocity += weights[j] * said[j].velocity;
   }
   Vec3 variance = Vec3::Zero();
   for (std::size_t j = 0; j < kModels; ++j) {
     if (weights[j] <= 0.0) continue;
-    variance += weights[j] * (bank.of(j).variance_at(ahead[j]) + (centres[j] - sum.centre).cwiseAbs2());
+    variance += weights[j] * (said[j].variance + (said[j].position - sum.centre).cwiseAbs2());
   }
   sum.deviation = variance.cwiseSqrt();
   return sum;

@@ -1,41 +1,59 @@
 #include "predictor/models/motion_filter.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace tern {
 namespace {
 
 template <int N>
-void predict_covariance(ModelMatrix& covariance, const ModelStep& step) {
-  using Matrix = Eigen::Matrix<double, N, N>;
-  const Matrix phi = step.phi;
-  const Matrix moved = phi * Matrix(covariance);
-  covariance.noalias() = moved * phi.transpose() + Matrix(step.q);
-}
+using Square = Eigen::Matrix<double, N, N>;
+template <int N>
+using Column = Eigen::Matrix<double, N, 1>;
+template <int N>
+using Means = Eigen::Matrix<double, N, 3>;
 
-void predict_any(ModelMatrix& covariance, const ModelStep& step) {
-  switch (covariance.rows()) {
-    case 2: return predict_covariance<2>(covariance, step);
-    case 3: return predict_covariance<3>(covariance, step);
-    case 4: return predict_covariance<4>(covariance, step);
-    default: return predict_covariance<kMaxOrder>(covariance, step);
+// f<N>() for the order N: with sizes that the compiler knows the products are several times as fast.
+template <typename F>
+auto with_order(int order, const F& f) {
+  switch (order) {
+    case 2: return f(std::integral_constant<int, 2>{});
+    case 3: return f(std::integral_constant<int, 3>{});
+    case 4: return f(std::integral_constant<int, 4>{});
+    default: return f(std::integral_constant<int, kMaxOrder>{});
   }
 }
 
-void update_covariance(ModelMatrix& covariance, double r) {
-  const ModelVector column = covariance.col(0);
-  covariance.noalias() -= column * column.transpose() / (column[0] + r);
+// Once where the axes share a covariance.
+template <typename Number, typename F>
+void for_each_covariance(const FilterStates<Number>& states, const F& f) {
+  f(0);
+  for (int axis = 1; axis < 3; ++axis) {
+    if (states.covariance[static_cast<std::size_t>(axis)] != states.covariance[0]) f(axis);
+  }
 }
 
-double variance_of(const ModelMatrix& covariance, const ModelLook& ahead) {
-  const auto n = covariance.rows();
-  double sum = ahead.variance;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    double column = 0.0;
-    for (Eigen::Index i = 0; i < n; ++i) column += covariance(i, j) * ahead.position[i];
-    sum += column * ahead.position[j];
+template <int N>
+Eigen::Map<const Square<N>> square(const double* entries) {
+  return Eigen::Map<const Square<N>>(entries);
+}
+
+template <int N>
+Eigen::Map<Square<N>> square(double* entries) {
+  return Eigen::Map<Square<N>>(entries);
+}
+
+// P ← Φ P Φᵀ + Q: the lower half, and its mirror.
+template <int N>
+void predict_covariance(const Square<N>& phi, const Square<N>& q, double* covariance) {
+  auto p = square<N>(covariance);
+  const Square<N> moved = phi * p;
+  for (int j = 0; j < N; ++j) {
+    for (int i = j; i < N; ++i) {
+      p(i, j) = q(i, j) + moved.row(i).dot(phi.row(j));
+      p(j, i) = p(i, j);
+    }
   }
-  return std::max(sum, 0.0);
 }
 
 }  // namespace
@@ -50,48 +68,70 @@ ModelLook look(const ModelStep& ahead, const ModelStep& first) {
           ahead.q(0, 0) + row.dot(first.q * row)};
 }
 
-MotionFilter::MotionFilter(const MotionModel& model, const Vec3& z, const Vec3& r) {
+void start(const MotionModel& model, const Vec3& z, const Vec3& r, const FilterStates<double>& states) {
+  const int n = states.order;
   const Vec3 known = r.cwiseMax(kLeastVariance);
-  mean_ = model.shift * z.transpose();
-  const auto started = [&](double variance) -> ModelMatrix {
-    return model.prior + variance * model.shift * model.shift.transpose();
-  };
-  first_ = started(known[0]);
-  if (known[0] != known[1] || known[1] != known[2]) others_ = {started(known[1]), started(known[2])};
+  Eigen::Map<Eigen::MatrixXd>(states.mean, n, 3) = model.shift * z.transpose();
+  for_each_covariance(states, [&](int axis) {
+    Eigen::Map<Eigen::MatrixXd>(states.covariance[static_cast<std::size_t>(axis)], n, n) =
+        model.prior + known[axis] * model.shift * model.shift.transpose();
+  });
 }
 
-void MotionFilter::predict(const ModelStep& step) {
-  mean_ = (step.phi * mean_).eval();
-  predict_any(first_, step);
-  for (ModelMatrix& other : others_) predict_any(other, step);
+void predict(const ModelStep& step, const FilterStates<double>& states) {
+  with_order(states.order, [&](auto order) {
+    constexpr int N = decltype(order)::value;
+    const Square<N> phi = square<N>(step.phi.data()), q = square<N>(step.q.data());
+    Eigen::Map<Means<N>> mean(states.mean);
+    mean = (phi * mean).eval();
+    for_each_covariance(
+        states, [&](int axis) { predict_covariance<N>(phi, q, states.covariance[static_cast<std::size_t>(axis)]); });
+  });
 }
 
-void MotionFilter::update(const Vec3& z, const Vec3& r) {
+void update(const Vec3& z, const Vec3& r, const FilterStates<double>& states) {
   const Vec3 known = r.cwiseMax(kLeastVariance);
-  if (others_.empty() && (known[0] != known[1] || known[1] != known[2])) others_ = {first_, first_};
-  for (int axis = 0; axis < 3; ++axis) {
-    const ModelMatrix& p = covariance(axis);
-    mean_.col(axis) += p.col(0) * ((z[axis] - mean_(0, axis)) / (p(0, 0) + known[axis]));
-  }
-  update_covariance(first_, known[0]);
-  for (std::size_t i = 0; i < others_.size(); ++i) update_covariance(others_[i], known[static_cast<int>(i) + 1]);
+  with_order(states.order, [&](auto order) {
+    constexpr int N = decltype(order)::value;
+    Eigen::Map<Means<N>> mean(states.mean);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto p = square<N>(states.covariance[static_cast<std::size_t>(axis)]);
+      mean.col(axis) += p.col(0) * ((z[axis] - mean(0, axis)) / (p(0, 0) + known[axis]));
+    }
+    for_each_covariance(states, [&](int axis) {
+      auto p = square<N>(states.covariance[static_cast<std::size_t>(axis)]);
+      const Column<N> column = p.col(0);
+      const Column<N> gain = column / (column[0] + known[axis]);
+      p.noalias() -= column * gain.transpose();
+    });
+  });
 }
 
-Vec3 MotionFilter::variance() const { return Vec3(covariance(0)(0, 0), covariance(1)(0, 0), covariance(2)(0, 0)); }
+Vec3 MotionFilter::variance() const {
+  return Vec3(*states_.covariance[0], *states_.covariance[1], *states_.covariance[2]);
+}
 
 AxisFilter MotionFilter::marginal(int axis) const {
-  const ModelMatrix& p = covariance(axis);
-  return {mean_(0, axis), mean_(1, axis), p(0, 0), p(0, 1), p(1, 1)};
+  const int n = states_.order;
+  const double* mean = states_.mean + n * axis;
+  const double* p = states_.covariance[static_cast<std::size_t>(axis)];
+  return {mean[0], mean[1], p[0], p[1], p[n + 1]};
 }
 
-Vec3 MotionFilter::position_at(const ModelLook& ahead) const { return mean_.transpose() * ahead.position; }
-
-Vec3 MotionFilter::velocity_at(const ModelLook& ahead) const { return mean_.transpose() * ahead.velocity; }
-
-Vec3 MotionFilter::variance_at(const ModelLook& ahead) const {
-  const double first = variance_of(first_, ahead);
-  if (others_.empty()) return Vec3::Constant(first);
-  return Vec3(first, variance_of(others_[0], ahead), variance_of(others_[1], ahead));
+FilterLook MotionFilter::at(const ModelLook& ahead) const {
+  return with_order(states_.order, [&](auto order) {
+    constexpr int N = decltype(order)::value;
+    const Eigen::Map<const Column<N>> position(ahead.position.data()), velocity(ahead.velocity.data());
+    const Eigen::Map<const Means<N>> mean(states_.mean);
+    FilterLook said{mean.transpose() * position, mean.transpose() * velocity, Vec3::Zero()};
+    double variance = 0.0;
+    for_each_covariance(states_, [&](int axis) {
+      const Column<N> moved = square<N>(states_.covariance[static_cast<std::size_t>(axis)]) * position;
+      variance = std::max(0.0, ahead.variance + moved.dot(position));
+      said.variance.tail(3 - axis).setConstant(variance);
+    });
+    return said;
+  });
 }
 
 }  // namespace tern

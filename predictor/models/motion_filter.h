@@ -1,8 +1,9 @@
-// A Kalman filter of one motion model on the three axes of W.
+// A Kalman filter of one motion model on the three axes of W, in memory that is somebody else's (model_bank.h).
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <array>
+#include <cstddef>
 
 #include "core/base/types.h"
 #include "predictor/models/axis_filter.h"
@@ -20,30 +21,45 @@ ModelLook look(const ModelStep& step);
 /// Of `ahead` after `first`.
 ModelLook look(const ModelStep& ahead, const ModelStep& first);
 
+/// What a filter says of some time ahead, per axis.
+struct FilterLook {
+  Vec3 position, velocity;  ///< m, m/s
+  Vec3 variance;            ///< of the position, m²
+};
+
 /// States of three axes that share a model. While sensors give all axes one variance, so does the covariance.
+///
+/// @tparam Number  double, or const double to look only
+template <typename Number>
+struct FilterStates {
+  int order = 0;
+  Number* mean = nullptr;               ///< order × 3, an axis per column
+  std::array<Number*, 3> covariance{};  ///< of each axis, order × order; the same one while all are alike
+};
+
+/// A filter's answers.
 class MotionFilter {
  public:
-  MotionFilter() = default;
-  /// From the first measurement: z (m) with variances r (m²; taken as kLeastVariance if less).
-  MotionFilter(const MotionModel& model, const Vec3& z, const Vec3& r);
+  explicit MotionFilter(const FilterStates<const double>& states) : states_(states) {}
 
-  void predict(const ModelStep& step);
-  void update(const Vec3& z, const Vec3& r);
-  [[nodiscard]] Vec3 position() const { return mean_.row(0).transpose(); }
-  [[nodiscard]] Vec3 velocity() const { return mean_.row(1).transpose(); }
+  [[nodiscard]] Vec3 position() const { return state(0); }
+  [[nodiscard]] Vec3 velocity() const { return state(1); }
   [[nodiscard]] Vec3 variance() const;                ///< of the position, m²
   [[nodiscard]] AxisFilter marginal(int axis) const;  ///< position and velocity alone
-  [[nodiscard]] Vec3 position_at(const ModelLook& ahead) const;
-  [[nodiscard]] Vec3 velocity_at(const ModelLook& ahead) const;
-  [[nodiscard]] Vec3 variance_at(const ModelLook& ahead) const;
+  [[nodiscard]] FilterLook at(const ModelLook& ahead) const;
 
  private:
-  [[nodiscard]] const ModelMatrix& covariance(int axis) const {
-    return axis == 0 || others_.empty() ? first_ : others_[static_cast<std::size_t>(axis - 1)];
+  [[nodiscard]] Vec3 state(int row) const {
+    const int n = states_.order;
+    return Vec3(states_.mean[row], states_.mean[n + row], states_.mean[2 * n + row]);
   }
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxOrder, 3> mean_;
-  ModelMatrix first_;                // covariance of the first axis
-  std::vector<ModelMatrix> others_;  // of the two others; empty while all are alike
+  FilterStates<const double> states_;
 };
+
+/// Begins with the first measurement: z (m) with variances r (m²; taken as kLeastVariance if less).
+void start(const MotionModel& model, const Vec3& z, const Vec3& r, const FilterStates<double>& states);
+void predict(const ModelStep& step, const FilterStates<double>& states);
+/// @pre covariances of the axes are apart if r differs between them
+void update(const Vec3& z, const Vec3& r, const FilterStates<double>& states);
 
 }  // namespace tern

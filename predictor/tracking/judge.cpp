@@ -140,7 +140,8 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   const bool first = std::find(kFirstScored.begin(), kFirstScored.end(), track.detections) != kFirstScored.end();
   if (!first && !history.issues.empty() && (at - history.issued).seconds() < kScorePeriod) return;
   history.issued = at;
-  Issue issue;
+  Issue& issue = history.issues.emplace_back();
+  history.due.push_back(judged_at(at, 0));
   issue.at = at;
   issue.from = track.position;
   issue.pace = calibration_.pace();
@@ -156,29 +157,36 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
     if (scored == kScoredAhead.end()) continue;
     PerModel<Said>& said = issue.models_said[static_cast<std::size_t>(scored - kScoredAhead.begin())];
     for (std::size_t j = 0; j < kModels; ++j) {
-      const MotionFilter& filter = track.bank->of(j);
-      said[j] = {filter.position_at(looks_[k][j]), filter.variance_at(looks_[k][j])};
+      const FilterLook ahead = track.bank->of(j).at(looks_[k][j]);
+      said[j] = {ahead.position, ahead.variance};
     }
   }
-  history.issues.push_back(issue);
 }
 
 void Judge::score(std::int64_t id, History& history) {
   const UTime settled = history.samples.back().at - Duration::from_seconds(kSmoothed);
-  for (Issue& issue : history.issues) {
+  for (std::size_t i = 0; i < history.issues.size();) {
+    if (history.due[i] > settled) {
+      ++i;
+      continue;
+    }
+    Issue& issue = history.issues[i];
     while (issue.next < kJudgedAhead.size() && judged_at(issue.at, issue.next) <= settled) {
       const std::optional<Sample> truth = truth_at(history.samples, judged_at(issue.at, issue.next));
       if (!truth) break;
       score(issue, *truth, id, history);
       ++issue.next;
     }
-  }
-  // Over: judged to its end, or nobody saw what came.
-  std::erase_if(history.issues, [&](const Issue& issue) {
+    // Over: judged to its end, or nobody saw what came.
     const bool is_over = issue.next == kJudgedAhead.size() || judged_at(issue.at, issue.next) <= settled;
-    if (is_over) judged_.push_back(issue.judged);
-    return is_over;
-  });
+    if (!is_over) {
+      history.due[i++] = judged_at(issue.at, issue.next);
+      continue;
+    }
+    judged_.push_back(issue.judged);
+    history.issues.erase(history.issues.begin() + static_cast<std::ptrdiff_t>(i));
+    history.due.erase(history.due.begin() + static_cast<std::ptrdiff_t>(i));
+  }
 }
 
 void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& history) {

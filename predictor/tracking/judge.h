@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <set>
 #include <vector>
@@ -101,7 +102,8 @@ class Judge {
     double fastest = 0.0;  // m/s, forgotten slowly
     ModelScores own;
     std::vector<Sample> samples;
-    std::vector<Issue> issues;
+    std::deque<Issue> issues;
+    std::vector<UTime> due;  // of each: when there is something to judge again. Most have not, and are large
   };
   void follow(const SeenTrack& track, UTime at, History& history);
   void issue(const SeenTrack& track, UTime at, History& history) const;

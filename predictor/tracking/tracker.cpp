@@ -77,20 +77,20 @@ Taken Tracker::update(const ObservationSet& observations) {
       std::lower_bound(steps_.begin(), steps_.end(), observations,
                        [](const Step& a, const ObservationSet& b) { return key(a.observations) < key(b); });
   if (place != steps_.end() && key(place->observations) == key(observations)) return Taken::Repeated;
-  auto step = steps_.insert(place, Step{observations, {}});
+  auto step = steps_.insert(place, Step{observations, std::move(spare_)});
   for (; step != steps_.end(); ++step) {
-    const State& before = step == steps_.begin() ? before_steps_ : (step - 1)->after;
-    step->after = advanced(before, step->observations);
+    step->after = step == steps_.begin() ? before_steps_ : (step - 1)->after;
+    advance(step->after, step->observations);
   }
   while (steps_.size() > 1 && steps_.front().observations.at + kReorderWindow < newest()) {
     settle(steps_.front());
-    before_steps_ = std::move(steps_.front().after);
+    spare_ = std::exchange(before_steps_, std::move(steps_.front().after));
     steps_.pop_front();
   }
   return Taken::Yes;
 }
 
-Tracker::State Tracker::advanced(State state, const ObservationSet& observations) const {
+void Tracker::advance(State& state, const ObservationSet& observations) const {
   const UTime at = observations.at;
   std::erase_if(state.views, [&](const View& view) { return view.sensor_id == observations.sensor_id; });
   state.views.push_back({observations.sensor_id, at, observations.range_m, observations.sensor_position});
@@ -128,7 +128,6 @@ Tracker::State Tracker::advanced(State state, const ObservationSet& observations
   }
   std::sort(state.objects.begin(), state.objects.end(),
             [](const TrackedObject& a, const TrackedObject& b) { return a.id < b.id; });
-  return state;
 }
 
 void Tracker::predict_to(State& state, UTime at) const {

@@ -142,7 +142,7 @@ class Tracker {
     State after;
   };
   [[nodiscard]] const State& newest_state() const { return steps_.empty() ? before_steps_ : steps_.back().after; }
-  [[nodiscard]] State advanced(State state, const ObservationSet& observations) const;
+  void advance(State& state, const ObservationSet& observations) const;
   void predict_to(State& state, UTime at) const;
   void take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
   void take(TrackedObject& object, const Detection& detection, const ObservationSet& from, RestRecord& rest) const;
@@ -170,6 +170,7 @@ class Tracker {
   std::vector<BankStep> ahead_;  // to them
   std::array<double, kConfidenceLevels.size()> rest_quantiles_{};
   State before_steps_;
+  State spare_;             // memory for the next step: its meaning is over
   std::deque<Step> steps_;  // ascending by (time, sensor), the newest kReorderWindow
   Judge judge_;
 };

@@ -50,11 +50,10 @@ TEST(ModelChoice, WalkersArePredictedBetterByScoresAheadThanByTheLikelihoodOfThe
     if (t < 8.0 || frame % 8 != 0) continue;
     for (const TrackedObject& object : tracker.objects()) {
       const auto y = static_cast<std::size_t>(std::lround(object.position.y() / kApart));
-      std::size_t likeliest = 0;
-      while (&object.moving.of(likeliest) != &object.moving.lead()) ++likeliest;
+      const std::size_t likeliest = object.moving.leading();
       const Vec3 truth = walkers.at(y)(t + kAhead);
       const Mixed said = mixed(object.moving, ahead, weights_at(tracker.verdict(object).weights, kAhead));
-      errors.by_next_detection += (object.moving.lead().position_at(ahead[likeliest]) - truth).squaredNorm();
+      errors.by_next_detection += (object.moving.lead().at(ahead[likeliest]).position - truth).squaredNorm();
       errors.by_scores_ahead += (said.centre - truth).squaredNorm();
       ++predicted;
     }
