@@ -12,6 +12,7 @@ namespace {
 template <class Get>
 MeanInterval mean_of(const std::vector<const SemanticFlight*>& flights, const Get& get) {
   std::vector<double> numbers;
+  numbers.reserve(flights.size());
   for (const SemanticFlight* f : flights) numbers.push_back(get(*f));
   return mean_interval(numbers);
 }

@@ -117,8 +117,9 @@ bool BankFilter::is_beyond(std::size_t model, double gate, const Vec3& z, const 
   const double* x = means_.data() + mean;
   const double* variance = covariances_.data() + covariance;
   for (int axis = 0; axis < 3; ++axis, x += kOrders[model]) {
-    if (axis > 0 && !others_.empty()) variance = others_.data() + (axis - 1) * kCovariances + covariance;
     if (std::pow(z[axis] - *x, 2) > gate * (*variance + std::max(r[axis], kLeastVariance))) return true;
+    if (others_.empty()) continue;
+    variance = axis == 0 ? others_.data() + covariance : variance + kCovariances;
   }
   return false;
 }

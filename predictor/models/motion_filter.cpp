@@ -80,28 +80,29 @@ void start(const MotionModel& model, const Vec3& z, const Vec3& r, const FilterS
 
 void predict(const ModelStep& step, const FilterStates<double>& states) {
   with_order(states.order, [&](auto order) {
-    constexpr int N = decltype(order)::value;
-    const Square<N> phi = square<N>(step.phi.data()), q = square<N>(step.q.data());
-    Eigen::Map<Means<N>> mean(states.mean);
+    constexpr int kOrder = decltype(order)::value;
+    const Square<kOrder> phi = square<kOrder>(step.phi.data()), q = square<kOrder>(step.q.data());
+    Eigen::Map<Means<kOrder>> mean(states.mean);
     mean = (phi * mean).eval();
-    for_each_covariance(
-        states, [&](int axis) { predict_covariance<N>(phi, q, states.covariance[static_cast<std::size_t>(axis)]); });
+    for_each_covariance(states, [&](int axis) {
+      predict_covariance<kOrder>(phi, q, states.covariance[static_cast<std::size_t>(axis)]);
+    });
   });
 }
 
 void update(const Vec3& z, const Vec3& r, const FilterStates<double>& states) {
   const Vec3 known = r.cwiseMax(kLeastVariance);
   with_order(states.order, [&](auto order) {
-    constexpr int N = decltype(order)::value;
-    Eigen::Map<Means<N>> mean(states.mean);
+    constexpr int kOrder = decltype(order)::value;
+    Eigen::Map<Means<kOrder>> mean(states.mean);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto p = square<N>(states.covariance[static_cast<std::size_t>(axis)]);
+      const auto p = square<kOrder>(states.covariance[static_cast<std::size_t>(axis)]);
       mean.col(axis) += p.col(0) * ((z[axis] - mean(0, axis)) / (p(0, 0) + known[axis]));
     }
     for_each_covariance(states, [&](int axis) {
-      auto p = square<N>(states.covariance[static_cast<std::size_t>(axis)]);
-      const Column<N> column = p.col(0);
-      const Column<N> gain = column / (column[0] + known[axis]);
+      auto p = square<kOrder>(states.covariance[static_cast<std::size_t>(axis)]);
+      const Column<kOrder> column = p.col(0);
+      const Column<kOrder> gain = column / (column[0] + known[axis]);
       p.noalias() -= column * gain.transpose();
     });
   });
@@ -113,20 +114,20 @@ Vec3 MotionFilter::variance() const {
 
 AxisFilter MotionFilter::marginal(int axis) const {
   const int n = states_.order;
-  const double* mean = states_.mean + n * axis;
+  const double* mean = states_.mean + static_cast<std::ptrdiff_t>(n) * axis;
   const double* p = states_.covariance[static_cast<std::size_t>(axis)];
   return {mean[0], mean[1], p[0], p[1], p[n + 1]};
 }
 
 FilterLook MotionFilter::at(const ModelLook& ahead) const {
   return with_order(states_.order, [&](auto order) {
-    constexpr int N = decltype(order)::value;
-    const Eigen::Map<const Column<N>> position(ahead.position.data()), velocity(ahead.velocity.data());
-    const Eigen::Map<const Means<N>> mean(states_.mean);
+    constexpr int kOrder = decltype(order)::value;
+    const Eigen::Map<const Column<kOrder>> position(ahead.position.data()), velocity(ahead.velocity.data());
+    const Eigen::Map<const Means<kOrder>> mean(states_.mean);
     FilterLook said{mean.transpose() * position, mean.transpose() * velocity, Vec3::Zero()};
     double variance = 0.0;
     for_each_covariance(states_, [&](int axis) {
-      const Column<N> moved = square<N>(states_.covariance[static_cast<std::size_t>(axis)]) * position;
+      const Column<kOrder> moved = square<kOrder>(states_.covariance[static_cast<std::size_t>(axis)]) * position;
       variance = std::max(0.0, ahead.variance + moved.dot(position));
       said.variance.tail(3 - axis).setConstant(variance);
     });

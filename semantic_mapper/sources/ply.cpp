@@ -84,7 +84,7 @@ Result<PointCloud> read_binary(Bytes bytes, const std::string& file, const PlyHe
                                const Vertices& vertices) {
   std::size_t stride = 0;
   for (const PlyType type : header.properties) stride += size_of(type);
-  const std::size_t fit = (bytes.size() - header.data_offset) / stride;
+  const std::size_t fit = stride == 0 ? 0 : (bytes.size() - header.data_offset) / stride;
   if (header.count > fit) {
     return bad_file(file, header.data_offset,
                     fmt::format("{} vertices, but the file ends after {}", header.count, fit));
