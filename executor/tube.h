@@ -58,7 +58,7 @@ class Tube {
   static constexpr double kTubeStep = 0.05;         ///< m
   static constexpr double kMissed = 0.02;           ///< share of seconds that may leave the quantile
   static constexpr double kMargin = 1.5;            ///< over it: a flight shall not leave the tube even once
-  static constexpr double kPriorError = 1.0 / 6.0;  ///< m: the tube begins with 0.25 m
+  static constexpr double kPriorError = 0.2;        ///< m: the tube begins with 0.3 m
   static constexpr std::size_t kPrior = 50;         ///< seconds: the fewest of which 2 % may be missed
   static constexpr Duration kSecond{1'000'000};     ///< over which the largest error counts
   static constexpr std::size_t kRemembered = 120;   ///< seconds

@@ -3,6 +3,7 @@
 
 figures.py [FOLDER]          every figure whose data is in the folder (this one)
 figures.py compare A.csv B.csv OUT.svg   two campaigns over the same seeds, measure by measure
+figures.py widths SUMMARY.json... OUT.svg  half-width by the time since a track was first seen, a panel per world
 figures.py map MAP.csv OUT.svg           success of perception_only against the sensor (sensor_map.sh)
 
 Needs python3-matplotlib; no flight does.
@@ -250,7 +251,30 @@ def draw_map(table, out):
     save(figure, out)
 
 
+SINCE = {"new": "≤ 0.1", "young": "≤ 0.3", "grown": "≤ 1", "old": "> 1"}  # classes of campaign/statistics/coverage.h
+
+
+def draw_widths(summaries, out):
+    """A panel per world: mean half-width of what 0.99 promises, by the time since a track's first detection."""
+    figure, parts = plt.subplots(1, len(summaries), figsize=(2.3 * len(summaries), 3.4), layout="constrained", sharey=True,
+                                 squeeze=False)
+    for axes, file in zip(parts[0], summaries):
+        summary = json.loads(pathlib.Path(file).read_text())
+        width = {(k["what"], k["horizon"]): k["half_m"] for k in summary["coverage"] if k["promised"] == 0.99}
+        for ahead, colour in zip(("0.25", "0.5", "1", "2"), ("#1357a6", "#2b8a3e", "#c77700", "#b3261e")):
+            own = [(since, width[what, ahead]) for what, since in SINCE.items() if width.get((what, ahead))]
+            axes.plot([x for x, _ in own], [y for _, y in own], "o-", ms=4, color=colour, label=f"to {ahead} s")
+        axes.set(xlabel="since first seen, s", yscale="log", title=summary["scenario"])
+        axes.title.set_fontsize(8)
+        axes.grid(alpha=0.3)
+    parts[0][0].set(ylabel="half-width, m")
+    parts[0][-1].legend(fontsize=8)
+    save(figure, out)
+
+
 def main(words):
+    if words[:1] == ["widths"]:
+        return draw_widths(words[1:-1], words[-1])
     if words[:1] == ["compare"]:
         return draw_comparison(*words[1:])
     if words[:1] == ["map"]:
