@@ -40,10 +40,10 @@ TEST(Tube, OfAnyOtherBeginsWithWhatAWellTunedAutopilotNeeds) {
 }
 
 TEST(Tube, IsNeverUnderItsFloorNorOverTheWidest) {
-  Tube tube(0.3);
-  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Constant(0.3));
+  Tube tube(0.4);
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Constant(0.4));
   tube.add(Vec3(0.1, 50.0, 0.0), false, UTime{1});
-  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3(0.3, kWidestTube, 0.3));
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3(0.4, kWidestTube, 0.4));
 }
 
 TEST(Tube, CoversTheNextSecondMoreOftenThanTheQuantileAlone) {

@@ -47,7 +47,7 @@ test('quality: a fast renderer gets all pixels', () => {
 });
 
 test('links: what is written is read', () => {
-  for (const link of [{}, { t: 6.3 }, { t: -0.4 }, { cam: 'top' }, { t: 0, cam: 'chase' }, { t: 12.25, cam: 'free', eye: [1, -2.5, 3, 0, 0, 1] }]) {
+  for (const link of [{}, { t: 6.3 }, { t: -0.4 }, { cam: 'top' }, { t: 0, cam: 'chase' }, { t: 5, cam: 'fit' }, { t: 12.25, cam: 'free', eye: [1, -2.5, 3, 0, 0, 1] }]) {
     assert.deepEqual(readLink(writeLink(link)), link);
   }
   assert.equal(writeLink({ t: 6.3, cam: 'top' }), '#t=6.3&cam=top');

@@ -115,6 +115,10 @@ await run({
     expect('from above', await page.evaluate(() => window.tern.world.camera.isOrthographicCamera));
     await page.evaluate(() => window.tern.jump(12));
     await eventually('the address follows', () => page.evaluate(() => location.hash === '#t=12&cam=top'));
+    const whole = await openPage(viewer.url, undefined, '#t=6.3&cam=fit');
+    await shows(whole, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.02);
+    await eventually('all of the flight, from where it is seen', () =>
+      whole.evaluate(() => location.hash.startsWith('#t=6.3&cam=free:')));
   },
 
   async times_are_those_of_the_world() {

@@ -82,6 +82,12 @@ export class Controls {
     this.showCamera();
   }
 
+  /** The flight's path is known now: a link may have asked to see all of it. */
+  pathIsKnown() {
+    if (this.isAskedToFit) this.fit();
+    this.isAskedToFit = false;
+  }
+
   showCamera() {
     for (const button of this.buttons) button.classList.toggle('on', button.dataset.camera === this.cameras.mode);
   }
@@ -89,7 +95,8 @@ export class Controls {
   /** Goes where the address says. @param pause  called before it goes to a moment */
   follow(pause = () => {}) {
     const { t, cam, eye } = readLink(location.hash);
-    if (cam) this.setCamera(cam, eye);
+    this.isAskedToFit = cam === 'fit';
+    if (cam && cam !== 'fit') this.setCamera(cam, eye);
     if (t === undefined) return;
     pause(); // first: who plays on leaves the moment
     this.does.jump(t);

@@ -2,20 +2,22 @@
 
 const SILENT_S = 2.5; // processes say something twice a second
 const ENDED_S = 6; // so long silent: it has ended
+/** Nobody reads what changes more often. */
 const READ_MS = 100;
 
 const byId = (id) => document.getElementById(id);
 const fixed = (x, digits = 1, unit = '') => (Number.isFinite(x) ? `${x.toFixed(digits)}${unit && ` ${unit}`}` : '–');
 
 /** Every change is laid out and painted anew, even into the same. */
-function say(id, text) {
+export function say(id, text) {
   const element = byId(id);
   if (element.textContent !== text) element.textContent = text;
 }
 
 function chip(id, text, kind) {
   say(id, text);
-  byId(id).className = `chip ${kind}`;
+  const element = byId(id);
+  if (element.className !== `chip ${kind}`) element.className = `chip ${kind}`;
 }
 
 export function showSession(session) {
@@ -34,17 +36,36 @@ export function showGone() {
   for (const item of byId('health').children) item.className = 'unknown';
 }
 
-let waiting = null; // a state that is not shown yet, and the goal
-let shownAt = 0;
+const waiting = new Map(); // what is not shown yet: the newest of each kind
+let shownAt = -Infinity;
 
-export function takeState(state, goal) {
-  waiting = { state, goal };
+/** The next draw() shows everything. */
+export function hurry() {
+  shownAt = -Infinity;
 }
 
-/** Shows the newest state no more often than one can read. @param now  ms */
+/** Shows the newest no more often than one can read, and all of it at once. @param now  ms @return whether it did */
 export function draw(now) {
-  if (!waiting || now - shownAt < READ_MS) return; // Infinity: at once
-  const { state, goal } = waiting;
+  if (now - shownAt < READ_MS) return false;
+  for (const show of waiting.values()) show();
+  waiting.clear();
+  shownAt = now;
+  return true;
+}
+
+export function takeState(state, goal) {
+  waiting.set('state', () => showState(state, goal));
+}
+
+export function takePlan(plan) {
+  waiting.set('plan', () => showPlan(plan));
+}
+
+export function takeTiming(timing, pace) {
+  waiting.set('timing', () => showTiming(timing, pace));
+}
+
+function showState(state, goal) {
   say('speed', fixed(Math.hypot(...state.v)));
   say('acceleration', fixed(Math.hypot(...state.a), 1, 'm/s²'));
   say('clearance', fixed(state.clearance, 2, 'm'));
@@ -52,18 +73,16 @@ export function draw(now) {
   say('mapclearance', fixed(state.map_clearance, 2, 'm'));
   say('position', state.p.map((x) => fixed(x)).join('  '));
   say('togoal', goal?.p ? fixed(Math.hypot(...state.p.map((x, k) => goal.p[k] - x)), 1, 'm') : '–');
-  waiting = null;
-  shownAt = Number.isFinite(now) ? now : 0;
 }
 
-export function showPlan(plan) {
+function showPlan(plan) {
   chip('outcome', plan.outcome, plan.outcome.split(' ')[0]);
   say('reason', (plan.reason === 'none' ? '' : plan.reason) + (plan.relaxed ? ' relaxed' : ''));
   say('hold', fixed(plan.hold_s, 2, 's'));
 }
 
 /** @param pace  seconds of flight per second of the wall, by which an answer's time is told */
-export function showTiming(timing, pace) {
+function showTiming(timing, pace) {
   const { total_ms } = timing;
   const allowed_ms = timing.allowed_ms / pace;
   say('replan', fixed(total_ms) + (allowed_ms > 0 ? ` of ${fixed(allowed_ms, 0)} ms` : ' ms'));
@@ -76,6 +95,7 @@ export function showTiming(timing, pace) {
 
 export function showResult(result) {
   if (!result) return;
+  waiting.delete('plan'); // what it answered last is no news any more
   chip('outcome', result.outcome, result.outcome === 'reached' ? 'live' : 'bad');
   const least = [['obstacles', result.min_clearance_m], ['map', result.min_map_clearance_m]].filter(([, x]) => Number.isFinite(x));
   const words = least.map(([what, x]) => `${fixed(x, 3)} m to ${what}`).join(', ');

@@ -1,15 +1,16 @@
-// What a link to a moment says: #t=6.3&cam=top, or cam=free:x,y,z,x,y,z with the camera's place and what it looks at.
+// What a link to a moment says: #t=6.3&cam=top, cam=fit for the whole flight, or cam=free:x,y,z,x,y,z with the camera's place
+// and what it looks at.
 
 export const MODES = ['chase', 'first', 'top', 'side', 'free'];
 
-/** @return {t, cam, eye}: seconds of the flight, a mode, six numbers; what is missing or wrong is left out */
+/** @return {t, cam, eye}: seconds of the flight, a mode or fit, six numbers; what is missing or wrong is left out */
 export function readLink(hash) {
   const said = new URLSearchParams(hash.replace(/^#/, ''));
   const link = {};
   const t = Number(said.get('t'));
   if (said.has('t') && Number.isFinite(t)) link.t = t;
   const [mode, place] = (said.get('cam') ?? '').split(':');
-  if (!MODES.includes(mode)) return link;
+  if (!MODES.includes(mode) && mode !== 'fit') return link;
   link.cam = mode;
   const eye = (place ?? '').split(',').map(Number);
   if (mode === 'free' && place && eye.length === 6 && eye.every(Number.isFinite)) link.eye = eye;

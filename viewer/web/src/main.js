@@ -84,6 +84,7 @@ const topics = {
   path(path) {
     if (!path) return;
     trajectories.takePath(path);
+    if (path.curve.length > 0) controls.pathIsKnown();
     if (known.state) trajectories.takeState(known.state, flightTime(known.state.at_us));
   },
   goal(goal) {
@@ -111,9 +112,9 @@ const topics = {
     if (!plan) return;
     trajectories.takePlan(plan);
     proofs.takePlanes(layers.planes ? plan : null, obstacles.pickedId);
-    hud.showPlan(plan);
+    hud.takePlan(plan);
   },
-  timing: (timing) => timing && hud.showTiming(timing, known.session?.pace ?? 1),
+  timing: (timing) => timing && hud.takeTiming(timing, known.session?.pace ?? 1),
   result: (result) => hud.showResult(result),
   hulls: (hulls) => proofs.takeHulls(hulls),
   search: (search) => proofs.takeSearch(search),
@@ -275,12 +276,12 @@ function picture(now, seconds) {
     cameras.follow(vehicle.p, vehicle.state.v, centre, seconds);
     ghost.draw(flightTime(now_us));
   }
-  if (vehicle.state || known.player) showTime(flightTime(known.player?.at_us ?? clock.at_us));
+  const isRead = hud.draw(now) || !world.thrifty; // without a GPU every change of a panel costs as much as the scene
+  if (isRead && (vehicle.state || known.player)) showTime(flightTime(known.player?.at_us ?? clock.at_us));
   cameras.update();
   obstacles.draw(now_us, world.camera);
   world.adapt(now);
   world.render();
-  hud.draw(now);
   counts.drawn += 1;
 }
 
@@ -290,8 +291,8 @@ function film(t, seconds) {
   isFilmed = true;
   send({ player: { play: false } });
   jump(t);
+  hud.hurry();
   picture(performance.now(), seconds);
-  hud.draw(Infinity);
 }
 
 /** One cursor for charts, timeline and clock. @param t  s of the flight */
@@ -299,8 +300,9 @@ function showTime(t) {
   charts.setNow(t);
   timeline.setNow(t);
   hud.showClock(t);
-  if (!known.player) player.show(t, known.chart ? flightSpan(known.chart) : [t, t]);
-  else controls.writeLink();
+  if (!known.player) return player.show(t, known.chart ? flightSpan(known.chart) : [t, t]);
+  player.draw();
+  controls.writeLink();
 }
 
 /** For the console and the tests: what the page knows and shows. */

@@ -1,6 +1,7 @@
 // Obstacles as boxes, with a soft dark spot below each, so that one sees where it hovers. Only those in view
 // are given to the renderer: without a GPU it pays for every corner.
 import * as THREE from 'three';
+import { repeated, touch } from './copies.js';
 import { cutaway, SIEVE_RADIUS } from './cutaway.js';
 import { numbers } from './form.js';
 import { palette } from './palette.js';
@@ -53,36 +54,12 @@ function litBox(world) {
   return geometry.setAttribute('color', new THREE.Float32BufferAttribute(colors, 4));
 }
 
-/** Tells the renderer that the first `count` vertices have changed. */
-function touch(attribute, count) {
-  attribute.clearUpdateRanges();
-  attribute.addUpdateRange(0, count * attribute.itemSize);
-  attribute.needsUpdate = true;
-}
-
-/** MOST copies of a shape in one geometry. No instances: without a GPU each of them costs as much as a mesh. */
-function copies(shape) {
-  const vertices = shape.attributes.position.count;
-  const { array: corners } = shape.index;
-  const geometry = new THREE.BufferGeometry();
-  const index = new Uint32Array(MOST * corners.length);
-  for (let k = 0; k < index.length; ++k) index[k] = corners[k % corners.length] + vertices * Math.floor(k / corners.length);
-  geometry.setIndex(new THREE.BufferAttribute(index, 1));
-  for (const [name, { array, itemSize }] of Object.entries(shape.attributes)) {
-    if (name === 'normal') continue; // nothing is lit anew
-    const all = new Float32Array(MOST * array.length);
-    for (let k = 0; k < MOST; ++k) all.set(array, k * array.length);
-    geometry.setAttribute(name, new THREE.BufferAttribute(all, itemSize).setUsage(THREE.DynamicDrawUsage));
-  }
-  return geometry;
-}
-
 /** Boxes of one material, as many as are drawn this time. */
 class Boxes {
   /** @param shape  one of them, of unit size; if it has colours, they are what light makes of white */
   constructor(scene, shape, material) {
     this.shape = shape;
-    this.mesh = new THREE.Mesh(copies(shape), material);
+    this.mesh = new THREE.Mesh(repeated(shape, MOST), material);
     this.mesh.frustumCulled = false;
     this.rows = new Int32Array(MOST); // in the set
     this.count = 0;

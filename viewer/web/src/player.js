@@ -1,4 +1,5 @@
 // The log's controls. The bridge plays; the page asks.
+import { say } from './hud.js';
 
 const RATES = [0.1, 0.25, 0.5, 1, 2, 4, 8];
 
@@ -52,17 +53,20 @@ export class Player {
   take(state) {
     this.state = state;
     document.body.classList.toggle('live', !state);
-    if (!state) return;
-    byId('play').textContent = state.playing ? '❚❚' : '▶';
-    byId('damage').textContent = state.damage || (state.refused ? `${state.refused} refused` : '');
+  }
+
+  /** Where the log is. */
+  draw() {
+    const { state } = this;
+    say('play', state.playing ? '❚❚' : '▶');
+    say('damage', state.damage || (state.refused ? `${state.refused} refused` : ''));
     this.show((state.at_us - state.zero_us) * 1e-6, this.span());
   }
 
   /** Where the flight is. @param at  s  @param span  begin and end of what is known, s */
   show(at, [begin, end]) {
-    for (const [id, text] of [['at', seconds(at)], ['length', seconds(end)]]) {
-      if (byId(id).textContent !== text) byId(id).textContent = text;
-    }
+    say('at', seconds(at));
+    say('length', seconds(end));
     const scrub = byId('scrub');
     if (!scrub.matches(':active')) scrub.value = (scrub.max * (at - begin)) / Math.max(end - begin, 1e-6);
   }

@@ -30,7 +30,8 @@ export class Timeline {
     this.hovered = null;
     this.canvas = byId('events');
     this.context = this.canvas.getContext('2d');
-    new ResizeObserver(() => this.draw()).observe(byId('timeline'));
+    this.still = document.createElement('canvas'); // what does not go with the time
+    new ResizeObserver(() => this.redraw()).observe(byId('timeline'));
     const scrub = byId('scrub');
     scrub.addEventListener('pointermove', (event) => this.point(event.offsetX));
     scrub.addEventListener('pointerleave', () => this.point(null));
@@ -49,12 +50,12 @@ export class Timeline {
   takeChart({ outcomes }, [begin, end]) {
     this.outcomes = outcomes;
     this.span = [begin, Math.max(end, begin + 0.1)];
-    this.draw();
+    this.redraw();
   }
 
   takeEvents(events) {
     this.events = events.filter((event) => Number.isFinite(event.t) && MARKS[event.kind]);
-    this.draw();
+    this.redraw();
   }
 
   setNow(t) {
@@ -80,19 +81,29 @@ export class Timeline {
     tip.style.left = `${Math.max(Math.min(x - tip.offsetWidth / 2, room), 0)}px`;
   }
 
-  draw() {
-    const { canvas, context } = this;
+  /** All of it: another flight, more of it, or another size. */
+  redraw() {
+    const { canvas, still } = this;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (width === 0) return;
     const scale = window.devicePixelRatio;
-    if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale)) {
-      canvas.width = Math.round(width * scale);
-      canvas.height = Math.round(height * scale);
+    for (const each of [canvas, still]) {
+      each.width = Math.round(width * scale);
+      each.height = Math.round(height * scale);
+      each.getContext('2d').setTransform(scale, 0, 0, scale, 0, 0);
     }
-    context.setTransform(scale, 0, 0, scale, 0, 0);
+    const context = still.getContext('2d');
+    this.drawBand(context, width, height - BAND_PX - 3);
+    for (const event of this.events) this.drawMark(context, event, height - BAND_PX - 3);
+    this.draw();
+  }
+
+  draw() {
+    const { canvas, context, still } = this;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    if (still.width === 0 || width === 0) return;
     context.clearRect(0, 0, width, height);
-    this.drawBand(width, height - BAND_PX - 3);
-    for (const event of this.events) this.drawMark(event, height - BAND_PX - 3);
+    context.drawImage(still, 0, 0, width, height);
     for (const [t, color] of [[this.hovered, palette.axis], [this.now, palette.plan]]) {
       if (t === null) continue;
       context.fillStyle = color;
@@ -101,8 +112,8 @@ export class Timeline {
   }
 
   /** An answer's outcome until the next one. */
-  drawBand(width, top) {
-    const { context, outcomes: [t, kinds] } = this;
+  drawBand(context, width, top) {
+    const [t, kinds] = this.outcomes;
     context.fillStyle = palette.rule;
     context.fillRect(INSET_PX, top, width - 2 * INSET_PX, BAND_PX);
     for (let k = 0; k < t.length; ++k) {
@@ -116,12 +127,12 @@ export class Timeline {
     }
   }
 
-  drawMark({ t, kind }, bottom) {
+  drawMark(context, { t, kind }, bottom) {
     const { mark, color } = MARKS[kind];
-    this.context.fillStyle = color;
-    if (kind === QUIET) return this.context.fillRect(this.place(t) - 0.5, bottom - 3, 1, 3);
-    this.context.font = '12px system-ui, sans-serif';
-    this.context.textAlign = 'center';
-    this.context.fillText(mark, this.place(t), bottom - 3);
+    context.fillStyle = color;
+    if (kind === QUIET) return context.fillRect(this.place(t) - 0.5, bottom - 3, 1, 3);
+    context.font = '12px system-ui, sans-serif';
+    context.textAlign = 'center';
+    context.fillText(mark, this.place(t), bottom - 3);
   }
 }

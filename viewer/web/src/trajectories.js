@@ -1,8 +1,9 @@
 // The flown path by speed, the committed trajectory, the newest plan with its MINVO simplices, local goal and sphere.
 import * as THREE from 'three';
-import { Line2 } from 'three/addons/lines/Line2.js';
-import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
+import { repeated, touch } from './copies.js';
 import { numbers, point } from './form.js';
 import { palette, speedColor } from './palette.js';
 import { countUpTo } from './time_rows.js';
@@ -10,11 +11,18 @@ import { countUpTo } from './time_rows.js';
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
 const FACES = [0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3];
 
-/** A line of changing length, as wide as `width` pixels. Its buffers grow, and are written again. */
+/** Of one segment, by LineMaterial: x is the side, y is along it, and beyond its ends for round caps. */
+const SEGMENT = new LineSegmentsGeometry();
+const CORNERS = SEGMENT.attributes.position.count;
+
+/**
+ * A line of changing length, as wide as `width` pixels. Its buffers grow, and are written again. Every corner of a segment is
+ * in them, for instances cost a renderer without a GPU as much as meshes do.
+ */
 export class Ribbon {
   constructor(scene, options) {
     this.material = new LineMaterial({ linewidth: 3, transparent: true, ...options });
-    this.line = new Line2(new LineGeometry(), this.material);
+    this.line = new LineSegments2(new THREE.BufferGeometry(), this.material);
     this.line.frustumCulled = false;
     this.line.visible = false;
     this.room = 0; // segments
@@ -26,25 +34,31 @@ export class Ribbon {
     this.line.visible = segments >= 1;
     if (!this.line.visible) return;
     if (segments > this.room) this.grow(2 * segments);
-    const { geometry } = this.line;
-    this.write(geometry.attributes.instanceStart.data, positions);
-    if (colors) this.write(geometry.attributes.instanceColorStart.data, colors);
-    geometry.instanceCount = segments;
+    this.write('instanceStart', positions, 0);
+    this.write('instanceEnd', positions, 3);
+    if (colors) this.write('instanceColorStart', colors, 0);
+    if (colors) this.write('instanceColorEnd', colors, 3);
+    this.line.geometry.setDrawRange(0, segments * SEGMENT.index.count);
   }
   grow(segments) {
     this.room = segments;
     this.line.geometry.dispose();
-    const geometry = (this.line.geometry = new LineGeometry());
-    geometry.setPositions(new Float32Array(3 * (segments + 1)));
-    geometry.setColors(new Float32Array(3 * (segments + 1)));
+    const geometry = (this.line.geometry = repeated(SEGMENT, segments));
+    for (const name of ['instanceStart', 'instanceEnd', 'instanceColorStart', 'instanceColorEnd']) {
+      const all = new Float32Array(3 * CORNERS * segments);
+      geometry.setAttribute(name, new THREE.BufferAttribute(all, 3).setUsage(THREE.DynamicDrawUsage));
+    }
   }
-  /** Both ends of every segment. */
-  write(buffer, rows) {
+  /** One end of every segment, for each of its corners. @param rows  three numbers per point  @param skip  of them */
+  write(name, rows, skip) {
+    const attribute = this.line.geometry.attributes[name];
     let to = 0;
-    for (let from = 0; from + 3 < rows.length; from += 3) for (let k = 0; k < 6; ++k) buffer.array[to++] = rows[from + k];
-    buffer.clearUpdateRanges();
-    buffer.addUpdateRange(0, to);
-    buffer.needsUpdate = true;
+    for (let from = skip; from + 3 <= rows.length - 3 + skip; from += 3) {
+      for (let corner = 0; corner < CORNERS; ++corner) {
+        for (let k = 0; k < 3; ++k) attribute.array[to++] = rows[from + k];
+      }
+    }
+    touch(attribute, to / 3);
   }
 }
 

@@ -142,9 +142,10 @@ export class World {
     return new THREE.Mesh(new THREE.PlaneGeometry(320, 320), material);
   }
 
-  /** The same for a renderer that pays for every pixel: nothing but lines. */
+  /** The same for a renderer that pays for every pixel and every line: every five metres, and every metre near by. */
   lineGround() {
-    const grid = new THREE.GridHelper(160, 160, palette.grid, palette.faint);
+    const grid = new THREE.GridHelper(160, 32, palette.grid, palette.faint);
+    grid.add(new THREE.GridHelper(30, 30, palette.grid, palette.faint));
     grid.rotation.x = Math.PI / 2;
     return grid;
   }
