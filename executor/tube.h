@@ -55,13 +55,13 @@ class LastingError {
 /// the patience, one that lasts ends that.
 class Tube {
  public:
-  static constexpr double kTubeStep = 0.05;         ///< m
-  static constexpr double kMissed = 0.02;           ///< share of seconds that may leave the quantile
-  static constexpr double kMargin = 1.5;            ///< over it: a flight shall not leave the tube even once
-  static constexpr double kPriorError = 0.2;        ///< m: the tube begins with 0.3 m
-  static constexpr std::size_t kPrior = 50;         ///< seconds: the fewest of which 2 % may be missed
-  static constexpr Duration kSecond{1'000'000};     ///< over which the largest error counts
-  static constexpr std::size_t kRemembered = 120;   ///< seconds
+  static constexpr double kTubeStep = 0.05;        ///< m
+  static constexpr double kMissed = 0.02;          ///< share of seconds that may leave the quantile
+  static constexpr double kMargin = 1.5;           ///< over it: a flight shall not leave the tube even once
+  static constexpr double kPriorError = 0.2;       ///< m: the tube begins with 0.3 m
+  static constexpr std::size_t kPrior = 50;        ///< seconds: the fewest of which 2 % may be missed
+  static constexpr Duration kSecond{1'000'000};    ///< over which the largest error counts
+  static constexpr std::size_t kRemembered = 120;  ///< seconds
   static constexpr Duration kWidened{5'000'000};
   static constexpr Duration kStep{250'000};
   static constexpr int kMostHalvings = 5;
