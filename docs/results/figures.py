@@ -266,7 +266,6 @@ def draw_widths(summaries, out):
             axes.plot([x for x, _ in own], [y for _, y in own], "o-", ms=4, color=colour, label=f"to {ahead} s")
         axes.set(xlabel="since first seen, s", yscale="log", title=summary["scenario"])
         axes.title.set_fontsize(8)
-        axes.grid(alpha=0.3)
     parts[0][0].set(ylabel="half-width, m")
     parts[0][-1].legend(fontsize=8)
     save(figure, out)

@@ -119,6 +119,8 @@ await run({
     await shows(whole, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.02);
     await eventually('all of the flight, from where it is seen', () =>
       whole.evaluate(() => location.hash.startsWith('#t=6.3&cam=free:')));
+    await page.evaluate(() => (location.hash = '#cam=fit'));
+    await eventually('in a page that is open, too', () => page.evaluate(() => window.tern.world.cameras.isStill));
   },
 
   async times_are_those_of_the_world() {

@@ -32,7 +32,7 @@ function listen(actions) {
 export class Controls {
   /**
    * @param cameras  Cameras
-   * @param does  {fit(), toggle(), step(n), jump(t), cut(share), goal(mode), aim(), escape(), now(): seconds of a log or undefined,
+   * @param does  {fit(), hasPath(), toggle(), step(n), jump(t), cut(share), goal(mode), aim(), escape(), now(): seconds of a log or undefined,
    *   say(text), changed()}
    */
   constructor(cameras, does) {
@@ -96,6 +96,7 @@ export class Controls {
   follow(pause = () => {}) {
     const { t, cam, eye } = readLink(location.hash);
     this.isAskedToFit = cam === 'fit';
+    if (this.does.hasPath()) this.pathIsKnown();
     if (cam && cam !== 'fit') this.setCamera(cam, eye);
     if (t === undefined) return;
     pause(); // first: who plays on leaves the moment

@@ -194,6 +194,7 @@ function showCut() {
 // What the user asks -------------------------------------------------------------------------------------------------
 
 const controls = new Controls(cameras, {
+  hasPath: () => known.path?.curve.length > 0,
   fit: () => cameras.fit(trajectories.extent(new THREE.Box3())),
   toggle: () => player.toggle(),
   step: (plans) => player.step(plans),
