@@ -4,43 +4,9 @@ set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
-usage() {
-  cat <<'END'
-fly.sh [OPTION...]: installs what is missing, builds, starts Tern's processes, flies a scenario and sums it up.
-
-  --scenario FILE|NAME  what to fly: a file, or a name in scenarios/ (default corridor_demo)
-  --seed N              the world's seed (default: the scenario's)
-  --count N             the world's number of obstacles (default: the scenario's)
-  --goal X,Y,Z          where to fly, metres (default: the scenario's)
-  --semantics on|off    whether regions attract and repel
-  --set KEY=VALUE       any other value of the scenario, as executor.rate_hz=15; may be given often
-  --check [FILE|NAME]   do not fly: say and draw what the scenario is, whether its goal can be reached, and what λ buys
-  --record DIR          where log, process logs and summary go (default flights/<UTC time>-<scenario>-<seed>)
-  --summary FILE        write the summary as JSON there, too
-  --lcm-url URL         the LCM network to use (default: this host only, on the first port that no other flight uses)
-  --key [FILE]          sign every message: with a new key for this flight, or with that of FILE (mode 600; tern-key new FILE)
-  --pace P              so many seconds of flight per second, 0.01 to 1: for a machine that is too slow, or to look closely
-  --isolated            fly in a network namespace of its own; enter.sh gives a shell in it
-  --view[=ADDRESS]      show the flight in the browser: builds the page (Node 18 or newer), prints its URL and opens it
-                        (default 127.0.0.1, on the first free port from 8765)
-  --view-wait SECONDS   the flight waits so long for the first page that looks (default 30); when it has ended, the page plays
-                        it until Ctrl-C
-  --allow-goals         that page may send goals: the vehicle flies from goal to goal until Ctrl-C
-  --autopilot URL|sim   the vehicle is an autopilot's, over MAVLink (docs/autopilot.md): udp://127.0.0.1:14540,
-                        serial:///dev/ttyACM0:921600; sim: tern-autopilot-sim. It arms, takes off, and lands at the end
-  --audit               recompute the flight from its log when it has ended (tern-audit); writes audit.txt and audit.json
-  --report              draw the flight when it has ended (tern-report); writes report.html
-  --no-install          do not look for missing packages
-  --help                this
-
-Exit code: 0 reached, 1 collision, 2 not reached in time, 3 the system itself failed, 4 the audit found something broken in a
-flight that did not collide, 128 + n ended by signal n (Ctrl-C: 130). Of --check: 0 the goal can be reached, 1 it cannot.
-END
-}
-
 typed=$(printf '%q ' "$0" "$@")
 typed=${typed% }
-scenario=corridor_demo install=$([[ -n $TERN_INSTALLED ]] || echo yes) view='' check='' goals='' url='' isolated='' autopilot=''
+scenario=corridor_demo install=$([[ -n $TERN_INSTALLED ]] || echo yes) view='' check='' goals=() url='' isolated='' autopilot=''
 flight=("$TERN_BIN/tern-launch" fly --programs="$TERN_BIN") # and its options
 
 # There will be no flight, for this reason: the summary that was asked for says so, too.
@@ -55,15 +21,10 @@ parse() {
     case $option in
       --isolated) isolated=yes && continue ;;
       --audit | --report) flight+=("$option") && continue ;;
-      --allow-goals)
-        goals=yes
-        # Before the user's own values, which win.
-        flight=("${flight[@]:0:3}" --set=simulator.min_flight_s=100000 --set=timeout_s=1000000 "${flight[@]:3}" "$option")
-        continue
-        ;;
+      --allow-goals) goals=(--set=simulator.min_flight_s=100000 --set=timeout_s=1000000 --allow-goals) && continue ;;
       --no-install) install='' && continue ;;
       --view) view=127.0.0.1 && continue ;;
-      --help | -h) usage && exit 0 ;;
+      --help | -h) cat "$TERN_ROOT/launch_scripts/fly.txt" && exit 0 ;;
       --check)
         check=yes
         [[ $# -gt 0 && $1 != -* ]] || continue
@@ -109,7 +70,8 @@ parse() {
       *) die "unknown option $option (--help)" ;;
     esac
   done
-  [[ -z $goals || -n $view ]] || die "--allow-goals: there is no page that could send them; give --view, too"
+  [[ ${#goals[@]} == 0 || -n $view ]] || die "--allow-goals: there is no page that could send them; give --view, too"
+  flight=("${flight[@]:0:3}" "${goals[@]}" "${flight[@]:3}") # before the user's own values, which win
 }
 
 # Becomes a look at the scenario. What only a flight has is refused.
@@ -125,22 +87,6 @@ check_scenario() {
     esac
   done
   exec "$TERN_BIN/tern-campaign" check --world "$scenario_file" --out "$drawing" "${options[@]}"
-}
-
-# Sets `url`, and `flags`: those of unshare, if the flight gets a network namespace of its own.
-choose_network() {
-  flags='' port=$FIRST_PORT
-  if [[ -z $isolated$url ]] && ! has_multicast_route; then
-    say "No multicast route: the flight gets a network namespace of its own."
-    isolated=yes
-  fi
-  if [[ -n $isolated ]]; then
-    flags=$(namespace_flags)
-    [[ -n $flags ]] || die "no multicast route on this host (ip route add 224.0.0.0/4 dev lo), and unshare -Urn is refused"
-  elif [[ -z $url ]]; then
-    lock_port
-  fi
-  : "${url:=udpm://$LCM_GROUP:$port?ttl=0}"
 }
 
 parse "$@"

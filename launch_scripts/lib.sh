@@ -129,6 +129,23 @@ lock_port() {
   die "all ports from $FIRST_PORT to $LAST_PORT are taken by flights"
 }
 
+# choose_network: sets `url` unless it is given, `port`, and `flags`: those of unshare, if the flight gets a network
+# namespace of its own, as it does if `isolated` is.
+choose_network() {
+  flags='' port=$FIRST_PORT
+  if [[ -z $isolated$url ]] && ! has_multicast_route; then
+    say "No multicast route: the flight gets a network namespace of its own."
+    isolated=yes
+  fi
+  if [[ -n $isolated ]]; then
+    flags=$(namespace_flags)
+    [[ -n $flags ]] || die "no multicast route on this host (ip route add 224.0.0.0/4 dev lo), and unshare -Urn is refused"
+  elif [[ -z $url ]]; then
+    lock_port
+  fi
+  : "${url:=udpm://$LCM_GROUP:$port?ttl=0}"
+}
+
 # open_page URL: in the user's browser, where there is a display. The browser is no child of this script.
 open_page() {
   [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] && command -v xdg-open >/dev/null || return 0
