@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 

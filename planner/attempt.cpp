@@ -7,10 +7,10 @@
 #include "core/world/message_limits.h"
 #include "planner/optimization/trajectory_problem.h"
 #include "planner/plan_workspace.h"
+#include "planner/problem/tuning.h"
 #include "planner/safety/checker.h"
 #include "planner/search/semantic_a_star.h"
 #include "planner/semantics/semantic_guide.h"
-#include "planner/tuning.h"
 
 namespace tern {
 namespace {

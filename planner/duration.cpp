@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/world/scenario.h"
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 

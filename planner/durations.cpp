@@ -5,8 +5,8 @@
 
 #include "planner/attempt.h"
 #include "planner/plan_workspace.h"
+#include "planner/problem/tuning.h"
 #include "planner/refinement.h"
-#include "planner/tuning.h"
 
 namespace tern {
 namespace {

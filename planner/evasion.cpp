@@ -13,7 +13,7 @@
 #include "core/world/flyable.h"
 #include "planner/duration.h"
 #include "planner/plan_workspace.h"
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/splines/piecewise_cubic.h"
 #include "planner/plan_workspace.h"
+#include "planner/problem/tuning.h"
 #include "planner/safety/checker.h"
-#include "planner/tuning.h"
 
 namespace tern {
 namespace {

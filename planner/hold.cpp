@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "planner/duration.h"
+#include "planner/problem/tuning.h"
 #include "planner/safety/thrust_set.h"
-#include "planner/tuning.h"
 
 namespace tern {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/world/horizon.h"
-#include "planner/planner_config.h"
+#include "planner/problem/planner_config.h"
 #include "planner/safety/swept_obstacles.h"
 
 namespace tern {

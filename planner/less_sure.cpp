@@ -9,7 +9,7 @@
 #include "planner/evasion.h"
 #include "planner/fallback.h"
 #include "planner/plan_workspace.h"
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 bool is_settled(const Surroundings& near, const Heading& heading, const StandingAnswer& standing) {

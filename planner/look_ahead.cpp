@@ -6,7 +6,7 @@
 #include "core/world/message_limits.h"
 #include "planner/duration.h"
 #include "planner/global_path/local_goal.h"
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 Box committed_box(const HorizonRequest& request) {

@@ -5,8 +5,8 @@
 
 #include "core/world/horizon.h"
 #include "planner/hold.h"
-#include "planner/planner_config.h"
 #include "planner/planning_world.h"
+#include "planner/problem/planner_config.h"
 
 namespace tern {
 

@@ -10,8 +10,8 @@
 #include "planner/fallback.h"
 #include "planner/less_sure.h"
 #include "planner/plan_workspace.h"
+#include "planner/problem/tuning.h"
 #include "planner/standing_answer.h"
-#include "planner/tuning.h"
 
 namespace tern {
 namespace {

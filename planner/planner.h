@@ -4,8 +4,8 @@
 #include "core/world/budget.h"
 #include "core/world/horizon.h"
 #include "planner/plan_log.h"
-#include "planner/planner_config.h"
 #include "planner/planning_world.h"
+#include "planner/problem/planner_config.h"
 
 namespace tern {
 

@@ -6,7 +6,7 @@
 #include "core/splines/piecewise_cubic.h"
 #include "core/world/body.h"
 #include "core/world/box_cover.h"
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 namespace {

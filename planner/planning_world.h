@@ -13,7 +13,7 @@
 #include "core/world/voxel_map.h"
 #include "planner/global_path/box_index.h"
 #include "planner/global_path/goal_field.h"
-#include "planner/planner_config.h"
+#include "planner/problem/planner_config.h"
 #include "planner/safety/swept_obstacles.h"
 #include "planner/semantics/semantic_fields.h"
 #include "planner/static_tracks.h"

@@ -7,7 +7,7 @@
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/ipopt_solver.h"
 #include "planner/plan_workspace.h"
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 namespace {

@@ -3,8 +3,8 @@
 #include "core/geometry/box.h"
 #include "core/world/flyable.h"
 #include "planner/plan_workspace.h"
+#include "planner/problem/tuning.h"
 #include "planner/safety/thrust_set.h"
-#include "planner/tuning.h"
 
 namespace tern {
 namespace {

@@ -6,10 +6,10 @@
 #include "core/world/horizon.h"
 #include "planner/assurance.h"
 #include "planner/hold.h"
-#include "planner/horizon_problem.h"
 #include "planner/look_ahead.h"
-#include "planner/planner_config.h"
 #include "planner/planning_world.h"
+#include "planner/problem/horizon_problem.h"
+#include "planner/problem/planner_config.h"
 #include "planner/start_clearance.h"
 
 namespace tern {

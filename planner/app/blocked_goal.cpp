@@ -8,7 +8,7 @@
 #include "core/geometry/box.h"
 #include "core/world/body.h"
 #include "core/world/names.h"
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 namespace {

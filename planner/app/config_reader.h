@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/world/scenario.h"
-#include "planner/planner_config.h"
+#include "planner/problem/planner_config.h"
 #include "runtime/config.h"
 
 namespace tern {

@@ -3,7 +3,7 @@
 
 #include "planner/app/config_reader.h"
 #include "planner/app/planner_node.h"
-#include "planner/planner_config.h"
+#include "planner/problem/planner_config.h"
 #include "runtime/process.h"
 
 int main(int argc, char** argv) {

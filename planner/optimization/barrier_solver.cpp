@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/problem/tuning.h"
 #include "planner/safety/thrust_set.h"
-#include "planner/tuning.h"
 
 namespace tern {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 
 #include "core/geometry/separation.h"
-#include "planner/horizon_problem.h"
-#include "planner/planner_config.h"
+#include "planner/problem/horizon_problem.h"
+#include "planner/problem/planner_config.h"
 
 namespace tern {
 

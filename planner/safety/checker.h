@@ -6,7 +6,7 @@
 
 #include "core/world/flyable.h"
 #include "core/world/horizon.h"
-#include "planner/horizon_problem.h"
+#include "planner/problem/horizon_problem.h"
 #include "planner/safety/interval_separation.h"
 #include "planner/safety/swept_obstacles.h"
 

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "core/splines/piecewise_cubic.h"
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 namespace {

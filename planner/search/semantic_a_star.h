@@ -7,8 +7,8 @@
 
 #include "core/world/budget.h"
 #include "core/world/search_view.h"
-#include "planner/horizon_problem.h"
-#include "planner/planner_config.h"
+#include "planner/problem/horizon_problem.h"
+#include "planner/problem/planner_config.h"
 #include "planner/safety/interval_separation.h"
 #include "planner/safety/swept_obstacles.h"
 #include "planner/search/search_memory.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "planner/horizon_problem.h"
+#include "planner/problem/horizon_problem.h"
 #include "planner/safety/thrust_set.h"
 #include "planner/search/axis_reach.h"
 

@@ -3,7 +3,7 @@
 
 #include "core/base/types.h"
 #include "core/splines/clamped_spline.h"
-#include "planner/planner_config.h"
+#include "planner/problem/planner_config.h"
 #include "planner/semantics/semantic_fields.h"
 
 namespace tern {

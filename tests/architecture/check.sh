@@ -97,11 +97,9 @@ while IFS=$'\t' read -r file header; do
 done < <(awk -F'\t' '$2 ~ /\/app\//' <<<"$includes")
 
 # In the planner: what is given <- safety, semantics, global path <- search, optimization <- the plan.
-given='planner/(horizon_problem|planner_config|tuning)[.]h'
-never "^$given\$" '^planner/' 'what is given stands on core'
-while IFS=$'\t' read -r file header; do
-  [[ $header =~ ^$given$ ]] || breach "$file includes $header: a room of the planner does not know the plan"
-done < <(awk -F'\t' '$1 ~ /^planner\/(safety|semantics|global_path|search|optimization)\// && $2 ~ /^planner\/[^\/]+$/' <<<"$includes")
+rooms='^planner/(problem|safety|semantics|global_path|search|optimization)/'
+never '^planner/problem/' '^planner/(safety|semantics|global_path|search|optimization)/' 'what is given stands on core'
+never "$rooms" '^planner/([^/]+$|app/)' 'a room of the planner does not know the plan'
 never '^planner/(safety|semantics|global_path)/' '^planner/(search|optimization)/' 'search and optimization stand on it'
 
 # No circle: tsort names the files of one.

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "planner/duration.h"
+#include "planner/problem/tuning.h"
 #include "planner/safety/thrust_set.h"
-#include "planner/tuning.h"
 #include "tests/support/planner_worlds.h"
 
 namespace tern {

@@ -5,7 +5,7 @@
 
 #include "messages/codec.h"
 #include "planner/planner.h"
-#include "planner/tuning.h"
+#include "planner/problem/tuning.h"
 #include "tests/support/flat_outputs.h"
 #include "tests/support/plan_judge.h"
 #include "tests/support/random_shares.h"

@@ -11,8 +11,8 @@
 
 #include "core/base/result.h"
 #include "core/world/scenario.h"
-#include "planner/planner_config.h"
 #include "planner/planning_world.h"
+#include "planner/problem/planner_config.h"
 #include "planner/static_tracks.h"
 #include "tools/replay/recorded_inputs.h"
 
