@@ -39,10 +39,6 @@ std::unique_ptr<Bus> VirtualRunner::make_bus(std::string_view process) {
   return std::make_unique<Bus>(lcm_, clock_, next_epoch(), "", std::move(keys));
 }
 
-void VirtualRunner::inject(const std::string& wire_name, std::span<const std::uint8_t> bytes) {
-  lcm_->publish(wire_name, bytes.data(), static_cast<unsigned>(bytes.size()));
-}
-
 Node& VirtualRunner::start(std::string process, const std::function<std::unique_ptr<Node>(Bus&)>& make,
                            const std::string& effective_yaml) {
   auto made = std::make_unique<Process>();

@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -50,8 +49,6 @@ class VirtualRunner {
   /// Processes that start from now on, and an observer not yet made, have the keys that `master` gives them by their
   /// names. With nullopt they have none, as at first.
   void use_key(std::optional<Key> master) { master_ = std::move(master); }
-  /// Puts bytes on the network, as somebody might who is none of the processes.
-  void inject(const std::string& wire_name, std::span<const std::uint8_t> bytes);
   /// Kills the process as SIGKILL would: node, unsent messages and subscriptions are gone. @pre not called from a
   /// handler or step().
   /// @throws std::invalid_argument when no process has this name.
@@ -67,7 +64,7 @@ class VirtualRunner {
   [[nodiscard]] const Clock& clock() const { return clock_; }
   /// A bus without a node, for a test or a recorder that listens and talks between runs; it has no heartbeat.
   Bus& observer();
-  /// The network itself, for a test that sends bytes of its own making.
+  /// The network itself, for a test that sends bytes of its own making, as somebody might who is none of the processes.
   [[nodiscard]] lcm::LCM& network() { return *lcm_; }
 
  private:

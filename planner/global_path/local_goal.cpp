@@ -30,10 +30,4 @@ Vec3 local_goal(const std::vector<Vec3>& path, const Vec3& start, double radius)
   return start + (path.front() - start).normalized() * radius;
 }
 
-double path_length(const std::vector<Vec3>& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
-  return length;
-}
-
 }  // namespace tern

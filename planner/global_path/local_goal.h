@@ -13,7 +13,4 @@ namespace tern {
 /// @pre path is not empty, radius > 0.
 Vec3 local_goal(const std::vector<Vec3>& path, const Vec3& start, double radius);
 
-/// Length of a piecewise-linear path, m.
-double path_length(const std::vector<Vec3>& path);
-
 }  // namespace tern

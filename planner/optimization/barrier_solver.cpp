@@ -377,7 +377,6 @@ class BarrierSolver::Iteration {
 BarrierSolver::BarrierSolver() : iteration_(std::make_unique<Iteration>()) {}
 BarrierSolver::~BarrierSolver() = default;
 BarrierSolver::BarrierSolver(BarrierSolver&&) noexcept = default;
-BarrierSolver& BarrierSolver::operator=(BarrierSolver&&) noexcept = default;
 
 ConvexSolution BarrierSolver::solve(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                                     const StopFunction& stop) {

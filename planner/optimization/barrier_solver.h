@@ -35,7 +35,6 @@ class BarrierSolver {
   BarrierSolver();
   ~BarrierSolver();
   BarrierSolver(BarrierSolver&&) noexcept;
-  BarrierSolver& operator=(BarrierSolver&&) noexcept;
 
   ConvexSolution solve(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                        const StopFunction& stop);

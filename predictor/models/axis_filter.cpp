@@ -23,10 +23,6 @@ void AxisFilter::update(double z, double r) {
   xx -= gain_x * xx;
 }
 
-double AxisFilter::distance2(double z, double r) const {
-  return (z - x) * (z - x) / (xx + std::max(r, kLeastVariance));
-}
-
 Fit fit(const Vec3& x, const Vec3& variance, const Vec3& z, const Vec3& r) {
   const Vec3 s = variance + r.cwiseMax(kLeastVariance);
   return {s, ((z - x).array().square() / s.array()).sum()};

@@ -29,8 +29,6 @@ struct AxisFilter {
   void predict(double dt, double q);
   /// @param z m; @param r m², taken as kLeastVariance if less.
   void update(double z, double r);
-  /// (z − x)²/S: χ² with one degree of freedom where the model holds.
-  [[nodiscard]] double distance2(double z, double r) const;
 };
 
 /// How well a detection fits an estimate, over three axes with S the variance of their difference.

@@ -77,10 +77,6 @@ ClearanceWatch::ClearanceWatch(const World& world, const Body& body) : world_(wo
   }
 }
 
-double ClearanceWatch::clearance_at(const WorldObstacle& obstacle, const Vec3& p, double t_s) const {
-  return distance_(p - obstacle.at(t_s).p, obstacle.half_extents());
-}
-
 std::optional<Contact> ClearanceWatch::advance(const FlownPiece& piece, double t0_s, double t1_s) {
   const double v = piece.speed_bound(t0_s, t1_s);
   const double a = piece.acceleration_bound(t0_s, t1_s);

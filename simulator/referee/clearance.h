@@ -47,9 +47,6 @@ class ClearanceWatch {
   [[nodiscard]] double min_clearance() const { return min_; }
   [[nodiscard]] double min_clearance_time_s() const { return min_time_s_; }
 
-  /// Clearance to one obstacle at an instant, m: no presence, no bounds.
-  [[nodiscard]] double clearance_at(const WorldObstacle& obstacle, const Vec3& p, double t_s) const;
-
  private:
   struct Sighting {
     double distance = -std::numeric_limits<double>::infinity();  ///< m; −∞: never seen

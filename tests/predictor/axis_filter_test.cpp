@@ -96,16 +96,17 @@ TEST(AxisFilter, StaysPositiveWithMeasurementsWithoutNoise) {
   EXPECT_NEAR(filter.v, 0.3, 1e-6);
 }
 
-TEST(AxisFilter, ItsDistanceHasTheMeanOfChiSquare) {
+TEST(Fit, ItsDistanceHasTheMeanOfChiSquare) {
   Rng rng(7);
+  const auto noise = [&rng] { return Vec3(rng.normal(), rng.normal(), rng.normal()); };
+  const Vec3 x(2.0, -1.0, 0.5);
   double sum = 0.0;
   const int trials = 20'000;
   for (int i = 0; i < trials; ++i) {
-    const AxisFilter filter{2.0, 0.0, 0.09, 0.0, 1.0};
-    const double truth = 2.0 + 0.3 * rng.normal();
-    sum += filter.distance2(truth + 0.1 * rng.normal(), 0.01);
+    const Vec3 truth = x + 0.3 * noise();
+    sum += fit(x, Vec3::Constant(0.09), truth + 0.1 * noise(), Vec3::Constant(0.01)).distance2;
   }
-  EXPECT_NEAR(sum / trials, 1.0, 0.04);  // deviation of the mean: √(2/20000) = 0.01
+  EXPECT_NEAR(sum / trials, 3.0, 0.07);  // deviation of the mean: √(6/20000) = 0.017
 }
 
 TEST(Fit, SurprisesByTheLogarithmOfTheDensity) {

@@ -17,6 +17,7 @@
 #include "simulator/vehicle/perfect_vehicle.h"
 #include "simulator/worlds/world.h"
 #include "tests/replay/golden_flights.h"
+#include "tests/support/fixture.h"
 #include "tests/support/temp_folder.h"
 #include "tools/replay/extract.h"
 #include "tools/replay/replan.h"

@@ -8,6 +8,7 @@
 #include "planner/global_path/local_goal.h"
 #include "runtime/scenario_file.h"
 #include "semantic_mapper/app/load_map.h"
+#include "tests/support/path_length.h"
 
 namespace tern {
 namespace {

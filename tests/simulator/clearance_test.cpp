@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "simulator/referee/body_distance.h"
 #include "simulator/referee/first_time.h"
 #include "tests/support/random_splines.h"
 
@@ -44,12 +45,12 @@ std::optional<Contact> fly(ClearanceWatch& watch, const FlownPiece& piece, doubl
 
 /// The least clearance at instants `step` apart.
 double by_sampling(const World& world, const Body& body, const FlownPiece& piece, double from, double to, double step) {
-  const ClearanceWatch probe(world, body);
+  const BodyDistance distance(body);
   double least = std::numeric_limits<double>::infinity();
   for (double t = from; t <= to; t += step) {
     const Vec3 p = piece.at(t).p;
     for (const WorldObstacle& o : world.obstacles) {
-      if (o.present(t)) least = std::min(least, probe.clearance_at(o, p, t));
+      if (o.present(t)) least = std::min(least, distance(p - o.at(t).p, o.half_extents()));
     }
   }
   return least;

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <functional>
+#include <lcm/lcm-cpp.hpp>
 
 #include "campaign/virtual_system.h"
 #include "messages/codec.h"
@@ -160,7 +161,9 @@ class KeyedFlight {
   /// Delivers these in no time.
   void say(const std::vector<Forged>& messages) {
     forging_ = true;
-    for (const Forged& message : messages) system_.runner().inject(message.channel, message.bytes);
+    for (const auto& [channel, bytes] : messages) {
+      system_.runner().network().publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
+    }
     system_.runner().run(now());
     forging_ = false;
   }

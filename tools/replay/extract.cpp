@@ -212,20 +212,4 @@ Result<void> keep_answers(const std::string& path, const ReplayOptions& options,
   return fixture.empty() || !written ? written : write_fixture(*chosen, fixture);
 }
 
-Result<Fixture> load_fixture(const std::string& path) {
-  auto inputs = read_recorded_inputs(path);
-  if (!inputs) return tl::make_unexpected(inputs.error());
-  if (inputs->plans.empty()) return fail(path + ": holds no answer");
-  const Plan& answer = inputs->plans.front().plan;
-  WorldRebuilder rebuilder(*inputs, {});
-  Result<PlanProblem> problem = rebuilder.problem_of(answer);
-  const auto read = read_prediction_sets(path, "", [&](TrackSet set) {
-    rebuilder.add(std::move(set));
-    if (!problem) problem = rebuilder.problem_of(answer);
-  });
-  if (!read) return tl::make_unexpected(read.error());
-  if (!problem) return fail(path + ": does not hold " + problem.error().message);
-  return Fixture{std::move(*problem), answer};
-}
-
 }  // namespace tern

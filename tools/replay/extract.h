@@ -27,20 +27,11 @@ Result<Extract> extract(const std::string& path, const ReplayOptions& options, i
 Result<void> write_log(const Extract& extract, const std::string& path);
 
 /// Writes it as text (text_log.h), with a comment that says what was asked and answered. A replay takes it as a log; a
-/// unit test takes it by load_fixture.
+/// unit test takes it by load_fixture (tests/support/fixture.h).
 Result<void> write_fixture(const Extract& extract, const std::string& path);
 
 /// Extracts answers of the log at `path` into a log, a fixture, or both; an empty name: not that.
 Result<void> keep_answers(const std::string& path, const ReplayOptions& options, const std::string& log,
                           const std::string& fixture);
-
-/// One request with its world, as a planner had it.
-struct Fixture {
-  PlanProblem problem;
-  Plan answer;  ///< what the planner made of it then
-};
-
-/// The first answer of a log or fixture, with its problem. @return an Error that names what is missing.
-Result<Fixture> load_fixture(const std::string& path);
 
 }  // namespace tern

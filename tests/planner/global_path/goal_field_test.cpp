@@ -8,7 +8,7 @@
 
 #include "core/base/random.h"
 #include "core/world/box_cover.h"
-#include "planner/global_path/local_goal.h"
+#include "tests/support/path_length.h"
 #include "tests/support/voxel_maps.h"
 
 namespace tern {

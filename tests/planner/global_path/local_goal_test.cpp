@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/path_length.h"
+
 namespace tern {
 namespace {
 

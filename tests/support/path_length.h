@@ -1,0 +1,17 @@
+// How long a way of points is.
+#pragma once
+
+#include <vector>
+
+#include "core/base/types.h"
+
+namespace tern {
+
+/// Length of a piecewise-linear path, m.
+inline double path_length(const std::vector<Vec3>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+}  // namespace tern
