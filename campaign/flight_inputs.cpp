@@ -2,25 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
 
-#include "executor/app/executor_config.h"
+#include "executor/executor.h"
 #include "logger/app/logger_node.h"
 #include "mavlink/bridge_config.h"
 #include "mavlink/sim/simulated_autopilot.h"
 #include "planner/app/config_reader.h"
 #include "predictor/app/predictor_config.h"
-#include "runtime/config.h"
 #include "runtime/data_folder.h"
 #include "runtime/process.h"
 #include "runtime/scenario_file.h"
 #include "runtime/version.h"
 #include "semantic_mapper/app/mapper_config.h"
 #include "simulator/app/simulator_config.h"
-#include "simulator/worlds/world.h"
+#include "simulator/app/world_broadcast.h"
 
 namespace tern {
 namespace {
@@ -37,16 +35,10 @@ std::vector<fs::path> scenario_folders() {
 MapperConfig read_sections(ConfigDocument& document, const Scenario& scenario) {
   ConfigSection root = document.root();
   (void)read_simulator_config(root.section("simulator"), scenario.seed);
-  (void)read_executor_config(root.section("executor"));
+  (void)root.section("executor").read<ExecutorConfig>();
   (void)read_predictor_config(root.section("predictor"));
   (void)read_planner_config(root.section("planner"), scenario.semantics);
   return read_mapper_config(root.section("mapper"));
-}
-
-World world_of(const Scenario& scenario) {
-  auto world = make_world(scenario, data_folder(scenario.file, std::getenv("TERN_DATA")));
-  if (!world) throw ConfigError(scenario.file + ": world: " + world.error().message);
-  return std::move(*world);
 }
 
 /// Overrides that name the mapper's files by absolute paths.
@@ -92,12 +84,10 @@ Result<std::string> find_scenario(const std::string& wanted) {
 
 void read_every_section(ConfigDocument& document) {
   (void)read_sections(document, read_scenario(document));
-  mavlink::BridgeConfig bridge;
-  mavlink::SimulatedAutopilotConfig autopilot;
   ConfigSection root = document.root();
   (void)read_logger_config(root.section("logger"));
-  root.section("mavlink").read(bridge);
-  root.section("autopilot_sim").read(autopilot);
+  (void)root.section("mavlink").read<mavlink::BridgeConfig>();
+  (void)root.section("autopilot_sim").read<mavlink::SimulatedAutopilotConfig>();
 }
 
 CampaignIdentity check_inputs(const FlightInputs& inputs, std::uint64_t seed) {

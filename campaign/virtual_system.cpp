@@ -4,14 +4,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "executor/app/executor_config.h"
 #include "executor/app/executor_node.h"
 #include "planner/app/config_reader.h"
 #include "planner/app/planner_node.h"
 #include "predictor/app/predictor_config.h"
 #include "predictor/app/predictor_node.h"
 #include "runtime/config.h"
-#include "runtime/data_folder.h"
 #include "runtime/process.h"
 #include "runtime/scenario_file.h"
 #include "semantic_mapper/app/load_map.h"
@@ -37,7 +35,7 @@ struct VirtualSystem::Parts {
   Parts(ConfigDocument& document, Charge charge_)
       : charge(charge_),
         scenario(read_scenario(document)),
-        executor(read_executor_config(document.root().section("executor"))),
+        executor(document.root().section("executor").read<ExecutorConfig>()),
         predictor(read_predictor_config(document.root().section("predictor"))),
         map(load_map(scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA"))),
         planner(read_planner_config(document.root().section("planner"), scenario.semantics)) {}
@@ -52,11 +50,10 @@ VirtualSystem::VirtualSystem(const std::string& scenario_file, const std::vector
   const Scenario& scenario = parts_->scenario;
   const SimulatorConfig config = read_simulator_config(document.root().section("simulator"), scenario.seed);
   parts_->effective_yaml = document.effective();
-  auto world = make_flyable_world(scenario, config, data_folder(scenario.file, std::getenv("TERN_DATA")));
-  if (!world) throw ConfigError(scenario.file + ": world: " + world.error().message);
+  World world = flyable_world_of(scenario, config);
   simulator_ = static_cast<SimulatorNode*>(&runner_.start("tern-simulator", [&](Bus& bus) {
     auto vehicle = make_vehicle(scenario, config, bus.clock().now());
-    return std::make_unique<SimulatorNode>(bus, scenario, std::move(*world), std::move(vehicle), config);
+    return std::make_unique<SimulatorNode>(bus, scenario, std::move(world), std::move(vehicle), config);
   }));
   for (const char* process : {"tern-executor", "tern-predictor", "tern-mapper", "tern-planner"}) start(process);
 }

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -23,6 +23,13 @@ namespace tern {
 class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// What was asked for. @throws ConfigError for an Error: its text, after `before`.
+template <class T>
+T or_refuse(Result<T> result, const std::string& before = "") {
+  if (!result) throw ConfigError(before + result.error().message);
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
 
 /// One mapping of a YAML file. Every read names its default, so that the effective configuration can be written out
 /// whole. All methods throw ConfigError. Call finish() when all keys are read: it refuses the unknown ones. Copies, and
@@ -50,6 +57,13 @@ class ConfigSection {
   /// Reads every knob of a struct (core/base/knobs.h) and finishes.
   template <typename Config>
   void read(Config& config);
+  /// The same, of a struct that is as its constructor makes it.
+  template <typename Config>
+  Config read() {
+    Config config;
+    read(config);
+    return config;
+  }
   /// Whether the key is given; marks it as known.
   [[nodiscard]] bool has(std::string_view key);
   double required_number(std::string_view key, Range range = {});

@@ -16,17 +16,12 @@
 #include "flight_log/log_reader.h"
 #include "flight_log/log_writer.h"
 #include "runtime/authentication.h"
+#include "runtime/config.h"
 #include "runtime/keys.h"
+#include "runtime/tool.h"
 
 namespace tern {
 namespace {
-
-constexpr int kExitMistake = 2;
-
-int complain(const std::string& what) {
-  fmt::print(stderr, "tern-key: {}\n", what);
-  return kExitMistake;
-}
 
 std::string reason() { return std::strerror(errno); }
 
@@ -38,20 +33,15 @@ bool write_all(int fd, std::string text) {
 }
 
 /// A new file that only its owner can read; what exists is never overwritten.
-int write_file(const std::string& path, std::string text) {
+void write_file(const std::string& path, std::string text) {
   const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-  if (fd < 0) return complain(path + ": cannot be made: " + reason());
-  if (!write_all(fd, std::move(text)) || fsync(fd) != 0 || close(fd) != 0) return complain(path + ": " + reason());
-  return 0;
+  if (fd < 0) throw ConfigError(path + ": cannot be made: " + reason());
+  if (!write_all(fd, std::move(text)) || fsync(fd) != 0 || close(fd) != 0) throw ConfigError(path + ": " + reason());
 }
 
-int make(const std::string& path) { return write_file(path, to_hex(random_key()) + "\n"); }
-
-int derive(const std::string& master_path, const std::string& process, const std::string& path) {
-  if (!role_of_process(process)) return complain(process + ": not one of Tern's processes");
-  const auto master = read_master_key(master_path);
-  if (!master) return complain(master.error().message);
-  return write_file(path, KeyRing::derive(*master, process).spell());
+void derive(const std::string& master_path, const std::string& process, const std::string& path) {
+  if (!role_of_process(process)) throw ConfigError(process + ": not one of Tern's processes");
+  write_file(path, KeyRing::derive(or_refuse(read_master_key(master_path)), process).spell());
 }
 
 /// Whether a message of a log is one that a holder of the flight's keys would have taken.
@@ -75,41 +65,37 @@ class Sieve {
 
 /// Copies what the key verifies into a log of its own. What a log of a flight with keys holds besides changed nothing
 /// in flight, but tools that read logs have no keys.
-int sift(const std::string& master_path, const std::string& log, const std::string& out, const std::string& suffix) {
-  const auto master = read_master_key(master_path);
-  if (!master) return complain(master.error().message);
+void sift(const std::string& master_path, const std::string& log, const std::string& out, const std::string& suffix) {
+  Sieve sieve(or_refuse(read_master_key(master_path)), suffix);
   const std::vector<std::string> parts = log_parts(log);
-  for (const std::string& part : parts) {
-    if (const auto reader = LogReader::open(part); !reader) return complain(reader.error().message);
-  }
-  if (std::filesystem::exists(out)) return complain(out + ": is there already");
-  auto writer = LogWriter::open(out, 0);
-  if (!writer) return complain(writer.error().message);
-  Sieve sieve(*master, suffix);
+  for (const std::string& part : parts) or_refuse(LogReader::open(part));
+  if (std::filesystem::exists(out)) throw ConfigError(out + ": is there already");
+  LogWriter writer = or_refuse(LogWriter::open(out, 0));
   std::int64_t taken = 0, all = 0;
   std::map<std::string, std::int64_t> refused;
   for (const std::string& part : parts) {
-    auto reader = LogReader::open(part);
-    if (!reader) return complain(reader.error().message);
-    for (auto event = reader->next(); event; event = reader->next(), ++all) {
+    LogReader reader = or_refuse(LogReader::open(part));
+    for (auto event = reader.next(); event; event = reader.next(), ++all) {
       if (!sieve.takes(*event)) {
         ++refused[event->channel];
         continue;
       }
-      writer->append(event->channel, event->received_us, event->data);
+      writer.append(event->channel, event->received_us, event->data);
       ++taken;
     }
-    if (const LogDamage& damage = reader->damage(); damage.places > 0 || damage.truncated) {
+    if (const LogDamage& damage = reader.damage(); damage.places > 0 || damage.truncated) {
       fmt::print("{}: damaged; {} bytes left out\n", part, damage.bytes);
     }
   }
-  if (const auto flushed = writer->flush(); !flushed) return complain(flushed.error().message);
+  or_refuse(writer.flush());
   fmt::print("{} of {} messages verify\n", taken, all);
   for (const auto& [channel, count] : refused) fmt::print("  {}: {} do not\n", channel, count);
-  return 0;
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+}  // namespace tern
+
+int main(int argc, char** argv) {
   CLI::App app("Makes the keys by which Tern's processes sign their messages", "tern-key");
   app.require_subcommand(1);
   std::string master, process, out;
@@ -126,17 +112,10 @@ int run(int argc, char** argv) {
       ->required();
   sift_command->add_option("OUT", out, "A log that is not there yet")->required();
   sift_command->add_option("--channel-suffix", suffix, "What the vehicle's channels end with");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kExitMistake;
-  }
-  if (*make_command) return make(out);
-  if (*sift_command) return sift(master, log, out, suffix);
-  return derive(master, process, out);
+  return tern::run_tool(app, "tern-key", argc, argv, [&] {
+    if (*make_command) tern::write_file(out, tern::to_hex(tern::random_key()) + "\n");
+    if (*sift_command) tern::sift(master, log, out, suffix);
+    if (*derive_command) tern::derive(master, process, out);
+    return 0;
+  });
 }
-
-}  // namespace
-}  // namespace tern
-
-int main(int argc, char** argv) { return tern::run(argc, argv); }

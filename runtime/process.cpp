@@ -60,7 +60,7 @@ struct Options {
 
 void declare(CLI::App& app, Options& options, const ProcessDescription& description) {
   app.set_version_flag("--version", fmt::format("{} {}", description.name, build_id()));
-  if (description.read_sections) {
+  if (description.read_section) {
     app.add_flag("--help-config", options.help_config, "Say every key of this process in the scenario file, and end");
     app.add_flag("--check-config", options.check_config, "Read the scenario and this process's keys in it, and end");
   }
@@ -126,15 +126,14 @@ void start_log(const ProcessDescription& description, const std::string& level) 
 /// @throws ConfigError when keys were asked for and cannot be had.
 std::optional<KeyRing> read_keys(const Options& options, const std::string& process) {
   if (!options.key_file && !options.key_fd) return std::nullopt;
-  auto keys = options.key_file ? read_key_file(*options.key_file, process) : read_key_fd(*options.key_fd, process);
-  if (!keys) throw ConfigError(keys.error().message);
-  return std::move(*keys);
+  return or_refuse(options.key_file ? read_key_file(*options.key_file, process)
+                                    : read_key_fd(*options.key_fd, process));
 }
 
 /// The tables of keys that READMEs show.
 void print_knobs(const ProcessDescription& description) {
   ConfigDocument document = ConfigDocument::parse(description.example, "");
-  description.read_sections(document);
+  description.read_section(document.root().section(description.section));
   std::string section;
   for (const Knob& knob : document.knobs()) {
     const std::size_t dot = knob.path.find('.');
@@ -151,13 +150,12 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   const WallClock clock(Duration{options.clock_offset_us}, options.pace);
   ConfigDocument document = ConfigDocument::load(options.config, options.overrides);
   const Scenario scenario = read_scenario(document);
-  if (options.check_config) {
-    description.read_sections(document);
-    return 0;
-  }
   const ConfigSection section = description.section.empty() ? ConfigDocument::parse("", options.config).root()
                                                             : document.root().section(description.section);
-
+  if (options.check_config) {
+    description.read_section(section);
+    return 0;
+  }
   const std::optional<KeyRing> keys = read_keys(options, description.name);
 
   const StopSignals stop;

@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/world/scenario.h"
 #include "runtime/bus.h"
@@ -45,8 +44,8 @@ struct ProcessDescription {
   std::string section;                              ///< "planner": its key in the scenario file; "" if it has none
   std::string summary;                              ///< one line for --help
   std::function<void(CLI::App&)> add_options = {};  ///< options besides the common ones
-  /// Reads every section that is this process's, for --help-config and --check-config. Empty: it has none.
-  std::function<void(ConfigDocument&)> read_sections = {};
+  /// Reads its section, for --help-config and --check-config. Empty: it has none.
+  std::function<void(ConfigSection)> read_section = {};
   std::string example = {};  ///< a scenario that makes every key known, where some depend on another
 };
 

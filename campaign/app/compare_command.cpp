@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 
 #include "campaign/app/commands.h"
 #include "campaign/campaign.h"
@@ -27,21 +26,16 @@ struct Options {
   std::string form = "text";
 };
 
-Flights flights_of(const std::string& file) {
-  auto flights = read_flights(file);
-  if (!flights) throw ConfigError(flights.error().message);
-  return std::move(*flights);
-}
-
 int compare_files(const Options& options) {
-  const auto comparison = compare(flights_of(options.a), flights_of(options.b));
-  if (!comparison) throw ConfigError(fmt::format("{} and {}: {}", options.a, options.b, comparison.error().message));
+  const CampaignComparison comparison =
+      or_refuse(compare(or_refuse(read_flights(options.a)), or_refuse(read_flights(options.b))),
+                options.a + " and " + options.b + ": ");
   if (options.form == "svg") {
-    fmt::print("{}", draw_comparison(*comparison));
+    fmt::print("{}", draw_comparison(comparison));
   } else {
-    fmt::print("{}", to_text(*comparison, kTables.at(options.form)));
+    fmt::print("{}", to_text(comparison, kTables.at(options.form)));
   }
-  if (comparison->may_infer()) return 0;
+  if (comparison.may_infer()) return 0;
   fmt::print(stderr, "{} and {}: no interval means anything, flights are equal\n", options.a, options.b);
   return kExitEqualFlights;
 }
@@ -56,7 +50,7 @@ int write_page(const PageOptions& options) {
   const fs::path failures = options.failures.empty() ? default_failures(options.flights) : options.failures;
   const fs::path link = fs::absolute(failures).lexically_relative(fs::absolute(out).parent_path());
   std::ofstream file(out);
-  file << campaign_page(flights_of(options.flights), link.string());
+  file << campaign_page(or_refuse(read_flights(options.flights)), link.string());
   if (!file.flush()) throw ConfigError(out.string() + ": cannot be written");
   fmt::print("{}\n", out.string());
   return 0;

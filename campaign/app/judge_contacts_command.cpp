@@ -26,26 +26,24 @@ struct Options {
 bool could_be_avoided(const FlightInputs& inputs, std::uint64_t seed, const MoveSearch& search) {
   ConfigDocument document = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(seed));
   const Scenario scenario = read_scenario(document);
-  const auto world = make_world(scenario, "");
-  if (!world) throw ConfigError(world.error().message);
+  const World world = or_refuse(make_world(scenario, ""));
   const RestingVehicle vehicle{scenario.uav.start, scenario.uav.limits, scenario.uav.body, scenario.uav.flight_box};
-  return clear_moves(vehicle, *world, seed, search) > 0;
+  return clear_moves(vehicle, world, seed, search) > 0;
 }
 
 int judge(const Options& options) {
   const FlightInputs inputs = inputs_of(options.flight);
-  const auto flights = read_flights(options.flights);
-  if (!flights) throw ConfigError(flights.error().message);
+  const Flights flights = or_refuse(read_flights(options.flights));
   MoveSearch search;
   search.moves = options.moves;
   std::int64_t contacts = 0;
   std::vector<std::uint64_t> avoidable;
-  for (const auto& [seed, record] : flights->records) {
+  for (const auto& [seed, record] : flights.records) {
     if (record.result.outcome != FlightOutcome::Collision) continue;
     ++contacts;
     if (could_be_avoided(inputs, seed, search)) avoidable.push_back(seed);
   }
-  const auto n = static_cast<std::int64_t>(flights->records.size());
+  const auto n = static_cast<std::int64_t>(flights.records.size());
   const auto k = static_cast<std::int64_t>(avoidable.size());
   const Interval interval = wilson_interval(k, n);
   fmt::print("flights {}, contacts {}, of these avoidable {} ({:.3f} % of the flights [{:.3f}, {:.3f}])\n", n, contacts,

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -20,14 +18,8 @@ struct Options {
 
 int merge(const Options& options) {
   Flights all;
-  for (const std::string& part : options.parts) {
-    auto flights = read_flights(part);
-    if (!flights) throw ConfigError(flights.error().message);
-    if (auto joined = join(all, std::move(*flights)); !joined) {
-      throw ConfigError(fmt::format("{}: {}", part, joined.error().message));
-    }
-  }
-  if (auto written = write_flights(options.out, all); !written) throw ConfigError(written.error().message);
+  for (const std::string& part : options.parts) or_refuse(join(all, or_refuse(read_flights(part))), part + ": ");
+  or_refuse(write_flights(options.out, all));
   return write_summary(options.out, options.summary, command_line());
 }
 

@@ -68,21 +68,18 @@ std::vector<SemanticFlight> fly(const SemanticCase& wanted, std::uint64_t seeds,
   const auto end =
       run_campaign(campaign, flight_command(flight), -1, [&](const CampaignProgress& p) { output.show(p); });
   output.finish();
-  if (!end) throw ConfigError(end.error().message);
-  const auto flown = read_flights(campaign.out);
-  if (!flown) throw ConfigError(flown.error().message);
+  or_refuse(end);
+  const Flights flown = or_refuse(read_flights(campaign.out));
   std::vector<SemanticFlight> flights;
-  for (const auto& [seed, record] : flown->records) flights.push_back(semantic_flight(wanted, record));
+  for (const auto& [seed, record] : flown.records) flights.push_back(semantic_flight(wanted, record));
   std::erase_if(flights, [seeds](const SemanticFlight& f) { return f.seed > seeds; });
   return flights;
 }
 
 FlightTrack track_of(const SemanticCase& wanted) {
-  const auto file = find_scenario(wanted.world);
-  if (!file) throw ConfigError(file.error().message);
   std::vector<std::string> overrides = overrides_of(wanted);
   overrides.emplace_back("seed=1");
-  return fly_and_track(*file, overrides);
+  return fly_and_track(or_refuse(find_scenario(wanted.world)), overrides);
 }
 
 int corridor(const Options& options) {

@@ -1,14 +1,10 @@
 #include "campaign/experiments/flight_track.h"
 
-#include <cstdlib>
-#include <utility>
-
 #include "campaign/virtual_system.h"
 #include "core/world/vehicle.h"
 #include "messages/channels.h"
-#include "runtime/config.h"
-#include "runtime/data_folder.h"
 #include "simulator/app/simulator_node.h"
+#include "simulator/app/world_broadcast.h"
 
 namespace tern {
 namespace {
@@ -22,9 +18,7 @@ FlightTrack fly_and_track(const std::string& scenario_file, const std::vector<st
   VirtualSystem system(scenario_file, overrides);
   FlightTrack track;
   track.scenario = system.scenario();
-  auto world = make_world(track.scenario, data_folder(track.scenario.file, std::getenv("TERN_DATA")));
-  if (!world) throw ConfigError(scenario_file + ": world: " + world.error().message);
-  track.world = std::move(*world);
+  track.world = world_of(track.scenario);
   VirtualRunner& runner = system.runner();
   const SimulatorNode& simulator = system.simulator();
   UTime next{0};

@@ -13,7 +13,6 @@
 #include "planner/app/blocked_goal.h"
 #include "planner/app/config_reader.h"
 #include "planner/planning_world.h"
-#include "runtime/data_folder.h"
 #include "runtime/scenario_file.h"
 #include "semantic_mapper/app/load_map.h"
 #include "simulator/app/simulator_config.h"
@@ -171,11 +170,9 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
   view.scenario = read_scenario(document);
   (void)check_inputs(inputs, view.scenario.seed);
   const auto simulator = read_simulator_config(document.root().section("simulator"), view.scenario.seed);
-  const char* const data = std::getenv("TERN_DATA");
-  auto world = make_flyable_world(view.scenario, simulator, data_folder(view.scenario.file, data));
-  if (!world) throw ConfigError(view.scenario.file + ": world: " + world.error().message);
-  view.world = std::move(*world);
-  const VoxelMap map = load_map(view.scenario, read_mapper_config(document.root().section("mapper")), data);
+  view.world = flyable_world_of(view.scenario, simulator);
+  const VoxelMap map =
+      load_map(view.scenario, read_mapper_config(document.root().section("mapper")), std::getenv("TERN_DATA"));
   PlannerConfig planner = read_planner_config(document.root().section("planner"), view.scenario.semantics);
   const auto weighed = std::make_shared<const MapProducts>(map, planner);
   view.occupied = weighed->occupied.boxes();

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <memory>
 #include <utility>
 
@@ -14,12 +13,11 @@
 #include "planner/planner.h"
 #include "planner/planning_world.h"
 #include "runtime/config.h"
-#include "runtime/data_folder.h"
 #include "runtime/scenario_file.h"
 #include "semantic_mapper/app/load_map.h"
 #include "semantic_mapper/app/mapper_config.h"
+#include "simulator/app/world_broadcast.h"
 #include "simulator/worlds/declared_motions.h"
-#include "simulator/worlds/world.h"
 
 namespace tern {
 namespace {
@@ -117,20 +115,16 @@ const std::vector<SearchCase>& search_cases() {
 }
 
 SearchOutcome run_search_case(const SearchCase& wanted, const std::vector<std::string>& more) {
-  const auto file = find_scenario(wanted.scenario);
-  if (!file) throw ConfigError(file.error().message);
   std::vector<std::string> overrides = wanted.overrides;
   overrides.insert(overrides.end(), more.begin(), more.end());
-  ConfigDocument document = ConfigDocument::load(*file, overrides);
+  ConfigDocument document = ConfigDocument::load(or_refuse(find_scenario(wanted.scenario)), overrides);
   SearchOutcome outcome;
   outcome.scenario = read_scenario(document);
   const Scenario& scenario = outcome.scenario;
   PlannerConfig config = read_planner_config(document.root().section("planner"), scenario.semantics);
   config.optimization.method = OptimizationMethod::SearchOnly;
   const VoxelMap map = load_map(scenario, read_mapper_config(document.root().section("mapper")), nullptr);
-  const auto world = make_world(scenario, data_folder(scenario.file, std::getenv("TERN_DATA")));
-  if (!world) throw ConfigError(scenario.file + ": world: " + world.error().message);
-  TrackSet tracks = declare_motions(*world, kStart, kStart, kStart + kPromised);
+  TrackSet tracks = declare_motions(world_of(scenario), kStart, kStart, kStart + kPromised);
   if (tracks.tracks.size() != 1) throw ConfigError(scenario.file + ": the experiment takes one obstacle");
   outcome.obstacle = tracks.tracks.front();
   const HorizonRequest request = request_of(scenario.uav);

@@ -1,6 +1,5 @@
 #include <memory>
 
-#include "executor/app/executor_config.h"
 #include "executor/app/executor_node.h"
 #include "runtime/process.h"
 
@@ -9,11 +8,9 @@ int main(int argc, char** argv) {
       .name = "tern-executor",
       .section = "executor",
       .summary = "Asks for plans, adopts what may be flown, and publishes the vehicle's setpoints",
-      .read_sections = [](tern::ConfigDocument& document) {
-        tern::read_executor_config(document.root().section("executor"));
-      }};
+      .read_section = [](tern::ConfigSection section) { section.read<tern::ExecutorConfig>(); }};
   return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
-    const auto config = tern::read_executor_config(context.section);
+    const auto config = context.section.read<tern::ExecutorConfig>();
     return std::make_unique<tern::ExecutorNode>(context.bus, context.scenario.uav, config);
   });
 }

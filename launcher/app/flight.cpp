@@ -112,12 +112,9 @@ int give_up(const fs::path& record, const std::string& why) {
 std::map<std::string, int> hold_keys(const FlightOptions& options) {
   std::map<std::string, int> fds;
   if (!options.key) return fds;
-  const Result<Key> master = options.key->empty() ? random_key() : read_master_key(*options.key);
-  if (!master) throw std::runtime_error(master.error().message);
+  const Key master = options.key->empty() ? random_key() : or_refuse(read_master_key(*options.key));
   for (const Part& part : parts()) {
-    const auto fd = hold_in_memory(KeyRing::derive(*master, part.process));
-    if (!fd) throw std::runtime_error(fd.error().message);
-    fds.emplace(part.process, *fd);
+    fds.emplace(part.process, or_refuse(hold_in_memory(KeyRing::derive(master, part.process))));
   }
   return fds;
 }

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <span>
 #include <string_view>
-#include <utility>
 
 #include "flight_log/log_format.h"
 #include "messages/codec.h"
@@ -19,9 +18,7 @@ constexpr Duration kHeardLately{2'500'000};
 
 LogWriter open_writer(std::string path, std::int64_t rotate_bytes) {
   if (std::filesystem::is_directory(path)) path = (std::filesystem::path(path) / "flight.lcm").string();
-  auto writer = LogWriter::open(path, rotate_bytes);
-  if (!writer) throw ConfigError("--record " + writer.error().message);
-  return std::move(*writer);
+  return or_refuse(LogWriter::open(path, rotate_bytes), "--record ");
 }
 
 }  // namespace

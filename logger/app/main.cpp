@@ -18,8 +18,7 @@ int main(int argc, char** argv) {
                 ->type_name("PATH")
                 ->capture_default_str();
           },
-      .read_sections =
-          [](tern::ConfigDocument& document) { tern::read_logger_config(document.root().section("logger")); }};
+      .read_section = tern::read_logger_config};
   return tern::run_process(
       argc, argv, description, [&path](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
         return std::make_unique<tern::LoggerNode>(context.bus, tern::read_logger_config(context.section), path);

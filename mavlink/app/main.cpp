@@ -20,20 +20,14 @@ int main(int argc, char** argv) {
                            "udpout://ADDRESS:PORT, serial:///dev/NAME:BAUD");
             app.add_option("--signing-key", key_file, "Sign MAVLink's frames by this secret (32 bytes, mode 600)");
           },
-      .read_sections =
-          [](tern::ConfigDocument& document) {
-            BridgeConfig config;
-            document.root().section("mavlink").read(config);
-          }};
+      .read_section = [](tern::ConfigSection section) { section.read<BridgeConfig>(); }};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
-    BridgeConfig config;
-    context.section.read(config);
+    const auto config = context.section.read<BridgeConfig>();
     std::optional<SigningKey> key;
     if (!key_file.empty()) {
-      const auto secret = tern::read_master_key(key_file);
-      if (!secret) throw tern::ConfigError(secret.error().message);
+      const tern::Key secret = tern::or_refuse(tern::read_master_key(key_file));
       key.emplace();
-      std::copy(secret->bytes().begin(), secret->bytes().end(), key->secret.begin());
+      std::copy(secret.bytes().begin(), secret.bytes().end(), key->secret.begin());
       key->sha256 = tern::sha256;
     }
     if (url.empty()) throw tern::ConfigError("--connect URL is needed");
@@ -41,8 +35,7 @@ int main(int argc, char** argv) {
     if (url.starts_with("serial://") && context.bus.clock().in_system_time(kSecond) != kSecond) {
       throw tern::ConfigError("--pace: the clock of a real autopilot cannot be slowed");
     }
-    auto link = open_link(url);
-    if (!link) throw tern::ConfigError("--connect " + link.error().message);
-    return std::make_unique<MavlinkNode>(context.bus, std::move(*link), context.scenario.uav, config, key);
+    auto link = tern::or_refuse(open_link(url), "--connect ");
+    return std::make_unique<MavlinkNode>(context.bus, std::move(link), context.scenario.uav, config, key);
   });
 }

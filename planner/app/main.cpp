@@ -11,9 +11,7 @@ int main(int argc, char** argv) {
       .name = "tern-planner",
       .section = "planner",
       .summary = "Plans collision-free trajectories and certifies every one of them.",
-      .read_sections = [](tern::ConfigDocument& document) {
-        tern::read_planner_config(document.root().section("planner"), {});
-      }};
+      .read_section = [](tern::ConfigSection section) { tern::read_planner_config(section, {}); }};
   return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::PlannerConfig config = tern::read_planner_config(context.section, context.scenario.semantics);
     const std::uint64_t hash = tern::configuration_hash(context.document.effective());

@@ -101,9 +101,7 @@ VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const ch
   options.include = scenario.uav.flight_box;
   options.somewhere = scenario.uav.start;
   options.background = config.background;
-  auto map = build_map(sources, options);
-  if (!map) throw ConfigError(fmt::format("{}: mapper: {}", scenario.file, map.error().message));
-  return std::move(*map);
+  return or_refuse(build_map(sources, options), scenario.file + ": mapper: ");
 }
 
 }  // namespace tern

@@ -1,8 +1,6 @@
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 #include <memory>
 
-#include "runtime/data_folder.h"
 #include "runtime/process.h"
 #include "simulator/app/make_vehicle.h"
 #include "simulator/app/simulator_config.h"
@@ -18,16 +16,14 @@ int main(int argc, char** argv) {
           [&recorded](CLI::App& app) {
             app.add_flag("--recorded", recorded, "Wait for tern-logger, too: it shall hold all that a replay needs");
           },
-      .read_sections =
-          [](tern::ConfigDocument& document) { tern::read_simulator_config(document.root().section("simulator"), 0); },
+      .read_section = [](tern::ConfigSection section) { tern::read_simulator_config(section, 0); },
       .example = "simulator: {sensor: {mode: noisy}, vehicle: quadrotor}"};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::Scenario& scenario = context.scenario;
     auto config = tern::read_simulator_config(context.section, scenario.seed);
     if (recorded) config.wait_for.emplace_back(tern::kRecorder);
-    auto world = tern::make_flyable_world(scenario, config, tern::data_folder(scenario.file, std::getenv("TERN_DATA")));
-    if (!world) throw tern::ConfigError(scenario.file + ": world: " + world.error().message);
+    auto world = tern::flyable_world_of(scenario, config);
     auto vehicle = tern::make_vehicle(scenario, config, context.bus.clock().now());
-    return std::make_unique<tern::SimulatorNode>(context.bus, scenario, std::move(*world), std::move(vehicle), config);
+    return std::make_unique<tern::SimulatorNode>(context.bus, scenario, std::move(world), std::move(vehicle), config);
   });
 }

@@ -5,14 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
-#include <vector>
 
 #include "core/world/message_limits.h"
 #include "core/world/track_order.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
 #include "runtime/beat.h"
+#include "runtime/config.h"
+#include "runtime/data_folder.h"
 #include "simulator/worlds/declared_motions.h"
 
 namespace tern {
@@ -79,10 +81,15 @@ std::vector<Duration> appearances_of(const World& world) {
 
 }  // namespace
 
-Result<World> make_flyable_world(const Scenario& scenario, const SimulatorConfig& config, const std::string& data_dir) {
-  auto world = make_world(scenario, data_dir);
-  if (!world || !config.declare) return world;
-  if (const std::string why = undeclarable(*world); !why.empty()) return fail(why);
+World world_of(const Scenario& scenario) {
+  const std::string data = data_folder(scenario.file, std::getenv("TERN_DATA"));
+  return or_refuse(make_world(scenario, data), scenario.file + ": world: ");
+}
+
+World flyable_world_of(const Scenario& scenario, const SimulatorConfig& config) {
+  World world = world_of(scenario);
+  const std::string why = config.declare ? undeclarable(world) : "";
+  if (!why.empty()) throw ConfigError(scenario.file + ": world: " + why);
   return world;
 }
 

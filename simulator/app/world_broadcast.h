@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/result.h"
 #include "core/splines/motion_history.h"
 #include "runtime/bus.h"
 #include "simulator/app/simulator_config.h"
@@ -22,10 +21,11 @@ inline constexpr Duration kDeclaredAhead{4'500'000};
 /// Sets of motions are at least this far apart, so that the batches of one have left before the next comes.
 inline constexpr Duration kDeclaredApart{20'000};
 
-/// The world of the scenario (make_world) if what moves in it can be declared, or if config.declare is false.
-/// @return make_world's Errors, and one for more obstacles at once than a set of DECLARED_MOTIONS holds, or one faster
-/// than a message may say.
-Result<World> make_flyable_world(const Scenario& scenario, const SimulatorConfig& config, const std::string& data_dir);
+/// The world of the scenario, its data from data_folder(). @throws ConfigError for make_world's Errors.
+World world_of(const Scenario& scenario);
+/// The same, if what moves in it can be declared, or if config.declare is false. @throws ConfigError, too, for more
+/// obstacles at once than a set of DECLARED_MOTIONS holds, or one faster than a message may say.
+World flyable_world_of(const Scenario& scenario, const SimulatorConfig& config);
 
 /// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, DECLARED_MOTIONS at 5 Hz and when someone appears
 /// (kDeclaredApart later at most), OBSTACLE_TRUTH at 30 Hz. Motions with too many pieces are declared coarser.

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "executor/app/executor_config.h"
+#include "executor/executor.h"
 #include "runtime/data_folder.h"
 #include "runtime/scenario_file.h"
 #include "simulator/app/simulator_config.h"
@@ -39,7 +39,7 @@ TEST_P(ScenarioFile, IsReadWholeAndHasAWorld) {
   const Scenario scenario = read_scenario(document);
   EXPECT_EQ(scenario.name, std::filesystem::path(GetParam()).stem().string());
   EXPECT_NO_THROW((void)read_simulator_config(document.root().section("simulator"), scenario.seed));
-  EXPECT_NO_THROW((void)read_executor_config(document.root().section("executor")));
+  EXPECT_NO_THROW((void)document.root().section("executor").read<ExecutorConfig>());
   const std::string data = data_folder(GetParam(), std::getenv("TERN_DATA"));
   if (!scenario.world.recorded.empty() && data.empty()) return;
   const auto world = make_world(scenario, data);
@@ -101,7 +101,7 @@ TEST(SimulatorConfig, RefusesWhatATruthfulSensorDoesNotHave) {
 
 TEST(ExecutorConfig, RefusesALeadWithoutRoomForAnAnswer) {
   ConfigDocument document = ConfigDocument::parse("executor:\n  lead_s: 0.005\n", "test.yaml");
-  EXPECT_THROW((void)read_executor_config(document.root().section("executor")), ConfigError);
+  EXPECT_THROW((void)document.root().section("executor").read<ExecutorConfig>(), ConfigError);
 }
 
 }  // namespace

@@ -34,14 +34,12 @@ int main(int argc, char** argv) {
       ->needs("--request");
   return tern::run_tool(app, "tern-replay", argc, argv, [&] {
     const bool what_if = !options.other.empty();
-    const auto replay = tern::replay_log(log, options);
-    if (!replay) throw tern::ConfigError(replay.error().message);
-    const auto kept = tern::keep_answers(log, options, save, dump);
-    if (!kept) throw tern::ConfigError(kept.error().message);
-    fmt::print("{}", tern::replay_text(*replay, what_if));
-    if (!json.empty() && !(std::ofstream(json) << tern::replay_json(*replay, what_if))) {
+    const tern::Replay replay = tern::or_refuse(tern::replay_log(log, options));
+    tern::or_refuse(tern::keep_answers(log, options, save, dump));
+    fmt::print("{}", tern::replay_text(replay, what_if));
+    if (!json.empty() && !(std::ofstream(json) << tern::replay_json(replay, what_if))) {
       throw tern::ConfigError(json + ": cannot be written");
     }
-    return tern::replay_exit_code(*replay, what_if);
+    return tern::replay_exit_code(replay, what_if);
   });
 }

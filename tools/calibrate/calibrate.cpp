@@ -5,6 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "runtime/config.h"
 #include "tools/calibrate/coverage.h"
 #include "tools/calibrate/made_up.h"
 #include "tools/calibrate/prior_table.h"
@@ -34,12 +35,11 @@ void calibrate(const CalibrationRequest& request) {
     slow.push_back({std::string(source.name), source.weight, all.slow});
   }
   for (const std::string& log : request.logs) {
-    const auto recording = read_recording(log);
-    if (!recording) throw std::runtime_error(recording.error().message);
-    const Study of_log = study(*recording, TrackerConfig{});
+    const Recording recording = or_refuse(read_recording(log));
+    const Study of_log = study(recording, TrackerConfig{});
     add(sum, of_log);
-    sources.push_back({recording->name, 1.0, of_log.judged});
-    slow.push_back({recording->name, 1.0, of_log.slow});
+    sources.push_back({recording.name, 1.0, of_log.judged});
+    slow.push_back({recording.name, 1.0, of_log.slow});
   }
   const std::string table = coverage_table(sum);
   fmt::print("{}", table);

@@ -15,21 +15,15 @@ int main(int argc, char** argv) {
           [&](CLI::App& app) {
             app.add_option("--connect", url, "udpout://ADDRESS:PORT of the bridge, or another end of a link");
           },
-      .read_sections =
-          [](tern::ConfigDocument& document) {
-            SimulatedAutopilotConfig config;
-            document.root().section("autopilot_sim").read(config);
-          }};
+      .read_section = [](tern::ConfigSection section) { section.read<SimulatedAutopilotConfig>(); }};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
-    SimulatedAutopilotConfig config;
-    context.section.read(config);
+    auto config = context.section.read<SimulatedAutopilotConfig>();
     tern::ConfigSection simulator = context.document.root().section("simulator");
     simulator.section("quadrotor").read(config.quadrotor);
     simulator.section("wind").read(config.wind);
     simulator.section("estimator").read(config.estimator);
     if (url.empty()) throw tern::ConfigError("--connect URL is needed");
-    auto link = open_link(url);
-    if (!link) throw tern::ConfigError("--connect " + link.error().message);
-    return std::make_unique<AutopilotSimNode>(context.bus, std::move(*link), config, context.scenario.seed);
+    auto link = tern::or_refuse(open_link(url), "--connect ");
+    return std::make_unique<AutopilotSimNode>(context.bus, std::move(link), config, context.scenario.seed);
   });
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
 #include "tools/audit/app/load_flight.h"
@@ -17,14 +18,13 @@ namespace {
 constexpr int kBroken = 1;
 
 int run(const std::string& log, const std::string& json_file) {
-  const auto record = tern::audit::load_flight(log);
-  if (!record) throw std::runtime_error(record.error().message);
-  if (record->contents.events == 0) throw std::runtime_error(log + ": not one whole event in it");
-  const tern::audit::Audit audit = tern::audit::audit_flight(*record);
-  fmt::print("{}", tern::audit::to_text(audit, *record));
+  const tern::audit::FlightRecord record = tern::or_refuse(tern::audit::load_flight(log));
+  if (record.contents.events == 0) throw std::runtime_error(log + ": not one whole event in it");
+  const tern::audit::Audit audit = tern::audit::audit_flight(record);
+  fmt::print("{}", tern::audit::to_text(audit, record));
   if (!json_file.empty()) {
     std::ofstream file(json_file);
-    file << tern::audit::to_json(audit, *record).dump(1) << '\n';
+    file << tern::audit::to_json(audit, record).dump(1) << '\n';
     if (!file.flush()) throw std::runtime_error(json_file + " cannot be written");
   }
   return audit.verdict() == tern::audit::Verdict::Broken ? kBroken : 0;

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <stdexcept>
 
+#include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
 #include "tools/export/export_log.h"
@@ -19,9 +19,7 @@ int main(int argc, char** argv) {
   app.add_option("--mcap", options.mcap_file, "Write an MCAP file, as Foxglove opens it")->type_name("FILE");
   app.add_option("--channel-suffix", options.suffix, "What the vehicle's channels end with")->type_name("S");
   return tern::run_tool(app, "tern-export", argc, argv, [&] {
-    const auto told = tern::exporting::export_log(options);
-    if (!told) throw std::runtime_error(told.error().message);
-    fmt::print("{}", *told);
+    fmt::print("{}", tern::or_refuse(tern::exporting::export_log(options)));
     return 0;
   });
 }

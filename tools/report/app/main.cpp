@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
 #include "tools/audit/app/load_flight.h"
@@ -15,11 +16,10 @@
 namespace {
 
 int run(const std::string& log, const std::string& page) {
-  const auto record = tern::audit::load_flight(log);
-  if (!record) throw std::runtime_error(record.error().message);
-  if (record->contents.events == 0) throw std::runtime_error(log + ": not one whole event in it");
+  const tern::audit::FlightRecord record = tern::or_refuse(tern::audit::load_flight(log));
+  if (record.contents.events == 0) throw std::runtime_error(log + ": not one whole event in it");
   std::ofstream file(page);
-  file << tern::report::report_page(*record, tern::audit::audit_flight(*record),
+  file << tern::report::report_page(record, tern::audit::audit_flight(record),
                                     {tern::audit::typed_command(log), tern::audit::flown_pace(log)});
   if (!file.flush()) throw std::runtime_error(page + " cannot be written");
   fmt::print("{}\n", page);

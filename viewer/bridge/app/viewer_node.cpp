@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <utility>
@@ -39,12 +38,6 @@ Duration period(Topic topic) {
 bool is_of_the_past(Topic topic) {
   return topic == Topic::Chart || topic == Topic::Path || topic == Topic::Fields || topic == Topic::Events ||
          topic == Topic::Ghost;
-}
-
-template <class T>
-T or_refuse(Result<T> result) {
-  if (!result) throw ConfigError(result.error().message);
-  return std::move(*result);
 }
 
 }  // namespace
