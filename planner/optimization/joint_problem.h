@@ -39,9 +39,6 @@ class JointProblem final : public NonlinearProblem {
   [[nodiscard]] int free_variables() const { return convex_.variables(); }
 
   [[nodiscard]] int variables() const override { return static_cast<int>(start_.size()); }
-  [[nodiscard]] const Eigen::VectorXd& bounds() const override { return bounds_; }
-  [[nodiscard]] const SparsePattern& jacobian_pattern() const override { return jacobian_pattern_; }
-  [[nodiscard]] const SparsePattern& hessian_pattern() const override { return hessian_pattern_; }
   [[nodiscard]] double objective(const Eigen::VectorXd& x) const override;
   [[nodiscard]] Eigen::VectorXd gradient(const Eigen::VectorXd& x) const override;
   [[nodiscard]] Eigen::VectorXd constraints(const Eigen::VectorXd& x) const override;
@@ -63,8 +60,7 @@ class JointProblem final : public NonlinearProblem {
   ConvexAsNonlinear base_;
   std::vector<Block> blocks_;
   double margin_;
-  Eigen::VectorXd start_, bounds_;
-  SparsePattern jacobian_pattern_, hessian_pattern_;
+  Eigen::VectorXd start_;
 };
 
 /// Ipopt keeps non-linear constraints to its own tolerance only; the checker decides.

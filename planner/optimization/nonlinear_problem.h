@@ -24,9 +24,9 @@ class NonlinearProblem {
  public:
   virtual ~NonlinearProblem() = default;
   [[nodiscard]] virtual int variables() const = 0;
-  [[nodiscard]] virtual const Eigen::VectorXd& bounds() const = 0;  ///< b
-  [[nodiscard]] virtual const SparsePattern& jacobian_pattern() const = 0;
-  [[nodiscard]] virtual const SparsePattern& hessian_pattern() const = 0;  ///< lower triangle
+  [[nodiscard]] const Eigen::VectorXd& bounds() const { return bounds_; }  ///< b
+  [[nodiscard]] const SparsePattern& jacobian_pattern() const { return jacobian_pattern_; }
+  [[nodiscard]] const SparsePattern& hessian_pattern() const { return hessian_pattern_; }  ///< lower triangle
   [[nodiscard]] virtual double objective(const Eigen::VectorXd& x) const = 0;
   [[nodiscard]] virtual Eigen::VectorXd gradient(const Eigen::VectorXd& x) const = 0;     ///< ∇f
   [[nodiscard]] virtual Eigen::VectorXd constraints(const Eigen::VectorXd& x) const = 0;  ///< c
@@ -34,6 +34,10 @@ class NonlinearProblem {
   virtual void jacobian(const Eigen::VectorXd& x, double* values) const = 0;
   /// factor ∇²f + Σ multiplier_i ∇²c_i, one value per entry of the pattern.
   virtual void hessian(const Eigen::VectorXd& x, double factor, const double* multipliers, double* values) const = 0;
+
+ protected:
+  Eigen::VectorXd bounds_;
+  SparsePattern jacobian_pattern_, hessian_pattern_;
 };
 
 /// A ConvexProblem so seen: c stacks A x and ‖W_k x + p_k‖², whose gradients are A's rows and 2 W_kᵀ(W_k x + p_k).
@@ -42,9 +46,6 @@ class ConvexAsNonlinear final : public NonlinearProblem {
   explicit ConvexAsNonlinear(const ConvexProblem& problem);  ///< kept by reference
 
   [[nodiscard]] int variables() const override { return p_.variables(); }
-  [[nodiscard]] const Eigen::VectorXd& bounds() const override { return bounds_; }
-  [[nodiscard]] const SparsePattern& jacobian_pattern() const override { return jacobian_pattern_; }
-  [[nodiscard]] const SparsePattern& hessian_pattern() const override { return hessian_pattern_; }
   [[nodiscard]] double objective(const Eigen::VectorXd& x) const override { return p_.objective(x); }
   [[nodiscard]] Eigen::VectorXd gradient(const Eigen::VectorXd& x) const override;
   [[nodiscard]] Eigen::VectorXd constraints(const Eigen::VectorXd& x) const override;
@@ -53,8 +54,6 @@ class ConvexAsNonlinear final : public NonlinearProblem {
 
  private:
   const ConvexProblem& p_;
-  Eigen::VectorXd bounds_;
-  SparsePattern jacobian_pattern_, hessian_pattern_;
 };
 
 }  // namespace tern
