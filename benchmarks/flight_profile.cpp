@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -20,7 +19,13 @@
 namespace tern {
 namespace {
 
-/// Thread CPU time by stage and until the first new trajectory.
+/// Thread CPU time.
+struct Spent {
+  double total_ms = std::numeric_limits<double>::infinity();
+  double first_ms = -1.0;  ///< until the first new trajectory
+  std::array<double, kStages> stage_ms{};
+};
+
 class CpuObserver final : public PlanObserver {
  public:
   void enter(Stage stage) override {
@@ -29,31 +34,28 @@ class CpuObserver final : public PlanObserver {
   }
   void answer(const Plan& plan) override {
     const bool is_new = plan.outcome != PlanOutcome::KeepCommitted && plan.outcome != PlanOutcome::NoPlan;
-    if (is_new && first_ms < 0.0) first_ms = thread_cpu_ms() - begin_;
+    if (is_new && spent_.first_ms < 0.0) spent_.first_ms = thread_cpu_ms() - begin_;
   }
-  void end() {
+  const Spent& end() {
     close();
-    total_ms = thread_cpu_ms() - begin_;
-    if (first_ms < 0.0) first_ms = total_ms;
+    spent_.total_ms = thread_cpu_ms() - begin_;
+    if (spent_.first_ms < 0.0) spent_.first_ms = spent_.total_ms;
+    return spent_;
   }
-
-  double total_ms = 0.0, first_ms = -1.0;
-  std::array<double, kStages> stage_ms{};
 
  private:
   void close() {
     const double now = thread_cpu_ms();
-    stage_ms[static_cast<std::size_t>(stage_)] += now - since_;
+    spent_.stage_ms[static_cast<std::size_t>(stage_)] += now - since_;
     since_ = now;
   }
+  Spent spent_;
   double begin_ = thread_cpu_ms(), since_ = begin_;
   Stage stage_ = Stage::Fallback;
 };
 
-struct Cost {
+struct Cost : Spent {
   std::size_t request = 0;
-  double total_ms = std::numeric_limits<double>::infinity(), first_ms = 0.0;
-  std::array<double, kStages> stage_ms{};
   PlanAnswer answer;
 };
 
@@ -64,12 +66,8 @@ Cost cost_of(const Moment& m, const PlannerConfig& config, int repeats, PlanWork
     Budget budget = Budget::unlimited();
     CpuObserver observer;
     PlanAnswer answer = plan(m.request, m.world, config, budget, workspace, &observer);
-    observer.end();
-    if (observer.total_ms >= least.total_ms) continue;
-    least.total_ms = observer.total_ms;
-    least.first_ms = observer.first_ms;
-    least.stage_ms = observer.stage_ms;
-    least.answer = std::move(answer);
+    const Spent& spent = observer.end();
+    if (spent.total_ms < least.total_ms) least = {spent, 0, std::move(answer)};
   }
   return least;
 }

@@ -30,7 +30,7 @@ FlightRecording record_flight(const std::string& scenario_file, const std::vecto
   VirtualSystem system(scenario_file, overrides);
   VirtualRunner& runner = system.runner();
   Bus& bus = runner.observer();
-  WorldIntake intake(bus, recording.config, recording.scenario.uav, false);
+  WorldIntake intake(bus, recording.config, recording.scenario.uav, false, {});
   bus.subscribe(channels::kHorizonRequest, [&](const HorizonRequest& request) {
     intake.set_vehicle(request);
     intake.prepare();

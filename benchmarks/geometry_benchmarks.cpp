@@ -1,9 +1,6 @@
 // separate() as in flight (a hull of some 20 vertices against the 4 MINVO points of an interval), hull_vertices() of
 // swept boxes.
-#include <benchmark/benchmark.h>
-
-#include <vector>
-
+#include "benchmarks/in_turn.h"
 #include "core/base/random.h"
 #include "core/geometry/box.h"
 #include "core/geometry/convex_hull.h"
@@ -58,23 +55,14 @@ void separate_in_flight(benchmark::State& state) {
   double vertices = 0.0;
   for (const Pair& pair : pairs) vertices += static_cast<double>(pair.hull.cols()) / kCases;
   const long lp_before = separation_counts().lp;
-  std::size_t k = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(separate(pairs[k].hull, pairs[k].interval, 0.2));
-    k = (k + 1) % kCases;
-  }
+  in_turn(state, pairs, [](const Pair& pair) { return separate(pair.hull, pair.interval, 0.2); });
   state.counters["vertices"] = vertices;
   state.counters["lp"] = static_cast<double>(separation_counts().lp - lp_before);
 }
 BENCHMARK(separate_in_flight)->ArgName("gap_mm")->Arg(0)->Arg(100)->Arg(300)->Arg(1000)->Arg(3000);
 
 void separate_by_glpk(benchmark::State& state) {
-  const std::vector<Pair> pairs = pairs_at(1.0);
-  std::size_t k = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(separate_by_lp(pairs[k].hull, pairs[k].interval));
-    k = (k + 1) % kCases;
-  }
+  in_turn(state, pairs_at(1.0), [](const Pair& pair) { return separate_by_lp(pair.hull, pair.interval); });
 }
 BENCHMARK(separate_by_glpk);
 
@@ -82,11 +70,7 @@ void hull_of_a_swept_box(benchmark::State& state) {
   Rng rng(7);
   std::vector<Points> sweeps;
   for (int k = 0; k < kCases; ++k) sweeps.push_back(swept_box(rng, static_cast<int>(state.range(0))));
-  std::size_t k = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(hull_vertices(sweeps[k]));
-    k = (k + 1) % kCases;
-  }
+  in_turn(state, sweeps, hull_vertices);
 }
 BENCHMARK(hull_of_a_swept_box)->ArgName("samples")->Arg(2)->Arg(5)->Arg(8)->Arg(10);
 

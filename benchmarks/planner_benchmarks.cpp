@@ -1,14 +1,11 @@
 // The planner's stages and the whole of it, on the requests of one flight through paper_corridor 100 (seed 1), recorded
 // here.
-#include <benchmark/benchmark.h>
-
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "benchmarks/flight_recording.h"
+#include "benchmarks/in_turn.h"
 #include "core/base/percentiles.h"
-#include "core/splines/minvo.h"
 #include "core/world/flyable.h"
 #include "planner/plan_workspace.h"
 #include "planner/safety/checker.h"
@@ -49,25 +46,19 @@ void plan_of_a_flight(benchmark::State& state) {
       ms.push_back(plan_ms(m, recording().config, workspace));
     }
   }
-  std::sort(ms.begin(), ms.end());
-  state.counters["p50_ms"] = percentile_of_sorted(ms, 50);
-  state.counters["p99_ms"] = percentile_of_sorted(ms, 99);
-  state.counters["max_ms"] = ms.back();
+  const Percentiles took = percentiles(ms);
+  state.counters["p50_ms"] = took.p50;
+  state.counters["p99_ms"] = took.p99;
+  state.counters["max_ms"] = took.max;
   state.counters["flight_s"] = recording().result.flight_time_s;
 }
 BENCHMARK(plan_of_a_flight)->Unit(benchmark::kMillisecond)->Iterations(1);
 
-void sweep(const std::vector<PlanningObstacle>& obstacles, const Answered& m, SweptObstacles& swept) {
+void sweep(const Answered& m, SweptObstacles& swept) {
   std::vector<double> times;
   for (int k = 0; k <= 12; ++k) times.push_back(k * m.answer.trajectory.interval.seconds());
-  swept.assign(obstacles, m.request.body, m.request.t_s, times, box_around(m.request.start.p, Vec3::Constant(4.0)));
-}
-
-std::vector<SweptObstacles> sweeps_of(const std::vector<const Answered*>& moments) {
-  std::vector<SweptObstacles> swept(moments.size());
-  for (std::size_t k = 0; k < moments.size(); ++k)
-    sweep(moments[k]->world.predictions->obstacles, *moments[k], swept[k]);
-  return swept;
+  swept.assign(m.world.predictions->obstacles, m.request.body, m.request.t_s, times,
+               box_around(m.request.start.p, Vec3::Constant(4.0)));
 }
 
 /// Moments of the flight whose answer is a new trajectory.
@@ -79,29 +70,42 @@ std::vector<const Answered*> planned() {
   return out;
 }
 
+/// The same with their obstacles.
+struct Swept {
+  const Answered* moment = nullptr;
+  mutable SweptObstacles obstacles;  ///< sweeps are made when they are asked for, and kept
+};
+std::vector<Swept> swept_moments() {
+  std::vector<Swept> all;
+  for (const Answered* m : planned()) {
+    all.emplace_back().moment = m;
+    sweep(*m, all.back().obstacles);
+  }
+  return all;
+}
+
+/// How many a second, told as the time that each takes.
+benchmark::Counter time_of_each(std::int64_t count) {
+  return {static_cast<double>(count), benchmark::Counter::kIsRate | benchmark::Counter::kInvert};
+}
+
 /// Which tracks can matter.
 void index_query(benchmark::State& state) {
-  const auto moments = planned();
   std::vector<std::int32_t> found;
-  std::size_t k = 0;
-  for (auto _ : state) {
-    const Answered& m = *moments[k++ % moments.size()];
-    m.world.predictions->index.query(box_around(m.request.start.p, Vec3::Constant(4.2)), found);
-    benchmark::DoNotOptimize(found.data());
-  }
+  in_turn(state, planned(), [&](const Answered* m) {
+    m->world.predictions->index.query(box_around(m->request.start.p, Vec3::Constant(4.2)), found);
+    return found.data();
+  });
 }
 BENCHMARK(index_query);
 
 /// Cutting the obstacles of a horizon into boxes.
 void swept_boxes(benchmark::State& state) {
-  const auto moments = planned();
   SweptObstacles swept;
-  std::size_t k = 0;
-  for (auto _ : state) {
-    const Answered& m = *moments[k++ % moments.size()];
-    sweep(m.world.predictions->obstacles, m, swept);
-    benchmark::DoNotOptimize(swept.intervals());
-  }
+  in_turn(state, planned(), [&](const Answered* m) {
+    sweep(*m, swept);
+    return swept.intervals();
+  });
 }
 BENCHMARK(swept_boxes)->Unit(benchmark::kMicrosecond);
 
@@ -115,7 +119,7 @@ void for_each_candidate(benchmark::State& state, const Work& work) {
   for (auto _ : state) {
     state.PauseTiming();
     const Answered& m = *moments[k++ % moments.size()];
-    sweep(m.world.predictions->obstacles, m, swept);
+    sweep(m, swept);
     state.ResumeTiming();
     for (int j = 0; j < 6; ++j) {
       for (const auto& candidate : swept.candidates(j)) {
@@ -125,8 +129,7 @@ void for_each_candidate(benchmark::State& state, const Work& work) {
       }
     }
   }
-  state.counters["each"] =
-      benchmark::Counter(static_cast<double>(candidates), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["each"] = time_of_each(candidates);
 }
 
 /// One sweep of a moving obstacle over an interval, as boxes.
@@ -147,37 +150,28 @@ BENCHMARK(swept_hull)->Unit(benchmark::kMicrosecond);
 
 /// Is an interval of the answer clear? Yes or no, per pair of obstacle and interval, boxes and caches included.
 void separation_in_flight(benchmark::State& state) {
-  const auto moments = planned();
-  std::vector<SweptObstacles> swept = sweeps_of(moments);
-  std::size_t k = 0;
   PairCounts pairs;
-  for (auto _ : state) {
-    const std::size_t i = k++ % moments.size();
-    const ClampedSpline spline = moments[i]->answer.trajectory.spline();
+  in_turn(state, swept_moments(), [&](const Swept& swept) {
+    const ClampedSpline spline = swept.moment->answer.trajectory.spline();
+    bool all = true;
     for (int j = 0; j < spline.intervals(); ++j) {
-      benchmark::DoNotOptimize(is_clear(swept[i], j, spline.power(j), spline.minvo(j), pairs));
+      all = is_clear(swept.obstacles, j, spline.power(j), spline.minvo(j), pairs) && all;
     }
-  }
-  state.counters["per_pair"] =
-      benchmark::Counter(static_cast<double>(pairs.by_box + pairs.by_cache + pairs.by_plane + pairs.by_instant),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    return all;
+  });
+  state.counters["per_pair"] = time_of_each(pairs.by_box + pairs.by_cache + pairs.by_plane + pairs.by_instant);
 }
 BENCHMARK(separation_in_flight)->Unit(benchmark::kMicrosecond);
 
 /// The planes that the optimizer starts from: all within a metre, made from sweeps.
 void gather_planes(benchmark::State& state) {
-  const auto moments = planned();
-  std::vector<SweptObstacles> swept = sweeps_of(moments);
   std::vector<CertificatePlane> planes;
-  std::size_t k = 0;
   PairCounts pairs;
-  for (auto _ : state) {
-    const std::size_t i = k++ % moments.size();
-    const ClampedSpline spline = moments[i]->answer.trajectory.spline();
+  in_turn(state, swept_moments(), [&](const Swept& swept) {
     planes.clear();
-    find_planes(swept[i], spline, HullBasis::Minvo, 1.0, pairs, planes);
-    benchmark::DoNotOptimize(planes.data());
-  }
+    find_planes(swept.obstacles, swept.moment->answer.trajectory.spline(), HullBasis::Minvo, 1.0, pairs, planes);
+    return planes.data();
+  });
 }
 BENCHMARK(gather_planes)->Unit(benchmark::kMicrosecond);
 
@@ -198,36 +192,28 @@ HorizonProblem problem_of(const Answered& m) {
 
 /// The checker with its hulls made, and what it costs per pair (boxes included).
 void check_a_plan(benchmark::State& state) {
-  const auto moments = planned();
-  std::vector<SweptObstacles> swept = sweeps_of(moments);
-  std::size_t k = 0;
   std::int64_t pairs = 0;
-  for (auto _ : state) {
-    const std::size_t i = k++ % moments.size();
-    const Answered& m = *moments[i];
-    const CheckReport report = check_plan(m.answer.trajectory, problem_of(m), swept[i]);
-    pairs += report.pairs.by_box + report.pairs.by_plane;
-  }
-  state.counters["per_pair"] =
-      benchmark::Counter(static_cast<double>(pairs), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  in_turn(state, swept_moments(), [&](const Swept& swept) {
+    const Answered& m = *swept.moment;
+    const CheckReport report = check_plan(m.answer.trajectory, problem_of(m), swept.obstacles);
+    return pairs += report.pairs.by_box + report.pairs.by_plane;
+  });
+  state.counters["per_pair"] = time_of_each(pairs);
 }
 BENCHMARK(check_a_plan)->Unit(benchmark::kMicrosecond);
 
 /// One search at the answer's own Δt, sweeps included.
 void search(benchmark::State& state) {
-  const auto moments = planned();
-  std::size_t k = 0;
   std::int64_t expansions = 0;
   SweptObstacles swept;
   SearchMemory memory;
-  for (auto _ : state) {
-    const Answered& m = *moments[k++ % moments.size()];
-    sweep(m.world.predictions->obstacles, m, swept);
-    SearchProblem problem{problem_of(m)};
-    problem.way.point = m.answer.local_goal;
+  in_turn(state, planned(), [&](const Answered* m) {
+    sweep(*m, swept);
+    SearchProblem problem{problem_of(*m)};
+    problem.way.point = m->answer.local_goal;
     Budget budget = Budget::unlimited();
-    expansions += semantic_a_star(problem, recording().config.search, swept, budget, memory).expansions;
-  }
+    return expansions += semantic_a_star(problem, recording().config.search, swept, budget, memory).expansions;
+  });
   state.counters["expansions/s"] = benchmark::Counter(static_cast<double>(expansions), benchmark::Counter::kIsRate);
 }
 BENCHMARK(search)->Unit(benchmark::kMillisecond);

@@ -1,7 +1,6 @@
 // What a set of detections costs, of n things that swing, seen at 30 Hz without ids.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <vector>
 
 #include "core/base/random.h"

@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <lcm/lcm-cpp.hpp>
@@ -18,6 +17,7 @@
 #include "core/base/percentiles.h"
 #include "messages/codec.h"
 #include "runtime/bus.h"
+#include "runtime/config.h"
 #include "runtime/lcm_network.h"
 
 namespace tern {
@@ -29,9 +29,7 @@ constexpr Channel<ConfigurationReport> kPing{"PING"}, kPong{"PONG"};
 
 struct End {
   explicit End(const std::optional<Key>& master) {
-    auto opened = open_lcm(choose_lcm_url("", nullptr));
-    if (!opened) throw std::runtime_error(opened.error().message);
-    lcm = *opened;
+    lcm = or_refuse(open_lcm(choose_lcm_url("", nullptr)));
     std::optional<KeyRing> keys;
     if (master) keys = KeyRing::derive(*master, "round-trip");
     bus = std::make_unique<Bus>(lcm, clock, clock.now().us, "", std::move(keys));
@@ -51,11 +49,6 @@ struct End {
   End end(master);
   end.bus->subscribe(kPing, [&](const ConfigurationReport& m) { end.bus->publish(kPong, m); });
   while (true) end.hear();
-}
-
-double percentile(std::vector<double> values, std::size_t percent) {
-  std::sort(values.begin(), values.end());
-  return percentile_of_sorted(values, percent);
 }
 
 struct Round {
@@ -99,7 +92,8 @@ Round play(const std::optional<Key>& master, std::size_t bytes) {
   const double cpu = (cpu_us() - cpu_before) / kPings;
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
-  return {percentile(times, 50), percentile(times, 99), cpu};
+  const Percentiles took = percentiles(times);
+  return {took.p50, took.p99, cpu};
 }
 
 void measure(std::size_t bytes) {
@@ -115,7 +109,8 @@ void measure(std::size_t bytes) {
   for (const int with_keys : {0, 1}) {
     const auto* v = values[with_keys];
     fmt::print("{:>6} bytes, {:>7} keys: p50 {:6.0f} us, p99 {:6.0f} us, CPU {:5.0f} us\n", bytes,
-               with_keys == 1 ? "with" : "without", percentile(v[0], 50), percentile(v[1], 50), percentile(v[2], 50));
+               with_keys == 1 ? "with" : "without", percentiles(v[0]).p50, percentiles(v[1]).p50,
+               percentiles(v[2]).p50);
   }
 }
 

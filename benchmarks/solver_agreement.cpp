@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 
 #include "benchmarks/recorded_problems.h"
 #include "core/base/percentiles.h"
@@ -50,11 +49,9 @@ struct Comparison {
   }
 };
 
-void print(const char* name, std::vector<double> values) {
-  if (values.empty()) return;
-  std::sort(values.begin(), values.end());
-  const auto at = [&](std::size_t percent) { return percentile_of_sorted(values, percent); };
-  fmt::print("{:<22} p50 {:9.3g}   p99 {:9.3g}   max {:9.3g}\n", name, at(50), at(99), values.back());
+void print(const char* name, const std::vector<double>& values) {
+  const Percentiles p = percentiles(values);
+  if (!values.empty()) fmt::print("{:<22} p50 {:9.3g}   p99 {:9.3g}   max {:9.3g}\n", name, p.p50, p.p99, p.max);
 }
 
 int compare(int count, std::uint64_t seed) {

@@ -1,9 +1,6 @@
 // Eq. 4 by each method on problems recorded from flights, and the problem's making. Cost reached: mean over the
 // problems, as a share of the search's.
-#include <benchmark/benchmark.h>
-
-#include <vector>
-
+#include "benchmarks/in_turn.h"
 #include "benchmarks/recorded_problems.h"
 #include "planner/optimization/barrier_solver.h"
 #include "planner/optimization/ipopt_solver.h"
@@ -50,9 +47,7 @@ void run(benchmark::State& state, const Solve& solve) {
 }
 
 void make_problem(benchmark::State& state) {
-  const std::size_t count = problems().size();
-  std::size_t k = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(problems()[k++ % count].convex().bounds.data());
+  in_turn(state, problems(), [](const RecordedProblem& p) { return p.convex().bounds.data(); });
 }
 BENCHMARK(make_problem)->Unit(benchmark::kMicrosecond);
 

@@ -1,6 +1,5 @@
 // What the planner asks of a spline thousands of times per plan.
-#include <benchmark/benchmark.h>
-
+#include "benchmarks/in_turn.h"
 #include "core/splines/clamped_spline.h"
 #include "tests/support/random_splines.h"
 
@@ -8,6 +7,7 @@ namespace tern {
 namespace {
 
 constexpr int kIntervals = 6;
+const std::vector<int> kEach = {0, 1, 2, 3, 4, 5};
 
 ClampedSpline make_spline() {
   Rng rng(1);
@@ -25,22 +25,12 @@ void sample(benchmark::State& state) {
 BENCHMARK(sample);
 
 void minvo_of_an_interval(benchmark::State& state) {
-  const ClampedSpline spline = make_spline();
-  int j = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(spline.minvo(j));
-    j = (j + 1) % kIntervals;
-  }
+  in_turn(state, kEach, [spline = make_spline()](int j) { return spline.minvo(j); });
 }
 BENCHMARK(minvo_of_an_interval);
 
 void minvo_of_a_part(benchmark::State& state) {
-  const ClampedSpline spline = make_spline();
-  int j = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(spline.minvo(j, 0.25, 0.5));
-    j = (j + 1) % kIntervals;
-  }
+  in_turn(state, kEach, [spline = make_spline()](int j) { return spline.minvo(j, 0.25, 0.5); });
 }
 BENCHMARK(minvo_of_a_part);
 
@@ -51,12 +41,7 @@ void bounds_of_the_motion(benchmark::State& state) {
 BENCHMARK(bounds_of_the_motion);
 
 void bounds_of_the_position(benchmark::State& state) {
-  const ClampedSpline spline = make_spline();
-  int j = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(spline.position_bounds(j));
-    j = (j + 1) % kIntervals;
-  }
+  in_turn(state, kEach, [spline = make_spline()](int j) { return spline.position_bounds(j); });
 }
 BENCHMARK(bounds_of_the_position);
 

@@ -78,18 +78,20 @@ void map_decode(benchmark::State& state) {
 }
 BENCHMARK(map_decode)->Unit(benchmark::kMillisecond);
 
-template <class T>
-void encode_message(benchmark::State& state, const T& value) {
+template <auto make>
+void encode_message(benchmark::State& state) {
+  const auto value = make();
   for (auto _ : state) benchmark::DoNotOptimize(encode(value).data());
   state.counters["bytes"] = static_cast<double>(encode(value).size());
 }
 
-template <class T>
-void decode_message(benchmark::State& state, const T& value) {
-  const Bytes bytes = encode(value);
-  for (auto _ : state) benchmark::DoNotOptimize(decode<T>(bytes).has_value());
+template <auto make>
+void decode_message(benchmark::State& state) {
+  const Bytes bytes = encode(make());
+  for (auto _ : state) benchmark::DoNotOptimize(decode<decltype(make())>(bytes).has_value());
 }
 
+HorizonRequest request() { return middle_of_the_flight().request; }
 TrackSet batch() { return split_batches(middle_of_the_flight().world.predictions->set).front(); }
 Plan answer() {
   const Moment& m = middle_of_the_flight();
@@ -99,18 +101,12 @@ Plan answer() {
   return answered;
 }
 
-void encode_predictions(benchmark::State& state) { encode_message(state, batch()); }
-void decode_predictions(benchmark::State& state) { decode_message(state, batch()); }
-void encode_request(benchmark::State& state) { encode_message(state, middle_of_the_flight().request); }
-void decode_request(benchmark::State& state) { decode_message(state, middle_of_the_flight().request); }
-void encode_plan(benchmark::State& state) { encode_message(state, answer()); }
-void decode_plan(benchmark::State& state) { decode_message(state, answer()); }
-BENCHMARK(encode_predictions)->Unit(benchmark::kMicrosecond);
-BENCHMARK(decode_predictions)->Unit(benchmark::kMicrosecond);
-BENCHMARK(encode_request)->Unit(benchmark::kMicrosecond);
-BENCHMARK(decode_request)->Unit(benchmark::kMicrosecond);
-BENCHMARK(encode_plan)->Unit(benchmark::kMicrosecond);
-BENCHMARK(decode_plan)->Unit(benchmark::kMicrosecond);
+BENCHMARK(encode_message<batch>)->Name("encode_predictions")->Unit(benchmark::kMicrosecond);
+BENCHMARK(decode_message<batch>)->Name("decode_predictions")->Unit(benchmark::kMicrosecond);
+BENCHMARK(encode_message<request>)->Name("encode_request")->Unit(benchmark::kMicrosecond);
+BENCHMARK(decode_message<request>)->Name("decode_request")->Unit(benchmark::kMicrosecond);
+BENCHMARK(encode_message<answer>)->Name("encode_plan")->Unit(benchmark::kMicrosecond);
+BENCHMARK(decode_message<answer>)->Name("decode_plan")->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace tern
