@@ -8,7 +8,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <utility>
 
 #include "executor/app/executor_node.h"
 #include "flight_log/log_writer.h"

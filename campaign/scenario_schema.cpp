@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
-#include <vector>
 
 #include "campaign/flight_inputs.h"
 #include "runtime/config.h"

@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/world/message_limits.h"
 #include "core/world/thrust.h"
 
 namespace tern {

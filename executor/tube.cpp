@@ -1,6 +1,5 @@
 #include "executor/tube.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

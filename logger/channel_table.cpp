@@ -1,7 +1,5 @@
 #include "logger/channel_table.h"
 
-#include <utility>
-
 #include "messages/codec.h"
 
 namespace tern {

@@ -1,10 +1,8 @@
 #include "mavlink/autopilot.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "mavlink/axes.h"
 

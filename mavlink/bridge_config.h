@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/base/knobs.h"
-#include "core/base/time.h"
 
 namespace tern::mavlink {
 

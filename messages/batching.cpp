@@ -1,7 +1,6 @@
 #include "messages/batching.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <stdexcept>
 #include <utility>

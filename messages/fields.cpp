@@ -1,7 +1,5 @@
 #include "messages/fields.h"
 
-#include <cmath>
-
 namespace tern::wire {
 namespace {
 

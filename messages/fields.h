@@ -10,7 +10,6 @@
 #include <string_view>
 #include <tl/expected.hpp>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "core/base/time.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/box.h"
 #include "core/world/message_limits.h"
 #include "planner/optimization/trajectory_problem.h"
 #include "planner/plan_workspace.h"

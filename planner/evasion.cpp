@@ -1,15 +1,11 @@
 #include "planner/evasion.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
-#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "core/geometry/box.h"
 #include "core/world/flyable.h"
 #include "planner/duration.h"
 #include "planner/plan_workspace.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/geometry/box.h"
 #include "core/world/message_limits.h"
 #include "planner/duration.h"
 #include "planner/global_path/local_goal.h"

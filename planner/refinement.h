@@ -1,7 +1,6 @@
 // A search result made better by Eq. 4.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "planner/attempt.h"

@@ -1,9 +1,7 @@
 #include "planner/surroundings.h"
 
-#include "core/geometry/box.h"
 #include "core/world/flyable.h"
 #include "planner/plan_workspace.h"
-#include "planner/problem/tuning.h"
 #include "planner/safety/thrust_set.h"
 
 namespace tern {

@@ -9,7 +9,6 @@
 #include <exception>
 #include <lcm/lcm-cpp.hpp>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 
 #include "core/world/message_limits.h"

@@ -12,7 +12,6 @@
 #include <optional>
 #include <set>
 
-#include "runtime/config_record.h"
 #include "runtime/yaml_tree.h"
 
 namespace tern {

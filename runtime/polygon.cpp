@@ -1,7 +1,5 @@
 #include "runtime/polygon.h"
 
-#include <algorithm>
-
 namespace tern {
 namespace {
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/world/names.h"
-
 namespace tern {
 namespace {
 

@@ -1,7 +1,6 @@
 #include "campaign/page/campaign_page.h"
 
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "campaign/page/parts.h"
 #include "campaign/records/campaign_summary.h"

@@ -5,11 +5,8 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "core/world/names.h"
 

@@ -1,11 +1,9 @@
 #include "core/geometry/swept_boxes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/geometry/gjk_simplex.h"
-#include "core/geometry/separation.h"
 
 namespace tern {
 namespace {

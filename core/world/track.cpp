@@ -1,7 +1,5 @@
 #include "core/world/track.h"
 
-#include <algorithm>
-
 #include "core/world/alpha_count.h"
 
 namespace tern {

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "core/world/goal.h"
 #include "core/world/scenario.h"

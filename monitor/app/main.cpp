@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <string>
 
 #include "monitor/app/monitor_node.h"
 #include "runtime/process.h"

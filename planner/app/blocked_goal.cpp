@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "core/geometry/box.h"
 #include "core/world/body.h"
 #include "core/world/names.h"
 #include "planner/problem/tuning.h"

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <tuple>
-#include <utility>
 
 #include "core/geometry/separation.h"
-#include "core/geometry/separation_lp.h"
 #include "messages/channels.h"
 #include "messages/codec.h"
 #include "planner/app/plan_stopwatch.h"

@@ -1,7 +1,6 @@
 // tern-planner's node: requests in, certified plans out, in time whatever happens.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "planner/global_path/box_index.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace tern {

@@ -1,7 +1,6 @@
 // Nodes at the crossings of three sets of unevenly spaced lines.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <tuple>
 #include <utility>

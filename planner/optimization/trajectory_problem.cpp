@@ -1,6 +1,5 @@
 #include "planner/optimization/trajectory_problem.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 

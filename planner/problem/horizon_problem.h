@@ -1,7 +1,6 @@
 // The problem of one duration, as search, optimizer and checker share it (paper §2): what a trajectory must keep to.
 #pragma once
 
-#include "core/geometry/box.h"
 #include "core/splines/hull_basis.h"
 #include "core/world/vehicle.h"
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/base/time.h"
-#include "core/base/types.h"
 
 namespace tern {
 

@@ -1,6 +1,5 @@
 #include "planner/safety/swept_obstacles.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

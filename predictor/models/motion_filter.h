@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstddef>
 
 #include "core/base/types.h"
 #include "predictor/models/axis_filter.h"

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "core/world/message_limits.h"
 #include "core/world/names.h"
 #include "semantic_mapper/sources/class_names.h"
 

@@ -1,7 +1,6 @@
 // tern-simulator: the world, its sensor, the vehicle that follows setpoints, and the referee.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>

@@ -2,7 +2,6 @@
 // names).
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "tools/audit/audit.h"
 #include "tools/audit/body_gap.h"

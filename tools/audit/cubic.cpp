@@ -1,7 +1,6 @@
 #include "tools/audit/cubic.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tern::audit {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <utility>
 
 #include "tools/audit/check.h"
 #include "tools/audit/flight_record.h"

@@ -1,7 +1,6 @@
 #include "tools/export/foxglove.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>

@@ -1,7 +1,5 @@
 #include "tools/export/logged_messages.h"
 
-#include <utility>
-
 #include "messages/codec.h"
 
 namespace tern::exporting {

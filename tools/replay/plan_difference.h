@@ -1,7 +1,6 @@
 // How far two answers to one request agree, and where they part.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // What a log holds of planners' answers and of what they were made from.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <functional>
 #include <map>

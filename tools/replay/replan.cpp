@@ -1,7 +1,6 @@
 #include "tools/replay/replan.h"
 
 #include <utility>
-#include <vector>
 
 #include "planner/app/answer_desk.h"
 

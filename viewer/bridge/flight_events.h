@@ -1,7 +1,6 @@
 // What happened in a flight, and when: the marks on the page's timeline.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>

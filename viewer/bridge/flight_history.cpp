@@ -1,7 +1,6 @@
 #include "viewer/bridge/flight_history.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 

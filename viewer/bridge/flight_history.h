@@ -1,7 +1,6 @@
 // A flight's past, in bounded memory: the path, every number that messages carry, the answers' outcomes.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>

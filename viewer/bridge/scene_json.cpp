@@ -1,9 +1,5 @@
 #include "viewer/bridge/scene_json.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "core/world/names.h"
 #include "viewer/bridge/json_writer.h"
 #include "viewer/bridge/plane_place.h"

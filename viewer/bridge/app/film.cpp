@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "runtime/child_process.h"
 #include "viewer/bridge/app/devtools.h"

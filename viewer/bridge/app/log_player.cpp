@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 #include <utility>
 
-#include "core/world/message_limits.h"
 #include "flight_log/flight_log.h"
 #include "messages/codec.h"
 #include "viewer/bridge/json_writer.h"
