@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/base/files.h"
 #include "executor/app/executor_node.h"
 #include "flight_log/log_writer.h"
 #include "messages/codec.h"
@@ -42,10 +43,8 @@ void add(FlightTimes& times, const PlanTiming& timing) {
   }
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream out(path);
-  out << text;
-  if (!out.flush()) throw CannotRecord(path + ": cannot be written");
+void record_text(const std::string& path, const std::string& text) {
+  if (!write_text(path, text)) throw CannotRecord(path + ": cannot be written");
 }
 
 /// Everything on the bus, on its way into the watch, the times and the observer.
@@ -135,7 +134,7 @@ void audit(const Auditor& auditor, const std::string& folder, FlightRecord& reco
 
 RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, const CampaignIdentity& identity,
                             const std::string& folder, const Auditor& auditor, FlightObserver* observer) {
-  write_text(folder + "/scenario.yaml", spell_out(inputs, seed));
+  record_text(folder + "/scenario.yaml", spell_out(inputs, seed));
   const std::string log = folder + "/flight.lcm";
   auto writer = LogWriter::open(log, 0);
   if (!writer) throw CannotRecord(writer.error().message);
@@ -154,7 +153,7 @@ RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, cons
     FlightSummary summary = watch.summary(fly(system, watch));
     summary.log = log;
     summary.version = identity.version;
-    write_text(folder + "/summary.json", to_json(summary));
+    record_text(folder + "/summary.json", to_json(summary));
     flight.record = make_record(summary, system.executor().counters(), inputs, identity);
   }
   if (const auto flushed = writer->flush(); !flushed) throw CannotRecord(flushed.error().message);

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "flight_log/log_format.h"
 
@@ -25,18 +24,6 @@ void put(std::string& out, Integer value) {
   }
 }
 
-/// Writes all of it. @return the bytes written; fewer than asked for when errno says why.
-std::size_t write_all(int fd, std::string_view bytes) {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t n = write(fd, bytes.data() + done, bytes.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) break;
-    done += static_cast<std::size_t>(n);
-  }
-  return done;
-}
-
 }  // namespace
 
 std::string log_part_path(const std::string& path, int part) {
@@ -51,32 +38,17 @@ Result<LogWriter> LogWriter::open(const std::string& path, std::int64_t rotate_b
   return writer;
 }
 
-LogWriter::LogWriter(LogWriter&& other) noexcept
-    : path_(std::move(other.path_)),
-      part_path_(std::move(other.part_path_)),
-      rotate_bytes_(other.rotate_bytes_),
-      fd_(std::exchange(other.fd_, -1)),
-      next_part_(other.next_part_),
-      part_bytes_(other.part_bytes_),
-      next_number_(other.next_number_),
-      buffer_(std::move(other.buffer_)),
-      buffered_(other.buffered_),
-      counters_(other.counters_) {}
-
 LogWriter::~LogWriter() {
-  if (fd_ < 0) return;
-  (void)flush();
-  close(fd_);
+  if (fd_.get() >= 0) (void)flush();
 }
 
 Result<void> LogWriter::open_next_part() {
   for (int part = next_part_; part < kMaxParts; ++part) {
     const std::string file = log_part_path(path_, part);
-    const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (fd < 0 && errno == EEXIST) continue;
-    if (fd < 0) return fail(fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
-    if (fd_ >= 0) close(fd_);
-    fd_ = fd;
+    Descriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+    if (fd.get() < 0 && errno == EEXIST) continue;
+    if (fd.get() < 0) return fail(fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
+    fd_ = std::move(fd);
     part_path_ = file;
     part_bytes_ = 0;
     next_part_ = part + 1;
@@ -103,7 +75,7 @@ Result<void> LogWriter::flush() {
   Result<void> result;
   // A part that cannot be followed by another one is written on: a log that is too long is better than none.
   if (rotate_bytes_ > 0 && part_bytes_ >= rotate_bytes_) result = open_next_part();
-  const std::size_t done = write_all(fd_, buffer_);
+  const std::size_t done = write_all(fd_.get(), buffer_);
   if (done == buffer_.size()) {
     part_bytes_ += static_cast<std::int64_t>(done);
     counters_.bytes += static_cast<std::int64_t>(done);
@@ -111,7 +83,7 @@ Result<void> LogWriter::flush() {
   } else {
     result = fail(fmt::format("{}: {} messages were not written: {}", part_path_, buffered_, std::strerror(errno)));
     counters_.unwritten += buffered_;
-    if (ftruncate(fd_, part_bytes_) == 0) lseek(fd_, part_bytes_, SEEK_SET);
+    if (ftruncate(fd_.get(), part_bytes_) == 0) lseek(fd_.get(), part_bytes_, SEEK_SET);
   }
   buffer_.clear();
   buffered_ = 0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/files.h"
 #include "core/base/result.h"
 
 namespace tern {
@@ -33,7 +34,7 @@ class LogWriter {
   /// @return an Error that names path and reason when the file cannot be made.
   static Result<LogWriter> open(const std::string& path, std::int64_t rotate_bytes);
   ~LogWriter();  ///< flushes
-  LogWriter(LogWriter&& other) noexcept;
+  LogWriter(LogWriter&& other) noexcept = default;
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
   LogWriter& operator=(LogWriter&&) = delete;
@@ -52,7 +53,8 @@ class LogWriter {
 
   std::string path_, part_path_;
   std::int64_t rotate_bytes_;
-  int fd_ = -1, next_part_ = 0;
+  Descriptor fd_;
+  int next_part_ = 0;
   std::int64_t part_bytes_ = 0;  ///< whole events in the file
   std::int64_t next_number_ = 0;
   std::string buffer_;

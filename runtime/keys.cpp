@@ -11,6 +11,8 @@
 #include <cstring>
 #include <optional>
 
+#include "core/base/files.h"
+
 namespace tern {
 namespace {
 
@@ -68,20 +70,17 @@ Result<SecretText> read_all(int fd, const std::string& what) {
 }
 
 Result<SecretText> read_private_file(const std::string& path) {
-  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (fd < 0) return fail(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (file.get() < 0) return fail(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   struct stat status {};
-  const bool known = fstat(fd, &status) == 0;
-  Result<SecretText> read = [&]() -> Result<SecretText> {
-    if (!known || !S_ISREG(status.st_mode)) return fail(path + ": a key is read from a regular file only");
-    if ((status.st_mode & kOthers) != 0) {
-      return fail(fmt::format("{}: mode {:03o}: others than its owner can use it; chmod 600 {}", path,
-                              static_cast<unsigned>(status.st_mode & 0777U), path));
-    }
-    return read_all(fd, path);
-  }();
-  close(fd);
-  return read;
+  if (fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+    return fail(path + ": a key is read from a regular file only");
+  }
+  if ((status.st_mode & kOthers) != 0) {
+    return fail(fmt::format("{}: mode {:03o}: others than its owner can use it; chmod 600 {}", path,
+                            static_cast<unsigned>(status.st_mode & 0777U), path));
+  }
+  return read_all(file.get(), path);
 }
 
 Result<KeyRing> ring_of(const Result<SecretText>& read, const std::string& what, std::string_view process) {
@@ -155,9 +154,8 @@ Result<KeyRing> read_key_file(const std::string& path, std::string_view process)
 
 Result<KeyRing> read_key_fd(int fd, std::string_view process) {
   const std::string what = fmt::format("--key-fd {}", fd);
-  const auto read = read_all(fd, what);
-  close(fd);
-  return ring_of(read, what, process);
+  const Descriptor file(fd);
+  return ring_of(read_all(file.get(), what), what, process);
 }
 
 Result<int> hold_in_memory(const KeyRing& ring) {

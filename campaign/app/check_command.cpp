@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
 #include "campaign/app/commands.h"
 #include "campaign/app/flight_options.h"
 #include "campaign/experiments/scenario_view.h"
+#include "core/base/files.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -27,9 +27,7 @@ int check(const Options& options) {
   fmt::print("{}", to_text(view));
   if (!options.out.empty()) {
     const bool was_there = std::filesystem::exists(options.out);
-    std::ofstream file(options.out);
-    file << draw_scenario(view);
-    if (!file.flush()) throw ConfigError(options.out + ": cannot be written");
+    if (!write_text(options.out, draw_scenario(view))) throw ConfigError(options.out + ": cannot be written");
     fmt::print("  drawn     {}{}\n", options.out, was_there ? ", in place of the one that was there" : "");
   }
   return view.shortest ? 0 : kExitUnreachable;

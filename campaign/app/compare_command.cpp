@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,6 +11,7 @@
 #include "campaign/experiments/comparison_figure.h"
 #include "campaign/page/campaign_page.h"
 #include "campaign/records/campaign_comparison.h"
+#include "core/base/files.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -49,9 +49,8 @@ int write_page(const PageOptions& options) {
   const fs::path out = options.out.empty() ? options.flights + ".html" : options.out;
   const fs::path failures = options.failures.empty() ? default_failures(options.flights) : options.failures;
   const fs::path link = fs::absolute(failures).lexically_relative(fs::absolute(out).parent_path());
-  std::ofstream file(out);
-  file << campaign_page(or_refuse(read_flights(options.flights)), link.string());
-  if (!file.flush()) throw ConfigError(out.string() + ": cannot be written");
+  const std::string page = campaign_page(or_refuse(read_flights(options.flights)), link.string());
+  if (!write_text(out, page)) throw ConfigError(out.string() + ": cannot be written");
   fmt::print("{}\n", out.string());
   return 0;
 }

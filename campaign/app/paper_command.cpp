@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "campaign/app/commands.h"
@@ -16,6 +15,7 @@
 #include "campaign/experiments/figure_data.h"
 #include "campaign/experiments/search_experiment.h"
 #include "campaign/experiments/semantic_flights.h"
+#include "core/base/files.h"
 #include "runtime/config.h"
 
 namespace tern {
@@ -31,10 +31,7 @@ struct Options {
 
 void write(const std::string& folder, const std::string& name, const std::string& text) {
   const std::string file = folder + "/" + name;
-  std::ofstream out(file);
-  out << text;
-  out.close();
-  if (!out) throw ConfigError("cannot write " + file);
+  if (!write_text(file, text)) throw ConfigError("cannot write " + file);
   fmt::print("{}\n", file);
 }
 

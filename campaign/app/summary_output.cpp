@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "campaign/records/campaign_summary.h"
+#include "core/base/files.h"
 
 namespace tern {
 namespace {
@@ -37,10 +38,7 @@ int write_summary(const std::string& flights_file, const std::string& summary_fi
   }
   const CampaignSummary summary = summarize(*flights);
   fmt::print("{}", to_text(summary));
-  if (summary_file.empty()) return 0;
-  std::ofstream out(summary_file);
-  out << to_json(summary, command);
-  if (out.flush()) return 0;
+  if (summary_file.empty() || write_text(summary_file, to_json(summary, command))) return 0;
   fmt::print(stderr, "{}: cannot be written\n", summary_file);
   return kExitNoFile;
 }

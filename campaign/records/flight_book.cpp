@@ -10,8 +10,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace tern {
@@ -19,21 +17,6 @@ namespace {
 
 tl::unexpected<Error> errno_error(const std::string& path, const char* what) {
   return fail(fmt::format("{}: {}: {}", path, what, std::strerror(errno)));
-}
-
-std::string read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-bool write_all(int fd, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  return true;
 }
 
 /// Calls `take` with every record behind the header. @return the bytes of whole lines.
@@ -86,31 +69,22 @@ Result<WholeBytes> read_both(const std::string& file, Flights& flights) {
 
 Result<void> replace_file(const std::string& path, const std::string& text) {
   const std::string fresh = path + ".new";
-  const int fd = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) return errno_error(fresh, "cannot be written");
-  const bool written = write_all(fd, text) && fsync(fd) == 0;
-  if (!written) {
-    const auto why = errno_error(fresh, "cannot be written");
-    close(fd);
-    return why;
+  const Descriptor file(::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+  if (file.get() < 0 || write_all(file.get(), text) != text.size() || fsync(file.get()) != 0) {
+    return errno_error(fresh, "cannot be written");
   }
-  close(fd);
   if (std::rename(fresh.c_str(), path.c_str()) != 0) return errno_error(path, "cannot be replaced");
   return {};
 }
 
 /// Holds `path`, which its holder removes at the end: what was opened may be gone when the lock is had.
-Result<int> lock(const std::string& path) {
+Result<Descriptor> lock(const std::string& path) {
   while (true) {
-    const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (fd < 0) return errno_error(path, "cannot be made");
-    if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
-      close(fd);
-      return fail(path + ": another campaign writes this file");
-    }
+    Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
+    if (file.get() < 0) return errno_error(path, "cannot be made");
+    if (flock(file.get(), LOCK_EX | LOCK_NB) != 0) return fail(path + ": another campaign writes this file");
     struct stat held {};
-    if (fstat(fd, &held) == 0 && held.st_nlink > 0) return fd;
-    close(fd);
+    if (fstat(file.get(), &held) == 0 && held.st_nlink > 0) return file;
   }
 }
 
@@ -150,9 +124,9 @@ Result<void> join(Flights& all, Flights more) {
 
 Result<FlightBook> FlightBook::open(const std::string& file, const CampaignIdentity& identity) {
   FlightBook book(file);
-  const auto held = lock(file + ".lock");
+  auto held = lock(file + ".lock");
   if (!held) return tl::unexpected(held.error());
-  book.lock_fd_ = *held;
+  book.lock_ = std::move(*held);
   const auto whole = read_both(file, book.flights_);
   if (!whole) return tl::unexpected(whole.error());
   if (!book.flights_.records.empty()) {
@@ -161,44 +135,38 @@ Result<FlightBook> FlightBook::open(const std::string& file, const CampaignIdent
       return fail(fmt::format("{}: holds flights of another campaign: {}; name another file", file, differs));
     }
   }
-  if (auto begun = book.begin(times_file(file), book.times_fd_, times_columns(), whole->times); !begun) {
+  if (auto begun = book.begin(times_file(file), book.times_file_, times_columns(), whole->times); !begun) {
     return tl::unexpected(begun.error());
   }
-  if (auto begun = book.begin(file, book.flights_fd_, flight_columns(), whole->flights); !begun) {
+  if (auto begun = book.begin(file, book.flights_file_, flight_columns(), whole->flights); !begun) {
     return tl::unexpected(begun.error());
   }
   return book;
 }
 
-Result<void> FlightBook::begin(const std::string& path, int& fd, const CsvRecord& columns,
+Result<void> FlightBook::begin(const std::string& path, Descriptor& table, const CsvRecord& columns,
                                std::size_t whole_bytes) const {
-  fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (fd < 0 || ftruncate(fd, static_cast<off_t>(whole_bytes)) != 0) return errno_error(path, "cannot be written");
-  if (whole_bytes == 0 && !write_all(fd, csv_line(columns))) return errno_error(path, "cannot be written");
+  table = Descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  const std::string head = whole_bytes == 0 ? csv_line(columns) : "";
+  if (table.get() < 0 || ftruncate(table.get(), static_cast<off_t>(whole_bytes)) != 0 ||
+      write_all(table.get(), head) != head.size()) {
+    return errno_error(path, "cannot be written");
+  }
   return {};
 }
 
-FlightBook::FlightBook(FlightBook&& other) noexcept
-    : file_(std::move(other.file_)),
-      flights_(std::move(other.flights_)),
-      lock_fd_(std::exchange(other.lock_fd_, -1)),
-      flights_fd_(std::exchange(other.flights_fd_, -1)),
-      times_fd_(std::exchange(other.times_fd_, -1)) {}
-
 FlightBook::~FlightBook() {
-  if (lock_fd_ >= 0) unlink((file_ + ".lock").c_str());
-  for (const int fd : {flights_fd_, times_fd_, lock_fd_}) {
-    if (fd >= 0) close(fd);
-  }
+  if (lock_.get() >= 0) unlink((file_ + ".lock").c_str());
 }
 
 Result<void> FlightBook::add(const FlightRecord& record, const FlightTimes& times) {
   // Times first: they count only with their flight.
-  const auto append = [](int fd, const CsvRecord& cells) {
-    return write_all(fd, csv_line(cells)) && fdatasync(fd) == 0;
+  const auto append = [](const Descriptor& table, const CsvRecord& cells) {
+    const std::string line = csv_line(cells);
+    return write_all(table.get(), line) == line.size() && fdatasync(table.get()) == 0;
   };
-  if (!append(times_fd_, to_cells(times))) return errno_error(times_file(file_), "cannot be written");
-  if (!append(flights_fd_, to_cells(record))) return errno_error(file_, "cannot be written");
+  if (!append(times_file_, to_cells(times))) return errno_error(times_file(file_), "cannot be written");
+  if (!append(flights_file_, to_cells(record))) return errno_error(file_, "cannot be written");
   flights_.records.emplace(record.seed, record);
   flights_.times[record.seed] = times;
   return {};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "campaign/records/flight_record.h"
+#include "core/base/files.h"
 #include "core/base/result.h"
 
 namespace tern {
@@ -39,7 +40,7 @@ class FlightBook {
   /// @return an Error when another process holds it, when it cannot be read or written, or when its flights are of
   /// another identity.
   static Result<FlightBook> open(const std::string& file, const CampaignIdentity& identity);
-  FlightBook(FlightBook&& other) noexcept;
+  FlightBook(FlightBook&& other) noexcept = default;
   FlightBook& operator=(FlightBook&&) = delete;
   FlightBook(const FlightBook&) = delete;
   FlightBook& operator=(const FlightBook&) = delete;
@@ -54,11 +55,12 @@ class FlightBook {
 
  private:
   explicit FlightBook(std::string file) : file_(std::move(file)) {}
-  Result<void> begin(const std::string& path, int& fd, const CsvRecord& columns, std::size_t whole_bytes) const;
+  Result<void> begin(const std::string& path, Descriptor& table, const CsvRecord& columns,
+                     std::size_t whole_bytes) const;
 
   std::string file_;
   Flights flights_;
-  int lock_fd_ = -1, flights_fd_ = -1, times_fd_ = -1;
+  Descriptor lock_, times_file_, flights_file_;  // the lock ends last
 };
 
 }  // namespace tern

@@ -13,12 +13,12 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/files.h"
 #include "launcher/app/supervisor.h"
 #include "launcher/rules.h"
 #include "monitor/flight_summary.h"
@@ -35,11 +35,6 @@ template <class... T>
 void say(fmt::format_string<T...> format, T&&... values) {
   fmt::print("{}\n", fmt::format(format, std::forward<T>(values)...));
   std::fflush(stdout);
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::string without_end(std::string text) {
@@ -128,7 +123,7 @@ void announce(const FlightOptions& options, const fs::path& record, const std::v
   std::ofstream flown(record / "scenario.yaml");
   flown << "# As flown: " << options.scenario << '\n';
   for (const std::string& value : options.overrides) flown << "# " << shell_line({"--set", value}) << '\n';
-  flown << text_of(options.scenario);
+  flown << read_text(options.scenario);
   say("Flight of {}\n  record   {}", options.scenario, record.string());
   if (options.namespace_flags.empty()) {
     say("  network  export LCM_DEFAULT_URL='{}'", options.lcm_url);
@@ -146,7 +141,7 @@ std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event)
   if (event.process.empty()) return event.code;
   const bool is_judge = event.process == kMonitor, has_summary = fs::exists(record / "summary.json");
   if (is_judge ? !has_summary : event.code != 0) {
-    const std::string words = last_line(text_of(record / (event.process + ".log")));
+    const std::string words = last_line(read_text(record / (event.process + ".log")));
     give_up(record, fmt::format("{} ended with exit code {}: {}", event.process, event.code, words));
   }
   return is_judge ? std::optional(judged(event.code, has_summary)) : std::nullopt;
@@ -176,7 +171,7 @@ void run_checks(const std::vector<std::vector<std::string>>& checks, const fs::p
     const int out = open_log(log);
     const ProcessEnd end = await_child(start_child({.command = command, .out = out, .error = out}));
     close(out);
-    if (shell_code(end) != 0) throw std::runtime_error(last_line(text_of(log)));
+    if (shell_code(end) != 0) throw std::runtime_error(last_line(read_text(log)));
     fs::remove(log);
   }
 }
@@ -267,7 +262,7 @@ int look_back(const FlightOptions& options, const fs::path& record, int code) {
     const int audit_code = run({"tern-audit", log, "--json", record / "audit.json"}, open_log(audit));
     if (told != 0) return kExitSignalled + told;
     code = audited(code, audit_code);
-    say("\n{}", has_failed ? "Audit: " + audit : without_end(text_of(audit)));
+    say("\n{}", has_failed ? "Audit: " + audit : without_end(read_text(audit)));
   }
   if (options.report && run({"tern-report", log, "-o", record / "report.html"}, STDOUT_FILENO) != 0) {
     return told != 0 ? kExitSignalled + told : kExitFailed;
@@ -309,7 +304,7 @@ int fly(const FlightOptions& options) {
   if (code > kExitSignalled) say("\nEnded by a signal; what was recorded: {}", record->string());
   const fs::path summary = *record / "summary.json";
   if (code == kExitFailed && !fs::exists(summary)) {
-    write_failure(options, last_line(text_of(*record / "failure")), summary);
+    write_failure(options, last_line(read_text(*record / "failure")), summary);
   }
   if (!options.summary.empty() && fs::exists(summary)) {
     fs::copy_file(summary, options.summary, fs::copy_options::overwrite_existing);

@@ -14,6 +14,7 @@
 #include <map>
 #include <utility>
 
+#include "core/base/files.h"
 #include "mavlink/messages.h"
 
 namespace tern::mavlink {
@@ -22,22 +23,6 @@ namespace {
 constexpr std::size_t kLargest = 65'536;
 constexpr Duration kPeerSilence{3'000'000};
 constexpr std::uint8_t kAutopilotComponent = 1, kInvalidAutopilot = 8;
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 bool introduces_autopilot(std::span<const std::uint8_t> bytes) {
   for (const Frame& frame : Parser().push(bytes)) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/base/files.h"
 #include "core/world/box_cover.h"
 #include "messages/codec.h"
 #include "monitor/app/hear_flight.h"
@@ -89,10 +90,9 @@ void MonitorNode::finish(const Ending& ending) {
   summary.version = build_id();
   output_.print(to_text(summary));
   exit_code_ = static_cast<int>(summary.outcome);
-  if (options_.summary_file.empty()) return;
-  std::ofstream file(options_.summary_file);
-  file << to_json(summary);
-  if (!file.flush()) spdlog::error("{}: the summary cannot be written", options_.summary_file);
+  if (!options_.summary_file.empty() && !write_text(options_.summary_file, to_json(summary))) {
+    spdlog::error("{}: the summary cannot be written", options_.summary_file);
+  }
 }
 
 }  // namespace tern

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 
+#include "core/base/files.h"
 #include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     const tern::Replay replay = tern::or_refuse(tern::replay_log(log, options));
     tern::or_refuse(tern::keep_answers(log, options, save, dump));
     fmt::print("{}", tern::replay_text(replay, what_if));
-    if (!json.empty() && !(std::ofstream(json) << tern::replay_json(replay, what_if))) {
+    if (!json.empty() && !tern::write_text(json, tern::replay_json(replay, what_if))) {
       throw tern::ConfigError(json + ": cannot be written");
     }
     return tern::replay_exit_code(replay, what_if);

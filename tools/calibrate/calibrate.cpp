@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <stdexcept>
 
+#include "core/base/files.h"
 #include "runtime/config.h"
 #include "tools/calibrate/coverage.h"
 #include "tools/calibrate/made_up.h"
@@ -14,9 +14,7 @@ namespace tern::calibrate {
 namespace {
 
 void write(const std::string& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(file + " cannot be written");
+  if (!write_text(file, text)) throw std::runtime_error(file + " cannot be written");
 }
 
 }  // namespace

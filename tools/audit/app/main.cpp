@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 
+#include "core/base/files.h"
 #include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
@@ -19,13 +19,10 @@ constexpr int kBroken = 1;
 
 int run(const std::string& log, const std::string& json_file) {
   const tern::audit::FlightRecord record = tern::or_refuse(tern::audit::load_flight(log));
-  if (record.contents.events == 0) throw std::runtime_error(log + ": not one whole event in it");
   const tern::audit::Audit audit = tern::audit::audit_flight(record);
   fmt::print("{}", tern::audit::to_text(audit, record));
-  if (!json_file.empty()) {
-    std::ofstream file(json_file);
-    file << tern::audit::to_json(audit, record).dump(1) << '\n';
-    if (!file.flush()) throw std::runtime_error(json_file + " cannot be written");
+  if (!json_file.empty() && !tern::write_text(json_file, tern::audit::to_json(audit, record).dump(1) + "\n")) {
+    throw std::runtime_error(json_file + " cannot be written");
   }
   return audit.verdict() == tern::audit::Verdict::Broken ? kBroken : 0;
 }

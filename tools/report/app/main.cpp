@@ -3,10 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
+#include "core/base/files.h"
 #include "runtime/config.h"
 #include "runtime/tool.h"
 #include "runtime/version.h"
@@ -17,11 +17,9 @@ namespace {
 
 int run(const std::string& log, const std::string& page) {
   const tern::audit::FlightRecord record = tern::or_refuse(tern::audit::load_flight(log));
-  if (record.contents.events == 0) throw std::runtime_error(log + ": not one whole event in it");
-  std::ofstream file(page);
-  file << tern::report::report_page(record, tern::audit::audit_flight(record),
-                                    {tern::audit::typed_command(log), tern::audit::flown_pace(log)});
-  if (!file.flush()) throw std::runtime_error(page + " cannot be written");
+  const std::string html = tern::report::report_page(record, tern::audit::audit_flight(record),
+                                                     {tern::audit::typed_command(log), tern::audit::flown_pace(log)});
+  if (!tern::write_text(page, html)) throw std::runtime_error(page + " cannot be written");
   fmt::print("{}\n", page);
   return 0;
 }

@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <fstream>
 
+#include "core/base/files.h"
 #include "runtime/config.h"
 #include "viewer/bridge/app/export_page.h"
 #include "viewer/bridge/app/film.h"
@@ -23,10 +23,7 @@ class DoneNode final : public Node {
 };
 
 void write(const std::string& html, const std::string& file) {
-  std::ofstream out(file, std::ios::binary);
-  out << html;
-  out.close();
-  if (!out) throw ConfigError(file + " cannot be written");
+  if (!write_text(file, html)) throw ConfigError(file + " cannot be written");
   spdlog::info("{}: {:.1f} MB", file, static_cast<double>(html.size()) * 1e-6);
 }
 

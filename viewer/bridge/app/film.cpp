@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/files.h"
 #include "runtime/child_process.h"
 #include "viewer/bridge/app/devtools.h"
 
@@ -78,11 +79,7 @@ class Encoder {
     close(pictures[0]);
   }
   void add(const std::string& picture) {
-    for (std::size_t done = 0; done < picture.size();) {
-      const ssize_t n = write(to_, picture.data() + done, picture.size() - done);
-      if (n <= 0) throw std::runtime_error("ffmpeg does not take the pictures");
-      done += static_cast<std::size_t>(n);
-    }
+    if (write_all(to_, picture) != picture.size()) throw std::runtime_error("ffmpeg does not take the pictures");
   }
   void finish() {
     close(to_);
