@@ -34,23 +34,6 @@ double to_polygon(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& 
   return std::abs(winding) > 1.0 ? -nearest : nearest;
 }
 
-}  // namespace
-
-double distance_to(const Region& region, const Vec3& p) {
-  if (const auto* box = std::get_if<Box>(&region.shape)) {
-    const Vec3 beyond = (box->min() - p).cwiseMax(p - box->max());
-    return beyond.maxCoeff() > 0.0 ? beyond.cwiseMax(0.0).norm() : beyond.maxCoeff();
-  }
-  if (const auto* ball = std::get_if<BallRegion>(&region.shape)) return (p - ball->centre).norm() - ball->radius;
-  const auto& prism = std::get<PrismRegion>(region.shape);
-  const double beside = to_polygon(p.head<2>(), prism.corners);
-  const double above = std::max(prism.z_min - p.z(), p.z() - prism.z_max);
-  const bool inside = beside <= 0.0 && above <= 0.0;
-  return inside ? std::max(beside, above) : std::hypot(std::max(beside, 0.0), std::max(above, 0.0));
-}
-
-namespace {
-
 /// "12.30" or, where the log does not tell so well, "12.10 to 12.50".
 std::string text(const Between& x) {
   constexpr double kShown = 0.02;
@@ -77,6 +60,19 @@ void compare(const FlightRecord& record, const Measures& measures, const RegionM
 }
 
 }  // namespace
+
+double distance_to(const Region& region, const Vec3& p) {
+  if (const auto* box = std::get_if<Box>(&region.shape)) {
+    const Vec3 beyond = (box->min() - p).cwiseMax(p - box->max());
+    return beyond.maxCoeff() > 0.0 ? beyond.cwiseMax(0.0).norm() : beyond.maxCoeff();
+  }
+  if (const auto* ball = std::get_if<BallRegion>(&region.shape)) return (p - ball->centre).norm() - ball->radius;
+  const auto& prism = std::get<PrismRegion>(region.shape);
+  const double beside = to_polygon(p.head<2>(), prism.corners);
+  const double above = std::max(prism.z_min - p.z(), p.z() - prism.z_max);
+  const bool inside = beside <= 0.0 && above <= 0.0;
+  return inside ? std::max(beside, above) : std::hypot(std::max(beside, 0.0), std::max(above, 0.0));
+}
 
 Check check_exposure(const FlightRecord& record) {
   Check check{.name = "exposure", .claim = "seconds and metres in and near each region are what the referee says"};

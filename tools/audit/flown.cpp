@@ -108,38 +108,6 @@ Sampled bridge(UTime from, const MotionSample& a, UTime to, const MotionSample& 
   return span;
 }
 
-}  // namespace
-
-SampledMotion flown(const FlightRecord& record) {
-  const Committed committed(record);
-  const Vec3 greatest = greatest_acceleration(record);
-  SampledMotion motion;
-  for (std::size_t k = 0; k + 1 < record.states.size(); ++k) {
-    const UavState& a = record.states[k];
-    const UavState& b = record.states[k + 1];
-    const auto off_a = committed.off(a);
-    const auto off_b = committed.off(b);
-    const UTime until = off_a ? std::min(b.at, committed.known_until(a.at)) : a.at;
-    const UTime since = off_b ? std::max(a.at, committed.known_since(b.at)) : b.at;
-    if (until >= since && off_a && off_b) {
-      committed.append(a.at, b.at, std::max(*off_a, *off_b), motion.spans);
-      continue;
-    }
-    if (off_a) committed.append(a.at, until, *off_a, motion.spans);
-    motion.spans.push_back(bridge(until, until > a.at ? committed.at(until) : a.motion, since,
-                                  since < b.at ? committed.at(since) : b.motion, greatest));
-    if (off_b) committed.append(since, b.at, *off_b, motion.spans);
-  }
-  for (const Sampled& span : motion.spans) {
-    if (!span.hole) continue;
-    motion.holes = motion.holes + (span.curve.to - span.curve.from);
-    ++motion.hole_count;
-  }
-  return motion;
-}
-
-namespace {
-
 using TrueSample = ObstacleHistory::Sample;
 
 bool keeps_to(const DeclaredPiece& piece, const TrueSample& s) {
@@ -173,6 +141,34 @@ bool rests(const ObstacleHistory& history, const TrueSample& a, const TrueSample
 }
 
 }  // namespace
+
+SampledMotion flown(const FlightRecord& record) {
+  const Committed committed(record);
+  const Vec3 greatest = greatest_acceleration(record);
+  SampledMotion motion;
+  for (std::size_t k = 0; k + 1 < record.states.size(); ++k) {
+    const UavState& a = record.states[k];
+    const UavState& b = record.states[k + 1];
+    const auto off_a = committed.off(a);
+    const auto off_b = committed.off(b);
+    const UTime until = off_a ? std::min(b.at, committed.known_until(a.at)) : a.at;
+    const UTime since = off_b ? std::max(a.at, committed.known_since(b.at)) : b.at;
+    if (until >= since && off_a && off_b) {
+      committed.append(a.at, b.at, std::max(*off_a, *off_b), motion.spans);
+      continue;
+    }
+    if (off_a) committed.append(a.at, until, *off_a, motion.spans);
+    motion.spans.push_back(bridge(until, until > a.at ? committed.at(until) : a.motion, since,
+                                  since < b.at ? committed.at(since) : b.motion, greatest));
+    if (off_b) committed.append(since, b.at, *off_b, motion.spans);
+  }
+  for (const Sampled& span : motion.spans) {
+    if (!span.hole) continue;
+    motion.holes = motion.holes + (span.curve.to - span.curve.from);
+    ++motion.hole_count;
+  }
+  return motion;
+}
 
 SampledMotion moved(const ObstacleHistory& history, const std::vector<DeclaredPiece>& declared) {
   SampledMotion motion;

@@ -26,6 +26,11 @@ std::string fields_json(const FlightHistory& history) {
 
 }  // namespace
 
+bool is_of_the_past(Topic topic) {
+  return topic == Topic::Chart || topic == Topic::Path || topic == Topic::Fields || topic == Topic::Events ||
+         topic == Topic::Ghost;
+}
+
 std::string topic_json(Topic topic, const Telling& telling) {
   const Scene& scene = telling.scene;
   const FlightHistory& history = telling.memory.history;

@@ -20,6 +20,9 @@ struct Telling {
   std::vector<std::string> series;
 };
 
+/// Of a log these are of the whole flight, told once.
+bool is_of_the_past(Topic topic);
+
 /// One JSON value; "null" where nothing was heard, and for topics that are not of the scene (Session, Player, Ghost).
 std::string topic_json(Topic topic, const Telling& telling);
 

@@ -48,10 +48,6 @@ Duration spacing(Topic topic) {
   }
 }
 
-bool is_of_the_past(Topic topic) {
-  return topic == Topic::Chart || topic == Topic::Path || topic == Topic::Fields || topic == Topic::Events;
-}
-
 /// What the page was told on one topic, and when.
 struct Row {
   std::vector<UTime> at;

@@ -34,12 +34,6 @@ Duration period(Topic topic) {
   }
 }
 
-/// Of a log these are of the whole flight, told once.
-bool is_of_the_past(Topic topic) {
-  return topic == Topic::Chart || topic == Topic::Path || topic == Topic::Fields || topic == Topic::Events ||
-         topic == Topic::Ghost;
-}
-
 }  // namespace
 
 ViewerNode::ViewerNode(Bus& bus, const Scenario& scenario, ViewerOptions options)
