@@ -92,8 +92,7 @@ bool Parser::verified(std::span<const std::uint8_t> frame, Address from, std::ui
   if (!std::equal(tag.begin(), tag.end(), frame.end() - kShortTag)) return false;
   const std::uint8_t link = frame[frame.size() - kSignature];
   const std::uint64_t said = read_time(frame.subspan(frame.size() - kSignature + 1, 6));
-  const auto known =
-      std::find_if(signers_.begin(), signers_.end(), [&](const Signer& s) { return s.from == from && s.link == link; });
+  const auto known = std::ranges::find_if(signers_, [&](const Signer& s) { return s.from == from && s.link == link; });
   if (known == signers_.end()) {
     if (said + kMinute < time || signers_.size() >= kMostSigners) return false;
     signers_.push_back({from, link, said});

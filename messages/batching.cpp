@@ -166,10 +166,8 @@ std::vector<Load> shared_out(std::vector<Load> loads, std::size_t share) {
 
 /// Whether the numbers that resampling may have made larger are still within a message's ranges.
 bool is_legal(const Track& track) {
-  return std::all_of(track.alpha.begin(), track.alpha.end(),
-                     [](const Vec3& alpha) { return alpha.maxCoeff() <= kMaxCoordinate; }) &&
-         std::all_of(track.motion.pieces.begin(), track.motion.pieces.end(),
-                     [](const CubicPiece& piece) { return piece.duration <= kMaxSpan; });
+  return std::ranges::all_of(track.alpha, [](const Vec3& alpha) { return alpha.maxCoeff() <= kMaxCoordinate; }) &&
+         std::ranges::all_of(track.motion.pieces, [](const CubicPiece& piece) { return piece.duration <= kMaxSpan; });
 }
 
 /// The set with its tracks resampled so that all of them fit, as far as that is possible.

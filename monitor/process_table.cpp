@@ -48,8 +48,7 @@ int ProcessTable::living(const Process& process, UTime now) {
   }
   UTime youngest = now - kBeatSilence;
   for (const Start* start : recent) youngest = std::max(youngest, start->first_heard);
-  return static_cast<int>(
-      std::count_if(recent.begin(), recent.end(), [&](const Start* start) { return start->heard >= youngest; }));
+  return static_cast<int>(std::ranges::count_if(recent, [&](const Start* start) { return start->heard >= youngest; }));
 }
 
 std::string ProcessTable::beside_now(UTime now) const {
@@ -77,8 +76,7 @@ std::int64_t ProcessTable::epoch_us(const std::string& process) const {
 std::int64_t ProcessTable::restarts_of(const Process& process) {
   std::vector<const Start*> starts;
   for (const auto& [epoch_us, start] : process.starts) starts.push_back(&start);
-  std::stable_sort(starts.begin(), starts.end(),
-                   [](const Start* a, const Start* b) { return a->first_heard < b->first_heard; });
+  std::ranges::stable_sort(starts, [](const Start* a, const Start* b) { return a->first_heard < b->first_heard; });
   std::int64_t restarts = 0;
   const Start* last = starts.front();
   for (const Start* start : starts) {

@@ -39,7 +39,7 @@ static_assert(kMaxExposures * kMaxNameBytes <= kMaxRegionText && kMaxMapClasses 
 void check_name(const ConfigSection& section, std::string_view key, const std::string& name, std::size_t most) {
   if (name.size() > most) throw section.error(key, fmt::format("has {} bytes (limit {})", name.size(), most));
   const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  if (std::any_of(name.begin(), name.end(), control)) throw section.error(key, "has a control character");
+  if (std::ranges::any_of(name, control)) throw section.error(key, "has a control character");
 }
 
 /// A name that no other entry of the same list has.
@@ -365,8 +365,7 @@ SemanticsSpec read_semantics(ConfigSection section) {
   for (const ConfigSection& entry : regions) semantics.regions.push_back(read_region(entry, names));
   section.finish();
   const auto is_class = [&](const std::string& name) {
-    return std::any_of(semantics.classes.begin(), semantics.classes.end(),
-                       [&](const auto& c) { return c.first == name; });
+    return std::ranges::any_of(semantics.classes, [&](const auto& c) { return c.first == name; });
   };
   for (const auto& [name, lambda] : semantics.lambdas) {
     if (!is_class(name)) throw lambdas.error(name, "is not one of semantics.classes");

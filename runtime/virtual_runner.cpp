@@ -51,8 +51,7 @@ Node& VirtualRunner::start(std::string process, const std::function<std::unique_
 }
 
 void VirtualRunner::stop(std::string_view process) {
-  const auto found =
-      std::find_if(processes_.begin(), processes_.end(), [&](const auto& p) { return p->name == process; });
+  const auto found = std::ranges::find_if(processes_, [&](const auto& p) { return p->name == process; });
   if (found == processes_.end()) throw std::invalid_argument(fmt::format("VirtualRunner: no process {}", process));
   processes_.erase(found);
 }

@@ -256,8 +256,7 @@ YamlValue& descend(YamlValue& parent, const Step& step, const std::string& where
 }  // namespace
 
 const YamlValue* YamlValue::find(std::string_view key) const {
-  const auto found =
-      std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.first == key; });
+  const auto found = std::ranges::find_if(entries, [&](const auto& entry) { return entry.first == key; });
   return found == entries.end() ? nullptr : &found->second;
 }
 
@@ -304,7 +303,7 @@ std::string yaml_text(std::string_view text) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '/' || c == '.';
   };
   const bool plain = !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0 &&
-                     std::all_of(text.begin(), text.end(), safe) &&
+                     std::ranges::all_of(text, safe) &&
                      std::find(std::begin(kWords), std::end(kWords), lower) == std::end(kWords);
   if (plain) return std::string(text);
   std::string quoted = "\"";

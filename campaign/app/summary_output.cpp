@@ -46,8 +46,7 @@ int write_summary(const std::string& flights_file, const std::string& summary_fi
 std::int64_t count_audited(const std::string& flights_file) {
   const auto flights = read_flights(flights_file);
   if (!flights) return 0;
-  return std::count_if(flights->records.begin(), flights->records.end(),
-                       [](const auto& record) { return !record.second.audit.empty(); });
+  return std::ranges::count_if(flights->records, [](const auto& record) { return !record.second.audit.empty(); });
 }
 
 std::string command_line() {

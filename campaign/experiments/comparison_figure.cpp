@@ -38,14 +38,8 @@ double reach_of(const CampaignComparison& c, const std::vector<const ComparedMea
   return std::min(1.05 * reach, kMostPercent);
 }
 
-std::string heading(const char* which, const CampaignIdentity& id) {
-  return fmt::format("{}: {}{}, charge {}, configuration {}, version {}", which, id.scenario,
-                     id.count > 0 ? fmt::format(" {}", id.count) : "", id.charge, id.configuration, id.version);
-}
-
 std::string axis_name(const std::vector<const ComparedMeasure*>& rows) {
-  const bool has_hollow =
-      std::any_of(rows.begin(), rows.end(), [](const auto* m) { return m->difference.mean_a == 0.0; });
+  const bool has_hollow = std::ranges::any_of(rows, [](const auto* m) { return m->difference.mean_a == 0.0; });
   return has_hollow ? "B - A, % of A's mean; hollow: A's mean is 0, the interval is B - A itself"
                     : "B - A, % of A's mean";
 }
@@ -85,8 +79,8 @@ std::string draw_comparison(const CampaignComparison& c) {
   const double reach = reach_of(c, rows);
   frame.x_range = {-reach, reach};
   Svg page(kNames + kPlot + kNumbers, kTop + frame.height + 48.0);
-  page.text({16, 22}, heading("A", c.a));
-  page.text({16, 40}, heading("B", c.b));
+  page.text({16, 22}, in_words("A", c.a));
+  page.text({16, 40}, in_words("B", c.b));
   page.text({16, 58}, fmt::format("{} pairs, success: A {}, B {}{}", c.pairs, c.successes_a, c.successes_b,
                                   c.may_infer() ? fmt::format("; McNemar p = {:.3g}", c.p_value)
                                                 : std::string("; no intervals: flights are equal")));

@@ -69,8 +69,7 @@ std::string place(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g})", p.x(
 
 const std::string& label_of(const Scenario& scenario, const Region& region) {
   const auto& classes = scenario.semantics.classes;
-  return std::find_if(classes.begin(), classes.end(), [&](const auto& c) { return c.first == region.class_name; })
-      ->second;
+  return std::ranges::find_if(classes, [&](const auto& c) { return c.first == region.class_name; })->second;
 }
 
 double lambda_of(const Scenario& scenario, const Region& region) {
@@ -83,8 +82,7 @@ double lambda_of(const Scenario& scenario, const Region& region) {
 }
 
 std::string world_text(const World& world) {
-  const auto movers =
-      std::count_if(world.obstacles.begin(), world.obstacles.end(), [](const auto& o) { return o.moves(); });
+  const auto movers = std::ranges::count_if(world.obstacles, [](const auto& o) { return o.moves(); });
   return fmt::format("{} obstacles: {} rest, {} move", world.obstacles.size(),
                      world.obstacles.size() - static_cast<std::size_t>(movers), movers);
 }

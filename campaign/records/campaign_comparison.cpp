@@ -100,11 +100,7 @@ std::string table(const std::vector<Row>& rows, TableForm form) {
 std::string number(double x) { return fmt::format("{:.4g}", x); }
 
 std::string heading(const CampaignComparison& c) {
-  const auto name = [](const char* which, const CampaignIdentity& id) {
-    return fmt::format("{}: {}{}, charge {}, configuration {}, version {}\n", which, id.scenario,
-                       id.count > 0 ? fmt::format(" {}", id.count) : "", id.charge, id.configuration, id.version);
-  };
-  std::string text = name("A", c.a) + name("B", c.b) + fmt::format("{} seeds in both", c.pairs);
+  std::string text = fmt::format("{}\n{}\n{} seeds in both", in_words("A", c.a), in_words("B", c.b), c.pairs);
   if (c.only_in_a + c.only_in_b > 0) {
     text += fmt::format("; left out: {} in A alone, {} in B alone", c.only_in_a, c.only_in_b);
   }
@@ -129,6 +125,11 @@ std::string success_lines(const CampaignComparison& c) {
 }
 
 }  // namespace
+
+std::string in_words(const char* which, const CampaignIdentity& id) {
+  return fmt::format("{}: {}{}, charge {}, configuration {}, version {}", which, id.scenario,
+                     id.count > 0 ? fmt::format(" {}", id.count) : "", id.charge, id.configuration, id.version);
+}
 
 std::int64_t different_flights(const std::map<std::uint64_t, FlightRecord>& records) {
   DistinctFlights different;

@@ -36,6 +36,9 @@ std::int64_t different_flights(const std::map<std::uint64_t, FlightRecord>& reco
 /// seeds, or of two scenarios: their worlds have nothing in common but the seed's number.
 Result<CampaignComparison> compare(const Flights& a, const Flights& b);
 
+/// "A: paper_corridor 100, charge counts, configuration …, version …".
+std::string in_words(const char* which, const CampaignIdentity& id);
+
 enum class TableForm { Text, Markdown, Latex };
 
 /// Measures in which no pair differs are named, not listed. Intervals are left out, with a word on why, unless

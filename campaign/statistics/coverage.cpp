@@ -15,7 +15,7 @@ constexpr std::array<const char*, kPredictionClasses> kClassNames{"declared", "u
                                                                   "young",    "grown",  "old"};
 
 std::optional<PredictionClass> class_named(const std::string& name) {
-  const auto found = std::find(kClassNames.begin(), kClassNames.end(), name);
+  const auto found = std::ranges::find(kClassNames, name);
   if (found == kClassNames.end()) return std::nullopt;
   return static_cast<PredictionClass>(found - kClassNames.begin());
 }
@@ -92,7 +92,7 @@ std::string heading(const char* title) {
 std::vector<double> confidences(const Row& row) {
   std::vector<double> all{row.front()->confidence};
   for (const KeptShare* s : row) {
-    if (s->is_broken() && std::find(all.begin(), all.end(), s->confidence) == all.end()) all.push_back(s->confidence);
+    if (s->is_broken() && std::ranges::find(all, s->confidence) == all.end()) all.push_back(s->confidence);
   }
   return all;
 }
@@ -101,9 +101,8 @@ template <class Words>
 std::string line(const std::string& title, const Row& row, double confidence, const Words& words) {
   std::string text = fmt::format("  {:<28}", title);
   for (std::size_t h = 0; h < kHorizons; ++h) {
-    const auto here = std::find_if(row.begin(), row.end(), [&](const KeptShare* s) {
-      return s->confidence == confidence && s->horizon == horizon_name(h);
-    });
+    const auto here = std::ranges::find_if(
+        row, [&](const KeptShare* s) { return s->confidence == confidence && s->horizon == horizon_name(h); });
     text += fmt::format("{:<20}", here == row.end() ? "" : words(**here));
   }
   return text + "\n";

@@ -51,7 +51,7 @@ std::vector<Point> sorted_distinct(const Points& points) {
   std::vector<Point> distinct;
   distinct.reserve(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index k = 0; k < points.cols(); ++k) distinct.emplace_back(points(0, k), points(1, k), points(2, k));
-  std::sort(distinct.begin(), distinct.end());
+  std::ranges::sort(distinct);
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   return distinct;
 }
@@ -70,7 +70,7 @@ std::array<int, 2> projection_axes(const Point& p, const Point& q, const Point& 
 // Andrew's monotone chain, strict turns only, so that points inside an edge are left out.
 std::vector<Point> flat_hull(std::vector<Point> points, const std::array<int, 2>& axes) {
   const auto flat = [&axes](const Point& p) { return Kernel::Point_2(p[axes[0]], p[axes[1]]); };
-  std::sort(points.begin(), points.end(), [&](const Point& p, const Point& q) { return flat(p) < flat(q); });
+  std::ranges::sort(points, [&](const Point& p, const Point& q) { return flat(p) < flat(q); });
   std::vector<Point> chain;
   const auto extend = [&](const Point& p, std::size_t least) {
     while (chain.size() > least && !CGAL::left_turn(flat(chain[chain.size() - 2]), flat(chain.back()), flat(p))) {
@@ -158,12 +158,11 @@ std::vector<Point> solid_hull(std::vector<Point> points) {
 std::vector<Point> hull(const std::vector<Point>& points) {
   const Point& first = points.front();
   const Point& last = points.back();
-  const auto off_line =
-      std::find_if(points.begin(), points.end(), [&](const Point& p) { return !CGAL::collinear(first, last, p); });
+  const auto off_line = std::ranges::find_if(points, [&](const Point& p) { return !CGAL::collinear(first, last, p); });
   if (first == last) return {first};
   if (off_line == points.end()) return {first, last};
-  const auto off_plane = std::find_if(points.begin(), points.end(),
-                                      [&](const Point& p) { return !CGAL::coplanar(first, last, *off_line, p); });
+  const auto off_plane =
+      std::ranges::find_if(points, [&](const Point& p) { return !CGAL::coplanar(first, last, *off_line, p); });
   if (off_plane == points.end()) return flat_hull(points, projection_axes(first, last, *off_line));
   return solid_hull(points);
 }
@@ -173,7 +172,7 @@ std::vector<Point> hull(const std::vector<Point>& points) {
 Points hull_vertices(const Points& points) {
   check(points);
   std::vector<Point> vertices = hull(sorted_distinct(points));
-  std::sort(vertices.begin(), vertices.end());
+  std::ranges::sort(vertices);
   Points result(3, static_cast<Eigen::Index>(vertices.size()));
   for (Eigen::Index k = 0; k < result.cols(); ++k) {
     const Point& p = vertices[static_cast<std::size_t>(k)];

@@ -32,8 +32,7 @@ void MotionHistory::append(const PiecewiseCubic& motion) {
 }
 
 std::size_t MotionHistory::index_at(UTime t) const {
-  const auto later =
-      std::upper_bound(flown_.begin(), flown_.end(), t, [](UTime at, const Flown& f) { return at < f.start; });
+  const auto later = std::ranges::upper_bound(flown_, t, {}, &Flown::start);
   return static_cast<std::size_t>(later - flown_.begin()) - 1;
 }
 

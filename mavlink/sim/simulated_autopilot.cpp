@@ -26,9 +26,7 @@ constexpr std::uint8_t kUnknownSource = 0, kNaive = 1, kVision = 2, kVio = 3, kL
 /// Without any the estimator has no position (EKF2_NOAID_TOUT is longer).
 constexpr Duration kVisionLoss{1'000'000};
 
-bool is_integer(const std::string& name) {
-  return std::find(kIntegers.begin(), kIntegers.end(), name) != kIntegers.end();
-}
+bool is_integer(const std::string& name) { return std::ranges::find(kIntegers, name) != kIntegers.end(); }
 
 /// Without the feed-forward that a bridge sends.
 QuadrotorConfig bare(const SimulatedAutopilotConfig& config) {
@@ -151,7 +149,7 @@ void SimulatedAutopilot::hear_vision(const Odometry& seen, UTime now) {
   const bool known = seen.estimator_type == kUnknownSource || seen.estimator_type == kNaive ||
                      seen.estimator_type == kVision || seen.estimator_type == kVio;
   const auto finite = [](const auto& values) {
-    return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
+    return std::ranges::all_of(values, [](float x) { return std::isfinite(x); });
   };
   if (known && seen.frame_id == kLocalNed && finite(seen.p) && finite(seen.q)) vision_heard_ = now;
 }

@@ -53,7 +53,7 @@ std::vector<NamedPlace> named_places(const Scenario& scenario) {
   }
   for (const Region& region : scenario.semantics.regions) {
     const auto& classes = scenario.semantics.classes;
-    const bool is_occupied = std::any_of(classes.begin(), classes.end(), [&](const auto& c) {
+    const bool is_occupied = std::ranges::any_of(classes, [&](const auto& c) {
       return c.first == region.class_name && c.second == to_string(VoxelLabel::Occupied);
     });
     if (is_occupied) places.push_back({false, region});
@@ -68,8 +68,7 @@ std::string blocked_in_words(const GoalField& field, const GoalFieldKey& key, co
   if (!blocker) return "no way within the flight box leads there";
   const Vec3 spacing = Vec3::Constant(kPathSpacing);
   const Box box(blocker->min() + key.body.max() + spacing, blocker->max() + key.body.min() - spacing);
-  const bool is_static =
-      std::any_of(static_boxes.begin(), static_boxes.end(), [&](const Box& b) { return are_same(b, box); });
+  const bool is_static = std::ranges::any_of(static_boxes, [&](const Box& b) { return are_same(b, box); });
   const std::string names = names_of(box, is_static, places);
   const std::string what = is_static       ? (names.empty() ? "an obstacle" : names)
                            : names.empty() ? "what the map says is occupied"

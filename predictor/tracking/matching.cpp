@@ -13,8 +13,8 @@ void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<De
                  Matching& matching) {
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (detections[d].track_id == kNoTrackId || matching.taken[d] || matching.anonymous[d]) continue;
-    const auto object = std::find_if(objects.begin(), objects.end(),
-                                     [&](const TrackedObject& o) { return o.id == detections[d].track_id; });
+    const auto object =
+        std::ranges::find_if(objects, [&](const TrackedObject& o) { return o.id == detections[d].track_id; });
     if (object == objects.end()) continue;
     int& mine = matching.detection_of[static_cast<std::size_t>(object - objects.begin())];
     if (mine != kNoDetection) continue;
@@ -26,9 +26,8 @@ void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<De
 // Whether a detection is not where the track of its id can be, but where another one can: ids were exchanged.
 bool is_exchanged(const std::vector<TrackedObject>& objects, const Detection& detection, const Surprise& surprise) {
   const auto fits = [&](const TrackedObject& o) { return std::isfinite(surprise(o, detection)); };
-  const auto own =
-      std::find_if(objects.begin(), objects.end(), [&](const TrackedObject& o) { return o.id == detection.track_id; });
-  return own != objects.end() && !fits(*own) && std::any_of(objects.begin(), objects.end(), fits);
+  const auto own = std::ranges::find_if(objects, [&](const TrackedObject& o) { return o.id == detection.track_id; });
+  return own != objects.end() && !fits(*own) && std::ranges::any_of(objects, fits);
 }
 
 // Of the pairs within the gate; 0 if there is none.

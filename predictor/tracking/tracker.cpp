@@ -32,8 +32,8 @@ Fit fit_of(const std::array<AxisFilter, 3>& axes, const Detection& detection) {
 }
 
 bool is_seen_at(const std::array<AxisFilter, 3>& place, const ObservationSet& set) {
-  return std::any_of(set.detections.begin(), set.detections.end(),
-                     [&](const Detection& d) { return fit_of(place, d).distance2 <= kAssociationGate; });
+  return std::ranges::any_of(set.detections,
+                             [&](const Detection& d) { return fit_of(place, d).distance2 <= kAssociationGate; });
 }
 
 // How much less likely it is that these are one thing, by their sizes.
@@ -74,8 +74,7 @@ Tracker::Tracker(const TrackerConfig& config)
 Taken Tracker::update(const ObservationSet& observations) {
   if (!steps_.empty() && observations.at + kReorderWindow < newest()) return Taken::TooOld;
   const auto place =
-      std::lower_bound(steps_.begin(), steps_.end(), observations,
-                       [](const Step& a, const ObservationSet& b) { return key(a.observations) < key(b); });
+      std::ranges::lower_bound(steps_, key(observations), {}, [](const Step& a) { return key(a.observations); });
   if (place != steps_.end() && key(place->observations) == key(observations)) return Taken::Repeated;
   auto step = steps_.insert(place, Step{observations, std::move(spare_)});
   for (; step != steps_.end(); ++step) {
@@ -120,14 +119,13 @@ void Tracker::advance(State& state, const ObservationSet& observations) const {
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (matching.taken[d]) continue;
     const std::int64_t given = detections[d].track_id;
-    const bool known = given != kNoTrackId && std::any_of(state.objects.begin(), state.objects.end(),
-                                                          [&](const TrackedObject& o) { return o.id == given; });
+    const bool known = given != kNoTrackId &&
+                       std::ranges::any_of(state.objects, [&](const TrackedObject& o) { return o.id == given; });
     if (known) continue;
     const std::int64_t id = given == kNoTrackId ? state.next_id++ : given;
     state.objects.push_back(born(detections[d], observations, id));
   }
-  std::sort(state.objects.begin(), state.objects.end(),
-            [](const TrackedObject& a, const TrackedObject& b) { return a.id < b.id; });
+  std::ranges::sort(state.objects, [](const TrackedObject& a, const TrackedObject& b) { return a.id < b.id; });
 }
 
 void Tracker::predict_to(State& state, UTime at) const {
@@ -221,7 +219,7 @@ bool Tracker::is_lost(const TrackedObject& object, UTime at) const {
 
 bool Tracker::rests(const TrackedObject& object) const {
   if (object.last_seen - object.resting_since < config_.resting_after) return false;
-  return std::all_of(object.resting.begin(), object.resting.end(), [](const AxisFilter& axis) {
+  return std::ranges::all_of(object.resting, [](const AxisFilter& axis) {
     return std::abs(axis.v) <= std::max(kRestingSpeed, kRestingSpeedSigmas * std::sqrt(axis.vv));
   });
 }
@@ -315,7 +313,7 @@ std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, con
 
 bool Tracker::is_gone(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start) {
   if (start.half.front().maxCoeff() <= kKnownWithin) return false;
-  return std::any_of(views.begin(), views.end(), [&](const View& view) {
+  return std::ranges::any_of(views, [&](const View& view) {
     return view.sensor_id == object.last_seen_by && object.last_seen < view.at &&
            is_beyond(view.range_m, view.from, start.centre, object.half_extents);
   });

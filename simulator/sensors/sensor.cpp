@@ -39,7 +39,7 @@ void keep_nearest(std::vector<TrueObstacle>& seen, const Vec3& eye, std::size_t 
   std::nth_element(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count), seen.end(),
                    [&](const TrueObstacle& a, const TrueObstacle& b) { return key(a) < key(b); });
   seen.resize(count);
-  std::sort(seen.begin(), seen.end(), [](const TrueObstacle& a, const TrueObstacle& b) { return a.id < b.id; });
+  std::ranges::sort(seen, [](const TrueObstacle& a, const TrueObstacle& b) { return a.id < b.id; });
 }
 
 }  // namespace
@@ -96,8 +96,7 @@ ObservationSet observe(const World& world, const SensorConfig& config, UTime wor
   }
   if (!config.track_ids) {
     const auto key = [](const Detection& d) { return std::make_tuple(d.position.x(), d.position.y(), d.position.z()); };
-    std::sort(set.detections.begin(), set.detections.end(),
-              [&](const Detection& a, const Detection& b) { return key(a) < key(b); });
+    std::ranges::sort(set.detections, [&](const Detection& a, const Detection& b) { return key(a) < key(b); });
   }
   return set;
 }

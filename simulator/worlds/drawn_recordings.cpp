@@ -27,8 +27,7 @@ constexpr double kBefore = kLooksAround.seconds() + 0.5;
 std::optional<Vec3> place_at(const RecordedTrack& track, double t_s) {
   const auto& points = track.points;
   if (t_s < points.front().first || t_s > points.back().first) return std::nullopt;
-  const auto next = std::upper_bound(points.begin(), points.end(), t_s,
-                                     [](double value, const auto& point) { return value < point.first; });
+  const auto next = std::ranges::upper_bound(points, t_s, {}, [](const auto& point) { return point.first; });
   if (next == points.end()) return points.back().second;
   const auto& [t0, p0] = *(next - 1);
   return Vec3(p0 + (next->second - p0) * ((t_s - t0) / (next->first - t0)));
@@ -53,8 +52,7 @@ using Points = std::vector<std::pair<double, Vec3>>;
 /// come.
 Points cut(const RecordedTrack& track, double from_s, double duration_s) {
   Points piece;
-  const auto first =
-      std::find_if(track.points.begin(), track.points.end(), [&](const auto& p) { return p.first >= from_s; });
+  const auto first = std::ranges::find_if(track.points, [&](const auto& p) { return p.first >= from_s; });
   for (const auto& [t, p] : track.points) {
     const double since = t - first->first;
     if (since >= -kBefore && since <= duration_s) piece.emplace_back(since, p);
@@ -124,9 +122,8 @@ Result<double> draw_start(Rng& rng, const std::vector<RecordedTrack>& tracks, co
   }
   for (int draw = 0; draw < kMaxDraws; ++draw) {
     const double t = std::floor(rng.uniform(first, last) * spec.frames_per_second) / spec.frames_per_second;
-    const bool met = std::any_of(tracks.begin(), tracks.end(), [&](const RecordedTrack& track) {
-      return meets(track, t, uav) && !crowds_start(track, t, uav.start);
-    });
+    const bool met = std::ranges::any_of(
+        tracks, [&](const RecordedTrack& track) { return meets(track, t, uav) && !crowds_start(track, t, uav.start); });
     if (met) return t;
   }
   return fail(fmt::format("{}: nobody comes within {} m of the straight way at any of {} moments from {} s to {} s",

@@ -44,8 +44,7 @@ ObstacleState state(const Vec3& c, const LinearMotion& m, double t) {
 
 ObstacleState state(const Vec3&, const WaypointMotion& m, double t) {
   const double at = m.repeat ? wrapped(m, t) : t;
-  const auto next = std::upper_bound(m.points.begin(), m.points.end(), at,
-                                     [](double value, const auto& point) { return value < point.first; });
+  const auto next = std::ranges::upper_bound(m.points, at, {}, [](const auto& point) { return point.first; });
   if (next == m.points.begin()) return {next->second, Vec3::Zero()};
   const auto& [t0, p0] = *(next - 1);
   if (next == m.points.end()) return {p0, Vec3::Zero()};
@@ -81,8 +80,7 @@ ObstacleBounds bounds_of(const WaypointMotion& m) {
 /// The first corner after t ≥ 0.
 double corner_after(const WaypointMotion& m, double t) {
   const double at = m.repeat ? wrapped(m, t) : t;
-  const auto next = std::upper_bound(m.points.begin(), m.points.end(), at,
-                                     [](double value, const auto& point) { return value < point.first; });
+  const auto next = std::ranges::upper_bound(m.points, at, {}, [](const auto& point) { return point.first; });
   if (next == m.points.end()) return kInfinity;
   return std::max(t + (next->first - at), std::nextafter(t, kInfinity));
 }

@@ -63,8 +63,7 @@ bool is_stop(const std::vector<UavState>& estimates, const TimedSpline& spline) 
 }
 
 const Commitment& Commitments::at(UTime t) const {
-  const auto next =
-      std::upper_bound(list.begin(), list.end(), t, [](UTime x, const Commitment& c) { return x < c.spline.start; });
+  const auto next = std::ranges::upper_bound(list, t, {}, [](const Commitment& c) { return c.spline.start; });
   return next == list.begin() ? list.front() : *std::prev(next);
 }
 
@@ -73,8 +72,7 @@ std::vector<Commitments> commitments(const FlightRecord& record) {
   std::vector<const HorizonRequest*> last;
   for (const HorizonRequest& request : record.requests) {
     const std::int64_t executor = request.header.name.sender_epoch_us;
-    const auto known =
-        std::find_if(all.begin(), all.end(), [&](const Commitments& c) { return c.executor == executor; });
+    const auto known = std::ranges::find_if(all, [&](const Commitments& c) { return c.executor == executor; });
     const auto k = static_cast<std::size_t>(known - all.begin());
     if (known == all.end()) {
       all.push_back({executor, {}});

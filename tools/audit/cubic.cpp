@@ -167,8 +167,7 @@ Curve hermite(UTime from, const Vec3& p0, const Vec3& v0, UTime to, const Vec3& 
 MotionSample motion_at(const std::vector<Curve>& curves, UTime t) {
   if (t >= curves.back().to)
     return {curves.back().p(curves.back().length_s()), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  const auto next =
-      std::upper_bound(curves.begin(), curves.end(), t, [](UTime at, const Curve& c) { return at < c.from; });
+  const auto next = std::ranges::upper_bound(curves, t, {}, &Curve::from);
   const Curve& curve = next == curves.begin() ? curves.front() : *std::prev(next);
   const double s = std::max(0.0, (t - curve.from).seconds());
   return {curve.p(s), curve.v(s), curve.a(s), curve.j(s)};

@@ -14,7 +14,7 @@ namespace {
 /// Messages may come out of order or twice.
 template <class T, class TimeOf>
 void put_in_order(std::vector<T>& items, const TimeOf& time_of) {
-  std::stable_sort(items.begin(), items.end(), [&](const T& a, const T& b) { return time_of(a) < time_of(b); });
+  std::ranges::stable_sort(items, [&](const T& a, const T& b) { return time_of(a) < time_of(b); });
   const auto same = [&](const T& a, const T& b) { return time_of(a) == time_of(b); };
   items.erase(std::unique(items.begin(), items.end(), same), items.end());
 }
@@ -73,8 +73,8 @@ class Reading {
     put_in_order(record_.estimates, [](const UavState& s) { return s.at; });
     put_in_order(record_.setpoints, [](const UavState& s) { return s.at; });
     put_in_order(record_.statuses, [](const VehicleStatus& s) { return s.at; });
-    std::stable_sort(record_.observations.begin(), record_.observations.end(),
-                     [](const ObservationSet& a, const ObservationSet& b) { return a.at < b.at; });
+    std::ranges::stable_sort(record_.observations,
+                             [](const ObservationSet& a, const ObservationSet& b) { return a.at < b.at; });
     for (auto& [id, history] : record_.truth) {
       put_in_order(history.samples, [](const ObstacleHistory::Sample& s) { return s.at; });
     }
@@ -161,7 +161,7 @@ class Reading {
       const auto own = told_.find(record_.requests.front().header.name.sender_epoch_us);
       if (own != told_.end() && has_truth(*own)) return own->first;
     }
-    const auto first = std::find_if(told_.begin(), told_.end(), has_truth);
+    const auto first = std::ranges::find_if(told_, has_truth);
     if (first != told_.end()) return first->first;
     return told_.empty() ? 0 : told_.begin()->first;
   }
@@ -186,8 +186,8 @@ class Reading {
       for (auto& [id, pieces] : more) append(all[id], pieces);
     });
     for (auto& [id, pieces] : record_.declared) {
-      std::stable_sort(pieces.begin(), pieces.end(),
-                       [](const DeclaredPiece& a, const DeclaredPiece& b) { return a.curve.from < b.curve.from; });
+      std::ranges::stable_sort(
+          pieces, [](const DeclaredPiece& a, const DeclaredPiece& b) { return a.curve.from < b.curve.from; });
     }
     for (const auto& [sender, told] : told_) {
       if (!others_.contains(sender)) record_.truth_left_out = std::max(record_.truth_left_out, told.truth_left_out);
@@ -243,19 +243,17 @@ std::int64_t FlightRecord::unread(const std::string& channel) const {
 }
 
 const HorizonRequest* FlightRecord::request(const MessageName& name) const {
-  const auto found =
-      std::find_if(requests.begin(), requests.end(), [&](const HorizonRequest& r) { return r.header.name == name; });
+  const auto found = std::ranges::find_if(requests, [&](const HorizonRequest& r) { return r.header.name == name; });
   return found == requests.end() ? nullptr : &*found;
 }
 
 UTime FlightRecord::zero() const {
   if (!requests.empty()) {
     const auto goes = [](const Goal& goal) { return goal.mode == GoalMode::Go; };
-    const auto go = std::find_if(goals.begin(), goals.end(), goes);
+    const auto go = std::ranges::find_if(goals, goes);
     const bool held_first = go != goals.end() && go != goals.begin();
-    const auto begun = std::find_if(requests.begin(), requests.end(), [&](const HorizonRequest& r) {
-      return !held_first || r.header.utime >= go->header.utime;
-    });
+    const auto begun = std::ranges::find_if(
+        requests, [&](const HorizonRequest& r) { return !held_first || r.header.utime >= go->header.utime; });
     return (begun == requests.end() ? requests.begin() : begun)->header.utime;
   }
   return states.empty() ? UTime{} : states.front().at;

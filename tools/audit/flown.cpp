@@ -67,8 +67,7 @@ class Committed {
   }
 
   [[nodiscard]] std::optional<std::size_t> index_at(UTime t) const {
-    const auto next = std::upper_bound(list_.begin(), list_.end(), t,
-                                       [](UTime x, const Commitment& c) { return x < c.spline.start; });
+    const auto next = std::ranges::upper_bound(list_, t, {}, [](const Commitment& c) { return c.spline.start; });
     if (next == list_.begin()) return std::nullopt;
     return static_cast<std::size_t>(next - list_.begin()) - 1;
   }
@@ -206,8 +205,7 @@ Window judged(const FlightRecord& record) {
   if (record.requests.front().id == 1) latest = std::min(latest, record.zero() + time);
   const bool is_first = result.header.name.sequence <= 1;
   const UTime told = is_first ? result.header.utime : result.header.utime - kResultRepeated;
-  const auto after = std::upper_bound(record.states.begin(), record.states.end(), told,
-                                      [](UTime t, const UavState& s) { return t < s.at; });
+  const auto after = std::ranges::upper_bound(record.states, told, {}, &UavState::at);
   const auto before = after - record.states.begin();
   const UTime earliest = before >= 2 ? record.states[static_cast<std::size_t>(before) - 2].at : latest - time;
   const Duration unsure = std::max(Duration{}, latest - std::min(earliest, latest));

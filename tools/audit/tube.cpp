@@ -37,22 +37,20 @@ std::vector<HorizonRequest> promises(const FlightRecord& record) {
     const auto answer = answers.find(request.header.name);
     if (answer != answers.end() && answer->second != PlanOutcome::NoPlan) all.push_back(request);
   }
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.t_s < b.t_s; });
+  std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.t_s < b.t_s; });
   return all;
 }
 
 /// The one in force at `t`. @return nullptr before the first one
 const HorizonRequest* in_force(const std::vector<HorizonRequest>& requests, UTime t) {
-  const auto later = std::upper_bound(requests.begin(), requests.end(), t,
-                                      [](UTime at, const HorizonRequest& r) { return at < r.t_s; });
+  const auto later = std::ranges::upper_bound(requests, t, {}, &HorizonRequest::t_s);
   return later == requests.begin() ? nullptr : &*std::prev(later);
 }
 
 /// Whether the vehicle said that it followed, before and after `t`. A log without VEHICLE_STATUS: it did.
 bool followed(const std::vector<VehicleStatus>& statuses, UTime t) {
   if (statuses.empty()) return true;
-  const auto after =
-      std::upper_bound(statuses.begin(), statuses.end(), t, [](UTime at, const VehicleStatus& s) { return at < s.at; });
+  const auto after = std::ranges::upper_bound(statuses, t, {}, &VehicleStatus::at);
   if (after == statuses.begin()) return false;
   const VehicleStatus& before = *std::prev(after);
   if (!before.following) return false;
@@ -81,8 +79,7 @@ Check check_tube(const FlightRecord& record) {
       ++check.unchecked["states while the vehicle did not follow, or its process was held up"];
       continue;
     }
-    const auto after = std::upper_bound(record.setpoints.begin(), record.setpoints.end(), state.at,
-                                        [](UTime t, const UavState& s) { return t < s.at; });
+    const auto after = std::ranges::upper_bound(record.setpoints, state.at, {}, &UavState::at);
     if (after == record.setpoints.begin() || state.at - std::prev(after)->at > kSetpointHole) {
       ++check.unchecked["states without a setpoint in the 25 ms before"];
       continue;

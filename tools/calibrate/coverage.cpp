@@ -55,8 +55,8 @@ class Watch {
   void look(UTime now) {
     const std::vector<Track> tracks = tracker_.predict(now);
     for (const Track& track : tracks) {
-      const auto object = std::find_if(tracker_.objects().begin(), tracker_.objects().end(),
-                                       [&](const TrackedObject& o) { return o.id == track.id; });
+      const auto object =
+          std::ranges::find_if(tracker_.objects(), [&](const TrackedObject& o) { return o.id == track.id; });
       const TruePath* truth = nearest(track.motion.sample(track.motion.start).p, track.motion.start);
       if (truth != nullptr) judge(track, *object, *truth);
     }
@@ -111,7 +111,7 @@ class Watch {
   [[nodiscard]] std::vector<std::string> cells_of(const Track& track, const TrackedObject& object) const {
     if (tracker_.rests(object)) return {"class rest"};
     const auto until = [](const auto& table, double s) {
-      return std::find_if(table.begin(), table.end(), [&](const auto& a) { return s <= a.first; });
+      return std::ranges::find_if(table, [&](const auto& a) { return s <= a.first; });
     };
     const auto age = until(kAges, (object.last_seen - object.born).seconds());
     const auto learning = until(kLearning, (track.motion.start - recording_.observations.front().set.at).seconds());
@@ -151,7 +151,7 @@ Covered covered(const CoverageCell& cell, int level) {
     }
     shares.push_back(of_them / all);
   }
-  std::sort(shares.begin(), shares.end());
+  std::ranges::sort(shares);
   result.low = shares[kDraws / 40];
   result.high = shares[kDraws - 1 - kDraws / 40];
   return result;
@@ -176,9 +176,8 @@ void add(Study& sum, const Study& other) {
   sum.judged.insert(sum.judged.end(), other.judged.begin(), other.judged.end());
   sum.slow.insert(sum.slow.end(), other.slow.begin(), other.slow.end());
   for (const CoverageCell& cell : other.cells) {
-    const auto same = std::find_if(sum.cells.begin(), sum.cells.end(), [&](const CoverageCell& c) {
-      return c.what == cell.what && c.ahead_s == cell.ahead_s;
-    });
+    const auto same = std::ranges::find_if(
+        sum.cells, [&](const CoverageCell& c) { return c.what == cell.what && c.ahead_s == cell.ahead_s; });
     if (same == sum.cells.end()) {
       sum.cells.push_back(cell);
     } else {

@@ -39,7 +39,7 @@ class Replayer {
 
   std::vector<ReplayedPlan> finish() {
     while (!waiting_.empty()) replay_those_of(SetName(waiting_.begin()->first));
-    std::sort(done_.begin(), done_.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+    std::ranges::sort(done_, [](const auto& a, const auto& b) { return a.index < b.index; });
     return std::move(done_);
   }
 
@@ -97,7 +97,7 @@ class Replayer {
 /// @return an Error when the log has answers and none is asked for.
 Result<void> check_choice(const RecordedInputs& inputs, const ReplayOptions& options) {
   const auto chosen = [&](const RecordedPlan& recorded) { return is_chosen(recorded, inputs.log, options); };
-  if (inputs.plans.empty() || std::any_of(inputs.plans.begin(), inputs.plans.end(), chosen)) return {};
+  if (inputs.plans.empty() || std::ranges::any_of(inputs.plans, chosen)) return {};
   const auto at_s = [&](const RecordedPlan& p) {
     return static_cast<double>(p.received_us - inputs.log.first_us) * 1e-6;
   };
@@ -126,17 +126,16 @@ std::string weaker_promise(const RecordedInputs& inputs, const Plan& plan) {
 }
 
 std::int64_t Replay::count(Agreement agreement) const {
-  return std::count_if(plans.begin(), plans.end(), [agreement](const ReplayedPlan& p) {
-    return p.missing.empty() && p.difference.agreement == agreement;
-  });
+  return std::ranges::count_if(
+      plans, [agreement](const ReplayedPlan& p) { return p.missing.empty() && p.difference.agreement == agreement; });
 }
 
 std::int64_t Replay::missing() const {
-  return std::count_if(plans.begin(), plans.end(), [](const ReplayedPlan& p) { return !p.missing.empty(); });
+  return std::ranges::count_if(plans, [](const ReplayedPlan& p) { return !p.missing.empty(); });
 }
 
 std::int64_t Replay::broken() const {
-  return std::count_if(plans.begin(), plans.end(), [](const ReplayedPlan& p) {
+  return std::ranges::count_if(plans, [](const ReplayedPlan& p) {
     if (!p.missing.empty() || p.difference.agreement == Agreement::Identical) return false;
     return p.weaker.empty() || p.difference.agreement == Agreement::Different;
   });

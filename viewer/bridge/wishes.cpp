@@ -6,9 +6,7 @@
 namespace tern {
 
 void Wishes::keep_only(const std::vector<std::int64_t>& clients) {
-  std::erase_if(by_page_, [&](const auto& entry) {
-    return std::find(clients.begin(), clients.end(), entry.first) == clients.end();
-  });
+  std::erase_if(by_page_, [&](const auto& entry) { return std::ranges::find(clients, entry.first) == clients.end(); });
 }
 
 LayersCommand Wishes::layers() const {
