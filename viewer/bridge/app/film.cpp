@@ -23,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// How ffmpeg reads pictures at so many per second, which follow.
+const std::vector<const char*> kPictures = {"-loglevel", "error", "-y", "-f", "image2pipe", "-framerate"};
 /// How ffmpeg writes them. An animation begins again at its end.
 const std::vector<const char*> kFilm = {"-pix_fmt", "yuv420p", "-movflags", "+faststart"};
 const std::vector<const char*> kAnimation = {"-c:v", "libwebp_anim",       "-loop", "0", "-quality",
@@ -60,20 +62,12 @@ class Encoder {
     int pictures[2];
     if (pipe2(pictures, O_CLOEXEC) != 0) throw std::runtime_error("no pipe can be made");
     to_ = pictures[1];
-    std::vector<std::string> command = {program("TERN_FFMPEG", "ffmpeg"),
-                                        "-loglevel",
-                                        "error",
-                                        "-y",
-                                        "-f",
-                                        "image2pipe",
-                                        "-framerate",
-                                        std::to_string(pictures_per_s),
-                                        "-c:v",
-                                        "mjpeg",
-                                        "-i",
-                                        fmt::format("pipe:{}", pictures[0])};
-    const bool is_animation = fs::path(file).extension() == ".webp";
-    for (const char* word : is_animation ? kAnimation : kFilm) command.emplace_back(word);
+    std::vector<std::string> command = {program("TERN_FFMPEG", "ffmpeg")};
+    const auto append = [&command](const auto& words) { command.insert(command.end(), words.begin(), words.end()); };
+    const std::string rate = std::to_string(pictures_per_s), from = fmt::format("pipe:{}", pictures[0]);
+    append(kPictures);
+    append(std::vector<std::string>{rate, "-c:v", "mjpeg", "-i", from});
+    append(fs::path(file).extension() == ".webp" ? kAnimation : kFilm);
     command.push_back(file);
     ffmpeg_ = start_child({.command = std::move(command), .inherited = {pictures[0]}});
     close(pictures[0]);

@@ -43,7 +43,7 @@ Result<LogDamage> index_part(const std::string& path, std::int32_t part, const s
     bytes_of_events += static_cast<std::int64_t>(kLogHeadBytes + event->channel.size()) + data_bytes;
     if (data_bytes > kMaxMessageBytes || !event->channel.ends_with(suffix)) continue;
     const std::string name = event->channel.substr(0, event->channel.size() - suffix.size());
-    const auto known = std::find(index.channels.begin(), index.channels.end(), name);
+    const auto known = std::ranges::find(index.channels, name);
     const auto channel = static_cast<std::int16_t>(known - index.channels.begin());
     if (known == index.channels.end()) {
       if (index.channels.size() >= kMostChannels) continue;
@@ -67,8 +67,7 @@ Result<LogIndex> index_log(const std::vector<std::string>& parts, const std::str
     damage.truncated = of_part->truncated;
   }
   if (index.entries.empty()) return fail(parts.front() + ": holds no message that can be shown");
-  std::stable_sort(index.entries.begin(), index.entries.end(),
-                   [](const auto& a, const auto& b) { return a.received < b.received; });
+  std::ranges::stable_sort(index.entries, [](const auto& a, const auto& b) { return a.received < b.received; });
   if (damage.places > 0 || damage.missing > 0 || damage.truncated) {
     index.damage = fmt::format("{} bytes in {} places could not be read, {} messages are missing{}", damage.bytes,
                                damage.places, damage.missing, damage.truncated ? ", the end is cut off" : "");
@@ -119,8 +118,7 @@ void LogPlayer::play(bool on, UTime wall_now) {
 }
 
 std::size_t LogPlayer::first_after(UTime t) const {
-  const auto after = std::upper_bound(index_.entries.begin(), index_.entries.end(), t,
-                                      [](UTime at, const LogIndex::Entry& e) { return at < e.received; });
+  const auto after = std::ranges::upper_bound(index_.entries, t, {}, &LogIndex::Entry::received);
   return static_cast<std::size_t>(after - index_.entries.begin());
 }
 
@@ -140,7 +138,7 @@ void LogPlayer::seek(UTime t, Scene& scene, SceneIntake& intake) {
 }
 
 void LogPlayer::step(int plans, Scene& scene, SceneIntake& intake) {
-  const auto found = std::find(index_.channels.begin(), index_.channels.end(), channels::kPlan.name);
+  const auto found = std::ranges::find(index_.channels, channels::kPlan.name);
   if (found == index_.channels.end()) return;
   const auto& plans_at = by_channel_[static_cast<std::size_t>(found - index_.channels.begin())];
   const auto time_of = [&](std::uint32_t entry) { return index_.entries[entry].received; };
@@ -199,13 +197,8 @@ void LogPlayer::feed(std::size_t entry, SceneIntake& intake) {
 
 std::string LogPlayer::json() const {
   JsonWriter json;
-  json.begin_object()
-      .key("begin_us")
-      .integer(begin().us)
-      .key("zero_us")
-      .integer(zero().us)
-      .key("end_us")
-      .integer(end().us);
+  json.begin_object().key("begin_us").integer(begin().us);
+  json.key("zero_us").integer(zero().us).key("end_us").integer(end().us);
   json.key("at_us").integer(position_.us).key("playing").flag(playing_).key("speed").number(speed_);
   json.key("refused").integer(refused_).key("damage").text(index_.damage);
   return json.end_object().take();
