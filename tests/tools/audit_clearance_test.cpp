@@ -1,4 +1,5 @@
 // The stated clearance holds between samples, whatever moves: against a slow look at the true motions.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -295,6 +296,58 @@ TEST(AuditClearance, OfWhatIsDeclaredAndFlownAsCommittedIsProvenToTheDeclaredAlp
     ++proven;
   }
   EXPECT_EQ(proven, 20);
+}
+
+/// Someone who is there from `first` to `last`, s, far from the vehicle.
+ObstacleSpec passer(double first, double last) {
+  ObstacleSpec o;
+  o.centre = Vec3(50.0, 0.0, 0.0);
+  o.half_extents = Vec3::Constant(0.3);
+  WaypointMotion m;
+  m.vanish = true;
+  for (int k = 0; k <= 10; ++k)
+    m.points.emplace_back(first + 0.1 * k * (last - first), o.centre + Vec3(0.05 * k, 0.0, 0.0));
+  o.motion = m;
+  return o;
+}
+
+/// `crowd`'s audit counted who came in the second after the flight: one more than summary and referee.
+TEST(AuditClearance, CountsTheObstaclesThatWereThereDuringTheFlightAndNoOthers) {
+  Rng rng(7);
+  Case c = random_case(rng);
+  c.declared = false;
+  c.flown = c.committed;
+  c.share_of_states = 1.0;
+  Scenario scenario;
+  for (const auto& [first, last] : {std::pair{-0.1, 2.5}, {0.5, 1.0}, {1.7, 2.5}}) {
+    scenario.world.obstacles.push_back(passer(first, last));
+  }
+  c.world = make_world(scenario, "").value();
+  const TempFolder folder;
+  const std::string path = folder.file("flight.lcm");
+  { Recording recording(c, rng, path); }
+  FlightRecord record = read_flight(path).value();
+  FlightResult result;
+  result.header = {{1, 1}, kZero + Duration::from_seconds(1.5)};
+  result.outcome = FlightOutcome::Timeout;
+  result.flight_time_s = 1.5;
+  result.obstacles = 2;
+  record.results = {result};
+  const Audit audit = audit_flight(record);
+  EXPECT_EQ(audit.met.fewest, 2);
+  EXPECT_EQ(audit.met.most, 2);
+  EXPECT_THAT(audit.check("clearance").summary, ::testing::EndsWith("; 2 obstacles"));
+
+  const auto says = [&](std::int64_t obstacles) {
+    record.results[0].obstacles = obstacles;
+    const Audit other = audit_flight(record);
+    for (const Finding& f : other.check("result").findings) {
+      if (f.what.find("obstacles") != std::string::npos) return f.what;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(says(2), "");
+  EXPECT_EQ(says(3), "says 3 obstacles, recomputed 2 to 2");
 }
 
 }  // namespace

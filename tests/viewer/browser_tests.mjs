@@ -98,6 +98,7 @@ await run({
     const viewer = await startViewer('--log', await knownLog());
     const page = await openPage(viewer.url);
     const first = await shows(page, 'it plays', (s) => s.vehicle && s.obstacles === OBSTACLES);
+    expect('nobody sends goals to a log', !(await page.isVisible('#goals')));
     await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > first.vehicle[0] + 0.2);
     await page.click('#play');
     await page.waitForFunction(() => window.tern.known.player.playing === false);

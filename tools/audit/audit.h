@@ -39,6 +39,12 @@ struct Least {
   bool proven = false;  ///< low is a bound; false: between samples by interpolation, or without what is missing
 };
 
+/// How many obstacles were there at some time of the flight: between its samples some may have come or gone.
+struct Met {
+  std::int64_t fewest = 0, most = 0;
+  bool known = false;  ///< the log tells of all: no OBSTACLE_TRUTH is missing
+};
+
 /// What the referee saw of a collision, against what was recomputed.
 enum class Collision { None, Agrees, CannotTell, Contradicts };
 /// "none", "agrees", "cannot tell", "contradicts".
@@ -49,6 +55,7 @@ struct Audit {
   std::vector<std::string> missing;  ///< what the log lacks, in words
   std::vector<ClearancePoint> clearance;
   Least least, least_of_map;  ///< to the true obstacles; to the occupied voxels
+  Met met;
   Collision collision = Collision::None;
   Coverage coverage;                 ///< of the flight
   std::vector<KeptShare> shares;     ///< the same with its intervals, the obstacles being groups

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/world/box_cover.h"
 #include "tools/audit/audit.h"
@@ -160,8 +161,33 @@ void count_holes(const SampledMotion& motion, const std::string& what, Check& ch
   check.unchecked[fmt::format("{}: {:.2f} s in holes", what, motion.holes.seconds())] += motion.hole_count;
 }
 
+/// The samples of OBSTACLE_TRUTH between which the flight lies.
+struct Enclosing {
+  UTime before{INT64_MIN}, after{INT64_MAX};
+};
+
+Enclosing enclosing(const FlightRecord& record, const Window& window) {
+  Enclosing e;
+  for (const auto& [id, history] : record.truth) {
+    for (const ObstacleHistory::Sample& s : history.samples) {
+      if (s.at <= window.from) e.before = std::max(e.before, s.at);
+      if (s.at >= window.to) e.after = std::min(e.after, s.at);
+    }
+  }
+  return e;
+}
+
+/// Whether it may have been there: up to a sample's time before its first sample and after its last.
+bool may_be_met(const ObstacleHistory& history, const Enclosing& e) {
+  return history.samples.front().at <= e.after && history.samples.back().at >= e.before;
+}
+
+bool is_met(const ObstacleHistory& history, const Window& window) {
+  return history.samples.front().at <= window.sure_to() && history.samples.back().at >= window.sure_from();
+}
+
 /// Movers that came or went in flight: before its first sample and after its last an obstacle may have been there.
-std::int64_t count_passers(const FlightRecord& record, const Window& window) {
+std::int64_t count_passers(const FlightRecord& record, const Window& window, const Enclosing& e) {
   UTime first{INT64_MAX}, last{INT64_MIN};
   for (const auto& [id, history] : record.truth) {
     first = std::min(first, history.samples.front().at);
@@ -171,7 +197,7 @@ std::int64_t count_passers(const FlightRecord& record, const Window& window) {
   for (const auto& [id, history] : record.truth) {
     const bool came = history.samples.front().at > std::max(first, window.from);
     const bool went = history.samples.back().at < std::min(last, window.to);
-    count += history.moves && (came || went) ? 1 : 0;
+    count += history.moves && may_be_met(history, e) && (came || went) ? 1 : 0;
   }
   return count;
 }
@@ -190,6 +216,9 @@ class Verdicts {
  public:
   Verdicts(const FlightRecord& record, Check& check, Names names = {"obstacles", false})
       : record_(record), check_(check), names_(names) {}
+
+  /// So many were there for sure; the others, as many as are checked, perhaps.
+  void count(std::int64_t surely) { surely_ = surely; }
 
   /// How near it came so far, for all that is known, m.
   [[nodiscard]] double nearest() const { return std::min(proven_.low, interpolated_.low); }
@@ -234,9 +263,11 @@ class Verdicts {
   }
 
   void say(const Least& least, const Closest& closest) {
-    check_.summary = fmt::format("least {:.4f} to {:.4f} m, to {} at {:.3f} s{}; {} {}{}", least.low, least.high,
+    const std::int64_t fewest = surely_.value_or(check_.checked);
+    check_.summary = fmt::format("least {:.4f} to {:.4f} m, to {} at {:.3f} s{}; {}{} {}{}", least.low, least.high,
                                  names_(closest.obstacle), record_.seconds(closest.at),
-                                 undeclared_ > 0 ? " (between samples by interpolation)" : "", check_.checked,
+                                 undeclared_ > 0 ? " (between samples by interpolation)" : "",
+                                 fewest < check_.checked ? fmt::format("{} to ", fewest) : "", check_.checked,
                                  names_.all, undecided_ > 0 ? fmt::format(", {} too close to tell", undecided_) : "");
     check_.measures = {{least.proven ? "least_m_at_least" : "least_m_by_interpolation", least.low},
                        {"least_m_at_most", least.high},
@@ -251,6 +282,7 @@ class Verdicts {
   Names names_;
   Closest proven_, interpolated_;
   std::int64_t undeclared_ = 0, undecided_ = 0;
+  std::optional<std::int64_t> surely_;
 };
 
 /// One box of the map.
@@ -330,9 +362,13 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
     if (s.at >= watch.window.from && s.at <= watch.window.to) audit.clearance.push_back({s.at, kFar, kNobody});
   }
   Verdicts verdicts(record, check);
+  const Enclosing enclosed = enclosing(record, watch.window);
   SampledMotion holes;
   static const std::vector<DeclaredPiece> kNothing;
   for (const auto& [id, history] : record.truth) {
+    if (!may_be_met(history, enclosed)) continue;
+    ++audit.met.most;
+    if (is_met(history, watch.window)) ++audit.met.fewest;
     const auto declared = record.declared.find(id);
     const SampledMotion motion = moved(history, declared == record.declared.end() ? kNothing : declared->second);
     holes.holes = holes.holes + motion.holes;
@@ -341,11 +377,13 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
   }
   count_holes(holes, channels::kObstacleTruth.name, check);
   if (record.truth_left_out > 0) check.unchecked["obstacles that OBSTACLE_TRUTH left out"] = record.truth_left_out;
-  const std::int64_t passers = count_passers(record, watch.window);
+  const std::int64_t passers = count_passers(record, watch.window, enclosed);
   if (passers > 0)
     check.unchecked["obstacles that came or went in flight, up to a sample's time before or after"] = passers;
   const bool whole =
       watch.vehicle.hole_count == 0 && holes.hole_count == 0 && record.truth_left_out == 0 && passers == 0;
+  audit.met.known = holes.hole_count == 0 && record.truth_left_out == 0;
+  verdicts.count(audit.met.fewest);
   audit.least = verdicts.finish(whole);
   std::erase_if(audit.clearance, [](const ClearancePoint& p) { return p.obstacle == kNobody; });
   return check;

@@ -43,6 +43,7 @@ class ResultCheck {
     collision();
     clearance("clearance", audit_.least, result_.min_clearance_m);
     clearance("clearance of the map", audit_.least_of_map, result_.min_map_clearance_m);
+    obstacles();
     agree("path length", result_.path_length_m, measures_.path_m, path_off());
     agree("top speed", result_.top_speed_mps, measures_.top_speed, kRounding + kSpeedShare * measures_.top_speed.best);
     if (measures_.unseen_s > 0.0) {
@@ -92,6 +93,14 @@ class ResultCheck {
     if (too_low || said > least.high + kClearanceOff) {
       fail(fmt::format("says least {} {:.4f} m, recomputed {:.4f} to {:.4f} m", what, said, least.low, least.high));
     }
+  }
+
+  void obstacles() {
+    const Met& met = audit_.met;
+    if (!met.known || met.most == 0 || result_.outcome == FlightOutcome::Collision) return;
+    ++check_.checked;
+    if (result_.obstacles >= met.fewest && result_.obstacles <= met.most) return;
+    fail(fmt::format("says {} obstacles, recomputed {} to {}", result_.obstacles, met.fewest, met.most));
   }
 
   void agree(const char* what, double said, const Between& found, double off) {

@@ -63,7 +63,7 @@ class Chart {
       width: Math.max(this.area.clientWidth, 50),
       height: HEIGHT,
       legend: { show: false },
-      padding: [6, 10, 0, 0],
+      padding: [6, 16, 0, 0],
       cursor: { sync: { key: 'flight' }, drag: { x: true, y: false, setScale: false }, points: { size: 5 }, y: false,
         bind: { dblclick: () => () => charts.zoom(null) } },
       scales: { x: { time: false, range: () => charts.range() }, y: { range: (_, low, high) => room(low, high) } },
@@ -89,6 +89,7 @@ class Chart {
     const curves = this.names.map((name, k) => {
       const curve = element('button', 'curve', label(name));
       curve.title = `${name}: a click takes it away`;
+      curve.dataset.field = name;
       curve.style.setProperty('--color', palette.curves[k % palette.curves.length]);
       curve.append(this.values[k]);
       curve.onclick = () => this.charts.change(this, this.names.filter((other) => other !== name));

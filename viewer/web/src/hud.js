@@ -24,6 +24,7 @@ export function showSession(session) {
   chip('mode', session.mode, session.mode);
   say('name', session.name.split('/').slice(-2).join('/'));
   byId('name').title = session.name;
+  document.body.classList.toggle('recorded', session.mode !== 'live');
   for (const id of ['goalmode', 'hold-goal', 'stop-goal']) {
     byId(id).disabled = !session.goals;
     byId(id).parentElement.title = session.goals ? '' : 'read-only: tern-viewer runs without --allow-goals';

@@ -9,7 +9,7 @@ function cell(tag, text) {
 }
 
 function words(value) {
-  if (Array.isArray(value)) return value.map(words).join(', ');
+  if (Array.isArray(value)) return value.map((x) => (x === '' ? '–' : words(x))).join(', '); // a class without a name
   if (value !== null && typeof value === 'object') {
     return Object.entries(value).map(([key, x]) => `${key} ${words(x)}`).join(';  ');
   }

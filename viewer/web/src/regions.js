@@ -26,6 +26,14 @@ const GRID = `float grid() {
     return (1.0 - min(min(d.x, min(d.y, d.z)), 1.0)) * clamp(0.55 - 1.4 * max(w.x, max(w.y, w.z)), 0.0, 1.0);
   }`;
 
+/** The same for what is solid: edges that are a share of a voxel near by, and a pixel farther away. */
+const EDGE = `float edge() {
+    vec3 q = (at - origin) / resolution; vec3 w = fwidth(q);
+    vec3 d = abs(fract(q - 0.5) - 0.5) + abs(n);
+    vec3 here = 1.0 - smoothstep(vec3(0.012), vec3(0.02) + w, d);
+    return max(here.x, max(here.y, here.z)) * clamp(1.1 - 2.4 * max(w.x, max(w.y, w.z)), 0.0, 1.0);
+  }`;
+
 /** A region that one may fly through: translucent. */
 const AIRY = `varying vec3 at; varying vec3 n; uniform vec3 color, origin; uniform float opacity, resolution;
   ${GRID}
@@ -38,12 +46,12 @@ const AIRY = `varying vec3 at; varying vec3 n; uniform vec3 color, origin; unifo
 /** What is occupied: solid, with the edges of its voxels, cut off above `cut`; where it is cut one sees its inside, darker. */
 const SOLID = `varying vec3 at; varying vec3 n; ${SIEVE_WAY}
   uniform vec3 color, origin, lit[6]; uniform float resolution, cut;
-  ${GRID}
+  ${EDGE}
   void main() {
     if (at.z > cut) discard;
     ${SIEVE}
     vec3 light = n.x < -0.5 ? lit[0] : n.x > 0.5 ? lit[1] : n.y < -0.5 ? lit[2] : n.y > 0.5 ? lit[3] : n.z < -0.5 ? lit[4] : lit[5];
-    vec3 c = color * (gl_FrontFacing ? light : vec3(0.28)) * (gl_FrontFacing ? 1.0 - 0.35 * grid() : 1.0);
+    vec3 c = color * (gl_FrontFacing ? light : vec3(0.28)) * (gl_FrontFacing ? 1.0 - 0.4 * edge() : 1.0);
     gl_FragColor = vec4(c, 1.0);
     #include <colorspace_fragment>
   }`;
