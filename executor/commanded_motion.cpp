@@ -163,6 +163,7 @@ bool CommandedMotion::leads_elsewhere(const UavState& setpoint, bool is_far) {
 }
 
 void CommandedMotion::hear(const TimedSpline& committed) {
+  planned_.reset();
   const ClampedSpline spline = committed.spline();
   if (!spline.ends_at_rest()) return;
   if (committed.start <= committed_.newest_start()) {
@@ -176,6 +177,13 @@ void CommandedMotion::hear(const TimedSpline& committed) {
   if (committed.start > committed_.newest_start() && joins) committed_.splice(committed);
   committed_.forget_before(settled_.end());
   if (braking_) choose_after(newest_, settled_.end());
+}
+
+void CommandedMotion::hear(const Plan& plan) {
+  if (plan.outcome == PlanOutcome::NoPlan || plan.outcome == PlanOutcome::KeepCommitted || braking_) return;
+  const TimedSpline& planned = plan.trajectory;
+  if (planned.start < settled_.end()) return;
+  if (agree(committed_.sample(planned.start), start_of(planned.spline()))) planned_ = planned;
 }
 
 void CommandedMotion::choose_after(const MotionSample& motion, UTime at) {
@@ -197,7 +205,9 @@ MotionSample CommandedMotion::sample(UTime t) const {
 }
 
 Vec3 CommandedMotion::acceleration_ahead(UTime t, Duration lead) const {
-  if (is_committed()) return sample(t + lead).a;
+  const UTime then = t + lead;
+  if (planned_ && then >= planned_->start) return planned_->spline().sample((then - planned_->start).seconds()).a;
+  if (is_committed()) return sample(then).a;
   const MotionSample m = sample(t);
   return m.a + lead.seconds() * m.j;
 }

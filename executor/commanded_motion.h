@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/splines/motion_history.h"
+#include "core/world/horizon.h"
 #include "core/world/vehicle.h"
 #include "executor/committed_trajectory.h"
 
@@ -34,11 +35,14 @@ class CommandedMotion {
   /// was not heard, or setpoints that the command does not lead to lie on it. So is one that leaves, before they start,
   /// the way that the vehicle is on: the executor leads it on from where it is, and they are taken back.
   void hear(const TimedSpline& committed);
+  /// PLAN: what will probably be committed, told up to a request's period before HORIZON_REQUEST says so. Where it
+  /// joins the command acceleration_ahead() looks at it, until then; the command itself waits until it is committed.
+  void hear(const Plan& plan);
 
   /// The command at any time; before settled().end() as it was, after it as it would be without another setpoint.
   [[nodiscard]] MotionSample sample(UTime t) const;
-  /// The acceleration at t + lead (m/s²), for who has to tilt first: of what is committed, or, where a braking
-  /// trajectory stands in for it, by the jerk at t.
+  /// The acceleration at t + lead (m/s²), for who has to tilt first: of the plan that comes next, of what is committed,
+  /// or, where a braking trajectory stands in for it, by the jerk at t.
   [[nodiscard]] Vec3 acceleration_ahead(UTime t, Duration lead) const;
   [[nodiscard]] double yaw() const { return yaw_; }  ///< rad, of the newest setpoint
   /// Whether the command after settled().end() is a trajectory that was heard to be committed, not one that brakes.
@@ -67,6 +71,7 @@ class CommandedMotion {
   UTime apart_since_;              ///< the first of the setpoints that lead to it
   double yaw_ = 0.0;
   CommittedTrajectory committed_;               ///< as heard
+  std::optional<TimedSpline> planned_;          ///< joins it, and is not yet committed
   std::optional<CommittedTrajectory> braking_;  ///< when committed_ does not pass through the newest setpoint
 };
 

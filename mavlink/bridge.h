@@ -57,6 +57,7 @@ class Bridge {
   void hear(const Frame& frame, UTime received);
   void hear(const UavState& setpoint);
   void hear(const TimedSpline& committed) { command_.hear(committed); }
+  void hear(const Plan& plan) { command_.hear(plan); }
   /// Where a motion-capture system sees the vehicle, W. Nothing comes of it unless external_vision is on.
   void hear_vision(const UavState& seen);
   /// Somebody wants it to fly: a new GOAL of mode Go.

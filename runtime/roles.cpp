@@ -49,11 +49,11 @@ std::optional<Role> role_of(std::string_view channel) {
 const std::vector<Part>& parts() {
   static const std::vector<Part> kParts = {
       {"tern-simulator", Role::Vehicle,
-       names_of(kUavState, kSetpoint, kVehicleStatus, kObstacleObservations, kDeclaredMotions, kHorizonRequest,
+       names_of(kUavState, kSetpoint, kVehicleStatus, kObstacleObservations, kDeclaredMotions, kHorizonRequest, kPlan,
                 kObstacleTruth, kVehicleTruth, kFlightResult, kGoal, kSemanticMap)},
       {"tern-executor", Role::Executor, names_of(kUavState, kVehicleStatus, kGoal, kPlan, kHorizonRequest, kSetpoint)},
       {"tern-mavlink", Role::Vehicle,
-       names_of(kUavState, kSetpoint, kVehicleStatus, kVehicleTruth, kHorizonRequest, kFlightResult, kGoal)},
+       names_of(kUavState, kSetpoint, kVehicleStatus, kVehicleTruth, kHorizonRequest, kPlan, kFlightResult, kGoal)},
       {"tern-autopilot-sim", Role::Observer, {}},
       {"tern-predictor", Role::Predictor, names_of(kObstacleObservations, kDeclaredMotions, kUavState, kPredictions)},
       {"tern-planner", Role::Planner,

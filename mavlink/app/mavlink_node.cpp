@@ -31,6 +31,7 @@ MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& ua
       next_status_(begun_) {
   bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { bridge_.hear(setpoint); });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { bridge_.hear(m.committed); });
+  bus_.subscribe(channels::kPlan, [this](const Plan& plan) { bridge_.hear(plan); });
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });
   bus_.subscribe(channels::kVehicleTruth, [this](const UavState& seen) {

@@ -72,6 +72,7 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
     if (!has_missed(now) && now >= follows_from_) vehicle_->hear(setpoint);
   });
   bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->hear(m.committed); });
+  bus_.subscribe(channels::kPlan, [this](const Plan& plan) { vehicle_->hear(plan); });
   if (config.external) hear_external_vehicle();
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) {
     const bool is_own = status.header.name.sender_epoch_us == bus_.epoch_us();

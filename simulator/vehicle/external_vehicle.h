@@ -20,6 +20,7 @@ class ExternalVehicle final : public Vehicle {
 
   void hear(const UavState&) override {}
   void hear(const TimedSpline&) override {}
+  void hear(const Plan&) override {}
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return truth_; }
   [[nodiscard]] UavState true_state() const override { return newest_; }

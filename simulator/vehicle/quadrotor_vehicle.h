@@ -25,6 +25,7 @@ class QuadrotorVehicle final : public Vehicle {
 
   void hear(const UavState& setpoint) override { command_.hear(setpoint); }
   void hear(const TimedSpline& committed) override { command_.hear(committed); }
+  void hear(const Plan& plan) override { command_.hear(plan); }
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return truth_; }
   [[nodiscard]] UavState true_state() const override;

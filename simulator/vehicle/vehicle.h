@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/splines/motion_history.h"
+#include "core/world/horizon.h"
 #include "core/world/vehicle.h"
 #include "core/world/vehicle_status.h"
 
@@ -21,6 +22,8 @@ class Vehicle {
   virtual void hear(const UavState& setpoint) = 0;
   /// A HORIZON_REQUEST came with the trajectory that the executor has committed to: what to fly when setpoints cease.
   virtual void hear(const TimedSpline& committed) = 0;
+  /// A PLAN came: what the executor will probably commit to next.
+  virtual void hear(const Plan& plan) = 0;
 
   /// The body moves on. What it truly did is then known until truth().end(). That may lag behind `now` by a few
   /// setpoints' time, but never stands still; nothing is judged beyond it, nor beyond `now`.
