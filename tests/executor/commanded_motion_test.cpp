@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <vector>
 
 #include "core/base/random.h"
@@ -135,6 +136,66 @@ TEST(CommandedMotion, ATrajectoryThatDoesNotJoinTheCommittedOneIsNotTaken) {
   flight.command_.hear(braking_trajectory(elsewhere, begins, uav().limits));
   const MotionSample there = flight.command_.sample(begins);
   EXPECT_EQ(there.v.x(), elsewhere.v.x() - 0.5);
+}
+
+/// A flight that is to turn: a request, and the plan that answers it.
+struct Turn {
+  explicit Turn(Flight& flight) {
+    flight.fly(Duration{2'000'000}, [] { return false; });
+    while (!request) {
+      request = flight.executor_.next_request(flight.now_);
+      if (!request) flight.fly(kBeat, [] { return false; });
+    }
+    flight.command_.hear(request->committed);
+    plan = straight_plan(*request, Vec3(10.0, 20.0, 1.0));
+  }
+  [[nodiscard]] Vec3 planned_acceleration(UTime t) const {
+    return plan.trajectory.spline().sample((t - plan.trajectory.start).seconds()).a;
+  }
+  std::optional<HorizonRequest> request;
+  Plan plan;
+};
+
+constexpr Duration kLead{100'000};
+
+TEST(CommandedMotion, LooksAheadAtAPlanBeforeItIsCommittedAndDoesNotFlyIt) {
+  Flight flight;
+  const Turn turn(flight);
+  const UTime later = turn.request->t_s + kLead;
+  const MotionSample committed = flight.command_.sample(later);
+  ASSERT_GT((turn.planned_acceleration(later) - committed.a).norm(), 0.5);
+  flight.command_.hear(turn.plan);
+  EXPECT_EQ(flight.command_.acceleration_ahead(turn.request->t_s, kLead), turn.planned_acceleration(later));
+  const UTime before = turn.request->t_s - kLead - Duration{1'000};
+  EXPECT_EQ(flight.command_.acceleration_ahead(before, kLead), flight.command_.sample(before + kLead).a);
+  EXPECT_EQ(flight.command_.sample(later).p, committed.p);
+  EXPECT_EQ(flight.command_.sample(later).a, committed.a);
+}
+
+TEST(CommandedMotion, WhatIsCommittedTakesThePlaceOfWhatWasPlanned) {
+  Flight flight;
+  const Turn turn(flight);
+  const UTime later = turn.request->t_s + kLead;
+  flight.command_.hear(turn.plan);
+  flight.command_.hear(turn.request->committed);
+  EXPECT_EQ(flight.command_.acceleration_ahead(turn.request->t_s, kLead), flight.command_.sample(later).a);
+}
+
+TEST(CommandedMotion, LooksAtNoPlanThatDoesNotJoinOrIsNone) {
+  Flight flight;
+  const Turn turn(flight);
+  const auto looks_at = [&](const Plan& plan) {
+    CommandedMotion command = flight.command_;
+    command.hear(plan);
+    const UTime t_s = turn.request->t_s;
+    return command.acceleration_ahead(t_s, kLead) != command.sample(t_s + kLead).a;
+  };
+  ASSERT_TRUE(looks_at(turn.plan));
+  Plan none = turn.plan, kept = turn.plan, elsewhere = turn.plan;
+  none.outcome = PlanOutcome::NoPlan;
+  kept.outcome = PlanOutcome::KeepCommitted;
+  elsewhere.trajectory.control_points.colwise() += Vec3(0.5, 0.0, 0.0);
+  for (const Plan& plan : {none, kept, elsewhere}) EXPECT_FALSE(looks_at(plan));
 }
 
 TEST(CommandedMotion, AfterASilenceAStreamThatIsFarOffIsFollowedWhenItHasGoneOn) {
