@@ -4,7 +4,7 @@
 figures.py [FOLDER]          every figure whose data is in the folder (this one)
 figures.py compare A.csv B.csv OUT.svg   two campaigns over the same seeds, measure by measure
 figures.py widths SUMMARY.json... OUT.svg  half-width by the time since a track was first seen, a panel per world
-figures.py map MAP.csv OUT.svg           success of perception_only against the sensor (sensor_map.sh)
+figures.py map FOLDER OUT.svg              success of perception_only against the sensor (results.sh --sensors --out FOLDER)
 
 Needs python3-matplotlib; no flight does.
 """
@@ -231,23 +231,31 @@ def draw_comparison(a, b, out):
     save(figure, out)
 
 
-def draw_map(table, out):
-    """A panel per axis of sensor_map.sh: success with its interval, the oracle as a line."""
-    table = rows(table)
-    axes_of = list(dict.fromkeys(r["axis"] for r in table))
-    figure, parts = plt.subplots(1, len(axes_of), figsize=(3.2 * len(axes_of), 3.4), layout="constrained", sharey=True,
-                                 squeeze=False)
-    for axes, axis in zip(parts[0], axes_of):
-        for kind, colour in (("perception", "#1357a6"), ("oracle", "#7d838c")):
-            own = sorted(((float(r["value"]), r) for r in table if (r["axis"], r["kind"]) == (axis, kind)), key=lambda v: v[0])
-            x, y = [v for v, _ in own], [100 * float(r["success"]) for _, r in own]
-            low = [100 * float(r["low"] or r["success"]) for _, r in own]
-            high = [100 * float(r["high"] or r["success"]) for _, r in own]
-            axes.plot(x, y, "o-", color=colour, label=kind)
+AS_IT_STANDS = {"range_m": 8, "sigma_m": 0.05, "latency_s": 0.05, "slowness": 1.1}  # of perception_only
+
+
+def draw_map(folder, out):
+    """A panel per thing that `results.sh --sensors` changes: success with its interval, motion known beside it."""
+    cases = {}
+    for file in pathlib.Path(folder).glob("*.json"):
+        words = file.stem.removesuffix("_oracle").rsplit("_", 1)
+        kind = "motion known" if file.stem.endswith("_oracle") else "by perception"
+        summary = json.loads(file.read_text())
+        for axis, standard in AS_IT_STANDS.items():
+            value = standard if file.stem == "perception_only" else float(words[1]) if words[0] == axis else None
+            if value is not None:
+                cases.setdefault((axis, kind), {})[value] = summary
+    figure, parts = plt.subplots(1, len(AS_IT_STANDS), figsize=(12.8, 3.4), layout="constrained", sharey=True)
+    for axes, axis in zip(parts, AS_IT_STANDS):
+        for kind, colour in (("by perception", "#1357a6"), ("motion known", "#7d838c")):
+            own = sorted(cases.get((axis, kind), {}).items())
+            x = [value for value, _ in own]
+            axes.plot(x, [100 * s["success"] for _, s in own], "o-", color=colour, label=kind)
+            low, high = ([100 * s["success_ci95"][k] for _, s in own] for k in (0, 1))
             axes.fill_between(x, low, high, color=colour, alpha=0.15, lw=0)
         axes.set(xlabel=axis, ylim=(-2, 102))
-    parts[0][0].set(ylabel="success, %")
-    parts[0][-1].legend()
+    parts[0].set(ylabel="success, %")
+    parts[-1].legend()
     save(figure, out)
 
 
