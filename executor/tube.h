@@ -75,6 +75,8 @@ class Tube {
   void add(const Vec3& error, bool rests, UTime at);
   /// An error that tells only that the vehicle is not perfect.
   void saw(const Vec3& error) { has_error_ = has_error_ || (error.array() >= kNothing).any(); }
+  /// It is not perfect, though at rest it shows no error.
+  void expect_errors() { has_error_ = true; }
   void left(UTime at) { left_ = at; }
   /// What came of a request. @param rests  the vehicle is commanded to rest
   void answered(const Plan& plan, bool rests, UTime at);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/base/time.h"
 #include "core/base/types.h"
@@ -18,6 +19,9 @@ enum class EstimatorHealth : std::uint8_t {
   Lost = 2,      ///< UAV_STATE cannot be believed
 };
 inline constexpr int kEstimatorHealths = 3;
+
+/// The mode of a vehicle that is where its setpoints say. Every other one that names its mode has errors of tracking.
+inline constexpr std::string_view kPerfectMode = "perfect";
 
 /// The vehicle as the one who flies it (simulator, autopilot bridge) knows it. The executor asks for plans only while
 /// it is following.

@@ -131,6 +131,7 @@ void ExecutorNode::begin(const UavState& state) {
 
 void ExecutorNode::on_status(const VehicleStatus& status) {
   sigma_ = status.position_sigma;
+  if (!status.mode.empty() && status.mode != kPerfectMode) tube_.expect_errors();
   if (status.following == following_) return;
   following_ = status.following;
   spdlog::info("the vehicle {}", following_ ? "follows" : "does not follow: " + status.why_not);

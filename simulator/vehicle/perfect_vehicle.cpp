@@ -28,7 +28,7 @@ VehicleStatus PerfectVehicle::status(UTime now) const {
   VehicleStatus status;
   status.at = now;
   status.armed = status.following = true;
-  status.mode = "perfect";
+  status.mode = kPerfectMode;
   return status;
 }
 

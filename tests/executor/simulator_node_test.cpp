@@ -533,9 +533,7 @@ TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {
     SimulatorConfig config;
     config.quadrotor.emplace();
     disturbance.apply(*config.quadrotor);
-    ExecutorConfig executor;
-    executor.tube_m = 0.25;
-    Flight flight(gentle_scenario(), config, executor);
+    Flight flight(gentle_scenario(), config);
     flight.start_planner();
     flight.fly();
     ASSERT_FALSE(flight.results.empty());
