@@ -22,6 +22,7 @@ using Triangle = std::array<std::size_t, 3>;
 // CGAL's traits with our planes. (The default of the overload that writes vectors is worse than slow: its planes are
 // inexact, and it crashes on flat sets.)
 struct Traits : CGAL::Convex_hull_traits_3<Kernel, CGAL::Default, CGAL::Tag_true> {
+  // NOLINTBEGIN(readability-identifier-naming): the concept's names
   using Plane_3 = OrientedPlane;
   struct Construct_plane_3 {
     OrientedPlane operator()(const Point& p, const Point& q, const Point& r) const { return {p, q, r}; }
@@ -37,6 +38,7 @@ struct Traits : CGAL::Convex_hull_traits_3<Kernel, CGAL::Default, CGAL::Tag_true
   [[nodiscard]] Construct_plane_3 construct_plane_3_object() const { return {}; }
   [[nodiscard]] Has_on_positive_side_3 has_on_positive_side_3_object() const { return {}; }
   [[nodiscard]] Less_signed_distance_to_plane_3 less_signed_distance_to_plane_3_object() const { return {}; }
+  // NOLINTEND(readability-identifier-naming)
 };
 
 void check(const Points& points) {

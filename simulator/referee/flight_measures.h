@@ -1,6 +1,7 @@
 // The measures of a flight that need no obstacle: limits, flight box, stops, path, arrival, exposure.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,7 +44,8 @@ class LimitWatch {
   [[nodiscard]] const std::string& first() const { return first_; }  ///< in words; empty if none
 
  private:
-  enum Kind { Speed, Acceleration, Jerk, FlightBox, kKinds };
+  enum Kind { Speed, Acceleration, Jerk, FlightBox };
+  static constexpr std::size_t kKinds = 4;
   void judge(Kind kind, const Vec3& value, const Vec3& limit, double t_s);
   void count(Kind kind, bool broken, const std::string& what);
 
