@@ -19,7 +19,7 @@ constexpr std::size_t kMostChannels = 256;
 /// How many of a channel's newest messages a jump needs, so that a complete set or every process is among them.
 std::size_t messages_needed(std::string_view channel) {
   if (channel == channels::kObstacleTruth.name || channel == channels::kPredictions.name)
-    return static_cast<std::size_t>(2 * kMaxBatches);
+    return 2 * std::size_t{kMaxBatches};
   if (channel == channels::kHeartbeat.name || channel == channels::kConfiguration.name) return 64;
   return 1;
 }
