@@ -24,9 +24,13 @@ class DisturbedFlight {
 };
 
 TEST(DisturbedVehicle, InTheWindItIsBuiltForNeverLeavesItsTube) {
-  const DisturbedFlight flight("quadrotor_corridor", {"seed=3"});
-  expect_reached(flight.result());
-  EXPECT_EQ(flight.exits(), 0);
+  // In all but the first it did, while it heard of plans 25 ms before they began.
+  for (const int seed : {3, 219, 307, 343}) {
+    SCOPED_TRACE(seed);
+    const DisturbedFlight flight("quadrotor_corridor", {"seed=" + std::to_string(seed)});
+    expect_reached(flight.result());
+    EXPECT_EQ(flight.exits(), 0);
+  }
 }
 
 TEST(DisturbedVehicle, InAGustAmongObstaclesArrivesWithoutAContact) {
