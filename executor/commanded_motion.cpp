@@ -183,7 +183,8 @@ void CommandedMotion::hear(const Plan& plan) {
   if (plan.outcome == PlanOutcome::NoPlan || plan.outcome == PlanOutcome::KeepCommitted || braking_) return;
   const TimedSpline& planned = plan.trajectory;
   if (planned.start < settled_.end()) return;
-  if (agree(committed_.sample(planned.start), start_of(planned.spline()))) planned_ = planned;
+  ClampedSpline spline = planned.spline();
+  if (agree(committed_.sample(planned.start), start_of(spline))) planned_ = {planned.start, std::move(spline)};
 }
 
 void CommandedMotion::choose_after(const MotionSample& motion, UTime at) {
@@ -206,7 +207,9 @@ MotionSample CommandedMotion::sample(UTime t) const {
 
 Vec3 CommandedMotion::acceleration_ahead(UTime t, Duration lead) const {
   const UTime then = t + lead;
-  if (planned_ && then >= planned_->start) return planned_->spline().sample((then - planned_->start).seconds()).a;
+  if (planned_ && t < planned_->start && then >= planned_->start) {
+    return planned_->spline.sample((then - planned_->start).seconds()).a;
+  }
   if (is_committed()) return sample(then).a;
   const MotionSample m = sample(t);
   return m.a + lead.seconds() * m.j;

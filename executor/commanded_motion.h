@@ -35,8 +35,9 @@ class CommandedMotion {
   /// was not heard, or setpoints that the command does not lead to lie on it. So is one that leaves, before they start,
   /// the way that the vehicle is on: the executor leads it on from where it is, and they are taken back.
   void hear(const TimedSpline& committed);
-  /// PLAN: what will probably be committed, told up to a request's period before HORIZON_REQUEST says so. Where it
-  /// joins the command acceleration_ahead() looks at it, until then; the command itself waits until it is committed.
+  /// PLAN: what will probably be committed, told up to a request's period before HORIZON_REQUEST says so. If it joins
+  /// the command, acceleration_ahead() looks at it until then, or until it was to begin; the command itself waits until
+  /// it is committed.
   void hear(const Plan& plan);
 
   /// The command at any time; before settled().end() as it was, after it as it would be without another setpoint.
@@ -70,8 +71,12 @@ class CommandedMotion {
   std::optional<UavState> apart_;  ///< the newest setpoint, where the command did not lead to it
   UTime apart_since_;              ///< the first of the setpoints that lead to it
   double yaw_ = 0.0;
-  CommittedTrajectory committed_;               ///< as heard
-  std::optional<TimedSpline> planned_;          ///< joins it, and is not yet committed
+  CommittedTrajectory committed_;  ///< as heard
+  struct Planned {
+    UTime start;
+    ClampedSpline spline;
+  };
+  std::optional<Planned> planned_;              ///< joins it, and is not yet committed
   std::optional<CommittedTrajectory> braking_;  ///< when committed_ does not pass through the newest setpoint
 };
 

@@ -161,24 +161,41 @@ constexpr Duration kLead{100'000};
 TEST(CommandedMotion, LooksAheadAtAPlanBeforeItIsCommittedAndDoesNotFlyIt) {
   Flight flight;
   const Turn turn(flight);
-  const UTime later = turn.request->t_s + kLead;
+  const UTime now = turn.request->t_s - Duration{1'000}, later = now + kLead;
   const MotionSample committed = flight.command_.sample(later);
   ASSERT_GT((turn.planned_acceleration(later) - committed.a).norm(), 0.5);
   flight.command_.hear(turn.plan);
-  EXPECT_EQ(flight.command_.acceleration_ahead(turn.request->t_s, kLead), turn.planned_acceleration(later));
+  EXPECT_EQ(flight.command_.acceleration_ahead(now, kLead), turn.planned_acceleration(later));
   const UTime before = turn.request->t_s - kLead - Duration{1'000};
   EXPECT_EQ(flight.command_.acceleration_ahead(before, kLead), flight.command_.sample(before + kLead).a);
   EXPECT_EQ(flight.command_.sample(later).p, committed.p);
   EXPECT_EQ(flight.command_.sample(later).a, committed.a);
 }
 
+TEST(CommandedMotion, APlanThatWasNotCommittedIsForgottenWhenItWasToBegin) {
+  Flight flight;
+  const Turn turn(flight);
+  flight.command_.hear(turn.plan);
+  for (UTime t = turn.request->t_s; t < turn.plan.trajectory.end() + kLead; t = t + kBeat) {
+    EXPECT_EQ(flight.command_.acceleration_ahead(t, kLead), flight.command_.sample(t + kLead).a);
+  }
+}
+
+TEST(CommandedMotion, LooksBeyondTheEndOfAPlanThatIsShorterThanTheLead) {
+  Flight flight;
+  const Turn turn(flight);
+  flight.command_.hear(turn.plan);
+  const Duration lead = turn.plan.trajectory.end() - turn.plan.trajectory.start + Duration{100'000};
+  EXPECT_EQ(flight.command_.acceleration_ahead(turn.request->t_s - Duration{1'000}, lead), Vec3(Vec3::Zero()));
+}
+
 TEST(CommandedMotion, WhatIsCommittedTakesThePlaceOfWhatWasPlanned) {
   Flight flight;
   const Turn turn(flight);
-  const UTime later = turn.request->t_s + kLead;
+  const UTime now = turn.request->t_s - Duration{1'000};
   flight.command_.hear(turn.plan);
   flight.command_.hear(turn.request->committed);
-  EXPECT_EQ(flight.command_.acceleration_ahead(turn.request->t_s, kLead), flight.command_.sample(later).a);
+  EXPECT_EQ(flight.command_.acceleration_ahead(now, kLead), flight.command_.sample(now + kLead).a);
 }
 
 TEST(CommandedMotion, LooksAtNoPlanThatDoesNotJoinOrIsNone) {
@@ -187,8 +204,8 @@ TEST(CommandedMotion, LooksAtNoPlanThatDoesNotJoinOrIsNone) {
   const auto looks_at = [&](const Plan& plan) {
     CommandedMotion command = flight.command_;
     command.hear(plan);
-    const UTime t_s = turn.request->t_s;
-    return command.acceleration_ahead(t_s, kLead) != command.sample(t_s + kLead).a;
+    const UTime now = turn.request->t_s - Duration{1'000};
+    return command.acceleration_ahead(now, kLead) != command.sample(now + kLead).a;
   };
   ASSERT_TRUE(looks_at(turn.plan));
   Plan none = turn.plan, kept = turn.plan, elsewhere = turn.plan;
