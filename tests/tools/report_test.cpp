@@ -121,6 +121,18 @@ TEST(Report, TellsWhatTheLogTells) {
   EXPECT_NEAR(data["path"]["exposure"][0].back().get<double>(), inside, 0.2) << "metres inside the mural";
 }
 
+TEST(Report, TellsWhereTheVehicleWasInItsTube) {
+  FlightRecord record = short_flight();
+  for (HorizonRequest& request : record.requests) request.tube = Vec3::Constant(0.3);
+  const std::size_t k = record.states.size() / 2;
+  record.states[k].motion.p.y() += 0.2;
+  const nlohmann::json path = data_in(report_page(record, audit::audit_flight(record)))["path"];
+  EXPECT_NEAR(path["off"][k].get<double>(), 0.2, 0.002);
+  EXPECT_EQ(path["tube"][k], 0.3);
+  EXPECT_LT(path["off"][k - 1].get<double>(), 0.002);
+  EXPECT_TRUE(path["tube"][0].is_null()) << "nothing is promised yet";
+}
+
 /// Five minutes among 300 movers, at the rates of a live flight.
 FlightRecord long_flight() {
   FlightRecord record;

@@ -158,7 +158,7 @@ Audit audit_flight(const FlightRecord& record) {
   audit.checks.push_back(check_limits(record));
   audit.checks.push_back(check_continuity(record));
   audit.checks.push_back(check_commitment(record));
-  audit.checks.push_back(check_tube(record));
+  audit.checks.push_back(check_tube(record, audit));
   audit.checks.push_back(check_certificates(record));
   audit.checks.push_back(check_holds(record));
   audit.checks.push_back(check_answers(record));

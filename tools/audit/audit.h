@@ -19,6 +19,13 @@ struct ClearancePoint {
   std::int64_t obstacle = kNobody;
 };
 
+/// Where the vehicle was in its tube at a state that is judged: on the axis on which it was nearest to the edge.
+struct TubePoint {
+  UTime at;
+  double off_m = 0.0;   ///< its setpoint, ≥ 0
+  double tube_m = 0.0;  ///< what was promised; less than off_m: it was outside
+};
+
 /// Estimates by how long their track had been in PREDICTIONS, s: bin k is (kAges[k − 1], kAges[k]], the first one 0
 /// alone, the last one all that is older.
 inline constexpr std::array kAges{0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0};
@@ -54,6 +61,7 @@ struct Audit {
   std::vector<Check> checks;
   std::vector<std::string> missing;  ///< what the log lacks, in words
   std::vector<ClearancePoint> clearance;
+  std::vector<TubePoint> tube;
   Least least, least_of_map;  ///< to the true obstacles; to the occupied voxels
   Met met;
   Collision collision = Collision::None;
@@ -83,7 +91,7 @@ Check check_map(const FlightRecord& record, Audit& audit);
 Check check_limits(const FlightRecord& record);
 Check check_continuity(const FlightRecord& record);
 Check check_commitment(const FlightRecord& record);
-Check check_tube(const FlightRecord& record);
+Check check_tube(const FlightRecord& record, Audit& audit);
 Check check_certificates(const FlightRecord& record);
 Check check_holds(const FlightRecord& record);
 Check check_answers(const FlightRecord& record);

@@ -66,7 +66,7 @@ struct Widest {
 
 }  // namespace
 
-Check check_tube(const FlightRecord& record) {
+Check check_tube(const FlightRecord& record, Audit& audit) {
   Check check{.name = "tube", .claim = "the vehicle stayed within the promised tube about its setpoints"};
   const std::vector<HorizonRequest> requests = promises(record);
   const Window window = judged(record);
@@ -89,6 +89,7 @@ Check check_tube(const FlightRecord& record) {
     const Vec3 margin = request->tube - off;
     int axis = 0;
     worst.margin_m = std::min(worst.margin_m, margin.minCoeff(&axis));
+    audit.tube.push_back({state.at, off[axis], request->tube[axis]});
     worst.error_m = std::max(worst.error_m, off.norm());
     worst.squares += off.squaredNorm();
     worst.tube = worst.tube.cwiseMax(request->tube);

@@ -70,14 +70,16 @@ class ExposureSoFar {
 
 json path_of(const FlightRecord& record, const Audit& audit) {
   const std::size_t share = std::max<std::size_t>(1, (record.states.size() + kMostPathPoints - 1) / kMostPathPoints);
-  Columns columns{"t", "x", "y", "z", "speed", "axis_speed", "acceleration", "axis_acceleration", "clearance"};
+  Columns columns{"t",         "x",   "y",   "z", "speed", "axis_speed", "acceleration", "axis_acceleration",
+                  "clearance", "off", "tube"};
   json exposure = json::array();
   for (std::size_t k = 0; k < record.regions.size(); ++k) exposure.push_back(json::array());
   ExposureSoFar so_far(record);
-  std::size_t point = 0;
+  std::size_t point = 0, in_tube = 0;
   for (std::size_t from = 0; from < record.states.size(); from += share) {
     const std::size_t to = std::min(from + share, record.states.size());
     double speed = 0.0, axis_speed = 0.0, acceleration = 0.0, axis_acceleration = 0.0, clearance = INFINITY;
+    audit::TubePoint edge{.at = {}, .off_m = NAN, .tube_m = NAN};
     for (std::size_t k = from; k < to; ++k) {
       const UavState& s = record.states[k];
       so_far.advance(s);
@@ -89,11 +91,15 @@ json path_of(const FlightRecord& record, const Audit& audit) {
       if (point < audit.clearance.size() && audit.clearance[point].at == s.at) {
         clearance = std::min(clearance, audit.clearance[point].clearance_m);
       }
+      for (; in_tube < audit.tube.size() && audit.tube[in_tube].at <= s.at; ++in_tube) {
+        const audit::TubePoint& seen = audit.tube[in_tube];
+        if (!(edge.tube_m - edge.off_m <= seen.tube_m - seen.off_m)) edge = seen;
+      }
     }
     const UavState& first = record.states[from];
     const Vec3& p = first.motion.p;
-    columns.add(
-        {record.seconds(first.at), p.x(), p.y(), p.z(), speed, axis_speed, acceleration, axis_acceleration, clearance});
+    columns.add({record.seconds(first.at), p.x(), p.y(), p.z(), speed, axis_speed, acceleration, axis_acceleration,
+                 clearance, edge.off_m, edge.tube_m});
     for (std::size_t k = 0; k < so_far.metres().size(); ++k) exposure[k].push_back(rounded(so_far.metres()[k]));
   }
   json path = columns.take();

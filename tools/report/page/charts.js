@@ -45,6 +45,18 @@ function motion() {
     });
   }
 }
+/** Where the vehicle was in its tube. One that is perfect has none. */
+function tracking() {
+  const { tube_m: widest, tracking_error_m: largest } = check("tube").measures;
+  if (!(widest > 0 || largest > 1e-3)) return;
+  const shared = path.share > 1 ? ` A point stands for ${path.share} states: the nearest to the edge.` : "";
+  chart(card("Off its setpoints, m", `On the axis on which the vehicle was nearest to the edge of its tube. Dashed: what was promised.${shared}`), {
+    columns: [path.t, path.off, path.tube],
+    series: [{ label: "off its setpoint", colour: "c1", fill: true, value: (u, y) => fixed(y, 3) },
+      { label: "tube", colour: "bad", dash: [6, 4], width: 1.2, value: (u, y) => fixed(y, 3) }],
+    range: upTo(path.off.concat(path.tube)),
+  });
+}
 function clearances() {
   const row = pair();
   const closest = check("clearance").measures;

@@ -81,6 +81,7 @@ head();
 if (path.t.length) {
   map();
   motion();
+  tracking();
   clearances();
 } else {
   card("Where it flew", "The log has no UAV_STATE.");
