@@ -50,6 +50,7 @@ TEST(KeyRing, OnlyWhoHearsAPlanHoldsItsKey) {
   for (const Part& part : parts()) {
     const KeyRing ring = KeyRing::derive(counting_key(), part.process);
     const bool hears = part.process == "tern-planner" || part.process == "tern-executor" ||
+                       part.process == "tern-simulator" || part.process == "tern-mavlink" ||
                        part.process == "tern-monitor" || part.process == "tern-viewer";
     EXPECT_EQ(ring.find(channels::kPlan.name, Role::Planner) != nullptr, hears) << part.process;
   }
