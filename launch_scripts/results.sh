@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The flight campaigns of docs/results.md. What has been flown is not flown again, so it may be stopped and started at will.
 #   launch_scripts/results.sh [--perception | --sensors] [--share S] [--out DIR] [NAME...]
-# S: a share of the seeds, 1 = all (3000 flights of the hard worlds, 200 of each other one); NAME: only these campaigns;
+# S: a share of the seeds, 1 = all 6000 flights (1000 of each of three hard worlds and of the quadrotor's corridor, 200 of
+# each other one; the quadrotor's are audited); NAME: only these campaigns;
 # --perception: instead the worlds without declared motions, 200 flights each, and their oracles; --sensors: instead
 # perception_only with other ranges, noise, latencies and speeds of what moves, one at a time, 200 flights each.
 set -euo pipefail
@@ -47,7 +48,7 @@ while (($#)); do
     --out) out=${2:?} && shift 2 ;;
     --perception) campaigns=$perception coverage=(--coverage "$TERN_BIN/tern-audit") && shift ;;
     --sensors) campaigns=$sensors && shift ;;
-    -h | --help) sed -n '2,6s/^# //p' "$0" && exit ;;
+    -h | --help) sed -n '2,7s/^# //p' "$0" && exit ;;
     -*) die "no option $1" ;;
     *) only+="$1 " && shift ;;
   esac
