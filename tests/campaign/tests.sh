@@ -220,6 +220,19 @@ an_audit_that_finds_a_breach_fails_the_flight() {
   grep -q 'success 0.00 %' "$work/flights.csv.said" || fail "$(cat "$work/flights.csv.said")"
 }
 
+a_page_of_a_campaign_asks_for_nothing_and_links_what_failed() {
+  fly "$work/flights.csv" --seeds 4:5 --set timeout_s=1
+  [[ $(code "$campaign" page "$work/flights.csv" --out "$work/page.html") == 0 ]] || fail "$(cat "$work/out")"
+  [[ -s $work/page.html ]] || fail "no page"
+  ! grep -oE 'https?:[^"]*|(src|href)="//[^"]*' "$work/page.html" | grep -v '^http://www.w3.org/' || fail "it asks for something"
+  local seed
+  for seed in 4 5; do
+    grep -q "seed-$seed/flight.lcm" "$work/page.html" || fail "no link to the log of seed $seed"
+    [[ -s $work/flights.csv.failures/seed-$seed/flight.lcm ]] || fail "no log of seed $seed"
+  done
+  grep -q flights.csv.failures "$work/page.html" || fail "where the logs are is not said"
+}
+
 # A stand-in for sbatch: runs the jobs at once, one after the other, from a copy of the script, as Slurm does.
 make_sbatch() {
   mkdir -p "$work/spool" "$work/path"
