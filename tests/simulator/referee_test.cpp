@@ -96,6 +96,19 @@ TEST(Referee, EndsTheFlightAtTheFirstContact) {
   EXPECT_TRUE(std::isnan(result.mean_speed_mps));
 }
 
+TEST(Referee, EndsAFlightThatStartsInAMoverAtOnceAndSaysSo) {
+  Scenario s = short_flight();
+  s.world.obstacles = {cube(Vec3(5, 2, 1), 0.4), cube(Vec3(0.2, 0, 1), 0.4)};
+  s.world.obstacles[1].motion = LinearMotion{Vec3(0, 1, 0)};
+  Referee referee = referee_of(s);
+  referee.advance({}, hop(s.uav.start, s.uav.goal, 5.0));
+  const FlightResult result = referee.verdict().value();
+  EXPECT_EQ(result.outcome, FlightOutcome::Collision);
+  EXPECT_THAT(result.detail, HasSubstr("the start lies in obstacle 1 'cube' at 0.000 s"));
+  EXPECT_EQ(result.flight_time_s, 0.0);
+  EXPECT_LT(result.min_clearance_m, 0.0);
+}
+
 TEST(Referee, CountsAFlightThatLeftItsLimitsAsFailed) {
   Scenario s = short_flight();
   s.uav.limits.v_max = Vec3(2.9, 6, 6);
