@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "campaign/virtual_system.h"
@@ -11,6 +13,8 @@
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"
 #include "simulator/app/simulator_node.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/virtual_flight.h"
 #include "tests/support/watched_flight.h"
 
 namespace tern::testing {
@@ -63,6 +67,28 @@ TEST(DocsExamples, AFlightByOnesOwnDetectorReachesItsGoalClearOfWhatTrulyStoodTh
   ASSERT_TRUE(simulator.result());
   expect_reached(*simulator.result());
   EXPECT_GT(clearance, 0.0);
+}
+
+/// The one block of YAML in scenarios/README.md.
+std::string courtyard() {
+  std::ifstream file(TERN_SCENARIOS "/README.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string opening = "\n```yaml\n", closing = "\n```\n";
+  const std::size_t begin = text.find(opening);
+  if (begin == std::string::npos) return "";
+  const std::size_t from = begin + opening.size();
+  return text.substr(from, text.find(closing, from) + 1 - from);
+}
+
+TEST(DocsExamples, TheCourtyardOfTheScenariosReadmeReachesItsGoal) {
+  const std::string yaml = courtyard();
+  ASSERT_EQ(yaml.rfind("name: courtyard\n", 0), 0U) << yaml;
+  const TempFolder folder;
+  const std::string file = folder.file("courtyard.yaml");
+  std::ofstream(file) << yaml;
+  const VirtualFlight flight = fly_virtually(file, {});
+  EXPECT_EQ(flight.end, "");
+  expect_reached(flight.result);
 }
 
 TEST(DocsExamples, EveryScenarioOfDocsIsFlownHere) {
