@@ -26,9 +26,9 @@ class Recorder {
 
 }  // namespace
 
-void write_known_log(const std::string& path, Duration lead) {
+void write_known_log(const std::string& path, Duration lead, double course) {
   Recorder recorder(path);
-  const KnownScene scene(kKnownLogStart);
+  const KnownScene scene(kKnownLogStart, course);
   if (lead > Duration{}) recorder.publish(channels::kHeartbeat, scene.heartbeat(), kKnownLogStart - lead);
   std::int64_t requests = 0;
   for (int tick = 0; tick <= 2'000; ++tick) {

@@ -16,22 +16,24 @@ Vec3 mover_velocity(int k, double t) {
   return {0.0, kMoverAmplitude / kMoverSlowness * std::cos(t / kMoverSlowness + k), 0.0};
 }
 
-/// From rest to rest along x.
-TimedSpline straight(const Vec3& from, double length, UTime start) {
+/// From rest to rest.
+TimedSpline straight(const Vec3& from, const Vec3& way, UTime start) {
   TimedSpline spline{start, Duration{200'000}, Points(3, 9)};
   constexpr double kShares[] = {0.0, 0.0, 0.0, 0.2, 0.5, 0.8, 1.0, 1.0, 1.0};
-  for (int k = 0; k < 9; ++k) spline.control_points.col(k) = from + Vec3(kShares[k] * length, 0.0, 0.0);
+  for (int k = 0; k < 9; ++k) spline.control_points.col(k) = from + kShares[k] * way;
   return spline;
 }
 
 }  // namespace
 
+KnownScene::KnownScene(UTime start, double course) : start_(start), ahead_(std::cos(course), std::sin(course), 0.0) {}
+
 UavState KnownScene::state(UTime now) const {
   const double t = std::clamp((now - start_).seconds(), 0.0, kKnownSeconds);
   UavState state;
   state.at = now;
-  state.motion.p = Vec3(kKnownSpeed * t, 0.0, 1.0);
-  state.motion.v = Vec3(t < kKnownSeconds ? kKnownSpeed : 0.0, 0.0, 0.0);
+  state.motion.p = Vec3(0.0, 0.0, 1.0) + kKnownSpeed * t * ahead_;
+  state.motion.v = t < kKnownSeconds ? Vec3(kKnownSpeed * ahead_) : Vec3::Zero();
   return state;
 }
 
@@ -72,9 +74,10 @@ HorizonRequest KnownScene::request(UTime now, std::int64_t id) const {
   request.id = id;
   request.t_s = now + Duration{75'000};
   request.deadline = now + Duration{70'000};
-  request.committed = straight(state(now).motion.p, 4.0, request.t_s);
+  request.committed = straight(state(now).motion.p, 4.0 * ahead_, request.t_s);
   request.start = request.committed.sample(request.t_s);
-  request.flight_box = Box(Vec3(-5.0, -5.0, 0.0), Vec3(40.0, 5.0, 4.0));
+  request.flight_box = Box(Vec3(-5.0, -5.0, 0.0), Vec3(5.0, 5.0, 4.0));
+  request.flight_box.extend(Vec3(40.0 * ahead_));
   return request;
 }
 
@@ -84,7 +87,7 @@ Plan KnownScene::plan(const HorizonRequest& request) const {
   plan.outcome = PlanOutcome::Optimized;
   plan.trajectory = request.committed;
   plan.hold = Duration{1'000'000};
-  plan.local_goal = request.start.p + Vec3(4.0, 0.0, 0.0);
+  plan.local_goal = request.start.p + 4.0 * ahead_;
   plan.sphere_radius = 4.0;
   plan.certificate.push_back({0, 2, 0, 1, {Vec3(0.0, 1.0, 0.0), -1.0}});
   return plan;
@@ -105,7 +108,7 @@ SearchView KnownScene::search(std::int64_t request_id) const {
   return view;
 }
 
-Goal KnownScene::goal() const { return {{}, 1, GoalMode::Go, Vec3(20.0, 0.0, 1.0)}; }
+Goal KnownScene::goal() const { return {{}, 1, GoalMode::Go, Vec3(0.0, 0.0, 1.0) + 20.0 * ahead_}; }
 
 Heartbeat KnownScene::heartbeat() const {
   Heartbeat heartbeat;

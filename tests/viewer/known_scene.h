@@ -12,16 +12,17 @@
 
 namespace tern::support {
 
-/// The vehicle flies 20 s along x at 1 m/s, from (0, 0, 1) on. 20 pillars stand at (k, 3, 1); 10 movers oscillate
-/// slowly about (2 k, −3, 1). Around 8 m ahead of the start an attractive box lies left of the way and a repulsive one
-/// right.
+/// The vehicle flies 20 s at 1 m/s from (0, 0, 1) on, along x unless another course is given. 20 pillars stand at (k,
+/// 3, 1); 10 movers oscillate slowly about (2 k, −3, 1). Around 8 m ahead of the start an attractive box lies left of
+/// the way and a repulsive one right.
 inline constexpr int kKnownPillars = 20, kKnownMovers = 10;
 inline constexpr double kKnownSpeed = 1.0;  ///< m/s
 inline constexpr double kKnownSeconds = 20.0;
 
 class KnownScene {
  public:
-  explicit KnownScene(UTime start) : start_(start) {}
+  /// @param course  of the flight, rad from x to y
+  explicit KnownScene(UTime start, double course = 0.0);
 
   [[nodiscard]] UavState state(UTime now) const;
   [[nodiscard]] ObstacleTruth truth(UTime now) const;
@@ -40,6 +41,7 @@ class KnownScene {
 
  private:
   UTime start_;
+  Vec3 ahead_;  ///< unit vector of the course
 };
 
 }  // namespace tern::support

@@ -1,5 +1,5 @@
 // known_scene_process: puts the known scene on the bus, for the browser's tests; with KNOWN_LOG=FILE, writes it there
-// instead. Says each goal that it hears.
+// instead, KNOWN_LEAD_S and KNOWN_COURSE as write_known_log takes them. Says each goal that it hears.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -56,8 +56,11 @@ class KnownSceneNode final : public Node {
 
 int main(int argc, char** argv) {
   if (const char* log = std::getenv("KNOWN_LOG")) {
-    const char* lead_s = std::getenv("KNOWN_LEAD_S");
-    tern::support::write_known_log(log, tern::Duration::from_seconds(lead_s == nullptr ? 0.0 : std::atof(lead_s)));
+    const auto number = [](const char* name) {
+      const char* text = std::getenv(name);
+      return text == nullptr ? 0.0 : std::atof(text);
+    };
+    tern::support::write_known_log(log, tern::Duration::from_seconds(number("KNOWN_LEAD_S")), number("KNOWN_COURSE"));
     return 0;
   }
   const tern::ProcessDescription description{.name = "tern-scene", .section = "", .summary = "A known scene"};

@@ -141,6 +141,24 @@ test('tape: an unchanged topic is not told again', () => {
   assert.deepEqual(Object.keys(shown.at(-1)).sort(), ['dropped', 'frame', 'player']);
 });
 
+test('walls: a height cuts off what is above, and opens what it cuts', async () => {
+  globalThis.location = { search: '?theme=light' };
+  globalThis.document = { documentElement: { dataset: {} } };
+  const THREE = await import(new URL('../../viewer/web/node_modules/three/build/three.module.js', import.meta.url));
+  const { Regions } = await source('regions');
+  const walls = new Regions({ scene: new THREE.Scene(), lightOn: () => new THREE.Color() }, new THREE.Vector3());
+  // A wall of 1 × 1 × 2 m: its top and its bottom.
+  walls.take({ origin: [0, 0, 0], resolution: 0.5, faces: [[2, 5, 0, 0, 4, 2, 2, 4], [2, 4, 0, 0, 0, 2, 2, 0]].flat() });
+  const fromAbove = new THREE.Raycaster(new THREE.Vector3(0.5, 0.5, 9), new THREE.Vector3(0, 0, -1));
+  const seenAt = () => walls.hit(fromAbove)?.point.z;
+  assert.equal(walls.top, 2);
+  assert.equal(seenAt(), 2);
+  walls.cutAt(1.2);
+  assert.equal(seenAt(), 0);
+  walls.cutAt(null);
+  assert.equal(seenAt(), 2);
+});
+
 test('labels: fields as people read them', () => {
   assert.equal(label('UAV_STATE.speed_mps'), 'speed m/s');
   assert.equal(label('UAV_STATE.velocity_mps.x'), 'velocity.x m/s');

@@ -66,10 +66,11 @@ export async function awaitPage(viewer) {
 
 export const startScene = () => start(`${TERN_BIN}/viewer_known_scene_process`, []);
 
-/** The known scene as a log, which begins `lead` s before world time; its path. */
-export async function knownLog(lead = 0) {
-  const path = join(work, 'flight.lcm');
-  const code = await start(`${TERN_BIN}/viewer_known_scene_process`, [], { KNOWN_LOG: path, KNOWN_LEAD_S: `${lead}` }).gone;
+/** The known scene as a log, which begins `lead` s before world time, flown on a course (rad from x to y); its path. */
+export async function knownLog(lead = 0, course = 0) {
+  const path = join(work, `flight-${course}.lcm`);
+  const code = await start(`${TERN_BIN}/viewer_known_scene_process`, [],
+    { KNOWN_LOG: path, KNOWN_LEAD_S: `${lead}`, KNOWN_COURSE: `${course}` }).gone;
   expect('the log is written', code === 0);
   return path;
 }

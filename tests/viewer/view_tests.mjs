@@ -2,7 +2,8 @@
 import { chmodSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
-  atRest, end, eventually, expect, knownLog, openPage, run, scrubTo, shows, start, startFlight, startViewer, status, work,
+  atRest, end, eventually, expect, fail, knownLog, openPage, run, scrubTo, shows, start, startFlight,
+  startScene, startViewer, status, work,
 } from './support.mjs';
 
 const OBSTACLES = 30; // of the known scene
@@ -10,6 +11,12 @@ const REGIONS = 2;
 const { TERN_BIN, TERN_PAGE } = process.env;
 
 const text = (page, selector) => page.textContent(selector);
+
+/** Where the camera is and where it looks to. */
+const looks = (page) => page.evaluate(() => {
+  const { camera } = window.tern.world;
+  return { from: camera.position.toArray(), to: camera.getWorldDirection(camera.position.clone()).toArray() };
+});
 
 await run({
   async no_panel_hides_the_vehicle_that_is_followed() {
@@ -150,11 +157,6 @@ await run({
     const page = await openPage(viewer.url, undefined, '#t=10&cam=chase');
     await shows(page, 'the vehicle at 10 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 10) < 0.02);
     await page.waitForFunction(() => Object.keys(window.tern.known.path ?? {}).length > 0);
-    const looks = () =>
-      page.evaluate(() => {
-        const { camera } = window.tern.world;
-        return { from: camera.position.toArray(), to: camera.getWorldDirection(camera.position.clone()).toArray() };
-      });
     for (const [camera, holds] of [
       ['chase', ({ from, to }) => from[0] < 8 && to[0] > 0.8], // behind, along +x
       ['first', ({ from, to }) => Math.abs(from[0] - 10) < 0.1 && to[0] > 0.9],
@@ -163,7 +165,7 @@ await run({
     ]) {
       await page.evaluate((mode) => window.tern.setCamera(mode), camera);
       let view = null;
-      await eventually(`${camera}: ${JSON.stringify(view)}`, async () => holds((view = await looks())));
+      await eventually(`${camera}: ${JSON.stringify(view)}`, async () => holds((view = await looks(page))));
     }
     const clear = await page.evaluate(() => {
       window.tern.setCamera('free', [20, -100, 40, 20, 0, 1]);
@@ -173,6 +175,89 @@ await run({
     await page.click('#fit');
     const ends = await Promise.all([[0, 0, 1], [20, 0, 1]].map((p) => atRest(page, p)));
     expect(`all of the path: ${JSON.stringify(ends)}`, ends.every(({ x, y }) => x > 0 && x < 800 && y > 0 && y < 600));
+  },
+
+  async the_cameras_look_along_flights_to_the_north_and_to_the_west() {
+    for (const course of [Math.PI / 2, Math.PI]) {
+      const [c, s] = [Math.cos(course), Math.sin(course)];
+      const ahead = (p) => p[0] * c + p[1] * s;
+      const right = (p) => p[0] * s - p[1] * c;
+      const viewer = await startViewer('--log', await knownLog(0, course));
+      const page = await openPage(viewer.url, undefined, '#t=10&cam=chase');
+      await shows(page, 'the vehicle after 10 m', (is) => is.vehicle && Math.abs(ahead(is.vehicle) - 10) < 0.02);
+      await page.waitForFunction(() => Object.keys(window.tern.known.path ?? {}).length > 0);
+      for (const [camera, holds] of [
+        ['chase', ({ from, to }) => ahead(from) < 8 && ahead(to) > 0.8],
+        ['first', ({ from, to }) => Math.abs(ahead(from) - 10) < 0.1 && ahead(to) > 0.9],
+        ['side', ({ from, to }) => right(from) > 20 && right(to) < -0.99],
+      ]) {
+        await page.evaluate((mode) => window.tern.setCamera(mode), camera);
+        let view = null;
+        await eventually(`${camera} on course ${course}`, async () => holds((view = await looks(page)))).catch((error) =>
+          fail(`${error.message}: ${JSON.stringify(view)}`));
+      }
+      expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+      await page.close();
+      await end(viewer);
+    }
+  },
+
+  async a_double_click_orbits_an_obstacle() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url, undefined, '#t=10&cam=top');
+    await shows(page, 'the vehicle at 10 m', (s) => s.obstacles === OBSTACLES && Math.abs(s.vehicle[0] - 10) < 0.02);
+    const pillar = [10, 3, 1];
+    const { x, y } = await atRest(page, pillar);
+    await page.mouse.dblclick(x, y);
+    const orbit = () => page.evaluate(() => {
+      const { mode, controls } = window.tern.world.cameras;
+      return { mode, target: controls.target.toArray() };
+    });
+    await eventually('it is orbited', async () => (await orbit()).mode === 'orbit');
+    const { target } = await orbit();
+    expect(`its centre is looked at: ${target}`, Math.hypot(...target.map((c, k) => c - pillar[k])) < 0.1);
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async a_light_page_is_light_and_leads_to_the_dark_one_at_the_same_moment() {
+    const viewer = await startViewer('--log', await knownLog());
+    const page = await openPage(viewer.url, undefined, '&theme=light#t=10&cam=top');
+    await shows(page, 'the vehicle at 10 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 10) < 0.02);
+    /** 0 … 1 of the ground of the page, of its letters, and of what is behind the scene. */
+    const brightness = () => page.evaluate(() => {
+      const of = (color) => color.match(/[\d.]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part) / 765, 0);
+      const { color } = window.tern.world.fog;
+      const root = getComputedStyle(document.body);
+      return { panel: of(getComputedStyle(document.querySelector('#side')).backgroundColor), letters: of(root.color), scene: (color.r + color.g + color.b) / 3 };
+    });
+    const light = await brightness();
+    expect(`dark on light: ${JSON.stringify(light)}`, light.panel > 0.7 && light.letters < 0.3 && light.scene > 0.5);
+    await page.click('#theme');
+    await page.waitForFunction(() => document.documentElement.dataset.theme === 'dark' && window.tern?.counts.drawn > 0);
+    const dark = await brightness();
+    expect(`light on dark: ${JSON.stringify(dark)}`, dark.panel < 0.3 && dark.letters > 0.6 && dark.scene < 0.2);
+    await shows(page, 'the same moment', (s) => s.vehicle && Math.abs(s.vehicle[0] - 10) < 0.02);
+    expect('the same camera', (await page.evaluate(() => window.tern.world.cameras.mode)) === 'top');
+    expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
+  },
+
+  async the_dot_of_a_process_that_has_ended_is_grey() {
+    const scene = startScene();
+    const viewer = await startViewer();
+    const page = await openPage(viewer.url);
+    const dot = () => page.evaluate(() => {
+      const item = [...document.querySelectorAll('#health li')].find((li) => li.textContent.startsWith('scene'));
+      const [red, green, blue] = item ? getComputedStyle(item, '::before').backgroundColor.match(/\d+/g).map(Number) : [];
+      return { state: item?.className, red, green, blue };
+    });
+    await eventually('it is green', async () => {
+      const { state, red, green } = await dot();
+      return state === 'ready' && green > red + 40;
+    });
+    await end(scene, 'SIGKILL');
+    await eventually('it has ended', async () => (await dot()).state === 'ended');
+    const { red, green, blue } = await dot();
+    expect(`it is grey: ${red} ${green} ${blue}`, Math.max(red, green, blue) - Math.min(red, green, blue) < 50);
   },
 
   async charts_and_timeline_show_the_whole_flight() {
