@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::string_view kMagic = "\x89MCAP0\r\n";
 constexpr std::string_view kCompression = "zstd";
+/// A flight's file is a quarter smaller than by the default level 3, and takes a fifth more time; level 12 gains 1 %
+/// more.
+constexpr int kCompressionLevel = 9;
 
 enum class Op : std::uint8_t {
   Header = 0x01,
@@ -55,7 +58,7 @@ std::uint32_t crc_of(std::string_view bytes) {
 
 std::string compressed(std::string_view bytes) {
   std::string packed(ZSTD_compressBound(bytes.size()), '\0');
-  const std::size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), ZSTD_CLEVEL_DEFAULT);
+  const std::size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kCompressionLevel);
   if (ZSTD_isError(size) != 0) throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
   packed.resize(size);
   return packed;
