@@ -74,7 +74,7 @@ build_programs() (
   [[ -z $failed ]] || { printf '%s\n' "$said" >&2 && exit 1; }
   ((long > MANY_STEPS)) || exit 0
   cores=$(nproc)
-  say "Building Tern's programs, $steps steps: up to $(((10 + cores - 1) / cores)) minutes on $cores cores. Later only what has changed."
+  say "Building Tern's programs, $steps steps: up to $(((20 + cores - 1) / cores)) minutes on $cores cores. Later only what has changed."
   "${build[@]}"
 )
 
