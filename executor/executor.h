@@ -41,8 +41,8 @@ struct ExecutorCounters {
   std::array<std::int64_t, kVerdicts> verdicts = {};  ///< plans by Verdict; late, twice, unknown ones among them
   std::array<std::int64_t, kBreaches> breaches = {};  ///< of the unflyable ones, by Breach
 
-  [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
-  [[nodiscard]] std::int64_t of(Breach breach) const { return breaches[static_cast<std::size_t>(breach)]; }
+  [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[idx(verdict)]; }
+  [[nodiscard]] std::int64_t of(Breach breach) const { return breaches[idx(breach)]; }
   [[nodiscard]] std::int64_t late() const { return of(Verdict::Late) + of(Verdict::TooLate); }
   [[nodiscard]] std::int64_t answered_twice() const { return of(Verdict::AnsweredTwice); }
   [[nodiscard]] std::int64_t refused() const;

@@ -20,7 +20,7 @@ class Difference {
   [[nodiscard]] Vertex operator()(const Vec3& v) const {
     Vertex vertex;
     const Eigen::Index box = lowest_box(v);
-    const CentredBox& lowest = boxes_[static_cast<std::size_t>(box)];
+    const CentredBox& lowest = boxes_[idx(box)];
     vertex.i = 8 * box;
     for (int axis = 0; axis < 3; ++axis) {
       const bool up = v[axis] < 0.0;
@@ -41,7 +41,7 @@ class Difference {
     double lowest_a, highest_b, reach;
   };
   [[nodiscard]] Slab slab(const Vec3& n) const {
-    const CentredBox& lowest = boxes_[static_cast<std::size_t>(lowest_box(n))];
+    const CentredBox& lowest = boxes_[idx(lowest_box(n))];
     Slab slab{n.dot(lowest.centre) - n.cwiseAbs().dot(lowest.half), 0.0, 0.0};
     double body = 0.0;
     for (Eigen::Index k = 0; k < vertices_.cols(); ++k) body = std::max(body, vertices_.col(k).lpNorm<1>());

@@ -62,7 +62,7 @@ concept Named = !kWords<E>.empty();
 /// In words: "search only". @throws std::out_of_range when no enumerator has this value.
 template <Named E>
 constexpr const char* to_string(E value) {
-  return kWords<E>.at(static_cast<std::size_t>(value));
+  return kWords<E>.at(idx(value));
 }
 
 /// As files and scripts write it: "search_only".

@@ -126,7 +126,7 @@ class Curve {
     return parts_[at];
   }
   Vec3 at_quarter(int k) {
-    const auto at = static_cast<std::size_t>(k);
+    const auto at = idx(k);
     if (!has_quarter_[at]) quarters_[at] = sample_cubic(power_, 0.25 * k).p;
     has_quarter_[at] = true;
     return quarters_[at];
@@ -211,9 +211,9 @@ bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, 
   ClearTest test(obstacles, interval, curve, counts);
   const auto& candidates = obstacles.candidates(interval);
   int& last = obstacles.last_blocker(interval);
-  if (last >= 0 && !test.clear_of(candidates[static_cast<std::size_t>(last)])) return false;
+  if (last >= 0 && !test.is_separated_from(candidates[idx(last)])) return false;
   for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
-    if (k == last || test.clear_of(candidates[static_cast<std::size_t>(k)])) continue;
+    if (k == last || test.is_separated_from(candidates[idx(k)])) continue;
     last = k;
     return false;
   }

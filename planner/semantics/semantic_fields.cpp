@@ -72,7 +72,7 @@ DistanceBand::DistanceBand(const VoxelMap& map, const VoxelKind& kind, double ma
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) {
-        if (!kind.has(map, static_cast<std::size_t>(map.grid.index({x, y, z})))) continue;
+        if (!kind.has(map, idx(map.grid.index({x, y, z})))) continue;
         const Eigen::Matrix<std::size_t, 3, 1> at = (Cell(x, y, z) - first).cast<std::size_t>();
         set[at.x() + static_cast<std::size_t>(size_.x()) * (at.y() + static_cast<std::size_t>(size_.y()) * at.z())] = 1;
       }
