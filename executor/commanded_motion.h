@@ -48,8 +48,6 @@ class CommandedMotion {
   [[nodiscard]] double yaw() const { return yaw_; }  ///< rad, of the newest setpoint
   /// Whether the command after settled().end() is a trajectory that was heard to be committed, not one that brakes.
   [[nodiscard]] bool is_committed() const { return !braking_; }
-  /// The time of the newest setpoint that was heard; `from` before the first one.
-  [[nodiscard]] UTime told_until() const { return told_until_; }
 
   /// What can no longer change. Ends at the newest setpoint, or where settle() has ended it.
   [[nodiscard]] const MotionHistory& settled() const { return settled_; }
@@ -66,8 +64,8 @@ class CommandedMotion {
 
   Limits limits_;
   MotionHistory settled_;
-  MotionSample newest_;  ///< at settled_.end(), with the jerk that follows
-  UTime told_until_;
+  MotionSample newest_;            ///< at settled_.end(), with the jerk that follows
+  UTime told_until_;               ///< the time of the newest setpoint that was heard; `from` before the first one
   std::optional<UavState> apart_;  ///< the newest setpoint, where the command did not lead to it
   UTime apart_since_;              ///< the first of the setpoints that lead to it
   double yaw_ = 0.0;

@@ -99,7 +99,6 @@ class Executor {
   /// No one will ask for times before t any more.
   void forget_before(UTime t);
   [[nodiscard]] bool at_rest(UTime t) const { return t >= committed_.end(); }
-  [[nodiscard]] bool request_open() const { return outstanding_.has_value(); }
   /// Whether requests go out: the vehicle follows, and the newest goal wants to be flown to.
   [[nodiscard]] bool asking() const { return go_ && mode_ && *mode_ != GoalMode::Stop; }
   [[nodiscard]] const ExecutorCounters& counters() const { return counters_; }

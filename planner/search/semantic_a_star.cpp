@@ -332,10 +332,4 @@ SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& c
   return Search(problem, config, obstacles, budget, memory).run();
 }
 
-SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
-                             Budget& budget) {
-  SearchMemory memory;
-  return semantic_a_star(problem, config, obstacles, budget, memory);
-}
-
 }  // namespace tern

@@ -173,12 +173,4 @@ double SemanticFields::mean_distance_cost(const Vec3& p) const {
   return mean_distance_cost(VoxelLabel::Attractive, p) - mean_distance_cost(VoxelLabel::Repulsive, p);
 }
 
-double SemanticFields::mean_distance_error(VoxelLabel label) const {
-  double sum = 0.0;
-  for (const Group& g : groups_) {
-    if (g.label == label) sum += g.lambda * g.share * g.mean.error();
-  }
-  return sum;
-}
-
 }  // namespace tern
