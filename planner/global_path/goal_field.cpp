@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/global_path/goal_search.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 namespace {
@@ -157,8 +158,6 @@ std::optional<Box> GoalField::blocker(const Vec3& start) const {
 }
 
 void GoalField::tighten(std::vector<Vec3>& path) const {
-  constexpr int kPasses = 3;
-  constexpr int kPullHalvings = 6;
   constexpr double kLeastPull = 1.0 / (1 << kPullHalvings);
   const Vec3 start = path.front();
   const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
@@ -166,7 +165,7 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
   const auto is_cheaper = [&](const Vec3& a, const Vec3& v, const Vec3& w, const Vec3& b) {
     return cost_.is_length() || cost_(a, w) + cost_(w, b) <= cost_(a, v) + cost_(v, b);
   };
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kTightenPasses; ++pass) {
     for (std::size_t i = 1; i + 1 < path.size();) {
       const Vec3 a = path[i - 1];
       const Vec3 b = path[i + 1];

@@ -12,8 +12,6 @@ namespace {
 
 /// A reach: x0 may be as far from the row as it will.
 constexpr double kAlways = std::numeric_limits<double>::infinity();
-/// Of x0's own jerk: it lies strictly inside.
-constexpr double kJerkRoom = 1.001;
 
 class Builder {
  public:

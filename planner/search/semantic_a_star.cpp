@@ -15,9 +15,6 @@ namespace {
 using Node = SearchNode;
 using Entry = SearchEntry;
 
-/// A share of r that is surely within S, with what the curve bulges.
-constexpr double kWithinSphere = 0.97;
-
 struct Leaf {
   int node = -1;
   bool holds = false;
@@ -31,12 +28,12 @@ struct Leaf {
   }
 };
 
-/// Bands of the cost-to-go: `width` wide, and ten times finer within the last one, so that the goal itself is reached.
+/// Bands of the cost-to-go: `width` wide, and kFinerBands times finer within the last one.
 std::int64_t band_of(double way_to_go, double width) {
-  constexpr std::int64_t kFiner = 10;
   constexpr double kMostBands = 1e15;
   const double bands = std::min(way_to_go / width, kMostBands);
-  return bands < 1.0 ? static_cast<std::int64_t>(bands * kFiner) : kFiner - 1 + static_cast<std::int64_t>(bands);
+  return bands < 1.0 ? static_cast<std::int64_t>(bands * kFinerBands)
+                     : kFinerBands - 1 + static_cast<std::int64_t>(bands);
 }
 
 /// No point of S has a smaller cost-to-go.

@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
+#include "planner/problem/tuning.h"
+
 namespace tern {
-namespace {
-
-/// Shares of the way back to the steady range that are tried.
-constexpr double kShares[] = {0.0, 0.25, 0.5, 0.75, 1.0};
-
-}  // namespace
 
 void StepReach::assign(const HorizonProblem& problem) {
   dt_ = problem.interval_s();
@@ -48,7 +44,7 @@ std::optional<Vec3> StepReach::flyable(const Steps& from, const Vec3& wanted) co
                                      std::min(from.steady[i].high, from.range[i].high)};
     if (!steady.empty()) back[axis] = std::clamp(wanted[axis], steady.low, steady.high);
   }
-  for (const double share : kShares) {
+  for (const double share : kReturnShares) {
     const Vec3 v = wanted + share * (back - wanted);
     if (thrust_->allows(from.a, (v - from.v) / dt_, dt_)) return v;
   }
