@@ -91,16 +91,16 @@ constexpr double kPlaneRounding = 8 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-Apart is_apart(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points, const Points& vertices,
-               double clearance, Vec3& direction) {
+IsSeparated is_separated(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,
+                         const Points& vertices, double clearance, Vec3& direction) {
   const double limit = clearance + kTouchingTolerance;
   const Difference difference(boxes, points, vertices);
   const Vertex first = difference(direction);
-  if (direction.dot(first.w) > limit * direction.norm()) return Apart::Yes;
+  if (direction.dot(first.w) > limit * direction.norm()) return IsSeparated::Yes;
   const Descent d = descend(difference, first, limit, limit);
   if (d.is_farther) direction = d.nearest.v;
-  if (d.is_farther) return Apart::Yes;
-  return d.overlaps || proven_distance(d.simplex, d.nearest) <= limit ? Apart::No : Apart::Doubt;
+  if (d.is_farther) return IsSeparated::Yes;
+  return d.overlaps || proven_distance(d.simplex, d.nearest) <= limit ? IsSeparated::No : IsSeparated::Doubt;
 }
 
 std::optional<Separation> separate_sweep(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,

@@ -172,7 +172,7 @@ class Search {
       return false;
     const HullForm form{problem_.hull_basis, problem_.intervals};
     const Points4 points = form.basis == HullBasis::Minvo ? minvo : form.points(j, power, 0.0, 1.0);
-    return is_clear(obstacles_, j, power, points, result_.pairs, form);
+    return is_separated(obstacles_, j, power, points, result_.pairs, form);
   }
 
   void consider_leaf(const Entry& entry, const Node& n) {
