@@ -150,7 +150,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   summary.by_level = ledger_.plans_by_level();
   summary.for_a_time = ledger_.plans_for_a_time();
   summary.left_out = ledger_.left_out();
-  summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::Hulls),
+  summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::BroadPhase),
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};
   summary.messages = processes_.messages();
   summary.restarts = processes_.restarts();

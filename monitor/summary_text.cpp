@@ -131,7 +131,7 @@ std::string to_text(const FlightSummary& s) {
   text += plan_lines(s);
   text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");
   text += row("total", s.replan_ms.total) + row("first answer", s.replan_ms.first_answer) +
-          row("hulls", s.replan_ms.hulls) + row("search", s.replan_ms.search) +
+          row("broad phase", s.replan_ms.hulls) + row("search", s.replan_ms.search) +
           row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);
   text += message_lines(s);
   text += fmt::format("  restarts      {}\n", s.restarts);

@@ -31,7 +31,7 @@ inline constexpr std::array<const char*, kPlanReasons> kWords<PlanReason>{
 template <>
 inline constexpr std::array<const char*, kPhases> kWords<Phase>{"durations", "evasion", "room"};
 template <>
-inline constexpr std::array<const char*, kStages> kWords<Stage>{"fallback", "local goal",   "hulls",
+inline constexpr std::array<const char*, kStages> kWords<Stage>{"fallback", "local goal",   "broad phase",
                                                                 "search",   "optimization", "check"};
 template <>
 inline constexpr std::array<const char*, 4> kWords<FlightOutcome>{"reached", "collision", "timeout", "failed"};
