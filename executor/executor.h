@@ -77,15 +77,15 @@ class Executor {
   /// that rest, limits and flight box are as wide as the way to it needs.
   void rejoin(const UavState& measured);
   /// The plan that was adopted last is not flown after all, if no request has carried it and it starts after `said`,
-  /// the newest setpoint: the vehicle, which cannot have heard of it, flies on along what it has heard.
+  /// the newest setpoint. The vehicle cannot have heard of it, and flies on along what it has heard.
   /// @return whether there was one
   bool take_back_untold(UTime said);
-  /// What the newest goal wants; nothing: no goal yet.
+  /// What the newest goal wants; nullopt: no goal yet.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
 
-  /// The request that is due at `now`, if one is (header empty).
+  /// The request that is due at `now`, with an empty header. @return nullopt if none is due
   std::optional<HorizonRequest> next_request(UTime now);
-  /// When next_request wants to be called; nothing while there is nothing to ask.
+  /// When next_request() wants to be called. @return nullopt if there is nothing to ask
   [[nodiscard]] std::optional<UTime> next_wakeup() const;
   /// Judges a plan that came at `now`, and flies it from its t_s on if it may be flown. Counted, whatever it is.
   Adoption consider(const Plan& plan, UTime now);

@@ -16,7 +16,7 @@ namespace tern {
 enum class TrackKind : std::uint8_t {
   Static = 0,     ///< never moves: one piece, valid for ever
   Declared = 1,   ///< its owner promises the motion
-  Estimated = 2,  ///< a model's belief, with `confidence` per piece
+  Estimated = 2,  ///< a model's belief, kept with TrackSet::confidence
 };
 
 /// The levels of confidence at which a prediction states its α, falling. The first one is what is promised; where a set
