@@ -14,9 +14,9 @@ namespace {
 
 /// [2, 5] × [1, 3] × [1, 2] attractive; [6, 7] × [0, 4] × [0, 4] repulsive.
 VoxelMap two_regions() {
-  VoxelMap map = test_support::free_map({40, 16, 16});
-  test_support::paint(map, {8, 4, 4}, {19, 11, 7}, VoxelLabel::Attractive);
-  test_support::paint(map, {24, 0, 0}, {27, 15, 15}, VoxelLabel::Repulsive);
+  VoxelMap map = support::free_map({40, 16, 16});
+  support::paint(map, {8, 4, 4}, {19, 11, 7}, VoxelLabel::Attractive);
+  support::paint(map, {24, 0, 0}, {27, 15, 15}, VoxelLabel::Repulsive);
   return map;
 }
 
@@ -44,10 +44,10 @@ TEST(SemanticFields, ExposureRampsFromTheFaceOverTheMargin) {
 }
 
 TEST(SemanticFields, ExposureIsTheDistanceToTheVoxelsWithinTheStatedError) {
-  VoxelMap map = test_support::free_map({24, 20, 12}, 0.25, Vec3(-1, 2, 0));
+  VoxelMap map = support::free_map({24, 20, 12}, 0.25, Vec3(-1, 2, 0));
   Rng rng(3);
-  test_support::sprinkle(map, rng, 0.01, VoxelLabel::Repulsive);
-  test_support::sprinkle(map, rng, 0.01, VoxelLabel::Attractive);
+  support::sprinkle(map, rng, 0.01, VoxelLabel::Repulsive);
+  support::sprinkle(map, rng, 0.01, VoxelLabel::Attractive);
   const SemanticFields fields(map);
   const double error = DistanceBand::kBandError * map.grid.resolution;
   for (int i = 0; i < 2000; ++i) {
@@ -104,7 +104,7 @@ TEST(SemanticFields, MeanDistanceStaysWithinItsBound) {
 }
 
 TEST(SemanticFields, AnswersNothingWithoutVoxels) {
-  for (const SemanticFields& fields : {SemanticFields(), SemanticFields(test_support::free_map({4, 4, 4}))}) {
+  for (const SemanticFields& fields : {SemanticFields(), SemanticFields(support::free_map({4, 4, 4}))}) {
     for (const VoxelLabel label : {VoxelLabel::Attractive, VoxelLabel::Repulsive, VoxelLabel::Occupied}) {
       EXPECT_FALSE(fields.has(label));
       EXPECT_EQ(fields.mean_distance_cost(label, Vec3::Zero()), 0.0);
