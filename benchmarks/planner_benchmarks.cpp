@@ -155,7 +155,7 @@ void separation_in_flight(benchmark::State& state) {
     const ClampedSpline spline = swept.moment->answer.trajectory.spline();
     bool all = true;
     for (int j = 0; j < spline.intervals(); ++j) {
-      all = is_clear(swept.obstacles, j, spline.power(j), spline.minvo(j), pairs) && all;
+      all = is_separated(swept.obstacles, j, spline.power(j), spline.minvo(j), pairs) && all;
     }
     return all;
   });

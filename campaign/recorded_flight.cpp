@@ -36,8 +36,8 @@ ReplanTimes rounded(const ReplanTimes& t) {
 void add(FlightTimes& times, const PlanTiming& timing) {
   const auto stage = [&](Stage s) { return timing.stage_ms[static_cast<int>(s)]; };
   times.times[0].add(timing.total_ms);
-  const double parts[] = {timing.first_answer_ms, stage(Stage::Hulls), stage(Stage::Search), stage(Stage::Optimization),
-                          stage(Stage::Check)};
+  const double parts[] = {timing.first_answer_ms, stage(Stage::BroadPhase), stage(Stage::Search),
+                          stage(Stage::Optimization), stage(Stage::Check)};
   for (std::size_t k = 0; k < std::size(parts); ++k) {
     if (parts[k] > 0.0) times.times[k + 1].add(parts[k]);
   }

@@ -57,8 +57,8 @@ Points points_with(const MotionSample& from, const Points& accelerations, double
   return q;
 }
 
-/// From `from` to rest: from.a fades within `ramp` intervals, and another acceleration, constant but for as long a ramp
-/// at either end, takes the velocity: a_k = f_k from.a + w_k c, v + Δt (a_0/2 + Σ a_k) = 0.
+/// From `from` to rest: from.a fades within `ramp` intervals. Another acceleration, constant but for as long a ramp at
+/// either end, takes the velocity: a_k = f_k from.a + w_k c, v + Δt (a_0/2 + Σ a_k) = 0.
 TimedSpline braking_in(const MotionSample& from, UTime at, Duration interval, int ramp) {
   Eigen::Matrix<double, 1, kBrakingIntervals + 1> fades, weights;
   for (int k = 0; k <= kBrakingIntervals; ++k) {

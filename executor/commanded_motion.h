@@ -17,39 +17,40 @@ inline constexpr Duration kSetpointSilence{100'000};
 /// The commanded motion as a vehicle (simulator, autopilot bridge) reconstructs it from SETPOINT and from the committed
 /// trajectory that each HORIZON_REQUEST carries.
 ///
-/// Between two setpoints it is the cubic of the first (p, v, a, j), unless the committed trajectory passes through both
-/// and that cubic does not (a message between them was lost). After the newest setpoint it is the committed trajectory,
-/// if it passes through that setpoint within kJoinTolerance, else, after 20 ms of its cubic, the braking trajectory.
-/// Both end at rest. So a vehicle whose executor has died flies on along what was certified, and rests at its end.
+/// Between two setpoints it is the cubic of the first (p, v, a, j). Where a message between them was lost, the
+/// committed trajectory may pass through both and that cubic not: then it is that trajectory. After the newest setpoint
+/// it is the committed trajectory, if that passes through the setpoint within kJoinTolerance. Else it is the braking
+/// trajectory, after 20 ms of the setpoint's cubic. Both end at rest. So a vehicle whose executor has died flies on
+/// along what was certified, and rests at its end.
 class CommandedMotion {
  public:
   /// At rest at p (W, m) until the first setpoint. @param limits  for braking
   CommandedMotion(const Vec3& p, UTime from, const Limits& limits);
 
-  /// The next setpoint. One that is not after settled().end() is ignored. One to which the command does not lead within
-  /// kJoinTolerance, or that is 0.2 s ahead, counts only when the next one goes on from it, as after a lost setpoint:
-  /// no single message makes the vehicle jump. After kSetpointSilence setpoints that are more than 0.1 m off count only
-  /// when they have gone on for 0.5 s: an executor that sees where the vehicle is leads it on from there before.
+  /// The next setpoint. One that is not after settled().end() is ignored. The command may not lead to it within
+  /// kJoinTolerance, or it may be 0.2 s ahead. Such a one counts only when the next one goes on from it, as after a
+  /// lost setpoint: no single message makes the vehicle jump. After kSetpointSilence setpoints that are more than 0.1 m
+  /// off count only when they have gone on for 0.5 s. An executor that sees where the vehicle is leads it on from there
+  /// before.
   void hear(const UavState& setpoint);
-  /// HORIZON_REQUEST.committed. One that starts after all earlier ones is news, if it joins them, what came before it
-  /// was not heard, or setpoints that the command does not lead to lie on it. So is one that leaves, before they start,
-  /// the way that the vehicle is on: the executor leads it on from where it is, and they are taken back.
+  /// HORIZON_REQUEST.committed. One that starts after all earlier ones is news in three cases. It joins them, what came
+  /// before it was not heard, or setpoints that the command does not lead to lie on it. So is one that leaves, before
+  /// they start, the way that the vehicle is on. Then the executor leads it on from where it is, and they are taken
+  /// back.
   void hear(const TimedSpline& committed);
   /// PLAN: what will probably be committed, told up to a request's period before HORIZON_REQUEST says so. If it joins
-  /// the command, acceleration_ahead() looks at it until then, or until it was to begin; the command itself waits until
+  /// the command, acceleration_ahead() looks at it until then, or until it was to begin. The command itself waits until
   /// it is committed.
   void hear(const Plan& plan);
 
   /// The command at any time; before settled().end() as it was, after it as it would be without another setpoint.
   [[nodiscard]] MotionSample sample(UTime t) const;
-  /// The acceleration at t + lead (m/s²), for who has to tilt first: of the plan that comes next, of what is committed,
-  /// or, where a braking trajectory stands in for it, by the jerk at t.
+  /// The acceleration at t + lead (m/s²), for who has to tilt first: of the plan that comes next, else of what is
+  /// committed. Where a braking trajectory stands in for that, it is by the jerk at t.
   [[nodiscard]] Vec3 acceleration_ahead(UTime t, Duration lead) const;
   [[nodiscard]] double yaw() const { return yaw_; }  ///< rad, of the newest setpoint
   /// Whether the command after settled().end() is a trajectory that was heard to be committed, not one that brakes.
   [[nodiscard]] bool is_committed() const { return !braking_; }
-  /// The time of the newest setpoint that was heard; `from` before the first one.
-  [[nodiscard]] UTime told_until() const { return told_until_; }
 
   /// What can no longer change. Ends at the newest setpoint, or where settle() has ended it.
   [[nodiscard]] const MotionHistory& settled() const { return settled_; }
@@ -66,8 +67,8 @@ class CommandedMotion {
 
   Limits limits_;
   MotionHistory settled_;
-  MotionSample newest_;  ///< at settled_.end(), with the jerk that follows
-  UTime told_until_;
+  MotionSample newest_;            ///< at settled_.end(), with the jerk that follows
+  UTime told_until_;               ///< the time of the newest setpoint that was heard; `from` before the first one
   std::optional<UavState> apart_;  ///< the newest setpoint, where the command did not lead to it
   UTime apart_since_;              ///< the first of the setpoints that lead to it
   double yaw_ = 0.0;
@@ -80,9 +81,10 @@ class CommandedMotion {
   std::optional<CommittedTrajectory> braking_;  ///< when committed_ does not pass through the newest setpoint
 };
 
-/// The trajectory that leaves `from` at `at` and comes to rest soonest among splines of sixteen equal intervals whose
-/// acceleration is constant per axis but where it comes and goes, and that keep `limits`, dynamics included; if none
-/// keeps them (the vehicle is beyond them already), the one that exceeds those per axis least.
+/// The trajectory that leaves `from` at `at` and comes to rest soonest while it keeps `limits`, dynamics included. It
+/// is sought among splines of sixteen equal intervals whose acceleration is constant per axis but where it comes and
+/// goes. If none keeps the limits (the vehicle is beyond them already), it is the one that exceeds those per axis
+/// least.
 TimedSpline braking_trajectory(const MotionSample& from, UTime at, const Limits& limits);
 
 }  // namespace tern

@@ -9,7 +9,7 @@
 namespace tern {
 
 /// The committed trajectory. Invariants: it has at least one segment; segments start in ascending order; each ends at
-/// rest, so that the vehicle comes to rest whatever is lost after it, and rests for ever at the last segment's end.
+/// rest. So the vehicle comes to rest whatever is lost after a segment, and rests for ever at the last one's end.
 /// Joining (position, velocity, acceleration within kJoinTolerance) is the caller's rule: see Adoption.
 class CommittedTrajectory {
  public:

@@ -48,7 +48,7 @@ CommittedTrajectory stopping(const UavState& measured, const Limits& limits) {
 std::int64_t ExecutorCounters::refused() const {
   std::int64_t sum = 0;
   for (int k = 0; k < kVerdicts; ++k) {
-    if (is_refusal(static_cast<Verdict>(k))) sum += verdicts[static_cast<std::size_t>(k)];
+    if (is_refusal(static_cast<Verdict>(k))) sum += verdicts[idx(k)];
   }
   return sum;
 }
@@ -206,8 +206,8 @@ Adoption Executor::judge(const Plan& plan, UTime now) {
 Adoption Executor::consider(const Plan& plan, UTime now) {
   close_expired(now);
   Adoption result = judge(plan, now);
-  ++counters_.verdicts[static_cast<std::size_t>(result.verdict)];
-  if (result.verdict == Verdict::Unflyable) ++counters_.breaches[static_cast<std::size_t>(result.breach)];
+  ++counters_.verdicts[idx(result.verdict)];
+  if (result.verdict == Verdict::Unflyable) ++counters_.breaches[idx(result.breach)];
   return result;
 }
 

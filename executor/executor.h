@@ -41,8 +41,8 @@ struct ExecutorCounters {
   std::array<std::int64_t, kVerdicts> verdicts = {};  ///< plans by Verdict; late, twice, unknown ones among them
   std::array<std::int64_t, kBreaches> breaches = {};  ///< of the unflyable ones, by Breach
 
-  [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
-  [[nodiscard]] std::int64_t of(Breach breach) const { return breaches[static_cast<std::size_t>(breach)]; }
+  [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[idx(verdict)]; }
+  [[nodiscard]] std::int64_t of(Breach breach) const { return breaches[idx(breach)]; }
   [[nodiscard]] std::int64_t late() const { return of(Verdict::Late) + of(Verdict::TooLate); }
   [[nodiscard]] std::int64_t answered_twice() const { return of(Verdict::AnsweredTwice); }
   [[nodiscard]] std::int64_t refused() const;
@@ -77,15 +77,15 @@ class Executor {
   /// that rest, limits and flight box are as wide as the way to it needs.
   void rejoin(const UavState& measured);
   /// The plan that was adopted last is not flown after all, if no request has carried it and it starts after `said`,
-  /// the newest setpoint: the vehicle, which cannot have heard of it, flies on along what it has heard.
+  /// the newest setpoint. The vehicle cannot have heard of it, and flies on along what it has heard.
   /// @return whether there was one
   bool take_back_untold(UTime said);
-  /// What the newest goal wants; nothing: no goal yet.
+  /// What the newest goal wants; nullopt: no goal yet.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
 
-  /// The request that is due at `now`, if one is (header empty).
+  /// The request that is due at `now`, with an empty header. @return nullopt if none is due
   std::optional<HorizonRequest> next_request(UTime now);
-  /// When next_request wants to be called; nothing while there is nothing to ask.
+  /// When next_request() wants to be called. @return nullopt if there is nothing to ask
   [[nodiscard]] std::optional<UTime> next_wakeup() const;
   /// Judges a plan that came at `now`, and flies it from its t_s on if it may be flown. Counted, whatever it is.
   Adoption consider(const Plan& plan, UTime now);
@@ -99,7 +99,6 @@ class Executor {
   /// No one will ask for times before t any more.
   void forget_before(UTime t);
   [[nodiscard]] bool at_rest(UTime t) const { return t >= committed_.end(); }
-  [[nodiscard]] bool request_open() const { return outstanding_.has_value(); }
   /// Whether requests go out: the vehicle follows, and the newest goal wants to be flown to.
   [[nodiscard]] bool asking() const { return go_ && mode_ && *mode_ != GoalMode::Stop; }
   [[nodiscard]] const ExecutorCounters& counters() const { return counters_; }

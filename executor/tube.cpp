@@ -38,7 +38,7 @@ void Tube::answered(const Plan& plan, bool rests, UTime at) {
 
 void Tube::add(const Vec3& error, bool rests, UTime at) {
   saw(error);
-  Seconds& seconds = rests ? resting_ : moving_[static_cast<std::size_t>(halvings_)];
+  Seconds& seconds = rests ? resting_ : moving_[idx(halvings_)];
   if (seconds.empty() || at - seconds.back().start >= kSecond) seconds.push_back({at, Vec3::Zero()});
   seconds.back().largest = seconds.back().largest.cwiseMax(error);
   if (seconds.size() > kRemembered) seconds.pop_front();
@@ -74,8 +74,7 @@ double Tube::moving(int axis, double unsure) const {
   double width = 0.0;
   for (int k = 0; k <= halvings_; ++k) {
     const double prior = k == 0 && has_error_ ? kPriorError : 0.0;
-    width = std::max(width / 2.0,
-                     rounded_up(kMargin * quantile(moving_[static_cast<std::size_t>(k)], prior, axis) + unsure));
+    width = std::max(width / 2.0, rounded_up(kMargin * quantile(moving_[idx(k)], prior, axis) + unsure));
   }
   return width;
 }

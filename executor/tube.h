@@ -38,21 +38,21 @@ class LastingError {
   std::deque<Seen> newest_;
 };
 
-/// The tube from what was measured, per axis: kMargin times the split-conformal quantile of the largest errors of the
-/// last two minutes' seconds (errors of neighbouring instants are alike, those of whole seconds nearly exchangeable),
-/// plus three standard deviations of the estimate that the errors were measured by. Until there are kPrior seconds the
-/// rest count with kPriorError: a vehicle that shows any error tracks no better than a well-tuned autopilot. Rounded up
-/// to kTubeStep, so that it changes seldom; 0 while no error reached kNothing. Never under the floor, never over
-/// kWidestTube.
+/// The tube from what was measured, per axis: kMargin times a split-conformal quantile, plus three standard deviations
+/// of the estimate that the errors were measured by. The quantile is of the largest errors of the last two minutes'
+/// seconds: errors of neighbouring instants are alike, those of whole seconds nearly exchangeable. Until there are
+/// kPrior seconds the rest count with kPriorError: a vehicle that shows any error tracks no better than a well-tuned
+/// autopilot. Rounded up to kTubeStep, so that it changes seldom; 0 while no error reached kNothing. Never under the
+/// floor, never over kWidestTube.
 ///
 /// A vehicle that was pushed out and got a new trajectory (left) tells of an event, not of its tracking: such errors
 /// are not for add(); for kWidened the tube is half as wide again.
 ///
 /// Where the vehicle rests and the tube leaves no way (blocked), it is asked to fly slower: errors of tracking grow
-/// with speed and acceleration. The next request has limits of half the size (share) and promises half the tube, but
-/// no less than was measured at rest, or so slowly; again until plans are flown, one step in kStep at most. So it goes
-/// on for kPatience/share, as long as an opening may be ahead; then a step up is tried. One that ends blocked doubles
-/// the patience, one that lasts ends that.
+/// with speed and acceleration. The next request has limits of half the size (share) and promises half the tube, but no
+/// less than was measured at rest, or so slowly. It is halved again until plans are flown, one step in kStep at most.
+/// So it goes on for kPatience/share, as long as an opening may be ahead; then a step up is tried. One that ends
+/// blocked doubles the patience, one that lasts ends that.
 class Tube {
  public:
   static constexpr double kTubeStep = 0.05;        ///< m

@@ -90,7 +90,7 @@ struct FlightLog::Reading {
       const auto header = handler(event.data, event.received_us);
       if (!std::exchange(is_first, false)) continue;
       if (!header) {
-        ++channel.refused[static_cast<std::size_t>(header.error())];
+        ++channel.refused[idx(header.error())];
         return;
       }
       MessageLosses& numbers = losses[event.channel];

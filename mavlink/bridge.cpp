@@ -41,7 +41,7 @@ std::string seconds(Duration d) { return fmt::format("{:.1f} s", d.seconds()); }
 const char* to_string(Stage stage) {
   constexpr std::array kWords{"waiting",   "ready",      "engaging", "climbing",
                               "following", "stood back", "landing",  "landed"};
-  return kWords.at(static_cast<std::size_t>(stage));
+  return kWords.at(idx(stage));
 }
 
 Bridge::Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now)

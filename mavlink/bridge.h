@@ -32,20 +32,21 @@ const char* to_string(Stage stage);
 /// Pure: frames and times in, frames out. The caller sends what take_frames() gives and calls step() at rate_hz or
 /// more.
 ///
-/// W is the autopilot's local frame, shifted: the local origin lies at (uav.start.x, uav.start.y, 0), so that a vehicle
-/// that has started its estimator where it stands climbs straight up to uav.start. What is said to the autopilot:
-/// HEARTBEAT 2 Hz, TIMESYNC 10 Hz, in flight five times a second the question for its HEARTBEAT, and from the moment
-/// that its position is known SET_POSITION_TARGET_LOCAL_NED at rate_hz, so that the stream runs before OFFBOARD is
-/// asked for. It carries
+/// W is the autopilot's local frame, shifted: the local origin lies at (uav.start.x, uav.start.y, 0). So a vehicle that
+/// has started its estimator where it stands climbs straight up to uav.start. What is said to the autopilot: HEARTBEAT
+/// 2 Hz, TIMESYNC 10 Hz, in flight five times a second the question for its HEARTBEAT. From the moment that its
+/// position is known SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz: the stream runs before OFFBOARD is asked for.
+/// It carries
 ///   p, v of the command now, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
 /// The gain is for level axes: the D term of an autopilot's vertical loop is 0.
 /// While the vehicle is not following, the command is to stay where it is.
 ///
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
-/// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another: the bridge then stands back, stops its stream
-/// (with start pilot it goes on, saying the vehicle's own place), and flies again only when told: by a new GOAL, or
-/// with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody else's, too. A
-/// bridge that was started anew and finds the vehicle armed and in OFFBOARD in the air goes on following.
+/// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another. The bridge then stands back and stops its
+/// stream. With start pilot the stream goes on and says the vehicle's own place. The bridge flies again only when told:
+/// by a new GOAL, or with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody
+/// else's, too. A bridge that was started anew and finds the vehicle armed and in OFFBOARD in the air goes on
+/// following.
 ///
 /// PX4 takes OFFBOARD up again by itself as soon as setpoints come again, whatever its failsafe was doing. So none is
 /// sent while the vehicle may be in one. After a silence of COM_OF_LOSS_T, HEARTBEAT has to tell the mode first. While

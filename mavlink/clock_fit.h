@@ -9,10 +9,10 @@
 
 namespace tern::mavlink {
 
-/// Its time as a line over ours, fitted to the exchanges of the last kWindow whose round trip is short: the offset of
-/// one is known to half its round trip, its clock may run another rate (1 % was seen). An exchange that is off the line
-/// by more than kStep and half its round trip leaves the latest ones only, since the rate has changed; one that is off
-/// by more than a second begins anew: the autopilot has restarted.
+/// Its time as a line over ours, fitted to the exchanges of the last kWindow whose round trip is short. The offset of
+/// one is known to half its round trip, and its clock may run at another rate (1 % was seen). After an exchange that is
+/// off the line by more than kStep and half its round trip only the latest ones count: the rate has changed. After one
+/// that is off by more than a second all begins anew: the autopilot has restarted.
 class ClockFit {
  public:
   static constexpr Duration kWindow{10'000'000};

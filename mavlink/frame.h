@@ -67,7 +67,7 @@ struct ParserCounters {
 
 /// Finds frames in a stream of bytes (MAVLink 1 and 2). Any bytes may come, in any portions; memory stays below two
 /// frames and a portion. With a key only frames signed by it are handed over, each newer than the last of its sender
-/// and link; a sender's first one at most a minute older than `time`.
+/// and link. A sender's first one is at most a minute older than `time`.
 class Parser {
  public:
   explicit Parser(std::optional<SigningKey> key = {}) : key_(std::move(key)) {}

@@ -48,7 +48,7 @@ std::int8_t to_int8(Enum value) {
 }
 
 /// Writes fields by the calls with which FieldReader reads them, so that a message lists its fields once, for both
-/// ways: the field on the wire, the value, and the value's range, which here is the caller's to keep.
+/// ways. A call names the field on the wire, the value, and its range, which here is the caller's to keep.
 class FieldWriter {
  public:
   template <class M, class T>

@@ -22,7 +22,7 @@ struct wire::Form<SearchView> {
   }
 
   static void read_rest(FieldReader& read, const Message& m, SearchView&) {
-    for (int k = 0; k < m.node_count; ++k) read.consistent(m.nodes[static_cast<std::size_t>(k)].parent < k);
+    for (int k = 0; k < m.node_count; ++k) read.consistent(m.nodes[idx(k)].parent < k);
   }
 };
 

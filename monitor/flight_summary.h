@@ -20,7 +20,8 @@ namespace tern {
 struct ReplanTimes {
   Percentiles total;         ///< from the request's arrival to the answer
   Percentiles first_answer;  ///< until the first certified trajectory
-  Percentiles hulls, search, optimization, check;
+  Percentiles hulls;         ///< of Stage::BroadPhase; its key is older than that name
+  Percentiles search, optimization, check;
 };
 
 /// What the scenario, with its overrides, asked of the vehicle.

@@ -142,15 +142,15 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
   summary.answered_in_time = ledger_.answered_in_time();
   summary.second_answers = ledger_.second_answers();
   for (int k = 0; k < kPlanOutcomes; ++k) {
-    summary.plans[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanOutcome>(k));
+    summary.plans[idx(k)] = ledger_.plans(static_cast<PlanOutcome>(k));
   }
   for (int k = 0; k < kPlanReasons; ++k) {
-    summary.reasons[static_cast<std::size_t>(k)] = ledger_.plans(static_cast<PlanReason>(k));
+    summary.reasons[idx(k)] = ledger_.plans(static_cast<PlanReason>(k));
   }
   summary.by_level = ledger_.plans_by_level();
   summary.for_a_time = ledger_.plans_for_a_time();
   summary.left_out = ledger_.left_out();
-  summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::Hulls),
+  summary.replan_ms = {percentiles(replan_.total), percentiles(replan_.first_answer), stage(Stage::BroadPhase),
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};
   summary.messages = processes_.messages();
   summary.restarts = processes_.restarts();

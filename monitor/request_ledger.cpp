@@ -5,9 +5,7 @@
 namespace tern {
 namespace {
 
-std::size_t level_of(const Plan& plan) {
-  return plan.confidence <= 0.0 ? kConfidenceLevels.size() : static_cast<std::size_t>(plan.level);
-}
+std::size_t level_of(const Plan& plan) { return plan.confidence <= 0.0 ? kConfidenceLevels.size() : idx(plan.level); }
 
 }  // namespace
 
@@ -24,8 +22,8 @@ void RequestLedger::add(const Plan& plan) {
     return;
   }
   if (answered_.size() > Once::kRemembered) answered_.erase(answered_.begin());
-  ++plans_[static_cast<std::size_t>(plan.outcome)];
-  ++reasons_[static_cast<std::size_t>(plan.reason)];
+  ++plans_[idx(plan.outcome)];
+  ++reasons_[idx(plan.reason)];
   if (plan.outcome != PlanOutcome::NoPlan) {
     ++by_level_[level_of(plan)];
     if (plan.confidence > 0.0 && plan.sure_for < kMaxSpan) ++for_a_time_;

@@ -42,8 +42,8 @@ class RequestLedger {
   [[nodiscard]] std::int64_t requests() const { return settled_; }
   [[nodiscard]] std::int64_t answered_in_time() const { return in_time_; }
   [[nodiscard]] std::int64_t second_answers() const { return second_answers_; }
-  [[nodiscard]] std::int64_t plans(PlanOutcome outcome) const { return plans_[static_cast<std::size_t>(outcome)]; }
-  [[nodiscard]] std::int64_t plans(PlanReason reason) const { return reasons_[static_cast<std::size_t>(reason)]; }
+  [[nodiscard]] std::int64_t plans(PlanOutcome outcome) const { return plans_[idx(outcome)]; }
+  [[nodiscard]] std::int64_t plans(PlanReason reason) const { return reasons_[idx(reason)]; }
   [[nodiscard]] const PlansByLevel& plans_by_level() const { return by_level_; }
   /// Of those with a number, how many have it for a time only (Plan::sure_for).
   [[nodiscard]] std::int64_t plans_for_a_time() const { return for_a_time_; }

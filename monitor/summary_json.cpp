@@ -47,7 +47,7 @@ Json to_json(const std::optional<FlownSettings>& settings) {
 Json plans_by_outcome(const FlightSummary& summary) {
   Json plans = Json::object();
   for (int k = 0; k < kPlanOutcomes; ++k) {
-    plans[key(static_cast<PlanOutcome>(k))] = summary.plans[static_cast<std::size_t>(k)];
+    plans[key(static_cast<PlanOutcome>(k))] = summary.plans[idx(k)];
   }
   return plans;
 }

@@ -72,7 +72,7 @@ std::string flight_lines(const FlightResult& r) {
 std::string reason_line(const FlightSummary& s) {
   std::vector<std::pair<std::int64_t, PlanReason>> reasons;
   for (int k = 1; k < kPlanReasons; ++k) {
-    const std::int64_t count = s.reasons[static_cast<std::size_t>(k)];
+    const std::int64_t count = s.reasons[idx(k)];
     if (count > 0) reasons.emplace_back(count, static_cast<PlanReason>(k));
   }
   if (reasons.empty()) return "";
@@ -89,7 +89,7 @@ std::string plan_lines(const FlightSummary& s) {
   if (s.second_answers > 0) text += fmt::format("; {} second answers: are there two planners?", s.second_answers);
   text += "\n  plans        ";
   for (int k = 0; k < kPlanOutcomes; ++k) {
-    text += fmt::format(" {} {}", s.plans[static_cast<std::size_t>(k)], key(static_cast<PlanOutcome>(k)));
+    text += fmt::format(" {} {}", s.plans[idx(k)], key(static_cast<PlanOutcome>(k)));
     if (k + 1 < kPlanOutcomes) text += ",";
   }
   text += "\n" + reason_line(s);
@@ -131,7 +131,7 @@ std::string to_text(const FlightSummary& s) {
   text += plan_lines(s);
   text += fmt::format("  replan, ms    {:>9}{:>9}{:>9}{:>9}\n", "p50", "p95", "p99", "max");
   text += row("total", s.replan_ms.total) + row("first answer", s.replan_ms.first_answer) +
-          row("hulls", s.replan_ms.hulls) + row("search", s.replan_ms.search) +
+          row("broad phase", s.replan_ms.hulls) + row("search", s.replan_ms.search) +
           row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);
   text += message_lines(s);
   text += fmt::format("  restarts      {}\n", s.restarts);

@@ -39,7 +39,7 @@ PlanReason try_durations(const Surroundings& near, const Heading& heading, Phase
     const double end_s = interval->seconds() * config.intervals;
     const Attempt now{near, heading, horizon_problem(near, *interval), near.hold.cap(end_s), near.hold.required(end_s)};
     if (!is_followed(near, *interval, now.hold_s)) break;
-    tools.log.enter(Stage::Hulls);
+    tools.log.enter(Stage::BroadPhase);
     SweptObstacles& swept = tools.memory.horizon;
     sweep_horizon(now, tools.memory.times, swept);
     if (auto leaf = search_candidate(now, lengths, swept, tools)) {

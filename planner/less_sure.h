@@ -15,9 +15,9 @@ bool is_settled(const Surroundings& near, const Heading& heading, const Standing
 
 /// Counts less and less of α (lower_assurances()) until that is settled. Where no confidence is known any more it goes
 /// on only while nothing stands at all: a committed trajectory separated at a larger α is surer. Who stands still, and
-/// at a confidence holds where it is, waits a moment (kPatience), the longer the less sure it is to go: what has come
-/// into view is soon known better. Who has rested for longer goes on all the same. Who finds nothing even so flies to
-/// the stop that stays clear longest.
+/// at a confidence holds where it is, waits a moment (kPatience), the longer the less sure it is. What has come into
+/// view is soon known better. Who has rested for longer goes on all the same. Who finds nothing even so flies to the
+/// stop that stays clear longest.
 /// @param near  afterwards the surroundings as they were counted last
 /// @return why there is no plan
 PlanReason plan_less_sure(const Heading& heading, Surroundings& near, StandingAnswer& standing, PlanTools& tools);

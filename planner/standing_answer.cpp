@@ -86,8 +86,8 @@ bool StandingAnswer::puts_off(const Candidate& candidate) const {
 }
 
 /// A vehicle at rest gains nothing by waiting: a plan that gets nearer is flown even if it arrives as late, or later by
-/// kSmoothnessPrice, and whenever it arrives by who has waited. (Arrivals are counted per axis: where one axis is slow,
-/// those of rest and of a plan that begins gently are equal, and a plan that strays on that axis arrives later.)
+/// kSmoothnessPrice. Who has waited flies it whenever it arrives. (Arrivals are counted per axis. Where one axis is
+/// slow, those of rest and of a plan that begins gently are equal. A plan that strays on that axis arrives later.)
 bool StandingAnswer::sets_out() const {
   if (!is_at_rest(near_.request) || best_->holds != committed_->holds) return false;
   if (rested_s(near_.request) <= kPatience && best_->arrival_s > committed_->arrival_s + kSmoothnessPrice) return false;

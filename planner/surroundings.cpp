@@ -14,11 +14,11 @@ void find_obstacles(const HorizonRequest& request, const PlanningWorld& world, c
   memory.obstacles.clear();
   world.predictions->index.query(region, memory.found);
   for (const std::int32_t k : memory.found) {
-    memory.obstacles.push_back(world.predictions->obstacles[static_cast<std::size_t>(k)]);
+    memory.obstacles.push_back(world.predictions->obstacles[idx(k)]);
   }
   world.map->occupied.query(region, memory.found);
   for (const std::int32_t k : memory.found) {
-    const Box& box = world.map->occupied.boxes()[static_cast<std::size_t>(k)];
+    const Box& box = world.map->occupied.boxes()[idx(k)];
     memory.obstacles.push_back({-1 - static_cast<std::int64_t>(k), nullptr, box, {}});
   }
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/types.h"
 #include "core/world/header.h"
 
 namespace tern {
@@ -37,7 +38,7 @@ class BatchCollector {
       set.parts.assign(static_cast<std::size_t>(message.batch.count), std::nullopt);
       set.missing = message.batch.count;
     }
-    const auto index = static_cast<std::size_t>(message.batch.index);
+    const auto index = idx(message.batch.index);
     const bool fits = message.batch.count == static_cast<std::int32_t>(set.parts.size()) && index < set.parts.size();
     if (set.missing == 0 || !fits || set.parts[index]) return std::nullopt;
     set.newest = std::max(set.newest, sent);

@@ -23,7 +23,7 @@ class Clock {
 
 /// The system's real-time clock when this was made, and from there on its steady one. What slews the one (chrony, PTP)
 /// slews the other, but setting the system's clock does not set this. Plus a fixed offset (`--clock-offset-us`, so that
-/// skew can be tested). At a pace below 1 it is the slower of that factor since kPaceOriginUs (`--pace`): all clocks of
+/// skew can be tested). At a pace below 1 (`--pace`) it goes slower by that factor since kPaceOriginUs. All clocks of
 /// one pace agree, and a flight has more of the machine for each of its seconds. Thread-safe.
 class WallClock final : public Clock {
  public:

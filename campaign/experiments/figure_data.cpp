@@ -37,7 +37,7 @@ Json segments_of(const SearchOutcome& outcome) {
   const ClampedSpline spline = outcome.trajectory.spline();
   Json segments = Json::array();
   for (int j = 0; j < spline.intervals(); ++j) {
-    const SearchSegment& segment = outcome.segments[static_cast<std::size_t>(j)];
+    const SearchSegment& segment = outcome.segments[idx(j)];
     Json curve = Json::array();
     for (int k = 0; k <= kCurveSamples; ++k) {
       const double t = spline.interval_s() * (j + static_cast<double>(k) / kCurveSamples);

@@ -49,19 +49,19 @@ KeptShare class_share(const std::vector<Coverage>& groups, const Coverage& sum, 
   share.horizon = horizon_name(h);
   share.made = all.made;
   share.confidence = certain ? 1.0 : confidence_at(sum.confidence, level);
-  share.kept = all.kept[static_cast<std::size_t>(level)];
+  share.kept = all.kept[idx(level)];
   share.half_m = all.half_sum_m / static_cast<double>(all.made);
   std::vector<GroupShare> counts;
   for (const Coverage& group : groups) {
     const auto one = group.promises.find({kind, h});
     if (one == group.promises.end()) continue;
-    counts.push_back(group_of(one->second.made, one->second.kept[static_cast<std::size_t>(level)]));
+    counts.push_back(group_of(one->second.made, one->second.kept[idx(level)]));
   }
   return bounded(std::move(share), std::move(counts));
 }
 
 KeptShare claim_share(const std::vector<Coverage>& groups, const Coverage& sum, int level) {
-  const ClaimCount& all = sum.claims[static_cast<std::size_t>(level)];
+  const ClaimCount& all = sum.claims[idx(level)];
   KeptShare share;
   share.what = kPlans;
   share.horizon = horizon_name(kHorizons - 1);
@@ -70,7 +70,7 @@ KeptShare claim_share(const std::vector<Coverage>& groups, const Coverage& sum, 
   share.confidence = confidence_at(sum.confidence, level);
   std::vector<GroupShare> counts;
   for (const Coverage& group : groups) {
-    const ClaimCount& one = group.claims[static_cast<std::size_t>(level)];
+    const ClaimCount& one = group.claims[idx(level)];
     counts.push_back(group_of(one.made, one.kept));
   }
   return bounded(std::move(share), std::move(counts));
@@ -130,7 +130,7 @@ PromiseCount promise_count(const Json& numbers) {
 
 }  // namespace
 
-const char* to_string(PredictionClass kind) { return kClassNames[static_cast<std::size_t>(kind)]; }
+const char* to_string(PredictionClass kind) { return kClassNames[idx(kind)]; }
 
 std::string horizon_name(std::size_t horizon) {
   const double ahead_s = kCoveredAhead[horizon];
@@ -205,7 +205,7 @@ std::vector<KeptShare> kept_shares(const std::vector<Coverage>& groups) {
     }
   }
   for (int level = 0; level < kLevels; ++level) {
-    if (sum.claims[static_cast<std::size_t>(level)].made > 0) shares.push_back(claim_share(groups, sum, level));
+    if (sum.claims[idx(level)].made > 0) shares.push_back(claim_share(groups, sum, level));
   }
   return shares;
 }

@@ -177,7 +177,7 @@ Points hull_vertices(const Points& points) {
   std::ranges::sort(vertices);
   Points result(3, static_cast<Eigen::Index>(vertices.size()));
   for (Eigen::Index k = 0; k < result.cols(); ++k) {
-    const Point& p = vertices[static_cast<std::size_t>(k)];
+    const Point& p = vertices[idx(k)];
     result.col(k) << p.x(), p.y(), p.z();
   }
   return result;

@@ -24,7 +24,7 @@ struct Vertex {
 struct Simplex {
   std::array<Vertex, 4> vertices;
   int size = 0;
-  const Vec3& operator[](int k) const { return vertices[static_cast<std::size_t>(k)].w; }
+  const Vec3& operator[](int k) const { return vertices[idx(k)].w; }
 };
 
 // The point of a face of the simplex that is nearest to the origin.
@@ -103,7 +103,7 @@ inline Simplex face_of(const Simplex& s, const Nearest& nearest) {
   Simplex face;
   face.size = nearest.size;
   for (std::size_t k = 0; k < static_cast<std::size_t>(nearest.size); ++k) {
-    face.vertices[k] = s.vertices[static_cast<std::size_t>(nearest.face[k])];
+    face.vertices[k] = s.vertices[idx(nearest.face[k])];
   }
   return face;
 }
@@ -113,15 +113,15 @@ inline double proven_distance(const Simplex& face, const Nearest& nearest) {
   Vec3 point = Vec3::Zero();
   double sum = 0.0;
   for (int k = 0; k < face.size; ++k) {
-    point += nearest.weights[static_cast<std::size_t>(k)] * face[k];
-    sum += nearest.weights[static_cast<std::size_t>(k)];
+    point += nearest.weights[idx(k)] * face[k];
+    sum += nearest.weights[idx(k)];
   }
   return point.norm() / sum;
 }
 
 inline bool contains(const Simplex& s, const Vertex& vertex) {
   for (int k = 0; k < s.size; ++k) {
-    const Vertex& other = s.vertices[static_cast<std::size_t>(k)];
+    const Vertex& other = s.vertices[idx(k)];
     if (other.i == vertex.i && other.j == vertex.j) return true;
   }
   return false;
@@ -155,7 +155,7 @@ Descent descend(const Support& support, const Vertex& first, double enough, doub
     if (d.is_farther) break;
     if (d.nearest.norm2 - d.lowest <= kRelativeProgress * d.nearest.norm2 || contains(d.simplex, vertex)) break;
     Simplex grown = d.simplex;
-    grown.vertices[static_cast<std::size_t>(grown.size++)] = vertex;
+    grown.vertices[idx(grown.size++)] = vertex;
     const Nearest next = nearest_of(grown);
     d.overlaps = next.size == 0;
     if (d.overlaps || !(next.norm2 < d.nearest.norm2)) break;

@@ -77,6 +77,4 @@ std::optional<Plane> separate_by_lp(const Points& a, const Points& b) {
   return Plane{n, -0.5 * (lowest_a + highest_b)};
 }
 
-void free_lp_environment() { glp_free_env(); }
-
 }  // namespace tern

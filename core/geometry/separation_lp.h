@@ -17,7 +17,4 @@ namespace tern {
 ///   Debian's build). About 25 µs; infeasible problems are tried twice.
 std::optional<Plane> separate_by_lp(const Points& a, const Points& b);
 
-/// Frees GLPK's thread-local environment: before leak checks and at thread exit.
-void free_lp_environment();
-
 }  // namespace tern

@@ -20,7 +20,7 @@ class Difference {
   [[nodiscard]] Vertex operator()(const Vec3& v) const {
     Vertex vertex;
     const Eigen::Index box = lowest_box(v);
-    const CentredBox& lowest = boxes_[static_cast<std::size_t>(box)];
+    const CentredBox& lowest = boxes_[idx(box)];
     vertex.i = 8 * box;
     for (int axis = 0; axis < 3; ++axis) {
       const bool up = v[axis] < 0.0;
@@ -41,7 +41,7 @@ class Difference {
     double lowest_a, highest_b, reach;
   };
   [[nodiscard]] Slab slab(const Vec3& n) const {
-    const CentredBox& lowest = boxes_[static_cast<std::size_t>(lowest_box(n))];
+    const CentredBox& lowest = boxes_[idx(lowest_box(n))];
     Slab slab{n.dot(lowest.centre) - n.cwiseAbs().dot(lowest.half), 0.0, 0.0};
     double body = 0.0;
     for (Eigen::Index k = 0; k < vertices_.cols(); ++k) body = std::max(body, vertices_.col(k).lpNorm<1>());
@@ -91,16 +91,16 @@ constexpr double kPlaneRounding = 8 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-Apart is_apart(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points, const Points& vertices,
-               double clearance, Vec3& direction) {
+IsSeparated is_separated(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,
+                         const Points& vertices, double clearance, Vec3& direction) {
   const double limit = clearance + kTouchingTolerance;
   const Difference difference(boxes, points, vertices);
   const Vertex first = difference(direction);
-  if (direction.dot(first.w) > limit * direction.norm()) return Apart::Yes;
+  if (direction.dot(first.w) > limit * direction.norm()) return IsSeparated::Yes;
   const Descent d = descend(difference, first, limit, limit);
   if (d.is_farther) direction = d.nearest.v;
-  if (d.is_farther) return Apart::Yes;
-  return d.overlaps || proven_distance(d.simplex, d.nearest) <= limit ? Apart::No : Apart::Doubt;
+  if (d.is_farther) return IsSeparated::Yes;
+  return d.overlaps || proven_distance(d.simplex, d.nearest) <= limit ? IsSeparated::No : IsSeparated::Doubt;
 }
 
 std::optional<Separation> separate_sweep(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,

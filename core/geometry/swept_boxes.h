@@ -1,4 +1,4 @@
-// Is a set of points clear of a swept box? Asked of the sweep itself, without its convex hull.
+// Is a set of points separated from a swept box? Asked of the sweep itself, without its convex hull.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ struct CentredBox {
   Vec3 half = Vec3::Zero();  ///< ≥ 0
 };
 
-/// What is_apart() can say.
-enum class Apart {
+/// What is_separated() can say.
+enum class IsSeparated {
   Yes,   ///< separated by more than clearance + kTouchingTolerance, proven along a direction
   No,    ///< nearer than that
   Doubt  ///< rounding ended the descent before either was proven: ask separate()
@@ -37,13 +37,13 @@ enum class Apart {
 /// @param direction  in: where to begin, from B to A, any length but 0. One that separated a similar pair before often
 ///   proves the answer at once; it is always verified on all boxes and points. Out, after Yes: one that proves it.
 /// About 20 ns when the direction does, 0.1 µs otherwise; no heap.
-Apart is_apart(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points, const Points& vertices,
-               double clearance, Vec3& direction);
+IsSeparated is_separated(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,
+                         const Points& vertices, double clearance, Vec3& direction);
 
 /// The plane of widest margin without the hull, but for rounding the one of separate() of the hull's vertices. It has
 /// n·x + d ≥ 0 on all boxes ⊕ (−vertices), ≤ −max(clearance, kPlaneMargin) on all points, verified on every one.
 /// @return nullopt if they are not separated by more than clearance + kTouchingTolerance, or in doubt. Arguments of
-/// is_apart(). About 0.2 µs.
+/// is_separated(). About 0.2 µs.
 std::optional<Separation> separate_sweep(std::span<const CentredBox> boxes, const Eigen::Ref<const Points>& points,
                                          const Points& vertices, double clearance);
 

@@ -77,7 +77,7 @@ struct SplineBasis::Tables {
 
   const Interval& at(int j) const {
     if (j < 0 || j >= static_cast<int>(intervals.size())) throw_interval(j, static_cast<int>(intervals.size()));
-    return intervals[static_cast<std::size_t>(j)];
+    return intervals[idx(j)];
   }
 
   static Interval make(int count, int j) {
@@ -115,7 +115,7 @@ const SplineBasis& spline_basis(int intervals) {
   require_intervals(intervals);
   // Never freed: splines in other statics may outlive any static that owned these.
   static std::array<std::atomic<const SplineBasis*>, kMaxIntervals + 1> made{};
-  std::atomic<const SplineBasis*>& slot = made[static_cast<std::size_t>(intervals)];
+  std::atomic<const SplineBasis*>& slot = made[idx(intervals)];
   if (const SplineBasis* basis = slot.load(std::memory_order_acquire)) return *basis;
   auto fresh = std::make_unique<const SplineBasis>(intervals);
   const SplineBasis* other = nullptr;

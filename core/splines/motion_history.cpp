@@ -33,7 +33,7 @@ void MotionHistory::append(const PiecewiseCubic& motion) {
 
 std::size_t MotionHistory::index_at(UTime t) const {
   const auto later = std::ranges::upper_bound(flown_, t, {}, &Flown::start);
-  return static_cast<std::size_t>(later - flown_.begin()) - 1;
+  return idx(later - flown_.begin()) - 1;
 }
 
 MotionSample MotionHistory::sample(UTime t) const {

@@ -20,8 +20,8 @@ class Remaining {
   [[nodiscard]] bool full(const Cell& low, const Cell& high) const {
     for (int z = low.z(); z <= high.z(); ++z) {
       for (int y = low.y(); y <= high.y(); ++y) {
-        const auto row = static_cast<std::size_t>(grid_.index({low.x(), y, z}));
-        for (std::size_t i = row; i <= row + static_cast<std::size_t>(high.x() - low.x()); ++i) {
+        const auto row = idx(grid_.index({low.x(), y, z}));
+        for (std::size_t i = row; i <= row + idx(high.x() - low.x()); ++i) {
           if (!open_[i]) return false;
         }
       }
@@ -32,7 +32,7 @@ class Remaining {
   void close(const Cell& low, const Cell& high) {
     for (int z = low.z(); z <= high.z(); ++z) {
       for (int y = low.y(); y <= high.y(); ++y) {
-        for (int x = low.x(); x <= high.x(); ++x) open_[static_cast<std::size_t>(grid_.index({x, y, z}))] = false;
+        for (int x = low.x(); x <= high.x(); ++x) open_[idx(grid_.index({x, y, z}))] = false;
       }
     }
   }

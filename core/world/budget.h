@@ -36,7 +36,7 @@ class Budget {
 
   /// Starts the next attempt of a phase: counts begin anew. @return false: it has had kMostAttempts
   bool begin_attempt(Phase phase) {
-    int& begun = begun_[static_cast<std::size_t>(phase)];
+    int& begun = begun_[idx(phase)];
     if (begun == kMostAttempts) return false;
     phase_ = phase;
     attempt_ = begun++;
@@ -45,7 +45,7 @@ class Budget {
   }
 
   bool expired(Stage stage) {
-    const auto s = static_cast<std::size_t>(stage);
+    const auto s = idx(stage);
     if (spent_[s]) return true;
     const BudgetCut here{phase_, attempt_, stage, counts_[s]};
     if (!gate_(here)) {

@@ -45,7 +45,15 @@ enum class PlanReason : std::uint8_t {
 };
 inline constexpr int kPlanReasons = 9;
 
-enum class Stage : std::uint8_t { Fallback = 0, LocalGoal = 1, Hulls = 2, Search = 3, Optimization = 4, Check = 5 };
+/// PLAN_TIMING's times are of these steps, and a budget's questions are counted by them.
+enum class Stage : std::uint8_t {
+  Fallback = 0,    ///< surroundings; what is committed, checked again; any step of no other stage
+  LocalGoal = 1,   ///< the way to the goal, the local goal; as a question: whether another duration or step begins
+  BroadPhase = 2,  ///< what may meet the vehicle in each interval; hulls are made when they are first asked for
+  Search = 3,
+  Optimization = 4,
+  Check = 5,  ///< the checker, with the certificate's planes
+};
 inline constexpr int kStages = 6;
 
 /// What an attempt of a plan is for. Phases have a budget each: evasion is needed just when the durations have spent

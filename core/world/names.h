@@ -31,7 +31,7 @@ inline constexpr std::array<const char*, kPlanReasons> kWords<PlanReason>{
 template <>
 inline constexpr std::array<const char*, kPhases> kWords<Phase>{"durations", "evasion", "room"};
 template <>
-inline constexpr std::array<const char*, kStages> kWords<Stage>{"fallback", "local goal",   "hulls",
+inline constexpr std::array<const char*, kStages> kWords<Stage>{"fallback", "local goal",   "broad phase",
                                                                 "search",   "optimization", "check"};
 template <>
 inline constexpr std::array<const char*, 4> kWords<FlightOutcome>{"reached", "collision", "timeout", "failed"};
@@ -62,7 +62,7 @@ concept Named = !kWords<E>.empty();
 /// In words: "search only". @throws std::out_of_range when no enumerator has this value.
 template <Named E>
 constexpr const char* to_string(E value) {
-  return kWords<E>.at(static_cast<std::size_t>(value));
+  return kWords<E>.at(idx(value));
 }
 
 /// As files and scripts write it: "search_only".

@@ -22,10 +22,9 @@ struct StepAside {
 /// A pure function of (seed, start). Draws, in this order, from Rng(seed):
 ///  vehicle: v_max log-uniform in [0.5, 6] m/s; a_max log-uniform in [1, 20] m/s², half of it on z. One in five has no
 ///    jerk limit, the others j_max log-uniform in [5, 200] m/s³. A sphere of radius log-uniform in [0.1, 0.4] m.
-///  movers: one to five, each with half-extents log-uniform in [0.1, 1.5] m per axis, a direction uniform on the
-///    sphere, a speed log-uniform in [0.4 m/s, 2 v_max]. A drawn point of its box (grown by the radius) goes through
-///    the start. It first touches a vehicle that stays there at a time uniform in [kStepAsideQuiet, kStepAsideQuiet +
-///    4] s.
+///  movers: one to five, each with half-extents log-uniform in [0.1, 1.5] m per axis. A direction is uniform on the
+///  sphere, a speed log-uniform in [0.4 m/s, 2 v_max]. A drawn point of its box (grown by the radius) goes through the
+///  start. It first touches a vehicle that stays there at a time uniform in [kStepAsideQuiet, kStepAsideQuiet + 4] s.
 StepAside draw_step_aside(std::uint64_t seed, const Vec3& start);
 
 }  // namespace tern

@@ -16,7 +16,7 @@ namespace tern {
 enum class TrackKind : std::uint8_t {
   Static = 0,     ///< never moves: one piece, valid for ever
   Declared = 1,   ///< its owner promises the motion
-  Estimated = 2,  ///< a model's belief, with `confidence` per piece
+  Estimated = 2,  ///< a model's belief, kept with TrackSet::confidence
 };
 
 /// The levels of confidence at which a prediction states its α, falling. The first one is what is promised; where a set
@@ -28,7 +28,7 @@ inline constexpr int kLevels = static_cast<int>(kConfidenceLevels.size());
 /// all.
 inline double confidence_at(double promised, int level) {
   const bool is_promise = level == 0 || promised >= 1.0;
-  return is_promise ? promised : std::min(promised, kConfidenceLevels[static_cast<std::size_t>(level)]);
+  return is_promise ? promised : std::min(promised, kConfidenceLevels[idx(level)]);
 }
 
 /// Of one piece: α at level k ≥ 1 is shares[k − 1] times α, the same on all axes. Each in (0, 1], not rising with k.
@@ -48,7 +48,7 @@ struct Track {
   /// The part of α[piece] that counts at a level, 0 … kLevels − 1: (0, 1].
   [[nodiscard]] double share_at(std::size_t piece, int level) const {
     if (level == 0 || shares.empty()) return 1.0;
-    return static_cast<double>(shares[piece][static_cast<std::size_t>(level - 1)]);
+    return static_cast<double>(shares[piece][idx(level - 1)]);
   }
 
   /// A box that surely holds the obstacle during [t0, t1] (any times; before the start the first piece's rule applies

@@ -15,9 +15,10 @@ inline constexpr double kBetaMax = 0.005;
 /// Appends boxes whose convex hull holds the track's box, with what counts of its α, over [from, to] seconds after
 /// origin.
 ///
-/// β: within a cubic piece |ξ''| ≤ a per axis, and the chord between samples h apart leaves the curve by at most
-/// a h²/8, by which the boxes are grown; samples stand at every piece break and h keeps β ≤ kBetaMax (but for what is
-/// accelerated so much that 256 samples of a piece do not). Outside the pieces: a box that grows at top speed.
+/// β: within a cubic piece |ξ''| ≤ a per axis. So the chord between samples h apart leaves the curve by at most a h²/8,
+/// by which the boxes are grown. Samples stand at every piece break, and h keeps β ≤ kBetaMax. Only what is accelerated
+/// so much that 256 samples of a piece do not suffice has a larger one. Outside the pieces: a box that grows at top
+/// speed.
 /// @param body_half  added to all half-extents, m, ≥ 0
 void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaCount& count, const Vec3& body_half,
                UTime origin, double from, double to);

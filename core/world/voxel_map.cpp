@@ -100,8 +100,8 @@ Result<bool> MapAssembler::add(const MapChunk& chunk) {
     return discard("another grid or class table");
   if (chunk.count != static_cast<int>(have_.size()) || chunk.index >= chunk.count)
     return discard("another number of chunks");
-  if (have_[static_cast<std::size_t>(chunk.index)]) return false;
-  auto at = static_cast<std::size_t>(chunk.first_voxel);
+  if (have_[idx(chunk.index)]) return false;
+  auto at = idx(chunk.first_voxel);
   for (const VoxelRun& run : chunk.runs) {
     const auto length = static_cast<std::size_t>(run.length);
     if (at + length > map_.labels.size()) return discard("runs go beyond the grid");
@@ -109,7 +109,7 @@ Result<bool> MapAssembler::add(const MapChunk& chunk) {
     std::fill_n(map_.classes.begin() + static_cast<std::ptrdiff_t>(at), length, run.class_index);
     at += length;
   }
-  have_[static_cast<std::size_t>(chunk.index)] = true;
+  have_[idx(chunk.index)] = true;
   if (--missing_ > 0) return false;
   if (map_.compute_version() != chunk.version) return discard("the digest of the whole does not match");
   finished_version_ = chunk.version;

@@ -21,18 +21,17 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// Hears UAV_STATE, VEHICLE_STATUS, GOAL and PLAN; says HORIZON_REQUEST, SETPOINT and, at 1 Hz, the GOAL that it has
 /// taken.
 ///
-/// It begins when the vehicle is still, which it is at a flight's start; and in flight, when an executor that was
-/// started anew knows nothing of what was committed, as soon as the vehicle has flown that to its end. Then it commits
-/// to rest where the vehicle is. It asks for plans while VEHICLE_STATUS says that the vehicle is following and there is
-/// a goal.
+/// It begins when the vehicle is still, which it is at a flight's start. An executor that was started anew in flight
+/// knows nothing of what was committed, and begins when the vehicle has flown that to its end. Then it commits to rest
+/// where the vehicle is. It asks for plans while VEHICLE_STATUS says that the vehicle is following and there is a goal.
 ///
-/// Held up for longer than kSetpointSilence, or told that the vehicle follows again, it says nothing before it has seen
-/// where the vehicle is: what it adopted last the vehicle may not have heard of. Who is not where he was committed to
-/// be gets a trajectory to rest from where he is.
+/// It may be held up for longer than kSetpointSilence, or be told that the vehicle follows again. Then it says nothing
+/// before it has seen where the vehicle is, which may not have heard of what was adopted last. Who is not where he was
+/// committed to be gets a trajectory to rest from where he is.
 ///
 /// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves what was promised,
-/// by two states in turn, is said, widens it, and beyond kRejoinBeyond gets a trajectory to rest from where it is, from
-/// which the next plan goes on.
+/// by two states in turn, widens it, which is said. Beyond kRejoinBeyond it gets a trajectory to rest from where it is,
+/// from which the next plan goes on.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);

@@ -32,11 +32,11 @@ class Link {
   [[nodiscard]] virtual std::int64_t strangers() const { return 0; }
 };
 
-/// udp://ADDRESS:PORT listens there, as PX4 expects it of a companion computer; the peer is who first sends an
-/// autopilot's HEARTBEAT, and again after 3 s of its silence. udp://ADDRESS:PORT@ADDRESS:PORT listens at the first
-/// place and speaks to the second, who is the peer: to an autopilot that answers the first who speaks to it, and ever
-/// after that port alone (PX4 does). udpout://ADDRESS:PORT speaks to that place, from any port. serial:///dev/NAME:BAUD
-/// is a serial port, raw, 8N1. ADDRESS is numeric.
+/// udp://ADDRESS:PORT listens there, as PX4 expects it of a companion computer. The peer is who first sends an
+/// autopilot's HEARTBEAT; after 3 s of its silence the next one is. udp://ADDRESS:PORT@ADDRESS:PORT listens at the
+/// first place and speaks to the second, who is the peer. It is for an autopilot that answers who speaks to it first,
+/// and from then on that port alone (PX4 does). udpout://ADDRESS:PORT speaks to that place, from any port.
+/// serial:///dev/NAME:BAUD is a serial port, raw, 8N1. ADDRESS is numeric.
 Result<std::unique_ptr<Link>> open_link(const std::string& url);
 
 }  // namespace tern::mavlink

@@ -65,8 +65,7 @@ void SimulatedAutopilot::say_truth() {
   m.lon = kLongitude + static_cast<std::int32_t>(std::lround(truth.motion.p.x() / (kMetres * shrink)));
   m.alt = kAltitude + static_cast<std::int32_t>(std::lround(truth.motion.p.z() * 1e3));
   const Vec3 v = 100.0 * swapped(truth.motion.v);
-  for (int k = 0; k < 3; ++k)
-    m.v[static_cast<std::size_t>(k)] = static_cast<std::int16_t>(std::lround(std::clamp(v[k], -3e4, 3e4)));
+  for (int k = 0; k < 3; ++k) m.v[idx(k)] = static_cast<std::int16_t>(std::lround(std::clamp(v[k], -3e4, 3e4)));
   say(m);
 }
 

@@ -9,6 +9,7 @@
 #include "messages/channels.h"
 #include "messages/codec.h"
 #include "planner/app/plan_stopwatch.h"
+#include "planner/problem/tuning.h"
 #include "runtime/process.h"
 
 namespace tern {
@@ -16,11 +17,6 @@ namespace {
 
 /// Workers are looked after this often, whether messages come or not.
 constexpr Duration kLookEvery{20'000};
-/// Shares of the time from arrival to the watchdog: after these, no new duration is tried, the search ends, the
-/// optimizer and evasion end.
-constexpr double kAttemptShare = 0.3;
-constexpr double kSearchShare = 0.42;
-constexpr double kOptimizationShare = 0.85;
 
 /// Ends each stage by the clock, so that the whole is done before the watchdog acts.
 Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {

@@ -65,7 +65,7 @@ void BoxIndex::build(std::int32_t begin, std::int32_t end) {
   Box bounds;
   Box centres;
   for (std::int32_t k = begin; k < end; ++k) {
-    const Box& box = boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])];
+    const Box& box = boxes_[idx(order_[idx(k)])];
     bounds.extend(box);
     centres.extend(box.center());
   }
@@ -79,7 +79,7 @@ void BoxIndex::build(std::int32_t begin, std::int32_t end) {
   centres.sizes().maxCoeff(&axis);
   const std::int32_t middle = begin + (end - begin) / 2;
   const auto key = [&](std::int32_t i) {
-    const Box& box = boxes_[static_cast<std::size_t>(i)];
+    const Box& box = boxes_[idx(i)];
     return std::pair(box.min()[axis] + box.max()[axis], i);
   };
   std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
@@ -113,7 +113,7 @@ bool BoxIndex::blocks(const Vec3& a, const Vec3& b, const Vec3& start) const {
   const Slabs slabs(a, b);
   return walk([&](const Box& box) { return slabs.meets(box, kPathClearance); },
               [&](std::int32_t i) {
-                const Box core = core_beyond(boxes_[static_cast<std::size_t>(i)], start);
+                const Box core = core_beyond(boxes_[idx(i)], start);
                 return !core.isEmpty() && slabs.meets(core, kPathClearance);
               });
 }

@@ -71,17 +71,17 @@ class BoxIndex {
     int top = 0;
     stack[0] = 0;
     while (top >= 0) {
-      const auto at = static_cast<std::size_t>(stack[static_cast<std::size_t>(top--)]);
+      const auto at = idx(stack[idx(top--)]);
       const Node& node = nodes_[at];
       if (!meets(node.box)) continue;
       if (node.count == 0) {
-        stack[static_cast<std::size_t>(++top)] = node.first;
-        stack[static_cast<std::size_t>(++top)] = static_cast<std::int32_t>(at) + 1;
+        stack[idx(++top)] = node.first;
+        stack[idx(++top)] = static_cast<std::int32_t>(at) + 1;
         continue;
       }
       for (std::int32_t k = node.first; k < node.first + node.count; ++k) {
-        const std::int32_t i = order_[static_cast<std::size_t>(k)];
-        if (meets(boxes_[static_cast<std::size_t>(i)]) && visit(i)) return true;
+        const std::int32_t i = order_[idx(k)];
+        if (meets(boxes_[idx(i)]) && visit(i)) return true;
       }
     }
     return false;

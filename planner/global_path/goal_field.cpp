@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/global_path/goal_search.h"
+#include "planner/problem/tuning.h"
 
 namespace tern {
 namespace {
@@ -68,7 +69,7 @@ void GoalField::open_gaps(double step) {
       above.min()[i] = box.max()[i];
       above.max()[i] = box.max()[i] + 2.0 * step;
       obstacles_.visit(above, [&](std::int32_t k) {
-        note(box.max()[i], obstacles_.boxes()[static_cast<std::size_t>(k)].min()[i]);
+        note(box.max()[i], obstacles_.boxes()[idx(k)].min()[i]);
         return false;
       });
       note(axis.low(), box.min()[i]);
@@ -87,9 +88,7 @@ void GoalField::open_gaps(double step) {
 
 Vec3 GoalField::position(std::int32_t node) const { return node == kGoalNode ? goal_ : grid_.position(node); }
 
-double GoalField::to_go(std::int32_t node) const {
-  return node == kGoalNode ? 0.0 : to_go_[static_cast<std::size_t>(node)];
-}
+double GoalField::to_go(std::int32_t node) const { return node == kGoalNode ? 0.0 : to_go_[idx(node)]; }
 
 /// The best point to fly to first: a node near the start, or better what such a node sees.
 std::int32_t GoalField::first_turn(const Vec3& start) const {
@@ -107,7 +106,7 @@ std::int32_t GoalField::first_turn(const Vec3& start) const {
   for (int ring = 0; ring <= 2 && best == kNoNode; ++ring) {
     grid_.for_neighbours(grid_.cell(start), ring, ring + 1, [&](std::int32_t node) {
       if (!(to_go(node) < kInfinity)) return;
-      consider(next_[static_cast<std::size_t>(node)]);
+      consider(next_[idx(node)]);
       consider(node);
     });
   }
@@ -125,7 +124,7 @@ std::optional<std::vector<Vec3>> GoalField::path_from(const Vec3& start) const {
   if (turn == kNoNode) return std::nullopt;
   std::vector<Vec3> path{start, position(turn)};
   while (turn != kGoalNode) {
-    turn = next_[static_cast<std::size_t>(turn)];
+    turn = next_[idx(turn)];
     path.push_back(position(turn));
   }
   tighten(path);
@@ -146,7 +145,7 @@ std::optional<Box> GoalField::blocker(const Vec3& start) const {
   Box line(from);
   line.extend(to);
   obstacles_.visit(grown(line, Vec3::Constant(kPathClearance)), [&](std::int32_t k) {
-    const Box& box = obstacles_.boxes()[static_cast<std::size_t>(k)];
+    const Box& box = obstacles_.boxes()[idx(k)];
     const double distance = box.exteriorDistance(from);
     const Box core = goal_free_ ? core_beyond(box, start) : box;
     if (!core.isEmpty() && distance < nearest && segment_meets_box(from, to, core)) {
@@ -159,8 +158,6 @@ std::optional<Box> GoalField::blocker(const Vec3& start) const {
 }
 
 void GoalField::tighten(std::vector<Vec3>& path) const {
-  constexpr int kPasses = 3;
-  constexpr int kPullHalvings = 6;
   constexpr double kLeastPull = 1.0 / (1 << kPullHalvings);
   const Vec3 start = path.front();
   const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
@@ -168,7 +165,7 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
   const auto is_cheaper = [&](const Vec3& a, const Vec3& v, const Vec3& w, const Vec3& b) {
     return cost_.is_length() || cost_(a, w) + cost_(w, b) <= cost_(a, v) + cost_(v, b);
   };
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kTightenPasses; ++pass) {
     for (std::size_t i = 1; i + 1 < path.size();) {
       const Vec3 a = path[i - 1];
       const Vec3 b = path[i + 1];

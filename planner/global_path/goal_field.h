@@ -55,9 +55,9 @@ class GoalField {
   /// cases (tested); about 10 µs, with a TravelCost some 100.
   [[nodiscard]] std::optional<std::vector<Vec3>> path_from(const Vec3& start) const;
 
-  /// What stands in the way where there is no path, for words to a person: the box that holds the goal, or else the
-  /// nearest box on the straight line from start to the nearest node from which the goal is reached. Nullopt if no
-  /// single box does, as where the goal is outside the flight box. About 1 µs per node.
+  /// What stands in the way where there is no path, for words to a person: the box that holds the goal. Or else it is
+  /// the nearest box on the straight line from start to the nearest node from which the goal is reached. @return
+  /// nullopt if no single box does, as where the goal is outside the flight box. About 1 µs per node.
   [[nodiscard]] std::optional<Box> blocker(const Vec3& start) const;
 
   [[nodiscard]] const Vec3& goal() const { return goal_; }

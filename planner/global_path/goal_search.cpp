@@ -26,7 +26,7 @@ void GoalSearch::run() {
   while (!queue_.empty()) {
     const auto [length, node] = queue_.top();
     queue_.pop();
-    const auto n = static_cast<std::size_t>(node);
+    const auto n = idx(node);
     if (state_[n] == State::Closed || length != to_go[n]) continue;
     if (state_[n] == State::Open && !sight(node)) continue;
     state_[n] = State::Closed;
@@ -39,8 +39,7 @@ void GoalSearch::block_covered_nodes() {
     const auto [low, high] = grid_.nodes_within(grown(box, Vec3::Constant(kPathClearance)));
     for (int z = low.z(); z < high.z(); ++z) {
       for (int y = low.y(); y < high.y(); ++y) {
-        for (int x = low.x(); x < high.x(); ++x)
-          state_[static_cast<std::size_t>(grid_.index({x, y, z}))] = State::Blocked;
+        for (int x = low.x(); x < high.x(); ++x) state_[idx(grid_.index({x, y, z}))] = State::Blocked;
       }
     }
   }
@@ -48,7 +47,7 @@ void GoalSearch::block_covered_nodes() {
 
 void GoalSearch::queue_around_goal() {
   grid_.for_neighbours(grid_.cell(goal_), 1, 2, [&](std::int32_t node) {
-    const auto n = static_cast<std::size_t>(node);
+    const auto n = idx(node);
     if (state_[n] == State::Blocked) return;
     to_go[n] = cost_(grid_.position(node), goal_);
     next[n] = kGoalNode;
@@ -58,13 +57,13 @@ void GoalSearch::queue_around_goal() {
 
 /// Makes the node see its turning point. @return false when it must wait: its way is longer than thought, or gone.
 bool GoalSearch::sight(std::int32_t node) {
-  const auto n = static_cast<std::size_t>(node);
+  const auto n = idx(node);
   const Vec3 p = grid_.position(node);
   if (!obstacles_.blocks(p, position(next[n]))) return true;
   to_go[n] = kInfinity;
   next[n] = kNoNode;
   grid_.for_neighbours(grid_.cell_of(node), 1, 1, [&](std::int32_t other) {
-    const auto o = static_cast<std::size_t>(other);
+    const auto o = idx(other);
     if (state_[o] != State::Closed) return;
     const Vec3 q = grid_.position(other);
     const double length = to_go[o] + cost_(p, q);
@@ -80,9 +79,9 @@ bool GoalSearch::sight(std::int32_t node) {
 }
 
 void GoalSearch::expand(std::int32_t node) {
-  const std::int32_t turn = next[static_cast<std::size_t>(node)];
+  const std::int32_t turn = next[idx(node)];
   grid_.for_neighbours(grid_.cell_of(node), 1, 1, [&](std::int32_t other) {
-    const auto o = static_cast<std::size_t>(other);
+    const auto o = idx(other);
     if (state_[o] == State::Closed || state_[o] == State::Blocked) return;
     offer(other, turn);
     if (!cost_.is_length()) offer(other, node);
@@ -90,7 +89,7 @@ void GoalSearch::expand(std::int32_t node) {
 }
 
 void GoalSearch::offer(std::int32_t other, std::int32_t turn) {
-  const auto o = static_cast<std::size_t>(other);
+  const auto o = idx(other);
   const Vec3 p = position(turn);
   const Vec3 q = grid_.position(other);
   const double bar = to_go[o] - kGain - to_go_of(turn);

@@ -41,9 +41,7 @@ class GoalSearch {
   void expand(std::int32_t node);
   void offer(std::int32_t other, std::int32_t turn);
   [[nodiscard]] Vec3 position(std::int32_t node) const { return node == kGoalNode ? goal_ : grid_.position(node); }
-  [[nodiscard]] double to_go_of(std::int32_t node) const {
-    return node == kGoalNode ? 0.0 : to_go[static_cast<std::size_t>(node)];
-  }
+  [[nodiscard]] double to_go_of(std::int32_t node) const { return node == kGoalNode ? 0.0 : to_go[idx(node)]; }
 
   const RectilinearGrid& grid_;
   const BoxIndex& obstacles_;

@@ -33,7 +33,7 @@ void GridAxis::index() {
   int i = 0;
   for (int k = 0; k < buckets; ++k) {
     while (i + 2 < size() && (*this)[i + 1] <= low() + k * step_) ++i;
-    bucket_[static_cast<std::size_t>(k)] = i;
+    bucket_[idx(k)] = i;
   }
 }
 

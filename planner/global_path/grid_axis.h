@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/types.h"
+
 namespace tern {
 
 /// Ascending coordinates with a constant-time search.
@@ -19,7 +21,7 @@ class GridAxis {
   void add(const std::vector<double>& lines);
 
   [[nodiscard]] int size() const { return static_cast<int>(lines_.size()); }
-  [[nodiscard]] double operator[](int i) const { return lines_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] double operator[](int i) const { return lines_[idx(i)]; }
   [[nodiscard]] double low() const { return lines_.front(); }
   [[nodiscard]] double high() const { return lines_.back(); }
   /// The largest i ≤ size − 2 with line i ≤ x; 0 when x lies below. (0 for an axis of one line.)

@@ -25,18 +25,18 @@ class Cholesky {
 
   bool factor() {
     for (int r = 0; r < n_; ++r) {
-      double* row = &l_[static_cast<std::size_t>(r * n_)];
+      double* row = &l_[idx(r * n_)];
       for (int c = 0; c < r; ++c) {
-        const double* other = &l_[static_cast<std::size_t>(c * n_)];
+        const double* other = &l_[idx(c * n_)];
         double sum = row[c];
         for (int k = 0; k < c; ++k) sum -= row[k] * other[k];
-        row[c] = sum * inverse_[static_cast<std::size_t>(c)];
+        row[c] = sum * inverse_[idx(c)];
       }
       double pivot = row[r];
       for (int k = 0; k < r; ++k) pivot -= row[k] * row[k];
       if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
       row[r] = std::sqrt(pivot);
-      inverse_[static_cast<std::size_t>(r)] = 1.0 / row[r];
+      inverse_[idx(r)] = 1.0 / row[r];
     }
     return true;
   }
@@ -44,18 +44,18 @@ class Cholesky {
   /// y := L⁻¹ y.
   void solve_lower(double* y) const {
     for (int r = 0; r < n_; ++r) {
-      const double* row = &l_[static_cast<std::size_t>(r * n_)];
+      const double* row = &l_[idx(r * n_)];
       double sum = y[r];
       for (int k = 0; k < r; ++k) sum -= row[k] * y[k];
-      y[r] = sum * inverse_[static_cast<std::size_t>(r)];
+      y[r] = sum * inverse_[idx(r)];
     }
   }
 
   void solve(double* y) const {
     solve_lower(y);
     for (int r = n_ - 1; r >= 0; --r) {
-      y[r] *= inverse_[static_cast<std::size_t>(r)];
-      const double* row = &l_[static_cast<std::size_t>(r * n_)];
+      y[r] *= inverse_[idx(r)];
+      const double* row = &l_[idx(r * n_)];
       for (int k = 0; k < r; ++k) y[k] -= row[k] * y[r];
     }
   }
@@ -133,8 +133,6 @@ class Constraints {
   }
 
  private:
-  static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
   void add_row(const ConvexProblem& p, const FreeVariables& x0, int r) {
     const double* row = p.row(r);
     double square = 0.0;
@@ -212,8 +210,6 @@ class BarrierSolver::Iteration {
       ++solution_.iterations;
     }
   }
-
-  static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
   ConvexSolution fail() {
     solution_.solver_failed = true;

@@ -12,8 +12,6 @@ namespace {
 
 /// A reach: x0 may be as far from the row as it will.
 constexpr double kAlways = std::numeric_limits<double>::infinity();
-/// Of x0's own jerk: it lies strictly inside.
-constexpr double kJerkRoom = 1.001;
 
 class Builder {
  public:
@@ -126,7 +124,7 @@ class Builder {
   /// So that x0 is strictly inside.
   void widen_bounds() {
     for (int r = 0; r < out_.row_count(); ++r) {
-      double& bound = out_.bounds[static_cast<std::size_t>(r)];
+      double& bound = out_.bounds[idx(r)];
       bound = std::max(bound, out_.row_times(r, x0_) + kStartRoom);
     }
     for (int k = 0; k < out_.spheres(); ++k) {
@@ -188,7 +186,7 @@ double ConvexProblem::row_times(int r, const FreeVariables& x) const {
 }
 
 Vec3 ConvexProblem::sphere_point(int k, const FreeVariables& x) const {
-  Vec3 p = sphere_offsets[static_cast<std::size_t>(k)];
+  Vec3 p = sphere_offsets[idx(k)];
   for (int c = 0; c < variables(); c += 3) p += sphere_weight(k, c) * x.segment<3>(c);
   return p;
 }
@@ -204,7 +202,7 @@ double ConvexProblem::worst_violation(const FreeVariables& x) const {
   const auto take = [&worst](double violation) {
     if (!std::isnan(worst) && !(violation <= worst)) worst = violation;
   };
-  for (int r = 0; r < row_count(); ++r) take(row_times(r, x) - bounds[static_cast<std::size_t>(r)]);
+  for (int r = 0; r < row_count(); ++r) take(row_times(r, x) - bounds[idx(r)]);
   for (int k = 0; k < spheres(); ++k) take(sphere_point(k, x).squaredNorm() - sphere_radius2);
   return worst;
 }

@@ -32,7 +32,7 @@ struct ConvexProblem {
   /// The weight in W_k of the free control point that variable c belongs to.
   [[nodiscard]] double sphere_weight(int k, int c) const {
     const int weight = k * (variables() / 3) + c / 3;
-    return sphere_weights[static_cast<std::size_t>(weight)];
+    return sphere_weights[idx(weight)];
   }
   /// W_k x + p_k.
   [[nodiscard]] Vec3 sphere_point(int k, const FreeVariables& x) const;

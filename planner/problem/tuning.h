@@ -2,6 +2,8 @@
 // defined.
 #pragma once
 
+#include <cstdint>
+
 #include "core/base/time.h"
 
 namespace tern {
@@ -57,6 +59,21 @@ inline constexpr double kFullStepTime = 4.0;
 /// Of a step's mean speed: velocities that differ by less are one to its pruning.
 inline constexpr double kCoarseVelocityShare = 0.4;
 
+// ---- The search (semantic_a_star.h, step_reach.h)
+
+/// A share of r that is surely within S, with what the curve bulges.
+inline constexpr double kWithinSphere = 0.97;
+/// The last band of the cost-to-go is so many times finer than the others, so that the goal itself is reached.
+inline constexpr std::int64_t kFinerBands = 10;
+/// Shares of the way back to the steady range at which a step's thrust is tried.
+inline constexpr double kReturnShares[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+
+// ---- Paths around static obstacles (goal_field.h)
+
+/// How often a path is tightened as a whole, and how often the pull at one vertex is halved.
+inline constexpr int kTightenPasses = 3;
+inline constexpr int kPullHalvings = 6;
+
 // ---- What a trajectory is worth (heading.h, refinement.h, standing_answer.h, planner.cpp)
 
 /// For how long a trajectory is taken to be flown before a better one follows, s. Where a step takes minutes, it is
@@ -102,6 +119,14 @@ inline constexpr double kThrustDip = 0.5;
 /// In Eq. 4 that part keeps this share of what the search's result has at each knot, so that jerk may be bounded by it.
 inline constexpr double kThrustKept = 0.8;
 
+// ---- The budget by the clock (app/planner_node.h)
+
+/// Shares of the time from arrival to the watchdog: after these, no new duration is tried, the search ends, the
+/// optimizer and evasion end.
+inline constexpr double kAttemptShare = 0.3;
+inline constexpr double kSearchShare = 0.42;
+inline constexpr double kOptimizationShare = 0.85;
+
 // ---- Evasion (evasion.h)
 
 /// Stops that are searched for at most, and nodes expanded for each.
@@ -130,6 +155,8 @@ inline constexpr double kStartSlack = 1e-3;
 /// Limits farther away than this share of themselves are left out: an axis that x0 leaves at rest may go to half its
 /// limit.
 inline constexpr double kLimitReach = 1.5;
+/// Jerk is bounded by this times x0's own at least, so that x0 lies strictly inside.
+inline constexpr double kJerkRoom = 1.001;
 /// The barrier method's first slacks are no less, m.
 inline constexpr double kFirstSlack = 0.1;
 /// How much of the way to the nearest bound a step goes, and the step below which it has failed.

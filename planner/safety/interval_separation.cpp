@@ -17,33 +17,35 @@ using Candidate = SweptObstacles::Candidate;
 /// hull and the points would say, but for rounding.
 /// @param points  hull points of the part, or one point at rest
 /// @param by_cache  whether the direction that separated the part last did so again
-bool is_apart(SweptObstacles& obstacles, const Candidate& candidate, const Eigen::Ref<const Points>& points,
-              const TimePart& part, bool& by_cache) {
+bool is_separated(SweptObstacles& obstacles, const Candidate& candidate, const Eigen::Ref<const Points>& points,
+                  const TimePart& part, bool& by_cache) {
   const auto [boxes, direction] = obstacles.sweep(candidate, part);
   const bool known = !direction.isZero(0.0);
   if (!known) direction = boxes[0].centre - points.col(0);
   if (direction.isZero(0.0)) direction = Vec3::UnitX();
   const Vec3 before = direction;
   const double radius = obstacles.body().radius;
-  const Apart apart = is_apart(boxes, points, obstacles.vertices_to_add(), radius, direction);
-  by_cache = known && apart == Apart::Yes && direction == before;
-  if (apart != Apart::Doubt) return apart == Apart::Yes;
+  const IsSeparated answer = is_separated(boxes, points, obstacles.vertices_to_add(), radius, direction);
+  by_cache = known && answer == IsSeparated::Yes && direction == before;
+  if (answer != IsSeparated::Doubt) return answer == IsSeparated::Yes;
   return separate(obstacles.hull(candidate, part), points, radius).has_value();
 }
 
-bool is_apart(SweptObstacles& obstacles, const Candidate& candidate, const Eigen::Ref<const Points>& points,
-              const TimePart& part, PairCounts& counts) {
+bool is_separated(SweptObstacles& obstacles, const Candidate& candidate, const Eigen::Ref<const Points>& points,
+                  const TimePart& part, PairCounts& counts) {
   bool by_cache = false;
-  const bool apart = is_apart(obstacles, candidate, points, part, by_cache);
+  const bool separated = is_separated(obstacles, candidate, points, part, by_cache);
   ++(by_cache ? counts.by_cache : counts.by_plane);
-  return apart;
+  return separated;
 }
 
-/// A plane for a certificate, from the hull, which is only made where there is a plane.
+/// A plane for a certificate, from the hull, which is only made where there is a plane. A solver's plane of the sweep
+/// parts from it by rounding, and only separate() says what a published one promises. Who has hull and points makes it
+/// again, to the bit.
 std::optional<Separation> certificate_plane(SweptObstacles& obstacles, const Candidate& candidate,
                                             const Points4& points, const TimePart& part) {
   bool by_cache = false;
-  if (!is_apart(obstacles, candidate, points, part, by_cache)) return std::nullopt;
+  if (!is_separated(obstacles, candidate, points, part, by_cache)) return std::nullopt;
   return separate(obstacles.hull(candidate, part), points, obstacles.body().radius);
 }
 
@@ -73,7 +75,7 @@ struct Splitting {
     for (const Candidate& candidate : obstacles.candidates(interval)) {
       if (!box.intersects(candidate.box)) {
         ++counts.by_box;
-      } else if (!separated(candidate, points, whole)) {
+      } else if (!has_planes(candidate, points, whole)) {
         return {false, obstacles.obstacle(candidate).id};
       }
     }
@@ -81,7 +83,7 @@ struct Splitting {
   }
 
  private:
-  bool separated(const Candidate& candidate, const Points4& points, const TimePart& part) {
+  bool has_planes(const Candidate& candidate, const Points4& points, const TimePart& part) {
     ++counts.by_plane;
     if (const auto found = make_plane(obstacles, candidate, points, part)) {
       planes.push_back({obstacles.obstacle(candidate).id, static_cast<std::int16_t>(part.interval),
@@ -93,7 +95,7 @@ struct Splitting {
       const Points4 of_half = points_of(half);
       if (!grown(box_of(of_half), Vec3::Constant(reach)).intersects(obstacles.part_box(candidate, half))) {
         ++counts.by_box;
-      } else if (!separated(candidate, of_half, half)) {
+      } else if (!has_planes(candidate, of_half, half)) {
         return false;
       }
     }
@@ -126,7 +128,7 @@ class Curve {
     return parts_[at];
   }
   Vec3 at_quarter(int k) {
-    const auto at = static_cast<std::size_t>(k);
+    const auto at = idx(k);
     if (!has_quarter_[at]) quarters_[at] = sample_cubic(power_, 0.25 * k).p;
     has_quarter_[at] = true;
     return quarters_[at];
@@ -142,18 +144,18 @@ class Curve {
 };
 
 /// Yes or no for one curve.
-class ClearTest {
+class SeparationTest {
  public:
-  ClearTest(SweptObstacles& obstacles, int interval, Curve& curve, PairCounts& counts)
+  SeparationTest(SweptObstacles& obstacles, int interval, Curve& curve, PairCounts& counts)
       : obstacles_(obstacles), interval_(interval), curve_(curve), counts_(counts) {}
 
-  bool clear_of(const Candidate& candidate) {
+  bool is_separated_from(const Candidate& candidate) {
     const TimePart whole{interval_};
     if (!curve_.part(whole).box.intersects(candidate.box)) {
       ++counts_.by_box;
       return true;
     }
-    return !touches(candidate) && part_clear(candidate, whole);
+    return !touches(candidate) && is_part_separated(candidate, whole);
   }
 
  private:
@@ -171,13 +173,13 @@ class ClearTest {
     return false;
   }
 
-  bool part_clear(const Candidate& candidate, const TimePart& part) {
-    if (is_apart(obstacles_, candidate, curve_.part(part).points, part, counts_)) return true;
+  bool is_part_separated(const Candidate& candidate, const TimePart& part) {
+    if (is_separated(obstacles_, candidate, curve_.part(part).points, part, counts_)) return true;
     if (!part.has_halves()) return false;
     for (const TimePart& half : {part.half(0), part.half(1)}) {
       if (!curve_.part(half).box.intersects(obstacles_.part_box(candidate, half))) {
         ++counts_.by_box;
-      } else if (!part_clear(candidate, half)) {
+      } else if (!is_part_separated(candidate, half)) {
         return false;
       }
     }
@@ -205,15 +207,15 @@ void find_planes(SweptObstacles& obstacles, const ClampedSpline& spline, HullBas
   }
 }
 
-bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
-              PairCounts& counts, HullForm form) {
+bool is_separated(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
+                  PairCounts& counts, HullForm form) {
   Curve curve(power, points, form);
-  ClearTest test(obstacles, interval, curve, counts);
+  SeparationTest test(obstacles, interval, curve, counts);
   const auto& candidates = obstacles.candidates(interval);
   int& last = obstacles.last_blocker(interval);
-  if (last >= 0 && !test.clear_of(candidates[static_cast<std::size_t>(last)])) return false;
+  if (last >= 0 && !test.is_separated_from(candidates[idx(last)])) return false;
   for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
-    if (k == last || test.clear_of(candidates[static_cast<std::size_t>(k)])) continue;
+    if (k == last || test.is_separated_from(candidates[idx(k)])) continue;
     last = k;
     return false;
   }
@@ -227,7 +229,7 @@ ClearTime clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, Pai
         ++counts.by_box;
         continue;
       }
-      if (!is_apart(obstacles, candidate, p, {k}, counts)) {
+      if (!is_separated(obstacles, candidate, p, {k}, counts)) {
         return {obstacles.time(k) - obstacles.time(first), &obstacles.obstacle(candidate)};
       }
     }

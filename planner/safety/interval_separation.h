@@ -52,16 +52,17 @@ void find_planes(SweptObstacles& obstacles, const ClampedSpline& spline, HullBas
 /// The question of separate_interval() for many curves: only yes or no, without planes or hulls. The answer is the same
 /// but for rounding within kTouchingTolerance of touching. What blocked the interval last is asked first.
 /// @param points  the curve's hull points (of `form`, MINVO) over the whole interval
-bool is_clear(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
-              PairCounts& counts, HullForm form = {});
+bool is_separated(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
+                  PairCounts& counts, HullForm form = {});
 
 /// How long a body at rest stays separated from every obstacle.
 struct ClearTime {
-  double seconds = 0.0;                       ///< 0 when the first interval is not clear
-  const PlanningObstacle* blocker = nullptr;  ///< what ends it; null: clear as far as was looked
+  double seconds = 0.0;                       ///< 0 when it is not separated in the first interval
+  const PlanningObstacle* blocker = nullptr;  ///< what ends it; null: nothing as far as was looked
 };
 
-/// Of the body at rest at p, from the start of interval `first` on: to the end of the last clear interval.
+/// Of the body at rest at p, from the start of interval `first` on: to the end of the last interval in which it is
+/// separated.
 ClearTime clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts);
 
 /// Whether a hold lasts as long as is asked. Holds are differences of times, so that a full one may round to just less.

@@ -139,16 +139,16 @@ void SweptObstacles::assign(const std::vector<PlanningObstacle>& obstacles, cons
 }
 
 void SweptObstacles::add_static(int index, const Box& region) {
-  const PlanningObstacle& o = (*obstacles_)[static_cast<std::size_t>(index)];
+  const PlanningObstacle& o = (*obstacles_)[idx(index)];
   const Box box = sweep_box(o, body_half_, origin_, time(0), time(1));
   if (!box.intersects(region)) return;
   const int slot = static_cast<int>(slots_.size());
   slots_.push_back(-1);
-  for (int k = 0; k < intervals(); ++k) candidates_[static_cast<std::size_t>(k)].push_back({box, index, slot});
+  for (int k = 0; k < intervals(); ++k) candidates_[idx(k)].push_back({box, index, slot});
 }
 
 void SweptObstacles::add_track(int index, const Box& region) {
-  const PlanningObstacle& o = (*obstacles_)[static_cast<std::size_t>(index)];
+  const PlanningObstacle& o = (*obstacles_)[idx(index)];
   const Vec3 slack = body_half_ + Vec3::Constant(kBetaMax);
   const Box near = grown(region, slack + Vec3::Constant(kRoughSlack));
   PieceWalk walk(o);
@@ -159,7 +159,7 @@ void SweptObstacles::add_track(int index, const Box& region) {
     if (walk.known() && !walk.rough(t).intersects(near)) continue;
     const Box box = grown(counted_bounds(*o.track, t.from, t.to, o.alpha), slack);
     if (!box.intersects(region)) continue;
-    candidates_[static_cast<std::size_t>(k)].push_back({box, index, static_cast<int>(slots_.size())});
+    candidates_[idx(k)].push_back({box, index, static_cast<int>(slots_.size())});
     slots_.push_back(-1);
   }
 }
@@ -181,12 +181,12 @@ const Box& SweptObstacles::part_box(const Candidate& candidate, const TimePart& 
 }
 
 SweptObstacles::Slot& SweptObstacles::slot_of(const Candidate& candidate) {
-  int& at = slots_[static_cast<std::size_t>(candidate.slot)];
+  int& at = slots_[idx(candidate.slot)];
   if (at < 0) {
     at = static_cast<int>(made_.size());
     made_.emplace_back();
   }
-  return made_[static_cast<std::size_t>(at)];
+  return made_[idx(at)];
 }
 
 SweptObstacles::Part& SweptObstacles::part_of(const Candidate& candidate, const TimePart& part) {
@@ -215,11 +215,11 @@ const Points& SweptObstacles::hull(const Candidate& candidate, const TimePart& p
     if (hulls_.size() < hulls_used_) hulls_.emplace_back();
     const std::span<const CentredBox> boxes = boxes_of(made);
     const bool is_box = !obstacle(candidate).moves() && body_is_box_;
-    hulls_[static_cast<std::size_t>(made.hull)] =
+    hulls_[idx(made.hull)] =
         is_box ? Points(box_corners(box_around(boxes[0].centre, boxes[0].half))) : make_hull(boxes);
     hulls_made_ += is_box ? 0 : 1;
   }
-  return hulls_[static_cast<std::size_t>(made.hull)];
+  return hulls_[idx(made.hull)];
 }
 
 const CentredBox& SweptObstacles::at_quarter(int interval, const Candidate& candidate, int k) {
@@ -229,7 +229,7 @@ const CentredBox& SweptObstacles::at_quarter(int interval, const Candidate& cand
     const double from = time(interval);
     const double step = (time(interval + 1) - from) / (kQuarters - 1);
     for (int i = 0; i < kQuarters; ++i) {
-      CentredBox& box = slot.quarters[static_cast<std::size_t>(i)];
+      CentredBox& box = slot.quarters[idx(i)];
       if (o.moves()) {
         box = box_at(*o.track, o.alpha, box_half_, origin_, from + i * step);
       } else {
@@ -238,7 +238,7 @@ const CentredBox& SweptObstacles::at_quarter(int interval, const Candidate& cand
     }
     slot.has_quarters = true;
   }
-  return slot.quarters[static_cast<std::size_t>(k)];
+  return slot.quarters[idx(k)];
 }
 
 void SweptObstacles::make_sweep(const PlanningObstacle& o, Span s) {

@@ -61,7 +61,7 @@ class SweptObstacles {
               std::span<const double> times, const Box& region);
 
   [[nodiscard]] int intervals() const { return static_cast<int>(times_.size()) - 1; }
-  [[nodiscard]] double time(int k) const { return times_[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] double time(int k) const { return times_[idx(k)]; }
 
   /// An obstacle that may matter in an interval.
   struct Candidate {
@@ -69,14 +69,14 @@ class SweptObstacles {
     int obstacle;  ///< index into the list of assign()
     int slot;      ///< where its sweeps and hulls are kept
   };
-  [[nodiscard]] const std::vector<Candidate>& candidates(int interval) const {
-    return candidates_[static_cast<std::size_t>(interval)];
-  }
+  [[nodiscard]] const std::vector<Candidate>& candidates(int interval) const { return candidates_[idx(interval)]; }
   /// The boxes whose convex hull is C_ij (for a body that is neither a sphere nor a box: without the body) over a part.
   /// Both are valid until the next call.
   struct Sweep {
     std::span<const CentredBox> boxes;
-    Vec3& last_direction;  ///< memory of the narrow phase: what separated it last; zero: none yet
+    /// Memory of the narrow phase: what separated it last; zero: none yet. It saves time and changes no answer. It
+    /// stands beside the boxes because it is theirs: found with them, and forgotten with them by assign().
+    Vec3& last_direction;
   };
   Sweep sweep(const Candidate& candidate, const TimePart& part);
   /// The extreme points of C_ij over that part. Valid until the next assign().
@@ -89,12 +89,10 @@ class SweptObstacles {
   static constexpr int kQuarters = 5;
   const CentredBox& at_quarter(int interval, const Candidate& candidate, int k);
 
-  /// Memory of who asks, too: the candidate that blocked a curve in this interval last; −1: none yet.
-  int& last_blocker(int interval) { return last_blocker_[static_cast<std::size_t>(interval)]; }
+  /// The same for an interval: the candidate that blocked a curve in it last; −1: none yet.
+  int& last_blocker(int interval) { return last_blocker_[idx(interval)]; }
 
-  [[nodiscard]] const PlanningObstacle& obstacle(const Candidate& c) const {
-    return (*obstacles_)[static_cast<std::size_t>(c.obstacle)];
-  }
+  [[nodiscard]] const PlanningObstacle& obstacle(const Candidate& c) const { return (*obstacles_)[idx(c.obstacle)]; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] bool body_is_round_or_box() const { return body_is_box_; }
   /// What the sweeps lack of the body: its vertices where it is neither a sphere nor a box, else none.
@@ -129,7 +127,7 @@ class SweptObstacles {
   Part& part_of(const Candidate& candidate, const TimePart& part);
   Part& swept_part_of(const Candidate& candidate, const TimePart& part);
   [[nodiscard]] std::span<const CentredBox> boxes_of(const Part& made) const {
-    return {&boxes_[static_cast<std::size_t>(made.first)], static_cast<std::size_t>(made.count)};
+    return {&boxes_[idx(made.first)], static_cast<std::size_t>(made.count)};
   }
   void make_sweep(const PlanningObstacle& obstacle, Span span);
   [[nodiscard]] Points make_hull(std::span<const CentredBox> boxes) const;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/types.h"
+
 namespace tern {
 namespace {
 
@@ -90,13 +92,13 @@ void AxisReach::set_limits(int intervals, double interval_s, double v_max, doubl
   a_max_ = a_max;
   j_step_ = std::min(j_max * interval_s, 2.0 * a_max);
   fastest_.resize(static_cast<std::size_t>(intervals_));
-  const auto last_index = static_cast<std::size_t>(intervals_);
+  const auto last_index = idx(intervals_);
   if (finishable_.size() <= last_index) finishable_.resize(last_index + 1);
 }
 
 void AxisReach::close_end(double j_step) {
   const double last = std::min(a_max_, j_step);
-  finishable_[static_cast<std::size_t>(intervals_)].assign({Point(0.0, -last), Point(0.0, last)});
+  finishable_[idx(intervals_)].assign({Point(0.0, -last), Point(0.0, last)});
 }
 
 void AxisReach::step_back(const Polygon& next, double j_step, std::size_t l) {
@@ -113,10 +115,10 @@ void AxisReach::step_back(const Polygon& next, double j_step, std::size_t l) {
 void AxisReach::assign(int intervals, double interval_s, double v_max, double a_max, double j_max) {
   set_limits(intervals, interval_s, v_max, a_max, j_max);
   for (int k = 0; k < intervals_; ++k) {
-    fastest_[static_cast<std::size_t>(k)] = std::min(v_max_, a_max_ * dt_ * (intervals_ - k));
+    fastest_[idx(k)] = std::min(v_max_, a_max_ * dt_ * (intervals_ - k));
   }
   close_end(j_step_);
-  for (auto l = static_cast<std::size_t>(intervals_) - 1; l >= 2; --l) step_back(finishable_[l + 1], j_step_, l);
+  for (auto l = idx(intervals_) - 1; l >= 2; --l) step_back(finishable_[l + 1], j_step_, l);
 }
 
 void AxisReach::assign_before(const AxisReach& rest, double a_max, double j_max) {
@@ -126,13 +128,13 @@ void AxisReach::assign_before(const AxisReach& rest, double a_max, double j_max)
     fastest_[k] = std::min(v_max_, a_max_ * dt_ + after);
   }
   close_end(rest.j_step_);
-  for (auto l = static_cast<std::size_t>(intervals_) - 1; l >= 2; --l) {
+  for (auto l = idx(intervals_) - 1; l >= 2; --l) {
     step_back(rest.finishable_[l + 1], rest.j_step_, l);
   }
 }
 
 AxisReach::Interval AxisReach::next_velocity(int l, double v, double a_previous) const {
-  Interval a = line_in_polygon(finishable_[static_cast<std::size_t>(l) + 1], v, dt_);
+  Interval a = line_in_polygon(finishable_[idx(l) + 1], v, dt_);
   a.low = std::max({a.low, -a_max_, a_previous - j_step_});
   a.high = std::min({a.high, a_max_, a_previous + j_step_});
   // At the edge of what can be finished one acceleration alone is left, and rounding may turn its bounds around.
@@ -145,7 +147,7 @@ double AxisReach::farthest(int l, double v_previous) const {
   double sum = 0.0;
   double v = v_previous;
   for (int k = l; k < intervals_; ++k) {
-    v = std::min(v + step, fastest_[static_cast<std::size_t>(k)]);
+    v = std::min(v + step, fastest_[idx(k)]);
     sum += v;
   }
   return sum * dt_;

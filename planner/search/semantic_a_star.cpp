@@ -15,9 +15,6 @@ namespace {
 using Node = SearchNode;
 using Entry = SearchEntry;
 
-/// A share of r that is surely within S, with what the curve bulges.
-constexpr double kWithinSphere = 0.97;
-
 struct Leaf {
   int node = -1;
   bool holds = false;
@@ -31,12 +28,12 @@ struct Leaf {
   }
 };
 
-/// Bands of the cost-to-go: `width` wide, and ten times finer within the last one, so that the goal itself is reached.
+/// Bands of the cost-to-go: `width` wide, and kFinerBands times finer within the last one.
 std::int64_t band_of(double way_to_go, double width) {
-  constexpr std::int64_t kFiner = 10;
   constexpr double kMostBands = 1e15;
   const double bands = std::min(way_to_go / width, kMostBands);
-  return bands < 1.0 ? static_cast<std::int64_t>(bands * kFiner) : kFiner - 1 + static_cast<std::int64_t>(bands);
+  return bands < 1.0 ? static_cast<std::int64_t>(bands * kFinerBands)
+                     : kFinerBands - 1 + static_cast<std::int64_t>(bands);
 }
 
 /// No point of S has a smaller cost-to-go.
@@ -88,7 +85,7 @@ class Search {
     return static_cast<std::int64_t>(std::floor(f / config_.cost_step_m));
   }
   [[nodiscard]] int leaf_index() const { return problem_.intervals; }  // n − 2 = J
-  [[nodiscard]] Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Node& node(int i) { return nodes_[idx(i)]; }
 
   void push_root() {
     const Points3 q = start_control_points(problem_.start, dt_);
@@ -132,8 +129,8 @@ class Search {
 
   void keep(int index, const Node& n) {
     kept_.resize(nodes_.size(), -1);
-    kept_[static_cast<std::size_t>(index)] = static_cast<std::int32_t>(result_.nodes.size());
-    result_.nodes.push_back({n.q, n.parent < 0 ? -1 : kept_[static_cast<std::size_t>(n.parent)]});
+    kept_[idx(index)] = static_cast<std::int32_t>(result_.nodes.size());
+    result_.nodes.push_back({n.q, n.parent < 0 ? -1 : kept_[idx(n.parent)]});
   }
 
   /// q_{l-3} … q_l as powers of u on interval l − 3.
@@ -175,7 +172,7 @@ class Search {
       return false;
     const HullForm form{problem_.hull_basis, problem_.intervals};
     const Points4 points = form.basis == HullBasis::Minvo ? minvo : form.points(j, power, 0.0, 1.0);
-    return is_clear(obstacles_, j, power, points, result_.pairs, form);
+    return is_separated(obstacles_, j, power, points, result_.pairs, form);
   }
 
   void consider_leaf(const Entry& entry, const Node& n) {
@@ -190,8 +187,8 @@ class Search {
     StepReach::Steps steps = reach_.from(n.l - 1, n.v, n.a);
     std::array<AxisReach::Interval, 3>& range = steps.range;
     for (int axis = 0; axis < 3; ++axis) {
-      if (n.l == 2) bound_first_peak(axis, range[static_cast<std::size_t>(axis)]);
-      if (range[static_cast<std::size_t>(axis)].empty()) return;
+      if (n.l == 2) bound_first_peak(axis, range[idx(axis)]);
+      if (range[idx(axis)].empty()) return;
     }
     if (n.l == 2) aim_within_sphere(n, range);
     add_child(index, n, steps, aimed_velocity(n, range));
@@ -230,7 +227,7 @@ class Search {
   /// Whether steps by neighbouring samples end farther apart than the radius of S.
   [[nodiscard]] bool oversteps(const std::array<AxisReach::Interval, 3>& range) const {
     const auto apart = [&](int axis, int samples) {
-      const AxisReach::Interval& r = range[static_cast<std::size_t>(axis)];
+      const AxisReach::Interval& r = range[idx(axis)];
       return (r.high - r.low) / (samples - 1) * dt_;
     };
     const double widest =
@@ -254,7 +251,7 @@ class Search {
     const double share = steps == 1 ? 1.0 : steps - 0.5;
     Vec3 v = (aim_ - n.q) / (dt_ * share);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto& r = range[static_cast<std::size_t>(axis)];
+      const auto& r = range[idx(axis)];
       v[axis] = std::clamp(v[axis], r.low, r.high);
     }
     return v;
@@ -330,12 +327,6 @@ class Search {
 SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
                              Budget& budget, SearchMemory& memory) {
   return Search(problem, config, obstacles, budget, memory).run();
-}
-
-SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
-                             Budget& budget) {
-  SearchMemory memory;
-  return semantic_a_star(problem, config, obstacles, budget, memory);
 }
 
 }  // namespace tern

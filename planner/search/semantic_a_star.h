@@ -62,8 +62,5 @@ struct SearchResult {
 /// control points.
 SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
                              Budget& budget, SearchMemory& memory);
-/// The same with memory of its own.
-SearchResult semantic_a_star(const SearchProblem& problem, const SearchConfig& config, SweptObstacles& obstacles,
-                             Budget& budget);
 
 }  // namespace tern

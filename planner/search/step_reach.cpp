@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
+#include "planner/problem/tuning.h"
+
 namespace tern {
-namespace {
-
-/// Shares of the way back to the steady range that are tried.
-constexpr double kShares[] = {0.0, 0.25, 0.5, 0.75, 1.0};
-
-}  // namespace
 
 void StepReach::assign(const HorizonProblem& problem) {
   dt_ = problem.interval_s();
@@ -17,8 +13,8 @@ void StepReach::assign(const HorizonProblem& problem) {
   thrust_.reset();
   if (limits.dynamics) thrust_.emplace(*limits.dynamics);
   for (int axis = 0; axis < 3; ++axis) {
-    AxisReach& steps = steps_[static_cast<std::size_t>(axis)];
-    AxisReach& steady = steady_[static_cast<std::size_t>(axis)];
+    AxisReach& steps = steps_[idx(axis)];
+    AxisReach& steady = steady_[idx(axis)];
     const double v_max = limits.v_max[axis];
     if (!thrust_) {
       steps.assign(problem.intervals, dt_, v_max, limits.a_max[axis], limits.j_max[axis]);
@@ -32,7 +28,7 @@ void StepReach::assign(const HorizonProblem& problem) {
 StepReach::Steps StepReach::from(int l, const Vec3& v, const Vec3& a_previous) const {
   Steps out{v, a_previous, {}, {}};
   for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
+    const auto i = idx(axis);
     out.range[i] = steps_[i].next_velocity(l, v[axis], a_previous[axis]);
     if (thrust_) out.steady[i] = steady_[i].next_velocity(l, v[axis], a_previous[axis]);
   }
@@ -43,12 +39,12 @@ std::optional<Vec3> StepReach::flyable(const Steps& from, const Vec3& wanted) co
   if (!thrust_) return wanted;
   Vec3 back = wanted;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
+    const auto i = idx(axis);
     const AxisReach::Interval steady{std::max(from.steady[i].low, from.range[i].low),
                                      std::min(from.steady[i].high, from.range[i].high)};
     if (!steady.empty()) back[axis] = std::clamp(wanted[axis], steady.low, steady.high);
   }
-  for (const double share : kShares) {
+  for (const double share : kReturnShares) {
     const Vec3 v = wanted + share * (back - wanted);
     if (thrust_->allows(from.a, (v - from.v) / dt_, dt_)) return v;
   }

@@ -23,7 +23,7 @@ class StepReach {
 
   /// How far q_{n-2} − q_l can lie on this axis (AxisReach).
   [[nodiscard]] AxisReach::Interval displacement(int axis, int l, double v_previous) const {
-    return steps_[static_cast<std::size_t>(axis)].displacement(l, v_previous);
+    return steps_[idx(axis)].displacement(l, v_previous);
   }
 
   /// What may follow v_l and a_{l-1}: per axis, and the part of it that boxed limits reach.

@@ -17,32 +17,30 @@ class Envelope {
   void transform(float* line, std::ptrdiff_t stride, int n) {
     int last = -1;
     for (int q = 0; q < n; ++q) {
-      f_[at(q)] = line[q * stride];
-      if (f_[at(q)] < kInfinity) last = push(q, last);
+      f_[idx(q)] = line[q * stride];
+      if (f_[idx(q)] < kInfinity) last = push(q, last);
     }
     if (last < 0) return;
     for (int q = 0, k = 0; q < n; ++q) {
-      while (k < last && from_[at(k + 1)] <= q) ++k;
-      const int v = vertex_[at(k)];
-      line[q * stride] = static_cast<float>(static_cast<double>(q - v) * (q - v) + f_[at(v)]);
+      while (k < last && from_[idx(k + 1)] <= q) ++k;
+      const int v = vertex_[idx(k)];
+      line[q * stride] = static_cast<float>(static_cast<double>(q - v) * (q - v) + f_[idx(v)]);
     }
   }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
   int push(int q, int last) {
-    const double height = static_cast<double>(f_[at(q)]) + static_cast<double>(q) * q;
+    const double height = static_cast<double>(f_[idx(q)]) + static_cast<double>(q) * q;
     double s = -std::numeric_limits<double>::infinity();
     while (last >= 0) {
-      const int v = vertex_[at(last)];
-      s = (height - (static_cast<double>(f_[at(v)]) + static_cast<double>(v) * v)) / (2.0 * (q - v));
-      if (s > from_[at(last)]) break;
+      const int v = vertex_[idx(last)];
+      s = (height - (static_cast<double>(f_[idx(v)]) + static_cast<double>(v) * v)) / (2.0 * (q - v));
+      if (s > from_[idx(last)]) break;
       --last;
     }
     ++last;
-    vertex_[at(last)] = q;
-    from_[at(last)] = last == 0 ? -std::numeric_limits<double>::infinity() : s;
+    vertex_[idx(last)] = q;
+    from_[idx(last)] = last == 0 ? -std::numeric_limits<double>::infinity() : s;
     return last;
   }
 

@@ -72,7 +72,7 @@ DistanceBand::DistanceBand(const VoxelMap& map, const VoxelKind& kind, double ma
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) {
-        if (!kind.has(map, static_cast<std::size_t>(map.grid.index({x, y, z})))) continue;
+        if (!kind.has(map, idx(map.grid.index({x, y, z})))) continue;
         const Eigen::Matrix<std::size_t, 3, 1> at = (Cell(x, y, z) - first).cast<std::size_t>();
         set[at.x() + static_cast<std::size_t>(size_.x()) * (at.y() + static_cast<std::size_t>(size_.y()) * at.z())] = 1;
       }
@@ -171,14 +171,6 @@ double SemanticFields::mean_distance_cost(VoxelLabel label, const Vec3& p) const
 
 double SemanticFields::mean_distance_cost(const Vec3& p) const {
   return mean_distance_cost(VoxelLabel::Attractive, p) - mean_distance_cost(VoxelLabel::Repulsive, p);
-}
-
-double SemanticFields::mean_distance_error(VoxelLabel label) const {
-  double sum = 0.0;
-  for (const Group& g : groups_) {
-    if (g.label == label) sum += g.lambda * g.share * g.mean.error();
-  }
-  return sum;
 }
 
 }  // namespace tern

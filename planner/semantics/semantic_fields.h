@@ -81,13 +81,11 @@ class SemanticFields {
   /// Of both labels.
   [[nodiscard]] double exposure_cost(const Vec3& a, const Vec3& b) const;
 
-  /// Σ_c λ_c C_c(p), m, ≥ 0; 0 without such voxels. Errs by at most mean_distance_error(label), and never downwards by
-  /// more than the tree's part of it.
+  /// Σ_c λ_c C_c(p), m, ≥ 0; 0 without such voxels. Inside the map's extents it errs by at most Σ_c λ_c error() of
+  /// the fields (MeanDistanceField) by the classes' shares of the voxels, beyond them by λ_c far_error.
   [[nodiscard]] double mean_distance_cost(VoxelLabel label, const Vec3& p) const;
   /// Attraction less repulsion: λ_att C_att − λ_rep C_rep of Eq. 2.
   [[nodiscard]] double mean_distance_cost(const Vec3& p) const;
-  /// The bound inside the map's extents, m (beyond them: MeanDistanceOptions::far_error).
-  [[nodiscard]] double mean_distance_error(VoxelLabel label) const;
 
   [[nodiscard]] double exposure_margin() const { return margin_; }
 

@@ -17,10 +17,9 @@ inline double trilinear(const std::vector<float>& samples, const Eigen::Vector3i
   const double u = x.x() - i;
   const double v = x.y() - j;
   const double w = x.z() - k;
-  const std::size_t row = static_cast<std::size_t>(size.x());
+  const auto row = static_cast<std::size_t>(size.x());
   const std::size_t layer = row * static_cast<std::size_t>(size.y());
-  const float* s = samples.data() + static_cast<std::size_t>(i) + row * static_cast<std::size_t>(j) +
-                   layer * static_cast<std::size_t>(k);
+  const float* s = samples.data() + idx(i) + row * idx(j) + layer * idx(k);
   const auto along = [u](const float* at) {
     const double first = at[0];
     return first + u * (static_cast<double>(at[1]) - first);

@@ -23,7 +23,7 @@ VoxelTree::Node VoxelTree::measure(std::int32_t begin, std::int32_t end) const {
   Sum sum = Sum::Zero();
   Eigen::Matrix<std::int64_t, 3, 3> squares = Eigen::Matrix<std::int64_t, 3, 3>::Zero();
   for (std::int32_t k = begin; k < end; ++k) {
-    const Sum v = voxels_[static_cast<std::size_t>(k)].cast<std::int64_t>();
+    const Sum v = voxels_[idx(k)].cast<std::int64_t>();
     sum += v;
     squares += v * v.transpose();
   }
@@ -36,7 +36,7 @@ VoxelTree::Node VoxelTree::measure(std::int32_t begin, std::int32_t end) const {
   node.trace = std::max(0.0, node.covariance.trace());
   double far2 = 0.0;
   for (std::int32_t k = begin; k < end; ++k) {
-    far2 = std::max(far2, (voxels_[static_cast<std::size_t>(k)].cast<double>() - node.centroid).squaredNorm());
+    far2 = std::max(far2, (voxels_[idx(k)].cast<double>() - node.centroid).squaredNorm());
   }
   node.radius = std::sqrt(far2);
   return node;
@@ -46,11 +46,11 @@ void VoxelTree::build(std::int32_t begin, std::int32_t end) {
   const std::size_t at = nodes_.size();
   nodes_.push_back(measure(begin, end));
   if (end - begin <= kLeafSize) return;
-  Cell low = voxels_[static_cast<std::size_t>(begin)];
+  Cell low = voxels_[idx(begin)];
   Cell high = low;
   for (std::int32_t k = begin; k < end; ++k) {
-    low = low.cwiseMin(voxels_[static_cast<std::size_t>(k)]);
-    high = high.cwiseMax(voxels_[static_cast<std::size_t>(k)]);
+    low = low.cwiseMin(voxels_[idx(k)]);
+    high = high.cwiseMax(voxels_[idx(k)]);
   }
   int axis = 0;
   (high - low).maxCoeff(&axis);
@@ -74,8 +74,8 @@ double VoxelTree::mean_distance(const Vec3& p, double error) const {
   int top = 0;
   stack[0] = 0;
   while (top >= 0) {
-    const std::int32_t at = stack[static_cast<std::size_t>(top--)];
-    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    const std::int32_t at = stack[idx(top--)];
+    const Node& node = nodes_[idx(at)];
     const Vec3 offset = x - node.centroid;
     const double distance2 = offset.squaredNorm();
     const double distance = std::sqrt(distance2);
@@ -85,11 +85,11 @@ double VoxelTree::mean_distance(const Vec3& p, double error) const {
       sum += node.weight * (distance + 0.5 * (node.trace - along) / distance);
     } else if (node.right == 0) {
       for (std::int32_t k = node.first; k < node.first + node.count; ++k) {
-        sum += (x - voxels_[static_cast<std::size_t>(k)].cast<double>()).norm();
+        sum += (x - voxels_[idx(k)].cast<double>()).norm();
       }
     } else {
-      stack[static_cast<std::size_t>(++top)] = node.right;
-      stack[static_cast<std::size_t>(++top)] = at + 1;
+      stack[idx(++top)] = node.right;
+      stack[idx(++top)] = at + 1;
     }
   }
   return grid_.resolution * sum / static_cast<double>(voxels_.size());

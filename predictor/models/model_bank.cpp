@@ -95,7 +95,7 @@ void BankFilter::update(const Vec3& z, const Vec3& r) {
     evidence_[j] = kEvidenceForgetting * evidence_[j] - 0.5 * fit_of(of(j), z, r).surprise();
     tern::update(z, r, states<double>(*this, j));
   }
-  lead_ = static_cast<std::size_t>(std::max_element(evidence_.begin(), evidence_.end()) - evidence_.begin());
+  lead_ = idx(std::max_element(evidence_.begin(), evidence_.end()) - evidence_.begin());
 }
 
 double BankFilter::distance2(const Vec3& z, const Vec3& r) const {

@@ -29,7 +29,7 @@ template <typename Number, typename F>
 void for_each_covariance(const FilterStates<Number>& states, const F& f) {
   f(0);
   for (int axis = 1; axis < 3; ++axis) {
-    if (states.covariance[static_cast<std::size_t>(axis)] != states.covariance[0]) f(axis);
+    if (states.covariance[idx(axis)] != states.covariance[0]) f(axis);
   }
 }
 
@@ -73,7 +73,7 @@ void start(const MotionModel& model, const Vec3& z, const Vec3& r, const FilterS
   const Vec3 known = r.cwiseMax(kLeastVariance);
   Eigen::Map<Eigen::MatrixXd>(states.mean, n, 3) = model.shift * z.transpose();
   for_each_covariance(states, [&](int axis) {
-    Eigen::Map<Eigen::MatrixXd>(states.covariance[static_cast<std::size_t>(axis)], n, n) =
+    Eigen::Map<Eigen::MatrixXd>(states.covariance[idx(axis)], n, n) =
         model.prior + known[axis] * model.shift * model.shift.transpose();
   });
 }
@@ -84,9 +84,7 @@ void predict(const ModelStep& step, const FilterStates<double>& states) {
     const Square<kOrder> phi = square<kOrder>(step.phi.data()), q = square<kOrder>(step.q.data());
     Eigen::Map<Means<kOrder>> mean(states.mean);
     mean = (phi * mean).eval();
-    for_each_covariance(states, [&](int axis) {
-      predict_covariance<kOrder>(phi, q, states.covariance[static_cast<std::size_t>(axis)]);
-    });
+    for_each_covariance(states, [&](int axis) { predict_covariance<kOrder>(phi, q, states.covariance[idx(axis)]); });
   });
 }
 
@@ -96,11 +94,11 @@ void update(const Vec3& z, const Vec3& r, const FilterStates<double>& states) {
     constexpr int kOrder = decltype(order)::value;
     Eigen::Map<Means<kOrder>> mean(states.mean);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto p = square<kOrder>(states.covariance[static_cast<std::size_t>(axis)]);
+      const auto p = square<kOrder>(states.covariance[idx(axis)]);
       mean.col(axis) += p.col(0) * ((z[axis] - mean(0, axis)) / (p(0, 0) + known[axis]));
     }
     for_each_covariance(states, [&](int axis) {
-      auto p = square<kOrder>(states.covariance[static_cast<std::size_t>(axis)]);
+      auto p = square<kOrder>(states.covariance[idx(axis)]);
       const Column<kOrder> column = p.col(0);
       const Column<kOrder> gain = column / (column[0] + known[axis]);
       p.noalias() -= column * gain.transpose();
@@ -115,7 +113,7 @@ Vec3 MotionFilter::variance() const {
 AxisFilter MotionFilter::marginal(int axis) const {
   const int n = states_.order;
   const double* mean = states_.mean + static_cast<std::ptrdiff_t>(n) * axis;
-  const double* p = states_.covariance[static_cast<std::size_t>(axis)];
+  const double* p = states_.covariance[idx(axis)];
   return {mean[0], mean[1], p[0], p[1], p[n + 1]};
 }
 
@@ -127,7 +125,7 @@ FilterLook MotionFilter::at(const ModelLook& ahead) const {
     FilterLook said{mean.transpose() * position, mean.transpose() * velocity, Vec3::Zero()};
     double variance = 0.0;
     for_each_covariance(states_, [&](int axis) {
-      const Column<kOrder> moved = square<kOrder>(states_.covariance[static_cast<std::size_t>(axis)]) * position;
+      const Column<kOrder> moved = square<kOrder>(states_.covariance[idx(axis)]) * position;
       variance = std::max(0.0, ahead.variance + moved.dot(position));
       said.variance.tail(3 - axis).setConstant(variance);
     });

@@ -25,7 +25,7 @@ std::int64_t bytes_of(const MapChunk& chunk) {
 
 std::array<std::int64_t, kVoxelLabels> count_labels(const VoxelMap& map) {
   std::array<std::int64_t, kVoxelLabels> count{};
-  for (const VoxelLabel label : map.labels) ++count[static_cast<std::size_t>(label)];
+  for (const VoxelLabel label : map.labels) ++count[idx(label)];
   return count;
 }
 

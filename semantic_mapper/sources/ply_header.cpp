@@ -111,7 +111,7 @@ class HeaderLines {
     if (!has_vertices_) return "no element vertex";
     const auto find = [&](std::string_view name) {
       const auto at = std::find(names_.begin(), names_.end(), name);
-      return at == names_.end() ? PlyHeader::kNone : static_cast<std::size_t>(at - names_.begin());
+      return at == names_.end() ? PlyHeader::kNone : idx(at - names_.begin());
     };
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -134,7 +134,7 @@ class HeaderLines {
 
 std::size_t size_of(PlyType type) {
   constexpr std::array<std::size_t, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
+  return kSizes[idx(type)];
 }
 
 Result<PlyHeader> parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file) {

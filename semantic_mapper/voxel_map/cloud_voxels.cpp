@@ -57,7 +57,7 @@ Tally count(const CloudLayer& cloud, std::vector<Mark>::const_iterator begin, st
     const std::uint8_t number = begin->class_number;
     const auto next = std::find_if(begin, end, [&](const Mark& m) { return m.class_number != number; });
     const int n = static_cast<int>(next - begin);
-    const auto label = static_cast<std::size_t>(cloud.classes[number]->label);
+    const auto label = idx(cloud.classes[number]->label);
     tally.of_label[label] += n;
     if (n > tally.most[label]) {
       tally.most[label] = n;

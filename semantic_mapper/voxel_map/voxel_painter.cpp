@@ -35,7 +35,7 @@ VoxelPainter::VoxelPainter(const VoxelGrid& grid, VoxelLabel background) {
 std::uint8_t VoxelPainter::class_index(const std::string& name) {
   auto& names = map_.class_names;
   const auto found = std::find(names.begin(), names.end(), name);
-  const auto index = static_cast<std::size_t>(found - names.begin());
+  const auto index = idx(found - names.begin());
   if (found == names.end()) {
     if (names.size() == kMaxMapClasses) throw std::length_error("more classes than a map can name");
     names.push_back(name);
@@ -44,7 +44,7 @@ std::uint8_t VoxelPainter::class_index(const std::string& name) {
 }
 
 void VoxelPainter::paint(std::int64_t index, VoxelLabel label, std::uint8_t class_index) {
-  const auto i = static_cast<std::size_t>(index);
+  const auto i = idx(index);
   const std::uint8_t strength = strength_of(label);
   if (strength <= strength_[i]) return;
   strength_[i] = strength;

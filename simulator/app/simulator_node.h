@@ -22,19 +22,18 @@ namespace tern {
 inline constexpr int kExitNotReady = 3;  ///< a process that the flight needs was not ready in time
 
 /// A flight has three parts.
-///   Waiting: everything rests and is declared so, until every process of config.wait_for says Ready, and the map of
-///     a mapper among them is here: the referee judges its occupied voxels too. After config.wait
-///     the flight has failed, FLIGHT_RESULT names who is missing, and the exit code is kExitNotReady.
-///   Flying: from world zero on (0.3 s after the last process was ready, a whole ms) the world moves, VEHICLE_STATUS
-///     says that the vehicle follows, upon which the executor asks for horizons, and the referee watches.
-///   Ended: VEHICLE_STATUS says so, FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit
-///     code is 0 whatever the verdict.
-/// A simulator that was held up for over kSetpointSilence says nothing of the vehicle before it has heard what was sent
-/// meanwhile: its own VEHICLE_STATUS comes back to it after all of that. Held up for over 0.4 s it may have missed
-/// setpoints: for a moment the vehicle flies on along what it knows to be committed, and VEHICLE_STATUS says that it
-/// does not follow, so that the executor leads on from where it is. The referee judges the vehicle's true motion.
-/// UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so. The goal is the scenario's (id 1, unless
-/// config.send_goal is false) until a GOAL with a larger id comes. The newest is repeated at 1 Hz.
+///   Waiting: everything rests and is declared so, until every process of config.wait_for says Ready. The map of a
+///     mapper among them must be here, too: the referee judges its occupied voxels. After config.wait the flight has
+///     failed, FLIGHT_RESULT names who is missing, and the exit code is kExitNotReady. Flying: from world zero on (0.3
+///     s after the last process was ready, a whole ms) the world moves, and the referee watches. VEHICLE_STATUS says
+///     that the vehicle follows, upon which the executor asks for horizons. Ended: VEHICLE_STATUS says so,
+///     FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit code is 0 whatever the verdict.
+///     A simulator that was held up for over kSetpointSilence says nothing of the vehicle before it has heard what was
+///     sent meanwhile. Its own VEHICLE_STATUS comes back to it after all of that. Held up for over 0.4 s it may have
+///     missed setpoints. Then for a moment the vehicle flies on along what it knows to be committed, and VEHICLE_STATUS
+///     says that it does not follow. So the executor leads on from where it is. The referee judges the vehicle's true
+///     motion. UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so. The goal is the scenario's (id 1, unless
+///     config.send_goal is false) until a GOAL with a larger id comes. The newest is repeated at 1 Hz.
 class SimulatorNode final : public Node {
  public:
   /// Time begins at bus.clock().now().

@@ -124,10 +124,7 @@ double ClearanceWatch::search(const Pair& pair, double t0_s, double t1_s) {
   const double lower = least.value - least.error - deviation;
   const double at = t0_s + least.at * h;
   const double upper = pair(at);
-  if (upper < min_) {
-    min_ = upper;
-    min_time_s_ = at;
-  }
+  min_ = std::min(min_, upper);
   const bool sign_open = lower < 0.0 && upper >= 0.0;
   const double enough = sign_open ? kContactTolerance : kClearanceTolerance;
   const double best = sign_open ? upper : min_;  // another obstacle's overlap does not tell this one's sign

@@ -45,7 +45,6 @@ class ClearanceWatch {
 
   /// Least clearance so far, m; ∞ while no obstacle was present.
   [[nodiscard]] double min_clearance() const { return min_; }
-  [[nodiscard]] double min_clearance_time_s() const { return min_time_s_; }
 
  private:
   struct Sighting {
@@ -64,7 +63,6 @@ class ClearanceWatch {
   std::vector<double> accelerations_;  ///< per obstacle, bound of ‖a‖ between corners, m/s²
   double odometer_ = 0.0;              ///< bound on the metres flown
   double min_ = std::numeric_limits<double>::infinity();
-  double min_time_s_ = 0.0;
 };
 
 }  // namespace tern

@@ -94,7 +94,7 @@ void Referee::end(FlightOutcome outcome, double t_s, std::string detail) {
 }
 
 std::string Referee::name_of(const Contact& contact) const {
-  const std::string& name = world_.obstacles[static_cast<std::size_t>(contact.id)].spec().name;
+  const std::string& name = world_.obstacles[idx(contact.id)].spec().name;
   return fmt::format("obstacle {}{}", contact.id, name.empty() ? std::string() : fmt::format(" '{}'", name));
 }
 

@@ -48,9 +48,9 @@ struct QuadrotorSpec {
   }  ///< of a rotor, N
 };
 
-/// Camera: 0.5 m from rotor to rotor, thrust/weight 2: 3DR's Iris as PX4's Gazebo models it (PX4-SITL_gazebo-classic,
-/// models/iris: mass, inertia, rotors' places, reaction; its rotor drag 1.75e-4 N s²/m at hover speed gives
-/// drag_per_s), with the slower of its two motor lags. Racer: 0.25 m, thrust/weight 4: the 5-inch quadrotor of
+/// Camera: 0.5 m from rotor to rotor, thrust/weight 2: 3DR's Iris as PX4's Gazebo models it, with the slower of its two
+/// motor lags. From there (PX4-SITL_gazebo-classic, models/iris) come mass, inertia, rotors' places and reaction. Its
+/// rotor drag, 1.75e-4 N s²/m at hover speed, gives drag_per_s. Racer: 0.25 m, thrust/weight 4: the 5-inch quadrotor of
 /// Bauersfeld et al. (NeuroBEM, RSS 2021: mass, motor lag, 33 N of thrust, here held to 4; inertia by its data set's
 /// README), rotors' places and reaction as in the models of the same frame in uzh-rpg's Agilicious. Its linear drag,
 /// and both quadratic ones (plates of 0.03 m² and of 0.012 m²), are typical values, not measured ones.

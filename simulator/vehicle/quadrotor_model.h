@@ -47,9 +47,9 @@ struct VehicleTruth {
 };
 
 /// Begins in hover at `start`, as after hovering in the mean wind for long, or standing there if that is the ground.
-/// Time moves by advance() in whole steps since `now`: between two calls the newest command holds, its motion carried
-/// on by its own acceleration and jerk (at most kHeldFor, then at rest where that ended). Without any command it keeps
-/// its start. Deterministic from the seed and the commands. A step costs about a microsecond.
+/// Time moves by advance() in whole steps since `now`. Between two calls the newest command holds: its motion is
+/// carried on by its acceleration and jerk, at most for kHeldFor, then at rest where that ended. Without any command it
+/// keeps its start. Deterministic from the seed and the commands. A step costs about a microsecond.
 class QuadrotorModel {
  public:
   /// A command is carried on no longer than this: then it holds that place.

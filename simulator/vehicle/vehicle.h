@@ -17,8 +17,8 @@ class Vehicle {
  public:
   virtual ~Vehicle() = default;
 
-  /// A SETPOINT came. Its `at` may be some ms before the time of the next advance(), and, with another host's clock,
-  /// ahead of it; messages may be lost, and late. executor/commanded_motion.h makes a command at any time of this.
+  /// A SETPOINT came. Its `at` may be some ms before the time of the next advance() or, with another host's clock,
+  /// ahead of it. Messages may be lost, and late. executor/commanded_motion.h makes a command at any time of this.
   virtual void hear(const UavState& setpoint) = 0;
   /// A HORIZON_REQUEST came with the trajectory that the executor has committed to: what to fly when setpoints cease.
   virtual void hear(const TimedSpline& committed) = 0;
@@ -30,8 +30,8 @@ class Vehicle {
   virtual void advance(UTime now) = 0;
 
   /// The body's true motion: consecutive cubic pieces in W, from the first advance() on and for at least 3 s back. The
-  /// referee judges these pieces in continuous time, so they have to be the motion, not samples of it: of a model that
-  /// is integrated, a Hermite piece (core/splines) for each of its steps.
+  /// referee judges these pieces in continuous time, so they have to be the motion, not samples of it. A model that is
+  /// integrated has a Hermite piece (core/splines) for each of its steps.
   [[nodiscard]] virtual const MotionHistory& truth() const = 0;
   /// The true state at truth().end(), with the heading: VEHICLE_TRUTH.
   [[nodiscard]] virtual UavState true_state() const = 0;

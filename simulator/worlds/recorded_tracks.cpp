@@ -73,7 +73,7 @@ std::string read_row(std::string_view line, int columns, std::vector<double>& nu
 /// Adds a row to the tracks, or says why not.
 std::string add_row(const std::vector<double>& row, const RecordedTracksSpec& spec,
                     std::map<std::int64_t, RecordedTrack>& tracks) {
-  const auto number = [&](int column) { return row[static_cast<std::size_t>(column)]; };
+  const auto number = [&](int column) { return row[idx(column)]; };
   const double id = spec.id_column < 0 ? 0.0 : number(spec.id_column);
   if (id != std::floor(id) || std::abs(id) > kMaxWholeId) return fmt::format("id {} is not a whole number", id);
   const double time = number(spec.frame_column) / spec.frames_per_second;

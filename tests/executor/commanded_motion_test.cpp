@@ -71,21 +71,21 @@ TEST(CommandedMotion, IsTheCommittedCurveBetweenSetpoints) {
   Flight flight;
   flight.fly(Duration{3'000'000}, [] { return false; });
   EXPECT_GT(flight.command_.sample(flight.now_).v.norm(), 1.0);
-  flight.expect_same_until(flight.command_.told_until());
+  flight.expect_same_until(flight.command_.settled().end());
 }
 
 TEST(CommandedMotion, IsTheCommittedCurveThoughHalfTheSetpointsAreLost) {
   Flight flight;
   Rng rng(3);
   flight.fly(Duration{3'000'000}, [&] { return rng.uniform() < 0.5; });
-  flight.expect_same_until(flight.command_.told_until());
+  flight.expect_same_until(flight.command_.settled().end());
 }
 
 TEST(CommandedMotion, GoesOnAlongTheCommittedCurveToItsRestWhenTheExecutorDies) {
   for (int k = 0; k < 40; ++k) {
     Flight flight;
     flight.fly(Duration{600'000 + k * 17'000}, [] { return false; });
-    const UTime died = flight.command_.told_until();
+    const UTime died = flight.command_.settled().end();
     flight.command_.settle(died + Duration{5'000'000});
     const MotionHistory& motion = flight.command_.settled();
     // What was adopted after the newest request is not known to the vehicle, nor flown yet.

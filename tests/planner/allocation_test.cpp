@@ -78,7 +78,7 @@ TEST(Allocation, ConvexProblemsAndTheirSolverAllocateNothingOnceTheyHaveSeenOneA
   BarrierSolver solver;
   const StopFunction never = [] { return false; };
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const test_support::Instance instance = test_support::random_instance(seed);
+    const support::Instance instance = support::random_instance(seed);
     ConvexSolution solution;
     const auto solve = [&] {
       make_convex_problem(instance.problem, instance.planes, instance.initial, problem);

@@ -39,10 +39,10 @@ struct Draw {
 };
 
 VoxelMap random_map(Rng& rng, const Vec3& around) {
-  VoxelMap map = test_support::free_map({32, 32, 16}, 0.25, Vec3(around - Vec3(4, 4, 2)));
-  if (rng.uniform() < 0.5) test_support::sprinkle(map, rng, 0.002, VoxelLabel::Occupied);
-  if (rng.uniform() < 0.3) test_support::paint(map, {4, 4, 4}, {12, 12, 12}, VoxelLabel::Attractive);
-  if (rng.uniform() < 0.3) test_support::paint(map, {18, 18, 4}, {26, 26, 12}, VoxelLabel::Repulsive);
+  VoxelMap map = support::free_map({32, 32, 16}, 0.25, Vec3(around - Vec3(4, 4, 2)));
+  if (rng.uniform() < 0.5) support::sprinkle(map, rng, 0.002, VoxelLabel::Occupied);
+  if (rng.uniform() < 0.3) support::paint(map, {4, 4, 4}, {12, 12, 12}, VoxelLabel::Attractive);
+  if (rng.uniform() < 0.3) support::paint(map, {18, 18, 4}, {26, 26, 12}, VoxelLabel::Repulsive);
   map.version = map.compute_version();
   return map;
 }
@@ -307,8 +307,8 @@ TEST_F(PlannerAlone, ACommittedTrajectoryIsCheckedHoweverFarItGoes) {
   const Plan first = answer(request, by_track, nearsighted);
   EXPECT_EQ(fault_of(first, request, by_track, nearsighted), "");
   EXPECT_NE(first.outcome, PlanOutcome::KeepCommitted);
-  VoxelMap map = test_support::free_map({40, 8, 8}, 0.25, Vec3(0, -1, 0));
-  test_support::paint(map, {28, 0, 0}, {29, 7, 7}, VoxelLabel::Occupied);
+  VoxelMap map = support::free_map({40, 8, 8}, 0.25, Vec3(0, -1, 0));
+  support::paint(map, {28, 0, 0}, {29, 7, 7}, VoxelLabel::Occupied);
   const PlanningWorld by_map = world_of({}, go_to(Vec3(3, 0, 1)), request, nearsighted, map);
   const Plan second = answer(request, by_map, nearsighted);
   EXPECT_EQ(fault_of(second, request, by_map, nearsighted), "");
@@ -395,8 +395,8 @@ TEST_F(PlannerAlone, FromNearlyTheTopSpeedWithOutwardAccelerationItFindsANewPlan
 }
 
 TEST(PlannerInALoop, AStrongAttractionDoesNotParkTheVehicle) {
-  VoxelMap map = test_support::free_map({48, 16, 8}, 0.25, Vec3(-1, -2, 0));
-  test_support::paint(map, {4, 9, 2}, {16, 14, 6}, VoxelLabel::Attractive);
+  VoxelMap map = support::free_map({48, 16, 8}, 0.25, Vec3(-1, -2, 0));
+  support::paint(map, {4, 9, 2}, {16, 14, 6}, VoxelLabel::Attractive);
   for (const SemanticCost cost : {SemanticCost::Exposure, SemanticCost::MeanDistance}) {
     PlannerConfig config;
     config.semantic_cost = cost;

@@ -13,7 +13,7 @@
 namespace tern {
 namespace {
 
-using test_support::FileBytes;
+using support::FileBytes;
 
 const int kMutations = support::fuzz_count(10'000);
 
@@ -63,10 +63,10 @@ void expect_sane(const Result<PointCloud>& cloud, std::size_t bytes) {
 TEST(HostileFiles, MutatedLasGivesAValueOrAnError) {
   Rng rng(1);
   for (int i = 0; i < kMutations; ++i) {
-    test_support::LasSpec spec;
+    support::LasSpec spec;
     spec.minor = i % 5;
     spec.format = spec.minor == 4 ? i % 11 : i % 6;
-    const FileBytes bytes = mutated(test_support::las_file(some_points(rng), spec), rng);
+    const FileBytes bytes = mutated(support::las_file(some_points(rng), spec), rng);
     expect_sane(parse_las(bytes, "file", {}), bytes.size());
     if (HasFatalFailure()) return;
   }
@@ -75,8 +75,8 @@ TEST(HostileFiles, MutatedLasGivesAValueOrAnError) {
 TEST(HostileFiles, MutatedPlyGivesAValueOrAnError) {
   Rng rng(2);
   for (int i = 0; i < kMutations; ++i) {
-    const auto kind = static_cast<test_support::PlyKind>(i % 3);
-    const FileBytes bytes = mutated(test_support::ply_file(some_points(rng), kind), rng);
+    const auto kind = static_cast<support::PlyKind>(i % 3);
+    const FileBytes bytes = mutated(support::ply_file(some_points(rng), kind), rng);
     expect_sane(parse_ply(bytes, "file", {}), bytes.size());
     if (HasFatalFailure()) return;
   }

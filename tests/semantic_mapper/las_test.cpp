@@ -8,10 +8,10 @@
 namespace tern {
 namespace {
 
-using test_support::FileBytes;
-using test_support::las_file;
-using test_support::LasSpec;
-using test_support::put;
+using support::FileBytes;
+using support::las_file;
+using support::LasSpec;
+using support::put;
 using testing::HasSubstr;
 
 const PointCloud kPoints{{Vec3(1.25, -2.5, 3.75), 2}, {Vec3(100.01, 20.02, -3.03), 6}, {Vec3(0, 0, 0), 31}};

@@ -34,7 +34,7 @@ class LoadMapTest : public ::testing::Test {
   }
   ~LoadMapTest() override { std::filesystem::remove_all(folder_); }
 
-  void write(const std::string& name, const test_support::FileBytes& bytes) const {
+  void write(const std::string& name, const support::FileBytes& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
   }
@@ -93,17 +93,17 @@ TEST_F(LoadMapTest, VoxelizesStaticObstaclesWhenAsked) {
 TEST_F(LoadMapTest, FindsFilesBesideTheScenarioThenInTheDataFolder) {
   const PointCloud one{{Vec3(0.1, 0.1, 0.1), 6}};
   const PointCloud two{{Vec3(0.1, 0.1, 0.1), 6}, {Vec3(2.1, 0.1, 0.1), 6}};
-  write("data/cloud.las", test_support::las_file(two, {}));
+  write("data/cloud.las", support::las_file(two, {}));
   EXPECT_EQ(count(load("mapper: {sources: [{file: cloud.las}]}"), VoxelLabel::Occupied), 2);
-  write("cloud.las", test_support::las_file(one, {}));
+  write("cloud.las", support::las_file(one, {}));
   EXPECT_EQ(count(load("mapper: {sources: [{file: cloud.las}]}"), VoxelLabel::Occupied), 1);
-  write("data/cloud.ply", test_support::ply_file(two, test_support::PlyKind::Big));
+  write("data/cloud.ply", support::ply_file(two, support::PlyKind::Big));
   EXPECT_EQ(count(load("mapper: {sources: [{file: cloud.ply}]}"), VoxelLabel::Occupied), 2);
 }
 
 TEST_F(LoadMapTest, AClassThatIsNamedItselfOverrulesItsGroup) {
   const PointCloud plants{{Vec3(0.1, 0.1, 0.1), 3}, {Vec3(2.1, 0.1, 0.1), 5}};
-  write("cloud.las", test_support::las_file(plants, {}));
+  write("cloud.las", support::las_file(plants, {}));
   const VoxelMap map =
       load("mapper: {classes: {high_vegetation: occupied, vegetation: attractive}, sources: [{file: cloud.las}]}");
   EXPECT_EQ(count(map, VoxelLabel::Occupied), 1);

@@ -37,15 +37,15 @@ class MapperNodeTest : public ::testing::Test {
 };
 
 VoxelMap ragged_map(const Eigen::Vector3i& size) {
-  VoxelMap map = test_support::free_map(size);
+  VoxelMap map = support::free_map(size);
   Rng rng(1);
-  test_support::sprinkle(map, rng, 0.5, VoxelLabel::Occupied);
+  support::sprinkle(map, rng, 0.5, VoxelLabel::Occupied);
   return map;
 }
 
 TEST_F(MapperNodeTest, ASmallMapComesWholeOnceASecond) {
-  VoxelMap map = test_support::free_map({300, 24, 16});
-  test_support::paint(map, {60, 4, 0}, {119, 11, 15}, VoxelLabel::Attractive);
+  VoxelMap map = support::free_map({300, 24, 16});
+  support::paint(map, {60, 4, 0}, {119, 11, 15}, VoxelLabel::Attractive);
   start(map);
   const UTime began = runner_.now();
   runner_.run(began + Duration{4'500'000});
@@ -91,7 +91,7 @@ TEST_F(MapperNodeTest, ALateJoinerGetsASmallMapWithinTwoSeconds) {
 }
 
 TEST_F(MapperNodeTest, RefusesAMapOfTooManyChunks) {
-  VoxelMap map = test_support::free_map({400, 300, 300});
+  VoxelMap map = support::free_map({400, 300, 300});
   for (std::size_t i = 0; i < map.labels.size(); i += 2) map.labels[i] = VoxelLabel::Occupied;
   map.version = map.compute_version();
   VirtualRunner runner;

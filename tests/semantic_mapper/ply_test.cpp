@@ -8,9 +8,9 @@
 namespace tern {
 namespace {
 
-using test_support::FileBytes;
-using test_support::ply_file;
-using test_support::PlyKind;
+using support::FileBytes;
+using support::ply_file;
+using support::PlyKind;
 using testing::HasSubstr;
 
 const PointCloud kPoints{{Vec3(1.25, -2.5, 3.75), 2}, {Vec3(100.01, 1e-5, -3.5), 255}, {Vec3(0, 0, 0), 0}};

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace tern::test_support {
+namespace tern::support {
 
 FileBytes las_file(const PointCloud& points, const LasSpec& spec) {
   constexpr int kLengths[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
@@ -62,4 +62,4 @@ FileBytes ply_file(const PointCloud& points, PlyKind kind, const std::string& cl
   return bytes;
 }
 
-}  // namespace tern::test_support
+}  // namespace tern::support

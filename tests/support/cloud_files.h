@@ -8,7 +8,7 @@
 
 #include "semantic_mapper/sources/point_cloud.h"
 
-namespace tern::test_support {
+namespace tern::support {
 
 using FileBytes = std::vector<std::uint8_t>;
 
@@ -35,4 +35,4 @@ void put(FileBytes& bytes, std::size_t at, T value, std::endian order = std::end
   for (std::size_t i = 0; i < sizeof(T); ++i) bytes[at + i] = raw[order == std::endian::native ? i : sizeof(T) - 1 - i];
 }
 
-}  // namespace tern::test_support
+}  // namespace tern::support

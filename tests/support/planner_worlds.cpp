@@ -267,7 +267,7 @@ PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const Horizo
 
 PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const HorizonRequest& request,
                        const PlannerConfig& config) {
-  return world_of(std::move(tracks), goal, request, config, test_support::free_map({1, 1, 1}));
+  return world_of(std::move(tracks), goal, request, config, support::free_map({1, 1, 1}));
 }
 
 Goal go_to(const Vec3& p) {

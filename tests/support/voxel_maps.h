@@ -4,7 +4,7 @@
 #include "core/base/random.h"
 #include "core/world/voxel_map.h"
 
-namespace tern::test_support {
+namespace tern::support {
 
 /// All free.
 inline VoxelMap free_map(const Eigen::Vector3i& size, double resolution = 0.25, const Vec3& origin = Vec3::Zero()) {
@@ -35,4 +35,4 @@ inline void sprinkle(VoxelMap& map, Rng& rng, double probability, VoxelLabel lab
   map.version = map.compute_version();
 }
 
-}  // namespace tern::test_support
+}  // namespace tern::support

@@ -184,8 +184,8 @@ RC_GTEST_PROP(AuditClearance, LiesWithinItsBoundsWhateverMovesBetweenTheSamples,
 
 /// A map with some occupied voxels about the flight.
 VoxelMap random_walls(Rng& rng) {
-  VoxelMap map = test_support::free_map({20, 20, 20}, 0.4, Vec3(-4, -4, -4));
-  test_support::sprinkle(map, rng, 0.003, VoxelLabel::Occupied);
+  VoxelMap map = support::free_map({20, 20, 20}, 0.4, Vec3(-4, -4, -4));
+  support::sprinkle(map, rng, 0.003, VoxelLabel::Occupied);
   map.labels.front() = VoxelLabel::Occupied;
   map.version = map.compute_version();
   return map;
@@ -262,10 +262,10 @@ TEST(AuditMap, ACollisionWithItDoesNotContradictTheClearanceOfObstacles) {
   const std::string path = folder.file("flight.lcm");
   { Recording recording(c, rng, path); }
   FlightRecord record = read_flight(path).value();
-  VoxelMap map = test_support::free_map({20, 20, 20}, 0.4, Vec3(-4, -4, -4));
+  VoxelMap map = support::free_map({20, 20, 20}, 0.4, Vec3(-4, -4, -4));
   const Vec3 at = record.states[record.states.size() / 2].motion.p;
   const Eigen::Vector3i cell = map.grid.cell_of(at).cwiseMax(0).cwiseMin(19);
-  test_support::paint(map, cell, cell, VoxelLabel::Occupied);
+  support::paint(map, cell, cell, VoxelLabel::Occupied);
   record.maps[map.version] = map;
   FlightResult result;
   result.outcome = FlightOutcome::Collision;

@@ -198,7 +198,7 @@ TEST(Report, HasThePercentilesOfTheMonitorsSummary) {
   for (const PlanTiming& t : record.timings) watch.hear(t);
   const ReplanTimes times = watch.summary({}).replan_ms;
   const std::pair<const char*, Percentiles> rows[] = {{"whole answer", times.total},
-                                                      {"hulls", times.hulls},
+                                                      {"broad phase", times.hulls},
                                                       {"search", times.search},
                                                       {"optimization", times.optimization},
                                                       {"check", times.check}};

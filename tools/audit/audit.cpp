@@ -128,12 +128,12 @@ nlohmann::json by_age_json(const ByAge& by_age) {
 
 const char* to_string(Verdict verdict) {
   constexpr std::array kNames{"held", "broken", "not checked"};
-  return kNames[static_cast<std::size_t>(verdict)];
+  return kNames[idx(verdict)];
 }
 
 const char* to_string(Collision collision) {
   constexpr std::array kNames{"none", "agrees", "cannot tell", "contradicts"};
-  return kNames[static_cast<std::size_t>(collision)];
+  return kNames[idx(collision)];
 }
 
 Verdict Audit::verdict() const {

@@ -40,7 +40,7 @@ Eigen::VectorXd affine_weights(const std::vector<Atom>& atoms) {
   system(0, 0) = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
-      system(i + 1, j + 1) = atoms[static_cast<std::size_t>(i)].at.dot(atoms[static_cast<std::size_t>(j)].at);
+      system(i + 1, j + 1) = atoms[idx(i)].at.dot(atoms[idx(j)].at);
     }
   }
   return system.fullPivLu().solve(Eigen::VectorXd::Unit(n + 1, 0)).tail(n);

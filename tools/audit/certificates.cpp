@@ -66,7 +66,7 @@ class CaseCheck {
   struct Span {
     double a, b;
   };
-  [[nodiscard]] const Curve& curve(const Part& p) const { return case_.curves[static_cast<std::size_t>(p.interval)]; }
+  [[nodiscard]] const Curve& curve(const Part& p) const { return case_.curves[idx(p.interval)]; }
   [[nodiscard]] Span span(const Part& p) const {
     const double step = curve(p).length_s() / p.parts;
     return {p.part * step, p.part + 1 == p.parts ? curve(p).length_s() : (p.part + 1) * step};
@@ -80,7 +80,7 @@ class CaseCheck {
   void on_its_side(const CertificatePlane& c) {
     ++check_.checked;
     const Part part{c.interval, c.part, c.parts};
-    if (static_cast<std::size_t>(c.interval) >= case_.curves.size()) {
+    if (idx(c.interval) >= case_.curves.size()) {
       return fail(fmt::format("the plane of obstacle {} names {}, which is over at t_s", c.track, words(part)),
                   c.track);
     }
@@ -162,7 +162,7 @@ class CaseCheck {
   }
 
   void voxel(const Eigen::Vector3i& cell, const Part& whole) {
-    const VoxelLabel label = case_.map->labels[static_cast<std::size_t>(case_.map->grid.index(cell))];
+    const VoxelLabel label = case_.map->labels[idx(case_.map->grid.index(cell))];
     if (label != VoxelLabel::Occupied && !(unknown_is_obstacle_ && label == VoxelLabel::Unknown)) return;
     ++check_.checked;
     ++voxels_checked_;

@@ -59,7 +59,7 @@ Gap gap_within(const Encounter& e, const Vec3& p) {
   return {low, body_gap(e.body, p, e.half).high + e.error.norm()};
 }
 
-/// Lowers `best` where [a, b] holds less, by halving: the curve strays from its middle by no more than its Bernstein
+/// Lowers `best` where [a, b] holds less, by halving. The curve strays from its middle by no more than its Bernstein
 /// points do, and the distance changes by no more than the curve.
 void search(const Encounter& e, double a, double b, Closest& best, int depth = 0) {
   constexpr int kDeepest = 40;  // a nanosecond of a quarter of an hour: only numbers beyond reason come here

@@ -73,7 +73,7 @@ std::vector<Commitments> commitments(const FlightRecord& record) {
   for (const HorizonRequest& request : record.requests) {
     const std::int64_t executor = request.header.name.sender_epoch_us;
     const auto known = std::ranges::find_if(all, [&](const Commitments& c) { return c.executor == executor; });
-    const auto k = static_cast<std::size_t>(known - all.begin());
+    const auto k = idx(known - all.begin());
     if (known == all.end()) {
       all.push_back({executor, {}});
       last.push_back(nullptr);

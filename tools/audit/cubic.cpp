@@ -79,7 +79,7 @@ Enclosure enclose(const Cubic& cubic, double a, double b, double tolerance) {
 Vec3 Curve::derivative(int order, double s) const {
   Vec3 value;
   for (int k = 0; k < 3; ++k) {
-    Cubic d = axis[static_cast<std::size_t>(k)];
+    Cubic d = axis[idx(k)];
     for (int i = 0; i < order; ++i) d = d.derivative();
     value[k] = d(s);
   }
@@ -105,7 +105,7 @@ Curve resting(const Vec3& p, UTime from, UTime to) {
 Box enclose(const Curve& curve, double a, double b, double tolerance) {
   Vec3 low, high;
   for (int k = 0; k < 3; ++k) {
-    const Enclosure e = enclose(curve.axis[static_cast<std::size_t>(k)], a, b, tolerance);
+    const Enclosure e = enclose(curve.axis[idx(k)], a, b, tolerance);
     low[k] = e.low, high[k] = e.high;
   }
   return {low, high};
@@ -114,7 +114,7 @@ Box enclose(const Curve& curve, double a, double b, double tolerance) {
 Eigen::Matrix<double, 3, 4> bernstein_points(const Curve& curve, double a, double b) {
   Eigen::Matrix<double, 3, 4> points;
   for (int k = 0; k < 3; ++k) {
-    const Bernstein row = bernstein_of(curve.axis[static_cast<std::size_t>(k)], a, b);
+    const Bernstein row = bernstein_of(curve.axis[idx(k)], a, b);
     points.row(k) << row[0], row[1], row[2], row[3];
   }
   return points;
@@ -134,7 +134,7 @@ std::vector<Curve> curves_of(const TimedSpline& spline) {
     const Vec3 v = velocity.at(j, j) / dt;
     const Vec3 a = acceleration.at(j, j) / (dt * dt);
     const Vec3 b = jerk.at(j, j) / (dt * dt * dt);
-    for (int k = 0; k < 3; ++k) curve.axis[static_cast<std::size_t>(k)].c = {p[k], v[k], a[k] / 2.0, b[k] / 6.0};
+    for (int k = 0; k < 3; ++k) curve.axis[idx(k)].c = {p[k], v[k], a[k] / 2.0, b[k] / 6.0};
     curves.push_back(curve);
   }
   return curves;
@@ -146,7 +146,7 @@ std::vector<Curve> curves_of(const PiecewiseCubic& motion) {
   for (const CubicPiece& piece : motion.pieces) {
     Curve curve{from, from + piece.duration, {}};
     const PowerCubic& c = piece.coefficients;
-    for (int k = 0; k < 3; ++k) curve.axis[static_cast<std::size_t>(k)].c = {c(k, 3), c(k, 2), c(k, 1), c(k, 0)};
+    for (int k = 0; k < 3; ++k) curve.axis[idx(k)].c = {c(k, 3), c(k, 2), c(k, 1), c(k, 0)};
     curves.push_back(curve);
     from = curve.to;
   }
@@ -158,8 +158,8 @@ Curve hermite(UTime from, const Vec3& p0, const Vec3& v0, UTime to, const Vec3& 
   const double h = curve.length_s();
   for (int k = 0; k < 3; ++k) {
     const double slope = (p1[k] - p0[k]) / h;
-    curve.axis[static_cast<std::size_t>(k)].c = {p0[k], v0[k], (3.0 * slope - 2.0 * v0[k] - v1[k]) / h,
-                                                 (v0[k] + v1[k] - 2.0 * slope) / (h * h)};
+    curve.axis[idx(k)].c = {p0[k], v0[k], (3.0 * slope - 2.0 * v0[k] - v1[k]) / h,
+                            (v0[k] + v1[k] - 2.0 * slope) / (h * h)};
   }
   return curve;
 }

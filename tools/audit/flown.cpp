@@ -69,7 +69,7 @@ class Committed {
   [[nodiscard]] std::optional<std::size_t> index_at(UTime t) const {
     const auto next = std::ranges::upper_bound(list_, t, {}, [](const Commitment& c) { return c.spline.start; });
     if (next == list_.begin()) return std::nullopt;
-    return static_cast<std::size_t>(next - list_.begin()) - 1;
+    return idx(next - list_.begin()) - 1;
   }
 
   [[nodiscard]] bool is_on(const UavState& state, std::size_t k) const {
@@ -207,7 +207,7 @@ Window judged(const FlightRecord& record) {
   const UTime told = is_first ? result.header.utime : result.header.utime - kResultRepeated;
   const auto after = std::ranges::upper_bound(record.states, told, {}, &UavState::at);
   const auto before = after - record.states.begin();
-  const UTime earliest = before >= 2 ? record.states[static_cast<std::size_t>(before) - 2].at : latest - time;
+  const UTime earliest = before >= 2 ? record.states[idx(before) - 2].at : latest - time;
   const Duration unsure = std::max(Duration{}, latest - std::min(earliest, latest));
   return {latest - time - unsure, latest, unsure};
 }

@@ -34,12 +34,11 @@ struct SampledMotion {
 
 /// The vehicle from its first to its last state, without a gap.
 ///
-/// Where the states at both ends lie on the committed trajectory (positions, velocities, accelerations to
-/// kJoinTolerance), and the log's requests tell what was committed in between, that trajectory is what was flown:
-/// exactly, however long no state was recorded. Elsewhere the curve is the cubic H through both ends' positions and
-/// velocities. It rests on the vehicle's acceleration limits A (and on the greatest acceleration recorded, if that is
-/// beyond them): e = p − H vanishes with its derivative at both ends, |e″| ≤ M = A + max |H″|, so that over a span h,
-/// per axis,
+/// The log's requests may tell what was committed between two states. Where both lie on that trajectory (positions,
+/// velocities, accelerations to kJoinTolerance), it is what was flown: exactly, however long no state was recorded.
+/// Elsewhere the curve is the cubic H through both ends' positions and velocities. It rests on the vehicle's
+/// acceleration limits A, or on the greatest acceleration recorded, if that is beyond them. e = p − H vanishes with its
+/// derivative at both ends, and |e″| ≤ M = A + max |H″|. So over a span h, per axis,
 ///     |e| ≤ M h²/16,   |e′| ≤ M h/4,   ∫|e′| ≤ M h²/8,
 /// each attained by e″ = M, −M, M on the span's quarters [0, 1], [1, 3], [3, 4].
 SampledMotion flown(const FlightRecord& record);
@@ -57,8 +56,8 @@ struct Window {
   [[nodiscard]] UTime sure_to() const { return to - unsure; }
   [[nodiscard]] bool contains(UTime t) const { return t >= from && t <= to; }
 };
-/// The verdict came after the state before the last one that precedes FLIGHT_RESULT (each state is judged when it is
-/// published), no later than FLIGHT_RESULT, and no later than flight_time after the first request.
+/// Each state is judged when it is published. So the verdict came after the last state but one before FLIGHT_RESULT. It
+/// came no later than FLIGHT_RESULT, nor than flight_time after the first request.
 Window judged(const FlightRecord& record);
 
 }  // namespace tern::audit

@@ -28,7 +28,7 @@ struct Quantity {
 
 /// The largest magnitude of a derivative of one axis on a curve.
 double largest(const Curve& curve, int axis, int order, double tolerance) {
-  Cubic cubic = curve.axis[static_cast<std::size_t>(axis)];
+  Cubic cubic = curve.axis[idx(axis)];
   for (int k = 0; k < order; ++k) cubic = cubic.derivative();
   const Enclosure e = enclose(cubic, 0.0, curve.length_s(), tolerance);
   return std::max(std::abs(e.low), std::abs(e.high));

@@ -50,13 +50,12 @@ struct PlanCase {
   [[nodiscard]] Vec3 end_point() const { return plan.trajectory.control_points.rightCols<1>(); }
 };
 
-/// Per piece, the α that the plan counts, m: of what is estimated that of its level, times its scale, which grows no
-/// more from `sure_for` after t_s on; of the rest all. @pre the track's shares are complete
+/// Per piece, the α that the plan counts, m. Of what is estimated it is that of the plan's level, times its scale, and
+/// it grows no more from `sure_for` after t_s on. Of the rest it is all. @pre the track's shares are complete
 std::vector<Vec3> claimed_alpha(const Track& track, const Plan& plan, UTime t_s);
 
-/// Of that α, the part that leaves the body at p a millimetre of room from the track at t (what `relaxed`
-/// promises: the largest clear value); 1 where it is clear with all of it, 0 where there is no room without any. To
-/// 1e-6, low.
+/// Of that α, the largest part that leaves the body at p a millimetre of room from the track at t: what `relaxed`
+/// promises. It is 1 where there is room with all of it, 0 where there is none without any. To 1e-6, low.
 double relaxed_share(const Track& track, const std::vector<Vec3>& alpha, const Body& body, const Vec3& p, UTime t);
 
 /// Puts a plan together with its inputs. @return nullopt, and the reason in `why`, if the log lacks one of them.

@@ -50,9 +50,7 @@ Vec3 centre_at(const Track& track, UTime at) {
              : motion_at(curves_of(track.motion), at).p;
 }
 
-std::size_t bin_of(double age_s) {
-  return static_cast<std::size_t>(std::lower_bound(kAges.begin(), kAges.end(), age_s) - kAges.begin());
-}
+std::size_t bin_of(double age_s) { return idx(std::lower_bound(kAges.begin(), kAges.end(), age_s) - kAges.begin()); }
 
 class PredictionsCheck {
  public:
@@ -196,7 +194,7 @@ class PredictionsCheck {
   }
 
   void claim(const Plan& plan, const HorizonRequest& request, const Track& track, std::int64_t obstacle) {
-    const auto level = static_cast<std::size_t>(plan.level);
+    const auto level = idx(plan.level);
     const UTime ends = std::max(plan.trajectory.end(), request.t_s) + plan.hold;
     const UTime until = std::min({ends, request.t_s + plan.sure_for, track.motion.end()});
     if (request.t_s < track.motion.start || until > window_.sure_to()) return;

@@ -30,9 +30,9 @@ class Pairing {
   explicit Pairing(const FlightRecord& record) : record_(record) {}
 
   /// Sets in the order of their making. A track is that obstacle's whose id it has. Of the others those in view get
-  /// what is left, the nearest pairs first: by how far the track's centre is from the true box, then from its centre,
-  /// up to kSameThing. A track out of view keeps the obstacle that it had, while no other track has it: who has lost
-  /// sight of something still promises where it is. In a log without observations all tracks are in view.
+  /// what is left, the nearest pairs first, up to kSameThing. Nearness is how far the track's centre is from the true
+  /// box, then from its centre. A track out of view keeps the obstacle that it had, while no other track has it: who
+  /// has lost sight of something still promises where it is. In a log without observations all tracks are in view.
   /// @return by track; tracks that are not in it are nobody's.
   const std::map<std::int64_t, Spoken>& pair(const TrackSet& set);
 

@@ -86,7 +86,7 @@ class Watch {
       const Vec3 needed = (*centre - track.motion.sample(at).p).cwiseAbs() + truth.half_extents - track.half_extents;
       std::array<double, kLevels> half;
       for (int level = 0; level < kLevels; ++level) {
-        const auto l = static_cast<std::size_t>(level);
+        const auto l = idx(level);
         const Vec3 alpha = track.share_at(piece, level) * track.alpha[piece];
         kept[l] = kept[l] && (needed - alpha).maxCoeff() <= kTolerance;
         half[l] = alpha.mean();
@@ -115,7 +115,7 @@ class Watch {
     };
     const auto age = until(kAges, (object.last_seen - object.born).seconds());
     const auto learning = until(kLearning, (track.motion.start - recording_.observations.front().set.at).seconds());
-    const auto kind = static_cast<std::size_t>(tracker_.verdict(object).kind);
+    const auto kind = idx(tracker_.verdict(object).kind);
     return {"all moving", std::string("class ") + kClassNames[kind], age == kAges.end() ? "age above 2 s" : age->second,
             learning->second};
   }
@@ -129,7 +129,7 @@ class Watch {
 }  // namespace
 
 Covered covered(const CoverageCell& cell, int level) {
-  const auto l = static_cast<std::size_t>(level);
+  const auto l = idx(level);
   Covered result;
   result.tracks = static_cast<int>(cell.tracks.size());
   double kept = 0.0, half = 0.0;

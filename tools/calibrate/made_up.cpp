@@ -119,7 +119,7 @@ Recording made_up(const MadeUpSource& source, std::uint64_t seed) {
     received.set.at = UTime{} + Duration::from_seconds(1.0 + frame / kRate);
     received.at = received.set.at + Duration::from_seconds(kLatency);
     for (int slot = 0; slot < kAtOnce; ++slot) {
-      Present& one = present[static_cast<std::size_t>(slot)];
+      Present& one = present[idx(slot)];
       if (frame / kRate > one.until_s) one = arrive(slot, frame / kRate);
       TruePath& truth = recording.truth[one.id];
       truth.half_extents = Vec3::Constant(0.3);

@@ -43,7 +43,7 @@ struct Band {
 
 // How long tracks of a class have been seen: New, Young, grown, old.
 std::size_t age_of(TrackClass kind) {
-  const auto k = static_cast<std::size_t>(kind);
+  const auto k = idx(kind);
   return k < 2 ? k : 2 + k % 2;
 }
 

@@ -69,7 +69,7 @@ struct Triangles {
     const std::size_t first = points.size();
     for (Eigen::Index k = 0; k < corners.cols(); ++k) points.push_back(vector_of(corners.col(k)));
     for (const auto& face : faces) {
-      for (const int corner : face) indices.push_back(first + static_cast<std::size_t>(corner));
+      for (const int corner : face) indices.push_back(first + idx(corner));
     }
   }
   [[nodiscard]] Json scene(const std::string& id, const Json& its_color, std::int64_t received_us) const {
@@ -108,7 +108,7 @@ Json cubes_of(const Json& obstacles) {
 Json line_along(const Json& control_points, double interval_s, const Json& its_color) {
   Points points(3, static_cast<Eigen::Index>(control_points.size()));
   for (Eigen::Index k = 0; k < points.cols(); ++k) {
-    const Json& p = control_points[static_cast<std::size_t>(k)];
+    const Json& p = control_points[idx(k)];
     points.col(k) << p["x"].get<double>(), p["y"].get<double>(), p["z"].get<double>();
   }
   const ClampedSpline spline(points, interval_s);

@@ -39,10 +39,10 @@ class Comparison {
   std::vector<PartDifference> run() {
     compare_cuts();
     compare_standing();
-    note_numbers(Stage::Hulls, "relaxed", static_cast<int>(a_.relaxed), static_cast<int>(b_.relaxed));
-    note_numbers(Stage::Hulls, "level", a_.level, b_.level);
-    note_numbers(Stage::Hulls, "share of alpha", a_.alpha_scale, b_.alpha_scale);
-    note_numbers(Stage::Hulls, "sure for, µs", a_.sure_for.us, b_.sure_for.us);
+    note_numbers(Stage::BroadPhase, "relaxed", static_cast<int>(a_.relaxed), static_cast<int>(b_.relaxed));
+    note_numbers(Stage::BroadPhase, "level", a_.level, b_.level);
+    note_numbers(Stage::BroadPhase, "share of alpha", a_.alpha_scale, b_.alpha_scale);
+    note_numbers(Stage::BroadPhase, "sure for, µs", a_.sure_for.us, b_.sure_for.us);
     if (a_.local_goal != b_.local_goal) {
       add(Stage::LocalGoal, fmt::format("local goal: {}, now {}", text(a_.local_goal), text(b_.local_goal)));
     }
@@ -85,7 +85,7 @@ class Comparison {
 
   void compare_work() {
     if (a_work_ == nullptr || b_work_ == nullptr) return;
-    note_numbers(Stage::Hulls, "hulls made", a_work_->hulls, b_work_->hulls);
+    note_numbers(Stage::BroadPhase, "hulls made", a_work_->hulls, b_work_->hulls);
     note_numbers(Stage::Search, "nodes expanded", a_work_->expansions, b_work_->expansions);
     note_numbers(Stage::Optimization, "solver iterations", a_work_->solver_iterations, b_work_->solver_iterations);
   }

@@ -187,7 +187,7 @@ std::string replay_json(const Replay& replay, bool what_if) {
     if (!p.missing.empty()) {
       line["missing"] = p.missing;
     } else {
-      line["agreement"] = kAgreements[static_cast<std::size_t>(p.difference.agreement)];
+      line["agreement"] = kAgreements[idx(p.difference.agreement)];
       line["recorded"] = to_string(recorded.plan.outcome);
       line["replayed"] = to_string(p.outcome);
       line["position_m"] = p.difference.position_m;

@@ -34,7 +34,7 @@ VoxelLabel seen_from_above(const VoxelMap& map, int x, int y, const Layers& laye
                                              : 0;
   };
   for (int z = layers.low; z <= layers.high; ++z) {
-    const VoxelLabel label = map.labels[static_cast<std::size_t>(map.grid.index({x, y, z}))];
+    const VoxelLabel label = map.labels[idx(map.grid.index({x, y, z}))];
     if (rank(label) > rank(best)) best = label;
   }
   return best;

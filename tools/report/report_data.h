@@ -8,9 +8,9 @@
 
 namespace tern::report {
 
-/// At most so many points along the flight. Beyond that, successive states share a point: it is where the first of them
-/// is, with the greatest speed and acceleration, the least clearance and the last exposure of them, so that no extreme
-/// is hidden.
+/// At most so many points along the flight. Beyond that, successive states share a point, which is where the first of
+/// them is. It has their greatest speed and acceleration, least clearance and last exposure, so that no extreme is
+/// hidden.
 inline constexpr std::size_t kMostPathPoints = 6'000;
 /// At most so many points of all moving obstacles together, each obstacle's samples evenly thinned.
 inline constexpr std::size_t kMostMoverPoints = 60'000;

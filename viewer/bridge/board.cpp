@@ -4,19 +4,21 @@
 
 #include <utility>
 
+#include "core/base/types.h"
+
 namespace tern {
 
 const char* to_string(Topic topic) {
   constexpr std::array<const char*, kTopics> kNames = {
       "session", "player", "state", "truth",  "tracks", "request", "plan",   "timing", "hulls", "search",
       "map",     "health", "goal",  "result", "chart",  "path",    "fields", "events", "ghost"};
-  return kNames.at(static_cast<std::size_t>(topic));
+  return kNames.at(idx(topic));
 }
 
 void Board::post(Topic topic, std::string json) {
   auto text = std::make_shared<const std::string>(std::move(json));
   const std::lock_guard lock(mutex_);
-  Entry& entry = entries_[static_cast<std::size_t>(topic)];
+  Entry& entry = entries_[idx(topic)];
   ++entry.version;
   entry.json = std::move(text);
 }

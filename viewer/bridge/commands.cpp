@@ -129,7 +129,7 @@ GoalCommand goal(const json& value) {
   check(value.contains("position") && value["position"].is_array() && value["position"].size() == 3,
         "a goal needs a position of three numbers");
   for (int axis = 0; axis < 3; ++axis) {
-    command.position[axis] = number(value["position"][static_cast<std::size_t>(axis)], -kMaxCoordinate, kMaxCoordinate);
+    command.position[axis] = number(value["position"][idx(axis)], -kMaxCoordinate, kMaxCoordinate);
   }
   return command;
 }

@@ -10,6 +10,10 @@
 namespace tern {
 namespace {
 
+// tern-export writes all fields of a message, by lcmtypes/. This is what one reads of one thing that was picked: some
+// fields of the newest messages, with what follows from them (speeds, names of stages). Of an obstacle it is all that
+// is known.
+
 std::string to_text(const MessageName& name) {
   return name.sequence == 0 ? "none" : fmt::format("{} #{}", name.sender_epoch_us, name.sequence);
 }

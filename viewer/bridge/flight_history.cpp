@@ -128,9 +128,8 @@ void FlightHistory::write_series(JsonWriter& json, UTime zero, UTime until, cons
   for (const auto& [key, table] : tables_) {
     const auto found = std::find(table.names.begin(), table.names.end(), name);
     if (found == table.names.end()) continue;
-    const auto column = static_cast<std::size_t>(found - table.names.begin());
-    const auto count =
-        static_cast<std::size_t>(std::upper_bound(table.at.begin(), table.at.end(), until) - table.at.begin());
+    const auto column = idx(found - table.names.begin());
+    const auto count = idx(std::upper_bound(table.at.begin(), table.at.end(), until) - table.at.begin());
     const auto rows = extremes(table.values, table.names.size(), column, count, most);
     json.key(name).begin_list().begin_list();
     for (const std::size_t row : rows) json.number((table.at[row] - zero).seconds());
@@ -157,7 +156,7 @@ std::string FlightHistory::chart_json(UTime zero, UTime until, const std::vector
 }
 
 void FlightHistory::write_path(JsonWriter& json, UTime zero, UTime until, std::size_t most) const {
-  const auto count = static_cast<std::size_t>(first_after(motion_, until) - motion_.begin());
+  const auto count = idx(first_after(motion_, until) - motion_.begin());
   const std::size_t stride = std::max<std::size_t>(1, (count + most - 1) / std::max<std::size_t>(most, 1));
   json.key("t").begin_list();
   for (std::size_t k = 0; k < count; k += stride) json.number((motion_[k].at - zero).seconds());

@@ -15,7 +15,7 @@ Points sweep(const Track& track, UTime from, UTime to) {
   add_sweep(boxes, track, {}, Vec3::Zero(), from, 0.0, (to - from).seconds());
   Points corners(3, 8 * static_cast<Eigen::Index>(boxes.size()));
   for (Eigen::Index k = 0; k < corners.cols() / 8; ++k) {
-    const CentredBox& box = boxes[static_cast<std::size_t>(k)];
+    const CentredBox& box = boxes[idx(k)];
     corners.middleCols<8>(8 * k) = box_corners(box_around(box.centre, box.half));
   }
   return hull_vertices(corners);

@@ -122,18 +122,18 @@ void Scene::hear(const ConfigurationReport& message) {
 
 void Scene::hear(const VoxelMap& map) {
   SeenMap seen{voxel_surface(map), map.grid, map.version, map.class_names, {}};
-  for (const VoxelLabel label : map.labels) ++seen.voxels[static_cast<std::size_t>(label)];
+  for (const VoxelLabel label : map.labels) ++seen.voxels[idx(label)];
   map_ = std::move(seen);
   mark(Topic::Map);
 }
 
 void Scene::clear() {
-  const bool map_changed = changed_.test(static_cast<std::size_t>(Topic::Map));
+  const bool map_changed = changed_.test(idx(Topic::Map));
   auto map = std::move(map_);
   *this = Scene(memory_);
   map_ = std::move(map);
   changed_.set();
-  changed_.set(static_cast<std::size_t>(Topic::Map), map_changed);
+  changed_.set(idx(Topic::Map), map_changed);
 }
 
 std::optional<double> Scene::clearance() const {
@@ -173,7 +173,7 @@ double Scene::taken_ms() const {
 }
 
 bool Scene::take_change(Topic topic) {
-  const auto k = static_cast<std::size_t>(topic);
+  const auto k = idx(topic);
   const bool changed = changed_.test(k);
   changed_.reset(k);
   return changed;

@@ -105,7 +105,7 @@ class Scene {
 
   /// True once per change.
   bool take_change(Topic topic);
-  void mark(Topic topic) { changed_.set(static_cast<std::size_t>(topic)); }
+  void mark(Topic topic) { changed_.set(idx(topic)); }
 
  private:
   void remember_state();

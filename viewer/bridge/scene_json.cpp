@@ -166,7 +166,7 @@ std::string search_json(const Scene& scene) {
   json.begin_object().key("nodes").integer(static_cast<std::int64_t>(nodes.size()));
   json.key("left_out").integer(scene.search()->left_out).key("edges").begin_list();
   for (const SearchViewNode& node : nodes) {
-    if (node.parent >= 0) json.point(nodes[static_cast<std::size_t>(node.parent)].position).point(node.position);
+    if (node.parent >= 0) json.point(nodes[idx(node.parent)].position).point(node.position);
   }
   return json.end_list().end_object().take();
 }

@@ -28,7 +28,7 @@ struct Labels {
   std::vector<VoxelLabel> labels;
 
   [[nodiscard]] VoxelLabel at(const Eigen::Vector3i& v) const {
-    return grid.contains(v) ? labels[static_cast<std::size_t>(grid.index(v))] : VoxelLabel::Unknown;
+    return grid.contains(v) ? labels[idx(grid.index(v))] : VoxelLabel::Unknown;
   }
 };
 
@@ -45,8 +45,7 @@ Labels coarsened(const VoxelMap& map, int factor) {
   for (int z = 0; z < map.grid.size.z(); ++z) {
     for (int y = 0; y < map.grid.size.y(); ++y) {
       for (int x = 0; x < map.grid.size.x(); ++x, ++k) {
-        VoxelLabel& label =
-            coarse.labels[static_cast<std::size_t>(coarse.grid.index({x / factor, y / factor, z / factor}))];
+        VoxelLabel& label = coarse.labels[idx(coarse.grid.index({x / factor, y / factor, z / factor}))];
         if (gravity(map.labels[k]) > gravity(label)) label = map.labels[k];
       }
     }
@@ -59,7 +58,7 @@ struct Layer {
   int axis, direction, depth, width, height;
   std::vector<VoxelLabel> mask;  ///< Unknown: no face
 
-  [[nodiscard]] VoxelLabel& at(int u, int v) { return mask[static_cast<std::size_t>(v * width + u)]; }
+  [[nodiscard]] VoxelLabel& at(int u, int v) { return mask[idx(v * width + u)]; }
   [[nodiscard]] Eigen::Vector3i cell(int u, int v) const {
     Eigen::Vector3i c;
     c[axis] = depth;
@@ -131,7 +130,7 @@ VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels) {
 double distance_to_occupied(const VoxelSurface& surface, const Vec3& p) {
   const VoxelGrid& grid = surface.grid;
   const Eigen::Vector3i cell = grid.cell_of(p);
-  if (grid.contains(cell) && surface.occupied[static_cast<std::size_t>(grid.index(cell))]) return 0.0;
+  if (grid.contains(cell) && surface.occupied[idx(grid.index(cell))]) return 0.0;
   double nearest = std::numeric_limits<double>::infinity();
   for (const VoxelFace& face : surface.faces) {
     if (face.label != VoxelLabel::Occupied) continue;

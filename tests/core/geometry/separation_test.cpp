@@ -121,7 +121,6 @@ TEST(SeparationLp, AgreesWithExactArithmetic) {
       EXPECT_TRUE(exactly_separates(*plane, pair.a, pair.b, 0.0));
     }
   });
-  free_lp_environment();
 }
 
 TEST(Distance, IsTheExactOneAndWithinItsBounds) {
@@ -178,7 +177,6 @@ TEST(Separation, AsksTheLinearProgrammeWhereRoundingHidesTheGap) {
   EXPECT_FALSE(separate(a, b, 0.0));
   EXPECT_EQ(separation_counts().fast, before.fast);
   EXPECT_EQ(separation_counts().lp, before.lp + 1);
-  free_lp_environment();
 }
 
 TEST(Separation, RefusesWhatIsNoPointSet) {

@@ -59,15 +59,15 @@ TEST(SweptBoxes, SaysWhatExactArithmeticSaysOfTheCorners) {
     const Points vertices = rng.uniform() < 0.3 ? Points(Points::Random(3, 5) * 0.2) : kNoVertices;
     const double clearance = rng.uniform() < 0.5 ? 0.0 : rng.uniform(0.0, 1.0);
     Vec3 direction = rng.uniform() < 0.5 ? Vec3(random_vector(rng, 2.0)) : Vec3(boxes[0].centre - pair.b.col(0));
-    const Apart apart = is_apart(boxes, pair.b, vertices, clearance, direction);
+    const IsSeparated apart = is_separated(boxes, pair.b, vertices, clearance, direction);
     const ExactSeparation truth = exact_separation(corners_of(boxes), sums(pair.b, vertices));
     const double distance = truth.disjoint ? truth.distance : 0.0;
     // Corners and sums are rounded here, at up to 1e4 m.
     constexpr double kRounding = 1e-11;
     const double beyond = distance - clearance - kTouchingTolerance;
-    ASSERT_TRUE(apart != Apart::Yes || beyond > -kRounding) << "pair " << k << ", distance " << distance;
-    ASSERT_TRUE(apart != Apart::No || beyond < kRounding) << "pair " << k << ", distance " << distance;
-    ++(apart == Apart::Yes ? yes : apart == Apart::No ? no : doubt);
+    ASSERT_TRUE(apart != IsSeparated::Yes || beyond > -kRounding) << "pair " << k << ", distance " << distance;
+    ASSERT_TRUE(apart != IsSeparated::No || beyond < kRounding) << "pair " << k << ", distance " << distance;
+    ++(apart == IsSeparated::Yes ? yes : apart == IsSeparated::No ? no : doubt);
   }
   EXPECT_GT(yes, 500);
   EXPECT_GT(no, 500);
@@ -82,12 +82,12 @@ TEST(SweptBoxes, TheDirectionThatProvedItProvesItAgainAndOthersChangeNothing) {
     const std::vector<CentredBox> boxes = boxes_at(pair.a, rng);
     Vec3 first = random_vector(rng, 1.0);
     Vec3 second = random_vector(rng, 1.0);
-    const Apart apart = is_apart(boxes, pair.b, kNoVertices, 0.1, first);
-    ASSERT_EQ(is_apart(boxes, pair.b, kNoVertices, 0.1, second), apart);
-    if (apart != Apart::Yes) continue;
+    const IsSeparated apart = is_separated(boxes, pair.b, kNoVertices, 0.1, first);
+    ASSERT_EQ(is_separated(boxes, pair.b, kNoVertices, 0.1, second), apart);
+    if (apart != IsSeparated::Yes) continue;
     ++proven;
     const Vec3 before = first;
-    ASSERT_EQ(is_apart(boxes, pair.b, kNoVertices, 0.1, first), Apart::Yes);
+    ASSERT_EQ(is_separated(boxes, pair.b, kNoVertices, 0.1, first), IsSeparated::Yes);
     ASSERT_EQ(first, before);
     const double lowest = (first.transpose() * corners_of(boxes)).minCoeff();
     const double highest = (first.transpose() * pair.b).maxCoeff();

@@ -7,9 +7,9 @@
 namespace tern {
 namespace {
 
-using test_support::free_map;
-using test_support::paint;
-using test_support::sprinkle;
+using support::free_map;
+using support::paint;
+using support::sprinkle;
 
 /// How many boxes hold each voxel's centre.
 std::vector<int> count_covers(const VoxelMap& map, const std::vector<Box>& boxes) {

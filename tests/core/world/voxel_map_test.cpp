@@ -9,7 +9,7 @@
 namespace tern {
 namespace {
 
-using test_support::free_map;
+using support::free_map;
 
 VoxelMap random_map(std::uint64_t seed, const Eigen::Vector3i& size, double density) {
   Rng rng(seed);

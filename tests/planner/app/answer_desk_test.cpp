@@ -10,7 +10,7 @@
 namespace tern {
 namespace {
 
-using namespace test_support;
+using namespace support;
 
 constexpr UTime kNow{50'000'000};
 

@@ -10,7 +10,7 @@
 #include "runtime/bus.h"
 #include "runtime/lcm_network.h"
 
-namespace tern::test_support {
+namespace tern::support {
 
 /// Time that moves only when told to, also while a worker reads it.
 class SharedClock final : public Clock {
@@ -50,4 +50,4 @@ class Answers {
   Bus bus_;
 };
 
-}  // namespace tern::test_support
+}  // namespace tern::support

@@ -14,7 +14,7 @@
 namespace tern {
 namespace {
 
-using namespace test_support;
+using namespace support;
 
 constexpr UTime kStart{50'000'000};
 /// Goals on opposite sides of home, so that a plan shows which of them it is for.
@@ -55,7 +55,7 @@ class PlannerNodeTest : public ::testing::Test {
   MessageName tell_hold(std::int64_t id) { return tell_goal(id, Vec3::Zero(), GoalMode::Hold); }
   void tell_world(std::vector<Track> tracks = {}) {
     tell_predictions(std::move(tracks));
-    tell_map(test_support::free_map({8, 8, 8}));
+    tell_map(support::free_map({8, 8, 8}));
     tell_goal(1, kEast);
   }
   /// Until the map's fields and the goal's distances are ready.
@@ -309,7 +309,7 @@ TEST_F(PlannerNodeTest, AHoldCountsAtTheNextRequestThoughAMapIsBeingMade) {
   start({true, Duration{}});
   tell_world();
   prepare();
-  tell_map(test_support::free_map({100, 100, 40}));
+  tell_map(support::free_map({100, 100, 40}));
   tell_predictions();
   node_->step(clock_.now());
   const MessageName hold = tell_hold(2);
@@ -328,7 +328,7 @@ TEST_F(PlannerNodeTest, AWayThatIsBeingMadeWhenAHoldComesDoesNotUndoIt) {
   tell_goal(2, kWest);
   node_->step(clock_.now());  // the way west is being made
   const MessageName hold = tell_hold(3);
-  const VoxelMap next = test_support::free_map({9, 8, 8});
+  const VoxelMap next = support::free_map({9, 8, 8});
   tell_map(next);
   // The map is made after the way was: one after the other.
   std::int64_t id = 0;

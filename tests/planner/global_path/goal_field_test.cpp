@@ -138,7 +138,7 @@ TEST(GoalField, AWindowOfSixtyCentimetresStaysOpenInAMapOfQuarterMetres) {
   for (int i = 0; i < 10; ++i) {
     SCOPED_TRACE(i);
     // The wall's boxes as a mapper voxelizes them: every voxel that they touch is occupied.
-    VoxelMap map = test_support::free_map({48, 32, 16}, 0.25, Vec3(-1, -4, 0));
+    VoxelMap map = support::free_map({48, 32, 16}, 0.25, Vec3(-1, -4, 0));
     const std::vector<Box> wall = wall_with_window(0.025 * i, 2.0 + 0.0125 * i, 0.6);
     for (std::size_t v = 0; v < map.labels.size(); ++v) {
       const Box voxel = grown(map.grid.box(map.grid.cell(static_cast<std::int64_t>(v))), Vec3::Constant(-1e-9));

@@ -12,7 +12,7 @@
 namespace tern {
 namespace {
 
-using namespace test_support;
+using namespace support;
 
 Eigen::VectorXd random_step(Rng& rng, Eigen::Index n, double size) {
   Eigen::VectorXd d(n);

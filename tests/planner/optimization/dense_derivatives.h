@@ -6,7 +6,7 @@
 
 #include "planner/optimization/nonlinear_problem.h"
 
-namespace tern::test_support {
+namespace tern::support {
 
 struct DenseDerivatives {
   Eigen::MatrixXd jacobian;
@@ -31,4 +31,4 @@ inline DenseDerivatives dense_derivatives(const NonlinearProblem& problem, const
   return d;
 }
 
-}  // namespace tern::test_support
+}  // namespace tern::support

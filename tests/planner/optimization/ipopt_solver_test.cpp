@@ -11,7 +11,7 @@
 namespace tern {
 namespace {
 
-using namespace test_support;
+using namespace support;
 
 bool never() { return false; }
 

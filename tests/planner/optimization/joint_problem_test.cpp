@@ -12,7 +12,7 @@
 namespace tern {
 namespace {
 
-using namespace test_support;
+using namespace support;
 
 constexpr int kEnough = 100;  // iterations
 

@@ -7,7 +7,7 @@
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"
 
-namespace tern::test_support {
+namespace tern::support {
 
 struct Instance {
   TrajectoryProblem problem;
@@ -79,4 +79,4 @@ inline Instance random_instance(std::uint64_t seed) {
   }
 }
 
-}  // namespace tern::test_support
+}  // namespace tern::support

@@ -139,7 +139,7 @@ TEST(IsClear, SaysWhatSeparateIntervalSays) {
       const bool ok = is_separated(planes, j, spline.power(j));
       // A second time: what the first has left in memory changes nothing.
       for (int k = 0; k < 2; ++k) {
-        ASSERT_EQ(is_clear(asked, j, spline.power(j), spline.minvo(j), counts), ok) << "seed " << seed << ", " << j;
+        ASSERT_EQ(is_separated(asked, j, spline.power(j), spline.minvo(j), counts), ok) << "seed " << seed << ", " << j;
       }
       ++(ok ? clear : blocked);
     }

@@ -39,7 +39,8 @@ struct Scene {
   [[nodiscard]] SearchResult search(const SearchConfig& config = {}) const {
     SweptObstacles swept = sweep();
     Budget budget = Budget::unlimited();
-    return semantic_a_star(problem, config, swept, budget);
+    SearchMemory memory;
+    return semantic_a_star(problem, config, swept, budget, memory);
   }
   [[nodiscard]] CheckReport check(const SearchResult& result) const {
     SweptObstacles swept = sweep();
@@ -159,11 +160,12 @@ TEST(SemanticAStar, ABudgetCutReplaysToTheSameBits) {
     for (const std::int64_t n : {0, 3, 17, 90}) {
       Budget live([n](const BudgetCut& here) { return here.stage == Stage::Search && here.count >= n; });
       SweptObstacles swept = s.sweep();
-      const SearchResult first = semantic_a_star(s.problem, SearchConfig{}, swept, live);
+      SearchMemory memory;
+      const SearchResult first = semantic_a_star(s.problem, SearchConfig{}, swept, live, memory);
       ASSERT_LE(live.cuts().size(), 1u);
       Budget replay = Budget::replay(live.cuts());
       SweptObstacles again = s.sweep();
-      const SearchResult second = semantic_a_star(s.problem, SearchConfig{}, again, replay);
+      const SearchResult second = semantic_a_star(s.problem, SearchConfig{}, again, replay, memory);
       ASSERT_EQ(first.found, second.found);
       ASSERT_EQ(first.control_points, second.control_points) << "seed " << seed << ", cut at " << n;
       ASSERT_EQ(first.expansions, second.expansions);

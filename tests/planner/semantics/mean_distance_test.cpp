@@ -24,13 +24,13 @@ double eq3(const VoxelMap& map, VoxelLabel label, const Vec3& p) {
 /// A few painted blocks and some single voxels.
 VoxelMap random_regions(std::uint64_t seed) {
   Rng rng(seed);
-  VoxelMap map = test_support::free_map({60, 30, 16}, 0.25, Vec3(3, -4, 0));
+  VoxelMap map = support::free_map({60, 30, 16}, 0.25, Vec3(3, -4, 0));
   const auto draw = [&](int n) { return static_cast<int>(rng.uniform(0, n)); };
   for (int block = draw(4); block >= 0; --block) {
     const Eigen::Vector3i low(draw(50), draw(24), draw(12));
-    test_support::paint(map, low, low + Eigen::Vector3i(draw(9), draw(5), draw(3)), VoxelLabel::Attractive);
+    support::paint(map, low, low + Eigen::Vector3i(draw(9), draw(5), draw(3)), VoxelLabel::Attractive);
   }
-  if (draw(2) == 0) test_support::sprinkle(map, rng, 0.001, VoxelLabel::Attractive);
+  if (draw(2) == 0) support::sprinkle(map, rng, 0.001, VoxelLabel::Attractive);
   return map;
 }
 
@@ -55,9 +55,9 @@ TEST(VoxelTree, MeanDistanceIsEquationThreeWithinItsBound) {
 }
 
 TEST(VoxelTree, CountsTheVoxelsOfItsLabel) {
-  VoxelMap map = test_support::free_map({10, 10, 10});
+  VoxelMap map = support::free_map({10, 10, 10});
   EXPECT_EQ(VoxelTree(map, VoxelLabel::Repulsive).voxels(), 0);
-  test_support::paint(map, {1, 2, 3}, {4, 4, 4}, VoxelLabel::Repulsive);
+  support::paint(map, {1, 2, 3}, {4, 4, 4}, VoxelLabel::Repulsive);
   EXPECT_EQ(VoxelTree(map, VoxelLabel::Repulsive).voxels(), 4 * 3 * 2);
   EXPECT_EQ(VoxelTree(map, VoxelLabel::Attractive).voxels(), 0);
 }
@@ -80,18 +80,18 @@ TEST(MeanDistanceField, IsEquationThreeWithinItsBoundAndNearlyNeverBelow) {
 }
 
 TEST(MeanDistanceField, StatesFewCentimetresForALargeRegionAndLessThanASpacingForOneVoxel) {
-  VoxelMap map = test_support::free_map({140, 30, 16});
-  test_support::paint(map, {10, 0, 0}, {10, 0, 0}, VoxelLabel::Attractive);
+  VoxelMap map = support::free_map({140, 30, 16});
+  support::paint(map, {10, 0, 0}, {10, 0, 0}, VoxelLabel::Attractive);
   const MeanDistanceField one(VoxelTree(map, VoxelLabel::Attractive), 0.25, map.grid.bounds(), {});
   EXPECT_LE(one.error(), 0.46);
-  test_support::paint(map, {10, 0, 0}, {129, 15, 15}, VoxelLabel::Attractive);
+  support::paint(map, {10, 0, 0}, {129, 15, 15}, VoxelLabel::Attractive);
   const MeanDistanceField large(VoxelTree(map, VoxelLabel::Attractive), 0.25, map.grid.bounds(), {});
   EXPECT_LE(large.error(), 0.08);
 }
 
 TEST(MeanDistanceField, SpreadsItsNodesWhereTheDomainIsLarge) {
-  VoxelMap map = test_support::free_map({10, 10, 10});
-  test_support::paint(map, {1, 2, 3}, {4, 4, 4}, VoxelLabel::Attractive);
+  VoxelMap map = support::free_map({10, 10, 10});
+  support::paint(map, {1, 2, 3}, {4, 4, 4}, VoxelLabel::Attractive);
   MeanDistanceOptions options;
   options.max_nodes = 1000;
   const Box domain(Vec3(-50, -50, 0), Vec3(50, 50, 20));

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <string>
 
 #include "core/geometry/convex_hull.h"
 #include "core/world/box_cover.h"
@@ -21,6 +23,7 @@
 #include "tools/export/hull_faces.h"
 #include "tools/export/logged_messages.h"
 #include "tools/export/mcap_writer.h"
+#include "tools/export/message_types.h"
 
 namespace tern::exporting {
 namespace {
@@ -138,6 +141,14 @@ RC_GTEST_PROP(HullFaces, AreAClosedSurfaceWithEveryPointInside, ()) {
   }
   const Eigen::Matrix3Xd arms = points.colwise() - points.col(0);
   RC_ASSERT(edges.empty() == (arms.fullPivLu().rank() < 3));
+}
+
+TEST(MessageTypes, HaveNoUnitThatIsNotKnown) {
+  const std::set<std::string> known = {"",    "m",   "m/s",   "m/s^2",   "m/s^3",   "m^2",
+                                       "rad", "deg", "deg/s", "m^2/s^5", "m^2/s^6", "s"};
+  for (const auto& [name, type] : message_types()) {
+    for (const MessageField& field : type.fields) EXPECT_TRUE(known.contains(field.unit)) << name << "." << field.name;
+  }
 }
 
 TEST(McapReader, NoticesEveryChangedByteOfASmallFile) {

@@ -97,7 +97,7 @@ LogPlayer::LogPlayer(std::vector<std::ifstream> files, LogIndex index)
     : files_(std::move(files)), index_(std::move(index)) {
   by_channel_.resize(index_.channels.size());
   for (std::size_t k = 0; k < index_.entries.size(); ++k) {
-    by_channel_[static_cast<std::size_t>(index_.entries[k].channel)].push_back(static_cast<std::uint32_t>(k));
+    by_channel_[idx(index_.entries[k].channel)].push_back(static_cast<std::uint32_t>(k));
   }
   position_ = begin();
 }
@@ -108,7 +108,7 @@ void LogPlayer::build_memory() {
   std::vector<bool> wanted;
   for (const std::string& channel : index_.channels) wanted.push_back(is_remembered(channel));
   for (std::size_t k = 0; k < index_.entries.size(); ++k) {
-    if (wanted[static_cast<std::size_t>(index_.entries[k].channel)]) feed(k, intake);
+    if (wanted[idx(index_.entries[k].channel)]) feed(k, intake);
   }
   body_radius_ = scene.body_radius();
 }
@@ -120,7 +120,7 @@ void LogPlayer::play(bool on, UTime wall_now) {
 
 std::size_t LogPlayer::first_after(UTime t) const {
   const auto after = std::ranges::upper_bound(index_.entries, t, {}, &LogIndex::Entry::received);
-  return static_cast<std::size_t>(after - index_.entries.begin());
+  return idx(after - index_.entries.begin());
 }
 
 void LogPlayer::seek(UTime t, Scene& scene, SceneIntake& intake) {
@@ -141,7 +141,7 @@ void LogPlayer::seek(UTime t, Scene& scene, SceneIntake& intake) {
 void LogPlayer::step(int plans, Scene& scene, SceneIntake& intake) {
   const auto found = std::ranges::find(index_.channels, channels::kPlan.name);
   if (found == index_.channels.end()) return;
-  const auto& plans_at = by_channel_[static_cast<std::size_t>(found - index_.channels.begin())];
+  const auto& plans_at = by_channel_[idx(found - index_.channels.begin())];
   const auto time_of = [&](std::uint32_t entry) { return index_.entries[entry].received; };
   auto at = std::upper_bound(plans_at.begin(), plans_at.end(), position_,
                              [&](UTime t, std::uint32_t entry) { return t < time_of(entry); });
@@ -166,14 +166,14 @@ void LogPlayer::advance(UTime wall_now, SceneIntake& intake) {
 }
 
 void LogPlayer::feed_newest(std::size_t end, int channel, std::size_t most, SceneIntake& intake) {
-  const auto& entries = by_channel_[static_cast<std::size_t>(channel)];
+  const auto& entries = by_channel_[idx(channel)];
   const auto stop = std::lower_bound(entries.begin(), entries.end(), end);
-  const auto have = static_cast<std::size_t>(stop - entries.begin());
+  const auto have = idx(stop - entries.begin());
   for (auto it = stop - static_cast<std::ptrdiff_t>(std::min(have, most)); it != stop; ++it) feed(*it, intake);
 }
 
 void LogPlayer::feed_map(std::size_t end, int channel, const Scene& scene, SceneIntake& intake) {
-  const auto& entries = by_channel_[static_cast<std::size_t>(channel)];
+  const auto& entries = by_channel_[idx(channel)];
   const auto stop = std::lower_bound(entries.begin(), entries.end(), end);
   if (stop == entries.begin()) return;
   const auto newest = decode<MapChunk>(read(index_.entries[*(stop - 1)]));
@@ -183,7 +183,7 @@ void LogPlayer::feed_map(std::size_t end, int channel, const Scene& scene, Scene
 
 const std::vector<std::uint8_t>& LogPlayer::read(const LogIndex::Entry& entry) {
   buffer_.resize(static_cast<std::size_t>(entry.bytes));
-  std::ifstream& file = files_[static_cast<std::size_t>(entry.part)];
+  std::ifstream& file = files_[idx(entry.part)];
   file.clear();
   file.seekg(entry.offset);
   file.read(reinterpret_cast<char*>(buffer_.data()), entry.bytes);
@@ -193,7 +193,7 @@ const std::vector<std::uint8_t>& LogPlayer::read(const LogIndex::Entry& entry) {
 
 void LogPlayer::feed(std::size_t entry, SceneIntake& intake) {
   const LogIndex::Entry& e = index_.entries[entry];
-  if (!intake.hear(index_.channels[static_cast<std::size_t>(e.channel)], read(e), e.received)) ++refused_;
+  if (!intake.hear(index_.channels[idx(e.channel)], read(e), e.received)) ++refused_;
 }
 
 std::string LogPlayer::json() const {

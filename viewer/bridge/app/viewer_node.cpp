@@ -111,7 +111,7 @@ void ViewerNode::obey(std::int64_t client, const LayersCommand& layers, UTime) {
 
 void ViewerNode::obey(std::int64_t client, const SeriesCommand& series, UTime) {
   wishes_.take(client, series);
-  told_once_.reset(static_cast<std::size_t>(Topic::Chart));
+  told_once_.reset(idx(Topic::Chart));
   scene_.mark(Topic::Chart);
 }
 
@@ -191,7 +191,7 @@ bool ViewerNode::is_wanted(Topic topic) const {
 }
 
 void ViewerNode::post_if_changed(Topic topic, UTime now) {
-  const auto k = static_cast<std::size_t>(topic);
+  const auto k = idx(topic);
   if (!is_wanted(topic) || now < next_post_[k]) return;
   const bool is_told_once = topic == Topic::Ghost || (player_ && is_of_the_past(topic));
   if (is_told_once) {
