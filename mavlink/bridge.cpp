@@ -24,6 +24,10 @@ constexpr double kLag = 0.1;
 constexpr double kThere = 0.3, kThereSpeed = 0.4;
 /// The climb's setpoint waits when it is so far above the vehicle, m: rotors spin up, and PX4 takes off gently.
 constexpr double kClimbAhead = 0.5;
+/// A command to arm that was sent this long ago has come to nothing, or HEARTBEAT tells of it.
+constexpr Duration kArmingFlight{1'500'000};
+/// A vehicle that is armed by such a command stands for as long as its rotors need to spin up.
+constexpr Duration kDisarmPeriod{250'000};
 /// By this it stops when it is taken over in flight, m/s².
 constexpr double kStop = 4.0;
 constexpr std::uint8_t kOnboardController = 18, kNoAutopilot = 8, kActive = 4;
@@ -70,6 +74,9 @@ void Bridge::enter(Stage stage, const std::string& why) {
     stage_since_ = now_;
     next_command_ = now_;
     refusal_.clear();
+    landing_seen_ = false;
+    taken_from_.reset();
+    if (stage == Stage::Engaging && autopilot_.armed()) taken_from_ = autopilot_.mode();
   }
   stage_ = stage;
   why_ = why;
@@ -117,6 +124,9 @@ void Bridge::land(const std::string& why) {
   if (!flies() || stage_ == Stage::Landing) return;
   if (!followed_) hold_here();
   enter(Stage::Landing, why);
+  if (!autopilot_.armed() && arm_asked_ && now_ - *arm_asked_ < kArmingFlight) {
+    words_.push_back("the autopilot may be about to arm, as it was asked to: it is asked to disarm");
+  }
 }
 
 std::optional<UavState> Bridge::in_world(std::optional<UavState> local) const {
@@ -258,11 +268,24 @@ void Bridge::step_ready(UTime now) {
 void Bridge::engage_next(UTime now) {
   const bool px4 = autopilot_.firmware() != Firmware::ArduPilot;
   if (!autopilot_.follows()) return command(now, kDoSetMode, {1, px4 ? kPx4Offboard : kArduPilotGuided});
-  if (!autopilot_.armed()) return command(now, kArmDisarm, {1});
+  if (!autopilot_.armed()) {
+    if (now >= next_command_) arm_asked_ = now;
+    return command(now, kArmDisarm, {1});
+  }
   if (in_air()) return enter(Stage::Following);
   if (px4) return enter(Stage::Climbing);
   const float height = static_cast<float>(uav_.start.z() - state()->motion.p.z());
   command(now, kNavTakeoff, {0, 0, 0, 0, 0, 0, height});
+}
+
+/// While it engages. HEARTBEAT tells mode and arming at once, and the bridge arms only what follows: who is armed in
+/// another mode was armed, or switched, by somebody else. Excepted is what it was told to take over, until it has it.
+bool Bridge::is_taken() {
+  if (!autopilot_.armed() || autopilot_.follows()) {
+    taken_from_.reset();
+    return false;
+  }
+  return taken_from_ != autopilot_.mode();
 }
 
 void Bridge::step_engaging(UTime now) {
@@ -270,6 +293,7 @@ void Bridge::step_engaging(UTime now) {
     return stand_back(refusal_.empty() ? "the autopilot does not answer" : refusal_);
   }
   if (!autopilot_.linked(now)) return;
+  if (is_taken()) return stand_back(fmt::format("the vehicle is armed in {}: somebody else flies", autopilot_.mode()));
   if (!in_air()) {
     anchor_truth();
     hold_here();
@@ -312,19 +336,31 @@ void Bridge::step_flying(UTime now) {
   if (near) watch_lag();
 }
 
+void Bridge::ask_to_disarm(UTime now) {
+  if (now < next_command_) return;
+  command(now, kArmDisarm, {0});
+  next_command_ = now + kDisarmPeriod;
+}
+
 void Bridge::step_landing(UTime now) {
   if (!autopilot_.linked(now)) return;
+  const bool arming = arm_asked_ && now - *arm_asked_ < kArmingFlight;
   if (!autopilot_.armed()) {
     followed_ = false;
-    return enter(Stage::Landed, why_);
+    if (!arming) return enter(Stage::Landed, why_);
+    return ask_to_disarm(now);
   }
   if (followed_) hold_here();
   followed_ = false;
   if (autopilot_.landing()) {
+    landing_seen_ = true;
     streaming_since_.reset();
     return;
   }
-  if (!streaming_since_) return stand_back(fmt::format("the autopilot has left for {}", autopilot_.mode()));
+  if (landing_seen_ || !autopilot_.follows()) {
+    return stand_back(fmt::format("the autopilot has left for {}: somebody else flies", autopilot_.mode()));
+  }
+  if (arming && !in_air()) return ask_to_disarm(now);
   command(now, kNavLand, {0, 0, 0, kUnknown, kUnknown, kUnknown, 0});
 }
 

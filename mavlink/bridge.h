@@ -44,8 +44,11 @@ const char* to_string(Stage stage);
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
 /// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another: the bridge then stands back, stops its stream
 /// (with start pilot it goes on, saying the vehicle's own place), and flies again only when told: by a new GOAL, or
-/// with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody else's, too. A
-/// bridge that was started anew and finds the vehicle armed and in OFFBOARD in the air goes on following.
+/// with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody else's, too, and so is
+/// one that is armed in another mode while the bridge engages or lands it. A bridge that was started anew and finds the
+/// vehicle armed and in OFFBOARD in the air goes on following.
+///
+/// It has landed when the autopilot is disarmed and kArmingFlight has passed since the bridge last asked for arming.
 ///
 /// PX4 takes OFFBOARD up again by itself as soon as setpoints come again, whatever its failsafe was doing. So none is
 /// sent while the vehicle may be in one. After a silence of COM_OF_LOSS_T, HEARTBEAT has to tell the mode first. While
@@ -97,6 +100,8 @@ class Bridge {
   void step_landing(UTime now);
   void climb(UTime now);
   void stand_back(const std::string& why);
+  [[nodiscard]] bool is_taken();
+  void ask_to_disarm(UTime now);
   void engage_next(UTime now);
   void request_parameters(UTime now);
   void request_streams(UTime now);
@@ -139,6 +144,9 @@ class Bridge {
   UTime stage_since_, now_;
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
   std::optional<UTime> streaming_since_;
+  std::optional<std::string> taken_from_;  ///< the mode of an armed vehicle that it was told to take over
+  bool landing_seen_ = false;              ///< the autopilot has confirmed that it lands
+  std::optional<UTime> arm_asked_;
   bool followed_ = false;  ///< at the last setpoint that was sent
   TrackingLag lag_;
   UTime lag_at_;

@@ -120,7 +120,7 @@ bool Bridge::may_be_in_failsafe(UTime now) const {
 void Bridge::stream(UTime now) {
   const bool silent = stage_ == Stage::Waiting || stage_ == Stage::Landed ||
                       (stage_ == Stage::StoodBack && config_.start == Start::Arm) ||
-                      (stage_ == Stage::Landing && !streaming_since_);
+                      (stage_ == Stage::Landing && landing_seen_);
   if (silent || may_be_in_failsafe(now) || !state() || now < next_target_) return;
   next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
   if (!streaming_since_) streaming_since_ = now;

@@ -59,7 +59,10 @@ class FlightInMemory {
       if (beats++ % 5 == 0) say_setpoint();
       if (bridge_runs) bridge.step(now);
       autopilot.step(now);
-      for (const Frame& f : bridge.take_frames()) post(f, false);
+      for (const Frame& f : bridge.take_frames()) {
+        if (sent) sent(f);
+        post(f, false);
+      }
       for (const Frame& f : autopilot.take_frames()) post(f, true);
       for (std::string& word : bridge.take_words()) words.push_back(std::move(word));
       if (each) each();
@@ -93,6 +96,7 @@ class FlightInMemory {
   bool cut = false, bridge_runs = true, speaks = true, ground_station_there = true;
   std::function<MotionSample(double)> path;
   std::function<void()> each;
+  std::function<void(const Frame&)> sent;  ///< sees what the bridge says
   std::optional<UTime> follows_since;
   std::vector<std::string> words;
 
