@@ -68,7 +68,9 @@ class Autopilot {
   /// (take_own_origin); nothing before an origin is known. Only simulators say it. One that states no time, as PX4's
   /// does, counts for when it was received.
   [[nodiscard]] const std::optional<UavState>& truth() const { return truth_; }
-  /// An estimator without GPS says no origin: external vision gives it one.
+  /// An estimator without GPS says no origin: external vision gives it one. A vehicle that stands disarmed when its
+  /// truth is first heard is at the origin. Of one that is armed the truth is shifted so that it agrees with the
+  /// estimate; there is none before it has one.
   void take_own_origin() { own_origin_ = true; }
   [[nodiscard]] const std::map<std::string, double>& parameters() const { return parameters_; }
   /// The newest STATUSTEXT, warning or worse. To "Arming denied …" the newest "Preflight Fail …" is added, which says
@@ -103,6 +105,7 @@ class Autopilot {
   double yaw_ = 0.0;
   std::optional<GpsGlobalOrigin> origin_;
   bool own_origin_ = false;
+  Vec3 own_shift_ = Vec3::Zero();  ///< of an origin of its own, ENU
   std::map<std::string, double> parameters_;
   std::string warning_, failed_check_;
   std::deque<CommandAck> acks_;

@@ -90,6 +90,7 @@ void Bridge::stand_back(const std::string& why) {
 
 void Bridge::hear(const Frame& frame, UTime received) {
   if (!autopilot_.hear(frame, received)) return;
+  anchor_truth_at_first_sight();
   if (autopilot_.truth()) tell_vision(*autopilot_.truth());
   if (const auto question = from_frame<Timesync>(frame); question && question->tc1 == 0) {
     say(Timesync{.tc1 = received.us * 1000, .ts1 = question->ts1});
@@ -136,13 +137,25 @@ std::optional<UavState> Bridge::in_world(std::optional<UavState> local) const {
 
 std::optional<UavState> Bridge::truth() const {
   std::optional<UavState> truth = in_world(autopilot_.truth());
-  if (truth) truth->motion.p += truth_anchor_;
+  if (!truth || !truth_anchor_) return std::nullopt;
+  truth->motion.p += *truth_anchor_;
   return truth;
 }
 
 void Bridge::anchor_truth() {
   if (!autopilot_.truth() || autopilot_.armed()) return;
   truth_anchor_ = autopilot_.state()->motion.p - autopilot_.truth()->motion.p;
+}
+
+void Bridge::anchor_truth_at_first_sight() {
+  const auto& truth = autopilot_.truth();
+  const auto& state = autopilot_.state();
+  if (truth_anchor_ || !truth || !state) return;
+  const double later = (truth->at - state->at).seconds();
+  if (std::abs(later) > kStateAge.seconds()) return;
+  truth_anchor_ = state->motion.p + state->motion.v * later - truth->motion.p;
+  if (!autopilot_.armed()) return;
+  words_.push_back("the vehicle is first seen in flight: its truth is said so that it agrees with the estimate of now");
 }
 
 std::vector<RequiredParameter> Bridge::required() const {

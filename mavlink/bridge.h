@@ -44,9 +44,9 @@ const char* to_string(Stage stage);
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
 /// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another: the bridge then stands back, stops its stream
 /// (with start pilot it goes on, saying the vehicle's own place), and flies again only when told: by a new GOAL, or
-/// with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody else's, too, and so is
-/// one that is armed in another mode while the bridge engages or lands it. A bridge that was started anew and finds the
-/// vehicle armed and in OFFBOARD in the air goes on following.
+/// with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody else's, too, and so
+/// is one that is armed in another mode while the bridge engages or lands it. A bridge that was started anew and finds
+/// the vehicle armed and in OFFBOARD in the air goes on following.
 ///
 /// It has landed when the autopilot is disarmed and kArmingFlight has passed since the bridge last asked for arming.
 ///
@@ -75,7 +75,8 @@ class Bridge {
   /// In W; nullopt while nothing is known. @pre the caller publishes each `at` once
   [[nodiscard]] std::optional<UavState> state() const { return in_world(autopilot_.state()); }
   /// W is the estimator's frame as it was before take-off: there the truth agrees with the estimate, and what is
-  /// between them later has come since.
+  /// between them later has come since. Of a vehicle that is first seen armed, as by a bridge that was started anew,
+  /// the truth agrees with the estimate of then. nullopt before there was an estimate.
   [[nodiscard]] std::optional<UavState> truth() const;
   [[nodiscard]] VehicleStatus status(UTime now) const;
   /// Sentences for the log since the last call.
@@ -109,6 +110,7 @@ class Bridge {
   void stream(UTime now);
   void hold_here();
   void anchor_truth();
+  void anchor_truth_at_first_sight();
   void watch_clock();
   void watch_lag();
   void tell_vision(const UavState& local);
@@ -133,7 +135,7 @@ class Bridge {
   UavSpec uav_;
   Vec3 origin_;                       ///< of the local frame, in W
   UTime told_vision_;                 ///< the time of the newest state that was told
-  Vec3 truth_anchor_ = Vec3::Zero();  ///< added to the truth
+  std::optional<Vec3> truth_anchor_;  ///< added to the truth
   Autopilot autopilot_;
   CommandedMotion command_;
   bool setpoint_heard_ = false;
