@@ -41,6 +41,8 @@ const char* to_string(Stage stage);
 /// The gain is for level axes: the D term of an autopilot's vertical loop is 0.
 /// While the vehicle is not following, the command is to stay where it is.
 ///
+/// While the estimate is dead the vehicle is not following: it is told to come to rest where it was commanded to be.
+///
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
 /// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another: the bridge then stands back, stops its stream
 /// (with start pilot it goes on, saying the vehicle's own place), and flies again only when told: by a new GOAL, or
@@ -48,7 +50,7 @@ const char* to_string(Stage stage);
 /// is one that is armed in another mode while the bridge engages or lands it. A bridge that was started anew and finds
 /// the vehicle armed and in OFFBOARD in the air goes on following.
 ///
-/// It has landed when the autopilot is disarmed and kArmingFlight has passed since the bridge last asked for arming.
+/// It has landed when the autopilot is disarmed and 1.5 s have passed since the bridge last asked for arming.
 ///
 /// PX4 takes OFFBOARD up again by itself as soon as setpoints come again, whatever its failsafe was doing. So none is
 /// sent while the vehicle may be in one. After a silence of COM_OF_LOSS_T, HEARTBEAT has to tell the mode first. While
@@ -92,6 +94,8 @@ class Bridge {
  private:
   /// The system is the autopilot's when that is known.
   static constexpr Address kSelf{1, kOwnComponent};
+  /// A command to arm that was sent this long ago has come to nothing, or HEARTBEAT tells of it.
+  static constexpr Duration kArmingFlight{1'500'000};
   void enter(Stage stage, const std::string& why = {});
   void step_stage(UTime now);
   void step_waiting(UTime now);
@@ -108,7 +112,7 @@ class Bridge {
   void request_streams(UTime now);
   void request_mode(UTime now);
   void stream(UTime now);
-  void hold_here();
+  void hold_here(UTime now);
   void anchor_truth();
   void anchor_truth_at_first_sight();
   void watch_clock();
@@ -118,7 +122,8 @@ class Bridge {
   void ask(std::uint16_t number, std::uint32_t message, float interval_us = 0.0F);
   [[nodiscard]] std::vector<RequiredParameter> required() const;
   [[nodiscard]] std::string not_ready(UTime now) const;
-  [[nodiscard]] MotionSample commanded(UTime now) const;
+  [[nodiscard]] std::string estimate_fault(UTime now) const;
+  [[nodiscard]] std::string ground_fault() const;
   [[nodiscard]] std::string why_not_following(UTime now) const;
   [[nodiscard]] bool setpoint_near(UTime now) const;
   [[nodiscard]] std::string clock_fault() const;
@@ -154,6 +159,7 @@ class Bridge {
   UTime lag_at_;
   bool lag_was_said_ = false;
   bool clock_is_off_ = false;  ///< was said of the vehicle in flight
+  UavState last_told_;         ///< of what it followed
   UavState own_;               ///< the command while it does not follow: at rest here, or on its way up
   std::string refusal_;        ///< the newest answer to a command that was not taken, in words
   std::uint8_t sequence_ = 0;

@@ -124,9 +124,13 @@ void Bridge::stream(UTime now) {
   if (silent || may_be_in_failsafe(now) || !state() || now < next_target_) return;
   next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
   if (!streaming_since_) streaming_since_ = now;
-  if (stage_ == Stage::StoodBack) hold_here();
+  if (stage_ == Stage::StoodBack) hold_here(now);
   const bool following = stage_ == Stage::Following && followed_;
   const MotionSample m = following ? command_.sample(now) : own_.motion;
+  if (following) {
+    last_told_.motion = m;
+    last_told_.yaw = command_.yaw();
+  }
   const Vec3 ahead = following ? command_.acceleration_ahead(now, Duration::from_seconds(config_.lead_s)) : m.a;
   const double gain = config_.acceleration_gain;
   const Vec3 a = ahead.cwiseProduct(Vec3(gain, gain, 1.0)) + config_.drag_per_s * m.v;
