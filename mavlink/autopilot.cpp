@@ -121,7 +121,12 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
   longest_gap_ = std::max(longest_gap_, received - last_heard_);
   last_heard_ = received;
   if (heartbeat) {
+    const bool was_armed = armed();
     heartbeat_ = *heartbeat;
+    if (armed() != was_armed) {
+      arming_changed_ = received;
+      home_height_.reset();
+    }
     mode_is_old_ = false;
     longest_gap_ = Duration{};
     if (armed()) failed_check_.clear();
@@ -141,6 +146,9 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
   if (const auto m = from_frame<CommandAck>(frame)) keep(acks_, *m);
   if (const auto m = from_frame<StatusText>(frame)) hear_text(*m);
   hear_position(frame, received);
+  if (const auto m = from_frame<GlobalPositionInt>(frame); m && state_ && received - state_->at < kOldEstimate) {
+    home_height_ = state_->motion.p.z() - m->relative_alt * 1e-3;
+  }
   if (const auto m = from_frame<HilStateQuaternion>(frame)) hear_truth(*m, received);
   return true;
 }

@@ -64,6 +64,11 @@ class Autopilot {
   [[nodiscard]] int resets() const { return resets_; }
   /// The newest state in its local frame, as ENU; `at` is ours. a and j are zero: it does not say them.
   [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
+  /// When it was first heard to be armed, or disarmed, as it is now.
+  [[nodiscard]] UTime arming_changed() const { return arming_changed_; }
+  /// Home's height in the local frame, m, as GLOBAL_POSITION_INT had it since then: arming may move home. nullopt: not
+  /// said.
+  [[nodiscard]] std::optional<double> home_height() const { return home_height_; }
   /// The newest true state by HIL_STATE_QUATERNION, as ENU from GPS_GLOBAL_ORIGIN, or from where the first one was
   /// (take_own_origin); nothing before an origin is known. Only simulators say it. One that states no time, as PX4's
   /// does, counts for when it was received.
@@ -91,7 +96,7 @@ class Autopilot {
   std::uint8_t wanted_;
   std::optional<Address> address_;
   Heartbeat heartbeat_;
-  UTime last_heard_;
+  UTime last_heard_, arming_changed_;
   bool mode_is_old_ = false;
   Duration longest_gap_;
   std::optional<bool> landed_;
@@ -102,6 +107,7 @@ class Autopilot {
   int resets_ = 0;
   std::optional<UavState> state_, truth_;
   std::optional<UTime> last_odometry_;
+  std::optional<double> home_height_;
   double yaw_ = 0.0;
   std::optional<GpsGlobalOrigin> origin_;
   bool own_origin_ = false;

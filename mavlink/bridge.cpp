@@ -58,7 +58,7 @@ void Bridge::enter(Stage stage, const std::string& why) {
     stage_since_ = now_;
     next_command_ = now_;
     refusal_.clear();
-    landing_seen_ = false;
+    landing_seen_ = take_off_asked_ = false;
     taken_from_.reset();
     if (stage == Stage::Engaging && autopilot_.armed()) taken_from_ = autopilot_.mode();
   }

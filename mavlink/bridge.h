@@ -43,6 +43,9 @@ const char* to_string(Stage stage);
 ///
 /// While the estimate is dead the vehicle is not following: it is told to come to rest where it was commanded to be.
 ///
+/// An ArduPilot is asked to take off (NAV_TAKEOFF), to uav.start's height above its home. Setpoints would end that:
+/// they begin when it is up, and none are sent before it follows.
+///
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
 /// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another: the bridge then stands back, stops its stream
 /// (with start pilot it goes on, saying the vehicle's own place), and flies again only when told: by a new GOAL, or
@@ -112,6 +115,10 @@ class Bridge {
   void request_streams(UTime now);
   void request_mode(UTime now);
   void stream(UTime now);
+  [[nodiscard]] bool is_silent() const;
+  void ask_to_take_off(UTime now);
+  /// ArduPilot: setpoints do not lift it off the ground.
+  [[nodiscard]] bool takes_off_by_command() const { return autopilot_.firmware() == Firmware::ArduPilot; }
   void hold_here(UTime now);
   void anchor_truth();
   void anchor_truth_at_first_sight();
@@ -152,6 +159,7 @@ class Bridge {
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
   std::optional<UTime> streaming_since_;
   std::optional<std::string> taken_from_;  ///< the mode of an armed vehicle that it was told to take over
+  bool take_off_asked_ = false;            ///< since it began to engage
   bool landing_seen_ = false;              ///< the autopilot has confirmed that it lands
   std::optional<UTime> arm_asked_;
   bool followed_ = false;  ///< at the last setpoint that was sent

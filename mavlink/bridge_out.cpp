@@ -50,6 +50,7 @@ void Bridge::request_streams(UTime now) {
   if (autopilot_.firmware() == Firmware::ArduPilot) {  // it says neither unasked, nor its heading by ODOMETRY
     ask(kSetMessageInterval, AttitudeQuaternion::kId, 20'000);
     ask(kSetMessageInterval, LocalPositionNed::kId, 20'000);
+    ask(kSetMessageInterval, GlobalPositionInt::kId, 200'000);
   }
   ask(kRequestMessage, GpsGlobalOrigin::kId);
 }
@@ -117,11 +118,19 @@ bool Bridge::may_be_in_failsafe(UTime now) const {
   return autopilot_.silence(now).seconds() > loss_s;
 }
 
+/// A setpoint ends the take-off of an ArduPilot, and on the ground it does nothing: none before it is up.
+bool Bridge::is_silent() const {
+  if (stage_ == Stage::Landing && landing_seen_) return true;
+  if (takes_off_by_command()) {
+    const bool flown = stage_ == Stage::Climbing || stage_ == Stage::Following;
+    return !flown && !(stage_ == Stage::Landing && streaming_since_);
+  }
+  return stage_ == Stage::Waiting || stage_ == Stage::Landed ||
+         (stage_ == Stage::StoodBack && config_.start == Start::Arm);
+}
+
 void Bridge::stream(UTime now) {
-  const bool silent = stage_ == Stage::Waiting || stage_ == Stage::Landed ||
-                      (stage_ == Stage::StoodBack && config_.start == Start::Arm) ||
-                      (stage_ == Stage::Landing && landing_seen_);
-  if (silent || may_be_in_failsafe(now) || !state() || now < next_target_) return;
+  if (is_silent() || may_be_in_failsafe(now) || !state() || now < next_target_) return;
   next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
   if (!streaming_since_) streaming_since_ = now;
   if (stage_ == Stage::StoodBack) hold_here(now);

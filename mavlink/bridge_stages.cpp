@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "mavlink/bridge.h"
@@ -21,6 +22,10 @@ constexpr double kLeastClimb = 0.3;
 constexpr double kClimbAhead = 0.5;
 /// A vehicle that is armed by such a command stands for as long as its rotors need to spin up.
 constexpr Duration kDisarmPeriod{250'000};
+/// ArduPilot begins its take-off anew when it is asked again on the ground, where its rotors spin up.
+constexpr Duration kTakeOffPeriod{3'000'000};
+/// So long it may take until an ArduPilot says where home is: it is asked to say so at 5 Hz.
+constexpr Duration kHomePatience{1'000'000};
 constexpr float kPx4Offboard = 6, kArduPilotGuided = 4;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -60,22 +65,34 @@ void Bridge::step_ready(UTime now) {
     return stand_back(fmt::format("the vehicle is armed in {}: somebody else flies", autopilot_.mode()));
   }
   if (const std::string fault = in_air() ? "" : ground_fault(); !fault.empty()) return enter(Stage::Ready, fault);
-  if (ours) return enter(Stage::Climbing);
+  if (ours) return enter(takes_off_by_command() ? Stage::Engaging : Stage::Climbing);
   if (!told_) return enter(Stage::Ready, "waits for the pilot to arm, take off and switch, or for a new GOAL");
+  if (takes_off_by_command()) return enter(Stage::Engaging);
   if (streaming_since_ && now - *streaming_since_ >= kStreamFirst) enter(Stage::Engaging);
 }
 
+/// ArduPilot takes the height above its home. That is where it was armed, unless somebody has set it.
+void Bridge::ask_to_take_off(UTime now) {
+  const auto said = autopilot_.home_height();
+  if (now < next_command_ || (!said && now - autopilot_.arming_changed() < kHomePatience)) return;
+  const double home = said.value_or(autopilot_.state()->motion.p.z());
+  command(now, kNavTakeoff, {0, 0, 0, 0, 0, 0, static_cast<float>(uav_.start.z() - home)});
+  next_command_ = now + kTakeOffPeriod;
+  take_off_asked_ = true;
+}
+
 void Bridge::engage_next(UTime now) {
-  const bool px4 = autopilot_.firmware() != Firmware::ArduPilot;
-  if (!autopilot_.follows()) return command(now, kDoSetMode, {1, px4 ? kPx4Offboard : kArduPilotGuided});
+  const float mode = takes_off_by_command() ? kArduPilotGuided : kPx4Offboard;
+  if (!autopilot_.follows()) return command(now, kDoSetMode, {1, mode});
   if (!autopilot_.armed()) {
     if (now >= next_command_) arm_asked_ = now;
     return command(now, kArmDisarm, {1});
   }
-  if (in_air()) return enter(Stage::Following);
-  if (px4) return enter(Stage::Climbing);
-  const float height = static_cast<float>(uav_.start.z() - state()->motion.p.z());
-  command(now, kNavTakeoff, {0, 0, 0, 0, 0, 0, height});
+  if (in_air() && !take_off_asked_) return enter(Stage::Following);
+  if (!takes_off_by_command()) return enter(Stage::Climbing);
+  if (!in_air()) return ask_to_take_off(now);
+  const MotionSample here = state()->motion;
+  if (std::abs(uav_.start.z() - here.p.z()) < kThere && here.v.norm() < kThereSpeed) enter(Stage::Climbing);
 }
 
 /// While it engages. HEARTBEAT tells mode and arming at once, and the bridge arms only what follows: who is armed in
