@@ -66,7 +66,8 @@ while :; do read -r _ <"$work/fifo" || true; done
 END
   chmod +x "$work/bin/tern-mavlink"
   mkfifo "$work/fifo"
-  TERN_BIN="$work/bin" "$TERN_BIN/tern-launch" keep -- "$scripts/mavlink.sh" &
+  local launch=$TERN_BIN/tern-launch
+  TERN_BIN=$work/bin "$launch" keep -- "$scripts/mavlink.sh" &
   local keeper=$!
   eventually "start" 10 test -e "$work/ready"
   kill -TERM "$keeper"
