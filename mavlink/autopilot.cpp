@@ -17,6 +17,8 @@ constexpr std::uint8_t kWarning = 4;
 /// MAV_STATE: while armed, PX4 says this in a failsafe.
 constexpr std::uint8_t kCritical = 5;
 constexpr Duration kOdometryRules{500'000};
+/// Older, and the estimate says nothing of where the vehicle is.
+constexpr Duration kOldEstimate{500'000};
 /// Answers and texts that wait at most.
 constexpr std::size_t kMostWaiting = 64;
 constexpr std::size_t kMostParameters = 4096, kLongestText = 400;
@@ -119,7 +121,12 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
   longest_gap_ = std::max(longest_gap_, received - last_heard_);
   last_heard_ = received;
   if (heartbeat) {
+    const bool was_armed = armed();
     heartbeat_ = *heartbeat;
+    if (armed() != was_armed) {
+      arming_changed_ = received;
+      home_height_.reset();
+    }
     mode_is_old_ = false;
     longest_gap_ = Duration{};
     if (armed()) failed_check_.clear();
@@ -139,6 +146,9 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
   if (const auto m = from_frame<CommandAck>(frame)) keep(acks_, *m);
   if (const auto m = from_frame<StatusText>(frame)) hear_text(*m);
   hear_position(frame, received);
+  if (const auto m = from_frame<GlobalPositionInt>(frame); m && state_ && received - state_->at < kOldEstimate) {
+    home_height_ = state_->motion.p.z() - m->relative_alt * 1e-3;
+  }
   if (const auto m = from_frame<HilStateQuaternion>(frame)) hear_truth(*m, received);
   return true;
 }
@@ -185,12 +195,16 @@ void Autopilot::hear_truth(const HilStateQuaternion& hil, UTime received) {
   if (hil.lat == 0 && hil.lon == 0 && hil.alt == 0) return;  // it does not know yet
   const std::optional<UTime> at = hil.time_usec == 0 ? received : ours(hil.time_usec, received);
   if (!at || (truth_ && *at <= truth_->at)) return;
-  if (!origin_ && own_origin_)
+  if (!origin_ && own_origin_) {
+    const bool known = state_ && std::abs((*at - state_->at).seconds()) < kOldEstimate.seconds();
+    if (armed() && !known) return;
+    if (armed()) own_shift_ = state_->motion.p + state_->motion.v * (*at - state_->at).seconds();
     origin_ = GpsGlobalOrigin{.latitude = hil.lat, .longitude = hil.lon, .altitude = hil.alt};
+  }
   if (!origin_) return;
   UavState truth;
   truth.at = *at;
-  truth.motion.p = swapped(ned_from(*origin_, hil.lat, hil.lon, hil.alt));
+  truth.motion.p = swapped(ned_from(*origin_, hil.lat, hil.lon, hil.alt)) + own_shift_;
   truth.motion.v = swapped(Vec3(hil.v[0], hil.v[1], hil.v[2]) * 0.01);
   truth.yaw = wrapped(yaw_of(swapped(quaternion_of(hil.q))));
   truth_ = truth;

@@ -64,11 +64,18 @@ class Autopilot {
   [[nodiscard]] int resets() const { return resets_; }
   /// The newest state in its local frame, as ENU; `at` is ours. a and j are zero: it does not say them.
   [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
+  /// When it was first heard to be armed, or disarmed, as it is now.
+  [[nodiscard]] UTime arming_changed() const { return arming_changed_; }
+  /// Home's height in the local frame, m, as GLOBAL_POSITION_INT had it since then: arming may move home. nullopt: not
+  /// said.
+  [[nodiscard]] std::optional<double> home_height() const { return home_height_; }
   /// The newest true state by HIL_STATE_QUATERNION, as ENU from GPS_GLOBAL_ORIGIN, or from where the first one was
   /// (take_own_origin); nothing before an origin is known. Only simulators say it. One that states no time, as PX4's
   /// does, counts for when it was received.
   [[nodiscard]] const std::optional<UavState>& truth() const { return truth_; }
-  /// An estimator without GPS says no origin: external vision gives it one.
+  /// An estimator without GPS says no origin: external vision gives it one. A vehicle that stands disarmed when its
+  /// truth is first heard is at the origin. Of one that is armed the truth is shifted so that it agrees with the
+  /// estimate; there is none before it has one.
   void take_own_origin() { own_origin_ = true; }
   [[nodiscard]] const std::map<std::string, double>& parameters() const { return parameters_; }
   /// The newest STATUSTEXT, warning or worse. To "Arming denied …" the newest "Preflight Fail …" is added, which says
@@ -89,7 +96,7 @@ class Autopilot {
   std::uint8_t wanted_;
   std::optional<Address> address_;
   Heartbeat heartbeat_;
-  UTime last_heard_;
+  UTime last_heard_, arming_changed_;
   bool mode_is_old_ = false;
   Duration longest_gap_;
   std::optional<bool> landed_;
@@ -100,9 +107,11 @@ class Autopilot {
   int resets_ = 0;
   std::optional<UavState> state_, truth_;
   std::optional<UTime> last_odometry_;
+  std::optional<double> home_height_;
   double yaw_ = 0.0;
   std::optional<GpsGlobalOrigin> origin_;
   bool own_origin_ = false;
+  Vec3 own_shift_ = Vec3::Zero();  ///< of an origin of its own, ENU
   std::map<std::string, double> parameters_;
   std::string warning_, failed_check_;
   std::deque<CommandAck> acks_;

@@ -4,32 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tern::mavlink {
 namespace {
 
 constexpr Duration kHeartbeatPeriod{500'000}, kTimesyncPeriod{100'000};
-/// A stream of setpoints has to run before OFFBOARD is asked for.
-constexpr Duration kStreamFirst{1'000'000};
 constexpr Duration kStateAge{500'000};
-/// A simulation's estimator takes this long on a slow machine until it may be armed.
-constexpr Duration kEngagePatience{120'000'000};
 /// Of the autopilot's clock: a simulation that is slower moves in slow motion and cannot follow.
 constexpr double kClockOff = 0.05;
 constexpr Duration kHeld{4'000'000};
 /// A lag that long is no noise: well tuned, it is a hundredth of a second or two, s.
 constexpr double kLag = 0.1;
-/// Arrived at the top of the climb, m and m/s.
-constexpr double kThere = 0.3, kThereSpeed = 0.4;
-/// The climb's setpoint waits when it is so far above the vehicle, m: rotors spin up, and PX4 takes off gently.
-constexpr double kClimbAhead = 0.5;
 /// By this it stops when it is taken over in flight, m/s².
 constexpr double kStop = 4.0;
 constexpr std::uint8_t kOnboardController = 18, kNoAutopilot = 8, kActive = 4;
-constexpr float kPx4Offboard = 6, kArduPilotGuided = 4;
-
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 /// Old senders do not say to whom.
 bool is_mine(const CommandAck& ack) { return ack.target_component == 0 || ack.target_component == kOwnComponent; }
@@ -70,19 +58,23 @@ void Bridge::enter(Stage stage, const std::string& why) {
     stage_since_ = now_;
     next_command_ = now_;
     refusal_.clear();
+    landing_seen_ = take_off_asked_ = false;
+    taken_from_.reset();
+    if (stage == Stage::Engaging && autopilot_.armed()) taken_from_ = autopilot_.mode();
   }
   stage_ = stage;
   why_ = why;
 }
 
 void Bridge::stand_back(const std::string& why) {
-  told_ = told_again_ = false;
+  told_ = told_again_ = followed_ = false;
   streaming_since_.reset();
   enter(Stage::StoodBack, why);
 }
 
 void Bridge::hear(const Frame& frame, UTime received) {
   if (!autopilot_.hear(frame, received)) return;
+  anchor_truth_at_first_sight();
   if (autopilot_.truth()) tell_vision(*autopilot_.truth());
   if (const auto question = from_frame<Timesync>(frame); question && question->tc1 == 0) {
     say(Timesync{.tc1 = received.us * 1000, .ts1 = question->ts1});
@@ -115,8 +107,11 @@ void Bridge::flight_is_under_way() {
 void Bridge::land(const std::string& why) {
   told_ = told_again_ = false;
   if (!flies() || stage_ == Stage::Landing) return;
-  if (!followed_) hold_here();
+  if (!followed_) hold_here(now_);
   enter(Stage::Landing, why);
+  if (!autopilot_.armed() && arm_asked_ && now_ - *arm_asked_ < kArmingFlight) {
+    words_.push_back("the autopilot may be about to arm, as it was asked to: it is asked to disarm");
+  }
 }
 
 std::optional<UavState> Bridge::in_world(std::optional<UavState> local) const {
@@ -126,13 +121,25 @@ std::optional<UavState> Bridge::in_world(std::optional<UavState> local) const {
 
 std::optional<UavState> Bridge::truth() const {
   std::optional<UavState> truth = in_world(autopilot_.truth());
-  if (truth) truth->motion.p += truth_anchor_;
+  if (!truth || !truth_anchor_) return std::nullopt;
+  truth->motion.p += *truth_anchor_;
   return truth;
 }
 
 void Bridge::anchor_truth() {
   if (!autopilot_.truth() || autopilot_.armed()) return;
   truth_anchor_ = autopilot_.state()->motion.p - autopilot_.truth()->motion.p;
+}
+
+void Bridge::anchor_truth_at_first_sight() {
+  const auto& truth = autopilot_.truth();
+  const auto& state = autopilot_.state();
+  if (truth_anchor_ || !truth || !state) return;
+  const double later = (truth->at - state->at).seconds();
+  if (std::abs(later) > kStateAge.seconds()) return;
+  truth_anchor_ = state->motion.p + state->motion.v * later - truth->motion.p;
+  if (!autopilot_.armed()) return;
+  words_.push_back("the vehicle is first seen in flight: its truth is said so that it agrees with the estimate of now");
 }
 
 std::vector<RequiredParameter> Bridge::required() const {
@@ -166,16 +173,21 @@ void Bridge::watch_lag() {
 }
 
 std::string Bridge::not_ready(UTime now) const {
-  const auto& state = autopilot_.state();
   if (!autopilot_.address()) return "no autopilot is heard";
   if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_heard());
   if (!autopilot_.clock().ready()) return "its clock is not yet known (TIMESYNC)";
   if (std::string fault = clock_fault(); !fault.empty()) return fault;
-  if (!state || now - state->at > kStateAge) return "it says no position (ODOMETRY, LOCAL_POSITION_NED)";
-  if (autopilot_.estimator() == EstimatorHealth::Lost) return "its estimator has no position (ESTIMATOR_STATUS)";
+  if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
   if (!autopilot_.landed()) return "it does not say whether it has landed (EXTENDED_SYS_STATE)";
   if (!config_.check_parameters) return {};
   return parameter_faults(required(), autopilot_.parameters());
+}
+
+std::string Bridge::estimate_fault(UTime now) const {
+  const auto& state = autopilot_.state();
+  if (!state || now - state->at > kStateAge) return "it says no position (ODOMETRY, LOCAL_POSITION_NED)";
+  if (autopilot_.estimator() == EstimatorHealth::Lost) return "its estimator has no position (ESTIMATOR_STATUS)";
+  return {};
 }
 
 std::string Bridge::why_not_following(UTime now) const {
@@ -186,6 +198,7 @@ std::string Bridge::why_not_following(UTime now) const {
   if (stage_ == Stage::Engaging && !refusal_.empty()) return refusal_;
   if (stage_ != Stage::Following) return fmt::format("{}{}{}", to_string(stage_), why_.empty() ? "" : ": ", why_);
   if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_heard());
+  if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
   if (!setpoint_heard_) return "no SETPOINT is heard";
   if (!setpoint_near(now)) return fmt::format("SETPOINT is more than {:g} m from the vehicle", config_.far_m);
   return {};
@@ -208,140 +221,19 @@ VehicleStatus Bridge::status(UTime now) const {
   return status;
 }
 
-MotionSample Bridge::commanded(UTime now) const {
-  return stage_ == Stage::Following && setpoint_heard_ && setpoint_near(now) ? command_.sample(now) : own_.motion;
-}
-
 bool Bridge::setpoint_near(UTime now) const {
   const auto here = state();
   return here && (command_.sample(now).p - here->motion.p).norm() <= config_.far_m;
 }
 
-void Bridge::hold_here() {
+void Bridge::hold_here(UTime now) {
   const auto here = state();
   if (!here) return;
-  own_ = *here;
-  own_.motion.p += here->motion.v * (here->motion.v.norm() / (2.0 * kStop));
+  const bool dead = followed_ && !estimate_fault(now).empty();  // where it was to be is all that is known
+  own_ = dead ? last_told_ : *here;
+  const Vec3 v = own_.motion.v;
+  own_.motion.p += v * (v.norm() / (2.0 * kStop));
   own_.motion.v = own_.motion.a = own_.motion.j = Vec3::Zero();
-}
-
-void Bridge::step_waiting(UTime now) {
-  request_parameters(now);
-  const std::string why = not_ready(now);
-  if (why.empty()) return enter(Stage::Ready);
-  // Seconds that pass are no news.
-  if (autopilot_.linked(now) || !autopilot_.address()) enter(Stage::Waiting, why);
-}
-
-void Bridge::step_ready(UTime now) {
-  if (!not_ready(now).empty()) return enter(Stage::Waiting, not_ready(now));
-  if (!followed_) hold_here();
-  if (!in_air()) anchor_truth();
-  const bool armed = autopilot_.armed(), ours = armed && autopilot_.follows();
-  if (ours && in_air()) return enter(Stage::Following);
-  if (armed && !ours && !told_again_ && config_.start == Start::Arm) {
-    return stand_back(fmt::format("the vehicle is armed in {}: somebody else flies", autopilot_.mode()));
-  }
-  const double aside = (state()->motion.p - uav_.start).head<2>().norm();
-  if (!in_air() && aside > config_.reach_m) {
-    return enter(Stage::Ready, fmt::format("the vehicle stands {:.1f} m from below uav.start, more than {:g} m", aside,
-                                           config_.reach_m));
-  }
-  if (!in_air() && autopilot_.battery().value_or(1.0) < config_.battery_start) {
-    return enter(Stage::Ready, fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
-  }
-  if (ours) return enter(Stage::Climbing);
-  if (!told_) return enter(Stage::Ready, "waits for the pilot to arm, take off and switch, or for a new GOAL");
-  if (streaming_since_ && now - *streaming_since_ >= kStreamFirst) enter(Stage::Engaging);
-}
-
-void Bridge::engage_next(UTime now) {
-  const bool px4 = autopilot_.firmware() != Firmware::ArduPilot;
-  if (!autopilot_.follows()) return command(now, kDoSetMode, {1, px4 ? kPx4Offboard : kArduPilotGuided});
-  if (!autopilot_.armed()) return command(now, kArmDisarm, {1});
-  if (in_air()) return enter(Stage::Following);
-  if (px4) return enter(Stage::Climbing);
-  const float height = static_cast<float>(uav_.start.z() - state()->motion.p.z());
-  command(now, kNavTakeoff, {0, 0, 0, 0, 0, 0, height});
-}
-
-void Bridge::step_engaging(UTime now) {
-  if (now - stage_since_ > kEngagePatience) {
-    return stand_back(refusal_.empty() ? "the autopilot does not answer" : refusal_);
-  }
-  if (!autopilot_.linked(now)) return;
-  if (!in_air()) {
-    anchor_truth();
-    hold_here();
-  }
-  engage_next(now);
-}
-
-void Bridge::climb(UTime now) {
-  const Vec3 way = uav_.start - own_.motion.p;
-  const auto here = state();
-  const bool waits = here && own_.motion.p.z() - here->motion.p.z() > kClimbAhead;
-  const double left = way.norm(), next = waits ? 0.0 : config_.climb_speed * std::min((now - now_).seconds(), 0.1);
-  own_.motion.v = left > 1e-9 ? Vec3(way * (config_.climb_speed / left)) : Vec3::Zero();
-  if (left <= next) {
-    own_.motion.p = uav_.start;
-    own_.motion.v = Vec3::Zero();
-  } else {
-    own_.motion.p += way * (next / left);
-  }
-  if (here && own_.motion.p == uav_.start && (here->motion.p - uav_.start).norm() < kThere &&
-      here->motion.v.norm() < kThereSpeed && in_air()) {
-    enter(Stage::Following);
-  }
-}
-
-void Bridge::step_flying(UTime now) {
-  if (!autopilot_.linked(now)) return;
-  if (!autopilot_.armed()) return stand_back("the autopilot has disarmed");
-  if (!autopilot_.follows()) {
-    return stand_back(fmt::format("the autopilot has left for {}: somebody else flies", autopilot_.mode()));
-  }
-  if (autopilot_.battery().value_or(1.0) < config_.battery_land) {
-    return land(fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
-  }
-  watch_clock();
-  if (stage_ == Stage::Climbing) return climb(now);
-  const bool near = setpoint_heard_ && setpoint_near(now);
-  if (!near && followed_) hold_here();
-  followed_ = near;
-  if (near) watch_lag();
-}
-
-void Bridge::step_landing(UTime now) {
-  if (!autopilot_.linked(now)) return;
-  if (!autopilot_.armed()) {
-    followed_ = false;
-    return enter(Stage::Landed, why_);
-  }
-  if (followed_) hold_here();
-  followed_ = false;
-  if (autopilot_.landing()) {
-    streaming_since_.reset();
-    return;
-  }
-  if (!streaming_since_) return stand_back(fmt::format("the autopilot has left for {}", autopilot_.mode()));
-  command(now, kNavLand, {0, 0, 0, kUnknown, kUnknown, kUnknown, 0});
-}
-
-void Bridge::step_stage(UTime now) {
-  switch (stage_) {
-    case Stage::Waiting: return step_waiting(now);
-    case Stage::Ready: return step_ready(now);
-    case Stage::Engaging: return step_engaging(now);
-    case Stage::Climbing:
-    case Stage::Following: return step_flying(now);
-    case Stage::StoodBack:
-      if (config_.start == Start::Pilot && autopilot_.follows() && autopilot_.armed())
-        enter(Stage::Waiting, "the switch");
-      return;
-    case Stage::Landing: return step_landing(now);
-    case Stage::Landed: return;
-  }
 }
 
 void Bridge::step(UTime now) {

@@ -41,12 +41,19 @@ const char* to_string(Stage stage);
 /// The gain is for level axes: the D term of an autopilot's vertical loop is 0.
 /// While the vehicle is not following, the command is to stay where it is.
 ///
+/// While the estimate is dead the vehicle is not following: it is told to come to rest where it was commanded to be.
+///
+/// An ArduPilot is asked to take off (NAV_TAKEOFF), to uav.start's height above its home. Setpoints would end that:
+/// they begin when it is up, and none are sent before it follows.
+///
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
 /// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another. The bridge then stands back and stops its
 /// stream. With start pilot the stream goes on and says the vehicle's own place. The bridge flies again only when told:
 /// by a new GOAL, or with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody
-/// else's, too. A bridge that was started anew and finds the vehicle armed and in OFFBOARD in the air goes on
-/// following.
+/// else's, too. So is one that is armed in another mode while the bridge engages or lands it. A bridge that was started
+/// anew and finds the vehicle armed and in OFFBOARD in the air goes on following.
+///
+/// It has landed when the autopilot is disarmed and 1.5 s have passed since the bridge last asked for arming.
 ///
 /// PX4 takes OFFBOARD up again by itself as soon as setpoints come again, whatever its failsafe was doing. So none is
 /// sent while the vehicle may be in one. After a silence of COM_OF_LOSS_T, HEARTBEAT has to tell the mode first. While
@@ -73,7 +80,8 @@ class Bridge {
   /// In W; nullopt while nothing is known. @pre the caller publishes each `at` once
   [[nodiscard]] std::optional<UavState> state() const { return in_world(autopilot_.state()); }
   /// W is the estimator's frame as it was before take-off: there the truth agrees with the estimate, and what is
-  /// between them later has come since.
+  /// between them later has come since. Of a vehicle that is first seen armed, as by a bridge that was started anew,
+  /// the truth agrees with the estimate of then. nullopt before there was an estimate.
   [[nodiscard]] std::optional<UavState> truth() const;
   [[nodiscard]] VehicleStatus status(UTime now) const;
   /// Sentences for the log since the last call.
@@ -89,6 +97,8 @@ class Bridge {
  private:
   /// The system is the autopilot's when that is known.
   static constexpr Address kSelf{1, kOwnComponent};
+  /// A command to arm that was sent this long ago has come to nothing, or HEARTBEAT tells of it.
+  static constexpr Duration kArmingFlight{1'500'000};
   void enter(Stage stage, const std::string& why = {});
   void step_stage(UTime now);
   void step_waiting(UTime now);
@@ -98,13 +108,20 @@ class Bridge {
   void step_landing(UTime now);
   void climb(UTime now);
   void stand_back(const std::string& why);
+  [[nodiscard]] bool is_taken();
+  void ask_to_disarm(UTime now);
   void engage_next(UTime now);
   void request_parameters(UTime now);
   void request_streams(UTime now);
   void request_mode(UTime now);
   void stream(UTime now);
-  void hold_here();
+  [[nodiscard]] bool is_silent() const;
+  void ask_to_take_off(UTime now);
+  /// ArduPilot: setpoints do not lift it off the ground.
+  [[nodiscard]] bool takes_off_by_command() const { return autopilot_.firmware() == Firmware::ArduPilot; }
+  void hold_here(UTime now);
   void anchor_truth();
+  void anchor_truth_at_first_sight();
   void watch_clock();
   void watch_lag();
   void tell_vision(const UavState& local);
@@ -112,7 +129,8 @@ class Bridge {
   void ask(std::uint16_t number, std::uint32_t message, float interval_us = 0.0F);
   [[nodiscard]] std::vector<RequiredParameter> required() const;
   [[nodiscard]] std::string not_ready(UTime now) const;
-  [[nodiscard]] MotionSample commanded(UTime now) const;
+  [[nodiscard]] std::string estimate_fault(UTime now) const;
+  [[nodiscard]] std::string ground_fault() const;
   [[nodiscard]] std::string why_not_following(UTime now) const;
   [[nodiscard]] bool setpoint_near(UTime now) const;
   [[nodiscard]] std::string clock_fault() const;
@@ -129,7 +147,7 @@ class Bridge {
   UavSpec uav_;
   Vec3 origin_;                       ///< of the local frame, in W
   UTime told_vision_;                 ///< the time of the newest state that was told
-  Vec3 truth_anchor_ = Vec3::Zero();  ///< added to the truth
+  std::optional<Vec3> truth_anchor_;  ///< added to the truth
   Autopilot autopilot_;
   CommandedMotion command_;
   bool setpoint_heard_ = false;
@@ -140,11 +158,16 @@ class Bridge {
   UTime stage_since_, now_;
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
   std::optional<UTime> streaming_since_;
+  std::optional<std::string> taken_from_;  ///< the mode of an armed vehicle that it was told to take over
+  bool take_off_asked_ = false;            ///< since it began to engage
+  bool landing_seen_ = false;              ///< the autopilot has confirmed that it lands
+  std::optional<UTime> arm_asked_;
   bool followed_ = false;  ///< at the last setpoint that was sent
   TrackingLag lag_;
   UTime lag_at_;
   bool lag_was_said_ = false;
   bool clock_is_off_ = false;  ///< was said of the vehicle in flight
+  UavState last_told_;         ///< of what it followed
   UavState own_;               ///< the command while it does not follow: at rest here, or on its way up
   std::string refusal_;        ///< the newest answer to a command that was not taken, in words
   std::uint8_t sequence_ = 0;

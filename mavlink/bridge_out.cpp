@@ -50,6 +50,7 @@ void Bridge::request_streams(UTime now) {
   if (autopilot_.firmware() == Firmware::ArduPilot) {  // it says neither unasked, nor its heading by ODOMETRY
     ask(kSetMessageInterval, AttitudeQuaternion::kId, 20'000);
     ask(kSetMessageInterval, LocalPositionNed::kId, 20'000);
+    ask(kSetMessageInterval, GlobalPositionInt::kId, 200'000);
   }
   ask(kRequestMessage, GpsGlobalOrigin::kId);
 }
@@ -117,16 +118,28 @@ bool Bridge::may_be_in_failsafe(UTime now) const {
   return autopilot_.silence(now).seconds() > loss_s;
 }
 
+/// A setpoint ends the take-off of an ArduPilot, and on the ground it does nothing: none before it is up.
+bool Bridge::is_silent() const {
+  if (stage_ == Stage::Landing && landing_seen_) return true;
+  if (takes_off_by_command()) {
+    const bool flown = stage_ == Stage::Climbing || stage_ == Stage::Following;
+    return !flown && !(stage_ == Stage::Landing && streaming_since_);
+  }
+  return stage_ == Stage::Waiting || stage_ == Stage::Landed ||
+         (stage_ == Stage::StoodBack && config_.start == Start::Arm);
+}
+
 void Bridge::stream(UTime now) {
-  const bool silent = stage_ == Stage::Waiting || stage_ == Stage::Landed ||
-                      (stage_ == Stage::StoodBack && config_.start == Start::Arm) ||
-                      (stage_ == Stage::Landing && !streaming_since_);
-  if (silent || may_be_in_failsafe(now) || !state() || now < next_target_) return;
+  if (is_silent() || may_be_in_failsafe(now) || !state() || now < next_target_) return;
   next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
   if (!streaming_since_) streaming_since_ = now;
-  if (stage_ == Stage::StoodBack) hold_here();
+  if (stage_ == Stage::StoodBack) hold_here(now);
   const bool following = stage_ == Stage::Following && followed_;
   const MotionSample m = following ? command_.sample(now) : own_.motion;
+  if (following) {
+    last_told_.motion = m;
+    last_told_.yaw = command_.yaw();
+  }
   const Vec3 ahead = following ? command_.acceleration_ahead(now, Duration::from_seconds(config_.lead_s)) : m.a;
   const double gain = config_.acceleration_gain;
   const Vec3 a = ahead.cwiseProduct(Vec3(gain, gain, 1.0)) + config_.drag_per_s * m.v;

@@ -97,6 +97,18 @@ struct LocalPositionNed {
   static constexpr auto fields(auto& m) { return std::tie(m.time_boot_ms, m.p, m.v); }
 };
 
+struct GlobalPositionInt {
+  static constexpr std::uint32_t kId = 33;
+  static constexpr std::uint8_t kCrcExtra = 104, kLeastLength = 28;
+  std::uint32_t time_boot_ms = 0;
+  std::int32_t lat = 0, lon = 0, alt = 0, relative_alt = 0;  ///< 1e-7 degrees; mm above sea level, and above home
+  std::array<std::int16_t, 3> v{};                           ///< NED, cm/s
+  std::uint16_t hdg = 65535;                                 ///< 0.01 degrees; 65535: unknown
+  static constexpr auto fields(auto& m) {
+    return std::tie(m.time_boot_ms, m.lat, m.lon, m.alt, m.relative_alt, m.v, m.hdg);
+  }
+};
+
 struct GpsGlobalOrigin {
   static constexpr std::uint32_t kId = 49;
   static constexpr std::uint8_t kCrcExtra = 39, kLeastLength = 12;
@@ -210,9 +222,10 @@ struct Odometry {
   }
 };
 
-using AllMessages = std::tuple<Heartbeat, SysStatus, ParamRequestRead, ParamValue, ParamSet, AttitudeQuaternion,
-                               LocalPositionNed, GpsGlobalOrigin, CommandLong, CommandAck, SetPositionTargetLocalNed,
-                               Timesync, HilStateQuaternion, EstimatorStatus, ExtendedSysState, StatusText, Odometry>;
+using AllMessages =
+    std::tuple<Heartbeat, SysStatus, ParamRequestRead, ParamValue, ParamSet, AttitudeQuaternion, LocalPositionNed,
+               GlobalPositionInt, GpsGlobalOrigin, CommandLong, CommandAck, SetPositionTargetLocalNed, Timesync,
+               HilStateQuaternion, EstimatorStatus, ExtendedSysState, StatusText, Odometry>;
 
 /// Bytes of a message's fields together.
 template <class M>

@@ -39,7 +39,10 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
   bus_.subscribe(channels::kPlan, [this](const Plan& plan) { on_plan(plan); });
 }
 
-void ExecutorNode::on_state(const UavState& state) { executor_ ? watch(state) : wait_for_rest(state); }
+void ExecutorNode::on_state(const UavState& state) {
+  measured_yaw_ = state.yaw;
+  executor_ ? watch(state) : wait_for_rest(state);
+}
 
 void ExecutorNode::wait_for_rest(const UavState& state) {
   if (!(state.motion.v.norm() <= kStillSpeed)) {
@@ -138,7 +141,11 @@ void ExecutorNode::on_status(const VehicleStatus& status) {
   if (!executor_) return;
   if (following_) {
     const UTime now = bus_.clock().now();
-    if (std::exchange(was_following_, true)) look_from(now);
+    if (std::exchange(was_following_, true)) {
+      look_from(now);
+    } else {
+      heading_.emplace(measured_yaw_, last_setpoint_, config_.heading);
+    }
     promise(status.at);
     return executor_->begin(now);
   }

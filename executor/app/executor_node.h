@@ -29,6 +29,8 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// before it has seen where the vehicle is, which may not have heard of what was adopted last. Who is not where he was
 /// committed to be gets a trajectory to rest from where he is.
 ///
+/// The heading begins where it is measured when the vehicle first follows: estimators correct it while they take off.
+///
 /// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves what was promised,
 /// by two states in turn, widens it, which is said. Beyond kRejoinBeyond it gets a trajectory to rest from where it is,
 /// from which the next plan goes on.
@@ -82,6 +84,7 @@ class ExecutorNode final : public Node {
   bool outside_ = false;
   LastingError lasting_;
   Vec3 beyond_ = Vec3::Zero();      ///< of the newest state, what of its error was not promised; m
+  double measured_yaw_ = 0.0;       ///< rad, the newest
   std::optional<Heading> heading_;  ///< once the executor has begun
   UTime last_setpoint_;
   UTime next_setpoint_, next_goal_;

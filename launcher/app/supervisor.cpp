@@ -25,6 +25,21 @@ std::optional<std::uint64_t> memory_limit_bytes() {
   return kb == 0 ? std::nullopt : std::optional(kb * 1024);
 }
 
+/// Whether the command is tern-mavlink, by itself or by its script.
+bool lands_a_vehicle(const std::vector<std::string>& command) {
+  return std::ranges::any_of(command, [](const std::string& word) {
+    const std::string name = std::filesystem::path(word).filename();
+    return name == "tern-mavlink" || name == "mavlink.sh";
+  });
+}
+
+/// TERN_PACE, which the command goes by, too.
+double pace_of_environment() {
+  const char* const text = std::getenv("TERN_PACE");
+  const double pace = text == nullptr ? 1.0 : std::strtod(text, nullptr);
+  return pace > 0.0 && pace <= 1.0 ? pace : 1.0;
+}
+
 /// @return the next of these signals, or 0 if none comes in that time.
 int next_signal(const sigset_t& signals, Duration wait) {
   const std::int64_t us = std::max<std::int64_t>(wait.us, 0);
@@ -133,8 +148,10 @@ int keep_alive(const std::vector<std::string>& command, const std::string& log) 
   ChildProcess child{.command = command};
   if (!log.empty()) child.out = child.error = open_log(log);
   Supervisor supervisor(signals);
-  supervisor.start({std::filesystem::path(command.front()).filename(), child});
+  const std::string name = std::filesystem::path(command.front()).filename();
+  supervisor.start({name, child});
   const SupervisorEvent event = supervisor.wait();
+  if (lands_a_vehicle(command)) supervisor.end_first(name, pace_of_environment());
   supervisor.stop("");
   return event.process.empty() ? 0 : event.code;
 }

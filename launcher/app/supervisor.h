@@ -57,7 +57,7 @@ class Supervisor {
 };
 
 /// Runs a command, and runs it again when it dies. On SIGTERM, SIGINT or SIGHUP the command gets SIGTERM, and SIGKILL 1
-/// s later.
+/// s later; tern-mavlink has 32 s of its clock before that, to land the vehicle.
 /// @param log  file for all that is said; empty: where this process says it
 /// @return the command's exit code when another run cannot mend it; 0 after a signal
 int keep_alive(const std::vector<std::string>& command, const std::string& log);

@@ -88,6 +88,7 @@ void MavlinkNode::exchange(UTime now) {
 }
 
 void MavlinkNode::say_words() {
+  for (const std::string& words : link_->take_words()) spdlog::warn("{}", words);
   for (const std::string& words : bridge_.take_words()) spdlog::info("{}", words);
 }
 

@@ -7,6 +7,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -101,21 +102,84 @@ class UdpLink final : public Link {
   std::int64_t strangers_ = 0;
 };
 
+Result<Descriptor> open_port(const std::string& path, speed_t speed) {
+  Descriptor port(open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (port.get() < 0) return fail(std::strerror(errno));
+  termios settings{};
+  if (tcgetattr(port.get(), &settings) != 0) return fail(std::string("no serial port: ") + std::strerror(errno));
+  cfmakeraw(&settings);
+  settings.c_cflag |= CLOCAL | CREAD;
+  settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
+  cfsetspeed(&settings, speed);
+  if (tcsetattr(port.get(), TCSANOW, &settings) != 0) return fail(std::strerror(errno));
+  return port;
+}
+
 class SerialLink final : public Link {
  public:
-  explicit SerialLink(Descriptor port) : port_(std::move(port)) {}
-  std::optional<Portion> receive(UTime) override {
+  SerialLink(std::string path, speed_t speed, Descriptor port)
+      : path_(std::move(path)), speed_(speed), port_(std::move(port)) {}
+
+  std::optional<Portion> receive(UTime now) override {
+    if (port_.get() < 0) reopen(now);
+    if (port_.get() < 0) return std::nullopt;
     Bytes bytes(4096);
     const ssize_t n = read(port_.get(), bytes.data(), bytes.size());
+    // A port that waits says EAGAIN; one that is gone has ended.
+    if (n == 0 || (n < 0 && is_gone())) lose(n == 0 ? "it has ended" : std::strerror(errno), now);
     if (n <= 0) return std::nullopt;
     bytes.resize(static_cast<std::size_t>(n));
     return Portion{std::move(bytes), {}};
   }
-  void send(std::span<const std::uint8_t> bytes) override { (void)!write(port_.get(), bytes.data(), bytes.size()); }
+
+  /// What is left of a frame goes before the next one, which is lost if the port does not take all of that.
+  void send(std::span<const std::uint8_t> bytes) override {
+    if (port_.get() < 0) return;
+    rest_.erase(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(put(rest_)));
+    if (!rest_.empty()) return;
+    const std::size_t n = put(bytes);
+    if (n > 0) rest_.assign(bytes.begin() + static_cast<std::ptrdiff_t>(n), bytes.end());
+  }
+
   [[nodiscard]] bool datagrams() const override { return false; }
+  std::vector<std::string> take_words() override { return std::exchange(words_, {}); }
 
  private:
+  static bool is_gone() { return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR; }
+
+  std::size_t put(std::span<const std::uint8_t> bytes) const {
+    const ssize_t n = bytes.empty() ? 0 : write(port_.get(), bytes.data(), bytes.size());
+    return n < 0 ? 0 : static_cast<std::size_t>(n);
+  }
+
+  void lose(const std::string& why, UTime now) {
+    words_.push_back(fmt::format("{}: {}: it is opened again when it is back", path_, why));
+    port_ = Descriptor();
+    rest_.clear();
+    pause_ = kFirstPause;
+    next_ = now + pause_;
+  }
+
+  void reopen(UTime now) {
+    if (now < next_) return;
+    auto port = open_port(path_, speed_);
+    if (port) {
+      port_ = std::move(*port);
+      words_.push_back(path_ + ": opened again");
+      return;
+    }
+    pause_ = std::min(Duration{2 * pause_.us}, kLastPause);
+    next_ = now + pause_;
+  }
+
+  static constexpr Duration kFirstPause{50'000}, kLastPause{1'000'000};
+  std::string path_;
+  speed_t speed_;
   Descriptor port_;
+  Bytes rest_;  ///< of a frame, of which the port has taken the beginning
+  UTime next_;  ///< look for the port
+  Duration pause_{};
+  std::vector<std::string> words_;
 };
 
 /// The last ":NUMBER" of a text, and what is before it.
@@ -161,16 +225,9 @@ Result<std::unique_ptr<Link>> open_serial(const std::string& url, const std::str
   const auto parts = split(place);
   const auto speed = parts ? kSpeeds.find(parts->second) : kSpeeds.end();
   if (speed == kSpeeds.end()) return fail(url + ": not /dev/NAME:BAUD with a usual baud rate of 57600 or more");
-  Descriptor port(open(parts->first.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (port.get() < 0) return fail(url + ": " + std::strerror(errno));
-  termios settings{};
-  if (tcgetattr(port.get(), &settings) != 0) return fail(url + ": no serial port: " + std::strerror(errno));
-  cfmakeraw(&settings);
-  settings.c_cflag |= CLOCAL | CREAD;
-  settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
-  cfsetspeed(&settings, speed->second);
-  if (tcsetattr(port.get(), TCSANOW, &settings) != 0) return fail(url + ": " + std::strerror(errno));
-  return std::make_unique<SerialLink>(std::move(port));
+  auto port = open_port(parts->first, speed->second);
+  if (!port) return fail(url + ": " + port.error().message);
+  return std::make_unique<SerialLink>(parts->first, speed->second, std::move(*port));
 }
 
 }  // namespace

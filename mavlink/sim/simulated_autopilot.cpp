@@ -49,18 +49,11 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
                   {"MPC_TILTMAX_AIR", 45.0}, {"MC_ROLLRATE_MAX", 220.0}, {"MC_PITCHRATE_MAX", 220.0},
                   {"EKF2_EV_CTRL", 0.0},     {"EKF2_HGT_REF", 1.0},      {"EKF2_GPS_CTRL", 7.0},
                   {"EKF2_MAG_TYPE", 0.0},    {"EKF2_BARO_CTRL", 1.0},    {"SIM_ARM_REFUSE", 0.0},
-                  {"SIM_BAT_PCT", 90.0},     {"SIM_EST_JUMP", 0.0}} {
+                  {"SIM_BAT_PCT", 90.0},     {"SIM_EST_JUMP", 0.0},      {"GUID_TIMEOUT", 3.0},
+                  {"FS_GCS_ENABLE", 0.0},    {"SIM_HOME_UP", 0.0}} {
   model_.set_armed(false);
   tune();
-  const auto every = [&](std::uint32_t id, std::int64_t us) { streams_[id] = {Duration{us}, now}; };
-  every(Heartbeat::kId, 1'000'000);
-  every(SysStatus::kId, 200'000);
-  every(ExtendedSysState::kId, 200'000);
-  every(EstimatorStatus::kId, 1'000'000);
-  every(LocalPositionNed::kId, 33'333);
-  every(Odometry::kId, 33'333);
-  every(AttitudeQuaternion::kId, 20'000);
-  every(Timesync::kId, 100'000);
+  begin_streams(now);
 }
 
 /// PX4 ends such texts by a tab, and cuts them where they are longer than a message.
@@ -77,6 +70,7 @@ void SimulatedAutopilot::complain(const std::string& words) {
 }
 
 std::string SimulatedAutopilot::mode() const {
+  if (is_ardupilot()) return mode_ == Mode::Offboard ? "GUIDED" : mode_ == Mode::Land ? "LAND" : "LOITER";
   switch (mode_) {
     case Mode::Position: return "POSCTL";
     case Mode::Loiter: return "AUTO.LOITER";
@@ -89,6 +83,8 @@ std::string SimulatedAutopilot::mode() const {
 void SimulatedAutopilot::enter(Mode mode) {
   if (mode == mode_) return;
   mode_ = mode;
+  takes_off_to_.reset();
+  guided_ = false;
   command_ = model_.estimate();
   const Vec3 v = command_.motion.v;
   command_.motion.p += v * (v.norm() / (2.0 * kStop));
@@ -122,18 +118,22 @@ std::uint8_t SimulatedAutopilot::set_mode(int main, int sub, UTime now) {
 }
 
 std::uint8_t SimulatedAutopilot::arm(UTime now) {
-  const bool no_ground_station = !ground_station_heard_ || now - *ground_station_heard_ > kLinkLoss;
+  bool no_ground_station = !ground_station_heard_ || now - *ground_station_heard_ > kLinkLoss;
+  if (is_ardupilot()) no_ground_station = false;
   std::string fault;
   if (parameters_["SIM_ARM_REFUSE"] != 0.0) fault = "Preflight Fail: Accel 0 uncalibrated";
   if (!has_position(now)) fault = "Preflight Fail: ekf2 missing data";
   if (parameters_["NAV_DLL_ACT"] > 0.0 && no_ground_station) fault = "Preflight Fail: No connection to the GCS";
-  const bool no_setpoints = mode_ == Mode::Offboard && !has_stream(now);
+  const bool no_setpoints = !is_ardupilot() && mode_ == Mode::Offboard && !has_stream(now);
   if (!fault.empty() || no_setpoints || mode_ == Mode::Land) {
     if (!fault.empty()) complain(fault);
     complain("Arming denied: Resolve system health failures first");
     return kRejected;
   }
-  if (!armed_) armed_since_ = now;
+  if (!armed_) {
+    armed_since_ = now;
+    home_up_ = model_.estimate().motion.p.z() + parameters_["SIM_HOME_UP"];
+  }
   armed_ = true;
   return kAccepted;
 }
@@ -158,7 +158,8 @@ void SimulatedAutopilot::disarm() {
   armed_ = false;
   ramp_since_.reset();
   landed_since_.reset();
-  intend(after_disarming_);
+  takes_off_to_.reset();
+  if (!is_ardupilot()) intend(after_disarming_);
 }
 
 std::uint8_t SimulatedAutopilot::obey(const CommandLong& c, UTime now) {
@@ -179,6 +180,8 @@ std::uint8_t SimulatedAutopilot::obey(const CommandLong& c, UTime now) {
     return kAccepted;
   }
   if (is_busy(now)) return kRejected;
+  if (is_ardupilot() && c.command == kDoSetMode) return set_ardupilots_mode(static_cast<int>(c.param[1]));
+  if (is_ardupilot() && c.command == kNavTakeoff) return take_off(c.param[6], now);
   if (c.command == kDoSetMode) return set_mode(static_cast<int>(c.param[1]), static_cast<int>(c.param[2]), now);
   if (c.command == kNavLand) {
     intend(Mode::Land);
@@ -202,6 +205,10 @@ void SimulatedAutopilot::hear_target(const SetPositionTargetLocalNed& target, UT
   if (target.coordinate_frame != 1 || (target.type_mask & 0x01FFU) != 0) return;
   if (!last_target_ || now - *last_target_ > kOldTarget) streaming_since_ = now;
   last_target_ = now;
+  if (mode_ == Mode::Offboard) {
+    takes_off_to_.reset();
+    guided_ = true;
+  }
   target_.motion.p = enu_of(target.p);
   target_.motion.v = enu_of(target.v);
   target_.motion.a = enu_of(target.a);
@@ -229,7 +236,7 @@ void SimulatedAutopilot::tune() {
 void SimulatedAutopilot::say_parameter(const std::string& name) {
   const auto found = parameters_.find(name);
   if (found == parameters_.end()) return;
-  const bool integer = is_integer(name);
+  const bool integer = !is_ardupilot() && is_integer(name);
   const float value =
       integer ? std::bit_cast<float>(static_cast<std::int32_t>(found->second)) : static_cast<float>(found->second);
   say(ParamValue{.param_value = value,
@@ -258,15 +265,15 @@ void SimulatedAutopilot::hear(const Frame& frame, UTime now) {
   }
   if (const auto m = from_frame<ParamSet>(frame); m && mine(m->target_system, m->target_component)) {
     const std::string name = words_of(m->param_id);
-    const bool integer = is_integer(name);
-    if (m->param_type != (integer ? kInt32 : kReal32)) return;
+    const bool integer = !is_ardupilot() && is_integer(name);
+    if (!is_ardupilot() && m->param_type != (integer ? kInt32 : kReal32)) return;
     set_parameter(name, integer ? std::bit_cast<std::int32_t>(m->param_value) : static_cast<double>(m->param_value));
     say_parameter(name);
   }
 }
 
 void SimulatedAutopilot::watch_offboard(UTime now) {
-  if (!armed_ || intended_ != Mode::Offboard || !last_target_) return;
+  if (is_ardupilot() || !armed_ || intended_ != Mode::Offboard || !last_target_) return;
   const bool lost = now - *last_target_ > Duration::from_seconds(parameters_["COM_OF_LOSS_T"]);
   if (lost == failsafe_) return;
   failsafe_ = lost;
@@ -279,6 +286,7 @@ void SimulatedAutopilot::watch_offboard(UTime now) {
 /// Rotors idle on the ground until they have spun up and a setpoint is above; then speed is had bit by bit.
 bool SimulatedAutopilot::rotors_lift(UTime t) {
   if (!armed_) return false;
+  if (is_ardupilot()) return ardupilots_rotors_lift(t);
   if (ramp_since_) {
     const double progress = std::min((t - *ramp_since_).seconds() / kRamp.seconds(), 1.0);
     if (ramp_ < 1.0) {
@@ -301,7 +309,11 @@ bool SimulatedAutopilot::rotors_lift(UTime t) {
 void SimulatedAutopilot::fly(UTime now) {
   for (UTime t = last_step_ + kVehicleStep; t <= now; t = t + kVehicleStep) {
     last_step_ = t;
-    if (mode_ == Mode::Offboard) command_ = target_;
+    if (mode_ == Mode::Offboard && is_ardupilot()) {
+      fly_guided(t);
+    } else if (mode_ == Mode::Offboard) {
+      command_ = target_;
+    }
     if (mode_ == Mode::Land) {
       command_.motion.v = Vec3(0.0, 0.0, -kDescend);
       command_.motion.p.z() -= kDescend * kVehicleStep.seconds();

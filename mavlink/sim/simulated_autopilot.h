@@ -11,9 +11,12 @@
 
 namespace tern::mavlink {
 
+enum class Manners : std::uint8_t { Px4, ArduPilot };
+
 /// The section `autopilot_sim`. Of `quadrotor.controller` velocity_d, tilt_max, rate_max, speed_max, drag_per_s and
 /// lead_s do not count: an autopilot has the first four from its parameters, and leaves the others to the bridge.
 struct SimulatedAutopilotConfig {
+  Manners manners = Manners::Px4;
   double clock_rate = 0.99;
   double velocity_d = 0.2;
   Duration answer_after{100'000};
@@ -24,6 +27,8 @@ struct SimulatedAutopilotConfig {
 
   template <typename V>
   void visit(V& v) {
+    v("manners", manners, KnobWords<Manners>{{"px4", Manners::Px4}, {"ardupilot", Manners::ArduPilot}},
+      "whose modes, take-off and messages are its own");
     v("clock_rate", clock_rate, Range{0.9, 1.1}, "seconds of its clock per second");
     v("answer_after_s", answer_after, Range{0.0, 2.0}, "acknowledgements come this late, s");
     v("busy_s", busy_for, Range{0.0, 60.0}, "so long after its start it rejects commands for the moment, s");
@@ -47,6 +52,13 @@ struct SimulatedAutopilotConfig {
 ///
 /// Any system may command it, but has to say whom it means. A parameter is set by its own type only; of those it does
 /// not have, it says nothing. The velocity loop has a D term, MPC_XY_VEL_D_ACC, which opposes the whole acceleration.
+///
+/// With ArduPilot's manners (Copter, by its source; no real one was asked) it says HEARTBEAT, SYS_STATUS and what
+/// SET_MESSAGE_INTERVAL asked for: neither ESTIMATOR_STATUS nor HIL_STATE_QUATERNION, and ODOMETRY in another frame.
+/// Its modes are GUIDED, LOITER and LAND. Setpoints do not lift it off the ground. NAV_TAKEOFF does, in GUIDED, to a
+/// height above home, and a setpoint ends that. Home is where it was armed, shifted up by SIM_HOME_UP. Who stands armed
+/// for 10 s without taking off is disarmed. GUID_TIMEOUT after the last setpoint it stops, in GUIDED. It stays in LAND
+/// when it has landed. Parameters travel as numbers, whatever their type.
 ///
 /// Parameters beside PX4's: SIM_ARM_REFUSE (it refuses to arm), SIM_BAT_PCT (what is left, %), SIM_EST_JUMP (writing it
 /// shifts the estimate by so many metres).
@@ -79,7 +91,13 @@ class SimulatedAutopilot {
   void intend(Mode mode);
   void enter(Mode mode);
   [[nodiscard]] bool is_busy(UTime now) const { return now - started_ < config_.busy_for; }
+  [[nodiscard]] bool is_ardupilot() const { return config_.manners == Manners::ArduPilot; }
   bool rotors_lift(UTime t);
+  bool ardupilots_rotors_lift(UTime t);
+  [[nodiscard]] std::uint8_t set_ardupilots_mode(int custom);
+  [[nodiscard]] std::uint8_t take_off(float above_home, UTime now);
+  void fly_guided(UTime t);
+  void begin_streams(UTime now);
   void hear_vision(const Odometry& seen, UTime now);
   void hear_target(const SetPositionTargetLocalNed& target, UTime now);
   void set_parameter(const std::string& name, double value);
@@ -114,7 +132,10 @@ class SimulatedAutopilot {
   std::optional<UTime> streaming_since_, last_target_, landed_since_, ramp_since_;
   std::optional<UTime> ground_station_heard_, vision_heard_;
   UTime armed_since_;
-  double ramp_ = 1.0;  ///< of its speed, while it takes off
+  double home_up_ = 0.0;                ///< of the estimate's frame
+  std::optional<double> takes_off_to_;  ///< of the estimate's frame
+  bool guided_ = false;                 ///< by setpoints, since GUIDED began
+  double ramp_ = 1.0;                   ///< of its speed, while it takes off
   UTime last_step_;
   double battery_ = 0.9;
   std::map<std::string, double> parameters_;

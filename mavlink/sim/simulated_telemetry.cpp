@@ -12,6 +12,7 @@ namespace {
 
 /// Of the place on a map where it stands, 1e-7 degrees and mm.
 constexpr std::int32_t kLatitude = 473977418, kLongitude = 85455938, kAltitude = 488'000;
+constexpr std::uint8_t kPx4 = 12, kArduPilot = 3, kLocalNed = 1, kLocalFrd = 20;
 /// MAV_STATE.
 constexpr std::uint8_t kStandby = 3, kActive = 4, kCritical = 5;
 /// ESTIMATOR_STATUS_FLAGS: attitude alone, and with all that a flight needs.
@@ -23,12 +24,26 @@ std::array<float, 3> rates_frd(const Vec3& w) {
 
 }  // namespace
 
+void SimulatedAutopilot::begin_streams(UTime now) {
+  const auto every = [&](std::uint32_t id, std::int64_t us) { streams_[id] = {Duration{us}, now}; };
+  every(Heartbeat::kId, 1'000'000);
+  every(SysStatus::kId, 200'000);
+  if (is_ardupilot()) return;
+  every(ExtendedSysState::kId, 200'000);
+  every(EstimatorStatus::kId, 1'000'000);
+  every(LocalPositionNed::kId, 33'333);
+  every(Odometry::kId, 33'333);
+  every(AttitudeQuaternion::kId, 20'000);
+  every(Timesync::kId, 100'000);
+}
+
 std::uint64_t SimulatedAutopilot::clock_us(UTime now) const {
   return static_cast<std::uint64_t>(config_.clock_rate * static_cast<double>((now - started_).us));
 }
 
 std::uint32_t SimulatedAutopilot::custom_mode() const {
   const auto automatic = [](std::uint32_t sub) { return 4U << 16U | sub << 24U; };
+  if (is_ardupilot()) return mode_ == Mode::Offboard ? 4 : mode_ == Mode::Land ? 9 : 5;
   switch (mode_) {
     case Mode::Loiter: return automatic(3);
     case Mode::Land: return automatic(6);
@@ -48,7 +63,7 @@ void SimulatedAutopilot::say_odometry() {
   const Vec3 v = q.conjugate() * swapped(estimate.motion.v);
   m.v = {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
   m.rates = rates_frd(model_.truth().w);
-  m.frame_id = 1;
+  m.frame_id = is_ardupilot() ? kLocalFrd : kLocalNed;
   m.child_frame_id = 12;
   m.reset_counter = static_cast<std::uint8_t>(model_.resets());
   say(m);
@@ -73,11 +88,16 @@ void SimulatedAutopilot::say_stream(std::uint32_t id, UTime now) {
   const UavState estimate = model_.estimate();
   const auto boot_ms = static_cast<std::uint32_t>(clock_us(estimate.at) / 1000);
   const bool on_ground = model_.truth().on_ground;
+  if (is_ardupilot() && (id == EstimatorStatus::kId || id == HilStateQuaternion::kId)) return;
   switch (id) {
+    case GlobalPositionInt::kId:
+      return say(GlobalPositionInt{
+          .time_boot_ms = boot_ms,
+          .relative_alt = static_cast<std::int32_t>(std::lround(1e3 * (estimate.motion.p.z() - home_up_)))});
     case Heartbeat::kId:
       return say(Heartbeat{.custom_mode = custom_mode(),
                            .type = 2,
-                           .autopilot = 12,
+                           .autopilot = is_ardupilot() ? kArduPilot : kPx4,
                            .base_mode = static_cast<std::uint8_t>(1 | (armed_ ? kArmedBit : 0)),
                            .system_status = !armed_     ? kStandby
                                             : failsafe_ ? kCritical

@@ -313,4 +313,33 @@ after_a_stream_of_packets_that_crash_lcm_the_processes_fly() {
   nobody_left || fail "left: $(pgrep -af "$work/")"
 }
 
+# An autopilot's flight is short: its take-off and landing are what takes time.
+autopilots=(--autopilot sim --count 10 --goal "12,-1,1")
+
+# landed FLIGHT: the bridge has seen the autopilot disarm on the ground, and the autopilot was asked for nothing since.
+landed() {
+  expect "it is disarmed on the ground" has_text "info: landed: " "$work/$1/tern-mavlink.log"
+  nobody_left || fail "left: $(pgrep -af "$work/")"
+}
+
+an_autopilots_flight_reaches_its_goal_and_lands() {
+  start_flight sim "${autopilots[@]}"
+  local result=0
+  wait "$flight" || result=$?
+  cat "$work/sim.out"
+  [[ $result == 0 && $(field sim outcome) == reached ]] || fail "exit code $result, $(field sim outcome)"
+  landed sim
+}
+
+ctrl_c_in_an_autopilots_flight_lands_it() {
+  start_flight sim "${autopilots[@]}"
+  eventually "flies" 90 flies sim
+  kill -INT -- "-$flight"
+  local result=0
+  wait "$flight" || result=$?
+  [[ $result == 130 ]] || fail "exit code $result"
+  landed sim
+  expect "it waited for that" has_text "the autopilot has landed" "$work/sim/tern-mavlink.log"
+}
+
 run_test "$1"

@@ -56,6 +56,25 @@ END
   eventually "nobody is left" 5 nobody_left
 }
 
+keep_alive_lets_the_bridge_land() {
+  mkdir "$work/bin"
+  cat >"$work/bin/tern-mavlink" <<END
+#!/bin/sh
+trap 'sleep 3; echo landed >"$work/landed"; exit 0' TERM
+echo ready >"$work/ready"
+while :; do read -r _ <"$work/fifo" || true; done
+END
+  chmod +x "$work/bin/tern-mavlink"
+  mkfifo "$work/fifo"
+  local launch=$TERN_BIN/tern-launch
+  TERN_BIN=$work/bin "$launch" keep -- "$scripts/mavlink.sh" &
+  local keeper=$!
+  eventually "start" 10 test -e "$work/ready"
+  kill -TERM "$keeper"
+  wait "$keeper" || fail "exit code $?"
+  expect "it has landed" test -e "$work/landed"
+}
+
 # A program that ends by SIGKILL only; it holds a file named $1 with its pid.
 make_stubborn() {
   cat >"$work/stubborn" <<END

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "mavlink/axes.h"
 #include "mavlink/bridge.h"
 #include "mavlink/sim/simulated_autopilot.h"
 
@@ -59,8 +60,13 @@ class FlightInMemory {
       if (beats++ % 5 == 0) say_setpoint();
       if (bridge_runs) bridge.step(now);
       autopilot.step(now);
-      for (const Frame& f : bridge.take_frames()) post(f, false);
-      for (const Frame& f : autopilot.take_frames()) post(f, true);
+      for (const Frame& f : bridge.take_frames()) {
+        if (sent) sent(f);
+        post(f, false);
+      }
+      for (const Frame& f : autopilot.take_frames()) {
+        if (!hides || !hides(f)) post(shifted(f), true);
+      }
       for (std::string& word : bridge.take_words()) words.push_back(std::move(word));
       if (each) each();
     }
@@ -93,10 +99,22 @@ class FlightInMemory {
   bool cut = false, bridge_runs = true, speaks = true, ground_station_there = true;
   std::function<MotionSample(double)> path;
   std::function<void()> each;
+  std::function<bool(const Frame&)> hides;  ///< what the bridge is not told of what the autopilot says
+  Vec3 shifts = Vec3::Zero();               ///< the estimate that the bridge is told, ENU
+  std::function<void(const Frame&)> sent;   ///< sees what the bridge says
   std::optional<UTime> follows_since;
   std::vector<std::string> words;
 
  private:
+  [[nodiscard]] Frame shifted(const Frame& frame) const {
+    const auto moved = [&](auto message) {
+      message.p = ned_of(enu_of(message.p) + shifts);
+      return to_frame(message, frame.from, frame.sequence);
+    };
+    if (const auto m = from_frame<Odometry>(frame)) return moved(*m);
+    if (const auto m = from_frame<LocalPositionNed>(frame)) return moved(*m);
+    return frame;
+  }
   void post(const Frame& frame, bool to_bridge) {
     if (cut || (!to_bridge && !bridge_runs)) return;
     const int copies = rng.uniform() < faults.lost ? 0 : rng.uniform() < faults.doubled ? 2 : 1;

@@ -70,6 +70,7 @@ struct Relay {
   double lost = 0.0, doubled = 0.0, swapped = 0.0;
   bool cut = false;
   Rng rng{1};
+  std::optional<Odometry> vision;  ///< the newest that the bridge told
 
   void pump() {
     while (const auto bytes = to_autopilot.receive()) {
@@ -77,6 +78,9 @@ struct Relay {
       pass(*bytes, held_down, [&](const Bytes& b) { to_bridge.send(b, bridge_port); });
     }
     while (const auto bytes = to_bridge.receive()) {
+      for (const Frame& frame : Parser().push(*bytes)) {
+        if (const auto told = from_frame<Odometry>(frame)) vision = told;
+      }
       pass(*bytes, held_up, [&](const Bytes& b) { to_autopilot.send(b, autopilot_port); });
     }
   }
@@ -269,6 +273,25 @@ TEST_F(MavlinkProcesses, AKilledBridgeComesBackOrStandsBack) {
     EXPECT_FALSE(status.following);
     EXPECT_EQ(status.mode, "AUTO.LAND");
   }
+}
+
+TEST_F(MavlinkProcesses, AKilledBridgeComesBackWithTheTruthThatItTold) {
+  const std::vector<std::string> sees{"--set", "mavlink.external_vision=true"};
+  start_bridge(sees);
+  ASSERT_TRUE(until_following()) << status.why_not;
+  bridge->signal(SIGKILL);
+  EXPECT_EQ(bridge->wait(), -SIGKILL);
+  truth.reset();
+  relay.vision.reset();
+  start_bridge(sees);
+  ASSERT_TRUE(until([&] { return truth && relay.vision; })) << status.why_not;
+  // The estimate is the truth here. What is said within 20 ms is of the same place, even of a vehicle that lands.
+  for (int k = 0; k < 10; ++k) {
+    run_ms(50);
+    EXPECT_LT((truth->motion.p - state->motion.p).norm(), 0.1);
+    EXPECT_NEAR(-relay.vision->p[2], state->motion.p.z(), 0.1);
+  }
+  EXPECT_GT(state->motion.p.z(), 0.2) << "or else this shows nothing";
 }
 
 TEST_F(MavlinkProcesses, FlyOverALinkThatLosesDoublesAndReorders) {

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   const tern::ProcessDescription description{
       .name = "tern-autopilot-sim",
       .section = "autopilot_sim",
-      .summary = "An autopilot with a quadrotor of its own behind MAVLink, in PX4's manners",
+      .summary = "An autopilot with a quadrotor of its own behind MAVLink, in PX4's manners or ArduPilot's",
       .add_options =
           [&](CLI::App& app) {
             app.add_option("--connect", url, "udpout://ADDRESS:PORT of the bridge, or another end of a link");

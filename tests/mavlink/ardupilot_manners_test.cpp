@@ -1,0 +1,115 @@
+// A copter of ArduPilot takes off by command alone; by its source (mode_guided, takeoff, AP_Arming_Copter).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mavlink/bridge.h"
+#include "tests/mavlink/flight_in_memory.h"
+
+namespace tern::mavlink {
+namespace {
+
+using testing::HasSubstr;
+
+SimulatedAutopilotConfig copter() {
+  SimulatedAutopilotConfig config;
+  config.manners = Manners::ArduPilot;
+  return config;
+}
+const BridgeConfig kArms{.start = Start::Arm, .set_parameters = true};
+CommandLong switch_to(float custom) { return {.param = {1, custom}, .command = kDoSetMode}; }
+
+/// Along x from the start, 2 m/s after a second.
+MotionSample along(double t) {
+  constexpr double kSpeed = 2.0;
+  MotionSample m{Vec3(0, 0, 2), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  m.p.x() = t < 1.0 ? 0.5 * kSpeed * t * t : kSpeed * (t - 0.5);
+  m.v.x() = kSpeed * std::min(t, 1.0);
+  m.a.x() = t < 1.0 ? kSpeed : 0.0;
+  return m;
+}
+
+TEST(ArduPilotManners, ItTakesOffByCommandFollowsFromItsHeightAndLands) {
+  FlightInMemory flight(kArms, copter());
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
+  EXPECT_EQ(flight.autopilot.mode(), "GUIDED");
+  EXPECT_LT((flight.autopilot.model().truth().motion.p - Vec3(0, 0, 2)).norm(), 0.35) << "world time begins here";
+  flight.path = along;
+  flight.run(6.0);
+  ASSERT_TRUE(flight.following()) << flight.bridge.status(flight.now).why_not;
+  EXPECT_LT(
+      (flight.autopilot.model().truth().motion.p - along((flight.now - *flight.follows_since).seconds()).p).norm(),
+      0.3);
+  flight.bridge.land("the flight has ended");
+  ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Landed; }));
+  EXPECT_TRUE(flight.autopilot.model().truth().on_ground);
+  EXPECT_FALSE(flight.autopilot.armed());
+}
+
+TEST(ArduPilotManners, ItsHeightIsToldAboveHomeWhereverThatIs) {
+  for (const float up : {-3.0F, 1.0F}) {
+    FlightInMemory flight(kArms, copter());
+    flight.set_parameter("SIM_HOME_UP", up);
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
+    EXPECT_NEAR(flight.autopilot.model().truth().motion.p.z(), 2.0, 0.35) << up;
+  }
+}
+
+TEST(ArduPilotManners, APilotWhoSwitchesWhileItTakesOffHasTheVehicle) {
+  FlightInMemory flight(kArms, copter());
+  ASSERT_TRUE(flight.run_until([&] { return flight.autopilot.model().truth().motion.p.z() > 0.8; }));
+  ASSERT_EQ(flight.bridge.stage(), Stage::Engaging);
+  flight.ground_station(switch_to(5));
+  flight.each = [&] { ASSERT_EQ(flight.autopilot.mode(), "LOITER"); };
+  flight.run(5.0);
+  EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("armed in LOITER: somebody else flies"));
+}
+
+TEST(ArduPilotManners, WithStartPilotItIsTakenUpWhenThePilotArmsInGuidedAndFollowedAgainAfterTheSwitch) {
+  FlightInMemory flight({.start = Start::Pilot, .set_parameters = true}, copter());
+  bool told = false;
+  flight.sent = [&](const Frame& frame) { told = told || frame.id == SetPositionTargetLocalNed::kId; };
+  flight.run(6.0);
+  flight.ground_station(switch_to(4));
+  flight.ground_station({.param = {1}, .command = kArmDisarm});
+  ASSERT_TRUE(flight.run_until([&] { return flight.autopilot.model().truth().motion.p.z() > 1.5; }));
+  EXPECT_FALSE(told) << "setpoints would end the take-off";
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  flight.ground_station(switch_to(5));
+  ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::StoodBack; }));
+  told = false;
+  flight.run(3.0);
+  EXPECT_FALSE(told);
+  flight.ground_station(switch_to(4));
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
+}
+
+TEST(ArduPilotManners, ASetpointEndsTheTakeOffAndLiftsNothing) {
+  SimulatedAutopilot autopilot(copter(), 1, UTime{0});
+  UTime now{3'000'000};
+  const auto command = [&](CommandLong c) {
+    c.target_system = 1;
+    autopilot.hear(to_frame(c, {255, 190}, 0), now);
+  };
+  const auto run = [&](double seconds) {
+    for (const UTime end = now + Duration::from_seconds(seconds); now < end; now = now + Duration{2'000}) {
+      autopilot.step(now);
+    }
+  };
+  command(switch_to(4));
+  command({.param = {1}, .command = kArmDisarm});
+  ASSERT_TRUE(autopilot.armed());
+  command({.param = {0, 0, 0, 0, 0, 0, 2}, .command = kNavTakeoff});
+  autopilot.hear(
+      to_frame(
+          SetPositionTargetLocalNed{.p = {0, 0, -2}, .type_mask = 0x0800, .target_system = 1, .coordinate_frame = 1},
+          {1, 191}, 0),
+      now);
+  run(9.0);
+  EXPECT_TRUE(autopilot.model().truth().on_ground);
+  run(2.0);
+  EXPECT_FALSE(autopilot.armed()) << "it has stood for 10 s";
+}
+
+}  // namespace
+}  // namespace tern::mavlink

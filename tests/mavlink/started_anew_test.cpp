@@ -1,0 +1,95 @@
+// A bridge that was killed and is started again while the vehicle flies: nothing that it says may step.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mavlink/axes.h"
+#include "mavlink/bridge.h"
+#include "tests/mavlink/flight_in_memory.h"
+
+namespace tern::mavlink {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Along x from the start, 2 m/s after a second.
+MotionSample along(double t) {
+  constexpr double kSpeed = 2.0;
+  MotionSample m{Vec3(0, 0, 2), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  m.p.x() = t < 1.0 ? 0.5 * kSpeed * t * t : kSpeed * (t - 0.5);
+  m.v.x() = kSpeed * std::min(t, 1.0);
+  m.a.x() = t < 1.0 ? kSpeed : 0.0;
+  return m;
+}
+
+/// What the bridge says of the true place, less what is true; and so much of what it tells the estimator.
+struct Shift {
+  std::vector<Vec3> truth, vision;
+};
+
+/// Flies off, kills the bridge, and starts it again 0.2 s later. @return shifts before and after
+std::pair<Shift, Shift> shifts_over_a_restart(FlightInMemory& flight) {
+  EXPECT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
+  flight.path = along;
+  flight.run(4.0);
+  Shift before, after;
+  Shift* now = &before;
+  flight.each = [&] {
+    const auto truth = flight.bridge.truth();
+    if (!truth || flight.now - truth->at > Duration{20'000}) return;
+    const VehicleTruth is = flight.autopilot.model().truth();
+    now->truth.emplace_back(truth->motion.p - is.motion.p + is.motion.v * (flight.now - truth->at).seconds());
+  };
+  flight.sent = [&](const Frame& frame) {
+    const auto seen = from_frame<Odometry>(frame);
+    if (seen) now->vision.emplace_back(enu_of(seen->p) - flight.autopilot.model().truth().motion.p);
+  };
+  flight.run(0.2);
+  flight.bridge_runs = false;
+  flight.run(0.2);
+  flight.bridge_runs = true;
+  flight.bridge = Bridge(flight.config, FlightInMemory::uav(), flight.now);
+  now = &after;
+  flight.run(3.0);
+  EXPECT_GT(flight.autopilot.model().truth().motion.p.x(), 6.0);
+  flight.each = nullptr;
+  flight.sent = nullptr;
+  return {before, after};
+}
+
+double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  double most = from.empty() || to.empty() ? 1e9 : 0.0;
+  for (const Vec3& a : from) {
+    for (const Vec3& b : to) most = std::max(most, (a - b).norm());
+  }
+  return most;
+}
+
+TEST(StartedAnew, TheTruthThatItTellsTheEstimatorDoesNotStep) {
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true, .external_vision = true});
+  const auto [before, after] = shifts_over_a_restart(flight);
+  EXPECT_LT(farthest(before.truth, after.truth), 0.15);
+  EXPECT_LT(farthest(before.vision, after.vision), 0.15);
+  EXPECT_THAT(flight.words, Contains(HasSubstr("first seen in flight")));
+}
+
+TEST(StartedAnew, TheTruthThatItSaysDoesNotStepByWhatTheEstimateIsOff) {
+  SimulatedAutopilotConfig drifting;
+  drifting.estimator.drift_m = 0.5;
+  drifting.estimator.drift_time_s = 1e5;
+  FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, drifting, 3);
+  const auto [before, after] = shifts_over_a_restart(flight);
+  EXPECT_GT(before.truth.front().norm(), 0.2) << "or else this shows nothing";
+  EXPECT_LT(farthest(before.truth, after.truth), 0.15);
+  EXPECT_THAT(flight.words, Contains(HasSubstr("first seen in flight")));
+}
+
+TEST(StartedAnew, OnTheGroundItIsTheGroundThatDecides) {
+  FlightInMemory flight;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+  EXPECT_THAT(flight.words, Not(Contains(HasSubstr("first seen in flight"))));
+}
+
+}  // namespace
+}  // namespace tern::mavlink
