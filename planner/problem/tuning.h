@@ -65,8 +65,8 @@ inline constexpr double kCoarseVelocityShare = 0.4;
 inline constexpr double kWithinSphere = 0.97;
 /// The last band of the cost-to-go is so many times finer than the others, so that the goal itself is reached.
 inline constexpr std::int64_t kFinerBands = 10;
-/// Shares of the way back to the steady range at which a step's thrust is tried.
-inline constexpr double kReturnShares[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+/// Shares of the way back to the steady range at which a step's thrust is tried, where it is too much without.
+inline constexpr double kReturnShares[] = {0.25, 0.5, 0.75, 1.0};
 
 // ---- Paths around static obstacles (goal_field.h)
 

@@ -34,10 +34,15 @@ bool ThrustSet::contains(const Vec3& a) const {
          a.head<2>().squaredNorm() + up * up <= ceiling * ceiling;
 }
 
+/// thrust_bounds() in squares: the search asks it of every child.
 bool ThrustSet::allows(const Vec3& a0, const Vec3& a1, double duration_s) const {
   if (!contains(a1)) return false;
-  const ThrustBounds b = thrust_bounds(a0, a1, duration_s);
-  return b.least >= least && b.body_rate <= rate * (1.0 + 0.5 * kLimitTolerance);
+  const Vec3 f0 = a0 + Vec3(0.0, 0.0, kGravity), way = a1 - a0;
+  const double squared = way.squaredNorm();
+  const double s = squared > 0.0 ? std::clamp(-f0.dot(way) / squared, 0.0, 1.0) : 0.0;
+  const double nearest2 = (f0 + s * way).squaredNorm();
+  const double turned = rate * (1.0 + 0.5 * kLimitTolerance) * duration_s * nearest2;
+  return nearest2 >= least * least && f0.cross(way).squaredNorm() <= turned * turned;
 }
 
 Limits boxed(const Limits& limits) {

@@ -30,23 +30,24 @@ StepReach::Steps StepReach::from(int l, const Vec3& v, const Vec3& a_previous) c
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = idx(axis);
     out.range[i] = steps_[i].next_velocity(l, v[axis], a_previous[axis]);
-    if (thrust_) out.steady[i] = steady_[i].next_velocity(l, v[axis], a_previous[axis]);
+    if (!thrust_) continue;
+    const AxisReach::Interval steady = steady_[i].next_velocity(l, v[axis], a_previous[axis]);
+    out.steady[i] = {std::max(steady.low, out.range[i].low), std::min(steady.high, out.range[i].high)};
   }
   return out;
 }
 
 std::optional<Vec3> StepReach::flyable(const Steps& from, const Vec3& wanted) const {
-  if (!thrust_) return wanted;
+  const auto may_follow = [&](const Vec3& v) { return thrust_->allows(from.a, (v - from.v) / dt_, dt_); };
+  if (!thrust_ || may_follow(wanted)) return wanted;
   Vec3 back = wanted;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto i = idx(axis);
-    const AxisReach::Interval steady{std::max(from.steady[i].low, from.range[i].low),
-                                     std::min(from.steady[i].high, from.range[i].high)};
+    const AxisReach::Interval& steady = from.steady[idx(axis)];
     if (!steady.empty()) back[axis] = std::clamp(wanted[axis], steady.low, steady.high);
   }
   for (const double share : kReturnShares) {
     const Vec3 v = wanted + share * (back - wanted);
-    if (thrust_->allows(from.a, (v - from.v) / dt_, dt_)) return v;
+    if (may_follow(v)) return v;
   }
   return std::nullopt;
 }

@@ -30,7 +30,7 @@ class StepReach {
   struct Steps {
     Vec3 v, a;
     std::array<AxisReach::Interval, 3> range;
-    std::array<AxisReach::Interval, 3> steady;  ///< read with dynamics only
+    std::array<AxisReach::Interval, 3> steady;  ///< with dynamics only; empty where they reach none of it
   };
   [[nodiscard]] Steps from(int l, const Vec3& v, const Vec3& a_previous) const;
 
