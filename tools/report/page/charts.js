@@ -36,6 +36,10 @@ function motion() {
   const row = pair();
   const shared = path.share > 1 ? ` A point stands for ${path.share} states: the greatest of them.` : "";
   for (const [title, name, unit, limits] of [["Speed", "speed", "m/s", flight.v_max], ["Acceleration", "acceleration", "m/s²", flight.a_max]]) {
+    if (most(path[name]) === 0 && most(path.speed) > 0) {
+      card(`${title}, ${unit}`, "Nobody said the vehicle's acceleration: autopilots tell none.", row);
+      continue;
+    }
     const box = card(`${title}, ${unit}`, `Magnitude, and the largest component of an axis, to which the limit applies.${shared}`, row);
     const limit = limitSeries(limits);
     chart(box, {
