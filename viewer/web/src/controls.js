@@ -3,6 +3,7 @@ import { MODES, readLink, writeLink } from './link.js';
 import { otherTheme, theme } from './palette.js';
 
 const LINK_EVERY_MS = 1000; // browsers refuse more
+const REACHED_S = 0.1;
 
 const byId = (id) => document.getElementById(id);
 
@@ -39,6 +40,7 @@ export class Controls {
     this.cameras = cameras;
     this.does = does;
     this.written = 0;
+    this.asked = readLink(location.hash).t;
     this.buttons = [...document.querySelectorAll('[data-camera]')];
     for (const button of this.buttons) button.onclick = () => this.setCamera(button.dataset.camera);
     byId('fit').onclick = () => this.fit();
@@ -48,7 +50,10 @@ export class Controls {
     byId('stop-goal').onclick = () => does.goal('stop');
     byId('cut').oninput = () => does.cut(byId('cut').value / byId('cut').max);
     byId('theme').textContent = theme === 'light' ? 'dark' : 'light';
-    byId('theme').onclick = () => location.assign(otherTheme());
+    byId('theme').onclick = () => {
+      this.writeAddress();
+      location.assign(otherTheme());
+    };
     byId('link').onclick = () => this.copy();
     byId('menu').onclick = () => this.showMenu(!document.body.classList.contains('menu'));
     byId('showcharts').onclick = () => {
@@ -101,19 +106,36 @@ export class Controls {
     if (t === undefined) return;
     pause(); // first: who plays on leaves the moment
     this.does.jump(t);
+    this.asked = t;
+  }
+
+  /** The moment: while the player is on its way to the one that the address named, that. */
+  now() {
+    const now = this.does.now();
+    if (Math.abs(now - this.asked) < REACHED_S) this.asked = undefined;
+    return this.asked ?? now;
+  }
+
+  /** The user goes elsewhere. */
+  leave() {
+    this.asked = undefined;
   }
 
   address() {
     const { mode } = this.cameras;
     const isKnown = MODES.includes(mode);
     return writeLink({
-      t: this.does.now(), cam: isKnown ? mode : 'free', eye: mode === 'free' || !isKnown ? this.cameras.eye() : undefined });
+      t: this.now(), cam: isKnown ? mode : 'free', eye: mode === 'free' || !isKnown ? this.cameras.eye() : undefined });
   }
 
   /** The address holds moment and camera, so that it can be sent. @param now  ms */
   writeLink(now = performance.now()) {
     if (now - this.written < LINK_EVERY_MS) return;
     this.written = now;
+    this.writeAddress();
+  }
+
+  writeAddress() {
     const hash = this.address();
     if (hash !== location.hash) history.replaceState(null, '', hash || location.pathname + location.search);
   }

@@ -45,7 +45,10 @@ const send = (command) => stream?.send(command);
 const inspector = new Inspector(send);
 inspector.closed = () => pickObstacle(undefined);
 const player = new Player(send, hud.toast);
-const jump = (t) => player.jump(t);
+const jump = (t) => {
+  controls.leave();
+  player.jump(t);
+};
 const timeline = new Timeline(jump);
 const charts = new Charts({
   jump,
