@@ -16,7 +16,7 @@ class Cholesky {
  public:
   void resize(int n) {
     n_ = n;
-    l_.assign(static_cast<std::size_t>(n * n), 0.0);
+    l_.assign(idx(n) * idx(n), 0.0);
     inverse_.resize(static_cast<std::size_t>(n));
   }
 
@@ -113,7 +113,7 @@ class Constraints {
     const int to = begin_[idx(i) + 1];
     for (int e = from; e < to; ++e) {
       const double scaled = factor * value_[idx(e)];
-      double* row = matrix + column_[idx(e)] * n_;
+      double* row = matrix + idx(column_[idx(e)]) * idx(n_);
       for (int f = from; f <= e; ++f) row[column_[idx(f)]] += scaled * value_[idx(f)];
     }
   }

@@ -27,7 +27,7 @@ class Builder {
   void add_row(const AffinePoint& point, const Vec3& direction, double limit, double reach) {
     if (point.fixed()) return;
     FreeVariables row(3 * free_);
-    for (int i = 0; i < free_; ++i) row.segment<3>(3 * i) = point.weights[i] * direction;
+    for (Eigen::Index i = 0; i < free_; ++i) row.segment<3>(3 * i) = point.weights[i] * direction;
     const double bound = limit - direction.dot(point.offset);
     const double at_x0 = row.dot(x0_);
     if (bound - at_x0 > reach) return;
@@ -159,8 +159,8 @@ class Builder {
   /// weight · ‖point − target‖².
   void add_square(const AffinePoint& point, const Vec3& target, double weight) {
     const Vec3 offset = point.offset - target;
-    for (int i = 0; i < free_; ++i) {
-      for (int k = 0; k < free_; ++k) {
+    for (Eigen::Index i = 0; i < free_; ++i) {
+      for (Eigen::Index k = 0; k < free_; ++k) {
         const double h = 2.0 * weight * point.weights[i] * point.weights[k];
         for (int axis = 0; axis < 3; ++axis) out_.hessian(3 * i + axis, 3 * k + axis) += h;
       }

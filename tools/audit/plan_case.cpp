@@ -99,7 +99,7 @@ std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, 
   if (request == nullptr) why = "plans whose request is not in the log";
   if (predictions == record.predictions.end()) why = "plans whose predictions are not in the log";
   if (plan.inputs.map_version != 0 && map == record.maps.end()) why = "plans whose map is not in the log";
-  if (!why.empty()) return std::nullopt;
+  if (request == nullptr || !why.empty()) return std::nullopt;
   PlanCase result{plan,
                   *request,
                   predictions->second,
