@@ -45,7 +45,7 @@ class Mover {
   }
 
   Vec3 step(Rng& rng) {
-    constexpr double dt = 1.0 / kRate;
+    const double dt = 1.0 / kRate;
     t_ += dt;
     if (kind_ == MadeUp::Turners && rng.uniform() < 0.3 * dt) head_out(rng, v_.norm());
     if (jumps_ && rng.uniform() < dt) a_ = 5.0 * Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
@@ -108,6 +108,7 @@ Recording made_up(const MadeUpSource& source, std::uint64_t seed) {
   Recording recording;
   recording.name = std::string(source.name);
   std::vector<Present> present;
+  present.reserve(kAtOnce);
   std::int64_t ids = 0;
   const auto arrive = [&](int slot, double t) {
     const Vec3 place(kApart * kApart * slot, kApart * static_cast<double>(ids % 50), 1.0);

@@ -1,5 +1,7 @@
 #include "viewer/bridge/flight_history.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -30,7 +32,7 @@ void collect(const std::string& name, const nlohmann::json& value, NumberFields&
   } else if (value.is_number()) {
     fields.emplace_back(name, value.get<double>());
   } else if (value.is_object()) {
-    for (const auto& [key, part] : value.items()) collect(name + "." + key, part, fields);
+    for (const auto& [key, part] : value.items()) collect(fmt::format("{}.{}", name, key), part, fields);
   } else if (value.is_array() && value.size() == 3 && value.front().is_number()) {
     for (std::size_t k = 0; k < 3; ++k) collect(name + kAxes[k], value[k], fields);
   }
