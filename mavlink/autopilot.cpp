@@ -17,8 +17,6 @@ constexpr std::uint8_t kWarning = 4;
 /// MAV_STATE: while armed, PX4 says this in a failsafe.
 constexpr std::uint8_t kCritical = 5;
 constexpr Duration kOdometryRules{500'000};
-/// Older, and the estimate says nothing of where the vehicle is.
-constexpr Duration kOldEstimate{500'000};
 /// Answers and texts that wait at most.
 constexpr std::size_t kMostWaiting = 64;
 constexpr std::size_t kMostParameters = 4096, kLongestText = 400;
@@ -146,7 +144,7 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
   if (const auto m = from_frame<CommandAck>(frame)) keep(acks_, *m);
   if (const auto m = from_frame<StatusText>(frame)) hear_text(*m);
   hear_position(frame, received);
-  if (const auto m = from_frame<GlobalPositionInt>(frame); m && state_ && received - state_->at < kOldEstimate) {
+  if (const auto m = from_frame<GlobalPositionInt>(frame); m && state_ && received - state_->at < kStateAge) {
     home_height_ = state_->motion.p.z() - m->relative_alt * 1e-3;
   }
   if (const auto m = from_frame<HilStateQuaternion>(frame)) hear_truth(*m, received);
@@ -196,7 +194,7 @@ void Autopilot::hear_truth(const HilStateQuaternion& hil, UTime received) {
   const std::optional<UTime> at = hil.time_usec == 0 ? received : ours(hil.time_usec, received);
   if (!at || (truth_ && *at <= truth_->at)) return;
   if (!origin_ && own_origin_) {
-    const bool known = state_ && std::abs((*at - state_->at).seconds()) < kOldEstimate.seconds();
+    const bool known = state_ && std::abs((*at - state_->at).seconds()) < kStateAge.seconds();
     if (armed() && !known) return;
     if (armed()) own_shift_ = state_->motion.p + state_->motion.v * (*at - state_->at).seconds();
     origin_ = GpsGlobalOrigin{.latitude = hil.lat, .longitude = hil.lon, .altitude = hil.alt};

@@ -15,6 +15,9 @@
 
 namespace tern::mavlink {
 
+/// An older estimate says nothing of where the vehicle is.
+inline constexpr Duration kStateAge{500'000};
+
 enum class Firmware : std::uint8_t { Px4, ArduPilot, Other };
 
 /// MAV_CMD.

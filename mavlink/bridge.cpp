@@ -9,7 +9,6 @@ namespace tern::mavlink {
 namespace {
 
 constexpr Duration kHeartbeatPeriod{500'000}, kTimesyncPeriod{100'000};
-constexpr Duration kStateAge{500'000};
 /// Of the autopilot's clock: a simulation that is slower moves in slow motion and cannot follow.
 constexpr double kClockOff = 0.05;
 constexpr Duration kHeld{4'000'000};

@@ -56,6 +56,7 @@ END
   eventually "nobody is left" 5 nobody_left
 }
 
+# Its landing takes 3 s: longer than keep_alive gives other commands.
 keep_alive_lets_the_bridge_land() {
   mkdir "$work/bin"
   cat >"$work/bin/tern-mavlink" <<END

@@ -18,16 +18,6 @@ SimulatedAutopilotConfig copter() {
 const BridgeConfig kArms{.start = Start::Arm, .set_parameters = true};
 CommandLong switch_to(float custom) { return {.param = {1, custom}, .command = kDoSetMode}; }
 
-/// Along x from the start, 2 m/s after a second.
-MotionSample along(double t) {
-  constexpr double kSpeed = 2.0;
-  MotionSample m{Vec3(0, 0, 2), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  m.p.x() = t < 1.0 ? 0.5 * kSpeed * t * t : kSpeed * (t - 0.5);
-  m.v.x() = kSpeed * std::min(t, 1.0);
-  m.a.x() = t < 1.0 ? kSpeed : 0.0;
-  return m;
-}
-
 TEST(ArduPilotManners, ItTakesOffByCommandFollowsFromItsHeightAndLands) {
   FlightInMemory flight(kArms, copter());
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;

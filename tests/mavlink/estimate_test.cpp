@@ -11,16 +11,6 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Along x from the start, 2 m/s after a second.
-MotionSample along(double t) {
-  constexpr double kSpeed = 2.0;
-  MotionSample m{Vec3(0, 0, 2), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  m.p.x() = t < 1.0 ? 0.5 * kSpeed * t * t : kSpeed * (t - 0.5);
-  m.v.x() = kSpeed * std::min(t, 1.0);
-  m.a.x() = t < 1.0 ? kSpeed : 0.0;
-  return m;
-}
-
 TEST(Estimate, AVehicleThatSaysNoPositionAnyMoreIsNotFollowingAndIsBroughtToRest) {
   FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));

@@ -1,6 +1,7 @@
 // A bridge and a simulated autopilot on virtual time, over a link that may lose, double, delay and cut.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -17,6 +18,16 @@ struct LinkFaults {
   double lost = 0.0, doubled = 0.0;
   Duration delay_from{1'000}, delay_to{1'000};  ///< later ones may overtake
 };
+
+/// Along x from the start, 2 m/s after a second.
+inline MotionSample along(double t) {
+  constexpr double kSpeed = 2.0;
+  MotionSample m{Vec3(0, 0, 2), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  m.p.x() = t < 1.0 ? 0.5 * kSpeed * t * t : kSpeed * (t - 0.5);
+  m.v.x() = kSpeed * std::min(t, 1.0);
+  m.a.x() = t < 1.0 ? kSpeed : 0.0;
+  return m;
+}
 
 class FlightInMemory {
  public:

@@ -13,16 +13,6 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Along x from the start, 2 m/s after a second.
-MotionSample along(double t) {
-  constexpr double kSpeed = 2.0;
-  MotionSample m{Vec3(0, 0, 2), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  m.p.x() = t < 1.0 ? 0.5 * kSpeed * t * t : kSpeed * (t - 0.5);
-  m.v.x() = kSpeed * std::min(t, 1.0);
-  m.a.x() = t < 1.0 ? kSpeed : 0.0;
-  return m;
-}
-
 /// What the bridge says of the true place, less what is true; and so much of what it tells the estimator.
 struct Shift {
   std::vector<Vec3> truth, vision;
