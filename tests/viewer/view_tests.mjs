@@ -122,6 +122,17 @@ await run({
     expect('from above', await page.evaluate(() => window.tern.world.camera.isOrthographicCamera));
     await page.evaluate(() => window.tern.jump(12));
     await eventually('the address follows', () => page.evaluate(() => location.hash === '#t=12&cam=top'));
+    await page.evaluate(() => new Promise((followed) => {
+      window.addEventListener('hashchange', followed, { once: true });
+      location.hash = '#t=3&cam=top';
+    }).then(() => {
+      const scrub = document.getElementById('scrub');
+      scrub.value = 0.45 * scrub.max;
+      scrub.dispatchEvent(new Event('input'));
+    }));
+    await eventually('whoever scrubs elsewhere at once', () => page.evaluate(() => location.hash === '#t=9&cam=top'));
+    await page.evaluate(() => (location.hash = '#t=99&cam=top'));
+    await eventually("the log's end", () => page.evaluate(() => location.hash === '#t=20&cam=top'));
     const whole = await openPage(viewer.url, undefined, '#t=6.3&cam=fit');
     await shows(whole, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.02);
     await eventually('all of the flight, from where it is seen', () =>

@@ -3,7 +3,6 @@ import { MODES, readLink, writeLink } from './link.js';
 import { otherTheme, theme } from './palette.js';
 
 const LINK_EVERY_MS = 1000; // browsers refuse more
-const REACHED_S = 0.1;
 
 const byId = (id) => document.getElementById(id);
 
@@ -33,14 +32,13 @@ function listen(actions) {
 export class Controls {
   /**
    * @param cameras  Cameras
-   * @param does  {fit(), hasPath(), toggle(), step(n), jump(t), cut(share), goal(mode), aim(), escape(), now(): seconds of a log or undefined,
-   *   say(text), changed()}
+   * @param does  {fit(), hasPath(), toggle(), step(n), restAt(t), cut(share), goal(mode), aim(), escape(),
+   *   now(): seconds of a log or undefined, say(text), changed()}
    */
   constructor(cameras, does) {
     this.cameras = cameras;
     this.does = does;
     this.written = 0;
-    this.asked = readLink(location.hash).t;
     this.buttons = [...document.querySelectorAll('[data-camera]')];
     for (const button of this.buttons) button.onclick = () => this.setCamera(button.dataset.camera);
     byId('fit').onclick = () => this.fit();
@@ -97,35 +95,23 @@ export class Controls {
     for (const button of this.buttons) button.classList.toggle('on', button.dataset.camera === this.cameras.mode);
   }
 
-  /** Goes where the address says. @param pause  called before it goes to a moment */
-  follow(pause = () => {}) {
+  /** Goes where the address says. */
+  follow() {
     const { t, cam, eye } = readLink(location.hash);
     this.isAskedToFit = cam === 'fit';
     if (this.does.hasPath()) this.pathIsKnown();
+    if (t !== undefined) this.does.restAt(t);
     if (cam && cam !== 'fit') this.setCamera(cam, eye);
-    if (t === undefined) return;
-    pause(); // first: who plays on leaves the moment
-    this.does.jump(t);
-    this.asked = t;
-  }
-
-  /** The moment: while the player is on its way to the one that the address named, that. */
-  now() {
-    const now = this.does.now();
-    if (Math.abs(now - this.asked) < REACHED_S) this.asked = undefined;
-    return this.asked ?? now;
-  }
-
-  /** The user goes elsewhere. */
-  leave() {
-    this.asked = undefined;
   }
 
   address() {
     const { mode } = this.cameras;
     const isKnown = MODES.includes(mode);
     return writeLink({
-      t: this.now(), cam: isKnown ? mode : 'free', eye: mode === 'free' || !isKnown ? this.cameras.eye() : undefined });
+      t: this.does.now() ?? readLink(location.hash).t, // until the log is there, the moment that the address asks for
+      cam: isKnown ? mode : 'free',
+      eye: mode === 'free' || !isKnown ? this.cameras.eye() : undefined,
+    });
   }
 
   /** The address holds moment and camera, so that it can be sent. @param now  ms */

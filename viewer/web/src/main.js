@@ -45,10 +45,7 @@ const send = (command) => stream?.send(command);
 const inspector = new Inspector(send);
 inspector.closed = () => pickObstacle(undefined);
 const player = new Player(send, hud.toast);
-const jump = (t) => {
-  controls.leave();
-  player.jump(t);
-};
+const jump = (t) => player.jump(t);
 const timeline = new Timeline(jump);
 const charts = new Charts({
   jump,
@@ -74,7 +71,7 @@ const topics = {
     const isFirst = !known.player;
     known.player = state;
     player.take(state);
-    if (isFirst) controls.follow(() => send({ player: { play: false } }));
+    if (isFirst) controls.follow();
   },
   chart(chart) {
     if (!chart) return;
@@ -201,7 +198,7 @@ const controls = new Controls(cameras, {
   fit: () => cameras.fit(trajectories.extent(new THREE.Box3())),
   toggle: () => player.toggle(),
   step: (plans) => player.step(plans),
-  jump,
+  restAt: (t) => player.restAt(t),
   cut(share) {
     cutShare = share;
     showCut();
@@ -209,7 +206,7 @@ const controls = new Controls(cameras, {
   goal: (mode) => send({ goal: { mode } }),
   aim: () => !document.getElementById('goalmode').disabled && pointer.aim(!pointer.aiming),
   escape: () => inspector.close(),
-  now: () => (known.player ? flightTime(known.player.at_us) : undefined),
+  now: () => player.now(),
   say: hud.toast,
   changed: () => free.look(),
 });

@@ -2,6 +2,7 @@
 import { say } from './hud.js';
 
 const RATES = [0.1, 0.25, 0.5, 1, 2, 4, 8];
+const REACHED_S = 0.1;
 
 const byId = (id) => document.getElementById(id);
 const seconds = (s) => `${(Math.round(10 * s) / 10).toFixed(1)} s`; // never -0.0
@@ -10,6 +11,7 @@ export class Player {
   /** @param send  a command to the bridge  @param refuse  says why there is nothing to play */
   constructor(send, refuse) {
     this.state = null;
+    this.rest = undefined; // the moment that it is on its way to, s of the flight
     this.send = send;
     this.refuse = refuse;
     byId('play').onclick = () => this.toggle();
@@ -25,6 +27,7 @@ export class Player {
   }
 
   ask(command) {
+    this.rest = undefined;
     if (this.state) this.send({ player: command });
     else this.refuse('a flight that is flown cannot be wound back; when it has ended, its log can');
   }
@@ -41,6 +44,22 @@ export class Player {
   /** @param t  seconds of the flight */
   jump(t) {
     this.ask({ seek_us: Math.round((this.state?.zero_us ?? 0) + 1e6 * t) });
+  }
+
+  /** Stops, at this moment or the log's end nearest to it. @param t  seconds of the flight */
+  restAt(t) {
+    this.ask({ play: false }); // first: who plays on leaves the moment
+    this.jump(t);
+    const [begin, end] = this.span();
+    this.rest = Math.min(Math.max(t, begin), end);
+  }
+
+  /** Seconds of the flight; on the way to a moment, that one. Undefined: nothing is played. */
+  now() {
+    if (!this.state) return undefined;
+    const now = (this.state.at_us - this.state.zero_us) * 1e-6;
+    if (Math.abs(now - this.rest) < REACHED_S) this.rest = undefined;
+    return this.rest ?? now;
   }
 
   /** Begin and end of the log, seconds of the flight. */
