@@ -296,7 +296,7 @@ std::vector<ConfigSection> ConfigSection::list(std::string_view key) {
 std::vector<std::string> ConfigSection::keys() const {
   std::vector<std::string> result;
   if (impl_->value != nullptr) {
-    for (const auto& entry : impl_->value->entries) result.push_back(entry.first);
+    for (const auto& entry : impl_->value->entries) result.push_back(entry.key);
   }
   return result;
 }

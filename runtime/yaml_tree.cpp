@@ -13,6 +13,7 @@
 #include <optional>
 #include <sstream>
 #include <unordered_map>
+#include <utility>
 
 #include "runtime/config.h"
 
@@ -38,7 +39,7 @@ Extent extent_of(const YamlValue& value) {
     extent.levels = std::max(extent.levels, part.levels + 1);
   };
   for (const YamlValue& item : value.items) add(item);
-  for (const auto& entry : value.entries) add(entry.second);
+  for (const auto& entry : value.entries) add(entry.value);
   return extent;
 }
 
@@ -138,7 +139,7 @@ class TreeBuilder final : public YAML::EventHandler {
       // A mapping below its key begins a line later, a value left out may lie anywhere: the key's line is what one
       // looks for.
       value.where = std::move(parent.key_where);
-      parent.value.entries.emplace_back(std::move(*parent.key), std::move(value));
+      parent.value.entries.push_back({std::move(*parent.key), std::move(value)});
       parent.key.reset();
     }
   }
@@ -241,8 +242,8 @@ YamlValue& descend(YamlValue& parent, const Step& step, const std::string& where
   }
   YamlValue* child = parent.find(step.key);
   if (child == nullptr) {
-    parent.entries.emplace_back(step.key, YamlValue{});
-    child = &parent.entries.back().second;
+    parent.entries.push_back({step.key, YamlValue{}});
+    child = &parent.entries.back().value;
     child->where = where;
   }
   if (!step.index) return *child;
@@ -256,8 +257,8 @@ YamlValue& descend(YamlValue& parent, const Step& step, const std::string& where
 }  // namespace
 
 const YamlValue* YamlValue::find(std::string_view key) const {
-  const auto found = std::ranges::find_if(entries, [&](const auto& entry) { return entry.first == key; });
-  return found == entries.end() ? nullptr : &found->second;
+  const auto found = std::ranges::find_if(entries, [&](const auto& entry) { return entry.key == key; });
+  return found == entries.end() ? nullptr : &found->value;
 }
 
 YamlValue* YamlValue::find(std::string_view key) { return const_cast<YamlValue*>(std::as_const(*this).find(key)); }
@@ -290,7 +291,7 @@ void apply_override(YamlValue& document, const std::string& override_text) {
   const std::vector<Step> steps = parse_path(std::string_view(override_text).substr(0, equals), where);
   YamlValue* target = &document;
   for (const Step& step : steps) target = &descend(*target, step, where);
-  *target = parse_with(override_text.substr(equals + 1), [&](const YAML::Mark&) { return where; });
+  *target = parse_with(override_text.substr(equals + 1), [&](const YAML::Mark&) { return std::string(where); });
   target->where = where;
 }
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace tern {
@@ -15,21 +14,28 @@ inline constexpr std::size_t kMaxYamlBytes = std::size_t{4} << 20U;
 inline constexpr std::size_t kMaxYamlValues = 200'000;  ///< keys count, and what an alias repeats, each time
 inline constexpr std::size_t kMaxYamlDepth = 32;        ///< levels of nesting; scenario files are shallow
 
+struct YamlEntry;
+
 /// One value of a document.
 struct YamlValue {
   enum class Kind { Null, Scalar, Sequence, Mapping };
   Kind kind = Kind::Null;
-  std::string where;                                       ///< "scenarios/x.yaml:12" or "--set key=value"
-  std::string scalar;                                      ///< of a Scalar
-  bool quoted = false;                                     ///< a quoted scalar is text only
-  std::vector<YamlValue> items;                            ///< of a Sequence
-  std::vector<std::pair<std::string, YamlValue>> entries;  ///< of a Mapping, in file order, no key twice
+  std::string where;               ///< "scenarios/x.yaml:12" or "--set key=value"
+  std::string scalar;              ///< of a Scalar
+  bool quoted = false;             ///< a quoted scalar is text only
+  std::vector<YamlValue> items;    ///< of a Sequence
+  std::vector<YamlEntry> entries;  ///< of a Mapping, in file order, no key twice
 
   /// The entry, or nullptr.
   [[nodiscard]] const YamlValue* find(std::string_view key) const;
   [[nodiscard]] YamlValue* find(std::string_view key);
   /// For messages: the scalar itself, "a list", "a mapping", "nothing".
   [[nodiscard]] std::string describe() const;
+};
+
+struct YamlEntry {
+  std::string key;
+  YamlValue value;
 };
 
 /// Parses a document whose top is a mapping (or nothing, which is an empty one).

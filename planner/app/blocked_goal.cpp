@@ -25,8 +25,8 @@ bool reaches_into(const Region& region, const Box& box) {
   if (both.isEmpty()) return false;
   const Vec3 part = both.sizes() / kParts;
   for (int k = 0; k < kParts * kParts * kParts; ++k) {
-    const Vec3 index(k % kParts, k / kParts % kParts, k / kParts / kParts);
-    if (region.contains(both.min() + part.cwiseProduct(index + Vec3::Constant(0.5)))) return true;
+    const Eigen::Vector3i index(k % kParts, k / kParts % kParts, k / (kParts * kParts));
+    if (region.contains(both.min() + part.cwiseProduct(index.cast<double>() + Vec3::Constant(0.5)))) return true;
   }
   return false;
 }

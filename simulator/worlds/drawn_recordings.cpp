@@ -38,7 +38,8 @@ double on_floor(const Vec3& a, const Vec3& b) { return (a - b).head<2>().norm();
 bool meets(const RecordedTrack& track, double t_s, const UavSpec& uav) {
   const double bound = rest_to_rest_bound_s(uav.start, uav.goal, uav.limits);
   if (track.points.back().first < t_s || track.points.front().first > t_s + bound) return false;
-  for (double t = 0.0; t <= bound; t += kMeetingSample) {
+  for (int k = 0; k * kMeetingSample <= bound; ++k) {
+    const double t = k * kMeetingSample;
     const auto place = place_at(track, t_s + t);
     const Vec3 vehicle = uav.start + (uav.goal - uav.start) * (bound > 0.0 ? t / bound : 0.0);
     if (place && on_floor(*place, vehicle) < kMeeting) return true;
