@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kReportEvery_ms = 1'000;
+constexpr int kReportEvery = 1'000;  // ms
 
 std::string last_line(const fs::path& file) {
   std::ifstream in(file);
@@ -51,7 +51,7 @@ class Run {
       }
       report(progress_);
       bool stop = false;
-      for (const FinishedProcess& finished : pool_.wait(stop_fd, kReportEvery_ms, stop)) {
+      for (const FinishedProcess& finished : pool_.wait(stop_fd, kReportEvery, stop)) {
         if (auto kept = keep(finished); !kept) {
           fs::remove_all(flying(finished.key));
           (void)interrupt();

@@ -22,8 +22,8 @@ const std::vector<Vec3>& directions() {
     std::vector<Vec3> made;
     for (const int axes : {1, 3, 2}) {
       for (int k = 0; k < 27; ++k) {
-        const Vec3 direction(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
-        if (static_cast<int>(direction.squaredNorm()) == axes) made.push_back(direction.normalized());
+        const Eigen::Vector3i direction(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+        if (direction.squaredNorm() == axes) made.push_back(direction.cast<double>().normalized());
       }
     }
     return made;
