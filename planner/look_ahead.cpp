@@ -44,11 +44,13 @@ double longest_first_duration(const LookAhead& look, const HoldDemand& hold, con
 LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
                    double largest_radius, double longest_s) {
   LocalAim soonest;
-  for (double radius = largest_radius; radius >= std::min(kLeastRadius, largest_radius); radius *= kRadiusShrink) {
+  double radius = largest_radius;
+  while (radius >= std::min(kLeastRadius, largest_radius)) {
     LocalAim aim{local_goal(path, start.p, radius), radius, 0.0};
     aim.least_s = planned_duration(start, aim.goal, limits);
     if (aim.least_s <= longest_s) return aim;
     if (radius == largest_radius || aim.least_s < soonest.least_s) soonest = aim;
+    radius *= kRadiusShrink;
   }
   return soonest;
 }

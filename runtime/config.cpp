@@ -181,15 +181,15 @@ bool ConfigSection::flag(std::string_view key, bool fallback, std::string_view m
   return result;
 }
 
-std::string ConfigSection::text(std::string_view key, std::string fallback, std::string_view meaning) {
+std::string ConfigSection::text(std::string_view key, const std::string& fallback, std::string_view meaning) {
   const YamlValue* v = impl_->find(key);
   std::string result = v != nullptr ? impl_->text(key, *v) : fallback;
   impl_->note(key, yaml_text(result), {"", yaml_text(fallback), "", std::string(meaning)});
   return result;
 }
 
-std::string ConfigSection::choice(std::string_view key, std::string fallback, const std::vector<std::string>& words,
-                                  std::string_view meaning) {
+std::string ConfigSection::choice(std::string_view key, const std::string& fallback,
+                                  const std::vector<std::string>& words, std::string_view meaning) {
   const YamlValue* v = impl_->find(key);
   std::string result = v != nullptr ? impl_->text(key, *v) : fallback;
   impl_->note(key, yaml_text(result),
@@ -202,7 +202,7 @@ std::string ConfigSection::choice(std::string_view key, std::string fallback, co
 
 Vec3 ConfigSection::vec3(std::string_view key, const Vec3& fallback, Range each, std::string_view meaning) {
   const YamlValue* v = impl_->find(key);
-  const Vec3 result = v != nullptr ? impl_->vec3(key, *v, each) : fallback;
+  Vec3 result = v != nullptr ? impl_->vec3(key, *v, each) : fallback;
   impl_->note(key, to_yaml(result), {"", to_yaml(fallback), describe(each) + " each", std::string(meaning)});
   return result;
 }
@@ -210,15 +210,15 @@ Vec3 ConfigSection::vec3(std::string_view key, const Vec3& fallback, Range each,
 Vec3 ConfigSection::vec3_or_number(std::string_view key, const Vec3& fallback, Range each) {
   const YamlValue* v = impl_->find(key);
   if (v == nullptr || v->kind != YamlValue::Kind::Scalar) return vec3(key, fallback, each);
-  const Vec3 result = Vec3::Constant(impl_->number(key, *v, each));
+  Vec3 result = Vec3::Constant(impl_->number(key, *v, each));
   impl_->note(key, to_yaml(result));
   return result;
 }
 
-std::vector<double> ConfigSection::numbers(std::string_view key, std::vector<double> fallback, Range each,
+std::vector<double> ConfigSection::numbers(std::string_view key, const std::vector<double>& fallback, Range each,
                                            std::string_view meaning) {
   const YamlValue* v = impl_->find(key);
-  const std::vector<double> result = v != nullptr ? impl_->numbers(key, *v, each) : fallback;
+  std::vector<double> result = v != nullptr ? impl_->numbers(key, *v, each) : fallback;
   impl_->note(key, to_yaml(result), {"", to_yaml(fallback), describe(each) + " each", std::string(meaning)});
   return result;
 }
@@ -260,7 +260,7 @@ std::string ConfigSection::required_text(std::string_view key, std::string_view 
 
 Vec3 ConfigSection::required_vec3(std::string_view key, Range each, std::string_view meaning) {
   impl_->require(key);
-  const Vec3 value = vec3(key, Vec3::Zero(), each, meaning);
+  Vec3 value = vec3(key, Vec3::Zero(), each, meaning);
   impl_->note_required(key);
   return value;
 }

@@ -43,14 +43,14 @@ class ConfigSection {
   std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t low, std::int64_t high,
                        std::string_view meaning = {});
   bool flag(std::string_view key, bool fallback, std::string_view meaning = {});
-  std::string text(std::string_view key, std::string fallback, std::string_view meaning = {});
+  std::string text(std::string_view key, const std::string& fallback, std::string_view meaning = {});
   /// One of the words.
-  std::string choice(std::string_view key, std::string fallback, const std::vector<std::string>& words,
+  std::string choice(std::string_view key, const std::string& fallback, const std::vector<std::string>& words,
                      std::string_view meaning = {});
   Vec3 vec3(std::string_view key, const Vec3& fallback, Range each = {}, std::string_view meaning = {});
   /// Three numbers, or one number that stands for all three.
   Vec3 vec3_or_number(std::string_view key, const Vec3& fallback, Range each = {});
-  std::vector<double> numbers(std::string_view key, std::vector<double> fallback, Range each = {},
+  std::vector<double> numbers(std::string_view key, const std::vector<double>& fallback, Range each = {},
                               std::string_view meaning = {});
   /// Rows of `columns` numbers each, [[1, 2], [3, 4]]; absent is empty.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns, Range each = {});
@@ -130,7 +130,7 @@ class KnobReader {
     value = section_.flag(key, value, meaning);
   }
   void operator()(std::string_view key, std::vector<double>& value, Range each, std::string_view meaning) {
-    value = section_.numbers(key, std::move(value), each, meaning);
+    value = section_.numbers(key, value, each, meaning);
   }
   template <typename E>
   void operator()(std::string_view key, E& value, const KnobWords<E>& words, std::string_view meaning) {

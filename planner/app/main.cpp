@@ -1,5 +1,6 @@
 // tern-planner: answers HORIZON_REQUEST with a certified PLAN.
 #include <memory>
+#include <utility>
 
 #include "planner/app/config_reader.h"
 #include "planner/app/planner_node.h"
@@ -11,7 +12,7 @@ int main(int argc, char** argv) {
       .name = "tern-planner",
       .section = "planner",
       .summary = "Plans collision-free trajectories and certifies every one of them.",
-      .read_section = [](tern::ConfigSection section) { tern::read_planner_config(section, {}); }};
+      .read_section = [](tern::ConfigSection section) { tern::read_planner_config(std::move(section), {}); }};
   return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::PlannerConfig config = tern::read_planner_config(context.section, context.scenario.semantics);
     const std::uint64_t hash = tern::configuration_hash(context.document.effective());
