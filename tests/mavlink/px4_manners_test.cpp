@@ -206,6 +206,19 @@ TEST(Px4Manners, WithoutGpsItFliesByWhatTheBridgeTellsItOfItsPlace) {
   EXPECT_THAT(blind.bridge.status(blind.now).why_not, HasSubstr("its estimator has no position"));
 }
 
+TEST(Px4Manners, AirmodeIsNotFlown) {
+  FlightInMemory flight({.start = Start::Arm});
+  flight.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{1}),
+                                          .target_system = 1,
+                                          .param_id = text_of<16>("MC_AIRMODE"),
+                                          .param_type = 6},
+                                 {255, 190}, 0),
+                        flight.now);
+  flight.run(10.0);
+  EXPECT_FALSE(flight.autopilot.armed());
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("MC_AIRMODE is 1, not within [0, 0]"));
+}
+
 TEST(Px4Manners, RemoteLossMayBeExceptedInOtherModesToo) {
   const auto required = required_parameters(Firmware::Px4, FlightInMemory::uav(), true, false);
   std::map<std::string, double> values;
