@@ -37,9 +37,10 @@ const char* to_string(Stage stage);
 /// 2 Hz, TIMESYNC 10 Hz, in flight five times a second the question for its HEARTBEAT. From the moment that its
 /// position is known SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz: the stream runs before OFFBOARD is asked for.
 /// It carries
-///   p, v of the command now, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
-/// The gain is for level axes: the D term of an autopilot's vertical loop is 0.
-/// While the vehicle is not following, the command is to stay where it is.
+///   p, v of the command half a period later, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
+/// An autopilot holds it for a period, and would else be half a period late. An ArduPilot carries it on: p, v of now.
+/// The gain is for level axes: the D term of
+/// an autopilot's vertical loop is 0. While the vehicle is not following, the command is to stay where it is.
 ///
 /// While the estimate is dead the vehicle is not following: it is told to come to rest where it was commanded to be.
 ///

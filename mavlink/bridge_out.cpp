@@ -131,11 +131,14 @@ bool Bridge::is_silent() const {
 
 void Bridge::stream(UTime now) {
   if (is_silent() || may_be_in_failsafe(now) || !state() || now < next_target_) return;
-  next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
+  const Duration period = Duration::from_seconds(1.0 / config_.rate_hz);
+  next_target_ = now + period;
   if (!streaming_since_) streaming_since_ = now;
   if (stage_ == Stage::StoodBack) hold_here(now);
   const bool following = stage_ == Stage::Following && followed_;
-  const MotionSample m = following ? command_.sample(now) : own_.motion;
+  // What is held for a period is right on average if it is right in the middle. An ArduPilot carries it on by itself.
+  const Duration held = autopilot_.firmware() == Firmware::ArduPilot ? Duration{} : Duration{period.us / 2};
+  const MotionSample m = following ? command_.sample(now + held) : own_.motion;
   if (following) {
     last_told_.motion = m;
     last_told_.yaw = command_.yaw();
