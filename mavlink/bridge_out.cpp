@@ -13,8 +13,6 @@ namespace {
 constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000};
 /// PX4 hears nothing else for some 10 ms per stream that it is asked for: seldom in flight.
 constexpr Duration kStreamsPeriod{2'000'000}, kStreamsPeriodInFlight{30'000'000};
-/// HEARTBEAT comes by itself once a second.
-constexpr Duration kModePeriod{200'000}, kOldModePeriod{50'000};
 /// COM_OF_LOSS_T's default, s.
 constexpr double kOffboardLoss = 1.0;
 /// 50 Hz.
@@ -53,13 +51,6 @@ void Bridge::request_streams(UTime now) {
     ask(kSetMessageInterval, GlobalPositionInt::kId, 200'000);
   }
   ask(kRequestMessage, GpsGlobalOrigin::kId);
-}
-
-void Bridge::request_mode(UTime now) {
-  const bool old = autopilot_.mode_is_old();
-  if (now < next_mode_ || !autopilot_.address() || !(old || flies())) return;
-  next_mode_ = now + (old ? kOldModePeriod : kModePeriod);
-  ask(kRequestMessage, Heartbeat::kId);
 }
 
 void Bridge::request_parameters(UTime now) {

@@ -92,6 +92,8 @@ class SimulatedAutopilot {
   void intend(Mode mode);
   void enter(Mode mode);
   [[nodiscard]] bool is_busy(UTime now) const { return now - started_ < config_.busy_for; }
+  /// ArduPilot's own take-off: until it is up.
+  [[nodiscard]] bool is_taking_off() const { return takes_off_to_ && command_.motion.p.z() < *takes_off_to_; }
   [[nodiscard]] bool is_ardupilot() const { return config_.manners == Manners::ArduPilot; }
   bool rotors_lift(UTime t);
   bool ardupilots_rotors_lift(UTime t);
