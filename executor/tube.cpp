@@ -59,6 +59,12 @@ void Tube::flown(UTime at) {
   stepped_ = at;
 }
 
+void Tube::shifted(const Vec3& by) {
+  shift_ += by;
+  least_shift_ = least_shift_.cwiseMin(shift_);
+  most_shift_ = most_shift_.cwiseMax(shift_);
+}
+
 double Tube::share() const { return std::ldexp(1.0, -halvings_); }
 
 double Tube::quantile(const Seconds& seconds, double prior, int axis) {
@@ -81,12 +87,13 @@ double Tube::moving(int axis, double unsure) const {
 
 Vec3 Tube::width(const Vec3& sigma, UTime now) const {
   const double wider = left_ && now - *left_ < kWidened ? kWider : 1.0;
+  const Vec3 in_doubt = (most_shift_ - shift_).cwiseMax(shift_ - least_shift_);
   Vec3 width;
   for (int axis = 0; axis < 3; ++axis) {
     const double unsure = kSigmas * sigma[axis];
     const double resting = rounded_up(kMargin * quantile(resting_, 0.0, axis) + unsure);
     const double whole = std::max({resting, moving(axis, unsure), floor_m_});
-    width[axis] = std::min(wider * whole, kWidestTube);
+    width[axis] = std::min(wider * whole + in_doubt[axis], kWidestTube);
   }
   return width;
 }

@@ -48,6 +48,9 @@ class LastingError {
 /// A vehicle that was pushed out and got a new trajectory (left) tells of an event, not of its tracking: such errors
 /// are not for add(); for kWidened the tube is half as wide again.
 ///
+/// Where the estimator shifts the vehicle's position (shifted), either the place before is right or the one after, and
+/// nobody says which. From then on the tube is wider by the shift: the true place stays within it, whichever it is.
+///
 /// Where the vehicle rests and the tube leaves no way (blocked), it is asked to fly slower: errors of tracking grow
 /// with speed and acceleration. The next request has limits of half the size (share) and promises half the tube, but no
 /// less than was measured at rest, or so slowly. It is halved again until plans are flown, one step in kStep at most.
@@ -78,6 +81,8 @@ class Tube {
   /// It is not perfect, though at rest it shows no error.
   void expect_errors() { has_error_ = true; }
   void left(UTime at) { left_ = at; }
+  /// The estimator has reset itself. @param by  m, W
+  void shifted(const Vec3& by);
   /// What came of a request. @param rests  the vehicle is commanded to rest
   void answered(const Plan& plan, bool rests, UTime at);
   /// @param sigma  of the estimate per axis, m, ≥ 0
@@ -102,6 +107,8 @@ class Tube {
   [[nodiscard]] Duration patience() const { return std::min(patience_ * (1 << halvings_), kMostPatience); }
 
   double floor_m_;
+  /// The sum of all shifts, and the least and largest that it was.
+  Vec3 shift_ = Vec3::Zero(), least_shift_ = Vec3::Zero(), most_shift_ = Vec3::Zero();
   std::optional<UTime> left_, stepped_;
   int halvings_ = 0;
   bool stepped_up_ = false;  ///< the newest step was one up

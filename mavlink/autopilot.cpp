@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint8_t kAutopilotComponent = 1, kPx4 = 12, kArduPilot = 3, kInvalid = 8;
 constexpr std::uint8_t kInt32 = 6;
 constexpr std::uint8_t kFrameLocalNed = 1;
-constexpr std::uint8_t kOnGround = 1;
+constexpr std::uint8_t kOnGround = 1, kTakingOff = 3;
 constexpr std::uint8_t kWarning = 4;
 /// MAV_STATE: while armed, PX4 says this in a failsafe.
 constexpr std::uint8_t kCritical = 5;
@@ -80,9 +80,15 @@ std::string Autopilot::mode() const {
   return firmware() == Firmware::ArduPilot ? ardupilot_mode(heartbeat_.custom_mode) : px4_mode(heartbeat_.custom_mode);
 }
 
-bool Autopilot::follows() const { return mode() == (firmware() == Firmware::ArduPilot ? "GUIDED" : "OFFBOARD"); }
+std::array<float, 7> Autopilot::mode_command() const {
+  const std::uint32_t custom = heartbeat_.custom_mode;
+  if (firmware() == Firmware::ArduPilot) return {1, static_cast<float>(custom)};
+  return {1, static_cast<float>(custom >> 16U & 0xFFU), static_cast<float>(custom >> 24U)};
+}
 
-bool Autopilot::landing() const { return mode() == (firmware() == Firmware::ArduPilot ? "LAND" : "AUTO.LAND"); }
+const char* Autopilot::following_mode() const { return firmware() == Firmware::ArduPilot ? "GUIDED" : "OFFBOARD"; }
+
+const char* Autopilot::landing_mode() const { return firmware() == Firmware::ArduPilot ? "LAND" : "AUTO.LAND"; }
 
 bool Autopilot::in_failsafe() const { return armed() && heartbeat_.system_status == kCritical; }
 
@@ -121,6 +127,7 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
   if (heartbeat) {
     const bool was_armed = armed();
     heartbeat_ = *heartbeat;
+    mode_heard_ = received;
     if (armed() != was_armed) {
       arming_changed_ = received;
       home_height_.reset();
@@ -134,6 +141,7 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
   }
   if (const auto m = from_frame<ExtendedSysState>(frame); m && m->landed_state != 0) {
     landed_ = m->landed_state == kOnGround;
+    taking_off_ = m->landed_state == kTakingOff;
   }
   if (const auto m = from_frame<EstimatorStatus>(frame)) health_ = *m;
   if (const auto m = from_frame<Timesync>(frame); m && m->tc1 != 0) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <map>
 #include <optional>
@@ -54,12 +55,20 @@ class Autopilot {
   [[nodiscard]] bool armed() const { return (heartbeat_.base_mode & kArmedBit) != 0; }
   /// Its own word: "OFFBOARD", "GUIDED", "AUTO.LAND".
   [[nodiscard]] std::string mode() const;
-  /// Whether it follows setpoints: OFFBOARD of PX4, GUIDED of ArduPilot.
-  [[nodiscard]] bool follows() const;
-  [[nodiscard]] bool landing() const;
+  /// When HEARTBEAT told it last.
+  [[nodiscard]] UTime mode_heard() const { return mode_heard_; }
+  /// DO_SET_MODE's parameters for the mode that it is in.
+  [[nodiscard]] std::array<float, 7> mode_command() const;
+  /// The mode that follows setpoints: OFFBOARD of PX4, GUIDED of ArduPilot; and the one that lands.
+  [[nodiscard]] const char* following_mode() const;
+  [[nodiscard]] const char* landing_mode() const;
+  [[nodiscard]] bool follows() const { return mode() == following_mode(); }
+  [[nodiscard]] bool landing() const { return mode() == landing_mode(); }
   /// It does not what it was told, but what its failsafe is set to (PX4: HEARTBEAT's system_status is critical).
   [[nodiscard]] bool in_failsafe() const;
   [[nodiscard]] std::optional<bool> landed() const { return landed_; }
+  /// A take-off of its own is under way, as EXTENDED_SYS_STATE says.
+  [[nodiscard]] bool taking_off() const { return taking_off_; }
   [[nodiscard]] std::optional<double> battery() const { return battery_; }  ///< [0, 1]
   [[nodiscard]] EstimatorHealth estimator() const;
   [[nodiscard]] Vec3 sigma() const;  ///< the estimator's own accuracy per axis, m; 0: not said
@@ -99,10 +108,11 @@ class Autopilot {
   std::uint8_t wanted_;
   std::optional<Address> address_;
   Heartbeat heartbeat_;
-  UTime last_heard_, arming_changed_;
+  UTime last_heard_, mode_heard_, arming_changed_;
   bool mode_is_old_ = false;
   Duration longest_gap_;
   std::optional<bool> landed_;
+  bool taking_off_ = false;
   std::optional<double> battery_;
   std::optional<EstimatorStatus> health_;
   ClockFit clock_;

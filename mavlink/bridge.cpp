@@ -58,8 +58,7 @@ void Bridge::enter(Stage stage, const std::string& why) {
     next_command_ = now_;
     refusal_.clear();
     landing_seen_ = take_off_asked_ = false;
-    taken_from_.reset();
-    if (stage == Stage::Engaging && autopilot_.armed()) taken_from_ = autopilot_.mode();
+    if (stage == Stage::Engaging && !found_) found_ = Found{autopilot_.mode(), autopilot_.armed()};
   }
   stage_ = stage;
   why_ = why;
@@ -67,12 +66,14 @@ void Bridge::enter(Stage stage, const std::string& why) {
 
 void Bridge::stand_back(const std::string& why) {
   told_ = told_again_ = followed_ = false;
+  found_.reset();
   streaming_since_.reset();
   enter(Stage::StoodBack, why);
 }
 
 void Bridge::hear(const Frame& frame, UTime received) {
   if (!autopilot_.hear(frame, received)) return;
+  if (frame.id == Heartbeat::kId) watch_mode(received);
   anchor_truth_at_first_sight();
   if (autopilot_.truth()) tell_vision(*autopilot_.truth());
   if (const auto question = from_frame<Timesync>(frame); question && question->tc1 == 0) {
@@ -96,6 +97,9 @@ void Bridge::hear(const UavState& setpoint) {
 void Bridge::told_to_fly() {
   if (flies()) return;
   told_ = told_again_ = true;
+  found_.reset();
+  if (autopilot_.armed()) found_ = Found{autopilot_.mode(), true};
+  forget_commanded_mode();
   if (stage_ == Stage::StoodBack || stage_ == Stage::Landed) enter(Stage::Waiting, "told to fly");
 }
 
@@ -108,7 +112,7 @@ void Bridge::land(const std::string& why) {
   if (!flies() || stage_ == Stage::Landing) return;
   if (!followed_) hold_here(now_);
   enter(Stage::Landing, why);
-  if (!autopilot_.armed() && arm_asked_ && now_ - *arm_asked_ < kArmingFlight) {
+  if (!autopilot_.armed() && arm_asked_ && now_ - *arm_asked_ < kCommandFlight) {
     words_.push_back("the autopilot may be about to arm, as it was asked to: it is asked to disarm");
   }
 }

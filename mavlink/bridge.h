@@ -37,14 +37,16 @@ const char* to_string(Stage stage);
 /// 2 Hz, TIMESYNC 10 Hz, in flight five times a second the question for its HEARTBEAT. From the moment that its
 /// position is known SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz: the stream runs before OFFBOARD is asked for.
 /// It carries
-///   p, v of the command now, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
-/// The gain is for level axes: the D term of an autopilot's vertical loop is 0.
-/// While the vehicle is not following, the command is to stay where it is.
+///   p, v of the command half a period later, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
+/// An autopilot holds it for a period, and would else be half a period late. An ArduPilot carries it on: p, v of now.
+/// The gain is for level axes: the D term of
+/// an autopilot's vertical loop is 0. While the vehicle is not following, the command is to stay where it is.
 ///
 /// While the estimate is dead the vehicle is not following: it is told to come to rest where it was commanded to be.
 ///
 /// An ArduPilot is asked to take off (NAV_TAKEOFF), to uav.start's height above its home. Setpoints would end that:
-/// they begin when it is up, and none are sent before it follows.
+/// they begin when it is up, and none are sent before it follows. A take-off that is found under way is waited for,
+/// too.
 ///
 /// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
 /// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another. The bridge then stands back and stops its
@@ -52,6 +54,11 @@ const char* to_string(Stage stage);
 /// by a new GOAL, or with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody
 /// else's, too. So is one that is armed in another mode while the bridge engages or lands it. A bridge that was started
 /// anew and finds the vehicle armed and in OFFBOARD in the air goes on following.
+///
+/// A pilot may switch while a mode that the bridge has commanded is on its way, or just before. So a mode is commanded
+/// right after HEARTBEAT has told the one before, with a question for HEARTBEAT in front. A mode that is neither the
+/// one before nor the one commanded is a pilot's. The bridge stands back, and if its own command comes into effect
+/// after all, it commands the pilot's mode.
 ///
 /// It has landed when the autopilot is disarmed and 1.5 s have passed since the bridge last asked for arming.
 ///
@@ -97,8 +104,8 @@ class Bridge {
  private:
   /// The system is the autopilot's when that is known.
   static constexpr Address kSelf{1, kOwnComponent};
-  /// A command to arm that was sent this long ago has come to nothing, or HEARTBEAT tells of it.
-  static constexpr Duration kArmingFlight{1'500'000};
+  /// A command that was sent this long ago has come to nothing, or HEARTBEAT tells of it.
+  static constexpr Duration kCommandFlight{1'500'000};
   void enter(Stage stage, const std::string& why = {});
   void step_stage(UTime now);
   void step_waiting(UTime now);
@@ -109,16 +116,24 @@ class Bridge {
   void climb(UTime now);
   void stand_back(const std::string& why);
   [[nodiscard]] bool is_taken();
+  [[nodiscard]] std::string somebody_flies() const;
   void ask_to_disarm(UTime now);
   void engage_next(UTime now);
   void request_parameters(UTime now);
   void request_streams(UTime now);
   void request_mode(UTime now);
+  /// COMMAND_LONG that makes it enter `wanted`, unless HEARTBEAT has not told the mode just now.
+  void command_mode(UTime now, const std::string& wanted, std::uint16_t number, const std::array<float, 7>& param);
+  /// Of a HEARTBEAT: what it tells of a mode that was commanded.
+  void watch_mode(UTime now);
+  void forget_commanded_mode();
   void stream(UTime now);
   [[nodiscard]] bool is_silent() const;
   void ask_to_take_off(UTime now);
   /// ArduPilot: setpoints do not lift it off the ground.
   [[nodiscard]] bool takes_off_by_command() const { return autopilot_.firmware() == Firmware::ArduPilot; }
+  /// An ArduPilot that a bridge before this one, or somebody, has told to take off: a setpoint would end that.
+  [[nodiscard]] bool is_taking_off() const { return takes_off_by_command() && autopilot_.taking_off(); }
   void hold_here(UTime now);
   void anchor_truth();
   void anchor_truth_at_first_sight();
@@ -158,7 +173,22 @@ class Bridge {
   UTime stage_since_, now_;
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
   std::optional<UTime> streaming_since_;
-  std::optional<std::string> taken_from_;  ///< the mode of an armed vehicle that it was told to take over
+  /// How the vehicle was found when the bridge was told to fly it, or began to; until it is in OFFBOARD.
+  struct Found {
+    std::string mode;
+    bool armed = false;
+  };
+  std::optional<Found> found_;
+  struct CommandedMode {
+    UTime at;
+    std::string before, wanted;
+  };
+  std::optional<CommandedMode> commanded_mode_;  ///< until HEARTBEAT tells of it
+  struct PilotsMode {
+    std::string mode;
+    std::array<float, 7> command;  ///< of DO_SET_MODE
+  };
+  std::optional<PilotsMode> pilots_mode_;  ///< chosen while a mode that was commanded was on its way
   bool take_off_asked_ = false;            ///< since it began to engage
   bool landing_seen_ = false;              ///< the autopilot has confirmed that it lands
   std::optional<UTime> arm_asked_;

@@ -13,8 +13,6 @@ namespace {
 constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000};
 /// PX4 hears nothing else for some 10 ms per stream that it is asked for: seldom in flight.
 constexpr Duration kStreamsPeriod{2'000'000}, kStreamsPeriodInFlight{30'000'000};
-/// HEARTBEAT comes by itself once a second.
-constexpr Duration kModePeriod{200'000}, kOldModePeriod{50'000};
 /// COM_OF_LOSS_T's default, s.
 constexpr double kOffboardLoss = 1.0;
 /// 50 Hz.
@@ -53,13 +51,6 @@ void Bridge::request_streams(UTime now) {
     ask(kSetMessageInterval, GlobalPositionInt::kId, 200'000);
   }
   ask(kRequestMessage, GpsGlobalOrigin::kId);
-}
-
-void Bridge::request_mode(UTime now) {
-  const bool old = autopilot_.mode_is_old();
-  if (now < next_mode_ || !autopilot_.address() || !(old || flies())) return;
-  next_mode_ = now + (old ? kOldModePeriod : kModePeriod);
-  ask(kRequestMessage, Heartbeat::kId);
 }
 
 void Bridge::request_parameters(UTime now) {
@@ -131,11 +122,14 @@ bool Bridge::is_silent() const {
 
 void Bridge::stream(UTime now) {
   if (is_silent() || may_be_in_failsafe(now) || !state() || now < next_target_) return;
-  next_target_ = now + Duration::from_seconds(1.0 / config_.rate_hz);
+  const Duration period = Duration::from_seconds(1.0 / config_.rate_hz);
+  next_target_ = now + period;
   if (!streaming_since_) streaming_since_ = now;
   if (stage_ == Stage::StoodBack) hold_here(now);
   const bool following = stage_ == Stage::Following && followed_;
-  const MotionSample m = following ? command_.sample(now) : own_.motion;
+  // What is held for a period is right on average if it is right in the middle. An ArduPilot carries it on by itself.
+  const Duration held = autopilot_.firmware() == Firmware::ArduPilot ? Duration{} : Duration{period.us / 2};
+  const MotionSample m = following ? command_.sample(now + held) : own_.motion;
   if (following) {
     last_told_.motion = m;
     last_told_.yaw = command_.yaw();

@@ -60,10 +60,9 @@ void Bridge::step_ready(UTime now) {
   if (!followed_) hold_here(now);
   if (!in_air()) anchor_truth();
   const bool armed = autopilot_.armed(), ours = armed && autopilot_.follows();
-  if (ours && in_air()) return enter(Stage::Following);
-  if (armed && !ours && !told_again_ && config_.start == Start::Arm) {
-    return stand_back(fmt::format("the vehicle is armed in {}: somebody else flies", autopilot_.mode()));
-  }
+  if (ours && in_air()) return enter(is_taking_off() ? Stage::Engaging : Stage::Following);
+  const bool is_elses = told_again_ ? found_ && is_taken() : config_.start == Start::Arm;
+  if (armed && !ours && is_elses) return stand_back(somebody_flies());
   if (const std::string fault = in_air() ? "" : ground_fault(); !fault.empty()) return enter(Stage::Ready, fault);
   if (ours) return enter(takes_off_by_command() ? Stage::Engaging : Stage::Climbing);
   if (!told_) return enter(Stage::Ready, "waits for the pilot to arm, take off and switch, or for a new GOAL");
@@ -83,26 +82,29 @@ void Bridge::ask_to_take_off(UTime now) {
 
 void Bridge::engage_next(UTime now) {
   const float mode = takes_off_by_command() ? kArduPilotGuided : kPx4Offboard;
-  if (!autopilot_.follows()) return command(now, kDoSetMode, {1, mode});
+  if (!autopilot_.follows()) return command_mode(now, autopilot_.following_mode(), kDoSetMode, {1, mode});
   if (!autopilot_.armed()) {
     if (now >= next_command_) arm_asked_ = now;
     return command(now, kArmDisarm, {1});
   }
-  if (in_air() && !take_off_asked_) return enter(Stage::Following);
+  if (in_air() && !take_off_asked_ && !is_taking_off()) return enter(Stage::Following);
   if (!takes_off_by_command()) return enter(Stage::Climbing);
   if (!in_air()) return ask_to_take_off(now);
   const MotionSample here = state()->motion;
   if (std::abs(uav_.start.z() - here.p.z()) < kThere && here.v.norm() < kThereSpeed) enter(Stage::Climbing);
 }
 
-/// While it engages. HEARTBEAT tells mode and arming at once, and the bridge arms only what follows: who is armed in
-/// another mode was armed, or switched, by somebody else. Excepted is what it was told to take over, until it has it.
+std::string Bridge::somebody_flies() const {
+  return fmt::format("the vehicle is {}in {}: somebody else flies", autopilot_.armed() ? "armed " : "",
+                     autopilot_.mode());
+}
+
+/// Until it has the vehicle that stays as it was found. HEARTBEAT tells mode and arming at once, and the bridge arms
+/// only what follows: who is in another mode, or armed, was switched or armed by somebody else.
 bool Bridge::is_taken() {
-  if (!autopilot_.armed() || autopilot_.follows()) {
-    taken_from_.reset();
-    return false;
-  }
-  return taken_from_ != autopilot_.mode();
+  if (!autopilot_.follows()) return !found_ || found_->mode != autopilot_.mode() || found_->armed < autopilot_.armed();
+  found_.reset();
+  return false;
 }
 
 void Bridge::step_engaging(UTime now) {
@@ -110,7 +112,7 @@ void Bridge::step_engaging(UTime now) {
     return stand_back(refusal_.empty() ? "the autopilot does not answer" : refusal_);
   }
   if (!autopilot_.linked(now)) return;
-  if (is_taken()) return stand_back(fmt::format("the vehicle is armed in {}: somebody else flies", autopilot_.mode()));
+  if (is_taken()) return stand_back(somebody_flies());
   if (!in_air()) anchor_truth();
   hold_here(now);
   engage_next(now);
@@ -159,7 +161,7 @@ void Bridge::ask_to_disarm(UTime now) {
 
 void Bridge::step_landing(UTime now) {
   if (!autopilot_.linked(now)) return;
-  const bool arming = arm_asked_ && now - *arm_asked_ < kArmingFlight;
+  const bool arming = arm_asked_ && now - *arm_asked_ < kCommandFlight;
   if (!autopilot_.armed()) {
     followed_ = false;
     if (!arming) return enter(Stage::Landed, why_);
@@ -176,7 +178,7 @@ void Bridge::step_landing(UTime now) {
     return stand_back(fmt::format("the autopilot has left for {}: somebody else flies", autopilot_.mode()));
   }
   if (arming && !in_air()) return ask_to_disarm(now);
-  command(now, kNavLand, {0, 0, 0, kUnknown, kUnknown, kUnknown, 0});
+  command_mode(now, autopilot_.landing_mode(), kNavLand, {0, 0, 0, kUnknown, kUnknown, kUnknown, 0});
 }
 
 void Bridge::step_stage(UTime now) {
@@ -187,7 +189,7 @@ void Bridge::step_stage(UTime now) {
     case Stage::Climbing:
     case Stage::Following: return step_flying(now);
     case Stage::StoodBack:
-      if (config_.start == Start::Pilot && autopilot_.follows() && autopilot_.armed())
+      if (config_.start == Start::Pilot && autopilot_.follows() && autopilot_.armed() && !pilots_mode_)
         enter(Stage::Waiting, "the switch");
       return;
     case Stage::Landing: return step_landing(now);

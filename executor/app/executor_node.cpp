@@ -13,10 +13,8 @@
 namespace tern {
 namespace {
 
-constexpr Duration kSetpointPeriod{10'000};
-constexpr Duration kGoalPeriod{1'000'000};
-constexpr Duration kRefusalLogPeriod{1'000'000};
-constexpr Duration kRemembered{1'000'000};
+constexpr Duration kSetpointPeriod{10'000}, kGoalPeriod{1'000'000}, kRefusalLogPeriod{1'000'000},
+    kRemembered{1'000'000};
 /// A vehicle that was slower for so long stands, or hovers.
 constexpr double kStillSpeed = 0.3;
 constexpr Duration kStillFor{200'000};
@@ -41,6 +39,7 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
 
 void ExecutorNode::on_state(const UavState& state) {
   measured_yaw_ = state.yaw;
+  shifted(resets_.add(state, bus_.received()));
   executor_ ? watch(state) : wait_for_rest(state);
 }
 
@@ -72,12 +71,11 @@ void ExecutorNode::watch(const UavState& state) {
   const bool lost = (error - promised).maxCoeff() > kRejoinBeyond;
   if (!lost) tube_.add(error, executor_->at_rest(state.at - kSettled), state.at);
   if (outside) tube_.left(state.at);
-  if (outside && !outside_) {
+  if (!std::exchange(outside_, outside) && outside) {
     ++exits_;
     spdlog::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
                  error.x(), error.y(), error.z(), exits_);
   }
-  outside_ = outside;
   if (lost) rejoin(state);
 }
 
@@ -107,6 +105,12 @@ bool ExecutorNode::look(const UavState& state, const Vec3& error) {
   return parted;
 }
 
+void ExecutorNode::shifted(const std::optional<Vec3>& by) {
+  if (!by || !was_following_) return;  // before, it is the estimator that says where W is
+  tube_.shifted(*by);
+  spdlog::warn("the estimator has shifted the vehicle by ({:.2f}, {:.2f}, {:.2f}) m", by->x(), by->y(), by->z());
+}
+
 void ExecutorNode::promise(UTime now) { executor_->set_tube(tube_.width(sigma_, now), tube_.share()); }
 
 void ExecutorNode::rejoin(const UavState& state) {
@@ -134,6 +138,7 @@ void ExecutorNode::begin(const UavState& state) {
 
 void ExecutorNode::on_status(const VehicleStatus& status) {
   sigma_ = status.position_sigma;
+  shifted(resets_.add(status.resets, bus_.received()));
   if (!status.mode.empty() && status.mode != kPerfectMode) tube_.expect_errors();
   if (status.following == following_) return;
   following_ = status.following;

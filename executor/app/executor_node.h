@@ -8,6 +8,7 @@
 #include "core/world/horizon.h"
 #include "core/world/scenario.h"
 #include "core/world/vehicle_status.h"
+#include "executor/estimate_resets.h"
 #include "executor/executor.h"
 #include "runtime/bus.h"
 #include "runtime/node.h"
@@ -65,6 +66,7 @@ class ExecutorNode final : public Node {
   void take_back_untold();
   /// The first state since the vehicle and what is committed may have parted. @return whether they have
   bool look(const UavState& state, const Vec3& error);
+  void shifted(const std::optional<Vec3>& by);
   void promise(UTime now);
   void publish_setpoints(UTime now);
   void publish_setpoint(UTime at);
@@ -79,6 +81,7 @@ class ExecutorNode final : public Node {
   bool following_ = false, was_following_ = false;
   std::optional<UTime> look_from_;  ///< nothing is said until a state of this time or later has come
   Tube tube_;
+  EstimateResets resets_;
   Vec3 sigma_ = Vec3::Zero();  // of the estimate, m
   std::int64_t exits_ = 0;     // how often the vehicle has left its tube
   bool outside_ = false;

@@ -52,6 +52,9 @@ void SimulatedAutopilot::fly_guided(UTime t) {
   if (!guided_) return;
   if (t - *last_target_ <= Duration::from_seconds(parameters_["GUID_TIMEOUT"])) {
     command_ = target_;
+    const double later = (t - *last_target_).seconds();
+    command_.motion.p += later * (target_.motion.v + 0.5 * later * target_.motion.a);
+    command_.motion.v += later * target_.motion.a;
     return;
   }
   guided_ = false;

@@ -56,9 +56,10 @@ struct SimulatedAutopilotConfig {
 /// With ArduPilot's manners (Copter, by its source; no real one was asked) it says HEARTBEAT, SYS_STATUS and what
 /// SET_MESSAGE_INTERVAL asked for: neither ESTIMATOR_STATUS nor HIL_STATE_QUATERNION, and ODOMETRY in another frame.
 /// Its modes are GUIDED, LOITER and LAND. Setpoints do not lift it off the ground. NAV_TAKEOFF does, in GUIDED, to a
-/// height above home, and a setpoint ends that. Home is where it was armed, shifted up by SIM_HOME_UP. Who stands armed
-/// for 10 s without taking off is disarmed. GUID_TIMEOUT after the last setpoint it stops, in GUIDED. It stays in LAND
-/// when it has landed. Parameters travel as numbers, whatever their type.
+/// height above home, and a setpoint ends that. Setpoints are carried on until the next one. Home is where it was
+/// armed, shifted up by SIM_HOME_UP. Who stands armed for 10 s without taking off is disarmed. GUID_TIMEOUT after the
+/// last setpoint it stops, in GUIDED. It stays in LAND when it has landed. Parameters travel as numbers, whatever their
+/// type.
 ///
 /// Parameters beside PX4's: SIM_ARM_REFUSE (it refuses to arm), SIM_BAT_PCT (what is left, %), SIM_EST_JUMP (writing it
 /// shifts the estimate by so many metres).
@@ -91,6 +92,8 @@ class SimulatedAutopilot {
   void intend(Mode mode);
   void enter(Mode mode);
   [[nodiscard]] bool is_busy(UTime now) const { return now - started_ < config_.busy_for; }
+  /// ArduPilot's own take-off: until it is up.
+  [[nodiscard]] bool is_taking_off() const { return takes_off_to_ && command_.motion.p.z() < *takes_off_to_; }
   [[nodiscard]] bool is_ardupilot() const { return config_.manners == Manners::ArduPilot; }
   bool rotors_lift(UTime t);
   bool ardupilots_rotors_lift(UTime t);

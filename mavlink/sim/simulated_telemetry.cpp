@@ -108,6 +108,7 @@ void SimulatedAutopilot::say_stream(std::uint32_t id, UTime now) {
     case ExtendedSysState::kId:
       return say(ExtendedSysState{.landed_state = static_cast<std::uint8_t>(on_ground             ? 1
                                                                             : mode_ == Mode::Land ? 4
+                                                                            : is_taking_off()     ? 3
                                                                                                   : 2)});
     case EstimatorStatus::kId:
       return say(EstimatorStatus{.time_usec = clock_us(now),

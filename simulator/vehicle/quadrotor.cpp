@@ -10,6 +10,10 @@ namespace {
 /// Signs of each rotor's place and sense.
 constexpr Rotors kForward{1.0, -1.0, -1.0, 1.0}, kLeft{1.0, 1.0, -1.0, -1.0}, kSense{1.0, -1.0, 1.0, -1.0};
 
+/// Of the way to hovering, by which thrust is raised for the sake of torque at most: ArduPilot's ATC_THR_MIX_MAX. PX4
+/// raises it not at all (MC_AIRMODE 0). Without a bound whoever turns fast at little thrust is lifted by 1 g.
+constexpr double kLift = 0.5;
+
 struct Derivative {
   Vec3 p, v, w;
   Eigen::Vector4d q;
@@ -84,6 +88,12 @@ double share_within(const Rotors& base, const Rotors& part, double low, double h
   return std::clamp(share, 0.0, 1.0);
 }
 
+/// The thrust, raised towards what leaves room for a torque, but no farther than kLift allows.
+double lifted(const QuadrotorSpec& spec, double thrust, double enough) {
+  const double hover = spec.mass_kg * kGravity;
+  return std::max(thrust, std::min(enough, thrust + kLift * (hover - thrust)));
+}
+
 }  // namespace
 
 QuadrotorSpec quadrotor_spec(QuadrotorClass kind) {
@@ -146,9 +156,11 @@ Rotors allocate(const QuadrotorSpec& spec, const Wrench& wanted) {
   if (std::all_of(all.begin(), all.end(), [&](double t) { return t >= low && t <= high; })) return all;
   const auto [least, most] = std::minmax_element(tilt.begin(), tilt.end());
   const double share = std::min(1.0, (high - low) / std::max(*most - *least, 1e-12));
-  for (double& t : tilt) t *= share;
-  const double thrust = std::min(std::max(wanted.thrust, 4.0 * (low - *least)), 4.0 * (high - *most));
-  Rotors each = sum_of(thrust, tilt);
+  const double thrust =
+      std::clamp(lifted(spec, wanted.thrust, 4.0 * (low - share * *least)), 4.0 * low, 4.0 * (high - share * *most));
+  Rotors each = sum_of(thrust, Rotors{});
+  const double tilted = share_within(each, tilt, low, high);
+  for (std::size_t k = 0; k < 4; ++k) each[k] += tilted * tilt[k];
   const double turned = share_within(each, turn, low, high);
   for (std::size_t k = 0; k < 4; ++k) each[k] = std::clamp(each[k] + turned * turn[k], low, high);
   return each;

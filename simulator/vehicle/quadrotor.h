@@ -82,7 +82,8 @@ struct Wrench {
 Wrench wrench_of(const QuadrotorSpec& spec, const Rotors& thrust);
 
 /// The rotors' thrusts for a wrench, each within its limits. What cannot be had is given up in the order of autopilots:
-/// torque about B's z first, then thrust, then all torque by one factor.
+/// torque about B's z first, then thrust, then all torque by one factor. Where thrust is too little for the torque, it
+/// is raised, but at most half the way to hovering: so much that it does not climb.
 Rotors allocate(const QuadrotorSpec& spec, const Wrench& wanted);
 
 /// One step of classical Runge–Kutta over dt (s, at most a fifth of the motor's lag), `command` (N per rotor) and

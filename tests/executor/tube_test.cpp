@@ -133,6 +133,16 @@ TEST(Tube, PromisesNoLessThanWasMeasuredSoSlowly) {
   EXPECT_NEAR(tube.width(Vec3::Zero(), kNow).x(), 0.45, 1e-12);
 }
 
+TEST(Tube, HoldsTheTruePlaceWhicheverSideOfAResetIsRight) {
+  Tube tube(0.2);
+  tube.shifted(Vec3(0.5, -0.1, 0.0));
+  EXPECT_LT((tube.width(Vec3::Zero(), kNow) - Vec3(0.7, 0.3, 0.2)).norm(), 1e-12);
+  tube.shifted(Vec3(-0.7, 0.0, 0.0));  // the sums are 0, 0.5 and -0.2
+  EXPECT_LT((tube.width(Vec3::Zero(), kNow) - Vec3(0.9, 0.3, 0.2)).norm(), 1e-12);
+  tube.shifted(Vec3(0.2, 0.1, 0.0));
+  EXPECT_LT((tube.width(Vec3::Zero(), kNow) - Vec3(0.7, 0.3, 0.2)).norm(), 1e-12) << "it may have been right before";
+}
+
 TEST(Tube, ForgetsAfterTwoMinutes) {
   Tube tube(0.0);
   tube.add(Vec3(1.0, 0.0, 0.0), false, UTime{1});

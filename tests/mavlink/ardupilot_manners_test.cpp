@@ -74,6 +74,40 @@ TEST(ArduPilotManners, WithStartPilotItIsTakenUpWhenThePilotArmsInGuidedAndFollo
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
 }
 
+TEST(ArduPilotManners, ABridgeStartedAnewDoesNotEndTheTakeOffThatItFinds) {
+  for (const double height : {-1.0, 0.4, 1.0, 1.5}) {
+    FlightInMemory flight(kArms, copter());
+    ASSERT_TRUE(flight.run_until(
+        [&] { return flight.autopilot.armed() && flight.autopilot.model().truth().motion.p.z() > height; }));
+    flight.bridge_runs = false;
+    flight.run(0.1);
+    flight.bridge_runs = true;
+    flight.bridge = Bridge(flight.config, FlightInMemory::uav(), flight.now);
+    flight.bridge.flight_is_under_way();
+    double before = 0.0;
+    flight.each = [&] {
+      const double z = flight.autopilot.model().truth().motion.p.z();
+      ASSERT_GT(z, before - 0.05) << "it climbs on; from " << height;
+      before = std::max(before, z);
+    };
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }, 20.0)) << flight.bridge.status(flight.now).why_not;
+    EXPECT_LT((flight.autopilot.model().truth().motion.p - Vec3(0, 0, 2)).norm(), 0.35) << height;
+  }
+}
+
+TEST(ArduPilotManners, ATakeOffOfSomebodyToAnotherHeightIsWaitedFor) {
+  FlightInMemory flight({.start = Start::Pilot, .set_parameters = true}, copter());
+  flight.run(6.0);
+  flight.bridge_runs = false;
+  flight.ground_station(switch_to(4));
+  flight.ground_station({.param = {1}, .command = kArmDisarm});
+  flight.ground_station({.param = {0, 0, 0, 0, 0, 0, 5}, .command = kNavTakeoff});
+  ASSERT_TRUE(flight.run_until([&] { return flight.autopilot.model().truth().motion.p.z() > 0.5; }));
+  flight.bridge_runs = true;
+  ASSERT_TRUE(flight.run_until([&] { return flight.following(); }, 20.0)) << flight.bridge.status(flight.now).why_not;
+  EXPECT_NEAR(flight.autopilot.model().truth().motion.p.z(), 5.0, 0.35);
+}
+
 TEST(ArduPilotManners, ASetpointEndsTheTakeOffAndLiftsNothing) {
   SimulatedAutopilot autopilot(copter(), 1, UTime{0});
   UTime now{3'000'000};

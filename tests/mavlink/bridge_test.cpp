@@ -367,7 +367,7 @@ TEST(RequiredParameters, AskForNoNarrowerBoundsThanPlansHave) {
   uav.limits.dynamics = Dynamics{.tilt_max_deg = 60.0, .body_rate_max_deg_s = 500.0};
   std::map<std::string, double> values{{"COM_OBL_RC_ACT", 4},     {"COM_OF_LOSS_T", 0.5},    {"MPC_XY_VEL_MAX", 5},
                                        {"MPC_Z_VEL_MAX_UP", 3},   {"MPC_Z_VEL_MAX_DN", 1.5}, {"MPC_TILTMAX_AIR", 45},
-                                       {"MC_ROLLRATE_MAX", 1000}, {"MC_PITCHRATE_MAX", 220}};
+                                       {"MC_ROLLRATE_MAX", 1000}, {"MC_PITCHRATE_MAX", 220}, {"MC_AIRMODE", 0}};
   const auto faults = [&](bool without_remote, bool vision) {
     return parameter_faults(required_parameters(Firmware::Px4, uav, without_remote, vision), values);
   };

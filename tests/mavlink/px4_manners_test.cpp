@@ -142,6 +142,27 @@ MotionSample straight(double t) {
   return m;
 }
 
+TEST(Px4Manners, SetpointsAreHeldOrCarriedOnAndTheVehicleIsNotLateForThat) {
+  for (const auto& [manners, rate] :
+       {std::pair(Manners::Px4, 20.0), std::pair(Manners::Px4, 50.0), std::pair(Manners::ArduPilot, 20.0)}) {
+    SimulatedAutopilotConfig autopilot;
+    autopilot.manners = manners;
+    FlightInMemory flight({.start = Start::Arm, .rate_hz = rate, .set_parameters = true}, autopilot);
+    ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
+    flight.path = straight;
+    flight.run(8.0);
+    double behind = 0.0;
+    int n = 0;
+    flight.each = [&] {
+      const MotionSample commanded = straight((flight.now - *flight.follows_since).seconds());
+      behind += commanded.p.x() - flight.autopilot.model().truth().motion.p.x();
+      ++n;
+    };
+    flight.run(4.0);
+    EXPECT_NEAR(behind / n / 3.0, 0.0, 0.004) << "seconds behind at 3 m/s, " << rate << " setpoints a second";
+  }
+}
+
 TEST(Px4Manners, DragThatNothingIsFedForwardAgainstIsSaid) {
   SimulatedAutopilotConfig sih;
   sih.quadrotor.body.drag_per_s = sih.quadrotor.body.drag_up_per_s = 1.0;
@@ -204,6 +225,19 @@ TEST(Px4Manners, WithoutGpsItFliesByWhatTheBridgeTellsItOfItsPlace) {
   blind.run(10.0);
   EXPECT_FALSE(blind.autopilot.armed());
   EXPECT_THAT(blind.bridge.status(blind.now).why_not, HasSubstr("its estimator has no position"));
+}
+
+TEST(Px4Manners, AirmodeIsNotFlown) {
+  FlightInMemory flight({.start = Start::Arm});
+  flight.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{1}),
+                                          .target_system = 1,
+                                          .param_id = text_of<16>("MC_AIRMODE"),
+                                          .param_type = 6},
+                                 {255, 190}, 0),
+                        flight.now);
+  flight.run(10.0);
+  EXPECT_FALSE(flight.autopilot.armed());
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("MC_AIRMODE is 1, not within [0, 0]"));
 }
 
 TEST(Px4Manners, RemoteLossMayBeExceptedInOtherModesToo) {

@@ -1,4 +1,5 @@
 // A vehicle has one who flies it: the bridge takes it from nobody, and leaves it to whoever takes it.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -76,6 +77,94 @@ TEST(WhoFlies, ItHasNotLandedWhileItsOwnCommandToArmIsOnItsWay) {
   EXPECT_TRUE(was_armed) << "the command was on its way";
   EXPECT_FALSE(flight.autopilot.armed());
   EXPECT_TRUE(flight.autopilot.model().truth().on_ground);
+}
+
+/// A flight in which the bridge commands a mode.
+struct Race {
+  SimulatedAutopilotConfig autopilot;
+  Duration delay;
+  std::function<void(FlightInMemory&)> story;
+  std::uint16_t sought = kDoSetMode;
+  CommandLong pilots = {};  ///< command: of another mode than the vehicle is in
+  std::string mode = {};
+
+  [[nodiscard]] bool is_px4() const { return autopilot.manners == Manners::Px4; }
+
+  [[nodiscard]] FlightInMemory flight() const {
+    FlightInMemory flight({.start = Start::Arm, .set_parameters = true}, autopilot);
+    flight.faults.delay_from = flight.faults.delay_to = delay;
+    return flight;
+  }
+
+  /// When the bridge commands the mode of this story.
+  [[nodiscard]] UTime commanded() const {
+    FlightInMemory alone = flight();
+    std::vector<UTime> times;
+    alone.sent = [&](const Frame& frame) {
+      const auto command = from_frame<CommandLong>(frame);
+      if (command && command->command == sought) times.push_back(alone.now);
+    };
+    story(alone);
+    return times.back();
+  }
+
+  /// The pilot switches then, and has the vehicle in the end.
+  void expect_the_pilot_has_it(UTime then) const {
+    FlightInMemory flight = this->flight();
+    bool switched = false;
+    flight.each = [&] {
+      if (!switched && flight.now >= then) flight.ground_station(pilots);
+      switched = switched || flight.now >= then;
+    };
+    story(flight);
+    flight.run(4.0);
+    EXPECT_EQ(flight.autopilot.mode(), mode);
+    EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
+  }
+};
+
+/// However little before, or after, its own command.
+void expect_nothing_is_overruled(const std::function<void(FlightInMemory&)>& story, std::uint16_t sought,
+                                 Duration earliest, const std::string& ardupilots = "LOITER") {
+  for (const Manners manners : {Manners::Px4, Manners::ArduPilot}) {
+    for (const Duration delay : {Duration{1'000}, Duration{40'000}}) {
+      Race race{{}, delay, story, sought};
+      race.autopilot.manners = manners;
+      race.pilots = race.is_px4() ? switch_to(4, 3) : switch_to(ardupilots == "LAND" ? 9 : 5);
+      race.mode = race.is_px4() ? "AUTO.LOITER" : ardupilots;
+      const UTime commanded = race.commanded();
+      for (Duration offset = earliest; offset <= Duration{300'000}; offset = offset + Duration{10'000}) {
+        SCOPED_TRACE(fmt::format("{} after the command, delay {} us, PX4 {}", offset.us, delay.us, race.is_px4()));
+        race.expect_the_pilot_has_it(commanded + offset);
+      }
+    }
+  }
+}
+
+TEST(WhoFlies, ASwitchBesideItsCommandToLandIsNotOverruled) {
+  const auto story = [](FlightInMemory& flight) {
+    flight.run_until([&] { return flight.following(); });
+    flight.run(1.0);
+    flight.bridge.land("the flight has ended");
+    flight.run(0.4);
+  };
+  expect_nothing_is_overruled(story, kNavLand, Duration{-300'000});
+}
+
+TEST(WhoFlies, ASwitchBesideItsCommandToTakeOverIsNotOverruled) {
+  const auto story = [](FlightInMemory& flight) {
+    flight.run_until([&] { return flight.following(); });
+    flight.ground_station(flight.bridge.autopilot().firmware() == Firmware::Px4 ? switch_to(3) : switch_to(9));
+    flight.run_until([&] { return flight.bridge.stage() == Stage::StoodBack; });
+    flight.run(1.0);
+    flight.bridge.told_to_fly();
+    flight.run(1.6);
+  };
+  expect_nothing_is_overruled(story, kDoSetMode, Duration{-300'000});
+}
+
+TEST(WhoFlies, ASwitchBesideItsFirstCommandIsNotOverruled) {
+  expect_nothing_is_overruled([](FlightInMemory& flight) { flight.run(6.0); }, kDoSetMode, Duration{0}, "LAND");
 }
 
 }  // namespace

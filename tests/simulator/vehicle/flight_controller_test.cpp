@@ -120,5 +120,40 @@ TEST(FlightController, FollowsBackwardsFlightUpsideDownOfNothing) {
   EXPECT_LT(loop.state.v.norm(), 0.2);
 }
 
+/// Smoothly 1 between two times.
+double between(double t, double from, double to) {
+  constexpr double kRamp = 0.2;
+  return std::clamp((t - from) / kRamp, 0.0, 1.0) - std::clamp((t - to) / kRamp, 0.0, 1.0);
+}
+
+/// Up and down by 4 m/s²; on its way down its jerk turns every tenth of a second, as that of plans may.
+Vec3 restless(double t) {
+  constexpr double kJerk = 50.0, kHalf = 0.1, kUp = 4.0;
+  Vec3 a(0, 0, kUp * (between(t, 0.0, 0.6) - between(t, 0.8, 2.0) + between(t, 2.2, 2.8)));
+  if (t < 1.0 || t > 2.0) return a;
+  const double w = std::fmod(t - 1.0, 4.0 * kHalf);
+  const double y = w < kHalf ? w : w < 3.0 * kHalf ? 2.0 * kHalf - w : w - 4.0 * kHalf;
+  a.head<2>() = kJerk * Eigen::Vector2d(0.7 * y, y);
+  return a;
+}
+
+TEST(FlightController, WhoTurnsToAndFroAtLittleThrustIsNotLifted) {
+  Loop loop(QuadrotorClass::Racer);
+  loop.wind = Vec3(0, 8, 0);
+  loop.fly(hold(Vec3::Zero()), 4.0);
+  FlightCommand command;
+  double highest = 0.0;
+  for (double t = 0.0; t < 4.0; t += kDt) {
+    MotionSample& m = command.motion;
+    m.a = restless(t);
+    m.j = (restless(t + loop.gains.lead_s) - m.a) / loop.gains.lead_s;
+    loop.fly(command, kDt);
+    m.p += kDt * m.v + 0.5 * kDt * kDt * m.a;
+    m.v += kDt * m.a;
+    highest = std::max(highest, loop.state.p.z() - m.p.z());
+  }
+  EXPECT_LT(highest, 0.1) << "without a bound on what torque may lift it, it is 0.46 m";
+}
+
 }  // namespace
 }  // namespace tern

@@ -163,5 +163,19 @@ TEST(Allocation, GivesUpHeightBeforeTilt) {
   EXPECT_LT((had.torque - Vec3(0.3, -0.2, 0.0)).norm(), 1e-9);
 }
 
+/// Else whoever turns fast at little thrust is lifted, so wants still less of it, and turns still faster.
+TEST(Allocation, RaisesThrustForTorqueAtMostHalfTheWayToHovering) {
+  for (const auto kind : {QuadrotorClass::Camera, QuadrotorClass::Racer}) {
+    const QuadrotorSpec spec = quadrotor_spec(kind);
+    const double hover = spec.mass_kg * kGravity, much = spec.largest_thrust() * spec.arm_m;
+    for (const double share : {0.0, 0.3, 0.9, 1.5}) {
+      const Wrench had = wrench_of(spec, allocate(spec, {share * hover, Vec3(2.0 * much, 0.0, 0.0)}));
+      EXPECT_LE(had.thrust, std::max(share, 0.5 * (share + 1.0)) * hover + 1e-9) << share;
+      EXPECT_GT(had.torque.x(), 0.3 * much) << "it must be able to turn at any thrust; " << share;
+      EXPECT_NEAR(had.torque.y(), 0.0, 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tern

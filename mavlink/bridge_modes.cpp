@@ -1,0 +1,58 @@
+// Who has the vehicle while modes are commanded: no command of the bridge overrules a pilot's switch.
+#include <fmt/format.h>
+
+#include "mavlink/bridge.h"
+
+namespace tern::mavlink {
+namespace {
+
+/// HEARTBEAT comes by itself once a second.
+constexpr Duration kModePeriod{200'000}, kOldModePeriod{50'000};
+/// What HEARTBEAT has told is then no older than the link.
+constexpr Duration kJustNow{50'000};
+
+}  // namespace
+
+void Bridge::request_mode(UTime now) {
+  const bool old = autopilot_.mode_is_old();
+  if (now < next_mode_ || !autopilot_.address() || !(old || flies() || commanded_mode_)) return;
+  next_mode_ = now + (old ? kOldModePeriod : kModePeriod);
+  ask(kRequestMessage, Heartbeat::kId);
+}
+
+/// Commands are obeyed in order: the answer to the question in front tells the mode that this command ends.
+void Bridge::command_mode(UTime now, const std::string& wanted, std::uint16_t number,
+                          const std::array<float, 7>& param) {
+  if (now < next_command_ || now - autopilot_.mode_heard() > kJustNow) return;
+  ask(kRequestMessage, Heartbeat::kId);
+  command(now, number, param);
+  commanded_mode_ = {now, autopilot_.mode(), wanted};
+  next_mode_ = now + kOldModePeriod;
+}
+
+void Bridge::watch_mode(UTime now) {
+  if (!commanded_mode_) return;
+  const std::string mode = autopilot_.mode();
+  const CommandedMode commanded = *commanded_mode_;
+  const bool gives_back = pilots_mode_ && pilots_mode_->mode == commanded.wanted;
+  if (mode == commanded.before) {
+    if (gives_back) return command_mode(now, pilots_mode_->mode, kDoSetMode, pilots_mode_->command);
+    if (now - commanded.at > kCommandFlight) forget_commanded_mode();
+    return;
+  }
+  if (mode != commanded.wanted) {
+    pilots_mode_ = {mode, autopilot_.mode_command()};
+    if (stage_ != Stage::StoodBack) stand_back(fmt::format("the autopilot has left for {}: somebody else flies", mode));
+    return;
+  }
+  if (!pilots_mode_ || gives_back) return forget_commanded_mode();
+  words_.push_back(fmt::format("{} was chosen before {} was commanded: it is given back", pilots_mode_->mode, mode));
+  command_mode(now, pilots_mode_->mode, kDoSetMode, pilots_mode_->command);
+}
+
+void Bridge::forget_commanded_mode() {
+  commanded_mode_.reset();
+  pilots_mode_.reset();
+}
+
+}  // namespace tern::mavlink
