@@ -29,8 +29,8 @@ std::string live_line(const LiveView& view, std::size_t columns) {
   if (view.left_out > 0) trouble += fmt::format("  {} tracks left out", view.left_out);
   if (!view.waiting.empty()) trouble += "  waiting for " + view.waiting;
   trouble += beside;
-  for (const std::string& middle : {replan + " (p50/p99)" + in_time, replan + in_time, in_time}) {
-    if (head.size() + middle.size() + trouble.size() <= columns) return head + middle + trouble;
+  for (const std::string& middle : {fmt::format("{} (p50/p99){}", replan, in_time), replan + in_time, in_time}) {
+    if (head.size() + middle.size() + trouble.size() <= columns) return fmt::format("{}{}{}", head, middle, trouble);
   }
   return head + trouble;
 }

@@ -90,7 +90,7 @@ std::string NodeHost::say_drift() {
     said_drift_ = {};
     return "";
   }
-  const std::string text =
+  std::string text =
       fmt::format("the system's clock was set {} by {:.1f} ms: who starts now is apart by that; start all anew",
                   drift < Duration{} ? "back" : "forward", magnitude(drift).seconds() * 1e3);
   if (magnitude(drift - said_drift_) > kSaidDrift) {

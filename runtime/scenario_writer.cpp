@@ -21,7 +21,7 @@ std::string motion_yaml(const ObstacleSpec& obstacle) {
   const auto line = [](const char* key, const std::string& value) { return fmt::format("      {}: {}\n", key, value); };
   const auto visitor = [&](const auto& motion) -> std::string {
     using Motion = std::decay_t<decltype(motion)>;
-    const std::string centre = line("centre", to_yaml(obstacle.centre));
+    std::string centre = line("centre", to_yaml(obstacle.centre));
     if constexpr (std::is_same_v<Motion, TrefoilMotion>) {
       return centre + line("motion", "trefoil") + line("scale", to_yaml(motion.scale)) +
              line("slowness", yaml_number(motion.slowness)) + line("phase", yaml_number(motion.phase));

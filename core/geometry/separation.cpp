@@ -55,7 +55,7 @@ std::optional<Separation> separate(const Points& a, const Points& b, double clea
     ++separation_counts().fast;
     return std::nullopt;
   }
-  if (const auto separation = verified(shortest.v, a, b, clearance)) {
+  if (auto separation = verified(shortest.v, a, b, clearance)) {
     ++separation_counts().fast;
     return separation;
   }

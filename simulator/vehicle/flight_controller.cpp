@@ -21,7 +21,7 @@ Vec3 FlightController::commanded_acceleration(const FlightCommand& command, cons
   const Vec3 wanted = m.a + gains_.lead_s * m.j + gains_.drag_per_s * m.v + gains_.velocity_p * error + integral_ -
                       gains_.velocity_d * level;
   const Vec3 thrust = thrust_for(wanted);
-  const Vec3 had = thrust / body_.mass_kg - Vec3(0.0, 0.0, kGravity);
+  Vec3 had = thrust / body_.mass_kg - Vec3(0.0, 0.0, kGravity);
   if ((had - wanted).norm() < 1e-6) integral_ += gains_.velocity_i * error * dt;
   return had;
 }

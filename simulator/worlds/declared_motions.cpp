@@ -193,8 +193,8 @@ Track static_track(const WorldObstacle& obstacle, UTime from, UTime to) {
 
 Duration fit_piece(const ObstacleBounds& bounds) {
   const double h = std::pow(384.0 * kFitError / bounds.fourth.maxCoeff(), 0.25);
-  const double units =
-      std::min(std::floor(h * 1e6 / kGridUnit.us), static_cast<double>(kLongestPieceUs / kGridUnit.us));
+  constexpr std::int64_t kMostUnits = kLongestPieceUs / kGridUnit.us;
+  const double units = std::min(std::floor(h * 1e6 / kGridUnit.us), static_cast<double>(kMostUnits));
   return kGridUnit * std::max<std::int64_t>(1, static_cast<std::int64_t>(units));
 }
 

@@ -1,5 +1,7 @@
 #include "tools/export/message_types.h"
 
+#include <fmt/format.h>
+
 #include <cctype>
 #include <regex>
 #include <sstream>
@@ -47,7 +49,7 @@ MessageTypes parse_definitions(std::string_view text) {
       open->fields.push_back(field_of(match));
     }
     const bool is_comment = line.starts_with("// ");
-    above = is_comment ? above + (above.empty() ? "" : " ") + line.substr(3) : "";
+    above = is_comment ? fmt::format("{}{}{}", above, above.empty() ? "" : " ", line.substr(3)) : "";
   }
   return types;
 }

@@ -183,7 +183,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
  private:
-  void serve(Request request) {
+  void serve(const Request& request) {
     const std::string_view host = view(request[http::field::host]);
     if (!shared_.access.allows_host(host)) return refuse(request, http::status::forbidden, "unknown Host");
     const std::string_view target = view(request.target());
