@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -15,7 +16,9 @@ constexpr double kWholeMicrosecondTolerance = 1e-3;
 // a t² + b t + c = 0. Cancellation-free: the larger root first, the other from the product. NaN where there is no root;
 // comparisons with an interval then fail. Double roots that rounding loses are inflections, not extrema.
 std::array<double, 2> quadratic_roots(double a, double b, double c) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const double discriminant = b * b - 4.0 * a * c;
+  if (!(discriminant >= 0.0)) return {kNone, kNone};
   const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
   return {q / a, c / q};
 }
@@ -25,6 +28,10 @@ void require_pieces(const PiecewiseCubic& motion) {
 }
 
 Vec3 position(const PowerCubic& c, double t) { return ((c.col(0) * t + c.col(1)) * t + c.col(2)) * t + c.col(3); }
+
+double position(const PowerCubic& c, double t, int axis) {
+  return ((c(axis, 0) * t + c(axis, 1)) * t + c(axis, 2)) * t + c(axis, 3);
+}
 
 Vec3 velocity(const PowerCubic& c, double t) { return (3.0 * c.col(0) * t + 2.0 * c.col(1)) * t + c.col(2); }
 
@@ -95,7 +102,7 @@ Box cubic_bounds(const PowerCubic& c, double t0_s, double t1_s) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double root : quadratic_roots(3.0 * c(axis, 0), 2.0 * c(axis, 1), c(axis, 2))) {
       if (!(root > t0_s && root < t1_s)) continue;
-      const double p = position(c, root)[axis];
+      const double p = position(c, root, axis);
       box.min()[axis] = std::min(box.min()[axis], p);
       box.max()[axis] = std::max(box.max()[axis], p);
     }
