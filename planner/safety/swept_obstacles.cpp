@@ -42,12 +42,11 @@ CentredBox box_at(const Track& track, const AlphaCount& count, const Vec3& body_
   for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
     const CubicPiece& piece = track.motion.pieces[k];
     const double piece_to = piece_from + piece.duration.seconds();
-    if (at <= piece_to)
-      return {sample_cubic(piece.coefficients, at - piece_from).p, grown_half(count.of(track, k), 0.0)};
+    if (at <= piece_to) return {position_of(piece.coefficients, at - piece_from), grown_half(count.of(track, k), 0.0)};
     piece_from = piece_to;
   }
   const CubicPiece& last = track.motion.pieces.back();
-  return {sample_cubic(last.coefficients, last.duration.seconds()).p,
+  return {position_of(last.coefficients, last.duration.seconds()),
           grown_half(count.of(track, track.alpha.size() - 1), at - piece_from)};
 }
 

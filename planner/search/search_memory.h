@@ -23,9 +23,9 @@ struct SearchNode {
 /// An open node's place in the order of expansion: (band, f in steps, depth, f, index).
 struct SearchEntry {
   std::int64_t band;
-  int depth_left;
   std::int64_t f_step;
   double f;
+  int depth_left;
   int node;
   [[nodiscard]] bool before(const SearchEntry& o) const {
     if (band != o.band) return band < o.band;

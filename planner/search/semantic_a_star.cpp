@@ -72,7 +72,7 @@ class Search {
       const Entry top = open_.front();
       if (best_.holds && std::pair(top.band, top.f_step) >= std::pair(best_.band, step_of(best_.f))) break;
       if (best_.node >= 0 && result_.expansions >= give_up_at_) break;
-      std::pop_heap(open_.begin(), open_.end(), later);
+      std::pop_heap(open_.begin(), open_.end(), kLater);
       open_.pop_back();
       visit(top);
     }
@@ -81,7 +81,7 @@ class Search {
   }
 
  private:
-  static bool later(const Entry& a, const Entry& b) { return b.before(a); }
+  static constexpr auto kLater = [](const Entry& a, const Entry& b) { return b.before(a); };
   /// Of equals the deepest is expanded first, so that the search goes deep instead of wide.
   [[nodiscard]] std::int64_t step_of(double f) const {
     return static_cast<std::int64_t>(std::floor(f / config_.cost_step_m));
@@ -119,17 +119,19 @@ class Search {
     double f = n.g + config_.lambda_h * problem_.way.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
     const std::int64_t band = band_of(std::max(problem_.way.from(reachable), least_way_), config_.band_m);
-    open_.push_back({band, leaf_index() - n.l, step_of(f), f, static_cast<int>(nodes_.size())});
-    std::push_heap(open_.begin(), open_.end(), later);
+    open_.push_back({band, step_of(f), f, leaf_index() - n.l, static_cast<int>(nodes_.size())});
+    std::push_heap(open_.begin(), open_.end(), kLater);
     nodes_.push_back(n);
   }
 
   void visit(const Entry& entry) {
     const Node n = node(entry.node);
-    if (closed(n) || !interval_clear(entry.node, n)) return;
+    const bool may_close = n.l > 2;
+    const std::uint64_t place = may_close ? key(n) : 0;
+    if ((may_close && closed_.contains(place)) || !interval_clear(entry.node, n)) return;
     if (problem_.keep_nodes) keep(entry.node, n);
     if (n.l == leaf_index()) return consider_leaf(entry, n);
-    if (n.l > 2) close(n);
+    if (may_close) closed_.insert(place);
     expand(entry.node, n);
     ++result_.expansions;
   }
@@ -303,8 +305,6 @@ class Search {
     }
     return k;
   }
-  [[nodiscard]] bool closed(const Node& n) const { return n.l > 2 && closed_.contains(key(n)); }
-  void close(const Node& n) { closed_.insert(key(n)); }
 
   void report() {
     result_.found = true;
