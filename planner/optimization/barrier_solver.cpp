@@ -61,12 +61,19 @@ class Constraints {
   /// lower triangle += factor ∇c_i ∇c_iᵀ.
   void add_outer(int i, double factor, double* matrix) const {
     const Entries& of = entries_[idx(i)];
+    const double* value = value_.data() + of.begin;
+    double* corner = matrix + of.column * (n_ + 1);
     switch (of.count) {
-      case 1: return add_outer_of<1>(of, factor, matrix);
-      case 2: return add_outer_of<2>(of, factor, matrix);
-      case 3: return add_outer_of<3>(of, factor, matrix);
-      case 4: return add_outer_of<4>(of, factor, matrix);
-      default: return add_outer_of<kAnyCount>(of, factor, matrix);
+      case 1: return add_few<1>(value, factor, corner, of.stride);
+      case 2: return add_few<2>(value, factor, corner, of.stride);
+      case 3: return add_few<3>(value, factor, corner, of.stride);
+      case 4: return add_few<4>(value, factor, corner, of.stride);
+      default: break;
+    }
+    for (int e = 0; e < of.count; ++e) {
+      const double scaled = factor * value[e];
+      double* row = corner + e * of.stride * n_;
+      for (int f = 0; f <= e; ++f) row[f * of.stride] += scaled * value[f];
     }
   }
 
@@ -89,17 +96,13 @@ class Constraints {
     int column, stride;
   };
 
-  static constexpr int kAnyCount = 0;
-  /// Most gradients have few entries: for so many the compiler unrolls the loops.
+  /// The same for a known count, which the compiler unrolls: most gradients have few entries.
   template <int kCount>
-  void add_outer_of(const Entries& of, double factor, double* matrix) const {
-    const int count = kCount == kAnyCount ? of.count : kCount;
-    const double* value = value_.data() + of.begin;
-    double* corner = matrix + of.column * (n_ + 1);
-    for (int e = 0; e < count; ++e) {
+  void add_few(const double* value, double factor, double* corner, int stride) const {
+    for (int e = 0; e < kCount; ++e) {
       const double scaled = factor * value[e];
-      double* row = corner + e * of.stride * n_;
-      for (int f = 0; f <= e; ++f) row[f * of.stride] += scaled * value[f];
+      double* row = corner + e * stride * n_;
+      for (int f = 0; f <= e; ++f) row[f * stride] += scaled * value[f];
     }
   }
 
