@@ -39,7 +39,7 @@ Fallback check_committed(const Surroundings& near, bool rests_where_it_shall, Pl
   const double look_s = rests ? near.hold.cap_of_stop(0.0) : near.hold.cap(moving_s);
   append_hold(times, kHoldStep, std::min(look_s, near.look.followed_s - moving_s));
   SweptObstacles& swept = tools.memory.committed;
-  swept.assign(near.obstacles, request.body, request.t_s, times, committed_box(request));
+  swept.assign(near.obstacles, request.body, request.t_s, times, near.committed);
   CheckReport report = check_separation(pieces, swept);
   tools.log.statistics.pairs += report.pairs;
   tools.log.statistics.count(swept);

@@ -78,7 +78,7 @@ HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& confi
     if (!obstacle.moves()) continue;
     const Vec3 both = body + obstacle.track->half_extents;
     hold.width = std::max(hold.width, both.maxCoeff());
-    hold.predicted_s = std::max(hold.predicted_s, (obstacle.track->motion.end() - request.t_s).seconds());
+    hold.predicted_s = std::max(hold.predicted_s, (obstacle.motion_end() - request.t_s).seconds());
     if (obstacle.is_promised()) continue;
     hold.promised = false;
     known_s += known_for(obstacle, middle_of(both), request.t_s);

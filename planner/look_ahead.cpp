@@ -18,20 +18,18 @@ Box committed_box(const HorizonRequest& request) {
   return box;
 }
 
-Box planning_region(const HorizonRequest& request, const PlannerConfig& config) {
+Box planning_region(const HorizonRequest& request, const PlannerConfig& config, const Box& committed) {
   const double reach = config.sphere_radius_m + request.body.half_extents().maxCoeff() + kBetaMax;
   const Box sphere = box_around(request.start.p, Vec3::Constant(reach));
-  const Box committed = grown(committed_box(request), request.body.half_extents() + Vec3::Constant(kBetaMax));
-  return sphere.merged(committed);
+  return sphere.merged(grown(committed, request.body.half_extents() + Vec3::Constant(kBetaMax)));
 }
 
-LookAhead look_ahead(const HorizonRequest& request, const PredictionProducts& predictions,
-                     const PlannerConfig& config) {
-  const Foresight foresight = predictions.foresight(planning_region(request, config));
+LookAhead look_ahead(UTime t_s, const PredictionProducts& predictions, const Box& region) {
+  const Foresight foresight = predictions.foresight(region);
   LookAhead look;
   look.followed_until = foresight.followed_until;
-  look.followed_s = (foresight.followed_until - request.t_s).seconds();
-  const double predicted_s = (foresight.predicted_until - request.t_s).seconds();
+  look.followed_s = (foresight.followed_until - t_s).seconds();
+  const double predicted_s = (foresight.predicted_until - t_s).seconds();
   look.horizon_s = std::max(predicted_s, std::min(look.followed_s, kLeastHorizon));
   return look;
 }

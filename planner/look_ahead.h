@@ -15,7 +15,8 @@ namespace tern {
 Box committed_box(const HorizonRequest& request);
 
 /// What the body may touch from t_s on, flying what is committed or anything within the sphere, W.
-Box planning_region(const HorizonRequest& request, const PlannerConfig& config);
+/// @param committed  committed_box()
+Box planning_region(const HorizonRequest& request, const PlannerConfig& config, const Box& committed);
 
 /// Times count from t_s, s; negative ones are past, very large ones mean that nothing moves within reach.
 struct LookAhead {
@@ -26,7 +27,8 @@ struct LookAhead {
 
 /// The horizon is as long as movers are predicted within the planning region. It is at least kLeastHorizon, or as long
 /// as they are followed: where predictions are short, boxes that grow stand for them.
-LookAhead look_ahead(const HorizonRequest& request, const PredictionProducts& predictions, const PlannerConfig& config);
+/// @param region  planning_region()
+LookAhead look_ahead(UTime t_s, const PredictionProducts& predictions, const Box& region);
 
 /// Where a plan heads.
 struct LocalAim {

@@ -24,41 +24,46 @@ Box piece_box(const Track& track, std::size_t k) {
 
 PredictionProducts::PredictionProducts(TrackSet tracks) : set(std::move(tracks)) {
   std::size_t pieces = 0;
-  for (const Track& track : set.tracks) pieces += track.kind == TrackKind::Static ? 0 : track.motion.pieces.size();
+  std::size_t movers = 0;
+  for (const Track& track : set.tracks) {
+    if (track.kind == TrackKind::Static) continue;
+    pieces += track.motion.pieces.size();
+    ++movers;
+  }
   piece_boxes.reserve(pieces);
+  movers_.reserve(movers);
   obstacles.reserve(set.tracks.size());
   std::vector<Box> boxes;
   boxes.reserve(set.tracks.size());
   for (const Track& track : set.tracks) {
-    const UTime from = track.motion.start;
-    const std::size_t first = piece_boxes.size();
-    if (track.kind != TrackKind::Static) {
-      for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) piece_boxes.push_back(piece_box(track, k));
-    }
-    if (track.kind != TrackKind::Static) {
-      Box box;
-      for (std::size_t k = first; k < piece_boxes.size(); ++k) box.extend(piece_boxes[k]);
-      movers_.push_back({box, track.motion.end(), track.top_speed});
-    }
-    boxes.push_back(track.bounds(from, track.motion.end() + kTrackBoxReach));
-    obstacles.push_back({track.id,
-                         &track,
-                         boxes.back(),
-                         {},
-                         std::span<const Box>(piece_boxes.data() + first, piece_boxes.size() - first)});
+    boxes.push_back(track.bounds(track.motion.start, track.motion.end() + kTrackBoxReach));
+    obstacles.push_back({track.id, &track, boxes.back(), {}});
+    if (track.kind != TrackKind::Static) obstacles.back().boxes = &add_mover(track).boxes;
   }
   index = BoxIndex(std::move(boxes));
+}
+
+const PredictionProducts::Mover& PredictionProducts::add_mover(const Track& track) {
+  const std::size_t first = piece_boxes.size();
+  Box whole;
+  for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
+    piece_boxes.push_back(piece_box(track, k));
+    whole.extend(piece_boxes.back());
+  }
+  const std::span<const Box> made(piece_boxes.data() + first, piece_boxes.size() - first);
+  return movers_.emplace_back(Mover{{whole, track.motion.end(), made}, track.top_speed});
 }
 
 Foresight PredictionProducts::foresight(const Box& region) const {
   Foresight foresight;
   for (const Mover& mover : movers_) {
-    const Vec3 gaps = (mover.box.min() - region.max()).cwiseMax(region.min() - mover.box.max());
+    const MotionBoxes& boxes = mover.boxes;
+    const Vec3 gaps = (boxes.whole.min() - region.max()).cwiseMax(region.min() - boxes.whole.max());
     const double gap = std::max(0.0, gaps.maxCoeff());
     if (gap > mover.top_speed * kEver.seconds()) continue;
     const Duration grows{gap > 0.0 ? static_cast<std::int64_t>(gap / mover.top_speed * 1e6) : 0};
-    foresight.predicted_until = std::min(foresight.predicted_until, mover.end + grows);
-    foresight.followed_until = std::min(foresight.followed_until, mover.end + std::max(grows, kTrackBoxReach));
+    foresight.predicted_until = std::min(foresight.predicted_until, boxes.end + grows);
+    foresight.followed_until = std::min(foresight.followed_until, boxes.end + std::max(grows, kTrackBoxReach));
   }
   return foresight;
 }

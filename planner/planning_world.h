@@ -34,7 +34,7 @@ struct Foresight {
 struct PredictionProducts {
   TrackSet set;
   std::vector<Box> piece_boxes;             ///< of all moving tracks, one per piece of their motions
-  std::vector<PlanningObstacle> obstacles;  ///< one per track; point into the two above, so this object does not move
+  std::vector<PlanningObstacle> obstacles;  ///< one per track; point into this object, so that it does not move
   BoxIndex index;                           ///< over the obstacles' boxes
 
   explicit PredictionProducts(TrackSet tracks);
@@ -48,10 +48,11 @@ struct PredictionProducts {
  private:
   /// A track that moves, as foresight() takes it.
   struct Mover {
-    Box box;  ///< of all its pieces
-    UTime end;
+    MotionBoxes boxes;
     double top_speed;
   };
+  const Mover& add_mover(const Track& track);
+
   std::vector<Mover> movers_;
 };
 

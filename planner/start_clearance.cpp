@@ -48,14 +48,23 @@ class StartDistance {
   Vec3 centre_, half_, alpha_;
 };
 
+/// Whether the box of all its pieces keeps the obstacle away from the body about p, so that no distance need be asked.
+/// @param reach  half-extents of the body
+bool is_surely_clear(const PlanningObstacle& o, const Vec3& reach, const Vec3& p, UTime t) {
+  if (o.boxes == nullptr || t < o.track->motion.start || t > o.boxes->end) return false;
+  constexpr double kWithRounding = 2.0 * kTouchingTolerance;
+  return !grown(o.boxes->whole, reach + Vec3::Constant(kWithRounding)).contains(p);
+}
+
 }  // namespace
 
 StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p, UTime t) {
   StartClearance result;
   const Points body_at_p = body.vertices.colwise() + p;
   Points box(3, 8);
+  const Vec3 reach = body.half_extents();
   for (PlanningObstacle& o : obstacles) {
-    if (!grown(o.box, body.half_extents()).contains(p)) continue;
+    if (!grown(o.box, reach).contains(p) || is_surely_clear(o, reach, p, t)) continue;
     if (o.track == nullptr) {
       box = box_corners(o.box);
       const bool clear = distance(box, body_at_p) > body.radius + kTouchingTolerance;

@@ -8,9 +8,7 @@ namespace tern {
 namespace {
 
 /// Tracks and map boxes that can matter.
-void find_obstacles(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
-                    PlanWorkspace& memory) {
-  const Box region = planning_region(request, config);
+void find_obstacles(const Box& region, const PlanningWorld& world, PlanWorkspace& memory) {
   memory.obstacles.clear();
   world.predictions->index.query(region, memory.found);
   for (const std::int32_t k : memory.found) {
@@ -36,14 +34,17 @@ const SemanticFields* semantics_in_reach(const HorizonRequest& request, const Se
 
 Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
                           PlanWorkspace& memory) {
-  find_obstacles(request, world, config, memory);
+  const Box committed = committed_box(request);
+  const Box region = planning_region(request, config, committed);
+  find_obstacles(region, world, memory);
   const StartClearance start = clear_start(memory.obstacles, request.body, request.start.p, request.t_s);
-  const LookAhead look = look_ahead(request, *world.predictions, config);
+  const LookAhead look = look_ahead(request.t_s, *world.predictions, region);
   Limits plan_limits = request.limits;
   plan_limits.v_max *= config.velocity_share;
   return {request,
           config,
           memory.obstacles,
+          committed,
           {},
           start,
           look,

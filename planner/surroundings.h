@@ -20,6 +20,7 @@ struct Surroundings {
   const HorizonRequest& request;
   const PlannerConfig& config;
   const std::vector<PlanningObstacle>& obstacles;  ///< in reach; α scaled where the start lies inside
+  Box committed;                                   ///< committed_box()
   Assurance assurance;                             ///< what counts of α
   StartClearance start;
   LookAhead look;  ///< no plan looks past its followed_until

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -15,7 +16,9 @@ constexpr double kWholeMicrosecondTolerance = 1e-3;
 // a t² + b t + c = 0. Cancellation-free: the larger root first, the other from the product. NaN where there is no root;
 // comparisons with an interval then fail. Double roots that rounding loses are inflections, not extrema.
 std::array<double, 2> quadratic_roots(double a, double b, double c) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const double discriminant = b * b - 4.0 * a * c;
+  if (!(discriminant >= 0.0)) return {kNone, kNone};
   const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
   return {q / a, c / q};
 }
@@ -24,7 +27,9 @@ void require_pieces(const PiecewiseCubic& motion) {
   if (motion.pieces.empty()) throw std::invalid_argument("a piecewise cubic without pieces");
 }
 
-Vec3 position(const PowerCubic& c, double t) { return ((c.col(0) * t + c.col(1)) * t + c.col(2)) * t + c.col(3); }
+double coordinate_of(const PowerCubic& c, double t, int axis) {
+  return ((c(axis, 0) * t + c(axis, 1)) * t + c(axis, 2)) * t + c(axis, 3);
+}
 
 Vec3 velocity(const PowerCubic& c, double t) { return (3.0 * c.col(0) * t + 2.0 * c.col(1)) * t + c.col(2); }
 
@@ -34,7 +39,7 @@ PowerCubic shifted(const PowerCubic& c, double t0) {
   r.col(0) = c.col(0);
   r.col(1) = 3.0 * c.col(0) * t0 + c.col(1);
   r.col(2) = velocity(c, t0);
-  r.col(3) = position(c, t0);
+  r.col(3) = position_of(c, t0);
   return r;
 }
 
@@ -72,7 +77,7 @@ MotionSample PiecewiseCubic::sample(UTime t) const {
 }
 
 MotionSample sample_cubic(const PowerCubic& c, double tau_s) {
-  return {position(c, tau_s), velocity(c, tau_s), 6.0 * c.col(0) * tau_s + 2.0 * c.col(1), 6.0 * c.col(0)};
+  return {position_of(c, tau_s), velocity(c, tau_s), 6.0 * c.col(0) * tau_s + 2.0 * c.col(1), 6.0 * c.col(0)};
 }
 
 Vec3 max_abs_velocity(const PowerCubic& c, double t0_s, double t1_s) {
@@ -90,12 +95,12 @@ Vec3 max_abs_acceleration(const PowerCubic& c, double t0_s, double t1_s) {
 }
 
 Box cubic_bounds(const PowerCubic& c, double t0_s, double t1_s) {
-  Box box(position(c, t0_s));
-  box.extend(position(c, t1_s));
+  Box box(position_of(c, t0_s));
+  box.extend(position_of(c, t1_s));
   for (int axis = 0; axis < 3; ++axis) {
     for (const double root : quadratic_roots(3.0 * c(axis, 0), 2.0 * c(axis, 1), c(axis, 2))) {
       if (!(root > t0_s && root < t1_s)) continue;
-      const double p = position(c, root)[axis];
+      const double p = coordinate_of(c, root, axis);
       box.min()[axis] = std::min(box.min()[axis], p);
       box.max()[axis] = std::max(box.max()[axis], p);
     }

@@ -35,6 +35,10 @@ struct PiecewiseCubic {
 
 /// Position, velocity, acceleration, jerk of a cubic at τ seconds.
 MotionSample sample_cubic(const PowerCubic& coefficients, double tau_s);
+/// Its position alone.
+inline Vec3 position_of(const PowerCubic& c, double tau_s) {
+  return ((c.col(0) * tau_s + c.col(1)) * tau_s + c.col(2)) * tau_s + c.col(3);
+}
 
 /// Largest |velocity| per axis of the cubic on [t0, t1]: exact, at an end or at the vertex τ = −c_2/(3c_3) of the
 /// parabola.

@@ -22,6 +22,7 @@ struct AlphaCount {
 };
 
 /// Track::bounds(), as far as what counts of α makes it sure.
-Box counted_bounds(const Track& track, UTime t0, UTime t1, const AlphaCount& count);
+/// @param first  pieces before this one end before t0 and need not be looked at
+Box counted_bounds(const Track& track, UTime t0, UTime t1, const AlphaCount& count, PiecewiseCubic::Located first);
 
 }  // namespace tern

@@ -4,15 +4,15 @@
 
 namespace tern {
 
-Box Track::bounds(UTime t0, UTime t1) const { return counted_bounds(*this, t0, t1, {}); }
+Box Track::bounds(UTime t0, UTime t1) const { return counted_bounds(*this, t0, t1, {}, {0, motion.start}); }
 
-Box counted_bounds(const Track& track, UTime t0, UTime t1, const AlphaCount& count) {
+Box counted_bounds(const Track& track, UTime t0, UTime t1, const AlphaCount& count, PiecewiseCubic::Located first) {
   const PiecewiseCubic& motion = track.motion;
   const auto half = [&](std::size_t piece) -> Vec3 { return track.half_extents + count.of(track, piece); };
+  if (track.kind == TrackKind::Static) return box_around(motion.pieces.front().coefficients.col(3), half(0));
   Box box;
-  UTime piece_start = motion.start;
-  const UTime end = motion.end();
-  for (std::size_t k = 0; k < motion.pieces.size(); ++k) {
+  UTime piece_start = first.start;
+  for (std::size_t k = first.index; k < motion.pieces.size() && piece_start <= t1; ++k) {
     const CubicPiece& piece = motion.pieces[k];
     const UTime piece_end = piece_start + piece.duration;
     const UTime from = std::max(piece_start, t0);
@@ -23,11 +23,7 @@ Box counted_bounds(const Track& track, UTime t0, UTime t1, const AlphaCount& cou
     }
     piece_start = piece_end;
   }
-  if (track.kind == TrackKind::Static) {
-    const Vec3 p = motion.pieces.front().coefficients.col(3);
-    return box_around(p, half(0));
-  }
-  if (t1 > end) {
+  if (const UTime end = piece_start; t1 > end) {
     const Vec3 p = motion.sample(end).p;
     box.extend(box_around(p, half(track.alpha.size() - 1) + Vec3::Constant(track.top_speed * (t1 - end).seconds())));
   }

@@ -17,7 +17,7 @@ void add_piece(std::vector<CentredBox>& out, const PowerCubic& cubic, double a, 
   const int n = static_cast<int>(std::clamp(steps, 1.0, kMostSteps));
   const double h = span / n;
   const Vec3 grown_half = half + acceleration * (h * h / 8.0);
-  for (int k = 0; k <= n; ++k) out.push_back({sample_cubic(cubic, a + h * k).p, grown_half});
+  for (int k = 0; k <= n; ++k) out.push_back({position_of(cubic, a + h * k), grown_half});
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaCoun
   };
   if (to > piece_from) {
     const CubicPiece& last = track.motion.pieces.back();
-    add_growing(to - piece_from, sample_cubic(last.coefficients, last.duration.seconds()).p,
+    add_growing(to - piece_from, position_of(last.coefficients, last.duration.seconds()),
                 count.of(track, track.alpha.size() - 1));
   }
   if (from < start) add_growing(start - from, track.motion.pieces.front().coefficients.col(3), count.of(track, 0));

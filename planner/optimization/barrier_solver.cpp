@@ -4,75 +4,22 @@
 #include <cmath>
 #include <vector>
 
+#include "planner/optimization/cholesky.h"
 #include "planner/problem/tuning.h"
 
 namespace tern {
 namespace {
 
-constexpr double kStrictlyInside = 1e-10;  ///< m: beyond the rounding of positions 10 km from the origin
+constexpr double kWithRounding = 1.0 + 1e-9;  ///< products and quotients that differ by more differ without rounding
+constexpr double kStrictlyInside = 1e-10;     ///< m: beyond the rounding of positions 10 km from the origin
 
-/// Symmetric positive definite systems by L Lᵀ, row-major, fixed order.
-class Cholesky {
- public:
-  void resize(int n) {
-    n_ = n;
-    l_.assign(idx(n) * idx(n), 0.0);
-    inverse_.resize(static_cast<std::size_t>(n));
-  }
-
-  /// Row-major lower triangle to fill before factor().
-  double* matrix() { return l_.data(); }
-
-  bool factor() {
-    for (int r = 0; r < n_; ++r) {
-      double* row = &l_[idx(r * n_)];
-      for (int c = 0; c < r; ++c) {
-        const double* other = &l_[idx(c * n_)];
-        double sum = row[c];
-        for (int k = 0; k < c; ++k) sum -= row[k] * other[k];
-        row[c] = sum * inverse_[idx(c)];
-      }
-      double pivot = row[r];
-      for (int k = 0; k < r; ++k) pivot -= row[k] * row[k];
-      if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
-      row[r] = std::sqrt(pivot);
-      inverse_[idx(r)] = 1.0 / row[r];
-    }
-    return true;
-  }
-
-  /// y := L⁻¹ y.
-  void solve_lower(double* y) const {
-    for (int r = 0; r < n_; ++r) {
-      const double* row = &l_[idx(r * n_)];
-      double sum = y[r];
-      for (int k = 0; k < r; ++k) sum -= row[k] * y[k];
-      y[r] = sum * inverse_[idx(r)];
-    }
-  }
-
-  void solve(double* y) const {
-    solve_lower(y);
-    for (int r = n_ - 1; r >= 0; --r) {
-      y[r] *= inverse_[idx(r)];
-      const double* row = &l_[idx(r * n_)];
-      for (int k = 0; k < r; ++k) y[k] -= row[k] * y[r];
-    }
-  }
-
- private:
-  int n_ = 0;
-  std::vector<double> l_, inverse_;
-};
-
-/// All constraints with their gradients, in y = x − x0. Rows are sparse and constant, sphere gradients follow y.
+/// All constraints with their gradients, in y = x − x0. Rows are constant, sphere gradients follow y.
 class Constraints {
  public:
   void assign(const ConvexProblem& p, const FreeVariables& x0) {
     n_ = p.variables();
-    begin_.assign(1, 0);
     for (std::vector<double>* v : {&value_, &weight_, &bound_}) v->clear();
-    column_.clear();
+    entries_.clear();
     at_.clear();
     for (int r = 0; r < p.row_count(); ++r) add_row(p, x0, r);
     linear_ = static_cast<int>(bound_.size());
@@ -87,34 +34,46 @@ class Constraints {
     for (int i = 0; i < linear_; ++i) c[idx(i)] = dot(i, y.data()) - bound_[idx(i)];
     for (int k = 0; k < spheres(); ++k) {
       Vec3 at = at_[idx(k)];
-      const int from = begin_[idx(linear_ + k)];
-      const int to = begin_[idx(linear_ + k + 1)];
-      for (int e = from; e < to; ++e) at[column_[idx(e)] % 3] += weight_[idx(e)] * y[idx(column_[idx(e)])];
-      for (int e = from; e < to; ++e) value_[idx(e)] = weight_[idx(e)] * at[column_[idx(e)] % 3] / radius_;
+      const Entries& of = entries_[idx(linear_ + k)];
+      const double* weight = weight_.data() + of.begin;
+      for (int e = 0; e < of.count; ++e) at[e % 3] += weight[e] * y[idx(of.column + e)];
+      for (int e = 0; e < of.count; ++e) value_[idx(of.begin + e)] = weight[e] * at[e % 3] / radius_;
       c[idx(linear_ + k)] = (at[0] * at[0] + at[1] * at[1] + at[2] * at[2] - radius_ * radius_) / (2.0 * radius_);
     }
   }
 
   /// ∇c_i · v.
   [[nodiscard]] double dot(int i, const double* v) const {
+    const Entries& of = entries_[idx(i)];
+    const double* value = value_.data() + of.begin;
     double sum = 0.0;
-    for (int e = begin_[idx(i)]; e < begin_[idx(i) + 1]; ++e) sum += value_[idx(e)] * v[column_[idx(e)]];
+    for (int e = 0; e < of.count; ++e) sum += value[e] * v[of.column + e * of.stride];
     return sum;
   }
 
   /// v += factor ∇c_i.
   void add_gradient(int i, double factor, double* v) const {
-    for (int e = begin_[idx(i)]; e < begin_[idx(i) + 1]; ++e) v[column_[idx(e)]] += factor * value_[idx(e)];
+    const Entries& of = entries_[idx(i)];
+    const double* value = value_.data() + of.begin;
+    for (int e = 0; e < of.count; ++e) v[of.column + e * of.stride] += factor * value[e];
   }
 
   /// lower triangle += factor ∇c_i ∇c_iᵀ.
   void add_outer(int i, double factor, double* matrix) const {
-    const int from = begin_[idx(i)];
-    const int to = begin_[idx(i) + 1];
-    for (int e = from; e < to; ++e) {
-      const double scaled = factor * value_[idx(e)];
-      double* row = matrix + idx(column_[idx(e)]) * idx(n_);
-      for (int f = from; f <= e; ++f) row[column_[idx(f)]] += scaled * value_[idx(f)];
+    const Entries& of = entries_[idx(i)];
+    const double* value = value_.data() + of.begin;
+    double* corner = matrix + of.column * (n_ + 1);
+    switch (of.count) {
+      case 1: return add_few<1>(value, factor, corner, of.stride);
+      case 2: return add_few<2>(value, factor, corner, of.stride);
+      case 3: return add_few<3>(value, factor, corner, of.stride);
+      case 4: return add_few<4>(value, factor, corner, of.stride);
+      default: break;
+    }
+    for (int e = 0; e < of.count; ++e) {
+      const double scaled = factor * value[e];
+      double* row = corner + e * of.stride * n_;
+      for (int f = 0; f <= e; ++f) row[f * of.stride] += scaled * value[f];
     }
   }
 
@@ -122,45 +81,70 @@ class Constraints {
   void add_curvature(int i, double multiplier, double* matrix) const {
     if (i < linear_) return;
     const double scaled = multiplier / radius_;
-    const int from = begin_[idx(i)];
-    const int to = begin_[idx(i) + 1];
-    for (int e = from; e < to; ++e) {
-      for (int f = from; f <= e; ++f) {
-        if ((column_[idx(e)] - column_[idx(f)]) % 3 != 0) continue;  // axes do not mix
-        matrix[column_[idx(e)] * n_ + column_[idx(f)]] += scaled * weight_[idx(e)] * weight_[idx(f)];
-      }
+    const Entries& of = entries_[idx(i)];
+    const double* weight = weight_.data() + of.begin;
+    for (int e = 0; e < of.count; ++e) {
+      double* row = matrix + (of.column + e) * n_ + of.column;
+      for (int f = e % 3; f <= e; f += 3) row[f] += scaled * weight[e] * weight[f];  // axes do not mix
     }
   }
 
  private:
+  /// The columns of one gradient's entries: column, column + stride … Rows of one axis take every third.
+  struct Entries {
+    int begin, count;  ///< in value_ and weight_
+    int column, stride;
+  };
+
+  /// The same for a known count, which the compiler unrolls: most gradients have few entries.
+  template <int kCount>
+  void add_few(const double* value, double factor, double* corner, int stride) const {
+    for (int e = 0; e < kCount; ++e) {
+      const double scaled = factor * value[e];
+      double* row = corner + e * stride * n_;
+      for (int f = 0; f <= e; ++f) row[f * stride] += scaled * value[f];
+    }
+  }
+
   void add_row(const ConvexProblem& p, const FreeVariables& x0, int r) {
     const double* row = p.row(r);
+    int first = 0;
+    int end = n_;
+    while (first < end && row[first] == 0.0) ++first;
+    while (first < end && row[end - 1] == 0.0) --end;
+    const int stride = is_of_one_axis(row + first, end - first) ? 3 : 1;
     double square = 0.0;
     double at_x0 = 0.0;
-    for (int c = 0; c < n_; ++c) {
+    for (int c = first; c < end; c += stride) {
       square += row[c] * row[c];
       at_x0 += row[c] * x0[c];
     }
     const double scale = square > 0.0 ? 1.0 / std::sqrt(square) : 1.0;
-    for (int c = 0; c < n_; ++c) {
-      if (row[c] != 0.0) push(c, scale * row[c], 0.0);
-    }
-    begin_.push_back(static_cast<int>(column_.size()));
+    const int begin = static_cast<int>(value_.size());
+    for (int c = first; c < end; c += stride) push(scale * row[c], 0.0);
+    entries_.push_back({begin, static_cast<int>(value_.size()) - begin, first, stride});
     bound_.push_back(scale * (p.bounds[idx(r)] - at_x0));
+  }
+
+  static bool is_of_one_axis(const double* row, int count) {
+    for (int c = 0; c < count; ++c) {
+      if (c % 3 != 0 && row[c] != 0.0) return false;
+    }
+    return true;
   }
 
   void add_sphere(const ConvexProblem& p, const FreeVariables& x0, int k) {
     radius_ = std::sqrt(p.sphere_radius2);
-    for (int c = 0; c < n_; ++c) {
-      const double w = p.sphere_weight(k, c);
-      if (w != 0.0) push(c, 0.0, w);
-    }
-    begin_.push_back(static_cast<int>(column_.size()));
+    int first = 0;
+    int end = n_;
+    while (first < end && p.sphere_weight(k, first) == 0.0) first += 3;
+    while (first < end && p.sphere_weight(k, end - 1) == 0.0) end -= 3;
+    entries_.push_back({static_cast<int>(value_.size()), end - first, first, 1});
+    for (int c = first; c < end; ++c) push(0.0, p.sphere_weight(k, c));
     at_.push_back(p.sphere_point(k, x0));
   }
 
-  void push(int column, double value, double weight) {
-    column_.push_back(column);
+  void push(double value, double weight) {
     value_.push_back(value);
     weight_.push_back(weight);
   }
@@ -168,12 +152,11 @@ class Constraints {
   int n_ = 0;
   int linear_ = 0;
   double radius_ = 1.0;
-  std::vector<int> begin_;      ///< constraint i has the entries begin_[i] … begin_[i + 1] − 1
-  std::vector<int> column_;     ///< ascending within a constraint
-  std::vector<double> value_;   ///< of the gradient
-  std::vector<double> weight_;  ///< of W_k
-  std::vector<double> bound_;   ///< per row, less the row at x0
-  std::vector<Vec3> at_;        ///< per sphere: W_k x0 + p_k
+  std::vector<Entries> entries_;  ///< per constraint
+  std::vector<double> value_;     ///< of the gradients
+  std::vector<double> weight_;    ///< of W_k
+  std::vector<double> bound_;     ///< per row, less the row at x0
+  std::vector<Vec3> at_;          ///< per sphere: W_k x0 + p_k
 };
 
 }  // namespace
@@ -194,7 +177,8 @@ class BarrierSolver::Iteration {
     solution_ = {};
     for (std::vector<double>* v : {&y_, &gradient0_, &gradient_, &dual_residual_, &step_, &work_})
       v->assign(idx(n_), 0.0);
-    for (std::vector<double>* v : {&c_, &slack_, &multiplier_, &slack_step_, &multiplier_step_, &complement_})
+    for (std::vector<double>* v :
+         {&c_, &slack_, &multiplier_, &stiffness_, &slack_step_, &multiplier_step_, &complement_})
       v->assign(idx(m_), 0.0);
     return run(max_iterations, stop);
   }
@@ -297,7 +281,8 @@ class BarrierSolver::Iteration {
     double mu = 0.0;
     for (int i = 0; i < m_; ++i) {
       mu += slack_[idx(i)] * multiplier_[idx(i)];
-      constraints_.add_outer(i, multiplier_[idx(i)] / slack_[idx(i)], matrix);
+      stiffness_[idx(i)] = multiplier_[idx(i)] / slack_[idx(i)];
+      constraints_.add_outer(i, stiffness_[idx(i)], matrix);
       constraints_.add_curvature(i, multiplier_[idx(i)], matrix);
     }
     mu /= std::max(m_, 1);
@@ -340,17 +325,20 @@ class BarrierSolver::Iteration {
     for (int i = 0; i < m_; ++i) {
       const double along = constraints_.dot(i, step_.data());
       slack_step_[idx(i)] = -(c_[idx(i)] + slack_[idx(i)]) - along;
-      multiplier_step_[idx(i)] += multiplier_[idx(i)] / slack_[idx(i)] * along;
+      multiplier_step_[idx(i)] += stiffness_[idx(i)] * along;
     }
   }
 
   /// The longest step ≤ 1 that keeps slacks and multipliers positive, times `share` where a bound is hit.
   [[nodiscard]] double largest_step(double share) const {
     double length = 1.0;
+    // Hardly any bound shortens it. Those that surely do not are passed over, because divisions are slow.
+    const auto keep_positive = [&](double value, double step) {
+      if (share * value < -kWithRounding * length * step) length = std::min(length, -share * value / step);
+    };
     for (int i = 0; i < m_; ++i) {
-      if (slack_step_[idx(i)] < 0.0) length = std::min(length, -share * slack_[idx(i)] / slack_step_[idx(i)]);
-      if (multiplier_step_[idx(i)] < 0.0)
-        length = std::min(length, -share * multiplier_[idx(i)] / multiplier_step_[idx(i)]);
+      keep_positive(slack_[idx(i)], slack_step_[idx(i)]);
+      keep_positive(multiplier_[idx(i)], multiplier_step_[idx(i)]);
     }
     return length;
   }
@@ -367,6 +355,7 @@ class BarrierSolver::Iteration {
   Cholesky hessian_factor_, system_;
   std::vector<double> y_, gradient0_, gradient_, dual_residual_, step_, work_;
   std::vector<double> c_, slack_, multiplier_, slack_step_, multiplier_step_, complement_;
+  std::vector<double> stiffness_;  ///< multiplier_/slack_
   ConvexSolution solution_;
 };
 

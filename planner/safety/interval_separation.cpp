@@ -129,7 +129,7 @@ class Curve {
   }
   Vec3 at_quarter(int k) {
     const auto at = idx(k);
-    if (!has_quarter_[at]) quarters_[at] = sample_cubic(power_, 0.25 * k).p;
+    if (!has_quarter_[at]) quarters_[at] = position_of(power_, 0.25 * k);
     has_quarter_[at] = true;
     return quarters_[at];
   }

@@ -42,22 +42,17 @@ CentredBox box_at(const Track& track, const AlphaCount& count, const Vec3& body_
   for (std::size_t k = 0; k < track.motion.pieces.size(); ++k) {
     const CubicPiece& piece = track.motion.pieces[k];
     const double piece_to = piece_from + piece.duration.seconds();
-    if (at <= piece_to)
-      return {sample_cubic(piece.coefficients, at - piece_from).p, grown_half(count.of(track, k), 0.0)};
+    if (at <= piece_to) return {position_of(piece.coefficients, at - piece_from), grown_half(count.of(track, k), 0.0)};
     piece_from = piece_to;
   }
   const CubicPiece& last = track.motion.pieces.back();
-  return {sample_cubic(last.coefficients, last.duration.seconds()).p,
+  return {position_of(last.coefficients, last.duration.seconds()),
           grown_half(count.of(track, track.alpha.size() - 1), at - piece_from)};
 }
 
 /// Rounding between the box of a piece and the box of a part of it, m, with room to spare.
 constexpr double kRoughSlack = 1e-6;
 
-/// Whole microseconds around [from, to] seconds after origin.
-struct UTimeSpan {
-  UTime from, to;
-};
 UTimeSpan microseconds(UTime origin, double from, double to) {
   const auto us = [](double s) { return Duration{static_cast<std::int64_t>(std::floor(s * 1e6))}; };
   return {origin + us(from), origin + us(to) + Duration{1}};
@@ -66,42 +61,44 @@ UTimeSpan microseconds(UTime origin, double from, double to) {
 Box sweep_box(const PlanningObstacle& obstacle, const Vec3& body_half, UTime origin, double from, double to) {
   if (obstacle.track == nullptr) return grown(obstacle.box, body_half);
   const UTimeSpan t = microseconds(origin, from, to);
-  return grown(counted_bounds(*obstacle.track, t.from, t.to, obstacle.alpha), body_half + Vec3::Constant(kBetaMax));
+  const Box box = counted_bounds(*obstacle.track, t.from, t.to, obstacle.alpha, {0, obstacle.track->motion.start});
+  return grown(box, body_half + Vec3::Constant(kBetaMax));
 }
 
-/// The boxes of the pieces that a growing series of time spans meets.
+/// Whether boxes of its pieces are known that hold the obstacle over the span.
+bool is_within_pieces(const PlanningObstacle& o, const UTimeSpan& t) {
+  return o.boxes != nullptr && t.from >= o.track->motion.start && t.to <= o.boxes->end;
+}
+
+/// A track's pieces in a series of time spans. Beginnings must not descend: pieces that are over are not met again.
 class PieceWalk {
  public:
-  explicit PieceWalk(const PlanningObstacle& o) : obstacle_(o), first_start_(o.track->motion.start) {
-    for (const Box& box : o.piece_boxes) whole_.extend(box);
-    end_ = o.track->motion.end();
-  }
-  [[nodiscard]] bool known() const { return !obstacle_.piece_boxes.empty(); }
-  /// A box that holds the track over the span, so that nothing finer need be asked when it is far. Spans' beginnings
-  /// must not descend.
-  Box rough(const UTimeSpan& t) {
+  explicit PieceWalk(const PlanningObstacle& o) : obstacle_(o), first_{0, o.track->motion.start} {}
+
+  void advance_to(const UTimeSpan& t) {
+    t_ = t;
     const auto& pieces = obstacle_.track->motion.pieces;
-    while (first_ + 1 < pieces.size() && first_start_ + pieces[first_].duration < t.from) {
-      first_start_ = first_start_ + pieces[first_++].duration;
+    while (first_.index + 1 < pieces.size() && first_.start + pieces[first_.index].duration < t.from) {
+      first_.start = first_.start + pieces[first_.index++].duration;
     }
-    if (t.from < obstacle_.track->motion.start || t.to > end_) return obstacle_.track->bounds(t.from, t.to);
+  }
+  /// Whether the boxes of its pieces keep it out of `near`, so that nothing finer need be asked.
+  [[nodiscard]] bool is_surely_out_of(const Box& near) const {
+    const auto& pieces = obstacle_.track->motion.pieces;
+    if (!is_within_pieces(obstacle_, t_)) return false;
     Box box;
-    UTime start = first_start_;
-    for (std::size_t k = first_; k < pieces.size() && start <= t.to; start = start + pieces[k++].duration) {
-      box.extend(obstacle_.piece_boxes[k]);
+    UTime start = first_.start;
+    for (std::size_t k = first_.index; k < pieces.size() && start <= t_.to; start = start + pieces[k++].duration) {
+      box.extend(obstacle_.boxes->pieces[k]);
     }
-    return box;
+    return !box.intersects(near);
   }
-  [[nodiscard]] bool within_pieces(const UTimeSpan& t) const {
-    return t.from >= obstacle_.track->motion.start && t.to <= end_;
-  }
-  [[nodiscard]] const Box& whole() const { return whole_; }
+  [[nodiscard]] Box bounds() const { return counted_bounds(*obstacle_.track, t_.from, t_.to, obstacle_.alpha, first_); }
 
  private:
   const PlanningObstacle& obstacle_;
-  Box whole_;
-  std::size_t first_ = 0;
-  UTime first_start_, end_;
+  UTimeSpan t_;
+  PiecewiseCubic::Located first_;
 };
 
 }  // namespace
@@ -117,6 +114,8 @@ void SweptObstacles::assign(const std::vector<PlanningObstacle>& obstacles, cons
   origin_ = origin;
   times_.assign(times.begin(), times.end());
   const auto n = static_cast<std::size_t>(intervals());
+  spans_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) spans_[k] = microseconds(origin, times[k], times[k + 1]);
   if (candidates_.size() < n) candidates_.resize(n);
   for (auto& list : candidates_) list.clear();
   last_blocker_.assign(n, -1);
@@ -151,13 +150,13 @@ void SweptObstacles::add_track(int index, const Box& region) {
   const PlanningObstacle& o = (*obstacles_)[idx(index)];
   const Vec3 slack = body_half_ + Vec3::Constant(kBetaMax);
   const Box near = grown(region, slack + Vec3::Constant(kRoughSlack));
+  const bool stays_within_pieces = is_within_pieces(o, {spans_.front().from, spans_.back().to});
+  if (stays_within_pieces && !o.boxes->whole.intersects(near)) return;
   PieceWalk walk(o);
-  const bool far = walk.known() && !walk.whole().intersects(near);
   for (int k = 0; k < intervals(); ++k) {
-    const UTimeSpan t = microseconds(origin_, time(k), time(k + 1));
-    if (far && walk.within_pieces(t)) continue;
-    if (walk.known() && !walk.rough(t).intersects(near)) continue;
-    const Box box = grown(counted_bounds(*o.track, t.from, t.to, o.alpha), slack);
+    walk.advance_to(spans_[idx(k)]);
+    if (walk.is_surely_out_of(near)) continue;
+    const Box box = grown(walk.bounds(), slack);
     if (!box.intersects(region)) continue;
     candidates_[idx(k)].push_back({box, index, static_cast<int>(slots_.size())});
     slots_.push_back(-1);

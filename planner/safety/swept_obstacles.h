@@ -17,18 +17,32 @@
 
 namespace tern {
 
+/// Boxes that hold a moving track over whole pieces of its motion, as Track::bounds() has them. They are made once per
+/// prediction set and spare work.
+struct MotionBoxes {
+  Box whole;                    ///< over all pieces
+  UTime end;                    ///< of the last piece
+  std::span<const Box> pieces;  ///< over each
+};
+
 /// An obstacle as the planner takes it: a track, or a box of the map that never moves.
 struct PlanningObstacle {
   std::int64_t id = 0;           ///< track id; −1 − k: the k-th box of the map
   const Track* track = nullptr;  ///< null: a static box
   Box box;           ///< the static box (not inflated by the body); for a track: holds it over all times of interest
   AlphaCount alpha;  ///< what counts of the track's α: less where the plan is not promised, or its start lies inside
-  /// A box per piece of the track's motion that holds it over the whole piece, to spare work; empty: not known.
-  std::span<const Box> piece_boxes = {};
+  const MotionBoxes* boxes = nullptr;  ///< of the track's motion; null: not known
 
   [[nodiscard]] bool moves() const { return track != nullptr && track->kind != TrackKind::Static; }
   /// Whether where it will be is promised, not estimated.
   [[nodiscard]] bool is_promised() const { return track == nullptr || track->kind != TrackKind::Estimated; }
+  /// When its last piece ends. @pre it has a track
+  [[nodiscard]] UTime motion_end() const { return boxes != nullptr ? boxes->end : track->motion.end(); }
+};
+
+/// Whole microseconds around an interval or its part.
+struct UTimeSpan {
+  UTime from, to;
 };
 
 /// Sweeps of obstacles over the intervals [times[k], times[k+1]] and their parts (TimePart): what there is, not what is
@@ -139,6 +153,7 @@ class SweptObstacles {
   bool body_is_box_ = true;        ///< the body adds half-extents; its vertices are never multiplied out
   UTime origin_;
   std::vector<double> times_;
+  std::vector<UTimeSpan> spans_;  ///< of the intervals
   std::vector<std::vector<Candidate>> candidates_;
   std::vector<int> last_blocker_;
   std::vector<int> slots_;  ///< [Candidate::slot]: its place in made_, −1: nothing made yet

@@ -1,6 +1,7 @@
 // What a search keeps from call to call so that it allocates nothing: memory, never meaning.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,9 +23,9 @@ struct SearchNode {
 /// An open node's place in the order of expansion: (band, f in steps, depth, f, index).
 struct SearchEntry {
   std::int64_t band;
-  int depth_left;
   std::int64_t f_step;
   double f;
+  int depth_left;
   int node;
   [[nodiscard]] bool before(const SearchEntry& o) const {
     if (band != o.band) return band < o.band;
@@ -33,6 +34,12 @@ struct SearchEntry {
     if (f != o.f) return f < o.f;
     return node < o.node;
   }
+};
+
+/// A velocity of one axis, and how far from there the way to the end can lead on it.
+struct SearchAxisSample {
+  double v;
+  AxisReach::Interval ahead;
 };
 
 /// A set of keys, by open addressing; clear() is O(1) and keeps the memory.
@@ -86,6 +93,7 @@ struct SearchMemory {
   std::vector<SearchNode> nodes;
   std::vector<SearchEntry> open;  ///< a heap
   KeySet closed;
+  std::array<std::vector<SearchAxisSample>, 3> samples;
   StepReach reach;
 };
 

@@ -14,6 +14,7 @@ namespace {
 
 using Node = SearchNode;
 using Entry = SearchEntry;
+using AxisSample = SearchAxisSample;
 
 struct Leaf {
   int node = -1;
@@ -56,7 +57,8 @@ class Search {
         reach_(memory.reach),
         nodes_(memory.nodes),
         open_(memory.open),
-        closed_(memory.closed) {
+        closed_(memory.closed),
+        samples_(memory.samples) {
     nodes_.clear();
     open_.clear();
     closed_.clear();
@@ -70,7 +72,7 @@ class Search {
       const Entry top = open_.front();
       if (best_.holds && std::pair(top.band, top.f_step) >= std::pair(best_.band, step_of(best_.f))) break;
       if (best_.node >= 0 && result_.expansions >= give_up_at_) break;
-      std::pop_heap(open_.begin(), open_.end(), later);
+      std::pop_heap(open_.begin(), open_.end(), kLater);
       open_.pop_back();
       visit(top);
     }
@@ -79,7 +81,7 @@ class Search {
   }
 
  private:
-  static bool later(const Entry& a, const Entry& b) { return b.before(a); }
+  static constexpr auto kLater = [](const Entry& a, const Entry& b) { return b.before(a); };
   /// Of equals the deepest is expanded first, so that the search goes deep instead of wide.
   [[nodiscard]] std::int64_t step_of(double f) const {
     return static_cast<std::int64_t>(std::floor(f / config_.cost_step_m));
@@ -96,33 +98,40 @@ class Search {
     root.a = problem_.start.a;
     root.l = 2;
     root.g = config_.lambda_g * ((q.col(1) - q.col(0)).norm() + (q.col(2) - q.col(1)).norm());
-    add(root);
+    add(root, ahead_of(root.l, root.v));
   }
 
-  void add(const Node& n) {
-    Box reachable;
+  /// How far the way from q_l to the end can lead, given v_{l-1}.
+  [[nodiscard]] Box ahead_of(int l, const Vec3& v) const {
     Vec3 low;
     Vec3 high;
     for (int axis = 0; axis < 3; ++axis) {
-      const AxisReach::Interval d = reach_.displacement(axis, n.l, n.v[axis]);
-      low[axis] = n.q[axis] + d.low;
-      high[axis] = n.q[axis] + d.high;
+      const AxisReach::Interval d = reach_.displacement(axis, l, v[axis]);
+      low[axis] = d.low;
+      high[axis] = d.high;
     }
-    reachable = Box(low, high);
+    return {low, high};
+  }
+
+  /// @param ahead  ahead_of() it
+  void add(const Node& n, const Box& ahead) {
+    const Box reachable(n.q + ahead.min(), n.q + ahead.max());
     double f = n.g + config_.lambda_h * problem_.way.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
     const std::int64_t band = band_of(std::max(problem_.way.from(reachable), least_way_), config_.band_m);
-    open_.push_back({band, leaf_index() - n.l, step_of(f), f, static_cast<int>(nodes_.size())});
-    std::push_heap(open_.begin(), open_.end(), later);
+    open_.push_back({band, step_of(f), f, leaf_index() - n.l, static_cast<int>(nodes_.size())});
+    std::push_heap(open_.begin(), open_.end(), kLater);
     nodes_.push_back(n);
   }
 
   void visit(const Entry& entry) {
     const Node n = node(entry.node);
-    if (closed(n) || !interval_clear(entry.node, n)) return;
+    const bool may_close = n.l > 2;
+    const std::uint64_t place = may_close ? key(n) : 0;
+    if ((may_close && closed_.contains(place)) || !interval_clear(entry.node, n)) return;
     if (problem_.keep_nodes) keep(entry.node, n);
     if (n.l == leaf_index()) return consider_leaf(entry, n);
-    if (n.l > 2) close(n);
+    if (may_close) closed_.insert(place);
     expand(entry.node, n);
     ++result_.expansions;
   }
@@ -191,18 +200,27 @@ class Search {
       if (range[idx(axis)].empty()) return;
     }
     if (n.l == 2) aim_within_sphere(n, range);
-    add_child(index, n, steps, aimed_velocity(n, range));
-    const auto sample = [](const AxisReach::Interval& r, int k, int count) {
-      return r.low + (r.high - r.low) * k / (count - 1);
-    };
-    for (int ix = 0; ix < config_.samples_xy; ++ix) {
-      for (int iy = 0; iy < config_.samples_xy; ++iy) {
-        for (int iz = 0; iz < config_.samples_z; ++iz) {
-          add_child(index, n, steps,
-                    {sample(range[0], ix, config_.samples_xy), sample(range[1], iy, config_.samples_xy),
-                     sample(range[2], iz, config_.samples_z)});
+    const Vec3 aimed = aimed_velocity(n, range);
+    add_child(index, n, steps, aimed, ahead_of(n.l + 1, aimed));
+    const std::array<int, 3> samples{config_.samples_xy, config_.samples_xy, config_.samples_z};
+    for (int axis = 0; axis < 3; ++axis) sample_axis(axis, n.l + 1, range[idx(axis)], samples[idx(axis)]);
+    for (const AxisSample& x : samples_[0]) {
+      for (const AxisSample& y : samples_[1]) {
+        for (const AxisSample& z : samples_[2]) {
+          const Box ahead(Vec3(x.ahead.low, y.ahead.low, z.ahead.low), Vec3(x.ahead.high, y.ahead.high, z.ahead.high));
+          add_child(index, n, steps, {x.v, y.v, z.v}, ahead);
         }
       }
+    }
+  }
+
+  /// What the children of a node share: a velocity on one axis is that of many.
+  void sample_axis(int axis, int l, const AxisReach::Interval& range, int count) {
+    std::vector<AxisSample>& samples = samples_[idx(axis)];
+    samples.clear();
+    for (int k = 0; k < count; ++k) {
+      const double v = range.low + (range.high - range.low) * k / (count - 1);
+      samples.push_back({v, reach_.displacement(axis, l, v)});
     }
   }
 
@@ -257,7 +275,8 @@ class Search {
     return v;
   }
 
-  void add_child(int index, const Node& n, const StepReach::Steps& steps, const Vec3& wanted) {
+  /// @param ahead  ahead_of() the child, if its velocity is the wanted one
+  void add_child(int index, const Node& n, const StepReach::Steps& steps, const Vec3& wanted, const Box& ahead) {
     const std::optional<Vec3> flyable = reach_.flyable(steps, wanted);
     if (!flyable) return;
     const Vec3& v = *flyable;
@@ -271,7 +290,7 @@ class Search {
     child.l = n.l + 1;
     child.g = n.g + config_.lambda_g * (child.q - n.q).norm();
     if (problem_.accumulated) child.g += problem_.accumulated(n.q, child.q);
-    add(child);
+    add(child, v == wanted ? ahead : ahead_of(child.l, v));
   }
 
   /// Position, index and coarse velocity in one key. Marked only once a node has passed its collision test, so that a
@@ -286,8 +305,6 @@ class Search {
     }
     return k;
   }
-  [[nodiscard]] bool closed(const Node& n) const { return n.l > 2 && closed_.contains(key(n)); }
-  void close(const Node& n) { closed_.insert(key(n)); }
 
   void report() {
     result_.found = true;
@@ -315,6 +332,7 @@ class Search {
   std::vector<Node>& nodes_;
   std::vector<Entry>& open_;
   KeySet& closed_;
+  std::array<std::vector<AxisSample>, 3>& samples_;  ///< of the node that is expanded
   Points3 start_;
   std::vector<std::int32_t> kept_;  ///< by node: its index in the result's, −1: none
   Leaf best_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 
 #include "planner/problem/horizon_problem.h"
@@ -23,7 +24,7 @@ class StepReach {
 
   /// How far q_{n-2} − q_l can lie on this axis (AxisReach).
   [[nodiscard]] AxisReach::Interval displacement(int axis, int l, double v_previous) const {
-    return steps_[idx(axis)].displacement(l, v_previous);
+    return steps_[shared_[idx(axis)]].displacement(l, v_previous);
   }
 
   /// What may follow v_l and a_{l-1}: per axis, and the part of it that boxed limits reach.
@@ -36,11 +37,16 @@ class StepReach {
 
   /// The wanted velocity, or the first on the way from it to the steady range that may be flown.
   /// @return nullopt if none may
-  [[nodiscard]] std::optional<Vec3> flyable(const Steps& from, const Vec3& wanted) const;
+  [[nodiscard]] std::optional<Vec3> flyable(const Steps& from, const Vec3& wanted) const {
+    return thrust_ ? with_thrust(from, wanted) : wanted;
+  }
 
  private:
+  [[nodiscard]] std::optional<Vec3> with_thrust(const Steps& from, const Vec3& wanted) const;
+
   double dt_ = 0.0;
-  std::array<AxisReach, 3> steps_, steady_;
+  std::array<std::size_t, 3> shared_{};      ///< per axis: the first one with the same limits
+  std::array<AxisReach, 3> steps_, steady_;  ///< of those
   std::optional<ThrustSet> thrust_;
 };
 
