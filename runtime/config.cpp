@@ -19,6 +19,7 @@ namespace {
 
 std::string to_yaml(const std::vector<double>& values) {
   std::vector<std::string> parts;
+  parts.reserve(values.size());
   for (const double v : values) parts.push_back(yaml_number(v));
   return fmt::format("[{}]", fmt::join(parts, ", "));
 }
