@@ -62,7 +62,7 @@ class Constraints {
   void add_outer(int i, double factor, double* matrix) const {
     const Entries& of = entries_[idx(i)];
     const double* value = value_.data() + of.begin;
-    double* corner = matrix + of.column * (n_ + 1);
+    double* corner = matrix + idx(of.column * (n_ + 1));
     switch (of.count) {
       case 1: return add_few<1>(value, factor, corner, of.stride);
       case 2: return add_few<2>(value, factor, corner, of.stride);
@@ -72,8 +72,8 @@ class Constraints {
     }
     for (int e = 0; e < of.count; ++e) {
       const double scaled = factor * value[e];
-      double* row = corner + e * of.stride * n_;
-      for (int f = 0; f <= e; ++f) row[f * of.stride] += scaled * value[f];
+      double* row = corner + idx(e * of.stride * n_);
+      for (int f = 0; f <= e; ++f) row[idx(f * of.stride)] += scaled * value[f];
     }
   }
 
@@ -84,7 +84,7 @@ class Constraints {
     const Entries& of = entries_[idx(i)];
     const double* weight = weight_.data() + of.begin;
     for (int e = 0; e < of.count; ++e) {
-      double* row = matrix + (of.column + e) * n_ + of.column;
+      double* row = matrix + idx((of.column + e) * n_ + of.column);
       for (int f = e % 3; f <= e; f += 3) row[f] += scaled * weight[e] * weight[f];  // axes do not mix
     }
   }
@@ -101,8 +101,8 @@ class Constraints {
   void add_few(const double* value, double factor, double* corner, int stride) const {
     for (int e = 0; e < kCount; ++e) {
       const double scaled = factor * value[e];
-      double* row = corner + e * stride * n_;
-      for (int f = 0; f <= e; ++f) row[f * stride] += scaled * value[f];
+      double* row = corner + idx(e * stride * n_);
+      for (int f = 0; f <= e; ++f) row[idx(f * stride)] += scaled * value[f];
     }
   }
 
