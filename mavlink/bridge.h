@@ -39,8 +39,8 @@ const char* to_string(Stage stage);
 /// It carries
 ///   p, v of the command half a period later, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
 /// An autopilot holds it for a period, and would else be half a period late. An ArduPilot carries it on: p, v of now.
-/// The gain is for level axes: the D term of
-/// an autopilot's vertical loop is 0. While the vehicle is not following, the command is to stay where it is.
+/// The gain is for level axes: the D term of an autopilot's vertical loop is 0. While the vehicle is not following, the
+/// command is to stay where it is.
 ///
 /// While the estimate is dead the vehicle is not following: it is told to come to rest where it was commanded to be.
 ///

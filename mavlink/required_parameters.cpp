@@ -50,7 +50,7 @@ std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavS
   std::vector<RequiredParameter> required{
       {"COM_OBL_RC_ACT", 4, 5, 4, true, "without setpoints it would return and climb; 4 lands, 5 holds"},
       {"COM_OF_LOSS_T", 0.2, 1.0, 0.5, false, blind},
-      {"MC_AIRMODE", 0, 0, 0, true, "who turns fast at little thrust would be lifted by up to 1 g"}};
+      {"MC_AIRMODE", 0, 0, 0, true, "who turns fast at little thrust would be lifted"}};
   if (without_remote) {
     required.push_back({"COM_RC_IN_MODE", 4, 4, 4, true, "there is no remote control, and it would not be armed"});
     required.push_back({"COM_RCL_EXCEPT", 4, 31, 7, true, "without remote control it would leave OFFBOARD (bit 2)", 4});

@@ -11,7 +11,7 @@ namespace {
 constexpr Rotors kForward{1.0, -1.0, -1.0, 1.0}, kLeft{1.0, 1.0, -1.0, -1.0}, kSense{1.0, -1.0, 1.0, -1.0};
 
 /// Of the way to hovering, by which thrust is raised for the sake of torque at most: ArduPilot's ATC_THR_MIX_MAX. PX4
-/// raises it not at all (MC_AIRMODE 0). Without a bound whoever turns fast at little thrust is lifted by 1 g.
+/// raises it not at all (MC_AIRMODE 0). Without a bound whoever turns fast at little thrust is lifted.
 constexpr double kLift = 0.5;
 
 struct Derivative {
