@@ -8,6 +8,7 @@
 #include "core/geometry/box.h"
 #include "core/geometry/convex_hull.h"
 #include "core/geometry/distance.h"
+#include "planner/planning_world.h"
 #include "tests/support/planner_worlds.h"
 #include "tests/support/random_splines.h"
 
@@ -193,6 +194,36 @@ TEST(SweptObstacles, KeepsEveryObstacleThatTheBodyCanTouchFromTheRegion) {
     }
   }
   EXPECT_GT(left_out, 100);
+}
+
+TEST(SweptObstacles, BoxesThatAPredictionSetBringsSpareWorkAndChangeNothing) {
+  int kept = 0, dropped = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Rng rng(seed);
+    Case c = random_case(rng);
+    TrackSet set;
+    set.tracks = c.tracks;
+    const PredictionProducts products(std::move(set));
+    std::vector<PlanningObstacle> with = products.obstacles;
+    with[0].alpha = c.obstacles[0].alpha;
+    std::vector<PlanningObstacle> without = with;
+    without[0].boxes = nullptr;
+    const Vec3 centre = random_vector(rng, 3.0);
+    const Box region(centre - Vec3::Constant(1.5), centre + Vec3::Constant(1.5));
+    SweptObstacles a(with, c.body, kOrigin, c.times, region), b(without, c.body, kOrigin, c.times, region);
+    for (int k = 0; k < a.intervals(); ++k) {
+      ASSERT_EQ(a.candidates(k).size(), b.candidates(k).size()) << "seed " << seed << ", interval " << k;
+      if (a.candidates(k).empty()) {
+        ++dropped;
+        continue;
+      }
+      ++kept;
+      ASSERT_TRUE(a.candidates(k)[0].box.isApprox(b.candidates(k)[0].box, 0.0)) << "seed " << seed;
+      ASSERT_EQ(a.hull(a.candidates(k)[0], {k, 0, 1}), b.hull(b.candidates(k)[0], {k, 0, 1})) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(kept, 200);
+  EXPECT_GT(dropped, 200);
 }
 
 TEST(SweptObstacles, BeforeItsFirstPieceAndAfterItsLastATrackIsAGrowingBox) {
