@@ -9,7 +9,7 @@ namespace tern {
 namespace {
 
 // Of 1 − confidence, what may be broken by the end of each band: errors of the later bands come on top.
-constexpr PerBand<double> kAllowedShare{0.3, 0.5, 0.7, 0.85, 1.0};
+constexpr PerBand<double> kAllowedShare{0.5, 0.6, 0.7, 0.85, 1.0};
 // No margin is sought beyond, m: nothing is known there, and the reach set rules. Halvings of the range, to 0.1 mm.
 constexpr double kLargestMargin = 100.0;
 constexpr int kHalvings = 20;
@@ -23,8 +23,7 @@ std::size_t band_of(double ahead_s) {
 }
 
 double margin_growth(std::size_t band, double ahead_s) {
-  const double growth = (ahead_s + kMarginStart) / (kBandEnds[band] + kMarginStart);
-  return band == 0 ? growth : growth * growth;
+  return (ahead_s + kMarginStart) / (kBandEnds[band] + kMarginStart);
 }
 
 Vec3 promised_half(const Vec3& deviation, const PerBand<double>& margins, double ahead_s) {

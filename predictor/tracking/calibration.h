@@ -46,8 +46,7 @@ using PerBand = std::array<T, kBands>;
 /// kModelSigmas σ(t) + q g(t) beyond, q in metres. What the model knows shrinks with it, whatever the sensor. What it
 /// does not know comes on top. Where that falls with t, who publishes or judges takes the largest so far.
 inline constexpr double kModelSigmas = 2.0;
-/// g(t) = (t + kMarginStart)/(end of the band + kMarginStart), beyond the first band its square: what is not known of a
-/// place stays, of a velocity grows with time, of an acceleration with its square.
+/// g(t) = (t + kMarginStart)/(end of the band + kMarginStart): errors grow with time.
 inline constexpr double kMarginStart = 0.1;
 std::size_t band_of(double ahead_s);  ///< the last one beyond its end
 double margin_growth(std::size_t band, double ahead_s);
