@@ -293,6 +293,10 @@ await run({
     await shows(page, 'a click jumps', (s) => Math.abs(s.vehicle[0] - 10) < 0.3);
     // The panels are drawn some times a second, the scene with every picture.
     await eventually('one cursor', () => page.evaluate(() => Math.abs(window.tern.timeline.now - 10) < 0.3));
+    await eventually('numbers are of the state that the panels show', () => page.evaluate(() => {
+      const { charts, known: { state, player } } = window.tern;
+      return Math.abs(charts.told - (state.at_us - player.zero_us) * 1e-6) < 1e-9;
+    }));
     await page.mouse.move(box.x + box.width / 4, box.y + 20);
     await page.mouse.down();
     await page.mouse.move(box.x + box.width / 2, box.y + 20, { steps: 4 });

@@ -113,7 +113,7 @@ class Chart {
     this.showNow();
   }
 
-  /** Values at the cursor, or now. */
+  /** Values at the cursor, or as the panels tell them. */
   read(t) {
     this.names.forEach((name, k) => {
       const rows = this.charts.series[name];
@@ -141,7 +141,7 @@ function room(low, high) {
 export class Charts {
   /** @param handlers  {jump(t), wants(names), hover(t)}; t in seconds of the flight */
   constructor(handlers) {
-    Object.assign(this, { handlers, series: {}, span: [0, 1], now: 0, zoomed: null, charts: [], fields: [] });
+    Object.assign(this, { handlers, series: {}, span: [0, 1], now: 0, told: 0, zoomed: null, charts: [], fields: [] });
     this.root = document.getElementById('charts');
     for (const names of DEFAULT) this.append(names);
   }
@@ -211,18 +211,18 @@ export class Charts {
     }
   }
 
-  /** The flight's time now, s. */
-  setNow(t) {
-    this.now = t;
+  /** @param t  the flight's time now, s  @param told  of the state that the panels show, s: numbers are of one moment */
+  setNow(t, told) {
+    Object.assign(this, { now: t, told });
     for (const chart of this.charts) {
       chart.showNow();
-      if (!this.hovers) chart.read(t);
+      if (!this.hovers) chart.read(told);
     }
   }
 
   hover(t) {
     this.hovers = t !== null;
-    for (const chart of this.charts) chart.read(t ?? this.now);
+    for (const chart of this.charts) chart.read(t ?? this.told);
     this.handlers.hover(t);
   }
 

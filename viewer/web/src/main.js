@@ -298,7 +298,7 @@ function film(t, seconds) {
 
 /** One cursor for charts, timeline and clock. @param t  s of the flight */
 function showTime(t) {
-  charts.setNow(t);
+  charts.setNow(t, known.state ? flightTime(known.state.at_us) : t);
   timeline.setNow(t);
   hud.showClock(t);
   if (!known.player) return player.show(t, known.chart ? flightSpan(known.chart) : [t, t]);
