@@ -23,6 +23,10 @@ namespace tern {
 namespace {
 
 constexpr double kStep = 0.05;  // m, of a way's samples
+constexpr double kLeft = 62.0;  // pixels, of the frame and the texts
+// Advance of a character in font sizes, with some to spare: these texts in DejaVu Sans measure 0.50, bold 0.57.
+constexpr double kAdvance = 0.55, kBoldAdvance = 0.62;
+constexpr double kTitleSize = 15.0, kLegendSize = 12.0;  // pixels
 
 PlannedWay measured(std::vector<Vec3> points, const std::vector<Region>& regions) {
   PlannedWay way{std::move(points), 0.0, std::vector<double>(regions.size(), 0.0)};
@@ -121,7 +125,7 @@ PlotFrame frame_of(const ScenarioView& view) {
     for (const Vec3& p : *way ? (*way)->points : std::vector<Vec3>()) box.extend(p);
   }
   PlotFrame frame;
-  frame.corner = {62, 52};
+  frame.corner = {kLeft, 52};
   const double x = box.sizes().x() + 4.0, y = box.sizes().y() + 4.0;
   const double scale = std::min(1000.0 / x, 700.0 / y);
   frame.width = scale * x;
@@ -157,6 +161,13 @@ void draw_way(Svg& page, const PlotFrame& frame, const std::optional<PlannedWay>
   std::vector<XY> points;
   for (const Vec3& p : way->points) points.push_back(frame.at(p.x(), p.y()));
   page.polyline(points, "fill=\"none\" " + attributes);
+}
+
+std::string legend_of(const ScenarioView& view) {
+  const char* ways = !view.shortest ? "the goal cannot be reached"
+                     : view.weighed ? "grey: the shortest way; blue: as the regions' λ weigh it"
+                                    : "grey: the shortest way around what rests";
+  return fmt::format("open dot: start; orange: movers where they begin; {}", ways);
 }
 
 }  // namespace
@@ -206,9 +217,13 @@ std::string to_text(const ScenarioView& view) {
 
 std::string draw_scenario(const ScenarioView& view) {
   const PlotFrame frame = frame_of(view);
-  Svg page(frame.width + 86.0, frame.height + 110.0);
-  page.text({62, 24}, fmt::format("{}, seed {}: {}", view.scenario.name, view.scenario.seed, world_text(view.world)),
-            "font-size=\"15\" font-weight=\"bold\"");
+  const std::string title =
+      fmt::format("{}, seed {}: {}", view.scenario.name, view.scenario.seed, world_text(view.world));
+  const std::string legend = legend_of(view);
+  const double longest = std::max(kBoldAdvance * kTitleSize * static_cast<double>(title.size()),
+                                  kAdvance * kLegendSize * static_cast<double>(legend.size()));
+  Svg page(kLeft + std::max(frame.width, longest) + 24.0, frame.height + 110.0);
+  page.text({kLeft, 24}, title, fmt::format("font-size=\"{:g}\" font-weight=\"bold\"", kTitleSize));
   page.clip_rect("plan", frame.corner, frame.width, frame.height);
   page.open_group("clip-path=\"url(#plan)\"");
   draw_box(page, frame, view.scenario.uav.flight_box, "fill=\"none\" stroke=\"#1f2933\" stroke-dasharray=\"6 4\"");
@@ -227,11 +242,7 @@ std::string draw_scenario(const ScenarioView& view) {
   page.circle(frame.at(uav.goal.x(), uav.goal.y()), 6.0, "fill=\"#1357a6\" stroke=\"white\"");
   page.close_group();
   frame.draw_axes(page, "x, m", "y, m");
-  const std::string ways = !view.shortest ? "the goal cannot be reached"
-                           : view.weighed ? "grey: the shortest way; blue: as the regions' λ weigh it"
-                                          : "grey: the shortest way around what rests";
-  page.text({62, frame.height + 100.0}, "open dot: start; orange: movers where they begin; " + ways,
-            "font-size=\"12\"");
+  page.text({kLeft, frame.height + 100.0}, legend, fmt::format("font-size=\"{:g}\"", kLegendSize));
   return page.finish();
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
+#include <string>
 
 #include "tests/support/temp_folder.h"
 
@@ -31,6 +33,24 @@ TEST(ScenarioView, SaysInWhichObstacleTheStartLies) {
   const ScenarioView beside = view_of("[-3, 0, 1]");
   EXPECT_TRUE(beside.shortest);
   EXPECT_THAT(to_text(beside), HasSubstr("can be reached"));
+}
+
+TEST(ScenarioView, DrawsAPageOnWhichItsTextsHaveRoom) {
+  const TempFolder folder;
+  FlightInputs inputs;
+  inputs.scenario_file = folder.file("along_y.yaml");
+  std::ofstream(inputs.scenario_file)
+      << "uav: {start: [0, 0, 1], goal: [0, 30, 1], flight_box: {min: [-2, -3, 0], max: [2, 33, 3]}}\n";
+  const std::string drawing = draw_scenario(view_scenario(inputs, std::nullopt));
+  std::smatch page;
+  ASSERT_TRUE(std::regex_search(drawing, page, std::regex("<svg [^>]*width=\"([0-9.]+)\"")));
+  const double width = std::stod(page[1]);
+  const std::regex text("<text x=\"([0-9.]+)\"[^>]*font-size=\"([0-9.]+)\"[^>]*>([^<]*)</text>");
+  int texts = 0;
+  for (std::sregex_iterator t(drawing.begin(), drawing.end(), text); t != std::sregex_iterator(); ++t, ++texts) {
+    EXPECT_LT(std::stod((*t)[1]) + 0.5 * std::stod((*t)[2]) * static_cast<double>((*t)[3].length()), width) << (*t)[3];
+  }
+  EXPECT_GE(texts, 2);
 }
 
 /// A wall across the flight box, of two parts.
