@@ -28,7 +28,7 @@ let browser = null;
 let viewer = null;
 try {
   viewer = await startViewer('--log', process.argv[2] ?? (await fly()));
-  browser = await openBrowser();
+  browser = await openBrowser([]); // as it runs for a user: made to use SwiftShader, it draws half as many
   const page = await browser.newPage({ viewport: { width: 1600, height: 1000 } });
   await page.goto(viewer.url);
   await page.waitForFunction(() => window.tern?.status().vehicle && window.tern.known.truth, null, { timeout: 60_000 });

@@ -75,11 +75,12 @@ export async function knownLog(lead = 0, course = 0) {
   return path;
 }
 
-export async function openBrowser() {
-  browser ??= await chromium.launch({
-    executablePath: TERN_CHROMIUM,
-    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-  });
+// The same renderer everywhere, whatever Chromium would choose.
+const SWIFTSHADER = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
+/** @param rendering  Chromium's options that choose how it draws; none: as it runs for a user */
+export async function openBrowser(rendering = SWIFTSHADER) {
+  browser ??= await chromium.launch({ executablePath: TERN_CHROMIUM, args: ['--no-sandbox', ...rendering] });
   return browser;
 }
 
