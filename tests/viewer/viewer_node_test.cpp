@@ -7,6 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "flight_log/log_writer.h"
+#include "messages/codec.h"
 #include "tests/support/temp_folder.h"
 #include "tests/viewer/known_log.h"
 #include "tests/viewer/known_scene.h"
@@ -56,6 +58,33 @@ TEST_F(LogPlayerTest, AJumpShowsWhatPlayingThereShows) {
     jumped->seek(played->position(), there, there_intake);
     EXPECT_EQ(shown(there), shown(scene_)) << k;
   }
+}
+
+/// As in a flight: the next horizon is asked for before the answer to the last one has come.
+TEST(LogPlayer, AJumpKnowsWhatAnAnswerWasGivenWhoseRequestIsNotTheNewest) {
+  const TempFolder folder;
+  const support::KnownScene known(kKnownLogStart);
+  {
+    auto writer = LogWriter::open(folder.file("flight.lcm"), 0);
+    ASSERT_TRUE(writer);
+    std::int64_t sequence = 0;
+    const auto append = [&](const auto& channel, auto message, UTime now) {
+      message.header = {{kKnownLogStart.us, ++sequence}, now};
+      writer->append(channel.name, now.us, encode(message));
+    };
+    append(channels::kHorizonRequest, known.request(kKnownLogStart, 1), kKnownLogStart);
+    append(channels::kHorizonRequest, known.request(kKnownLogStart + Duration{50'000}, 2),
+           kKnownLogStart + Duration{50'000});
+    append(channels::kPlanTiming, known.timing(1), kKnownLogStart + Duration{60'000});
+  }
+  auto player = LogPlayer::open(folder.file("flight.lcm"), "");
+  ASSERT_TRUE(player) << player.error().message;
+  Scene scene;
+  SceneIntake intake(scene);
+  player->seek(player->end(), scene, intake);
+  ASSERT_TRUE(scene.timing());
+  EXPECT_EQ(scene.request()->id, 2);
+  EXPECT_DOUBLE_EQ(scene.allowed_ms(), 70.0);
 }
 
 TEST_F(LogPlayerTest, GoesToAnyTimeInAnyOrder) {

@@ -12,8 +12,6 @@
 namespace tern {
 namespace {
 
-constexpr std::size_t kRememberedRequests = 16;
-
 double ball_radius(const Body& body) { return body.vertices.colwise().norm().maxCoeff() + body.radius; }
 
 }  // namespace

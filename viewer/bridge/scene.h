@@ -44,6 +44,9 @@ struct SeenMap {
 /// Takes validated messages, complete sets and whole maps. Which topics changed is noted for whoever tells the page.
 class Scene {
  public:
+  /// An answer may come when its request is no longer the newest: so many are asked about.
+  static constexpr std::size_t kRememberedRequests = 16;
+
   /// What is remembered of the flight.
   struct Memory {
     FlightHistory history;

@@ -16,10 +16,12 @@ namespace {
 /// A damaged or foreign log may name any number; the page shows eleven.
 constexpr std::size_t kMostChannels = 256;
 
-/// How many of a channel's newest messages a jump needs, so that a complete set or every process is among them.
+/// How many of a channel's newest messages a jump needs, so that a complete set, every process or the request of the
+/// newest answer is among them.
 std::size_t messages_needed(std::string_view channel) {
   if (channel == channels::kObstacleTruth.name || channel == channels::kPredictions.name)
     return 2 * std::size_t{kMaxBatches};
+  if (channel == channels::kHorizonRequest.name) return Scene::kRememberedRequests;
   if (channel == channels::kHeartbeat.name || channel == channels::kConfiguration.name) return 64;
   return 1;
 }
