@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -25,6 +26,11 @@ std::string last_line(const fs::path& file) {
     if (!line.empty()) last = line;
   }
   return last;
+}
+
+/// Somebody ended it, which says nothing of the flight.
+bool was_ended(const FinishedProcess& finished) {
+  return finished.signal == SIGINT || finished.signal == SIGTERM || finished.signal == SIGHUP;
 }
 
 /// One call of run_campaign.
@@ -52,6 +58,11 @@ class Run {
       report(progress_);
       bool stop = false;
       for (const FinishedProcess& finished : pool_.wait(stop_fd, kReportEvery, stop)) {
+        if (was_ended(finished)) {
+          fs::remove_all(flying(finished.key));
+          stop = true;
+          continue;
+        }
         if (auto kept = keep(finished); !kept) {
           fs::remove_all(flying(finished.key));
           (void)interrupt();

@@ -43,8 +43,9 @@ std::vector<std::uint64_t> seeds_of(const CampaignOptions& options);
 
 /// Flies every seed that is not in options.out yet, and puts each into it as it ends; when all are there, the lines are
 /// sorted. A flight that is no success keeps its folder, failures/seed-N: scenario.yaml, flight.lcm, summary.json,
-/// flight.log. A flight whose process dies has failed. Ends early when `stop_fd` becomes readable; flights in the air
-/// are dropped then, and flown from their beginning by the next call.
+/// flight.log. A flight whose process dies has failed. Ends early when `stop_fd` becomes readable, or when somebody
+/// ends a flight's process (SIGINT, SIGTERM, SIGHUP). Flights in the air are dropped then, and flown from their
+/// beginning by the next call.
 /// @param flight_command  program and first arguments of a process that flies, prints encode_flight() and ends with
 /// exit code 0; "--seed N --folder DIR" is added
 /// @param report  called at the start, after every flight and at least once a second

@@ -155,6 +155,18 @@ an_interrupted_campaign_ends_cleanly_and_goes_on() {
   [[ $(column seed "$work/flights.csv") == $(seq 1 24) ]] || fail "seeds: $(column seed "$work/flights.csv")"
 }
 
+whoever_ends_a_flight_s_process_interrupts_the_campaign_and_fails_no_flight() {
+  "$campaign" --world "$root/scenarios/paper_corridor.yaml" --count 300 --charge counts --seeds 1:2 --jobs 1 \
+    --out "$work/flights.csv" >"$work/out" 2>&1 &
+  local pid=$! code=0
+  eventually 60 pkill -TERM -f "fly-one .*$work/"
+  wait "$pid" || code=$?
+  [[ $code == 130 ]] || fail "exit code $code: $(cat "$work/flights.csv")"
+  said "the same command goes on"
+  [[ $(wc -l <"$work/flights.csv") == 1 ]] || fail "a flight was counted: $(cat "$work/flights.csv")"
+  [[ ! -e $work/flights.csv.failures ]] || fail "left behind: $(ls -a "$work/flights.csv.failures")"
+}
+
 another_campaign_is_refused_by_the_file() {
   fly "$work/flights.csv" --seeds 1:1
   cp "$work/flights.csv" "$work/before.csv"
