@@ -8,7 +8,7 @@ const FOG_BEGIN = 26; // m
 const FOG_END = 80; // m: nothing is seen beyond
 const FOG_NEAR = 20; // m: a camera that is farther from what it looks at has so much thinner fog
 const GAMMA = 2.2; // of displays, nearly
-const FEWEST_PIXELS = 0.25; // of the window's, per axis
+const FEWEST_PIXELS = 0.3; // of the window's, per axis
 
 /** Whether WebGL draws on the CPU: then it gets no more pixels than it can pay for. */
 function isSoftware() {
