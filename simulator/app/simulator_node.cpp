@@ -140,6 +140,10 @@ void SimulatorNode::wait_for_processes(UTime now) {
     next_status_ = std::min(next_status_, *world_zero_);
     broadcast_.start(*world_zero_, now);
     spdlog::info("everyone is ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
+    const double from_s = config_.declare ? 0.0 : -kLooksAround.seconds();
+    for (const std::string& who : referee_.who_passes_the_start(from_s)) {
+      spdlog::warn("{} passes through the vehicle while that waits: contacts count from world time 0", who);
+    }
     if (const std::string clocks = gate_.clocks(); !clocks.empty()) {
       spdlog::info("clocks against the vehicle's: {}", clocks);
     }

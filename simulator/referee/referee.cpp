@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 namespace tern {
@@ -32,6 +33,19 @@ Referee::Referee(const Scenario& scenario, World world, const Limits& judged)
 
 void Referee::admit(double t_s, const std::function<Vec3(double)>& vehicle) {
   left_out_ += appearances_.admit(world_, t_s, vehicle);
+}
+
+std::vector<std::string> Referee::who_passes_the_start(double from_s) const {
+  const BodyDistance distance(uav_.body);
+  std::set<std::int64_t> passers;
+  for (double t_s = from_s; t_s < 0.0; t_s += 1e-6 * kStepUs) {
+    for (const TrueObstacle& o : true_obstacles(world_, t_s)) {
+      if (distance(uav_.start - o.position, o.half_extents) < 0.0) passers.insert(o.id);
+    }
+  }
+  std::vector<std::string> names;
+  for (const std::int64_t id : passers) names.push_back(name_of(id));
+  return names;
 }
 
 void Referee::advance(Duration start, const CubicPiece& piece) {
@@ -66,7 +80,7 @@ void Referee::step(const FlownPiece& piece, double t0_s, double t1_s) {
   measures_.advance(piece, t0_s, end_s, arrived_s && !contact && !scrape);
   if (scrape || contact) ++(piece.at(end_s).v.norm() > kRestSpeed ? contacts_moving_ : contacts_at_rest_);
   if (scrape) return end(FlightOutcome::Collision, end_s, describe(*scrape, "the map", piece.at(end_s).p));
-  if (contact) return end(FlightOutcome::Collision, end_s, describe(*contact, name_of(*contact), piece.at(end_s).p));
+  if (contact) return end(FlightOutcome::Collision, end_s, describe(*contact, name_of(contact->id), piece.at(end_s).p));
   if (arrived_s && limits_.violations() == 0) return end(FlightOutcome::Reached, end_s, {});
   if (arrived_s) {
     return end(FlightOutcome::Failed, end_s,
@@ -93,9 +107,9 @@ void Referee::end(FlightOutcome outcome, double t_s, std::string detail) {
   detail_ = std::move(detail);
 }
 
-std::string Referee::name_of(const Contact& contact) const {
-  const std::string& name = world_.obstacles[idx(contact.id)].spec().name;
-  return fmt::format("obstacle {}{}", contact.id, name.empty() ? std::string() : fmt::format(" '{}'", name));
+std::string Referee::name_of(std::int64_t obstacle) const {
+  const std::string& name = world_.obstacles[idx(obstacle)].spec().name;
+  return fmt::format("obstacle {}{}", obstacle, name.empty() ? std::string() : fmt::format(" '{}'", name));
 }
 
 std::string Referee::describe(const Contact& contact, const std::string& what, const Vec3& p) const {

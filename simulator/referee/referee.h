@@ -49,6 +49,10 @@ class Referee {
   /// @param vehicle  where it was at a world time, W
   void admit(double t_s, const std::function<Vec3(double)>& vehicle);
 
+  /// Names of those that overlap the body at the scenario's start within [from_s, 0), world time, every 10 ms: while all
+  /// wait, what is on its way passes through it. No contact counts before 0.
+  [[nodiscard]] std::vector<std::string> who_passes_the_start(double from_s) const;
+
   /// The vehicle flew `piece` from world time `start` on. After the verdict nothing is taken any more.
   /// @throws std::invalid_argument unless start is where the last piece ended (0 at first), duration > 0, coefficients
   /// finite.
@@ -68,7 +72,7 @@ class Referee {
   void step(const FlownPiece& piece, double t0_s, double t1_s);
   void end(FlightOutcome outcome, double t_s, std::string detail);
   [[nodiscard]] std::string describe_timeout(const Vec3& p) const;
-  [[nodiscard]] std::string name_of(const Contact& contact) const;
+  [[nodiscard]] std::string name_of(std::int64_t obstacle) const;
   [[nodiscard]] std::string describe(const Contact& contact, const std::string& what, const Vec3& p) const;
 
   [[nodiscard]] std::int64_t obstacles_met() const;

@@ -39,6 +39,20 @@ CubicPiece hop(const Vec3& from, const Vec3& to, double duration_s) {
   return hermite_piece(at_rest_at(from), at_rest_at(to), Duration::from_seconds(duration_s));
 }
 
+TEST(Referee, NamesWhoPassesTheStartWhileAllWait) {
+  Scenario s = short_flight();
+  ObstacleSpec passer = cube(Vec3::Zero(), 0.25);
+  passer.motion = WaypointMotion{{{-3.0, Vec3(0, -2, 1)}, {1.0, Vec3(0, 2, 1)}}, false, true};  // at the start at -1 s
+  ObstacleSpec absent = passer, beside = passer;
+  absent.motion = WaypointMotion{{{-0.5, Vec3(0, 0.5, 1)}, {1.0, Vec3(0, 2, 1)}}, false, true};  // begins beyond it
+  beside.motion = WaypointMotion{{{-3.0, Vec3(1, -2, 1)}, {1.0, Vec3(1, 2, 1)}}, false, true};
+  s.world.obstacles = {beside, passer, absent};
+  const Referee referee = referee_of(s);
+  EXPECT_THAT(referee.who_passes_the_start(-1.5), testing::ElementsAre("obstacle 1 'cube'"));
+  EXPECT_THAT(referee.who_passes_the_start(-0.5), testing::IsEmpty());
+  EXPECT_THAT(referee.who_passes_the_start(0.0), testing::IsEmpty());
+}
+
 TEST(Referee, JudgesAFlightThatReachesItsGoal) {
   Scenario s = short_flight();
   s.world.obstacles = {cube(Vec3(5, 1, 1), 0.4)};

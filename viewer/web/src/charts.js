@@ -113,12 +113,13 @@ class Chart {
     this.showNow();
   }
 
-  /** Values at the cursor, or as the panels tell them. */
-  read(t) {
+  /** Values of the curves at t, but of what the panels show, theirs: a curve keeps not every row. */
+  read(t, shown = {}) {
     this.names.forEach((name, k) => {
       const rows = this.charts.series[name];
       const read = DOTS.has(name) ? valueAt : curveAt;
-      const text = rows && t !== null ? ` ${brief(read(rows, t))}` : '';
+      const value = () => (name in shown ? shown[name] : read(rows, t));
+      const text = rows && t !== null ? ` ${brief(value())}` : '';
       if (this.values[k].textContent !== text) this.values[k].textContent = text;
     });
   }
@@ -141,7 +142,7 @@ function room(low, high) {
 export class Charts {
   /** @param handlers  {jump(t), wants(names), hover(t)}; t in seconds of the flight */
   constructor(handlers) {
-    Object.assign(this, { handlers, series: {}, span: [0, 1], now: 0, told: 0, zoomed: null, charts: [], fields: [] });
+    Object.assign(this, { handlers, series: {}, span: [0, 1], now: 0, told: 0, shown: {}, zoomed: null, charts: [], fields: [] });
     this.root = document.getElementById('charts');
     for (const names of DEFAULT) this.append(names);
   }
@@ -211,18 +212,21 @@ export class Charts {
     }
   }
 
-  /** @param t  the flight's time now, s  @param told  of the state that the panels show, s: numbers are of one moment */
-  setNow(t, told) {
-    Object.assign(this, { now: t, told });
+  /**
+   * @param t  the flight's time now, s  @param told  of the newest state, s: numbers are of one moment
+   * @param shown  what the panels show, by the names of fields
+   */
+  setNow(t, told, shown) {
+    Object.assign(this, { now: t, told, shown });
     for (const chart of this.charts) {
       chart.showNow();
-      if (!this.hovers) chart.read(told);
+      if (!this.hovers) chart.read(told, shown);
     }
   }
 
   hover(t) {
     this.hovers = t !== null;
-    for (const chart of this.charts) chart.read(t ?? this.told);
+    for (const chart of this.charts) this.hovers ? chart.read(t) : chart.read(this.told, this.shown);
     this.handlers.hover(t);
   }
 

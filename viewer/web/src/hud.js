@@ -31,6 +31,12 @@ export function showSession(session) {
   }
 }
 
+/** Another flight: nothing of the one before is told. */
+export function forget() {
+  waiting.clear();
+  for (const name of Object.keys(shown)) delete shown[name];
+}
+
 /** Nobody says any more how anything is. */
 export function showGone() {
   chip('mode', 'bridge gone', 'gone');
@@ -38,7 +44,11 @@ export function showGone() {
 }
 
 const waiting = new Map(); // what is not shown yet: the newest of each kind
+const shown = {}; // what the panels show, by the charts' names of fields
 let shownAt = -Infinity;
+
+/** What the panels show now, by the charts' names of fields. */
+export const numbers = () => shown;
 
 /** The next draw() shows everything. */
 export function hurry() {
@@ -67,8 +77,17 @@ export function takeTiming(timing, pace) {
 }
 
 function showState(state, goal) {
-  say('speed', fixed(Math.hypot(...state.v)));
-  say('acceleration', fixed(Math.hypot(...state.a), 1, 'm/s²'));
+  const speed = Math.hypot(...state.v);
+  const acceleration = Math.hypot(...state.a);
+  Object.assign(shown, {
+    'UAV_STATE.speed_mps': speed,
+    'UAV_STATE.total_acceleration_mps2': acceleration,
+    'clearance.obstacles_m': state.clearance,
+    'clearance.map_m': state.map_clearance,
+  });
+  ['x', 'y', 'z'].forEach((axis, k) => (shown[`UAV_STATE.position_m.${axis}`] = state.p[k]));
+  say('speed', fixed(speed));
+  say('acceleration', fixed(acceleration, 1, 'm/s²'));
   say('clearance', fixed(state.clearance, 2, 'm'));
   document.body.classList.toggle('nomap', !Number.isFinite(state.map_clearance));
   say('mapclearance', fixed(state.map_clearance, 2, 'm'));
@@ -77,6 +96,7 @@ function showState(state, goal) {
 }
 
 function showPlan(plan) {
+  shown['PLAN.hold_s'] = plan.hold_s;
   chip('outcome', plan.outcome, plan.outcome.split(' ')[0]);
   say('reason', (plan.reason === 'none' ? '' : plan.reason) + (plan.relaxed ? ' relaxed' : ''));
   say('hold', fixed(plan.hold_s, 2, 's'));
@@ -84,10 +104,14 @@ function showPlan(plan) {
 
 /** @param pace  seconds of flight per second of the wall, by which an answer's time is told */
 function showTiming(timing, pace) {
-  const { total_ms } = timing;
+  const { total_ms, expansions, hulls } = timing;
+  shown['PLAN_TIMING.total_ms'] = total_ms;
+  shown['PLAN_TIMING.allowed_ms'] = timing.allowed_ms;
+  shown['PLAN_TIMING.expansions'] = expansions;
+  shown['PLAN_TIMING.hulls'] = hulls;
   const allowed_ms = timing.allowed_ms / pace;
   say('replan', fixed(total_ms) + (allowed_ms > 0 ? ` of ${fixed(allowed_ms, 0)} ms` : ' ms'));
-  say('work', `${timing.expansions} · ${timing.hulls}`);
+  say('work', `${expansions} · ${hulls}`);
   const meter = byId('meter');
   const share = allowed_ms > 0 ? total_ms / allowed_ms : 0;
   meter.style.width = `${Math.min(100 * share, 100)}%`;

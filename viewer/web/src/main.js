@@ -159,6 +159,7 @@ function takeReply(message) {
 function forget() {
   for (const key of Object.keys(known)) delete known[key];
   for (const part of [obstacles, trajectories, proofs, vehicle, regions, ghost, cameras]) part.clear();
+  hud.forget();
   timeline.takeEvents([]);
   offer('ghost', false);
 }
@@ -298,7 +299,7 @@ function film(t, seconds) {
 
 /** One cursor for charts, timeline and clock. @param t  s of the flight */
 function showTime(t) {
-  charts.setNow(t, known.state ? flightTime(known.state.at_us) : t);
+  charts.setNow(t, known.state ? flightTime(known.state.at_us) : t, hud.numbers());
   timeline.setNow(t);
   hud.showClock(t);
   if (!known.player) return player.show(t, known.chart ? flightSpan(known.chart) : [t, t]);
