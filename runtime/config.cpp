@@ -122,7 +122,7 @@ struct ConfigSection::Impl {
 
   Vec3 vec3(std::string_view key, const YamlValue& v, const Range& range) const {
     if (v.kind != YamlValue::Kind::Sequence || v.items.size() != 3) {
-      throw error(key, &v, v.describe() + " is not a list of 3 numbers");
+      throw error(key, &v, v.describe() + " is not a list of 3 numbers, [x, y, z]");
     }
     const std::vector<double> n = numbers(key, v, range);
     return {n[0], n[1], n[2]};

@@ -137,8 +137,8 @@ TEST(Config, RefusesWordsThatAreNoChoice) {
 
 TEST(Config, RefusesListsOfAnotherLengthOrContent) {
   const auto read = [](ConfigSection& s) { s.vec3("v", Vec3::Zero(), Range::positive(10)); };
-  EXPECT_EQ(error_of("v: [1, 2]", read), "a.yaml:1: v: a list of 2 is not a list of 3 numbers");
-  EXPECT_EQ(error_of("v: 1", read), "a.yaml:1: v: 1 is not a list of 3 numbers");
+  EXPECT_EQ(error_of("v: [1, 2]", read), "a.yaml:1: v: a list of 2 is not a list of 3 numbers, [x, y, z]");
+  EXPECT_EQ(error_of("v: 1", read), "a.yaml:1: v: 1 is not a list of 3 numbers, [x, y, z]");
   EXPECT_EQ(error_of("v:\n  - 1\n  - x\n  - 3", read), "a.yaml:3: v[1]: x is not a number");
   EXPECT_EQ(error_of("v:\n  - 1\n  - 2\n  - 11", read), "a.yaml:4: v[2]: 11 is out of range (0, 10]");
   const auto rows = [](ConfigSection& s) { s.rows("r", 2); };
@@ -205,7 +205,7 @@ TEST(Yaml, RepeatsWhatAnAliasNames) {
   EXPECT_EQ(root.section("c").vec3("d", Vec3::Zero()), Vec3(1, 2, 3));
   EXPECT_EQ(root.text("f", ""), "word");
   EXPECT_EQ(error_of("a: &p [1, 2]\nb: *p\n", [](ConfigSection& s) { s.vec3("b", Vec3::Zero()); }),
-            "a.yaml:2: b: a list of 2 is not a list of 3 numbers");
+            "a.yaml:2: b: a list of 2 is not a list of 3 numbers, [x, y, z]");
 }
 
 TEST(Yaml, AnAliasBombIsRefusedBeforeItIsExpanded) {
