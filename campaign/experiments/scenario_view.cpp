@@ -85,10 +85,21 @@ double lambda_of(const Scenario& scenario, const Region& region) {
                                                                         : semantics.lambda_attractive;
 }
 
+/// What is there at world time 0, and what is not yet.
 std::string world_text(const World& world) {
-  const auto movers = std::ranges::count_if(world.obstacles, [](const auto& o) { return o.moves(); });
-  return fmt::format("{} obstacles: {} rest, {} move", world.obstacles.size(),
-                     world.obstacles.size() - static_cast<std::size_t>(movers), movers);
+  std::size_t resting = 0, moving = 0, later = 0;
+  for (const WorldObstacle& o : world.obstacles) {
+    if (o.present(0.0)) ++(o.moves() ? moving : resting);
+    if (o.first_s() > 0.0) ++later;
+  }
+  const std::string text = fmt::format("{} obstacles: {} rest, {} move", resting + moving, resting, moving);
+  return later > 0 ? fmt::format("{}; {} more appear later", text, later) : text;
+}
+
+/// "z 0 to 4 m"
+std::string heights(const Region& region) {
+  const Box box = region.bounds();
+  return fmt::format("z {:g} to {:g} m", box.min().z(), box.max().z());
 }
 
 std::string regions_text(const ScenarioView& view) {
@@ -99,7 +110,7 @@ std::string regions_text(const ScenarioView& view) {
     text += fmt::format("  region    {} ({}, {}", region.name, region.class_name, label);
     const bool weighs = label == to_string(VoxelLabel::Attractive) || label == to_string(VoxelLabel::Repulsive);
     if (weighs) text += fmt::format(", λ {:g}", lambda_of(view.scenario, region));
-    text += ")";
+    text += "), " + heights(region);
     if (view.shortest) text += fmt::format(": {:.1f} m of the shortest way", view.shortest->in_region_m[r]);
     if (view.weighed) text += fmt::format(", {:.1f} m of the weighed one", view.weighed->in_region_m[r]);
     text += "\n";
@@ -119,7 +130,9 @@ PlotFrame frame_of(const ScenarioView& view) {
   Box box(uav.start);
   box.extend(uav.goal);
   for (const Region& r : view.scenario.semantics.regions) box.extend(r.bounds());
-  for (const WorldObstacle& o : view.world.obstacles) box.extend(o.box(std::max(0.0, o.first_s())));
+  for (const WorldObstacle& o : view.world.obstacles) {
+    if (o.present(0.0)) box.extend(o.box(0.0));
+  }
   for (const Box& b : view.occupied) box.extend(b);
   for (const auto* way : {&view.shortest, &view.weighed}) {
     for (const Vec3& p : *way ? (*way)->points : std::vector<Vec3>()) box.extend(p);
@@ -153,7 +166,7 @@ void draw_region(Svg& page, const PlotFrame& frame, const Region& region, const 
   }
   const Box box = region.bounds();
   const XY at = frame.at(box.min().x(), box.max().y());
-  page.text({at.first + 4, at.second + 14}, region.name, "font-size=\"12\"");
+  page.text({at.first + 4, at.second + 14}, region.name + ", " + heights(region), "font-size=\"12\"");
 }
 
 void draw_way(Svg& page, const PlotFrame& frame, const std::optional<PlannedWay>& way, const std::string& attributes) {
@@ -167,7 +180,7 @@ std::string legend_of(const ScenarioView& view) {
   const char* ways = !view.shortest ? "the goal cannot be reached"
                      : view.weighed ? "grey: the shortest way; blue: as the regions' λ weigh it"
                                     : "grey: the shortest way around what rests";
-  return fmt::format("open dot: start; orange: movers where they begin; {}", ways);
+  return fmt::format("open dot: start; orange: movers at time 0; {}", ways);
 }
 
 }  // namespace
@@ -232,7 +245,8 @@ std::string draw_scenario(const ScenarioView& view) {
   }
   for (const Box& b : view.occupied) draw_box(page, frame, b, "fill=\"#4a5560\" fill-opacity=\"0.55\"");
   for (const WorldObstacle& o : view.world.obstacles) {
-    draw_box(page, frame, o.box(std::max(0.0, o.first_s())),
+    if (!o.present(0.0)) continue;
+    draw_box(page, frame, o.box(0.0),
              o.moves() ? "fill=\"#e07b00\" fill-opacity=\"0.65\"" : "fill=\"#7d838c\" fill-opacity=\"0.8\"");
   }
   draw_way(page, frame, view.shortest, "stroke=\"#7d838c\" stroke-width=\"2\" stroke-dasharray=\"5 3\"");

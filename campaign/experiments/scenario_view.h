@@ -36,7 +36,7 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
 /// A screen of text.
 std::string to_text(const ScenarioView& view);
 
-/// Seen from above: flight box, regions, occupied voxels, what rests, movers where they begin, both ways. SVG.
+/// Seen from above: flight box, regions, occupied voxels, what rests, movers at world time 0, both ways. SVG.
 std::string draw_scenario(const ScenarioView& view);
 
 }  // namespace tern

@@ -53,6 +53,25 @@ TEST(ScenarioView, DrawsAPageOnWhichItsTextsHaveRoom) {
   EXPECT_GE(texts, 2);
 }
 
+TEST(ScenarioView, ShowsWhoIsThereAndHowHighRegionsAre) {
+  const TempFolder folder;
+  FlightInputs inputs;
+  inputs.scenario_file = folder.file("a.yaml");
+  std::ofstream(inputs.scenario_file)
+      << "uav: {start: [0, 0, 1], goal: [9, 0, 1]}\n"
+      << "world:\n  obstacles:\n"
+      << "    - {centre: [5, 3, 1], half_extents: [0.5, 0.5, 1]}\n"
+      << "    - {motion: waypoints, vanish: true, points: [[-1, 3, 5, 1], [9, 3, 9, 1]]}\n"
+      << "    - {motion: waypoints, vanish: true, points: [[4, 90, 5, 1], [9, 3, 5, 1]]}\n"
+      << "semantics:\n  classes: {garden: repulsive}\n"
+      << "  regions: [{name: roses, class: garden, box: {min: [4, -1, 0], max: [6, 1, 2.5]}}]\n";
+  const ScenarioView view = view_scenario(inputs, std::nullopt);
+  EXPECT_THAT(to_text(view), HasSubstr("2 obstacles: 1 rest, 1 move; 1 more appear later"));
+  EXPECT_THAT(to_text(view), HasSubstr("roses (garden, repulsive, λ 2), z 0 to 2.5 m:"));
+  EXPECT_THAT(draw_scenario(view), HasSubstr(">roses, z 0 to 2.5 m<"));
+  EXPECT_THAT(draw_scenario(view), Not(HasSubstr(">80<")));  // the axis does not reach who is not there
+}
+
 /// A wall across the flight box, of two parts.
 std::string blocked_by(const std::string& wall) {
   const TempFolder folder;
