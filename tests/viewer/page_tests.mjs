@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 const source = (name) => import(new URL(`../../viewer/web/src/${name}.js`, import.meta.url));
-const { Quality } = await source('quality');
+const { Quality, Stillness } = await source('quality');
 const { readLink, writeLink } = await source('link');
 const { countUpTo, eventNear, placeAt, valueAt } = await source('time_rows');
 const { Tape } = await source('tape');
@@ -38,6 +38,29 @@ test('quality: a renderer of four frames a second is at its least within two sec
   const { changed } = settle(quality, 200, 200, 5);
   assert.equal(quality.pixels, 0.3);
   assert.ok(changed < 2000, `after ${changed} ms`);
+});
+
+test('quality: what stands still is drawn sharply, and then only when something is new', () => {
+  const stillness = new Stillness();
+  const drawn = [];
+  const look = (now, moves, news = false) => stillness.isDue(now, moves, news) && drawn.push([now, stillness.still]);
+  for (let now = 0; now < 100; now += 20) look(now, true);
+  assert.ok(drawn.length === 5 && drawn.every(([, still]) => !still), 'while it moves every picture is drawn');
+  for (let now = 100; now < 1000; now += 20) look(now, false);
+  assert.deepEqual(drawn.filter(([, still]) => still).map(([now]) => now), [480, 980]);
+  look(1000, false, true);
+  assert.deepEqual(drawn.at(-1), [1000, true], 'news are shown at once');
+  look(1020, true);
+  assert.deepEqual(drawn.at(-1), [1020, false], 'who moves does not wait for all pixels');
+});
+
+test('quality: a pause says nothing of the frames before it', () => {
+  const quality = new Quality({ pixels: 0.7, fewest: 0.3, most: 1 });
+  for (let now = 0; now < 1000; now += 25) quality.frame(now);
+  const { pixels } = quality;
+  quality.pause();
+  for (let now = 60_000; now < 61_000; now += 25) quality.frame(now);
+  assert.equal(quality.pixels, pixels);
 });
 
 test('quality: a fast renderer gets all pixels', () => {

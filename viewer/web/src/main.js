@@ -256,6 +256,11 @@ const pointer = new Pointer(canvas, world, {
 
 let last = performance.now();
 let isFilmed = false; // pictures are asked for, one by one
+let framesDrawn = 0;
+let touched = false; // by the user, who may have switched something
+for (const event of ['pointerdown', 'pointerup', 'click', 'keydown', 'input', 'change']) {
+  addEventListener(event, () => (touched = true), { capture: true });
+}
 function draw(now) {
   if (isFilmed) return;
   picture(now, (now - last) * 1e-3);
@@ -282,7 +287,10 @@ function picture(now, seconds) {
   if (isRead && (vehicle.state || known.player)) showTime(flightTime(known.player?.at_us ?? clock.at_us));
   cameras.update();
   obstacles.draw(now_us, world.camera);
-  world.adapt(now);
+  const news = touched || counts.frames !== framesDrawn;
+  if (!world.adapt(now, !paused, news)) return;
+  touched = false;
+  framesDrawn = counts.frames;
   world.render();
   counts.drawn += 1;
 }

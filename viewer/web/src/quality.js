@@ -10,6 +10,8 @@ const FAST_MS = 19;
 const RISE = 1.1;
 const RISE_PAUSE_MS = 1500; // a rise that did not pay is not tried at every look
 const LONG_PAUSE_MS = 60_000;
+const STILL_MS = 400; // so long without a movement: it stands still
+const LOOK_MS = 500; // what stands still is drawn again after that
 
 /** Pure: it is told when frames were drawn. */
 export class Quality {
@@ -32,6 +34,12 @@ export class Quality {
     return this.decide(mean, now);
   }
 
+  /** The next frame says nothing of how long the last one took. */
+  pause() {
+    this.begin = null;
+    this.frames = 0;
+  }
+
   decide(mean, now) {
     let wanted = this.pixels;
     if (mean > SLOW_MS) {
@@ -45,5 +53,25 @@ export class Quality {
     wanted = Math.min(Math.max(wanted, this.fewest), this.most);
     if (Math.abs(wanted - this.pixels) < 0.01) return null;
     return (this.pixels = wanted);
+  }
+}
+
+/** What stands still gets every pixel, and is drawn only now and then. Pure. */
+export class Stillness {
+  constructor() {
+    Object.assign(this, { moved: -Infinity, drawn: -Infinity, still: false });
+  }
+
+  /**
+   * Before a picture. @param now  ms @param moves  whether flight or camera moved since the last one
+   * @param news  whether anything else may look different @return whether it must be drawn; then `still` says how
+   */
+  isDue(now, moves, news) {
+    if (moves) this.moved = now;
+    const was = this.still;
+    this.still = now - this.moved >= STILL_MS;
+    if (this.still && was && !news && now - this.drawn < LOOK_MS) return false;
+    this.drawn = now;
+    return true;
   }
 }

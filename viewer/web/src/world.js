@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { Cameras } from './camera.js';
 import { palette } from './palette.js';
-import { Quality } from './quality.js';
+import { Quality, Stillness } from './quality.js';
 
 const FOG_BEGIN = 26; // m
 const FOG_END = 80; // m: nothing is seen beyond
@@ -44,6 +44,8 @@ export class World {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.thrifty, powerPreference: 'high-performance' });
     const pixels = asked === 'low' ? 0.4 : this.thrifty ? 0.7 : Math.min(window.devicePixelRatio, 2);
     this.quality = new Quality({ pixels, fewest: FEWEST_PIXELS, most: 1 });
+    this.stillness = asked === 'low' || !this.thrifty ? null : new Stillness();
+    this.view = new THREE.Matrix4();
     this.renderer.setPixelRatio(pixels);
     this.scene = new THREE.Scene();
     this.light();
@@ -162,12 +164,32 @@ export class World {
     this.cameras.setFree(this.free, width, height);
   }
 
-  /** Fewer pixels when frames take long, more when they do not. @param now  ms */
-  adapt(now) {
-    const pixels = this.thrifty ? this.quality.frame(now) : null;
-    if (pixels === null) return;
-    this.renderer.setPixelRatio(pixels);
-    this.resize();
+  /**
+   * Fewer pixels when frames take long, more when they do not, and all of them while everything stands still.
+   * @param now  ms @param flies  whether the flight goes on @param news  whether anything else may look different
+   * @return whether the picture must be drawn
+   */
+  adapt(now, flies, news) {
+    if (!this.thrifty) return true;
+    const due = !this.stillness || this.stillness.isDue(now, this.hasTurned() || flies, news);
+    const still = this.stillness?.still ?? false;
+    if (still) this.quality.pause();
+    else this.quality.frame(now);
+    const pixels = still ? this.quality.most : this.pixels;
+    if (pixels !== this.renderer.getPixelRatio()) {
+      this.renderer.setPixelRatio(pixels);
+      this.resize();
+    }
+    return due;
+  }
+
+  /** Whether the camera sees otherwise than when it was asked last. */
+  hasTurned() {
+    this.camera.updateMatrixWorld();
+    const view = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
+    const turned = !view.equals(this.view);
+    this.view = view;
+    return turned;
   }
 
   render() {
