@@ -158,10 +158,14 @@ test('tape: jumps anywhere, and steps from plan to plan', () => {
 
 test('tape: an unchanged topic is not told again', () => {
   const { shown, pass, player } = tape();
-  player.send({ player: { play: false } });
-  pass(0);
   pass(100);
+  pass(10); // no new state in it
   assert.deepEqual(Object.keys(shown.at(-1)).sort(), ['dropped', 'frame', 'player']);
+  player.send({ player: { play: false } });
+  pass(100);
+  const { length } = shown;
+  pass(100);
+  assert.equal(shown.length, length, 'who rests tells nothing');
 });
 
 test('walls: a height cuts off what is above, and opens what it cuts', async () => {

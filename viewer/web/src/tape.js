@@ -74,6 +74,10 @@ export class Tape {
       this.shown[topic] = k;
       frame[topic] = k < 0 ? null : values[k];
     }
-    this.handlers.frame({ frame: ++this.frame, dropped: 0, ...frame, player: this.player() });
+    const player = this.player();
+    const told = JSON.stringify(player);
+    if (told === this.told && Object.keys(frame).length === 0) return;
+    this.told = told;
+    this.handlers.frame({ frame: ++this.frame, dropped: 0, ...frame, player });
   }
 }

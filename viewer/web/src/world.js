@@ -8,6 +8,7 @@ const FOG_BEGIN = 26; // m
 const FOG_END = 80; // m: nothing is seen beyond
 const FOG_NEAR = 20; // m: a camera that is farther from what it looks at has so much thinner fog
 const GAMMA = 2.2; // of displays, nearly
+const TURNED = 1e-9; // of a view's matrix: rounding does not turn a camera
 const FEWEST_PIXELS = 0.3; // of the window's, per axis
 
 /** Whether WebGL draws on the CPU: then it gets no more pixels than it can pay for. */
@@ -187,7 +188,7 @@ export class World {
   hasTurned() {
     this.camera.updateMatrixWorld();
     const view = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
-    const turned = !view.equals(this.view);
+    const turned = view.elements.some((x, k) => Math.abs(x - this.view.elements[k]) > TURNED);
     this.view = view;
     return turned;
   }
