@@ -24,6 +24,8 @@ TEST(Board, GivesAReaderTheNewestOfEachTopicOnce) {
   board.post(Topic::Plan, "{}");
   EXPECT_EQ(json::parse(board.take(reader)), json::parse(R"({"frame":1,"dropped":0,"state":2,"plan":{}})"));
   EXPECT_EQ(board.take(reader), "");
+  board.post(Topic::State, "2");
+  EXPECT_EQ(board.take(reader), "");
 }
 
 TEST(Board, CountsWhatASlowReaderMissedAndAFastOneDoesNot) {

@@ -19,6 +19,7 @@ void Board::post(Topic topic, std::string json) {
   auto text = std::make_shared<const std::string>(std::move(json));
   const std::lock_guard lock(mutex_);
   Entry& entry = entries_[idx(topic)];
+  if (entry.json && *entry.json == *text) return;
   ++entry.version;
   entry.json = std::move(text);
 }

@@ -35,7 +35,7 @@ inline constexpr int kTopics = 19;
 const char* to_string(Topic topic);
 
 /// The newest text per topic. A writer never waits for a reader. A text that a reader has not taken when the next one
-/// comes is dropped for that reader and counted. Thread-safe.
+/// comes is dropped for that reader and counted. A text that stands there already is not told again. Thread-safe.
 class Board {
  public:
   /// What one reader has been given.
