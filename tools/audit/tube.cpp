@@ -102,11 +102,11 @@ Check check_tube(const FlightRecord& record, Audit& audit) {
   }
   if (check.checked == 0) return check;
   const double rmse = std::sqrt(worst.squares / static_cast<double>(check.checked));
-  const bool inside = worst.margin_m >= 0.0;
-  check.summary =
-      fmt::format("at most {:.3g} m off its setpoints (RMSE {:.3g} m), {:.3g} m {} the tube of {:.3g} m{}",
-                  worst.error_m, rmse, std::abs(worst.margin_m), inside ? "inside" : "beyond", worst.tube.maxCoeff(),
-                  inside ? "" : "; where a setpoint is missing 1 mm is allowed");
+  const bool inside = worst.margin_m >= -kFollowed;  // as far as following is exact
+  check.summary = fmt::format("at most {:.3g} m off its setpoints (RMSE {:.3g} m), {:.3g} m {} the tube of {:.3g} m{}",
+                              worst.error_m, rmse, inside ? std::max(worst.margin_m, 0.0) : -worst.margin_m,
+                              inside ? "inside" : "beyond", worst.tube.maxCoeff(),
+                              inside ? "" : "; where a setpoint is missing 1 mm is allowed");
   check.measures = {{"tracking_error_m", worst.error_m},
                     {"tracking_rmse_m", rmse},
                     {"tube_margin_m", worst.margin_m},
