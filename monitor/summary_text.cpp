@@ -81,7 +81,9 @@ std::string reason_line(const FlightSummary& s) {
   for (std::size_t k = 0; k < std::min(reasons.size(), kListedReasons); ++k) {
     text += fmt::format("{} {} {}", k == 0 ? "" : ",", reasons[k].first, to_string(reasons[k].second));
   }
-  return text + (reasons.size() > kListedReasons ? ", …\n" : "\n");
+  text += reasons.size() > kListedReasons ? ", …\n" : "\n";
+  if (s.reasons[idx(PlanReason::GoalBlocked)] > 0) text += "  blocked       by what: tern-planner.log says it, and fly.sh --check\n";
+  return text;
 }
 
 std::string plan_lines(const FlightSummary& s) {

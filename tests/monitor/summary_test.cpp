@@ -143,6 +143,13 @@ TEST(Summary, SaysHowManyPlansWereLessSureThanPromised) {
       (json{{"promised", 200}, {"0.95", 10}, {"0.9", 9}, {"0.8", 8}, {"0.6", 7}, {"for_a_time", 5}, {"below", 6}}));
 }
 
+TEST(Summary, SaysWhereABlockedGoalIsExplained) {
+  FlightSummary s = flown();
+  EXPECT_THAT(to_text(s), Not(testing::HasSubstr("tern-planner.log")));
+  s.reasons[idx(PlanReason::GoalBlocked)] = 120;
+  EXPECT_THAT(to_text(s), testing::ContainsRegex("120 goal blocked\n  blocked +by what: tern-planner.log"));
+}
+
 TEST(Summary, TellsAPersonTheOutcomeFirst) {
   FlightSummary s = flown();
   s.outcome = FlightOutcome::Collision;
