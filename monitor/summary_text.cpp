@@ -79,11 +79,11 @@ std::string reason_line(const FlightSummary& s) {
   std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text = "  because      ";
   for (std::size_t k = 0; k < std::min(reasons.size(), kListedReasons); ++k) {
-    text += fmt::format("{} {} {}", k == 0 ? "" : ",", reasons[k].first, to_string(reasons[k].second));
+    const auto [count, reason] = reasons[k];
+    text += fmt::format("{} {} {}", k == 0 ? "" : ",", count, to_string(reason));
+    if (reason == PlanReason::GoalBlocked) text += " (by what: tern-planner.log)";
   }
-  text += reasons.size() > kListedReasons ? ", …\n" : "\n";
-  if (s.reasons[idx(PlanReason::GoalBlocked)] > 0) text += "  blocked       by what: tern-planner.log says it, and fly.sh --check\n";
-  return text;
+  return text + (reasons.size() > kListedReasons ? ", …\n" : "\n");
 }
 
 std::string plan_lines(const FlightSummary& s) {

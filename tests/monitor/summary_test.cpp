@@ -147,7 +147,7 @@ TEST(Summary, SaysWhereABlockedGoalIsExplained) {
   FlightSummary s = flown();
   EXPECT_THAT(to_text(s), Not(testing::HasSubstr("tern-planner.log")));
   s.reasons[idx(PlanReason::GoalBlocked)] = 120;
-  EXPECT_THAT(to_text(s), testing::ContainsRegex("120 goal blocked\n  blocked +by what: tern-planner.log"));
+  EXPECT_THAT(to_text(s), testing::HasSubstr("120 goal blocked (by what: tern-planner.log)"));
 }
 
 TEST(Summary, TellsAPersonTheOutcomeFirst) {
