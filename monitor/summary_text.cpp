@@ -79,9 +79,7 @@ std::string reason_line(const FlightSummary& s) {
   std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text = "  because      ";
   for (std::size_t k = 0; k < std::min(reasons.size(), kListedReasons); ++k) {
-    const auto [count, reason] = reasons[k];
-    text += fmt::format("{} {} {}", k == 0 ? "" : ",", count, to_string(reason));
-    if (reason == PlanReason::GoalBlocked) text += " (by what: tern-planner.log)";
+    text += fmt::format("{} {} {}", k == 0 ? "" : ",", reasons[k].first, to_string(reasons[k].second));
   }
   return text + (reasons.size() > kListedReasons ? ", …\n" : "\n");
 }
@@ -126,7 +124,9 @@ std::string message_lines(const FlightSummary& s) {
 }  // namespace
 
 std::string to_text(const FlightSummary& s) {
-  std::string text = fmt::format("{}{}{}\n", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
+  std::string text = fmt::format("{}{}{}", to_string(s.outcome), s.detail.empty() ? "" : ": ", s.detail);
+  const bool is_blocked = s.outcome != FlightOutcome::Reached && s.reasons[idx(PlanReason::GoalBlocked)] > 0;
+  text += is_blocked ? "; the goal was blocked: tern-planner.log says by what\n" : "\n";
   text += fmt::format("  scenario      {}, seed {}{}\n", s.scenario, s.seed.value_or(0), obstacles_met(s));
   if (s.settings) text += settings_line(*s.settings);
   if (s.result) text += flight_lines(*s.result);
