@@ -1,11 +1,31 @@
 #include "campaign/app/flight_options.h"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "runtime/config.h"
 
 namespace tern {
+namespace {
+
+bool can_run(const std::string& file) {
+  return std::filesystem::is_regular_file(file) && access(file.c_str(), X_OK) == 0;
+}
+
+/// @param program  a path, or a name in $PATH, as execvp() takes it @return why it cannot be run, or ""
+std::string why_not_run(const std::string& program) {
+  bool runs = program.find('/') != std::string::npos && can_run(program);
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr || program.find('/') != std::string::npos ? "" : path);
+  for (std::string folder; !runs && std::getline(folders, folder, ':');) runs = can_run(folder + '/' + program);
+  return runs ? "" : program + ": no program that can be run";
+}
+
+}  // namespace
 
 void add_world_options(CLI::App& app, FlightOptions& options) {
   app.add_option("--world", options.world, "Scenario: a file, or a name in scenarios/")->type_name("NAME|FILE");
@@ -23,9 +43,11 @@ void add_flight_options(CLI::App& app, FlightOptions& options) {
   CLI::Option* audit = app.add_option("--audit", options.audit,
                                       "Run this program on every log: exit code 0 passed, 1 broken; and keep the "
                                       "coverage of predictions that it says")
-                           ->type_name("PROGRAM");
+                           ->type_name("PROGRAM")
+                           ->check(why_not_run);
   app.add_option("--coverage", options.coverage, "The same, for the coverage alone: it judges no flight")
       ->type_name("PROGRAM")
+      ->check(why_not_run)
       ->excludes(audit);
   app.add_flag("--oracle", options.oracle,
                "The same flights with all motions declared: what perfect prediction reaches");

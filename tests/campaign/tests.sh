@@ -74,6 +74,8 @@ bad_arguments_end_with_a_clear_word_and_exit_code_2() {
   refused "seeds are set by --seeds" --world "$hop" "${out[@]}" --set seed=3
   refused "--charge" --world "$hop" "${out[@]}" --charge wall
   refused "--jobs" --world "$hop" "${out[@]}" --jobs 0
+  refused "nowhere: no program that can be run" --world "$hop" "${out[@]}" --audit nowhere
+  refused "$hop: no program that can be run" --world "$hop" "${out[@]}" --coverage "$hop"
   refused "--bogus" --world "$hop" "${out[@]}" --bogus
   refused "world: is no option of summarize" --world x summarize "$work/x.csv"
   refused "no tern-logger runs" --world "$here/short_hop.yaml" --set logger.rotate_mb=3 --out "$work/x.csv"
