@@ -8,7 +8,7 @@ const FOG_BEGIN = 26; // m
 const FOG_END = 80; // m: nothing is seen beyond
 const FOG_NEAR = 20; // m: a camera that is farther from what it looks at has so much thinner fog
 const GAMMA = 2.2; // of displays, nearly
-const TURNED = 1e-9; // of a view's matrix: rounding does not turn a camera
+const TURNED = 1e-5; // of a view's matrix between two pictures: less than a hundredth of a pixel
 const FEWEST_PIXELS = 0.3; // of the window's, per axis
 
 /** Whether WebGL draws on the CPU: then it gets no more pixels than it can pay for. */
