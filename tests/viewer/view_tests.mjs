@@ -157,6 +157,8 @@ await run({
       expect(`the line is at ${now}, not ${at}`, Math.abs(now - at) < 1 && begin === 8);
       await scrubTo(page, 0);
       await eventually('it begins before', async () => (await text(page, '#clock')) === '-2.0 s');
+      await eventually('nothing is told of later answers', async () =>
+        (await text(page, '#outcome')) === 'no plan yet' && (await text(page, '#replan')) === '–');
       await scrubTo(page, 0.5);
       await eventually('half of the log is 9 s', async () => (await text(page, '#at')) === '9.0 s');
       await eventually('as the address says', () => page.evaluate(() => location.hash === '#t=9&cam=top'));

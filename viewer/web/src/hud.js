@@ -96,23 +96,30 @@ function showState(state, goal) {
 }
 
 function showPlan(plan) {
-  shown['PLAN.hold_s'] = plan.hold_s;
+  shown['PLAN.hold_s'] = plan?.hold_s;
+  if (!plan) {
+    chip('outcome', 'no plan yet', '');
+    say('reason', '');
+    return say('hold', '–');
+  }
   chip('outcome', plan.outcome, plan.outcome.split(' ')[0]);
   say('reason', (plan.reason === 'none' ? '' : plan.reason) + (plan.relaxed ? ' relaxed' : ''));
   say('hold', fixed(plan.hold_s, 2, 's'));
 }
 
-/** @param pace  seconds of flight per second of the wall, by which an answer's time is told */
+/** @param timing  null: nothing was answered yet  @param pace  seconds of flight per second of the wall, by which an answer's time is told */
 function showTiming(timing, pace) {
+  for (const field of ['total_ms', 'allowed_ms', 'expansions', 'hulls']) shown[`PLAN_TIMING.${field}`] = timing?.[field];
+  const meter = byId('meter');
+  if (!timing) {
+    meter.style.width = 0;
+    say('replan', '–');
+    return say('work', '–');
+  }
   const { total_ms, expansions, hulls } = timing;
-  shown['PLAN_TIMING.total_ms'] = total_ms;
-  shown['PLAN_TIMING.allowed_ms'] = timing.allowed_ms;
-  shown['PLAN_TIMING.expansions'] = expansions;
-  shown['PLAN_TIMING.hulls'] = hulls;
   const allowed_ms = timing.allowed_ms / pace;
   say('replan', fixed(total_ms) + (allowed_ms > 0 ? ` of ${fixed(allowed_ms, 0)} ms` : ' ms'));
   say('work', `${expansions} · ${hulls}`);
-  const meter = byId('meter');
   const share = allowed_ms > 0 ? total_ms / allowed_ms : 0;
   meter.style.width = `${Math.min(100 * share, 100)}%`;
   meter.className = timing.late || timing.watchdog ? 'late' : '';

@@ -109,12 +109,11 @@ const topics = {
     if (set && !known.truth) obstacles.take(set); // on an aircraft nobody tells the truth
   },
   plan(plan) {
-    if (!plan) return;
     trajectories.takePlan(plan);
     proofs.takePlanes(layers.planes ? plan : null, obstacles.pickedId);
     hud.takePlan(plan);
   },
-  timing: (timing) => timing && hud.takeTiming(timing, known.session?.pace ?? 1),
+  timing: (timing) => hud.takeTiming(timing, known.session?.pace ?? 1),
   result: (result) => hud.showResult(result),
   hulls: (hulls) => proofs.takeHulls(hulls),
   search: (search) => proofs.takeSearch(search),

@@ -201,12 +201,14 @@ export class Trajectories {
     this.sphere.position.set(...point(request.p));
   }
 
+  /** @param plan  null: there is none yet */
   takePlan(plan) {
-    this.plan.set(plan.curve ? split(plan.curve, this.top).positions : []);
-    this.minvo.set(numbers(plan.minvo ?? [], 12));
-    this.sphere.visible = this.wantSphere && plan.radius > 0;
+    this.plan.set(plan?.curve ? split(plan.curve, this.top).positions : []);
+    this.minvo.set(numbers(plan?.minvo ?? [], 12));
+    this.sphere.visible = this.wantSphere && plan?.radius > 0;
+    this.localGoal.visible = Boolean(plan);
+    if (!plan) return;
     this.sphere.scale.setScalar(Math.max(plan.radius, 0.01));
-    this.localGoal.visible = true;
     this.localGoal.position.set(...point(plan.local_goal));
   }
 
