@@ -63,6 +63,12 @@ void clip_box(Polygon& polygon, Polygon& other, double v_max, double a_max) {
   }
 }
 
+double largest_velocity(const Polygon& polygon) {
+  double largest = 0.0;
+  for (const Point& p : polygon) largest = std::max(largest, p.x());
+  return largest;
+}
+
 /// The a for which (v + a Δt, a) lies in the polygon.
 AxisReach::Interval line_in_polygon(const Polygon& polygon, double v, double dt) {
   // In sheared coordinates (v' − a Δt, a) the line is vertical: the polygon's a-range at first coordinate v.
@@ -123,13 +129,10 @@ void AxisReach::assign(int intervals, double interval_s, double v_max, double a_
 
 void AxisReach::assign_before(const AxisReach& rest, double a_max, double j_max) {
   set_limits(rest.intervals_, rest.dt_, rest.v_max_, a_max, j_max);
-  for (std::size_t k = 0; k < fastest_.size(); ++k) {
-    const double after = k + 1 < fastest_.size() ? rest.fastest_[k + 1] : 0.0;
-    fastest_[k] = std::min(v_max_, a_max_ * dt_ + after);
-  }
   close_end(rest.j_step_);
   for (auto l = idx(intervals_) - 1; l >= 2; --l) {
     step_back(rest.finishable_[l + 1], rest.j_step_, l);
+    fastest_[l] = largest_velocity(finishable_[l]);
   }
 }
 

@@ -23,7 +23,7 @@ class AxisReach {
   /// @param intervals J ≥ 4; @param interval_s Δt, s; limits > 0, j_max may be infinite. Keeps its memory.
   void assign(int intervals, double interval_s, double v_max, double a_max, double j_max);
   /// One step by these limits, all later ones by those of `rest`, whose a_max and j_max are not larger. The states are
-  /// those from which `rest` can still finish.
+  /// those from which `rest` can still finish; none of them is faster than the fastest corner of its K_l.
   void assign_before(const AxisReach& rest, double a_max, double j_max);
 
   struct Interval {
@@ -33,7 +33,8 @@ class AxisReach {
   /// Every v_{l+1} that obeys the limits and can still end at rest, given v_l and a_{l-1}; 1 ≤ l ≤ n − 3 = J − 1.
   [[nodiscard]] Interval next_velocity(int l, double v, double a_previous) const;
 
-  /// How far q_{n-2} − q_l can lie, given v_{l-1}: bounds that ignore the jerk limit, m; 2 ≤ l ≤ n − 2 = J.
+  /// How far q_{n-2} − q_l can lie, given v_{l-1}: bounds that ignore the jerk limit, m; 2 ≤ l ≤ n − 2 = J. After
+  /// assign_before() they know it as far as it bounds each velocity alone.
   [[nodiscard]] Interval displacement(int l, double v_previous) const;
 
  private:
@@ -47,7 +48,7 @@ class AxisReach {
   int intervals_ = 0;
   double dt_ = 0.0, v_max_ = 0.0, a_max_ = 0.0, j_step_ = 0.0;
   std::vector<Polygon> finishable_;  ///< [l] = K_l, l = 2 … J
-  std::vector<double> fastest_;      ///< [k]: the largest velocity after step k that can still be braked, m/s
+  std::vector<double> fastest_;      ///< [k]: no v_k that can still be braked is larger, k = 2 … J − 1, m/s
   Polygon scratch_[2];
 };
 

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/base/random.h"
+#include "core/base/types.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/reach_program.h"
 
@@ -131,6 +133,42 @@ TEST(AxisReach, NoChainGoesFartherThanTheDisplacementBound) {
     if (p.j_max > 1e20 && bound.high > 0.1) closest = std::min(closest, 1.0 - chain.way / bound.high);
   }
   EXPECT_LT(closest, 1e-6);  // without a jerk limit the bound is reached
+}
+
+/// Every choice may be the one step by wider limits: the states after it have such a step again.
+TEST(AxisReach, NoChainOfStepsBeforeTheRestGoesFartherThanTheDisplacementBound) {
+  double closest = 1.0;
+  int nearer = 0;  // than the bound that knows of no jerk limit
+  for (std::uint64_t seed = 1; seed <= 5000; ++seed) {
+    Rng rng(seed);
+    const ReachProgram p = random_program(rng);
+    const AxisReach rest = reach_of(p);
+    AxisReach step;
+    const double a_max = p.a_max * rng.uniform(1.0, 3.0);
+    step.assign_before(rest, a_max, rng.uniform() < 0.5 ? std::numeric_limits<double>::infinity() : 2.0 * p.j_max);
+    const double v_1 = rng.uniform() < 0.5 ? 0.0 : rng.uniform(-1.0, 1.0) * p.v_max;
+    if (step.next_velocity(1, v_1, 0.0).empty()) continue;
+    const double fast = rng.uniform();  // the share of choices that go as far as they can
+    std::vector<double> v{0.0, v_1};
+    for (int l = 1; l < p.intervals; ++l) {
+      const double v_l = v[idx(l)];
+      const AxisReach::Interval range = step.next_velocity(l, v_l, l == 1 ? 0.0 : (v_l - v[idx(l - 1)]) / p.interval_s);
+      ASSERT_FALSE(range.empty()) << "seed " << seed << ", step " << l;
+      v.push_back(rng.uniform() < fast ? range.high : rng.uniform(range.low, range.high));
+    }
+    double way = 0.0;
+    for (int l = p.intervals - 1; l >= 2; --l) {
+      way += v[idx(l)] * p.interval_s;
+      const AxisReach::Interval bound = step.displacement(l, v[idx(l - 1)]);
+      ASSERT_GE(way, bound.low - 1e-7) << "seed " << seed << ", from " << l;
+      ASSERT_LE(way, bound.high + 1e-7) << "seed " << seed << ", from " << l;
+      if (bound.high > 0.1) closest = std::min(closest, 1.0 - way / bound.high);
+    }
+    const AxisReach wide(p.intervals, p.interval_s, p.v_max, a_max, std::numeric_limits<double>::infinity());
+    nearer += step.displacement(2, v_1).high < 0.9 * wide.displacement(2, v_1).high ? 1 : 0;
+  }
+  EXPECT_LT(closest, 1e-6);
+  EXPECT_GT(nearer, 1000);
 }
 
 TEST(AxisReach, TheBoundShrinksToNothingAtTheEnd) {
