@@ -29,12 +29,20 @@ struct Leaf {
   }
 };
 
+/// So many bands fit into an integer.
+constexpr double kMostBands = 1e15;
+
 /// Bands of the cost-to-go: `width` wide, and kFinerBands times finer within the last one.
 std::int64_t band_of(double way_to_go, double width) {
-  constexpr double kMostBands = 1e15;
   const double bands = std::min(way_to_go / width, kMostBands);
   return bands < 1.0 ? static_cast<std::int64_t>(bands * kFinerBands)
                      : kFinerBands - 1 + static_cast<std::int64_t>(bands);
+}
+
+/// Bands counted from the border of S, the first half as wide: as, counted from 0, the border leaves on the mean. That
+/// may leave a millimetre, and a whole tree is searched in vain for a leaf in it.
+std::int64_t band_from_border(double beyond, double width) {
+  return static_cast<std::int64_t>(std::min(beyond / width, kMostBands) + 0.5);
 }
 
 /// No point of S has a smaller cost-to-go.
@@ -53,6 +61,7 @@ class Search {
         dt_(problem.interval_s()),
         basis_(spline_basis(problem.intervals)),
         least_way_(way_from_sphere(problem)),
+        counts_from_border_(problem.plan_limits.dynamics && least_way_ > 0.0),
         aim_(problem.way.point),
         reach_(memory.reach),
         nodes_(memory.nodes),
@@ -113,13 +122,18 @@ class Search {
     return {low, high};
   }
 
+  /// The best band that a leaf in there may lie in.
+  [[nodiscard]] std::int64_t band_within(const Box& reachable) const {
+    const double way = std::max(problem_.way.from(reachable), least_way_);
+    return counts_from_border_ ? band_from_border(way - least_way_, config_.band_m) : band_of(way, config_.band_m);
+  }
+
   /// @param ahead  ahead_of() it
   void add(const Node& n, const Box& ahead) {
     const Box reachable(n.q + ahead.min(), n.q + ahead.max());
     double f = n.g + config_.lambda_h * problem_.way.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
-    const std::int64_t band = band_of(std::max(problem_.way.from(reachable), least_way_), config_.band_m);
-    open_.push_back({band, step_of(f), f, leaf_index() - n.l, static_cast<int>(nodes_.size())});
+    open_.push_back({band_within(reachable), step_of(f), f, leaf_index() - n.l, static_cast<int>(nodes_.size())});
     std::push_heap(open_.begin(), open_.end(), kLater);
     nodes_.push_back(n);
   }
@@ -326,8 +340,9 @@ class Search {
   Budget& budget_;
   const double dt_;
   const SplineBasis& basis_;
-  const double least_way_;  ///< to go from anywhere in S, m
-  Vec3 aim_;                ///< where one child of each node aims
+  const double least_way_;         ///< to go from anywhere in S, m
+  const bool counts_from_border_;  ///< the bands (docs/inside_the_planner.md: a multirotor)
+  Vec3 aim_;                       ///< where one child of each node aims
   StepReach& reach_;
   std::vector<Node>& nodes_;
   std::vector<Entry>& open_;

@@ -54,9 +54,10 @@ struct SearchResult {
 /// Its velocity control point v_l is sampled uniformly per axis in the interval that v_max, a_max, j_max and the end at
 /// rest leave (AxisReach). One child aims at the goal, or, where a first step may leave S or Δt is a moment, at where
 /// the way leaves S. A node is tested for collision when it is popped: interval l−3, at a leaf (l = n−2) also the two
-/// closing intervals. Leaves are ranked: hold ≥ required first, then the band of the cost-to-go, then f. The search
-/// ends when no open node can still win (by more than a step of f), or after max_expansions. It also ends
-/// hold_expansions after the first leaf, or with the budget. Ties by depth, f and index: deterministic.
+/// closing intervals. Leaves are ranked: hold ≥ required first, then the band of the cost-to-go, then f. Bands are
+/// counted from 0; with dynamics, where the way leads out of S, from its border. The search ends when no open node can
+/// still win (by more than a step of f), or after max_expansions. It also ends hold_expansions after the first leaf, or
+/// with the budget. Ties by depth, f and index: deterministic.
 /// @param obstacles  origin at the start, intervals 0 … J−1 the plan's, the others after its end for the hold.
 /// @param memory     used again from call to call: a search as large as an earlier one allocates only its result's
 /// control points.

@@ -239,6 +239,24 @@ TEST(SemanticAStar, EndsWhenNothingOpenCanStillWinNotWhenItsBudgetEnds) {
   EXPECT_LT(result.expansions, SearchConfig{}.max_expansions / 10);
 }
 
+/// Bands counted from 0 left a sliver of one within S, which every node seemed to reach and no leaf did: at some
+/// distances all expansions went there.
+TEST(SemanticAStar, OfAMultirotorNoDistanceOfTheGoalMakesItSearchInVain) {
+  MotionSample start;
+  start.v = Vec3(4.7, -0.1, 0.0);
+  for (const double interval_s : {0.2, 0.22, 0.27, 0.31, 0.36}) {
+    for (int mm = 14'000; mm < 15'000; mm += 2) {
+      Scene s = scene_from(start, interval_s, Vec3(0.001 * mm, 0, 0));
+      s.problem.plan_limits.a_max = s.problem.limits.a_max = Vec3(20.0, 20.0, 10.0);
+      s.problem.limits.dynamics = s.problem.plan_limits.dynamics = Dynamics{2.0, 39.2, 70.0, 900.0};
+      const SearchResult result = s.search();
+      ASSERT_TRUE(result.found) << interval_s << " s, " << mm << " mm";
+      ASSERT_LT(result.expansions, SearchConfig{}.max_expansions / 20) << interval_s << " s, " << mm << " mm";
+      ASSERT_GT(s.problem.way.from(start.p) - result.way_to_go, 0.95 * kRadius) << interval_s << " s, " << mm << " mm";
+    }
+  }
+}
+
 TEST(SemanticAStar, StartsAtNearlyTheTopSpeedWithOutwardAccelerationAreSolvable) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
