@@ -22,6 +22,12 @@ std::vector<std::string> overrides_of(const FlightOptions& options) {
   return values;
 }
 
+void pass(std::optional<int> fd, const char* option, ChildProcess& child) {
+  if (!fd) return;
+  child.inherited.push_back(*fd);
+  child.command.insert(child.command.end(), {option, std::to_string(*fd)});
+}
+
 }  // namespace
 
 std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, const std::string& record,
@@ -46,13 +52,10 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
     ChildProcess& viewer = add(kViewer, {"--page", options.page}).child;
     viewer.inherited.push_back(*options.view_fd);
     if (options.allow_goals) viewer.command.emplace_back("--allow-goals");
-    if (options.looked_fd) {
-      viewer.inherited.push_back(*options.looked_fd);
-      viewer.command.insert(viewer.command.end(), {"--looked-fd", std::to_string(*options.looked_fd)});
-    }
+    pass(options.looked_fd, "--looked-fd", viewer);
   }
   const std::string log = record + "/flight.lcm";
-  add(kLogger, {"--record", log});
+  pass(options.listens_fd, "--listens-fd", add(kLogger, {"--record", log}).child);
   add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure",
                  "--command", options.typed})
       .restarted = false;

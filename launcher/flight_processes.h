@@ -25,6 +25,7 @@ struct FlightOptions {
   std::optional<int> view_fd;          ///< a listening socket for tern-viewer; none: no viewer
   int view_wait_s = 30;                ///< the flight waits so long for the first page that looks, s, ≥ 0
   std::optional<int> looked_fd;        ///< where tern-viewer says that one does
+  std::optional<int> listens_fd;       ///< where tern-logger says that it misses nothing from now on
   std::string view_url, page;          ///< that socket's URL; the folder of the built page
   bool allow_goals = false;            ///< the page may send goals
   std::string autopilot;               ///< where tern-mavlink connects to; empty: the simulator flies its own vehicle

@@ -147,21 +147,35 @@ std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event)
   return is_judge ? std::optional(judged(event.code, has_summary)) : std::nullopt;
 }
 
+/// A logger that has not begun after that fails or is slow; the flight says which.
+constexpr int kLoggerStartS = 5;
+
+struct Heard {
+  bool said = false;
+  int signal = 0;  ///< that came meanwhile, or 0
+};
+
+/// Waits until somebody writes a byte there, for so many seconds at most.
+Heard await_byte(int fd, int seconds, const sigset_t& signals) {
+  constexpr int kLookMs = 100;
+  for (int ms = 0; ms < 1000 * seconds; ms += kLookMs) {
+    pollfd word{fd, POLLIN, 0};
+    if (poll(&word, 1, kLookMs) > 0) return {.said = true};
+    const timespec at_once{};
+    const int signal = sigtimedwait(&signals, nullptr, &at_once);
+    if (signal > 0 && signal != SIGCHLD) return {.signal = signal};
+  }
+  return {};
+}
+
 /// Waits until tern-viewer says that a page looks, as long as the options allow.
 /// @return a signal that came meanwhile, or 0
 int await_page(const FlightOptions& options, int looked, const sigset_t& signals) {
   if (options.view_wait_s == 0) return 0;
   say("  the flight begins when a page looks, at the latest in {} s (--view-wait)", options.view_wait_s);
-  constexpr int kLookMs = 100;
-  for (int ms = 0; ms < 1000 * options.view_wait_s; ms += kLookMs) {
-    pollfd page{looked, POLLIN, 0};
-    if (poll(&page, 1, kLookMs) > 0) return 0;
-    const timespec at_once{};
-    const int signal = sigtimedwait(&signals, nullptr, &at_once);
-    if (signal > 0 && signal != SIGCHLD) return signal;
-  }
-  say("  no page looks: the flight begins without");
-  return 0;
+  const Heard heard = await_byte(looked, options.view_wait_s, signals);
+  if (!heard.said && heard.signal == 0) say("  no page looks: the flight begins without");
+  return heard.signal;
 }
 
 /// @throws std::runtime_error with what one of them refuses
@@ -185,6 +199,8 @@ int supervise(FlightOptions options, const fs::path& record, const sigset_t& sig
   options.default_dynamics = !options.autopilot.empty() && !scenario.uav.limits.dynamics;
   int looked[2] = {-1, -1};
   if (options.view_fd && pipe2(looked, O_CLOEXEC) == 0) options.looked_fd = looked[1];
+  int listens[2] = {-1, -1};
+  if (pipe2(listens, O_CLOEXEC) == 0) options.listens_fd = listens[1];
   auto processes = flight_processes(options, record, hold_keys(options));
   run_checks(checks_of_absent(options, processes), record);
   announce(options, record, processes);
@@ -193,7 +209,9 @@ int supervise(FlightOptions options, const fs::path& record, const sigset_t& sig
     process.child.error = open_log(record / (process.name + ".log"));
     if (process.name != kMonitor) process.child.out = process.child.error;
     supervisor.start(process);
-    const int signal = process.name == kViewer ? await_page(options, looked[0], signals) : 0;
+    int signal = 0;
+    if (process.name == kViewer) signal = await_page(options, looked[0], signals);
+    if (process.name == kLogger) signal = await_byte(listens[0], kLoggerStartS, signals).signal;
     if (signal != 0) {
       supervisor.stop(kLogger);
       return kExitSignalled + signal;

@@ -1,5 +1,8 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "logger/app/logger_node.h"
@@ -7,20 +10,23 @@
 
 int main(int argc, char** argv) {
   std::string path = "flight.lcm";
+  std::optional<int> listens_fd;
   const tern::ProcessDescription description{
       .name = "tern-logger",
       .section = "logger",
       .summary = "Records every message of every channel in a log that LCM's tools open",
       .add_options =
-          [&path](CLI::App& app) {
+          [&](CLI::App& app) {
             app.add_option("--record", path,
                            "The log to write, or the folder for flight.lcm; never overwritten: a part is added")
                 ->type_name("PATH")
                 ->capture_default_str();
+            app.add_option("--listens-fd", listens_fd, "Write a byte there when every message is recorded from now on");
           },
       .read_section = tern::read_logger_config};
-  return tern::run_process(
-      argc, argv, description, [&path](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
-        return std::make_unique<tern::LoggerNode>(context.bus, tern::read_logger_config(context.section), path);
-      });
+  return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
+    auto node = std::make_unique<tern::LoggerNode>(context.bus, tern::read_logger_config(context.section), path);
+    if (listens_fd) (void)!write(*listens_fd, "!", 1);
+    return node;
+  });
 }

@@ -257,6 +257,20 @@ the_log_holds_what_the_logger_counted() {
   [[ $counted -gt 0 && $counted == "$logged" ]] || fail "counted $counted, logged $logged"
 }
 
+a_logger_that_is_slow_to_start_misses_nothing() {
+  mkdir "$work/bin"
+  ln -s "$TERN_BIN"/tern-* "$work/bin"
+  rm "$work/bin/tern-logger"
+  printf '#!/bin/sh\nsleep 1\nexec "%s/tern-logger" "$@"\n' "$TERN_BIN" >"$work/bin/tern-logger"
+  chmod +x "$work/bin/tern-logger"
+  local audit=$TERN_BIN/tern-audit
+  TERN_BIN=$work/bin start_flight flight
+  eventually "states" 20 has_text UAV_STATE "$work/flight/flight.lcm"
+  end_flight "$flight"
+  "$audit" "$work/flight/flight.lcm" >"$work/audit.txt" || true
+  ! grep "lacks the first" "$work/audit.txt" || fail "the log lacks what was said first"
+}
+
 every_program_starts_alone() {
   local name pid
   for name in simulator executor predictor mapper planner logger monitor; do
