@@ -22,6 +22,8 @@ constexpr std::size_t kMostWaiting = 64;
 constexpr std::size_t kMostParameters = 4096, kLongestText = 400;
 
 /// ESTIMATOR_STATUS_FLAGS.
+/// How long an estimator may lack a position for a fault of its inputs.
+constexpr Duration kFaultPasses{1'000'000};
 constexpr unsigned kVelocity = 2, kPositionRelative = 8, kPositionAbsolute = 16, kAccelerometerWrong = 2048;
 
 template <class T>
@@ -60,6 +62,13 @@ Vec3 ned_from(const GpsGlobalOrigin& origin, std::int32_t lat, std::int32_t lon,
   const double angle = std::acos(cosine), k = angle < 1e-9 ? 1.0 : angle / std::sin(angle);
   return {k * (std::cos(a) * std::sin(b) - std::sin(a) * std::cos(b) * std::cos(turn)) * kEarthRadius,
           k * std::cos(b) * std::sin(turn) * kEarthRadius, (origin.altitude - alt_mm) * 1e-3};
+}
+
+/// Whether it flies on where it was: a simulation tells attitude and velocity more often than position (PX4's Gazebo).
+bool is_stale(const HilStateQuaternion& hil, const std::optional<HilStateQuaternion>& before) {
+  constexpr double kMoves = 30.0;  // cm/s: between two positions by more than the message resolves
+  if (!before || hil.lat != before->lat || hil.lon != before->lon || hil.alt != before->alt) return false;
+  return Vec3(hil.v[0], hil.v[1], hil.v[2]).norm() > kMoves;
 }
 
 }  // namespace
@@ -143,7 +152,7 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
     landed_ = m->landed_state == kOnGround;
     taking_off_ = m->landed_state == kTakingOff;
   }
-  if (const auto m = from_frame<EstimatorStatus>(frame)) health_ = *m;
+  if (const auto m = from_frame<EstimatorStatus>(frame)) hear_health(*m, received);
   if (const auto m = from_frame<Timesync>(frame); m && m->tc1 != 0) {
     clock_.add(UTime{m->ts1 / 1000}, m->tc1 / 1000, received);
   }
@@ -197,8 +206,16 @@ void Autopilot::hear_position(const Frame& frame, UTime received) {
   }
 }
 
+void Autopilot::hear_health(const EstimatorStatus& status, UTime received) {
+  health_ = status;
+  health_heard_ = received;
+  const bool position = (status.flags & (kPositionRelative | kPositionAbsolute)) != 0;
+  if (position && (status.flags & kVelocity) != 0) placed_ = received;
+}
+
 void Autopilot::hear_truth(const HilStateQuaternion& hil, UTime received) {
   if (hil.lat == 0 && hil.lon == 0 && hil.alt == 0) return;  // it does not know yet
+  if (is_stale(hil, std::exchange(last_truth_, hil))) return;
   const std::optional<UTime> at = hil.time_usec == 0 ? received : ours(hil.time_usec, received);
   if (!at || (truth_ && *at <= truth_->at)) return;
   if (!origin_ && own_origin_) {
@@ -227,12 +244,11 @@ void Autopilot::hear_parameter(const ParamValue& value) {
 
 EstimatorHealth Autopilot::estimator() const {
   if (!health_) return state_ ? EstimatorHealth::Degraded : EstimatorHealth::Lost;
-  const unsigned flags = health_->flags;
-  const bool position = (flags & (kPositionRelative | kPositionAbsolute)) != 0 && (flags & kVelocity) != 0;
-  if (!position || (flags & kAccelerometerWrong) != 0) return EstimatorHealth::Lost;
+  if (!placed_ || health_heard_ - *placed_ >= kFaultPasses) return EstimatorHealth::Lost;
   const auto& r = health_->ratios;
+  const bool is_whole = *placed_ == health_heard_ && (health_->flags & kAccelerometerWrong) == 0;
   const bool believed = r[0] < 1.0F && r[1] < 1.0F && r[2] < 1.0F;
-  return believed ? EstimatorHealth::Good : EstimatorHealth::Degraded;
+  return is_whole && believed ? EstimatorHealth::Good : EstimatorHealth::Degraded;
 }
 
 Vec3 Autopilot::sigma() const {

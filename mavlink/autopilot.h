@@ -70,6 +70,8 @@ class Autopilot {
   /// A take-off of its own is under way, as EXTENDED_SYS_STATE says.
   [[nodiscard]] bool taking_off() const { return taking_off_; }
   [[nodiscard]] std::optional<double> battery() const { return battery_; }  ///< [0, 1]
+  /// Lost: it has had no position or velocity for kFaultPasses, or never yet. A fault of its inputs takes that from a
+  /// PX4's flags for a moment, while the position is good.
   [[nodiscard]] EstimatorHealth estimator() const;
   [[nodiscard]] Vec3 sigma() const;  ///< the estimator's own accuracy per axis, m; 0: not said
   [[nodiscard]] const ClockFit& clock() const { return clock_; }
@@ -99,6 +101,7 @@ class Autopilot {
   [[nodiscard]] std::int64_t strangers() const { return strangers_; }  ///< frames of others
 
  private:
+  void hear_health(const EstimatorStatus& status, UTime received);
   void hear_position(const Frame& frame, UTime received);
   void hear_truth(const HilStateQuaternion& hil, UTime received);
   void hear_parameter(const ParamValue& value);
@@ -115,11 +118,14 @@ class Autopilot {
   bool taking_off_ = false;
   std::optional<double> battery_;
   std::optional<EstimatorStatus> health_;
+  std::optional<UTime> placed_;  ///< when the estimator last said that it has a position and velocity
+  UTime health_heard_;
   ClockFit clock_;
   std::optional<std::uint8_t> reset_counter_;
   int resets_ = 0;
   std::optional<UavState> state_, truth_;
   std::optional<UTime> last_odometry_;
+  std::optional<HilStateQuaternion> last_truth_;
   std::optional<double> home_height_;
   double yaw_ = 0.0;
   std::optional<GpsGlobalOrigin> origin_;

@@ -146,7 +146,8 @@ void Bridge::anchor_truth_at_first_sight() {
 }
 
 std::vector<RequiredParameter> Bridge::required() const {
-  return required_parameters(autopilot_.firmware(), uav_, config_.without_remote, config_.external_vision);
+  const std::uint8_t system = autopilot_.address() ? autopilot_.address()->system : 0;
+  return required_parameters(autopilot_.firmware(), uav_, system, config_.without_remote, config_.external_vision);
 }
 
 std::string Bridge::clock_fault() const {
@@ -183,7 +184,7 @@ std::string Bridge::not_ready(UTime now) const {
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
   if (!autopilot_.landed()) return "it does not say whether it has landed (EXTENDED_SYS_STATE)";
   if (!config_.check_parameters) return {};
-  return parameter_faults(required(), autopilot_.parameters());
+  return parameter_faults(required(), autopilot_.parameters(), parameters_asked_ >= kAskedOften);
 }
 
 std::string Bridge::estimate_fault(UTime now) const {

@@ -15,6 +15,9 @@ namespace tern::mavlink {
 
 /// MAV_COMP_ID_ONBOARD_COMPUTER.
 inline constexpr std::uint8_t kOwnComponent = 191;
+/// Rounds of requests after which a parameter that has not come is not there: of 20 % lost packets one in 10^5 each
+/// way.
+inline constexpr int kAskedOften = 6;
 
 /// Where a flight is.
 enum class Stage : std::uint8_t {
@@ -171,6 +174,7 @@ class Bridge {
   bool told_;                ///< to fly
   bool told_again_ = false;  ///< by somebody, not by the configuration: also a vehicle that is in somebody's hands
   UTime stage_since_, now_;
+  int parameters_asked_ = 0;  ///< rounds
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
   std::optional<UTime> streaming_since_;
   /// How the vehicle was found when the bridge was told to fly it, or began to; until it is in OFFBOARD.

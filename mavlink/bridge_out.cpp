@@ -10,7 +10,7 @@
 namespace tern::mavlink {
 namespace {
 
-constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000};
+constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000}, kFirstParameterPeriod{300'000};
 /// PX4 hears nothing else for some 10 ms per stream that it is asked for: seldom in flight.
 constexpr Duration kStreamsPeriod{2'000'000}, kStreamsPeriodInFlight{30'000'000};
 /// COM_OF_LOSS_T's default, s.
@@ -55,8 +55,9 @@ void Bridge::request_streams(UTime now) {
 
 void Bridge::request_parameters(UTime now) {
   if (now < next_parameters_ || !autopilot_.address()) return;
-  next_parameters_ = now + kParameterPeriod;
+  next_parameters_ = now + (parameters_asked_ < kAskedOften ? kFirstParameterPeriod : kParameterPeriod);
   const Address to = *autopilot_.address();
+  ++parameters_asked_;
   for (const RequiredParameter& r : required()) {
     const auto known = autopilot_.parameters().find(r.name);
     const bool read = known != autopilot_.parameters().end();

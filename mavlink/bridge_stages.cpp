@@ -178,7 +178,9 @@ void Bridge::step_landing(UTime now) {
     return stand_back(fmt::format("the autopilot has left for {}: somebody else flies", autopilot_.mode()));
   }
   if (arming && !in_air()) return ask_to_disarm(now);
-  command_mode(now, autopilot_.landing_mode(), kNavLand, {0, 0, 0, kUnknown, kUnknown, kUnknown, 0});
+  // An ArduPilot makes integers of a place that is unknown; it does not look at it.
+  const float here = autopilot_.firmware() == Firmware::ArduPilot ? 0.0F : kUnknown;
+  command_mode(now, autopilot_.landing_mode(), kNavLand, {0, 0, 0, here, here, here, 0});
 }
 
 void Bridge::step_stage(UTime now) {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace tern::mavlink {
@@ -33,24 +35,58 @@ std::vector<RequiredParameter> bounds_of_px4(const UavSpec& uav) {
   return bounds;
 }
 
+/// The greatest level jerk of a plan, m/s³.
+double jerk_of(const Limits& limits) {
+  const double per_axis = limits.j_max.head<2>().norm();
+  if (!limits.dynamics) return per_axis;
+  const double rate = limits.dynamics->body_rate_max_deg_s * std::numbers::pi / 180.0;
+  return std::min(per_axis, rate * limits.dynamics->thrust_max);
+}
+
+/// Copter shapes the acceleration that it is told in GUIDED by its jerk limits (ModeGuided::posvelaccel_control_run,
+/// AP_Math's shape_accel_xy); its speeds and accelerations bound corrections alone.
+std::vector<RequiredParameter> bounds_of_copter(const UavSpec& uav) {
+  const char* const shaped = "it shapes what it is told by this, and lags metres behind faster changes, m/s3";
+  const double tilt = uav.limits.dynamics ? uav.limits.dynamics->tilt_max_deg : Dynamics::kTilt.high;
+  std::vector<RequiredParameter> bounds{at_least("ANGLE_MAX", 100.0 * tilt, "plans may tilt as far, 0.01 degrees")};
+  const double jerk = jerk_of(uav.limits), up = std::min(uav.limits.j_max.z(), jerk);
+  if (std::isfinite(jerk)) bounds.push_back(at_least("PSC_JERK_XY", jerk, shaped));
+  if (std::isfinite(up)) bounds.push_back(at_least("PSC_JERK_Z", up, shaped));
+  for (RequiredParameter& bound : bounds) bound.may_be_absent = true;  // 4.7 calls them otherwise
+  return bounds;
+}
+
+std::vector<RequiredParameter> of_copter(const UavSpec& uav, std::uint8_t system, const char* blind) {
+  std::vector<RequiredParameter> required{
+      {"GUID_TIMEOUT", 0.2, 1.0, 0.5, false, blind},
+      {"FS_GCS_ENABLE", 5, 5, 5, false, "without this link it would fly on or fly home; 5 lands"}};
+  for (const auto& [name, other] : {std::pair{"SYSID_MYGCS", "MAV_GCS_SYSID"}, {"MAV_GCS_SYSID", "SYSID_MYGCS"}}) {
+    const double id = system;
+    required.push_back({name, id, id, id, false, "the bridge's HEARTBEAT would not count for FS_GCS_ENABLE"});
+    required.back().also_called = other;
+  }
+  for (const RequiredParameter& bound : bounds_of_copter(uav)) required.push_back(bound);
+  return required;
+}
+
 }  // namespace
 
 bool RequiredParameter::allows(double value) const {
   return value >= low && value <= high && (static_cast<int>(bits != 0 ? value : 0.0) & bits) == bits;
 }
 
-std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavSpec& uav, bool without_remote,
-                                                   bool external_vision) {
+std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavSpec& uav, std::uint8_t system,
+                                                   bool without_remote, bool external_vision) {
   const char* const blind = "so long it flies on blindly when setpoints cease, s";
-  if (firmware == Firmware::ArduPilot) {
-    return {{"GUID_TIMEOUT", 0.2, 1.0, 0.5, false, blind},
-            {"FS_GCS_ENABLE", 5, 5, 5, false, "without this link it would fly on or fly home; 5 lands"}};
-  }
+  if (firmware == Firmware::ArduPilot) return of_copter(uav, system, blind);
   if (firmware != Firmware::Px4) return {};
   std::vector<RequiredParameter> required{
       {"COM_OBL_RC_ACT", 4, 5, 4, true, "without setpoints it would return and climb; 4 lands, 5 holds"},
       {"COM_OF_LOSS_T", 0.2, 1.0, 0.5, false, blind},
-      {"MC_AIRMODE", 0, 0, 0, true, "who turns fast at little thrust would be lifted"}};
+      {"MC_AIRMODE", 0, 0, 0, true, "who turns fast at little thrust would be lifted"},
+      {"MPC_ACC_DECOUPLE", 0, 0, 0, true,
+       "who climbs or sinks would accelerate sideways by more or less than he is told"}};
+  required.back().may_be_absent = true;
   if (without_remote) {
     required.push_back({"COM_RC_IN_MODE", 4, 4, 4, true, "there is no remote control, and it would not be armed"});
     required.push_back({"COM_RCL_EXCEPT", 4, 31, 7, true, "without remote control it would leave OFFBOARD (bit 2)", 4});
@@ -71,12 +107,14 @@ std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavS
 }
 
 std::string parameter_faults(const std::vector<RequiredParameter>& required,
-                             const std::map<std::string, double>& values) {
+                             const std::map<std::string, double>& values, bool all_asked) {
   std::string faults;
   for (const RequiredParameter& r : required) {
     const auto found = values.find(r.name);
     std::string fault;
     if (found == values.end()) {
+      if (r.may_be_absent && all_asked) continue;
+      if (r.also_called != nullptr && values.contains(r.also_called)) continue;
       fault = fmt::format("{} was not read", r.name);
     } else if (!r.allows(found->second)) {
       const std::string range = r.bits != 0             ? fmt::format("without bits {}", r.bits)

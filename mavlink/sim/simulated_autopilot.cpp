@@ -20,8 +20,9 @@ constexpr Duration kSpoolUp{1'000'000}, kRamp{3'000'000}, kTakeOffPatience{10'00
 /// Of the speed that the ramp begins with, so that it is one.
 constexpr double kRampFrom = 0.02;
 constexpr double kDescend = 0.7, kStop = 4.0;
-constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCEPT", "NAV_DLL_ACT",    "EKF2_EV_CTRL",
-                               "EKF2_HGT_REF",   "EKF2_GPS_CTRL",  "EKF2_MAG_TYPE",  "EKF2_BARO_CTRL", "MC_AIRMODE"};
+constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCEPT",  "NAV_DLL_ACT",
+                               "EKF2_EV_CTRL",   "EKF2_HGT_REF",   "EKF2_GPS_CTRL",   "EKF2_MAG_TYPE",
+                               "EKF2_BARO_CTRL", "MC_AIRMODE",     "MPC_ACC_DECOUPLE"};
 constexpr std::uint8_t kUnknownSource = 0, kNaive = 1, kVision = 2, kVio = 3, kLocalNed = 1;
 /// Without any the estimator has no position (EKF2_NOAID_TOUT is longer).
 constexpr Duration kVisionLoss{1'000'000};
@@ -50,7 +51,9 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
                   {"EKF2_EV_CTRL", 0.0},     {"EKF2_HGT_REF", 1.0},      {"EKF2_GPS_CTRL", 7.0},
                   {"EKF2_MAG_TYPE", 0.0},    {"EKF2_BARO_CTRL", 1.0},    {"SIM_ARM_REFUSE", 0.0},
                   {"SIM_BAT_PCT", 90.0},     {"SIM_EST_JUMP", 0.0},      {"GUID_TIMEOUT", 3.0},
-                  {"FS_GCS_ENABLE", 0.0},    {"SIM_HOME_UP", 0.0},       {"MC_AIRMODE", 0.0}} {
+                  {"FS_GCS_ENABLE", 0.0},    {"SIM_HOME_UP", 0.0},       {"MC_AIRMODE", 0.0},
+                  {"MPC_ACC_DECOUPLE", 1.0}, {"SYSID_MYGCS", 255.0},     {"ANGLE_MAX", 3000.0},
+                  {"PSC_JERK_XY", 5.0},      {"PSC_JERK_Z", 5.0}} {
   model_.set_armed(false);
   tune();
   begin_streams(now);

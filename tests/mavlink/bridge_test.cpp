@@ -93,12 +93,18 @@ TEST(Bridge, RefusesParametersThatFlyAwayWhenTheLinkIsLost) {
   EXPECT_EQ(flight.bridge.stage(), Stage::Waiting);
   EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("COM_OBL_RC_ACT is 0, not within [4, 5]"));
   EXPECT_FALSE(flight.autopilot.armed());
-  flight.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{4}),
-                                          .target_system = 1,
-                                          .param_id = text_of<16>("COM_OBL_RC_ACT"),
-                                          .param_type = 6},
-                                 {255, 190}, 0),
-                        flight.now);
+  const auto set = [&](const char* name, std::int32_t value) {
+    flight.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(value),
+                                            .target_system = 1,
+                                            .param_id = text_of<16>(name),
+                                            .param_type = 6},
+                                   {255, 190}, 0),
+                          flight.now);
+  };
+  set("COM_OBL_RC_ACT", 4);
+  flight.run(2.0);
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("MPC_ACC_DECOUPLE is 1, not within [0, 0]"));
+  set("MPC_ACC_DECOUPLE", 0);
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
 }
 
@@ -346,6 +352,30 @@ TEST(Autopilot, TakesTheTruthThatStatesNoTimeForWhenItCameButNoneWithoutAnOrigin
   EXPECT_LT(autopilot.truth()->at, now) << "a simulation that does not know yet where it is";
 }
 
+/// As PX4's Gazebo tells it: attitude and velocity at 100 Hz, a new position with every third.
+TEST(Autopilot, TakesNoTruthWhosePositionIsThatOfBefore) {
+  UTime now{1'000'000'000};
+  Autopilot autopilot;
+  const auto hear = [&](const auto& message) { autopilot.hear(to_frame(message, {1, 1}, 0), now); };
+  hear(Heartbeat{.autopilot = 12});
+  hear(GpsGlobalOrigin{.latitude = 473977418, .longitude = 85455938, .altitude = 488'000});
+  int taken = 0;
+  for (int k = 0; k < 30; ++k, now = now + Duration{10'000}) {
+    const std::int32_t mm = 60 * (k - k % 3);  // upwards at 6 m/s
+    hear(HilStateQuaternion{
+        .q = {1, 0, 0, 0}, .lat = 473977418, .lon = 85455938, .alt = 488'500 + mm, .v = {0, 0, -600}});
+    ASSERT_TRUE(autopilot.truth());
+    const UavState& truth = *autopilot.truth();
+    const double late_s = (now - truth.at).seconds();
+    EXPECT_NEAR(truth.motion.p.z() + 6.0 * late_s, 0.5 + 0.06 * k, 1e-6);
+    taken += truth.at == now ? 1 : 0;
+  }
+  EXPECT_EQ(taken, 10);
+  const HilStateQuaternion rests{.q = {1, 0, 0, 0}, .lat = 473977418, .lon = 85455938, .alt = 490'120};
+  for (int k = 0; k < 3; ++k, now = now + Duration{10'000}) hear(rests);
+  EXPECT_EQ(autopilot.truth()->at, now - Duration{10'000}) << "who rests is where it was";
+}
+
 TEST(Bridge, AnswersToOthersAreNoneOfItsOwn) {
   FlightInMemory flight;
   flight.set_parameter("SIM_ARM_REFUSE", 1.0F);
@@ -369,7 +399,7 @@ TEST(RequiredParameters, AskForNoNarrowerBoundsThanPlansHave) {
                                        {"MPC_Z_VEL_MAX_UP", 3},   {"MPC_Z_VEL_MAX_DN", 1.5}, {"MPC_TILTMAX_AIR", 45},
                                        {"MC_ROLLRATE_MAX", 1000}, {"MC_PITCHRATE_MAX", 220}, {"MC_AIRMODE", 0}};
   const auto faults = [&](bool without_remote, bool vision) {
-    return parameter_faults(required_parameters(Firmware::Px4, uav, without_remote, vision), values);
+    return parameter_faults(required_parameters(Firmware::Px4, uav, 1, without_remote, vision), values, true);
   };
   EXPECT_THAT(faults(false, false), HasSubstr("MPC_Z_VEL_MAX_DN is 1.5, below 2: it clips"));
   EXPECT_THAT(faults(false, false), HasSubstr("MPC_TILTMAX_AIR is 45, below 60: plans may tilt as far"));
@@ -378,12 +408,39 @@ TEST(RequiredParameters, AskForNoNarrowerBoundsThanPlansHave) {
   EXPECT_EQ(faults(false, false), "");
   EXPECT_THAT(faults(true, false), HasSubstr("COM_RC_IN_MODE was not read"));
   EXPECT_THAT(faults(false, true), HasSubstr("EKF2_EV_CTRL was not read"));
-  for (const RequiredParameter& r : required_parameters(Firmware::Px4, uav, true, true)) {
+  for (const RequiredParameter& r : required_parameters(Firmware::Px4, uav, 1, true, true)) {
     values[r.name] = r.recommended;
   }
   EXPECT_EQ(faults(true, true), "") << "what is recommended is allowed";
+  values.erase("MPC_ACC_DECOUPLE");
+  EXPECT_EQ(faults(true, true), "") << "an older PX4 has none";
+  const auto required = required_parameters(Firmware::Px4, uav, 1, true, true);
+  EXPECT_EQ(parameter_faults(required, values, false), "MPC_ACC_DECOUPLE was not read") << "it may still come";
+  values["MPC_ACC_DECOUPLE"] = 1;
+  EXPECT_THAT(faults(true, true), HasSubstr("MPC_ACC_DECOUPLE is 1, not within [0, 0]"));
   uav.limits.dynamics.reset();
   EXPECT_THAT(faults(false, false), HasSubstr("MPC_TILTMAX_AIR is 60, below 85")) << "plans may ask for any tilt";
+}
+
+TEST(RequiredParameters, OfACopterAreThoseThatShapeWhatItIsTold) {
+  UavSpec uav;
+  uav.limits.dynamics = Dynamics{.thrust_max = 16.0, .tilt_max_deg = 38.0, .body_rate_max_deg_s = 170.0};
+  std::map<std::string, double> values{{"GUID_TIMEOUT", 0.5}, {"FS_GCS_ENABLE", 5}, {"SYSID_MYGCS", 255},
+                                       {"ANGLE_MAX", 3000},   {"PSC_JERK_XY", 5},   {"PSC_JERK_Z", 5}};
+  const auto faults = [&] {
+    return parameter_faults(required_parameters(Firmware::ArduPilot, uav, 3, false, false), values, true);
+  };
+  EXPECT_THAT(faults(), HasSubstr("SYSID_MYGCS is 255, not within [3, 3]"));
+  EXPECT_THAT(faults(), HasSubstr("ANGLE_MAX is 3000, below 3800"));
+  EXPECT_THAT(faults(), HasSubstr("PSC_JERK_XY is 5, below 47.4"));  // 16 m/s2 that turn by 170 degrees/s
+  uav.limits.j_max = Vec3(3, 4, 2);
+  EXPECT_THAT(faults(), Not(HasSubstr("PSC_JERK")));
+  values["ANGLE_MAX"] = 3800, values["SYSID_MYGCS"] = 3;
+  EXPECT_EQ(faults(), "");
+  values = {{"GUID_TIMEOUT", 0.5}, {"FS_GCS_ENABLE", 5}, {"MAV_GCS_SYSID", 3}};
+  EXPECT_EQ(faults(), "") << "a newer one calls them otherwise";
+  values.erase("MAV_GCS_SYSID");
+  EXPECT_THAT(faults(), HasSubstr("SYSID_MYGCS was not read")) << "under one of both names it is there";
 }
 
 TEST(Axes, TurnBothWaysAndAgree) {

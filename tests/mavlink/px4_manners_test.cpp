@@ -241,16 +241,16 @@ TEST(Px4Manners, AirmodeIsNotFlown) {
 }
 
 TEST(Px4Manners, RemoteLossMayBeExceptedInOtherModesToo) {
-  const auto required = required_parameters(Firmware::Px4, FlightInMemory::uav(), true, false);
+  const auto required = required_parameters(Firmware::Px4, FlightInMemory::uav(), 1, true, false);
   std::map<std::string, double> values;
   for (const RequiredParameter& r : required) values[r.name] = r.recommended;
   for (const double value : {4.0, 7.0, 12.0, 15.0, 31.0}) {
     values["COM_RCL_EXCEPT"] = value;
-    EXPECT_EQ(parameter_faults(required, values), "") << value;
+    EXPECT_EQ(parameter_faults(required, values, true), "") << value;
   }
   for (const double value : {0.0, 3.0, 8.0, 11.0}) {
     values["COM_RCL_EXCEPT"] = value;
-    EXPECT_THAT(parameter_faults(required, values), HasSubstr("COM_RCL_EXCEPT is")) << value;
+    EXPECT_THAT(parameter_faults(required, values, true), HasSubstr("COM_RCL_EXCEPT is")) << value;
   }
 }
 
