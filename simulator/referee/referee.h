@@ -49,8 +49,8 @@ class Referee {
   /// @param vehicle  where it was at a world time, W
   void admit(double t_s, const std::function<Vec3(double)>& vehicle);
 
-  /// Names of those that overlap the body at the scenario's start within [from_s, 0), world time, every 10 ms: while all
-  /// wait, what is on its way passes through it. No contact counts before 0.
+  /// Names of those that overlap the body at the scenario's start within [from_s, 0), world time, every 10 ms: while
+  /// all wait, what is on its way passes through it. No contact counts before 0.
   [[nodiscard]] std::vector<std::string> who_passes_the_start(double from_s) const;
 
   /// The vehicle flew `piece` from world time `start` on. After the verdict nothing is taken any more.

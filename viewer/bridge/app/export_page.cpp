@@ -141,7 +141,8 @@ std::string deflated(const std::string& bytes) {
 Result<std::string> inline_page(const PageFiles& files, const std::string& packed) {
   const auto index = files.find("/index.html");
   const auto licences = files.find("/licences.txt");
-  if (index == files.end() || licences == files.end()) return fail("the page is not built: launch_scripts/view_page.sh builds it");
+  if (index == files.end() || licences == files.end())
+    return fail("the page is not built: launch_scripts/view_page.sh builds it");
   std::string html = index->second.bytes;
   for (const auto& [path, file] : files) {
     std::string text = file.bytes;
