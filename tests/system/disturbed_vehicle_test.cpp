@@ -43,6 +43,18 @@ TEST(DisturbedVehicle, InAGustAmongObstaclesArrivesWithoutAContact) {
   }
 }
 
+TEST(DisturbedVehicle, WhoseControllerIsThreeTimesTooSoftArrivesInStillAir) {
+  for (const int seed : {1, 2}) {
+    SCOPED_TRACE(seed);
+    const std::string controller = "simulator.quadrotor.controller.";
+    const DisturbedFlight flight(
+        "quadrotor_corridor", {"seed=" + std::to_string(seed), "simulator.wind.speed=0", controller + "position_p=0.83",
+                               controller + "velocity_p=1.67", controller + "velocity_i=0.67"});
+    expect_reached(flight.result());
+    EXPECT_EQ(flight.exits(), 0);
+  }
+}
+
 TEST(DisturbedVehicle, WhoseEstimateJumpsRejoinsWhereItBelievesToBe) {
   const DisturbedFlight flight("quadrotor_corridor", {"seed=1", "world.count=10", "simulator.estimator.jump_m=0.6",
                                                       "simulator.estimator.jump_at_s=6"});
