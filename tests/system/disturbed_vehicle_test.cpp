@@ -56,20 +56,25 @@ TEST(DisturbedVehicle, WhoseControllerIsThreeTimesTooSoftArrivesInStillAir) {
 }
 
 TEST(DisturbedVehicle, WhoseEstimateJumpsRejoinsWhereItBelievesToBe) {
-  const DisturbedFlight flight("quadrotor_corridor", {"seed=1", "world.count=10", "simulator.estimator.jump_m=0.6",
-                                                      "simulator.estimator.jump_at_s=6"});
-  EXPECT_EQ(flight.exits(), 1);
-  EXPECT_EQ(flight.result().outcome, FlightOutcome::Timeout) << "in truth it hovers 0.6 m beside the goal";
+  for (const int seed : {2, 3}) {
+    SCOPED_TRACE(seed);
+    const DisturbedFlight flight("quadrotor_corridor",
+                                 {"seed=" + std::to_string(seed), "world.count=10", "simulator.estimator.jump_m=0.6",
+                                  "simulator.estimator.jump_at_s=6"});
+    EXPECT_EQ(flight.exits(), 1);
+    EXPECT_EQ(flight.result().outcome, FlightOutcome::Timeout) << "in truth it hovers 0.6 m beside the goal";
+  }
 }
 
-TEST(DisturbedVehicle, WhoseEstimateJumpsAmongManyObstaclesTouchesNothing) {
-  // Each flew on into an obstacle, while its tube did not hold the place where it truly was.
+TEST(DisturbedVehicle, WhoseEstimateJumpsAmongManyObstaclesFliesIntoNothing) {
+  // Each flew on into an obstacle, while its tube did not hold the place where it truly was. Where that leaves no way
+  // it waits, and may be hit.
   for (const int seed : {4, 10, 13, 15}) {
     SCOPED_TRACE(seed);
     const DisturbedFlight flight(
         "quadrotor_corridor",
         {"seed=" + std::to_string(seed), "simulator.estimator.jump_m=0.6", "simulator.estimator.jump_at_s=8"});
-    EXPECT_NE(flight.result().outcome, FlightOutcome::Collision) << flight.result().detail;
+    EXPECT_EQ(flight.result().contacts_moving, 0) << flight.result().detail;
   }
 }
 
