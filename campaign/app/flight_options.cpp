@@ -21,7 +21,9 @@ std::string why_not_run(const std::string& program) {
   bool runs = program.find('/') != std::string::npos && can_run(program);
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr || program.find('/') != std::string::npos ? "" : path);
-  for (std::string folder; !runs && std::getline(folders, folder, ':');) runs = can_run(folder + '/' + program);
+  for (std::string folder; !runs && std::getline(folders, folder, ':');) {
+    runs = can_run(std::filesystem::path(folder) / program);
+  }
   return runs ? "" : program + ": no program that can be run";
 }
 

@@ -42,7 +42,7 @@ std::int64_t band_of(double way_to_go, double width) {
 /// Bands counted from the border of S, the first half as wide: as, counted from 0, the border leaves on the mean. That
 /// may leave a millimetre, and a whole tree is searched in vain for a leaf in it.
 std::int64_t band_from_border(double beyond, double width) {
-  return static_cast<std::int64_t>(std::min(beyond / width, kMostBands) + 0.5);
+  return std::llround(std::min(beyond / width, kMostBands));
 }
 
 /// No point of S has a smaller cost-to-go.

@@ -38,12 +38,14 @@ void Referee::admit(double t_s, const std::function<Vec3(double)>& vehicle) {
 std::vector<std::string> Referee::who_passes_the_start(double from_s) const {
   const BodyDistance distance(uav_.body);
   std::set<std::int64_t> passers;
-  for (double t_s = from_s; t_s < 0.0; t_s += 1e-6 * kStepUs) {
-    for (const TrueObstacle& o : true_obstacles(world_, t_s)) {
+  const int steps = static_cast<int>(std::ceil(-from_s * 1e6 / kStepUs));
+  for (int k = 1; k <= steps; ++k) {
+    for (const TrueObstacle& o : true_obstacles(world_, -1e-6 * k * kStepUs)) {
       if (distance(uav_.start - o.position, o.half_extents) < 0.0) passers.insert(o.id);
     }
   }
   std::vector<std::string> names;
+  names.reserve(passers.size());
   for (const std::int64_t id : passers) names.push_back(name_of(id));
   return names;
 }
