@@ -9,6 +9,8 @@ set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
+bin=${TERN_BIN#"$TERN_ROOT/"} # a summary holds the command: no path of this machine
+
 # name, scenario, obstacles, seeds, further settings
 campaigns="
 paper_corridor_300 paper_corridor 300 1000
@@ -23,8 +25,8 @@ mader_corridor_250 mader_corridor 250 200
 mader_own_limits_140 mader_corridor_own_limits 140 200
 sando_forest_50 sando_forest 50 200
 sando_forest_100 sando_forest 100 200
-quadrotor_corridor_100 quadrotor_corridor 100 1000 --charge counts --audit $TERN_BIN/tern-audit
-quadrotor_forest_200 quadrotor_forest 200 200 --charge counts --audit $TERN_BIN/tern-audit
+quadrotor_corridor_100 quadrotor_corridor 100 1000 --charge counts --audit $bin/tern-audit
+quadrotor_forest_200 quadrotor_forest 200 200 --charge counts --audit $bin/tern-audit
 "
 perception=""
 for world in perception_only,100 mader_perception_only,100 sando_perception,200 people_hermes_050,0 people_hermes_090,0 \
@@ -45,8 +47,8 @@ share=1 out=$TERN_ROOT/build/results only=" " coverage=()
 while (($#)); do
   case $1 in
     --share) share=${2:?} && shift 2 ;;
-    --out) out=${2:?} && shift 2 ;;
-    --perception) campaigns=$perception coverage=(--coverage "$TERN_BIN/tern-audit") && shift ;;
+    --out) out=$(realpath -m "${2:?}") && shift 2 ;;
+    --perception) campaigns=$perception coverage=(--coverage "$bin/tern-audit") && shift ;;
     --sensors) campaigns=$sensors && shift ;;
     -h | --help) sed -n '2,7s/^# //p' "$0" && exit ;;
     -*) die "no option $1" ;;
@@ -57,13 +59,15 @@ done
 for name in $only; do grep -q "^$name " <<<"$campaigns" || die "no campaign $name"; done
 build_programs
 mkdir -p "$out"
+cd "$TERN_ROOT"
+out=${out#"$TERN_ROOT/"}
 while read -r name scenario count seeds settings; do
   [[ -n $name ]] || continue
   [[ $only == " " || $only == *" $name "* ]] || continue
   last=$(awk -v n="$seeds" -v s="$share" 'BEGIN { k = int(n * s); print k < 1 ? 1 : k }')
   say "== $name: seeds 1 to $last"
   # shellcheck disable=SC2086  # settings are words
-  "$TERN_BIN/tern-campaign" --world "$TERN_ROOT/scenarios/$scenario.yaml" --count "$count" --seeds "1:$last" $settings \
+  "$bin/tern-campaign" --world "scenarios/$scenario.yaml" --count "$count" --seeds "1:$last" $settings \
     "${coverage[@]}" --out "$out/$name.csv" --summary "$out/$name.json"
 done <<<"$campaigns"
 "$TERN_ROOT/docs/results/table.py" "$out"/*.json

@@ -21,9 +21,9 @@ constexpr Duration kOdometryRules{500'000};
 constexpr std::size_t kMostWaiting = 64;
 constexpr std::size_t kMostParameters = 4096, kLongestText = 400;
 
-/// ESTIMATOR_STATUS_FLAGS.
 /// How long an estimator may lack a position for a fault of its inputs.
 constexpr Duration kFaultPasses{1'000'000};
+/// ESTIMATOR_STATUS_FLAGS.
 constexpr unsigned kVelocity = 2, kPositionRelative = 8, kPositionAbsolute = 16, kAccelerometerWrong = 2048;
 
 template <class T>

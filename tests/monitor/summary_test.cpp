@@ -151,6 +151,8 @@ TEST(Summary, SaysWhereABlockedGoalIsExplained) {
   s.reasons[idx(PlanReason::GoalBlocked)] = 120;
   EXPECT_THAT(to_text(s),
               testing::StartsWith("timeout: 9 m from the goal; the goal was blocked: tern-planner.log says"));
+  s.outcome = FlightOutcome::Collision;
+  EXPECT_THAT(to_text(s), Not(testing::HasSubstr("the goal was blocked"))) << "that is not why it ended";
 }
 
 TEST(Summary, TellsAPersonTheOutcomeFirst) {

@@ -295,6 +295,10 @@ await run({
     await shows(page, 'a click jumps', (s) => Math.abs(s.vehicle[0] - 10) < 0.3);
     // The panels are drawn some times a second, the scene with every picture.
     await eventually('one cursor', () => page.evaluate(() => Math.abs(window.tern.timeline.now - 10) < 0.3));
+    await eventually('numbers are of the state that the panels show', () => page.evaluate(() => {
+      const { charts, known: { state, player } } = window.tern;
+      return Math.abs(charts.told - (state.at_us - player.zero_us) * 1e-6) < 1e-9;
+    }));
     await page.evaluate(() => { // a curve that keeps but two of its rows
       const { charts } = window.tern;
       charts.series['clearance.obstacles_m'] = [[0, 20], [5, 25]];

@@ -256,8 +256,8 @@ const pointer = new Pointer(canvas, world, {
 let last = performance.now();
 let isFilmed = false; // pictures are asked for, one by one
 let framesDrawn = 0;
-let touched = false; // by the user, who may have switched something
-for (const event of ['pointerdown', 'pointerup', 'click', 'keydown', 'input', 'change']) {
+let touched = false; // by the user, who may have switched something, or emptied the canvas by another size
+for (const event of ['pointerdown', 'pointerup', 'click', 'keydown', 'input', 'change', 'resize']) {
   addEventListener(event, () => (touched = true), { capture: true });
 }
 function draw(now) {
