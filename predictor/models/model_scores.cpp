@@ -8,12 +8,14 @@ namespace {
 
 constexpr double kDegrees = 4.0;
 
-PerModel<double> softmax(const PerModel<double>& a, const PerModel<double>& b) {
-  PerModel<double> sum;
-  for (std::size_t j = 0; j < kModels; ++j) sum[j] = a[j] + b[j];
-  const double best = *std::max_element(sum.begin(), sum.end());
+// Over the first `count` candidates.
+PerCandidate<double> softmax(const PerCandidate<double>& a, const PerCandidate<double>& b, std::size_t count) {
+  PerCandidate<double> sum{};
+  for (std::size_t j = 0; j < count; ++j) sum[j] = a[j] + b[j];
+  const auto end = sum.begin() + static_cast<std::ptrdiff_t>(count);
+  const double best = *std::max_element(sum.begin(), end);
   double all = 0.0;
-  for (double& s : sum) all += s = std::exp(s - best);
+  std::for_each(sum.begin(), end, [&](double& s) { all += s = std::exp(s - best); });
   double kept = 0.0;
   for (double& s : sum) kept += s = s / all < kLeastWeight ? 0.0 : s;
   for (double& s : sum) s /= kept;
@@ -26,42 +28,57 @@ double predictive_score(double error, double variance) {
   return -0.5 * (kDegrees + 1.0) * std::log1p(error * error / (kDegrees * variance)) - 0.5 * std::log(variance);
 }
 
-void ModelScores::add(std::size_t horizon, const PerModel<double>& scores, double forgetting) {
-  PerModel<double>& sums = sums_[horizon];
-  const double weight = std::min(1.0, kScorePeriod / kScoredAhead[horizon]);
-  for (std::size_t j = 0; j < kModels; ++j) sums[j] = forgetting * sums[j] + weight * scores[j];
+void ModelScores::add(std::size_t horizon, const PerCandidate<double>& scores, double forgetting) {
+  PerCandidate<double>& sums = sums_[horizon];
+  for (std::size_t j = 0; j < sums.size(); ++j)
+    sums[j] = forgetting * sums[j] + worth(kScoredAhead[horizon]) * scores[j];
   const double best = *std::max_element(sums.begin(), sums.end());
   for (double& sum : sums) sum = std::max(sum - best, -kFarthestBehind);
 }
 
-HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own) {
+HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own, double learnt_to) {
   HorizonWeights weights;
-  for (std::size_t h = 0; h < kScoredHorizons; ++h) weights[h] = softmax(pool.at(h), own.at(h));
+  weights.learnt_to = learnt_to;
+  for (std::size_t h = 0; h < kScoredHorizons; ++h) {
+    weights.given[h] = softmax(pool.at(h), own.at(h), kModels);
+    if (kScoredAhead[h] <= learnt_to) {
+      weights.all[h] = softmax(pool.at(h), own.at(h), kModels + 1);
+    } else {
+      weights.all[h] = h == 0 ? weights.given[h] : weights.all[h - 1];
+    }
+  }
   return weights;
 }
 
-PerModel<double> weights_at(const HorizonWeights& weights, double ahead_s) {
-  if (ahead_s <= kScoredAhead.front()) return weights.front();
-  if (ahead_s >= kScoredAhead.back()) return weights.back();
+PerCandidate<double> weights_at(const HorizonWeights& weights, double ahead_s) {
   std::size_t h = 0;
-  while (ahead_s > kScoredAhead[h + 1]) ++h;
-  const double u = std::log2(ahead_s / kScoredAhead[h]);  // each is twice the one before
-  PerModel<double> between;
-  for (std::size_t j = 0; j < kModels; ++j) between[j] = (1.0 - u) * weights[h][j] + u * weights[h + 1][j];
-  return between;
+  while (h + 2 < kScoredHorizons && ahead_s > kScoredAhead[h + 1]) ++h;
+  const double u = std::clamp(std::log2(ahead_s / kScoredAhead[h]), 0.0, 1.0);  // each is twice the one before
+  double faded = 1.0;
+  if (weights.learnt_to > 0.0) faded = std::clamp((ahead_s / weights.learnt_to - 1.0) / (kUnlearnt - 1.0), 0.0, 1.0);
+  const auto between = [&](const HorizonWeights::Scored& of, std::size_t j) {
+    return (1.0 - u) * of[h][j] + u * of[h + 1][j];
+  };
+  PerCandidate<double> sum;
+  for (std::size_t j = 0; j < sum.size(); ++j) {
+    sum[j] = faded >= 1.0 ? between(weights.given, j)
+                          : (1.0 - faded) * between(weights.all, j) + faded * between(weights.given, j);
+  }
+  return sum;
 }
 
-Mixed mixed(const BankFilter& bank, const BankLook& ahead, const PerModel<double>& weights) {
+Mixed mixed(const BankFilter& bank, const BankLook& ahead, const FilterLook& learnt,
+            const PerCandidate<double>& weights) {
   Mixed sum;
-  std::array<FilterLook, kModels> said;
-  for (std::size_t j = 0; j < kModels; ++j) {
+  PerCandidate<FilterLook> said;
+  for (std::size_t j = 0; j < said.size(); ++j) {
     if (weights[j] <= 0.0) continue;
-    said[j] = bank.of(j).at(ahead[j]);
+    said[j] = j == kLearnt ? learnt : bank.of(j).at(ahead[j]);
     sum.centre += weights[j] * said[j].position;
     sum.velocity += weights[j] * said[j].velocity;
   }
   Vec3 variance = Vec3::Zero();
-  for (std::size_t j = 0; j < kModels; ++j) {
+  for (std::size_t j = 0; j < said.size(); ++j) {
     if (weights[j] <= 0.0) continue;
     variance += weights[j] * (said[j].variance + (said[j].position - sum.centre).cwiseAbs2());
   }

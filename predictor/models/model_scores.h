@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "predictor/models/learnt_model.h"
 #include "predictor/models/model_bank.h"
 
 namespace tern {
@@ -14,6 +15,8 @@ inline constexpr std::array<double, 4> kScoredAhead{0.25, 0.5, 1.0, 2.0};
 inline constexpr std::size_t kScoredHorizons = kScoredAhead.size();
 /// A track's predictions are scored once in so many seconds.
 inline constexpr double kScorePeriod = 0.25;
+/// Scores of spans that overlap are alike: for how many independent ones one over `ahead_s` counts, (0, 1].
+constexpr double worth(double ahead_s) { return ahead_s > kScorePeriod ? kScorePeriod / ahead_s : 1.0; }
 /// Forgetting per score: of all tracks of a kind, and of one track.
 inline constexpr double kPoolForgetting = 0.98;
 inline constexpr double kOwnForgetting = 0.9;
@@ -23,28 +26,40 @@ inline constexpr double kFarthestBehind = 8.0;
 /// What weighs less is not used.
 inline constexpr double kLeastWeight = 0.02;
 
+/// The bank's models and, last, the one that is learnt (learnt_model.h).
+inline constexpr std::size_t kLearnt = kModels;
+template <typename T>
+using PerCandidate = std::array<T, kModels + 1>;
+
 /// log density of Student's t (ν = 4) with scale² `variance`, up to a constant: one surprise does not decide alone.
 double predictive_score(double error, double variance);
 
-/// Sums of scores by horizon and model. Scores of overlapping spans are not independent: one over h counts
-/// kScorePeriod/h.
+/// Sums of scores by horizon and model, each as it is worth.
 class ModelScores {
  public:
-  void add(std::size_t horizon, const PerModel<double>& scores, double forgetting);
-  [[nodiscard]] const PerModel<double>& at(std::size_t horizon) const { return sums_[horizon]; }
-  PerModel<double>& at(std::size_t horizon) { return sums_[horizon]; }
+  void add(std::size_t horizon, const PerCandidate<double>& scores, double forgetting);
+  [[nodiscard]] const PerCandidate<double>& at(std::size_t horizon) const { return sums_[horizon]; }
+  PerCandidate<double>& at(std::size_t horizon) { return sums_[horizon]; }
 
  private:
-  std::array<PerModel<double>, kScoredHorizons> sums_{};
+  std::array<PerCandidate<double>, kScoredHorizons> sums_{};
 };
 
-using HorizonWeights = std::array<PerModel<double>, kScoredHorizons>;
+/// How much each candidate counts, at the scored horizons.
+struct HorizonWeights {
+  using Scored = std::array<PerCandidate<double>, kScoredHorizons>;
+  Scored all, given;       ///< with the learnt model, and without
+  double learnt_to = 0.0;  ///< s ahead, the learnt model says something; 0: nothing
+};
 
 /// Softmax of the sums of both, without what weighs less than kLeastWeight.
-HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own);
+/// @param learnt_to  HorizonWeights::learnt_to
+HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own, double learnt_to);
 
-/// Linear in log time between the scored horizons, that of the nearest one outside. Sums to 1.
-PerModel<double> weights_at(const HorizonWeights& weights, double ahead_s);
+/// Linear in log time between the horizons, that of the nearest one outside. From learnt_to to kUnlearnt times that the
+/// learnt model's weight fades. Sums to 1.
+PerCandidate<double> weights_at(const HorizonWeights& weights, double ahead_s);
+inline constexpr double kUnlearnt = 1.2;
 
 /// What the bank says of some time ahead: mean and deviation of the mixture, per axis of W.
 struct Mixed {
@@ -52,6 +67,8 @@ struct Mixed {
   Vec3 velocity = Vec3::Zero();   ///< m/s
   Vec3 deviation = Vec3::Zero();  ///< of the centre, m
 };
-Mixed mixed(const BankFilter& bank, const BankLook& ahead, const PerModel<double>& weights);
+/// @param learnt  what the learnt model says; not looked at if its weight is 0
+Mixed mixed(const BankFilter& bank, const BankLook& ahead, const FilterLook& learnt,
+            const PerCandidate<double>& weights);
 
 }  // namespace tern

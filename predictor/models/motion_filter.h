@@ -46,6 +46,10 @@ class MotionFilter {
   [[nodiscard]] Vec3 variance() const;                ///< of the position, m²
   [[nodiscard]] AxisFilter marginal(int axis) const;  ///< position and velocity alone
   [[nodiscard]] FilterLook at(const ModelLook& ahead) const;
+  /// All states of an axis.
+  [[nodiscard]] const double* mean(int axis) const {
+    return states_.mean + static_cast<std::ptrdiff_t>(states_.order) * axis;
+  }
 
  private:
   [[nodiscard]] Vec3 state(int row) const {

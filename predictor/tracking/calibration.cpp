@@ -87,7 +87,7 @@ double Calibration::allowed(std::size_t level, std::size_t band) const {
   return kAllowedShare[band] * (1.0 - confidence_[level]);
 }
 
-double Calibration::worth(std::size_t band) { return std::min(1.0, kScorePeriod / kBandEnds[band]); }
+double Calibration::worth(std::size_t band) { return tern::worth(kBandEnds[band]); }
 
 double Calibration::margin(TrackClass kind, std::size_t band, double level) const {
   const auto row = static_cast<std::size_t>(kind);

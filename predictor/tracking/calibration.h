@@ -24,13 +24,16 @@ enum class TrackClass {
   CalmOld,      ///<
   LivelyGrown,  ///< by lively ones
   LivelyOld,    ///<
+  Learnt,       ///< by the one that is learnt in the flight (learnt_model.h)
 };
-inline constexpr std::size_t kTrackClasses = 8;
-/// Classes of one pool learn from each other's scores: the old ones, of which a flight sees most. What is younger moves
-/// in ways that its kind hardly foretells; such a class learns from its own scores alone.
-inline constexpr std::size_t kPools = 6;
+inline constexpr std::size_t kTrackClasses = 9;
+/// Classes of one pool learn from each other's scores: the old ones that given models predict, of which most flights
+/// see most. What is younger moves in ways that its kind hardly foretells, and the learnt model errs in its own; such a
+/// class learns from its own scores alone.
+inline constexpr std::size_t kPools = 7;
 constexpr std::size_t pool_of(TrackClass kind) {
   const auto k = static_cast<std::size_t>(kind);
+  if (kind == TrackClass::Learnt) return kPools - 2;
   return k < 2 ? k : k % 2 == 1 ? kPools - 1 : 1 + k / 2;
 }
 inline constexpr double kYoungAge = 0.3;  ///< s

@@ -20,11 +20,14 @@ constexpr double kSpeedMemory = 3.0;
 // By its models' weights at this horizon a track has its class.
 constexpr std::size_t kClassHorizon = 2;
 // A new track's predictions are scored at its first detections of these numbers; then once in kScorePeriod.
-constexpr std::array kFirstScored{1, 2, 3, 5, 8};
+constexpr std::array kFirstScored{1, 2, 3, 5, 8, 11};
 
 // A thing whose nearest detection is so much farther off than what is judged, m, is no better explanation of it.
 constexpr double kFarApart = 2.0;
-static_assert(std::find(kJudgedAhead.begin(), kJudgedAhead.end(), kSpeedSpan) != kJudgedAhead.end());
+constexpr bool is_judged(double ahead_s) {
+  return std::find(kJudgedAhead.begin(), kJudgedAhead.end(), ahead_s) != kJudgedAhead.end();
+}
+static_assert(is_judged(kSpeedSpan) && std::all_of(kLearntAhead.begin(), kLearntAhead.end(), is_judged));
 
 // The truth at a time from detections near it, or between two neighbours.
 template <typename Sample>
@@ -96,7 +99,7 @@ UTime judged_at(UTime at, std::size_t k) { return at + Duration::from_seconds(kJ
 
 }  // namespace
 
-Judge::Judge(double confidence) : calibration_(confidence) {
+Judge::Judge(double confidence, bool learns) : learns_(learns), calibration_(confidence) {
   const BankStep none = bank_step(0.0);
   for (std::size_t k = 0; k < looks_.size(); ++k) looks_[k] = bank_look(bank_step(kJudgedAhead[k]), none);
 }
@@ -114,6 +117,7 @@ void Judge::take(UTime at, const std::vector<SeenTrack>& seen, const std::set<st
   }
   calibration_.set_pace(pace());
   calibration_.refresh();
+  look_anew();
   for (const SeenTrack& track : seen) {
     if (!track.rests) issue(track, at, histories_[track.id]);
   }
@@ -123,6 +127,15 @@ void Judge::take(UTime at, const std::vector<SeenTrack>& seen, const std::set<st
     for (const Issue& issue : history.issues) judged_.push_back(issue.judged);
     return true;
   });
+}
+
+void Judge::look_anew() {
+  learnt_.refresh();
+  for (std::size_t group = 0; group < kLearntGroups; ++group) {
+    for (std::size_t k = 0; k < kJudgedAhead.size(); ++k) {
+      learnt_looks_[group][k] = learnt_.at(kJudgedAhead[k], group);
+    }
+  }
 }
 
 void Judge::follow(const SeenTrack& track, UTime at, History& history) {
@@ -148,18 +161,23 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   issue.pool = pool_of(track, at, history.fastest);
   issue.score = -kModelSigmas;
   issue.half.fill(Vec3::Zero());
-  const HorizonWeights all = model_weights(pools_[issue.pool], history.own);
+  issue.learnt_from = learnt_from(*track.bank);
+  issue.group = learnt_group((at - track.born).seconds());
+  issue.learnt_to = learnt_to(issue.group);
+  const HorizonWeights all = model_weights(pools_[issue.pool], history.own, issue.learnt_to);
   issue.judged.kind = class_of(track, at, all);
   issue.margins = calibration_.margins(issue.judged.kind);
   for (std::size_t k = 0; k < looks_.size(); ++k) {
-    issue.said[k] = mixed(*track.bank, looks_[k], weights_at(all, kJudgedAhead[k]));
+    const FilterLook learnt = said_by(learnt_looks_[issue.group.value_or(0)][k], issue.learnt_from);
+    issue.said[k] = mixed(*track.bank, looks_[k], learnt, weights_at(all, kJudgedAhead[k]));
     const auto scored = std::find(kScoredAhead.begin(), kScoredAhead.end(), kJudgedAhead[k]);
     if (scored == kScoredAhead.end()) continue;
-    PerModel<Said>& said = issue.models_said[static_cast<std::size_t>(scored - kScoredAhead.begin())];
+    PerCandidate<Said>& said = issue.models_said[static_cast<std::size_t>(scored - kScoredAhead.begin())];
     for (std::size_t j = 0; j < kModels; ++j) {
       const FilterLook ahead = track.bank->of(j).at(looks_[k][j]);
       said[j] = {ahead.position, ahead.variance};
     }
+    said[kLearnt] = {learnt.position, learnt.variance};
   }
 }
 
@@ -196,6 +214,7 @@ void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& h
   const double own = margin_for(said, truth, kJudgedAhead[k]);
   const double score = own > 0.0 ? std::min(own, exchanged_margin(issue, truth, history)) : own;
   issue.score = std::max(issue.score, score);
+  if (score == own) learn(issue, truth);
   const Vec3 error = error_of(said, truth);
   for (std::size_t level = 0; level < issue.margins.size(); ++level) {
     Vec3& half = issue.half[level];
@@ -213,16 +232,30 @@ void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& h
   const auto scored = std::find(kScoredAhead.begin(), kScoredAhead.end(), kJudgedAhead[k]);
   if (scored == kScoredAhead.end() || score < own) return;  // the models said nothing of another thing
   const auto h = static_cast<std::size_t>(scored - kScoredAhead.begin());
-  PerModel<double> scores{};
-  for (std::size_t j = 0; j < kModels; ++j) {
+  PerCandidate<double> scores{};
+  for (std::size_t j = 0; j < scores.size(); ++j) {
     const Said& model = issue.models_said[h][j];
     for (int i = 0; i < 3; ++i) {
       scores[j] += predictive_score(truth.z[i] - model.centre[i], model.variance[i] + truth.r[i]);
     }
   }
+  if (kScoredAhead[h] > issue.learnt_to) {
+    // Who sleeps fares like the others together (Y. Freund et al., "Using and combining predictors that specialize",
+    // STOC 1997).
+    const PerCandidate<double> weights = model_weights(pools_[issue.pool], history.own, 0.0).given[h];
+    scores[kLearnt] = std::inner_product(weights.begin(), weights.end() - 1, scores.begin(), 0.0);
+  }
   history.own.add(h, scores, kOwnForgetting);
+  // The pool trusts it once it has proved better.
+  if (kScoredAhead[h] > learnt_to(kLearntGroups - 1)) scores[kLearnt] = -std::numeric_limits<double>::infinity();
   pools_[kAll].add(h, scores, kPoolForgetting);
   if (issue.pool != kAll) pools_[issue.pool].add(h, scores, kPoolForgetting);
+}
+
+void Judge::learn(const Issue& issue, const Sample& truth) {
+  const auto at = std::find(kLearntAhead.begin(), kLearntAhead.end(), kJudgedAhead[issue.next]);
+  if (!issue.group || at == kLearntAhead.end()) return;
+  learnt_.learn(idx(at - kLearntAhead.begin()), *issue.group, issue.learnt_from, truth.z, truth.r, worth(*at));
 }
 
 void Judge::see_speed(const Vec3& velocity, std::int64_t id) {
@@ -277,7 +310,8 @@ Judge::Verdict Judge::verdict(const SeenTrack& track, UTime last_seen) const {
   const ModelScores own = history == nullptr ? ModelScores{} : history->own;
   const double fastest = history == nullptr ? 0.0 : history->fastest;
   Verdict verdict;
-  verdict.weights = model_weights(pools_[pool_of(track, last_seen, fastest)], own);
+  verdict.group = learnt_group((last_seen - track.born).seconds());
+  verdict.weights = model_weights(pools_[pool_of(track, last_seen, fastest)], own, learnt_to(verdict.group));
   verdict.kind = class_of(track, last_seen, verdict.weights);
   return verdict;
 }
@@ -286,12 +320,13 @@ TrackClass Judge::class_of(const SeenTrack& track, UTime at, const HorizonWeight
   if (track.detections <= 1) return TrackClass::New;
   const double age = (at - track.born).seconds();
   if (age < kYoungAge) return TrackClass::Young;
-  const auto weight = [first_of = weights[kClassHorizon].begin()](std::size_t first, std::size_t end) {
+  const auto weight = [first_of = weights.all[kClassHorizon].begin()](std::size_t first, std::size_t end) {
     return std::accumulate(first_of + static_cast<std::ptrdiff_t>(first), first_of + static_cast<std::ptrdiff_t>(end),
                            0.0);
   };
   const double steady = weight(0, kSteadyModels), calm = weight(kSteadyModels, kCalmModels);
   const bool old = age >= kGrownAge;
+  if (weights.all[kClassHorizon][kLearnt] > 0.5) return TrackClass::Learnt;
   if (steady > 0.5) return old ? TrackClass::SteadyOld : TrackClass::SteadyGrown;
   if (calm > 0.5 * (1.0 - steady)) return old ? TrackClass::CalmOld : TrackClass::CalmGrown;
   return old ? TrackClass::LivelyOld : TrackClass::LivelyGrown;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -26,9 +27,8 @@ struct SeenTrack {
   bool rests = false;  ///< then nothing is predicted of it here
 };
 
-/// A promise is judged at these times after its making, s: near its beginning, and twice per band.
-inline constexpr std::array<double, 1 + 2 * kBands> kJudgedAhead{0.05, 0.125, 0.25, 0.375, 0.5, 0.75,
-                                                                 1.0,  1.5,   2.0,  3.0,   4.5};
+/// A promise is judged at these times after its making, s: near its beginning, and twice or thrice per band.
+inline constexpr std::array<double, 12> kJudgedAhead{0.05, 0.125, 0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.5};
 /// The truth at a time is a parabola through the detections so near to it, s; where none lie on both sides of it, the
 /// straight line between two neighbours at most kWidestGap apart.
 inline constexpr double kSmoothed = 0.2, kWidestGap = 0.5;
@@ -55,7 +55,8 @@ struct Judged {
 /// margins.
 class Judge {
  public:
-  explicit Judge(double confidence);
+  /// @param learns  false: without the learnt model
+  explicit Judge(double confidence, bool learns = true);
 
   /// @param seen  the tracks that were detected at `at`
   /// @param tracks  the ids of all that there are: the others are forgotten
@@ -65,10 +66,12 @@ class Judge {
   struct Verdict {
     HorizonWeights weights;
     TrackClass kind = TrackClass::New;
+    std::optional<std::size_t> group;  ///< of the learnt model; where that has a weight there is one
   };
   /// @param track  as it is now: its speed and age count, whatever take() has come to hear of it
   [[nodiscard]] Verdict verdict(const SeenTrack& track, UTime last_seen) const;
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+  [[nodiscard]] const LearntModel& learnt() const { return learnt_; }
   /// The largest mean speed per axis over kSpeedSpan that any track had, m/s.
   [[nodiscard]] double fastest() const { return fastest_; }
   /// The promises that the last take() came to an end with.
@@ -95,7 +98,10 @@ class Judge {
     std::array<Vec3, kConfidenceLevels.size()> half;
     std::array<bool, kConfidenceLevels.size()> broken{};
     std::array<Mixed, kJudgedAhead.size()> said;
-    std::array<PerModel<Said>, kScoredHorizons> models_said;
+    std::array<PerCandidate<Said>, kScoredHorizons> models_said;
+    LearntFrom learnt_from;
+    std::optional<std::size_t> group;  // of learnt_from
+    double learnt_to = 0.0;            // how far ahead the learnt model said anything
   };
   struct History {
     UTime born, issued;
@@ -109,6 +115,8 @@ class Judge {
   void issue(const SeenTrack& track, UTime at, History& history) const;
   void score(std::int64_t id, History& history);
   void score(Issue& issue, const Sample& truth, std::int64_t id, History& history);
+  void learn(const Issue& issue, const Sample& truth);
+  void look_anew();
   void see_speed(const Vec3& velocity, std::int64_t id);
   [[nodiscard]] WorldPace pace() const;
   /// The least q by which two promises hold what came, had their tracks exchanged detections since:
@@ -117,17 +125,23 @@ class Judge {
   /// keeps clear of both things, whatever they are called. Infinite where there is none. O(tracks).
   [[nodiscard]] double exchanged_margin(const Issue& issue, const Sample& truth, const History& own) const;
   [[nodiscard]] const History* known(std::int64_t id, UTime born) const;
+  [[nodiscard]] double learnt_to(std::optional<std::size_t> group) const {
+    return learns_ && group ? learnt_.known_to(*group) : 0.0;
+  }
   [[nodiscard]] static std::size_t pool_of(const SeenTrack& track, UTime at, double fastest);
   [[nodiscard]] static TrackClass class_of(const SeenTrack& track, UTime at, const HorizonWeights& weights);
 
+  bool learns_;
   Calibration calibration_;
   std::array<ModelScores, 3> pools_;
+  LearntModel learnt_;
   std::map<std::int64_t, History> histories_;
   std::vector<Judged> judged_;
   double fastest_ = 0.0;
   double top_speed_ = 0.0;         // over all axes, m/s
   std::set<std::int64_t> movers_;  // kMoversOfAWorld at most
   std::array<BankLook, kJudgedAhead.size()> looks_;
+  std::array<std::array<LearntLook, kJudgedAhead.size()>, kLearntGroups> learnt_looks_;
 };
 
 }  // namespace tern

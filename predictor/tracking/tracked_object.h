@@ -8,6 +8,7 @@
 #include "core/base/time.h"
 #include "core/base/types.h"
 #include "predictor/models/axis_filter.h"
+#include "predictor/models/learnt_model.h"
 #include "predictor/models/model_bank.h"
 
 namespace tern {
@@ -25,6 +26,7 @@ struct TrackedObject {
   int detections = 1;                                     ///< since then
   Vec3 position = Vec3::Zero(), variance = Vec3::Zero();  ///< of the last detection: W, m; m²
   BankFilter moving;
+  LearntFrom learnt_from;  ///< of `moving`, at the last detection
   std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
   UTime resting_since;
   double resting_average = 3.0;  ///< of its χ²₃, see kRestingLimit

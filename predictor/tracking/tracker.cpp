@@ -63,8 +63,8 @@ std::pair<UTime, std::int32_t> key(const ObservationSet& set) { return {set.at, 
 }  // namespace
 
 Tracker::Tracker(const TrackerConfig& config)
-    : config_(config), ends_(piece_ends(config.prediction)), judge_(config.prediction.confidence) {
-  for (const Duration end : ends_) ahead_.push_back(bank_step(end.seconds()));
+    : config_(config), ends_(piece_ends(config.prediction)), judge_(config.prediction.confidence, config.learns) {
+  for (const Duration end : ends_) steps_ahead_.push_back(bank_step(end.seconds()));
   for (std::size_t level = 0; level < rest_quantiles_.size(); ++level) {
     const double broken = 1.0 - confidence_at(config.prediction.confidence, static_cast<int>(level));
     rest_quantiles_[level] = quantile_for((1.0 - kStartShare) * broken / 3.0, kRestCrossings);
@@ -169,6 +169,7 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
     const double resting2 = fit_of(object.resting, detection).distance2;
     object.resting_average += kRestingForgetting * (resting2 - object.resting_average);
     object.moving.update(detection.position, detection.variance);
+    object.learnt_from = learnt_from(object.moving);
     ++object.detections;
     update_axes(object.resting, detection);
     if (object.resting_average > kRestingLimit) {
@@ -291,17 +292,30 @@ std::vector<Waypoint> Tracker::resting_waypoints(const TrackedObject& object, co
   return waypoints;
 }
 
-std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, const PerLevel& of_unsure,
-                                                const std::vector<BankLook>& looks, UTime from) const {
+const std::vector<LearntLook>& Tracker::learnt_looks(std::size_t group, UTime last_seen, Ahead& ahead) const {
+  std::vector<LearntLook>& looks = ahead.learnt[{group, last_seen}];
+  if (!looks.empty()) return looks;
+  for (const Duration end : ends_) {
+    looks.push_back(judge_.learnt().at((ahead.from - last_seen + end).seconds(), group));
+  }
+  return looks;
+}
+
+std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, Ahead& ahead) const {
   const Judge::Verdict verdict = this->verdict(object);
   const bool is_sure = object.confirmed || object.detections > 1;
-  const PerLevel& margins = is_sure ? judge_.calibration().margins(verdict.kind) : of_unsure;
-  const double since_s = (from - object.last_seen).seconds();
+  const PerLevel& margins = is_sure ? judge_.calibration().margins(verdict.kind) : ahead.of_unsure;
+  const double since_s = (ahead.from - object.last_seen).seconds();
   const bool is_unseen = since_s > kUnseen;
   std::vector<Waypoint> waypoints(ends_.size());
   for (std::size_t k = 0; k < ends_.size(); ++k) {
     const double ahead_s = since_s + ends_[k].seconds();
-    const Mixed said = mixed(object.moving, looks[k], weights_at(verdict.weights, ahead_s));
+    const PerCandidate<double> weights = weights_at(verdict.weights, ahead_s);
+    FilterLook learnt;
+    if (weights[kLearnt] > 0.0) {
+      learnt = said_by(learnt_looks(*verdict.group, object.last_seen, ahead)[k], object.learnt_from);
+    }
+    const Mixed said = mixed(object.moving, ahead.looks[k], learnt, weights);
     waypoints[k].centre = said.centre;
     waypoints[k].velocity = said.velocity;
     for (std::size_t level = 0; level < margins.size(); ++level) {
@@ -323,15 +337,14 @@ std::vector<Track> Tracker::predict(UTime now) const {
   const State& newest = newest_state();
   const UTime from = std::max(now, newest.at);
   const BankStep first = bank_step((from - newest.at).seconds());
-  std::vector<BankLook> looks;
-  for (const BankStep& ahead : ahead_) looks.push_back(bank_look(ahead, first));
-  const PerLevel of_unsure = judge_.calibration().margins(TrackClass::New, newest.existence.real());
+  Ahead ahead{from, judge_.calibration().margins(TrackClass::New, newest.existence.real()), {}, {}};
+  for (const BankStep& step : steps_ahead_) ahead.looks.push_back(bank_look(step, first));
   std::vector<Track> tracks;
   for (const TrackedObject& object : newest.objects) {
     if (!is_published(object, newest.existence)) continue;
     const bool is_resting = rests(object);
     const std::vector<Waypoint> waypoints =
-        is_resting ? resting_waypoints(object, newest, from) : moving_waypoints(object, of_unsure, looks, from);
+        is_resting ? resting_waypoints(object, newest, from) : moving_waypoints(object, ahead);
     if (is_gone(object, newest.views, waypoints.front())) continue;
     const double seen_speed = is_resting ? 0.0 : waypoints.front().velocity.cwiseAbs().maxCoeff();
     Track track;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/world/observation.h"
@@ -64,6 +66,7 @@ struct TrackerConfig {
   /// What rests and is out of the sensor's range, and what only a sensor saw that has fallen silent, outlives its last
   /// detection so long: the world goes on behind us.
   Duration remember_rest{30'000'000};
+  bool learns = true;  ///< false: without the model that is learnt (learnt_model.h)
 };
 
 /// How often what was detected once was detected again: what of it was real.
@@ -161,13 +164,19 @@ class Tracker {
   [[nodiscard]] Waypoint resting_at(const TrackedObject& object, const State& state, UTime from, double ahead_s) const;
   [[nodiscard]] std::vector<Waypoint> resting_waypoints(const TrackedObject& object, const State& state,
                                                         UTime from) const;
-  /// @param of_unsure margins of what was detected once, and may be a false alarm
-  [[nodiscard]] std::vector<Waypoint> moving_waypoints(const TrackedObject& object, const PerLevel& of_unsure,
-                                                       const std::vector<BankLook>& looks, UTime from) const;
+  /// What the tracks of one prediction share.
+  struct Ahead {
+    UTime from;
+    PerLevel of_unsure;           // margins of what was detected once, and may be a false alarm
+    std::vector<BankLook> looks;  // at ends_
+    std::map<std::pair<std::size_t, UTime>, std::vector<LearntLook>> learnt;  // by group and last detection
+  };
+  [[nodiscard]] const std::vector<LearntLook>& learnt_looks(std::size_t group, UTime last_seen, Ahead& ahead) const;
+  [[nodiscard]] std::vector<Waypoint> moving_waypoints(const TrackedObject& object, Ahead& ahead) const;
 
   TrackerConfig config_;
-  std::vector<Duration> ends_;   // of pieces
-  std::vector<BankStep> ahead_;  // to them
+  std::vector<Duration> ends_;         // of pieces
+  std::vector<BankStep> steps_ahead_;  // to them
   std::array<double, kConfidenceLevels.size()> rest_quantiles_{};
   State before_steps_;
   State spare_;             // memory for the next step: its meaning is over

@@ -52,7 +52,10 @@ TEST(ModelChoice, WalkersArePredictedBetterByScoresAheadThanByTheLikelihoodOfThe
       const auto y = static_cast<std::size_t>(std::lround(object.position.y() / kApart));
       const std::size_t likeliest = object.moving.leading();
       const Vec3 truth = walkers.at(y)(t + kAhead);
-      const Mixed said = mixed(object.moving, ahead, weights_at(tracker.verdict(object).weights, kAhead));
+      const Judge::Verdict verdict = tracker.verdict(object);
+      const LearntLook learnt = tracker.judge().learnt().at(kAhead, verdict.group.value_or(0));
+      const Mixed said =
+          mixed(object.moving, ahead, said_by(learnt, object.learnt_from), weights_at(verdict.weights, kAhead));
       errors.by_next_detection += (object.moving.lead().at(ahead[likeliest]).position - truth).squaredNorm();
       errors.by_scores_ahead += (said.centre - truth).squaredNorm();
       ++predicted;

@@ -14,8 +14,8 @@ namespace {
 constexpr double kStep = 0.02;       // s, between the times at which a promise is looked at
 constexpr double kTolerance = 1e-6;  // m
 constexpr int kDraws = 1000;
-constexpr std::array<const char*, kTrackClasses> kClassNames{"new",        "young",    "steady-grown", "steady-old",
-                                                             "calm-grown", "calm-old", "lively-grown", "lively-old"};
+constexpr std::array<const char*, kTrackClasses> kClassNames{
+    "new", "young", "steady-grown", "steady-old", "calm-grown", "calm-old", "lively-grown", "lively-old", "learnt"};
 constexpr std::array<std::pair<double, const char*>, 5> kAges{std::pair{0.1, "age to 0.1 s"},
                                                               {0.3, "age to 0.3 s"},
                                                               {0.5, "age to 0.5 s"},

@@ -21,10 +21,29 @@ constexpr double kApart = 20.0;  // m
 constexpr std::array kShortest{1.5, 9.0};
 constexpr int kWaves = 4;
 
+// What all movers of one recording have in common, where they are alike: a loop, and how long it takes.
+struct Loop {
+  double omega = 0.0;  // rad/s
+  int harmonic = 2;
+  Eigen::Array3d first, second, turned[2];  // amplitudes of position and phases per axis
+};
+Loop draw_loop(Rng& rng) {
+  Loop loop;
+  loop.omega = rng.uniform(0.5, 1.5);
+  loop.harmonic = rng.uniform() < 0.5 ? 2 : 3;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double flat = axis == 2 ? 0.5 : 1.0;
+    loop.first[axis] = flat * rng.uniform(0.5, 2.0);
+    loop.second[axis] = flat * rng.uniform(0.0, 1.0);
+    for (auto& turned : loop.turned) turned[axis] = rng.uniform(0.0, 2.0 * std::numbers::pi);
+  }
+  return loop;
+}
+
 // One mover, advanced frame by frame.
 class Mover {
  public:
-  Mover(MadeUp kind, const Vec3& place, Rng& rng) : kind_(kind), p_(place) {
+  Mover(MadeUp kind, const Loop& loop, const Vec3& place, Rng& rng) : kind_(kind), p_(place) {
     switch (kind) {
       case MadeUp::Walkers:
         head_out(rng, rng.uniform(0.5, 1.8));
@@ -41,6 +60,7 @@ class Mover {
         q_ = rng.uniform(0.3, 0.9);
         break;
       case MadeUp::Turners: head_out(rng, rng.uniform(0.8, 2.0)); break;
+      case MadeUp::Loopers: go_round(loop, rng); break;
     }
   }
 
@@ -67,6 +87,16 @@ class Mover {
     const double angle = rng.uniform(0.0, 2.0 * std::numbers::pi);
     v_ = speed * Vec3(std::cos(angle), std::sin(angle), 0.0);
   }
+  // At a phase of its own, larger or smaller than others.
+  void go_round(const Loop& loop, Rng& rng) {
+    const double size = rng.uniform(0.7, 1.4), phase = rng.uniform(0.0, 2.0 * std::numbers::pi);
+    const auto wave = [&](int harmonic, const Eigen::Array3d& amplitude, const Eigen::Array3d& turned) {
+      const double omega = harmonic * loop.omega;
+      waves_.push_back({Eigen::Array3d::Constant(omega), turned + harmonic * phase, size * omega * amplitude});
+    };
+    wave(1, loop.first, loop.turned[0]);
+    wave(loop.harmonic, loop.second, loop.turned[1]);
+  }
   void waves(Rng& rng, double speed, double lasts_s) {
     for (int k = 0; k < kWaves; ++k) {
       Wave wave;
@@ -89,11 +119,10 @@ class Mover {
 }  // namespace
 
 const std::vector<MadeUpSource>& made_up_sources() {
-  static const std::vector<MadeUpSource> sources{{MadeUp::Walkers, "walkers", 1.0},
-                                                 {MadeUp::Wanderers, "wanderers", 1.0},
-                                                 {MadeUp::Racers, "racers", 1.0},
-                                                 {MadeUp::Drifters, "drifters", 0.1},
-                                                 {MadeUp::Turners, "turners", 0.02}};
+  static const std::vector<MadeUpSource> sources{
+      {MadeUp::Walkers, "walkers", 1.0},   {MadeUp::Wanderers, "wanderers", 1.0},
+      {MadeUp::Racers, "racers", 1.0},     {MadeUp::Loopers, "loopers", 1.0, false},
+      {MadeUp::Drifters, "drifters", 0.1}, {MadeUp::Turners, "turners", 0.02}};
   return sources;
 }
 
@@ -104,6 +133,7 @@ Recording made_up(const MadeUpSource& source, std::uint64_t seed) {
     std::int64_t id;
   };
   Rng rng(seed);
+  const Loop loop = source.kind == MadeUp::Loopers ? draw_loop(rng) : Loop{};
   const Sensor& sensor = kSensors[seed % kSensors.size()];
   Recording recording;
   recording.name = std::string(source.name);
@@ -112,7 +142,7 @@ Recording made_up(const MadeUpSource& source, std::uint64_t seed) {
   std::int64_t ids = 0;
   const auto arrive = [&](int slot, double t) {
     const Vec3 place(kApart * kApart * slot, kApart * static_cast<double>(ids % 50), 1.0);
-    return Present{Mover(source.kind, place, rng), t + rng.uniform(kShortest[0], kShortest[1]), ids++};
+    return Present{Mover(source.kind, loop, place, rng), t + rng.uniform(kShortest[0], kShortest[1]), ids++};
   };
   for (int slot = 0; slot < kAtOnce; ++slot) present.push_back(arrive(slot, 0.0));
   for (int frame = 0; frame < static_cast<int>(kLasts * kRate); ++frame) {

@@ -16,11 +16,13 @@ enum class MadeUp {
   Racers,     ///< sums of sines, 1.5 … 6 m/s, that go on for 0.5 … 2 s, or accelerations that jump once in a second
   Drifters,   ///< white acceleration of 0.3 … 0.9 m/s^1.5
   Turners,    ///< 0.8 … 2 m/s, straight, with turns to anywhere 0.3 times a second
+  Loopers,  ///< up to some 5 m/s, on loops of one shape and rate for all of a recording, each of its own size and phase
 };
 struct MadeUpSource {
   MadeUp kind;
   std::string_view name;
-  double weight;  ///< of Source
+  double weight;            ///< of Source
+  bool is_foreseen = true;  ///< by models that are given; else only what is promised by the learnt one counts
 };
 /// All of them. Turners, whom nothing but a reach set foresees, are rare, and little is promised of them.
 const std::vector<MadeUpSource>& made_up_sources();

@@ -44,6 +44,7 @@ struct Band {
 // How long tracks of a class have been seen: New, Young, grown, old.
 std::size_t age_of(TrackClass kind) {
   const auto k = idx(kind);
+  if (kind == TrackClass::Learnt) return 3;
   return k < 2 ? k : 2 + k % 2;
 }
 

@@ -1,0 +1,305 @@
+// What is learnt from a flight's own tracks: the law itself, its spline, what outliers do, and a tracker that uses it.
+#include "predictor/models/learnt_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/random.h"
+#include "predictor/tracking/tracker.h"
+#include "tests/predictor/simulated_motion.h"
+
+namespace tern {
+namespace {
+
+using testing::Path;
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::size_t kOldest = kLearntGroups - 1;
+
+LearntFrom drawn(Rng& rng) {
+  LearntFrom track;
+  track.position = Vec3(rng.uniform(-50, 50), rng.uniform(-50, 50), rng.uniform(0, 5));
+  for (double& x : track.features) x = rng.normal();
+  return track;
+}
+
+// Some law: what comes beyond straight on, per feature, as large as Taylor's series would have it.
+FeatureWeights law(std::size_t horizon) {
+  Rng rng(40 + horizon);
+  FeatureWeights weights;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < kFeatures; ++i) {
+      const int order = 1 + i % kFeaturesPerAxis;
+      const double scale =
+          order < kFeaturesPerAxis ? std::pow(kLearntAhead[horizon], order) / std::tgamma(order + 1) : 1.0;
+      weights(i, axis) = scale * rng.normal();
+    }
+  }
+  return weights;
+}
+
+Vec3 by_law(const LearntFrom& track, std::size_t horizon) {
+  const Features& x = track.features;
+  const Vec3 velocity(x[0], x[kFeaturesPerAxis], x[2 * kFeaturesPerAxis]);
+  return track.position + kLearntAhead[horizon] * velocity + law(horizon).transpose() * x;
+}
+
+void teach(LearntModel& model, int lessons, double outliers, Rng& rng) {
+  for (int n = 0; n < lessons; ++n) {
+    const LearntFrom track = drawn(rng);
+    const bool is_outlier = rng.uniform() < outliers;
+    for (std::size_t h = 0; h < kLearntTimes; ++h) {
+      Vec3 came = by_law(track, h);
+      for (double& p : came) p += 0.01 * rng.normal() + (is_outlier ? 20.0 * rng.normal() : 0.0);
+      model.learn(h, static_cast<std::size_t>(n) % kLearntGroups, track, came, Vec3::Constant(1e-4), 1.0);
+    }
+    model.refresh();
+  }
+}
+
+double rms_error(const LearntModel& model, Rng& rng) {
+  double sum = 0.0;
+  constexpr int kTracks = 100;
+  for (int n = 0; n < kTracks; ++n) {
+    const LearntFrom track = drawn(rng);
+    for (std::size_t h = 0; h < kLearntTimes; ++h) {
+      sum += (said_by(model.at(kLearntAhead[h], kOldest), track).position - by_law(track, h)).squaredNorm();
+    }
+  }
+  return std::sqrt(sum / (3.0 * kTracks * kLearntTimes));
+}
+
+TEST(LearntModel, FindsALinearLawInNoise) {
+  Rng rng(1);
+  LearntModel model;
+  EXPECT_EQ(model.known_to(kOldest), 0.0);
+  teach(model, 1000, 0.0, rng);
+  EXPECT_EQ(model.known_to(0), kLearntAhead.back());
+  EXPECT_EQ(model.known_to(kOldest), kLearntAhead.back());
+  EXPECT_LT(rms_error(model, rng), 0.01);
+}
+
+TEST(LearntModel, OneLessonInTwentyFromSomethingElseHardlyDisturbsIt) {
+  Rng rng(2);
+  LearntModel model;
+  teach(model, 800, 0.05, rng);
+  EXPECT_LT(rms_error(model, rng), 0.03);
+}
+
+TEST(LearntModel, KnowsHowWrongItIs) {
+  Rng rng(3);
+  LearntModel model;
+  for (int n = 0; n < 1200; ++n) {
+    const LearntFrom track = drawn(rng);
+    for (std::size_t h = 0; h < kLearntTimes; ++h) {
+      Vec3 came = by_law(track, h);
+      for (int axis = 0; axis < 3; ++axis) came[axis] += 0.1 * (axis + 1) * rng.normal();
+      model.learn(h, static_cast<std::size_t>(n) % kLearntGroups, track, came, Vec3::Constant(1e-6), 1.0);
+    }
+    model.refresh();
+  }
+  // Student's t trusts what surprises less, and so finds Gaussian noise a little smaller than it is.
+  for (const double ahead : kLearntAhead) {
+    const Vec3 deviation = model.at(ahead, kOldest).variance.cwiseSqrt();
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_GT(deviation[axis], 0.07 * (axis + 1)) << ahead;
+      EXPECT_LT(deviation[axis], 0.13 * (axis + 1)) << ahead;
+    }
+  }
+}
+
+TEST(LearntModel, SaysNothingOfAGroupThatNobodyWasJudgedIn) {
+  Rng rng(4);
+  LearntModel model;
+  for (int n = 0; n < 100; ++n) {
+    const LearntFrom track = drawn(rng);
+    for (std::size_t h = 0; h < kLearntTimes; ++h) {
+      model.learn(h, kOldest, track, by_law(track, h), Vec3::Constant(1e-4), 1.0);
+    }
+  }
+  model.refresh();
+  EXPECT_EQ(model.known_to(kOldest), kLearntAhead.back());
+  EXPECT_EQ(model.known_to(0), 0.0);
+}
+
+TEST(LearntModel, BeforeItLearntItIsTheFilterThatItGoesBy) {
+  Rng rng(5);
+  BankFilter bank(Vec3(1, 2, 3), Vec3::Constant(0.01));
+  for (int n = 1; n < 40; ++n) {
+    bank.predict(bank_step(0.05));
+    bank.update(Vec3(1 + 0.1 * n, 2 + std::sin(0.1 * n), 3), Vec3::Constant(0.01));
+  }
+  const LearntModel model;
+  for (const double ahead : kLearntAhead) {
+    const FilterLook by_filter = bank.of(kLearntFrom).at(look(bank_step(ahead)[kLearntFrom]));
+    const FilterLook by_learnt = said_by(model.at(ahead, kOldest), learnt_from(bank));
+    EXPECT_LT((by_filter.position - by_learnt.position).norm(), 1e-9) << ahead;
+  }
+}
+
+TEST(LearntModel, VelocityIsTheDerivativeOfPositionAndBothAreContinuous) {
+  Rng rng(6);
+  LearntModel model;
+  teach(model, 100, 0.0, rng);
+  const LearntFrom track = drawn(rng);
+  const auto said = [&](double ahead) { return said_by(model.at(ahead, kOldest), track); };
+  constexpr double kStep = 1e-5;
+  for (double ahead = 0.0; ahead < 3.6; ahead += 0.0137) {
+    const Vec3 slope = (said(ahead + kStep).position - said(ahead).position) / kStep;
+    EXPECT_LT((slope - said(ahead).velocity).norm(), 1e-2) << ahead;
+    EXPECT_LT((said(ahead + kStep).velocity - said(ahead).velocity).norm(), 1e-2) << ahead;
+  }
+  EXPECT_LT((said(0.0).position - track.position).norm(), 1e-12);
+  const Features& x = track.features;
+  EXPECT_LT((said(0.0).velocity - Vec3(x[0], x[kFeaturesPerAxis], x[2 * kFeaturesPerAxis])).norm(), 1e-9);
+}
+
+TEST(LearntGroup, GoesByAge) {
+  EXPECT_FALSE(learnt_group(0.0));
+  EXPECT_FALSE(learnt_group(std::nextafter(kLearntAges.front(), 0.0)));
+  EXPECT_EQ(learnt_group(kLearntAges.front()), 0u);
+  EXPECT_EQ(learnt_group(100.0), kOldest);
+}
+
+TEST(LearntWeights, FadeBeyondWhatIsLearntAndAlwaysSumToOne) {
+  ModelScores pool, own;
+  PerCandidate<double> scores{};
+  scores[kLearnt] = 3.0;
+  for (std::size_t h = 0; h < kScoredHorizons; ++h) {
+    for (int n = 0; n < 20; ++n) pool.add(h, scores, kPoolForgetting);
+  }
+  for (const double learnt_to : {0.0, 0.25, 0.375, 1.0, 1.5, 3.0}) {
+    const HorizonWeights weights = model_weights(pool, own, learnt_to);
+    PerCandidate<double> before = weights_at(weights, 0.0);
+    for (double ahead = 0.0; ahead < 5.0; ahead += 0.002) {
+      const PerCandidate<double> at = weights_at(weights, ahead);
+      double sum = 0.0, most = 0.0;
+      for (std::size_t j = 0; j < at.size(); ++j) {
+        sum += at[j];
+        most = std::max(most, std::abs(at[j] - before[j]));
+      }
+      ASSERT_NEAR(sum, 1.0, 1e-12) << learnt_to << " s, " << ahead << " s";
+      ASSERT_LT(most, 0.05) << learnt_to << " s, " << ahead << " s";
+      if (ahead <= learnt_to) {
+        ASSERT_GT(at[kLearnt], 0.9) << learnt_to << " s, " << ahead << " s";
+      } else if (ahead >= kUnlearnt * learnt_to) {
+        ASSERT_EQ(at[kLearnt], 0.0) << learnt_to << " s, " << ahead << " s";
+      }
+      before = at;
+    }
+  }
+}
+
+// A tracker among things that all move by a law of one kind.
+
+struct Outcome {
+  double mean_half = 0.0, rms = 0.0;  // at kAhead, m
+  int kept = 0, promises = 0;
+  int learnt = 0;  // promises by the learnt model
+};
+
+constexpr double kAhead = 1.0, kRate = 30.0, kNoise = 0.03, kApart = 30.0;
+
+Outcome follow(const std::vector<Path>& paths, bool learns, double seconds) {
+  TrackerConfig config;
+  config.learns = learns;
+  Tracker tracker(config);
+  Rng rng(7);
+  Outcome outcome;
+  double squares = 0.0, half = 0.0;
+  for (int frame = 0; frame < static_cast<int>(seconds * kRate); ++frame) {
+    const double t = frame / kRate;
+    std::vector<Detection> seen;
+    for (const Path& path : paths) {
+      if (rng.uniform() > 0.05) seen.push_back(testing::detection_of(path(t), kNoise, rng));
+    }
+    tracker.update(testing::observations_at(t, std::move(seen)));
+    if (t < 0.6 * seconds || frame % 6 != 0) continue;
+    for (const Track& track : tracker.predict(testing::at_seconds(t))) {
+      const Vec3 start = track.motion.sample(track.motion.start).p;
+      const auto which = static_cast<std::size_t>(std::lround(start.x() / kApart));
+      const UTime then = track.motion.start + Duration::from_seconds(kAhead);
+      ++outcome.promises;
+      outcome.kept += testing::keeps_promise(track, paths.at(which), kAhead) ? 1 : 0;
+      squares += (track.motion.sample(then).p - paths.at(which)(t + kAhead)).squaredNorm();
+      half += track.alpha[track.motion.locate(then).index].mean();
+    }
+    for (const TrackedObject& object : tracker.objects()) {
+      outcome.learnt += tracker.verdict(object).kind == TrackClass::Learnt ? 1 : 0;
+    }
+  }
+  outcome.rms = std::sqrt(squares / outcome.promises);
+  outcome.mean_half = half / outcome.promises;
+  return outcome;
+}
+
+// On a tilted circle that goes up and down twice in a round, each its own size and phase.
+std::vector<Path> going_round(int count) {
+  Rng rng(8);
+  std::vector<Path> paths;
+  for (int k = 0; k < count; ++k) {
+    const double size = rng.uniform(1.0, 2.0), phase = rng.uniform(0.0, 2.0 * kPi);
+    const Vec3 centre(kApart * k, rng.uniform(-5.0, 5.0), 2.0);
+    paths.emplace_back([=](double t) -> Vec3 {
+      const double w = 2.0 * t + phase;
+      return centre + size * Vec3(std::cos(w), std::sin(w) + 0.3 * std::cos(w), 0.4 * std::sin(2.0 * w));
+    });
+  }
+  return paths;
+}
+
+TEST(LearntTracks, WhatGoesRoundIsForetoldFarBetterAndPromisesAreKept) {
+  const std::vector<Path> paths = going_round(8);
+  const Outcome given = follow(paths, false, 20.0), learnt = follow(paths, true, 20.0);
+  EXPECT_EQ(given.learnt, 0);
+  EXPECT_GT(learnt.learnt, learnt.promises / 2);
+  EXPECT_LT(learnt.rms, 0.3 * given.rms);
+  EXPECT_LT(learnt.mean_half, 0.5 * given.mean_half);
+  EXPECT_GT(testing::wilson(learnt.kept, learnt.promises).high, 0.99);
+}
+
+TEST(LearntTracks, AmongWhatFollowsNoLawTheGivenModelsGoOnAsWell) {
+  Rng rng(9);
+  std::vector<Path> paths;
+  for (int k = 0; k < 8; ++k) {
+    paths.push_back(testing::random_path(rng, Vec3(kApart * k, 0, 2), Vec3(0.2, 0.7, 0.0), 0.15, 30.0));
+  }
+  const Outcome given = follow(paths, false, 20.0), learnt = follow(paths, true, 20.0);
+  EXPECT_LT(learnt.rms, 1.1 * given.rms);
+  EXPECT_GT(testing::wilson(learnt.kept, learnt.promises).high, 0.99);
+}
+
+TEST(LearntTracks, WhatIsUnseenIsForetoldFromItsLastDetection) {
+  const std::vector<Path> paths = going_round(8);
+  Tracker tracker(TrackerConfig{});
+  Rng rng(10);
+  constexpr double kHidden = 18.0;  // s: from then on the first is not detected
+  double worst = 0.0;
+  int told = 0;
+  for (int frame = 0; frame < static_cast<int>((kHidden + 1.0) * kRate); ++frame) {
+    const double t = frame / kRate;
+    std::vector<Detection> seen;
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      if (k > 0 || t < kHidden) seen.push_back(testing::detection_of(paths[k](t), kNoise, rng));
+    }
+    tracker.update(testing::observations_at(t, std::move(seen)));
+    if (t < kHidden) continue;
+    for (const Track& track : tracker.predict(testing::at_seconds(t))) {
+      const Vec3 start = track.motion.sample(track.motion.start).p;
+      if (start.x() > 0.5 * kApart) continue;
+      worst = std::max(worst, (start - paths[0](t)).norm());
+      ++told;
+    }
+  }
+  EXPECT_GT(told, 20);
+  EXPECT_LT(worst, 0.5);  // a circle of up to 2 m at 2 rad/s: straight on it would be 4 m off after a second
+}
+
+}  // namespace
+}  // namespace tern
