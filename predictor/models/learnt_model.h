@@ -13,11 +13,11 @@
 namespace tern {
 
 /// It is learnt at these times ahead, s, and holds between them and up to the last.
-inline constexpr std::array<double, 9> kLearntAhead{0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0};
+inline constexpr std::array<double, 8> kLearntAhead{0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};
 inline constexpr std::size_t kLearntTimes = kLearntAhead.size();
 /// It is learnt apart for tracks that have been seen so long, s: of what was seen for a moment, the state is hardly
 /// known.
-inline constexpr std::array<double, 4> kLearntAges{0.3, 0.5, 0.7, 0.9};
+inline constexpr std::array<double, 3> kLearntAges{0.4, 0.65, 0.9};
 inline constexpr std::size_t kLearntGroups = kLearntAges.size();
 std::optional<std::size_t> learnt_group(double age_s);
 
@@ -25,8 +25,8 @@ std::optional<std::size_t> learnt_group(double age_s);
 inline constexpr std::size_t kLearntFrom = 13;
 /// Per axis the states s_i − u_i s_0, i ≥ 1, which are the same wherever the thing is: velocity, acceleration, …, and
 /// last how far off the place lies that the motion is about.
-inline constexpr int kFeaturesPerAxis = kOrders[kLearntFrom] - 1;
-inline constexpr int kFeatures = 3 * kFeaturesPerAxis;
+inline constexpr Eigen::Index kFeaturesPerAxis = kOrders[kLearntFrom] - 1;
+inline constexpr Eigen::Index kFeatures = 3 * kFeaturesPerAxis;
 using Features = Eigen::Matrix<double, kFeatures, 1>;
 using FeatureWeights = Eigen::Matrix<double, kFeatures, 3>;  ///< an axis per column
 

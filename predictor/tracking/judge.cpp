@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "predictor/models/axis_filter.h"
 
@@ -20,7 +21,7 @@ constexpr double kSpeedMemory = 3.0;
 // By its models' weights at this horizon a track has its class.
 constexpr std::size_t kClassHorizon = 2;
 // A new track's predictions are scored at its first detections of these numbers; then once in kScorePeriod.
-constexpr std::array kFirstScored{1, 2, 3, 5, 8, 11};
+constexpr std::array kFirstScored{1, 2, 3, 5, 8};
 
 // A thing whose nearest detection is so much farther off than what is judged, m, is no better explanation of it.
 constexpr double kFarApart = 2.0;
@@ -117,7 +118,7 @@ void Judge::take(UTime at, const std::vector<SeenTrack>& seen, const std::set<st
   }
   calibration_.set_pace(pace());
   calibration_.refresh();
-  look_anew();
+  if (learns_) look_anew();
   for (const SeenTrack& track : seen) {
     if (!track.rests) issue(track, at, histories_[track.id]);
   }
@@ -239,7 +240,11 @@ void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& h
       scores[j] += predictive_score(truth.z[i] - model.centre[i], model.variance[i] + truth.r[i]);
     }
   }
-  if (kScoredAhead[h] > issue.learnt_to) {
+  constexpr double kNever = -std::numeric_limits<double>::infinity();
+  const auto score_of_learnt = std::exchange(scores[kLearnt], kNever);
+  if (kScoredAhead[h] <= issue.learnt_to) {
+    scores[kLearnt] = score_of_learnt;
+  } else if (learns_) {
     // Who sleeps fares like the others together (Y. Freund et al., "Using and combining predictors that specialize",
     // STOC 1997).
     const PerCandidate<double> weights = model_weights(pools_[issue.pool], history.own, 0.0).given[h];
@@ -247,14 +252,14 @@ void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& h
   }
   history.own.add(h, scores, kOwnForgetting);
   // The pool trusts it once it has proved better.
-  if (kScoredAhead[h] > learnt_to(kLearntGroups - 1)) scores[kLearnt] = -std::numeric_limits<double>::infinity();
+  if (kScoredAhead[h] > learnt_to(kLearntGroups - 1)) scores[kLearnt] = kNever;
   pools_[kAll].add(h, scores, kPoolForgetting);
   if (issue.pool != kAll) pools_[issue.pool].add(h, scores, kPoolForgetting);
 }
 
 void Judge::learn(const Issue& issue, const Sample& truth) {
   const auto at = std::find(kLearntAhead.begin(), kLearntAhead.end(), kJudgedAhead[issue.next]);
-  if (!issue.group || at == kLearntAhead.end()) return;
+  if (!learns_ || !issue.group || at == kLearntAhead.end()) return;
   learnt_.learn(idx(at - kLearntAhead.begin()), *issue.group, issue.learnt_from, truth.z, truth.r, worth(*at));
 }
 
@@ -316,17 +321,18 @@ Judge::Verdict Judge::verdict(const SeenTrack& track, UTime last_seen) const {
   return verdict;
 }
 
-TrackClass Judge::class_of(const SeenTrack& track, UTime at, const HorizonWeights& weights) {
+TrackClass Judge::class_of(const SeenTrack& track, UTime now, const HorizonWeights& weights) {
   if (track.detections <= 1) return TrackClass::New;
-  const double age = (at - track.born).seconds();
+  const double age = (now - track.born).seconds();
   if (age < kYoungAge) return TrackClass::Young;
-  const auto weight = [first_of = weights.all[kClassHorizon].begin()](std::size_t first, std::size_t end) {
+  const PerCandidate<double> at = weights_at(weights, kScoredAhead[kClassHorizon]);
+  const auto weight = [first_of = at.begin()](std::size_t first, std::size_t end) {
     return std::accumulate(first_of + static_cast<std::ptrdiff_t>(first), first_of + static_cast<std::ptrdiff_t>(end),
                            0.0);
   };
   const double steady = weight(0, kSteadyModels), calm = weight(kSteadyModels, kCalmModels);
   const bool old = age >= kGrownAge;
-  if (weights.all[kClassHorizon][kLearnt] > 0.5) return TrackClass::Learnt;
+  if (at[kLearnt] > 0.5) return TrackClass::Learnt;
   if (steady > 0.5) return old ? TrackClass::SteadyOld : TrackClass::SteadyGrown;
   if (calm > 0.5 * (1.0 - steady)) return old ? TrackClass::CalmOld : TrackClass::CalmGrown;
   return old ? TrackClass::LivelyOld : TrackClass::LivelyGrown;

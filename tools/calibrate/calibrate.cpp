@@ -33,13 +33,14 @@ Source source_of(const std::string& name, double weight, const Study& learning, 
 void calibrate(const CalibrationRequest& request) {
   Study sum;
   std::vector<Source> sources, slow;
-  TrackerConfig by_given;
-  by_given.learns = false;
+  const TrackerConfig by_given;
+  TrackerConfig learning;
+  learning.learns = true;
   for (const MadeUpSource& source : made_up_sources()) {
     Study all, given;
     for (int seed = 1; seed <= request.made_up; ++seed) {
       const auto recording = made_up(source, static_cast<std::uint64_t>(seed));
-      add(all, study(recording, TrackerConfig{}));
+      add(all, study(recording, learning));
       if (source.is_foreseen) add(given, study(recording, by_given));
     }
     add(sum, all);

@@ -55,7 +55,8 @@ std::vector<OfSource> of_class(const std::vector<Source>& sources, TrackClass ki
     double of_age = 0.0;
     for (const Judged& judged : source.judged) {
       if (judged.kind == kind) own.promises.push_back({&judged});
-      of_age += age_of(judged.kind) == age_of(kind) ? 1.0 : 0.0;
+      const bool is_given = judged.kind != TrackClass::Learnt;  // else it is a second promise of the same
+      of_age += is_given && age_of(judged.kind) == age_of(kind) ? 1.0 : 0.0;
     }
     if (own.promises.size() < kFewPromises) continue;
     own.weight *= std::min(1.0, kKinds * static_cast<double>(own.promises.size()) / of_age);
