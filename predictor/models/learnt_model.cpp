@@ -34,10 +34,12 @@ Features scale_at(double ahead_s) {
   return scale;
 }
 
-Vec3 straight_on(const LearntFrom& track, double ahead_s) {
+Vec3 velocity_of(const LearntFrom& track) {
   const Features& x = track.features;
-  return track.position + ahead_s * Vec3(x[0], x[kFeaturesPerAxis], x[2 * kFeaturesPerAxis]);
+  return {x[0], x[kFeaturesPerAxis], x[2 * kFeaturesPerAxis]};
 }
+
+Vec3 straight_on(const LearntFrom& track, double ahead_s) { return track.position + ahead_s * velocity_of(track); }
 
 constexpr int kKnots = static_cast<int>(kLearntTimes) + 1;
 constexpr double knot_at(int k) { return k == 0 ? 0.0 : kLearntAhead[idx(k - 1)]; }
@@ -86,10 +88,8 @@ LearntFrom learnt_from(const BankFilter& bank) {
 }
 
 FilterLook said_by(const LearntLook& look, const LearntFrom& track) {
-  const Features& x = track.features;
-  const Vec3 velocity(x[0], x[kFeaturesPerAxis], x[2 * kFeaturesPerAxis]);
-  return {straight_on(track, look.ahead_s) + look.position.transpose() * x, velocity + look.velocity.transpose() * x,
-          look.variance};
+  return {straight_on(track, look.ahead_s) + look.position.transpose() * track.features,
+          velocity_of(track) + look.velocity.transpose() * track.features, look.variance};
 }
 
 LearntModel::LearntModel() {

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <utility>
 
 #include "predictor/models/axis_filter.h"
 
@@ -162,14 +161,17 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   issue.pool = pool_of(track, at, history.fastest);
   issue.score = -kModelSigmas;
   issue.half.fill(Vec3::Zero());
-  issue.learnt_from = learnt_from(*track.bank);
-  issue.group = learnt_group((at - track.born).seconds());
+  if (learns_) {
+    issue.learnt_from = learnt_from(*track.bank);
+    issue.group = learnt_group((at - track.born).seconds());
+  }
   issue.learnt_to = learnt_to(issue.group);
   const HorizonWeights all = model_weights(pools_[issue.pool], history.own, issue.learnt_to);
   issue.judged.kind = class_of(track, at, all);
   issue.margins = calibration_.margins(issue.judged.kind);
   for (std::size_t k = 0; k < looks_.size(); ++k) {
-    const FilterLook learnt = said_by(learnt_looks_[issue.group.value_or(0)][k], issue.learnt_from);
+    FilterLook learnt{issue.from, Vec3::Zero(), Vec3::Zero()};  // not listened to where there is no group
+    if (issue.group) learnt = said_by(learnt_looks_[*issue.group][k], issue.learnt_from);
     issue.said[k] = mixed(*track.bank, looks_[k], learnt, weights_at(all, kJudgedAhead[k]));
     const auto scored = std::find(kScoredAhead.begin(), kScoredAhead.end(), kJudgedAhead[k]);
     if (scored == kScoredAhead.end()) continue;
@@ -241,10 +243,9 @@ void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& h
     }
   }
   constexpr double kNever = -std::numeric_limits<double>::infinity();
-  const auto score_of_learnt = std::exchange(scores[kLearnt], kNever);
-  if (kScoredAhead[h] <= issue.learnt_to) {
-    scores[kLearnt] = score_of_learnt;
-  } else if (learns_) {
+  if (!learns_) {
+    scores[kLearnt] = kNever;
+  } else if (kScoredAhead[h] > issue.learnt_to) {
     // Who sleeps fares like the others together (Y. Freund et al., "Using and combining predictors that specialize",
     // STOC 1997).
     const PerCandidate<double> weights = model_weights(pools_[issue.pool], history.own, 0.0).given[h];
@@ -259,7 +260,7 @@ void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& h
 
 void Judge::learn(const Issue& issue, const Sample& truth) {
   const auto at = std::find(kLearntAhead.begin(), kLearntAhead.end(), kJudgedAhead[issue.next]);
-  if (!learns_ || !issue.group || at == kLearntAhead.end()) return;
+  if (!issue.group || at == kLearntAhead.end()) return;
   learnt_.learn(idx(at - kLearntAhead.begin()), *issue.group, issue.learnt_from, truth.z, truth.r, worth(*at));
 }
 

@@ -169,7 +169,7 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
     const double resting2 = fit_of(object.resting, detection).distance2;
     object.resting_average += kRestingForgetting * (resting2 - object.resting_average);
     object.moving.update(detection.position, detection.variance);
-    object.learnt_from = learnt_from(object.moving);
+    if (config_.learns) object.learnt_from = learnt_from(object.moving);
     ++object.detections;
     update_axes(object.resting, detection);
     if (object.resting_average > kRestingLimit) {

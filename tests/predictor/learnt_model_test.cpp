@@ -50,14 +50,24 @@ Vec3 by_law(const LearntFrom& track, std::size_t horizon) {
   return track.position + kLearntAhead[horizon] * velocity + law(horizon).transpose() * x;
 }
 
-void teach(LearntModel& model, int lessons, double outliers, Rng& rng) {
-  for (int n = 0; n < lessons; ++n) {
+struct Teaching {
+  int lessons = 0;
+  Vec3 noise = Vec3::Constant(0.01);  // m
+  double outliers = 0.0;              // share of lessons from something else
+  std::size_t first_group = 0;        // of those that are taught, in turn
+};
+
+void teach(LearntModel& model, const Teaching& how, Rng& rng) {
+  for (int n = 0; n < how.lessons; ++n) {
     const LearntFrom track = drawn(rng);
-    const bool is_outlier = rng.uniform() < outliers;
+    const bool is_outlier = rng.uniform() < how.outliers;
+    const std::size_t group = how.first_group + static_cast<std::size_t>(n) % (kLearntGroups - how.first_group);
     for (std::size_t h = 0; h < kLearntTimes; ++h) {
       Vec3 came = by_law(track, h);
-      for (double& p : came) p += 0.01 * rng.normal() + (is_outlier ? 20.0 * rng.normal() : 0.0);
-      model.learn(h, static_cast<std::size_t>(n) % kLearntGroups, track, came, Vec3::Constant(1e-4), 1.0);
+      for (int axis = 0; axis < 3; ++axis) {
+        came[axis] += how.noise[axis] * rng.normal() + (is_outlier ? 20.0 * rng.normal() : 0.0);
+      }
+      model.learn(h, group, track, came, Vec3::Constant(1e-6), 1.0);
     }
     model.refresh();
   }
@@ -79,7 +89,7 @@ TEST(LearntModel, FindsALinearLawInNoise) {
   Rng rng(1);
   LearntModel model;
   EXPECT_EQ(model.known_to(kOldest), 0.0);
-  teach(model, 1000, 0.0, rng);
+  teach(model, {.lessons = 1000}, rng);
   EXPECT_EQ(model.known_to(0), kLearntAhead.back());
   EXPECT_EQ(model.known_to(kOldest), kLearntAhead.back());
   EXPECT_LT(rms_error(model, rng), 0.01);
@@ -88,22 +98,14 @@ TEST(LearntModel, FindsALinearLawInNoise) {
 TEST(LearntModel, OneLessonInTwentyFromSomethingElseHardlyDisturbsIt) {
   Rng rng(2);
   LearntModel model;
-  teach(model, 800, 0.05, rng);
+  teach(model, {.lessons = 800, .outliers = 0.05}, rng);
   EXPECT_LT(rms_error(model, rng), 0.03);
 }
 
 TEST(LearntModel, KnowsHowWrongItIs) {
   Rng rng(3);
   LearntModel model;
-  for (int n = 0; n < 1200; ++n) {
-    const LearntFrom track = drawn(rng);
-    for (std::size_t h = 0; h < kLearntTimes; ++h) {
-      Vec3 came = by_law(track, h);
-      for (int axis = 0; axis < 3; ++axis) came[axis] += 0.1 * (axis + 1) * rng.normal();
-      model.learn(h, static_cast<std::size_t>(n) % kLearntGroups, track, came, Vec3::Constant(1e-6), 1.0);
-    }
-    model.refresh();
-  }
+  teach(model, {.lessons = 1200, .noise = Vec3(0.1, 0.2, 0.3)}, rng);
   // Student's t trusts what surprises less, and so finds Gaussian noise a little smaller than it is.
   for (const double ahead : kLearntAhead) {
     const Vec3 deviation = model.at(ahead, kOldest).variance.cwiseSqrt();
@@ -117,13 +119,7 @@ TEST(LearntModel, KnowsHowWrongItIs) {
 TEST(LearntModel, SaysNothingOfAGroupThatNobodyWasJudgedIn) {
   Rng rng(4);
   LearntModel model;
-  for (int n = 0; n < 100; ++n) {
-    const LearntFrom track = drawn(rng);
-    for (std::size_t h = 0; h < kLearntTimes; ++h) {
-      model.learn(h, kOldest, track, by_law(track, h), Vec3::Constant(1e-4), 1.0);
-    }
-  }
-  model.refresh();
+  teach(model, {.lessons = 100, .first_group = kOldest}, rng);
   EXPECT_EQ(model.known_to(kOldest), kLearntAhead.back());
   EXPECT_EQ(model.known_to(0), 0.0);
 }
@@ -146,7 +142,7 @@ TEST(LearntModel, BeforeItLearntItIsTheFilterThatItGoesBy) {
 TEST(LearntModel, VelocityIsTheDerivativeOfPositionAndBothAreContinuous) {
   Rng rng(6);
   LearntModel model;
-  teach(model, 100, 0.0, rng);
+  teach(model, {.lessons = 100}, rng);
   const LearntFrom track = drawn(rng);
   const auto said = [&](double ahead) { return said_by(model.at(ahead, kOldest), track); };
   constexpr double kStep = 1e-5;
