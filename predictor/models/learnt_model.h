@@ -13,11 +13,11 @@
 namespace tern {
 
 /// It is learnt at these times ahead, s, and holds between them and up to the last.
-inline constexpr std::array<double, 8> kLearntAhead{0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};
+inline constexpr std::array<double, 9> kLearntAhead{0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0};
 inline constexpr std::size_t kLearntTimes = kLearntAhead.size();
 /// It is learnt apart for tracks that have been seen so long, s: of what was seen for a moment, the state is hardly
 /// known.
-inline constexpr std::array<double, 3> kLearntAges{0.4, 0.65, 0.9};
+inline constexpr std::array<double, 4> kLearntAges{0.3, 0.5, 0.7, 0.9};
 inline constexpr std::size_t kLearntGroups = kLearntAges.size();
 std::optional<std::size_t> learnt_group(double age_s);
 

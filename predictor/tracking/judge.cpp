@@ -19,7 +19,8 @@ constexpr double kFastSpeed = 2.0;
 constexpr double kSpeedMemory = 3.0;
 // By its models' weights at this horizon a track has its class.
 constexpr std::size_t kClassHorizon = 2;
-// A new track's predictions are scored at its first detections of these numbers; then once in kScorePeriod.
+// A new track's predictions are scored at its first detections of these numbers, and once it is no longer young; then
+// once in kScorePeriod.
 constexpr std::array kFirstScored{1, 2, 3, 5, 8};
 
 // A thing whose nearest detection is so much farther off than what is judged, m, is no better explanation of it.
@@ -151,7 +152,10 @@ void Judge::follow(const SeenTrack& track, UTime at, History& history) {
 
 void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   const bool first = std::find(kFirstScored.begin(), kFirstScored.end(), track.detections) != kFirstScored.end();
-  if (!first && !history.issues.empty() && (at - history.issued).seconds() < kScorePeriod) return;
+  const bool is_young = (at - track.born).seconds() < kYoungAge;
+  const bool was_young = (history.issued - track.born).seconds() < kYoungAge;
+  if (!first && was_young == is_young && !history.issues.empty() && (at - history.issued).seconds() < kScorePeriod)
+    return;
   history.issued = at;
   Issue& issue = history.issues.emplace_back();
   history.due.push_back(judged_at(at, 0));

@@ -27,9 +27,8 @@ struct SeenTrack {
   bool rests = false;  ///< then nothing is predicted of it here
 };
 
-/// A promise is judged at these times after its making, s: near its beginning, and twice per band.
-inline constexpr std::array<double, 1 + 2 * kBands> kJudgedAhead{0.05, 0.125, 0.25, 0.375, 0.5, 0.75,
-                                                                 1.0,  1.5,   2.0,  3.0,   4.5};
+/// A promise is judged at these times after its making, s: near its beginning, and twice or thrice per band.
+inline constexpr std::array<double, 12> kJudgedAhead{0.05, 0.125, 0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.5};
 /// The truth at a time is a parabola through the detections so near to it, s; where none lie on both sides of it, the
 /// straight line between two neighbours at most kWidestGap apart.
 inline constexpr double kSmoothed = 0.2, kWidestGap = 0.5;
@@ -57,7 +56,7 @@ struct Judged {
 class Judge {
  public:
   /// @param learns  with the model that is learnt (learnt_model.h)
-  explicit Judge(double confidence, bool learns = false);
+  explicit Judge(double confidence, bool learns = true);
 
   /// @param seen  the tracks that were detected at `at`
   /// @param tracks  the ids of all that there are: the others are forgotten

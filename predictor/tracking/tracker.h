@@ -66,8 +66,8 @@ struct TrackerConfig {
   /// What rests and is out of the sensor's range, and what only a sensor saw that has fallen silent, outlives its last
   /// detection so long: the world goes on behind us.
   Duration remember_rest{30'000'000};
-  /// With the model that is learnt (learnt_model.h). Off until it has been measured in all worlds.
-  bool learns = false;
+  /// With the model that is learnt (learnt_model.h).
+  bool learns = true;
 };
 
 /// How often what was detected once was detected again: what of it was real.

@@ -33,20 +33,18 @@ Source source_of(const std::string& name, double weight, const Study& learning, 
 void calibrate(const CalibrationRequest& request) {
   Study sum;
   std::vector<Source> sources, slow;
-  // The table of coverage is of tern-predictor as it flies; the one that calibration begins with is for the learnt
-  // model, too.
   const auto judge = [&](const Recording& recording, Study& given, Study& learning) {
-    add(given, study(recording, TrackerConfig{}));
-    TrackerConfig learns;
-    learns.learns = true;
-    if (!request.prior.empty()) add(learning, study(recording, learns));
+    add(learning, study(recording, TrackerConfig{}));
+    TrackerConfig unlearnt;
+    unlearnt.learns = false;
+    if (!request.prior.empty()) add(given, study(recording, unlearnt));
   };
   for (const MadeUpSource& source : made_up_sources()) {
     Study given, learning;
     for (int seed = 1; seed <= request.made_up; ++seed) {
       judge(made_up(source, static_cast<std::uint64_t>(seed)), given, learning);
     }
-    add(sum, given);
+    add(sum, learning);
     if (!source.is_foreseen) given = Study{};
     sources.push_back(source_of(std::string(source.name), source.weight, learning, given));
     slow.push_back({std::string(source.name), source.weight, given.slow});
@@ -55,7 +53,7 @@ void calibrate(const CalibrationRequest& request) {
     const Recording recording = or_refuse(read_recording(log));
     Study given, learning;
     judge(recording, given, learning);
-    add(sum, given);
+    add(sum, learning);
     sources.push_back(source_of(recording.name, 1.0, learning, given));
     slow.push_back({recording.name, 1.0, given.slow});
   }
