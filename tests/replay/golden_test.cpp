@@ -11,7 +11,7 @@ namespace {
 class GoldenLog : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(GoldenLog, ReplaysWithTheSameOutcomesAndPositionsAndBytesWhereTheyArePromised) {
-  const auto replay = replay_log(std::string(TERN_GOLDEN_FOLDER) + "/" + GetParam() + ".lcm", {});
+  const auto replay = replay_log(std::string(TERN_GOLDEN_FOLDER "/") + GetParam() + ".lcm", {});
   ASSERT_TRUE(replay) << replay.error().message;
   EXPECT_GE(replay->plans.size(), 30U);
   EXPECT_EQ(replay_exit_code(*replay, false), 0)
