@@ -32,8 +32,9 @@ void ModelScores::add(std::size_t horizon, const PerCandidate<double>& scores, d
   PerCandidate<double>& sums = sums_[horizon];
   for (std::size_t j = 0; j < sums.size(); ++j)
     sums[j] = forgetting * sums[j] + worth(kScoredAhead[horizon]) * scores[j];
-  const double best = *std::max_element(sums.begin(), sums.end());
-  for (double& sum : sums) sum = std::max(sum - best, -kFarthestBehind);
+  // What is learnt may be far ahead of all given models: what these are to each other stays.
+  const double best = *std::max_element(sums.begin(), sums.begin() + kModels);
+  for (double& sum : sums) sum = std::clamp(sum - best, -kFarthestBehind, kFarthestBehind);
 }
 
 HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own, double learnt_to) {
