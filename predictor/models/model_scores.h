@@ -20,8 +20,8 @@ constexpr double worth(double ahead_s) { return ahead_s > kScorePeriod ? kScoreP
 /// Forgetting per score: of all tracks of a kind, and of one track.
 inline constexpr double kPoolForgetting = 0.98;
 inline constexpr double kOwnForgetting = 0.9;
-/// No model falls behind the best one by more, so that it can come back (the floor that M. Herbster's and M. K.
-/// Warmuth's fixed share keeps, "Tracking the best expert", 1998).
+/// No model falls behind the best given one by more, so that it can come back (the floor that M. Herbster's and M. K.
+/// Warmuth's fixed share keeps, "Tracking the best expert", 1998), nor is the learnt one ahead of it by more.
 inline constexpr double kFarthestBehind = 8.0;
 /// What weighs less is not used.
 inline constexpr double kLeastWeight = 0.02;

@@ -152,10 +152,9 @@ void Judge::follow(const SeenTrack& track, UTime at, History& history) {
 
 void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
   const bool first = std::find(kFirstScored.begin(), kFirstScored.end(), track.detections) != kFirstScored.end();
-  const bool is_young = (at - track.born).seconds() < kYoungAge;
-  const bool was_young = (history.issued - track.born).seconds() < kYoungAge;
-  if (!first && was_young == is_young && !history.issues.empty() && (at - history.issued).seconds() < kScorePeriod)
-    return;
+  const bool grew_up = (history.issued - track.born).seconds() < kYoungAge && (at - track.born).seconds() >= kYoungAge;
+  const bool is_due = history.issues.empty() || (at - history.issued).seconds() >= kScorePeriod;
+  if (!first && !grew_up && !is_due) return;
   history.issued = at;
   Issue& issue = history.issues.emplace_back();
   history.due.push_back(judged_at(at, 0));
