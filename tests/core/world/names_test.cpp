@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -12,7 +13,7 @@ namespace tern {
 namespace {
 
 std::string text_of(const std::string& file) {
-  std::ifstream in(std::string(TERN_SOURCE_FOLDER) + "/" + file);
+  std::ifstream in(std::filesystem::path(TERN_SOURCE_FOLDER) / file);
   EXPECT_TRUE(in) << file;
   return {std::istreambuf_iterator<char>(in), {}};
 }
