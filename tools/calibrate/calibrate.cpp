@@ -21,9 +21,10 @@ void write(const std::string& file, const std::string& text) {
 }
 
 // Given models' classes hold in worlds where nothing can be learnt, so they are of a tracker that does not learn.
-Source source_of(const std::string& name, double weight, const Study& learning, const Study& given) {
-  Source source{name, weight, given.judged};
-  std::ranges::copy_if(learning.judged, std::back_inserter(source.judged),
+Source source_of(const std::string& name, double weight, const std::vector<Judged>& learning,
+                 const std::vector<Judged>& given) {
+  Source source{name, weight, given};
+  std::ranges::copy_if(learning, std::back_inserter(source.judged),
                        [](const Judged& one) { return one.kind == TrackClass::Learnt; });
   return source;
 }
@@ -46,23 +47,21 @@ void calibrate(const CalibrationRequest& request) {
     }
     add(sum, learning);
     if (!source.is_foreseen) given = Study{};
-    sources.push_back(source_of(std::string(source.name), source.weight, learning, given));
-    slow.push_back({std::string(source.name), source.weight, given.slow});
+    sources.push_back(source_of(std::string(source.name), source.weight, learning.judged, given.judged));
+    slow.push_back(source_of(std::string(source.name), source.weight, learning.slow, given.slow));
   }
   for (const std::string& log : request.logs) {
     const Recording recording = or_refuse(read_recording(log));
     Study given, learning;
     judge(recording, given, learning);
     add(sum, learning);
-    sources.push_back(source_of(recording.name, 1.0, learning, given));
-    slow.push_back({recording.name, 1.0, given.slow});
+    sources.push_back(source_of(recording.name, 1.0, learning.judged, given.judged));
+    slow.push_back(source_of(recording.name, 1.0, learning.slow, given.slow));
   }
   const std::string table = coverage_table(sum);
   fmt::print("{}", table);
   if (!request.csv.empty()) write(request.csv, table);
-  if (!request.prior.empty())
-    write(request.prior, "    // worlds of any pace\n" + prior_table(sources, sources) + "    // slow worlds\n" +
-                             prior_table(slow, sources));
+  if (!request.prior.empty()) write(request.prior, prior_table(sources, slow));
 }
 
 }  // namespace tern::calibrate

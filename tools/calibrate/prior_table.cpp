@@ -118,36 +118,76 @@ double break_band(std::vector<Band>& sources, std::size_t level, double allowed)
   return std::clamp(1.0 - high, kLeastShare * allowed, allowed);
 }
 
-std::string row(std::vector<OfSource>& all, std::size_t band, const Calibration& calibration) {
-  std::vector<Band> sources = seen_to(all, band);
-  if (sources.empty()) {
-    throw std::runtime_error(
-        fmt::format("no source has {} promises of each class, seen to {} s", kFewPromises, kBandEnds[band]));
-  }
+// What the table holds of one class and band.
+struct Row {
   std::vector<double> levels, quantiles;
   std::size_t promises = 0;
-  for (const Band& source : sources) promises += source.scores.size();
-  for (std::size_t level = 0; level < kConfidenceLevels.size(); ++level) {
-    levels.push_back(break_band(sources, level, calibration.allowed(level, band)));
+};
+
+using Rows = std::array<Row, kBands>;
+
+Rows rows_of(std::vector<OfSource>& all) {
+  const Calibration calibration(kConfidenceLevels.front());
+  Rows rows;
+  for (std::size_t band = 0; band < kBands; ++band) {
+    std::vector<Band> sources = seen_to(all, band);
+    if (sources.empty()) {
+      throw std::runtime_error(
+          fmt::format("no source has {} promises of each class, seen to {} s", kFewPromises, kBandEnds[band]));
+    }
+    Row& row = rows[band];
+    for (const Band& source : sources) row.promises += source.scores.size();
+    for (std::size_t level = 0; level < kConfidenceLevels.size(); ++level) {
+      row.levels.push_back(break_band(sources, level, calibration.allowed(level, band)));
+    }
+    for (const double p : kPriorProbabilities) row.quantiles.push_back(quantile(sources, std::min(p, kPriorLast)));
   }
-  for (const double p : kPriorProbabilities) quantiles.push_back(quantile(sources, std::min(p, kPriorLast)));
-  return fmt::format("    {{{{{:.4f}}}, {{{:.3f}}}}},  // to {} s, of {} promises\n", fmt::join(levels, ", "),
-                     fmt::join(quantiles, ", "), kBandEnds[band], promises);
+  return rows;
+}
+
+// At level 0.
+double margin_of(const Row& row) {
+  const double p = 1.0 - row.levels.front();
+  const auto next = std::find_if(kPriorProbabilities.begin() + 1, kPriorProbabilities.end() - 1,
+                                 [p](double probability) { return probability >= p; });
+  const auto k = idx(next - kPriorProbabilities.begin());
+  return std::lerp(row.quantiles[k - 1], row.quantiles[k],
+                   (p - kPriorProbabilities[k - 1]) / (kPriorProbabilities[k] - kPriorProbabilities[k - 1]));
+}
+
+// A slow world is one of any pace: what is promised there holds in it too.
+Rows narrower(const Rows& any, const Rows& slow) {
+  Rows rows = slow;
+  for (std::size_t band = 0; band < kBands; ++band) {
+    if (margin_of(any[band]) < margin_of(slow[band])) rows[band] = any[band];
+  }
+  return rows;
+}
+
+std::string text_of(std::size_t kind, const Rows& rows) {
+  std::string text = fmt::format("    // class {}\n", kind);
+  for (std::size_t band = 0; band < kBands; ++band) {
+    const auto& [levels, quantiles, promises] = rows[band];
+    text += fmt::format("    {{{{{:.4f}}}, {{{:.3f}}}}},  // to {} s, of {} promises\n", fmt::join(levels, ", "),
+                        fmt::join(quantiles, ", "), kBandEnds[band], promises);
+  }
+  return text;
 }
 
 }  // namespace
 
-std::string prior_table(const std::vector<Source>& sources, const std::vector<Source>& otherwise) {
-  const Calibration calibration(kConfidenceLevels.front());
-  std::string text;
+std::string prior_table(const std::vector<Source>& sources, const std::vector<Source>& slow_sources) {
+  std::string any = "    // worlds of any pace\n", slow = "    // slow worlds\n";
   for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
-    text += fmt::format("    // class {}\n", kind);
-    std::vector<OfSource> all = of_class(sources, static_cast<TrackClass>(kind));
+    std::vector<OfSource> all = of_class(sources, static_cast<TrackClass>(kind)),
+                          among_slow = of_class(slow_sources, static_cast<TrackClass>(kind));
     const auto is_known = [](const OfSource& source) { return source.weight >= kWeightOfAKind; };
-    if (std::none_of(all.begin(), all.end(), is_known)) all = of_class(otherwise, static_cast<TrackClass>(kind));
-    for (std::size_t band = 0; band < kBands; ++band) text += row(all, band, calibration);
+    const bool is_slow_known = std::any_of(among_slow.begin(), among_slow.end(), is_known);
+    const Rows rows = rows_of(all);
+    any += text_of(kind, rows);
+    slow += text_of(kind, is_slow_known ? narrower(rows, rows_of(among_slow)) : rows);
   }
-  return text;
+  return any + slow;
 }
 
 }  // namespace tern::calibrate
