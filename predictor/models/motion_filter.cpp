@@ -43,16 +43,23 @@ Eigen::Map<Square<N>> square(double* entries) {
   return Eigen::Map<Square<N>>(entries);
 }
 
-// P ← Φ P Φᵀ + Q: the lower half, and its mirror.
+// P ← Φ P Φᵀ + Q, column by column, which compilers make the best of; then the lower half is mirrored.
 template <int N>
 void predict_covariance(const Square<N>& phi, const Square<N>& q, double* covariance) {
   auto p = square<N>(covariance);
-  const Square<N> moved = phi * p;
+  Square<N> moved;
   for (int j = 0; j < N; ++j) {
-    for (int i = j; i < N; ++i) {
-      p(i, j) = q(i, j) + moved.row(i).dot(phi.row(j));
-      p(j, i) = p(i, j);
-    }
+    Column<N> sum = phi.col(0) * p(0, j);
+    for (int k = 1; k < N; ++k) sum += phi.col(k) * p(k, j);
+    moved.col(j) = sum;
+  }
+  for (int j = 0; j < N; ++j) {
+    Column<N> sum = q.col(j);
+    for (int k = 0; k < N; ++k) sum += moved.col(k) * phi(j, k);
+    p.col(j) = sum;
+  }
+  for (int j = 1; j < N; ++j) {
+    for (int i = 0; i < j; ++i) p(i, j) = p(j, i);
   }
 }
 
