@@ -15,6 +15,7 @@
 #include "core/world/observation.h"
 #include "core/world/search_view.h"
 #include "core/world/track.h"
+#include "core/world/track_bounds.h"
 #include "core/world/vehicle.h"
 #include "core/world/vehicle_status.h"
 #include "core/world/voxel_map.h"
@@ -71,6 +72,8 @@ inline constexpr Channel<TrackSet> kDeclaredMotions{
     "DECLARED_MOTIONS", Scope::Shared, "5 Hz", kStream, Role::Vehicle, kSilence};
 inline constexpr Channel<TrackSet> kPredictions{
     "PREDICTIONS", Scope::Vehicle, "20 Hz", kStream, Role::Predictor, kShortSilence};
+inline constexpr Channel<TrackBounds> kTrackBounds{
+    "TRACK_BOUNDS", Scope::Vehicle, "2 Hz", kStream, Role::Predictor, kShortSilence};
 inline constexpr Channel<MapChunk> kSemanticMap{
     "SEMANTIC_MAP", Scope::Shared, "≥ 1 Hz, chunks in rotation", kLatched, Role::Mapper, kMapSilence};
 inline constexpr Channel<Goal> kGoal{
@@ -96,10 +99,24 @@ inline constexpr Channel<FlightResult> kFlightResult{
     "FLIGHT_RESULT", Scope::Vehicle, "at the end", kLatched, Role::Vehicle, kSilence};
 // clang-format on
 
-inline constexpr std::tuple kAll{kUavState,     kSetpoint,    kVehicleStatus, kObstacleObservations, kDeclaredMotions,
-                                 kPredictions,  kSemanticMap, kGoal,          kHorizonRequest,       kPlan,
-                                 kPlanTiming,   kSearchView,  kHeartbeat,     kConfiguration,        kObstacleTruth,
-                                 kVehicleTruth, kFlightResult};
+inline constexpr std::tuple kAll{kUavState,
+                                 kSetpoint,
+                                 kVehicleStatus,
+                                 kObstacleObservations,
+                                 kDeclaredMotions,
+                                 kPredictions,
+                                 kTrackBounds,
+                                 kSemanticMap,
+                                 kGoal,
+                                 kHorizonRequest,
+                                 kPlan,
+                                 kPlanTiming,
+                                 kSearchView,
+                                 kHeartbeat,
+                                 kConfiguration,
+                                 kObstacleTruth,
+                                 kVehicleTruth,
+                                 kFlightResult};
 
 }  // namespace channels
 

@@ -43,6 +43,8 @@ inline constexpr const char* kLcmType<ObservationSet> = "observation_set_t";
 /// several pieces.
 template <>
 inline constexpr const char* kLcmType<TrackSet> = "track_set_t";
+template <>
+inline constexpr const char* kLcmType<TrackBounds> = "track_bounds_t";
 /// Inconsistent: runs that end beyond the grid, a class that has no name, a first class name that is not empty.
 template <>
 inline constexpr const char* kLcmType<MapChunk> = "map_chunk_t";

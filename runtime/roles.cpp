@@ -55,7 +55,7 @@ const std::vector<Part>& parts() {
       {"tern-mavlink", Role::Vehicle,
        names_of(kUavState, kSetpoint, kVehicleStatus, kVehicleTruth, kHorizonRequest, kPlan, kFlightResult, kGoal)},
       {"tern-autopilot-sim", Role::Observer, {}},
-      {"tern-predictor", Role::Predictor, names_of(kObstacleObservations, kDeclaredMotions, kUavState, kPredictions)},
+      {"tern-predictor", Role::Predictor, names_of(kObstacleObservations, kDeclaredMotions, kUavState, kPredictions, kTrackBounds)},
       {"tern-planner", Role::Planner,
        names_of(kHorizonRequest, kPredictions, kSemanticMap, kGoal, kPlan, kPlanTiming, kSearchView)},
       {"tern-mapper", Role::Mapper, names_of(kSemanticMap)},

@@ -13,6 +13,7 @@
 #include "core/world/health.h"
 #include "core/world/horizon.h"
 #include "core/world/track.h"
+#include "core/world/track_bounds.h"
 #include "core/world/vehicle_status.h"
 #include "core/world/voxel_map.h"
 
@@ -39,6 +40,11 @@ template <>
 inline constexpr std::array<const char*, 3> kWords<GoalMode>{"go", "hold", "stop"};
 template <>
 inline constexpr std::array<const char*, 3> kWords<TrackKind>{"static", "declared", "estimated"};
+template <>
+inline constexpr std::array<const char*, kMotionKinds> kWords<MotionKind>{"new",    "young",  "steady", "calm",
+                                                                          "lively", "learnt", "resting"};
+template <>
+inline constexpr std::array<const char*, kBoundRules> kWords<BoundRule>{"model", "prior", "measured", "reach"};
 template <>
 inline constexpr std::array<const char*, kVoxelLabels> kWords<VoxelLabel>{"unknown", "free", "occupied", "attractive",
                                                                           "repulsive"};

@@ -83,16 +83,31 @@ void PredictorNode::step(UTime now) {
   if (next_ <= now) next_ = now + config_.period();  // what was missed is not made up for
 }
 
-std::vector<Track> PredictorNode::predictions(UTime now) const {
-  const Duration horizon = config_.tracker.prediction.horizon;
-  return merged(trimmed(declared_, now, horizon), tracker_.predict(now), now);
+void PredictorNode::publish(const TrackSet& set, std::vector<TrackBound> bounds, UTime now) {
+  if (now < next_bounds_) return;
+  next_bounds_ = now + kBoundsPeriod;
+  TrackBounds of;
+  of.at = now;
+  of.confidence = set.confidence;
+  for (const Track& track : set.tracks) {
+    const auto bound = std::ranges::find(bounds, track.id, &TrackBound::id);
+    if (track.kind != TrackKind::Estimated || bound == bounds.end()) continue;
+    if (of.bounds.size() < kMaxTrackBounds) {
+      of.bounds.push_back(*bound);
+    } else {
+      ++of.left_out;
+    }
+  }
+  bus_.publish(channels::kTrackBounds, of);
 }
 
 void PredictorNode::publish(UTime now) {
   TrackSet set;
   set.batch.set = ++sets_;
   set.made_at = *made_at_;
-  set.tracks = predictions(now);
+  const Duration horizon = config_.tracker.prediction.horizon;
+  std::vector<TrackBound> bounds;
+  set.tracks = merged(trimmed(declared_, now, horizon), tracker_.predict(now, &bounds), now);
   const bool estimated = std::any_of(set.tracks.begin(), set.tracks.end(),
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });
   set.confidence = estimated ? config_.tracker.prediction.confidence : 1.0;
@@ -109,6 +124,7 @@ void PredictorNode::publish(UTime now) {
         fmt::format("{} of {} tracks do not fit into a set: the farthest are left out", left_out, set.tracks.size());
     watch_.trouble("left out", text, now);
   }
+  publish(set, std::move(bounds), now);
   bus_.publish_paced(channels::kPredictions, std::move(batches));
 }
 

@@ -19,6 +19,7 @@
 
 namespace tern {
 
+inline constexpr Duration kBoundsPeriod{500'000};
 /// So long must the process that speaks for a sensor be silent before another one is heard.
 inline constexpr Duration kSensorSilence{1'000'000};
 
@@ -31,7 +32,8 @@ inline constexpr Duration kSensorSilence{1'000'000};
 ///
 /// Waiting until there is an input, while the newest is older than kInputsStopped, and while one that was used is
 /// silent for so long: a dead sensor beside another input does not show in made_at. Troubles (a repeated input, tracks
-/// that do not fit into a set) are said on HEARTBEAT in any state.
+/// that do not fit into a set) are said on HEARTBEAT in any state. Why the boxes of estimated tracks are as wide as
+/// they are is published with the first set of each kBoundsPeriod.
 class PredictorNode final : public Node {
  public:
   PredictorNode(Bus& bus, const PredictorConfig& config);
@@ -47,7 +49,8 @@ class PredictorNode final : public Node {
   bool may_speak(const ObservationSet& observations, UTime now);
   void have_input(const std::string& input, UTime made_at);
   void publish(UTime now);
-  [[nodiscard]] std::vector<Track> predictions(UTime now) const;
+  /// Those of the set's tracks, in its order.
+  void publish(const TrackSet& set, std::vector<TrackBound> bounds, UTime now);
 
   Bus& bus_;
   PredictorConfig config_;
@@ -65,6 +68,7 @@ class PredictorNode final : public Node {
   std::optional<UTime> made_at_;  // none: no input yet
   std::int64_t sets_ = 0;
   UTime next_ = kNever;
+  UTime next_bounds_;
 };
 
 }  // namespace tern

@@ -10,6 +10,7 @@
 
 #include "core/base/types.h"
 #include "core/world/track.h"
+#include "core/world/track_bounds.h"
 #include "predictor/tracking/calibration_prior.h"
 
 namespace tern {
@@ -35,6 +36,11 @@ constexpr std::size_t pool_of(TrackClass kind) {
   const auto k = static_cast<std::size_t>(kind);
   if (kind == TrackClass::Learnt) return kPools - 2;
   return k < 2 ? k : k % 2 == 1 ? kPools - 1 : 1 + k / 2;
+}
+/// What people are told of a class.
+constexpr MotionKind kind_of(TrackClass of) {
+  const auto k = static_cast<std::size_t>(of);
+  return static_cast<MotionKind>(k < 2 ? k : 1 + k / 2);
 }
 inline constexpr double kYoungAge = 0.3;  ///< s
 inline constexpr double kGrownAge = 1.0;  ///< s
@@ -111,6 +117,10 @@ class Calibration {
   }
   /// Of tracks of which only the share `real` exists: what does not exist breaks no promise. O(halvings · log scores).
   [[nodiscard]] PerLevel margins(TrackClass kind, double real) const;
+  /// For how many independent scores those of the class's pool count: below kPriorWeight the prior counts more.
+  [[nodiscard]] double evidence(TrackClass kind, std::size_t band) const {
+    return worth(band) * pools_[pool_of(kind)][band].size();
+  }
   /// Another prior rules from the next refresh() on. Scores stay; θ begins anew: that one prior was too wide says
   /// nothing of the other.
   void set_pace(WorldPace pace);

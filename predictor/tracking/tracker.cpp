@@ -65,6 +65,8 @@ std::pair<UTime, std::int32_t> key(const ObservationSet& set) { return {set.at, 
 Tracker::Tracker(const TrackerConfig& config)
     : config_(config), ends_(piece_ends(config.prediction)), judge_(config.prediction.confidence, config.learns) {
   for (const Duration end : ends_) steps_ahead_.push_back(bank_step(end.seconds()));
+  bound_at_ = idx(std::ranges::lower_bound(ends_, std::min(kBoundsAhead, ends_.back())) - ends_.begin());
+  model_sigmas_ = quantile_for(1.0 - config.prediction.confidence, 0.0);
   for (std::size_t level = 0; level < rest_quantiles_.size(); ++level) {
     const double broken = 1.0 - confidence_at(config.prediction.confidence, static_cast<int>(level));
     rest_quantiles_[level] = quantile_for((1.0 - kStartShare) * broken / 3.0, kRestCrossings);
@@ -264,7 +266,8 @@ bool Tracker::is_published(const TrackedObject& object, const ExistenceRecord& e
 
 double Tracker::top_speed() const { return std::max(config_.prediction.max_speed, judge_.fastest()); }
 
-Waypoint Tracker::resting_at(const TrackedObject& object, const State& state, UTime from, double ahead_s) const {
+std::pair<Waypoint, Vec3> Tracker::resting_at(const TrackedObject& object, const State& state, UTime from,
+                                              double ahead_s) const {
   const double to_s = (from - state.at).seconds() + ahead_s;
   const double unseen_s = (from - object.last_seen).seconds() + ahead_s;
   Waypoint waypoint;
@@ -283,13 +286,22 @@ Waypoint Tracker::resting_at(const TrackedObject& object, const State& state, UT
     waypoint.half[level] = rest_quantiles_[level] * sigma;
     if (moved_s > 0.0) waypoint.half[level] += unnoticed + Vec3::Constant(top_speed() * moved_s);
   }
-  return waypoint;
+  return {waypoint, rest_quantiles_.front() * sigma};
 }
 
-std::vector<Waypoint> Tracker::resting_waypoints(const TrackedObject& object, const State& state, UTime from) const {
-  std::vector<Waypoint> waypoints;
-  for (const Duration end : ends_) waypoints.push_back(resting_at(object, state, from, end.seconds()));
-  return waypoints;
+Tracker::Belief Tracker::at_rest(const TrackedObject& object, const State& state, UTime from) const {
+  Belief belief;
+  TrackBound& bound = belief.bound;
+  for (std::size_t k = 0; k < ends_.size(); ++k) {
+    const auto [waypoint, model] = resting_at(object, state, from, ends_[k].seconds());
+    belief.waypoints.push_back(waypoint);
+    if (k == bound_at_) bound.model = model.maxCoeff();
+  }
+  bound.kind = MotionKind::Resting;
+  bound.evidence = state.rest.starts;
+  const bool may_have_gone = belief.waypoints[bound_at_].half.front().maxCoeff() > bound.model;
+  bound.ruled_by = may_have_gone ? BoundRule::Reach : BoundRule::Model;
+  return belief;
 }
 
 const std::vector<LearntLook>& Tracker::learnt_looks(std::size_t group, UTime last_seen, Ahead& ahead) const {
@@ -301,14 +313,15 @@ const std::vector<LearntLook>& Tracker::learnt_looks(std::size_t group, UTime la
   return looks;
 }
 
-std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, Ahead& ahead) const {
+Tracker::Belief Tracker::moving(const TrackedObject& object, Ahead& ahead) const {
   const Judge::Verdict verdict = this->verdict(object);
   const bool is_sure = object.confirmed || object.detections > 1;
   const PerLevel& margins = is_sure ? judge_.calibration().margins(verdict.kind) : ahead.of_unsure;
   const double since_s = (ahead.from - object.last_seen).seconds();
   const bool is_unseen = since_s > kUnseen;
-  std::vector<Waypoint> waypoints(ends_.size());
+  Belief belief{std::vector<Waypoint>(ends_.size()), {}};
   for (std::size_t k = 0; k < ends_.size(); ++k) {
+    Waypoint& waypoint = belief.waypoints[k];
     const double ahead_s = since_s + ends_[k].seconds();
     const PerCandidate<double> weights = weights_at(verdict.weights, ahead_s);
     FilterLook learnt;
@@ -316,13 +329,18 @@ std::vector<Waypoint> Tracker::moving_waypoints(const TrackedObject& object, Ahe
       learnt = said_by(learnt_looks(*verdict.group, object.last_seen, ahead)[k], object.learnt_from);
     }
     const Mixed said = mixed(object.moving, ahead.looks[k], learnt, weights);
-    waypoints[k].centre = said.centre;
-    waypoints[k].velocity = said.velocity;
+    waypoint.centre = said.centre;
+    waypoint.velocity = said.velocity;
+    if (k == bound_at_) belief.bound.model = model_sigmas_ * said.deviation.maxCoeff();
     for (std::size_t level = 0; level < margins.size(); ++level) {
-      waypoints[k].half[level] = promised_half(said.deviation, margins[is_unseen ? 0 : level], ahead_s);
+      waypoint.half[level] = promised_half(said.deviation, margins[is_unseen ? 0 : level], ahead_s);
     }
   }
-  return waypoints;
+  TrackBound& bound = belief.bound;
+  bound.kind = kind_of(verdict.kind);
+  bound.evidence = judge_.calibration().evidence(verdict.kind, band_of(since_s + ends_[bound_at_].seconds()));
+  bound.ruled_by = bound.evidence < Calibration::kPriorWeight ? BoundRule::Prior : BoundRule::Measured;
+  return belief;
 }
 
 bool Tracker::is_gone(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start) {
@@ -333,7 +351,7 @@ bool Tracker::is_gone(const TrackedObject& object, const std::vector<View>& view
   });
 }
 
-std::vector<Track> Tracker::predict(UTime now) const {
+std::vector<Track> Tracker::predict(UTime now, std::vector<TrackBound>* why) const {
   const State& newest = newest_state();
   const UTime from = std::max(now, newest.at);
   const BankStep first = bank_step((from - newest.at).seconds());
@@ -343,8 +361,7 @@ std::vector<Track> Tracker::predict(UTime now) const {
   for (const TrackedObject& object : newest.objects) {
     if (!is_published(object, newest.existence)) continue;
     const bool is_resting = rests(object);
-    const std::vector<Waypoint> waypoints =
-        is_resting ? resting_waypoints(object, newest, from) : moving_waypoints(object, ahead);
+    auto [waypoints, bound] = is_resting ? at_rest(object, newest, from) : moving(object, ahead);
     if (is_gone(object, newest.views, waypoints.front())) continue;
     const double seen_speed = is_resting ? 0.0 : waypoints.front().velocity.cwiseAbs().maxCoeff();
     Track track;
@@ -352,6 +369,14 @@ std::vector<Track> Tracker::predict(UTime now) const {
     track.kind = TrackKind::Estimated;
     track.half_extents = object.half_extents;
     set_motion(waypoints, from, config_.prediction, std::max(top_speed(), seen_speed), track);
+    if (why != nullptr) {
+      bound.id = object.id;
+      bound.ahead_s = ends_[bound_at_].seconds();
+      bound.measured = waypoints[bound_at_].half.front().maxCoeff();
+      bound.promised = track.alpha[bound_at_ - 1].maxCoeff();
+      if (bound.promised < bound.measured) bound.ruled_by = BoundRule::Reach;
+      why->push_back(bound);
+    }
     tracks.push_back(std::move(track));
   }
   return tracks;

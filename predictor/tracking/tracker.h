@@ -10,6 +10,7 @@
 
 #include "core/world/observation.h"
 #include "core/world/track.h"
+#include "core/world/track_bounds.h"
 #include "predictor/models/promise.h"
 #include "predictor/tracking/judge.h"
 #include "predictor/tracking/rest_record.h"
@@ -56,6 +57,8 @@ inline constexpr int kMissesOfNew = 2;
 /// What rests has no speed beyond so many standard deviations per axis, or beyond kRestingSpeed m/s.
 inline constexpr double kRestingSpeedSigmas = 3.0;
 inline constexpr double kRestingSpeed = 0.05;
+/// Bounds are told at the end of the piece of a prediction that holds this time.
+inline constexpr Duration kBoundsAhead{1'000'000};
 
 struct TrackerConfig {
   PredictionSpec prediction;
@@ -110,7 +113,8 @@ class Tracker {
   /// remain, with growing α; but what has left its sensor's range is left out once its α at the start exceeds
   /// kKnownWithin: then it says no more than that anything may come from there, and that nobody promises. If `now` lies
   /// before the newest observation, that is where they start.
-  [[nodiscard]] std::vector<Track> predict(UTime now) const;
+  /// @param why  what each of them is as wide as it is by, in the same order, if anybody asks
+  [[nodiscard]] std::vector<Track> predict(UTime now, std::vector<TrackBound>* why = nullptr) const;
 
   /// All tracks, tentative ones too, by id ascending, at newest().
   [[nodiscard]] const std::vector<TrackedObject>& objects() const { return newest_state().objects; }
@@ -162,9 +166,15 @@ class Tracker {
   [[nodiscard]] SeenTrack seen(const TrackedObject& object) const;
   [[nodiscard]] double top_speed() const;  // of what is new or starts
   /// Where a start is contained, so is one that the last detection shows and the filter does not yet believe.
-  [[nodiscard]] Waypoint resting_at(const TrackedObject& object, const State& state, UTime from, double ahead_s) const;
-  [[nodiscard]] std::vector<Waypoint> resting_waypoints(const TrackedObject& object, const State& state,
-                                                        UTime from) const;
+  /// @return with what the filter alone says at level 0
+  [[nodiscard]] std::pair<Waypoint, Vec3> resting_at(const TrackedObject& object, const State& state, UTime from,
+                                                     double ahead_s) const;
+  /// Waypoints at ends_, and what of a bound they know: all but what is promised.
+  struct Belief {
+    std::vector<Waypoint> waypoints;
+    TrackBound bound;
+  };
+  [[nodiscard]] Belief at_rest(const TrackedObject& object, const State& state, UTime from) const;
   /// What the tracks of one prediction share.
   struct Ahead {
     UTime from;
@@ -173,10 +183,12 @@ class Tracker {
     std::map<std::pair<std::size_t, UTime>, std::vector<LearntLook>> learnt;  // by group and last detection
   };
   [[nodiscard]] const std::vector<LearntLook>& learnt_looks(std::size_t group, UTime last_seen, Ahead& ahead) const;
-  [[nodiscard]] std::vector<Waypoint> moving_waypoints(const TrackedObject& object, Ahead& ahead) const;
+  [[nodiscard]] Belief moving(const TrackedObject& object, Ahead& ahead) const;
 
   TrackerConfig config_;
   std::vector<Duration> ends_;         // of pieces
+  std::size_t bound_at_ = 0;           // of them, where bounds are told
+  double model_sigmas_ = 0.0;          // of the models' own bound at level 0
   std::vector<BankStep> steps_ahead_;  // to them
   std::array<double, kConfidenceLevels.size()> rest_quantiles_{};
   State before_steps_;

@@ -105,6 +105,10 @@ struct Words {
   }
   void add(const SearchViewNode& n) { (*this)(n.position, n.parent); }
   void add(const SearchView& v) { (*this)(v.header, v.request_id, v.left_out, v.nodes); }
+  void add(const TrackBound& b) {
+    (*this)(b.id, b.kind, b.ruled_by, b.ahead_s, b.model, b.measured, b.promised, b.evidence);
+  }
+  void add(const TrackBounds& b) { (*this)(b.header, b.at, b.confidence, b.left_out, b.bounds); }
   void add(const PlanTiming& t) {
     (*this)(t.header, t.request_id, t.total_ms, t.first_answer_ms, t.cpu_ms, t.stage_ms, t.expansions, t.hulls,
             t.pairs_by_index, t.pairs_by_box, t.pairs_by_instant, t.pairs_by_cache, t.pairs_by_plane, t.pairs_by_lp,
@@ -142,6 +146,7 @@ template std::vector<std::uint64_t> words_of(const HorizonRequest&);
 template std::vector<std::uint64_t> words_of(const Plan&);
 template std::vector<std::uint64_t> words_of(const PlanTiming&);
 template std::vector<std::uint64_t> words_of(const SearchView&);
+template std::vector<std::uint64_t> words_of(const TrackBounds&);
 template std::vector<std::uint64_t> words_of(const Heartbeat&);
 template std::vector<std::uint64_t> words_of(const ConfigurationReport&);
 template std::vector<std::uint64_t> words_of(const ObstacleTruth&);
@@ -162,6 +167,10 @@ std::vector<std::int32_t> array_sizes(const PlanTiming&) {
 template <>
 std::vector<std::int32_t> array_sizes(const SearchView& view) {
   return {size_of(view.nodes)};
+}
+template <>
+std::vector<std::int32_t> array_sizes(const TrackBounds& of) {
+  return {size_of(of.bounds)};
 }
 template <>
 std::vector<std::int32_t> array_sizes(const ObservationSet& set) {

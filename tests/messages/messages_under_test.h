@@ -12,7 +12,7 @@ namespace tern {
 
 using AllMessages =
     testing::Types<UavState, VehicleStatus, ObservationSet, TrackSet, MapChunk, Goal, HorizonRequest, Plan, PlanTiming,
-                   SearchView, Heartbeat, ConfigurationReport, ObstacleTruth, FlightResult>;
+                   SearchView, TrackBounds, Heartbeat, ConfigurationReport, ObstacleTruth, FlightResult>;
 
 /// The sizes of a value's arrays, in the order in which its .lcm file declares the counts.
 template <class T>

@@ -357,6 +357,20 @@ TEST(Rejection, OfSearchView) {
   EXPECT_EQ(after<SearchView>([](auto& v) { v.nodes = {{Vec3::Zero(), 0}}; }), "Inconsistent");
 }
 
+TEST(Rejection, OfTrackBounds) {
+  const auto with = [](const std::function<void(TrackBound&)>& spoil) {
+    return after<TrackBounds>([&](auto& of) { spoil(of.bounds[1]); });
+  };
+  EXPECT_EQ(after<TrackBounds>([](auto& of) { of.confidence = 0.0; }), "Number");
+  EXPECT_EQ(after<TrackBounds>([](auto& of) { of.left_out = -1; }), "Number");
+  EXPECT_EQ(with([](TrackBound& b) { b.id = -1; }), "Number");
+  EXPECT_EQ(with([](TrackBound& b) { b.kind = static_cast<MotionKind>(kMotionKinds); }), "Enumeration");
+  EXPECT_EQ(with([](TrackBound& b) { b.ruled_by = static_cast<BoundRule>(kBoundRules); }), "Enumeration");
+  EXPECT_EQ(with([](TrackBound& b) { b.model = -1.0; }), "Number");
+  EXPECT_EQ(with([](TrackBound& b) { b.measured = kNaN; }), "Number");
+  EXPECT_EQ(with([](TrackBound& b) { b.promised = kInfinity; }), "Number");
+}
+
 TEST(Rejection, OfPlanTiming) {
   EXPECT_EQ(after<PlanTiming>([](auto& t) { t.request_id = 0; }), "Number");
   EXPECT_EQ(after<PlanTiming>([](auto& t) { t.total_ms = -0.1; }), "Number");

@@ -183,6 +183,33 @@ TEST_F(PredictorNodeTest, EstimatesWhatNobodyDeclares) {
   EXPECT_NEAR(set.tracks[1].motion.sample(runner_.now()).v.y(), 1.5, 0.3);
 }
 
+TEST_F(PredictorNodeTest, TellsTwiceASecondWhatRulesTheWidthOfWhatItEstimates) {
+  start();
+  std::vector<TrackBounds> told;
+  runner_.observer().subscribe(channels::kTrackBounds, [&](const TrackBounds& of) { told.push_back(of); });
+  Rng rng(1);
+  const UTime begin = runner_.now();
+  for (int k = 0; k < 60; ++k) {
+    declare({mover(1, Vec3(50, 0, 1), Vec3(-1, 0, 0), runner_.now())});
+    const Vec3 p(0.0, 1.5 * (runner_.now() - Duration{50'000} - begin).seconds(), 1.0);
+    observe({testing::detection_of(p, 0.05, rng)});
+    run_for(1.0 / 30);
+  }
+  ASSERT_EQ(told.size(), 4u);
+  const TrackBounds& of = told.back();
+  EXPECT_EQ(of.confidence, 0.99);
+  const auto set =
+      std::ranges::find_if(sets_, [&](const TrackSet& s) { return s.tracks.back().motion.start == of.at; });
+  ASSERT_NE(set, sets_.end());
+  ASSERT_EQ(of.bounds.size(), 1u) << "what is declared needs no reason";
+  const TrackBound& bound = of.bounds.front();
+  const Track& track = set->tracks.back();
+  EXPECT_EQ(bound.id, track.id);
+  const auto piece = track.motion.locate(of.at + Duration::from_seconds(bound.ahead_s) - Duration{1}).index;
+  EXPECT_EQ(bound.promised, track.alpha[piece].maxCoeff());
+  EXPECT_EQ(bound.ruled_by, BoundRule::Prior) << "of a second and a half little is known";
+}
+
 TEST_F(PredictorNodeTest, EachModelListensOnlyToItsOwn) {
   for (const PredictorModel model : {PredictorModel::Declared, PredictorModel::Detections}) {
     VirtualRunner runner;

@@ -125,6 +125,53 @@ TEST(Tracker, PredictsWhatRestsAtRest) {
   EXPECT_LT((tracks[0].motion.sample(at_seconds(t + 4.0)).p - p).norm(), 0.2);
 }
 
+// Of `movers` that swing and one thing that rests, seen for so long.
+std::map<MotionKind, std::vector<TrackBound>> bounds_after(double seconds, int movers) {
+  Rng rng(4);
+  Tracker tracker(TrackerConfig{});
+  std::vector<Path> paths{straight(Vec3(-20.0, 0.0, 1.0), Vec3::Zero())};
+  for (int k = 0; k < movers; ++k) {
+    paths.emplace_back([k](double t) -> Vec3 { return {8.0 * k + 2.0 * std::sin(1.5 * t + k), 0.0, 1.0}; });
+  }
+  const double t = feed(tracker, paths, 0.0, seconds, rng);
+  std::vector<TrackBound> bounds;
+  const std::vector<Track> tracks = tracker.predict(at_seconds(t), &bounds);
+  EXPECT_EQ(bounds.size(), tracks.size());
+  std::map<MotionKind, std::vector<TrackBound>> by_kind;
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    const TrackBound& bound = bounds[k];
+    EXPECT_EQ(bound.id, tracks[k].id);
+    EXPECT_GE(bound.ahead_s, kBoundsAhead.seconds());
+    const auto piece = tracks[k].motion.locate(at_seconds(t + bound.ahead_s - 1e-4)).index;
+    EXPECT_EQ(bound.promised, tracks[k].alpha[piece].maxCoeff());
+    EXPECT_GT(bound.model, 0.0);
+    if (bound.promised < bound.measured) {
+      EXPECT_EQ(bound.ruled_by, BoundRule::Reach);
+    }
+    by_kind[bound.kind].push_back(bound);
+  }
+  return by_kind;
+}
+
+TEST(Tracker, TellsWhatRulesABound) {
+  const auto at_once = bounds_after(1.0 / kRate, 20), soon = bounds_after(1.5, 20), late = bounds_after(30.0, 20);
+  ASSERT_EQ(at_once.size(), 1u);
+  EXPECT_EQ(at_once.at(MotionKind::New).size(), 21u);
+  ASSERT_EQ(soon.at(MotionKind::Resting).size(), 1u);
+  EXPECT_EQ(soon.at(MotionKind::Resting).front().ruled_by, BoundRule::Reach) << "it may start: rest is not trusted yet";
+  const auto count = [](const auto& by_kind, BoundRule rule) {
+    int sum = 0;
+    for (const auto& [kind, bounds] : by_kind)
+      sum += static_cast<int>(std::ranges::count(bounds, rule, &TrackBound::ruled_by));
+    return sum;
+  };
+  EXPECT_EQ(count(soon, BoundRule::Measured), 0) << "no error of a second was seen yet";
+  EXPECT_GE(count(late, BoundRule::Measured), 15);
+  const std::vector<TrackBound>& learnt = late.at(MotionKind::Learnt);
+  EXPECT_GE(learnt.size(), 15u);
+  for (const TrackBound& bound : learnt) EXPECT_GT(bound.evidence, 30.0);
+}
+
 TEST(Tracker, GivesRestUpWhenItEnds) {
   Rng rng(2);
   Tracker tracker(TrackerConfig{});

@@ -311,6 +311,26 @@ SearchView random_message(Rng& rng, Fill fill) {
 }
 
 template <>
+TrackBounds random_message(Rng& rng, Fill fill) {
+  TrackBounds of;
+  of.header = header(rng);
+  of.at = time(rng);
+  of.confidence = number(rng, std::numeric_limits<double>::min(), 1.0);
+  of.left_out = static_cast<std::int32_t>(integer(rng, 0, std::numeric_limits<std::int32_t>::max()));
+  const int bounds = count(rng, fill, 0, kMaxTrackBounds);
+  for (int k = 0; k < bounds; ++k) {
+    TrackBound& bound = of.bounds.emplace_back();
+    bound.id = integer(rng, 0, kMaxCounter);
+    bound.kind = enumerator(rng, MotionKind::Resting);
+    bound.ruled_by = enumerator(rng, BoundRule::Reach);
+    for (double* x : {&bound.ahead_s, &bound.model, &bound.measured, &bound.promised, &bound.evidence}) {
+      *x = number(rng, 0.0, kMaxCoordinate);
+    }
+  }
+  return of;
+}
+
+template <>
 PlanTiming random_message(Rng& rng, Fill) {
   PlanTiming t;
   t.header = header(rng);

@@ -9,6 +9,7 @@
 #include "core/world/observation.h"
 #include "core/world/search_view.h"
 #include "core/world/track.h"
+#include "core/world/track_bounds.h"
 #include "core/world/vehicle.h"
 #include "core/world/voxel_map.h"
 
@@ -20,8 +21,8 @@ enum class Fill {
 };
 
 /// A value that decode() accepts, of any of the message types: UavState, VehicleStatus, ObservationSet, TrackSet,
-/// MapChunk, Goal, HorizonRequest, Plan, PlanTiming, SearchView, Heartbeat, ConfigurationReport, ObstacleTruth,
-/// FlightResult.
+/// MapChunk, Goal, HorizonRequest, Plan, PlanTiming, SearchView, TrackBounds, Heartbeat, ConfigurationReport,
+/// ObstacleTruth, FlightResult.
 template <class T>
 T random_message(Rng& rng, Fill fill = Fill::Mixed);
 

@@ -37,6 +37,8 @@ TEST(Names, AreTheConstantsOfTheMessagesDescriptions) {
   expect_constants_in<FlightOutcome>("lcmtypes/flight_result_t.lcm");
   expect_constants_in<GoalMode>("lcmtypes/goal_t.lcm");
   expect_constants_in<TrackKind>("lcmtypes/track_t.lcm");
+  expect_constants_in<MotionKind>("lcmtypes/track_bound_t.lcm");
+  expect_constants_in<BoundRule>("lcmtypes/track_bound_t.lcm");
   expect_constants_in<VoxelLabel>("lcmtypes/map_run_t.lcm");
   expect_constants_in<ProcessState>("lcmtypes/heartbeat_t.lcm");
 }
