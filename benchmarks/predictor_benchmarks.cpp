@@ -41,8 +41,11 @@ std::vector<ObservationSet> sets_of(std::int64_t things) {
   return sets;
 }
 
-Tracker warm(const std::vector<ObservationSet>& sets) {
-  Tracker tracker(TrackerConfig{});
+// learns: with the model that is learnt in the flight.
+Tracker warm(const std::vector<ObservationSet>& sets, bool learns) {
+  TrackerConfig config;
+  config.learns = learns;
+  Tracker tracker(config);
   for (int n = 0; n < kWarm; ++n) tracker.update(sets[static_cast<std::size_t>(n)]);
   return tracker;
 }
@@ -50,7 +53,7 @@ Tracker warm(const std::vector<ObservationSet>& sets) {
 /// A set is associated, filtered, and what was promised before is scored.
 void tracker_update(benchmark::State& state) {
   const std::vector<ObservationSet> sets = sets_of(state.range(0));
-  const Tracker begun = warm(sets);
+  const Tracker begun = warm(sets, state.range(1) != 0);
   Tracker tracker = begun;
   std::size_t next = kWarm;
   for (auto _ : state) {
@@ -63,14 +66,20 @@ void tracker_update(benchmark::State& state) {
     benchmark::DoNotOptimize(tracker.update(sets[next++]));
   }
 }
-BENCHMARK(tracker_update)->Arg(20)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(tracker_update)
+    ->ArgNames({"things", "learns"})
+    ->ArgsProduct({{20, 100}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
 
 /// All tracks, over 4.5 s, with α at five confidences.
 void tracker_predict(benchmark::State& state) {
-  const Tracker tracker = warm(sets_of(state.range(0)));
+  const Tracker tracker = warm(sets_of(state.range(0)), state.range(1) != 0);
   for (auto _ : state) benchmark::DoNotOptimize(tracker.predict(tracker.newest()).data());
 }
-BENCHMARK(tracker_predict)->Arg(20)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(tracker_predict)
+    ->ArgNames({"things", "learns"})
+    ->ArgsProduct({{20, 100}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace tern
