@@ -32,7 +32,8 @@ enum class BoundRule : std::uint8_t {
 };
 inline constexpr std::size_t kBoundRules = 4;
 
-/// Of one estimated track, so far ahead. Half-widths, m, of the axis on which they are largest.
+/// Of one estimated track, so far ahead. Half-widths, m, of the axis on which they are largest. Of what rests the
+/// models say what its filter holds at all times, and past errors are starts.
 struct TrackBound {
   std::int64_t id = 0;
   MotionKind kind = MotionKind::New;
@@ -41,7 +42,7 @@ struct TrackBound {
   double model = 0.0;     ///< what the models say themselves: z σ, P[|error| > z σ] = 1 − confidence
   double measured = 0.0;  ///< what past errors ask for
   double promised = 0.0;  ///< α at that time
-  double evidence = 0.0;  ///< for how many independent errors this flight's own count
+  double evidence = 0.0;  ///< for how many independent errors this flight's own count, in the band of that time
 };
 
 struct TrackBounds {

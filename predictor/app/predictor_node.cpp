@@ -83,15 +83,16 @@ void PredictorNode::step(UTime now) {
   if (next_ <= now) next_ = now + config_.period();  // what was missed is not made up for
 }
 
-void PredictorNode::publish(const TrackSet& set, std::vector<TrackBound> bounds, UTime now) {
-  if (now < next_bounds_) return;
+void PredictorNode::publish_bounds(const TrackSet& set, const std::vector<TrackBound>& bounds, UTime now) {
   next_bounds_ = now + kBoundsPeriod;
   TrackBounds of;
   of.at = now;
   of.confidence = set.confidence;
   for (const Track& track : set.tracks) {
-    const auto bound = std::ranges::find(bounds, track.id, &TrackBound::id);
-    if (track.kind != TrackKind::Estimated || bound == bounds.end()) continue;
+    // An owner may send estimates, too: of these it knows nothing.
+    const auto bound = std::ranges::lower_bound(bounds, track.id, {}, &TrackBound::id);
+    if (track.kind != TrackKind::Estimated || bound == bounds.end() || bound->id != track.id) continue;
+    of.at = track.motion.start;  // of all of them; later than now if a sensor's clock is ahead
     if (of.bounds.size() < kMaxTrackBounds) {
       of.bounds.push_back(*bound);
     } else {
@@ -107,7 +108,8 @@ void PredictorNode::publish(UTime now) {
   set.made_at = *made_at_;
   const Duration horizon = config_.tracker.prediction.horizon;
   std::vector<TrackBound> bounds;
-  set.tracks = merged(trimmed(declared_, now, horizon), tracker_.predict(now, &bounds), now);
+  const bool asked = now >= next_bounds_;
+  set.tracks = merged(trimmed(declared_, now, horizon), tracker_.predict(now, asked ? &bounds : nullptr), now);
   const bool estimated = std::any_of(set.tracks.begin(), set.tracks.end(),
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });
   set.confidence = estimated ? config_.tracker.prediction.confidence : 1.0;
@@ -124,7 +126,7 @@ void PredictorNode::publish(UTime now) {
         fmt::format("{} of {} tracks do not fit into a set: the farthest are left out", left_out, set.tracks.size());
     watch_.trouble("left out", text, now);
   }
-  publish(set, std::move(bounds), now);
+  if (asked) publish_bounds(set, bounds, now);
   bus_.publish_paced(channels::kPredictions, std::move(batches));
 }
 

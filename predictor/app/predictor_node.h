@@ -49,8 +49,8 @@ class PredictorNode final : public Node {
   bool may_speak(const ObservationSet& observations, UTime now);
   void have_input(const std::string& input, UTime made_at);
   void publish(UTime now);
-  /// Those of the set's tracks, in its order.
-  void publish(const TrackSet& set, std::vector<TrackBound> bounds, UTime now);
+  /// Says why the set's tracks are as wide as they are, in its order. @param bounds  by id ascending
+  void publish_bounds(const TrackSet& set, const std::vector<TrackBound>& bounds, UTime now);
 
   Bus& bus_;
   PredictorConfig config_;

@@ -38,6 +38,7 @@ class BadInput : public ::testing::Test {
     runner_.observer().subscribe(channels::kPredictions, [this](const TrackSet& batch) {
       if (auto set = collector_.add(batch)) sets_.push_back(join_batches(std::move(*set)));
     });
+    runner_.observer().subscribe(channels::kTrackBounds, [](const TrackBounds&) {});
     runner_.run(runner_.now() + Duration{1'000'000});
     begin_ = runner_.now();
   }
@@ -65,11 +66,12 @@ class BadInput : public ::testing::Test {
   [[nodiscard]] bool says(const std::string& words) const {
     return node_->health().waiting_for.find(words) != std::string::npos;
   }
-  /// Sets that nobody would have heard.
+  /// Messages that nobody would have heard.
   [[nodiscard]] std::int64_t unheard() {
-    const auto& rejected = runner_.observer().counters().at(channels::kPredictions.name).rejected;
     std::int64_t sum = 0;
-    for (const auto n : rejected) sum += n;
+    for (const char* channel : {channels::kPredictions.name, channels::kTrackBounds.name}) {
+      for (const auto n : runner_.observer().counters().at(channel).rejected) sum += n;
+    }
     return sum;
   }
 

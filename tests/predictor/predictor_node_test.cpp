@@ -210,6 +210,22 @@ TEST_F(PredictorNodeTest, TellsTwiceASecondWhatRulesTheWidthOfWhatItEstimates) {
   EXPECT_EQ(bound.ruled_by, BoundRule::Prior) << "of a second and a half little is known";
 }
 
+TEST_F(PredictorNodeTest, KnowsNoReasonsOfAnOwnersEstimates) {
+  start();
+  std::vector<TrackBounds> told;
+  runner_.observer().subscribe(channels::kTrackBounds, [&](const TrackBounds& of) { told.push_back(of); });
+  Track estimate = mover(1, Vec3(5, 0, 1), Vec3(-1, 0, 0), runner_.now());
+  estimate.kind = TrackKind::Estimated;
+  AlphaShares all;
+  all.fill(1.0F);
+  estimate.shares.assign(estimate.alpha.size(), all);
+  declare({estimate});
+  run_for(1.0);
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(told.back().bounds.empty());
+  ASSERT_EQ(sets_.back().tracks.size(), 1u);
+}
+
 TEST_F(PredictorNodeTest, EachModelListensOnlyToItsOwn) {
   for (const PredictorModel model : {PredictorModel::Declared, PredictorModel::Detections}) {
     VirtualRunner runner;
