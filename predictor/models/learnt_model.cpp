@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace tern {
@@ -120,6 +119,10 @@ void LearntModel::learn(std::size_t horizon, std::size_t group, const LearntFrom
                         const Vec3& r, double worth) {
   Group& of = groups_[group];
   Errors& errors = of.errors[horizon];
+  if (of.is_taught[horizon] && !errors.are_of_taught) {
+    errors = {};
+    errors.are_of_taught = true;
+  }
   const Features& x = track.features;
   const Vec3 y = came - straight_on(track, kLearntAhead[horizon]);
   const Eigen::Array3d error2 = (y - of.knots[horizon + 1].value.transpose() * x).array().square();
@@ -127,14 +130,20 @@ void LearntModel::learn(std::size_t horizon, std::size_t group, const LearntFrom
   if (!errors.newest.empty()) {
     trust = (kDegrees + 3.0) / (kDegrees + (error2 / (errors.variance + r).array()).sum());
   }
-  if (errors.newest.size() < kErrorsKept) errors.newest.emplace_back(Vec3::Zero());
-  errors.newest[errors.oldest] = trust * error2 - r.array();
+  if (errors.newest.size() < kErrorsKept) errors.newest.emplace_back();
+  errors.newest[errors.oldest] = {trust * error2, r};
   errors.oldest = (errors.oldest + 1) % kErrorsKept;
-  const Vec3 sum = std::accumulate(errors.newest.begin(), errors.newest.end(), Vec3(Vec3::Zero()));
-  errors.variance = (sum / static_cast<double>(errors.newest.size())).cwiseMax(kLeastLearntVariance);
+  Vec3 square = Vec3::Zero(), of_truth = Vec3::Zero();
+  for (const Wrong& wrong : errors.newest) {
+    square += wrong.square;
+    of_truth += wrong.of_truth;
+  }
+  const auto count = static_cast<double>(errors.newest.size());
+  errors.variance = ((square - of_truth) / count).cwiseMax(kLeastLearntVariance);
+  errors.all = std::max(kLeastLearntVariance, square.mean() / count);
 
   Lessons& lessons = of.lessons[horizon];
-  const double weight = worth * trust / (errors.variance + r).mean();
+  const double weight = worth * trust;
   const double kept = 1.0 - worth / kLessonsKept;
   lessons.gram = kept * lessons.gram + weight * x * x.transpose();
   lessons.moment = kept * lessons.moment + weight * x * y.transpose();
@@ -146,16 +155,19 @@ void LearntModel::refresh() {
   for (std::size_t h = 0; h < kLearntTimes; ++h) {
     if (!is_stale_[h]) continue;
     Lessons all;
+    double wrong = 1.0;
     for (std::size_t group = kLearntGroups; group-- > 0;) {
       const Lessons& own = groups_[group].lessons[h];
+      if (own.count > 0.0) wrong = groups_[group].errors[h].all;
       const double lent = all.count > kLent ? kLent / all.count : 1.0;
       all.gram = lent * all.gram + own.gram;
       all.moment = lent * all.moment + own.moment;
       all.count = lent * all.count + own.count;
-      Eigen::Matrix<double, kFeatures, kFeatures> a = all.gram;
+      Eigen::Matrix<double, kFeatures, kFeatures> a = all.gram / wrong;
       a.diagonal() += priors_[h].precision;
+      groups_[group].is_taught[h] = all.count >= kFewestLessons;
       groups_[group].knots[h + 1].value =
-          a.llt().solve(all.moment + priors_[h].precision.asDiagonal() * priors_[h].weights);
+          a.llt().solve(all.moment / wrong + priors_[h].precision.asDiagonal() * priors_[h].weights);
     }
     is_stale_[h] = false;
   }

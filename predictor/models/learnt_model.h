@@ -51,10 +51,12 @@ FilterLook said_by(const LearntLook& look, const LearntFrom& track);
 ///
 /// W is a Bayesian linear regression over all tracks of one group of age at the times kLearntAhead, and a cubic spline
 /// between: with y what came beyond p + h v,
-///   W = (A_0 + S)⁻¹ (A_0 W_0 + m),  S = Σ w x xᵀ,  m = Σ w x yᵀ,  w = 1/v(h), less where y surprises (Student's t).
-/// In S and m, all lessons of the next older group count as kLent of them. W_0 is what the filter itself predicts, give
-/// or take what features contribute by Taylor's series (A_0). v is the mean square of what was wrong with the newest
-/// predictions, before W learnt from them.
+///   W = (A_0 + S/u)⁻¹ (A_0 W_0 + m/u),  S = Σ w x xᵀ,  m = Σ w x yᵀ,  w less where y surprises (Student's t).
+/// In S and m, all lessons of the next older group count as kLent. W_0 is what the filter itself predicts, give or take
+/// what features contribute by Taylor's series (A_0). u is the mean square of what was wrong with the newest
+/// predictions, before W learnt from them; v(h) the same without what was wrong with the truth. Once W has been taught,
+/// these are the predictions that it made since.
+///
 /// A value: the same lessons in the same order teach the same.
 class LearntModel {
  public:
@@ -77,10 +79,15 @@ class LearntModel {
     FeatureWeights moment = FeatureWeights::Zero();                                                          // m
     double count = 0.0;
   };
+  struct Wrong {
+    Vec3 square, of_truth;
+  };
   struct Errors {
-    std::vector<Vec3> newest;  // squares of what was wrong, a ring
+    std::vector<Wrong> newest;  // a ring
     std::size_t oldest = 0;
-    Vec3 variance = Vec3::Zero();  // their mean, v
+    Vec3 variance = Vec3::Zero();  // v
+    double all = 1.0;              // u, over all axes
+    bool are_of_taught = false;    // else of a W that few had taught anything
   };
   // The spline's, at 0 and kLearntAhead.
   struct Knot {
@@ -90,6 +97,7 @@ class LearntModel {
     std::array<Lessons, kLearntTimes> lessons;
     std::array<Errors, kLearntTimes> errors;
     std::array<Knot, kLearntTimes + 1> knots;
+    std::array<bool, kLearntTimes> is_taught{};  // by kFewestLessons, its own and lent ones
   };
   struct Prior {
     Features precision;                               // A_0

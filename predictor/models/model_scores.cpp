@@ -28,22 +28,39 @@ double predictive_score(double error, double variance) {
   return -0.5 * (kDegrees + 1.0) * std::log1p(error * error / (kDegrees * variance)) - 0.5 * std::log(variance);
 }
 
-void ModelScores::add(std::size_t horizon, const PerCandidate<double>& scores, double forgetting) {
-  PerCandidate<double>& sums = sums_[horizon];
-  for (std::size_t j = 0; j < sums.size(); ++j)
-    sums[j] = forgetting * sums[j] + worth(kScoredAhead[horizon]) * scores[j];
-  // What is learnt may be far ahead of all given models: what these are to each other stays.
-  const double best = *std::max_element(sums.begin(), sums.begin() + kModels);
-  for (double& sum : sums) sum = std::clamp(sum - best, -kFarthestBehind, kFarthestBehind);
+ModelScores::ModelScores(double learnt_lead) {
+  for (Sums& sums : sums_) sums.learnt.fill(learnt_lead);
 }
 
-HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own, double learnt_to) {
+void ModelScores::add(std::size_t horizon, const PerCandidate<double>& scores, std::optional<std::size_t> group,
+                      double forgetting) {
+  Sums& sums = sums_[horizon];
+  const auto added = [&](double sum, double score) { return forgetting * sum + worth(kScoredAhead[horizon]) * score; };
+  for (std::size_t j = 0; j < kModels; ++j) sums.given[j] = added(sums.given[j], scores[j]);
+  const double best = *std::max_element(sums.given.begin(), sums.given.end());
+  for (double& sum : sums.given) sum = std::max(sum - best, -kFarthestBehind);
+  if (!group) return;
+  // What is learnt may be far ahead of all given models: what these are to each other stays.
+  double& learnt = sums.learnt[*group];
+  learnt = std::clamp(added(learnt, scores[kLearnt]) - best, -kFarthestBehind, kFarthestBehind);
+}
+
+PerCandidate<double> ModelScores::at(std::size_t horizon, std::optional<std::size_t> group) const {
+  PerCandidate<double> all;
+  std::copy(sums_[horizon].given.begin(), sums_[horizon].given.end(), all.begin());
+  all[kLearnt] = group ? sums_[horizon].learnt[*group] : 0.0;
+  return all;
+}
+
+HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own, std::optional<std::size_t> group,
+                             double learnt_to) {
   HorizonWeights weights;
   weights.learnt_to = learnt_to;
   for (std::size_t h = 0; h < kScoredHorizons; ++h) {
-    weights.given[h] = softmax(pool.at(h), own.at(h), kModels);
+    const PerCandidate<double> of_pool = pool.at(h, group), of_own = own.at(h, group);
+    weights.given[h] = softmax(of_pool, of_own, kModels);
     if (kScoredAhead[h] <= learnt_to) {
-      weights.all[h] = softmax(pool.at(h), own.at(h), kModels + 1);
+      weights.all[h] = softmax(of_pool, of_own, kModels + 1);
     } else {
       weights.all[h] = h == 0 ? weights.given[h] : weights.all[h - 1];
     }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "predictor/models/learnt_model.h"
 #include "predictor/models/model_bank.h"
@@ -34,15 +35,26 @@ using PerCandidate = std::array<T, kModels + 1>;
 /// log density of Student's t (ν = 4) with scale² `variance`, up to a constant: one surprise does not decide alone.
 double predictive_score(double error, double variance);
 
-/// Sums of scores by horizon and model, each as it is worth.
+/// Sums of scores by horizon and model, each as it is worth, against the best given model's. The learnt one has a sum
+/// for each of its groups: how well it foretells tracks that it has watched for long says nothing of those that just
+/// came.
 class ModelScores {
  public:
-  void add(std::size_t horizon, const PerCandidate<double>& scores, double forgetting);
-  [[nodiscard]] const PerCandidate<double>& at(std::size_t horizon) const { return sums_[horizon]; }
-  PerCandidate<double>& at(std::size_t horizon) { return sums_[horizon]; }
+  ModelScores() = default;
+  /// @param learnt_lead  what the learnt model's sums begin with
+  explicit ModelScores(double learnt_lead);
+  /// @param group  the learnt model's, to which its score belongs; without one that is not looked at
+  void add(std::size_t horizon, const PerCandidate<double>& scores, std::optional<std::size_t> group,
+           double forgetting);
+  /// @param group  without one the learnt model's is that of none, 0
+  [[nodiscard]] PerCandidate<double> at(std::size_t horizon, std::optional<std::size_t> group) const;
 
  private:
-  std::array<PerCandidate<double>, kScoredHorizons> sums_{};
+  struct Sums {
+    std::array<double, kModels> given{};
+    std::array<double, kLearntGroups> learnt{};
+  };
+  std::array<Sums, kScoredHorizons> sums_{};
 };
 
 /// How much each candidate counts, at the scored horizons.
@@ -53,8 +65,9 @@ struct HorizonWeights {
 };
 
 /// Softmax of the sums of both, without what weighs less than kLeastWeight.
-/// @param learnt_to  HorizonWeights::learnt_to
-HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own, double learnt_to);
+/// @param group  of the learnt model  @param learnt_to  HorizonWeights::learnt_to; 0 where there is no group
+HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own, std::optional<std::size_t> group,
+                             double learnt_to);
 
 /// Linear in log time between the horizons, that of the nearest one outside. From learnt_to to kUnlearnt times that the
 /// learnt model's weight fades. Sums to 1.

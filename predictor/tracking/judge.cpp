@@ -101,6 +101,7 @@ UTime judged_at(UTime at, std::size_t k) { return at + Duration::from_seconds(kJ
 }  // namespace
 
 Judge::Judge(double confidence, bool learns) : learns_(learns), calibration_(confidence) {
+  pools_.fill(ModelScores(-kFarthestBehind));  // the learnt model is trusted once it has proved better
   const BankStep none = bank_step(0.0);
   for (std::size_t k = 0; k < looks_.size(); ++k) looks_[k] = bank_look(bank_step(kJudgedAhead[k]), none);
 }
@@ -169,7 +170,7 @@ void Judge::issue(const SeenTrack& track, UTime at, History& history) const {
     issue.group = learnt_group((at - track.born).seconds());
   }
   issue.learnt_to = learnt_to(issue.group);
-  const HorizonWeights all = model_weights(pools_[issue.pool], history.own, issue.learnt_to);
+  const HorizonWeights all = model_weights(pools_[issue.pool], history.own, issue.group, issue.learnt_to);
   issue.judged.kind = class_of(track, at, all);
   issue.margins = calibration_.margins(issue.judged.kind);
   for (std::size_t k = 0; k < looks_.size(); ++k) {
@@ -245,20 +246,11 @@ void Judge::score(Issue& issue, const Sample& truth, std::int64_t id, History& h
       scores[j] += predictive_score(truth.z[i] - model.centre[i], model.variance[i] + truth.r[i]);
     }
   }
-  constexpr double kNever = -std::numeric_limits<double>::infinity();
-  if (!learns_) {
-    scores[kLearnt] = kNever;
-  } else if (kScoredAhead[h] > issue.learnt_to) {
-    // Who sleeps fares like the others together (Y. Freund et al., "Using and combining predictors that specialize",
-    // STOC 1997).
-    const PerCandidate<double> weights = model_weights(pools_[issue.pool], history.own, 0.0).given[h];
-    scores[kLearnt] = std::inner_product(weights.begin(), weights.end() - 1, scores.begin(), 0.0);
-  }
-  history.own.add(h, scores, kOwnForgetting);
-  // The pool trusts it once it has proved better.
-  if (kScoredAhead[h] > learnt_to(kLearntGroups - 1)) scores[kLearnt] = kNever;
-  pools_[kAll].add(h, scores, kPoolForgetting);
-  if (issue.pool != kAll) pools_[issue.pool].add(h, scores, kPoolForgetting);
+  // Who sleeps is not judged (Y. Freund et al., "Using and combining predictors that specialize", STOC 1997).
+  const std::optional<std::size_t> group = kScoredAhead[h] <= issue.learnt_to ? issue.group : std::nullopt;
+  history.own.add(h, scores, group, kOwnForgetting);
+  pools_[kAll].add(h, scores, group, kPoolForgetting);
+  if (issue.pool != kAll) pools_[issue.pool].add(h, scores, group, kPoolForgetting);
 }
 
 void Judge::learn(const Issue& issue, const Sample& truth) {
@@ -320,7 +312,8 @@ Judge::Verdict Judge::verdict(const SeenTrack& track, UTime last_seen) const {
   const double fastest = history == nullptr ? 0.0 : history->fastest;
   Verdict verdict;
   verdict.group = learnt_group((last_seen - track.born).seconds());
-  verdict.weights = model_weights(pools_[pool_of(track, last_seen, fastest)], own, learnt_to(verdict.group));
+  verdict.weights =
+      model_weights(pools_[pool_of(track, last_seen, fastest)], own, verdict.group, learnt_to(verdict.group));
   verdict.kind = class_of(track, last_seen, verdict.weights);
   return verdict;
 }

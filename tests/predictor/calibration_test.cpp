@@ -72,7 +72,7 @@ TEST(Calibration, WhatWasPromisedByAnotherPriorTeachesNothing) {
     Rng rng(4);
     Calibration calibration(0.99);
     calibration.set_pace(WorldPace::Slow);
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < 1000; ++k) {
       calibration.add(TrackClass::New, 1, static_cast<float>(rng.uniform()), {}, made_in);
     }
     calibration.refresh();

@@ -126,6 +126,50 @@ TEST(LearntModel, KnowsHowWrongItIs) {
   }
 }
 
+// A lesson of one group, which all times ahead learn: what `by` says, and noise.
+template <typename Law>
+void teach_one(LearntModel& model, std::size_t group, double noise, Rng& rng, const Law& by) {
+  const LearntFrom track = drawn(rng);
+  for (std::size_t h = 0; h < kLearntTimes; ++h) {
+    const Vec3 came = by(track, h) + noise * Vec3(rng.normal(), rng.normal(), rng.normal());
+    model.learn(h, group, track, came, Vec3::Constant(1e-6), 1.0);
+  }
+}
+
+TEST(LearntModel, WhatTheOldDoToTheMillimetreDoesNotOutweighWhatTheYoungDo) {
+  Rng rng(7);
+  LearntModel model;
+  const auto otherwise = [](const LearntFrom& track, std::size_t h) {
+    return Vec3(by_law(track, h) - 0.5 * (law(h).transpose() * track.features));
+  };
+  for (int n = 0; n < 300; ++n) {
+    teach_one(model, kOldest, 0.001, rng, by_law);
+    teach_one(model, kOldest - 1, 0.1, rng, otherwise);
+    model.refresh();
+  }
+  for (std::size_t h = 0; h < kLearntTimes; ++h) {
+    const double apart = 0.5 * law(h).colwise().norm().maxCoeff();  // what the two do, RMS
+    EXPECT_LT(model.at(kLearntAhead[h], kOldest - 1).variance.cwiseSqrt().maxCoeff(), 0.1 + 0.2 * apart)
+        << kLearntAhead[h];
+    EXPECT_LT(model.at(kLearntAhead[h], kOldest).variance.cwiseSqrt().maxCoeff(), 0.005) << kLearntAhead[h];
+  }
+}
+
+TEST(LearntModel, ForgetsHowWrongItWasBeforeItWasTaught) {
+  Rng rng(8);
+  LearntModel model;
+  // All of a crowd at once, as when a sensor is switched on: nobody learnt before the last of them was judged.
+  for (int n = 0; n < 60; ++n) teach_one(model, kOldest, 0.01, rng, by_law);
+  model.refresh();
+  const double untaught = model.at(kLearntAhead.back(), kOldest).variance.maxCoeff();
+  for (int n = 0; n < 10; ++n) {
+    teach_one(model, kOldest, 0.01, rng, by_law);
+    model.refresh();
+  }
+  EXPECT_LT(model.at(kLearntAhead.back(), kOldest).variance.maxCoeff(), 0.02 * untaught);
+  EXPECT_EQ(model.known_to(kOldest), kLearntAhead.back());
+}
+
 TEST(LearntModel, SaysNothingOfAGroupThatNobodyWasJudgedIn) {
   Rng rng(4);
   LearntModel model;
@@ -173,15 +217,40 @@ TEST(LearntGroup, GoesByAge) {
   EXPECT_EQ(learnt_group(100.0), kOldest);
 }
 
-TEST(LearntWeights, FadeBeyondWhatIsLearntAndAlwaysSumToOne) {
-  ModelScores pool, own;
-  PerCandidate<double> scores{};
-  scores[kLearnt] = 3.0;
+// The learnt model predicted this group better than all others did.
+ModelScores scored_well(std::size_t group) {
+  ModelScores scores(-kFarthestBehind);
+  PerCandidate<double> score{};
+  score[kLearnt] = 3.0;
   for (std::size_t h = 0; h < kScoredHorizons; ++h) {
-    for (int n = 0; n < 20; ++n) pool.add(h, scores, kPoolForgetting);
+    for (int n = 0; n < 100; ++n) scores.add(h, score, group, kPoolForgetting);
   }
+  return scores;
+}
+
+TEST(LearntWeights, OneGroupsScoresMakeNoOtherBelieved) {
+  const ModelScores pool = scored_well(kOldest), own;
+  for (const double ahead : kScoredAhead) {
+    EXPECT_GT(weights_at(model_weights(pool, own, kOldest, 3.0), ahead)[kLearnt], 0.9);
+    EXPECT_EQ(weights_at(model_weights(pool, own, kOldest - 1, 3.0), ahead)[kLearnt], 0.0);
+  }
+}
+
+TEST(LearntWeights, WhoIsNotAskedIsNotJudged) {
+  ModelScores scores = scored_well(kOldest);
+  PerCandidate<double> score{};
+  score[kLearnt] = -100.0;
+  const double before = scores.at(0, kOldest)[kLearnt];
+  scores.add(0, score, std::nullopt, kPoolForgetting);
+  scores.add(0, score, kOldest - 1, kPoolForgetting);
+  EXPECT_EQ(scores.at(0, kOldest)[kLearnt], before);
+  EXPECT_EQ(scores.at(0, kOldest - 1)[kLearnt], -kFarthestBehind);
+}
+
+TEST(LearntWeights, FadeBeyondWhatIsLearntAndAlwaysSumToOne) {
+  const ModelScores pool = scored_well(kOldest), own;
   for (const double learnt_to : {0.0, 0.25, 0.375, 1.0, 1.5, 3.0}) {
-    const HorizonWeights weights = model_weights(pool, own, learnt_to);
+    const HorizonWeights weights = model_weights(pool, own, kOldest, learnt_to);
     PerCandidate<double> before = weights_at(weights, 0.0);
     for (double ahead = 0.0; ahead < 5.0; ahead += 0.002) {
       const PerCandidate<double> at = weights_at(weights, ahead);
