@@ -30,7 +30,7 @@ quadrotor_forest_200 quadrotor_forest 200 200 --charge counts --audit $bin/tern-
 "
 perception=""
 for world in perception_only,100 mader_perception_only,100 sando_perception,200 people_hermes_050,0 people_hermes_090,0 \
-  people_hermes_120,0 people_eth,0 people_hotel,0 drones,0; do
+  people_hermes_120,0 people_eth,0 people_hotel,0 drones,0 crowd,0 crowd_eth,0; do
   seen="${world%,*} ${world#*,} 200 --charge counts"
   perception+="${world%,*} $seen"$'\n'"${world%,*}_oracle $seen --oracle"$'\n'
 done
