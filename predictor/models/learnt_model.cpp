@@ -155,7 +155,7 @@ void LearntModel::refresh() {
   for (std::size_t h = 0; h < kLearntTimes; ++h) {
     if (!is_stale_[h]) continue;
     Lessons all;
-    double wrong = 1.0;
+    double wrong = 1.0;  // u; an age that nothing was judged of takes the next older one's
     for (std::size_t group = kLearntGroups; group-- > 0;) {
       const Lessons& own = groups_[group].lessons[h];
       if (own.count > 0.0) wrong = groups_[group].errors[h].all;
