@@ -43,4 +43,7 @@ struct Fit {
 /// @param x, variance  m, m², of the estimate; @param z, r  of the detection, r taken as kLeastVariance if less
 Fit fit(const Vec3& x, const Vec3& variance, const Vec3& z, const Vec3& r);
 
+/// Contains all z whose distance2 is at most `gate`, of detections of at most the variance r; little more.
+Box gated(const Vec3& x, const Vec3& variance, double gate, const Vec3& r);
+
 }  // namespace tern

@@ -112,6 +112,15 @@ double BankFilter::surprise_within(double gate, const Vec3& z, const Vec3& r) co
   return least;
 }
 
+Box BankFilter::reach(double gate, const Vec3& r) const {
+  Box within;
+  for (const std::size_t model : {lead_, kWidestModel}) {
+    const MotionFilter filter = of(model);
+    within.extend(gated(filter.position(), filter.variance(), gate, r));
+  }
+  return within;
+}
+
 bool BankFilter::is_beyond(std::size_t model, double gate, const Vec3& z, const Vec3& r) const {
   const auto [mean, covariance] = kBegins[model];
   const double* x = means_.data() + mean;

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "predictor/tracking/assignment.h"
 
 namespace tern {
 namespace {
+
+constexpr double kBeyond = std::numeric_limits<double>::infinity();
 
 void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
                  Matching& matching) {
@@ -37,7 +40,7 @@ double dearest(const Eigen::MatrixXd& cost) {
 
 // Among objects with the given confirmation, and detections without an id, that are still free.
 void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-                       bool confirmed, const Surprise& surprise, Matching& matching) {
+                       bool confirmed, const Surprise& surprise, const Reach& reach, Matching& matching) {
   std::vector<std::size_t> rows, columns;
   for (std::size_t o = 0; o < objects.size(); ++o) {
     if (objects[o].confirmed == confirmed && matching.detection_of[o] == kNoDetection) rows.push_back(o);
@@ -46,11 +49,17 @@ void match_by_distance(const std::vector<TrackedObject>& objects, const std::vec
     if (!matching.taken[d] && matching.anonymous[d]) columns.push_back(d);
   }
   if (rows.empty() || columns.empty()) return;
-  Eigen::MatrixXd cost(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
-  for (Eigen::Index r = 0; r < cost.rows(); ++r) {
-    for (Eigen::Index c = 0; c < cost.cols(); ++c) {
-      cost(r, c) =
-          surprise(objects[rows[static_cast<std::size_t>(r)]], detections[columns[static_cast<std::size_t>(c)]]);
+  Vec3 variance = Vec3::Zero();
+  for (const std::size_t d : columns) variance = variance.cwiseMax(detections[d].variance);
+  Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(rows.size()),
+                                                   static_cast<Eigen::Index>(columns.size()), kBeyond);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const TrackedObject& object = objects[rows[r]];
+    const Box within = reach(object, variance);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const Detection& detection = detections[columns[c]];
+      if (!within.contains(detection.position)) continue;
+      cost(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = surprise(object, detection);
     }
   }
   const std::vector<int> column_of = assign(cost, dearest(cost) + 1.0);
@@ -65,14 +74,14 @@ void match_by_distance(const std::vector<TrackedObject>& objects, const std::vec
 }  // namespace
 
 Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-               const Surprise& surprise) {
+               const Surprise& surprise, const Reach& reach) {
   Matching matching{std::vector<int>(objects.size(), kNoDetection), std::vector<bool>(detections.size(), false), {}};
   for (const Detection& detection : detections) {
     matching.anonymous.push_back(detection.track_id == kNoTrackId || is_exchanged(objects, detection, surprise));
   }
   match_by_id(objects, detections, matching);
-  match_by_distance(objects, detections, true, surprise, matching);
-  match_by_distance(objects, detections, false, surprise, matching);
+  match_by_distance(objects, detections, true, surprise, reach, matching);
+  match_by_distance(objects, detections, false, surprise, reach, matching);
   matching.anonymous.assign(detections.size(), false);
   match_by_id(objects, detections, matching);
   return matching;

@@ -97,9 +97,10 @@ void Tracker::advance(State& state, const ObservationSet& observations) const {
   state.views.push_back({observations.sensor_id, at, observations.range_m, observations.sensor_position});
   predict_to(state, at);
   const std::vector<Detection>& detections = observations.detections;
-  const Matching matching =
-      match(state.objects, detections,
-            [&](const TrackedObject& object, const Detection& detection) { return surprise(object, at, detection); });
+  const Matching matching = match(
+      state.objects, detections,
+      [&](const TrackedObject& object, const Detection& detection) { return surprise(object, at, detection); },
+      [&](const TrackedObject& object, const Vec3& variance) { return reach(object, at, variance); });
   for (std::size_t o = 0; o < state.objects.size(); ++o) {
     TrackedObject& object = state.objects[o];
     const int d = matching.detection_of[o];
@@ -227,17 +228,26 @@ bool Tracker::rests(const TrackedObject& object) const {
   });
 }
 
+bool Tracker::is_remembered(const TrackedObject& object, UTime at) const {
+  return at - object.last_seen > config_.coast && rests(object);
+}
+
 double Tracker::surprise(const TrackedObject& object, UTime at, const Detection& detection) const {
   constexpr double kBeyond = std::numeric_limits<double>::infinity();
   double of_place = kBeyond;
-  // Remembered: what is found there again belongs to it, not whatever a mover could have become.
-  if (at - object.last_seen > config_.coast && rests(object)) {
+  if (is_remembered(object, at)) {
     const Fit fit = fit_of(object.resting, detection);
     if (fit.distance2 <= kAssociationGate) of_place = fit.surprise();
   } else {
     of_place = object.moving.surprise_within(kAssociationGate, detection.position, detection.variance);
   }
   return of_place < kBeyond ? of_place + size_surprise(object.half_extents, detection) : kBeyond;
+}
+
+Box Tracker::reach(const TrackedObject& object, UTime at, const Vec3& variance) const {
+  if (!is_remembered(object, at)) return object.moving.reach(kAssociationGate, variance);
+  const auto& [x, y, z] = object.resting;
+  return gated({x.x, y.x, z.x}, {x.xx, y.xx, z.xx}, kAssociationGate, variance);
 }
 
 SeenTrack Tracker::seen(const TrackedObject& object) const {

@@ -158,6 +158,23 @@ TEST_F(BadInput, TimesThatJump) {
   EXPECT_GE(held(walker, now_s() - 0.5, now_s(), 1.0), 0.99);
 }
 
+TEST_F(BadInput, SixHundredDetectionsAFrame) {
+  const Path walker = straight(Vec3(0, 0, 1), Vec3(1, 0, 0));
+  // All but one are nothing: each frame has others, everywhere.
+  watch(3.0, [&](double t) {
+    std::vector<Detection> detections{detection_of(walker(t), kNoise, rng_)};
+    while (detections.size() < 600) {
+      const Vec3 nowhere(rng_.uniform(-40, 40), rng_.uniform(-40, 40), rng_.uniform(0, 4));
+      detections.push_back(detection_of(nowhere, kNoise, rng_));
+    }
+    return detections;
+  });
+  EXPECT_EQ(unheard(), 0);
+  EXPECT_EQ(late(), 0);
+  EXPECT_GE(held(walker, 0.5, 3.0, 0.5), 0.99) << "it is not lost among them";
+  EXPECT_GT(most_tracks(0.5, 3.0), 600U) << "what may be there is said";
+}
+
 TEST_F(BadInput, IdsThatSwap) {
   for (const double apart : {0.6, 1.0, 3.0}) {
     const double from = now_s();

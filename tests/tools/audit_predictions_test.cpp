@@ -14,7 +14,9 @@
 namespace tern::audit {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Pair;
 
 constexpr double kHalf = 0.25, kAlpha = 0.1, kFlight = 12.0;
 UTime at(double s) { return UTime{1'000'000} + Duration::from_seconds(s); }
@@ -274,6 +276,77 @@ TEST(AuditedPredictions, OfPlansEndWhereTheyAreSure) {
   }
   const auto [audit, check] = world.audit();
   EXPECT_EQ(audit.coverage.claims[2], (ClaimCount{2, 1}));
+}
+
+TEST(AuditedPredictions, OfPlansThatTheFlightsEndCutsOffCountUpToThere) {
+  World world(2);
+  world.predict(1'000);
+  world.push(0, kFlight - 0.2, 1.0, 0.5);
+  HorizonRequest request = world.record.requests.front();
+  request.header.name.sequence = 10;
+  request.t_s = at(kFlight - 0.5);
+  world.record.requests.push_back(request);
+  Plan plan = answer_to(request, 0);
+  plan.inputs.predictions = {2, 20 * static_cast<int>(kFlight) - 9};  // made at the request's time
+  plan.hold = Duration::from_seconds(1.0);
+  plan.certificate = {{1'000, 0, 0, 1, {}}, {1'001, 0, 0, 1, {}}};
+  world.record.plans.push_back(plan);
+  const auto [audit, check] = world.audit();
+  EXPECT_EQ(audit.coverage.claims[0], (ClaimCount{2, 1}));
+}
+
+TEST(AuditedPredictions, OfPlansThatClaimNothingAreCountedApart) {
+  World world(1);
+  world.predict(1'000);
+  world.record.plans.push_back(answer_to(world.record.requests.front(), 4));
+  world.record.plans.back().confidence = 0.0;
+  const auto [audit, check] = world.audit();
+  EXPECT_EQ(audit.coverage.claims[4].made, 0);
+  EXPECT_THAT(check.unchecked, Contains(Pair(HasSubstr("claim no confidence"), 1)));
+}
+
+TEST(AuditedPredictions, AreCountedFromTheBeginAndAsOldAsTheyAreThen) {
+  World world(1);
+  world.predict(1'000);
+  for (int k = 1; k <= 12; ++k) {  // 0.6 s before
+    TrackSet set;
+    set.header = {{2, -k}, at(-0.05 * k)};
+    set.made_at = at(-0.05 * k);
+    set.tracks.push_back(World::track(1'000, 0, -0.05 * k));
+    world.record.predictions.emplace(set.header.name, set);
+  }
+  const auto [audit, check] = world.audit();
+  EXPECT_EQ(share(audit, "grown", "0.25").made, 9);  // 0.6 to 1 s
+  EXPECT_THROW((void)share(audit, "new", "0.25"), std::out_of_range);
+}
+
+TEST(AContact, IsLookedBackFrom) {
+  World world(2);
+  world.predict(1'000);
+  for (auto& [name, set] : world.record.predictions) {
+    std::erase_if(set.tracks, [&](const Track& t) { return t.id == 1'001 || set.made_at < at(5.0); });
+  }
+  world.push(0, 5.8, 1.0, 0.5);
+  HorizonRequest request = world.record.requests.front();
+  request.header.name.sequence = 10;
+  request.t_s = at(5.2);
+  world.record.requests.push_back(request);
+  world.record.plans = {answer_to(request, 2), answer_to(request, 4)};
+  world.record.plans.back().confidence = 0.0;
+  const Contact contact = look_back(world.record, at(6.0), 0);
+  EXPECT_NEAR(contact.in_sets_s.value(), 1.0, 1e-9);
+  ASSERT_TRUE(contact.said[0] && contact.said[1] && contact.said[2]);
+  for (const auto& said : contact.said) {
+    EXPECT_NEAR(said->needed_m, 0.5, 1e-6);
+    EXPECT_EQ(said->alpha_m, kAlpha);
+    EXPECT_FALSE(said->kept);
+  }
+  EXPECT_EQ(contact.confidence.value(), 0.9) << "the last plan claims none";
+  EXPECT_NEAR(contact.confident_s.value(), 0.8, 1e-9);
+  EXPECT_THAT(to_text(contact, world.record), HasSubstr("0.50 m of alpha were needed then, of 0.10 m, broken"));
+  EXPECT_FALSE(look_back(world.record, at(5.9), 0).said[2]) << "it was in no set then";
+  EXPECT_TRUE(look_back(world.record, at(5.7), 0).said[0]->kept);
+  EXPECT_THAT(to_text(look_back(world.record, at(6.0), 1), world.record), HasSubstr("was not in PREDICTIONS"));
 }
 
 TEST(ClaimedAlpha, IsWhatThePlannerCounts) {

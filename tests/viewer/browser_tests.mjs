@@ -45,6 +45,7 @@ await run({
     await eventually('its speed', async () => (await text(page, '#speed')) === '1.0');
     expect('live', (await text(page, '#mode')) === 'live');
     expect('the outcome', (await text(page, '#outcome')) === 'optimized');
+    expect('its confidence', (await text(page, '#confidence')) === '0.9 for 0.8 s');
     // Who joins between a request and its answer knows what was allowed from the next one on.
     await eventually('replan time', async () => (await text(page, '#replan')) === '12.5 of 70 ms');
     await eventually('health', async () => (await text(page, '#health')).includes('scene'));

@@ -87,6 +87,9 @@ Plan KnownScene::plan(const HorizonRequest& request) const {
   plan.outcome = PlanOutcome::Optimized;
   plan.trajectory = request.committed;
   plan.hold = Duration{1'000'000};
+  plan.confidence = 0.9;
+  plan.level = 2;
+  plan.sure_for = Duration{800'000};
   plan.local_goal = request.start.p + 4.0 * ahead_;
   plan.sphere_radius = 4.0;
   plan.certificate.push_back({0, 2, 0, 1, {Vec3(0.0, 1.0, 0.0), -1.0}});

@@ -94,6 +94,33 @@ std::string words(Collision collision) {
   return "";
 }
 
+/// The obstacle that a flight ended at, if it was one. The map, or a log without a state near enough, tells of none.
+std::optional<Contact> contact_of(const FlightRecord& record, const Audit& audit) {
+  if (record.results.empty() || record.results.back().outcome != FlightOutcome::Collision) return std::nullopt;
+  const auto touched =
+      std::ranges::find_if(audit.clearance, [](const ClearancePoint& p) { return p.clearance_m <= 0.0; });
+  if (touched == audit.clearance.end()) return std::nullopt;
+  return look_back(record, touched->at, touched->obstacle);
+}
+
+nlohmann::json contact_json(const Contact& contact, const FlightRecord& record) {
+  nlohmann::json json = {{"time_s", record.seconds(contact.at)},
+                         {"obstacle", contact.obstacle},
+                         {"speed_mps", contact.speed_mps},
+                         {"text", to_text(contact, record)}};
+  if (contact.in_sets_s) json["in_predictions_s"] = *contact.in_sets_s;
+  if (contact.confidence)
+    json["last_confidence"] = *contact.confidence, json["last_confidence_s"] = *contact.confident_s;
+  json["promised"] = nlohmann::json::array();
+  for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
+    if (!contact.said[k]) continue;
+    const Foretold& said = *contact.said[k];
+    json["promised"].push_back(
+        {{"before_s", kBeforeContact[k]}, {"needed_m", said.needed_m}, {"alpha_m", said.alpha_m}, {"kept", said.kept}});
+  }
+  return json;
+}
+
 nlohmann::json coverage_json(const Audit& audit) {
   nlohmann::json rows = nlohmann::json::array();
   for (const KeptShare& s : audit.shares) {
@@ -165,6 +192,7 @@ Audit audit_flight(const FlightRecord& record) {
   audit.checks.push_back(check_predictions(record, audit));
   audit.checks.push_back(check_exposure(record));
   audit.checks.push_back(check_result(record, audit));
+  audit.contact = contact_of(record, audit);
   return audit;
 }
 
@@ -185,6 +213,7 @@ std::string to_text(const Audit& audit, const FlightRecord& record) {
     if (check.broken > 0 && more > 0)
       text += fmt::format("      and {} more of {} things checked\n", more, check.checked);
   }
+  if (audit.contact) text += "\n" + to_text(*audit.contact, record);
   if (!audit.shares.empty()) text += "\n" + to_text(audit.shares);
   std::string gaps;
   for (const std::string& what : audit.missing) gaps += fmt::format("  {}\n", what);
@@ -224,17 +253,20 @@ nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
     tracks.push_back(
         {{"track", t.track}, {"obstacle", t.obstacle}, {"promises", t.sets}, {"kept", t.kept}, {"worst_m", t.worst_m}});
   }
-  return {{"log", record.path},
-          {"verdict", to_string(audit.verdict())},
-          {"collision", to_string(audit.collision)},
-          {"flight_s", (record.end() - record.zero()).seconds()},
-          {"checks", checks},
-          {"missing", audit.missing},
-          {"coverage", coverage_json(audit)},
-          {"coverage_sums", to_text(audit.coverage)},
-          {"by_age", {{"moving", by_age_json(audit.moving_by_age)}, {"at rest", by_age_json(audit.rest_by_age)}}},
-          {"tracks", tracks},
-          {"confidence", audit.promised_confidence}};
+  nlohmann::json all = {
+      {"log", record.path},
+      {"verdict", to_string(audit.verdict())},
+      {"collision", to_string(audit.collision)},
+      {"flight_s", (record.end() - record.zero()).seconds()},
+      {"checks", checks},
+      {"missing", audit.missing},
+      {"coverage", coverage_json(audit)},
+      {"coverage_sums", to_text(audit.coverage)},
+      {"by_age", {{"moving", by_age_json(audit.moving_by_age)}, {"at rest", by_age_json(audit.rest_by_age)}}},
+      {"tracks", tracks},
+      {"confidence", audit.promised_confidence}};
+  if (audit.contact) all["contact"] = contact_json(*audit.contact, record);
+  return all;
 }
 
 }  // namespace tern::audit

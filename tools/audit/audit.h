@@ -3,11 +3,13 @@
 
 #include <array>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "campaign/statistics/coverage.h"
 #include "tools/audit/check.h"
+#include "tools/audit/contact.h"
 #include "tools/audit/flight_record.h"
 
 namespace tern::audit {
@@ -65,6 +67,7 @@ struct Audit {
   Least least, least_of_map;  ///< to the true obstacles; to the occupied voxels
   Met met;
   Collision collision = Collision::None;
+  std::optional<Contact> contact;    ///< of a collision with an obstacle
   Coverage coverage;                 ///< of the flight
   std::vector<KeptShare> shares;     ///< the same with its intervals, the obstacles being groups
   ByAge moving_by_age, rest_by_age;  ///< of estimates

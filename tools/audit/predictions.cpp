@@ -15,9 +15,6 @@ namespace {
 
 /// A true box may stand out by this, m: rounding.
 constexpr double kTolerance = 1e-6;
-/// Estimates are judged from so long after the flight's begin: the simulator sets everything in motion at once there,
-/// which no estimate from before foresees.
-constexpr Duration kStart{1'000'000};
 /// What is static promises for ever; so far it is looked at.
 constexpr Duration kForEver{4'500'000};
 /// Who was not in the sets for longer is new when it is there again.
@@ -58,19 +55,21 @@ class PredictionsCheck {
       : record_(record), audit_(audit), check_(check), window_(judged(record)), pairing_(record) {}
 
   void take(const TrackSet& set) {
-    if (set.made_at < window_.sure_from() || set.made_at > window_.sure_to() || record_.truth.empty()) return;
-    audit_.promised_confidence = std::min(audit_.promised_confidence, set.confidence);
+    if (set.made_at > window_.sure_to() || record_.truth.empty()) return;
+    const std::vector<double> ages_s = ages(set);
     const auto& pairs = pairing_.pair(set);
-    for (const Track& track : set.tracks) {
-      const double age_s = age(set, track.id);
+    if (set.made_at < window_.sure_from()) return;
+    audit_.promised_confidence = std::min(audit_.promised_confidence, set.confidence);
+    for (std::size_t k = 0; k < set.tracks.size(); ++k) {
+      const Track& track = set.tracks[k];
       const auto pair = pairs.find(track.id);
       if (pair == pairs.end()) {
         nobodys_.insert(track.id);
       } else {
-        take(set, track, pair->second, age_s);
+        take(set, track, pair->second, ages_s[k]);
       }
     }
-    if (set.made_at >= window_.sure_from() + kStart) pairs_.emplace(set.header.name, pairs);
+    pairs_.emplace(set.header.name, pairs);
   }
 
   void take(const Plan& plan, const HorizonRequest& request) {
@@ -111,13 +110,17 @@ class PredictionsCheck {
   [[nodiscard]] std::int64_t promises_kept() const { return promises_kept_; }
 
  private:
-  /// How long a track has been in the sets, s.
-  double age(const TrackSet& set, std::int64_t id) {
-    const std::pair key{set.header.name.sender_epoch_us, id};
-    auto [known, is_new] = seen_.try_emplace(key, Seen{set.made_at, set.made_at});
-    if (set.made_at - known->second.last > kGone) known->second.first = set.made_at;
-    known->second.last = set.made_at;
-    return (set.made_at - known->second.first).seconds();
+  /// How long each track has been in the sets, before the flight, too, s.
+  std::vector<double> ages(const TrackSet& set) {
+    std::vector<double> ages_s;
+    for (const Track& track : set.tracks) {
+      const std::pair key{set.header.name.sender_epoch_us, track.id};
+      auto [known, is_new] = seen_.try_emplace(key, Seen{set.made_at, set.made_at});
+      if (set.made_at - known->second.last > kGone) known->second.first = set.made_at;
+      known->second.last = set.made_at;
+      ages_s.push_back((set.made_at - known->second.first).seconds());
+    }
+    return ages_s;
   }
 
   void take(const TrackSet& set, const Track& track, const Spoken& of, double age_s) {
@@ -133,7 +136,7 @@ class PredictionsCheck {
       own.kept += kept ? 1 : 0;
       promises_kept_ += kept ? 1 : 0;
     }
-    if (promise.certain || set.made_at >= window_.sure_from() + kStart) count(track, of, age_s, promise);
+    count(track, of, age_s, promise);
   }
 
   [[nodiscard]] Promise look(const TrackSet& set, const Track& track, const ObstacleHistory& truth) const {
@@ -193,16 +196,18 @@ class PredictionsCheck {
     }
   }
 
+  /// What the flight's end cuts off counts up to there: a claim that is broken by then was not kept, and who looks at
+  /// a part of each finds no more of them broken than there are.
   void claim(const Plan& plan, const HorizonRequest& request, const Track& track, std::int64_t obstacle) {
     const auto level = idx(plan.level);
     const UTime ends = std::max(plan.trajectory.end(), request.t_s) + plan.hold;
-    const UTime until = std::min({ends, request.t_s + plan.sure_for, track.motion.end()});
-    if (request.t_s < track.motion.start || until > window_.sure_to()) return;
+    const UTime until = std::min({ends, request.t_s + plan.sure_for, track.motion.end(), window_.sure_to()});
+    if (request.t_s < track.motion.start || request.t_s > until) return;
     bool kept = true;
     const UTime seen = follow(track, record_.truth.at(obstacle), request.t_s, until, [&](const Needed& n) {
       kept = kept && (n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kTolerance;
     });
-    if (seen < until) return;
+    if (kept && seen < until) return;  // nobody knows
     by_obstacle_[obstacle].claims[level] += ClaimCount{1, kept ? 1 : 0};
   }
 
@@ -266,10 +271,16 @@ Check check_predictions(const FlightRecord& record, Audit& audit) {
   Check check{.name = "predictions", .claim = "what was real stayed within the alpha that was promised of it"};
   PredictionsCheck predictions(record, audit, check);
   for (const auto& [name, set] : record.predictions) predictions.take(set);
+  std::int64_t without = 0;
   for (const Plan& plan : record.plans) {
     const HorizonRequest* request = record.request(plan.inputs.request);
-    if (request != nullptr && claims_confidence(plan)) predictions.take(plan, *request);
+    if (claims_confidence(plan)) {
+      if (request != nullptr) predictions.take(plan, *request);
+    } else if (plan.outcome != PlanOutcome::NoPlan) {
+      ++without;
+    }
   }
+  if (without > 0) check.unchecked["plans that claim no confidence: certified for a part of alpha"] = without;
   predictions.judge();
   check.summary = predictions.summary();
   if (predictions.promises() > 0) {

@@ -121,6 +121,7 @@ std::string plan_json(const Scene& scene, bool planes) {
   json.begin_object().key("request").integer(plan.request_id).key("outcome").text(to_string(plan.outcome));
   json.key("reason").text(to_string(plan.reason)).key("hold_s").number(plan.hold.seconds());
   json.key("confidence").number(plan.confidence).key("relaxed").flag(plan.relaxed);
+  if (plan.sure_for < kMaxSpan) json.key("sure_for_s").number(plan.sure_for.seconds());
   json.key("local_goal").vec3(plan.local_goal);
   json.key("radius").number(plan.sphere_radius).key("cost").number(plan.cost.total);
   json.key("certificate").integer(static_cast<std::int64_t>(plan.certificate.size()));

@@ -22,6 +22,7 @@ function head() {
     [result ? fixed(result.path_m, 1) : "–", "m", "path"],
     [result ? fixed(result.mean_speed, 2) : "–", "m/s", "mean speed to the goal"],
     [fixed(most(path.speed), 2), "m/s", "top speed"],
+    ...(result && result.contacts_moving + result.contacts_at_rest > 0 ? [[`${whole(result.contacts_moving)} / ${whole(result.contacts_at_rest)}`, "", "contacts while moving / at rest"]] : []),
     least(clearance, "obstacles"),
     ...(leastOf(walls) === undefined ? [] : [least(walls, "the map")]),
     [whole(answers.t.length), "", "plans asked for"],
@@ -43,6 +44,7 @@ function auditTable() {
     return [el("span", { class: "badge " + verdicts[c.verdict] }, c.verdict), el("b", {}, c.name),
       el("div", {}, c.verdict === "not checked" || !c.summary ? c.claim : c.summary, list("findings", findings), list("unchecked", Object.entries(c.unchecked).map(([what, n]) => `not checked: ${what} (${n})`))), whole(c.checked)];
   }));
+  if (audit.contact) box.append(el("p", { class: "note" }, audit.contact.text.trim().replace(/\n +/g, " ")));
   if (audit.missing.length) box.append(list("unchecked", audit.missing.map((m) => "missing in the log: " + m)));
 }
 function tables() {

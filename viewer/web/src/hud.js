@@ -97,6 +97,8 @@ function showState(state, goal) {
 
 function showPlan(plan) {
   shown['PLAN.hold_s'] = plan?.hold_s;
+  shown['PLAN.confidence'] = plan?.confidence;
+  say('confidence', confidenceOf(plan));
   if (!plan) {
     chip('outcome', 'no plan yet', '');
     say('reason', '');
@@ -105,6 +107,13 @@ function showPlan(plan) {
   chip('outcome', plan.outcome, plan.outcome.split(' ')[0]);
   say('reason', (plan.reason === 'none' ? '' : plan.reason) + (plan.relaxed ? ' relaxed' : ''));
   say('hold', fixed(plan.hold_s, 2, 's'));
+}
+
+/** 1: nothing is estimated. 0: certified for a part of what was predicted, of which no number is known. */
+function confidenceOf(plan) {
+  if (!plan || plan.outcome === 'no plan') return '–';
+  if (plan.confidence === 0) return 'none known';
+  return `${plan.confidence}${plan.sure_for_s === undefined ? '' : ` for ${fixed(plan.sure_for_s, 1, 's')}`}`;
 }
 
 /** @param timing  null: nothing was answered yet  @param pace  seconds of flight per second of the wall, by which an answer's time is told */

@@ -1,0 +1,94 @@
+#include "tools/audit/contact.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "tools/audit/promised.h"
+
+namespace tern::audit {
+namespace {
+
+constexpr double kTolerance = 1e-6;
+/// Who was not in the sets for longer is new when it is there again.
+constexpr Duration kGone{500'000};
+
+std::optional<Foretold> foretold(const Track& track, const ObstacleHistory& truth, UTime made_at, UTime at) {
+  Foretold said{0.0, 0.0, true};
+  UTime seen = made_at;
+  follow(track, truth, std::max(made_at, track.motion.start), at, [&](const Needed& n) {
+    const Vec3 out = n.alpha - track.alpha[n.piece];
+    Eigen::Index worst = 0;
+    said.kept = said.kept && out.maxCoeff(&worst) <= kTolerance;
+    said.needed_m = std::max(0.0, n.alpha[worst]);
+    said.alpha_m = track.alpha[n.piece][worst];
+    seen = n.at;
+  });
+  if (at - seen > kUnknownFor) return std::nullopt;
+  return said;
+}
+
+void see_sets(const FlightRecord& record, Contact& contact) {
+  const auto truth = record.truth.find(contact.obstacle);
+  if (truth == record.truth.end()) return;
+  Pairing pairing(record);
+  std::optional<UTime> first, last;
+  for (const auto& [name, set] : record.predictions) {
+    if (set.made_at > contact.at) continue;
+    const auto& pairs = pairing.pair(set);
+    const auto speaks = [&](const Track& t) {
+      const auto pair = pairs.find(t.id);
+      return pair != pairs.end() && pair->second.obstacle == contact.obstacle;
+    };
+    const auto track = std::find_if(set.tracks.begin(), set.tracks.end(), speaks);
+    for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
+      if ((contact.at - set.made_at).seconds() < kBeforeContact[k]) continue;
+      contact.said[k] =
+          track == set.tracks.end() ? std::nullopt : foretold(*track, truth->second, set.made_at, contact.at);
+    }
+    if (track == set.tracks.end()) continue;
+    if (!last || set.made_at - *last > kGone) first = set.made_at;
+    last = set.made_at;
+  }
+  if (last && contact.at - *last <= kGone) contact.in_sets_s = (contact.at - *first).seconds();
+}
+
+}  // namespace
+
+Contact look_back(const FlightRecord& record, UTime at, std::int64_t obstacle) {
+  Contact contact;
+  contact.at = at;
+  contact.obstacle = obstacle;
+  const auto state = std::ranges::lower_bound(record.states, at, {}, &UavState::at);
+  if (state != record.states.end()) contact.speed_mps = state->motion.v.norm();
+  see_sets(record, contact);
+  for (const Plan& plan : record.plans) {
+    const HorizonRequest* request = record.request(plan.inputs.request);
+    const bool claims = plan.outcome != PlanOutcome::NoPlan && plan.confidence > 0.0 && !plan.relaxed;
+    if (request == nullptr || request->t_s > at || !claims) continue;
+    contact.confidence = plan.confidence;
+    contact.confident_s = (at - request->t_s).seconds();
+  }
+  return contact;
+}
+
+std::string to_text(const Contact& contact, const FlightRecord& record) {
+  std::string text = fmt::format("Obstacle {} was touched at {:.3f} s, by the vehicle at {:.2f} m/s. ",
+                                 contact.obstacle, record.seconds(contact.at), contact.speed_mps);
+  text += contact.in_sets_s ? fmt::format("It had been in PREDICTIONS for {:.2f} s.\n", *contact.in_sets_s)
+                            : std::string("It was not in PREDICTIONS.\n");
+  for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
+    const auto& said = contact.said[k];
+    text += fmt::format("  As promised {} s before: {}\n", kBeforeContact[k],
+                        said ? fmt::format("{:.2f} m of alpha were needed then, of {:.2f} m, {}", said->needed_m,
+                                           said->alpha_m, said->kept ? "kept" : "broken")
+                             : "nothing");
+  }
+  text += contact.confidence ? fmt::format("  The last plan that claimed a confidence ({}) began {:.2f} s before.\n",
+                                           *contact.confidence, *contact.confident_s)
+                             : std::string("  No plan before claimed a confidence.\n");
+  return text;
+}
+
+}  // namespace tern::audit

@@ -1,0 +1,40 @@
+// What had been said of the obstacle that a flight touched, before it did: was it seen, was it foretold, was it risked?
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "tools/audit/check.h"
+#include "tools/audit/flight_record.h"
+
+namespace tern::audit {
+
+/// Promises are looked at that were made so long before the contact, s.
+inline constexpr std::array kBeforeContact{0.25, 0.5, 1.0};
+
+/// What one of them said of the time of the contact, on the axis on which it was worst.
+struct Foretold {
+  double needed_m = 0.0;  ///< α that would have held the true box; 0: it was inside without any
+  double alpha_m = 0.0;   ///< what was promised
+  bool kept = false;      ///< at all times up to the contact and on all axes
+};
+
+struct Contact {
+  UTime at;
+  std::int64_t obstacle = kNobody;
+  double speed_mps = 0.0;                                           ///< the vehicle's
+  std::optional<double> in_sets_s;                                  ///< so long its track had been in PREDICTIONS
+  std::array<std::optional<Foretold>, kBeforeContact.size()> said;  ///< none: it was in no set then
+  std::optional<double> confidence, confident_s;  ///< the last plan that claimed one: which, and when it began, before
+                                                  ///< the contact
+};
+
+/// @param at, obstacle  where the flight came nearest to an obstacle
+Contact look_back(const FlightRecord& record, UTime at, std::int64_t obstacle);
+
+/// For people, four lines at most.
+std::string to_text(const Contact& contact, const FlightRecord& record);
+
+}  // namespace tern::audit
