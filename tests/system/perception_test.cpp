@@ -1,6 +1,10 @@
 // Whole flights among movers that nobody declares, seen 8 m far, late, with noise and without ids.
 #include <gtest/gtest.h>
 
+#include "campaign/virtual_system.h"
+#include "core/base/random.h"
+#include "messages/channels.h"
+#include "simulator/app/simulator_node.h"
 #include "tests/support/watched_flight.h"
 
 namespace tern::testing {
@@ -15,6 +19,48 @@ TEST_P(SandoPerception, TheForestIsFlownThroughUnharmedByTheDefaults) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, SandoPerception, ::testing::Values(2, 11));
+
+/// A second sensor that sees nothing but what is not there: beside each set of the true one, anywhere in view.
+class FalseAlarms {
+ public:
+  FalseAlarms(Bus& bus, int per_set) : bus_(bus), per_set_(per_set) {
+    bus_.subscribe(channels::kObstacleObservations, [this](const ObservationSet& true_one) {
+      if (true_one.sensor_id == kId) return;
+      ObservationSet alarms = true_one;
+      alarms.sensor_id = kId;
+      alarms.detections.clear();
+      for (int k = 0; k < per_set_; ++k) alarms.detections.push_back(somewhere(true_one));
+      bus_.publish(channels::kObstacleObservations, alarms);
+    });
+  }
+
+ private:
+  static constexpr std::int32_t kId = 9;
+  Detection somewhere(const ObservationSet& seen) {
+    Detection d;
+    const Vec3 way(rng_.uniform(-1, 1), rng_.uniform(-1, 1), rng_.uniform(-0.2, 0.2));
+    d.position = seen.sensor_position + seen.range_m * way;
+    d.half_extents = Vec3::Constant(0.4);
+    d.variance = Vec3::Constant(0.0025);
+    d.track_id = kNoTrackId;
+    return d;
+  }
+
+  Bus& bus_;
+  int per_set_;
+  Rng rng_{1};
+};
+
+TEST(FalseAlarms, NinetyASecondDoNotStopTheVehicle) {
+  VirtualSystem system(scenario_file("sando_perception"), {"seed=2"});
+  const FalseAlarms alarms(system.runner().observer(), 3);
+  const SimulatorNode& simulator = system.simulator();
+  system.runner().run(system.runner().now() + Duration{120'000'000}, [&] { return simulator.result().has_value(); });
+  ASSERT_TRUE(simulator.result());
+  expect_reached(*simulator.result());
+  EXPECT_LE(simulator.result()->stops, 1);
+  EXPECT_LT(simulator.result()->flight_time_s, 27.0) << "24.7 s without them";
+}
 
 }  // namespace
 }  // namespace tern::testing
