@@ -343,7 +343,7 @@ TEST(AContact, IsLookedBackFrom) {
   }
   EXPECT_EQ(contact.confidence.value(), 0.9) << "the last plan claims none";
   EXPECT_NEAR(contact.confident_s.value(), 0.8, 1e-9);
-  EXPECT_THAT(to_text(contact, world.record), HasSubstr("0.50 m of alpha were needed then, of 0.10 m, broken"));
+  EXPECT_THAT(to_text(contact, world.record), HasSubstr("an alpha of 0.10 m was promised, 0.50 m were needed: broken"));
   EXPECT_FALSE(look_back(world.record, at(5.9), 0).said[2]) << "it was in no set then";
   EXPECT_TRUE(look_back(world.record, at(5.7), 0).said[0]->kept);
   EXPECT_THAT(to_text(look_back(world.record, at(6.0), 1), world.record), HasSubstr("was not in PREDICTIONS"));

@@ -10,17 +10,13 @@
 namespace tern::audit {
 namespace {
 
-constexpr double kTolerance = 1e-6;
-/// Who was not in the sets for longer is new when it is there again.
-constexpr Duration kGone{500'000};
-
 std::optional<Foretold> foretold(const Track& track, const ObstacleHistory& truth, UTime made_at, UTime at) {
   Foretold said{0.0, 0.0, true};
   UTime seen = made_at;
   follow(track, truth, std::max(made_at, track.motion.start), at, [&](const Needed& n) {
     const Vec3 out = n.alpha - track.alpha[n.piece];
     Eigen::Index worst = 0;
-    said.kept = said.kept && out.maxCoeff(&worst) <= kTolerance;
+    said.kept = said.kept && out.maxCoeff(&worst) <= kOutTolerance;
     said.needed_m = std::max(0.0, n.alpha[worst]);
     said.alpha_m = track.alpha[n.piece][worst];
     seen = n.at;
@@ -65,8 +61,7 @@ Contact look_back(const FlightRecord& record, UTime at, std::int64_t obstacle) {
   see_sets(record, contact);
   for (const Plan& plan : record.plans) {
     const HorizonRequest* request = record.request(plan.inputs.request);
-    const bool claims = plan.outcome != PlanOutcome::NoPlan && plan.confidence > 0.0 && !plan.relaxed;
-    if (request == nullptr || request->t_s > at || !claims) continue;
+    if (request == nullptr || request->t_s > at || !claims_confidence(plan)) continue;
     contact.confidence = plan.confidence;
     contact.confident_s = (at - request->t_s).seconds();
   }
@@ -79,11 +74,11 @@ std::string to_text(const Contact& contact, const FlightRecord& record) {
   text += contact.in_sets_s ? fmt::format("It had been in PREDICTIONS for {:.2f} s.\n", *contact.in_sets_s)
                             : std::string("It was not in PREDICTIONS.\n");
   for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
+    text += fmt::format("  {} s before ", kBeforeContact[k]);
     const auto& said = contact.said[k];
-    text += fmt::format("  As promised {} s before: {}\n", kBeforeContact[k],
-                        said ? fmt::format("{:.2f} m of alpha were needed then, of {:.2f} m, {}", said->needed_m,
-                                           said->alpha_m, said->kept ? "kept" : "broken")
-                             : "nothing");
+    text += said ? fmt::format("an alpha of {:.2f} m was promised, {:.2f} m were needed: {}.\n", said->alpha_m,
+                               said->needed_m, said->kept ? "kept" : "broken")
+                 : std::string("nothing was promised of it.\n");
   }
   text += contact.confidence ? fmt::format("  The last plan that claimed a confidence ({}) began {:.2f} s before.\n",
                                            *contact.confidence, *contact.confident_s)

@@ -13,12 +13,8 @@
 namespace tern::audit {
 namespace {
 
-/// A true box may stand out by this, m: rounding.
-constexpr double kTolerance = 1e-6;
 /// What is static promises for ever; so far it is looked at.
 constexpr Duration kForEver{4'500'000};
-/// Who was not in the sets for longer is new when it is there again.
-constexpr Duration kGone{500'000};
 constexpr std::array kClassAges{std::pair{0.1, PredictionClass::New}, std::pair{0.3, PredictionClass::Young},
                                 std::pair{1.0, PredictionClass::Grown}};
 
@@ -128,7 +124,7 @@ class PredictionsCheck {
     if (promise.worst == -1e9) return;
     TrackCoverage& own = tracks_.try_emplace(track.id, TrackCoverage{track.id, of.obstacle, 0, 0, -1e9}).first->second;
     own.worst_m = std::max(own.worst_m, promise.worst);
-    const bool kept = promise.worst <= kTolerance;
+    const bool kept = promise.worst <= kOutTolerance;
     if (promise.certain) ++check_.checked;
     if (promise.certain && !kept) broken(track.id, of.obstacle, promise);
     if (promise.complete || (promise.certain && !kept)) {
@@ -151,7 +147,7 @@ class PredictionsCheck {
           if (out.maxCoeff() > promise.worst) promise.worst = out.maxCoeff(), promise.worst_at = n.at;
           const double ahead_s = (n.at - promise.from).seconds();
           for (std::size_t level = 0; level < kLevels; ++level) {
-            if ((n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kTolerance) continue;
+            if ((n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance) continue;
             for (std::size_t h = 0; h < kHorizons; ++h) {
               if (ahead_s <= kCoveredAhead[h]) promise.kept[h][level] = false;
             }
@@ -205,7 +201,7 @@ class PredictionsCheck {
     if (request.t_s < track.motion.start || request.t_s > until) return;
     bool kept = true;
     const UTime seen = follow(track, record_.truth.at(obstacle), request.t_s, until, [&](const Needed& n) {
-      kept = kept && (n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kTolerance;
+      kept = kept && (n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance;
     });
     if (kept && seen < until) return;  // nobody knows
     by_obstacle_[obstacle].claims[level] += ClaimCount{1, kept ? 1 : 0};
@@ -259,11 +255,6 @@ class PredictionsCheck {
   std::set<std::int64_t> nobodys_, named_;
   std::int64_t promises_ = 0, promises_kept_ = 0;
 };
-
-/// A claim with a number: a level of confidence, all of its α, for some time.
-bool claims_confidence(const Plan& plan) {
-  return plan.outcome != PlanOutcome::NoPlan && plan.confidence > 0.0 && !plan.relaxed;
-}
 
 }  // namespace
 

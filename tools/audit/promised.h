@@ -18,6 +18,16 @@ inline constexpr Duration kUnknownFor = kTruthHole;
 /// A track is in view for so long after a detection whose box meets its own.
 inline constexpr Duration kInViewFor{300'000};
 
+/// Who was not in the sets for longer is new when it is there again.
+inline constexpr Duration kGone{500'000};
+/// A true box may stand out of a promise by this, m: rounding.
+inline constexpr double kOutTolerance = 1e-6;
+
+/// Whether a plan claims a number: a level of confidence, all of its α, for some time.
+inline bool claims_confidence(const Plan& plan) {
+  return plan.outcome != PlanOutcome::NoPlan && plan.confidence > 0.0 && !plan.relaxed;
+}
+
 /// Whom a track speaks of, and whether a sensor saw it just now.
 struct Spoken {
   std::int64_t obstacle = kNobody;
