@@ -70,4 +70,9 @@ while read -r name scenario count seeds settings; do
   "$bin/tern-campaign" --world "scenarios/$scenario.yaml" --count "$count" --seeds "1:$last" $settings \
     "${coverage[@]}" --out "$out/$name.csv" --summary "$out/$name.json"
 done <<<"$campaigns"
-"$TERN_ROOT/docs/results/table.py" "$out"/*.json
+if ((${#coverage[@]})); then
+  "$TERN_ROOT/docs/results/perception.py" "$out"
+  "$TERN_ROOT/docs/results/perception.py" --short "$out"
+else
+  "$TERN_ROOT/docs/results/table.py" "$out"/*.json
+fi

@@ -11,6 +11,7 @@ struct Row {
   std::array<double, kConfidenceLevels.size()> levels;
   std::array<double, kPriorProbabilities.size()> quantiles;
 };
+// Made by `tern-calibrate --made-up 100 --prior FILE`, from made-up movers alone.
 constexpr std::array<Row, kWorldPaces * kTrackClasses * kBands> kTable{{
 #include "predictor/tracking/calibration_prior.inc"
 }};

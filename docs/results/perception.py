@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""Tables in Markdown of the worlds that are flown by perception, from what results.sh --perception made in a folder.
+
+  perception.py FOLDER            reached, contacts, times, beside the same flights with motion known
+  perception.py FOLDER BEFORE     in pairs against another build's flights of the same seeds
+  perception.py --short FOLDER [BEFORE]      what was promised and what was kept of what has been seen for a second
+  perception.py --coverage FOLDER [BEFORE]   of each class and horizon, with intervals; "!": cannot have been true
+"""
+import csv
+import io
+import json
+import lzma
+import pathlib
+import sys
+
+WORLDS = ["perception_only", "mader_perception_only", "sando_perception", "people_hermes_050", "people_hermes_090",
+          "people_hermes_120", "people_eth", "people_hotel", "drones", "crowd", "crowd_eth"]
+CLASSES = ["new", "young", "grown", "old", "at rest", "unseen"]
+AHEAD = ["0.25", "0.5", "1", "2", "whole"]
+PROMISED = 0.99
+
+
+def summary(folder, world):
+    path = folder / f"{world}.json"
+    return json.loads(path.read_text()) if path.exists() else None
+
+
+def flights(folder, world):
+    """By seed."""
+    plain = folder / f"{world}.csv"
+    text = plain.read_text() if plain.exists() else lzma.decompress((folder / f"{world}.csv.xz").read_bytes()).decode()
+    return {row["seed"]: row for row in csv.DictReader(io.StringIO(text))}
+
+
+def there(folder):
+    return [world for world in WORLDS if summary(folder, world)]
+
+
+def table(head, rows):
+    print("| " + " | ".join(head) + " |")
+    print("|" + "---|" * len(head))
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+    print()
+
+
+def contacts(rows):
+    count = lambda key: sum(int(row[key] or 0) > 0 for row in rows.values())
+    return f"{count('contacts_moving')} / {count('contacts_at_rest')}"
+
+
+def times(stats):
+    return f"{stats['p50']:.1f} / {stats['p95']:.1f}"
+
+
+def world_row(folder, world):
+    s, oracle = summary(folder, world), summary(folder, world + "_oracle")
+    interval = s["success_ci95"]
+    share = f"[{100 * interval[0]:.1f}, {100 * interval[1]:.1f}] %" if interval else f"of {s['different_flights']} different ones"
+    known = f"{oracle['reached']}/{oracle['flights']}, {times(oracle['flight_time_s'])}" if oracle else "–"
+    ratio = f"{s['flight_time_s']['p50'] / oracle['flight_time_s']['p50']:.2f}" if oracle else "–"
+    replan = s["replan_ms"]
+    return [world, f"{s['reached']}/{s['flights']} {share}", f"{contacts(flights(folder, world))}, {s['timeouts']}",
+            times(s["flight_time_s"]), known, ratio, f"{replan['p50']:.1f} / {replan['p99']:.0f}"]
+
+
+def pair_row(folder, before, world):
+    now, then = flights(folder, world), flights(before, world)
+    seeds = sorted(now.keys() & then.keys())
+    reached = lambda rows: {k for k in seeds if rows[k]["outcome"] == "reached"}
+    a, b = reached(then), reached(now)
+    time = lambda f: summary(f, world)["flight_time_s"]["p50"]
+    return [world, f"{len(a)} / {len(b)}", contacts(then), contacts(now), f"{len(a - b)} / {len(b - a)}",
+            f"{time(before):.1f}, {time(folder):.1f}"]
+
+
+def by_key(s):
+    return {(row["what"], row["horizon"], row["promised"]): row for row in s["coverage"]}
+
+
+def kept(row):
+    if row is None:
+        return "–"
+    low, high = row["ci95"]
+    return f"{'! ' if row['broken'] else ''}{row['share']:.3f} [{low:.3f}, {high:.3f}]"
+
+
+def widths(found, what):
+    rows = [found.get((what, h, PROMISED)) for h in AHEAD[:4]]
+    return " / ".join(f"{row['half_m']:.2f}" if row else "–" for row in rows)
+
+
+def slashed(found, what):
+    rows = [found.get((what, h, PROMISED)) for h in AHEAD[:4]]
+    return " / ".join(f"{row['share']:.3f}" if row else "–" for row in rows)
+
+
+def short(folder, before):
+    """What was seen for a second; what had just come into view; plans."""
+    rows = []
+    for world in there(folder):
+        found = by_key(summary(folder, world))
+        then = by_key(summary(before, world)) if before and summary(before, world) else {}
+        fresh = [found[key]["share"] for key in found if key[0] in CLASSES[:3] and key[1] in AHEAD[:4] and key[2] == PROMISED]
+        plans = [f"{row['share']:.3f}" for key, row in sorted(found.items(), key=lambda r: -r[0][2]) if key[0] == "plans"]
+        rows.append([world, slashed(found, "old"), widths(found, "old")]
+                    + ([f"{slashed(then, 'old')}; {widths(then, 'old')}"] if before else [])
+                    + [f"{min(fresh):.3f}", " / ".join(plans)])
+    table(["world", "seen for a second: kept to 0.25 / 0.5 / 1 / 2 s", "half-width to them, m"]
+          + (["before: kept; half-width"] if before else [])
+          + ["seen for less: kept at the least", "plans at 0.99 / 0.9 / 0.6"], rows)
+
+
+def coverage(folder, before):
+    head = ["world", "what", "promises"] + [f"kept to {'the end' if h == 'whole' else h + ' s'}" for h in AHEAD]
+    head += ["half-width to 0.25 / 0.5 / 1 / 2 s, m"] + (["before"] if before else [])
+    rows, plans = [], []
+    for world in there(folder):
+        found = by_key(summary(folder, world))
+        then = by_key(summary(before, world)) if before and summary(before, world) else {}
+        for what in CLASSES:
+            cells = [found.get((what, h, PROMISED)) for h in AHEAD]
+            if not any(cells):
+                continue
+            row = [world, what, str(max(c["made"] for c in cells if c))] + [kept(c) for c in cells] + [widths(found, what)]
+            rows.append(row + ([widths(then, what)] if before else []))
+        claims = [row for row in summary(folder, world)["coverage"] if row["what"] == "plans"]
+        plans.append([world] + [f"{row['made']}: {kept(row)}" for row in sorted(claims, key=lambda r: -r["promised"])])
+    table(head, rows)
+    levels = sorted({row["promised"] for world in there(folder) for row in summary(folder, world)["coverage"] if row["what"] == "plans"}, reverse=True)
+    table(["claims of plans"] + [str(level) for level in levels], plans)
+
+
+def main(words):
+    folders = [pathlib.Path(word) for word in words if not word.startswith("--")]
+    if not 1 <= len(folders) <= 2:
+        sys.exit(__doc__)
+    folder, before = folders[0], folders[1] if len(folders) == 2 else None
+    if "--coverage" in words:
+        coverage(folder, before)
+    elif "--short" in words:
+        short(folder, before)
+    elif before:
+        table(["world", "reached before / now", "contacts moving / at rest before", "now", "only before / only now", "time p50, s"],
+              [pair_row(folder, before, world) for world in there(folder) if summary(before, world)])
+    else:
+        table(["world", "reached, 95 % interval", "contacts moving / at rest, timeouts", "flight time p50 / p95, s",
+               "motion known: reached, time p50 / p95, s", "time p50 to it", "replan p50 / p99, ms"],
+              [world_row(folder, world) for world in there(folder)])
+    print("Made by " + ", ".join(sorted({summary(folder, world)["version"] for world in there(folder)})) + ".")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
