@@ -103,24 +103,6 @@ std::optional<Contact> contact_of(const FlightRecord& record, const Audit& audit
   return look_back(record, touched->at, touched->obstacle);
 }
 
-nlohmann::json contact_json(const Contact& contact, const FlightRecord& record) {
-  nlohmann::json json = {{"time_s", record.seconds(contact.at)},
-                         {"obstacle", contact.obstacle},
-                         {"speed_mps", contact.speed_mps},
-                         {"text", to_text(contact, record)}};
-  if (contact.in_sets_s) json["in_predictions_s"] = *contact.in_sets_s;
-  if (contact.confidence)
-    json["last_confidence"] = *contact.confidence, json["last_confidence_s"] = *contact.confident_s;
-  json["promised"] = nlohmann::json::array();
-  for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
-    if (!contact.said[k]) continue;
-    const Foretold& said = *contact.said[k];
-    json["promised"].push_back(
-        {{"before_s", kBeforeContact[k]}, {"needed_m", said.needed_m}, {"alpha_m", said.alpha_m}, {"kept", said.kept}});
-  }
-  return json;
-}
-
 nlohmann::json coverage_json(const Audit& audit) {
   nlohmann::json rows = nlohmann::json::array();
   for (const KeptShare& s : audit.shares) {
@@ -265,7 +247,7 @@ nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
       {"by_age", {{"moving", by_age_json(audit.moving_by_age)}, {"at rest", by_age_json(audit.rest_by_age)}}},
       {"tracks", tracks},
       {"confidence", audit.promised_confidence}};
-  if (audit.contact) all["contact"] = contact_json(*audit.contact, record);
+  if (audit.contact) all["contact"] = to_json(*audit.contact, record);
   return all;
 }
 

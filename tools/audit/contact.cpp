@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "tools/audit/promised.h"
 
@@ -84,6 +85,24 @@ std::string to_text(const Contact& contact, const FlightRecord& record) {
                                            *contact.confidence, *contact.confident_s)
                              : std::string("  No plan before claimed a confidence.\n");
   return text;
+}
+
+nlohmann::json to_json(const Contact& contact, const FlightRecord& record) {
+  nlohmann::json json = {{"time_s", record.seconds(contact.at)},
+                         {"obstacle", contact.obstacle},
+                         {"speed_mps", contact.speed_mps},
+                         {"text", to_text(contact, record)}};
+  if (contact.in_sets_s) json["in_predictions_s"] = *contact.in_sets_s;
+  if (contact.confidence)
+    json["last_confidence"] = *contact.confidence, json["last_confidence_s"] = *contact.confident_s;
+  json["promised"] = nlohmann::json::array();
+  for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
+    if (!contact.said[k]) continue;
+    const Foretold& said = *contact.said[k];
+    json["promised"].push_back(
+        {{"before_s", kBeforeContact[k]}, {"needed_m", said.needed_m}, {"alpha_m", said.alpha_m}, {"kept", said.kept}});
+  }
+  return json;
 }
 
 }  // namespace tern::audit

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -34,7 +35,9 @@ struct Contact {
 /// @param at, obstacle  where the flight came nearest to an obstacle
 Contact look_back(const FlightRecord& record, UTime at, std::int64_t obstacle);
 
-/// For people, four lines at most.
+/// For people, a line for each thing that is known.
 std::string to_text(const Contact& contact, const FlightRecord& record);
+/// For programs: docs/after_the_flight.md lists the keys.
+nlohmann::json to_json(const Contact& contact, const FlightRecord& record);
 
 }  // namespace tern::audit
