@@ -5,12 +5,14 @@
   perception.py FOLDER BEFORE     in pairs against another build's flights of the same seeds
   perception.py --short FOLDER [BEFORE]      what was promised and what was kept of what has been seen for a second
   perception.py --coverage FOLDER [BEFORE]   of each class and horizon, with intervals; "!": cannot have been true
+  perception.py --contacts FOLDER            what had been known of who was touched, by the audits of the flights kept there
 """
 import csv
 import io
 import json
 import lzma
 import pathlib
+import statistics
 import sys
 
 WORLDS = ["perception_only", "mader_perception_only", "sando_perception", "people_hermes_050", "people_hermes_090",
@@ -18,6 +20,7 @@ WORLDS = ["perception_only", "mader_perception_only", "sando_perception", "peopl
 CLASSES = ["new", "young", "grown", "old", "at rest", "unseen"]
 AHEAD = ["0.25", "0.5", "1", "2", "whole"]
 PROMISED = 0.99
+RESTS = 0.1  # m/s, and slower
 
 
 def summary(folder, world):
@@ -131,6 +134,38 @@ def coverage(folder, before):
     table(["claims of plans"] + [str(level) for level in levels], plans)
 
 
+def known_before(folder, world):
+    """The audits' contacts of a world, by whether the vehicle moved."""
+    by = {True: [], False: []}
+    for path in sorted(folder.glob(f"{world}.csv.failures/seed-*/audit.json")):
+        contact = json.loads(path.read_text()).get("contact")
+        if contact:
+            by[contact["speed_mps"] > RESTS].append(contact)
+    return by
+
+
+def spread(values, digits=2):
+    values = sorted(values)
+    return f"{statistics.median(values):.{digits}f} ({values[0]:.{digits}f} to {values[-1]:.{digits}f})" if values else "–"
+
+
+def contact_row(world, moved, all):
+    said = lambda before: [p for c in all for p in c["promised"] if p["before_s"] == before]
+    promised = [p for c in all for p in c["promised"]]
+    alpha = " / ".join(f"{statistics.median(p['needed_m'] for p in said(b)):.2f} of {statistics.median(p['alpha_m'] for p in said(b)):.2f}"
+                       if said(b) else "–" for b in (0.25, 0.5, 1.0))
+    return [world, str(len(all)), spread([c["speed_mps"] for c in all], 1) if moved else "at rest",
+            spread([c["in_predictions_s"] for c in all if "in_predictions_s" in c]), alpha,
+            f"{sum(not p['kept'] for p in promised)} of {len(promised)}",
+            spread([c["last_confidence_s"] for c in all if "last_confidence_s" in c])]
+
+
+def contact_table(folder):
+    rows = [contact_row(world, moved, all) for world in WORLDS for moved, all in known_before(folder, world).items() if all]
+    table(["world", "contacts", "vehicle, m/s", "in PREDICTIONS before, s", "α needed of promised 0.25 / 0.5 / 1 s before, m",
+           "promises broken", "last plan of a known confidence, s before"], rows)
+
+
 def main(words):
     folders = [pathlib.Path(word) for word in words if not word.startswith("--")]
     if not 1 <= len(folders) <= 2:
@@ -138,6 +173,8 @@ def main(words):
     folder, before = folders[0], folders[1] if len(folders) == 2 else None
     if "--coverage" in words:
         coverage(folder, before)
+    elif "--contacts" in words:
+        contact_table(folder)
     elif "--short" in words:
         short(folder, before)
     elif before:
@@ -147,7 +184,8 @@ def main(words):
         table(["world", "reached, 95 % interval", "contacts moving / at rest, timeouts", "flight time p50 / p95, s",
                "motion known: reached, time p50 / p95, s", "time p50 to it", "replan p50 / p99, ms"],
               [world_row(folder, world) for world in there(folder)])
-    print("Made by " + ", ".join(sorted({summary(folder, world)["version"] for world in there(folder)})) + ".")
+    if there(folder):
+        print("Made by " + ", ".join(sorted({summary(folder, world)["version"] for world in there(folder)})) + ".")
 
 
 if __name__ == "__main__":
