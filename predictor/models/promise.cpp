@@ -53,13 +53,15 @@ double quantile_for(double probability, double crossings) {
   return high;
 }
 
-void set_motion(const std::vector<Waypoint>& waypoints, UTime start, const PredictionSpec& spec, double speed,
+void set_motion(const std::vector<Waypoint>& waypoints, const std::vector<Duration>& ends, UTime start, double speed,
                 Track& track) {
-  const std::vector<Duration> ends = piece_ends(spec);
   track.motion.start = start;
   track.motion.pieces.clear();
   track.alpha.clear();
   track.shares.clear();
+  track.motion.pieces.reserve(ends.size() - 1);
+  track.alpha.reserve(ends.size() - 1);
+  track.shares.reserve(ends.size() - 1);
   track.top_speed = speed;
   std::array<Vec3, kConfidenceLevels.size()> largest = waypoints.front().half;
   for (std::size_t k = 1; k < ends.size(); ++k) {

@@ -42,14 +42,14 @@ struct Waypoint {
   std::array<Vec3, kConfidenceLevels.size()> half = {};  ///< half-width per level of confidence, m, ≥ 0
 };
 
-/// Motion, α, shares and top speed of a track from waypoints at piece_ends.
+/// Motion, α, shares and top speed of a track from waypoints at `ends`, which are piece_ends.
 ///
 /// The centre is the cubic Hermite curve through them. α of a piece is the largest half-width up to its end, but on no
 /// axis more than the reach set allows: who was within half(0) at the start, and is no faster than `speed`, is within
 /// half(0) + |centre(t) − centre(0)| + speed t of the centre. At lower levels likewise, and no more than at the level
 /// before; a share is the largest of the three axes'.
 /// @param speed m/s per axis, > 0: the track's top speed.
-void set_motion(const std::vector<Waypoint>& waypoints, UTime start, const PredictionSpec& spec, double speed,
+void set_motion(const std::vector<Waypoint>& waypoints, const std::vector<Duration>& ends, UTime start, double speed,
                 Track& track);
 
 }  // namespace tern

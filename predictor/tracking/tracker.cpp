@@ -378,7 +378,7 @@ std::vector<Track> Tracker::predict(UTime now, std::vector<TrackBound>* why) con
     track.id = object.id;
     track.kind = TrackKind::Estimated;
     track.half_extents = object.half_extents;
-    set_motion(waypoints, from, config_.prediction, std::max(top_speed(), seen_speed), track);
+    set_motion(waypoints, ends_, from, std::max(top_speed(), seen_speed), track);
     if (why != nullptr) {
       bound.id = object.id;
       bound.ahead_s = ends_[bound_at_].seconds();
