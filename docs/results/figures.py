@@ -264,18 +264,23 @@ SINCE = {"new": "≤ 0.1", "young": "≤ 0.3", "grown": "≤ 1", "old": "> 1"}  
 
 def draw_widths(summaries, out):
     """A panel per world: mean half-width of what 0.99 promises, by the time since a track's first detection."""
-    figure, parts = plt.subplots(1, len(summaries), figsize=(2.3 * len(summaries), 3.4), layout="constrained", sharey=True,
-                                 squeeze=False)
-    for axes, file in zip(parts[0], summaries):
+    columns = min(4, len(summaries))
+    rows = -(-len(summaries) // columns)
+    figure, parts = plt.subplots(rows, columns, figsize=(2.5 * columns, 2.8 * rows), layout="constrained", sharex=True,
+                                 sharey=True, squeeze=False)
+    for axes in parts.flat[len(summaries):]:
+        axes.set_axis_off()
+    for axes, file in zip(parts.flat, summaries):
         summary = json.loads(pathlib.Path(file).read_text())
         width = {(k["what"], k["horizon"]): k["half_m"] for k in summary["coverage"] if k["promised"] == 0.99}
         for ahead, colour in zip(("0.25", "0.5", "1", "2"), ("#1357a6", "#2b8a3e", "#c77700", "#b3261e")):
             own = [(since, width[what, ahead]) for what, since in SINCE.items() if width.get((what, ahead))]
             axes.plot([x for x, _ in own], [y for _, y in own], "o-", ms=4, color=colour, label=f"to {ahead} s")
-        axes.set(xlabel="since first seen, s", yscale="log", title=summary["scenario"])
+        axes.set(yscale="log", title=summary["scenario"])
         axes.title.set_fontsize(8)
-    parts[0][0].set(ylabel="half-width, m")
-    parts[0][-1].legend(fontsize=8)
+    figure.supxlabel("since first seen, s", fontsize=9)
+    figure.supylabel("half-width, m", fontsize=9)
+    figure.legend(*parts[0][0].get_legend_handles_labels(), loc="lower right", fontsize=9)
     save(figure, out)
 
 

@@ -3,9 +3,9 @@
 
   perception.py FOLDER            reached, contacts, times, beside the same flights with motion known
   perception.py FOLDER BEFORE     in pairs against another build's flights of the same seeds
-  perception.py --short FOLDER [BEFORE]      what was promised and what was kept of what has been seen for a second
-  perception.py --coverage FOLDER [BEFORE]   of each class and horizon, with intervals; "!": cannot have been true
-  perception.py --contacts FOLDER            what had been known of who was touched, by the audits of the flights kept there
+  perception.py --short FOLDER     what was promised and what was kept of what has been seen for a second
+  perception.py --coverage FOLDER  of each class and horizon, with intervals; "!": cannot have been true
+  perception.py --contacts FOLDER  what had been known of who was touched, by the audits of the flights kept there
 """
 import csv
 import io
@@ -73,8 +73,11 @@ def pair_row(folder, before, world):
     reached = lambda rows: {k for k in seeds if rows[k]["outcome"] == "reached"}
     a, b = reached(then), reached(now)
     time = lambda f: summary(f, world)["flight_time_s"]["p50"]
+    old = lambda f: [by_key(summary(f, world)).get(("old", h, PROMISED)) for h in AHEAD[1:4]]
+    width = lambda f: " / ".join(f"{row['half_m']:.2f}" if row else "–" for row in old(f))
+    share = lambda f: " / ".join(f"{row['share']:.3f}" if row else "–" for row in old(f))
     return [world, f"{len(a)} / {len(b)}", contacts(then), contacts(now), f"{len(a - b)} / {len(b - a)}",
-            f"{time(before):.1f}, {time(folder):.1f}"]
+            f"{time(before):.1f}, {time(folder):.1f}", width(before), width(folder), share(before), share(folder)]
 
 
 def by_key(s):
@@ -98,35 +101,29 @@ def slashed(found, what):
     return " / ".join(f"{row['share']:.3f}" if row else "–" for row in rows)
 
 
-def short(folder, before):
+def short(folder):
     """What was seen for a second; what had just come into view; plans."""
     rows = []
     for world in there(folder):
         found = by_key(summary(folder, world))
-        then = by_key(summary(before, world)) if before and summary(before, world) else {}
         fresh = [found[key]["share"] for key in found if key[0] in CLASSES[:3] and key[1] in AHEAD[:4] and key[2] == PROMISED]
         plans = [f"{row['share']:.3f}" for key, row in sorted(found.items(), key=lambda r: -r[0][2]) if key[0] == "plans"]
-        rows.append([world, slashed(found, "old"), widths(found, "old")]
-                    + ([f"{slashed(then, 'old')}; {widths(then, 'old')}"] if before else [])
-                    + [f"{min(fresh):.3f}", " / ".join(plans)])
-    table(["world", "seen for a second: kept to 0.25 / 0.5 / 1 / 2 s", "half-width to them, m"]
-          + (["before: kept; half-width"] if before else [])
-          + ["seen for less: kept at the least", "plans at 0.99 / 0.9 / 0.6"], rows)
+        rows.append([world, slashed(found, "old"), widths(found, "old"), f"{min(fresh):.3f}", " / ".join(plans)])
+    table(["world", "seen for a second: kept to 0.25 / 0.5 / 1 / 2 s", "half-width to them, m",
+           "seen for less: kept at the least", "plans at 0.99 / 0.9 / 0.6"], rows)
 
 
-def coverage(folder, before):
+def coverage(folder):
     head = ["world", "what", "promises"] + [f"kept to {'the end' if h == 'whole' else h + ' s'}" for h in AHEAD]
-    head += ["half-width to 0.25 / 0.5 / 1 / 2 s, m"] + (["before"] if before else [])
+    head += ["half-width to 0.25 / 0.5 / 1 / 2 s, m"]
     rows, plans = [], []
     for world in there(folder):
         found = by_key(summary(folder, world))
-        then = by_key(summary(before, world)) if before and summary(before, world) else {}
         for what in CLASSES:
             cells = [found.get((what, h, PROMISED)) for h in AHEAD]
             if not any(cells):
                 continue
-            row = [world, what, str(max(c["made"] for c in cells if c))] + [kept(c) for c in cells] + [widths(found, what)]
-            rows.append(row + ([widths(then, what)] if before else []))
+            rows.append([world, what, str(max(c["made"] for c in cells if c))] + [kept(c) for c in cells] + [widths(found, what)])
         claims = [row for row in summary(folder, world)["coverage"] if row["what"] == "plans"]
         plans.append([world] + [f"{row['made']}: {kept(row)}" for row in sorted(claims, key=lambda r: -r["promised"])])
     table(head, rows)
@@ -172,13 +169,14 @@ def main(words):
         sys.exit(__doc__)
     folder, before = folders[0], folders[1] if len(folders) == 2 else None
     if "--coverage" in words:
-        coverage(folder, before)
+        coverage(folder)
     elif "--contacts" in words:
         contact_table(folder)
     elif "--short" in words:
-        short(folder, before)
+        short(folder)
     elif before:
-        table(["world", "reached before / now", "contacts moving / at rest before", "now", "only before / only now", "time p50, s"],
+        table(["world", "reached before / now", "contacts moving / at rest before", "now", "only before / only now", "time p50, s",
+               "half-width of who is seen for a second, to 0.5 / 1 / 2 s before, m", "now", "kept to them before", "now"],
               [pair_row(folder, before, world) for world in there(folder) if summary(before, world)])
     else:
         table(["world", "reached, 95 % interval", "contacts moving / at rest, timeouts", "flight time p50 / p95, s",
