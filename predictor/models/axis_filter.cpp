@@ -28,8 +28,8 @@ Fit fit(const Vec3& x, const Vec3& variance, const Vec3& z, const Vec3& r) {
   return {s, ((z - x).array().square() / s.array()).sum()};
 }
 
-Box gated(const Vec3& x, const Vec3& variance, double gate, const Vec3& r) {
-  constexpr double kRounding = 1.0 + 1e-9;
+Box gate_box(const Vec3& x, const Vec3& variance, double gate, const Vec3& r) {
+  constexpr double kRounding = 1.0 + 1e-9;  // of some ten operations at 1e-16 each
   return box_around(x, kRounding * (gate * (variance + r.cwiseMax(kLeastVariance))).cwiseSqrt());
 }
 

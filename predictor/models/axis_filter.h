@@ -43,7 +43,8 @@ struct Fit {
 /// @param x, variance  m, m², of the estimate; @param z, r  of the detection, r taken as kLeastVariance if less
 Fit fit(const Vec3& x, const Vec3& variance, const Vec3& z, const Vec3& r);
 
-/// Contains all z whose distance2 is at most `gate`, of detections of at most the variance r; little more.
-Box gated(const Vec3& x, const Vec3& variance, double gate, const Vec3& r);
+/// A box that holds all z with Fit::distance2 ≤ gate, of detections of at most the variance r (m²), and little more: no
+/// axis has more than the whole distance.
+Box gate_box(const Vec3& x, const Vec3& variance, double gate, const Vec3& r);
 
 }  // namespace tern

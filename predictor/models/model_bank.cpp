@@ -112,11 +112,11 @@ double BankFilter::surprise_within(double gate, const Vec3& z, const Vec3& r) co
   return least;
 }
 
-Box BankFilter::reach(double gate, const Vec3& r) const {
+Box BankFilter::gate_box(double gate, const Vec3& r) const {
   Box within;
   for (const std::size_t model : {lead_, kWidestModel}) {
     const MotionFilter filter = of(model);
-    within.extend(gated(filter.position(), filter.variance(), gate, r));
+    within.extend(tern::gate_box(filter.position(), filter.variance(), gate, r));
   }
   return within;
 }

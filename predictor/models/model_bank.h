@@ -49,8 +49,8 @@ class BankFilter {
   /// How unlikely the detection is: the less of the two models' surprise() that are nearer than the gate.
   /// @return infinite if neither is
   [[nodiscard]] double surprise_within(double gate, const Vec3& z, const Vec3& r) const;
-  /// Where alone that is finite, for detections of at most the variance r.
-  [[nodiscard]] Box reach(double gate, const Vec3& r) const;
+  /// A box that holds all detections of at most the variance r whose surprise_within() is finite.
+  [[nodiscard]] Box gate_box(double gate, const Vec3& r) const;
   [[nodiscard]] MotionFilter of(std::size_t model) const;
   /// The model of the most evidence.
   [[nodiscard]] std::size_t leading() const { return lead_; }

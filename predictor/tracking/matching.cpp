@@ -40,7 +40,7 @@ double dearest(const Eigen::MatrixXd& cost) {
 
 // Among objects with the given confirmation, and detections without an id, that are still free.
 void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-                       bool confirmed, const Surprise& surprise, const Reach& reach, Matching& matching) {
+                       bool confirmed, const Surprise& surprise, const GateBox& gate_box, Matching& matching) {
   std::vector<std::size_t> rows, columns;
   for (std::size_t o = 0; o < objects.size(); ++o) {
     if (objects[o].confirmed == confirmed && matching.detection_of[o] == kNoDetection) rows.push_back(o);
@@ -55,7 +55,7 @@ void match_by_distance(const std::vector<TrackedObject>& objects, const std::vec
                                                    static_cast<Eigen::Index>(columns.size()), kBeyond);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const TrackedObject& object = objects[rows[r]];
-    const Box within = reach(object, variance);
+    const Box within = gate_box(object, variance);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const Detection& detection = detections[columns[c]];
       if (!within.contains(detection.position)) continue;
@@ -74,14 +74,14 @@ void match_by_distance(const std::vector<TrackedObject>& objects, const std::vec
 }  // namespace
 
 Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-               const Surprise& surprise, const Reach& reach) {
+               const Surprise& surprise, const GateBox& gate_box) {
   Matching matching{std::vector<int>(objects.size(), kNoDetection), std::vector<bool>(detections.size(), false), {}};
   for (const Detection& detection : detections) {
     matching.anonymous.push_back(detection.track_id == kNoTrackId || is_exchanged(objects, detection, surprise));
   }
   match_by_id(objects, detections, matching);
-  match_by_distance(objects, detections, true, surprise, reach, matching);
-  match_by_distance(objects, detections, false, surprise, reach, matching);
+  match_by_distance(objects, detections, true, surprise, gate_box, matching);
+  match_by_distance(objects, detections, false, surprise, gate_box, matching);
   matching.anonymous.assign(detections.size(), false);
   match_by_id(objects, detections, matching);
   return matching;

@@ -100,7 +100,7 @@ void Tracker::advance(State& state, const ObservationSet& observations) const {
   const Matching matching = match(
       state.objects, detections,
       [&](const TrackedObject& object, const Detection& detection) { return surprise(object, at, detection); },
-      [&](const TrackedObject& object, const Vec3& variance) { return reach(object, at, variance); });
+      [&](const TrackedObject& object, const Vec3& variance) { return gate_box(object, at, variance); });
   for (std::size_t o = 0; o < state.objects.size(); ++o) {
     TrackedObject& object = state.objects[o];
     const int d = matching.detection_of[o];
@@ -244,10 +244,10 @@ double Tracker::surprise(const TrackedObject& object, UTime at, const Detection&
   return of_place < kBeyond ? of_place + size_surprise(object.half_extents, detection) : kBeyond;
 }
 
-Box Tracker::reach(const TrackedObject& object, UTime at, const Vec3& variance) const {
-  if (!is_remembered(object, at)) return object.moving.reach(kAssociationGate, variance);
+Box Tracker::gate_box(const TrackedObject& object, UTime at, const Vec3& variance) const {
+  if (!is_remembered(object, at)) return object.moving.gate_box(kAssociationGate, variance);
   const auto& [x, y, z] = object.resting;
-  return gated({x.x, y.x, z.x}, {x.xx, y.xx, z.xx}, kAssociationGate, variance);
+  return tern::gate_box({x.x, y.x, z.x}, {x.xx, y.xx, z.xx}, kAssociationGate, variance);
 }
 
 SeenTrack Tracker::seen(const TrackedObject& object) const {

@@ -157,9 +157,10 @@ class Tracker {
   [[nodiscard]] TrackedObject born(const Detection& detection, const ObservationSet& from, std::int64_t id) const;
   [[nodiscard]] bool is_dead(const TrackedObject& object, const ObservationSet& observations) const;
   [[nodiscard]] double surprise(const TrackedObject& object, UTime at, const Detection& detection) const;
-  /// Where alone that is finite, for detections of at most this variance.
-  [[nodiscard]] Box reach(const TrackedObject& object, UTime at, const Vec3& variance) const;
-  /// What is found where it rested belongs to it, not whatever a mover could have become.
+  /// A box that holds all detections of at most this variance whose surprise is finite.
+  [[nodiscard]] Box gate_box(const TrackedObject& object, UTime at, const Vec3& variance) const;
+  /// Whether it rested when it was last seen, longer ago than `coast`. Then what is found there belongs to it, not
+  /// whatever a mover could have become.
   [[nodiscard]] bool is_remembered(const TrackedObject& object, UTime at) const;
   [[nodiscard]] bool is_published(const TrackedObject& object, const ExistenceRecord& existence) const;
   /// Whether what is detected as this track may as well be something new.

@@ -125,5 +125,26 @@ TEST(Fit, SurprisesByTheLogarithmOfTheDensity) {
   }
 }
 
+TEST(Fit, ItsGateBoxHoldsAllThatIsWithinTheGateAndLittleMore) {
+  Rng rng(3);
+  const auto any = [&](double least, double most) {
+    return Vec3(rng.uniform(least, most), rng.uniform(least, most), rng.uniform(least, most));
+  };
+  int within = 0;
+  for (int n = 0; n < 20'000; ++n) {
+    const Vec3 x = any(-100, 100), variance = any(1e-8, 2), most = any(0, 1), r = most.cwiseProduct(any(0, 1));
+    const Vec3 z = x + 6.0 * any(-1, 1);
+    const double gate = rng.uniform(1, 30);
+    const Box box = gate_box(x, variance, gate, most);
+    if (fit(x, variance, z, r).distance2 <= gate) {
+      ++within;
+      EXPECT_TRUE(box.contains(z)) << n;
+    }
+    const Vec3 corner = box.max() - x;
+    EXPECT_NEAR(fit(x, variance, x + Vec3(corner.x(), 0, 0), most).distance2, gate, 1e-6 * gate) << n;
+  }
+  EXPECT_GT(within, 2'000);
+}
+
 }  // namespace
 }  // namespace tern

@@ -83,5 +83,25 @@ TEST(BankFilter, OrdersAreThoseOfTheModels) {
   for (std::size_t j = 0; j < kModels; ++j) EXPECT_EQ(kOrders[j], motion_models()[j].order()) << j;
 }
 
+TEST(BankFilter, ItsGateBoxHoldsAllThatIsNoSurprise) {
+  Rng rng(7);
+  BankFilter bank(Vec3::Zero(), Vec3::Constant(0.01));
+  int within = 0;
+  for (int k = 1; k <= 60; ++k) {
+    bank.predict(bank_step(1.0 / 30.0));
+    const Vec3 most = Vec3::Constant(rng.uniform(0.001, 0.5));
+    const Box box = bank.gate_box(21.1, most);
+    for (int n = 0; n < 200; ++n) {
+      const Vec3 z = bank.lead().position() + 3.0 * Vec3(rng.normal(), rng.normal(), rng.normal());
+      const Vec3 r = rng.uniform() * most;
+      if (!std::isfinite(bank.surprise_within(21.1, z, r))) continue;
+      ++within;
+      EXPECT_TRUE(box.contains(z));
+    }
+    bank.update(Vec3(2.0 * k / 30.0, 0.1 * rng.normal(), 0.1 * rng.normal()), Vec3::Constant(0.01));
+  }
+  EXPECT_GT(within, 100);
+}
+
 }  // namespace
 }  // namespace tern

@@ -20,7 +20,7 @@ TEST_P(SandoPerception, TheForestIsFlownThroughUnharmedByTheDefaults) {
 
 INSTANTIATE_TEST_SUITE_P(Seed, SandoPerception, ::testing::Values(2, 11));
 
-/// A second sensor that sees nothing but what is not there: beside each set of the true one, anywhere in view.
+/// A second sensor that sees nothing but what is not there: beside each set of the true one, anywhere around.
 class FalseAlarms {
  public:
   FalseAlarms(Bus& bus, int per_set) : bus_(bus), per_set_(per_set) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/base/random.h"
 #include "core/splines/piecewise_cubic.h"
@@ -334,7 +335,7 @@ TEST(AContact, IsLookedBackFrom) {
   world.record.plans = {answer_to(request, 2), answer_to(request, 4)};
   world.record.plans.back().confidence = 0.0;
   const Contact contact = look_back(world.record, at(6.0), 0);
-  EXPECT_NEAR(contact.in_sets_s.value(), 1.0, 1e-9);
+  EXPECT_NEAR(contact.in_predictions_s.value(), 1.0, 1e-9);
   ASSERT_TRUE(contact.said[0] && contact.said[1] && contact.said[2]);
   for (const auto& said : contact.said) {
     EXPECT_NEAR(said->needed_m, 0.5, 1e-6);
@@ -344,6 +345,11 @@ TEST(AContact, IsLookedBackFrom) {
   EXPECT_EQ(contact.confidence.value(), 0.9) << "the last plan claims none";
   EXPECT_NEAR(contact.confident_s.value(), 0.8, 1e-9);
   EXPECT_THAT(to_text(contact, world.record), HasSubstr("an alpha of 0.10 m was promised, 0.50 m were needed: broken"));
+  const nlohmann::json json = to_json(contact, world.record);
+  EXPECT_EQ(json["promised"].size(), 3U);
+  EXPECT_EQ(json["promised"][0]["kept"], false);
+  EXPECT_EQ(json["last_confidence"], 0.9);
+  EXPECT_FALSE(to_json(look_back(world.record, at(6.0), 1), world.record).contains("in_predictions_s"));
   EXPECT_FALSE(look_back(world.record, at(5.9), 0).said[2]) << "it was in no set then";
   EXPECT_TRUE(look_back(world.record, at(5.7), 0).said[0]->kept);
   EXPECT_THAT(to_text(look_back(world.record, at(6.0), 1), world.record), HasSubstr("was not in PREDICTIONS"));

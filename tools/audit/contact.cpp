@@ -48,7 +48,7 @@ void see_sets(const FlightRecord& record, Contact& contact) {
     if (!last || set.made_at - *last > kGone) first = set.made_at;
     last = set.made_at;
   }
-  if (last && contact.at - *last <= kGone) contact.in_sets_s = (contact.at - *first).seconds();
+  if (last && contact.at - *last <= kGone) contact.in_predictions_s = (contact.at - *first).seconds();
 }
 
 }  // namespace
@@ -57,8 +57,8 @@ Contact look_back(const FlightRecord& record, UTime at, std::int64_t obstacle) {
   Contact contact;
   contact.at = at;
   contact.obstacle = obstacle;
-  const auto state = std::ranges::lower_bound(record.states, at, {}, &UavState::at);
-  if (state != record.states.end()) contact.speed_mps = state->motion.v.norm();
+  const auto after = std::ranges::upper_bound(record.states, at, {}, &UavState::at);
+  if (after != record.states.begin()) contact.speed_mps = (after - 1)->motion.v.norm();
   see_sets(record, contact);
   for (const Plan& plan : record.plans) {
     const HorizonRequest* request = record.request(plan.inputs.request);
@@ -72,8 +72,9 @@ Contact look_back(const FlightRecord& record, UTime at, std::int64_t obstacle) {
 std::string to_text(const Contact& contact, const FlightRecord& record) {
   std::string text = fmt::format("Obstacle {} was touched at {:.3f} s, by the vehicle at {:.2f} m/s. ",
                                  contact.obstacle, record.seconds(contact.at), contact.speed_mps);
-  text += contact.in_sets_s ? fmt::format("It had been in PREDICTIONS for {:.2f} s.\n", *contact.in_sets_s)
-                            : std::string("It was not in PREDICTIONS.\n");
+  text += contact.in_predictions_s
+              ? fmt::format("It had been in PREDICTIONS for {:.2f} s.\n", *contact.in_predictions_s)
+              : std::string("It was not in PREDICTIONS.\n");
   for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
     text += fmt::format("  {} s before ", kBeforeContact[k]);
     const auto& said = contact.said[k];
@@ -92,7 +93,7 @@ nlohmann::json to_json(const Contact& contact, const FlightRecord& record) {
                          {"obstacle", contact.obstacle},
                          {"speed_mps", contact.speed_mps},
                          {"text", to_text(contact, record)}};
-  if (contact.in_sets_s) json["in_predictions_s"] = *contact.in_sets_s;
+  if (contact.in_predictions_s) json["in_predictions_s"] = *contact.in_predictions_s;
   if (contact.confidence)
     json["last_confidence"] = *contact.confidence, json["last_confidence_s"] = *contact.confident_s;
   json["promised"] = nlohmann::json::array();

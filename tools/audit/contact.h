@@ -23,16 +23,16 @@ struct Foretold {
 };
 
 struct Contact {
-  UTime at;
+  UTime at;  ///< vehicle's clock
   std::int64_t obstacle = kNobody;
-  double speed_mps = 0.0;                                           ///< the vehicle's
-  std::optional<double> in_sets_s;                                  ///< so long its track had been in PREDICTIONS
-  std::array<std::optional<Foretold>, kBeforeContact.size()> said;  ///< none: it was in no set then
-  std::optional<double> confidence, confident_s;  ///< the last plan that claimed one: which, and when it began, before
-                                                  ///< the contact
+  double speed_mps = 0.0;                  ///< the vehicle's, by its last state until then
+  std::optional<double> in_predictions_s;  ///< so long some track of it had been there; none: there was none
+  std::array<std::optional<Foretold>, kBeforeContact.size()> said;  ///< none: it had no track then
+  std::optional<double> confidence;                                 ///< of the last plan that claimed one, in (0, 1]
+  std::optional<double> confident_s;  ///< how long before the contact that plan began, s, ≥ 0
 };
 
-/// @param at, obstacle  where the flight came nearest to an obstacle
+/// @param at, obstacle  what was touched first, and when
 Contact look_back(const FlightRecord& record, UTime at, std::int64_t obstacle);
 
 /// For people, a line for each thing that is known.

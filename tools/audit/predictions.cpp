@@ -192,8 +192,8 @@ class PredictionsCheck {
     }
   }
 
-  /// What the flight's end cuts off counts up to there: a claim that is broken by then was not kept, and who looks at
-  /// a part of each finds no more of them broken than there are.
+  /// A claim that the flight's end cuts off is judged up to there: it can only be found kept too often, never too
+  /// rarely, so that no true claim is called broken.
   void claim(const Plan& plan, const HorizonRequest& request, const Track& track, std::int64_t obstacle) {
     const auto level = idx(plan.level);
     const UTime ends = std::max(plan.trajectory.end(), request.t_s) + plan.hold;
@@ -271,7 +271,8 @@ Check check_predictions(const FlightRecord& record, Audit& audit) {
       ++without;
     }
   }
-  if (without > 0) check.unchecked["plans that claim no confidence: certified for a part of alpha"] = without;
+  if (without > 0)
+    check.unchecked["plans that claim no confidence: relaxed, or certified for a part of alpha"] = without;
   predictions.judge();
   check.summary = predictions.summary();
   if (predictions.promises() > 0) {

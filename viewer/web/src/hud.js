@@ -109,10 +109,10 @@ function showPlan(plan) {
   say('hold', fixed(plan.hold_s, 2, 's'));
 }
 
-/** 1: nothing is estimated. 0: certified for a part of what was predicted, of which no number is known. */
+/** 1: nothing is estimated. 0, or relaxed: certified for a part of what was predicted, of which no number is known. */
 function confidenceOf(plan) {
   if (!plan || plan.outcome === 'no plan') return '–';
-  if (plan.confidence === 0) return 'none known';
+  if (plan.confidence === 0 || plan.relaxed) return 'none known';
   return `${plan.confidence}${plan.sure_for_s === undefined ? '' : ` for ${fixed(plan.sure_for_s, 1, 's')}`}`;
 }
 
