@@ -52,32 +52,38 @@ def contacts(rows):
     return f"{count('contacts_moving')} / {count('contacts_at_rest')}"
 
 
+def number(stats, key, digits):
+    value = (stats or {}).get(key)
+    return "–" if value is None else f"{value:.{digits}f}"
+
+
 def times(stats):
-    return f"{stats['p50']:.1f} / {stats['p95']:.1f}"
+    return f"{number(stats, 'p50', 1)} / {number(stats, 'p95', 1)}"
 
 
 def world_row(folder, world):
     s, oracle = summary(folder, world), summary(folder, world + "_oracle")
     interval = s["success_ci95"]
-    share = f"[{100 * interval[0]:.1f}, {100 * interval[1]:.1f}] %" if interval else f"of {s['different_flights']} different ones"
+    share = f"[{100 * interval[0]:.1f}, {100 * interval[1]:.1f}] %" if interval else f"({s['different_flights']} different)"
     known = f"{oracle['reached']}/{oracle['flights']}, {times(oracle['flight_time_s'])}" if oracle else "–"
-    ratio = f"{s['flight_time_s']['p50'] / oracle['flight_time_s']['p50']:.2f}" if oracle else "–"
-    replan = s["replan_ms"]
+    halves = [(x or {}).get("flight_time_s", {}).get("p50") for x in (s, oracle)]
+    ratio = f"{halves[0] / halves[1]:.2f}" if all(halves) else "–"
     return [world, f"{s['reached']}/{s['flights']} {share}", f"{contacts(flights(folder, world))}, {s['timeouts']}",
-            times(s["flight_time_s"]), known, ratio, f"{replan['p50']:.1f} / {replan['p99']:.0f}"]
+            times(s["flight_time_s"]), known, ratio, f"{number(s['replan_ms'], 'p50', 1)} / {number(s['replan_ms'], 'p99', 0)}"]
 
 
 def pair_row(folder, before, world):
     now, then = flights(folder, world), flights(before, world)
-    seeds = sorted(now.keys() & then.keys())
-    reached = lambda rows: {k for k in seeds if rows[k]["outcome"] == "reached"}
+    if now.keys() != then.keys():
+        sys.exit(f"{world}: the folders hold flights of different seeds")
+    reached = lambda rows: {seed for seed, row in rows.items() if row["outcome"] == "reached"}
     a, b = reached(then), reached(now)
-    time = lambda f: summary(f, world)["flight_time_s"]["p50"]
+    time = lambda f: number(summary(f, world)["flight_time_s"], "p50", 1)
     old = lambda f: [by_key(summary(f, world)).get(("old", h, PROMISED)) for h in AHEAD[1:4]]
     width = lambda f: " / ".join(f"{row['half_m']:.2f}" if row else "–" for row in old(f))
     share = lambda f: " / ".join(f"{row['share']:.3f}" if row else "–" for row in old(f))
     return [world, f"{len(a)} / {len(b)}", contacts(then), contacts(now), f"{len(a - b)} / {len(b - a)}",
-            f"{time(before):.1f}, {time(folder):.1f}", width(before), width(folder), share(before), share(folder)]
+            f"{time(before)}, {time(folder)}", width(before), width(folder), share(before), share(folder)]
 
 
 def by_key(s):
@@ -146,26 +152,30 @@ def spread(values, digits=2):
     return f"{statistics.median(values):.{digits}f} ({values[0]:.{digits}f} to {values[-1]:.{digits}f})" if values else "–"
 
 
-def contact_row(world, moved, all):
-    said = lambda before: [p for c in all for p in c["promised"] if p["before_s"] == before]
-    promised = [p for c in all for p in c["promised"]]
+def contact_row(world, moved, touched):
+    said = lambda before: [p for c in touched for p in c["promised"] if p["before_s"] == before]
+    promised = [p for c in touched for p in c["promised"]]
     alpha = " / ".join(f"{statistics.median(p['needed_m'] for p in said(b)):.2f} of {statistics.median(p['alpha_m'] for p in said(b)):.2f}"
                        if said(b) else "–" for b in (0.25, 0.5, 1.0))
-    return [world, str(len(all)), spread([c["speed_mps"] for c in all], 1) if moved else "at rest",
-            spread([c["in_predictions_s"] for c in all if "in_predictions_s" in c]), alpha,
+    return [world, str(len(touched)), spread([c["speed_mps"] for c in touched], 1) if moved else "at rest",
+            spread([c["in_predictions_s"] for c in touched if "in_predictions_s" in c]), alpha,
             f"{sum(not p['kept'] for p in promised)} of {len(promised)}",
-            spread([c["last_confidence_s"] for c in all if "last_confidence_s" in c])]
+            spread([c["last_confidence_s"] for c in touched if "last_confidence_s" in c])]
 
 
 def contact_table(folder):
-    rows = [contact_row(world, moved, all) for world in WORLDS for moved, all in known_before(folder, world).items() if all]
-    table(["world", "contacts", "vehicle, m/s", "in PREDICTIONS before, s", "α needed of promised 0.25 / 0.5 / 1 s before, m",
+    rows = [contact_row(world, moved, touched)
+            for world in WORLDS for moved, touched in known_before(folder, world).items() if touched]
+    if not rows:
+        sys.exit(f"{folder}: no WORLD.csv.failures/seed-N/audit.json tells of a contact")
+    table(["world", "contacts", "vehicle, m/s", "had been in PREDICTIONS for, s", "α needed of promised, 0.25 / 0.5 / 1 s before, m",
            "promises broken", "last plan of a known confidence, s before"], rows)
 
 
 def main(words):
     folders = [pathlib.Path(word) for word in words if not word.startswith("--")]
-    if not 1 <= len(folders) <= 2:
+    options = [word for word in words if word.startswith("--")]
+    if not 1 <= len(folders) <= 2 - len(options) or not set(options) <= {"--short", "--coverage", "--contacts"}:
         sys.exit(__doc__)
     folder, before = folders[0], folders[1] if len(folders) == 2 else None
     if "--coverage" in words:
@@ -180,7 +190,7 @@ def main(words):
               [pair_row(folder, before, world) for world in there(folder) if summary(before, world)])
     else:
         table(["world", "reached, 95 % interval", "contacts moving / at rest, timeouts", "flight time p50 / p95, s",
-               "motion known: reached, time p50 / p95, s", "time p50 to it", "replan p50 / p99, ms"],
+               "motion known: reached, time p50 / p95, s", "p50 / that with motion known", "replan CPU time p50 / p99, ms"],
               [world_row(folder, world) for world in there(folder)])
     if there(folder):
         print("Made by " + ", ".join(sorted({summary(folder, world)["version"] for world in there(folder)})) + ".")
