@@ -255,7 +255,7 @@ def draw_map(folder, out):
             axes.fill_between(x, low, high, color=colour, alpha=0.15, lw=0)
         axes.set(xlabel=axis, ylim=(-2, 102))
     parts[0].set(ylabel="success, %")
-    parts[-1].legend()
+    parts[-1].legend(loc="lower left")
     save(figure, out)
 
 
