@@ -15,6 +15,8 @@ import pathlib
 import statistics
 import sys
 
+from table import number, table
+
 WORLDS = ["perception_only", "mader_perception_only", "sando_perception", "people_hermes_050", "people_hermes_090",
           "people_hermes_120", "people_eth", "people_hotel", "drones", "crowd", "crowd_eth"]
 CLASSES = ["new", "young", "grown", "old", "at rest", "unseen"]
@@ -39,22 +41,9 @@ def there(folder):
     return [world for world in WORLDS if summary(folder, world)]
 
 
-def table(head, rows):
-    print("| " + " | ".join(head) + " |")
-    print("|" + "---|" * len(head))
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
-    print()
-
-
 def contacts(rows):
     count = lambda key: sum(int(row[key] or 0) > 0 for row in rows.values())
     return f"{count('contacts_moving')} / {count('contacts_at_rest')}"
-
-
-def number(stats, key, digits):
-    value = (stats or {}).get(key)
-    return "–" if value is None else f"{value:.{digits}f}"
 
 
 def times(stats):
@@ -66,10 +55,11 @@ def world_row(folder, world):
     interval = s["success_ci95"]
     share = f"[{100 * interval[0]:.1f}, {100 * interval[1]:.1f}] %" if interval else f"({s['different_flights']} different)"
     known = f"{oracle['reached']}/{oracle['flights']}, {times(oracle['flight_time_s'])}" if oracle else "–"
-    halves = [(x or {}).get("flight_time_s", {}).get("p50") for x in (s, oracle)]
-    ratio = f"{halves[0] / halves[1]:.2f}" if all(halves) else "–"
+    medians = [(x or {}).get("flight_time_s", {}).get("p50") for x in (s, oracle)]
+    replan = s["replan_ms"] or {}
+    ratio = f"{medians[0] / medians[1]:.2f}" if all(medians) else "–"
     return [world, f"{s['reached']}/{s['flights']} {share}", f"{contacts(flights(folder, world))}, {s['timeouts']}",
-            times(s["flight_time_s"]), known, ratio, f"{number(s['replan_ms'], 'p50', 1)} / {number(s['replan_ms'], 'p99', 0)}"]
+            times(s["flight_time_s"]), known, ratio, f"{number(replan, 'p50', 1)} / {number(replan, 'p99', 0)}"]
 
 
 def pair_row(folder, before, world):
@@ -79,11 +69,10 @@ def pair_row(folder, before, world):
     reached = lambda rows: {seed for seed, row in rows.items() if row["outcome"] == "reached"}
     a, b = reached(then), reached(now)
     time = lambda f: number(summary(f, world)["flight_time_s"], "p50", 1)
-    old = lambda f: [by_key(summary(f, world)).get(("old", h, PROMISED)) for h in AHEAD[1:4]]
-    width = lambda f: " / ".join(f"{row['half_m']:.2f}" if row else "–" for row in old(f))
-    share = lambda f: " / ".join(f"{row['share']:.3f}" if row else "–" for row in old(f))
+    old = lambda f, key, digits: slashed(by_key(summary(f, world)), "old", key, digits, AHEAD[1:4])
     return [world, f"{len(a)} / {len(b)}", contacts(then), contacts(now), f"{len(a - b)} / {len(b - a)}",
-            f"{time(before)}, {time(folder)}", width(before), width(folder), share(before), share(folder)]
+            f"{time(before)}, {time(folder)}", old(before, "half_m", 2), old(folder, "half_m", 2),
+            old(before, "share", 3), old(folder, "share", 3)]
 
 
 def by_key(s):
@@ -97,14 +86,8 @@ def kept(row):
     return f"{'! ' if row['broken'] else ''}{row['share']:.3f} [{low:.3f}, {high:.3f}]"
 
 
-def widths(found, what):
-    rows = [found.get((what, h, PROMISED)) for h in AHEAD[:4]]
-    return " / ".join(f"{row['half_m']:.2f}" if row else "–" for row in rows)
-
-
-def slashed(found, what):
-    rows = [found.get((what, h, PROMISED)) for h in AHEAD[:4]]
-    return " / ".join(f"{row['share']:.3f}" if row else "–" for row in rows)
+def slashed(found, what, key, digits, ahead=AHEAD[:4]):
+    return " / ".join(number(found.get((what, h, PROMISED), {}), key, digits) for h in ahead)
 
 
 def short(folder):
@@ -114,7 +97,7 @@ def short(folder):
         found = by_key(summary(folder, world))
         fresh = [found[key]["share"] for key in found if key[0] in CLASSES[:3] and key[1] in AHEAD[:4] and key[2] == PROMISED]
         plans = [f"{row['share']:.3f}" for key, row in sorted(found.items(), key=lambda r: -r[0][2]) if key[0] == "plans"]
-        rows.append([world, slashed(found, "old"), widths(found, "old"), f"{min(fresh):.3f}", " / ".join(plans)])
+        rows.append([world, slashed(found, "old", "share", 3), slashed(found, "old", "half_m", 2), f"{min(fresh):.3f}", " / ".join(plans)])
     table(["world", "seen for a second: kept to 0.25 / 0.5 / 1 / 2 s", "half-width to them, m",
            "seen for less: kept at the least", "plans at 0.99 / 0.9 / 0.6"], rows)
 
@@ -129,7 +112,7 @@ def coverage(folder):
             cells = [found.get((what, h, PROMISED)) for h in AHEAD]
             if not any(cells):
                 continue
-            rows.append([world, what, str(max(c["made"] for c in cells if c))] + [kept(c) for c in cells] + [widths(found, what)])
+            rows.append([world, what, str(max(c["made"] for c in cells if c))] + [kept(c) for c in cells] + [slashed(found, what, "half_m", 2)])
         claims = [row for row in summary(folder, world)["coverage"] if row["what"] == "plans"]
         plans.append([world] + [f"{row['made']}: {kept(row)}" for row in sorted(claims, key=lambda r: -r["promised"])])
     table(head, rows)

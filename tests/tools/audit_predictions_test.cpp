@@ -84,6 +84,14 @@ struct World {
       if (sample.at >= at(s) && sample.at < at(s + length_s)) sample.p.x() += off;
     }
   }
+  /// Another request, from `s` on.
+  HorizonRequest ask(int sequence, double s) {
+    HorizonRequest request = record.requests.front();
+    request.header.name.sequence = sequence;
+    request.t_s = at(s);
+    record.requests.push_back(request);
+    return request;
+  }
   [[nodiscard]] std::pair<Audit, Check> audit() const {
     Audit audit;
     Check check = check_predictions(record, audit);
@@ -246,10 +254,7 @@ TEST(AuditedPredictions, OfPlansAreHeldAgainstWhatTheyClaim) {
   world.predict(1'000);
   world.push(0, 0.0, kFlight + 1.0, 0.07);  // broken at 0.9, kept at 0.95
   for (const int level : {1, 2}) {
-    HorizonRequest request = world.record.requests.front();
-    request.header.name.sequence = 10 + level;
-    request.t_s = at(5.1);
-    world.record.requests.push_back(request);
+    const HorizonRequest request = world.ask(10 + level, 5.1);
     Plan plan = answer_to(request, level);
     plan.hold = Duration::from_seconds(1.0);
     plan.certificate = {{1'000, 0, 0, 1, {}}, {1'000, 1, 0, 1, {}}};
@@ -283,10 +288,7 @@ TEST(AuditedPredictions, OfPlansThatTheFlightsEndCutsOffCountUpToThere) {
   World world(2);
   world.predict(1'000);
   world.push(0, kFlight - 0.2, 1.0, 0.5);
-  HorizonRequest request = world.record.requests.front();
-  request.header.name.sequence = 10;
-  request.t_s = at(kFlight - 0.5);
-  world.record.requests.push_back(request);
+  const HorizonRequest request = world.ask(10, kFlight - 0.5);
   Plan plan = answer_to(request, 0);
   plan.inputs.predictions = {2, 20 * static_cast<int>(kFlight) - 9};  // made at the request's time
   plan.hold = Duration::from_seconds(1.0);
@@ -328,10 +330,7 @@ TEST(AContact, IsLookedBackFrom) {
     std::erase_if(set.tracks, [&](const Track& t) { return t.id == 1'001 || set.made_at < at(5.0); });
   }
   world.push(0, 5.8, 1.0, 0.5);
-  HorizonRequest request = world.record.requests.front();
-  request.header.name.sequence = 10;
-  request.t_s = at(5.2);
-  world.record.requests.push_back(request);
+  const HorizonRequest request = world.ask(10, 5.2);
   world.record.plans = {answer_to(request, 2), answer_to(request, 4)};
   world.record.plans.back().confidence = 0.0;
   const Contact contact = look_back(world.record, at(6.0), 0);

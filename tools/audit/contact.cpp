@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "tools/audit/promised.h"
@@ -31,6 +30,11 @@ void see_sets(const FlightRecord& record, Contact& contact) {
   if (truth == record.truth.end()) return;
   Pairing pairing(record);
   std::optional<UTime> first, last;
+  struct Said {
+    const Track* track = nullptr;  // none: it had no track in that set
+    UTime made_at;
+  };
+  std::array<Said, kBeforeContact.size()> newest;  // made so long before the contact
   for (const auto& [name, set] : record.predictions) {
     if (set.made_at > contact.at) continue;
     const auto& pairs = pairing.pair(set);
@@ -41,12 +45,15 @@ void see_sets(const FlightRecord& record, Contact& contact) {
     const auto track = std::find_if(set.tracks.begin(), set.tracks.end(), speaks);
     for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
       if ((contact.at - set.made_at).seconds() < kBeforeContact[k]) continue;
-      contact.said[k] =
-          track == set.tracks.end() ? std::nullopt : foretold(*track, truth->second, set.made_at, contact.at);
+      newest[k] = {track == set.tracks.end() ? nullptr : &*track, set.made_at};
     }
     if (track == set.tracks.end()) continue;
     if (!last || set.made_at - *last > kGone) first = set.made_at;
     last = set.made_at;
+  }
+  for (std::size_t k = 0; k < newest.size(); ++k) {
+    const auto [said, made_at] = newest[k];
+    if (said != nullptr) contact.said[k] = foretold(*said, truth->second, made_at, contact.at);
   }
   if (last && contact.at - *last <= kGone) contact.in_predictions_s = (contact.at - *first).seconds();
 }
