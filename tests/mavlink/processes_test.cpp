@@ -311,6 +311,7 @@ TEST_F(MavlinkProcesses, OfTwoBridgesOneFlies) {
   ASSERT_TRUE(until_following()) << status.why_not;
   const std::int64_t first = status.header.name.sender_epoch_us;
   auto same_port = make_bridge(relay.bridge_port);
+  ASSERT_TRUE(until([&] { return same_port->has_ended(); })) << "the first one's link and setpoints go on meanwhile";
   EXPECT_EQ(same_port->wait(), 2);
   EXPECT_THAT(same_port->output, HasSubstr("another bridge or ground station listens there"));
   auto second = make_bridge(Socket().port());

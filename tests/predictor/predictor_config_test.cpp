@@ -2,25 +2,26 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <fstream>
 #include <string>
+
+#include "tests/support/temp_folder.h"
 
 namespace tern {
 namespace {
 
 // The section of a file with these lines under `predictor:`.
-PredictorConfig read(const std::string& name, const std::string& lines) {
-  const std::string file = ::testing::TempDir() + "predictor_config_" + name + ".yaml";
+PredictorConfig read(const std::string& lines) {
+  const TempFolder folder;
+  const std::string file = folder.file("predictor.yaml");
   std::ofstream(file) << "predictor:\n" << lines;
   ConfigDocument document = ConfigDocument::load(file, {});
-  std::remove(file.c_str());
   return read_predictor_config(document.root().section("predictor"));
 }
 
-void expect_refused(const std::string& name, const std::string& lines, const std::string& says) {
+void expect_refused(const std::string& lines, const std::string& says) {
   try {
-    read(name, lines);
+    read(lines);
     ADD_FAILURE() << lines << " was accepted";
   } catch (const ConfigError& error) {
     EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
@@ -28,7 +29,7 @@ void expect_refused(const std::string& name, const std::string& lines, const std
 }
 
 TEST(PredictorConfig, HasDefaults) {
-  const PredictorConfig config = read("defaults", "  {}\n");
+  const PredictorConfig config = read("  {}\n");
   EXPECT_EQ(config.model, PredictorModel::Both);
   EXPECT_EQ(config.period(), Duration{50'000});
   EXPECT_EQ(config.tracker.prediction.horizon, Duration{4'500'000});
@@ -36,11 +37,11 @@ TEST(PredictorConfig, HasDefaults) {
 }
 
 TEST(PredictorConfig, ReadsItsKeys) {
-  const PredictorConfig config = read("keys",
-                                      "  model: detections\n  rate_hz: 10\n  horizon_s: 3\n  piece_s: 0.5\n"
-                                      "  confidence: 0.9\n  max_speed: 2\n  confirm_hits: 2\n"
-                                      "  confirm_window: 4\n  coast_s: 1\n  resting_after_s: 2\n"
-                                      "  piece_growth: 0.1\n  remember_rest_s: 7\n");
+  const PredictorConfig config = read(
+      "  model: detections\n  rate_hz: 10\n  horizon_s: 3\n  piece_s: 0.5\n"
+      "  confidence: 0.9\n  max_speed: 2\n  confirm_hits: 2\n"
+      "  confirm_window: 4\n  coast_s: 1\n  resting_after_s: 2\n"
+      "  piece_growth: 0.1\n  remember_rest_s: 7\n");
   EXPECT_EQ(config.model, PredictorModel::Detections);
   EXPECT_EQ(config.period(), Duration{100'000});
   EXPECT_EQ(config.tracker.prediction.piece, Duration{500'000});
@@ -54,11 +55,11 @@ TEST(PredictorConfig, ReadsItsKeys) {
 }
 
 TEST(PredictorConfig, RefusesWhatIsWrong) {
-  expect_refused("unknown", "  modle: declared\n", "modle");
-  expect_refused("choice", "  model: kalman\n", "kalman");
-  expect_refused("range", "  confidence: 1\n", "confidence");
-  expect_refused("type", "  max_speed: fast\n", "max_speed");
-  expect_refused("rule", "  confirm_hits: 6\n", "confirm_window");
+  expect_refused("  modle: declared\n", "modle");
+  expect_refused("  model: kalman\n", "kalman");
+  expect_refused("  confidence: 1\n", "confidence");
+  expect_refused("  max_speed: fast\n", "max_speed");
+  expect_refused("  confirm_hits: 6\n", "confirm_window");
 }
 
 // A track of more pieces than a message takes would be left out of every set.
@@ -66,9 +67,9 @@ TEST(PredictorConfig, RefusesMorePiecesThanAMessageTakes) {
   const auto with_piece = [](double piece_s) {
     return "  horizon_s: 23\n  piece_growth: 0\n  piece_s: " + std::to_string(piece_s) + "\n";
   };
-  EXPECT_EQ(piece_ends(read("pieces", with_piece(0.05)).tracker.prediction).size(), 461u);
-  expect_refused("pieces", "  horizon_s: 30\n  piece_growth: 0\n  piece_s: 0.05\n", "600 pieces");
-  expect_refused("one_more", "  horizon_s: 23.01\n  piece_growth: 0\n  piece_s: 0.05\n", "piece_s");
+  EXPECT_EQ(piece_ends(read(with_piece(0.05)).tracker.prediction).size(), 461u);
+  expect_refused("  horizon_s: 30\n  piece_growth: 0\n  piece_s: 0.05\n", "600 pieces");
+  expect_refused("  horizon_s: 23.01\n  piece_growth: 0\n  piece_s: 0.05\n", "piece_s");
 }
 
 }  // namespace

@@ -7,13 +7,13 @@
 
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
 
 #include "runtime/yaml_tree.h"
 #include "tests/messages/allocation_meter.h"
+#include "tests/support/temp_folder.h"
 
 namespace tern {
 namespace {
@@ -271,10 +271,10 @@ TEST(Config, RefusesAFileThatCannotBeRead) {
 }
 
 TEST(Config, LoadsAnEmptyFileAsNoKeys) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "tern_config_test_empty.yaml";
+  const TempFolder folder;
+  const std::string file = folder.file("empty.yaml");
   std::ofstream(file) << "";
-  EXPECT_TRUE(ConfigDocument::load(file.string(), {}).root().keys().empty());
-  std::filesystem::remove(file);
+  EXPECT_TRUE(ConfigDocument::load(file, {}).root().keys().empty());
   EXPECT_TRUE(ConfigDocument::load("", {}).root().keys().empty());
 }
 

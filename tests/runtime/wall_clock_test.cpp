@@ -80,8 +80,8 @@ TEST_F(WallClockTest, KnowsWhenAMessageCameAlthoughTheKernelSaysItByTheSystemsCl
 
 TEST_F(WallClockTest, AtAPaceAllClocksAgreeAndTakeTheirTime) {
   const WallClock slow({}, 0.25), other({}, 0.25);
-  const UTime begin = slow.now();
   const std::int64_t begin_us = system_us();
+  const UTime begin = slow.now();
   EXPECT_NEAR((other.now() - slow.now()).seconds(), 0.0, 0.01);
   EXPECT_NEAR((slow.at_system_time(begin_us + 4 * kSecond) - begin).seconds(), 1.0, 0.01);
   EXPECT_EQ(slow.in_system_time(Duration{kSecond}).us, 4 * kSecond);

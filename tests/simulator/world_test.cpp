@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 
+#include "tests/support/temp_folder.h"
 #include "tests/support/world_digest.h"
 
 namespace tern {
@@ -123,11 +123,10 @@ TEST(World, PassesOnWhatIsWrongWithAnObstacleOrFile) {
 }
 
 TEST(World, WithRecordedPeopleListsThemToo) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "tern_world_test";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "two.txt") << "1 0 0 9\n1 1 1 9\n1 2 2 9\n2 1 5 9\n2 3 7 9\n3 2 0 0\n";
+  const TempFolder folder;
+  std::ofstream(folder.file("two.txt")) << "1 0 0 9\n1 1 1 9\n1 2 2 9\n2 1 5 9\n2 3 7 9\n3 2 0 0\n";
   Scenario s;
-  s.file = (folder / "scenario.yaml").string();
+  s.file = folder.file("scenario.yaml");
   RecordedTracksSpec recorded;
   recorded.file = "two.txt";
   recorded.columns = 4;
@@ -143,17 +142,15 @@ TEST(World, WithRecordedPeopleListsThemToo) {
   EXPECT_EQ(world.obstacles[1].at(2.0).p, Vec3(6, 9, 1.5));
   EXPECT_FALSE(world.obstacles[1].present(0.5));
   EXPECT_EQ(world_digest(make_world(list_obstacles(s, world), "").value()), world_digest(world));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(World, WithADrawnBeginningLeavesOutWhoCrowdsTheStart) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "tern_drawn_world_test";
-  std::filesystem::create_directories(folder);
-  std::ofstream out(folder / "two.txt");
+  const TempFolder folder;
+  std::ofstream out(folder.file("two.txt"));
   for (int k = 0; k <= 10; ++k) out << "1 " << k << " 0.5 0\n2 " << k << " 5 0\n";
   out.close();
   Scenario s;
-  s.file = (folder / "scenario.yaml").string();
+  s.file = folder.file("scenario.yaml");
   s.uav.start = Vec3(0, 0, 1);
   s.uav.goal = Vec3(10, 0, 1);
   RecordedTracksSpec recorded;
@@ -165,7 +162,6 @@ TEST(World, WithADrawnBeginningLeavesOutWhoCrowdsTheStart) {
   EXPECT_EQ(world.left_out, 1);
   ASSERT_EQ(world.obstacles.size(), 1U);
   EXPECT_EQ(world.obstacles[0].spec().name, "two#2");
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

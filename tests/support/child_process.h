@@ -50,16 +50,19 @@ class Child {
 
   void signal(int number) const { kill(pid_, number); }
 
+  /// Whether it has ended; `output` holds what it has said until now. Waits for nothing.
+  bool has_ended() {
+    while (speaks(0)) {
+      if (!hear()) return true;
+    }
+    return false;
+  }
+
   /// Waits for its end. @return the exit code, −signal if a signal ended it. `output` then holds all it said.
   int wait() {
-    char buffer[4096];
-    pollfd fd{output_fd_, POLLIN, 0};
-    while (true) {
-      if (poll(&fd, 1, kPatienceMs) == 0) kill(pid_, SIGKILL);
-      const ssize_t n = read(output_fd_, buffer, sizeof(buffer));
-      if (n <= 0) break;
-      output.append(buffer, static_cast<std::size_t>(n));
-    }
+    do {
+      if (!speaks(kPatienceMs)) kill(pid_, SIGKILL);
+    } while (hear());
     int status = 0;
     waitpid(pid_, &status, 0);
     pid_ = 0;
@@ -69,6 +72,19 @@ class Child {
   std::string output;
 
  private:
+  /// Whether it says something or ends within this time.
+  [[nodiscard]] bool speaks(int patience_ms) const {
+    pollfd fd{output_fd_, POLLIN, 0};
+    return poll(&fd, 1, patience_ms) != 0;
+  }
+  /// Takes in what it says next. @return false at its end
+  bool hear() {
+    char buffer[4096];
+    const ssize_t n = read(output_fd_, buffer, sizeof(buffer));
+    if (n > 0) output.append(buffer, static_cast<std::size_t>(n));
+    return n > 0;
+  }
+
   pid_t pid_ = 0;
   int output_fd_ = -1;
 };

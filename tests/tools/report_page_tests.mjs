@@ -1,7 +1,7 @@
 // report_page_tests.mjs NAME: tern-report's page of a recorded flight in a headless Chromium.
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { expect, openBrowser, run, start, work } from '../viewer/support.mjs';
+import { expect, newPage, run, start, work } from '../viewer/support.mjs';
 
 const { TERN_BIN } = process.env;
 const scenario = (name) => new URL(`../../scenarios/${name}.yaml`, import.meta.url).pathname;
@@ -28,7 +28,7 @@ async function report(world = SHORT) {
 
 /** The report in a browser of this size and scheme; what it asked for and complained of. */
 async function openReport(url, colorScheme, width) {
-  const page = await (await openBrowser()).newPage({ viewport: { width, height: 900 }, colorScheme });
+  const page = await newPage({ viewport: { width, height: 900 }, colorScheme });
   page.asked = [];
   page.complaints = [];
   page.on('request', (request) => page.asked.push(request.url()));
@@ -107,7 +107,7 @@ await run({
   },
 
   async a_report_of_a_contact_says_what_had_been_known_of_it() {
-    const page = await (await openBrowser()).newPage();
+    const page = await newPage();
     await page.goto(await report(SHORT_SIGHTED));
     const said = await page.textContent('main');
     expect('it was in motion', said.includes('1 / 0contacts while moving / at rest'));

@@ -3,7 +3,7 @@ import { existsSync } from 'node:fs';
 import http from 'node:http';
 import { join } from 'node:path';
 import {
-  atRest, awaitPage, end, eventually, expect, knownLog, onScreen, openPage, run, scrubTo, shows, start, startFlight,
+  atRest, awaitPage, end, eventually, expect, knownLog, onScreen, openPage, restAt, run, scrubTo, shows, start, startFlight,
   startScene, startViewer, status, work,
 } from './support.mjs';
 
@@ -37,15 +37,15 @@ const upgrade = (url, headers) =>
 
 await run({
   async a_live_scene_is_shown_as_it_is_and_moves() {
-    startScene();
     const viewer = await startViewer();
     const page = await openPage(viewer.url);
+    startScene(); // when the page is there: it flies for 20 s
     const first = await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES && s.regions === REGIONS && s.vehicle);
     await shows(page, 'the vehicle flies along x', (s) => s.vehicle[0] > first.vehicle[0] + 0.5);
     await eventually('its speed', async () => (await text(page, '#speed')) === '1.0');
     expect('live', (await text(page, '#mode')) === 'live');
-    expect('the outcome', (await text(page, '#outcome')) === 'optimized');
-    expect('its confidence', (await text(page, '#confidence')) === '0.9 for 0.8 s');
+    await eventually('the outcome', async () => (await text(page, '#outcome')) === 'optimized');
+    await eventually('its confidence', async () => (await text(page, '#confidence')) === '0.9 for 0.8 s');
     // Who joins between a request and its answer knows what was allowed from the next one on.
     await eventually('replan time', async () => (await text(page, '#replan')) === '12.5 of 70 ms');
     await eventually('health', async () => (await text(page, '#health')).includes('scene'));
@@ -72,9 +72,7 @@ await run({
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
     // At the log's beginning, from above, whatever was played of it: there nothing hides the vehicle, no panel either.
     await page.click('[data-camera=top]');
-    await page.evaluate(() => window.tern.send({ player: { play: false } }));
-    await page.waitForFunction(() => window.tern.known.player?.playing === false);
-    await scrubTo(page, 0);
+    await restAt(page, 0);
     await shows(page, 'the vehicle at the start', (s) => s.vehicle[0] < 0.01);
     const spot = await atRest(page, [0, 0, 1]);
     await page.mouse.click(spot.x, spot.y);
@@ -99,9 +97,13 @@ await run({
   async a_log_plays_steps_and_scrubs() {
     const viewer = await startViewer('--log', await knownLog());
     const page = await openPage(viewer.url);
-    const first = await shows(page, 'it plays', (s) => s.vehicle && s.obstacles === OBSTACLES);
+    await shows(page, 'the scene', (s) => s.vehicle && s.obstacles === OBSTACLES);
     expect('nobody sends goals to a log', !(await page.isVisible('#goals')));
-    await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > first.vehicle[0] + 0.2);
+    await page.waitForFunction(() => window.tern.known.player.at_us > window.tern.known.player.begin_us); // nobody asked it to play
+    await restAt(page, 0);
+    await page.selectOption('#rate', '0.1'); // who looks late does not find it at its end
+    await page.click('#play');
+    await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > 0.2);
     await page.click('#play');
     await page.waitForFunction(() => window.tern.known.player.playing === false);
     for (const share of [0.75, 0.1, 0.5]) {

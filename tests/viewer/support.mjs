@@ -84,10 +84,16 @@ export async function openBrowser(rendering = SWIFTSHADER) {
   return browser;
 }
 
+/** An empty page that is waited for as long as all else. */
+export async function newPage(options) {
+  const page = await (await openBrowser()).newPage(options);
+  page.setDefaultTimeout(PATIENCE_MS);
+  return page;
+}
+
 /** A page that has begun to show something. `page.complaints` holds what its console complained of. */
 export async function openPage(url, prepare = async () => {}, hash = '') {
-  const page = await (await openBrowser()).newPage({ viewport: { width: 800, height: 600 } });
-  page.setDefaultTimeout(PATIENCE_MS);
+  const page = await newPage({ viewport: { width: 800, height: 600 } });
   page.complaints = [];
   page.on('pageerror', (error) => page.complaints.push(error.message));
   page.on('console', (message) => {
@@ -140,6 +146,27 @@ export async function atRest(page, point) {
     return Math.hypot(at.x - last.x, at.y - last.y) < 0.1;
   });
   return at;
+}
+
+/**
+ * Waits until the log rests at that moment, s of the flight. Its player says so, not the picture: who plays passes every moment, and
+ * a picture may be of before.
+ */
+export function restsAt(page, t) {
+  return eventually(`the log rests at ${t} s`, () => page.evaluate((s) => {
+    const { playing, at_us: at, zero_us: zero } = window.tern.known.player ?? {};
+    return playing === false && Math.abs(at - zero - 1e6 * s) < 1;
+  }, t));
+}
+
+/** Has the log rest at that moment, s of the flight. A log plays from its viewer's start on. */
+export async function restAt(page, t) {
+  await page.waitForFunction(() => window.tern.known.player);
+  await page.evaluate((s) => {
+    window.tern.send({ player: { play: false } });
+    window.tern.jump(s);
+  }, t);
+  await restsAt(page, t);
 }
 
 /** Moves the log player's slider to a share of the log. */

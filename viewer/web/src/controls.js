@@ -39,6 +39,7 @@ export class Controls {
     this.cameras = cameras;
     this.does = does;
     this.written = 0;
+    this.hash = location.hash; // as it was last written or followed
     this.buttons = [...document.querySelectorAll('[data-camera]')];
     for (const button of this.buttons) button.onclick = () => this.setCamera(button.dataset.camera);
     byId('fit').onclick = () => this.fit();
@@ -97,7 +98,8 @@ export class Controls {
 
   /** Goes where the address says. */
   follow() {
-    const { t, cam, eye } = readLink(location.hash);
+    this.hash = location.hash;
+    const { t, cam, eye } = readLink(this.hash);
     this.isAskedToFit = cam === 'fit';
     if (this.does.hasPath()) this.pathIsKnown();
     if (t !== undefined) this.does.restAt(t);
@@ -121,13 +123,16 @@ export class Controls {
     this.writeAddress();
   }
 
+  /** Not over an address that the user has just given and that is still to be followed. */
   writeAddress() {
+    if (location.hash !== this.hash) return;
     const hash = this.address();
     if (hash !== location.hash) history.replaceState(null, '', hash || location.pathname + location.search);
+    this.hash = location.hash;
   }
 
   async copy() {
-    history.replaceState(null, '', this.address());
+    this.writeAddress();
     try {
       await navigator.clipboard.writeText(location.href);
       this.does.say('copied');
