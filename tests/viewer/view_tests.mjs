@@ -129,6 +129,11 @@ await run({
     await eventually('whoever scrubs elsewhere at once', () => page.evaluate(() => location.hash === '#t=9&cam=top'));
     await page.evaluate(() => (location.hash = '#t=99&cam=top'));
     await eventually("the log's end", () => page.evaluate(() => location.hash === '#t=20&cam=top'));
+    await page.evaluate(() => { // a link is made before the page has heard of the new address
+      location.hash = '#t=4&cam=top';
+      document.getElementById('link').click();
+    });
+    await restsAt(page, 4);
     const whole = await openPage(viewer.url, undefined, '#t=6.3&cam=fit');
     await restsAt(whole, 6.3);
     await shows(whole, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.02);
