@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The flight campaigns of docs/results.md. What has been flown is not flown again, so it may be stopped and started at will.
-#   launch_scripts/results.sh [--perception | --sensors] [--share S] [--out DIR] [NAME...]
+#   launch_scripts/results.sh [--perception | --sensors] [--share S] [--first K] [--out DIR] [NAME...]
 # S: a share of the seeds, 1 = all 6000 flights (1000 of each of three hard worlds and of the quadrotor's corridor, 200 of
-# each other one; the quadrotor's are audited); NAME: only these campaigns;
+# each other one; the quadrotor's are audited); K: the first seed, 1 if not said; NAME: only these campaigns;
 # --perception: instead the worlds without declared motions, 200 flights each, and their oracles; --sensors: instead
 # perception_only with other ranges, noise, latencies and speeds of what moves, one at a time, 200 flights each.
 set -euo pipefail
@@ -43,10 +43,11 @@ for slowness in 1.1 2 3 4; do
   sensors+="slowness_$slowness $slow"$'\n'"slowness_${slowness}_oracle $slow --oracle"$'\n'
 done
 
-share=1 out=$TERN_ROOT/build/results only=" " coverage=()
+share=1 first=1 out=$TERN_ROOT/build/results only=" " coverage=()
 while (($#)); do
   case $1 in
     --share) share=${2:?} && shift 2 ;;
+    --first) first=${2:?} && shift 2 ;;
     --out) out=$(realpath -m "${2:?}") && shift 2 ;;
     --perception) campaigns=$perception coverage=(--coverage "$bin/tern-audit") && shift ;;
     --sensors) campaigns=$sensors && shift ;;
@@ -64,10 +65,10 @@ out=${out#"$TERN_ROOT/"}
 while read -r name scenario count seeds settings; do
   [[ -n $name ]] || continue
   [[ $only == " " || $only == *" $name "* ]] || continue
-  last=$(awk -v n="$seeds" -v s="$share" 'BEGIN { k = int(n * s); print k < 1 ? 1 : k }')
-  say "== $name: seeds 1 to $last"
+  last=$(awk -v n="$seeds" -v s="$share" -v first="$first" 'BEGIN { k = int(n * s); print first + (k < 1 ? 1 : k) - 1 }')
+  say "== $name: seeds $first to $last"
   # shellcheck disable=SC2086  # settings are words
-  "$bin/tern-campaign" --world "scenarios/$scenario.yaml" --count "$count" --seeds "1:$last" $settings \
+  "$bin/tern-campaign" --world "scenarios/$scenario.yaml" --count "$count" --seeds "$first:$last" $settings \
     "${coverage[@]}" --out "$out/$name.csv" --summary "$out/$name.json"
 done <<<"$campaigns"
 if ((${#coverage[@]})); then
