@@ -97,7 +97,8 @@ def short(folder):
         found = by_key(summary(folder, world))
         fresh = [found[key]["share"] for key in found if key[0] in CLASSES[:3] and key[1] in AHEAD[:4] and key[2] == PROMISED]
         plans = [f"{row['share']:.3f}" for key, row in sorted(found.items(), key=lambda r: -r[0][2]) if key[0] == "plans"]
-        rows.append([world, slashed(found, "old", "share", 3), slashed(found, "old", "half_m", 2), f"{min(fresh):.3f}" if fresh else "–", " / ".join(plans)])
+        rows.append([world, slashed(found, "old", "share", 3), slashed(found, "old", "half_m", 2),
+                     f"{min(fresh):.3f}" if fresh else "–", " / ".join(plans)])
     table(["world", "seen for a second: kept to 0.25 / 0.5 / 1 / 2 s", "half-width to them, m",
            "seen for less: kept at the least", "plans at 0.99 / 0.9 / 0.6"], rows)
 
@@ -112,7 +113,7 @@ def coverage(folder):
             cells = [found.get((what, h, PROMISED)) for h in AHEAD]
             if not any(cells):
                 continue
-            rows.append([world, what, str(max(c["made"] for c in cells if c))] + [kept(c) for c in cells] + [slashed(found, what, "half_m", 2)])
+            rows.append([world, what, str(max(c["made"] for c in cells if c)), *map(kept, cells), slashed(found, what, "half_m", 2)])
         claims = [row for row in summary(folder, world)["coverage"] if row["what"] == "plans"]
         plans.append([world] + [f"{row['made']}: {kept(row)}" for row in sorted(claims, key=lambda r: -r["promised"])])
     table(head, rows)

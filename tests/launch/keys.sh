@@ -102,14 +102,14 @@ who_has_not_the_key_is_not_heard_and_harms_nobody() {
   scenario=$root/tests/launch/passers.yaml
   start_flight flight --key --set simulator.min_flight_s=20
   eventually "flies" 30 flies flight
-  local url stranger result name seconds
+  local url heard stranger result name seconds
   seconds=$(awk "BEGIN { print 0.7 / ${TERN_PACE:-1} }")
   url=$(env -i bash -c "source $work/flight/env.sh && echo \$LCM_DEFAULT_URL")
   "$TERN_BIN/tern-predictor" --config "$scenario" --lcm-url "$url" >"$work/stranger.out" 2>&1 &
-  stranger=$!
+  heard=$!
   eventually "the planner says why" 30 has_text 'PREDICTIONS: refused a message: unauthenticated' "$work/flight/tern-planner.log"
-  kill -TERM "$stranger" || fail "tern-predictor ended by itself: $(cat "$work/stranger.out")"
-  wait "$stranger" || fail "tern-predictor ended with $?: $(cat "$work/stranger.out")"
+  kill -TERM "$heard" || fail "tern-predictor ended by itself: $(cat "$work/stranger.out")"
+  wait "$heard" || fail "tern-predictor ended with $?: $(cat "$work/stranger.out")"
   "$TERN_BIN/tern-key" new "$work/another.key"
   for stranger in '' "--key-file $work/another.key"; do
     for name in tern-predictor tern-planner tern-mapper tern-executor tern-simulator; do

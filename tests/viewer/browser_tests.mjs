@@ -3,7 +3,7 @@ import { existsSync } from 'node:fs';
 import http from 'node:http';
 import { join } from 'node:path';
 import {
-  atRest, awaitPage, end, eventually, expect, knownLog, onScreen, openPage, restAt, run, scrubTo, shows, start, startFlight,
+  atRest, awaitPage, end, eventually, expect, knownLog, onScreen, openPage, pauseAt, run, scrubTo, shows, start, startFlight,
   startScene, startViewer, status, work,
 } from './support.mjs';
 
@@ -72,7 +72,7 @@ await run({
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
     // At the log's beginning, from above, whatever was played of it: there nothing hides the vehicle, no panel either.
     await page.click('[data-camera=top]');
-    await restAt(page, 0);
+    await pauseAt(page, 0);
     await shows(page, 'the vehicle at the start', (s) => s.vehicle[0] < 0.01);
     const spot = await atRest(page, [0, 0, 1]);
     await page.mouse.click(spot.x, spot.y);
@@ -100,7 +100,7 @@ await run({
     await shows(page, 'the scene', (s) => s.vehicle && s.obstacles === OBSTACLES);
     expect('nobody sends goals to a log', !(await page.isVisible('#goals')));
     await page.waitForFunction(() => window.tern.known.player.at_us > window.tern.known.player.begin_us); // nobody asked it to play
-    await restAt(page, 0);
+    await pauseAt(page, 0);
     await page.selectOption('#rate', '0.1'); // who looks late does not find it at its end
     await page.click('#play');
     await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > 0.2);

@@ -149,24 +149,24 @@ export async function atRest(page, point) {
 }
 
 /**
- * Waits until the log rests at that moment, s of the flight. Its player says so, not the picture: who plays passes every moment, and
- * a picture may be of before.
+ * Waits until the log is paused at that moment, s of the flight. Its player says so, not the picture: who plays passes every moment,
+ * and a picture may be of before.
  */
-export function restsAt(page, t) {
-  return eventually(`the log rests at ${t} s`, () => page.evaluate((s) => {
+export function pausedAt(page, t) {
+  return eventually(`the log is paused at ${t} s`, () => page.evaluate((s) => {
     const { playing, at_us: at, zero_us: zero } = window.tern.known.player ?? {};
     return playing === false && Math.abs(at - zero - 1e6 * s) < 1;
   }, t));
 }
 
-/** Has the log rest at that moment, s of the flight. A log plays from its viewer's start on. */
-export async function restAt(page, t) {
+/** Pauses the log at that moment, s of the flight. A log plays from its viewer's start on. */
+export async function pauseAt(page, t) {
   await page.waitForFunction(() => window.tern.known.player);
   await page.evaluate((s) => {
     window.tern.send({ player: { play: false } });
     window.tern.jump(s);
   }, t);
-  await restsAt(page, t);
+  await pausedAt(page, t);
 }
 
 /** Moves the log player's slider to a share of the log. */

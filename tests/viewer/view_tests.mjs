@@ -2,7 +2,7 @@
 import { chmodSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
-  atRest, end, eventually, expect, fail, knownLog, openPage, restAt, restsAt, run, scrubTo, shows, start, startFlight,
+  atRest, end, eventually, expect, fail, knownLog, openPage, pauseAt, pausedAt, run, scrubTo, shows, start, startFlight,
   startScene, startViewer, status, work,
 } from './support.mjs';
 
@@ -23,7 +23,7 @@ await run({
     const viewer = await startViewer('--log', await knownLog());
     const page = await openPage(viewer.url);
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
-    await restAt(page, 10);
+    await pauseAt(page, 10);
     await shows(page, 'the vehicle at 10 m', (s) => Math.abs(s.vehicle[0] - 10) < 0.05);
     for (const [width, height] of [[800, 600], [1600, 900], [390, 844], [844, 390]]) {
       await page.setViewportSize({ width, height });
@@ -92,17 +92,17 @@ await run({
     const page = await openPage(viewer.url);
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
     const playing = () => page.evaluate(() => window.tern.known.player.playing);
-    await restAt(page, 0);
+    await pauseAt(page, 0);
     await page.evaluate(() => window.tern.send({ player: { speed: 0.1 } })); // what plays does not come to the end
-    for (const [k, spot] of ['[data-camera=top]', 'input[name=hulls]', '#timeline', '#view'].entries()) {
+    for (const [k, spot] of ['#play', '[data-camera=top]', 'input[name=hulls]', '#timeline', '#view'].entries()) {
       if (spot === '#view') await page.mouse.click(400, 250);
       else await page.click(spot, { force: true });
       const here = 5 + k; // elsewhere than before: a picture of the last round does not pass for one of this
-      await restAt(page, here);
+      await pauseAt(page, here);
       await page.keyboard.press('ArrowRight');
-      await restsAt(page, here + 0.1); // the next plan
+      await pausedAt(page, here + 0.1); // the next plan
       await page.keyboard.press('ArrowLeft');
-      await restsAt(page, here);
+      await pausedAt(page, here);
       await page.keyboard.press(' ');
       await eventually(`it plays after a click on ${spot}`, playing);
       await page.keyboard.press(' ');
@@ -113,7 +113,7 @@ await run({
   async a_link_holds_moment_and_camera() {
     const viewer = await startViewer('--log', await knownLog());
     const page = await openPage(viewer.url, undefined, '#t=6.3&cam=top');
-    await restsAt(page, 6.3);
+    await pausedAt(page, 6.3);
     await shows(page, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.02);
     expect('from above', await page.evaluate(() => window.tern.world.camera.isOrthographicCamera));
     await page.evaluate(() => window.tern.jump(12));
@@ -133,9 +133,9 @@ await run({
       location.hash = '#t=4&cam=top';
       document.getElementById('link').click();
     });
-    await restsAt(page, 4);
+    await pausedAt(page, 4);
     const whole = await openPage(viewer.url, undefined, '#t=6.3&cam=fit');
-    await restsAt(whole, 6.3);
+    await pausedAt(whole, 6.3);
     await shows(whole, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.02);
     await eventually('all of the flight, from where it is seen', () =>
       whole.evaluate(() => location.hash.startsWith('#t=6.3&cam=free:')));
@@ -151,7 +151,7 @@ await run({
     const viewer = await startViewer('--log', log);
     for (const url of [viewer.url, `file://${file}`]) {
       const page = await openPage(url, undefined, '#t=6.3&cam=top'); // the vehicle's x is its time
-      await restsAt(page, 6.3);
+      await pausedAt(page, 6.3);
       await shows(page, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.06);
       await eventually('so says the clock', async () => (await text(page, '#clock')) === '6.3 s');
       await eventually('charts', () => page.evaluate(() => window.tern.charts.range().join() === '-2,20'));
@@ -171,7 +171,7 @@ await run({
   async the_cameras_look_along_the_flight() {
     const viewer = await startViewer('--log', await knownLog());
     const page = await openPage(viewer.url, undefined, '#t=10&cam=chase');
-    await restsAt(page, 10);
+    await pausedAt(page, 10);
     await shows(page, 'the vehicle at 10 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 10) < 0.02);
     await page.waitForFunction(() => Object.keys(window.tern.known.path ?? {}).length > 0);
     for (const [camera, holds] of [
@@ -201,7 +201,7 @@ await run({
       const right = (p) => p[0] * s - p[1] * c;
       const viewer = await startViewer('--log', await knownLog(0, course));
       const page = await openPage(viewer.url, undefined, '#t=10&cam=chase');
-      await restsAt(page, 10);
+      await pausedAt(page, 10);
       await shows(page, 'the vehicle after 10 m', (is) => is.vehicle && Math.abs(ahead(is.vehicle) - 10) < 0.02);
       await page.waitForFunction(() => Object.keys(window.tern.known.path ?? {}).length > 0);
       for (const [camera, holds] of [
@@ -223,7 +223,7 @@ await run({
   async a_double_click_orbits_an_obstacle() {
     const viewer = await startViewer('--log', await knownLog());
     const page = await openPage(viewer.url, undefined, '#t=10&cam=top');
-    await restsAt(page, 10);
+    await pausedAt(page, 10);
     await shows(page, 'the vehicle at 10 m', (s) => s.obstacles === OBSTACLES && Math.abs(s.vehicle[0] - 10) < 0.02);
     const pillar = [10, 3, 1];
     const { x, y } = await atRest(page, pillar);
@@ -241,7 +241,7 @@ await run({
   async a_light_page_is_light_and_leads_to_the_dark_one_at_the_same_moment() {
     const viewer = await startViewer('--log', await knownLog());
     const page = await openPage(viewer.url, undefined, '&theme=light#t=10&cam=top');
-    await restsAt(page, 10);
+    await pausedAt(page, 10);
     await shows(page, 'the vehicle at 10 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 10) < 0.02);
     /** 0 … 1 of the ground of the page, of its letters, and of what is behind the scene. */
     const brightness = () => page.evaluate(() => {
@@ -256,7 +256,7 @@ await run({
     await page.waitForFunction(() => document.documentElement.dataset.theme === 'dark' && window.tern?.counts.drawn > 0);
     const dark = await brightness();
     expect(`light on dark: ${JSON.stringify(dark)}`, dark.panel < 0.3 && dark.letters > 0.6 && dark.scene < 0.2);
-    await restsAt(page, 10);
+    await pausedAt(page, 10);
     await shows(page, 'the same moment', (s) => s.vehicle && Math.abs(s.vehicle[0] - 10) < 0.02);
     expect('the same camera', (await page.evaluate(() => window.tern.world.cameras.mode)) === 'top');
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
@@ -372,7 +372,7 @@ await run({
     expect(`exported: ${made.said}`, (await made.gone) === 0);
     expect('small enough', statSync(file).size < 10_000_000);
     const page = await openPage(`file://${file}`, undefined, '#t=6.3&cam=side');
-    await restsAt(page, 6.3);
+    await pausedAt(page, 6.3);
     await shows(page, 'the vehicle at 6.3 m', (s) => s.vehicle && Math.abs(s.vehicle[0] - 6.3) < 0.06);
     const there = await status(page);
     expect('all that stands there', there.obstacles === OBSTACLES && there.regions === REGIONS);
@@ -399,7 +399,7 @@ await run({
     await eventually('the log', async () => (await text(page, '#mode')) === 'log');
     expect('which was seen live before', (await status(page)).modes.join() === 'live,log');
     expect('reached', /^reached$/m.test(flight.said));
-    await restAt(page, 0);
+    await pauseAt(page, 0);
     await shows(page, 'wound back', (s) => s.vehicle && Math.hypot(s.vehicle[0], s.vehicle[1]) < 0.5);
     expect(`the console is silent: ${page.complaints}`, page.complaints.filter((c) => !/WebSocket/.test(c)).length === 0);
     expect('it stays', !flight.ended);
