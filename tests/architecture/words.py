@@ -55,7 +55,7 @@ def sentences(text):
 
 def breaches_of(sentence, is_historical, is_comment):
     bare = re.sub(r"^[\s(\-–•\"“]+", "", sentence)
-    for clause in re.split(r"(?<=[:;])\s+", bare):
+    for clause in re.split(r"(?<=;)\s+", bare):  # behind a colon it may be a question that is meant: "safety: what is promised"
         if FREE_RELATIVE.match(clause) and "?" not in clause:
             yield "a free relative as the subject"
             break
