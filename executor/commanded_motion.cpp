@@ -85,7 +85,7 @@ double share_of(const Dynamics& dynamics, const ClampedSpline& spline) {
   for (int j = 0; j < spline.intervals(); ++j) {
     const ThrustBounds b = thrust_bounds(spline, j);
     share =
-        std::max({share, dynamics.thrust_min / b.least, b.most / dynamics.thrust_max,
+        std::max({share, dynamics.thrust_min / b.min_thrust, b.max_thrust / dynamics.thrust_max,
                   b.slope / tilt_slope(dynamics.tilt_max_deg), b.body_rate / to_radians(dynamics.body_rate_max_deg_s)});
   }
   return share;

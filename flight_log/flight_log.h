@@ -33,7 +33,7 @@ struct LogChannel {
   bool foreign = false;  ///< not one of Tern's channels
 
   /// Refused, whatever the reason.
-  [[nodiscard]] std::int64_t refused_in_all() const {
+  [[nodiscard]] std::int64_t refused_total() const {
     return std::accumulate(std::begin(refused), std::end(refused), std::int64_t{0});
   }
 };

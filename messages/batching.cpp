@@ -26,8 +26,8 @@ template <>
 struct Kind<TrackSet> {
   static constexpr auto kEntries = &TrackSet::tracks;
   static constexpr auto kTime = &TrackSet::made_at;
-  static constexpr std::size_t kMostEntries = kMaxTracksPerBatch;
-  static constexpr std::size_t kMostItems = kMaxPiecesPerBatch;
+  static constexpr std::size_t kMaxEntries = kMaxTracksPerBatch;
+  static constexpr std::size_t kMaxItems = kMaxPiecesPerBatch;
   static Load load(const Track& track) { return {track.motion.pieces.size(), track.kind == TrackKind::Estimated}; }
   static Track example(const Load& load) {
     Track track;
@@ -43,8 +43,8 @@ template <>
 struct Kind<ObstacleTruth> {
   static constexpr auto kEntries = &ObstacleTruth::obstacles;
   static constexpr auto kTime = &ObstacleTruth::at;
-  static constexpr std::size_t kMostEntries = kMaxObstaclesPerBatch;
-  static constexpr std::size_t kMostItems = 0;
+  static constexpr std::size_t kMaxEntries = kMaxObstaclesPerBatch;
+  static constexpr std::size_t kMaxItems = 0;
   static Load load(const TrueObstacle&) { return {}; }
   static TrueObstacle example(const Load&) { return {}; }
 };
@@ -62,7 +62,7 @@ class Room {
  public:
   bool take(const Load& load) {
     const std::size_t bytes = bytes_ + per_entry() + load.items * (load.has_shares ? per_item(true) : per_item(false));
-    if (entries_ + 1 > Kind<T>::kMostEntries || items_ + load.items > Kind<T>::kMostItems || bytes > kMaxMessageBytes)
+    if (entries_ + 1 > Kind<T>::kMaxEntries || items_ + load.items > Kind<T>::kMaxItems || bytes > kMaxMessageBytes)
       return false;
     ++entries_;
     items_ += load.items;

@@ -49,7 +49,7 @@ Bytes encode(const T& value) {
 template <class T>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes) {
   try {
-    const auto end = wire::find_end(bytes, wire::Form<T>::kLayout);
+    const auto end = wire::message_bytes(bytes, wire::Form<T>::kLayout);
     if (!end) return tl::make_unexpected(end.error());
     typename wire::Form<T>::Message message{};
     const auto size = static_cast<int>(*end);

@@ -33,12 +33,12 @@ struct wire::Form<HorizonRequest> {
     io.time(m.t_s_us, request.t_s);
     io.time(m.deadline_us, request.deadline);
     io.time(m.committed_start_us, request.committed.start);
-    io.duration(m.committed_interval_us, request.committed.interval, kShortestInterval, kLongestInterval);
+    io.duration(m.committed_interval_us, request.committed.interval, kMinIntervalDuration, kMaxIntervalDuration);
     io.points(m.control_points, request.committed.control_points, kMaxCoordinate);
     io.motion(m.start, request.start);
-    io.vec3(m.v_max, request.limits.v_max, kLeastLimit, kMostSpeedLimit);
-    io.vec3(m.a_max, request.limits.a_max, kLeastLimit, kMostAccelerationLimit);
-    io.vec3(m.j_max, request.limits.j_max, kLeastLimit, kInfinity);
+    io.vec3(m.v_max, request.limits.v_max, kMinLimit, kMaxSpeedLimit);
+    io.vec3(m.a_max, request.limits.a_max, kMinLimit, kMaxAccelerationLimit);
+    io.vec3(m.j_max, request.limits.j_max, kMinLimit, kInfinity);
     io.number(m.body_radius, request.body.radius, 0.0, kMaxBodyExtent);
     io.points(m.body_vertices, request.body.vertices, kMaxBodyExtent);
     io.position(m.flight_box_min, request.flight_box.min());

@@ -30,7 +30,7 @@ struct wire::Form<Plan> {
     io.enumeration(m.outcome, plan.outcome, PlanOutcome::NoPlan);
     io.enumeration(m.reason, plan.reason, PlanReason::AtGoal);
     io.time(m.start_us, plan.trajectory.start);
-    io.duration(m.interval_us, plan.trajectory.interval, kShortestInterval, kLongestInterval);
+    io.duration(m.interval_us, plan.trajectory.interval, kMinIntervalDuration, kMaxIntervalDuration);
     io.points(m.control_points, plan.trajectory.control_points, kMaxCoordinate);
     io.duration(m.hold_us, plan.hold, Duration{0}, kMaxSpan);
     io.number(m.confidence, plan.confidence, 0.0, 1.0);
@@ -52,7 +52,7 @@ struct wire::Form<Plan> {
     });
     io.list(m.cuts, plan.cuts, [&io](auto& c, auto& cut) {
       io.enumeration(c.phase, cut.phase, Phase::Room);
-      io.integer(c.attempt, cut.attempt, 0, kMostAttempts - 1);
+      io.integer(c.attempt, cut.attempt, 0, kMaxAttempts - 1);
       io.enumeration(c.stage, cut.stage, Stage::Check);
       io.counter(c.count, cut.count);
     });

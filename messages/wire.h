@@ -39,7 +39,7 @@ template <class M, class E>
 struct Array {
   std::int32_t M::*count;
   std::vector<E> M::*items;
-  std::int32_t least, most;  ///< legal counts
+  std::int32_t min_count, max_count;  ///< legal counts
 
   /// Bytes of one element on the wire.
   static std::size_t element_bytes() {
@@ -76,9 +76,10 @@ template <class M, class... E>
 Bytes encode(M message, const Layout<M, E...>& layout) {
   layout.for_each([&](const auto& array) {
     const std::size_t n = (message.*array.items).size();
-    if (n < static_cast<std::size_t>(array.least) || n > static_cast<std::size_t>(array.most)) {
+    if (n < static_cast<std::size_t>(array.min_count) || n > static_cast<std::size_t>(array.max_count)) {
       throw std::invalid_argument(std::string(M::getTypeName()) + ": an array of " + std::to_string(n) +
-                                  ", legal are " + std::to_string(array.least) + " to " + std::to_string(array.most));
+                                  ", legal are " + std::to_string(array.min_count) + " to " +
+                                  std::to_string(array.max_count));
     }
     message.*array.count = static_cast<std::int32_t>(n);
   });
@@ -95,7 +96,7 @@ Bytes encode(M message, const Layout<M, E...>& layout) {
 /// How many of the bytes are an M, judged by fingerprint, counts and length: all, or all but one trailer. Or why they
 /// cannot be one. Allocates nothing beyond an empty message.
 template <class M, class... E>
-tl::expected<std::size_t, Rejection> find_end(std::span<const std::uint8_t> bytes, const Layout<M, E...>& layout) {
+tl::expected<std::size_t, Rejection> message_bytes(std::span<const std::uint8_t> bytes, const Layout<M, E...>& layout) {
   if (bytes.size() < kFingerprintBytes) return tl::make_unexpected(Rejection::Length);
   if (read_integer<std::int64_t>(bytes, 0) != M::getHash()) return tl::make_unexpected(Rejection::Fingerprint);
   if (bytes.size() < layout.head_bytes()) return tl::make_unexpected(Rejection::Length);
@@ -105,7 +106,7 @@ tl::expected<std::size_t, Rejection> find_end(std::span<const std::uint8_t> byte
   layout.for_each([&](const auto& array) {
     const auto count = read_integer<std::int32_t>(bytes, offset);
     offset += kCountBytes;
-    counts_legal = counts_legal && count >= array.least && count <= array.most;
+    counts_legal = counts_legal && count >= array.min_count && count <= array.max_count;
     if (counts_legal) expected_bytes += static_cast<std::size_t>(count) * array.element_bytes();
   });
   if (!counts_legal) return tl::make_unexpected(Rejection::Count);

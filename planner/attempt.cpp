@@ -60,7 +60,7 @@ void append_hold(std::vector<double>& times, double step, double hold_s) {
 
 std::optional<Duration> interval_of(double duration_s, int intervals) {
   const double dt = std::max(duration_s / intervals, kLeastInterval);
-  if (!(dt <= kLongestInterval.seconds())) return std::nullopt;
+  if (!(dt <= kMaxIntervalDuration.seconds())) return std::nullopt;
   return Duration{static_cast<std::int64_t>(std::ceil(dt * 1e6))};
 }
 

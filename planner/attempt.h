@@ -47,7 +47,7 @@ void append_hold(std::vector<double>& times, double step, double hold_s);
 
 /// Δt of J intervals that last duration_s together, rounded up to a microsecond and at least 20 ms. Below that,
 /// rounding of accelerations q/Δt² would exceed the tolerances.
-/// @return nullopt if it would exceed kLongestInterval
+/// @return nullopt if it would exceed kMaxIntervalDuration
 std::optional<Duration> interval_of(double duration_s, int intervals);
 
 /// The obstacles of the horizon t_s … t_s + J Δt and of the hold after it.

@@ -33,7 +33,7 @@ namespace {
 /// that it may be there.
 double known_for(const PlanningObstacle& obstacle, double width, UTime t_s) {
   const PiecewiseCubic& motion = obstacle.track->motion;
-  const AlphaCount growing{obstacle.alpha.level, obstacle.alpha.scale};
+  const AlphaShare growing{obstacle.alpha.level, obstacle.alpha.scale};
   UTime until = motion.start;
   for (std::size_t k = 0; k < motion.pieces.size(); ++k) {
     if (growing.of(*obstacle.track, k).maxCoeff() > width) break;

@@ -36,7 +36,7 @@ LookAhead look_ahead(UTime t_s, const PredictionProducts& predictions, const Box
 
 double longest_first_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config) {
   const double held_s = std::min(look.horizon_s - hold.required_s, look.followed_s - hold.cap_s);
-  return std::min(held_s, config.intervals * kLongestInterval.seconds()) / config.duration_scales.front();
+  return std::min(held_s, config.intervals * kMaxIntervalDuration.seconds()) / config.duration_scales.front();
 }
 
 LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,

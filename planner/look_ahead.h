@@ -38,7 +38,7 @@ struct LocalAim {
 };
 
 /// The largest planned_duration() to the local goal, s: it and the hold after it fit into the horizon, and Δt is at
-/// most kLongestInterval.
+/// most kMaxIntervalDuration.
 double longest_first_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config);
 
 /// The local goal at the first of `largest_radius` and radii that shrink by a sixth with planned_duration() ≤

@@ -17,7 +17,7 @@ constexpr int kHalvings = 20;
 class StartDistance {
  public:
   /// @param body  its vertices about p; @param box  memory
-  StartDistance(const Track& track, const AlphaCount& count, const Points& body, double radius, UTime t, Points& box)
+  StartDistance(const Track& track, const AlphaShare& count, const Points& body, double radius, UTime t, Points& box)
       : body_(body),
         box_(box),
         radius_(radius),

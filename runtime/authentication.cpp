@@ -50,7 +50,7 @@ tl::expected<Authentic, Rejection> verify(std::span<const std::uint8_t> bytes, c
   }
   const MessageName& name = trailer->name;
   const bool too_old = trailer->utime < received - kLongestOnItsWay;
-  if (too_old || name.sequence < 1 || !guard.heard({role, name.sender_epoch_us}).admit(name.sequence)) {
+  if (too_old || name.sequence < 1 || !guard.touch({role, name.sender_epoch_us}).admit(name.sequence)) {
     return tl::make_unexpected(Rejection::Repeated);
   }
   return Authentic{bytes.first(bytes.size() - kTrailerBytes), role};

@@ -235,10 +235,10 @@ UavSpec read_uav(ConfigSection section, UavSpec uav, std::uint64_t seed) {
   std::vector<Route> routes;
   std::tie(uav.start, uav.goal) = read_route(section, uav, seed, routes);
   ConfigSection limits = section.section("limits");
-  uav.limits.v_max = limits.vec3_or_number("v_max", uav.limits.v_max, Range::at_least(kLeastLimit, kMostSpeedLimit));
+  uav.limits.v_max = limits.vec3_or_number("v_max", uav.limits.v_max, Range::at_least(kMinLimit, kMaxSpeedLimit));
   uav.limits.a_max =
-      limits.vec3_or_number("a_max", uav.limits.a_max, Range::at_least(kLeastLimit, kMostAccelerationLimit));
-  uav.limits.j_max = limits.vec3_or_number("j_max", uav.limits.j_max, Range::at_least(kLeastLimit, kInfinity));
+      limits.vec3_or_number("a_max", uav.limits.a_max, Range::at_least(kMinLimit, kMaxAccelerationLimit));
+  uav.limits.j_max = limits.vec3_or_number("j_max", uav.limits.j_max, Range::at_least(kMinLimit, kInfinity));
   limits.finish();
   if (section.has("dynamics")) section.section("dynamics").read(uav.limits.dynamics.emplace());
   uav.body = read_body(section.section("body"), uav.body);

@@ -34,10 +34,10 @@ class Budget {
     });
   }
 
-  /// Starts the next attempt of a phase: counts begin anew. @return false: it has had kMostAttempts
+  /// Starts the next attempt of a phase: counts begin anew. @return false: it has had kMaxAttempts
   bool begin_attempt(Phase phase) {
     int& begun = begun_[idx(phase)];
-    if (begun == kMostAttempts) return false;
+    if (begun == kMaxAttempts) return false;
     phase_ = phase;
     attempt_ = begun++;
     for (int s = 0; s < kStages; ++s) counts_[s] = 0, spent_[s] = false;

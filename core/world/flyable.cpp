@@ -11,14 +11,14 @@
 namespace tern {
 namespace {
 
-constexpr int kLeastIntervals = 4;
+constexpr int kMinIntervals = 4;
 
 BreachReport shape_breach(const TimedSpline& trajectory) {
   const auto intervals = static_cast<double>(trajectory.control_points.cols() - 3);
-  if (intervals < kLeastIntervals || intervals > kMaxIntervals) {
+  if (intervals < kMinIntervals || intervals > kMaxIntervals) {
     return {Breach::Shape, "{0:.0f} intervals, not 4 to {1:.0f}", intervals, kMaxIntervals};
   }
-  if (trajectory.interval <= Duration{0} || trajectory.interval > kLongestInterval) {
+  if (trajectory.interval <= Duration{0} || trajectory.interval > kMaxIntervalDuration) {
     return {Breach::Shape, "interval of {0:.0f} us", static_cast<double>(trajectory.interval.us)};
   }
   if (!trajectory.control_points.allFinite()) return {Breach::Shape, "a control point is not finite"};
@@ -80,10 +80,10 @@ BreachReport breach_of(const ClampedSpline& spline, const Dynamics& dynamics) {
   const double slope = tilt_slope(dynamics.tilt_max_deg);
   for (int j = 0; j < spline.intervals(); ++j) {
     const ThrustBounds b = thrust_bounds(spline, j);
-    if (!(b.least >= dynamics.thrust_min * kLess))
-      return {Breach::Thrust, "thrust {0:.9g} below {1:.9g}", b.least, dynamics.thrust_min, -1, j};
-    if (!(b.most <= dynamics.thrust_max * kMore))
-      return {Breach::Thrust, "thrust {0:.9g} beyond {1:.9g}", b.most, dynamics.thrust_max, -1, j};
+    if (!(b.min_thrust >= dynamics.thrust_min * kLess))
+      return {Breach::Thrust, "thrust {0:.9g} below {1:.9g}", b.min_thrust, dynamics.thrust_min, -1, j};
+    if (!(b.max_thrust <= dynamics.thrust_max * kMore))
+      return {Breach::Thrust, "thrust {0:.9g} beyond {1:.9g}", b.max_thrust, dynamics.thrust_max, -1, j};
     if (!(b.slope <= slope * kMore))
       return {Breach::Tilt,
               "tilt {0:.9g} deg beyond {1:.9g}",

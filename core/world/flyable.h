@@ -12,11 +12,11 @@ namespace tern {
 /// planner's.
 enum class Breach : std::uint8_t {
   None = 0,
-  Shape = 1,     ///< fewer than 4 or more than kMaxIntervals intervals, Δt not in (0, kLongestInterval], not finite
-  Start = 2,     ///< does not start at t_s
-  Join = 3,      ///< position, velocity or acceleration differ from the start state's by more than kJoinTolerance
-  End = 4,       ///< does not end at rest: q_{n-2} = q_{n-1} = q_n
-  Velocity = 5,  ///< beyond v_max at its true extremum
+  Shape = 1,  ///< fewer than 4 or more than kMaxIntervals intervals, Δt not in (0, kMaxIntervalDuration], not finite
+  Start = 2,  ///< does not start at t_s
+  Join = 3,   ///< position, velocity or acceleration differ from the start state's by more than kJoinTolerance
+  End = 4,    ///< does not end at rest: q_{n-2} = q_{n-1} = q_n
+  Velocity = 5,        ///< beyond v_max at its true extremum
   Acceleration = 6,    ///< beyond a_max
   Jerk = 7,            ///< beyond j_max
   Thrust = 8,          ///< below thrust_min or beyond thrust_max of Dynamics

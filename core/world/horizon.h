@@ -65,12 +65,12 @@ enum class Phase : std::uint8_t {
 };
 inline constexpr int kPhases = 3;
 /// The most attempts of a phase.
-inline constexpr int kMostAttempts = 100;
+inline constexpr int kMaxAttempts = 100;
 
 /// Where a budget cut a loop: what a replay needs instead of a clock.
 struct BudgetCut {
   Phase phase = Phase::Durations;
-  std::int32_t attempt = 0;  ///< which one of its phase, 0 … kMostAttempts − 1
+  std::int32_t attempt = 0;  ///< which one of its phase, 0 … kMaxAttempts − 1
   Stage stage = Stage::Fallback;
   std::int64_t count = 0;  ///< how often the loop had asked when the budget was found spent
 };

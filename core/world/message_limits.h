@@ -19,10 +19,10 @@ inline constexpr double kMaxJerk = 1e12;                           ///< |jerk| p
 inline constexpr double kMaxBodyExtent = 1e3;                      ///< radius and |vertex| per axis of a body, m
 inline constexpr std::int64_t kMaxTimeUs = 4'000'000'000'000'000;  ///< |time|, µs: the year 2096
 inline constexpr Duration kMaxSpan{1'000'000'000'000};             ///< of a track's piece or a hold: 11 days
-inline constexpr Duration kShortestInterval{1'000};                ///< of a trajectory's spline
+inline constexpr Duration kMinIntervalDuration{1'000};             ///< of a trajectory's spline
 /// Of a trajectory's spline: what the planner sends, messages carry and the executor flies at most. A plan of a vehicle
 /// that is slower than its sphere asks for heads for a nearer point.
-inline constexpr Duration kLongestInterval{60'000'000};
+inline constexpr Duration kMaxIntervalDuration{60'000'000};
 /// An answer's deadline is at least this long before t_s: what it needs to be received, checked and spliced.
 inline constexpr Duration kDeadlineLead{5'000};
 

@@ -3,12 +3,12 @@
 namespace tern {
 
 SequenceWindow::Verdict MessageLosses::add(const MessageName& name, UTime arrived) {
-  Sender& sender = senders_.heard(name.sender_epoch_us, [this](const Sender& forgotten) {
+  Sender& sender = senders_.touch(name.sender_epoch_us, [this](const Sender& forgotten) {
     lost_by_forgotten_ += forgotten.window.lost();
     before_forgotten_ += forgotten.window.before_first();
   });
-  const bool played_again = arrived - sender.at > kPlayedAgain && name.sequence <= sender.window.newest();
-  if (played_again) sender.window.begin_anew();
+  const bool played_again = arrived - sender.at > kReplaySilence && name.sequence <= sender.window.newest();
+  if (played_again) sender.window.restart();
   const auto verdict = sender.window.add(name.sequence);
   if (verdict == SequenceWindow::Verdict::New) sender.at = arrived;
   return verdict;

@@ -11,10 +11,10 @@
 namespace tern {
 
 /// The sequence numbers of one channel, by sender, in the order of arrival. Pure. SequenceWindow says what is new and
-/// what is lost. A sender whose numbers begin again after kPlayedAgain of silence is a log that is played once more.
+/// what is lost. A sender whose numbers begin again after kReplaySilence of silence is a log that is played once more.
 class MessageLosses {
  public:
-  static constexpr Duration kPlayedAgain{2'500'000};
+  static constexpr Duration kReplaySilence{2'500'000};
 
   /// @param arrived  listener's clock
   SequenceWindow::Verdict add(const MessageName& name, UTime arrived);

@@ -13,16 +13,16 @@ template <class Name, class Known>
 class RecentSenders {
  public:
   /// Many more than restart while a message is on its way.
-  static constexpr std::size_t kMostSenders = 64;
+  static constexpr std::size_t kMaxSenders = 64;
 
   /// What is known of a sender that was heard now; a new Known for one that is not remembered.
   /// @param forget  called with what is forgotten for it
   template <class Forget = void (*)(const Known&)>
-  Known& heard(
+  Known& touch(
       const Name& name, Forget&& forget = [](const Known&) {}) {
     Entry& entry = senders_[name];
     entry.heard = ++count_;
-    if (senders_.size() > kMostSenders) {
+    if (senders_.size() > kMaxSenders) {
       const auto longest_ago = [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; };
       const auto forgotten = std::min_element(senders_.begin(), senders_.end(), longest_ago);
       forget(forgotten->second.known);

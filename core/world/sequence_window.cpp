@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint64_t kAllSeen = ~std::uint64_t{0};
 /// A false sequence number must not overflow the sum: no honest gap is as long.
-constexpr std::int64_t kMostLost = 1'000'000'000;
+constexpr std::int64_t kMaxLost = 1'000'000'000;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ SequenceWindow::Verdict SequenceWindow::judge(std::int64_t sequence) {
     return Verdict::New;
   }
   candidate_ = sequence;
-  return ahead <= kLongestGap ? Verdict::New : Verdict::Jump;
+  return ahead <= kMaxGap ? Verdict::New : Verdict::Jump;
 }
 
 bool SequenceWindow::has_come(const Numbering& numbering, std::int64_t sequence) {
@@ -66,7 +66,7 @@ void SequenceWindow::advance(std::int64_t ahead) {
   if (former_ && ++continued_ >= kEstablished) former_.reset();
 }
 
-void SequenceWindow::begin_anew() {
+void SequenceWindow::restart() {
   now_ = {.lost = now_.lost - now_.unsure};
   candidate_.reset();
   former_.reset();
@@ -75,7 +75,7 @@ void SequenceWindow::begin_anew() {
 void SequenceWindow::continue_at(std::int64_t candidate, std::int64_t sequence) {
   if (!former_) former_ = now_;
   continued_ = 0;
-  const std::int64_t missing = std::clamp<std::int64_t>(candidate - now_.newest - 1, 0, kMostLost);
+  const std::int64_t missing = std::clamp<std::int64_t>(candidate - now_.newest - 1, 0, kMaxLost);
   now_ = {.newest = sequence, .seen = kAllSeen, .lost = now_.lost + missing + (sequence - candidate - 1)};
   candidate_.reset();
 }

@@ -11,14 +11,14 @@ namespace tern {
 /// An honest sender counts its messages by one. What a number at most kShortGap ahead leaves out is lost, until it
 /// comes after all. The newest kRemembered numbers are known one by one. What lies farther ahead is believed only when
 /// the next number continues it: one false number moves nothing. What lies behind all that is remembered is refused,
-/// until begin_anew(). The former numbering is remembered until the new one is established. Its next number brings it
+/// until restart(). The former numbering is remembered until the new one is established. Its next number brings it
 /// back, and takes back what was counted as lost meanwhile.
 class SequenceWindow {
  public:
   static constexpr std::int64_t kRemembered = 64;
   static constexpr std::int64_t kShortGap = 8;
   /// A hundred seconds at 100 Hz: a listener that was stopped for so long does not refuse the next message.
-  static constexpr std::int64_t kLongestGap = 10'000;
+  static constexpr std::int64_t kMaxGap = 10'000;
   static constexpr std::int64_t kEstablished = 5;
 
   enum class Verdict {
@@ -30,7 +30,7 @@ class SequenceWindow {
   Verdict add(std::int64_t sequence);
 
   /// The sender's numbers may begin anywhere again; what was lost stays counted.
-  void begin_anew();
+  void restart();
 
   [[nodiscard]] std::int64_t newest() const { return now_.newest; }  ///< 0: none yet
   /// 0 for a sender that was heard fewer than kEstablished times: it may be noise.

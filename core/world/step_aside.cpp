@@ -10,7 +10,7 @@
 namespace tern {
 namespace {
 
-constexpr int kMostMovers = 5;
+constexpr int kMaxMovers = 5;
 constexpr double kLastTouch = kStepAsideQuiet + 4.0;  // s
 
 double log_uniform(Rng& rng, double low, double high) { return low * std::pow(high / low, rng.uniform()); }
@@ -64,7 +64,7 @@ StepAside draw_step_aside(std::uint64_t seed, const Vec3& start) {
   StepAside drawn;
   drawn.limits = draw_limits(rng);
   drawn.body.radius = log_uniform(rng, 0.1, 0.4);
-  const int movers = 1 + static_cast<int>(kMostMovers * rng.uniform());
+  const int movers = 1 + static_cast<int>(kMaxMovers * rng.uniform());
   for (int k = 0; k < movers; ++k) {
     drawn.movers.push_back(draw_mover(rng, start, drawn.limits.v_max.x(), drawn.body.radius));
   }

@@ -26,10 +26,10 @@ ThrustBounds thrust_bounds(const Vec3& a0, const Vec3& a1, double duration_s) {
   const Vec3 f0 = a0 + Vec3(0.0, 0.0, kGravity);
   const Vec3 f1 = a1 + Vec3(0.0, 0.0, kGravity);
   ThrustBounds b;
-  b.least = least_norm(f0, f1);
-  b.most = std::max(f0.norm(), f1.norm());
+  b.min_thrust = least_norm(f0, f1);
+  b.max_thrust = std::max(f0.norm(), f1.norm());
   b.slope = std::max(slope_of(f0), slope_of(f1));
-  b.body_rate = b.least > 0.0 ? f0.cross(f1).norm() / (duration_s * b.least * b.least) : kInfinity;
+  b.body_rate = b.min_thrust > 0.0 ? f0.cross(f1).norm() / (duration_s * b.min_thrust * b.min_thrust) : kInfinity;
   return b;
 }
 

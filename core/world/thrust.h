@@ -14,10 +14,10 @@ namespace tern {
 
 /// The extrema over an interval from f_0 to f_1 in Δt.
 struct ThrustBounds {
-  double least = 0.0;      ///< min |f|: the distance of 0 from the segment f_0 f_1, m/s²
-  double most = 0.0;       ///< max |f|: at an end, m/s²
-  double slope = 0.0;      ///< tan of the largest tilt: |f_xy|/f_z at an end (cones are convex); infinite from 90° on
-  double body_rate = 0.0;  ///< |f_0 × f_1|/(Δt least²): f × j is constant, rad/s; infinite where f vanishes
+  double min_thrust = 0.0;  ///< min |f|: the distance of 0 from the segment f_0 f_1, m/s²
+  double max_thrust = 0.0;  ///< max |f|: at an end, m/s²
+  double slope = 0.0;       ///< tan of the largest tilt: |f_xy|/f_z at an end (cones are convex); infinite from 90° on
+  double body_rate = 0.0;   ///< |f_0 × f_1|/(Δt least²): f × j is constant, rad/s; infinite where f vanishes
 };
 
 /// @param a0, a1  accelerations at the ends, m/s²; @param duration_s  Δt > 0

@@ -1,12 +1,12 @@
 #include "core/world/track.h"
 
-#include "core/world/alpha_count.h"
+#include "core/world/alpha_share.h"
 
 namespace tern {
 
-Box Track::bounds(UTime t0, UTime t1) const { return counted_bounds(*this, t0, t1, {}, {0, motion.start}); }
+Box Track::bounds(UTime t0, UTime t1) const { return bounds_at(*this, t0, t1, {}, {0, motion.start}); }
 
-Box counted_bounds(const Track& track, UTime t0, UTime t1, const AlphaCount& count, PiecewiseCubic::Located first) {
+Box bounds_at(const Track& track, UTime t0, UTime t1, const AlphaShare& count, PiecewiseCubic::Located first) {
   const PiecewiseCubic& motion = track.motion;
   const auto half = [&](std::size_t piece) -> Vec3 { return track.half_extents + count.of(track, piece); };
   if (track.kind == TrackKind::Static) return box_around(motion.pieces.front().coefficients.col(3), half(0));

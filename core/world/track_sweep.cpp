@@ -7,14 +7,14 @@ namespace tern {
 namespace {
 
 /// Boxes along a part of a piece: what is accelerated more than β ≤ kBetaMax allows for with these gets a larger β.
-constexpr double kMostSteps = 256.0;
+constexpr double kMaxSteps = 256.0;
 
 /// Boxes along the part of a piece between local times a and b; half-extents grow by the sampling error β.
 void add_piece(std::vector<CentredBox>& out, const PowerCubic& cubic, double a, double b, const Vec3& half) {
   const Vec3 acceleration = max_abs_acceleration(cubic, a, b);
   const double span = b - a;
   const double steps = std::ceil(span * std::sqrt(acceleration.maxCoeff() / (8.0 * kBetaMax)));
-  const int n = static_cast<int>(std::clamp(steps, 1.0, kMostSteps));
+  const int n = static_cast<int>(std::clamp(steps, 1.0, kMaxSteps));
   const double h = span / n;
   const Vec3 grown_half = half + acceleration * (h * h / 8.0);
   for (int k = 0; k <= n; ++k) out.push_back({position_of(cubic, a + h * k), grown_half});
@@ -22,7 +22,7 @@ void add_piece(std::vector<CentredBox>& out, const PowerCubic& cubic, double a, 
 
 }  // namespace
 
-void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaCount& count, const Vec3& body_half,
+void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaShare& count, const Vec3& body_half,
                UTime origin, double from, double to) {
   const double start = (track.motion.start - origin).seconds();
   double piece_from = start;

@@ -14,9 +14,9 @@ namespace tern {
 
 /// The ranges of limits, in scenarios and in messages. Below the least, m/s, m/s², m/s³, durations of plans and digits
 /// of positions end; what is gentler than that does not fly.
-inline constexpr double kLeastLimit = 1e-3;
-inline constexpr double kMostSpeedLimit = 1e3;         ///< of v_max, m/s
-inline constexpr double kMostAccelerationLimit = 1e4;  ///< of a_max, m/s²
+inline constexpr double kMinLimit = 1e-3;
+inline constexpr double kMaxSpeedLimit = 1e3;         ///< of v_max, m/s
+inline constexpr double kMaxAccelerationLimit = 1e4;  ///< of a_max, m/s²
 
 /// Standard gravity, m/s².
 inline constexpr double kGravity = 9.80665;
@@ -29,7 +29,7 @@ struct Dynamics {
   double tilt_max_deg = 45.0;          ///< of the thrust from the vertical, degrees
   double body_rate_max_deg_s = 220.0;  ///< of the thrust's direction (roll and pitch together), degrees/s
 
-  static constexpr Range kThrustMin{0.0, 9.0}, kThrustMax{10.5, kMostAccelerationLimit}, kTilt{1.0, 85.0},
+  static constexpr Range kThrustMin{0.0, 9.0}, kThrustMax{10.5, kMaxAccelerationLimit}, kTilt{1.0, 85.0},
       kBodyRate{1.0, 1e5};
   template <typename V>
   void visit(V& v) {
@@ -40,7 +40,7 @@ struct Dynamics {
   }
 };
 
-/// Largest magnitude per axis of W, each at least kLeastLimit. Jerk may be infinite (no limit).
+/// Largest magnitude per axis of W, each at least kMinLimit. Jerk may be infinite (no limit).
 struct Limits {
   Vec3 v_max = Vec3::Constant(6.0);                                      ///< m/s
   Vec3 a_max = Vec3(20.0, 20.0, 10.0);                                   ///< m/s²

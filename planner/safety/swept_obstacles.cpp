@@ -31,7 +31,7 @@ Points minkowski_difference(const Points& cloud, const Points& vertices) {
 }
 
 /// Where the track's box is at one instant, as add_sweep() has it but without β.
-CentredBox box_at(const Track& track, const AlphaCount& count, const Vec3& body_half, UTime origin, double at) {
+CentredBox box_at(const Track& track, const AlphaShare& count, const Vec3& body_half, UTime origin, double at) {
   double piece_from = (track.motion.start - origin).seconds();
   const auto grown_half = [&](const Vec3& alpha, double seconds) -> Vec3 {
     return track.half_extents + alpha + body_half + Vec3::Constant(track.top_speed * seconds);
@@ -61,7 +61,7 @@ UTimeSpan microseconds(UTime origin, double from, double to) {
 Box sweep_box(const PlanningObstacle& obstacle, const Vec3& body_half, UTime origin, double from, double to) {
   if (obstacle.track == nullptr) return grown(obstacle.box, body_half);
   const UTimeSpan t = microseconds(origin, from, to);
-  const Box box = counted_bounds(*obstacle.track, t.from, t.to, obstacle.alpha, {0, obstacle.track->motion.start});
+  const Box box = bounds_at(*obstacle.track, t.from, t.to, obstacle.alpha, {0, obstacle.track->motion.start});
   return grown(box, body_half + Vec3::Constant(kBetaMax));
 }
 
@@ -93,7 +93,7 @@ class PieceWalk {
     }
     return !box.intersects(near);
   }
-  [[nodiscard]] Box bounds() const { return counted_bounds(*obstacle_.track, t_.from, t_.to, obstacle_.alpha, first_); }
+  [[nodiscard]] Box bounds() const { return bounds_at(*obstacle_.track, t_.from, t_.to, obstacle_.alpha, first_); }
 
  private:
   const PlanningObstacle& obstacle_;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/geometry/swept_boxes.h"
-#include "core/world/alpha_count.h"
+#include "core/world/alpha_share.h"
 #include "core/world/track.h"
 #include "core/world/track_sweep.h"
 #include "core/world/vehicle.h"
@@ -30,7 +30,7 @@ struct PlanningObstacle {
   std::int64_t id = 0;           ///< track id; −1 − k: the k-th box of the map
   const Track* track = nullptr;  ///< null: a static box
   Box box;           ///< the static box (not inflated by the body); for a track: holds it over all times of interest
-  AlphaCount alpha;  ///< what counts of the track's α: less where the plan is not promised, or its start lies inside
+  AlphaShare alpha;  ///< what counts of the track's α: less where the plan is not promised, or its start lies inside
   const MotionBoxes* boxes = nullptr;  ///< of the track's motion; null: not known
 
   [[nodiscard]] bool moves() const { return track != nullptr && track->kind != TrackKind::Static; }

@@ -11,7 +11,7 @@ namespace {
 /// Golden section stops when the bracket is this long on the chord, m: well under kContactTolerance.
 constexpr double kChordTolerance = 1e-7;
 /// No interval is halved below this, s: some ten roundings of a world time.
-constexpr double kShortestInterval = 1e-9;
+constexpr double kMinIntervalDuration = 1e-9;
 
 struct ChordMinimum {
   double at = 0.0;     ///< in [0, 1]
@@ -128,7 +128,7 @@ double ClearanceWatch::search(const Pair& pair, double t0_s, double t1_s) {
   const bool sign_open = lower < 0.0 && upper >= 0.0;
   const double enough = sign_open ? kContactTolerance : kClearanceTolerance;
   const double best = sign_open ? upper : min_;  // another obstacle's overlap does not tell this one's sign
-  const bool settled = best - lower <= enough || h < kShortestInterval;
+  const bool settled = best - lower <= enough || h < kMinIntervalDuration;
   if (settled) return upper < 0.0 ? at : kNone;
   const double middle = t0_s + 0.5 * h;
   const double early = search(pair, t0_s, middle);

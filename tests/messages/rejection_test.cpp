@@ -256,7 +256,7 @@ TEST(Rejection, OfHorizonRequest) {
             }),
             "Time");
   EXPECT_EQ(after<Request>([](auto& r) { r.committed.interval.us = 0; }), "Time");
-  EXPECT_EQ(after<Request>([](auto& r) { r.committed.interval = kLongestInterval + Duration{1}; }), "Time");
+  EXPECT_EQ(after<Request>([](auto& r) { r.committed.interval = kMaxIntervalDuration + Duration{1}; }), "Time");
   EXPECT_EQ(after<Request>([](auto& r) { r.committed.control_points(0, 3) = kNaN; }), "Number");
   EXPECT_EQ(
       after<Request>([](auto& r) { r.committed.control_points(0, r.committed.control_points.cols() - 1) += 1e-9; }),
@@ -266,13 +266,13 @@ TEST(Rejection, OfHorizonRequest) {
   EXPECT_EQ(after<Request>([](auto& r) { r.start.a.z() += 2e-6; }), "Inconsistent");
   EXPECT_EQ(after<Request>([](auto& r) { r.start.j.z() += 1.0; }), "accepted");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.v_max.x() = kInfinity; }), "Number");
-  EXPECT_EQ(after<Request>([](auto& r) { r.limits.v_max.x() = std::nextafter(kMostSpeedLimit, kInfinity); }), "Number");
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.v_max.x() = std::nextafter(kMaxSpeedLimit, kInfinity); }), "Number");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.a_max.x() = 0.0; }), "Number");
-  EXPECT_EQ(after<Request>([](auto& r) { r.limits.a_max.x() = std::nextafter(kMostAccelerationLimit, kInfinity); }),
+  EXPECT_EQ(after<Request>([](auto& r) { r.limits.a_max.x() = std::nextafter(kMaxAccelerationLimit, kInfinity); }),
             "Number");
   for (Vec3 Limits::*limit : {&Limits::v_max, &Limits::a_max, &Limits::j_max}) {
-    EXPECT_EQ(after<Request>([&](auto& r) { (r.limits.*limit).y() = kLeastLimit; }), "accepted");
-    EXPECT_EQ(after<Request>([&](auto& r) { (r.limits.*limit).y() = std::nextafter(kLeastLimit, 0.0); }), "Number");
+    EXPECT_EQ(after<Request>([&](auto& r) { (r.limits.*limit).y() = kMinLimit; }), "accepted");
+    EXPECT_EQ(after<Request>([&](auto& r) { (r.limits.*limit).y() = std::nextafter(kMinLimit, 0.0); }), "Number");
   }
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.setConstant(kInfinity); }), "accepted");
   EXPECT_EQ(after<Request>([](auto& r) { r.limits.j_max.setConstant(1e300); }), "accepted");
@@ -332,7 +332,7 @@ TEST(Rejection, OfPlan) {
   EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].stage = static_cast<Stage>(kStages); }), "Enumeration");
   EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].phase = static_cast<Phase>(kPhases); }), "Enumeration");
   EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = -1; }), "Number");
-  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = kMostAttempts; }), "Number");
+  EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].attempt = kMaxAttempts; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.standing = -1; }), "Number");
   EXPECT_EQ(after<Plan>([](auto& p) { p.cuts[0].count = -1; }), "Number");
   EXPECT_EQ(after_flag_of_two<Plan>([](Plan& p, bool flag) { p.relaxed = flag; }), "Enumeration");

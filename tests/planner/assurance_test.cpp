@@ -130,7 +130,7 @@ TEST(LowerAssurances, CountAlphaThatGrowsForTheTimeToStepAside) {
   obstacles[0].track = &track;
   for (const Assurance& assurance : lower_assurances(kAsideS)) {
     count_alpha(assurance, kStart, obstacles);
-    const AlphaCount& count = obstacles[0].alpha;
+    const AlphaShare& count = obstacles[0].alpha;
     const double last_s = kAsideS - 0.05;  // in the last piece before
     EXPECT_GT(count.of(track, track.motion.locate(kStart + Duration::from_seconds(last_s)).index).x(),
               2.0 * count.of(track, 0).x());

@@ -61,9 +61,9 @@ TEST(LocalAim, FitsIntoTheHorizonWhereAnyDoesAndIsNoNearerThanItMust) {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     Rng rng(seed);
     const auto draw = [&](double high) {
-      return Vec3::Constant(kLeastLimit * std::pow(high / kLeastLimit, rng.uniform()));
+      return Vec3::Constant(kMinLimit * std::pow(high / kMinLimit, rng.uniform()));
     };
-    Limits limits{draw(kMostSpeedLimit), draw(kMostAccelerationLimit)};
+    Limits limits{draw(kMaxSpeedLimit), draw(kMaxAccelerationLimit)};
     if (rng.uniform() < 0.5) limits.j_max = draw(1e6);
     MotionSample start;
     start.p = random_vector(rng, 5.0);
@@ -89,7 +89,7 @@ TEST(LocalAim, KeepsIntervalsWithinTheLongestWhereNothingMoves) {
   PlannerConfig config;
   const double longest_s = longest_first_duration(looking(1e9, 1e9), HoldDemand{}, config);
   const LocalAim aim = aim_along({Vec3::Zero(), Vec3(50, 0, 0)}, MotionSample{}, limits, 4.0, longest_s);
-  EXPECT_LE(config.duration_scales.front() * aim.least_s, config.intervals * kLongestInterval.seconds());
+  EXPECT_LE(config.duration_scales.front() * aim.least_s, config.intervals * kMaxIntervalDuration.seconds());
   EXPECT_GT(aim.radius, 2.0);
 }
 

@@ -143,7 +143,7 @@ TEST(Planner, WhatABudgetCutReplaysToTheSameBytes) {
     const Draw d = random_draw(seed);
     const auto s = static_cast<std::int64_t>(seed);
     Budget live([s](const BudgetCut& here) {
-      const int attempt = static_cast<int>(here.phase) * kMostAttempts + here.attempt;
+      const int attempt = static_cast<int>(here.phase) * kMaxAttempts + here.attempt;
       if (here.stage == Stage::LocalGoal) return attempt >= 1 + s % 4;
       if (here.stage == Stage::Search) return here.count >= 5 + (s * 7 + attempt * 13) % 60;
       return here.count >= (s + attempt) % 30;

@@ -132,11 +132,11 @@ TEST(ReplayWindow, BearsTheLargestNumber) {
 TEST(ReplayGuard, KeepsSendersApartAndForgetsTheOneNotHeardLongest) {
   ReplayGuard guard;
   for (std::int64_t epoch = 1; epoch <= 1'000; ++epoch) {
-    EXPECT_TRUE(guard.heard({Role::Planner, epoch}).admit(1));
-    EXPECT_FALSE(guard.heard({Role::Planner, epoch}).admit(1));
-    EXPECT_EQ(guard.heard({Role::Planner, 1}).admit(1), false) << "heard all along, so still known";
+    EXPECT_TRUE(guard.touch({Role::Planner, epoch}).admit(1));
+    EXPECT_FALSE(guard.touch({Role::Planner, epoch}).admit(1));
+    EXPECT_EQ(guard.touch({Role::Planner, 1}).admit(1), false) << "heard all along, so still known";
   }
-  EXPECT_TRUE(guard.heard({Role::Mapper, 1}).admit(1));
+  EXPECT_TRUE(guard.touch({Role::Mapper, 1}).admit(1));
 }
 
 /// A network within the test: `simulator` listens with keys; others speak with, without, or with wrong ones.

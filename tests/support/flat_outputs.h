@@ -11,12 +11,12 @@ namespace tern::support {
 
 /// Extrema over samples; between samples a little more.
 struct FlatOutputs {
-  double least = 1e9, most = 0.0;           ///< thrust per mass, m/s²
-  double tilt_deg = 0.0, rate_deg_s = 0.0;  ///< of the thrust's direction; the rate from sample to sample
+  double min_thrust = 1e9, max_thrust = 0.0;  ///< thrust per mass, m/s²
+  double tilt_deg = 0.0, rate_deg_s = 0.0;    ///< of the thrust's direction; the rate from sample to sample
 
   /// Whether they keep to the dynamics but for this share of each limit.
   [[nodiscard]] bool within(const Dynamics& d, double share) const {
-    return least >= d.thrust_min * (1.0 - share) && most <= d.thrust_max * (1.0 + share) &&
+    return min_thrust >= d.thrust_min * (1.0 - share) && max_thrust <= d.thrust_max * (1.0 + share) &&
            tilt_deg <= d.tilt_max_deg * (1.0 + share) && rate_deg_s <= d.body_rate_max_deg_s * (1.0 + share);
   }
 };
@@ -28,8 +28,8 @@ inline FlatOutputs flat_outputs(const ClampedSpline& spline, int samples_per_int
   for (int k = 0; k <= samples_per_interval * spline.intervals(); ++k) {
     const Vec3 thrust = spline.sample(std::min(k * step, spline.duration_s())).a + Vec3(0.0, 0.0, 9.80665);
     const Vec3 z = thrust.normalized();
-    out.least = std::min(out.least, thrust.norm());
-    out.most = std::max(out.most, thrust.norm());
+    out.min_thrust = std::min(out.min_thrust, thrust.norm());
+    out.max_thrust = std::max(out.max_thrust, thrust.norm());
     out.tilt_deg = std::max(out.tilt_deg, std::acos(std::clamp(z.z(), -1.0, 1.0)) * 180.0 / M_PI);
     // The chord of two unit vectors tells small angles apart, which their scalar product does not.
     if (k > 0)

@@ -50,7 +50,7 @@ Vec3 vec3(Rng& rng, double lo, double hi) {
 Vec3 position(Rng& rng) { return vec3(rng, -kMaxCoordinate, kMaxCoordinate); }
 Vec3 extents(Rng& rng) { return vec3(rng, 0.0, kMaxCoordinate); }
 UTime time(Rng& rng) { return {integer(rng, -kMaxTimeUs, kMaxTimeUs)}; }
-Duration interval(Rng& rng) { return {integer(rng, kShortestInterval.us, kLongestInterval.us)}; }
+Duration interval(Rng& rng) { return {integer(rng, kMinIntervalDuration.us, kMaxIntervalDuration.us)}; }
 double positive(Rng& rng, double hi) {
   return rng.uniform() < 0.05 ? std::numeric_limits<double>::denorm_min() : number(rng, 1e-3, hi);
 }
@@ -239,10 +239,10 @@ HorizonRequest random_message(Rng& rng, Fill fill) {
   request.t_s = request.committed.start + Duration{integer(rng, 0, 130'000'000)};
   request.deadline = request.t_s - kDeadlineLead - Duration{random_integer(rng, 0, 1000)};
   request.start = request.committed.sample(request.t_s);
-  request.limits.v_max = vec3(rng, kLeastLimit, kMostSpeedLimit);
-  request.limits.a_max = vec3(rng, kLeastLimit, kMostAccelerationLimit);
+  request.limits.v_max = vec3(rng, kMinLimit, kMaxSpeedLimit);
+  request.limits.a_max = vec3(rng, kMinLimit, kMaxAccelerationLimit);
   request.limits.j_max =
-      flag(rng) ? vec3(rng, kLeastLimit, kMaxJerk) : Vec3::Constant(std::numeric_limits<double>::infinity());
+      flag(rng) ? vec3(rng, kMinLimit, kMaxJerk) : Vec3::Constant(std::numeric_limits<double>::infinity());
   if (flag(rng)) {
     const auto within = [&rng](const Range& range) { return number(rng, range.low, range.high); };
     request.limits.dynamics = Dynamics{within(Dynamics::kThrustMin), within(Dynamics::kThrustMax),
@@ -290,7 +290,7 @@ Plan random_message(Rng& rng, Fill fill) {
   for (int i = 0; i < planes; ++i) plan.certificate.push_back(plane(rng, n - 3));
   const int cuts = count(rng, fill, 0, kMaxBudgetCuts);
   for (int i = 0; i < cuts; ++i) {
-    plan.cuts.push_back({enumerator(rng, Phase::Room), random_integer(rng, 0, kMostAttempts - 1),
+    plan.cuts.push_back({enumerator(rng, Phase::Room), random_integer(rng, 0, kMaxAttempts - 1),
                          enumerator(rng, Stage::Check), integer(rng, 0, kMaxCounter)});
   }
   if (cuts < kMaxBudgetCuts && rng.uniform() < 0.3) plan.standing = integer(rng, 0, kMaxCounter);

@@ -34,9 +34,9 @@ Vec3 limit(Rng& rng, double low, double high) {
 
 Limits random_limits(Rng& rng) {
   Limits limits;
-  limits.v_max = limit(rng, toss(rng, 0.1) ? kLeastLimit : 0.05, kMostSpeedLimit);
-  limits.a_max = limit(rng, toss(rng, 0.3) ? kLeastLimit : 0.05, kMostAccelerationLimit);
-  if (toss(rng)) limits.j_max = limit(rng, toss(rng, 0.3) ? kLeastLimit : 0.05, 1e6);
+  limits.v_max = limit(rng, toss(rng, 0.1) ? kMinLimit : 0.05, kMaxSpeedLimit);
+  limits.a_max = limit(rng, toss(rng, 0.3) ? kMinLimit : 0.05, kMaxAccelerationLimit);
+  if (toss(rng)) limits.j_max = limit(rng, toss(rng, 0.3) ? kMinLimit : 0.05, 1e6);
   return limits;
 }
 

@@ -27,8 +27,8 @@ Vec3 random_alpha(Rng& rng) {
                              : Vec3(rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1));
 }
 
-/// Oracle of AlphaCount::of.
-Vec3 counted(const Track& track, std::size_t piece, const AlphaCount& count) {
+/// Oracle of AlphaShare::of.
+Vec3 counted(const Track& track, std::size_t piece, const AlphaShare& count) {
   const bool is_lower = count.level > 0 && !track.shares.empty();
   Vec3 least = Vec3::Constant(1e9);
   for (const std::size_t k : {piece, std::min(piece, count.grows_to)}) {
@@ -128,7 +128,7 @@ std::vector<PlanningObstacle> obstacles_of(const std::vector<Track>& tracks) {
   return obstacles;
 }
 
-Box promised_box(const Track& track, UTime t, const AlphaCount& count) {
+Box promised_box(const Track& track, UTime t, const AlphaShare& count) {
   if (track.kind == TrackKind::Static) {
     return box_around(track.motion.pieces[0].coefficients.col(3), track.half_extents + counted(track, 0, count));
   }
@@ -139,7 +139,7 @@ Box promised_box(const Track& track, UTime t, const AlphaCount& count) {
                     track.half_extents + alpha + Vec3::Constant(track.top_speed * outside_s));
 }
 
-double support_of_sweep(const Track& track, const AlphaCount& count, UTime origin, double from, double to,
+double support_of_sweep(const Track& track, const AlphaShare& count, UTime origin, double from, double to,
                         const Vec3& d) {
   double most = -INFINITY;
   const Vec3 reach = d.cwiseAbs();

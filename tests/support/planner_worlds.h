@@ -30,10 +30,10 @@ Body body_of(BodyKind kind);
 std::vector<PlanningObstacle> obstacles_of(const std::vector<Track>& tracks);
 
 /// Oracle: the box that the track promises at t, with what counts of its α. Beyond its pieces it grows by top_speed.
-Box promised_box(const Track& track, UTime t, const AlphaCount& count = {});
+Box promised_box(const Track& track, UTime t, const AlphaShare& count = {});
 /// Oracle: the largest d·x over everything that the obstacle's box may cover in [from, to] seconds after origin. By the
 /// extrema of the cubics d·p(t), so exact to rounding; β is not in it.
-double support_of_sweep(const Track& track, const AlphaCount& count, UTime origin, double from, double to,
+double support_of_sweep(const Track& track, const AlphaShare& count, UTime origin, double from, double to,
                         const Vec3& d);
 /// Oracle: the distance between the body at p and the box; 0 when they meet.
 double gap(const Body& body, const Vec3& p, const Box& box);

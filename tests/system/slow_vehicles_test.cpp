@@ -38,7 +38,7 @@ TEST(SlowVehicle, SendsNoPlanThatTheExecutorRefuses) {
     const VirtualFlight flight = fly_virtually(scenario_file("paper_corridor"), overrides, &exchange);
     expect_reached(flight.result);
     expect_answered_once_and_in_time(flight.executor, exchange);
-    for (const Plan& plan : exchange.plans) EXPECT_LE(plan.trajectory.interval, kLongestInterval);
+    for (const Plan& plan : exchange.plans) EXPECT_LE(plan.trajectory.interval, kMaxIntervalDuration);
   }
 }
 

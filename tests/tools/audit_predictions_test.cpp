@@ -7,7 +7,7 @@
 
 #include "core/base/random.h"
 #include "core/splines/piecewise_cubic.h"
-#include "core/world/alpha_count.h"
+#include "core/world/alpha_share.h"
 #include "tools/audit/audit.h"
 #include "tools/audit/plan_case.h"
 #include "tools/audit/promised.h"
@@ -373,7 +373,7 @@ TEST(ClaimedAlpha, IsWhatThePlannerCounts) {
     const std::size_t last = track.motion.locate(at(5.0) + plan.sure_for).index;
     const std::vector<Vec3> claimed = claimed_alpha(track, plan, at(5.0));
     for (std::size_t k = 0; k < claimed.size(); ++k) {
-      const Vec3 counted = AlphaCount{plan.level, plan.alpha_scale, last}.of(track, k);
+      const Vec3 counted = AlphaShare{plan.level, plan.alpha_scale, last}.of(track, k);
       EXPECT_LT((claimed[k] - counted).norm(), 1e-12) << n << " piece " << k;
     }
   }

@@ -52,7 +52,7 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
     if (channel.before_first > 0 && !is_latched(name)) {
       missing.push_back(fmt::format("{}: the log lacks the first {} messages", name, channel.before_first));
     }
-    if (const std::int64_t refused = channel.refused_in_all(); refused > 0)
+    if (const std::int64_t refused = channel.refused_total(); refused > 0)
       missing.push_back(fmt::format("{}: {} messages refused (damaged, or another version)", name, refused));
   }
   if (!record.requests.empty() && record.requests.front().id > 1) {

@@ -239,7 +239,7 @@ class Reading {
 std::int64_t FlightRecord::unread(const std::string& channel) const {
   const auto found = contents.channels.find(channel);
   if (found == contents.channels.end()) return 0;
-  return found->second.lost + found->second.before_first + found->second.refused_in_all();
+  return found->second.lost + found->second.before_first + found->second.refused_total();
 }
 
 const HorizonRequest* FlightRecord::request(const MessageName& name) const {

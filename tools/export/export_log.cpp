@@ -24,7 +24,7 @@ std::string shortfalls(const LogContents& contents) {
   std::string text;
   for (const auto& [name, channel] : contents.channels) {
     if (channel.foreign) text += fmt::format("{}: left out, not a channel of Tern's\n", name);
-    if (const std::int64_t refused = channel.refused_in_all(); refused > 0) {
+    if (const std::int64_t refused = channel.refused_total(); refused > 0) {
       text += fmt::format("{}: {} of {} messages left out, damaged or of another version\n", name, refused,
                           channel.messages);
     }

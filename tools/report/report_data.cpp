@@ -226,7 +226,7 @@ json log_of(const FlightRecord& record) {
                         {"messages", c.messages},
                         {"bytes", c.bytes},
                         {"lost", c.lost},
-                        {"refused", c.refused_in_all()}});
+                        {"refused", c.refused_total()}});
   }
   json processes = json::array();
   for (const ConfigurationReport& c : record.configurations) {

@@ -50,20 +50,20 @@ TEST(ThrustBounds, AreWhatDenselySampledFlatOutputsReach) {
     ThrustBounds all{1e9};
     for (int j = 0; j < spline.intervals(); ++j) {
       const ThrustBounds b = thrust_bounds(spline, j);
-      all = {std::min(all.least, b.least), std::max(all.most, b.most), std::max(all.slope, b.slope),
-             std::max(all.body_rate, b.body_rate)};
+      all = {std::min(all.min_thrust, b.min_thrust), std::max(all.max_thrust, b.max_thrust),
+             std::max(all.slope, b.slope), std::max(all.body_rate, b.body_rate)};
     }
     const FlatOutputs sampled = flat_outputs(spline, 2000);
-    ASSERT_NEAR(all.most, sampled.most, 1e-9) << "seed " << seed;
-    ASSERT_LE(all.least, sampled.least + 1e-9) << "seed " << seed;
-    ASSERT_NEAR(all.least, sampled.least, 1e-2) << "seed " << seed;
+    ASSERT_NEAR(all.max_thrust, sampled.max_thrust, 1e-9) << "seed " << seed;
+    ASSERT_LE(all.min_thrust, sampled.min_thrust + 1e-9) << "seed " << seed;
+    ASSERT_NEAR(all.min_thrust, sampled.min_thrust, 1e-2) << "seed " << seed;
     if (std::isfinite(all.slope)) {
       ASSERT_NEAR(to_degrees(std::atan(all.slope)), sampled.tilt_deg, 1e-6) << "seed " << seed;
     } else {
       ASSERT_GE(sampled.tilt_deg, 90.0 - 1e-9) << "seed " << seed;
     }
     ASSERT_GE(to_degrees(all.body_rate), sampled.rate_deg_s * (1.0 - 1e-6)) << "seed " << seed;
-    if (all.least < 3.0) continue;  // near free fall the rate's peak is narrower than a sample
+    if (all.min_thrust < 3.0) continue;  // near free fall the rate's peak is narrower than a sample
     ++turned;
     ASSERT_NEAR(to_degrees(all.body_rate), sampled.rate_deg_s, 0.01 * sampled.rate_deg_s + 1e-6) << "seed " << seed;
   }
@@ -72,8 +72,8 @@ TEST(ThrustBounds, AreWhatDenselySampledFlatOutputsReach) {
 
 TEST(ThrustBounds, OfAHoverAreGravityAlone) {
   const ThrustBounds b = thrust_bounds(Vec3::Zero(), Vec3::Zero(), 0.1);
-  EXPECT_EQ(b.least, kGravity);
-  EXPECT_EQ(b.most, kGravity);
+  EXPECT_EQ(b.min_thrust, kGravity);
+  EXPECT_EQ(b.max_thrust, kGravity);
   EXPECT_EQ(b.slope, 0.0);
   EXPECT_EQ(b.body_rate, 0.0);
 }
@@ -111,7 +111,7 @@ TEST(Flyable, NamesTheLimitThatIsBrokenWithValueAndLimit) {
   plan.control_points = Points::Zero(3, 9);
   plan.control_points.row(0) << 0, 0, 0, 0.2, 0.5, 0.8, 1, 1, 1;
   const FlatOutputs flown = flat_outputs(plan.spline(), 2000);
-  const Dynamics wide{0.9 * flown.least, 1.1 * flown.most, 1.1 * flown.tilt_deg, 1.1 * flown.rate_deg_s};
+  const Dynamics wide{0.9 * flown.min_thrust, 1.1 * flown.max_thrust, 1.1 * flown.tilt_deg, 1.1 * flown.rate_deg_s};
   EXPECT_EQ(judged(plan, wide).breach, Breach::None);
   const auto narrowed = [&](double Dynamics::*limit, double factor) {
     Dynamics dynamics = wide;

@@ -125,7 +125,7 @@ TEST(SequenceWindow, TellsWhatWasSentBeforeTheFirstThatCame) {
 
 TEST(SequenceWindow, NumbersMayBeginAnewWhenTheSenderDoes) {
   SequenceWindow window = heard_up_to(1'000);
-  window.begin_anew();
+  window.restart();
   for (std::int64_t k = 1; k < 50; ++k) EXPECT_EQ(window.add(k), Verdict::New);
   EXPECT_EQ(window.lost(), 0);
 }

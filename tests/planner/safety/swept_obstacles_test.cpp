@@ -39,7 +39,7 @@ Case random_case(Rng& rng) {
                                          : jumping_mover(rng, 1, kWhere, from, seconds));
   if (rng.uniform() < 0.1) c.tracks[0].kind = TrackKind::Static;
   c.obstacles = obstacles_of(c.tracks);
-  AlphaCount& count = c.obstacles[0].alpha;
+  AlphaShare& count = c.obstacles[0].alpha;
   if (rng.uniform() < 0.3) count.scale = rng.uniform();
   if (rng.uniform() < 0.5) count.level = random_integer(rng, 0, kLevels - 1);
   if (rng.uniform() < 0.5) count.grows_to = static_cast<std::size_t>(random_integer(rng, 0, 4));

@@ -9,7 +9,7 @@
 namespace tern {
 
 /// Of a track's α: its share at a level, scaled.
-struct AlphaCount {
+struct AlphaShare {
   int level = 0;       ///< of kConfidenceLevels
   double scale = 1.0;  ///< [0, 1], on top of it
   /// The piece from which on α counts as there at most: it grows no more.
@@ -23,6 +23,6 @@ struct AlphaCount {
 
 /// Track::bounds(), as far as what counts of α makes it sure.
 /// @param first  pieces before this one end before t0 and need not be looked at
-Box counted_bounds(const Track& track, UTime t0, UTime t1, const AlphaCount& count, PiecewiseCubic::Located first);
+Box bounds_at(const Track& track, UTime t0, UTime t1, const AlphaShare& count, PiecewiseCubic::Located first);
 
 }  // namespace tern
