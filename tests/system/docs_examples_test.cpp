@@ -69,9 +69,9 @@ TEST(DocsExamples, AFlightByOnesOwnDetectorReachesItsGoalClearOfWhatTrulyStoodTh
   EXPECT_GT(clearance, 0.0);
 }
 
-/// The one block of YAML in scenarios/README.md.
-std::string courtyard() {
-  std::ifstream file(TERN_SCENARIOS "/README.md");
+/// The one block of YAML in a page.
+std::string yaml_of(const std::string& page) {
+  std::ifstream file(page);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::string opening = "\n```yaml\n", closing = "\n```\n";
   const std::size_t begin = text.find(opening);
@@ -81,11 +81,21 @@ std::string courtyard() {
 }
 
 TEST(DocsExamples, TheCourtyardOfTheScenariosReadmeReachesItsGoal) {
-  const std::string yaml = courtyard();
+  const std::string yaml = yaml_of(TERN_SCENARIOS "/README.md");
   ASSERT_EQ(yaml.rfind("name: courtyard\n", 0), 0U) << yaml;
   const TempFolder folder;
   const std::string file = folder.file("courtyard.yaml");
   std::ofstream(file) << yaml;
+  const VirtualFlight flight = fly_virtually(file, {});
+  EXPECT_EQ(flight.end, "");
+  expect_reached(flight.result);
+}
+
+TEST(DocsExamples, TheCourtyardOfTheTutorialReachesItsGoal) {
+  const std::string file = TERN_EXAMPLES "/courtyard.yaml";
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_EQ(text, "# The world of docs/tutorial.md.\n" + yaml_of(TERN_EXAMPLES "/../tutorial.md"));
   const VirtualFlight flight = fly_virtually(file, {});
   EXPECT_EQ(flight.end, "");
   expect_reached(flight.result);
@@ -96,7 +106,8 @@ TEST(DocsExamples, EveryScenarioOfDocsIsFlownHere) {
   for (const auto& entry : std::filesystem::directory_iterator(TERN_EXAMPLES)) {
     if (entry.path().extension() == ".yaml") scenarios.push_back(entry.path().stem().string());
   }
-  EXPECT_EQ(scenarios, std::vector<std::string>{"own_detector"});
+  std::sort(scenarios.begin(), scenarios.end());
+  EXPECT_EQ(scenarios, (std::vector<std::string>{"courtyard", "own_detector"}));
 }
 
 }  // namespace
