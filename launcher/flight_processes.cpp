@@ -8,7 +8,7 @@ namespace tern {
 namespace {
 
 /// What a flight with an autopilot asks of the scenario; the user's own values come after it and win.
-std::vector<std::string> overrides_of(const FlightOptions& options) {
+std::vector<std::string> overrides_of(const LaunchOptions& options) {
   std::vector<std::string> values;
   if (!options.autopilot.empty()) {
     values = {"simulator.vehicle=external", "simulator.wait_s=180", "mavlink.start=arm",
@@ -30,7 +30,7 @@ void pass(std::optional<int> fd, const char* option, ChildProcess& child) {
 
 }  // namespace
 
-std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, const std::string& record,
+std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, const std::string& record,
                                                 const std::map<std::string, int>& key_fds) {
   std::vector<SupervisedProcess> processes;
   const std::vector<std::string> overrides = overrides_of(options);
@@ -72,7 +72,7 @@ std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, co
   return processes;
 }
 
-std::vector<std::vector<std::string>> checks_of_absent(const FlightOptions& options,
+std::vector<std::vector<std::string>> checks_of_absent(const LaunchOptions& options,
                                                        const std::vector<SupervisedProcess>& processes) {
   std::vector<std::vector<std::string>> checks;
   for (const char* name : {kMavlink, kAutopilotSim}) {

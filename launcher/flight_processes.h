@@ -10,7 +10,7 @@
 
 namespace tern {
 
-struct FlightOptions {
+struct LaunchOptions {
   std::string programs;                ///< the folder of Tern's programs
   std::string scenario;                ///< file
   std::vector<std::string> overrides;  ///< of the scenario's values, KEY=VALUE
@@ -51,12 +51,12 @@ inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kV
 /// and monitor, so that they miss nothing. All are restarted but the monitor, whose judgement rests on all that it
 /// heard.
 /// @param record  the flight's folder  @param key_fds  by process, an open file of its keys; empty: unsigned
-std::vector<SupervisedProcess> flight_processes(const FlightOptions& options, const std::string& record,
+std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, const std::string& record,
                                                 const std::map<std::string, int>& key_fds);
 
 /// What asks each program that this flight does without to check its section of the scenario: a misspelt key is a
 /// mistake of the file, whoever flies. Each command ends with 0, or says on standard error what it refuses.
-std::vector<std::vector<std::string>> checks_of_absent(const FlightOptions& options,
+std::vector<std::vector<std::string>> checks_of_absent(const LaunchOptions& options,
                                                        const std::vector<SupervisedProcess>& processes);
 
 /// Words as a line that a shell reads back as these words.

@@ -48,7 +48,7 @@ std::string last_line(const std::string& text) {
 }
 
 /// The number that the overrides give a key, if they do.
-std::optional<std::int64_t> overridden(const FlightOptions& options, const std::string& key) {
+std::optional<std::int64_t> overridden(const LaunchOptions& options, const std::string& key) {
   std::optional<std::int64_t> number;
   for (const std::string& value : options.overrides) {
     const std::string digits = value.starts_with(key + "=") ? value.substr(key.size() + 1) : "";
@@ -58,7 +58,7 @@ std::optional<std::int64_t> overridden(const FlightOptions& options, const std::
   return number;
 }
 
-void write_failure(const FlightOptions& options, const std::string& reason, const fs::path& file) {
+void write_failure(const LaunchOptions& options, const std::string& reason, const fs::path& file) {
   FlightSummary summary;
   summary.detail = reason;
   summary.scenario = fs::path(options.scenario).stem();
@@ -70,7 +70,7 @@ void write_failure(const FlightOptions& options, const std::string& reason, cons
 }
 
 /// The scenario's seed, for the folder's name; 1 if it cannot be read.
-std::uint64_t seed_of(const FlightOptions& options) try {
+std::uint64_t seed_of(const LaunchOptions& options) try {
   ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
   return read_scenario(document).seed;
 } catch (const ConfigError&) {
@@ -78,7 +78,7 @@ std::uint64_t seed_of(const FlightOptions& options) try {
 }
 
 /// @return the flight's folder, made
-Result<fs::path> make_record(const FlightOptions& options) {
+Result<fs::path> make_record(const LaunchOptions& options) {
   fs::path folder = options.record;
   if (folder.empty()) {
     const auto now = fmt::gmtime(std::time(nullptr));
@@ -104,7 +104,7 @@ int give_up(const fs::path& record, const std::string& why) {
 }
 
 /// @return by process, an open file of its keys; empty if the flight is unsigned
-std::map<std::string, int> hold_keys(const FlightOptions& options) {
+std::map<std::string, int> hold_keys(const LaunchOptions& options) {
   std::map<std::string, int> fds;
   if (!options.key) return fds;
   const Key master = options.key->empty() ? random_key() : or_refuse(read_master_key(*options.key));
@@ -114,7 +114,7 @@ std::map<std::string, int> hold_keys(const FlightOptions& options) {
   return fds;
 }
 
-void announce(const FlightOptions& options, const fs::path& record, const std::vector<SupervisedProcess>& processes) {
+void announce(const LaunchOptions& options, const fs::path& record, const std::vector<SupervisedProcess>& processes) {
   std::ofstream(record / "env.sh") << fmt::format("export LCM_DEFAULT_URL='{}' TERN_PACE={}\n", options.lcm_url,
                                                   options.pace);
   std::ofstream commands(record / "command");
@@ -170,7 +170,7 @@ Heard await_byte(int fd, int seconds, const sigset_t& signals) {
 
 /// Waits until tern-viewer says that a page looks, as long as the options allow.
 /// @return a signal that came meanwhile, or 0
-int await_page(const FlightOptions& options, int looked, const sigset_t& signals) {
+int await_page(const LaunchOptions& options, int looked, const sigset_t& signals) {
   if (options.view_wait_s == 0) return 0;
   say("  the flight begins when a page looks, at the latest in {} s (--view-wait)", options.view_wait_s);
   const Heard heard = await_byte(looked, options.view_wait_s, signals);
@@ -190,7 +190,7 @@ void run_checks(const std::vector<std::vector<std::string>>& checks, const fs::p
   }
 }
 
-int supervise(FlightOptions options, const fs::path& record, const sigset_t& signals) try {
+int supervise(LaunchOptions options, const fs::path& record, const sigset_t& signals) try {
   ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
   const Scenario scenario = read_scenario(document);  // refused once, not by each process
   if (options.pace != 1.0 && !options.autopilot.empty() && !options.autopilot_sim) {
@@ -226,7 +226,7 @@ int supervise(FlightOptions options, const fs::path& record, const sigset_t& sig
   return give_up(record, e.what());
 }
 
-int watch_over(const FlightOptions& options, const fs::path& record) {
+int watch_over(const LaunchOptions& options, const fs::path& record) {
   const sigset_t signals = block_signals();
   const pid_t self = getpid(), child = fork();
   if (child < 0) return give_up(record, "no process can be made");
@@ -265,7 +265,7 @@ Awaited await_unless_told(pid_t child) {
 }
 
 /// What was asked for after the flight, from its log. @return the exit code after it
-int look_back(const FlightOptions& options, const fs::path& record, int code) {
+int look_back(const LaunchOptions& options, const fs::path& record, int code) {
   int told = 0;
   const bool has_failed = code == kExitFailed;  // then that is what the user has to read
   const auto run = [&](std::vector<std::string> command, int out) {
@@ -289,7 +289,7 @@ int look_back(const FlightOptions& options, const fs::path& record, int code) {
 }
 
 /// The page plays the flight that it showed, on the same socket. @return the process
-pid_t play_again(const FlightOptions& options, const fs::path& record) {
+pid_t play_again(const LaunchOptions& options, const fs::path& record) {
   const int log = open_log(record / "tern-viewer.log");
   return start_child(
       {.command = {options.programs + "/" + kViewer, "--log", record / "flight.lcm", "--page", options.page},
@@ -308,7 +308,7 @@ void keep_playing(pid_t player, const std::string& url) {
 }  // namespace
 
 // A flight that never began leaves no folder that was not asked for.
-int fly(const FlightOptions& options) {
+int fly(const LaunchOptions& options) {
   const auto record = make_record(options);
   if (!record) {
     summarize_failure(options, record.error().message);
@@ -335,7 +335,7 @@ int fly(const FlightOptions& options) {
   return code;
 }
 
-void summarize_failure(const FlightOptions& options, const std::string& reason) {
+void summarize_failure(const LaunchOptions& options, const std::string& reason) {
   if (!options.summary.empty()) write_failure(options, reason, options.summary);
 }
 

@@ -14,9 +14,9 @@ namespace tern {
 /// is killed, the kernel kills what it started, and this one whoever is left of its group. If this one is killed, the
 /// kernel sends the child SIGTERM, which ends the flight in order.
 /// @return the flight's exit code (exit_codes.h)
-int fly(const FlightOptions& options);
+int fly(const LaunchOptions& options);
 
 /// Writes the summary that was asked for of a flight that could not begin. @param reason  in words
-void summarize_failure(const FlightOptions& options, const std::string& reason);
+void summarize_failure(const LaunchOptions& options, const std::string& reason);
 
 }  // namespace tern

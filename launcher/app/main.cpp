@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   CLI::App app("Starts processes, keeps them running, and ends them", "tern-launch");
   app.set_version_flag("--version", std::string("tern-launch ") + tern::build_id());
   app.require_subcommand(1);
-  tern::FlightOptions options;
+  tern::LaunchOptions options;
   std::string failed, log;
   std::vector<std::string> command;
   CLI::App& fly = *app.add_subcommand("fly", "Fly a scenario; launch_scripts/fly.sh calls this");

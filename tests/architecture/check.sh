@@ -108,6 +108,24 @@ circle=$(awk -F'\t' -v o="$ours" '$2 ~ o' <<<"$includes" | tsort 2>&1 >/dev/null
 # An auditor shares data types with what it audits, no algorithms.
 never '^tools/audit/' '^(core/geometry/(convex_hull|separation|distance)|planner|predictor|executor|simulator)' 'audit shares no algorithm'
 
+# One definition of a type name per namespace: two would break the one definition rule where both are linked. Counted are
+# definitions at the top of product files, outside unnamed namespaces; a forward declaration is no definition.
+while IFS=$'\t' read -r name places; do
+  breach "$name is defined more than once:$places"
+done < <(awk '
+  FILENAME ~ /^(tests|benchmarks)\// { next }
+  FNR == 1 { depth = 0 }
+  /^namespace .*\{$/ { depth++; scope[depth] = $2 == "{" ? "unnamed" : $2; next }
+  /^}  \/\/ namespace/ { depth--; next }
+  depth > 0 && scope[depth] != "unnamed" && /^(class|struct|union|enum( class)?) [A-Za-z_0-9]+ *(:( |$)|{| final|$)/ && !/^[^{]*;/ {
+    name = $1 == "enum" && $2 == "class" ? $3 : $2
+    sub(/[^A-Za-z_0-9].*/, "", name)
+    name = scope[depth] "::" name
+    places[name] = places[name] " " FILENAME ":" FNR
+    if (++count[name] == 2) twice[name]
+  }
+  END { for (name in twice) print name "\t" places[name] }' "${sources[@]}")
+
 # Sizes: of files, and of functions at the top of a file, from the first line of their signature to the closing brace.
 while read -r lines file; do
   case $file in

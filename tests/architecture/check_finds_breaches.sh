@@ -58,4 +58,6 @@ planted planner/x.cpp "$(printf '\\n%.0s' {1..401})"
 planted tests/x.cpp "$(printf '\\n%.0s' {1..601})"
 planted planner/x.cpp "int f(\\n    int a) {$(printf '\\n%.0s' {1..50})}\\n" 'x.cpp:1: a function of 52 lines'
 planted planner/x.cpp "Result f() {$(printf '\\n%.0s' {1..51})}\\n" 'a function of 52 lines'
+planted planner/x.h 'namespace tern {\nclass Thing;\nstruct Track {\n};\n}  // namespace tern\n' 'tern::Track is defined more than once'
+planted planner/x.h 'namespace tern {\nenum class GoalMode : int { Go, Hold };\n}  // namespace tern\n' 'tern::GoalMode is defined more than once'
 echo "every planted breach was found"

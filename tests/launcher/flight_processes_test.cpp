@@ -9,8 +9,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-FlightOptions demo() {
-  FlightOptions options;
+LaunchOptions demo() {
+  LaunchOptions options;
   options.programs = "bin";
   options.scenario = "demo.yaml";
   options.lcm_url = "udpm://";
@@ -25,7 +25,7 @@ Words names(const std::vector<SupervisedProcess>& processes) {
 }
 
 TEST(FlightProcesses, BeginWithTheViewerThenWhoRecordsAndWhoJudges) {
-  FlightOptions options = demo();
+  LaunchOptions options = demo();
   EXPECT_EQ(names(flight_processes(options, "r", {})),
             (Words{"tern-logger", "tern-monitor", "tern-simulator", "tern-executor", "tern-predictor", "tern-mapper",
                    "tern-planner"}));
@@ -34,7 +34,7 @@ TEST(FlightProcesses, BeginWithTheViewerThenWhoRecordsAndWhoJudges) {
 }
 
 TEST(FlightProcesses, WithAnAutopilotHaveABridge) {
-  FlightOptions options = demo();
+  LaunchOptions options = demo();
   options.autopilot = "udp://127.0.0.1:14540";
   EXPECT_EQ(names(flight_processes(options, "r", {})).back(), "tern-mavlink");
   options.autopilot_sim = true;
@@ -73,7 +73,7 @@ TEST(FlightProcesses, AllGetScenarioOverridesAndNetwork) {
 }
 
 TEST(FlightProcesses, InheritTheirOwnKeysAndTheViewerTheSocket) {
-  FlightOptions options = demo();
+  LaunchOptions options = demo();
   options.view_fd = 9;
   const std::map<std::string, int> keys = {{"tern-planner", 5}, {"tern-viewer", 6}};
   for (const SupervisedProcess& p : flight_processes(options, "r", keys)) {
@@ -87,7 +87,7 @@ TEST(FlightProcesses, InheritTheirOwnKeysAndTheViewerTheSocket) {
 }
 
 TEST(FlightProcesses, WhoDoesNotFlyChecksItsSectionNevertheless) {
-  FlightOptions options = demo();
+  LaunchOptions options = demo();
   const auto checked = [&] {
     Words programs;
     for (const Words& words : checks_of_absent(options, flight_processes(options, "r", {}))) {
