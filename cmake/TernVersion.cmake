@@ -1,4 +1,4 @@
-# tern_version: "0.1.0+<commit>", the build id that every message sender reports. Recomputed at each build.
+# tern_version: "0.2.0+<commit>", the build id that every message sender reports. Recomputed at each build.
 file(WRITE ${CMAKE_BINARY_DIR}/version/write_version.cmake [[
 execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12 OUTPUT_VARIABLE COMMIT
                 OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

@@ -1,4 +1,4 @@
-// The build id, "0.1.0+<commit>", written by the build (cmake/TernVersion.cmake).
+// The build id, "0.2.0+<commit>", written by the build (cmake/TernVersion.cmake).
 #pragma once
 
 namespace tern {
