@@ -33,6 +33,7 @@ HISTORICAL = ("CHANGELOG.md", "docs/lab/", "docs/decisions/")
 def plain(text):
     """The words of a line of Markdown or of a comment: without code, targets of links, emphasis."""
     text = re.sub(r"``[^`]*``|`[^`]*`", "CODE", text)
+    text = re.sub(r"\[[\w./-]+\.(?:md|ya?ml|py|cpp|h)\]\([^)]*\)", "CODE", text)  # a file's name is no sentence
     text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)
     text = re.sub(r"<https?:[^>]*>|https?://\S+", "URL", text)
     text = re.sub(r"<[^<>]*>", " ", text)
