@@ -1,4 +1,4 @@
-// A 64-bit digest (FNV-1a) of bytes: names a map version or a configuration; not a defence against an adversary.
+// A 64-bit digest of bytes (FNV-1a). It names map versions and configurations; it gives no protection against forgery.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,8 @@ namespace tern {
 
 inline constexpr std::uint64_t kDigestSeed = 0xcbf29ce484222325ULL;
 
-/// FNV-1a over `size` bytes, continued from `seed`.
+/// Returns the FNV-1a digest of `bytes`. A digest over several texts is made by passing the last one as the next
+/// `seed`.
 constexpr std::uint64_t digest(std::string_view bytes, std::uint64_t seed = kDigestSeed) {
   std::uint64_t h = seed;
   for (const char c : bytes) {

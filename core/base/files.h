@@ -1,4 +1,4 @@
-// Descriptors that close themselves, and files read and written whole.
+// File descriptors that close themselves, and functions that read or write a whole file.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace tern {
 
-/// An open descriptor, which it closes; −1: none.
+/// Owns a file descriptor and closes it. −1 means that there is none.
 class Descriptor {
  public:
   explicit Descriptor(int fd = -1) : fd_(fd) {}
@@ -23,13 +23,14 @@ class Descriptor {
   int fd_;
 };
 
-/// Writes all of it. @return the bytes written; fewer than asked for when errno says why.
+/// Writes `bytes` to `fd`, after short writes and interrupts again.
+/// @return the number of bytes written; if it is less than bytes.size(), errno holds the reason
 std::size_t write_all(int fd, std::string_view bytes);
 
-/// @return what the file holds; empty if it cannot be read.
+/// Returns the content of a file, or an empty text if it cannot be read.
 std::string read_text(const std::string& path);
 
-/// Writes a file anew. @return whether all of it could be written
+/// Replaces the content of a file. @return true if all of it was written
 [[nodiscard]] bool write_text(const std::string& path, std::string_view text);
 
 }  // namespace tern

@@ -1,4 +1,5 @@
-// How a configuration struct states its knobs: once, for whoever reads, explains or documents them.
+// How a configuration struct states its knobs. Readers, `--help` and the tables in the documentation are made from
+// this one statement.
 //
 //     struct HoverConfig {
 //       double height_m = 1.5;
@@ -10,7 +11,7 @@
 //       }
 //     };
 //
-// A member's initial value is the default. A member that has knobs of its own is visited as v("name", member).
+// A member's initial value is its default. A member that has knobs of its own is visited as v("name", member).
 #pragma once
 
 #include <limits>
@@ -19,19 +20,19 @@
 
 namespace tern {
 
-/// A closed or open interval of allowed numbers. Infinity (written `inf`) is allowed only where `high` is infinite and
-/// `low` is not, as in Range::positive(infinity); NaN never.
+/// The interval of allowed numbers. Infinity (written `inf`) is allowed if `high` is infinite and `low` is finite, as
+/// in Range::positive(infinity). NaN is never allowed.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;  ///< low itself is not allowed
+  bool low_open = false;  ///< true: `low` itself is excluded
   static Range positive(double high = 1e9) { return {0.0, high, true}; }
   static Range at_least(double low, double high = 1e9) { return {low, high}; }
-  /// Any finite number up to a magnitude.
+  /// Every x with |x| ≤ magnitude.
   static Range within(double magnitude) { return {-magnitude, magnitude}; }
 };
 
-/// The words for the values of an enumeration.
+/// The words by which a configuration names the values of an enumeration.
 template <typename E>
 using KnobWords = std::vector<std::pair<const char*, E>>;
 

@@ -1,4 +1,4 @@
-// Percentiles of measured numbers, by nearest rank: the one definition that all of Tern uses.
+// Percentiles of measured numbers by the nearest-rank method. All of Tern uses this definition.
 #pragma once
 
 #include <cstddef>
@@ -7,17 +7,17 @@
 
 namespace tern {
 
-/// The place, from 0, of the percent-th percentile among n sorted numbers: the least number that at least `percent` %
-/// of all do not exceed. So a percentile is always one of the numbers.
+/// Returns the index, from 0, of a percentile among n sorted numbers: ⌈n · percent / 100⌉ − 1. At least `percent` % of
+/// the numbers are at most as large as the one at this index. A percentile is therefore always one of the numbers.
 /// @pre n > 0, percent in 1 … 100
 constexpr std::size_t nearest_rank(std::size_t n, std::size_t percent) { return (n * percent + 99) / 100 - 1; }
 
-/// The percentile of numbers in ascending order. @pre not empty, percent in 1 … 100
+/// Returns a percentile of numbers in ascending order. @pre `sorted` is not empty, percent in 1 … 100
 inline double percentile_of_sorted(const std::vector<double>& sorted, std::size_t percent) {
   return sorted[nearest_rank(sorted.size(), percent)];
 }
 
-/// NaN each when there was nothing to rank.
+/// Four percentiles of one set of numbers. All are NaN if the set is empty.
 struct Percentiles {
   double p50 = std::numeric_limits<double>::quiet_NaN();
   double p95 = std::numeric_limits<double>::quiet_NaN();
@@ -25,7 +25,7 @@ struct Percentiles {
   double max = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// @pre no sample is NaN. O(n).
+/// Returns the percentiles of `samples`, in any order. O(n). @pre no sample is NaN
 Percentiles percentiles(std::vector<double> samples);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// The one random generator: mt19937_64 with draws (x >> 11)·2⁻⁵³, equal on every platform (BENCHMARKS: worlds).
+// Tern's random generator: std::mt19937_64, whose outputs x become uniform numbers (x >> 11) · 2⁻⁵³.
 #pragma once
 
 #include <cstdint>
@@ -6,16 +6,17 @@
 
 namespace tern {
 
-/// Seeded draws that are the same on every standard library (std::uniform_real_distribution is not).
+/// Seeded random numbers that are the same with every standard library. (The sequence of
+/// std::uniform_real_distribution depends on the library.)
 class Rng {
  public:
   explicit Rng(std::uint64_t seed) : engine_(seed) {}
 
-  /// Uniform in [0, 1).
+  /// Returns a number from the uniform distribution on [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
-  /// Uniform in [lo, hi).
+  /// Returns a number from the uniform distribution on [lo, hi).
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-  /// Standard normal, by the polar method (two draws or more of uniform()).
+  /// Returns a number from the standard normal distribution, by the polar method. Calls uniform() at least twice.
   double normal();
 
  private:

@@ -1,4 +1,4 @@
-// Expected failure is a value: Result<T> is T or an Error that a user can act on.
+// Expected failures are values: a Result<T> holds a T, or an Error that a user can act on.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tern {
 
-/// What went wrong, in words for the person who must mend it (file, line, key, value, limit where they apply).
+/// An explanation for the person who must mend the failure. It names file, line, key, value and limit where they apply.
 struct Error {
   std::string message;
 };
@@ -15,6 +15,7 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
+/// Returns an Error as the value of any Result<T>.
 inline tl::unexpected<Error> fail(std::string message) { return tl::unexpected<Error>(Error{std::move(message)}); }
 
 }  // namespace tern

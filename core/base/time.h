@@ -1,4 +1,5 @@
-// Time as integer microseconds: the only clock arithmetic in Tern. Absolute epochs are never subtracted in double.
+// Time as integer microseconds. All arithmetic with times uses these types. Absolute times are subtracted as integers,
+// because a double holds the microseconds of an epoch only with a rounding error.
 #pragma once
 
 #include <compare>
@@ -6,10 +7,11 @@
 
 namespace tern {
 
-/// A span of time. Integer microseconds, may be negative.
+/// A span of time in microseconds; it may be negative.
 struct Duration {
   std::int64_t us = 0;
 
+  /// Returns s seconds, rounded to the nearest microsecond.
   static constexpr Duration from_seconds(double s) {
     return {static_cast<std::int64_t>(s * 1e6 + (s < 0.0 ? -0.5 : 0.5))};
   }
@@ -20,7 +22,7 @@ struct Duration {
   friend constexpr Duration operator*(Duration a, std::int64_t k) { return {a.us * k}; }
 };
 
-/// A point in time, microseconds since the Unix epoch (live) or since world start (virtual time).
+/// A point in time: microseconds since the Unix epoch in a live flight, since the world's start in virtual time.
 struct UTime {
   std::int64_t us = 0;
 

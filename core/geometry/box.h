@@ -1,13 +1,13 @@
-// Boxes as point sets.
+// The corners of axis-aligned boxes.
 #pragma once
 
 #include "core/base/types.h"
 
 namespace tern {
 
-/// The eight corners of a box, in W, m. Corner k has the maximum in x, y, z where bit 0, 1, 2 of k is set.
-///
-/// An empty box (default-constructed) has no corners and gives meaningless ones: ask isEmpty() first.
+/// Returns the eight corners of a box, in W, m. Bits 0, 1, 2 of the corner's index k select the maximum (1) or the
+/// minimum (0) in x, y, z.
+/// @pre the box is not empty; the corners of an empty box are meaningless
 inline Eigen::Matrix<double, 3, 8> box_corners(const Box& box) {
   Eigen::Matrix<double, 3, 8> corners;
   for (int k = 0; k < 8; ++k) {

@@ -1,29 +1,32 @@
-// The distance between two convex hulls (Gilbert, Johnson, Keerthi 1988), with bounds from both sides.
+// The distance between two convex hulls, with a lower and an upper bound. Method: Gilbert, Johnson and Keerthi, "A fast
+// procedure for computing the distance between complex objects in three-dimensional space", 1988.
 #pragma once
 
 #include "core/base/types.h"
 
 namespace tern {
 
-/// The shortest vector from conv(b) to conv(a), as far as it is known.
+/// The shortest vector from conv(b) to conv(a), with bounds of its length.
 struct ShortestVector {
-  Vec3 v = Vec3::Zero();  ///< from a point of conv(b) to a point of conv(a), m; zero when the hulls overlap
-  double lower =
-      0.0;  ///< m; the slab across v that holds no point of either: distance ≥ lower, negative when v proves nothing
-  double upper = 0.0;  ///< m; the distance of two known points of the hulls: distance ≤ upper
+  Vec3 v = Vec3::Zero();  ///< from a point of conv(b) to a point of conv(a), m; zero if the hulls overlap.
+  /// Distance ≥ lower, m: the width of the empty slab across v between the hulls. Negative if v does not separate them.
+  double lower = 0.0;
+  double upper = 0.0;  ///< distance ≤ upper, m: the distance between two points of the hulls
 };
 
-/// Narrows lower and upper until they agree to 1e-12 of the distance, upper falls to `enough`, or rounding stops the
-/// descent.
+/// Returns the shortest vector from conv(b) to conv(a).
 ///
-/// @param a, b    3×n and 3×m points in W, n, m ≥ 1, finite. Need not be extreme; repeated and flat sets are allowed.
-/// @param enough  m, ≥ 0: a caller who only asks "farther apart than this?" saves the rest of the descent.
-/// Each step takes the support point of conv(a) − conv(b) against v. Then it takes the point of the simplex (at most 4
-/// such points) nearest to the origin. Pure; no heap. Both bounds are up to rounding, about 1e-15 of the greatest
-/// coordinate. Some 5 steps of O(n + m).
+/// Each step finds the point of conv(a) − conv(b) that is lowest along v, and adds it to a simplex of at most 4 such
+/// points. The point of the simplex nearest to the origin is the new v. The descent ends in one of three cases: the
+/// bounds agree to 1e-12 of the distance; upper ≤ enough; rounding prevents progress. It usually takes 5 steps of
+/// O(n + m) and allocates nothing. Both bounds have a rounding error of about 1e-15 of the largest coordinate.
+/// @param a, b    3×n and 3×m points in W, n, m ≥ 1, finite. They need not be vertices of their hulls; duplicates and
+///   flat sets are allowed.
+/// @param enough  m, ≥ 0: the descent may end once the distance is known to be at most this
 ShortestVector shortest_vector(const Points& a, const Points& b, double enough);
 
-/// Distance between conv(a) and conv(b), m: 0 where they touch or overlap. Preconditions of shortest_vector.
+/// Returns the distance between conv(a) and conv(b), m; 0 if they touch or overlap.
+/// @pre as for shortest_vector()
 double distance(const Points& a, const Points& b);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// Gilbert, Johnson and Keerthi's descent over support points. A part of distance.cpp and swept_boxes.cpp.
+// The descent over support points of Gilbert, Johnson and Keerthi, shared by distance.cpp and swept_boxes.cpp.
 #pragma once
 
 #include <array>
@@ -9,31 +9,33 @@
 
 namespace tern::gjk {
 
-// Polytopes end after a few steps; a descent that is longer is circling in rounding errors.
+// A descent over polytopes ends after a few steps; a longer one repeats itself because of rounding errors.
 inline constexpr int kMaxSteps = 48;
-// v·v − v·w below this part of v·v is no progress.
+// A step makes no progress if v·v − v·w is at most this part of v·v.
 inline constexpr double kRelativeProgress = 1e-12;
-// Bound of the rounding error of n·p, in units of |n|₁|p|₁, with the error of n = e × f in it.
+// Bound of the rounding error of n·p in units of |n|₁|p|₁, including the error of n = e × f.
 inline constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
+// A support point of A − B.
 struct Vertex {
   Vec3 w;  // a.col(i) − b.col(j)
   Eigen::Index i = 0, j = 0;
 };
 
+// One to four support points.
 struct Simplex {
   std::array<Vertex, 4> vertices;
   int size = 0;
   const Vec3& operator[](int k) const { return vertices[idx(k)].w; }
 };
 
-// The point of a face of the simplex that is nearest to the origin.
+// The point of the simplex nearest to the origin, and the face that it lies on.
 struct Nearest {
   Vec3 v = Vec3::Zero();
   double norm2 = std::numeric_limits<double>::infinity();
-  std::array<int, 3> face{};        // its vertices
+  std::array<int, 3> face{};        // indices of the face's vertices
   std::array<double, 3> weights{};  // their barycentric weights, not normalised
-  int size = 0;                     // 1, 2, 3: vertex, edge, triangle
+  int size = 0;                     // vertices of the face: 1 vertex, 2 edge, 3 triangle
 
   void offer(const Nearest& other) {
     if (other.norm2 < norm2) *this = other;
@@ -44,7 +46,7 @@ inline void offer_vertex(const Simplex& s, int p, Nearest& best) {
   best.offer({s[p], s[p].squaredNorm(), {p, 0, 0}, {1.0, 0.0, 0.0}, 1});
 }
 
-// v = e × (p × e) / e·e rather than p + t e: orthogonal to e to the last bits even where |v| is tiny against |p|.
+// Computes v = e × (p × e) / e·e instead of p + t e: it is orthogonal to e to the last bits, even if |v| ≪ |p|.
 inline void offer_edge(const Simplex& s, int p, int q, Nearest& best) {
   const Vec3 e = s[q] - s[p];
   const double ee = e.squaredNorm();
@@ -55,7 +57,7 @@ inline void offer_edge(const Simplex& s, int p, int q, Nearest& best) {
   best.offer({v, v.squaredNorm(), {p, q, 0}, {ee - t, t, 0.0}, 2});
 }
 
-// n = (q − p) × (r − p).
+// @pre n = (q − p) × (r − p)
 inline void offer_triangle(const Simplex& s, int p, int q, int r, const Vec3& n, Nearest& best) {
   const double weight_p = s[q].cross(s[r]).dot(n);
   const double weight_q = s[r].cross(s[p]).dot(n);
@@ -70,7 +72,7 @@ inline void offer_triangle(const Simplex& s, int p, int q, int r, const Vec3& n,
   if (!(weight_p > 0.0)) offer_edge(s, q, r, best);
 }
 
-// Whether the origin is on the inner side of the face through p with normal n, beyond rounding.
+// True if the origin lies on the inner side of the face through p with normal n by more than the rounding error.
 inline bool surely_inside(const Vec3& n, const Vec3& p, const Vec3& opposite) {
   const double origin_side = -n.dot(p);
   const double inner_side = n.dot(opposite - p);
@@ -78,8 +80,8 @@ inline bool surely_inside(const Vec3& n, const Vec3& p, const Vec3& opposite) {
   return origin_side > 0.0 ? origin_side > doubt && inner_side > doubt : origin_side < -doubt && inner_side < -doubt;
 }
 
-// Size 0: the origin is inside the tetrahedron. A face in doubt counts as outside, so that a flat tetrahedron holds
-// nothing.
+// Returns size 0 if the origin lies inside the tetrahedron. If rounding leaves a face in doubt, the origin counts as
+// outside of it; a flat tetrahedron therefore contains no point.
 inline Nearest nearest_of_tetrahedron(const Simplex& s) {
   constexpr std::array<std::array<int, 4>, 4> kFaces{{{3, 0, 1, 2}, {3, 1, 2, 0}, {3, 2, 0, 1}, {0, 1, 2, 3}}};
   Nearest best;
@@ -108,7 +110,7 @@ inline Simplex face_of(const Simplex& s, const Nearest& nearest) {
   return face;
 }
 
-// |Σ λ_k w_k|: unlike |v| a true distance of two points of the hulls, however thin the simplex is.
+// Returns |Σ λ_k w_k|. Unlike |v| this is the distance of two points of the hulls even if the simplex is very thin.
 inline double proven_distance(const Simplex& face, const Nearest& nearest) {
   Vec3 point = Vec3::Zero();
   double sum = 0.0;
@@ -127,21 +129,22 @@ inline bool contains(const Simplex& s, const Vertex& vertex) {
   return false;
 }
 
+// The state at the end of a descent.
 struct Descent {
-  Simplex simplex;  // its face nearest to the origin
+  Simplex simplex;  // the face nearest to the origin
   Nearest nearest;
-  double lowest =
-      -std::numeric_limits<double>::infinity();  // v·w of the support point across nearest.v, if one was asked
-  bool overlaps = false;                         // the origin is inside
-  bool is_farther = false;                       // proven: farther than `proof`
+  // v·w of the support point along nearest.v; −∞ if none was computed.
+  double lowest = -std::numeric_limits<double>::infinity();
+  bool overlaps = false;    // the origin lies inside the simplex
+  bool is_farther = false;  // the distance is proven to exceed `proof`
 };
 
-// For descend(): no proof of a distance ends it.
+// The `proof` of a descent that no proven distance ends.
 inline constexpr double kNoProof = std::numeric_limits<double>::infinity();
 
-// Descends from one support point of A − B, as far as rounding allows. Ends when the distance of A and B, m, is known
-// to be at most `enough` or proven to be more than `proof`. The argument support(v) gives the point of A − B that is
-// lowest along v.
+// Runs the descent from one support point of A − B; support(v) returns the point of A − B that is lowest along v. The
+// descent ends in one of three cases: the distance (m) is known to be at most `enough`; it is proven to exceed `proof`;
+// rounding prevents progress.
 template <class Support>
 Descent descend(const Support& support, const Vertex& first, double enough, double proof) {
   Descent d;

@@ -1,5 +1,5 @@
-// On which side of a plane through three points a fourth lies, exactly and fast. A part of convex_hull.cpp: it brings
-// in CGAL.
+// The side of a plane through three points on which a fourth point lies, exact and fast. This is a part of
+// convex_hull.cpp; it includes CGAL.
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -11,13 +11,16 @@ namespace tern {
 using HullKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using HullPoint = HullKernel::Point_3;
 
-/// The plane through p, q, r; positive is the side that sees them turn counter-clockwise. Exact for |coordinates| <
-/// 1e90.
+/// The plane through p, q, r. Its positive side is the one from which p, q, r turn counter-clockwise. Results are exact
+/// for |coordinates| < 1e90.
 ///
-/// CGAL's orientation() takes 10 ns where rounding cannot matter, and microseconds of GMP where it might. The sides of
-/// a swept box are parallelograms but for the rounding of their corners, so many of its questions are of the second
-/// kind. Between the two, integers of 192 bits settle all sets of four points whose nonzero coordinates are within a
-/// factor 2⁸ of each other.
+/// Three methods are tried in turn:
+/// 1. Doubles, if the result exceeds its rounding error.
+/// 2. Integers of 192 bits, if the nonzero coordinates of the four points are within a factor 2⁸ of each other.
+/// 3. CGAL's exact predicate, which takes microseconds.
+///
+/// The second one exists because the sides of a swept box are parallelograms up to rounding, so four points of a side
+/// are almost coplanar.
 class OrientedPlane {
  public:
   OrientedPlane() = default;
@@ -32,7 +35,7 @@ class OrientedPlane {
     wz_ = larger(std::abs(uz), vz);
   }
 
-  /// The sign of det(q − p, r − p, s − p).
+  /// Returns the sign of det(q − p, r − p, s − p).
   [[nodiscard]] CGAL::Sign side(const HullPoint& s) const {
     const Height height = height_of(s);
     if (height.value > height.doubt) return CGAL::POSITIVE;
@@ -40,7 +43,7 @@ class OrientedPlane {
     return side_in_doubt(s);
   }
 
-  /// Whether s is lower than t: exact when both are within rounding of the plane, elsewhere up to rounding.
+  /// True if s is lower than t along the normal. Exact if both are within rounding of the plane, else up to rounding.
   [[nodiscard]] bool is_lower(const HullPoint& s, const HullPoint& t) const {
     const Height a = height_of(s);
     const Height b = height_of(t);
@@ -64,14 +67,14 @@ class OrientedPlane {
   static double larger(double w, double x) { return std::abs(x) > w ? std::abs(x) : w; }
   [[nodiscard]] CGAL::Sign side_in_doubt(const HullPoint& s) const;
 
-  // Six products of three differences with eight roundings each, doubled.
+  // The determinant has six products of three differences with eight roundings each; the bound is doubled.
   static constexpr double kRounding = 96 * 0x1.0p-53;
-  // Products this small may have lost bits to underflow.
+  // Products below this may have lost bits by underflow.
   static constexpr double kUnderflow = 1e-250;
 
   HullPoint p_, q_, r_;
   double nx_ = 0.0, ny_ = 0.0, nz_ = 0.0;  // (q − p) × (r − p)
-  double wx_ = 0.0, wy_ = 0.0, wz_ = 0.0;  // the greatest |difference| on each axis
+  double wx_ = 0.0, wy_ = 0.0, wz_ = 0.0;  // the largest |difference| on each axis
 };
 
 }  // namespace tern

@@ -1,16 +1,16 @@
-// A separating plane, Eq. 1 of the paper: n·c + d ≥ 0 on the obstacle's side, < 0 on the vehicle's.
+// A separating plane (Eq. 1 of the paper): n·x + d ≥ 0 on the obstacle's side, n·x + d < 0 on the vehicle's side.
 #pragma once
 
 #include "core/base/types.h"
 
 namespace tern {
 
-/// Oriented plane {x : n·x + d = 0} in W.
+/// The oriented plane {x : n·x + d = 0} in W.
 struct Plane {
-  Vec3 n = Vec3::UnitX();  ///< unit normal, points to the obstacle
+  Vec3 n = Vec3::UnitX();  ///< unit normal, towards the obstacle
   double d = 0.0;          ///< offset, m
 
-  /// Signed distance of p, m: positive on the obstacle's side.
+  /// Returns the signed distance of p, m; positive on the obstacle's side.
   [[nodiscard]] double signed_distance(const Vec3& p) const { return n.dot(p) + d; }
 };
 

@@ -1,4 +1,4 @@
-// Separation by linear programming (GLPK): the paper's Eq. 1 as it is written. The only GLPK in Tern.
+// Separation by linear programming: Eq. 1 of the paper as it is written. GLPK is used here only.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,15 @@
 
 namespace tern {
 
-/// A plane with n·a + d ≥ 1 (scaled) on A and ≤ −1 on B if GLPK finds one, normalised to |n| = 1 and verified.
+/// Returns a plane with n·a + d ≥ 1 on A and n·b + d ≤ −1 on B, if GLPK finds one that passes verification. The
+/// inequalities hold in scaled coordinates; the result is normalised to |n| = 1.
 ///
-/// @param a, b  3×n and 3×m points, n, m ≥ 1, finite.
-/// @throws std::invalid_argument for an empty set or a coordinate that is not finite.
-/// @return the plane half way between the hulls for its normal, not the one of widest margin. Else nullopt: the hulls
-///   touch or overlap, or rounding leaves it in doubt. Thread-safe per thread (glp environment is thread-local in
-///   Debian's build). About 25 µs; infeasible problems are tried twice.
+/// The plane lies half way between the hulls along its normal. Its margin is not the largest possible. A call takes
+/// about 25 µs; infeasible problems are solved twice. Threads may call it at the same time, because Debian's GLPK keeps
+/// one environment per thread.
+/// @param a, b  3×n and 3×m points, n, m ≥ 1, finite
+/// @return nullopt if the hulls touch or overlap, or if rounding leaves the question in doubt
+/// @throws std::invalid_argument if a set is empty or a coordinate is not finite
 std::optional<Plane> separate_by_lp(const Points& a, const Points& b);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// What moved how until now: consecutive cubic pieces that grow at one end and are forgotten at the other.
+// A past motion as consecutive cubic pieces. New pieces are appended at one end, old ones are forgotten at the other.
 #pragma once
 
 #include <deque>
@@ -7,27 +7,26 @@
 
 namespace tern {
 
-/// A motion from the far past to end(): at rest at its first place until its first piece. Times before what was
-/// forgotten read as at rest at the oldest place that is known.
+/// A motion up to the time end(). Before the oldest piece that is kept, it is at rest at that piece's start.
 class MotionHistory {
  public:
-  /// At rest at p (W, m) until `end`.
+  /// Starts with the motion that is at rest at p (W, m) until `end`.
   MotionHistory(const Vec3& p, UTime end) : p_(p), end_(end) {}
 
-  /// It went on by `piece` from end() on. It may jump: whether it may is the caller's rule.
-  /// @throws std::invalid_argument unless its duration is > 0.
+  /// Appends a piece that starts at end(). It may start at another position than the last piece ends.
+  /// @throws std::invalid_argument unless its duration is > 0
   void append(const CubicPiece& piece);
-  /// The same for each piece of `motion`. @throws std::invalid_argument unless it starts at end().
+  /// Appends all pieces of `motion`. @throws std::invalid_argument unless it starts at end()
   void append(const PiecewiseCubic& motion);
 
   [[nodiscard]] UTime end() const { return end_; }
-  /// At t ≤ end(), O(log pieces); at a joint the later piece's, at end() the last one's.
-  /// @throws std::invalid_argument after end().
+  /// Returns the motion at t ≤ end(): at a joint that of the later piece, at end() that of the last one. O(log pieces).
+  /// @throws std::invalid_argument if t > end()
   [[nodiscard]] MotionSample sample(UTime t) const;
-  /// The pieces between two times, the first and the last one cut. @throws std::invalid_argument unless from < to ≤
-  /// end().
+  /// Returns the pieces between two times; the first and the last one are cut.
+  /// @throws std::invalid_argument unless from < to ≤ end()
   [[nodiscard]] PiecewiseCubic pieces(UTime from, UTime to) const;
-  /// Forgets the pieces that end at or before t, but the last.
+  /// Forgets all pieces that end at or before t, except the last piece of all.
   void forget_before(UTime t);
 
  private:
@@ -35,7 +34,7 @@ class MotionHistory {
     UTime start;
     CubicPiece piece;
   };
-  /// The index of the piece that holds t. @pre there is a piece that starts at or before t
+  /// Returns the index of the piece at time t. @pre a piece starts at or before t
   [[nodiscard]] std::size_t index_at(UTime t) const;
 
   Vec3 p_;
