@@ -210,7 +210,7 @@ void search(benchmark::State& state) {
   in_turn(state, planned(), [&](const Answered* m) {
     sweep(*m, swept);
     SearchProblem problem{problem_of(*m)};
-    problem.way.point = m->answer.local_goal;
+    problem.cost_to_go.point = m->answer.local_goal;
     Budget budget = Budget::unlimited();
     return expansions += semantic_a_star(problem, recording().config.search, swept, budget, memory).expansions;
   });

@@ -20,8 +20,8 @@ std::optional<RecordedProblem> problem_of(const HorizonRequest& request, const P
   Budget budget = Budget::unlimited();
   PlanTools tools{budget, memory, log};
   const Surroundings near = surroundings(request, world, config, memory);
-  const Heading heading{{answer.local_goal, 0.0, 0.0}, {answer.local_goal, 0.0}, 0.0, near.plan_limits, nullptr};
-  const Attempt attempt{near, heading, horizon_problem(near, answer.trajectory.interval), config.hold_cap_s,
+  const Course course{{answer.local_goal, 0.0, 0.0}, {answer.local_goal, 0.0}, 0.0, near.plan_limits, nullptr};
+  const Attempt attempt{near, course, horizon_problem(near, answer.trajectory.interval), config.hold_cap_s,
                         config.hold_required_s};
   sweep_horizon(attempt, memory.times, memory.horizon);
   const auto leaf = search_candidate(attempt, config.search, memory.horizon, tools);

@@ -53,13 +53,13 @@ class Judge final : public PlanObserver {
     Budget budget([&](const BudgetCut&) { return thread_cpu_ms() - began > kLongSearchMs; });
     const SearchResult best = semantic_a_star(problem, unlimited, obstacles, budget, memory_);
     j.long_ms = thread_cpu_ms() - began;
-    const double way = problem.way.from(problem.start.p);
+    const double at_start = problem.cost_to_go.from(problem.start.p);
     j.found = found.found;
     j.best_found = best.found;
     j.holds = lasts(found.hold_s, problem.hold_required_s);
     j.best_holds = lasts(best.hold_s, problem.hold_required_s);
-    j.progress = way - found.way_to_go;
-    j.best_progress = way - best.way_to_go;
+    j.progress = at_start - found.cost_to_go;
+    j.best_progress = at_start - best.cost_to_go;
     judged.push_back(j);
   }
 

@@ -16,17 +16,17 @@ struct Assurance {
 };
 
 /// What is tried, in this order, where nothing is had at the promised level to the end. What is later than the vehicle
-/// needs to step aside will be predicted anew before it must be acted on. So α stops growing first (kSureTimes), then
-/// the level falls (kLowerLevels). Of what follows no confidence is known: parts of that α (kAlphaScales). They grow
+/// needs to step aside will be predicted anew before it must be acted on. So α stops growing first (kGrowthTimes), then
+/// the level falls (kReducedLevels). Of what follows no confidence is known: parts of that α (kAlphaScales). They grow
 /// for the same time: α that did not would leave plans that speed up past what is near.
-/// @param aside_s  what the vehicle needs to step aside (HoldDemand), s
-std::vector<Assurance> lower_assurances(double aside_s);
+/// @param side_step_s  what the vehicle needs to step aside (HoldDemand), s
+std::vector<Assurance> reduced_assurances(double side_step_s);
 
 /// For as long as it is sure; 0 where none is known: below scale 1, or sure for no time.
-/// @param promised  the prediction set's (TrackSet::confidence)
-double confidence_of(const Assurance& assurance, double promised);
+/// @param set_confidence  the prediction set's (TrackSet::confidence)
+double confidence_of(const Assurance& assurance, double set_confidence);
 
 /// Counts α of the estimated obstacles so, whatever was counted before, and those of others in full.
-void count_alpha(const Assurance& assurance, UTime t_s, std::vector<PlanningObstacle>& obstacles);
+void apply_assurance(const Assurance& assurance, UTime t_s, std::vector<PlanningObstacle>& obstacles);
 
 }  // namespace tern

@@ -21,15 +21,15 @@ void add_semantics(const SemanticGuide* guide, SearchProblem& problem) {
   problem.pointwise = [guide](const Vec3& q) { return guide->ahead(q); };
 }
 
-/// But for what weigh() adds.
+/// But for what evaluate() adds.
 PlanCost cost_of(const Attempt& attempt, const TimedSpline& trajectory) {
   PlanCost cost;
   const Points& q = trajectory.control_points;
   const Vec3 end = q.col(q.cols() - 1);
   const PlannerConfig& config = attempt.near.config;
   cost.jerk = jerk_cost(q, trajectory.interval.seconds());
-  if (attempt.heading.fields != nullptr) {
-    const SemanticFields& fields = *attempt.heading.fields;
+  if (attempt.course.fields != nullptr) {
+    const SemanticFields& fields = *attempt.course.fields;
     if (config.semantic_cost == SemanticCost::MeanDistance) {
       cost.attraction = fields.mean_distance_cost(VoxelLabel::Attractive, end);
       cost.repulsion = fields.mean_distance_cost(VoxelLabel::Repulsive, end);
@@ -45,11 +45,11 @@ PlanCost cost_of(const Attempt& attempt, const TimedSpline& trajectory) {
 
 }  // namespace
 
-void weigh(const Surroundings& near, const Heading& heading, Candidate& candidate) {
-  candidate.arrival_s = worth_of(near, heading, candidate.trajectory);
+void evaluate(const Surroundings& near, const Course& course, Candidate& candidate) {
+  candidate.arrival_s = arrival_with_exposure(near, course, candidate.trajectory);
   const OptimizationConfig& weights = near.config.optimization;
   PlanCost& cost = candidate.cost;
-  cost.distance_to_goal = (candidate.trajectory.control_points.rightCols<1>() - heading.local.goal).norm();
+  cost.distance_to_goal = (candidate.trajectory.control_points.rightCols<1>() - course.local.goal).norm();
   cost.total = weights.weight_jerk * cost.jerk + weights.weight_goal * cost.distance_to_goal * cost.distance_to_goal;
 }
 
@@ -59,7 +59,7 @@ void append_hold(std::vector<double>& times, double step, double hold_s) {
 }
 
 std::optional<Duration> interval_of(double duration_s, int intervals) {
-  const double dt = std::max(duration_s / intervals, kLeastInterval);
+  const double dt = std::max(duration_s / intervals, kMinInterval);
   if (!(dt <= kMaxIntervalDuration.seconds())) return std::nullopt;
   return Duration{static_cast<std::int64_t>(std::ceil(dt * 1e6))};
 }
@@ -79,12 +79,11 @@ std::optional<Candidate> search_candidate(const Attempt& attempt, const SearchCo
                                           PlanTools& tools) {
   tools.log.enter(Stage::Search);
   SearchProblem problem{attempt.problem};
-  problem.way = attempt.heading.way;
+  problem.cost_to_go = attempt.course.cost_to_go;
   problem.hold_required_s = attempt.hold_required_s;
   problem.keep_nodes = tools.log.wants_search_nodes();
   std::optional<SemanticGuide> guide;
-  if (attempt.heading.fields != nullptr)
-    add_semantics(&guide.emplace(guide_of(attempt.near, attempt.heading)), problem);
+  if (attempt.course.fields != nullptr) add_semantics(&guide.emplace(guide_of(attempt.near, attempt.course)), problem);
   const SearchResult found = semantic_a_star(problem, config, swept, tools.budget, tools.memory.search);
   tools.log.searched(problem, swept, found);
   tools.log.statistics.expansions += found.expansions;
@@ -111,7 +110,7 @@ std::optional<Candidate> certify(const Attempt& attempt, const Points& control_p
   c.holds = lasts(c.hold_s, attempt.hold_required_s);
   c.clear_s = attempt.problem.interval_s() * attempt.problem.intervals + c.hold_s;
   c.cost = cost_of(attempt, c.trajectory);
-  weigh(attempt.near, attempt.heading, c);
+  evaluate(attempt.near, attempt.course, c);
   return c;
 }
 

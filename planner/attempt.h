@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/world/horizon.h"
-#include "planner/heading.h"
+#include "planner/course.h"
 #include "planner/plan_log.h"
 #include "planner/surroundings.h"
 
@@ -17,15 +17,16 @@ struct Candidate {
   Assurance assurance;   ///< what it is certified at
   bool relaxed = false;  ///< StartClearance::relaxed, there
   TimedSpline trajectory;
-  double clear_s = 0.0;    ///< from t_s until the end point is no longer clear, or as far as was looked
-  double hold_s = 0.0;     ///< of that, after the end
-  bool holds = false;      ///< hold_s reaches the requirement
-  double arrival_s = 0.0;  ///< estimate of the time from t_s to the goal, and what regions cost on it (worth_of)
+  double clear_s = 0.0;  ///< from t_s until the end point is no longer clear, or as far as was looked
+  double hold_s = 0.0;   ///< of that, after the end
+  bool holds = false;    ///< hold_s reaches the requirement
+  double arrival_s =
+      0.0;  ///< estimate of the time from t_s to the goal, and what regions cost on it (arrival_with_exposure)
   PlanCost cost;
   std::vector<CertificatePlane> certificate;
 
   /// Holding comes first, then the arrival.
-  [[nodiscard]] bool better_than(const Candidate& other) const {
+  [[nodiscard]] bool is_preferred_to(const Candidate& other) const {
     if (holds != other.holds) return holds;
     return arrival_s < other.arrival_s;
   }
@@ -33,14 +34,14 @@ struct Candidate {
 
 struct Attempt {
   const Surroundings& near;
-  const Heading& heading;
+  const Course& course;
   HorizonProblem problem;
   double hold_s = 0.0;           ///< how far the hold of its end is followed
   double hold_required_s = 0.0;  ///< what its end must hold to count as holding
 };
 
-/// What the candidate is worth on the way to the heading's local goal: its arrival, and of its cost what depends on it.
-void weigh(const Surroundings& near, const Heading& heading, Candidate& candidate);
+/// What the candidate is worth on the way to the course's local goal: its arrival, and of its cost what depends on it.
+void evaluate(const Surroundings& near, const Course& course, Candidate& candidate);
 
 /// Adds the times of a hold of hold_s after the last of `times`, s, a step apart.
 void append_hold(std::vector<double>& times, double step, double hold_s);

@@ -8,7 +8,7 @@
 
 namespace tern {
 
-double least_time_to_rest(double d, double v0, double v_max, double a_max) {
+double min_time_to_rest(double d, double v0, double v_max, double a_max) {
   const double stop = v0 * std::abs(v0) / (2.0 * a_max);
   const double sign = d >= stop ? 1.0 : -1.0;
   const double way = sign * d;
@@ -24,7 +24,7 @@ namespace {
 
 double axis_duration(int axis, const MotionSample& start, double d, const Limits& limits) {
   const double a = limits.a_max[axis];
-  const double time = least_time_to_rest(d, start.v[axis], limits.v_max[axis], a);
+  const double time = min_time_to_rest(d, start.v[axis], limits.v_max[axis], a);
   if (!std::isfinite(limits.j_max[axis])) return time;
   const double peak = std::min(limits.v_max[axis], std::sqrt(a * std::abs(d) + 0.5 * start.v[axis] * start.v[axis]));
   return time + std::min(a / limits.j_max[axis], std::sqrt(peak / limits.j_max[axis]));
@@ -42,7 +42,7 @@ double stop_and_go(int axis, const MotionSample& start, double d, const Limits& 
 
 }  // namespace
 
-double least_duration(const MotionSample& start, const Vec3& to, const Limits& limits) {
+double min_duration(const MotionSample& start, const Vec3& to, const Limits& limits) {
   double least = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     least = std::max(least, axis_duration(axis, start, to[axis] - start.p[axis], limits));
@@ -55,7 +55,7 @@ Limits paced(const Limits& limits, double metres) {
   for (int axis = 0; axis < 3; ++axis) {
     const double j = limits.j_max[axis];
     if (!std::isfinite(j)) continue;
-    const double reached = 0.25 * j * std::cbrt(32.0 * std::max(metres, kLeastWay) / j);
+    const double reached = 0.25 * j * std::cbrt(32.0 * std::max(metres, kMinPacedLength) / j);
     if (reached < kGentleShare * limits.a_max[axis]) paced.a_max[axis] = reached;
   }
   return paced;

@@ -17,38 +17,39 @@ PlanReason reason_of_nothing(const Surroundings& near, const Budget& budget) {
 }
 
 /// Whether a longer duration need not be tried.
-bool is_enough(const Surroundings& near, const Heading& heading, const StandingAnswer& standing, Budget& budget) {
-  const std::optional<Candidate>& best = standing.best();
+bool is_enough(const Surroundings& near, const Course& course, const Incumbent& incumbent, Budget& budget) {
+  const std::optional<Candidate>& best = incumbent.best();
   if (!best) return false;
-  const bool arrives = best->holds && best->cost.distance_to_goal <= kNearLocalGoal * step_scale(heading.local.radius);
-  const bool stays = is_at_rest(near.request) && !standing.gets_on();
+  const bool arrives = best->holds && best->cost.distance_to_goal <= kAtLocalGoal * step_scale(course.local.radius);
+  const bool stays = is_at_rest(near.request) && !incumbent.makes_progress();
   return (arrives && !stays) || budget.expired(Stage::LocalGoal);
 }
 
 }  // namespace
 
-PlanReason try_durations(const Surroundings& near, const Heading& heading, Phase phase, const SearchConfig& search,
-                         StandingAnswer& standing, PlanTools& tools) {
+PlanReason try_durations(const Surroundings& near, const Course& course, Phase phase, const SearchConfig& search,
+                         Incumbent& incumbent, PlanTools& tools) {
   const PlannerConfig& config = near.config;
-  const SearchConfig lengths = scaled(search, heading.local.radius, heading.local.least_s);
+  const SearchConfig lengths = scaled(search, course.local.radius, course.local.planned_s);
   for (const double scale : config.duration_scales) {
     if (!tools.budget.begin_attempt(phase)) break;
-    if (is_enough(near, heading, standing, tools.budget)) break;
-    const std::optional<Duration> interval = interval_of(scale * heading.local.least_s, config.intervals);
+    if (is_enough(near, course, incumbent, tools.budget)) break;
+    const std::optional<Duration> interval = interval_of(scale * course.local.planned_s, config.intervals);
     if (!interval) break;
     const double end_s = interval->seconds() * config.intervals;
-    const Attempt now{near, heading, horizon_problem(near, *interval), near.hold.cap(end_s), near.hold.required(end_s)};
-    if (!is_followed(near, *interval, now.hold_s)) break;
+    const Attempt attempt{near, course, horizon_problem(near, *interval), near.hold.cap(end_s),
+                          near.hold.required(end_s)};
+    if (!is_followed(near, *interval, attempt.hold_s)) break;
     tools.log.enter(Stage::BroadPhase);
     SweptObstacles& swept = tools.memory.horizon;
-    sweep_horizon(now, tools.memory.times, swept);
-    if (auto leaf = search_candidate(now, lengths, swept, tools)) {
-      standing.announce(*leaf);
-      standing.take(refined(now, std::move(*leaf), swept, tools));
+    sweep_horizon(attempt, tools.memory.times, swept);
+    if (auto leaf = search_candidate(attempt, lengths, swept, tools)) {
+      incumbent.report_leaf(*leaf);
+      incumbent.offer(refined(attempt, std::move(*leaf), swept, tools));
     }
     tools.log.statistics.count(swept);
   }
-  return standing.best() ? PlanReason::None : reason_of_nothing(near, tools.budget);
+  return incumbent.best() ? PlanReason::None : reason_of_nothing(near, tools.budget);
 }
 
 }  // namespace tern

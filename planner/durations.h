@@ -1,9 +1,9 @@
 // A few durations to the local goal: too short a one leaves it out of reach, too long a one is slow.
 #pragma once
 
-#include "planner/heading.h"
+#include "planner/course.h"
+#include "planner/incumbent.h"
 #include "planner/plan_log.h"
-#include "planner/standing_answer.h"
 #include "planner/surroundings.h"
 
 namespace tern {
@@ -13,7 +13,7 @@ namespace tern {
 /// @param phase   whose attempts these are
 /// @param search  its lengths are for local goals at kFullStep and beyond
 /// @return why there is no plan
-PlanReason try_durations(const Surroundings& near, const Heading& heading, Phase phase, const SearchConfig& search,
-                         StandingAnswer& standing, PlanTools& tools);
+PlanReason try_durations(const Surroundings& near, const Course& course, Phase phase, const SearchConfig& search,
+                         Incumbent& incumbent, PlanTools& tools);
 
 }  // namespace tern

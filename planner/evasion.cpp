@@ -48,7 +48,7 @@ std::vector<double> distances(const Surroundings& near, Phase phase) {
   if (phase == Phase::Room) return all;
   for (const double widths : kStopWidths) {
     const double distance = widths * near.hold.width;
-    if (distance > 0.0 && distance < kFarthestWidthShare * r) all.push_back(distance);
+    if (distance > 0.0 && distance < kMaxWidthShare * r) all.push_back(distance);
   }
   return all;
 }
@@ -57,7 +57,7 @@ std::vector<double> distances(const Surroundings& near, Phase phase) {
 const SweptObstacles& sweep_forecast(const Surroundings& near, double duration_s, PlanWorkspace& memory) {
   std::vector<double>& times = memory.times;
   times.assign(1, 0.0);
-  append_hold(times, kForecastStep, std::min(duration_s, kLongestForecast));
+  append_hold(times, kForecastStep, std::min(duration_s, kMaxForecast));
   const Box region = box_around(near.request.start.p, Vec3::Constant(near.config.sphere_radius_m));
   SweptObstacles& swept = memory.forecast;
   swept.assign(near.obstacles, near.request.body, near.request.t_s, times, region);
@@ -87,7 +87,7 @@ bool comes_first(const Stop& a, const Stop& b) {
 /// @return nullopt if the point is outside the flight box, or the pace too slow to be flown
 std::optional<Stop> stop_at(const Surroundings& near, const Box& box, const Vec3& point, double pace) {
   if (!box.contains(point)) return std::nullopt;
-  const double least = least_duration(near.request.start, point, near.pace_limits);
+  const double least = min_duration(near.request.start, point, near.pace_limits);
   const auto interval = interval_of(pace * least, near.config.intervals);
   if (!interval) return std::nullopt;
   return Stop{point, *interval, interval->seconds() * near.config.intervals, pace < kStopScale, 0.0};
@@ -103,7 +103,7 @@ std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorks
     for (std::size_t k = 0; k < ways; ++k) {
       for (const double pace : kStopPaces) {
         const auto stop = stop_at(near, box, near.request.start.p + directions()[k] * distance, pace);
-        if (!stop || (stop->hurries && !near.hold.promised)) continue;
+        if (!stop || (stop->hurries && !near.hold.none_estimated)) continue;
         longest = std::max(longest, stop->way_s);
         stops.push_back(*stop);
       }
@@ -113,7 +113,7 @@ std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorks
       sweep_forecast(near, std::max(longest + near.hold.cap_s, near.hold.predicted_s), memory);
   for (Stop& stop : stops) stop.clear_s = forecast(swept, near.request.start, stop);
   std::stable_sort(stops.begin(), stops.end(), comes_first);
-  if (stops.size() > kMostStops) stops.resize(kMostStops);
+  if (stops.size() > kMaxStops) stops.resize(kMaxStops);
   return stops;
 }
 
@@ -129,14 +129,14 @@ double room_at_end(const SweptObstacles& swept, int intervals, const TimedSpline
 
 }  // namespace
 
-std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& heading, Phase phase, PlanTools& tools) {
+std::optional<Candidate> find_evasion(const Surroundings& near, const Course& course, Phase phase, PlanTools& tools) {
   SearchConfig search = near.config.search;
   search.max_expansions = kStopExpansions;
   std::optional<Candidate> best;
-  double best_worth = 0.0;
+  double best_measure = 0.0;
   for (const Stop& stop : ordered_stops(near, phase, tools.memory)) {
     if (!tools.budget.begin_attempt(phase) || tools.budget.expired(Stage::Search)) return best;
-    const Heading there{{stop.point, 0.0, stop.way_s}, {stop.point, 0.0}, heading.step_s, heading.pace, nullptr};
+    const Course there{{stop.point, 0.0, stop.way_s}, {stop.point, 0.0}, course.step_s, course.pace, nullptr};
     const double look_s = near.hold.cap_of_stop(stop.way_s);
     if (!is_followed(near, stop.interval, look_s)) continue;
     const Attempt attempt{near, there, horizon_problem(near, stop.interval), look_s, look_s};
@@ -146,15 +146,15 @@ std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& h
     tools.log.statistics.count(swept);
     if (!found) continue;
     found->outcome = PlanOutcome::Evade;
-    weigh(near, heading, *found);
+    evaluate(near, course, *found);
     found->holds = lasts(found->hold_s, near.hold.required(stop.way_s));
     const bool by_time = phase == Phase::Evasion;
     if (!by_time && !found->holds) continue;
-    const double worth = by_time ? found->clear_s : room_at_end(swept, near.config.intervals, found->trajectory);
-    if (best && worth <= best_worth) continue;
+    const double measure = by_time ? found->clear_s : room_at_end(swept, near.config.intervals, found->trajectory);
+    if (best && measure <= best_measure) continue;
     const bool lasts_on = lasts(found->hold_s, look_s);
     best = std::move(found);
-    best_worth = worth;
+    best_measure = measure;
     if (by_time && lasts_on) return best;
   }
   return best;

@@ -14,8 +14,8 @@ namespace tern {
 /// is Evade.
 /// @param phase    Evasion: the stop that stays clear longest; the first that does to the hold's cap ends the search.
 ///                 Room, for a start inside a hull: of the stops that hold, the one farthest from every obstacle's box
-/// @param heading  by which arrivals are estimated
+/// @param course  by which arrivals are estimated
 /// @return the best stop, or nullopt if none passed the checker
-std::optional<Candidate> find_evasion(const Surroundings& near, const Heading& heading, Phase phase, PlanTools& tools);
+std::optional<Candidate> find_evasion(const Surroundings& near, const Course& course, Phase phase, PlanTools& tools);
 
 }  // namespace tern

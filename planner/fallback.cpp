@@ -29,7 +29,7 @@ std::vector<PowerCubic> remaining_pieces(const HorizonRequest& request, std::vec
 
 }  // namespace
 
-Fallback check_committed(const Surroundings& near, bool rests_where_it_shall, PlanTools& tools) {
+Fallback check_committed(const Surroundings& near, bool has_reached_goal, PlanTools& tools) {
   const HorizonRequest& request = near.request;
   std::vector<double>& times = tools.memory.times;
   const std::vector<PowerCubic> pieces = remaining_pieces(request, times);
@@ -56,8 +56,8 @@ Fallback check_committed(const Surroundings& near, bool rests_where_it_shall, Pl
   c.hold_s = std::min(clear.seconds, near.hold.cap(moving_s));
   c.holds = lasts(c.hold_s, near.hold.required(moving_s));
   c.clear_s = moving_s + clear.seconds;
-  const bool is_hit = clear.blocker != nullptr && clear.blocker->is_promised();
-  return {std::move(c), rests_where_it_shall && is_hit};
+  const bool is_hit = clear.blocker != nullptr && clear.blocker->is_declared_or_static();
+  return {std::move(c), has_reached_goal && is_hit};
 }
 
 }  // namespace tern

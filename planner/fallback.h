@@ -13,7 +13,7 @@ struct Fallback {
   bool is_hit_at_rest = false;
 };
 
-/// From t_s on, with the hold of its end. @param rests_where_it_shall  nothing to do but to stay clear
-Fallback check_committed(const Surroundings& near, bool rests_where_it_shall, PlanTools& tools);
+/// From t_s on, with the hold of its end. @param has_reached_goal  nothing to do but to stay clear
+Fallback check_committed(const Surroundings& near, bool has_reached_goal, PlanTools& tools);
 
 }  // namespace tern

@@ -9,7 +9,7 @@
 namespace tern {
 
 double HoldDemand::required(double end_s) const {
-  const double to_step_aside = std::min(aside_s, predicted_s) - end_s;
+  const double to_step_aside = std::min(side_step_s, predicted_s) - end_s;
   return std::clamp(until_s - end_s, 0.0, std::max(required_s, to_step_aside));
 }
 
@@ -17,11 +17,11 @@ double HoldDemand::cap(double end_s) const { return std::max(cap_s, required(end
 
 double HoldDemand::cap_of_stop(double end_s) const { return std::max(cap(end_s), predicted_s - end_s); }
 
-double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec3& mover_half) {
+double side_step_time(const Limits& limits, const Vec3& body_half, const Vec3& mover_half) {
   double times[3];
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 aside = Vec3::Unit(axis) * (body_half[axis] + mover_half[axis]);
-    times[axis] = kStopScale * least_duration(MotionSample{}, aside, limits);
+    times[axis] = kStopScale * min_duration(MotionSample{}, aside, limits);
   }
   std::sort(std::begin(times), std::end(times));
   return times[1];
@@ -47,9 +47,9 @@ double middle_of(Vec3 sides) {
   return sides[1];
 }
 
-/// The longest of time_to_step_aside() out of their ways. A box no larger than another one on any axis asks no more.
-double longest_to_step_aside(const HorizonRequest& request, const std::vector<PlanningObstacle>& obstacles) {
-  const Limits limits = boxed(request.limits);
+/// The longest of side_step_time() out of their ways. A box no larger than another one on any axis asks no more.
+double max_side_step_time(const HorizonRequest& request, const std::vector<PlanningObstacle>& obstacles) {
+  const Limits limits = per_axis_limits(request.limits);
   std::vector<Vec3> sizes;
   double longest_s = 0.0;
   for (const PlanningObstacle& obstacle : obstacles) {
@@ -58,7 +58,7 @@ double longest_to_step_aside(const HorizonRequest& request, const std::vector<Pl
     const auto covers = [&](const Vec3& size) { return (half.array() <= size.array()).all(); };
     if (std::any_of(sizes.begin(), sizes.end(), covers)) continue;
     sizes.push_back(half);
-    longest_s = std::max(longest_s, time_to_step_aside(limits, request.body.half_extents(), half));
+    longest_s = std::max(longest_s, side_step_time(limits, request.body.half_extents(), half));
   }
   return longest_s;
 }
@@ -67,7 +67,7 @@ double longest_to_step_aside(const HorizonRequest& request, const std::vector<Pl
 
 HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& config,
                        const std::vector<PlanningObstacle>& obstacles, double horizon_s) {
-  const double longest_s = std::max(0.5 * horizon_s, kLeastHold);
+  const double longest_s = std::max(0.5 * horizon_s, kMinHold);
   HoldDemand hold;
   hold.required_s = std::min(config.hold_required_s, longest_s);
   hold.cap_s = std::min(config.hold_cap_s, longest_s);
@@ -79,12 +79,12 @@ HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& confi
     const Vec3 both = body + obstacle.track->half_extents;
     hold.width = std::max(hold.width, both.maxCoeff());
     hold.predicted_s = std::max(hold.predicted_s, (obstacle.motion_end() - request.t_s).seconds());
-    if (obstacle.is_promised()) continue;
-    hold.promised = false;
+    if (obstacle.is_declared_or_static()) continue;
+    hold.none_estimated = false;
     known_s += known_for(obstacle, middle_of(both), request.t_s);
     ++estimated;
   }
-  hold.aside_s = longest_to_step_aside(request, obstacles);
+  hold.side_step_s = max_side_step_time(request, obstacles);
   if (estimated > 0) hold.until_s = known_s / estimated;
   return hold;
 }

@@ -15,10 +15,10 @@ struct HoldDemand {
   double required_s = 0.5;  ///< an end that stays clear this long is preferred to one that does not
   double cap_s = 1.5;       ///< how far a hold is followed
   double until_s = std::numeric_limits<double>::infinity();  ///< no hold is asked for later than this
-  double aside_s = 0.0;      ///< what this vehicle needs to step out of a mover's way (time_to_step_aside)
-  double predicted_s = 0.0;  ///< how far the predictions of what moves nearby reach
-  bool promised = true;      ///< all that moves nearby is promised, nothing estimated
-  double width = 0.0;        ///< of vehicle and largest mover together: half-extents, added, m
+  double side_step_s = 0.0;    ///< what this vehicle needs to step out of a mover's way (side_step_time)
+  double predicted_s = 0.0;    ///< how far the predictions of what moves nearby reach
+  bool none_estimated = true;  ///< all that moves nearby is promised, nothing estimated
+  double width = 0.0;          ///< of vehicle and largest mover together: half-extents, added, m
 
   /// What an end reached at `end_s` should hold to be preferred, s. Where predictions widen with time, a hold after a
   /// long plan asks for more than one after a short plan, so standing still would win. `until_s` makes them equal.
@@ -34,7 +34,7 @@ struct HoldDemand {
 /// The least time in which this vehicle, at rest, leaves the way of a mover, s. It is the time from rest to rest over
 /// the width of both (half-extents) along the second quickest axis, times kStopScale. (A mover may come along the
 /// quickest.)
-double time_to_step_aside(const Limits& limits, const Vec3& body_half, const Vec3& mover_half);
+double side_step_time(const Limits& limits, const Vec3& body_half, const Vec3& mover_half);
 
 /// What the request asks for among these obstacles: the largest mover's size per axis, the predictions that reach
 /// farthest. Configured holds take half the horizon at most, so that flying has the other half.

@@ -30,24 +30,24 @@ LookAhead look_ahead(UTime t_s, const PredictionProducts& predictions, const Box
   look.followed_until = foresight.followed_until;
   look.followed_s = (foresight.followed_until - t_s).seconds();
   const double predicted_s = (foresight.predicted_until - t_s).seconds();
-  look.horizon_s = std::max(predicted_s, std::min(look.followed_s, kLeastHorizon));
+  look.horizon_s = std::max(predicted_s, std::min(look.followed_s, kMinHorizon));
   return look;
 }
 
-double longest_first_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config) {
+double max_planned_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config) {
   const double held_s = std::min(look.horizon_s - hold.required_s, look.followed_s - hold.cap_s);
   return std::min(held_s, config.intervals * kMaxIntervalDuration.seconds()) / config.duration_scales.front();
 }
 
-LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
-                   double largest_radius, double longest_s) {
-  LocalAim soonest;
+LocalGoal local_goal_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
+                           double largest_radius, double longest_s) {
+  LocalGoal soonest;
   double radius = largest_radius;
-  while (radius >= std::min(kLeastRadius, largest_radius)) {
-    LocalAim aim{local_goal(path, start.p, radius), radius, 0.0};
-    aim.least_s = planned_duration(start, aim.goal, limits);
-    if (aim.least_s <= longest_s) return aim;
-    if (radius == largest_radius || aim.least_s < soonest.least_s) soonest = aim;
+  while (radius >= std::min(kMinRadius, largest_radius)) {
+    LocalGoal aim{local_goal(path, start.p, radius), radius, 0.0};
+    aim.planned_s = planned_duration(start, aim.goal, limits);
+    if (aim.planned_s <= longest_s) return aim;
+    if (radius == largest_radius || aim.planned_s < soonest.planned_s) soonest = aim;
     radius *= kRadiusShrink;
   }
   return soonest;
@@ -55,13 +55,13 @@ LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, con
 
 double step_scale(double goal_radius) { return std::min(1.0, goal_radius / kFullStep); }
 
-SearchConfig scaled(SearchConfig search, double goal_radius, double least_s) {
+SearchConfig scaled(SearchConfig search, double goal_radius, double planned_s) {
   const double scale = step_scale(goal_radius);
   search.band_m *= scale;
   search.cost_step_m *= scale;
   search.prune_position_m *= scale;
-  if (scale < 1.0 || least_s > kFullStepTime) {
-    search.prune_velocity_mps = std::min(search.prune_velocity_mps, kCoarseVelocityShare * goal_radius / least_s);
+  if (scale < 1.0 || planned_s > kFullStepTime) {
+    search.prune_velocity_mps = std::min(search.prune_velocity_mps, kCoarseVelocityShare * goal_radius / planned_s);
   }
   return search;
 }

@@ -20,38 +20,38 @@ Box planning_region(const HorizonRequest& request, const PlannerConfig& config, 
 
 /// Times count from t_s, s; negative ones are past, very large ones mean that nothing moves within reach.
 struct LookAhead {
-  UTime followed_until = kFollowedForEver;  ///< no plan, hold included, looks past this time (Foresight)
-  double followed_s = 0.0;                  ///< the same
-  double horizon_s = 0.0;                   ///< plans that head for the local goal end, and hold, within this
+  UTime followed_until = kForever;  ///< no plan, hold included, looks past this time (Foresight)
+  double followed_s = 0.0;          ///< the same
+  double horizon_s = 0.0;           ///< plans that head for the local goal end, and hold, within this
 };
 
-/// The horizon is as long as movers are predicted within the planning region. It is at least kLeastHorizon, or as long
+/// The horizon is as long as movers are predicted within the planning region. It is at least kMinHorizon, or as long
 /// as they are followed: where predictions are short, boxes that grow stand for them.
 /// @param region  planning_region()
 LookAhead look_ahead(UTime t_s, const PredictionProducts& predictions, const Box& region);
 
 /// Where a plan heads.
-struct LocalAim {
+struct LocalGoal {
   Vec3 goal = Vec3::Zero();  ///< s_g^temp: the last point of the path in the ball of this radius about the start, W
   double radius = 0.0;       ///< m
-  double least_s = 0.0;      ///< planned_duration() to it
+  double planned_s = 0.0;    ///< planned_duration() to it
 };
 
 /// The largest planned_duration() to the local goal, s: it and the hold after it fit into the horizon, and Δt is at
 /// most kMaxIntervalDuration.
-double longest_first_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config);
+double max_planned_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config);
 
 /// The local goal at the first of `largest_radius` and radii that shrink by a sixth with planned_duration() ≤
 /// longest_s. Where there is none (the start is too fast to stop so soon), the one that is reached first.
 /// @pre path is not empty
-LocalAim aim_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
-                   double largest_radius, double longest_s);
+LocalGoal local_goal_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
+                           double largest_radius, double longest_s);
 
 /// By how much lengths shrink with a local goal nearer than kFullStep, (0, 1].
 double step_scale(double goal_radius);
 /// The search's lengths (bands, steps of cost, voxels that prune) for local goals at this radius. Likewise its coarse
 /// velocity for a flight there of so many seconds. So small and slow steps are resolved as well as large ones. At
 /// kFullStep and beyond, within kFullStepTime, they are the configured ones.
-SearchConfig scaled(SearchConfig search, double goal_radius, double least_s);
+SearchConfig scaled(SearchConfig search, double goal_radius, double planned_s);
 
 }  // namespace tern

@@ -8,10 +8,10 @@
 #include "planner/durations.h"
 #include "planner/evasion.h"
 #include "planner/fallback.h"
-#include "planner/less_sure.h"
+#include "planner/incumbent.h"
 #include "planner/plan_workspace.h"
 #include "planner/problem/tuning.h"
-#include "planner/standing_answer.h"
+#include "planner/reduced_assurance.h"
 
 namespace tern {
 namespace {
@@ -43,7 +43,7 @@ bool is_usable(const PlanningWorld& world, const HorizonRequest& request, const 
 }
 
 /// At rest where it shall be: nothing to do but to stay clear.
-bool rests_where_it_shall(const HorizonRequest& request, const Goal& goal, const PlannerConfig& config) {
+bool has_reached_goal(const HorizonRequest& request, const Goal& goal, const PlannerConfig& config) {
   if (!is_at_rest(request)) return false;
   return goal.mode != GoalMode::Go || (request.start.p - goal.position).norm() <= config.goal_tolerance_m;
 }
@@ -54,31 +54,32 @@ std::optional<std::vector<Vec3>> path_to_goal(const GoalProducts& goal, const Ve
   return goal.field->path_from(from);
 }
 
-/// Smaller and smaller steps, while nothing gets on. @param head  heads along the path, to a local goal so far away
+/// Smaller and smaller steps, while nothing gets on. @param course_at  heads along the path, to a local goal so far
+/// away
 /// @param reason  why nothing was found so far @return why there is nothing
-PlanReason creep(const Surroundings& near, const auto& head, Heading& heading, PlanReason reason,
-                 StandingAnswer& standing, PlanTools& tools) {
-  for (int k = 0; k < kSmallerSteps && !standing.gets_on(); ++k) {
+PlanReason try_smaller_steps(const Surroundings& near, const auto& course_at, Course& course, PlanReason reason,
+                             Incumbent& incumbent, PlanTools& tools) {
+  for (int k = 0; k < kSmallerSteps && !incumbent.makes_progress(); ++k) {
     if (tools.budget.expired(Stage::LocalGoal)) break;
-    const double step = std::min(heading.local.radius, (heading.local.goal - near.request.start.p).norm());
-    heading = step_along(head(step / kSmallerStep));
-    standing.head_for(heading);
-    reason = try_durations(near, heading, Phase::Durations, near.config.search, standing, tools);
+    const double step = std::min(course.local.radius, (course.local.goal - near.request.start.p).norm());
+    course = course_to_local_goal(course_at(step / kSmallerStep));
+    incumbent.set_course(course);
+    reason = try_durations(near, course, Phase::Durations, near.config.search, incumbent, tools);
   }
   return reason;
 }
 
-bool needs_evasion(const StandingAnswer& standing, const Fallback& fallback) {
-  if (standing.best() && standing.best()->holds) return false;
-  return fallback.is_hit_at_rest || !(standing.committed() && standing.committed()->holds);
+bool needs_evasion(const Incumbent& incumbent, const Fallback& fallback) {
+  if (incumbent.best() && incumbent.best()->holds) return false;
+  return fallback.is_hit_at_rest || !(incumbent.committed() && incumbent.committed()->holds);
 }
 
 /// The reachable stop that stays clear longest, if that is longer than what stands.
-void evade(const Surroundings& near, const Heading& heading, StandingAnswer& standing, PlanTools& tools) {
-  auto found = find_evasion(near, heading, Phase::Evasion, tools);
-  const double best_s = standing.best() ? standing.best()->clear_s : 0.0;
-  const double committed_s = standing.committed() ? standing.committed()->clear_s : 0.0;
-  if (found && found->clear_s > std::max(best_s, committed_s)) standing.replace(std::move(found));
+void evade(const Surroundings& near, const Course& course, Incumbent& incumbent, PlanTools& tools) {
+  auto found = find_evasion(near, course, Phase::Evasion, tools);
+  const double best_s = incumbent.best() ? incumbent.best()->clear_s : 0.0;
+  const double committed_s = incumbent.committed() ? incumbent.committed()->clear_s : 0.0;
+  if (found && found->clear_s > std::max(best_s, committed_s)) incumbent.replace_best(std::move(found));
 }
 
 }  // namespace
@@ -97,33 +98,33 @@ PlanAnswer plan(const HorizonRequest& asked, const PlanningWorld& world, const P
   }
   Surroundings near = surroundings(request, world, config, workspace);
   blank.relaxed = near.start.relaxed;
-  const bool rests = rests_where_it_shall(request, world.goal->goal, config);
-  const Fallback fallback = check_committed(near, rests, tools);
-  StandingAnswer standing(near, std::move(blank), fallback.committed, world.predictions->set.confidence, tools);
-  if (rests && !needs_evasion(standing, fallback)) {
-    return {standing.kept(PlanReason::AtGoal), log.statistics};
+  const bool has_arrived = has_reached_goal(request, world.goal->goal, config);
+  const Fallback fallback = check_committed(near, has_arrived, tools);
+  Incumbent incumbent(near, std::move(blank), fallback.committed, world.predictions->set.confidence, tools);
+  if (has_arrived && !needs_evasion(incumbent, fallback)) {
+    return {incumbent.committed_plan(PlanReason::AtGoal), log.statistics};
   }
   log.enter(Stage::LocalGoal);
   const auto path = path_to_goal(*world.goal, request.start.p);
-  const bool goes = path && !path->empty();
-  const auto head = [&](double radius) { return heading_along(*path, world.goal->field->cost(), radius, near); };
-  Heading heading = goes ? head(kLocalGoalShare * config.sphere_radius_m) : heading_nowhere(near);
-  if (goes) standing.head_for(heading);
-  const bool has_less = goes && !rests && !near.hold.promised;
-  if (near.start.relaxed && !has_less) standing.replace(find_evasion(near, heading, Phase::Room, tools));
-  const bool makes_room = standing.best().has_value();
+  const bool flies_to_goal = path && !path->empty();
+  const auto course_at = [&](double radius) { return course_along(*path, world.goal->field->cost(), radius, near); };
+  Course course = flies_to_goal ? course_at(kLocalGoalShare * config.sphere_radius_m) : course_in_place(near);
+  if (flies_to_goal) incumbent.set_course(course);
+  const bool may_reduce = flies_to_goal && !has_arrived && !near.hold.none_estimated;
+  if (near.start.relaxed && !may_reduce) incumbent.replace_best(find_evasion(near, course, Phase::Room, tools));
+  const bool leaves_interval = incumbent.best().has_value();
   PlanReason reason = path ? PlanReason::None : PlanReason::GoalBlocked;
-  if (path && !rests && !makes_room && !(has_less && near.start.relaxed))
-    reason = try_durations(near, heading, Phase::Durations, config.search, standing, tools);
-  if (has_less) {
-    if (near.start.relaxed) standing.keep(std::nullopt, heading);
-    if (!is_settled(near, heading, standing)) reason = plan_less_sure(heading, near, standing, tools);
-    return {standing.chosen(standing.best() ? PlanReason::None : reason), log.statistics};
+  if (path && !has_arrived && !leaves_interval && !(may_reduce && near.start.relaxed))
+    reason = try_durations(near, course, Phase::Durations, config.search, incumbent, tools);
+  if (may_reduce) {
+    if (near.start.relaxed) incumbent.replace_committed(std::nullopt, course);
+    if (!is_settled(near, course, incumbent)) reason = plan_with_reduced_assurance(course, near, incumbent, tools);
+    return {incumbent.choose(incumbent.best() ? PlanReason::None : reason), log.statistics};
   }
-  if (goes && !rests && !makes_room && is_at_rest(request))
-    reason = creep(near, head, heading, reason, standing, tools);
-  if (needs_evasion(standing, fallback)) evade(near, heading, standing, tools);
-  return {standing.chosen(reason), log.statistics};
+  if (flies_to_goal && !has_arrived && !leaves_interval && is_at_rest(request))
+    reason = try_smaller_steps(near, course_at, course, reason, incumbent, tools);
+  if (needs_evasion(incumbent, fallback)) evade(near, course, incumbent, tools);
+  return {incumbent.choose(reason), log.statistics};
 }
 
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,

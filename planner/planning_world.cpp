@@ -12,7 +12,7 @@ namespace tern {
 namespace {
 
 /// What reaches the vehicle later than this does not reach it.
-constexpr Duration kEver{1'000'000'000'000};
+constexpr Duration kMaxArrivalTime{1'000'000'000'000};
 
 /// The track's box over one piece, as Track::bounds() has it.
 Box piece_box(const Track& track, std::size_t k) {
@@ -60,7 +60,7 @@ Foresight PredictionProducts::foresight(const Box& region) const {
     const MotionBoxes& boxes = mover.boxes;
     const Vec3 gaps = (boxes.whole.min() - region.max()).cwiseMax(region.min() - boxes.whole.max());
     const double gap = std::max(0.0, gaps.maxCoeff());
-    if (gap > mover.top_speed * kEver.seconds()) continue;
+    if (gap > mover.top_speed * kMaxArrivalTime.seconds()) continue;
     const Duration grows{gap > 0.0 ? static_cast<std::int64_t>(gap / mover.top_speed * 1e6) : 0};
     foresight.predicted_until = std::min(foresight.predicted_until, boxes.end + grows);
     foresight.followed_until = std::min(foresight.followed_until, boxes.end + std::max(grows, kTrackBoxReach));

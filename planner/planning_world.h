@@ -21,12 +21,12 @@
 namespace tern {
 
 /// Where nothing moves.
-inline constexpr UTime kFollowedForEver{std::numeric_limits<std::int64_t>::max()};
+inline constexpr UTime kForever{std::numeric_limits<std::int64_t>::max()};
 
 /// Until when movers are known within a region.
 struct Foresight {
-  UTime predicted_until = kFollowedForEver;  ///< from then on something may be there though no piece of a track says so
-  UTime followed_until = kFollowedForEver;   ///< until then the boxes of what is found there hold every track
+  UTime predicted_until = kForever;  ///< from then on something may be there though no piece of a track says so
+  UTime followed_until = kForever;   ///< until then the boxes of what is found there hold every track
 };
 
 /// A complete prediction set with boxes around each track's motion, and an index over them. So a plan costs what is in

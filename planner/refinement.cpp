@@ -129,8 +129,8 @@ std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf
 
 /// By how much the cost-to-go is smaller at the end, m.
 double progress_of(const Attempt& attempt, const Candidate& candidate) {
-  const WayToGo& way = attempt.heading.way;
-  return way.from(attempt.problem.start.p) - way.from(candidate.trajectory.control_points.rightCols<1>());
+  const CostToGo& cost_to_go = attempt.course.cost_to_go;
+  return cost_to_go.from(attempt.problem.start.p) - cost_to_go.from(candidate.trajectory.control_points.rightCols<1>());
 }
 
 }  // namespace
@@ -139,9 +139,9 @@ Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept,
   auto smooth = optimized(attempt, leaf, swept, tools);
   if (!smooth || (leaf.holds && !smooth->holds)) return leaf;
   const double progress = progress_of(attempt, leaf);
-  const bool in_a_moment = attempt.problem.interval < kMoment;
-  if (in_a_moment && progress > 0.0 && progress_of(attempt, *smooth) < kProgressKept * progress) return leaf;
-  return smooth->arrival_s <= leaf.arrival_s + kSmoothnessPrice ? std::move(*smooth) : leaf;
+  const bool in_a_moment = attempt.problem.interval < kShortInterval;
+  if (in_a_moment && progress > 0.0 && progress_of(attempt, *smooth) < kMinProgressKept * progress) return leaf;
+  return smooth->arrival_s <= leaf.arrival_s + kMaxArrivalLoss ? std::move(*smooth) : leaf;
 }
 
 TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf) {
@@ -151,8 +151,8 @@ TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf)
   problem.weight_goal = config.optimization.weight_goal;
   problem.reach = config.optimization.plane_reach_m;
   const Vec3 end = leaf.rightCols<1>();
-  const bool arrives = attempt.heading.way.from(end) <= config.search.band_m;
-  problem.goal = attempt.heading.fields != nullptr && !arrives ? end : attempt.heading.local.goal;
+  const bool arrives = attempt.course.cost_to_go.from(end) <= config.search.band_m;
+  problem.goal = attempt.course.fields != nullptr && !arrives ? end : attempt.course.local.goal;
   return problem;
 }
 

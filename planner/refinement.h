@@ -9,8 +9,8 @@
 namespace tern {
 
 /// Optimizes a leaf by the configured method, within the budget's stage Optimization. An optimized trajectory may give
-/// up neither the leaf's hold nor much of its arrival. Where intervals are short (kMoment), arrivals say little, and it
-/// keeps most of the leaf's progress.
+/// up neither the leaf's hold nor much of its arrival. Where intervals are short (kShortInterval), arrivals say little,
+/// and it keeps most of the leaf's progress.
 /// @return the best such trajectory that the checker passes, else the leaf
 Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools);
 

@@ -50,13 +50,13 @@ Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& wo
           look,
           hold_demand(request, config, memory.obstacles, look.horizon_s),
           plan_limits,
-          boxed(plan_limits),
+          per_axis_limits(plan_limits),
           semantics_in_reach(request, world.map->fields, config)};
 }
 
-void count_less(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near) {
+void reduce_assurance(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near) {
   near.assurance = assurance;
-  count_alpha(assurance, near.request.t_s, memory.obstacles);
+  apply_assurance(assurance, near.request.t_s, memory.obstacles);
   near.start = clear_start(memory.obstacles, near.request.body, near.request.start.p, near.request.t_s);
   near.hold = hold_demand(near.request, near.config, memory.obstacles, near.look.horizon_s);
 }
@@ -80,8 +80,8 @@ bool is_followed(const Surroundings& near, Duration interval, double hold_s) {
 
 bool is_at_rest(const HorizonRequest& request) { return request.t_s >= request.committed.end(); }
 
-double rested_s(const HorizonRequest& request) { return (request.t_s - request.committed.end()).seconds(); }
+double time_at_rest_s(const HorizonRequest& request) { return (request.t_s - request.committed.end()).seconds(); }
 
-bool stands_still(const HorizonRequest& request) { return request.start.v.isZero() && request.start.a.isZero(); }
+bool is_stationary(const HorizonRequest& request) { return request.start.v.isZero() && request.start.a.isZero(); }
 
 }  // namespace tern

@@ -26,23 +26,23 @@ struct Surroundings {
   LookAhead look;  ///< no plan looks past its followed_until
   HoldDemand hold;
   Limits plan_limits;                      ///< v_max reduced to velocity_share
-  Limits pace_limits;                      ///< boxed(plan_limits): by which durations are made
+  Limits pace_limits;                      ///< per_axis_limits(plan_limits): by which durations are made
   const SemanticFields* fields = nullptr;  ///< null: nothing that they cost differs anywhere in the sphere
 };
 
 /// Whether what is committed has ended by then …
 bool is_at_rest(const HorizonRequest& request);
 /// … and since when, s; negative before.
-double rested_s(const HorizonRequest& request);
+double time_at_rest_s(const HorizonRequest& request);
 /// Neither moves nor is about to.
-bool stands_still(const HorizonRequest& request);
+bool is_stationary(const HorizonRequest& request);
 
 /// @pre the world has predictions and a map. @param memory  keeps the obstacles until the next call
 Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
                           PlanWorkspace& memory);
 
 /// The same among obstacles of which less counts.
-void count_less(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near);
+void reduce_assurance(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near);
 
 /// The problem of J intervals of this Δt.
 HorizonProblem horizon_problem(const Surroundings& near, Duration interval);

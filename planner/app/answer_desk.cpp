@@ -19,19 +19,19 @@ Plan unanswered(const HorizonRequest& request) {
 
 void AnswerDesk::open(const HorizonRequest& request, UTime now) {
   const std::lock_guard lock(mutex_);
-  if (open_) send_standing(now);
+  if (open_) send_incumbent(now);
   Open next;
   next.id = request.id;
   next.arrived = now;
   next.watch_at = request.deadline - kWatchdogLead;
-  next.standing = unanswered(request);
+  next.incumbent = unanswered(request);
   open_ = std::move(next);
 }
 
 void AnswerDesk::improve(const Plan& plan) {
   const std::lock_guard lock(mutex_);
   if (!open_ || open_->id != plan.request_id) return;
-  open_->standing = plan;
+  open_->incumbent = plan;
   ++open_->improvements;
 }
 
@@ -45,7 +45,7 @@ bool AnswerDesk::answer(const Plan& plan, const PlanTiming& timing) {
 
 void AnswerDesk::watch(UTime now) {
   const std::lock_guard lock(mutex_);
-  if (open_ && now >= open_->watch_at) send_standing(now);
+  if (open_ && now >= open_->watch_at) send_incumbent(now);
 }
 
 std::optional<UTime> AnswerDesk::watch_time() const {
@@ -54,8 +54,8 @@ std::optional<UTime> AnswerDesk::watch_time() const {
   return open_->watch_at;
 }
 
-void AnswerDesk::send_standing(UTime now) {
-  Plan plan = std::move(open_->standing);
+void AnswerDesk::send_incumbent(UTime now) {
+  Plan plan = std::move(open_->incumbent);
   plan.standing = open_->improvements;
   PlanTiming timing;
   timing.request_id = plan.request_id;

@@ -39,10 +39,10 @@ class AnswerDesk {
     std::int64_t id = 0;
     UTime arrived;
     UTime watch_at;
-    Plan standing;  ///< unanswered(), until the worker has more
+    Plan incumbent;  ///< unanswered(), until the worker has more
     std::int32_t improvements = 0;
   };
-  void send_standing(UTime now);
+  void send_incumbent(UTime now);
   void send(Plan plan, const PlanTiming& timing);
 
   Bus& bus_;

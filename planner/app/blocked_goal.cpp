@@ -33,10 +33,10 @@ bool reaches_into(const Region& region, const Box& box) {
 
 /// What the box is of: "obstacle 'post'", "region 'left', region 'back'"; "" where it has no name.
 std::string names_of(const Box& box, bool is_obstacle, const std::vector<NamedPlace>& places) {
-  constexpr std::size_t kMost = 3;
+  constexpr std::size_t kMaxNamed = 3;
   std::vector<std::string> names;
   for (const NamedPlace& place : places) {
-    if (place.is_obstacle != is_obstacle || names.size() >= kMost) continue;
+    if (place.is_obstacle != is_obstacle || names.size() >= kMaxNamed) continue;
     const bool is_it = is_obstacle ? are_same(place.where.bounds(), box) : reaches_into(place.where, box);
     if (is_it) names.push_back(fmt::format("{} '{}'", is_obstacle ? "obstacle" : "region", place.where.name));
   }

@@ -158,7 +158,7 @@ std::optional<Box> GoalField::blocker(const Vec3& start) const {
 }
 
 void GoalField::tighten(std::vector<Vec3>& path) const {
-  constexpr double kLeastPull = 1.0 / (1 << kPullHalvings);
+  constexpr double kMinPull = 1.0 / (1 << kPullHalvings);
   const Vec3 start = path.front();
   const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
   // Length alone needs no asking: erasing a vertex or pulling it to a chord never makes a path longer.
@@ -181,8 +181,8 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
           const Vec3 w = v + s * (target - v);
           return is_free(a, w) && is_free(w, b) && is_cheaper(a, v, w, b);
         };
-        if (!reaches(kLeastPull)) return;
-        double free = kLeastPull;
+        if (!reaches(kMinPull)) return;
+        double free = kMinPull;
         for (int halving = 1; halving <= kPullHalvings; ++halving) {
           const double step = std::ldexp(1.0, -halving);
           if (free + step < 1.0 && reaches(free + step)) free += step;

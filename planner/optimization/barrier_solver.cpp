@@ -216,7 +216,7 @@ class BarrierSolver::Iteration {
     }
     if (!hessian_factor_.factor()) return false;
     constraints_.evaluate(y_, c_);
-    for (int i = 0; i < m_; ++i) slack_[idx(i)] = std::max(-c_[idx(i)], kFirstSlack);
+    for (int i = 0; i < m_; ++i) slack_[idx(i)] = std::max(-c_[idx(i)], kMinFirstSlack);
     const double mu = first_barrier();
     for (int i = 0; i < m_; ++i) multiplier_[idx(i)] = mu / slack_[idx(i)];
     return true;
@@ -309,7 +309,7 @@ class BarrierSolver::Iteration {
       slack_[idx(i)] += length * slack_step_[idx(i)];
       multiplier_[idx(i)] += length * multiplier_step_[idx(i)];
     }
-    return length > kLeastStep;
+    return length > kMinStep;
   }
 
   /// Newton's direction for the complementarity residual in complement_.

@@ -20,7 +20,7 @@ inline constexpr double kGapAbsolute = 1e-8;  ///< m², objectives are in ω_g m
 ///     ∇f(x) + Σ λ_i ∇c_i(x) = 0,   c(x) + s = 0,   s_i λ_i = σμ
 ///
 /// A step solves (∇²L + Jᵀ diag(λ/s) J) Δx = …, a dense symmetric system of 3(J − 2) variables, by Cholesky, twice with
-/// one factor. Slacks start at no less than kFirstSlack, so iterates may leave the feasible set at first. Those
+/// one factor. Slacks start at no less than kMinFirstSlack, so iterates may leave the feasible set at first. Those
 /// strictly inside are kept, so that the solve can be ended at any time. For such an x weak duality gives a bound that
 /// needs no trust in the iteration: f is at least as curved as H, so
 ///

@@ -65,7 +65,7 @@ class Builder {
   }
 
   /// Thrust, tilt and body rates (ThrustSet) at the knots that are free, and of each interval. Body rates by |j| ≤ rate
-  /// · least f_z of the interval, which keeps kThrustKept of x0's; where x0 itself jerks more, by its own jerk.
+  /// · least f_z of the interval, which keeps kMinThrustKept of x0's; where x0 itself jerks more, by its own jerk.
   void add_dynamics() {
     if (!problem_.plan_limits.dynamics) return;
     const ThrustSet set(*problem_.plan_limits.dynamics);
@@ -75,7 +75,7 @@ class Builder {
       if (j + 1 < problem_.intervals) {
         AffinePoint thrust = curve_.acceleration_at_end(j);
         thrust.offset.z() += kGravity;
-        after = std::max(set.floor, kThrustKept * thrust.at(x0_).z());
+        after = std::max(set.floor, kMinThrustKept * thrust.at(x0_).z());
         add_row(thrust, -Vec3::UnitZ(), -after, kAlways);
         add_tilt(thrust, set.slope);
         add_ball(thrust, set.ceiling);

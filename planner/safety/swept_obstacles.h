@@ -35,7 +35,7 @@ struct PlanningObstacle {
 
   [[nodiscard]] bool moves() const { return track != nullptr && track->kind != TrackKind::Static; }
   /// Whether where it will be is promised, not estimated.
-  [[nodiscard]] bool is_promised() const { return track == nullptr || track->kind != TrackKind::Estimated; }
+  [[nodiscard]] bool is_declared_or_static() const { return track == nullptr || track->kind != TrackKind::Estimated; }
   /// When its last piece ends. @pre it has a track
   [[nodiscard]] UTime motion_end() const { return boxes != nullptr ? boxes->end : track->motion.end(); }
 };

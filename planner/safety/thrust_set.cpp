@@ -45,7 +45,7 @@ bool ThrustSet::allows(const Vec3& a0, const Vec3& a1, double duration_s) const 
   return nearest2 >= least * least && f0.cross(way).squaredNorm() <= turned * turned;
 }
 
-Limits boxed(const Limits& limits) {
+Limits per_axis_limits(const Limits& limits) {
   if (!limits.dynamics) return limits;
   const ThrustSet set(*limits.dynamics);
   Limits box = limits;

@@ -35,6 +35,6 @@ double octagon_norm(double x, double y);
 /// Limits per axis from which the dynamics follow. All corners of the box of accelerations lie in the ThrustSet. No
 /// jerk of the box turns an f above the floor faster than body_rate_max: √3 j ≤ rate · floor. Without dynamics the same
 /// limits. What is planned by these can always be flown; what is flown may do more.
-Limits boxed(const Limits& limits);
+Limits per_axis_limits(const Limits& limits);
 
 }  // namespace tern

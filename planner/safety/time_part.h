@@ -7,7 +7,7 @@ namespace tern {
 
 /// The index-th of 1, 2 or 4 equal parts of an interval.
 struct TimePart {
-  static constexpr int kMost = 4;           ///< parts of an interval
+  static constexpr int kMaxParts = 4;       ///< parts of an interval
   static constexpr int kSlots = 1 + 2 + 4;  ///< parts there are, of all lengths
 
   int interval = 0;
@@ -17,7 +17,7 @@ struct TimePart {
   [[nodiscard]] double u0() const { return static_cast<double>(index) / of; }  ///< where it begins, u ∈ [0, 1]
   [[nodiscard]] double u1() const { return static_cast<double>(index + 1) / of; }
   [[nodiscard]] bool is_last() const { return index + 1 == of; }
-  [[nodiscard]] bool has_halves() const { return of < kMost; }
+  [[nodiscard]] bool has_halves() const { return of < kMaxParts; }
   [[nodiscard]] TimePart half(int k) const { return {interval, 2 * index + k, 2 * of}; }
   /// 0 … kSlots − 1: another one for each part of an interval.
   [[nodiscard]] std::size_t slot() const {

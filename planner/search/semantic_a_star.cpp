@@ -22,7 +22,7 @@ struct Leaf {
   std::int64_t band = 0;
   double f = 0.0;
   double hold_s = 0.0;
-  [[nodiscard]] bool better_than(const Leaf& o) const {
+  [[nodiscard]] bool is_preferred_to(const Leaf& o) const {
     if (o.node < 0) return true;
     if (holds != o.holds) return holds;
     return std::tie(band, f, node) < std::tie(o.band, o.f, o.node);
@@ -30,24 +30,23 @@ struct Leaf {
 };
 
 /// So many bands fit into an integer.
-constexpr double kMostBands = 1e15;
+constexpr double kMaxBands = 1e15;
 
 /// Bands of the cost-to-go: `width` wide, and kFinerBands times finer within the last one.
-std::int64_t band_of(double way_to_go, double width) {
-  const double bands = std::min(way_to_go / width, kMostBands);
+std::int64_t band_of(double cost_to_go, double width) {
+  const double bands = std::min(cost_to_go / width, kMaxBands);
   return bands < 1.0 ? static_cast<std::int64_t>(bands * kFinerBands)
                      : kFinerBands - 1 + static_cast<std::int64_t>(bands);
 }
 
 /// Bands counted from the border of S, the first half as wide: as, counted from 0, the border leaves on the mean. That
 /// may leave a millimetre, and a whole tree is searched in vain for a leaf in it.
-std::int64_t band_from_border(double beyond, double width) {
-  return std::llround(std::min(beyond / width, kMostBands));
-}
+std::int64_t band_from_border(double beyond, double width) { return std::llround(std::min(beyond / width, kMaxBands)); }
 
 /// No point of S has a smaller cost-to-go.
-double way_from_sphere(const SearchProblem& problem) {
-  return std::max(0.0, (problem.way.point - problem.start.p).norm() - problem.sphere_radius) + problem.way.rest;
+double min_cost_to_go_in_sphere(const SearchProblem& problem) {
+  return std::max(0.0, (problem.cost_to_go.point - problem.start.p).norm() - problem.sphere_radius) +
+         problem.cost_to_go.rest;
 }
 
 class Search {
@@ -60,9 +59,9 @@ class Search {
         budget_(budget),
         dt_(problem.interval_s()),
         basis_(spline_basis(problem.intervals)),
-        least_way_(way_from_sphere(problem)),
-        counts_from_border_(problem.plan_limits.dynamics && least_way_ > 0.0),
-        aim_(problem.way.point),
+        min_cost_to_go_(min_cost_to_go_in_sphere(problem)),
+        counts_from_border_(problem.plan_limits.dynamics && min_cost_to_go_ > 0.0),
+        aim_(problem.cost_to_go.point),
         reach_(memory.reach),
         nodes_(memory.nodes),
         open_(memory.open),
@@ -124,14 +123,15 @@ class Search {
 
   /// The best band that a leaf in there may lie in.
   [[nodiscard]] std::int64_t band_within(const Box& reachable) const {
-    const double way = std::max(problem_.way.from(reachable), least_way_);
-    return counts_from_border_ ? band_from_border(way - least_way_, config_.band_m) : band_of(way, config_.band_m);
+    const double cost_to_go = std::max(problem_.cost_to_go.from(reachable), min_cost_to_go_);
+    return counts_from_border_ ? band_from_border(cost_to_go - min_cost_to_go_, config_.band_m)
+                               : band_of(cost_to_go, config_.band_m);
   }
 
   /// @param ahead  ahead_of() it
   void add(const Node& n, const Box& ahead) {
     const Box reachable(n.q + ahead.min(), n.q + ahead.max());
-    double f = n.g + config_.lambda_h * problem_.way.from(n.q);
+    double f = n.g + config_.lambda_h * problem_.cost_to_go.from(n.q);
     if (problem_.pointwise) f += problem_.pointwise(n.q);
     open_.push_back({band_within(reachable), step_of(f), f, leaf_index() - n.l, static_cast<int>(nodes_.size())});
     std::push_heap(open_.begin(), open_.end(), kLater);
@@ -203,7 +203,7 @@ class Search {
     leaf.hold_s = clear_time_at(obstacles_, problem_.intervals, n.q, result_.pairs).seconds;
     leaf.holds = lasts(leaf.hold_s, problem_.hold_required_s);
     if (best_.node < 0) give_up_at_ = result_.expansions + config_.hold_expansions;
-    if (leaf.better_than(best_)) best_ = leaf;
+    if (leaf.is_preferred_to(best_)) best_ = leaf;
   }
 
   void expand(int index, const Node& n) {
@@ -270,11 +270,11 @@ class Search {
   /// Where the first step to a goal outside S may already leave S, or any other would, children aim at where the way
   /// leaves it.
   void aim_within_sphere(const Node& root, const std::array<AxisReach::Interval, 3>& range) {
-    const Vec3 to_goal = problem_.way.point - problem_.start.p;
-    if (in_sphere(problem_.way.point)) return;
-    const bool is_fine = problem_.interval >= kMoment && !oversteps(range);
+    const Vec3 to_goal = problem_.cost_to_go.point - problem_.start.p;
+    if (in_sphere(problem_.cost_to_go.point)) return;
+    const bool is_fine = problem_.interval >= kShortInterval && !oversteps(range);
     if (is_fine && in_sphere(root.q + aimed_velocity(root, range) * dt_)) return;
-    aim_ = problem_.start.p + to_goal * (kWithinSphere * problem_.sphere_radius / to_goal.norm());
+    aim_ = problem_.start.p + to_goal * (kSphereShare * problem_.sphere_radius / to_goal.norm());
   }
 
   /// The velocity that, braking in time, comes to the goal: what is left of the way over what is left of the steps.
@@ -329,7 +329,7 @@ class Search {
     q.col(problem_.intervals + 1) = leaf.q;
     q.col(problem_.intervals + 2) = leaf.q;
     result_.control_points = q;
-    result_.way_to_go = problem_.way.from(leaf.q);
+    result_.cost_to_go = problem_.cost_to_go.from(leaf.q);
     result_.hold_s = best_.hold_s;
     result_.cost = best_.f;
   }
@@ -340,7 +340,7 @@ class Search {
   Budget& budget_;
   const double dt_;
   const SplineBasis& basis_;
-  const double least_way_;         ///< to go from anywhere in S, m
+  const double min_cost_to_go_;    ///< to go from anywhere in S, m
   const bool counts_from_border_;  ///< the bands (docs/inside_the_planner.md: a multirotor)
   Vec3 aim_;                       ///< where one child of each node aims
   StepReach& reach_;

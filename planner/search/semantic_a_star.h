@@ -16,7 +16,7 @@
 namespace tern {
 
 /// The cost-to-go from p: |p − point| + rest, m. `point` is the next corner of the path around static obstacles.
-struct WayToGo {
+struct CostToGo {
   Vec3 point = Vec3::Zero();
   double rest = 0.0;
   [[nodiscard]] double from(const Vec3& p) const { return (p - point).norm() + rest; }
@@ -30,7 +30,7 @@ using StepCost = std::function<double(const Vec3& from, const Vec3& to)>;
 /// From the start to a leaf that comes as near to the goal as it can, by plan_limits. Where the start moves faster than
 /// those allow, the first velocities may too, up to limits.v_max.
 struct SearchProblem : HorizonProblem {
-  WayToGo way = {};
+  CostToGo cost_to_go = {};
   StepCost accumulated = {};                          ///< summed along the path (exposure)
   std::function<double(const Vec3&)> pointwise = {};  ///< of a node alone: λ_att C_att − λ_rep C_rep (mean_distance)
   double hold_required_s = 0.5;
@@ -39,10 +39,10 @@ struct SearchProblem : HorizonProblem {
 
 struct SearchResult {
   bool found = false;
-  Points control_points;   ///< 3×(J+3), ends at rest
-  double way_to_go = 0.0;  ///< of the leaf, m
-  double hold_s = 0.0;     ///< clear time at the end point, up to what `obstacles` covers
-  double cost = 0.0;       ///< f of the leaf
+  Points control_points;    ///< 3×(J+3), ends at rest
+  double cost_to_go = 0.0;  ///< of the leaf, m
+  double hold_s = 0.0;      ///< clear time at the end point, up to what `obstacles` covers
+  double cost = 0.0;        ///< f of the leaf
   std::int64_t expansions = 0;
   PairCounts pairs;
   std::vector<SearchViewNode> nodes;  ///< what was found clear, in that order, if they are kept

@@ -17,7 +17,7 @@ bool are_equal(const Limits& limits, int a, int b) {
 void StepReach::assign(const HorizonProblem& problem) {
   dt_ = problem.interval_s();
   const Limits& limits = problem.plan_limits;
-  const Limits box = boxed(limits);
+  const Limits box = per_axis_limits(limits);
   thrust_.reset();
   if (limits.dynamics) thrust_.emplace(*limits.dynamics);
   for (int axis = 0; axis < 3; ++axis) {

@@ -13,10 +13,10 @@ namespace tern {
 
 /// Three AxisReach by plan_limits, and a multirotor's thrust where they have dynamics.
 ///
-/// Dynamics couple the axes. The limits per axis that boxed() finds imply them, so an end at rest that is reachable by
-/// these can be flown. One step may use any acceleration in the ThrustSet, at any allowed body rate, if later steps can
-/// end at rest by boxed limits. So every state that flyable() leads to has such a step again. The set of states is
-/// larger than what boxed limits alone would reach.
+/// Dynamics couple the axes. The limits per axis that per_axis_limits() finds imply them, so an end at rest that is
+/// reachable by these can be flown. One step may use any acceleration in the ThrustSet, at any allowed body rate, if
+/// later steps can end at rest by per_axis_limits limits. So every state that flyable() leads to has such a step again.
+/// The set of states is larger than what per_axis_limits limits alone would reach.
 class StepReach {
  public:
   /// Keeps its memory.
@@ -27,7 +27,7 @@ class StepReach {
     return steps_[shared_[idx(axis)]].displacement(l, v_previous);
   }
 
-  /// What may follow v_l and a_{l-1}: per axis, and the part of it that boxed limits reach.
+  /// What may follow v_l and a_{l-1}: per axis, and the part of it that per_axis_limits limits reach.
   struct Steps {
     Vec3 v, a;
     std::array<AxisReach::Interval, 3> range;

@@ -48,7 +48,7 @@ struct Scene {
     obstacles = obstacles_of(tracks);
     problem.interval = Duration{250'000};
     problem.centre_box = Box(Vec3(-4, -4, -4), Vec3(4, 4, 4));
-    problem.way.point = Vec3(3.9, 0, 0);
+    problem.cost_to_go.point = Vec3(3.9, 0, 0);
     for (int k = 0; k <= 12; ++k) times.push_back(k * problem.interval_s());
   }
 };

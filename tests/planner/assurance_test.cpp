@@ -14,7 +14,7 @@ using namespace support;
 
 constexpr UTime kStart{50'000'000};
 constexpr AlphaShares kShares{0.9F, 0.5F, 0.3F, 0.1F};
-constexpr double kAsideS = 0.5;
+constexpr double kSideStepS = 0.5;
 
 /// A post that is believed to stand there, α as wide.
 Track believed_post(std::int64_t id, const Vec3& p, double alpha) {
@@ -65,29 +65,29 @@ class InACorridor : public ::testing::Test {
   HorizonRequest request_ = request_at(rest_.end() + Duration{500'000}, rest_);
 };
 
-TEST(CountAlpha, LeavesWhatIsDeclaredOrStaticAsItIs) {
+TEST(ApplyAssurance, LeavesWhatIsDeclaredOrStaticAsItIs) {
   std::vector<Track> tracks = {straight_mover(1, Vec3::Zero(), Vec3::Ones(), 0.3, kStart, 2.0),
                                standing_box(2, Box(Vec3::Zero(), Vec3::Ones()), kStart),
                                believed_post(3, Vec3::Zero(), 1.0)};
   for (Track& track : tracks) track.alpha[0] = Vec3::Ones();
   std::vector<PlanningObstacle> obstacles = obstacles_of(tracks);
-  for (const Assurance& assurance : lower_assurances(kAsideS)) {
-    count_alpha(assurance, kStart, obstacles);
+  for (const Assurance& assurance : reduced_assurances(kSideStepS)) {
+    apply_assurance(assurance, kStart, obstacles);
     EXPECT_EQ(obstacles[0].alpha.of(tracks[0], 0), Vec3::Ones());
     EXPECT_EQ(obstacles[1].alpha.of(tracks[1], 0), Vec3::Ones());
     EXPECT_LE(obstacles[2].alpha.of(tracks[2], 0).maxCoeff(), 1.0);
   }
-  count_alpha({}, kStart, obstacles);
+  apply_assurance({}, kStart, obstacles);
   EXPECT_EQ(obstacles[2].alpha.of(tracks[2], 0), Vec3::Ones());
 }
 
-TEST(LowerAssurances, CountLessAndLess) {
+TEST(ReducedAssurances, CountLessAndLess) {
   const Track track = new_thing(1, Vec3::Zero(), kStart);
   std::vector<Vec3> before = track.alpha;
-  for (const Assurance& assurance : lower_assurances(kAsideS)) {
+  for (const Assurance& assurance : reduced_assurances(kSideStepS)) {
     std::vector<PlanningObstacle> obstacles = obstacles_of({track});
     obstacles[0].track = &track;
-    count_alpha(assurance, kStart, obstacles);
+    apply_assurance(assurance, kStart, obstacles);
     for (std::size_t k = 0; k < before.size(); ++k) {
       const Vec3 now = obstacles[0].alpha.of(track, k);
       EXPECT_LE(now.x(), before[k].x());
@@ -97,19 +97,19 @@ TEST(LowerAssurances, CountLessAndLess) {
   }
 }
 
-TEST(LowerAssurances, CountThePromisedAlphaForAsLongAsItIsSure) {
+TEST(ReducedAssurances, CountThePromisedAlphaForAsLongAsItIsSure) {
   const Track track = new_thing(1, Vec3::Zero(), kStart);
   std::vector<PlanningObstacle> obstacles = obstacles_of({track});
   obstacles[0].track = &track;
-  count_alpha({0, 1.0, Duration{450'000}}, kStart, obstacles);
+  apply_assurance({0, 1.0, Duration{450'000}}, kStart, obstacles);
   for (std::size_t k = 0; k < track.alpha.size(); ++k) {
     EXPECT_EQ(obstacles[0].alpha.of(track, k), track.alpha[std::min<std::size_t>(k, 4)]) << k;
   }
 }
 
-TEST(LowerAssurances, AreNeverMoreConfidentThanTheOneBefore) {
+TEST(ReducedAssurances, AreNeverMoreConfidentThanTheOneBefore) {
   double before = 1.0;
-  for (const Assurance& assurance : lower_assurances(kAsideS)) {
+  for (const Assurance& assurance : reduced_assurances(kSideStepS)) {
     EXPECT_LE(confidence_of(assurance, 0.99), before);
     before = confidence_of(assurance, 0.99);
   }
@@ -124,14 +124,14 @@ TEST(ConfidenceOf, IsThatOfTheSetsPromiseWhereANumberIsKnown) {
   EXPECT_EQ(confidence_of({kLevels - 1, 0.5, Duration{450'000}}, 0.97), 0.0);
 }
 
-TEST(LowerAssurances, CountAlphaThatGrowsForTheTimeToStepAside) {
+TEST(ReducedAssurances, CountAlphaThatGrowsForTheTimeToStepAside) {
   const Track track = new_thing(1, Vec3::Zero(), kStart);
   std::vector<PlanningObstacle> obstacles = obstacles_of({track});
   obstacles[0].track = &track;
-  for (const Assurance& assurance : lower_assurances(kAsideS)) {
-    count_alpha(assurance, kStart, obstacles);
+  for (const Assurance& assurance : reduced_assurances(kSideStepS)) {
+    apply_assurance(assurance, kStart, obstacles);
     const AlphaShare& count = obstacles[0].alpha;
-    const double last_s = kAsideS - 0.05;  // in the last piece before
+    const double last_s = kSideStepS - 0.05;  // in the last piece before
     EXPECT_GT(count.of(track, track.motion.locate(kStart + Duration::from_seconds(last_s)).index).x(),
               2.0 * count.of(track, 0).x());
   }
@@ -194,9 +194,9 @@ TEST_F(InACorridor, WhoHasRestedOnTheWayForLongTakesWhatHasNoNumber) {
 
 TEST_F(InACorridor, WhoMayStayWaitsTheLongerTheLessSureItIsToGo) {
   // Ways are left at level 2, and where it is wider at level 4 alone.
-  const auto sets_out_after = [&](double alpha, double rested_s) {
+  const auto sets_out_after = [&](double alpha, double time_at_rest_s) {
     const Box corridor = request_.flight_box;
-    request_ = request_at(rest_.end() + Duration::from_seconds(rested_s), rest_);
+    request_ = request_at(rest_.end() + Duration::from_seconds(time_at_rest_s), rest_);
     request_.flight_box = corridor;
     return answer({believed_post(1, Vec3(1.8, 0, 1), alpha)}).trajectory.control_points.row(0).maxCoeff() > 1.0;
   };

@@ -26,36 +26,36 @@ double brute_force(double d, double v0, double v_max, double a) {
   return best;
 }
 
-TEST(LeastTimeToRest, MatchesABruteForceOverCruisingSpeeds) {
+TEST(MinTimeToRest, MatchesABruteForceOverCruisingSpeeds) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Rng rng(seed);
     const double v_max = rng.uniform(1.0, 8.0);
     const double a = rng.uniform(2.0, 20.0);
     const double v0 = rng.uniform() < 0.2 ? 0.0 : rng.uniform(-1.3, 1.3) * v_max;
     const double d = rng.uniform() < 0.5 ? rng.uniform(-20.0, 20.0) : rng.uniform(-2.0, 2.0);
-    EXPECT_NEAR(least_time_to_rest(d, v0, v_max, a), brute_force(d, v0, v_max, a), 2e-3)
+    EXPECT_NEAR(min_time_to_rest(d, v0, v_max, a), brute_force(d, v0, v_max, a), 2e-3)
         << "d " << d << " v0 " << v0 << " v_max " << v_max << " a " << a;
   }
 }
 
-TEST(LeastTimeToRest, KnowsTheClosedCases) {
-  EXPECT_DOUBLE_EQ(least_time_to_rest(0.0, 0.0, 6.0, 20.0), 0.0);
-  EXPECT_DOUBLE_EQ(least_time_to_rest(1.0, 0.0, 100.0, 4.0), 1.0);                       // 2 √(d/a)
-  EXPECT_DOUBLE_EQ(least_time_to_rest(6.0, 0.0, 2.0, 4.0), 3.5);                         // d/v + v/a
-  EXPECT_DOUBLE_EQ(least_time_to_rest(2.0, 4.0, 6.0, 4.0), 1.0);                         // just brakes: v²/(2a) = d
-  EXPECT_DOUBLE_EQ(least_time_to_rest(0.0, 4.0, 6.0, 4.0), 1.0 + 2.0 * std::sqrt(0.5));  // brakes and comes back 2 m
+TEST(MinTimeToRest, KnowsTheClosedCases) {
+  EXPECT_DOUBLE_EQ(min_time_to_rest(0.0, 0.0, 6.0, 20.0), 0.0);
+  EXPECT_DOUBLE_EQ(min_time_to_rest(1.0, 0.0, 100.0, 4.0), 1.0);                       // 2 √(d/a)
+  EXPECT_DOUBLE_EQ(min_time_to_rest(6.0, 0.0, 2.0, 4.0), 3.5);                         // d/v + v/a
+  EXPECT_DOUBLE_EQ(min_time_to_rest(2.0, 4.0, 6.0, 4.0), 1.0);                         // just brakes: v²/(2a) = d
+  EXPECT_DOUBLE_EQ(min_time_to_rest(0.0, 4.0, 6.0, 4.0), 1.0 + 2.0 * std::sqrt(0.5));  // brakes and comes back 2 m
 }
 
-TEST(LeastTimeToRest, IsTheSameInTheMirror) {
+TEST(MinTimeToRest, IsTheSameInTheMirror) {
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
     Rng rng(seed);
     const double d = rng.uniform(-9.0, 9.0);
     const double v0 = rng.uniform(-7.0, 7.0);
-    EXPECT_DOUBLE_EQ(least_time_to_rest(d, v0, 6.0, 10.0), least_time_to_rest(-d, -v0, 6.0, 10.0));
+    EXPECT_DOUBLE_EQ(min_time_to_rest(d, v0, 6.0, 10.0), min_time_to_rest(-d, -v0, 6.0, 10.0));
   }
 }
 
-TEST(LeastDuration, IsTheSlowestAxisWhereJerkIsFree) {
+TEST(MinDuration, IsTheSlowestAxisWhereJerkIsFree) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
     MotionSample start;
@@ -66,12 +66,12 @@ TEST(LeastDuration, IsTheSlowestAxisWhereJerkIsFree) {
     double slowest = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
       slowest = std::max(
-          slowest, least_time_to_rest(to[axis] - start.p[axis], start.v[axis], limits.v_max[axis], limits.a_max[axis]));
+          slowest, min_time_to_rest(to[axis] - start.p[axis], start.v[axis], limits.v_max[axis], limits.a_max[axis]));
     }
-    EXPECT_EQ(least_duration(start, to, limits), slowest);
+    EXPECT_EQ(min_duration(start, to, limits), slowest);
     Limits jerky = limits;
     jerky.j_max = Vec3::Constant(50.0);
-    EXPECT_GE(least_duration(start, to, jerky), slowest);
+    EXPECT_GE(min_duration(start, to, jerky), slowest);
   }
 }
 

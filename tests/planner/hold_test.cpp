@@ -21,34 +21,34 @@ Limits limits_of(double v, double a, double j) { return {Vec3::Constant(v), Vec3
 
 double drawn(int low, int high) { return *rc::gen::inRange(low, high) * 0.01; }
 
-TEST(TimeToStepAside, IsTheQuickestAxisThatAMoverAlongTheQuickestOneLeaves) {
+TEST(SideStepTime, IsTheQuickestAxisThatAMoverAlongTheQuickestOneLeaves) {
   Limits limits = limits_of(1.0, 1.0, std::numeric_limits<double>::infinity());
   limits.v_max = Vec3(1.0, 2.0, 4.0);
   const Vec3 half = Vec3::Constant(5.0);
-  const double by_y = kStopScale * least_duration(MotionSample{}, Vec3(0, 10, 0), limits);
-  EXPECT_DOUBLE_EQ(time_to_step_aside(limits, half, half), by_y);
+  const double by_y = kStopScale * min_duration(MotionSample{}, Vec3(0, 10, 0), limits);
+  EXPECT_DOUBLE_EQ(side_step_time(limits, half, half), by_y);
 }
 
-RC_GTEST_PROP(TimeToStepAside, GrowsWithTheMoverAndIsNeverLessThanWithoutAJerkLimit, ()) {
+RC_GTEST_PROP(SideStepTime, GrowsWithTheMoverAndIsNeverLessThanWithoutAJerkLimit, ()) {
   const double v = drawn(5, 600);
   const double a = drawn(10, 2000);
   const double j = drawn(100, 20'000);
   const Vec3 body = Vec3::Constant(drawn(0, 50));
   const Vec3 mover(drawn(1, 200), drawn(1, 200), drawn(1, 200));
-  const double time = time_to_step_aside(limits_of(v, a, j), body, mover);
-  RC_ASSERT(time >= time_to_step_aside(limits_of(v, a, std::numeric_limits<double>::infinity()), body, mover));
-  RC_ASSERT(time_to_step_aside(limits_of(v, a, j), body, 2.0 * mover) >= time - 1e-12);
+  const double time = side_step_time(limits_of(v, a, j), body, mover);
+  RC_ASSERT(time >= side_step_time(limits_of(v, a, std::numeric_limits<double>::infinity()), body, mover));
+  RC_ASSERT(side_step_time(limits_of(v, a, j), body, 2.0 * mover) >= time - 1e-12);
 }
 
 RC_GTEST_PROP(HoldDemand, AsksForWhatTheVehicleNeedsAsFarAsPredictionsReach, ()) {
   HoldDemand hold;
-  hold.aside_s = drawn(0, 800);
+  hold.side_step_s = drawn(0, 800);
   hold.predicted_s = drawn(0, 500);
   const double end_s = drawn(0, 600);
   const double required = hold.required(end_s);
   RC_ASSERT(required >= hold.required_s);
   if (required > hold.required_s) RC_ASSERT(end_s + required <= hold.predicted_s + 1e-12);
-  RC_ASSERT(end_s + required >= std::min(hold.aside_s, hold.predicted_s) - 1e-12);
+  RC_ASSERT(end_s + required >= std::min(hold.side_step_s, hold.predicted_s) - 1e-12);
   RC_ASSERT(hold.cap(end_s) >= required);
   RC_ASSERT(hold.cap_of_stop(end_s) >= hold.cap(end_s));
 }
@@ -76,16 +76,16 @@ TEST(HoldDemand, GivesTheTimeToLeaveTheWayOfEachMover) {
     double longest_s = 0.0;
     for (const Track& track : tracks) {
       const Vec3 body = request.body.half_extents();
-      longest_s = std::max(longest_s, time_to_step_aside(boxed(request.limits), body, track.half_extents));
+      longest_s = std::max(longest_s, side_step_time(per_axis_limits(request.limits), body, track.half_extents));
     }
-    EXPECT_EQ(hold_demand(request, PlannerConfig{}, obstacles_of(tracks), 4.5).aside_s, longest_s);
+    EXPECT_EQ(hold_demand(request, PlannerConfig{}, obstacles_of(tracks), 4.5).side_step_s, longest_s);
   }
 }
 
 RC_GTEST_PROP(HoldDemand, AsksForNothingAfterItsEnd, ()) {
   HoldDemand hold;
   hold.until_s = drawn(0, 300);
-  hold.aside_s = drawn(0, 800);
+  hold.side_step_s = drawn(0, 800);
   hold.predicted_s = 4.5;
   const double end_s = drawn(0, 600);
   RC_ASSERT(hold.required(end_s) <= std::max(0.0, hold.until_s - end_s) + 1e-12);

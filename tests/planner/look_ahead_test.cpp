@@ -57,7 +57,7 @@ LookAhead looking(double horizon_s, double followed_s) {
   return {kStart + Duration::from_seconds(followed_s), followed_s, horizon_s};
 }
 
-TEST(LocalAim, FitsIntoTheHorizonWhereAnyDoesAndIsNoNearerThanItMust) {
+TEST(LocalGoal, FitsIntoTheHorizonWhereAnyDoesAndIsNoNearerThanItMust) {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     Rng rng(seed);
     const auto draw = [&](double high) {
@@ -72,24 +72,24 @@ TEST(LocalAim, FitsIntoTheHorizonWhereAnyDoesAndIsNoNearerThanItMust) {
     const HoldDemand hold;
     const double radius = 0.1 * std::pow(1e4, rng.uniform());
     const LookAhead look = looking(rng.uniform(3.0, 5.0), rng.uniform(7.0, 9.0));
-    const LocalAim aim = aim_along(path, start, limits, radius, longest_first_duration(look, hold, config));
+    const LocalGoal aim = local_goal_along(path, start, limits, radius, max_planned_duration(look, hold, config));
     const double room_s = std::min(look.horizon_s - hold.required_s, look.followed_s - hold.cap_s);
-    EXPECT_LE(config.duration_scales.front() * aim.least_s, room_s) << "seed " << seed;
+    EXPECT_LE(config.duration_scales.front() * aim.planned_s, room_s) << "seed " << seed;
     EXPECT_GT(aim.radius, 0.0);
     EXPECT_LE((aim.goal - start.p).norm(), aim.radius * (1.0 + 1e-9));
     if (aim.radius == radius) continue;
-    const LocalAim farther = aim_along(path, start, limits, 1.2001 * aim.radius, 1e9);
-    EXPECT_GT(config.duration_scales.front() * farther.least_s, 0.99 * room_s) << "seed " << seed;
+    const LocalGoal farther = local_goal_along(path, start, limits, 1.2001 * aim.radius, 1e9);
+    EXPECT_GT(config.duration_scales.front() * farther.planned_s, 0.99 * room_s) << "seed " << seed;
   }
 }
 
-TEST(LocalAim, KeepsIntervalsWithinTheLongestWhereNothingMoves) {
+TEST(LocalGoal, KeepsIntervalsWithinTheLongestWhereNothingMoves) {
   Limits limits;
   limits.v_max = Vec3::Constant(0.01);
   PlannerConfig config;
-  const double longest_s = longest_first_duration(looking(1e9, 1e9), HoldDemand{}, config);
-  const LocalAim aim = aim_along({Vec3::Zero(), Vec3(50, 0, 0)}, MotionSample{}, limits, 4.0, longest_s);
-  EXPECT_LE(config.duration_scales.front() * aim.least_s, config.intervals * kMaxIntervalDuration.seconds());
+  const double longest_s = max_planned_duration(looking(1e9, 1e9), HoldDemand{}, config);
+  const LocalGoal aim = local_goal_along({Vec3::Zero(), Vec3(50, 0, 0)}, MotionSample{}, limits, 4.0, longest_s);
+  EXPECT_LE(config.duration_scales.front() * aim.planned_s, config.intervals * kMaxIntervalDuration.seconds());
   EXPECT_GT(aim.radius, 2.0);
 }
 
@@ -104,7 +104,7 @@ TEST(PlannedDuration, UnderGentleJerkIsNoMoreThanStoppingAndFlyingOn) {
   limits.j_max = Vec3::Constant(100.0);
   for (const double d : {0.05, 0.3, 4.0, 50.0}) {
     EXPECT_LE(planned_duration(start, Vec3(d, 0, 0), limits), rest_to_rest_s(d, 6.0, 20.0, 100.0) + 1e-9);
-    EXPECT_EQ(planned_duration(start, Vec3(d, 0, 0), limits), least_duration(start, Vec3(d, 0, 0), limits));
+    EXPECT_EQ(planned_duration(start, Vec3(d, 0, 0), limits), min_duration(start, Vec3(d, 0, 0), limits));
   }
 }
 

@@ -43,7 +43,7 @@ std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const
   std::vector<PlanningObstacle> obstacles = world.predictions->obstacles;
   std::int64_t id = -1;
   for (const Box& box : world.map->occupied.boxes()) obstacles.push_back({id--, nullptr, box, {}});
-  count_alpha(assurance, request.t_s, obstacles);
+  apply_assurance(assurance, request.t_s, obstacles);
   (void)clear_start(obstacles, request.body, request.start.p, request.t_s);
   return obstacles;
 }

@@ -57,7 +57,7 @@ Scene scene_from(const MotionSample& start, double interval_s, const Vec3& goal,
   s.problem.plan_limits.v_max *= 0.99;
   s.problem.sphere_radius = kRadius;
   s.problem.centre_box = kOpen;
-  s.problem.way.point = goal;
+  s.problem.cost_to_go.point = goal;
   return s;
 }
 
@@ -79,7 +79,7 @@ Scene random_scene(std::uint64_t seed) {
   s.problem.intervals = random_integer(rng, 4, 8);
   s.problem.limits = s.problem.plan_limits = limits;
   s.problem.plan_limits.v_max *= 0.99;
-  s.problem.way.rest = rng.uniform(0.0, 3.0);
+  s.problem.cost_to_go.rest = rng.uniform(0.0, 3.0);
   if (rng.uniform() < 0.5) {
     const Vec3 half(rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0), rng.uniform(0.5, 5.0));
     s.problem.centre_box = centre_box(box_around(start.p, half), s.body);
@@ -131,7 +131,7 @@ TEST(SemanticAStar, WhatItSaysOfItsLeafIsTrue) {
     const SearchResult result = s.search(quick());
     if (!result.found) continue;
     const Vec3 end = result.control_points.rightCols<1>();
-    EXPECT_EQ(result.way_to_go, s.problem.way.from(end));
+    EXPECT_EQ(result.cost_to_go, s.problem.cost_to_go.from(end));
     SweptObstacles swept = s.sweep();
     PairCounts counts;
     EXPECT_EQ(result.hold_s, clear_time_at(swept, s.problem.intervals, end, counts).seconds);
@@ -203,12 +203,12 @@ TEST(SemanticAStar, InAnEmptyWorldItComesAsNearAsAMuchFinerSearch) {
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     Rng rng(seed);
     const Vec3 goal = random_vector(rng, 2.2);
-    const double duration = rng.uniform(1.1, 1.8) * least_duration({}, goal, Limits{});
+    const double duration = rng.uniform(1.1, 1.8) * min_duration({}, goal, Limits{});
     const Scene s = scene_from({}, std::max(duration / 6, 0.05), goal);
     const SearchResult usual = s.search();
     const SearchResult finer = s.search(fine);
     ASSERT_TRUE(usual.found && finer.found) << "seed " << seed;
-    EXPECT_LE(usual.way_to_go, finer.way_to_go + SearchConfig{}.band_m) << "seed " << seed;
+    EXPECT_LE(usual.cost_to_go, finer.cost_to_go + SearchConfig{}.band_m) << "seed " << seed;
   }
 }
 
@@ -228,7 +228,7 @@ TEST(SemanticAStar, AmongAFewBoxesItComesAsNearAsAMuchFinerSearch) {
     const SearchResult usual = s.search();
     const SearchResult finer = s.search(fine);
     ASSERT_TRUE(usual.found && finer.found) << "seed " << seed;
-    EXPECT_LE(usual.way_to_go, finer.way_to_go + SearchConfig{}.band_m) << "seed " << seed;
+    EXPECT_LE(usual.cost_to_go, finer.cost_to_go + SearchConfig{}.band_m) << "seed " << seed;
   }
 }
 
@@ -252,7 +252,8 @@ TEST(SemanticAStar, OfAMultirotorNoDistanceOfTheGoalMakesItSearchInVain) {
       const SearchResult result = s.search();
       ASSERT_TRUE(result.found) << interval_s << " s, " << mm << " mm";
       ASSERT_LT(result.expansions, SearchConfig{}.max_expansions / 20) << interval_s << " s, " << mm << " mm";
-      ASSERT_GT(s.problem.way.from(start.p) - result.way_to_go, 0.95 * kRadius) << interval_s << " s, " << mm << " mm";
+      ASSERT_GT(s.problem.cost_to_go.from(start.p) - result.cost_to_go, 0.95 * kRadius)
+          << interval_s << " s, " << mm << " mm";
     }
   }
 }
@@ -286,13 +287,13 @@ TEST(SemanticAStar, AnEndThatStaysClearIsPreferredToANearerOneThatDoesNot) {
   s.problem.hold_required_s = 0.0;
   const SearchResult careless = s.search();
   ASSERT_TRUE(careless.found);
-  EXPECT_LT(careless.way_to_go, 0.5);
+  EXPECT_LT(careless.cost_to_go, 0.5);
   EXPECT_LT(careless.hold_s, 0.5);
   s.problem.hold_required_s = 1.0;
   const SearchResult careful = s.search();
   ASSERT_TRUE(careful.found);
   EXPECT_GE(careful.hold_s, 1.0);
-  EXPECT_LT(careful.way_to_go, 1.5);
+  EXPECT_LT(careful.cost_to_go, 1.5);
 }
 
 TEST(SemanticAStar, AWalledInStartHasNoLeafBeyondTheWalls) {
@@ -336,7 +337,7 @@ TEST(SemanticAStar, AStepsCostBendsTheWayAroundWhatIsDear) {
   ASSERT_TRUE(blind.found && seeing.found);
   EXPECT_GT(dear_of(blind), 0.8);
   EXPECT_LT(dear_of(seeing), 0.5 * dear_of(blind));
-  EXPECT_LT(seeing.way_to_go, 1.0);
+  EXPECT_LT(seeing.cost_to_go, 1.0);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(ThrustSet, BoxedLimitsImplyTheDynamics) {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     Rng rng(seed);
     const Limits limits = random_limits(rng);
-    const Limits box = boxed(limits);
+    const Limits box = per_axis_limits(limits);
     const ThrustSet set(*limits.dynamics);
     const double dt = rng.uniform(0.02, 0.6);
     ASSERT_GE(set.floor, limits.dynamics->thrust_min);
@@ -36,7 +36,7 @@ TEST(ThrustSet, BoxedLimitsImplyTheDynamics) {
       const Vec3 sign((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0);
       ASSERT_TRUE(set.contains(sign.cwiseProduct(box.a_max))) << "seed " << seed << ", corner " << corner;
     }
-    // From anywhere in the set, by boxed jerk, to anywhere in the set.
+    // From anywhere in the set, by per_axis_limits jerk, to anywhere in the set.
     for (int k = 0; k < 50; ++k) {
       const Vec3 from = random_vector(rng, 20.0);
       const Vec3 to = from + random_vector(rng, 1.0).cwiseProduct(box.j_max) * dt;
@@ -57,14 +57,14 @@ TEST(ThrustSet, TheOctagonIsInsideTheConeAndLosesNoMoreThanItSays) {
 
 TEST(ThrustSet, WithoutDynamicsLimitsStayAsTheyAre) {
   const Limits limits;
-  EXPECT_EQ(boxed(limits).a_max, limits.a_max);
-  EXPECT_EQ(boxed(limits).j_max, limits.j_max);
+  EXPECT_EQ(per_axis_limits(limits).a_max, limits.a_max);
+  EXPECT_EQ(per_axis_limits(limits).j_max, limits.j_max);
 }
 
 /// From a start that can end at rest, steps that want anything: always one that may be flown, and rest at the end.
 TEST(StepReach, WhateverIsWantedThereIsMostlyAFlyableStepUntilRest) {
   int walks = 0;
-  int bold = 0;   // of these, which went where boxed limits would not
+  int bold = 0;   // of these, which went where per_axis_limits limits would not
   int ended = 0;  // of these, which found no step: the search has other children
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     Rng rng(seed);
@@ -85,7 +85,7 @@ TEST(StepReach, WhateverIsWantedThereIsMostlyAFlyableStepUntilRest) {
         steps.steady[0].empty() || steps.steady[1].empty() || steps.steady[2].empty())
       continue;
     ++walks;
-    const Limits box = boxed(problem.plan_limits);
+    const Limits box = per_axis_limits(problem.plan_limits);
     bool outside = false;
     bool found = true;
     for (int l = 1; l < problem.intervals; ++l) {

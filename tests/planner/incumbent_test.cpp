@@ -1,4 +1,4 @@
-#include "planner/standing_answer.h"
+#include "planner/incumbent.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ using namespace support;
 
 constexpr UTime kStart{50'000'000};
 
-TEST(StandingAnswer, WeighsTheWholeCostAnewWhereItHeadsElsewhere) {
+TEST(Incumbent, EvaluatesTheWholeCostAgainForANewCourse) {
   const TimedSpline rest = resting_at(Vec3(0, 0, 1), kStart);
   const HorizonRequest request = request_at(rest.end() + Duration{500'000}, rest);
   const PlanningWorld world = world_of({}, go_to(Vec3(10, 0, 1)), request);
@@ -22,17 +22,17 @@ TEST(StandingAnswer, WeighsTheWholeCostAnewWhereItHeadsElsewhere) {
   PlanLog log(nullptr);
   Budget budget = Budget::unlimited();
   PlanTools tools{budget, workspace, log};
-  StandingAnswer standing(near, Plan{}, std::nullopt, 0.99, tools);
+  Incumbent incumbent(near, Plan{}, std::nullopt, 0.99, tools);
   Candidate candidate;
   candidate.outcome = PlanOutcome::Optimized;
   candidate.trajectory = resting_at(Vec3(1, 0, 1), request.t_s);
   candidate.cost.jerk = 3.0;
   candidate.cost.distance_to_goal = 3.0;
-  standing.take(candidate);
-  Heading heading = heading_nowhere(near);
-  heading.local.goal = Vec3(3, 0, 1);
-  standing.head_for(heading);
-  const PlanCost cost = standing.chosen(PlanReason::None).cost;
+  incumbent.offer(candidate);
+  Course course = course_in_place(near);
+  course.local.goal = Vec3(3, 0, 1);
+  incumbent.set_course(course);
+  const PlanCost cost = incumbent.choose(PlanReason::None).cost;
   EXPECT_NEAR(cost.distance_to_goal, 2.0, 1e-12);
   EXPECT_NEAR(cost.total, config.optimization.weight_jerk * 3.0 + config.optimization.weight_goal * 4.0, 1e-12);
 }

@@ -8,52 +8,54 @@
 namespace tern {
 
 /// Tells the log's observer of every answer that comes to stand.
-class StandingAnswer {
+class Incumbent {
  public:
   /// What is committed stands, or no plan. @param blank  what every answer to the request says
-  /// @param promised  the predictions' confidence
-  StandingAnswer(const Surroundings& near, Plan blank, std::optional<Candidate> committed, double promised,
-                 PlanTools& tools);
+  /// @param set_confidence  the predictions' confidence
+  Incumbent(const Surroundings& near, Plan blank, std::optional<Candidate> committed, double set_confidence,
+            PlanTools& tools);
 
   [[nodiscard]] const std::optional<Candidate>& committed() const { return committed_; }
   /// The predictions' confidence.
-  [[nodiscard]] double promised() const { return promised_; }
+  [[nodiscard]] double set_confidence() const { return set_confidence_; }
   /// What is new.
   [[nodiscard]] const std::optional<Candidate>& best() const { return best_; }
 
   /// Whether there is something new that leads at least a little of the way to the local goal.
-  [[nodiscard]] bool gets_on() const { return best_ && gets_on(*best_); }
+  [[nodiscard]] bool makes_progress() const { return best_ && makes_progress(*best_); }
 
   /// From now on, plans head there, and what is committed and what is new are judged by that.
-  void head_for(const Heading& heading);
+  void set_course(const Course& course);
   /// What is committed, certified at less than was looked for so far.
-  void keep(std::optional<Candidate> committed, const Heading& heading);
+  void replace_committed(std::optional<Candidate> committed, const Course& course);
   /// A leaf stands while it is optimized, if it is better than the best; the best stays what it is.
-  void announce(const Candidate& leaf);
+  void report_leaf(const Candidate& leaf);
   /// Takes what is better than the best.
-  void take(Candidate candidate);
+  void offer(Candidate candidate);
   /// Takes an evasion, if there is one, whatever stood.
-  void replace(std::optional<Candidate> evasion);
+  void replace_best(std::optional<Candidate> evasion);
 
   /// The choice. @param reason  why there is nothing new, if there is not
-  [[nodiscard]] Plan chosen(PlanReason reason) const;
+  [[nodiscard]] Plan choose(PlanReason reason) const;
   /// What is committed, or no plan.
-  [[nodiscard]] Plan kept(PlanReason reason) const { return filled(committed_ ? &*committed_ : nullptr, reason); }
+  [[nodiscard]] Plan committed_plan(PlanReason reason) const {
+    return filled(committed_ ? &*committed_ : nullptr, reason);
+  }
 
  private:
-  void tell(const Candidate& candidate);
-  [[nodiscard]] bool gets_on(const Candidate& candidate) const;
-  [[nodiscard]] bool is_best(const Candidate& candidate) const;
-  [[nodiscard]] bool sets_out() const;
-  [[nodiscard]] bool puts_off(const Candidate& candidate) const;
+  void report(const Candidate& candidate);
+  [[nodiscard]] bool makes_progress(const Candidate& candidate) const;
+  [[nodiscard]] bool is_better_than_best(const Candidate& candidate) const;
+  [[nodiscard]] bool departs_from_rest() const;
+  [[nodiscard]] bool is_delayed(const Candidate& candidate) const;
   /// than what is committed
-  [[nodiscard]] bool is_worse(const Candidate& candidate) const;
+  [[nodiscard]] bool is_worse_than_committed(const Candidate& candidate) const;
   [[nodiscard]] Plan filled(const Candidate* candidate, PlanReason reason) const;
 
   const Surroundings& near_;
   Plan blank_;
   std::optional<Candidate> committed_, best_;
-  double promised_;
+  double set_confidence_;
   PlanTools& tools_;
 };
 
