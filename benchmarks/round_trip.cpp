@@ -29,7 +29,7 @@ constexpr Channel<ConfigurationReport> kPing{"PING"}, kPong{"PONG"};
 
 struct End {
   explicit End(const std::optional<Key>& master) {
-    lcm = or_refuse(open_lcm(choose_lcm_url("", nullptr)));
+    lcm = value_or_throw(open_lcm(choose_lcm_url("", nullptr)));
     std::optional<KeyRing> keys;
     if (master) keys = KeyRing::derive(*master, "round-trip");
     bus = std::make_unique<Bus>(lcm, clock, clock.now().us, "", std::move(keys));

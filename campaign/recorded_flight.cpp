@@ -13,7 +13,7 @@
 #include "executor/app/executor_node.h"
 #include "flight_log/log_writer.h"
 #include "messages/codec.h"
-#include "monitor/app/hear_flight.h"
+#include "monitor/app/subscribe_flight.h"
 #include "runtime/child_process.h"
 
 namespace tern {
@@ -49,7 +49,7 @@ void record_text(const std::string& path, const std::string& text) {
 
 /// Everything on the bus, on its way into the watch, the times and the observer.
 void subscribe(Bus& bus, FlightWatch& watch, FlightTimes& times, FlightObserver* observer) {
-  hear_flight(bus, watch);
+  subscribe_flight(bus, watch);
   bus.subscribe(channels::kPlanTiming, [&times](const PlanTiming& m) { add(times, m); });
   if (observer == nullptr) return;
   bus.subscribe(channels::kHorizonRequest, [observer](const HorizonRequest& m) { observer->on_request(m); });

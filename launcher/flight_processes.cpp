@@ -57,7 +57,7 @@ std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, co
   const std::string log = record + "/flight.lcm";
   pass(options.listens_fd, "--listens-fd", add(kLogger, {"--record", log}).child);
   add(kMonitor, {"--summary", record + "/summary.json", "--log", log, "--failure-file", record + "/failure",
-                 "--command", options.typed})
+                 "--command", options.command})
       .restarted = false;
   for (const char* name : {"tern-simulator", "tern-executor", "tern-predictor", "tern-mapper", "tern-planner"})
     add(name, {});
@@ -72,8 +72,8 @@ std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, co
   return processes;
 }
 
-std::vector<std::vector<std::string>> checks_of_absent(const LaunchOptions& options,
-                                                       const std::vector<SupervisedProcess>& processes) {
+std::vector<std::vector<std::string>> checks_of_unused_sections(const LaunchOptions& options,
+                                                                const std::vector<SupervisedProcess>& processes) {
   std::vector<std::vector<std::string>> checks;
   for (const char* name : {kMavlink, kAutopilotSim}) {
     const auto flies = [&](const SupervisedProcess& p) { return p.name == name; };

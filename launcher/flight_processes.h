@@ -20,7 +20,7 @@ struct LaunchOptions {
   std::string record;                  ///< folder for log, process logs and summary; empty: a new one in `flights`
   std::string flights;                 ///< folder of records
   std::string summary;                 ///< file to which the summary goes, too; empty: none
-  std::string typed;                   ///< the command that the user typed, for the record
+  std::string command;                 ///< the command that the user typed, for the record
   std::optional<std::string> key;      ///< sign messages, with the master key of this file; empty: with a new one
   std::optional<int> view_fd;          ///< a listening socket for tern-viewer; none: no viewer
   int view_wait_s = 30;                ///< the flight waits so long for the first page that looks, s, ≥ 0
@@ -37,7 +37,7 @@ struct LaunchOptions {
 struct SupervisedProcess {
   std::string name;  ///< "tern-planner"
   ChildProcess child;
-  bool restarted = true;  ///< when it dies, unless that cannot help (is_final)
+  bool restarted = true;  ///< when it dies, unless that cannot help (is_permanent)
 };
 
 /// What an autopilot with PX4's default bounds (45°, 220°/s) and thrust/weight 2 can fly, less what it needs to
@@ -56,8 +56,8 @@ std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, co
 
 /// What asks each program that this flight does without to check its section of the scenario: a misspelt key is a
 /// mistake of the file, whoever flies. Each command ends with 0, or says on standard error what it refuses.
-std::vector<std::vector<std::string>> checks_of_absent(const LaunchOptions& options,
-                                                       const std::vector<SupervisedProcess>& processes);
+std::vector<std::vector<std::string>> checks_of_unused_sections(const LaunchOptions& options,
+                                                                const std::vector<SupervisedProcess>& processes);
 
 /// Words as a line that a shell reads back as these words.
 std::string shell_line(const std::vector<std::string>& words);

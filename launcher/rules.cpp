@@ -14,7 +14,7 @@ Duration Backoff::next(Duration run) {
   return delay_;
 }
 
-bool is_final(const ProcessEnd& end) {
+bool is_permanent(const ProcessEnd& end) {
   constexpr std::array kFinal{0, 2, 3, 126, 127};
   return end.signal == 0 && std::find(kFinal.begin(), kFinal.end(), end.exit_code) != kFinal.end();
 }
@@ -27,11 +27,11 @@ std::string to_text(const ProcessEnd& end) {
   return name != nullptr ? fmt::format("signal {}", name) : fmt::format("signal {}", end.signal);
 }
 
-int judged(int monitor_code, bool has_summary) {
+int code_after_flight(int monitor_code, bool has_summary) {
   return has_summary && monitor_code <= kExitFailed ? monitor_code : kExitFailed;
 }
 
-int audited(int code, int audit_code) {
+int code_after_audit(int code, int audit_code) {
   if (audit_code == 0) return code;
   if (audit_code != 1) return kExitFailed;
   return code == 1 || code == kExitFailed ? code : kExitBroken;

@@ -25,7 +25,7 @@ class Backoff {
 
 /// Whether another run cannot mend it: exit codes 0 (done), 2 (bad configuration), 3 (no network, nobody ready), 126
 /// and 127 (cannot be run).
-bool is_final(const ProcessEnd& end);
+bool is_permanent(const ProcessEnd& end);
 
 /// As a shell tells it: 128 + n for signal n.
 int shell_code(const ProcessEnd& end);
@@ -35,10 +35,10 @@ std::string to_text(const ProcessEnd& end);
 
 /// The flight's exit code by the monitor's: 0 reached, 1 collision, 2 not reached in time, 3 failed. Without a summary
 /// the monitor's code is no judgement.
-int judged(int monitor_code, bool has_summary);
+int code_after_flight(int monitor_code, bool has_summary);
 
 /// The flight's exit code after tern-audit. @param code  before, 0 … 3  @param audit_code  0 held, 1 broken, else
 /// failed
-int audited(int code, int audit_code);
+int code_after_audit(int code, int audit_code);
 
 }  // namespace tern

@@ -12,7 +12,7 @@ namespace tern {
 FlightWatch::FlightWatch(const Scenario& scenario, UTime now)
     : scenario_(scenario), goal_(scenario.uav.goal), began_(now) {}
 
-void FlightWatch::hear(const Heartbeat& heartbeat, UTime now) {
+void FlightWatch::receive(const Heartbeat& heartbeat, UTime now) {
   processes_.add(heartbeat, now);
   beat_ = now;
   const bool of_result = result_ && heartbeat.process == kSimulatorProcess &&
@@ -27,16 +27,16 @@ std::int64_t FlightWatch::simulator_epoch_us() const {
   return world_epoch_us_ != 0 ? world_epoch_us_ : processes_.epoch_us(kSimulatorProcess);
 }
 
-void FlightWatch::hear(const UavState& state) {
+void FlightWatch::receive(const UavState& state) {
   state_ = state;
   ledger_.advance(state.header.utime);
 }
 
-void FlightWatch::hear(const Goal& goal) {
+void FlightWatch::receive(const Goal& goal) {
   if (goal.mode == GoalMode::Go) goal_ = goal.position;
 }
 
-void FlightWatch::hear(const HorizonRequest& request, UTime now) {
+void FlightWatch::receive(const HorizonRequest& request, UTime now) {
   ledger_.add(request);
   const bool is_executors = request.header.name.sender_epoch_us == processes_.epoch_us(kExecutorProcess);
   if (world_epoch_us_ != 0 || (first_request_ && !is_executors)) return;
@@ -45,11 +45,11 @@ void FlightWatch::hear(const HorizonRequest& request, UTime now) {
   if (is_executors) world_epoch_us_ = processes_.epoch_us(kSimulatorProcess);
 }
 
-void FlightWatch::hear(const PlanTiming& timing) {
-  if (timings_heard_.is_first(timing.header.name)) replan_.add(timing);
+void FlightWatch::receive(const PlanTiming& timing) {
+  if (timings_filter_.is_first(timing.header.name)) replan_.add(timing);
 }
 
-void FlightWatch::hear(const FlightResult& result, UTime now) {
+void FlightWatch::receive(const FlightResult& result, UTime now) {
   if (result_ || result.header.name.sender_epoch_us != simulator_epoch_us()) return;
   result_ = result;
   result_at_ = now;
@@ -65,10 +65,10 @@ std::optional<std::string> FlightWatch::failure(UTime now) const {
   if (now - heard > kSimulatorSilence) {
     return fmt::format("{} was not heard for {:.0f} s", kSimulatorProcess, (now - heard).seconds());
   }
-  if (processes_.epoch_us(kSimulatorProcess) != simulator_epoch_us() && now - heard > kWorldSilence) {
+  if (processes_.epoch_us(kSimulatorProcess) != simulator_epoch_us() && now - heard > kSuccessorSilence) {
     return fmt::format("{} started anew during the flight: its world is lost", kSimulatorProcess);
   }
-  const Duration limit = Duration::from_seconds(flight_timeout_s(scenario_)) + kVerdictSlack;
+  const Duration limit = Duration::from_seconds(flight_timeout_s(scenario_)) + kResultSlack;
   if (first_request_at_ && now - *first_request_at_ > limit) {
     return fmt::format("no verdict {:.0f} s after the first request", limit.seconds());
   }
@@ -77,7 +77,7 @@ std::optional<std::string> FlightWatch::failure(UTime now) const {
 
 std::optional<Ending> FlightWatch::ending(UTime now) const {
   if (result_) {
-    if (now - result_at_ < kLastWords) return std::nullopt;
+    if (now - result_at_ < kLastReports) return std::nullopt;
     return Ending{result_->outcome, result_->detail};
   }
   if (const auto why = failure(now)) return Ending{FlightOutcome::Failed, *why};
@@ -106,7 +106,7 @@ double FlightWatch::nearest_wall() const {
 LiveView FlightWatch::live() const {
   LiveView view;
   view.waiting = processes_.waiting();
-  view.beside = processes_.beside_now(beat_);
+  view.beside = processes_.concurrent_now(beat_);
   view.flying = first_request_ && state_;
   if (!view.flying) return view;
   const Vec3& p = state_->motion.p;

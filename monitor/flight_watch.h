@@ -14,8 +14,8 @@
 #include "core/world/replan_samples.h"
 #include "core/world/scenario.h"
 #include "core/world/vehicle.h"
+#include "monitor/duplicate_filter.h"
 #include "monitor/flight_summary.h"
-#include "monitor/once.h"
 #include "monitor/process_table.h"
 #include "monitor/request_ledger.h"
 
@@ -26,11 +26,11 @@ inline constexpr char kExecutorProcess[] = "tern-executor";
 /// Without a heartbeat of the simulator for so long, there is no flight.
 inline constexpr Duration kSimulatorSilence{20'000'000};
 /// After the verdict every process has a last heartbeat to send, with its last counts.
-inline constexpr Duration kLastWords{600'000};
+inline constexpr Duration kLastReports{600'000};
 /// Without a heartbeat of it for so long, a simulator that another one follows has ended: four may be lost.
-inline constexpr Duration kWorldSilence{2'500'000};
+inline constexpr Duration kSuccessorSilence{2'500'000};
 /// The referee has this much longer than the scenario's own timeout to say something.
-inline constexpr Duration kVerdictSlack{60'000'000};
+inline constexpr Duration kResultSlack{60'000'000};
 
 /// What a live line shows.
 struct LiveView {
@@ -57,12 +57,12 @@ struct Ending {
 
 /// Pure: messages and times come in, values go out.
 ///
-/// The flight ends kLastWords after FLIGHT_RESULT, with its outcome. Before that it has failed in four cases:
+/// The flight ends kLastReports after FLIGHT_RESULT, with its outcome. Before that it has failed in four cases:
 ///  - fail() was called (the launcher knows of a process that cannot run).
 ///  - The simulator was not heard for kSimulatorSilence, from the watch's beginning on.
 ///  - The simulator started anew after the first request, and the one that the flight began with is silent: its world
 ///    is lost.
-///  - The referee says nothing kVerdictSlack after the scenario's timeout.
+///  - The referee says nothing kResultSlack after the scenario's timeout.
 /// Verdict and loss of the world are those of the simulator that the flight began with, whoever else says so. A verdict
 /// that its own next heartbeat contradicts (it flies on) is dropped.
 class FlightWatch {
@@ -70,17 +70,17 @@ class FlightWatch {
   /// @param now  the watcher's clock, as everywhere here unless the vehicle's is named
   FlightWatch(const Scenario& scenario, UTime now);
 
-  void hear(const Heartbeat& heartbeat, UTime now);
-  void hear(const UavState& state);
-  void hear(const Goal& goal);
-  void hear(const HorizonRequest& request, UTime now);
-  void hear(const Plan& plan) { ledger_.add(plan); }
-  void hear(const PlanTiming& timing);
-  void hear(const FlightResult& result, UTime now);
+  void receive(const Heartbeat& heartbeat, UTime now);
+  void receive(const UavState& state);
+  void receive(const Goal& goal);
+  void receive(const HorizonRequest& request, UTime now);
+  void receive(const Plan& plan) { ledger_.add(plan); }
+  void receive(const PlanTiming& timing);
+  void receive(const FlightResult& result, UTime now);
   /// A complete set.
-  void hear(std::vector<TrueObstacle> obstacles) { obstacles_ = std::move(obstacles); }
+  void receive(std::vector<TrueObstacle> obstacles) { obstacles_ = std::move(obstacles); }
   /// The newest map's occupied voxels (cover_with_boxes()).
-  void hear_map(std::vector<Box> occupied) { occupied_ = std::move(occupied); }
+  void receive_map(std::vector<Box> occupied) { occupied_ = std::move(occupied); }
   /// Something outside of the messages made the flight impossible. The first reason stays.
   void fail(std::string detail);
 
@@ -107,7 +107,7 @@ class FlightWatch {
   UTime beat_;                       ///< when a heartbeat was heard last
   std::vector<TrueObstacle> obstacles_;
   std::vector<Box> occupied_;
-  Once timings_heard_;
+  DuplicateFilter timings_filter_;
   ReplanSamples replan_;
   std::optional<FlightResult> result_;
   UTime result_at_;

@@ -26,7 +26,7 @@ void ProcessTable::add(const Heartbeat& heartbeat, UTime now) {
   start.heard = now;
   ++start.beats;
   const auto counting = process.starts.find(process.counts);
-  const bool silent = counting != process.starts.end() && now - counting->second.heard > kBeatSilence;
+  const bool silent = counting != process.starts.end() && now - counting->second.heard > kHeartbeatTimeout;
   if (counting == process.starts.end() || (silent && start.beats > 1)) process.counts = epoch_us;
   if (const int n = living(process, now); n > 1) beside_[heartbeat.process] = std::max(beside_[heartbeat.process], n);
 }
@@ -34,7 +34,7 @@ void ProcessTable::add(const Heartbeat& heartbeat, UTime now) {
 void ProcessTable::forget_noise(UTime now) {
   for (auto& [name, process] : processes_) {
     std::erase_if(process.starts, [now](const auto& start) {
-      return start.second.beats == 1 && now - start.second.heard > kBeatSilence;
+      return start.second.beats == 1 && now - start.second.heard > kHeartbeatTimeout;
     });
   }
   std::erase_if(processes_, [](const auto& process) { return process.second.starts.empty(); });
@@ -44,14 +44,14 @@ void ProcessTable::forget_noise(UTime now) {
 int ProcessTable::living(const Process& process, UTime now) {
   std::vector<const Start*> recent;
   for (const auto& [epoch_us, start] : process.starts) {
-    if (start.beats > 1 && now - start.heard <= kBeatSilence) recent.push_back(&start);
+    if (start.beats > 1 && now - start.heard <= kHeartbeatTimeout) recent.push_back(&start);
   }
-  UTime youngest = now - kBeatSilence;
+  UTime youngest = now - kHeartbeatTimeout;
   for (const Start* start : recent) youngest = std::max(youngest, start->first_heard);
   return static_cast<int>(std::ranges::count_if(recent, [&](const Start* start) { return start->heard >= youngest; }));
 }
 
-std::string ProcessTable::beside_now(UTime now) const {
+std::string ProcessTable::concurrent_now(UTime now) const {
   std::string text;
   for (const auto& [name, process] : processes_) {
     const int n = living(process, now);

@@ -12,7 +12,7 @@
 namespace tern {
 
 /// Heartbeats come at 2 Hz: a process that was not heard for longer has lost two in a row, or ended.
-inline constexpr Duration kBeatSilence{1'250'000};
+inline constexpr Duration kHeartbeatTimeout{1'250'000};
 
 /// A channel's messages over all processes that listen to it.
 struct MessageCount {
@@ -22,14 +22,15 @@ struct MessageCount {
 };
 
 /// Keeps the newest heartbeat of each start (sender epoch) of each process, so that the counts of one that died are
-/// kept. A start that was heard once and not again within kBeatSilence is noise: it is forgotten, and counts nowhere.
+/// kept. A start that was heard once and not again within kHeartbeatTimeout is noise: it is forgotten, and counts
+/// nowhere.
 class ProcessTable {
  public:
   /// @param now  the listener's clock, as everywhere here
   void add(const Heartbeat& heartbeat, UTime now);
 
-  /// The start of a process that counts: the one that was heard first, until it has been silent for kBeatSilence. 0: it
-  /// was never heard.
+  /// The start of a process that counts: the one that was heard first, until it has been silent for kHeartbeatTimeout.
+  /// 0: it was never heard.
   [[nodiscard]] std::int64_t epoch_us(const std::string& process) const;
   /// @return when a start of a process was heard last, or nullopt if never.
   [[nodiscard]] std::optional<UTime> heard(const std::string& process, std::int64_t epoch_us) const;
@@ -39,7 +40,7 @@ class ProcessTable {
   /// Processes of which more than one lived at a time, and how many at most.
   [[nodiscard]] const std::map<std::string, int>& beside() const { return beside_; }
   /// "2 tern-predictor, 3 tern-mapper": those of which more than one live now; empty when there is none.
-  [[nodiscard]] std::string beside_now(UTime now) const;
+  [[nodiscard]] std::string concurrent_now(UTime now) const;
   /// Received, rejected and lost summed over every start of every process: what came in twice, at two processes, counts
   /// twice.
   [[nodiscard]] std::map<std::string, MessageCount> messages() const;

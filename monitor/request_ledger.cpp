@@ -10,18 +10,18 @@ std::size_t level_of(const Plan& plan) { return plan.confidence <= 0.0 ? kConfid
 }  // namespace
 
 void RequestLedger::add(const HorizonRequest& request) {
-  if (!requests_heard_.is_first(request.header.name)) return;
+  if (!requests_filter_.is_first(request.header.name)) return;
   deadlines_[request.id] = request.deadline;
   answered_.erase(request.id);  // the ids of an executor that started anew count from 1 again
 }
 
 void RequestLedger::add(const Plan& plan) {
-  if (!plans_heard_.is_first(plan.header.name)) return;
+  if (!plans_filter_.is_first(plan.header.name)) return;
   if (!answered_.insert(plan.request_id).second) {
     ++second_answers_;
     return;
   }
-  if (answered_.size() > Once::kRemembered) answered_.erase(answered_.begin());
+  if (answered_.size() > DuplicateFilter::kRemembered) answered_.erase(answered_.begin());
   ++plans_[idx(plan.outcome)];
   ++reasons_[idx(plan.reason)];
   if (plan.outcome != PlanOutcome::NoPlan) {

@@ -8,7 +8,7 @@
 
 #include "core/world/horizon.h"
 #include "core/world/track.h"
-#include "monitor/once.h"
+#include "monitor/duplicate_filter.h"
 
 namespace tern {
 
@@ -54,7 +54,7 @@ class RequestLedger {
   [[nodiscard]] const LeftOut& left_out() const { return left_out_; }
 
  private:
-  Once requests_heard_, plans_heard_;
+  DuplicateFilter requests_filter_, plans_filter_;
   std::map<std::int64_t, UTime> deadlines_;  ///< of open requests, by id
   std::set<std::int64_t> answered_;          ///< requests that have their answer, the newest
   std::int64_t settled_ = 0, in_time_ = 0, second_answers_ = 0;

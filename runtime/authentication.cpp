@@ -38,8 +38,9 @@ void sign(Bytes& message, const KeyRing& keys, std::string_view channel, std::st
   message.insert(message.end(), tag.begin(), tag.end());
 }
 
-tl::expected<Authentic, Rejection> verify(std::span<const std::uint8_t> bytes, const KeyRing& keys, ReplayGuard& guard,
-                                          std::string_view channel, std::string_view wire_name, UTime received) {
+tl::expected<VerifiedMessage, Rejection> verify(std::span<const std::uint8_t> bytes, const KeyRing& keys,
+                                                ReplayGuard& guard, std::string_view channel,
+                                                std::string_view wire_name, UTime received) {
   const auto trailer = read_trailer(bytes);
   if (!trailer) return tl::make_unexpected(Rejection::Unauthenticated);
   const auto role = static_cast<Role>(trailer->role);
@@ -49,11 +50,11 @@ tl::expected<Authentic, Rejection> verify(std::span<const std::uint8_t> bytes, c
     return tl::make_unexpected(Rejection::Unauthenticated);
   }
   const MessageName& name = trailer->name;
-  const bool too_old = trailer->utime < received - kLongestOnItsWay;
+  const bool too_old = trailer->utime < received - kMaxTransit;
   if (too_old || name.sequence < 1 || !guard.touch({role, name.sender_epoch_us}).admit(name.sequence)) {
     return tl::make_unexpected(Rejection::Repeated);
   }
-  return Authentic{bytes.first(bytes.size() - kTrailerBytes), role};
+  return VerifiedMessage{bytes.first(bytes.size() - kTrailerBytes), role};
 }
 
 }  // namespace tern

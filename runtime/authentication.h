@@ -21,7 +21,7 @@ namespace tern {
 /// With keys nothing is accepted that was on its way for longer, by the sender's clock and the time at which the kernel
 /// took it. Any network is faster; a receiver that starts anew, and so remembers nothing, can be shown no older
 /// message.
-inline constexpr Duration kLongestOnItsWay{2'000'000};
+inline constexpr Duration kMaxTransit{2'000'000};
 
 /// Which numbers of one sender have come: the highest, and the 64 up to it. So messages may overtake each other by 63
 /// places and still count once each. SequenceWindow is no substitute: it forgets a number that no next one confirmed,
@@ -40,7 +40,7 @@ class ReplayWindow {
 /// What has come on one channel, by role and epoch of the sender.
 using ReplayGuard = RecentSenders<std::pair<Role, std::int64_t>, ReplayWindow>;
 
-struct Authentic {
+struct VerifiedMessage {
   std::span<const std::uint8_t> message;  ///< without its trailer
   Role role;
 };
@@ -50,9 +50,10 @@ struct Authentic {
 void sign(Bytes& message, const KeyRing& keys, std::string_view channel, std::string_view wire_name,
           const Header& header);
 
-/// Unauthenticated: no trailer, another role's channel, no key of that role, another tag. Repeated: kLongestOnItsWay,
+/// Unauthenticated: no trailer, another role's channel, no key of that role, another tag. Repeated: kMaxTransit,
 /// or not new by `guard`. @param received  when the kernel took it
-tl::expected<Authentic, Rejection> verify(std::span<const std::uint8_t> bytes, const KeyRing& keys, ReplayGuard& guard,
-                                          std::string_view channel, std::string_view wire_name, UTime received);
+tl::expected<VerifiedMessage, Rejection> verify(std::span<const std::uint8_t> bytes, const KeyRing& keys,
+                                                ReplayGuard& guard, std::string_view channel,
+                                                std::string_view wire_name, UTime received);
 
 }  // namespace tern

@@ -87,7 +87,7 @@ struct Bus::State {
     made.state = this;
     made.name = name;
     made.wire_name = wire_name;
-    made.senders = SenderWatch(speaker_silence(name), epoch_us);
+    made.senders = SenderWatch(sender_silence(name), epoch_us);
     return made;
   }
 
@@ -256,7 +256,7 @@ std::string Bus::sender_troubles() const {
   std::string text;
   for (const auto& [name, channel] : state_->channels) {
     const std::string separator = text.empty() ? "" : "; ";
-    if (channel.senders.has_rival(now)) {
+    if (channel.senders.has_second_sender(now)) {
       text += fmt::format("{}{}: two senders, the one heard first is listened to", separator, name);
     } else if (const auto ahead = channel.senders.ahead(now)) {
       text += fmt::format("{}{}: stamped {:.1f} s ahead of this clock, refused", separator, name, ahead->seconds());
@@ -265,7 +265,7 @@ std::string Bus::sender_troubles() const {
   return text;
 }
 
-bool Bus::may_speak_for(std::string_view process) const {
+bool Bus::may_report_as(std::string_view process) const {
   const auto role = role_of_process(process);
   return !state_->keys || !role || role == state_->speaker;
 }

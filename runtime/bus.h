@@ -103,7 +103,7 @@ class Bus {
       auto message = decode<T>(bytes);
       if (!message) return reject(name, message.error());
       if constexpr (requires { message->process; }) {
-        if (!may_speak_for(message->process)) return reject(name, Rejection::Unauthenticated);
+        if (!may_report_as(message->process)) return reject(name, Rejection::Unauthenticated);
       }
       if (admits(name, message->header.name, claimed_time(*message))) handler(*message);
     });
@@ -155,7 +155,7 @@ class Bus {
   void count_late_on(std::string_view channel);
   void count_refused(Line& line, Rejection reason);
   /// Whether who sent the message being delivered may give this as its process's name.
-  [[nodiscard]] bool may_speak_for(std::string_view process) const;
+  [[nodiscard]] bool may_report_as(std::string_view process) const;
 
   const Clock& clock_;
   std::int64_t epoch_us_;

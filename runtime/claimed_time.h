@@ -14,7 +14,7 @@
 namespace tern {
 
 /// A request is for at most this much later than it was made: the executor's own limit.
-inline constexpr Duration kMostLead{5'000'000};
+inline constexpr Duration kMaxLead{5'000'000};
 
 /// When it was sent, and before that when its sender started.
 inline UTime claimed_time(const Header& header) { return std::max(header.utime, UTime{header.name.sender_epoch_us}); }
@@ -28,7 +28,7 @@ inline UTime claimed_time(const ObservationSet& m) { return std::max(claimed_tim
 inline UTime claimed_time(const ObstacleTruth& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const UavState& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const VehicleStatus& m) { return std::max(claimed_time(m.header), m.at); }
-inline UTime claimed_time(const HorizonRequest& m) { return std::max(claimed_time(m.header), m.t_s - kMostLead); }
+inline UTime claimed_time(const HorizonRequest& m) { return std::max(claimed_time(m.header), m.t_s - kMaxLead); }
 /// An id counts from 1, or is the time when the goal was set: then a later one is always larger.
 inline UTime claimed_time(const Goal& m) { return std::max(claimed_time(m.header), UTime{m.id}); }
 /// Its time is there to be compared (ClockSkew), and says nothing of the world: a clock that is far ahead shall be

@@ -17,13 +17,13 @@
 namespace tern {
 
 /// The other's side of the exchange: remembers the newest heartbeat of each process, to be told back. Pure.
-class HeardClocks {
+class ClockEchoes {
  public:
   /// What is older is not told back: its sender is gone, or the clocks have drifted since.
   static constexpr Duration kOldest{2'500'000};
 
   /// @param received  the listener's clock   @return whether this process was not known, or not heard for kOldest
-  bool hear(const Header& header, UTime received) {
+  bool receive(const Header& header, UTime received) {
     const std::int64_t epoch_us = header.name.sender_epoch_us;
     forget_before(received - kOldest);
     const bool is_new = heard_.insert_or_assign(epoch_us, ClockEcho{epoch_us, header.utime, received}).second;

@@ -26,7 +26,7 @@ class ConfigError : public std::runtime_error {
 
 /// What was asked for. @throws ConfigError for an Error: its text, after `before`.
 template <class T>
-T or_refuse(Result<T> result, const std::string& before = "") {
+T value_or_throw(Result<T> result, const std::string& before = "") {
   if (!result) throw ConfigError(before + result.error().message);
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }

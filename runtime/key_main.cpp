@@ -41,7 +41,7 @@ void write_file(const std::string& path, std::string text) {
 
 void derive(const std::string& master_path, const std::string& process, const std::string& path) {
   if (!role_of_process(process)) throw ConfigError(process + ": not one of Tern's processes");
-  write_file(path, KeyRing::derive(or_refuse(read_master_key(master_path)), process).spell());
+  write_file(path, KeyRing::derive(value_or_throw(read_master_key(master_path)), process).to_text());
 }
 
 /// Whether a message of a log is one that a holder of the flight's keys would have taken.
@@ -66,15 +66,15 @@ class Sieve {
 /// Copies what the key verifies into a log of its own. What a log of a flight with keys holds besides changed nothing
 /// in flight, but tools that read logs have no keys.
 void sift(const std::string& master_path, const std::string& log, const std::string& out, const std::string& suffix) {
-  Sieve sieve(or_refuse(read_master_key(master_path)), suffix);
+  Sieve sieve(value_or_throw(read_master_key(master_path)), suffix);
   const std::vector<std::string> parts = log_parts(log);
-  for (const std::string& part : parts) or_refuse(LogReader::open(part));
+  for (const std::string& part : parts) value_or_throw(LogReader::open(part));
   if (std::filesystem::exists(out)) throw ConfigError(out + ": is there already");
-  LogWriter writer = or_refuse(LogWriter::open(out, 0));
+  LogWriter writer = value_or_throw(LogWriter::open(out, 0));
   std::int64_t taken = 0, all = 0;
   std::map<std::string, std::int64_t> refused;
   for (const std::string& part : parts) {
-    LogReader reader = or_refuse(LogReader::open(part));
+    LogReader reader = value_or_throw(LogReader::open(part));
     for (auto event = reader.next(); event; event = reader.next(), ++all) {
       if (!sieve.takes(*event)) {
         ++refused[event->channel];
@@ -87,7 +87,7 @@ void sift(const std::string& master_path, const std::string& log, const std::str
       fmt::print("{}: damaged; {} bytes left out\n", part, damage.bytes);
     }
   }
-  or_refuse(writer.flush());
+  value_or_throw(writer.flush());
   fmt::print("{} of {} messages verify\n", taken, all);
   for (const auto& [channel, count] : refused) fmt::print("  {}: {} do not\n", channel, count);
 }

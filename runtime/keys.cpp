@@ -93,15 +93,16 @@ Result<KeyRing> ring_of(const Result<SecretText>& read, const std::string& what,
 }  // namespace
 
 KeyRing KeyRing::derive(const Key& master, std::string_view process) {
-  const auto known = std::find_if(parts().begin(), parts().end(), [&](const Part& p) { return p.process == process; });
-  KeyRing ring(known == parts().end() ? Role::Observer : known->role);
+  const auto known = std::find_if(process_roles().begin(), process_roles().end(),
+                                  [&](const ProcessRole& p) { return p.process == process; });
+  KeyRing ring(known == process_roles().end() ? Role::Observer : known->role);
   const auto add = [&](std::string_view name) {
     ring.keys_.insert_or_assign(std::string(name), derive_key(master, std::string(kLabel).append(name)));
   };
-  const bool all = known == parts().end();
-  for (const Part& part : parts()) {
-    if (!all && part.process != process) continue;
-    for (const std::string_view channel : part.channels) add(channel);
+  const bool all = known == process_roles().end();
+  for (const ProcessRole& entry : process_roles()) {
+    if (!all && entry.process != process) continue;
+    for (const std::string_view channel : entry.channels) add(channel);
   }
   for (const Role role : kRoles) add(to_string(role));
   return ring;
@@ -134,7 +135,7 @@ Result<KeyRing> KeyRing::parse(std::string_view text, std::string_view process) 
   return ring;
 }
 
-std::string KeyRing::spell() const {
+std::string KeyRing::to_text() const {
   std::string text(kRingHead);
   text += fmt::format("{}\n", to_string(role_));
   for (const auto& [name, key] : keys_) text += fmt::format("{} {}\n", name, to_hex(key));
@@ -158,9 +159,9 @@ Result<KeyRing> read_key_fd(int fd, std::string_view process) {
   return ring_of(read_all(file.get(), what), what, process);
 }
 
-Result<int> hold_in_memory(const KeyRing& ring) {
+Result<int> seal_in_memory(const KeyRing& ring) {
   SecretText secret;
-  secret.text = ring.spell();
+  secret.text = ring.to_text();
   const int fd = memfd_create("tern-keys", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (fd < 0 || write(fd, secret.text.data(), secret.text.size()) != std::ssize(secret.text) ||
       fcntl(fd, F_ADD_SEALS, F_SEAL_WRITE | F_SEAL_GROW | F_SEAL_SHRINK | F_SEAL_SEAL) != 0) {

@@ -20,13 +20,13 @@ class KeyRing {
  public:
   /// The ring of one of Tern's processes (roles.h); of a process of another name: all keys, as Observer.
   static KeyRing derive(const Key& master, std::string_view process);
-  /// Reads what spell() wrote. Or derives `process`'s ring from a master key: 32 bytes, or 64 hexadecimal digits and an
-  /// end of line.
+  /// Reads what to_text() wrote. Or derives `process`'s ring from a master key: 32 bytes, or 64 hexadecimal digits and
+  /// an end of line.
   /// @return an Error that says what is wrong, and nothing of the contents.
   static Result<KeyRing> parse(std::string_view text, std::string_view process);
 
   /// As lines of text: "tern keys 1", the role, and per key its name and 64 hexadecimal digits.
-  [[nodiscard]] std::string spell() const;
+  [[nodiscard]] std::string to_text() const;
 
   [[nodiscard]] Role role() const { return role_; }
   /// The role in which the holder speaks on a channel: the channel's, or its own.
@@ -52,7 +52,7 @@ Result<KeyRing> read_key_fd(int fd, std::string_view process);
 
 /// Writes a ring into a sealed file in memory without a name, for read_key_fd of a program that inherits it. @return
 /// its descriptor, close-on-exec.
-Result<int> hold_in_memory(const KeyRing& ring);
+Result<int> seal_in_memory(const KeyRing& ring);
 
 /// A master key of a file, as above but for rings.
 Result<Key> read_master_key(const std::string& path);

@@ -52,7 +52,7 @@ void NodeHost::on_heartbeat(const Heartbeat& heartbeat) {
   if (heartbeat.process == kRecorder && heartbeat.state == ProcessState::Waiting) {
     next_configuration_ = std::min(next_configuration_, bus_.clock().now());
   }
-  if (header.name.sender_epoch_us == bus_.epoch_us() || !heard_.hear(header, bus_.received())) return;
+  if (header.name.sender_epoch_us == bus_.epoch_us() || !heard_.receive(header, bus_.received())) return;
   next_heartbeat_ = std::min(next_heartbeat_, last_heartbeat_ + kHeartbeatSpacing);
 }
 
@@ -67,8 +67,8 @@ void NodeHost::step(UTime now) {
     stepped_deliveries_ = bus_.deliveries();
     node_.step(now);
   }
-  if (node_.finished() && !said_finished_) {
-    said_finished_ = true;
+  if (node_.finished() && !reported_finished_) {
+    reported_finished_ = true;
     next_heartbeat_ = now;
   }
   if (next_configuration_ <= now) {
@@ -84,18 +84,18 @@ void NodeHost::step(UTime now) {
 }
 
 /// @return what is wrong with the clock, in words; into the log, too, when that is new.
-std::string NodeHost::say_drift() {
+std::string NodeHost::report_drift() {
   const Duration drift = bus_.clock().drift();
-  if (magnitude(drift) <= kSaidDrift) {
-    said_drift_ = {};
+  if (magnitude(drift) <= kReportedDrift) {
+    reported_drift_ = {};
     return "";
   }
   std::string text =
       fmt::format("the system's clock was set {} by {:.1f} ms: who starts now is apart by that; start all anew",
                   drift < Duration{} ? "back" : "forward", magnitude(drift).seconds() * 1e3);
-  if (magnitude(drift - said_drift_) > kSaidDrift) {
+  if (magnitude(drift - reported_drift_) > kReportedDrift) {
     spdlog::warn("{}", text);
-    said_drift_ = drift;
+    reported_drift_ = drift;
   }
   return text;
 }
@@ -107,7 +107,7 @@ void NodeHost::publish_heartbeat() {
   message.build_id = build_id();
   message.state = health.state;
   message.waiting_for = health.waiting_for;
-  for (const std::string& trouble : {say_drift(), bus_.sender_troubles()}) append(message.waiting_for, trouble);
+  for (const std::string& trouble : {report_drift(), bus_.sender_troubles()}) append(message.waiting_for, trouble);
   message.channels = bus_.counters();
   message.echoes = heard_.echoes(bus_.clock().now());
   bus_.publish(channels::kHeartbeat, message);

@@ -126,8 +126,8 @@ void start_log(const ProcessDescription& description, const std::string& level) 
 /// @throws ConfigError when keys were asked for and cannot be had.
 std::optional<KeyRing> read_keys(const Options& options, const std::string& process) {
   if (!options.key_file && !options.key_fd) return std::nullopt;
-  return or_refuse(options.key_file ? read_key_file(*options.key_file, process)
-                                    : read_key_fd(*options.key_fd, process));
+  return value_or_throw(options.key_file ? read_key_file(*options.key_file, process)
+                                         : read_key_fd(*options.key_fd, process));
 }
 
 /// The tables of keys that READMEs show.

@@ -68,7 +68,7 @@ std::int64_t unique_epoch(std::int64_t now_us, std::int64_t process_id);
 int run_process(int argc, char** argv, const ProcessDescription& description, const NodeFactory& make_node);
 
 /// A clock that the system's has left by more is said on HEARTBEAT and in the log.
-inline constexpr Duration kSaidDrift{10'000};
+inline constexpr Duration kReportedDrift{10'000};
 
 /// Heartbeats that answer a new process leave at least this far apart, whoever comes.
 inline constexpr Duration kHeartbeatSpacing{50'000};
@@ -97,15 +97,15 @@ class NodeHost {
   void on_heartbeat(const Heartbeat& heartbeat);
   void publish_heartbeat();
   void publish_configuration();
-  std::string say_drift();
+  std::string report_drift();
   Bus& bus_;
   Node& node_;
   std::string process_, yaml_;
-  HeardClocks heard_;
+  ClockEchoes heard_;
   UTime last_heartbeat_{}, next_heartbeat_{}, next_configuration_{};
   std::int64_t stepped_deliveries_ = 0;
-  bool said_finished_ = false;
-  Duration said_drift_{};
+  bool reported_finished_ = false;
+  Duration reported_drift_{};
 };
 
 }  // namespace tern

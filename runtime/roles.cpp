@@ -46,8 +46,8 @@ std::optional<Role> role_of(std::string_view channel) {
   return role;
 }
 
-const std::vector<Part>& parts() {
-  static const std::vector<Part> kParts = {
+const std::vector<ProcessRole>& process_roles() {
+  static const std::vector<ProcessRole> kProcessRoles = {
       {"tern-simulator", Role::Vehicle,
        names_of(kUavState, kSetpoint, kVehicleStatus, kObstacleObservations, kDeclaredMotions, kHorizonRequest, kPlan,
                 kObstacleTruth, kVehicleTruth, kFlightResult, kGoal, kSemanticMap)},
@@ -66,12 +66,12 @@ const std::vector<Part>& parts() {
                 kObstacleTruth, kVehicleTruth, kFlightResult)},
       {"tern-viewer", Role::Operator, all_owned()},
   };
-  return kParts;
+  return kProcessRoles;
 }
 
 std::optional<Role> role_of_process(std::string_view process) {
-  for (const Part& part : parts()) {
-    if (part.process == process) return part.role;
+  for (const ProcessRole& entry : process_roles()) {
+    if (entry.process == process) return entry.role;
   }
   return std::nullopt;
 }

@@ -27,13 +27,13 @@ std::optional<Role> role_of_process(std::string_view process);
 
 /// What one of Tern's processes takes part in, besides HEARTBEAT and CONFIGURATION, which all say and hear (clocks are
 /// compared by heartbeats).
-struct Part {
+struct ProcessRole {
   std::string_view process;
   Role role;
   std::vector<std::string_view> channels;  ///< that it says or hears and that are one role's
 };
 
 /// All of Tern's processes.
-const std::vector<Part>& parts();
+const std::vector<ProcessRole>& process_roles();
 
 }  // namespace tern

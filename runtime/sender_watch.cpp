@@ -10,50 +10,52 @@ constexpr std::int64_t kSeveral = 3;
 
 }  // namespace
 
-std::optional<Duration> speaker_silence(std::string_view channel) {
+std::optional<Duration> sender_silence(std::string_view channel) {
   std::optional<Duration> silence;
   visit_channel(channel, [&silence](const auto& known) { silence = known.silence; });
   return silence;
 }
 
 void SenderWatch::Repetition::add(UTime now) {
-  if (now - last > kSenderTroubleSaid) times = 0;
+  if (now - last > kSenderTroubleReported) times = 0;
   ++times;
   last = now;
 }
 
-bool SenderWatch::Repetition::lasts(UTime now) const { return times >= kSeveral && now - last <= kSenderTroubleSaid; }
+bool SenderWatch::Repetition::lasts(UTime now) const {
+  return times >= kSeveral && now - last <= kSenderTroubleReported;
+}
 
 std::optional<Rejection> SenderWatch::judge(const MessageName& name, UTime claimed, UTime arrived,
                                             std::int64_t own_sent) {
-  if (claimed > arrived + kMostAhead) {
+  if (claimed > arrived + kMaxAhead) {
     future_.add(arrived);
     ahead_ = claimed - arrived;
     return Rejection::Future;
   }
   const bool own = name.sender_epoch_us == own_epoch_us_;
   if (own && name.sequence > own_sent) return Rejection::Sender;
-  if (!may_speak(name.sender_epoch_us, arrived)) return Rejection::Sender;
+  if (!may_send(name.sender_epoch_us, arrived)) return Rejection::Sender;
   const auto verdict = losses_.add(name, arrived);
   if (verdict == SequenceWindow::Verdict::Repeated) return Rejection::Repeated;
   if (verdict == SequenceWindow::Verdict::Jump) return Rejection::Sender;
   return std::nullopt;
 }
 
-bool SenderWatch::may_speak(std::int64_t epoch_us, UTime now) {
+bool SenderWatch::may_send(std::int64_t epoch_us, UTime now) {
   if (!silence_) return true;
-  if (epoch_us == speaker_ || speaker_ == 0 || now - speaker_at_ > *silence_) {
-    speaker_ = epoch_us;
-    speaker_at_ = now;
+  if (epoch_us == active_ || active_ == 0 || now - active_at_ > *silence_) {
+    active_ = epoch_us;
+    active_at_ = now;
     return true;
   }
-  if (epoch_us != rival_) rivalry_ = {};
-  rival_ = epoch_us;
-  rivalry_.add(now);
+  if (epoch_us != second_sender_) second_sender_messages_ = {};
+  second_sender_ = epoch_us;
+  second_sender_messages_.add(now);
   return false;
 }
 
-bool SenderWatch::has_rival(UTime now) const { return rivalry_.lasts(now); }
+bool SenderWatch::has_second_sender(UTime now) const { return second_sender_messages_.lasts(now); }
 
 std::optional<Duration> SenderWatch::ahead(UTime now) const {
   if (!future_.lasts(now)) return std::nullopt;

@@ -13,15 +13,15 @@ namespace tern {
 
 /// No message may claim a time farther ahead of the listener's clock: ten times what clocks may differ
 /// (docs/safety.md).
-inline constexpr Duration kMostAhead{100'000};
+inline constexpr Duration kMaxAhead{100'000};
 /// HEARTBEAT reports a channel's troubles (a second sender, messages from the future) until they have not happened for
 /// so long.
-inline constexpr Duration kSenderTroubleSaid{2'000'000};
+inline constexpr Duration kSenderTroubleReported{2'000'000};
 
 /// How long the sender that is heard on a channel must be silent before another one is heard.
 /// @return nullopt if any number may speak at a time: OBSTACLE_OBSERVATIONS, GOAL, HEARTBEAT, CONFIGURATION, and
 /// channels that Tern does not know.
-std::optional<Duration> speaker_silence(std::string_view channel);
+std::optional<Duration> sender_silence(std::string_view channel);
 
 /// Judges the headers of one channel's messages in the order of their arrival. Pure.
 ///
@@ -43,7 +43,7 @@ class SenderWatch {
   /// Messages that every sender that was heard has sent and that did not come.
   [[nodiscard]] std::int64_t lost() const { return losses_.lost(); }
   /// Whether another sender than the speaker has spoken several times, and lately.
-  [[nodiscard]] bool has_rival(UTime now) const;
+  [[nodiscard]] bool has_second_sender(UTime now) const;
   /// How far ahead of the listener's clock messages were stamped, if several were lately.
   [[nodiscard]] std::optional<Duration> ahead(UTime now) const;
 
@@ -55,14 +55,14 @@ class SenderWatch {
     void add(UTime now);
     [[nodiscard]] bool lasts(UTime now) const;
   };
-  [[nodiscard]] bool may_speak(std::int64_t epoch_us, UTime now);
+  [[nodiscard]] bool may_send(std::int64_t epoch_us, UTime now);
 
   std::optional<Duration> silence_;
   std::int64_t own_epoch_us_;
   MessageLosses losses_;
-  std::int64_t speaker_ = 0, rival_ = 0;  ///< epochs; 0: none
-  UTime speaker_at_;
-  Repetition rivalry_, future_;
+  std::int64_t active_ = 0, second_sender_ = 0;  ///< epochs; 0: none
+  UTime active_at_;
+  Repetition second_sender_messages_, future_;
   Duration ahead_{};
 };
 

@@ -17,11 +17,11 @@ namespace {
 /// A flood of messages must not keep the node from its deadlines.
 constexpr int kMaxMessagesPerStep = 1'000;
 /// No longer sleep: a node that waits for messages only says kNever.
-constexpr Duration kLongestSleep{1'000'000};
+constexpr Duration kMaxSleep{1'000'000};
 
 /// Blocks until a descriptor is readable or the time has come. @return whether fds[1], the stop, is readable.
 bool wait(pollfd (&fds)[2], Duration sleep) {
-  const std::int64_t us = std::clamp(sleep, Duration{0}, kLongestSleep).us;
+  const std::int64_t us = std::clamp(sleep, Duration{0}, kMaxSleep).us;
   const timespec timeout{us / 1'000'000, (us % 1'000'000) * 1'000};
   if (ppoll(fds, 2, &timeout, nullptr) < 0) {
     if (errno == EINTR) return false;
@@ -43,7 +43,7 @@ int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
     if (host.is_due(now)) host.step(now);
     if (const auto code = host.node().finished()) return *code;
     const UTime wakeup = host.next_wakeup();
-    const Duration sleep = std::min(wakeup - clock.now(), kLongestSleep);
+    const Duration sleep = std::min(wakeup - clock.now(), kMaxSleep);
     if (wait(fds, clock.in_system_time(sleep))) {
       drain(lcm, kListenCapacity);  // a recorder keeps what has come in already
       host.bus().rethrow();

@@ -58,7 +58,7 @@ void add_flight_options(CLI::App& app, FlightOptions& options) {
 FlightInputs inputs_of(const FlightOptions& options) {
   if (options.world.empty()) throw ConfigError("--world is required: a scenario's file or name");
   FlightInputs inputs;
-  inputs.scenario_file = or_refuse(find_scenario(options.world), "--world: ");
+  inputs.scenario_file = value_or_throw(find_scenario(options.world), "--world: ");
   inputs.overrides = options.settings;
   if (!options.count.empty()) inputs.overrides.push_back("world.count=" + options.count);
   if (options.oracle) {

@@ -26,14 +26,14 @@ struct Options {
 bool could_be_avoided(const FlightInputs& inputs, std::uint64_t seed, const MoveSearch& search) {
   ConfigDocument document = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(seed));
   const Scenario scenario = read_scenario(document);
-  const World world = or_refuse(make_world(scenario, ""));
+  const World world = value_or_throw(make_world(scenario, ""));
   const RestingVehicle vehicle{scenario.uav.start, scenario.uav.limits, scenario.uav.body, scenario.uav.flight_box};
   return clear_moves(vehicle, world, seed, search) > 0;
 }
 
 int judge(const Options& options) {
   const FlightInputs inputs = inputs_of(options.flight);
-  const Flights flights = or_refuse(read_flights(options.flights));
+  const Flights flights = value_or_throw(read_flights(options.flights));
   MoveSearch search;
   search.moves = options.moves;
   std::int64_t contacts = 0;

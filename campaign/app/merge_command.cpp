@@ -18,8 +18,9 @@ struct Options {
 
 int merge(const Options& options) {
   Flights all;
-  for (const std::string& part : options.parts) or_refuse(join(all, or_refuse(read_flights(part))), part + ": ");
-  or_refuse(write_flights(options.out, all));
+  for (const std::string& part : options.parts)
+    value_or_throw(join(all, value_or_throw(read_flights(part))), part + ": ");
+  value_or_throw(write_flights(options.out, all));
   return write_summary(options.out, options.summary, command_line());
 }
 

@@ -65,8 +65,8 @@ std::vector<SemanticFlight> fly(const SemanticCase& wanted, std::uint64_t seeds,
   const auto end =
       run_campaign(campaign, flight_command(flight), -1, [&](const CampaignProgress& p) { output.show(p); });
   output.finish();
-  or_refuse(end);
-  const Flights flown = or_refuse(read_flights(campaign.out));
+  value_or_throw(end);
+  const Flights flown = value_or_throw(read_flights(campaign.out));
   std::vector<SemanticFlight> flights;
   for (const auto& [seed, record] : flown.records) flights.push_back(semantic_flight(wanted, record));
   std::erase_if(flights, [seeds](const SemanticFlight& f) { return f.seed > seeds; });
@@ -76,7 +76,7 @@ std::vector<SemanticFlight> fly(const SemanticCase& wanted, std::uint64_t seeds,
 FlightTrack track_of(const SemanticCase& wanted) {
   std::vector<std::string> overrides = overrides_of(wanted);
   overrides.emplace_back("seed=1");
-  return fly_and_track(or_refuse(find_scenario(wanted.world)), overrides);
+  return fly_and_track(value_or_throw(find_scenario(wanted.world)), overrides);
 }
 
 int corridor(const Options& options) {

@@ -117,7 +117,7 @@ const std::vector<SearchCase>& search_cases() {
 SearchOutcome run_search_case(const SearchCase& wanted, const std::vector<std::string>& more) {
   std::vector<std::string> overrides = wanted.overrides;
   overrides.insert(overrides.end(), more.begin(), more.end());
-  ConfigDocument document = ConfigDocument::load(or_refuse(find_scenario(wanted.scenario)), overrides);
+  ConfigDocument document = ConfigDocument::load(value_or_throw(find_scenario(wanted.scenario)), overrides);
   SearchOutcome outcome;
   outcome.scenario = read_scenario(document);
   const Scenario& scenario = outcome.scenario;

@@ -8,7 +8,7 @@
 #include "core/world/names.h"
 #include "executor/commanded_motion.h"
 #include "messages/codec.h"
-#include "runtime/beat.h"
+#include "runtime/tick.h"
 
 namespace tern {
 namespace {
@@ -200,12 +200,12 @@ void ExecutorNode::step(UTime now) {
     if (now >= next_setpoint_) {
       if (!look_from_) publish_setpoints(now);
       executor_->forget_before(now - kRemembered);
-      next_setpoint_ = next_beat(next_setpoint_, kSetpointPeriod, now);
+      next_setpoint_ = next_tick(next_setpoint_, kSetpointPeriod, now);
     }
   }
   if (goal_ && now >= next_goal_) {
     bus_.publish(channels::kGoal, *goal_);
-    next_goal_ = next_beat(next_goal_, kGoalPeriod, now);
+    next_goal_ = next_tick(next_goal_, kGoalPeriod, now);
   }
 }
 

@@ -64,7 +64,7 @@ void write_failure(const LaunchOptions& options, const std::string& reason, cons
   summary.scenario = fs::path(options.scenario).stem();
   summary.seed = overridden(options, "seed");
   summary.count = overridden(options, "world.count");
-  summary.command = options.typed;
+  summary.command = options.command;
   summary.version = build_id();
   std::ofstream(file) << to_json(summary);
 }
@@ -104,12 +104,12 @@ int give_up(const fs::path& record, const std::string& why) {
 }
 
 /// @return by process, an open file of its keys; empty if the flight is unsigned
-std::map<std::string, int> hold_keys(const LaunchOptions& options) {
+std::map<std::string, int> make_keys(const LaunchOptions& options) {
   std::map<std::string, int> fds;
   if (!options.key) return fds;
-  const Key master = options.key->empty() ? random_key() : or_refuse(read_master_key(*options.key));
-  for (const Part& part : parts()) {
-    fds.emplace(part.process, or_refuse(hold_in_memory(KeyRing::derive(master, part.process))));
+  const Key master = options.key->empty() ? random_key() : value_or_throw(read_master_key(*options.key));
+  for (const ProcessRole& entry : process_roles()) {
+    fds.emplace(entry.process, value_or_throw(seal_in_memory(KeyRing::derive(master, entry.process))));
   }
   return fds;
 }
@@ -118,7 +118,7 @@ void announce(const LaunchOptions& options, const fs::path& record, const std::v
   std::ofstream(record / "env.sh") << fmt::format("export LCM_DEFAULT_URL='{}' TERN_PACE={}\n", options.lcm_url,
                                                   options.pace);
   std::ofstream commands(record / "command");
-  commands << options.typed << '\n';
+  commands << options.command << '\n';
   for (const SupervisedProcess& process : processes) commands << shell_line(process.child.command) << '\n';
   std::ofstream flown(record / "scenario.yaml");
   flown << "# As flown: " << options.scenario << '\n';
@@ -139,28 +139,28 @@ void announce(const LaunchOptions& options, const fs::path& record, const std::v
 /// What an event means for the flight. @return the exit code, or nullopt if the monitor has yet to judge
 std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event) {
   if (event.process.empty()) return event.code;
-  const bool is_judge = event.process == kMonitor, has_summary = fs::exists(record / "summary.json");
-  if (is_judge ? !has_summary : event.code != 0) {
+  const bool is_monitor = event.process == kMonitor, has_summary = fs::exists(record / "summary.json");
+  if (is_monitor ? !has_summary : event.code != 0) {
     const std::string words = last_line(read_text(record / (event.process + ".log")));
     give_up(record, fmt::format("{} ended with exit code {}: {}", event.process, event.code, words));
   }
-  return is_judge ? std::optional(judged(event.code, has_summary)) : std::nullopt;
+  return is_monitor ? std::optional(code_after_flight(event.code, has_summary)) : std::nullopt;
 }
 
 /// A logger that has not begun after that fails or is slow; the flight says which.
 constexpr int kLoggerStartS = 5;
 
-struct Heard {
-  bool said = false;
+struct Wait {
+  bool done = false;
   int signal = 0;  ///< that came meanwhile, or 0
 };
 
 /// Waits until somebody writes a byte there, for so many seconds at most.
-Heard await_byte(int fd, int seconds, const sigset_t& signals) {
+Wait await_byte(int fd, int seconds, const sigset_t& signals) {
   constexpr int kLookMs = 100;
   for (int ms = 0; ms < 1000 * seconds; ms += kLookMs) {
     pollfd word{fd, POLLIN, 0};
-    if (poll(&word, 1, kLookMs) > 0) return {.said = true};
+    if (poll(&word, 1, kLookMs) > 0) return {.done = true};
     const timespec at_once{};
     const int signal = sigtimedwait(&signals, nullptr, &at_once);
     if (signal > 0 && signal != SIGCHLD) return {.signal = signal};
@@ -173,9 +173,9 @@ Heard await_byte(int fd, int seconds, const sigset_t& signals) {
 int await_page(const LaunchOptions& options, int looked, const sigset_t& signals) {
   if (options.view_wait_s == 0) return 0;
   say("  the flight begins when a page looks, at the latest in {} s (--view-wait)", options.view_wait_s);
-  const Heard heard = await_byte(looked, options.view_wait_s, signals);
-  if (!heard.said && heard.signal == 0) say("  no page looks: the flight begins without");
-  return heard.signal;
+  const Wait wait = await_byte(looked, options.view_wait_s, signals);
+  if (!wait.done && wait.signal == 0) say("  no page looks: the flight begins without");
+  return wait.signal;
 }
 
 /// @throws std::runtime_error with what one of them refuses
@@ -201,8 +201,8 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
   if (options.view_fd && pipe2(looked, O_CLOEXEC) == 0) options.looked_fd = looked[1];
   int listens[2] = {-1, -1};
   if (pipe2(listens, O_CLOEXEC) == 0) options.listens_fd = listens[1];
-  auto processes = flight_processes(options, record, hold_keys(options));
-  run_checks(checks_of_absent(options, processes), record);
+  auto processes = flight_processes(options, record, make_keys(options));
+  run_checks(checks_of_unused_sections(options, processes), record);
   announce(options, record, processes);
   Supervisor supervisor(signals);
   for (SupervisedProcess& process : processes) {
@@ -249,11 +249,11 @@ int watch_over(const LaunchOptions& options, const fs::path& record) {
 
 struct Awaited {
   ProcessEnd end;
-  int told = 0;  ///< the signal by which the user ended it, or 0
+  int signal = 0;  ///< the signal by which the user ended it, or 0
 };
 
 /// Waits for a child. What would end tern-launch ends the child.
-Awaited await_unless_told(pid_t child) {
+Awaited await_or_end(pid_t child) {
   const sigset_t signals = block_signals();
   while (true) {
     if (const auto end = poll_child(child)) return {*end, 0};
@@ -265,25 +265,25 @@ Awaited await_unless_told(pid_t child) {
 }
 
 /// What was asked for after the flight, from its log. @return the exit code after it
-int look_back(const LaunchOptions& options, const fs::path& record, int code) {
-  int told = 0;
+int after_flight(const LaunchOptions& options, const fs::path& record, int code) {
+  int ended_by = 0;
   const bool has_failed = code == kExitFailed;  // then that is what the user has to read
   const auto run = [&](std::vector<std::string> command, int out) {
     command.front() = options.programs + "/" + command.front();
     const auto [end, signal] =
-        await_unless_told(start_child({.command = std::move(command), .out = out, .own_group = true}));
-    told = signal;
+        await_or_end(start_child({.command = std::move(command), .out = out, .own_group = true}));
+    ended_by = signal;
     return shell_code(end);
   };
   const std::string log = record / "flight.lcm", audit = record / "audit.txt";
   if (options.audit) {
     const int audit_code = run({"tern-audit", log, "--json", record / "audit.json"}, open_log(audit));
-    if (told != 0) return kExitSignalled + told;
-    code = audited(code, audit_code);
+    if (ended_by != 0) return kExitSignalled + ended_by;
+    code = code_after_audit(code, audit_code);
     say("\n{}", has_failed ? "Audit: " + audit : without_end(read_text(audit)));
   }
   if (options.report && run({"tern-report", log, "-o", record / "report.html"}, STDOUT_FILENO) != 0) {
-    return told != 0 ? kExitSignalled + told : kExitFailed;
+    return ended_by != 0 ? kExitSignalled + ended_by : kExitFailed;
   }
   return code;
 }
@@ -302,7 +302,7 @@ pid_t play_again(const LaunchOptions& options, const fs::path& record) {
 /// Until the user ends it, or it ends itself.
 void keep_playing(pid_t player, const std::string& url) {
   say("\nThe page plays the flight again, until Ctrl-C: {}", url);
-  (void)await_unless_told(player);
+  (void)await_or_end(player);
 }
 
 }  // namespace
@@ -318,7 +318,7 @@ int fly(const LaunchOptions& options) {
   const bool is_played = options.view_fd && code < kExitSignalled && fs::exists(*record / "flight.lcm");
   const pid_t player = is_played ? play_again(options, *record) : 0;
   const bool is_over = code <= kExitFailed || (options.allow_goals && code > kExitSignalled);
-  if (is_over && fs::exists(*record / "flight.lcm")) code = look_back(options, *record, code);
+  if (is_over && fs::exists(*record / "flight.lcm")) code = after_flight(options, *record, code);
   if (code > kExitSignalled) say("\nEnded by a signal; what was recorded: {}", record->string());
   const fs::path summary = *record / "summary.json";
   if (code == kExitFailed && !fs::exists(summary)) {

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
   fly.add_option("--record", options.record, "The flight's folder (default: a new one in --flights)");
   fly.add_option("--flights", options.flights, "The folder of records");
   fly.add_option("--summary", options.summary, "Write the summary there, too");
-  fly.add_option("--typed", options.typed, "What the user typed, for the record");
+  fly.add_option("--typed", options.command, "What the user typed, for the record");
   fly.add_flag(
       "--new-key", [&](std::int64_t) { options.key = ""; }, "Sign every message, with a new key");
   fly.add_option("--key-file", options.key, "Sign every message, with the master key of this file");

@@ -70,76 +70,76 @@ sigset_t block_signals() {
 
 void Supervisor::start(SupervisedProcess process) {
   process.child.memory_limit_bytes = memory_limit_bytes();
-  kept_.emplace_back().process = std::move(process);
-  run(kept_.back());
+  supervised_.emplace_back().process = std::move(process);
+  run(supervised_.back());
 }
 
-void Supervisor::run(Kept& kept) {
-  kept.due.reset();
-  kept.started = clock_.now();
-  kept.pid = start_child(kept.process.child);
+void Supervisor::run(Supervised& entry) {
+  entry.due.reset();
+  entry.started = clock_.now();
+  entry.pid = start_child(entry.process.child);
 }
 
 SupervisorEvent Supervisor::wait() {
   while (true) {
     Duration pause = kLongPause;
-    for (Kept& kept : kept_) {
-      if (const auto end = kept.pid ? poll_child(*kept.pid) : std::nullopt) {
-        kept.pid.reset();
-        if (!kept.process.restarted || is_final(*end)) return {kept.process.name, shell_code(*end)};
-        plan_restart(kept, *end);
+    for (Supervised& entry : supervised_) {
+      if (const auto end = entry.pid ? poll_child(*entry.pid) : std::nullopt) {
+        entry.pid.reset();
+        if (!entry.process.restarted || is_permanent(*end)) return {entry.process.name, shell_code(*end)};
+        plan_restart(entry, *end);
       }
-      if (kept.due && *kept.due <= clock_.now()) run(kept);
-      if (kept.due) pause = std::min(pause, *kept.due - clock_.now());
+      if (entry.due && *entry.due <= clock_.now()) run(entry);
+      if (entry.due) pause = std::min(pause, *entry.due - clock_.now());
     }
     const int signal = next_signal(signals_, pause);
     if (signal != 0 && signal != SIGCHLD) return {"", kExitSignalled + signal};
   }
 }
 
-void Supervisor::plan_restart(Kept& kept, const ProcessEnd& end) {
-  const Duration delay = kept.backoff.next(clock_.now() - kept.started);
-  kept.due = clock_.now() + delay;
-  dprintf(kept.process.child.error, "tern-launch: %s ended with %s; restart %d in %d ms\n", kept.process.name.c_str(),
-          to_text(end).c_str(), ++kept.restarts, static_cast<int>(delay.us / 1000));
+void Supervisor::plan_restart(Supervised& entry, const ProcessEnd& end) {
+  const Duration delay = entry.backoff.next(clock_.now() - entry.started);
+  entry.due = clock_.now() + delay;
+  dprintf(entry.process.child.error, "tern-launch: %s ended with %s; restart %d in %d ms\n", entry.process.name.c_str(),
+          to_text(end).c_str(), ++entry.restarts, static_cast<int>(delay.us / 1000));
 }
 
 void Supervisor::end_first(const std::string& name, double pace) {
-  std::vector<Kept*> one;
-  for (Kept& kept : kept_) {
-    if (kept.process.name == name) one.push_back(&kept);
+  std::vector<Supervised*> named;
+  for (Supervised& entry : supervised_) {
+    if (entry.process.name == name) named.push_back(&entry);
   }
-  end(one, Duration::from_seconds(kLandingPatience.seconds() / pace));
+  end(named, Duration::from_seconds(kLandingPatience.seconds() / pace));
 }
 
 void Supervisor::stop(const std::string& last) {
-  std::vector<Kept*> others, one;
-  for (Kept& kept : kept_) (kept.process.name == last ? one : others).push_back(&kept);
+  std::vector<Supervised*> others, last_group;
+  for (Supervised& entry : supervised_) (entry.process.name == last ? last_group : others).push_back(&entry);
   end(others, kPatience);
-  end(one, kLastPatience);
+  end(last_group, kLastPatience);
 }
 
-void Supervisor::end(const std::vector<Kept*>& group, Duration patience) {
+void Supervisor::end(const std::vector<Supervised*>& group, Duration patience) {
   const UTime deadline = clock_.now() + patience;
-  for (Kept* kept : group) {
-    kept->due.reset();
-    if (kept->pid) kill(*kept->pid, SIGTERM);
+  for (Supervised* entry : group) {
+    entry->due.reset();
+    if (entry->pid) kill(*entry->pid, SIGTERM);
   }
   const auto all_ended = [&] {
     bool all = true;
-    for (Kept* kept : group) {
-      if (kept->pid && poll_child(*kept->pid)) kept->pid.reset();
-      all = all && !kept->pid;
+    for (Supervised* entry : group) {
+      if (entry->pid && poll_child(*entry->pid)) entry->pid.reset();
+      all = all && !entry->pid;
     }
     return all;
   };
   while (!all_ended() && clock_.now() < deadline) next_signal(set_of(SIGCHLD), deadline - clock_.now());
-  for (Kept* kept : group) {
-    if (!kept->pid) continue;
-    fmt::print(stderr, "tern-launch: {} did not end in time and is killed\n", kept->process.name);
-    kill(*kept->pid, SIGKILL);
-    (void)await_child(*kept->pid);
-    kept->pid.reset();
+  for (Supervised* entry : group) {
+    if (!entry->pid) continue;
+    fmt::print(stderr, "tern-launch: {} did not end in time and is killed\n", entry->process.name);
+    kill(*entry->pid, SIGKILL);
+    (void)await_child(*entry->pid);
+    entry->pid.reset();
   }
 }
 

@@ -39,7 +39,7 @@ class Supervisor {
   void stop(const std::string& last);
 
  private:
-  struct Kept {
+  struct Supervised {
     SupervisedProcess process;
     std::optional<pid_t> pid;  ///< while it runs
     UTime started;             ///< lately
@@ -47,13 +47,13 @@ class Supervisor {
     Backoff backoff;
     int restarts = 0;
   };
-  void run(Kept& kept);
-  void plan_restart(Kept& kept, const ProcessEnd& end);
-  void end(const std::vector<Kept*>& group, Duration patience);
+  void run(Supervised& entry);
+  void plan_restart(Supervised& entry, const ProcessEnd& end);
+  void end(const std::vector<Supervised*>& group, Duration patience);
 
   sigset_t signals_;
   WallClock clock_;
-  std::vector<Kept> kept_;
+  std::vector<Supervised> supervised_;
 };
 
 /// Runs a command, and runs it again when it dies. On SIGTERM, SIGINT or SIGHUP the command gets SIGTERM, and SIGKILL 1

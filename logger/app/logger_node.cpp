@@ -18,7 +18,7 @@ constexpr Duration kHeardLately{2'500'000};
 
 LogWriter open_writer(std::string path, std::int64_t rotate_bytes) {
   if (std::filesystem::is_directory(path)) path = (std::filesystem::path(path) / "flight.lcm").string();
-  return or_refuse(LogWriter::open(path, rotate_bytes), "--record ");
+  return value_or_throw(LogWriter::open(path, rotate_bytes), "--record ");
 }
 
 }  // namespace

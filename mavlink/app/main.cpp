@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     const auto config = context.section.read<BridgeConfig>();
     std::optional<SigningKey> key;
     if (!key_file.empty()) {
-      const tern::Key secret = tern::or_refuse(tern::read_master_key(key_file));
+      const tern::Key secret = tern::value_or_throw(tern::read_master_key(key_file));
       key.emplace();
       std::copy(secret.bytes().begin(), secret.bytes().end(), key->secret.begin());
       key->sha256 = tern::sha256;
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     if (url.starts_with("serial://") && context.bus.clock().in_system_time(kSecond) != kSecond) {
       throw tern::ConfigError("--pace: the clock of a real autopilot cannot be slowed");
     }
-    auto link = tern::or_refuse(open_link(url), "--connect ");
+    auto link = tern::value_or_throw(open_link(url), "--connect ");
     return std::make_unique<MavlinkNode>(context.bus, std::move(link), context.scenario.uav, config, key);
   });
 }

@@ -10,7 +10,7 @@
 #include "core/base/files.h"
 #include "core/world/box_cover.h"
 #include "messages/codec.h"
-#include "monitor/app/hear_flight.h"
+#include "monitor/app/subscribe_flight.h"
 #include "monitor/live_line.h"
 #include "runtime/config.h"
 #include "runtime/version.h"
@@ -42,7 +42,7 @@ void MonitorNode::check_summary_file() const {
 }
 
 void MonitorNode::subscribe() {
-  hear_flight(bus_, watch_);
+  subscribe_flight(bus_, watch_);
   bus_.subscribe(channels::kObstacleTruth, [this](const ObstacleTruth& m) {
     const auto batches = truth_.add(m);
     if (!batches) return;
@@ -50,11 +50,11 @@ void MonitorNode::subscribe() {
     for (const ObstacleTruth& batch : *batches) {
       obstacles.insert(obstacles.end(), batch.obstacles.begin(), batch.obstacles.end());
     }
-    watch_.hear(std::move(obstacles));
+    watch_.receive(std::move(obstacles));
   });
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) {
     const Result<bool> complete = map_.add(chunk);
-    if (complete && *complete) watch_.hear_map(cover_with_boxes(map_.take(), false));
+    if (complete && *complete) watch_.receive_map(cover_with_boxes(map_.take(), false));
   });
   // Nothing to learn from these but whether they arrive.
   bus_.subscribe(channels::kSetpoint, [](const UavState&) {});

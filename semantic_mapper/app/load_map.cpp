@@ -101,7 +101,7 @@ VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const ch
   options.include = scenario.uav.flight_box;
   options.somewhere = scenario.uav.start;
   options.background = config.background;
-  return or_refuse(build_map(sources, options), scenario.file + ": mapper: ");
+  return value_or_throw(build_map(sources, options), scenario.file + ": mapper: ");
 }
 
 }  // namespace tern

@@ -9,7 +9,7 @@
 #include "core/world/names.h"
 #include "executor/commanded_motion.h"
 #include "messages/codec.h"
-#include "runtime/beat.h"
+#include "runtime/tick.h"
 #include "simulator/vehicle/external_vehicle.h"
 
 namespace tern {
@@ -112,19 +112,19 @@ void SimulatorNode::step(UTime now) {
     if (!config_.external) publish_state(now);
     judge(now);
   }
-  if (due) next_state_ = next_beat(next_state_, kStatePeriod, now);
+  if (due) next_state_ = next_tick(next_state_, kStatePeriod, now);
   broadcast_.step(now, vehicle_->truth());
   if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
     // Plans name the GOAL that was heard first: the log must have it.
     const bool is_kept = world_zero_ || gate_.records(now);
     if (goal_ && is_kept) bus_.publish(channels::kGoal, config_.external && !has_begun(now) ? held(*goal_) : *goal_);
-    next_goal_ = next_beat(next_goal_, is_kept ? kGoalPeriod : kStatePeriod, now);
+    next_goal_ = next_tick(next_goal_, is_kept ? kGoalPeriod : kStatePeriod, now);
     if (world_zero_ && now < *world_zero_) next_goal_ = std::min(next_goal_, *world_zero_);
   }
   if (now >= next_result_) {
     if (results_left_ > 0) bus_.publish(channels::kFlightResult, *result_);
-    next_result_ = --results_left_ < 0 ? kNever : next_beat(next_result_, kResultPeriod, now);
+    next_result_ = --results_left_ < 0 ? kNever : next_tick(next_result_, kResultPeriod, now);
   }
 }
 
@@ -211,7 +211,7 @@ void SimulatorNode::publish_status(UTime now) {
     status.why_not = why;
   }
   bus_.publish(channels::kVehicleStatus, status);
-  next_status_ = next_beat(next_status_, kStatusPeriod, now);
+  next_status_ = next_tick(next_status_, kStatusPeriod, now);
   if (world_zero_ && now < *world_zero_) next_status_ = std::min(next_status_, *world_zero_);
   if (now < follows_from_) next_status_ = std::min(next_status_, follows_from_);
 }

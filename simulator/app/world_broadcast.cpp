@@ -12,9 +12,9 @@
 #include "core/world/track_order.h"
 #include "messages/batching.h"
 #include "messages/codec.h"
-#include "runtime/beat.h"
 #include "runtime/config.h"
 #include "runtime/data_folder.h"
+#include "runtime/tick.h"
 #include "simulator/worlds/declared_motions.h"
 
 namespace tern {
@@ -83,7 +83,7 @@ std::vector<Duration> appearances_of(const World& world) {
 
 World world_of(const Scenario& scenario) {
   const std::string data = data_folder(scenario.file, std::getenv("TERN_DATA"));
-  return or_refuse(make_world(scenario, data), scenario.file + ": world: ");
+  return value_or_throw(make_world(scenario, data), scenario.file + ": world: ");
 }
 
 World flyable_world_of(const Scenario& scenario, const SimulatorConfig& config) {
@@ -129,11 +129,11 @@ void WorldBroadcast::step(UTime now, const MotionHistory& uav) {
   if (config_.sensor.present) publish_observations(now, uav);
   if (config_.declare && now >= declared_due()) {
     publish_declared(now, uav.sample(std::min(now, uav.end())).p);
-    if (now >= next_declared_) next_declared_ = next_beat(next_declared_, kDeclaredPeriod, now);
+    if (now >= next_declared_) next_declared_ = next_tick(next_declared_, kDeclaredPeriod, now);
   }
   if (now >= next_truth_) {
     publish_truth(now);
-    next_truth_ = next_beat(next_truth_, kTruthPeriod, now);
+    next_truth_ = next_tick(next_truth_, kTruthPeriod, now);
   }
 }
 

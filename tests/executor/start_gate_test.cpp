@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "runtime/beat.h"
+#include "runtime/tick.h"
 
 namespace tern {
 namespace {
@@ -151,10 +151,10 @@ TEST(StartGate, NoticesAClockThatIsSetAndForgetsItWithItsProcess) {
 TEST(StartGate, OfNobodyIsOpen) { EXPECT_TRUE(StartGate({}, kOwnEpoch).open(kNow)); }
 
 TEST(Beat, KeepsItsPhaseAndSkipsWhatWasMissed) {
-  EXPECT_EQ(next_beat(kNow, kMs * 10, kNow), kNow + kMs * 10);
-  EXPECT_EQ(next_beat(kNow, kMs * 10, kNow + kMs * 9), kNow + kMs * 10);
-  EXPECT_EQ(next_beat(kNow, kMs * 10, kNow + kMs * 10), kNow + kMs * 20);
-  EXPECT_EQ(next_beat(kNow, kMs * 10, kNow + kMs * 57), kNow + kMs * 60);
+  EXPECT_EQ(next_tick(kNow, kMs * 10, kNow), kNow + kMs * 10);
+  EXPECT_EQ(next_tick(kNow, kMs * 10, kNow + kMs * 9), kNow + kMs * 10);
+  EXPECT_EQ(next_tick(kNow, kMs * 10, kNow + kMs * 10), kNow + kMs * 20);
+  EXPECT_EQ(next_tick(kNow, kMs * 10, kNow + kMs * 57), kNow + kMs * 60);
 }
 
 }  // namespace

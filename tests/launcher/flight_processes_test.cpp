@@ -90,7 +90,7 @@ TEST(FlightProcesses, WhoDoesNotFlyChecksItsSectionNevertheless) {
   LaunchOptions options = demo();
   const auto checked = [&] {
     Words programs;
-    for (const Words& words : checks_of_absent(options, flight_processes(options, "r", {}))) {
+    for (const Words& words : checks_of_unused_sections(options, flight_processes(options, "r", {}))) {
       EXPECT_EQ(Words(words.begin() + 1, words.end()),
                 (Words{"--check-config", "--config", "demo.yaml", "--set", "seed=2", "--set", "uav.goal=[1,2,3]"}));
       programs.push_back(words.front());

@@ -25,9 +25,9 @@ TEST(Backoff, BeginsAnewAfterALongRun) {
 }
 
 TEST(ProcessEnd, IsFinalWhereAnotherRunCannotMendIt) {
-  for (const int code : {0, 2, 3, 126, 127}) EXPECT_TRUE(is_final({code, 0})) << code;
-  for (const int code : {1, 4, 70, 255}) EXPECT_FALSE(is_final({code, 0})) << code;
-  for (const int signal : {SIGKILL, SIGSEGV, SIGINT}) EXPECT_FALSE(is_final({0, signal})) << signal;
+  for (const int code : {0, 2, 3, 126, 127}) EXPECT_TRUE(is_permanent({code, 0})) << code;
+  for (const int code : {1, 4, 70, 255}) EXPECT_FALSE(is_permanent({code, 0})) << code;
+  for (const int signal : {SIGKILL, SIGSEGV, SIGINT}) EXPECT_FALSE(is_permanent({0, signal})) << signal;
 }
 
 TEST(ProcessEnd, IsToldAsAShellDoes) {
@@ -40,19 +40,19 @@ TEST(ProcessEnd, IsToldAsAShellDoes) {
 
 TEST(FlightExitCode, IsTheMonitorsIfItWroteASummary) {
   for (const int code : {0, 1, 2, 3}) {
-    EXPECT_EQ(judged(code, true), code);
-    EXPECT_EQ(judged(code, false), kExitFailed);
+    EXPECT_EQ(code_after_flight(code, true), code);
+    EXPECT_EQ(code_after_flight(code, false), kExitFailed);
   }
-  for (const int code : {70, 127, 137}) EXPECT_EQ(judged(code, true), kExitFailed);
+  for (const int code : {70, 127, 137}) EXPECT_EQ(code_after_flight(code, true), kExitFailed);
 }
 
 TEST(FlightExitCode, OfABrokenAuditGivesWayToACollision) {
-  for (const int code : {0, 1, 2}) EXPECT_EQ(audited(code, 0), code);
-  EXPECT_EQ(audited(0, 1), kExitBroken);
-  EXPECT_EQ(audited(1, 1), 1);
-  EXPECT_EQ(audited(kExitFailed, 1), kExitFailed);
-  EXPECT_EQ(audited(2, 1), kExitBroken);
-  for (const int no_audit : {2, 70, 139}) EXPECT_EQ(audited(0, no_audit), kExitFailed);
+  for (const int code : {0, 1, 2}) EXPECT_EQ(code_after_audit(code, 0), code);
+  EXPECT_EQ(code_after_audit(0, 1), kExitBroken);
+  EXPECT_EQ(code_after_audit(1, 1), 1);
+  EXPECT_EQ(code_after_audit(kExitFailed, 1), kExitFailed);
+  EXPECT_EQ(code_after_audit(2, 1), kExitBroken);
+  for (const int no_audit : {2, 70, 139}) EXPECT_EQ(code_after_audit(0, no_audit), kExitFailed);
 }
 
 }  // namespace

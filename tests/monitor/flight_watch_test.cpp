@@ -66,12 +66,12 @@ TEST(FlightWatch, TakesTheRefereesOutcomeAfterTheLastWords) {
   for (const FlightOutcome outcome :
        {FlightOutcome::Reached, FlightOutcome::Collision, FlightOutcome::Timeout, FlightOutcome::Failed}) {
     FlightWatch watch(scenario(), kStart);
-    watch.hear(simulator(1), kStart);
+    watch.receive(simulator(1), kStart);
     FlightResult result = verdict_of(1, outcome);
     result.detail = "why";
-    watch.hear(result, kStart + Duration{1'000});
+    watch.receive(result, kStart + Duration{1'000});
     EXPECT_FALSE(watch.ending(kStart + Duration{1'000}));
-    const auto ending = watch.ending(kStart + Duration{1'000} + kLastWords);
+    const auto ending = watch.ending(kStart + Duration{1'000} + kLastReports);
     ASSERT_TRUE(ending);
     EXPECT_EQ(ending->outcome, outcome);
     EXPECT_EQ(ending->detail, "why");
@@ -83,21 +83,21 @@ TEST(FlightWatch, FailsWhenTheSimulatorIsNotHeard) {
   EXPECT_FALSE(watch.ending(kStart + kSimulatorSilence));
   EXPECT_EQ(watch.ending(kStart + kSimulatorSilence + Duration{1})->outcome, FlightOutcome::Failed);
   const UTime heard = kStart + Duration{10'000'000};
-  watch.hear(simulator(1), heard);
+  watch.receive(simulator(1), heard);
   EXPECT_FALSE(watch.ending(heard + kSimulatorSilence));
   EXPECT_TRUE(watch.ending(heard + kSimulatorSilence + Duration{1}));
 }
 
 TEST(FlightWatch, FailsWhenTheWorldIsLostMidway) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(simulator(1), kStart);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
+  watch.receive(simulator(1), kStart);
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
   EXPECT_FALSE(watch.ending(kStart));
   UTime now = kStart;
-  for (int k = 0; k < 5; ++k) watch.hear(simulator(2), now = now + Duration{500'000});
+  for (int k = 0; k < 5; ++k) watch.receive(simulator(2), now = now + Duration{500'000});
   EXPECT_FALSE(watch.ending(now)) << "the first may still be heard";
-  watch.hear(simulator(2), now = now + Duration{500'000});
+  watch.receive(simulator(2), now = now + Duration{500'000});
   const auto ending = watch.ending(now);
   ASSERT_TRUE(ending);
   EXPECT_EQ(ending->outcome, FlightOutcome::Failed);
@@ -106,15 +106,15 @@ TEST(FlightWatch, FailsWhenTheWorldIsLostMidway) {
 
 TEST(FlightWatch, ASecondSimulatorBesideTheFirstEndsNothing) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(simulator(5), kStart);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
+  watch.receive(simulator(5), kStart);
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
   UTime now = kStart;
   for (int k = 0; k < 20; ++k) {
     now = now + Duration{500'000};
-    watch.hear(simulator(5), now);
-    watch.hear(simulator(9), now);
-    watch.hear(simulator(2), now);
+    watch.receive(simulator(5), now);
+    watch.receive(simulator(9), now);
+    watch.receive(simulator(2), now);
     EXPECT_FALSE(watch.ending(now));
   }
   EXPECT_EQ(watch.live().beside, "3 tern-simulator");
@@ -123,45 +123,45 @@ TEST(FlightWatch, ASecondSimulatorBesideTheFirstEndsNothing) {
 
 TEST(FlightWatch, TheVerdictIsThatOfTheSimulatorThatTheFlightBeganWith) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(verdict_of(1, FlightOutcome::Reached), kStart);
-  EXPECT_FALSE(watch.ending(kStart + kLastWords)) << "there is no simulator yet";
-  watch.hear(simulator(5), kStart);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
-  watch.hear(verdict_of(9, FlightOutcome::Reached), kStart);
-  EXPECT_FALSE(watch.ending(kStart + kLastWords));
-  watch.hear(verdict_of(5, FlightOutcome::Timeout), kStart);
-  EXPECT_EQ(watch.ending(kStart + kLastWords)->outcome, FlightOutcome::Timeout);
+  watch.receive(verdict_of(1, FlightOutcome::Reached), kStart);
+  EXPECT_FALSE(watch.ending(kStart + kLastReports)) << "there is no simulator yet";
+  watch.receive(simulator(5), kStart);
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
+  watch.receive(verdict_of(9, FlightOutcome::Reached), kStart);
+  EXPECT_FALSE(watch.ending(kStart + kLastReports));
+  watch.receive(verdict_of(5, FlightOutcome::Timeout), kStart);
+  EXPECT_EQ(watch.ending(kStart + kLastReports)->outcome, FlightOutcome::Timeout);
 }
 
 TEST(FlightWatch, AVerdictIsDroppedWhenTheSimulatorFliesOn) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(simulator(5), kStart);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
-  watch.hear(verdict_of(5, FlightOutcome::Reached), kStart);
+  watch.receive(simulator(5), kStart);
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
+  watch.receive(verdict_of(5, FlightOutcome::Reached), kStart);
   Heartbeat next = simulator(5);
   next.header.utime = kStart + Duration{400'000};
-  watch.hear(next, next.header.utime);
-  EXPECT_FALSE(watch.ending(kStart + kLastWords));
+  watch.receive(next, next.header.utime);
+  EXPECT_FALSE(watch.ending(kStart + kLastReports));
 }
 
 TEST(FlightWatch, ASimulatorThatStartsAnewBeforeTheFlightIsARestartOnly) {
   FlightWatch watch(scenario(), kStart);
   UTime now = kStart;
-  for (const std::int64_t epoch : {1, 1, 2, 2, 2, 2, 2}) watch.hear(simulator(epoch), now = now + Duration{500'000});
-  watch.hear(executor(), now);
-  watch.hear(request(), now);
+  for (const std::int64_t epoch : {1, 1, 2, 2, 2, 2, 2}) watch.receive(simulator(epoch), now = now + Duration{500'000});
+  watch.receive(executor(), now);
+  watch.receive(request(), now);
   EXPECT_FALSE(watch.ending(now));
   EXPECT_EQ(watch.summary({}).restarts, 1);
 }
 
 TEST(FlightWatch, FailsWhenTheRefereeKeepsSilent) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
-  const UTime late = kStart + Duration{30'000'000} + kVerdictSlack;
-  watch.hear(simulator(1), late);
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
+  const UTime late = kStart + Duration{30'000'000} + kResultSlack;
+  watch.receive(simulator(1), late);
   EXPECT_FALSE(watch.ending(late));
   EXPECT_TRUE(watch.ending(late + Duration{1}));
 }
@@ -175,24 +175,24 @@ TEST(FlightWatch, FailsForTheLaunchersFirstReason) {
 
 TEST(FlightWatch, AVerdictCountsMoreThanAFailureAfterIt) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(simulator(1), kStart);
-  watch.hear(verdict_of(1, FlightOutcome::Reached), kStart);
+  watch.receive(simulator(1), kStart);
+  watch.receive(verdict_of(1, FlightOutcome::Reached), kStart);
   watch.fail("a process ended");
-  EXPECT_EQ(watch.ending(kStart + kLastWords)->outcome, FlightOutcome::Reached);
+  EXPECT_EQ(watch.ending(kStart + kLastReports)->outcome, FlightOutcome::Reached);
 }
 
 TEST(FlightWatch, ShowsProgressSpeedAndTheNearestObstacle) {
   FlightWatch watch(scenario(), kStart);
   EXPECT_FALSE(watch.live().flying);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
-  watch.hear(state(Vec3(4, 0, 1), Vec3(3, 4, 0), kStart + Duration{2'000'000}));
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
+  watch.receive(state(Vec3(4, 0, 1), Vec3(3, 4, 0), kStart + Duration{2'000'000}));
   EXPECT_TRUE(std::isnan(watch.live().nearest_m));
   TrueObstacle near, far;
   near.position = Vec3(4, 3, 1);
   near.half_extents = Vec3::Constant(0.5);
   far.position = Vec3(40, 0, 1);
-  watch.hear({far, near});
+  watch.receive({far, near});
   const LiveView view = watch.live();
   EXPECT_TRUE(view.flying);
   EXPECT_DOUBLE_EQ(view.elapsed_s, 2.0);
@@ -203,11 +203,11 @@ TEST(FlightWatch, ShowsProgressSpeedAndTheNearestObstacle) {
 
 TEST(FlightWatch, ShowsTheNearestWallOfTheMapBesideTheObstacles) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
-  watch.hear(state(Vec3(4, 0, 1), Vec3::Zero(), kStart + Duration{2'000'000}));
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
+  watch.receive(state(Vec3(4, 0, 1), Vec3::Zero(), kStart + Duration{2'000'000}));
   EXPECT_TRUE(std::isnan(watch.live().nearest_wall_m));
-  watch.hear_map({Box(Vec3(6, -1, 0), Vec3(7, 1, 2)), Box(Vec3(4, 8, 0), Vec3(5, 9, 2))});
+  watch.receive_map({Box(Vec3(6, -1, 0), Vec3(7, 1, 2)), Box(Vec3(4, 8, 0), Vec3(5, 9, 2))});
   EXPECT_NEAR(watch.live().nearest_wall_m, 1.5, 1e-12);
   EXPECT_TRUE(std::isnan(watch.live().nearest_m));
 }
@@ -218,37 +218,37 @@ TEST(FlightWatch, MeasuresWhatHangsBelowFromWhereItHangs) {
   hanging.uav.body.vertices = Points(3, 2);
   hanging.uav.body.vertices << 0, 0, 0, 0, 0.1, -1.0;
   FlightWatch watch(hanging, kStart);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
-  watch.hear(state(Vec3(0, 0, 3), Vec3::Zero(), kStart + Duration{2'000'000}));
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
+  watch.receive(state(Vec3(0, 0, 3), Vec3::Zero(), kStart + Duration{2'000'000}));
   TrueObstacle above;
   above.position = Vec3(0, 0, 4);
   above.half_extents = Vec3::Constant(0.5);
-  watch.hear(std::vector{above});
+  watch.receive(std::vector{above});
   EXPECT_NEAR(watch.live().nearest_m, 0.4, 1e-12);
 }
 
 TEST(FlightWatch, MeasuresProgressToANewGoal) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
-  watch.hear(state(Vec3(0, 5, 1), Vec3::Zero(), kStart));
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
+  watch.receive(state(Vec3(0, 5, 1), Vec3::Zero(), kStart));
   Goal goal;
   goal.id = 2;
   goal.position = Vec3(0, 20, 1);
-  watch.hear(goal);
+  watch.receive(goal);
   EXPECT_NEAR(watch.live().progress, 0.25, 1e-12);
 }
 
 TEST(FlightWatch, WhereTheGoalIsTheStartAllOfTheWayIsDone) {
   FlightWatch watch(scenario(), kStart);
-  watch.hear(executor(), kStart);
-  watch.hear(request(), kStart);
-  watch.hear(state(Vec3(1, 0, 0), Vec3::Zero(), kStart));
+  watch.receive(executor(), kStart);
+  watch.receive(request(), kStart);
+  watch.receive(state(Vec3(1, 0, 0), Vec3::Zero(), kStart));
   Goal goal;
   goal.id = 2;
   goal.position = scenario().uav.start;
-  watch.hear(goal);
+  watch.receive(goal);
   EXPECT_EQ(watch.live().progress, 1.0);
 }
 
@@ -258,7 +258,7 @@ TEST(FlightWatch, SumsUpTimesOfTheStagesThatRan) {
     PlanTiming timing;
     timing.total_ms = i;
     timing.stage_ms[static_cast<int>(Stage::Search)] = i <= 50 ? 0.0 : 2.0 * i;
-    watch.hear(timing);
+    watch.receive(timing);
   }
   const ReplanTimes times = watch.summary({}).replan_ms;
   EXPECT_EQ(times.total.p99, 99.0);
@@ -273,7 +273,7 @@ TEST(FlightWatch, RanksTheTimesOfAnAnswerThatWasDeliveredTwiceOnce) {
     PlanTiming timing;
     timing.header.name = {9, i};
     timing.total_ms = i;
-    for (int copy = 0; copy < (i == 4 ? 9 : 1); ++copy) watch.hear(timing);
+    for (int copy = 0; copy < (i == 4 ? 9 : 1); ++copy) watch.receive(timing);
   }
   EXPECT_EQ(watch.summary({}).replan_ms.total.p50, 2.0);
 }

@@ -24,7 +24,7 @@ TEST(ProcessTable, CountsStartsBeyondTheFirst) {
   table.add(beat("b", 3), now);
   EXPECT_EQ(table.restarts(), 2);
   EXPECT_TRUE(table.beside().empty());
-  EXPECT_EQ(table.beside_now(now), "");
+  EXPECT_EQ(table.concurrent_now(now), "");
 }
 
 TEST(ProcessTable, ASecondProcessBesideTheFirstIsSaidAndIsNoRestart) {
@@ -34,12 +34,12 @@ TEST(ProcessTable, ASecondProcessBesideTheFirstIsSaidAndIsNoRestart) {
     now = now + kBeat;
     table.add(beat("a", 1), now);
     if (3 <= k && k < 7) table.add(beat("a", 2), now);
-    EXPECT_EQ(table.beside_now(now), 4 <= k && k < 9 ? "2 a" : "") << k;
+    EXPECT_EQ(table.concurrent_now(now), 4 <= k && k < 9 ? "2 a" : "") << k;
   }
   EXPECT_EQ(table.restarts(), 0);
   EXPECT_EQ(table.epoch_us("a"), 1);
   EXPECT_EQ(table.beside(), (std::map<std::string, int>{{"a", 2}}));
-  EXPECT_EQ(table.beside_now(now), "");
+  EXPECT_EQ(table.concurrent_now(now), "");
 }
 
 TEST(ProcessTable, AnotherStartCountsOnceTheFirstIsSilentAndItWasHeardTwice) {
@@ -49,7 +49,7 @@ TEST(ProcessTable, AnotherStartCountsOnceTheFirstIsSilentAndItWasHeardTwice) {
   table.add(beat("a", 7), now = now + kBeat);
   table.add(beat("a", 9), now = now + kBeat);
   EXPECT_EQ(table.epoch_us("a"), 7);
-  table.add(beat("a", 9), now = now + kBeatSilence);
+  table.add(beat("a", 9), now = now + kHeartbeatTimeout);
   EXPECT_EQ(table.epoch_us("a"), 9);
   EXPECT_EQ(table.heard("a", 7), UTime{} + kBeat);
 }

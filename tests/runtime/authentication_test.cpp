@@ -37,8 +37,8 @@ TEST(Signature, HasTheBytesThatPythonMakes) {
 class SignedMessage : public testing::Test {
  protected:
   SignedMessage() { sign(message, planner, "PLAN", "PLAN", {{1'000'000, 1}, now}); }
-  tl::expected<Authentic, Rejection> check(const Bytes& bytes, const char* channel = "PLAN",
-                                           const char* wire_name = "PLAN") {
+  tl::expected<VerifiedMessage, Rejection> check(const Bytes& bytes, const char* channel = "PLAN",
+                                                 const char* wire_name = "PLAN") {
     return verify(bytes, executor, guard, channel, wire_name, now);
   }
   UTime now{5'000'000};
@@ -98,10 +98,10 @@ TEST_F(SignedMessage, CountsOnceAndNotWhenItIsOld) {
   ASSERT_FALSE(again);
   EXPECT_EQ(again.error(), Rejection::Repeated);
   ReplayGuard fresh;  // a receiver that has just started
-  const auto late = verify(message, executor, fresh, "PLAN", "PLAN", now + kLongestOnItsWay + Duration{1});
+  const auto late = verify(message, executor, fresh, "PLAN", "PLAN", now + kMaxTransit + Duration{1});
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error(), Rejection::Repeated);
-  EXPECT_TRUE(verify(message, executor, fresh, "PLAN", "PLAN", now + kLongestOnItsWay));
+  EXPECT_TRUE(verify(message, executor, fresh, "PLAN", "PLAN", now + kMaxTransit));
 }
 
 TEST(ReplayWindow, AdmitsWhatASetOfAllThatCameWouldWithinItsReach) {
@@ -232,7 +232,7 @@ TEST_F(KeyedBus, AMessageOfThisFlightSaidAgainLaterIsRefusedAlsoByWhoHasJustStar
   overhear(said);
   viewer.publish(channels::kGoal, goal(1));
   drain(*lcm, 100);
-  clock.advance_to(clock.now() + kLongestOnItsWay + Duration{1});
+  clock.advance_to(clock.now() + kMaxTransit + Duration{1});
   Bus restarted{lcm, clock, 7'000, "", ring("tern-simulator")};
   restarted.subscribe(channels::kGoal, [](const Goal&) { ADD_FAILURE() << "heard"; });
   lcm->publish(channels::kGoal.name, said[0].data(), static_cast<unsigned>(said[0].size()));

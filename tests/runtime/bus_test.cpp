@@ -155,12 +155,12 @@ TEST_F(BusTest, WhatIsFromTheFutureReachesNoHandler) {
     g.header = {{epoch_us, 1}, sent};
     arrive_bytes(encode(g));
   };
-  forge(60, now + kMostAhead, now.us);
+  forge(60, now + kMaxAhead, now.us);
   EXPECT_EQ(settle().received, 1) << "clocks differ a little";
   forge(61, now, std::numeric_limits<std::int64_t>::max());
-  forge(62, now, (now + kMostAhead).us + 1);
-  forge((now + kMostAhead).us + 1, now, 1);
-  forge(63, now + kMostAhead + Duration{1}, 1);
+  forge(62, now, (now + kMaxAhead).us + 1);
+  forge((now + kMaxAhead).us + 1, now, 1);
+  forge(63, now + kMaxAhead + Duration{1}, 1);
   const ChannelCounters counters = settle();
   EXPECT_EQ(counters.received, 1);
   EXPECT_EQ(counters.rejected[static_cast<int>(Rejection::Future)], 4);

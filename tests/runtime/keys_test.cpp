@@ -47,12 +47,12 @@ TEST(KeyRing, GivesAProcessTheKeysOfWhatItSaysAndHearsAlone) {
 }
 
 TEST(KeyRing, OnlyWhoHearsAPlanHoldsItsKey) {
-  for (const Part& part : parts()) {
-    const KeyRing ring = KeyRing::derive(counting_key(), part.process);
-    const bool hears = part.process == "tern-planner" || part.process == "tern-executor" ||
-                       part.process == "tern-simulator" || part.process == "tern-mavlink" ||
-                       part.process == "tern-monitor" || part.process == "tern-viewer";
-    EXPECT_EQ(ring.find(channels::kPlan.name, Role::Planner) != nullptr, hears) << part.process;
+  for (const ProcessRole& entry : process_roles()) {
+    const KeyRing ring = KeyRing::derive(counting_key(), entry.process);
+    const bool hears = entry.process == "tern-planner" || entry.process == "tern-executor" ||
+                       entry.process == "tern-simulator" || entry.process == "tern-mavlink" ||
+                       entry.process == "tern-monitor" || entry.process == "tern-viewer";
+    EXPECT_EQ(ring.find(channels::kPlan.name, Role::Planner) != nullptr, hears) << entry.process;
   }
 }
 
@@ -68,15 +68,15 @@ TEST(KeyRing, ReadsWhatItSpellsAndTheMasterKeyInBothForms) {
   const KeyRing planner = KeyRing::derive(master, "tern-planner");
   const std::string raw(reinterpret_cast<const char*>(master.bytes().data()), kKeyBytes);
   for (const std::string& text :
-       std::vector<std::string>{planner.spell(), raw, to_hex(master), to_hex(master) + "\n"}) {
+       std::vector<std::string>{planner.to_text(), raw, to_hex(master), to_hex(master) + "\n"}) {
     const auto read = KeyRing::parse(text, "tern-planner");
     ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->spell(), planner.spell());
+    EXPECT_EQ(read->to_text(), planner.to_text());
   }
 }
 
 TEST(KeyRing, RefusesWhatIsNoneAndSaysNothingOfItsContents) {
-  const std::string good = KeyRing::derive(counting_key(), "tern-planner").spell();
+  const std::string good = KeyRing::derive(counting_key(), "tern-planner").to_text();
   const std::string secret = kPlanKey;
   for (const std::string& text : std::vector<std::string>{
            std::string(), std::string(31, 'a'), std::string(33, 'a'), secret + "0", "x" + secret.substr(1),
@@ -135,13 +135,13 @@ TEST_F(KeyFiles, AreReadFromADescriptorFromTheirBeginningAsOftenAsAProcessStarts
 
 TEST(KeyRing, HeldInMemoryIsReadBackAndCannotBeChanged) {
   const KeyRing ring = KeyRing::derive(counting_key(), "tern-planner");
-  const auto fd = hold_in_memory(ring);
+  const auto fd = seal_in_memory(ring);
   ASSERT_TRUE(fd);
   EXPECT_EQ(fcntl(*fd, F_GETFD), FD_CLOEXEC);
   EXPECT_EQ(write(*fd, "x", 1), -1);
   const auto read = read_key_fd(*fd, "tern-planner");
   ASSERT_TRUE(read);
-  EXPECT_EQ(read->spell(), ring.spell());
+  EXPECT_EQ(read->to_text(), ring.to_text());
 }
 
 TEST_F(KeyFiles, APipeIsRefusedSinceItCanBeReadOnceOnly) {

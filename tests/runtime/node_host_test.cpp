@@ -73,16 +73,16 @@ TEST(NodeHost, TellsBackWhatItHeardAndAnswersANewProcessAtOnce) {
   }
 }
 
-TEST(HeardClocks, KeepsTheNewestOfEachForAWhileAndNoMoreThanAMessageHolds) {
-  HeardClocks heard;
-  EXPECT_TRUE(heard.hear({{5, 1}, UTime{10}}, UTime{100}));
-  EXPECT_FALSE(heard.hear({{5, 2}, UTime{20}}, UTime{200}));
+TEST(ClockEchoes, KeepsTheNewestOfEachForAWhileAndNoMoreThanAMessageHolds) {
+  ClockEchoes heard;
+  EXPECT_TRUE(heard.receive({{5, 1}, UTime{10}}, UTime{100}));
+  EXPECT_FALSE(heard.receive({{5, 2}, UTime{20}}, UTime{200}));
   ASSERT_EQ(heard.echoes(UTime{300}).size(), 1U);
   EXPECT_EQ(heard.echoes(UTime{300})[0].sent, UTime{20});
-  const UTime later = UTime{201} + HeardClocks::kOldest;
+  const UTime later = UTime{201} + ClockEchoes::kOldest;
   EXPECT_TRUE(heard.echoes(later).empty());
-  EXPECT_TRUE(heard.hear({{5, 3}, UTime{30}}, later));
-  for (int k = 0; k < 1'000; ++k) heard.hear({{100 + k, 1}, UTime{40}}, later + Duration{k});
+  EXPECT_TRUE(heard.receive({{5, 3}, UTime{30}}, later));
+  for (int k = 0; k < 1'000; ++k) heard.receive({{100 + k, 1}, UTime{40}}, later + Duration{k});
   const std::vector<ClockEcho> echoes = heard.echoes(later + Duration{1'000});
   ASSERT_EQ(echoes.size(), static_cast<std::size_t>(kMaxClockEchoes));
   EXPECT_EQ(echoes.front().sender_epoch_us, 1'100 - kMaxClockEchoes);

@@ -30,7 +30,7 @@ class SenderWatchTest : public testing::Test {
   }
 
   UTime now = kStart;
-  SenderWatch watch{speaker_silence(channels::kPredictions.name)};
+  SenderWatch watch{sender_silence(channels::kPredictions.name)};
   std::map<std::int64_t, std::int64_t> sent;
 };
 
@@ -40,9 +40,9 @@ TEST_F(SenderWatchTest, TheOneHeardFirstStaysWhoeverStartedLater) {
     const auto [first, second] = speak_beside(100, other, 2.0);
     EXPECT_TRUE(first);
     EXPECT_FALSE(second);
-    EXPECT_TRUE(watch.has_rival(now));
+    EXPECT_TRUE(watch.has_second_sender(now));
     alone(100, 2.5);
-    EXPECT_FALSE(watch.has_rival(now)) << "it is over";
+    EXPECT_FALSE(watch.has_second_sender(now)) << "it is over";
   }
 }
 
@@ -61,7 +61,7 @@ TEST_F(SenderWatchTest, NoiseOfManyEpochsIsNoSecondSender) {
     EXPECT_FALSE(speak(1'000 + k));
     now = now + kPeriod;
   }
-  EXPECT_FALSE(watch.has_rival(now));
+  EXPECT_FALSE(watch.has_second_sender(now));
 }
 
 TEST_F(SenderWatchTest, ALogThatIsPlayedAgainIsHeardAgain) {
@@ -78,11 +78,11 @@ TEST_F(SenderWatchTest, ALogThatIsPlayedAgainIsHeardAgain) {
 TEST(SpeakerSilence, SensorsGoalsAndReportsMayComeFromSeveral) {
   for (const char* channel : {channels::kObstacleObservations.name, channels::kGoal.name, channels::kHeartbeat.name,
                               channels::kConfiguration.name}) {
-    EXPECT_FALSE(speaker_silence(channel)) << channel;
+    EXPECT_FALSE(sender_silence(channel)) << channel;
   }
   for (const char* channel :
        {channels::kDeclaredMotions.name, channels::kUavState.name, channels::kFlightResult.name}) {
-    EXPECT_EQ(speaker_silence(channel), Duration{1'000'000}) << channel;
+    EXPECT_EQ(sender_silence(channel), Duration{1'000'000}) << channel;
   }
 }
 

@@ -51,7 +51,7 @@ void calibrate(const CalibrationRequest& request) {
     slow.push_back(source_of(std::string(source.name), source.weight, learning.slow, given.slow));
   }
   for (const std::string& log : request.logs) {
-    const Recording recording = or_refuse(read_recording(log));
+    const Recording recording = value_or_throw(read_recording(log));
     Study given, learning;
     judge(recording, given, learning);
     add(sum, learning);

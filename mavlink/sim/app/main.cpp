@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     simulator.section("wind").read(config.wind);
     simulator.section("estimator").read(config.estimator);
     if (url.empty()) throw tern::ConfigError("--connect URL is needed");
-    auto link = tern::or_refuse(open_link(url), "--connect ");
+    auto link = tern::value_or_throw(open_link(url), "--connect ");
     return std::make_unique<AutopilotSimNode>(context.bus, std::move(link), config, context.scenario.seed);
   });
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr int kBroken = 1;
 
 int run(const std::string& log, const std::string& json_file) {
-  const tern::audit::FlightRecord record = tern::or_refuse(tern::audit::load_flight(log));
+  const tern::audit::FlightRecord record = tern::value_or_throw(tern::audit::load_flight(log));
   const tern::audit::Audit audit = tern::audit::audit_flight(record);
   fmt::print("{}", tern::audit::to_text(audit, record));
   if (!json_file.empty() && !tern::write_text(json_file, tern::audit::to_json(audit, record).dump(1) + "\n")) {

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   app.add_option("--mcap", options.mcap_file, "Write an MCAP file, as Foxglove opens it")->type_name("FILE");
   app.add_option("--channel-suffix", options.suffix, "What the vehicle's channels end with")->type_name("S");
   return tern::run_tool(app, "tern-export", argc, argv, [&] {
-    fmt::print("{}", tern::or_refuse(tern::exporting::export_log(options)));
+    fmt::print("{}", tern::value_or_throw(tern::exporting::export_log(options)));
     return 0;
   });
 }

@@ -16,7 +16,7 @@
 namespace {
 
 int run(const std::string& log, const std::string& page) {
-  const tern::audit::FlightRecord record = tern::or_refuse(tern::audit::load_flight(log));
+  const tern::audit::FlightRecord record = tern::value_or_throw(tern::audit::load_flight(log));
   const std::string html = tern::report::report_page(record, tern::audit::audit_flight(record),
                                                      {tern::audit::typed_command(log), tern::audit::flown_pace(log)});
   if (!tern::write_text(page, html)) throw std::runtime_error(page + " cannot be written");

@@ -77,13 +77,13 @@ std::unique_ptr<Node> make_viewer(Bus& bus, const Scenario& scenario, const View
     return std::make_unique<ViewerNode>(bus, scenario, options);
   }
   if (options.log.empty()) throw ConfigError("--export and --video need a log: tern-viewer --export FILE.html LOG");
-  const ExportedPage page = or_refuse(export_page({options.log, options.ghost, bus.suffix(), options.page}));
+  const ExportedPage page = value_or_throw(export_page({options.log, options.ghost, bus.suffix(), options.page}));
   if (!options.export_to.empty()) {
     write(page.html, options.export_to);
     if (!page.left_out.empty()) spdlog::warn("{} are left out: too large", page.left_out);
   }
   if (!options.video_to.empty()) {
-    or_refuse(make_film({page, options.video_to, options.film}));
+    value_or_throw(make_film({page, options.video_to, options.film}));
     spdlog::info("{} is written", options.video_to);
   }
   return std::make_unique<DoneNode>();

@@ -46,11 +46,11 @@ ViewerNode::ViewerNode(Bus& bus, const Scenario& scenario, ViewerOptions options
   if (options_.log.empty()) {
     intake_.subscribe(bus);
   } else {
-    player_ = or_refuse(LogPlayer::open(options_.log, bus.suffix()));
+    player_ = value_or_throw(LogPlayer::open(options_.log, bus.suffix()));
     player_->seek(player_->begin(), scene_, intake_);
     player_->play(true, bus.clock().now());
   }
-  if (!options_.ghost.empty()) ghost_ = or_refuse(LogPlayer::open(options_.ghost, bus.suffix()));
+  if (!options_.ghost.empty()) ghost_ = value_or_throw(LogPlayer::open(options_.ghost, bus.suffix()));
   listen();
   post_session();
 }
@@ -63,11 +63,12 @@ ViewerNode::~ViewerNode() {
 
 void ViewerNode::listen() {
   const char* inherited = std::getenv(kListenFdVariable);
-  const int fd = inherited != nullptr ? std::atoi(inherited) : or_refuse(open_listening_socket(options_.listen, false));
-  url_ = or_refuse(listening_url(fd));
+  const int fd =
+      inherited != nullptr ? std::atoi(inherited) : value_or_throw(open_listening_socket(options_.listen, false));
+  url_ = value_or_throw(listening_url(fd));
   std::vector<std::string> names = options_.allow_hosts;
   names.push_back(host_of_url(url_));
-  PageFiles files = or_refuse(load_page(options_.page.empty() ? default_page_folder() : options_.page));
+  PageFiles files = value_or_throw(load_page(options_.page.empty() ? default_page_folder() : options_.page));
   server_ = std::make_unique<WebServer>(fd, std::move(files), Access(std::move(names)), board_);
   spdlog::info("the page is at {}", url_);
   if (!options_.url_file.empty()) std::ofstream(options_.url_file) << url_ << '\n';

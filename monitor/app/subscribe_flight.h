@@ -10,20 +10,20 @@ namespace tern {
 
 /// Hands `watch` all messages that it judges by; not OBSTACLE_TRUTH, which it only shows. Both must outlive the bus's
 /// deliveries.
-inline void hear_flight(Bus& bus, FlightWatch& watch) {
+inline void subscribe_flight(Bus& bus, FlightWatch& watch) {
   constexpr std::tuple kJudged{channels::kHeartbeat,      channels::kUavState, channels::kGoal,
                                channels::kHorizonRequest, channels::kPlan,     channels::kPlanTiming,
                                channels::kFlightResult};
-  const auto hear = [&]<class T>(const Channel<T>& channel) {
+  const auto subscribe = [&]<class T>(const Channel<T>& channel) {
     bus.subscribe(channel, [&bus, &watch](const T& message) {
-      if constexpr (requires { watch.hear(message, UTime{}); }) {
-        watch.hear(message, bus.clock().now());
+      if constexpr (requires { watch.receive(message, UTime{}); }) {
+        watch.receive(message, bus.clock().now());
       } else {
-        watch.hear(message);
+        watch.receive(message);
       }
     });
   };
-  for_each_channel(hear, kJudged);
+  for_each_channel(subscribe, kJudged);
 }
 
 }  // namespace tern

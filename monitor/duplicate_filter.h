@@ -10,7 +10,7 @@ namespace tern {
 
 /// Remembers the names of the newest messages of one channel. A network may deliver a message more than once; it is
 /// counted once.
-class Once {
+class DuplicateFilter {
  public:
   /// Names that are remembered; a repetition comes within milliseconds, a channel carries at most some hundred per
   /// second.
