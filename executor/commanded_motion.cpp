@@ -12,16 +12,16 @@ namespace {
 /// Intervals of a braking trajectory, and in how many of them its acceleration may come and go.
 constexpr int kBrakingIntervals = 16;
 constexpr int kRamps[] = {1, 2, 4, 8};
-constexpr Duration kShortestBraking{5'000};  ///< of an interval
-constexpr Duration kLongestBraking{1'250'000};
+constexpr Duration kMinBrakingInterval{5'000};  ///< of an interval
+constexpr Duration kMaxBrakingInterval{1'250'000};
 /// By then the next setpoint is expected: no braking yet.
 constexpr Duration kNextSetpoint{20'000};
 /// No honest setpoint is this much later than the one before: until then the vehicle goes on by itself.
 constexpr Duration kSetpointGap{200'000};
-/// Setpoints that after a silence are farther than this from the command's way are a matter of kStandsOff, m.
-constexpr double kFarOff = 0.1;
+/// Setpoints that after a silence are farther than this from the command's way are a matter of kDepartureTime, m.
+constexpr double kFarDeparture = 0.1;
 /// By then an executor has seen where the vehicle is, and leads on from there.
-constexpr Duration kStandsOff{500'000};
+constexpr Duration kDepartureTime{500'000};
 
 bool agree(const Vec3& a, const Vec3& b) { return (a - b).cwiseAbs().maxCoeff() <= kJoinTolerance; }
 
@@ -109,7 +109,7 @@ struct Braking {
 /// The shortest that keeps the limits, or the one that exceeds them least.
 Braking best_braking(const MotionSample& from, UTime at, const Limits& limits) {
   Braking best;
-  for (Duration interval = kShortestBraking; interval <= kLongestBraking; interval.us += interval.us / 8) {
+  for (Duration interval = kMinBrakingInterval; interval <= kMaxBrakingInterval; interval.us += interval.us / 8) {
     for (const int ramp : kRamps) {
       TimedSpline stop = braking_in(from, at, interval, ramp);
       const double share = share_of(limits, stop);
@@ -129,9 +129,9 @@ TimedSpline braking_trajectory(const MotionSample& from, UTime at, const Limits&
 }
 
 CommandedMotion::CommandedMotion(const Vec3& p, UTime from, const Limits& limits)
-    : limits_(limits), settled_(p, from), newest_{.p = p}, told_until_(from), committed_(p, from) {}
+    : limits_(limits), settled_(p, from), newest_{.p = p}, received_until_(from), committed_(p, from) {}
 
-void CommandedMotion::hear(const UavState& setpoint) {
+void CommandedMotion::receive(const UavState& setpoint) {
   const UTime end = settled_.end();
   if (setpoint.at <= end) return;
   const CubicPiece cubic = cubic_of(newest_, setpoint.at - end);
@@ -139,47 +139,47 @@ void CommandedMotion::hear(const UavState& setpoint) {
   const MotionSample by_committed = after().sample(setpoint.at);
   const bool is_soon = setpoint.at - end <= kSetpointGap;
   if (!is_soon || !(agree(by_cubic, setpoint.motion) || agree(by_committed, setpoint.motion))) {
-    if (!leads_elsewhere(setpoint, (by_committed.p - setpoint.motion.p).norm() > kFarOff)) return;
+    if (!accepts_departure(setpoint, (by_committed.p - setpoint.motion.p).norm() > kFarDeparture)) return;
   }
-  apart_.reset();
+  departure_.reset();
   if (agree(by_cubic, setpoint.motion) || !agree(by_committed, setpoint.motion)) {
     settled_.append(cubic);
   } else {
     settled_.append(after().pieces(end, setpoint.at));
   }
-  told_until_ = setpoint.at;
+  received_until_ = setpoint.at;
   yaw_ = setpoint.yaw;
-  choose_after(setpoint.motion, setpoint.at);
+  choose_continuation(setpoint.motion, setpoint.at);
 }
 
-bool CommandedMotion::leads_elsewhere(const UavState& setpoint, bool is_far) {
-  const std::optional<UavState> before = std::exchange(apart_, setpoint);
+bool CommandedMotion::accepts_departure(const UavState& setpoint, bool is_far) {
+  const std::optional<UavState> before = std::exchange(departure_, setpoint);
   if (!before || !goes_on(*before, setpoint)) {
-    apart_since_ = setpoint.at;
+    departed_since_ = setpoint.at;
     return false;
   }
-  const bool was_silent = setpoint.at - told_until_ > kSetpointSilence;
-  return !(was_silent && is_far) || setpoint.at - apart_since_ >= kStandsOff;
+  const bool was_silent = setpoint.at - received_until_ > kSetpointSilence;
+  return !(was_silent && is_far) || setpoint.at - departed_since_ >= kDepartureTime;
 }
 
-void CommandedMotion::hear(const TimedSpline& committed) {
+void CommandedMotion::receive(const TimedSpline& committed) {
   planned_.reset();
   const ClampedSpline spline = committed.spline();
   if (!spline.ends_at_rest()) return;
   if (committed.start <= committed_.newest_start()) {
     const bool is_old = committed.start == committed_.newest_start() || committed.start < settled_.end();
     if (is_old || !agree(committed_.sample(committed.start), start_of(spline))) return;
-    committed_.take_back_from(committed.start);
+    committed_.drop_from(committed.start);
   }
-  const bool is_led_to = apart_ && apart_->at >= committed.start &&
-                         agree(spline.sample((apart_->at - committed.start).seconds()), apart_->motion);
+  const bool is_led_to = departure_ && departure_->at >= committed.start &&
+                         agree(spline.sample((departure_->at - committed.start).seconds()), departure_->motion);
   const bool joins = braking_ || is_led_to || agree(committed_.sample(committed.start), start_of(spline));
   if (committed.start > committed_.newest_start() && joins) committed_.splice(committed);
   committed_.forget_before(settled_.end());
-  if (braking_) choose_after(newest_, settled_.end());
+  if (braking_) choose_continuation(newest_, settled_.end());
 }
 
-void CommandedMotion::hear(const Plan& plan) {
+void CommandedMotion::receive(const Plan& plan) {
   if (plan.outcome == PlanOutcome::NoPlan || plan.outcome == PlanOutcome::KeepCommitted || braking_) return;
   const TimedSpline& planned = plan.trajectory;
   if (planned.start < settled_.end()) return;
@@ -187,7 +187,7 @@ void CommandedMotion::hear(const Plan& plan) {
   if (agree(committed_.sample(planned.start), start_of(spline))) planned_ = {planned.start, std::move(spline)};
 }
 
-void CommandedMotion::choose_after(const MotionSample& motion, UTime at) {
+void CommandedMotion::choose_continuation(const MotionSample& motion, UTime at) {
   newest_ = motion;
   braking_.reset();
   if (agree(committed_.sample(at), motion)) return;
@@ -198,8 +198,8 @@ void CommandedMotion::choose_after(const MotionSample& motion, UTime at) {
 
 MotionSample CommandedMotion::sample(UTime t) const {
   if (t < settled_.end()) return settled_.sample(t);
-  const Duration later = t - told_until_;
-  if (braking_ && settled_.end() == told_until_ && later <= kNextSetpoint) {
+  const Duration later = t - received_until_;
+  if (braking_ && settled_.end() == received_until_ && later <= kNextSetpoint) {
     return sample_cubic(cubic_of(newest_, kNextSetpoint).coefficients, later.seconds());
   }
   return after().sample(t);

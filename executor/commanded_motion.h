@@ -32,16 +32,16 @@ class CommandedMotion {
   /// lost setpoint: no single message makes the vehicle jump. After kSetpointSilence setpoints that are more than 0.1 m
   /// off count only when they have gone on for 0.5 s. An executor that sees where the vehicle is leads it on from there
   /// before.
-  void hear(const UavState& setpoint);
+  void receive(const UavState& setpoint);
   /// HORIZON_REQUEST.committed. One that starts after all earlier ones is news in three cases. It joins them, what came
   /// before it was not heard, or setpoints that the command does not lead to lie on it. So is one that leaves, before
   /// they start, the way that the vehicle is on. Then the executor leads it on from where it is, and they are taken
   /// back.
-  void hear(const TimedSpline& committed);
+  void receive(const TimedSpline& committed);
   /// PLAN: what will probably be committed, told up to a request's period before HORIZON_REQUEST says so. If it joins
   /// the command, acceleration_ahead() looks at it until then, or until it was to begin. The command itself waits until
   /// it is committed.
-  void hear(const Plan& plan);
+  void receive(const Plan& plan);
 
   /// The command at any time; before settled().end() as it was, after it as it would be without another setpoint.
   [[nodiscard]] MotionSample sample(UTime t) const;
@@ -61,16 +61,16 @@ class CommandedMotion {
 
  private:
   /// Whether setpoints to which the command does not lead have come for long enough.
-  bool leads_elsewhere(const UavState& setpoint, bool is_far);
+  bool accepts_departure(const UavState& setpoint, bool is_far);
   [[nodiscard]] const CommittedTrajectory& after() const { return braking_ ? *braking_ : committed_; }
-  void choose_after(const MotionSample& motion, UTime at);
+  void choose_continuation(const MotionSample& motion, UTime at);
 
   Limits limits_;
   MotionHistory settled_;
-  MotionSample newest_;            ///< at settled_.end(), with the jerk that follows
-  UTime told_until_;               ///< the time of the newest setpoint that was heard; `from` before the first one
-  std::optional<UavState> apart_;  ///< the newest setpoint, where the command did not lead to it
-  UTime apart_since_;              ///< the first of the setpoints that lead to it
+  MotionSample newest_;                ///< at settled_.end(), with the jerk that follows
+  UTime received_until_;               ///< the time of the newest setpoint that was heard; `from` before the first one
+  std::optional<UavState> departure_;  ///< the newest setpoint, where the command did not lead to it
+  UTime departed_since_;               ///< the first of the setpoints that lead to it
   double yaw_ = 0.0;
   CommittedTrajectory committed_;  ///< as heard
   struct Planned {

@@ -51,7 +51,7 @@ void CommittedTrajectory::splice(const TimedSpline& next) {
   segments_.push_back({next, std::move(spline)});
 }
 
-void CommittedTrajectory::take_back_from(UTime t) {
+void CommittedTrajectory::drop_from(UTime t) {
   while (segments_.size() > 1 && segments_.back().timed.start >= t) segments_.pop_back();
 }
 

@@ -21,7 +21,7 @@ class CommittedTrajectory {
   void splice(const TimedSpline& next);
 
   /// Takes back the segments that would start at t or later, all but the first.
-  void take_back_from(UTime t);
+  void drop_from(UTime t);
 
   /// The segment in force at t: the last that starts at or before t; before the first segment the first.
   [[nodiscard]] const TimedSpline& in_force_at(UTime t) const;

@@ -11,12 +11,13 @@
 namespace tern {
 
 /// VEHICLE_STATUS counts resets, UAV_STATE jumps: by what it is off where the state before led. Either may be heard
-/// first. A jump of less than kLeast is none, and one that no reset is told of within kTogether is not the estimator's.
+/// first. A jump of less than kMinJump is none, and one that no reset is told of within kMatchWindow is not the
+/// estimator's.
 class EstimateResets {
  public:
-  static constexpr double kLeast = 0.05;           ///< m; noise from state to state is less
-  static constexpr Duration kTogether{300'000};    ///< VEHICLE_STATUS comes at 10 Hz, UAV_STATE may come late
-  static constexpr Duration kSuccessive{100'000};  ///< a state that comes later tells nothing of the one before
+  static constexpr double kMinJump = 0.05;          ///< m; noise from state to state is less
+  static constexpr Duration kMatchWindow{300'000};  ///< VEHICLE_STATUS comes at 10 Hz, UAV_STATE may come late
+  static constexpr Duration kMaxStateGap{100'000};  ///< a state that comes later tells nothing of the one before
 
   /// @param at  the listener's time, not descending from call to call of either kind
   /// @return by how much the estimate was shifted (W, m), when that becomes known
@@ -29,11 +30,11 @@ class EstimateResets {
     UTime at;
     Vec3 by;
   };
-  std::optional<Vec3> together();
+  std::optional<Vec3> match();
   std::optional<UavState> before_;
   std::optional<std::int64_t> resets_;
-  std::optional<Jump> jump_;   ///< the newest that no reset was told of
-  std::optional<UTime> told_;  ///< of a reset whose jump was not seen
+  std::optional<Jump> unmatched_jump_;    ///< the newest that no reset was told of
+  std::optional<UTime> unmatched_reset_;  ///< of a reset whose jump was not seen
 };
 
 }  // namespace tern

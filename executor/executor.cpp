@@ -63,7 +63,7 @@ Executor::Executor(const UavSpec& uav, const UavState& measured, const ExecutorC
       period_(checked_period(config.rate_hz)),
       lead_(checked_lead(config.lead)),
       committed_(stopping(measured, uav.limits)),
-      told_(committed_.newest_start()) {}
+      sent_start_(committed_.newest_start()) {}
 
 void Executor::rejoin(const UavState& measured) {
   if (outstanding_) {
@@ -71,16 +71,16 @@ void Executor::rejoin(const UavState& measured) {
     close(false);
   }
   committed_ = stopping(measured, limits_);
-  told_ = committed_.newest_start();
-  promises_.clear();
+  sent_start_ = committed_.newest_start();
+  tubes_.clear();
   last_request_.reset();
 }
 
-bool Executor::take_back_untold(UTime said) {
+bool Executor::drop_unsent_plan(UTime said) {
   const UTime start = committed_.newest_start();
-  if (start <= told_ || start <= said) return false;
-  committed_.take_back_from(start);
-  while (!promises_.empty() && promises_.back().from >= start) promises_.pop_back();
+  if (start <= sent_start_ || start <= said) return false;
+  committed_.drop_from(start);
+  while (!tubes_.empty() && tubes_.back().from >= start) tubes_.pop_back();
   return true;
 }
 
@@ -89,14 +89,14 @@ void Executor::set_tube(const Vec3& tube, double share) {
   share_ = share;
 }
 
-Vec3 Executor::promised(UTime t) const {
-  const auto later = std::find_if(promises_.begin(), promises_.end(), [t](const Promise& p) { return p.from > t; });
-  return later == promises_.begin() ? tube_ : std::prev(later)->tube;
+Vec3 Executor::tube_at(UTime t) const {
+  const auto later = std::find_if(tubes_.begin(), tubes_.end(), [t](const TubeFrom& p) { return p.from > t; });
+  return later == tubes_.begin() ? tube_ : std::prev(later)->tube;
 }
 
 void Executor::forget_before(UTime t) {
   committed_.forget_before(t);
-  while (promises_.size() > 1 && promises_[1].from <= t) promises_.pop_front();
+  while (tubes_.size() > 1 && tubes_[1].from <= t) tubes_.pop_front();
 }
 
 Box Executor::flight_box_for(const TimedSpline& committed) const {
@@ -145,8 +145,8 @@ void Executor::close_expired(UTime now) {
 }
 
 std::optional<UTime> Executor::next_wakeup() const {
-  if (!asking()) return std::nullopt;
-  UTime due = last_request_ ? std::max(*go_, *last_request_ + period_) : *go_;
+  if (!requests_plans()) return std::nullopt;
+  UTime due = last_request_ ? std::max(*requests_from_, *last_request_ + period_) : *requests_from_;
   if (outstanding_) due = std::max(due, outstanding_->deadline + Duration{1});
   return due;
 }
@@ -165,13 +165,13 @@ std::optional<HorizonRequest> Executor::next_request(UTime now) {
   request.body = body_;
   request.flight_box = flight_box_for(request.committed);
   request.tube = tube_;
-  told_ = request.committed.start;
+  sent_start_ = request.committed.start;
   last_request_ = now;
   outstanding_ = request;
   return request;
 }
 
-MotionSample Executor::leaving(UTime t) const {
+MotionSample Executor::sample_after(UTime t) const {
   return sample_cubic(committed_.pieces(t, t + Duration{1}).pieces.front().coefficients, 0.0);
 }
 
@@ -190,15 +190,15 @@ Adoption Executor::judge(const Plan& plan, UTime now) {
   const HorizonRequest request = *outstanding_;
   close(true);
   if (plan.outcome == PlanOutcome::KeepCommitted) {
-    promises_.push_back({request.t_s, request.tube});
+    tubes_.push_back({request.t_s, request.tube});
     return {Verdict::Kept, {}};
   }
   if (plan.outcome == PlanOutcome::NoPlan) return {Verdict::NoPlan, {}};
-  if (!asking()) return {Verdict::Stopped, "told to stop"};
+  if (!requests_plans()) return {Verdict::Stopped, "told to stop"};
   Adoption result = check_trajectory(plan.trajectory, request);
   if (result.verdict == Verdict::Adopted) {
     committed_.splice(plan.trajectory);
-    promises_.push_back({request.t_s, request.tube});
+    tubes_.push_back({request.t_s, request.tube});
   }
   return result;
 }

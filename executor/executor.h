@@ -11,22 +11,22 @@
 #include "core/world/scenario.h"
 #include "executor/adoption.h"
 #include "executor/committed_trajectory.h"
-#include "executor/heading.h"
 #include "executor/tube.h"
+#include "executor/yaw_follower.h"
 
 namespace tern {
 
 struct ExecutorConfig {
   double rate_hz = 20.0;
   Duration lead{75'000};  ///< > kDeadlineLead, ≤ 5 s
-  double tube_m = 0.0;    ///< [0, kWidestTube]
-  HeadingConfig heading = {};
+  double tube_m = 0.0;    ///< [0, kMaxTube]
+  YawFollowerConfig heading = {};
 
   template <typename V>
   void visit(V& v) {
     v("rate_hz", rate_hz, Range{1e-3, 100.0}, "requests per second at most");
     v("lead_s", lead, Range{0.01, 2.0}, "t_s − the time of the request, s; the planner has this less 5 ms");
-    v("tube_m", tube_m, Range{0.0, kWidestTube},
+    v("tube_m", tube_m, Range{0.0, kMaxTube},
       "requests promise that the vehicle is at most this far off its setpoints, m per axis; more where more is "
       "measured");
     v("heading", heading);
@@ -62,16 +62,16 @@ class Executor {
   Executor(const UavSpec& uav, const UavState& measured, const ExecutorConfig& config = {});
 
   /// The vehicle follows: the mission may ask from `go` on.
-  void begin(UTime go) { go_ = go; }
+  void begin(UTime go) { requests_from_ = go; }
   /// It no longer does. What is committed stays so.
-  void pause() { go_.reset(); }
+  void pause() { requests_from_.reset(); }
   /// What requests promise from now on (HorizonRequest::tube), and the share of the vehicle's limits that they ask for.
   /// @pre 0 < share ≤ 1
   void set_tube(const Vec3& tube, double share = 1.0);
   [[nodiscard]] const Vec3& tube() const { return tube_; }
   /// What was promised of time t: the tube of the request whose plan was adopted last before it, or that was answered
   /// by the committed trajectory. Before the first one, and after rejoin(), that of the next request.
-  [[nodiscard]] Vec3 promised(UTime t) const;
+  [[nodiscard]] Vec3 tube_at(UTime t) const;
   /// The vehicle is not where it was committed to be: from here on it is committed to come to rest from the measured
   /// state. The open request is closed, and the next one, by which the vehicle hears of it, goes out at once. Until
   /// that rest, limits and flight box are as wide as the way to it needs.
@@ -79,7 +79,7 @@ class Executor {
   /// The plan that was adopted last is not flown after all, if no request has carried it and it starts after `said`,
   /// the newest setpoint. The vehicle cannot have heard of it, and flies on along what it has heard.
   /// @return whether there was one
-  bool take_back_untold(UTime said);
+  bool drop_unsent_plan(UTime said);
   /// What the newest goal wants; nullopt: no goal yet.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
 
@@ -92,7 +92,7 @@ class Executor {
 
   [[nodiscard]] MotionSample sample(UTime t) const { return committed_.sample(t); }
   /// The same, at a joint with the jerk of what follows: the cubic that begins at t.
-  [[nodiscard]] MotionSample leaving(UTime t) const;
+  [[nodiscard]] MotionSample sample_after(UTime t) const;
   [[nodiscard]] const CommittedTrajectory& committed() const { return committed_; }
   /// The committed curve between two times (see CommittedTrajectory::pieces).
   [[nodiscard]] PiecewiseCubic pieces(UTime from, UTime to) const { return committed_.pieces(from, to); }
@@ -100,7 +100,7 @@ class Executor {
   void forget_before(UTime t);
   [[nodiscard]] bool at_rest(UTime t) const { return t >= committed_.end(); }
   /// Whether requests go out: the vehicle follows, and the newest goal wants to be flown to.
-  [[nodiscard]] bool asking() const { return go_ && mode_ && *mode_ != GoalMode::Stop; }
+  [[nodiscard]] bool requests_plans() const { return requests_from_ && mode_ && *mode_ != GoalMode::Stop; }
   [[nodiscard]] const ExecutorCounters& counters() const { return counters_; }
 
  private:
@@ -110,7 +110,7 @@ class Executor {
     UTime t_s;
     bool answered = false;
   };
-  struct Promise {
+  struct TubeFrom {
     UTime from;
     Vec3 tube;
   };
@@ -128,11 +128,11 @@ class Executor {
   Box flight_box_;
   Duration period_, lead_;
   CommittedTrajectory committed_;
-  UTime told_;  ///< the start of the newest segment that the vehicle may have heard of
+  UTime sent_start_;  ///< the start of the newest segment that the vehicle may have heard of
   Vec3 tube_ = Vec3::Zero();
   double share_ = 1.0;
-  std::deque<Promise> promises_;
-  std::optional<UTime> go_;
+  std::deque<TubeFrom> tubes_;
+  std::optional<UTime> requests_from_;
   std::optional<GoalMode> mode_;
   std::optional<HorizonRequest> outstanding_;
   std::optional<UTime> last_request_;

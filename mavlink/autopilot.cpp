@@ -18,8 +18,8 @@ constexpr std::uint8_t kWarning = 4;
 constexpr std::uint8_t kCritical = 5;
 constexpr Duration kOdometryRules{500'000};
 /// Answers and texts that wait at most.
-constexpr std::size_t kMostWaiting = 64;
-constexpr std::size_t kMostParameters = 4096, kLongestText = 400;
+constexpr std::size_t kMaxQueued = 64;
+constexpr std::size_t kMaxParameters = 4096, kMaxText = 400;
 
 /// How long an estimator may lack a position for a fault of its inputs.
 constexpr Duration kFaultPasses{1'000'000};
@@ -29,7 +29,7 @@ constexpr unsigned kVelocity = 2, kPositionRelative = 8, kPositionAbsolute = 16,
 template <class T>
 void keep(std::deque<T>& queue, const T& value) {
   queue.push_back(value);
-  if (queue.size() > kMostWaiting) queue.pop_front();
+  if (queue.size() > kMaxQueued) queue.pop_front();
 }
 
 bool all_finite(const std::array<float, 3>& a, const std::array<float, 3>& b) {
@@ -73,7 +73,7 @@ bool is_stale(const HilStateQuaternion& hil, const std::optional<HilStateQuatern
 
 }  // namespace
 
-std::string result_words(std::uint8_t result) {
+std::string result_text(std::uint8_t result) {
   constexpr std::array kWords{"accepted", "temporarily rejected", "denied",   "unsupported",
                               "failed",   "in progress",          "cancelled"};
   return result < kWords.size() ? kWords[result] : "result " + std::to_string(result);
@@ -106,13 +106,13 @@ std::string Autopilot::last_warning() const {
   return says_no_reason ? warning_ + "; " + failed_check_ : warning_;
 }
 
-void Autopilot::hear_text(const StatusText& chunk) {
+void Autopilot::receive_text(const StatusText& chunk) {
   // Longer texts come in chunks of one id, the last one zero-terminated.
   if (chunk.id == 0 || chunk.id != text_id_ || chunk.chunk_seq == 0) text_.clear();
   text_id_ = chunk.id;
   const std::string_view bytes = bytes_of(chunk.text);
   text_ += bytes;
-  if (chunk.id != 0 && bytes.size() == chunk.text.size() && text_.size() < kLongestText) return;
+  if (chunk.id != 0 && bytes.size() == chunk.text.size() && text_.size() < kMaxText) return;
   const std::string words = printable(std::exchange(text_, {}));
   keep(texts_, words);
   if (chunk.severity > kWarning) return;
@@ -120,7 +120,7 @@ void Autopilot::hear_text(const StatusText& chunk) {
   if (words.starts_with("Preflight Fail")) failed_check_ = words;
 }
 
-bool Autopilot::hear(const Frame& frame, UTime received) {
+bool Autopilot::receive(const Frame& frame, UTime received) {
   const auto heartbeat = from_frame<Heartbeat>(frame);
   if (!address_ && heartbeat && frame.from.component == kAutopilotComponent && heartbeat->autopilot != kInvalid &&
       (wanted_ == 0 || frame.from.system == wanted_)) {
@@ -130,13 +130,13 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
     ++strangers_;
     return false;
   }
-  if (received - last_heard_ > kLinkSilence) mode_is_old_ = true;
-  longest_gap_ = std::max(longest_gap_, received - last_heard_);
-  last_heard_ = received;
+  if (received - last_received_ > kLinkSilence) mode_is_old_ = true;
+  longest_gap_ = std::max(longest_gap_, received - last_received_);
+  last_received_ = received;
   if (heartbeat) {
     const bool was_armed = armed();
     heartbeat_ = *heartbeat;
-    mode_heard_ = received;
+    mode_received_ = received;
     if (armed() != was_armed) {
       arming_changed_ = received;
       home_height_.reset();
@@ -152,19 +152,19 @@ bool Autopilot::hear(const Frame& frame, UTime received) {
     landed_ = m->landed_state == kOnGround;
     taking_off_ = m->landed_state == kTakingOff;
   }
-  if (const auto m = from_frame<EstimatorStatus>(frame)) hear_health(*m, received);
+  if (const auto m = from_frame<EstimatorStatus>(frame)) receive_health(*m, received);
   if (const auto m = from_frame<Timesync>(frame); m && m->tc1 != 0) {
     clock_.add(UTime{m->ts1 / 1000}, m->tc1 / 1000, received);
   }
   if (const auto m = from_frame<GpsGlobalOrigin>(frame); m && !own_origin_) origin_ = *m;
-  if (const auto m = from_frame<ParamValue>(frame)) hear_parameter(*m);
+  if (const auto m = from_frame<ParamValue>(frame)) receive_parameter(*m);
   if (const auto m = from_frame<CommandAck>(frame)) keep(acks_, *m);
-  if (const auto m = from_frame<StatusText>(frame)) hear_text(*m);
-  hear_position(frame, received);
+  if (const auto m = from_frame<StatusText>(frame)) receive_text(*m);
+  receive_position(frame, received);
   if (const auto m = from_frame<GlobalPositionInt>(frame); m && state_ && received - state_->at < kStateAge) {
     home_height_ = state_->motion.p.z() - m->relative_alt * 1e-3;
   }
-  if (const auto m = from_frame<HilStateQuaternion>(frame)) hear_truth(*m, received);
+  if (const auto m = from_frame<HilStateQuaternion>(frame)) receive_truth(*m, received);
   return true;
 }
 
@@ -175,7 +175,7 @@ std::optional<UTime> Autopilot::ours(std::uint64_t theirs_us, UTime received) co
   return std::min(*at, received);  // a fit may be a little ahead; what was received had happened
 }
 
-void Autopilot::hear_position(const Frame& frame, UTime received) {
+void Autopilot::receive_position(const Frame& frame, UTime received) {
   if (const auto m = from_frame<AttitudeQuaternion>(frame)) yaw_ = yaw_of(swapped(quaternion_of(m->q)));
   if (const auto m = from_frame<Odometry>(frame)) {
     if (reset_counter_ && *reset_counter_ != m->reset_counter) ++resets_;
@@ -206,14 +206,14 @@ void Autopilot::hear_position(const Frame& frame, UTime received) {
   }
 }
 
-void Autopilot::hear_health(const EstimatorStatus& status, UTime received) {
+void Autopilot::receive_health(const EstimatorStatus& status, UTime received) {
   health_ = status;
-  health_heard_ = received;
+  health_received_ = received;
   const bool position = (status.flags & (kPositionRelative | kPositionAbsolute)) != 0;
   if (position && (status.flags & kVelocity) != 0) placed_ = received;
 }
 
-void Autopilot::hear_truth(const HilStateQuaternion& hil, UTime received) {
+void Autopilot::receive_truth(const HilStateQuaternion& hil, UTime received) {
   if (hil.lat == 0 && hil.lon == 0 && hil.alt == 0) return;  // it does not know yet
   if (is_stale(hil, std::exchange(last_truth_, hil))) return;
   const std::optional<UTime> at = hil.time_usec == 0 ? received : ours(hil.time_usec, received);
@@ -233,20 +233,20 @@ void Autopilot::hear_truth(const HilStateQuaternion& hil, UTime received) {
   truth_ = truth;
 }
 
-void Autopilot::hear_parameter(const ParamValue& value) {
+void Autopilot::receive_parameter(const ParamValue& value) {
   // PX4 puts an integer's bytes into the float; ArduPilot its value.
   double number = value.param_value;
   if (firmware() != Firmware::ArduPilot && value.param_type == kInt32) {
     number = std::bit_cast<std::int32_t>(value.param_value);
   }
-  if (parameters_.size() < kMostParameters) parameters_[words_of(value.param_id)] = number;
+  if (parameters_.size() < kMaxParameters) parameters_[string_of(value.param_id)] = number;
 }
 
 EstimatorHealth Autopilot::estimator() const {
   if (!health_) return state_ ? EstimatorHealth::Degraded : EstimatorHealth::Lost;
-  if (!placed_ || health_heard_ - *placed_ >= kFaultPasses) return EstimatorHealth::Lost;
+  if (!placed_ || health_received_ - *placed_ >= kFaultPasses) return EstimatorHealth::Lost;
   const auto& r = health_->ratios;
-  const bool is_whole = *placed_ == health_heard_ && (health_->flags & kAccelerometerWrong) == 0;
+  const bool is_whole = *placed_ == health_received_ && (health_->flags & kAccelerometerWrong) == 0;
   const bool believed = r[0] < 1.0F && r[1] < 1.0F && r[2] < 1.0F;
   return is_whole && believed ? EstimatorHealth::Good : EstimatorHealth::Degraded;
 }

@@ -31,7 +31,7 @@ inline constexpr std::uint8_t kArmedBit = 128;
 inline constexpr Duration kLinkSilence{300'000};
 
 /// "temporarily rejected", "denied" …
-std::string result_words(std::uint8_t mav_result);
+std::string result_text(std::uint8_t mav_result);
 
 /// Pure: hears frames, answers questions. The first HEARTBEAT of an autopilot (component 1) decides who it is; frames
 /// of any other system or component change nothing and are counted.
@@ -41,22 +41,24 @@ class Autopilot {
   explicit Autopilot(std::uint8_t system = 0) : wanted_(system) {}
 
   /// @return whether the frame is the autopilot's
-  bool hear(const Frame& frame, UTime received);
+  bool receive(const Frame& frame, UTime received);
 
   [[nodiscard]] const std::optional<Address>& address() const { return address_; }
   [[nodiscard]] Firmware firmware() const;
   /// It is heard, and its mode too since the last silence: HEARTBEAT comes at 1 Hz only.
-  [[nodiscard]] bool linked(UTime now) const { return address_ && !mode_is_old_ && now - last_heard_ <= kLinkSilence; }
-  [[nodiscard]] UTime last_heard() const { return last_heard_; }
+  [[nodiscard]] bool linked(UTime now) const {
+    return address_ && !mode_is_old_ && now - last_received_ <= kLinkSilence;
+  }
+  [[nodiscard]] UTime last_received() const { return last_received_; }
   /// Whether frames come again after a silence, but no HEARTBEAT yet.
   [[nodiscard]] bool mode_is_old() const { return mode_is_old_; }
   /// The longest silence since the newest HEARTBEAT, the one that lasts included: so long nobody knows its mode.
-  [[nodiscard]] Duration silence(UTime now) const { return std::max(longest_gap_, now - last_heard_); }
+  [[nodiscard]] Duration silence(UTime now) const { return std::max(longest_gap_, now - last_received_); }
   [[nodiscard]] bool armed() const { return (heartbeat_.base_mode & kArmedBit) != 0; }
   /// Its own word: "OFFBOARD", "GUIDED", "AUTO.LAND".
   [[nodiscard]] std::string mode() const;
   /// When HEARTBEAT told it last.
-  [[nodiscard]] UTime mode_heard() const { return mode_heard_; }
+  [[nodiscard]] UTime mode_received() const { return mode_received_; }
   /// DO_SET_MODE's parameters for the mode that it is in.
   [[nodiscard]] std::array<float, 7> mode_command() const;
   /// The mode that follows setpoints: OFFBOARD of PX4, GUIDED of ArduPilot; and the one that lands.
@@ -101,17 +103,17 @@ class Autopilot {
   [[nodiscard]] std::int64_t strangers() const { return strangers_; }  ///< frames of others
 
  private:
-  void hear_health(const EstimatorStatus& status, UTime received);
-  void hear_position(const Frame& frame, UTime received);
-  void hear_truth(const HilStateQuaternion& hil, UTime received);
-  void hear_parameter(const ParamValue& value);
-  void hear_text(const StatusText& chunk);
+  void receive_health(const EstimatorStatus& status, UTime received);
+  void receive_position(const Frame& frame, UTime received);
+  void receive_truth(const HilStateQuaternion& hil, UTime received);
+  void receive_parameter(const ParamValue& value);
+  void receive_text(const StatusText& chunk);
   [[nodiscard]] std::optional<UTime> ours(std::uint64_t theirs_us, UTime received) const;
 
   std::uint8_t wanted_;
   std::optional<Address> address_;
   Heartbeat heartbeat_;
-  UTime last_heard_, mode_heard_, arming_changed_;
+  UTime last_received_, mode_received_, arming_changed_;
   bool mode_is_old_ = false;
   Duration longest_gap_;
   std::optional<bool> landed_;
@@ -119,7 +121,7 @@ class Autopilot {
   std::optional<double> battery_;
   std::optional<EstimatorStatus> health_;
   std::optional<UTime> placed_;  ///< when the estimator last said that it has a position and velocity
-  UTime health_heard_;
+  UTime health_received_;
   ClockFit clock_;
   std::optional<std::uint8_t> reset_counter_;
   int resets_ = 0;

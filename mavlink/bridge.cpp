@@ -37,7 +37,7 @@ Bridge::Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now)
       origin_(uav.start.x(), uav.start.y(), 0.0),
       autopilot_(static_cast<std::uint8_t>(config.system)),
       command_(uav.start, now, uav.limits),
-      told_(config.start == Start::Arm),
+      ordered_(config.start == Start::Arm),
       stage_since_(now),
       now_(now),
       next_heartbeat_(now),
@@ -52,7 +52,7 @@ Bridge::Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now)
 
 void Bridge::enter(Stage stage, const std::string& why) {
   if (stage == stage_ && why == why_) return;
-  words_.push_back(fmt::format("{}{}{}", to_string(stage), why.empty() ? "" : ": ", why));
+  log_lines_.push_back(fmt::format("{}{}{}", to_string(stage), why.empty() ? "" : ": ", why));
   if (stage != stage_) {
     stage_since_ = now_;
     next_command_ = now_;
@@ -65,38 +65,38 @@ void Bridge::enter(Stage stage, const std::string& why) {
 }
 
 void Bridge::stand_back(const std::string& why) {
-  told_ = told_again_ = followed_ = false;
+  ordered_ = ordered_by_goal_ = followed_ = false;
   found_.reset();
   streaming_since_.reset();
   enter(Stage::StoodBack, why);
 }
 
-void Bridge::hear(const Frame& frame, UTime received) {
-  if (!autopilot_.hear(frame, received)) return;
+void Bridge::receive(const Frame& frame, UTime received) {
+  if (!autopilot_.receive(frame, received)) return;
   if (frame.id == Heartbeat::kId) watch_mode(received);
   anchor_truth_at_first_sight();
-  if (autopilot_.truth()) tell_vision(*autopilot_.truth());
+  if (autopilot_.truth()) send_vision(*autopilot_.truth());
   if (const auto question = from_frame<Timesync>(frame); question && question->tc1 == 0) {
-    say(Timesync{.tc1 = received.us * 1000, .ts1 = question->ts1});
+    send(Timesync{.tc1 = received.us * 1000, .ts1 = question->ts1});
   }
   for (const CommandAck& ack : autopilot_.take_acks()) {
     const bool is_done = ack.result == kAccepted || ack.result == kInProgress;
     if (ack.command == kSetMessageInterval || ack.command == kRequestMessage || is_done || !is_mine(ack)) continue;
     refusal_ = fmt::format("{} {}", ack.command == kArmDisarm ? "arming" : fmt::format("command {}", ack.command),
-                           result_words(ack.result));
+                           result_text(ack.result));
     if (!autopilot_.last_warning().empty()) refusal_ += ": " + autopilot_.last_warning();
   }
-  for (const std::string& text : autopilot_.take_texts()) words_.push_back("autopilot: " + text);
+  for (const std::string& text : autopilot_.take_texts()) log_lines_.push_back("autopilot: " + text);
 }
 
-void Bridge::hear(const UavState& setpoint) {
-  setpoint_heard_ = true;
-  command_.hear(setpoint);
+void Bridge::receive(const UavState& setpoint) {
+  setpoint_received_ = true;
+  command_.receive(setpoint);
 }
 
-void Bridge::told_to_fly() {
+void Bridge::order_flight() {
   if (flies()) return;
-  told_ = told_again_ = true;
+  ordered_ = ordered_by_goal_ = true;
   found_.reset();
   if (autopilot_.armed()) found_ = Found{autopilot_.mode(), true};
   forget_commanded_mode();
@@ -104,16 +104,16 @@ void Bridge::told_to_fly() {
 }
 
 void Bridge::flight_is_under_way() {
-  if (!flies() && !told_again_) told_ = false;
+  if (!flies() && !ordered_by_goal_) ordered_ = false;
 }
 
 void Bridge::land(const std::string& why) {
-  told_ = told_again_ = false;
+  ordered_ = ordered_by_goal_ = false;
   if (!flies() || stage_ == Stage::Landing) return;
   if (!followed_) hold_here(now_);
   enter(Stage::Landing, why);
   if (!autopilot_.armed() && arm_asked_ && now_ - *arm_asked_ < kCommandFlight) {
-    words_.push_back("the autopilot may be about to arm, as it was asked to: it is asked to disarm");
+    log_lines_.push_back("the autopilot may be about to arm, as it was asked to: it is asked to disarm");
   }
 }
 
@@ -142,7 +142,8 @@ void Bridge::anchor_truth_at_first_sight() {
   if (std::abs(later) > kStateAge.seconds()) return;
   truth_anchor_ = state->motion.p + state->motion.v * later - truth->motion.p;
   if (!autopilot_.armed()) return;
-  words_.push_back("the vehicle is first seen in flight: its truth is said so that it agrees with the estimate of now");
+  log_lines_.push_back(
+      "the vehicle is first seen in flight: its truth is said so that it agrees with the estimate of now");
 }
 
 std::vector<RequiredParameter> Bridge::required() const {
@@ -158,7 +159,7 @@ std::string Bridge::clock_fault() const {
 
 void Bridge::watch_clock() {
   const std::string fault = clock_fault();
-  if (!fault.empty() && !clock_is_off_) words_.push_back(fault);
+  if (!fault.empty() && !clock_is_off_) log_lines_.push_back(fault);
   clock_is_off_ = !fault.empty();
 }
 
@@ -169,16 +170,16 @@ void Bridge::watch_lag() {
   lag_.add(std::min((here->at - lag_at_).seconds(), 0.1), commanded.p, commanded.v, here->motion.p);
   lag_at_ = here->at;
   const double lag_s = lag_.seconds().value_or(0.0);
-  if (lag_was_said_ || std::abs(lag_s) < kLag) return;
-  lag_was_said_ = true;
-  words_.push_back(fmt::format(
+  if (lag_was_logged_ || std::abs(lag_s) < kLag) return;
+  lag_was_logged_ = true;
+  log_lines_.push_back(fmt::format(
       "the vehicle is {:.2f} s {} its setpoints: mavlink.drag_per_s is {:g}, too {} for its drag", std::abs(lag_s),
       lag_s > 0 ? "behind" : "ahead of", config_.drag_per_s, lag_s > 0 ? "small" : "large"));
 }
 
 std::string Bridge::not_ready(UTime now) const {
   if (!autopilot_.address()) return "no autopilot is heard";
-  if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_heard());
+  if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_received());
   if (!autopilot_.clock().ready()) return "its clock is not yet known (TIMESYNC)";
   if (std::string fault = clock_fault(); !fault.empty()) return fault;
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
@@ -201,9 +202,9 @@ std::string Bridge::why_not_following(UTime now) const {
   }
   if (stage_ == Stage::Engaging && !refusal_.empty()) return refusal_;
   if (stage_ != Stage::Following) return fmt::format("{}{}{}", to_string(stage_), why_.empty() ? "" : ": ", why_);
-  if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_heard());
+  if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_received());
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
-  if (!setpoint_heard_) return "no SETPOINT is heard";
+  if (!setpoint_received_) return "no SETPOINT is heard";
   if (!setpoint_near(now)) return fmt::format("SETPOINT is more than {:g} m from the vehicle", config_.far_m);
   return {};
 }
@@ -234,7 +235,7 @@ void Bridge::hold_here(UTime now) {
   const auto here = state();
   if (!here) return;
   const bool dead = followed_ && !estimate_fault(now).empty();  // where it was to be is all that is known
-  own_ = dead ? last_told_ : *here;
+  own_ = dead ? last_sent_ : *here;
   const Vec3 v = own_.motion.v;
   own_.motion.p += v * (v.norm() / (2.0 * kStop));
   own_.motion.v = own_.motion.a = own_.motion.j = Vec3::Zero();
@@ -247,11 +248,11 @@ void Bridge::step(UTime now) {
   now_ = now;
   if (now >= next_heartbeat_) {
     next_heartbeat_ = now + kHeartbeatPeriod;
-    say(Heartbeat{.type = kOnboardController, .autopilot = kNoAutopilot, .system_status = kActive});
+    send(Heartbeat{.type = kOnboardController, .autopilot = kNoAutopilot, .system_status = kActive});
   }
   if (now >= next_timesync_ && autopilot_.address()) {
     next_timesync_ = now + kTimesyncPeriod;
-    say(Timesync{.ts1 = now.us * 1000});
+    send(Timesync{.ts1 = now.us * 1000});
   }
   request_streams(now);
   request_mode(now);

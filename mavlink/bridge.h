@@ -72,14 +72,14 @@ class Bridge {
  public:
   Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
 
-  void hear(const Frame& frame, UTime received);
-  void hear(const UavState& setpoint);
-  void hear(const TimedSpline& committed) { command_.hear(committed); }
-  void hear(const Plan& plan) { command_.hear(plan); }
+  void receive(const Frame& frame, UTime received);
+  void receive(const UavState& setpoint);
+  void receive(const TimedSpline& committed) { command_.receive(committed); }
+  void receive(const Plan& plan) { command_.receive(plan); }
   /// Where a motion-capture system sees the vehicle, W. Nothing comes of it unless external_vision is on.
-  void hear_vision(const UavState& seen);
+  void receive_vision(const UavState& seen);
   /// Somebody wants it to fly: a new GOAL of mode Go.
-  void told_to_fly();
+  void order_flight();
   /// A flight has begun that this bridge knows nothing of (it was started anew): it does not arm unless told.
   void flight_is_under_way();
   void land(const std::string& why);
@@ -95,7 +95,7 @@ class Bridge {
   [[nodiscard]] std::optional<UavState> truth() const;
   [[nodiscard]] VehicleStatus status(UTime now) const;
   /// Sentences for the log since the last call.
-  std::vector<std::string> take_words() { return std::exchange(words_, {}); }
+  std::vector<std::string> take_log_lines() { return std::exchange(log_lines_, {}); }
   [[nodiscard]] Stage stage() const { return stage_; }
   [[nodiscard]] const Autopilot& autopilot() const { return autopilot_; }
   /// Whether this bridge has to see to the vehicle's landing when it is asked to end.
@@ -118,9 +118,9 @@ class Bridge {
   void step_landing(UTime now);
   void climb(UTime now);
   void stand_back(const std::string& why);
-  [[nodiscard]] bool is_taken();
-  [[nodiscard]] std::string somebody_flies() const;
-  void ask_to_disarm(UTime now);
+  [[nodiscard]] bool is_taken_over();
+  [[nodiscard]] std::string other_pilot_reason() const;
+  void request_disarm(UTime now);
   void engage_next(UTime now);
   void request_parameters(UTime now);
   void request_streams(UTime now);
@@ -132,7 +132,7 @@ class Bridge {
   void forget_commanded_mode();
   void stream(UTime now);
   [[nodiscard]] bool is_silent() const;
-  void ask_to_take_off(UTime now);
+  void request_take_off(UTime now);
   /// ArduPilot: setpoints do not lift it off the ground.
   [[nodiscard]] bool takes_off_by_command() const { return autopilot_.firmware() == Firmware::ArduPilot; }
   /// An ArduPilot that a bridge before this one, or somebody, has told to take off: a setpoint would end that.
@@ -142,9 +142,9 @@ class Bridge {
   void anchor_truth_at_first_sight();
   void watch_clock();
   void watch_lag();
-  void tell_vision(const UavState& local);
+  void send_vision(const UavState& local);
   void command(UTime now, std::uint16_t number, std::array<float, 7> param);
-  void ask(std::uint16_t number, std::uint32_t message, float interval_us = 0.0F);
+  void request(std::uint16_t number, std::uint32_t message, float interval_us = 0.0F);
   [[nodiscard]] std::vector<RequiredParameter> required() const;
   [[nodiscard]] std::string not_ready(UTime now) const;
   [[nodiscard]] std::string estimate_fault(UTime now) const;
@@ -156,7 +156,7 @@ class Bridge {
   [[nodiscard]] bool in_air() const { return autopilot_.landed() == std::optional(false); }
   [[nodiscard]] std::optional<UavState> in_world(std::optional<UavState> local) const;
   template <class M>
-  void say(const M& message) {
+  void send(const M& message) {
     const std::uint8_t system = autopilot_.address() ? autopilot_.address()->system : kSelf.system;
     out_.push_back(to_frame(message, {system, kSelf.component}, sequence_++));
   }
@@ -164,15 +164,15 @@ class Bridge {
   BridgeConfig config_;
   UavSpec uav_;
   Vec3 origin_;                       ///< of the local frame, in W
-  UTime told_vision_;                 ///< the time of the newest state that was told
+  UTime sent_vision_;                 ///< the time of the newest state that was told
   std::optional<Vec3> truth_anchor_;  ///< added to the truth
   Autopilot autopilot_;
   CommandedMotion command_;
-  bool setpoint_heard_ = false;
+  bool setpoint_received_ = false;
   Stage stage_ = Stage::Waiting;
-  std::string why_;          ///< of the newest stage
-  bool told_;                ///< to fly
-  bool told_again_ = false;  ///< by somebody, not by the configuration: also a vehicle that is in somebody's hands
+  std::string why_;               ///< of the newest stage
+  bool ordered_;                  ///< to fly
+  bool ordered_by_goal_ = false;  ///< by somebody, not by the configuration: also a vehicle that is in somebody's hands
   UTime stage_since_, now_;
   int parameters_asked_ = 0;  ///< rounds
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
@@ -199,14 +199,14 @@ class Bridge {
   bool followed_ = false;  ///< at the last setpoint that was sent
   TrackingLag lag_;
   UTime lag_at_;
-  bool lag_was_said_ = false;
+  bool lag_was_logged_ = false;
   bool clock_is_off_ = false;  ///< was said of the vehicle in flight
-  UavState last_told_;         ///< of what it followed
+  UavState last_sent_;         ///< of what it followed
   UavState own_;               ///< the command while it does not follow: at rest here, or on its way up
   std::string refusal_;        ///< the newest answer to a command that was not taken, in words
   std::uint8_t sequence_ = 0;
   std::vector<Frame> out_;
-  std::vector<std::string> words_;
+  std::vector<std::string> log_lines_;
 };
 
 }  // namespace tern::mavlink

@@ -17,14 +17,14 @@ void Bridge::request_mode(UTime now) {
   const bool old = autopilot_.mode_is_old();
   if (now < next_mode_ || !autopilot_.address() || !(old || flies() || commanded_mode_)) return;
   next_mode_ = now + (old ? kOldModePeriod : kModePeriod);
-  ask(kRequestMessage, Heartbeat::kId);
+  request(kRequestMessage, Heartbeat::kId);
 }
 
 /// Commands are obeyed in order: the answer to the question in front tells the mode that this command ends.
 void Bridge::command_mode(UTime now, const std::string& wanted, std::uint16_t number,
                           const std::array<float, 7>& param) {
-  if (now < next_command_ || now - autopilot_.mode_heard() > kJustNow) return;
-  ask(kRequestMessage, Heartbeat::kId);
+  if (now < next_command_ || now - autopilot_.mode_received() > kJustNow) return;
+  request(kRequestMessage, Heartbeat::kId);
   command(now, number, param);
   commanded_mode_ = {now, autopilot_.mode(), wanted};
   next_mode_ = now + kOldModePeriod;
@@ -46,7 +46,8 @@ void Bridge::watch_mode(UTime now) {
     return;
   }
   if (!pilots_mode_ || gives_back) return forget_commanded_mode();
-  words_.push_back(fmt::format("{} was chosen before {} was commanded: it is given back", pilots_mode_->mode, mode));
+  log_lines_.push_back(
+      fmt::format("{} was chosen before {} was commanded: it is given back", pilots_mode_->mode, mode));
   command_mode(now, pilots_mode_->mode, kDoSetMode, pilots_mode_->command);
 }
 

@@ -27,30 +27,30 @@ void Bridge::command(UTime now, std::uint16_t number, std::array<float, 7> param
   if (now < next_command_) return;
   next_command_ = now + kCommandPeriod;
   const Address to = *autopilot_.address();
-  say(CommandLong{.param = param, .command = number, .target_system = to.system, .target_component = to.component});
+  send(CommandLong{.param = param, .command = number, .target_system = to.system, .target_component = to.component});
 }
 
-void Bridge::ask(std::uint16_t number, std::uint32_t message, float interval_us) {
+void Bridge::request(std::uint16_t number, std::uint32_t message, float interval_us) {
   const Address to = *autopilot_.address();
-  say(CommandLong{.param = {static_cast<float>(message), interval_us},
-                  .command = number,
-                  .target_system = to.system,
-                  .target_component = to.component});
+  send(CommandLong{.param = {static_cast<float>(message), interval_us},
+                   .command = number,
+                   .target_system = to.system,
+                   .target_component = to.component});
 }
 
 void Bridge::request_streams(UTime now) {
   if (now < next_streams_ || !autopilot_.address()) return;
   next_streams_ = now + (flies() ? kStreamsPeriodInFlight : kStreamsPeriod);
-  ask(kSetMessageInterval, Odometry::kId, 10'000);
-  ask(kSetMessageInterval, HilStateQuaternion::kId, 10'000);
-  ask(kSetMessageInterval, EstimatorStatus::kId, 200'000);
-  ask(kSetMessageInterval, ExtendedSysState::kId, 200'000);
+  request(kSetMessageInterval, Odometry::kId, 10'000);
+  request(kSetMessageInterval, HilStateQuaternion::kId, 10'000);
+  request(kSetMessageInterval, EstimatorStatus::kId, 200'000);
+  request(kSetMessageInterval, ExtendedSysState::kId, 200'000);
   if (autopilot_.firmware() == Firmware::ArduPilot) {  // it says neither unasked, nor its heading by ODOMETRY
-    ask(kSetMessageInterval, AttitudeQuaternion::kId, 20'000);
-    ask(kSetMessageInterval, LocalPositionNed::kId, 20'000);
-    ask(kSetMessageInterval, GlobalPositionInt::kId, 200'000);
+    request(kSetMessageInterval, AttitudeQuaternion::kId, 20'000);
+    request(kSetMessageInterval, LocalPositionNed::kId, 20'000);
+    request(kSetMessageInterval, GlobalPositionInt::kId, 200'000);
   }
-  ask(kRequestMessage, GpsGlobalOrigin::kId);
+  request(kRequestMessage, GpsGlobalOrigin::kId);
 }
 
 void Bridge::request_parameters(UTime now) {
@@ -66,28 +66,28 @@ void Bridge::request_parameters(UTime now) {
       const bool bytewise = r.integer && autopilot_.firmware() == Firmware::Px4;
       const float value =
           bytewise ? std::bit_cast<float>(static_cast<std::int32_t>(r.recommended)) : static_cast<float>(r.recommended);
-      words_.push_back(fmt::format("sets {} to {:g} (it was {:g})", r.name, r.recommended, known->second));
-      say(ParamSet{.param_value = value,
-                   .target_system = to.system,
-                   .target_component = to.component,
-                   .param_id = text_of<16>(r.name),
-                   .param_type = bytewise ? kInt32 : kReal32});
+      log_lines_.push_back(fmt::format("sets {} to {:g} (it was {:g})", r.name, r.recommended, known->second));
+      send(ParamSet{.param_value = value,
+                    .target_system = to.system,
+                    .target_component = to.component,
+                    .param_id = text_of<16>(r.name),
+                    .param_type = bytewise ? kInt32 : kReal32});
     }
-    say(ParamRequestRead{
+    send(ParamRequestRead{
         .target_system = to.system, .target_component = to.component, .param_id = text_of<16>(r.name)});
   }
 }
 
-void Bridge::hear_vision(const UavState& seen) {
+void Bridge::receive_vision(const UavState& seen) {
   UavState local = seen;
   local.motion.p -= origin_;
-  tell_vision(local);
+  send_vision(local);
 }
 
 /// Level: an estimator takes position, velocity and heading from it, its tilt from its own sensors.
-void Bridge::tell_vision(const UavState& local) {
-  if (!config_.external_vision || !autopilot_.address() || local.at < told_vision_ + kVisionPeriod) return;
-  told_vision_ = local.at;
+void Bridge::send_vision(const UavState& local) {
+  if (!config_.external_vision || !autopilot_.address() || local.at < sent_vision_ + kVisionPeriod) return;
+  sent_vision_ = local.at;
   const Eigen::Quaterniond level(Eigen::AngleAxisd(local.yaw, Vec3::UnitZ()));
   Odometry m;
   m.time_usec = static_cast<std::uint64_t>(local.at.us);
@@ -99,12 +99,12 @@ void Bridge::tell_vision(const UavState& local) {
   m.frame_id = m.child_frame_id = kLocalNed;
   m.estimator_type = kVision;
   m.quality = 100;
-  say(m);
+  send(m);
 }
 
 bool Bridge::may_be_in_failsafe(UTime now) const {
   if (autopilot_.firmware() == Firmware::ArduPilot) return false;  // it stays in GUIDED, and stops
-  if (!flies()) return autopilot_.in_failsafe() && !told_again_;
+  if (!flies()) return autopilot_.in_failsafe() && !ordered_by_goal_;
   const auto known = autopilot_.parameters().find("COM_OF_LOSS_T");
   const double loss_s = known != autopilot_.parameters().end() ? known->second : kOffboardLoss;
   return autopilot_.silence(now).seconds() > loss_s;
@@ -132,8 +132,8 @@ void Bridge::stream(UTime now) {
   const Duration held = autopilot_.firmware() == Firmware::ArduPilot ? Duration{} : Duration{period.us / 2};
   const MotionSample m = following ? command_.sample(now + held) : own_.motion;
   if (following) {
-    last_told_.motion = m;
-    last_told_.yaw = command_.yaw();
+    last_sent_.motion = m;
+    last_sent_.yaw = command_.yaw();
   }
   const Vec3 ahead = following ? command_.acceleration_ahead(now, Duration::from_seconds(config_.lead_s)) : m.a;
   const double gain = config_.acceleration_gain;
@@ -149,7 +149,7 @@ void Bridge::stream(UTime now) {
   target.target_system = to.system;
   target.target_component = to.component;
   target.coordinate_frame = kLocalNed;
-  say(target);
+  send(target);
 }
 
 }  // namespace tern::mavlink

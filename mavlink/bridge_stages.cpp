@@ -17,7 +17,7 @@ constexpr Duration kEngagePatience{120'000'000};
 /// Arrived at the top of the climb, m and m/s.
 constexpr double kThere = 0.3, kThereSpeed = 0.4;
 /// With less to climb it may not leave the ground, m.
-constexpr double kLeastClimb = 0.3;
+constexpr double kMinClimb = 0.3;
 /// The climb's setpoint waits when it is so far above the vehicle, m: rotors spin up, and PX4 takes off gently.
 constexpr double kClimbAhead = 0.5;
 /// A vehicle that is armed by such a command stands for as long as its rotors need to spin up.
@@ -46,11 +46,11 @@ std::string Bridge::ground_fault() const {
   if (aside > config_.reach_m) {
     return fmt::format("the vehicle stands {:.1f} m from below uav.start, more than {:g} m", aside, config_.reach_m);
   }
-  if (climb.z() < kLeastClimb) {
+  if (climb.z() < kMinClimb) {
     return fmt::format(
         "the vehicle stands at a height of {:.1f} m in its own frame, and uav.start is at {:.1f} m, not {:g} m above "
         "it: start the autopilot anew where it stands, or set uav.start higher",
-        state()->motion.p.z(), uav_.start.z(), kLeastClimb);
+        state()->motion.p.z(), uav_.start.z(), kMinClimb);
   }
   return battery < config_.battery_start ? fmt::format("battery {:.0f} %", 100.0 * battery) : "";
 }
@@ -61,17 +61,17 @@ void Bridge::step_ready(UTime now) {
   if (!in_air()) anchor_truth();
   const bool armed = autopilot_.armed(), ours = armed && autopilot_.follows();
   if (ours && in_air()) return enter(is_taking_off() ? Stage::Engaging : Stage::Following);
-  const bool is_elses = told_again_ ? found_ && is_taken() : config_.start == Start::Arm;
-  if (armed && !ours && is_elses) return stand_back(somebody_flies());
+  const bool has_other_pilot = ordered_by_goal_ ? found_ && is_taken_over() : config_.start == Start::Arm;
+  if (armed && !ours && has_other_pilot) return stand_back(other_pilot_reason());
   if (const std::string fault = in_air() ? "" : ground_fault(); !fault.empty()) return enter(Stage::Ready, fault);
   if (ours) return enter(takes_off_by_command() ? Stage::Engaging : Stage::Climbing);
-  if (!told_) return enter(Stage::Ready, "waits for the pilot to arm, take off and switch, or for a new GOAL");
+  if (!ordered_) return enter(Stage::Ready, "waits for the pilot to arm, take off and switch, or for a new GOAL");
   if (takes_off_by_command()) return enter(Stage::Engaging);
   if (streaming_since_ && now - *streaming_since_ >= kStreamFirst) enter(Stage::Engaging);
 }
 
 /// ArduPilot takes the height above its home. That is where it was armed, unless somebody has set it.
-void Bridge::ask_to_take_off(UTime now) {
+void Bridge::request_take_off(UTime now) {
   const auto said = autopilot_.home_height();
   if (now < next_command_ || (!said && now - autopilot_.arming_changed() < kHomePatience)) return;
   const double home = said.value_or(autopilot_.state()->motion.p.z());
@@ -89,19 +89,19 @@ void Bridge::engage_next(UTime now) {
   }
   if (in_air() && !take_off_asked_ && !is_taking_off()) return enter(Stage::Following);
   if (!takes_off_by_command()) return enter(Stage::Climbing);
-  if (!in_air()) return ask_to_take_off(now);
+  if (!in_air()) return request_take_off(now);
   const MotionSample here = state()->motion;
   if (std::abs(uav_.start.z() - here.p.z()) < kThere && here.v.norm() < kThereSpeed) enter(Stage::Climbing);
 }
 
-std::string Bridge::somebody_flies() const {
+std::string Bridge::other_pilot_reason() const {
   return fmt::format("the vehicle is {}in {}: somebody else flies", autopilot_.armed() ? "armed " : "",
                      autopilot_.mode());
 }
 
 /// Until it has the vehicle that stays as it was found. HEARTBEAT tells mode and arming at once, and the bridge arms
 /// only what follows: who is in another mode, or armed, was switched or armed by somebody else.
-bool Bridge::is_taken() {
+bool Bridge::is_taken_over() {
   if (!autopilot_.follows()) return !found_ || found_->mode != autopilot_.mode() || found_->armed < autopilot_.armed();
   found_.reset();
   return false;
@@ -112,7 +112,7 @@ void Bridge::step_engaging(UTime now) {
     return stand_back(refusal_.empty() ? "the autopilot does not answer" : refusal_);
   }
   if (!autopilot_.linked(now)) return;
-  if (is_taken()) return stand_back(somebody_flies());
+  if (is_taken_over()) return stand_back(other_pilot_reason());
   if (!in_air()) anchor_truth();
   hold_here(now);
   engage_next(now);
@@ -147,13 +147,13 @@ void Bridge::step_flying(UTime now) {
   }
   watch_clock();
   if (stage_ == Stage::Climbing) return climb(now);
-  const bool near = setpoint_heard_ && setpoint_near(now) && estimate_fault(now).empty();
+  const bool near = setpoint_received_ && setpoint_near(now) && estimate_fault(now).empty();
   if (!near && followed_) hold_here(now);
   followed_ = near;
   if (near) watch_lag();
 }
 
-void Bridge::ask_to_disarm(UTime now) {
+void Bridge::request_disarm(UTime now) {
   if (now < next_command_) return;
   command(now, kArmDisarm, {0});
   next_command_ = now + kDisarmPeriod;
@@ -165,7 +165,7 @@ void Bridge::step_landing(UTime now) {
   if (!autopilot_.armed()) {
     followed_ = false;
     if (!arming) return enter(Stage::Landed, why_);
-    return ask_to_disarm(now);
+    return request_disarm(now);
   }
   if (followed_) hold_here(now);
   followed_ = false;
@@ -177,7 +177,7 @@ void Bridge::step_landing(UTime now) {
   if (landing_seen_ || !autopilot_.follows()) {
     return stand_back(fmt::format("the autopilot has left for {}: somebody else flies", autopilot_.mode()));
   }
-  if (arming && !in_air()) return ask_to_disarm(now);
+  if (arming && !in_air()) return request_disarm(now);
   // An ArduPilot makes integers of a place that is unknown; it does not look at it.
   const float here = autopilot_.firmware() == Firmware::ArduPilot ? 0.0F : kUnknown;
   command_mode(now, autopilot_.landing_mode(), kNavLand, {0, 0, 0, here, here, here, 0});

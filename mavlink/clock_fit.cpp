@@ -26,7 +26,7 @@ void ClockFit::add(UTime sent, std::int64_t theirs_us, UTime received) {
     if (off > kRestart || off < kRestart * -1) {
       exchanges_.clear();
     } else if (off > most || off < most * -1) {
-      while (exchanges_.size() >= kLeast) exchanges_.pop_front();
+      while (exchanges_.size() >= kMinExchanges) exchanges_.pop_front();
     }
   }
   exchanges_.push_back({middle, theirs_us, received - sent});

@@ -17,15 +17,15 @@ class ClockFit {
  public:
   static constexpr Duration kWindow{10'000'000};
   static constexpr Duration kStep{100'000};
-  static constexpr std::size_t kLeast = 5;
+  static constexpr std::size_t kMinExchanges = 5;
 
   /// A question that left at `sent` came back at `received`; between them its clock read `theirs_us`.
   void add(UTime sent, std::int64_t theirs_us, UTime received);
-  /// Our time at its time. @return nullopt before kLeast exchanges
+  /// Our time at its time. @return nullopt before kMinExchanges exchanges
   [[nodiscard]] std::optional<UTime> ours(std::int64_t theirs_us) const;
   [[nodiscard]] std::optional<std::int64_t> theirs_us(UTime ours) const;
   [[nodiscard]] double rate() const { return rate_; }  ///< its seconds per second of ours
-  [[nodiscard]] bool ready() const { return exchanges_.size() >= kLeast; }
+  [[nodiscard]] bool ready() const { return exchanges_.size() >= kMinExchanges; }
   [[nodiscard]] Duration round_trip() const;  ///< the shortest of the window
 
  private:

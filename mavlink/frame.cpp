@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint8_t kMagic1 = 0xFE, kMagic2 = 0xFD, kSignedFlag = 0x01;
 constexpr std::size_t kHead1 = 6, kHead2 = 10, kCrc = 2, kSignature = 13, kShortTag = 6;
 /// Signers that are remembered: more than a link carries.
-constexpr std::size_t kMostSigners = 64;
+constexpr std::size_t kMaxSigners = 64;
 constexpr std::uint64_t kMinute = 6'000'000;
 
 std::uint64_t read_time(std::span<const std::uint8_t> six) {
@@ -91,28 +91,28 @@ bool Parser::verified(std::span<const std::uint8_t> frame, Address from, std::ui
   const auto tag = tag_of(*key_, frame.first(frame.size() - kShortTag));
   if (!std::equal(tag.begin(), tag.end(), frame.end() - kShortTag)) return false;
   const std::uint8_t link = frame[frame.size() - kSignature];
-  const std::uint64_t said = read_time(frame.subspan(frame.size() - kSignature + 1, 6));
+  const std::uint64_t time_stated = read_time(frame.subspan(frame.size() - kSignature + 1, 6));
   const auto known = std::ranges::find_if(signers_, [&](const Signer& s) { return s.from == from && s.link == link; });
   if (known == signers_.end()) {
-    if (said + kMinute < time || signers_.size() >= kMostSigners) return false;
-    signers_.push_back({from, link, said});
+    if (time_stated + kMinute < time || signers_.size() >= kMaxSigners) return false;
+    signers_.push_back({from, link, time_stated});
     return true;
   }
-  if (said <= known->time) return false;
-  known->time = said;
+  if (time_stated <= known->time) return false;
+  known->time = time_stated;
   return true;
 }
 
-Parser::Look Parser::look(std::span<const std::uint8_t> bytes, std::uint64_t time, std::vector<Frame>& frames,
-                          std::size_t& used) {
+Parser::Outcome Parser::read_frame(std::span<const std::uint8_t> bytes, std::uint64_t time, std::vector<Frame>& frames,
+                                   std::size_t& used) {
   const bool second = bytes[0] == kMagic2;
   const std::size_t head = second ? kHead2 : kHead1;
-  if (bytes.size() < head) return Look::More;
+  if (bytes.size() < head) return Outcome::More;
   const std::size_t length = bytes[1];
-  if (second && (bytes[2] & ~kSignedFlag) != 0) return Look::Bad;
+  if (second && (bytes[2] & ~kSignedFlag) != 0) return Outcome::Bad;
   const bool is_signed = second && (bytes[2] & kSignedFlag) != 0;
   used = head + length + kCrc + (is_signed ? kSignature : 0);
-  if (bytes.size() < used) return Look::More;
+  if (bytes.size() < used) return Outcome::More;
 
   Frame frame;
   const std::size_t at = second ? 4 : 2;
@@ -123,21 +123,21 @@ Parser::Look Parser::look(std::span<const std::uint8_t> bytes, std::uint64_t tim
   const auto form = form_of(frame.id);
   if (!form) {
     ++counters_.unknown;
-    return Look::Skipped;
+    return Outcome::Skipped;
   }
-  if (!second && length != form->least_length) return Look::Bad;
+  if (!second && length != form->min_length) return Outcome::Bad;
   const std::uint16_t crc = checksum(bytes.subspan(1, head - 1 + length), form->crc_extra);
-  if (bytes[head + length] != (crc & 0xFFU) || bytes[head + length + 1] != crc >> 8U) return Look::Bad;
+  if (bytes[head + length] != (crc & 0xFFU) || bytes[head + length + 1] != crc >> 8U) return Outcome::Bad;
   if (!verified(bytes.first(used), frame.from, time)) {
     ++counters_.unsigned_;
-    return Look::Skipped;
+    return Outcome::Skipped;
   }
   const auto payload = bytes.subspan(head, length);
   frame.payload.assign(payload.begin(), payload.end());
   frame.payload.resize(form->length, 0);  // what a newer sender appended is cut
   frames.push_back(std::move(frame));
   ++counters_.frames;
-  return Look::Frame;
+  return Outcome::Frame;
 }
 
 std::vector<Frame> Parser::push(std::span<const std::uint8_t> bytes, std::uint64_t time) {
@@ -151,10 +151,10 @@ std::vector<Frame> Parser::push(std::span<const std::uint8_t> bytes, std::uint64
       continue;
     }
     std::size_t used = 0;
-    const Look found = look(std::span(rest_).subspan(at), time, frames, used);
-    if (found == Look::More) break;
-    if (found == Look::Bad) ++counters_.bad;
-    at += found == Look::Bad ? 1 : used;
+    const Outcome found = read_frame(std::span(rest_).subspan(at), time, frames, used);
+    if (found == Outcome::More) break;
+    if (found == Outcome::Bad) ++counters_.bad;
+    at += found == Outcome::Bad ? 1 : used;
   }
   rest_.erase(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(at));
   return frames;

@@ -31,8 +31,8 @@ struct Frame {
 struct MessageForm {
   std::uint32_t id = 0;
   std::uint8_t crc_extra = 0;
-  std::uint8_t least_length = 0;  ///< without extensions: of a MAVLink 1 frame
-  std::uint8_t length = 0;        ///< with extensions
+  std::uint8_t min_length = 0;  ///< without extensions: of a MAVLink 1 frame
+  std::uint8_t length = 0;      ///< with extensions
 };
 /// @return nullopt if the message is none of messages.h.
 std::optional<MessageForm> form_of(std::uint32_t id);
@@ -78,8 +78,9 @@ class Parser {
   [[nodiscard]] const ParserCounters& counters() const { return counters_; }
 
  private:
-  enum class Look : std::uint8_t { Frame, Skipped, Bad, More };
-  Look look(std::span<const std::uint8_t> bytes, std::uint64_t time, std::vector<Frame>& frames, std::size_t& used);
+  enum class Outcome : std::uint8_t { Frame, Skipped, Bad, More };
+  Outcome read_frame(std::span<const std::uint8_t> bytes, std::uint64_t time, std::vector<Frame>& frames,
+                     std::size_t& used);
   bool verified(std::span<const std::uint8_t> frame, Address from, std::uint64_t time);
   struct Signer {
     Address from;

@@ -7,7 +7,7 @@ template <class... M>
 std::optional<MessageForm> find(std::uint32_t id, std::type_identity<std::tuple<M...>>) {
   std::optional<MessageForm> form;
   ((M::kId == id
-        ? (void)(form = MessageForm{M::kId, M::kCrcExtra, M::kLeastLength, static_cast<std::uint8_t>(length_of<M>())})
+        ? (void)(form = MessageForm{M::kId, M::kCrcExtra, M::kMinLength, static_cast<std::uint8_t>(length_of<M>())})
         : void()),
    ...);
   return form;

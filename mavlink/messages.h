@@ -21,7 +21,7 @@ using Text = std::array<char, N>;  ///< zero-terminated unless it is full
 /// Each message: its id, CRC_EXTRA, length without extensions, and its fields.
 struct Heartbeat {
   static constexpr std::uint32_t kId = 0;
-  static constexpr std::uint8_t kCrcExtra = 50, kLeastLength = 9;
+  static constexpr std::uint8_t kCrcExtra = 50, kMinLength = 9;
   std::uint32_t custom_mode = 0;
   std::uint8_t type = 0, autopilot = 0, base_mode = 0, system_status = 0, mavlink_version = 3;
   static constexpr auto fields(auto& m) {
@@ -31,7 +31,7 @@ struct Heartbeat {
 
 struct SysStatus {
   static constexpr std::uint32_t kId = 1;
-  static constexpr std::uint8_t kCrcExtra = 124, kLeastLength = 31;
+  static constexpr std::uint8_t kCrcExtra = 124, kMinLength = 31;
   std::array<std::uint32_t, 3> sensors{};       ///< present, enabled, healthy
   std::uint16_t load = 0, voltage_battery = 0;  ///< 0.1 %, mV
   std::int16_t current_battery = -1;            ///< 10 mA
@@ -46,7 +46,7 @@ struct SysStatus {
 
 struct ParamRequestRead {
   static constexpr std::uint32_t kId = 20;
-  static constexpr std::uint8_t kCrcExtra = 214, kLeastLength = 20;
+  static constexpr std::uint8_t kCrcExtra = 214, kMinLength = 20;
   std::int16_t param_index = -1;  ///< −1: by its name
   std::uint8_t target_system = 0, target_component = 0;
   Text<16> param_id{};
@@ -57,7 +57,7 @@ struct ParamRequestRead {
 
 struct ParamValue {
   static constexpr std::uint32_t kId = 22;
-  static constexpr std::uint8_t kCrcExtra = 220, kLeastLength = 25;
+  static constexpr std::uint8_t kCrcExtra = 220, kMinLength = 25;
   float param_value = 0.0F;
   std::uint16_t param_count = 0, param_index = 0;
   Text<16> param_id{};
@@ -69,7 +69,7 @@ struct ParamValue {
 
 struct ParamSet {
   static constexpr std::uint32_t kId = 23;
-  static constexpr std::uint8_t kCrcExtra = 168, kLeastLength = 23;
+  static constexpr std::uint8_t kCrcExtra = 168, kMinLength = 23;
   float param_value = 0.0F;
   std::uint8_t target_system = 0, target_component = 0;
   Text<16> param_id{};
@@ -81,7 +81,7 @@ struct ParamSet {
 
 struct AttitudeQuaternion {
   static constexpr std::uint32_t kId = 31;
-  static constexpr std::uint8_t kCrcExtra = 246, kLeastLength = 32;
+  static constexpr std::uint8_t kCrcExtra = 246, kMinLength = 32;
   std::uint32_t time_boot_ms = 0;
   std::array<float, 4> q{};  ///< w x y z, FRD to NED
   std::array<float, 3> rates{};
@@ -91,7 +91,7 @@ struct AttitudeQuaternion {
 
 struct LocalPositionNed {
   static constexpr std::uint32_t kId = 32;
-  static constexpr std::uint8_t kCrcExtra = 185, kLeastLength = 28;
+  static constexpr std::uint8_t kCrcExtra = 185, kMinLength = 28;
   std::uint32_t time_boot_ms = 0;
   std::array<float, 3> p{}, v{};
   static constexpr auto fields(auto& m) { return std::tie(m.time_boot_ms, m.p, m.v); }
@@ -99,7 +99,7 @@ struct LocalPositionNed {
 
 struct GlobalPositionInt {
   static constexpr std::uint32_t kId = 33;
-  static constexpr std::uint8_t kCrcExtra = 104, kLeastLength = 28;
+  static constexpr std::uint8_t kCrcExtra = 104, kMinLength = 28;
   std::uint32_t time_boot_ms = 0;
   std::int32_t lat = 0, lon = 0, alt = 0, relative_alt = 0;  ///< 1e-7 degrees; mm above sea level, and above home
   std::array<std::int16_t, 3> v{};                           ///< NED, cm/s
@@ -111,7 +111,7 @@ struct GlobalPositionInt {
 
 struct GpsGlobalOrigin {
   static constexpr std::uint32_t kId = 49;
-  static constexpr std::uint8_t kCrcExtra = 39, kLeastLength = 12;
+  static constexpr std::uint8_t kCrcExtra = 39, kMinLength = 12;
   std::int32_t latitude = 0, longitude = 0, altitude = 0;  ///< 1e-7 degrees, mm
   std::uint64_t time_usec = 0;
   static constexpr auto fields(auto& m) { return std::tie(m.latitude, m.longitude, m.altitude, m.time_usec); }
@@ -119,7 +119,7 @@ struct GpsGlobalOrigin {
 
 struct CommandLong {
   static constexpr std::uint32_t kId = 76;
-  static constexpr std::uint8_t kCrcExtra = 152, kLeastLength = 33;
+  static constexpr std::uint8_t kCrcExtra = 152, kMinLength = 33;
   std::array<float, 7> param{};
   std::uint16_t command = 0;
   std::uint8_t target_system = 0, target_component = 0, confirmation = 0;
@@ -130,7 +130,7 @@ struct CommandLong {
 
 struct CommandAck {
   static constexpr std::uint32_t kId = 77;
-  static constexpr std::uint8_t kCrcExtra = 143, kLeastLength = 3;
+  static constexpr std::uint8_t kCrcExtra = 143, kMinLength = 3;
   std::uint16_t command = 0;
   std::uint8_t result = 0, progress = 0;
   std::int32_t result_param2 = 0;
@@ -142,7 +142,7 @@ struct CommandAck {
 
 struct SetPositionTargetLocalNed {
   static constexpr std::uint32_t kId = 84;
-  static constexpr std::uint8_t kCrcExtra = 143, kLeastLength = 53;
+  static constexpr std::uint8_t kCrcExtra = 143, kMinLength = 53;
   std::uint32_t time_boot_ms = 0;
   std::array<float, 3> p{}, v{}, a{};
   float yaw = 0.0F, yaw_rate = 0.0F;
@@ -156,7 +156,7 @@ struct SetPositionTargetLocalNed {
 
 struct Timesync {
   static constexpr std::uint32_t kId = 111;
-  static constexpr std::uint8_t kCrcExtra = 34, kLeastLength = 16;
+  static constexpr std::uint8_t kCrcExtra = 34, kMinLength = 16;
   std::int64_t tc1 = 0, ts1 = 0;  ///< ns; tc1 = 0: a question, answered with the own time in tc1 and ts1 copied
   std::uint8_t target_system = 0, target_component = 0;
   static constexpr auto fields(auto& m) { return std::tie(m.tc1, m.ts1, m.target_system, m.target_component); }
@@ -164,7 +164,7 @@ struct Timesync {
 
 struct HilStateQuaternion {
   static constexpr std::uint32_t kId = 115;
-  static constexpr std::uint8_t kCrcExtra = 4, kLeastLength = 64;
+  static constexpr std::uint8_t kCrcExtra = 4, kMinLength = 64;
   std::uint64_t time_usec = 0;
   std::array<float, 4> q{};  ///< w x y z
   std::array<float, 3> rates{};
@@ -179,7 +179,7 @@ struct HilStateQuaternion {
 
 struct EstimatorStatus {
   static constexpr std::uint32_t kId = 230;
-  static constexpr std::uint8_t kCrcExtra = 163, kLeastLength = 42;
+  static constexpr std::uint8_t kCrcExtra = 163, kMinLength = 42;
   std::uint64_t time_usec = 0;
   std::array<float, 6> ratios{};  ///< vel, pos_horiz, pos_vert, mag, hagl, tas: innovations over what is still believed
   float pos_horiz_accuracy = 0.0F, pos_vert_accuracy = 0.0F;  ///< m
@@ -191,14 +191,14 @@ struct EstimatorStatus {
 
 struct ExtendedSysState {
   static constexpr std::uint32_t kId = 245;
-  static constexpr std::uint8_t kCrcExtra = 130, kLeastLength = 2;
+  static constexpr std::uint8_t kCrcExtra = 130, kMinLength = 2;
   std::uint8_t vtol_state = 0, landed_state = 0;
   static constexpr auto fields(auto& m) { return std::tie(m.vtol_state, m.landed_state); }
 };
 
 struct StatusText {
   static constexpr std::uint32_t kId = 253;
-  static constexpr std::uint8_t kCrcExtra = 83, kLeastLength = 51;
+  static constexpr std::uint8_t kCrcExtra = 83, kMinLength = 51;
   std::uint8_t severity = 6;  ///< 0 emergency … 7 debug
   Text<50> text{};
   std::uint16_t id = 0;
@@ -208,7 +208,7 @@ struct StatusText {
 
 struct Odometry {
   static constexpr std::uint32_t kId = 331;
-  static constexpr std::uint8_t kCrcExtra = 91, kLeastLength = 230;
+  static constexpr std::uint8_t kCrcExtra = 91, kMinLength = 230;
   std::uint64_t time_usec = 0;
   std::array<float, 3> p{};
   std::array<float, 4> q{};  ///< w x y z
@@ -277,7 +277,7 @@ std::string_view bytes_of(const Text<N>& text) {
 /// left out.
 std::string printable(std::string words);
 template <std::size_t N>
-std::string words_of(const Text<N>& text) {
+std::string string_of(const Text<N>& text) {
   return printable(std::string(bytes_of(text)));
 }
 

@@ -16,8 +16,8 @@ namespace {
 constexpr Duration kSetpointPeriod{10'000}, kGoalPeriod{1'000'000}, kRefusalLogPeriod{1'000'000},
     kRemembered{1'000'000};
 /// A vehicle that was slower for so long stands, or hovers.
-constexpr double kStillSpeed = 0.3;
-constexpr Duration kStillFor{200'000};
+constexpr double kStationarySpeed = 0.3;
+constexpr Duration kStationaryFor{200'000};
 /// After this long at rest what is measured is the error of hovering.
 constexpr Duration kSettled{1'000'000};
 
@@ -39,79 +39,80 @@ ExecutorNode::ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& c
 
 void ExecutorNode::on_state(const UavState& state) {
   measured_yaw_ = state.yaw;
-  shifted(resets_.add(state, bus_.received()));
-  executor_ ? watch(state) : wait_for_rest(state);
+  on_estimate_shift(resets_.add(state, bus_.received()));
+  executor_ ? check_tracking(state) : wait_until_stationary(state);
 }
 
-void ExecutorNode::wait_for_rest(const UavState& state) {
-  if (!(state.motion.v.norm() <= kStillSpeed)) {
-    still_since_.reset();
+void ExecutorNode::wait_until_stationary(const UavState& state) {
+  if (!(state.motion.v.norm() <= kStationarySpeed)) {
+    stationary_since_.reset();
     return;
   }
-  if (!still_since_) still_since_ = state.at;
-  if (state.at - *still_since_ >= kStillFor) begin(state);
+  if (!stationary_since_) stationary_since_ = state.at;
+  if (state.at - *stationary_since_ >= kStationaryFor) begin(state);
 }
 
-void ExecutorNode::watch(const UavState& state) {
-  look_if_held_up(bus_.received());
-  if (look_from_ && state.at < *look_from_) return;  // what was, tells nothing of what the vehicle has heard since
+void ExecutorNode::check_tracking(const UavState& state) {
+  fall_silent_if_held_up(bus_.received());
+  if (silent_since_ && state.at < *silent_since_)
+    return;  // what was, tells nothing of what the vehicle has heard since
   if (state.at < last_setpoint_ - kRemembered) return;
   const Vec3 seen = (state.motion.p - executor_->sample(state.at).p).cwiseAbs();
-  const Vec3 promised = executor_->promised(state.at);
-  const Vec3 error = lasting_.add(seen, bus_.received());
-  const Vec3 beyond = seen - promised, before = std::exchange(beyond_, beyond);
+  const Vec3 tube = executor_->tube_at(state.at);
+  const Vec3 error = persistent_error_.add(seen, bus_.received());
+  const Vec3 excess = seen - tube, before = std::exchange(excess_, excess);
   if (seen.maxCoeff() > kRejoinBeyond && !(error.maxCoeff() > kRejoinBeyond)) return;
-  if (look_from_ && look(state, seen)) return;
+  if (silent_since_ && check_after_silence(state, seen)) return;
   if (!following_) {
-    if (!was_following_) tube_.saw(error);
+    if (!has_followed_) tube_.note_error(error);
     if (error.maxCoeff() > kRejoinBeyond) rejoin(state);
     return;
   }
-  const bool outside = (beyond.cwiseMin(before).array() > kNothing).any();
-  const bool lost = (error - promised).maxCoeff() > kRejoinBeyond;
+  const bool outside = (excess.cwiseMin(before).array() > kMinError).any();
+  const bool lost = (error - tube).maxCoeff() > kRejoinBeyond;
   if (!lost) tube_.add(error, executor_->at_rest(state.at - kSettled), state.at);
-  if (outside) tube_.left(state.at);
-  if (!std::exchange(outside_, outside) && outside) {
-    ++exits_;
+  if (outside) tube_.add_exit(state.at);
+  if (!std::exchange(outside_tube_, outside) && outside) {
+    ++tube_exits_;
     spdlog::warn("the vehicle is ({:.2f}, {:.2f}, {:.2f}) m off its setpoint, outside its tube; {} times so far",
-                 error.x(), error.y(), error.z(), exits_);
+                 error.x(), error.y(), error.z(), tube_exits_);
   }
   if (lost) rejoin(state);
 }
 
-void ExecutorNode::look_if_held_up(UTime now) {
-  if (!look_from_ && now - last_setpoint_ > kSetpointSilence) look_from(now);
+void ExecutorNode::fall_silent_if_held_up(UTime now) {
+  if (!silent_since_ && now - last_setpoint_ > kSetpointSilence) fall_silent(now);
 }
 
-void ExecutorNode::look_from(UTime now) {
-  look_from_ = now;
-  take_back_untold();
+void ExecutorNode::fall_silent(UTime now) {
+  silent_since_ = now;
+  drop_unsent_plan();
 }
 
-void ExecutorNode::take_back_untold() {
-  if (!executor_->take_back_untold(last_setpoint_)) return;
+void ExecutorNode::drop_unsent_plan() {
+  if (!executor_->drop_unsent_plan(last_setpoint_)) return;
   spdlog::info("the newest plan is not flown: no request could tell the vehicle of it");
 }
 
-bool ExecutorNode::look(const UavState& state, const Vec3& error) {
-  look_from_.reset();
-  const Vec3 promised = executor_->promised(state.at);
+bool ExecutorNode::check_after_silence(const UavState& state, const Vec3& error) {
+  silent_since_.reset();
+  const Vec3 tube = executor_->tube_at(state.at);
   const MotionSample mine = executor_->sample(state.at);
-  const bool turns = promised.isZero(0.0) && ((state.motion.v - mine.v).cwiseAbs().maxCoeff() > kJoinTolerance ||
-                                              (state.motion.a - mine.a).cwiseAbs().maxCoeff() > kJoinTolerance);
-  const bool parted = turns || ((error - promised).array() > kJoinTolerance).any();
+  const bool turns = tube.isZero(0.0) && ((state.motion.v - mine.v).cwiseAbs().maxCoeff() > kJoinTolerance ||
+                                          (state.motion.a - mine.a).cwiseAbs().maxCoeff() > kJoinTolerance);
+  const bool parted = turns || ((error - tube).array() > kJoinTolerance).any();
   if (parted) rejoin(state);
   last_setpoint_ = std::max(last_setpoint_, bus_.received());
   return parted;
 }
 
-void ExecutorNode::shifted(const std::optional<Vec3>& by) {
-  if (!by || !was_following_) return;  // before, it is the estimator that says where W is
-  tube_.shifted(*by);
+void ExecutorNode::on_estimate_shift(const std::optional<Vec3>& by) {
+  if (!by || !has_followed_) return;  // before, it is the estimator that says where W is
+  tube_.add_shift(*by);
   spdlog::warn("the estimator has shifted the vehicle by ({:.2f}, {:.2f}, {:.2f}) m", by->x(), by->y(), by->z());
 }
 
-void ExecutorNode::promise(UTime now) { executor_->set_tube(tube_.width(sigma_, now), tube_.share()); }
+void ExecutorNode::update_tube(UTime now) { executor_->set_tube(tube_.width(sigma_, now), tube_.share()); }
 
 void ExecutorNode::rejoin(const UavState& state) {
   UavState from = state;
@@ -128,34 +129,34 @@ void ExecutorNode::rejoin(const UavState& state) {
 void ExecutorNode::begin(const UavState& state) {
   const Vec3& p = state.motion.p;
   executor_.emplace(uav_, state, config_);
-  promise(state.at);
+  update_tube(state.at);
   if (goal_) executor_->set_mode(goal_->mode);
   if (following_) executor_->begin(bus_.clock().now());
-  heading_.emplace(state.yaw, state.at, config_.heading);
+  yaw_follower_.emplace(state.yaw, state.at, config_.heading);
   publish_setpoint(state.at);
   spdlog::info("begins with the vehicle at ({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
 }
 
 void ExecutorNode::on_status(const VehicleStatus& status) {
   sigma_ = status.position_sigma;
-  shifted(resets_.add(status.resets, bus_.received()));
-  if (!status.mode.empty() && status.mode != kPerfectMode) tube_.expect_errors();
+  on_estimate_shift(resets_.add(status.resets, bus_.received()));
+  if (!status.mode.empty() && status.mode != kPerfectMode) tube_.assume_errors();
   if (status.following == following_) return;
   following_ = status.following;
   spdlog::info("the vehicle {}", following_ ? "follows" : "does not follow: " + status.why_not);
   if (!executor_) return;
   if (following_) {
     const UTime now = bus_.clock().now();
-    if (std::exchange(was_following_, true)) {
-      look_from(now);
+    if (std::exchange(has_followed_, true)) {
+      fall_silent(now);
     } else {
-      heading_.emplace(measured_yaw_, last_setpoint_, config_.heading);
+      yaw_follower_.emplace(measured_yaw_, last_setpoint_, config_.heading);
     }
-    promise(status.at);
+    update_tube(status.at);
     return executor_->begin(now);
   }
   executor_->pause();
-  take_back_untold();
+  drop_unsent_plan();
   log_counters();
 }
 
@@ -172,33 +173,33 @@ void ExecutorNode::on_plan(const Plan& plan) {
   if (!executor_) return;
   const UTime now = bus_.clock().now();
   const Adoption adoption = executor_->consider(plan, now);
-  if (!is_refusal(adoption.verdict)) return tube_.answered(plan, executor_->at_rest(now), now);
+  if (!is_refusal(adoption.verdict)) return tube_.on_answer(plan, executor_->at_rest(now), now);
   if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
-  ++refusals_unsaid_;
+  ++unlogged_refusals_;
   if (now < next_refusal_log_) return;
   spdlog::warn("refused the plan for request {}: {} ({}); {} refused since the last word", plan.request_id,
-               to_string(adoption), adoption.detail, refusals_unsaid_);
-  refusals_unsaid_ = 0;
+               to_string(adoption), adoption.detail, unlogged_refusals_);
+  unlogged_refusals_ = 0;
   next_refusal_log_ = now + kRefusalLogPeriod;
 }
 
 UTime ExecutorNode::next_wakeup() const {
   const UTime next = goal_ ? next_goal_ : kNever;
   if (!executor_) return next;
-  const auto request = look_from_ ? std::nullopt : executor_->next_wakeup();
+  const auto request = silent_since_ ? std::nullopt : executor_->next_wakeup();
   return std::min({next, next_setpoint_, request.value_or(kNever)});
 }
 
 void ExecutorNode::step(UTime now) {
   if (executor_) {
-    look_if_held_up(now);
-    const auto due = look_from_ ? std::nullopt : executor_->next_wakeup();
-    if (due && now >= *due) promise(now);
-    const auto request = look_from_ ? std::nullopt : executor_->next_request(now);
+    fall_silent_if_held_up(now);
+    const auto due = silent_since_ ? std::nullopt : executor_->next_wakeup();
+    if (due && now >= *due) update_tube(now);
+    const auto request = silent_since_ ? std::nullopt : executor_->next_request(now);
     if (request) bus_.publish(channels::kHorizonRequest, *request);
-    if (!executor_->asking()) take_back_untold();
+    if (!executor_->requests_plans()) drop_unsent_plan();
     if (now >= next_setpoint_) {
-      if (!look_from_) publish_setpoints(now);
+      if (!silent_since_) publish_setpoints(now);
       executor_->forget_before(now - kRemembered);
       next_setpoint_ = next_tick(next_setpoint_, kSetpointPeriod, now);
     }
@@ -222,8 +223,8 @@ void ExecutorNode::publish_setpoints(UTime now) {
 void ExecutorNode::publish_setpoint(UTime at) {
   UavState setpoint;
   setpoint.at = at;
-  setpoint.motion = executor_->leaving(at);
-  setpoint.yaw = heading_->follow(setpoint.motion.v, at);
+  setpoint.motion = executor_->sample_after(at);
+  setpoint.yaw = yaw_follower_->follow(setpoint.motion.v, at);
   bus_.publish(channels::kSetpoint, setpoint);
   last_setpoint_ = at;
 }

@@ -46,7 +46,7 @@ class ExecutorNode final : public Node {
   /// nullptr until the vehicle was found at rest.
   [[nodiscard]] const Executor* executor() const { return executor_ ? &*executor_ : nullptr; }
   /// How often the vehicle has left its tube.
-  [[nodiscard]] std::int64_t exits() const { return exits_; }
+  [[nodiscard]] std::int64_t tube_exits() const { return tube_exits_; }
   /// All zero until then.
   [[nodiscard]] ExecutorCounters counters() const { return executor_ ? executor_->counters() : ExecutorCounters(); }
 
@@ -55,19 +55,19 @@ class ExecutorNode final : public Node {
   void on_status(const VehicleStatus& status);
   void on_goal(const Goal& goal);
   void on_plan(const Plan& plan);
-  void wait_for_rest(const UavState& state);
+  void wait_until_stationary(const UavState& state);
   void begin(const UavState& state);
-  void watch(const UavState& state);
+  void check_tracking(const UavState& state);
   void rejoin(const UavState& state);
   /// Without a step for kSetpointSilence: a plan may have been adopted of which the vehicle has not heard.
-  void look_if_held_up(UTime now);
-  void look_from(UTime now);
+  void fall_silent_if_held_up(UTime now);
+  void fall_silent(UTime now);
   /// What could not be told is not flown, or the vehicle would be elsewhere.
-  void take_back_untold();
+  void drop_unsent_plan();
   /// The first state since the vehicle and what is committed may have parted. @return whether they have
-  bool look(const UavState& state, const Vec3& error);
-  void shifted(const std::optional<Vec3>& by);
-  void promise(UTime now);
+  bool check_after_silence(const UavState& state, const Vec3& error);
+  void on_estimate_shift(const std::optional<Vec3>& by);
+  void update_tube(UTime now);
   void publish_setpoints(UTime now);
   void publish_setpoint(UTime at);
   void log_counters() const;
@@ -76,23 +76,23 @@ class ExecutorNode final : public Node {
   UavSpec uav_;
   ExecutorConfig config_;
   std::optional<Executor> executor_;
-  std::optional<UTime> still_since_;
+  std::optional<UTime> stationary_since_;
   std::optional<Goal> goal_;
-  bool following_ = false, was_following_ = false;
-  std::optional<UTime> look_from_;  ///< nothing is said until a state of this time or later has come
+  bool following_ = false, has_followed_ = false;
+  std::optional<UTime> silent_since_;  ///< nothing is said until a state of this time or later has come
   Tube tube_;
   EstimateResets resets_;
-  Vec3 sigma_ = Vec3::Zero();  // of the estimate, m
-  std::int64_t exits_ = 0;     // how often the vehicle has left its tube
-  bool outside_ = false;
-  LastingError lasting_;
-  Vec3 beyond_ = Vec3::Zero();      ///< of the newest state, what of its error was not promised; m
-  double measured_yaw_ = 0.0;       ///< rad, the newest
-  std::optional<Heading> heading_;  ///< once the executor has begun
+  Vec3 sigma_ = Vec3::Zero();    // of the estimate, m
+  std::int64_t tube_exits_ = 0;  // how often the vehicle has left its tube
+  bool outside_tube_ = false;
+  PersistentError persistent_error_;
+  Vec3 excess_ = Vec3::Zero();               ///< of the newest state, what of its error was not promised; m
+  double measured_yaw_ = 0.0;                ///< rad, the newest
+  std::optional<YawFollower> yaw_follower_;  ///< once the executor has begun
   UTime last_setpoint_;
   UTime next_setpoint_, next_goal_;
   UTime next_refusal_log_;
-  std::int64_t refusals_unsaid_ = 0;
+  std::int64_t unlogged_refusals_ = 0;
 };
 
 }  // namespace tern

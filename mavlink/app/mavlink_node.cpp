@@ -12,7 +12,7 @@ namespace tern::mavlink {
 namespace {
 
 /// How often the link is looked at.
-constexpr Duration kLook{2'000};
+constexpr Duration kPollPeriod{2'000};
 constexpr Duration kStatusPeriod{100'000};
 /// VEHICLE_STATUS comes at 10 Hz: who hears none for so long is alone.
 constexpr Duration kListenFirst{350'000}, kOtherSilence{1'000'000};
@@ -29,13 +29,13 @@ MavlinkNode::MavlinkNode(Bus& bus, std::unique_ptr<Link> link, const UavSpec& ua
       begun_(bus.clock().now()),
       next_(begun_),
       next_status_(begun_) {
-  bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { bridge_.hear(setpoint); });
-  bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { bridge_.hear(m.committed); });
-  bus_.subscribe(channels::kPlan, [this](const Plan& plan) { bridge_.hear(plan); });
+  bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) { bridge_.receive(setpoint); });
+  bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { bridge_.receive(m.committed); });
+  bus_.subscribe(channels::kPlan, [this](const Plan& plan) { bridge_.receive(plan); });
   bus_.subscribe(channels::kGoal, [this](const Goal& goal) { on_goal(goal); });
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) { on_status(status); });
   bus_.subscribe(channels::kVehicleTruth, [this](const UavState& seen) {
-    if (seen.header.name.sender_epoch_us != bus_.epoch_us()) bridge_.hear_vision(seen);
+    if (seen.header.name.sender_epoch_us != bus_.epoch_us()) bridge_.receive_vision(seen);
   });
   bus_.subscribe(channels::kFlightResult, [this](const FlightResult&) { bridge_.land("the flight has ended"); });
 }
@@ -60,15 +60,15 @@ void MavlinkNode::on_goal(const Goal& goal) {
   const bool first = !goal_id_, news = !first && goal.id > *goal_id_;
   if (first || news) goal_id_ = goal.id;
   if (first && goal.mode == GoalMode::Go) bridge_.flight_is_under_way();
-  if (news && goal.mode == GoalMode::Go) bridge_.told_to_fly();
+  if (news && goal.mode == GoalMode::Go) bridge_.order_flight();
 }
 
 void MavlinkNode::on_status(const VehicleStatus& status) {
-  if (status.header.name.sender_epoch_us != bus_.epoch_us()) other_heard_ = bus_.clock().now();
+  if (status.header.name.sender_epoch_us != bus_.epoch_us()) other_received_ = bus_.clock().now();
 }
 
 bool MavlinkNode::alone(UTime now) const {
-  return now - begun_ >= kListenFirst && (!other_heard_ || now - *other_heard_ >= kOtherSilence);
+  return now - begun_ >= kListenFirst && (!other_received_ || now - *other_received_ >= kOtherSilence);
 }
 
 void MavlinkNode::exchange(UTime now) {
@@ -76,7 +76,7 @@ void MavlinkNode::exchange(UTime now) {
   while (const auto portion = link_->receive(now)) {
     const UTime came = portion->unix_us ? bus_.clock().at_system_time(*portion->unix_us) : now;
     received_ = std::max(received_, std::min(came, now));
-    for (const Frame& frame : parser_.push(portion->bytes, time)) bridge_.hear(frame, received_);
+    for (const Frame& frame : parser_.push(portion->bytes, time)) bridge_.receive(frame, received_);
     if (link_->datagrams()) parser_.drop_rest();
   }
   bridge_.step(now);
@@ -84,21 +84,21 @@ void MavlinkNode::exchange(UTime now) {
     signature_time_ = std::max(signature_time_ + 1, time);
     link_->send(to_bytes(frame, key_ ? &*key_ : nullptr, signature_time_));
   }
-  say_words();
+  log_lines();
 }
 
-void MavlinkNode::say_words() {
-  for (const std::string& words : link_->take_words()) spdlog::warn("{}", words);
-  for (const std::string& words : bridge_.take_words()) spdlog::info("{}", words);
+void MavlinkNode::log_lines() {
+  for (const std::string& words : link_->take_log_lines()) spdlog::warn("{}", words);
+  for (const std::string& words : bridge_.take_log_lines()) spdlog::info("{}", words);
 }
 
 void MavlinkNode::publish(UTime now) {
-  if (const auto state = bridge_.state(); state && state->at > said_state_) {
-    said_state_ = state->at;
+  if (const auto state = bridge_.state(); state && state->at > published_state_) {
+    published_state_ = state->at;
     bus_.publish(channels::kUavState, *state);
   }
-  if (const auto truth = bridge_.truth(); truth && truth->at > said_truth_) {
-    said_truth_ = truth->at;
+  if (const auto truth = bridge_.truth(); truth && truth->at > published_truth_) {
+    published_truth_ = truth->at;
     bus_.publish(channels::kVehicleTruth, *truth);
   }
   const VehicleStatus status = bridge_.status(now);
@@ -110,7 +110,7 @@ void MavlinkNode::publish(UTime now) {
 
 void MavlinkNode::step(UTime now) {
   if (now < next_) return;
-  next_ = now + kLook;
+  next_ = now + kPollPeriod;
   if (!alone(now)) return;
   exchange(now);
   publish(now);

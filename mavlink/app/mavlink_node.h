@@ -36,7 +36,7 @@ class MavlinkNode final : public Node {
   void on_status(const VehicleStatus& status);
   void exchange(UTime now);
   void publish(UTime now);
-  void say_words();
+  void log_lines();
   [[nodiscard]] bool alone(UTime now) const;
 
   Bus& bus_;
@@ -46,9 +46,9 @@ class MavlinkNode final : public Node {
   Bridge bridge_;
   UTime begun_, next_, next_status_;
   UTime received_;  ///< when the newest bytes came, at most now
-  std::optional<UTime> other_heard_;
+  std::optional<UTime> other_received_;
   std::optional<std::int64_t> goal_id_;
-  UTime said_state_, said_truth_;
+  UTime published_state_, published_truth_;
   bool followed_ = false;
   std::uint64_t signature_time_ = 0;
 };

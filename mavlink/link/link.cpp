@@ -21,7 +21,7 @@
 namespace tern::mavlink {
 namespace {
 
-constexpr std::size_t kLargest = 65'536;
+constexpr std::size_t kMaxDatagram = 65'536;
 constexpr Duration kPeerSilence{3'000'000};
 constexpr std::uint8_t kAutopilotComponent = 1, kInvalidAutopilot = 8;
 
@@ -36,12 +36,12 @@ bool introduces_autopilot(std::span<const std::uint8_t> bytes) {
 
 class UdpLink final : public Link {
  public:
-  /// @param peer  nullopt: who first introduces itself  @param hears_all  and not the peer alone
-  UdpLink(Descriptor socket, std::optional<sockaddr_in> peer, bool hears_all)
-      : socket_(std::move(socket)), peer_(peer), fixed_(peer.has_value()), hears_all_(hears_all) {}
+  /// @param peer  nullopt: who first introduces itself  @param accepts_all  and not the peer alone
+  UdpLink(Descriptor socket, std::optional<sockaddr_in> peer, bool accepts_all)
+      : socket_(std::move(socket)), peer_(peer), fixed_(peer.has_value()), accepts_all_(accepts_all) {}
 
   std::optional<Portion> receive(UTime now) override {
-    Portion portion{Bytes(kLargest), {}};
+    Portion portion{Bytes(kMaxDatagram), {}};
     while (true) {
       sockaddr_in from{};
       const ssize_t n = receive_into(portion, from);
@@ -66,7 +66,7 @@ class UdpLink final : public Link {
 
  private:
   bool is_peer(const sockaddr_in& from, std::span<const std::uint8_t> bytes, UTime now) {
-    if (hears_all_) return true;
+    if (accepts_all_) return true;
     const bool same = peer_ && from.sin_port == peer_->sin_port && from.sin_addr.s_addr == peer_->sin_addr.s_addr;
     if (same || fixed_) return same;
     if ((peer_ && now - last_ < kPeerSilence) || !introduces_autopilot(bytes)) return false;
@@ -97,7 +97,7 @@ class UdpLink final : public Link {
 
   Descriptor socket_;
   std::optional<sockaddr_in> peer_;
-  bool fixed_, hears_all_;
+  bool fixed_, accepts_all_;
   UTime last_;
   std::int64_t strangers_ = 0;
 };
@@ -142,7 +142,7 @@ class SerialLink final : public Link {
   }
 
   [[nodiscard]] bool datagrams() const override { return false; }
-  std::vector<std::string> take_words() override { return std::exchange(words_, {}); }
+  std::vector<std::string> take_log_lines() override { return std::exchange(log_lines_, {}); }
 
  private:
   static bool is_gone() { return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR; }
@@ -153,7 +153,7 @@ class SerialLink final : public Link {
   }
 
   void lose(const std::string& why, UTime now) {
-    words_.push_back(fmt::format("{}: {}: it is opened again when it is back", path_, why));
+    log_lines_.push_back(fmt::format("{}: {}: it is opened again when it is back", path_, why));
     port_ = Descriptor();
     rest_.clear();
     pause_ = kFirstPause;
@@ -165,7 +165,7 @@ class SerialLink final : public Link {
     auto port = open_port(path_, speed_);
     if (port) {
       port_ = std::move(*port);
-      words_.push_back(path_ + ": opened again");
+      log_lines_.push_back(path_ + ": opened again");
       return;
     }
     pause_ = std::min(Duration{2 * pause_.us}, kLastPause);
@@ -179,7 +179,7 @@ class SerialLink final : public Link {
   Bytes rest_;  ///< of a frame, of which the port has taken the beginning
   UTime next_;  ///< look for the port
   Duration pause_{};
-  std::vector<std::string> words_;
+  std::vector<std::string> log_lines_;
 };
 
 /// The last ":NUMBER" of a text, and what is before it.

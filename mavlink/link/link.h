@@ -33,7 +33,7 @@ class Link {
   /// Datagrams of others than the peer, which were dropped.
   [[nodiscard]] virtual std::int64_t strangers() const { return 0; }
   /// Sentences for the log since the last call.
-  virtual std::vector<std::string> take_words() { return {}; }
+  virtual std::vector<std::string> take_log_lines() { return {}; }
 };
 
 /// udp://ADDRESS:PORT listens there, as PX4 expects it of a companion computer. The peer is who first sends an

@@ -60,15 +60,15 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
 }
 
 /// PX4 ends such texts by a tab, and cuts them where they are longer than a message.
-void SimulatedAutopilot::complain(const std::string& words) {
+void SimulatedAutopilot::send_warning(const std::string& words) {
   constexpr std::size_t kChunk = 50;
   const std::string text = words + "\t";
   ++text_id_;
   for (std::size_t at = 0; at < text.size(); at += kChunk) {
-    say(StatusText{.severity = 3,
-                   .text = text_of<kChunk>(text.substr(at)),
-                   .id = text.size() < kChunk ? std::uint16_t{0} : text_id_,
-                   .chunk_seq = static_cast<std::uint8_t>(at / kChunk)});
+    send(StatusText{.severity = 3,
+                    .text = text_of<kChunk>(text.substr(at)),
+                    .id = text.size() < kChunk ? std::uint16_t{0} : text_id_,
+                    .chunk_seq = static_cast<std::uint8_t>(at / kChunk)});
   }
 }
 
@@ -108,7 +108,7 @@ void SimulatedAutopilot::intend(Mode mode) {
 std::uint8_t SimulatedAutopilot::set_mode(int main, int sub, UTime now) {
   if (main == 6) {
     if (armed_ && !has_stream(now)) {
-      complain("Switching to Offboard is currently not available");
+      send_warning("Switching to Offboard is currently not available");
       return kRejected;
     }
     intend(Mode::Offboard);
@@ -121,7 +121,7 @@ std::uint8_t SimulatedAutopilot::set_mode(int main, int sub, UTime now) {
 }
 
 std::uint8_t SimulatedAutopilot::arm(UTime now) {
-  bool no_ground_station = !ground_station_heard_ || now - *ground_station_heard_ > kLinkLoss;
+  bool no_ground_station = !ground_station_received_ || now - *ground_station_received_ > kLinkLoss;
   if (is_ardupilot()) no_ground_station = false;
   std::string fault;
   if (parameters_["SIM_ARM_REFUSE"] != 0.0) fault = "Preflight Fail: Accel 0 uncalibrated";
@@ -129,8 +129,8 @@ std::uint8_t SimulatedAutopilot::arm(UTime now) {
   if (parameters_["NAV_DLL_ACT"] > 0.0 && no_ground_station) fault = "Preflight Fail: No connection to the GCS";
   const bool no_setpoints = !is_ardupilot() && mode_ == Mode::Offboard && !has_stream(now);
   if (!fault.empty() || no_setpoints || mode_ == Mode::Land) {
-    if (!fault.empty()) complain(fault);
-    complain("Arming denied: Resolve system health failures first");
+    if (!fault.empty()) send_warning(fault);
+    send_warning("Arming denied: Resolve system health failures first");
     return kRejected;
   }
   if (!armed_) {
@@ -144,17 +144,17 @@ std::uint8_t SimulatedAutopilot::arm(UTime now) {
 bool SimulatedAutopilot::has_position(UTime now) const {
   const auto value = [&](const char* name) { return parameters_.at(name); };
   if (is_busy(now)) return false;
-  const bool sees = value("EKF2_EV_CTRL") == 15.0 && vision_heard_ && now - *vision_heard_ < kVisionLoss;
+  const bool sees = value("EKF2_EV_CTRL") == 15.0 && vision_received_ && now - *vision_received_ < kVisionLoss;
   return value("EKF2_GPS_CTRL") != 0.0 || sees;
 }
 
-void SimulatedAutopilot::hear_vision(const Odometry& seen, UTime now) {
+void SimulatedAutopilot::receive_vision(const Odometry& seen, UTime now) {
   const bool known = seen.estimator_type == kUnknownSource || seen.estimator_type == kNaive ||
                      seen.estimator_type == kVision || seen.estimator_type == kVio;
   const auto finite = [](const auto& values) {
     return std::ranges::all_of(values, [](float x) { return std::isfinite(x); });
   };
-  if (known && seen.frame_id == kLocalNed && finite(seen.p) && finite(seen.q)) vision_heard_ = now;
+  if (known && seen.frame_id == kLocalNed && finite(seen.p) && finite(seen.q)) vision_received_ = now;
 }
 
 void SimulatedAutopilot::disarm() {
@@ -165,7 +165,7 @@ void SimulatedAutopilot::disarm() {
   if (!is_ardupilot()) intend(after_disarming_);
 }
 
-std::uint8_t SimulatedAutopilot::obey(const CommandLong& c, UTime now) {
+std::uint8_t SimulatedAutopilot::execute(const CommandLong& c, UTime now) {
   if (c.command == kSetMessageInterval) {
     if (!(c.param[0] >= 0.0F && c.param[0] < 1e6F && c.param[1] >= 1e3F && c.param[1] <= 1e7F)) return kDenied;
     auto& stream = streams_[static_cast<std::uint32_t>(c.param[0])];
@@ -174,12 +174,12 @@ std::uint8_t SimulatedAutopilot::obey(const CommandLong& c, UTime now) {
   }
   if (c.command == kRequestMessage) {
     if (c.param[0] == static_cast<float>(Heartbeat::kId)) {
-      say_stream(Heartbeat::kId, now);
+      send_stream(Heartbeat::kId, now);
       return kAccepted;
     }
     if (c.param[0] != static_cast<float>(GpsGlobalOrigin::kId)) return kUnsupported;
     if (parameters_["EKF2_GPS_CTRL"] == 0.0) return kDenied;
-    say_stream(GpsGlobalOrigin::kId, now);
+    send_stream(GpsGlobalOrigin::kId, now);
     return kAccepted;
   }
   if (is_busy(now)) return kRejected;
@@ -197,14 +197,14 @@ std::uint8_t SimulatedAutopilot::obey(const CommandLong& c, UTime now) {
   return kAccepted;
 }
 
-void SimulatedAutopilot::hear_command(const CommandLong& command, Address from, UTime now) {
-  CommandAck ack{.command = command.command, .result = obey(command, now)};
+void SimulatedAutopilot::receive_command(const CommandLong& command, Address from, UTime now) {
+  CommandAck ack{.command = command.command, .result = execute(command, now)};
   ack.target_system = from.system;
   ack.target_component = from.component;
   answers_.push_back({now + config_.answer_after, ack});
 }
 
-void SimulatedAutopilot::hear_target(const SetPositionTargetLocalNed& target, UTime now) {
+void SimulatedAutopilot::receive_target(const SetPositionTargetLocalNed& target, UTime now) {
   if (target.coordinate_frame != 1 || (target.type_mask & 0x01FFU) != 0) return;
   if (!last_target_ || now - *last_target_ > kOldTarget) streaming_since_ = now;
   last_target_ = now;
@@ -236,42 +236,42 @@ void SimulatedAutopilot::tune() {
   model_.tune(gains);
 }
 
-void SimulatedAutopilot::say_parameter(const std::string& name) {
+void SimulatedAutopilot::send_parameter(const std::string& name) {
   const auto found = parameters_.find(name);
   if (found == parameters_.end()) return;
   const bool integer = !is_ardupilot() && is_integer(name);
   const float value =
       integer ? std::bit_cast<float>(static_cast<std::int32_t>(found->second)) : static_cast<float>(found->second);
-  say(ParamValue{.param_value = value,
-                 .param_count = static_cast<std::uint16_t>(parameters_.size()),
-                 .param_id = text_of<16>(name),
-                 .param_type = integer ? kInt32 : kReal32});
+  send(ParamValue{.param_value = value,
+                  .param_count = static_cast<std::uint16_t>(parameters_.size()),
+                  .param_id = text_of<16>(name),
+                  .param_type = integer ? kInt32 : kReal32});
 }
 
-void SimulatedAutopilot::hear(const Frame& frame, UTime now) {
+void SimulatedAutopilot::receive(const Frame& frame, UTime now) {
   const auto mine = [](std::uint8_t system, std::uint8_t component) {
     return system == kSelf.system && (component == 0 || component == kSelf.component);
   };
-  if (const auto m = from_frame<Heartbeat>(frame); m && m->type == kGroundStation) ground_station_heard_ = now;
+  if (const auto m = from_frame<Heartbeat>(frame); m && m->type == kGroundStation) ground_station_received_ = now;
   if (const auto m = from_frame<CommandLong>(frame); m && mine(m->target_system, m->target_component)) {
-    hear_command(*m, frame.from, now);
+    receive_command(*m, frame.from, now);
   }
   if (const auto m = from_frame<SetPositionTargetLocalNed>(frame)) {
-    if (m->target_system == 0 || mine(m->target_system, m->target_component)) hear_target(*m, now);
+    if (m->target_system == 0 || mine(m->target_system, m->target_component)) receive_target(*m, now);
   }
-  if (const auto m = from_frame<Odometry>(frame)) hear_vision(*m, now);
+  if (const auto m = from_frame<Odometry>(frame)) receive_vision(*m, now);
   if (const auto m = from_frame<Timesync>(frame); m && m->tc1 == 0) {
-    say(Timesync{.tc1 = static_cast<std::int64_t>(clock_us(now)) * 1000, .ts1 = m->ts1});
+    send(Timesync{.tc1 = static_cast<std::int64_t>(clock_us(now)) * 1000, .ts1 = m->ts1});
   }
   if (const auto m = from_frame<ParamRequestRead>(frame); m && mine(m->target_system, m->target_component)) {
-    say_parameter(words_of(m->param_id));
+    send_parameter(string_of(m->param_id));
   }
   if (const auto m = from_frame<ParamSet>(frame); m && mine(m->target_system, m->target_component)) {
-    const std::string name = words_of(m->param_id);
+    const std::string name = string_of(m->param_id);
     const bool integer = !is_ardupilot() && is_integer(name);
     if (!is_ardupilot() && m->param_type != (integer ? kInt32 : kReal32)) return;
     set_parameter(name, integer ? std::bit_cast<std::int32_t>(m->param_value) : static_cast<double>(m->param_value));
-    say_parameter(name);
+    send_parameter(name);
   }
 }
 
@@ -281,7 +281,7 @@ void SimulatedAutopilot::watch_offboard(UTime now) {
   if (lost == failsafe_) return;
   failsafe_ = lost;
   if (!lost) return enter(Mode::Offboard);
-  complain("Failsafe activated");
+  send_warning("Failsafe activated");
   const int action = static_cast<int>(parameters_["COM_OBL_RC_ACT"]);
   enter(action == 4 ? Mode::Land : action == 5 ? Mode::Loiter : Mode::Position);
 }
@@ -339,7 +339,7 @@ void SimulatedAutopilot::fly(UTime now) {
 void SimulatedAutopilot::step(UTime now) {
   watch_offboard(now);
   fly(now);
-  say_streams(now);
+  send_streams(now);
 }
 
 }  // namespace tern::mavlink

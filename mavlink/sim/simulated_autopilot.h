@@ -67,7 +67,7 @@ class SimulatedAutopilot {
  public:
   SimulatedAutopilot(const SimulatedAutopilotConfig& config, std::uint64_t seed, UTime now);
 
-  void hear(const Frame& frame, UTime now);
+  void receive(const Frame& frame, UTime now);
   void step(UTime now);
   std::vector<Frame> take_frames() { return std::exchange(out_, {}); }
   [[nodiscard]] const QuadrotorModel& model() const { return model_; }
@@ -84,8 +84,8 @@ class SimulatedAutopilot {
     UTime due;
     CommandAck ack;
   };
-  void hear_command(const CommandLong& command, Address from, UTime now);
-  [[nodiscard]] std::uint8_t obey(const CommandLong& command, UTime now);
+  void receive_command(const CommandLong& command, Address from, UTime now);
+  [[nodiscard]] std::uint8_t execute(const CommandLong& command, UTime now);
   [[nodiscard]] std::uint8_t set_mode(int main, int sub, UTime now);
   [[nodiscard]] std::uint8_t arm(UTime now);
   void disarm();
@@ -101,24 +101,24 @@ class SimulatedAutopilot {
   [[nodiscard]] std::uint8_t take_off(float above_home, UTime now);
   void fly_guided(UTime t);
   void begin_streams(UTime now);
-  void hear_vision(const Odometry& seen, UTime now);
-  void hear_target(const SetPositionTargetLocalNed& target, UTime now);
+  void receive_vision(const Odometry& seen, UTime now);
+  void receive_target(const SetPositionTargetLocalNed& target, UTime now);
   void set_parameter(const std::string& name, double value);
   void tune();
-  void say_parameter(const std::string& name);
+  void send_parameter(const std::string& name);
   void watch_offboard(UTime now);
   void fly(UTime now);
-  void say_streams(UTime now);
-  void say_stream(std::uint32_t id, UTime now);
-  void say_odometry();
-  void say_truth();
-  void complain(const std::string& words);
+  void send_streams(UTime now);
+  void send_stream(std::uint32_t id, UTime now);
+  void send_odometry();
+  void send_truth();
+  void send_warning(const std::string& words);
   [[nodiscard]] std::uint64_t clock_us(UTime now) const;
   [[nodiscard]] bool has_stream(UTime now) const;
   [[nodiscard]] bool has_position(UTime now) const;
   [[nodiscard]] std::uint32_t custom_mode() const;
   template <class M>
-  void say(const M& message) {
+  void send(const M& message) {
     out_.push_back(to_frame(message, kSelf, sequence_++));
   }
 
@@ -133,7 +133,7 @@ class SimulatedAutopilot {
   UavState command_;
   UavState target_;  ///< the newest setpoint, local ENU
   std::optional<UTime> streaming_since_, last_target_, landed_since_, ramp_since_;
-  std::optional<UTime> ground_station_heard_, vision_heard_;
+  std::optional<UTime> ground_station_received_, vision_received_;
   UTime armed_since_;
   double home_up_ = 0.0;                ///< of the estimate's frame
   std::optional<double> takes_off_to_;  ///< of the estimate's frame

@@ -53,7 +53,7 @@ std::uint32_t SimulatedAutopilot::custom_mode() const {
   return 0;
 }
 
-void SimulatedAutopilot::say_odometry() {
+void SimulatedAutopilot::send_odometry() {
   const UavState estimate = model_.estimate();
   const Eigen::Quaterniond q = swapped(model_.truth().q);
   Odometry m;
@@ -66,10 +66,10 @@ void SimulatedAutopilot::say_odometry() {
   m.frame_id = is_ardupilot() ? kLocalFrd : kLocalNed;
   m.child_frame_id = 12;
   m.reset_counter = static_cast<std::uint8_t>(model_.resets());
-  say(m);
+  send(m);
 }
 
-void SimulatedAutopilot::say_truth() {
+void SimulatedAutopilot::send_truth() {
   const VehicleTruth truth = model_.truth();
   constexpr double kMetres = 6'371'000.0 * std::numbers::pi / 180.0 * 1e-7;  // per unit of latitude
   const double shrink = std::cos(kLatitude * 1e-7 * std::numbers::pi / 180.0);
@@ -81,62 +81,62 @@ void SimulatedAutopilot::say_truth() {
   m.alt = kAltitude + static_cast<std::int32_t>(std::lround(truth.motion.p.z() * 1e3));
   const Vec3 v = 100.0 * swapped(truth.motion.v);
   for (int k = 0; k < 3; ++k) m.v[idx(k)] = static_cast<std::int16_t>(std::lround(std::clamp(v[k], -3e4, 3e4)));
-  say(m);
+  send(m);
 }
 
-void SimulatedAutopilot::say_stream(std::uint32_t id, UTime now) {
+void SimulatedAutopilot::send_stream(std::uint32_t id, UTime now) {
   const UavState estimate = model_.estimate();
   const auto boot_ms = static_cast<std::uint32_t>(clock_us(estimate.at) / 1000);
   const bool on_ground = model_.truth().on_ground;
   if (is_ardupilot() && (id == EstimatorStatus::kId || id == HilStateQuaternion::kId)) return;
   switch (id) {
     case GlobalPositionInt::kId:
-      return say(GlobalPositionInt{
+      return send(GlobalPositionInt{
           .time_boot_ms = boot_ms,
           .relative_alt = static_cast<std::int32_t>(std::lround(1e3 * (estimate.motion.p.z() - home_up_)))});
     case Heartbeat::kId:
-      return say(Heartbeat{.custom_mode = custom_mode(),
-                           .type = 2,
-                           .autopilot = is_ardupilot() ? kArduPilot : kPx4,
-                           .base_mode = static_cast<std::uint8_t>(1 | (armed_ ? kArmedBit : 0)),
-                           .system_status = !armed_     ? kStandby
-                                            : failsafe_ ? kCritical
-                                                        : kActive});
+      return send(Heartbeat{.custom_mode = custom_mode(),
+                            .type = 2,
+                            .autopilot = is_ardupilot() ? kArduPilot : kPx4,
+                            .base_mode = static_cast<std::uint8_t>(1 | (armed_ ? kArmedBit : 0)),
+                            .system_status = !armed_     ? kStandby
+                                             : failsafe_ ? kCritical
+                                                         : kActive});
     case SysStatus::kId:
-      return say(SysStatus{.voltage_battery = 15'000,
-                           .battery_remaining = static_cast<std::int8_t>(std::lround(100.0 * battery_))});
+      return send(SysStatus{.voltage_battery = 15'000,
+                            .battery_remaining = static_cast<std::int8_t>(std::lround(100.0 * battery_))});
     case ExtendedSysState::kId:
-      return say(ExtendedSysState{.landed_state = static_cast<std::uint8_t>(on_ground             ? 1
-                                                                            : mode_ == Mode::Land ? 4
-                                                                            : is_taking_off()     ? 3
-                                                                                                  : 2)});
+      return send(ExtendedSysState{.landed_state = static_cast<std::uint8_t>(on_ground             ? 1
+                                                                             : mode_ == Mode::Land ? 4
+                                                                             : is_taking_off()     ? 3
+                                                                                                   : 2)});
     case EstimatorStatus::kId:
-      return say(EstimatorStatus{.time_usec = clock_us(now),
-                                 .ratios = {0.1F, 0.1F, 0.1F, 0.1F, 0.0F, 0.0F},
-                                 .pos_horiz_accuracy = static_cast<float>(config_.estimator.position_sigma_m),
-                                 .pos_vert_accuracy = static_cast<float>(config_.estimator.position_sigma_m),
-                                 .flags = has_position(now) ? kAllAiding : kAttitudeAlone});
+      return send(EstimatorStatus{.time_usec = clock_us(now),
+                                  .ratios = {0.1F, 0.1F, 0.1F, 0.1F, 0.0F, 0.0F},
+                                  .pos_horiz_accuracy = static_cast<float>(config_.estimator.position_sigma_m),
+                                  .pos_vert_accuracy = static_cast<float>(config_.estimator.position_sigma_m),
+                                  .flags = has_position(now) ? kAllAiding : kAttitudeAlone});
     case LocalPositionNed::kId:
-      return say(LocalPositionNed{boot_ms, ned_of(estimate.motion.p), ned_of(estimate.motion.v)});
+      return send(LocalPositionNed{boot_ms, ned_of(estimate.motion.p), ned_of(estimate.motion.v)});
     case AttitudeQuaternion::kId:
-      return say(AttitudeQuaternion{boot_ms, wxyz_of(swapped(model_.truth().q)), rates_frd(model_.truth().w), {}});
-    case Timesync::kId: return say(Timesync{.ts1 = static_cast<std::int64_t>(clock_us(now)) * 1000});
+      return send(AttitudeQuaternion{boot_ms, wxyz_of(swapped(model_.truth().q)), rates_frd(model_.truth().w), {}});
+    case Timesync::kId: return send(Timesync{.ts1 = static_cast<std::int64_t>(clock_us(now)) * 1000});
     case GpsGlobalOrigin::kId:
-      return say(GpsGlobalOrigin{.latitude = kLatitude, .longitude = kLongitude, .altitude = kAltitude});
-    case Odometry::kId: return say_odometry();
-    case HilStateQuaternion::kId: return say_truth();
+      return send(GpsGlobalOrigin{.latitude = kLatitude, .longitude = kLongitude, .altitude = kAltitude});
+    case Odometry::kId: return send_odometry();
+    case HilStateQuaternion::kId: return send_truth();
     default: return;
   }
 }
 
-void SimulatedAutopilot::say_streams(UTime now) {
+void SimulatedAutopilot::send_streams(UTime now) {
   for (auto& [id, stream] : streams_) {
     if (now < stream.next) continue;
-    say_stream(id, now);
+    send_stream(id, now);
     stream.next = std::max(stream.next + stream.period, now - stream.period);
   }
   while (!answers_.empty() && answers_.front().due <= now) {
-    say(answers_.front().ack);
+    send(answers_.front().ack);
     answers_.pop_front();
   }
 }

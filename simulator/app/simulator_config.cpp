@@ -6,10 +6,10 @@ namespace tern {
 namespace {
 
 /// Of what happens again and again, Hz: periods stay far from the end of time.
-constexpr double kLeastRate = 1e-3;
+constexpr double kMinRate = 1e-3;
 
 /// The words of a text that spaces or commas separate.
-std::vector<std::string> words_of(std::string text) {
+std::vector<std::string> split_words(std::string text) {
   for (char& c : text) {
     if (c == ',') c = ' ';
   }
@@ -22,7 +22,7 @@ std::vector<std::string> words_of(std::string text) {
 SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
   SensorConfig sensor;
   sensor.seed = seed;
-  sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::at_least(kLeastRate, 100.0), "frames per second");
+  sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::at_least(kMinRate, 100.0), "frames per second");
   const std::string mode =
       section.choice("mode", "truth", {"none", "truth", "noisy"},
                      "`none`: no sensor; `truth`: everything at once, with ids; `noisy`: by the keys below, which only "
@@ -70,7 +70,7 @@ SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed)
   config.declare = section.flag("declare", config.declare, "publish DECLARED_MOTIONS; false: perception only");
   const std::string needed = section.text("wait_for", "tern-executor, tern-predictor, tern-mapper, tern-planner",
                                           "processes that world time waits for, separated by spaces or commas; `none`");
-  config.wait_for = needed == "none" ? std::vector<std::string>{} : words_of(needed);
+  config.wait_for = needed == "none" ? std::vector<std::string>{} : split_words(needed);
   config.wait = Duration::from_seconds(
       section.number("wait_s", config.wait.seconds(), Range::positive(3600.0), "for so long, s"));
   config.max_clock_skew = Duration::from_seconds(

@@ -19,9 +19,9 @@ constexpr Duration kStatePeriod{10'000};
 constexpr Duration kStatusPeriod{100'000};
 constexpr Duration kGoalPeriod{1'000'000};
 /// Held up for longer than this, a vehicle has lost setpoints, or hears them too late to have flown them.
-constexpr Duration kMissed{400'000};
+constexpr Duration kMaxStepGap{400'000};
 /// UAV_STATE comes several times in it.
-constexpr Duration kLookAround{50'000};
+constexpr Duration kResumeDelay{50'000};
 /// What this process said is back by then, or was lost.
 constexpr Duration kEcho{300'000};
 constexpr Duration kResultPeriod{200'000};
@@ -69,14 +69,14 @@ SimulatorNode::SimulatorNode(Bus& bus, const Scenario& scenario, World world, st
   bus_.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
   bus_.subscribe(channels::kSetpoint, [this](const UavState& setpoint) {
     const UTime now = bus_.received();
-    if (!has_missed(now) && now >= follows_from_) vehicle_->hear(setpoint);
+    if (!has_missed_setpoints(now) && now >= resumes_at_) vehicle_->receive(setpoint);
   });
-  bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->hear(m.committed); });
-  bus_.subscribe(channels::kPlan, [this](const Plan& plan) { vehicle_->hear(plan); });
-  if (config.external) hear_external_vehicle();
+  bus_.subscribe(channels::kHorizonRequest, [this](const HorizonRequest& m) { vehicle_->receive(m.committed); });
+  bus_.subscribe(channels::kPlan, [this](const Plan& plan) { vehicle_->receive(plan); });
+  if (config.external) subscribe_to_external_vehicle();
   bus_.subscribe(channels::kVehicleStatus, [this](const VehicleStatus& status) {
     const bool is_own = status.header.name.sender_epoch_us == bus_.epoch_us();
-    if (is_own && behind_since_ && status.at >= *behind_since_) behind_since_.reset();
+    if (is_own && catching_up_since_ && status.at >= *catching_up_since_) catching_up_since_.reset();
   });
   bus_.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) { on_heartbeat(heartbeat); });
 }
@@ -85,24 +85,24 @@ UTime SimulatorNode::next_wakeup() const {
   return std::min({next_state_, next_goal_, next_status_, next_result_, broadcast_.next_wakeup()});
 }
 
-void SimulatorNode::hear_external_vehicle() {
+void SimulatorNode::subscribe_to_external_vehicle() {
   auto& external = dynamic_cast<ExternalVehicle&>(*vehicle_);
-  bus_.subscribe(channels::kVehicleTruth, [&external](const UavState& state) { external.hear_truth(state); });
-  bus_.subscribe(channels::kUavState, [&external](const UavState& state) { external.hear_estimate(state); });
+  bus_.subscribe(channels::kVehicleTruth, [&external](const UavState& state) { external.receive_truth(state); });
+  bus_.subscribe(channels::kUavState, [&external](const UavState& state) { external.receive_estimate(state); });
 }
 
-bool SimulatorNode::has_missed(UTime now) const { return now - last_step_ > kMissed; }
+bool SimulatorNode::has_missed_setpoints(UTime now) const { return now - last_step_ > kMaxStepGap; }
 
-bool SimulatorNode::catches_up(UTime now) {
-  if (now - last_step_ > kSetpointSilence) behind_since_ = next_status_ = now;
-  if (has_missed(now)) follows_from_ = now + kLookAround;
-  if (behind_since_ && now - *behind_since_ >= kEcho) behind_since_.reset();
+bool SimulatorNode::is_catching_up(UTime now) {
+  if (now - last_step_ > kSetpointSilence) catching_up_since_ = next_status_ = now;
+  if (has_missed_setpoints(now)) resumes_at_ = now + kResumeDelay;
+  if (catching_up_since_ && now - *catching_up_since_ >= kEcho) catching_up_since_.reset();
   last_step_ = now;
-  return behind_since_.has_value();
+  return catching_up_since_.has_value();
 }
 
 void SimulatorNode::step(UTime now) {
-  const bool behind = catches_up(now) && !config_.external;
+  const bool behind = is_catching_up(now) && !config_.external;
   if (!world_zero_ && !result_) wait_for_processes(now);
   const bool due = now >= next_state_;
   const bool beat = due && !behind;
@@ -136,12 +136,12 @@ std::string SimulatorNode::missing(UTime now) const {
 void SimulatorNode::wait_for_processes(UTime now) {
   const std::string missing = this->missing(now);
   if (missing.empty()) {
-    world_zero_ = whole_ms(now + (config_.declare ? kCountdown : kLooksAround));
+    world_zero_ = whole_ms(now + (config_.declare ? kCountdown : kLookAroundTime));
     next_status_ = std::min(next_status_, *world_zero_);
     broadcast_.start(*world_zero_, now);
     spdlog::info("everyone is ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
-    const double from_s = config_.declare ? 0.0 : -kLooksAround.seconds();
-    for (const std::string& who : referee_.who_passes_the_start(from_s)) {
+    const double from_s = config_.declare ? 0.0 : -kLookAroundTime.seconds();
+    for (const std::string& who : referee_.passing_the_start(from_s)) {
       spdlog::warn("{} passes through the vehicle while that waits: contacts count from world time 0", who);
     }
     if (const std::string clocks = gate_.clocks(); !clocks.empty()) {
@@ -155,10 +155,10 @@ void SimulatorNode::wait_for_processes(UTime now) {
 }
 
 void SimulatorNode::on_heartbeat(const Heartbeat& heartbeat) {
-  gate_.hear(heartbeat, bus_.received());
+  gate_.receive(heartbeat, bus_.received());
   const std::string skewed = gate_.skewed();
-  if (!skewed.empty() && !said_skewed_) spdlog::error("{}", skewed);
-  said_skewed_ = !skewed.empty();
+  if (!skewed.empty() && !logged_skewed_) spdlog::error("{}", skewed);
+  logged_skewed_ = !skewed.empty();
 }
 
 void SimulatorNode::on_map(const MapChunk& chunk) {
@@ -200,7 +200,7 @@ bool SimulatorNode::has_begun(UTime now) const { return world_zero_ && now >= *w
 std::string SimulatorNode::why_not_flying(UTime now) const {
   if (result_) return "the flight has ended";
   if (!world_zero_ || now < *world_zero_) return "world time has not begun";
-  if (now < follows_from_) return "the simulator was held up";
+  if (now < resumes_at_) return "the simulator was held up";
   return "";
 }
 
@@ -213,7 +213,7 @@ void SimulatorNode::publish_status(UTime now) {
   bus_.publish(channels::kVehicleStatus, status);
   next_status_ = next_tick(next_status_, kStatusPeriod, now);
   if (world_zero_ && now < *world_zero_) next_status_ = std::min(next_status_, *world_zero_);
-  if (now < follows_from_) next_status_ = std::min(next_status_, follows_from_);
+  if (now < resumes_at_) next_status_ = std::min(next_status_, resumes_at_);
 }
 
 void SimulatorNode::admit(UTime now) {

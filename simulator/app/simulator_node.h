@@ -50,7 +50,7 @@ class SimulatorNode final : public Node {
   [[nodiscard]] std::optional<UTime> world_zero() const { return world_zero_; }
 
  private:
-  void hear_external_vehicle();
+  void subscribe_to_external_vehicle();
   void on_heartbeat(const Heartbeat& heartbeat);
   void on_goal(const Goal& goal);
   void on_map(const MapChunk& chunk);
@@ -61,9 +61,9 @@ class SimulatorNode final : public Node {
   void publish_status(UTime now);
   [[nodiscard]] bool has_begun(UTime now) const;
   /// Whether setpoints may have been missed: no step for long.
-  [[nodiscard]] bool has_missed(UTime now) const;
+  [[nodiscard]] bool has_missed_setpoints(UTime now) const;
   /// Whether messages of the time in which this process was held up may still be on their way to it.
-  [[nodiscard]] bool catches_up(UTime now);
+  [[nodiscard]] bool is_catching_up(UTime now);
   [[nodiscard]] std::string why_not_flying(UTime now) const;
   void admit(UTime now);
   void judge(UTime now);
@@ -83,9 +83,9 @@ class SimulatorNode final : public Node {
   std::optional<FlightResult> result_;
   int exit_code_ = 0;
   int results_left_ = 0;
-  bool said_skewed_ = false;
-  UTime last_step_, follows_from_;
-  std::optional<UTime> behind_since_;  ///< held up until then, and not everything sent before was heard
+  bool logged_skewed_ = false;
+  UTime last_step_, resumes_at_;
+  std::optional<UTime> catching_up_since_;  ///< held up until then, and not everything sent before was heard
   UTime next_state_, next_truth_, next_goal_, next_status_, next_result_ = kNever;
 };
 

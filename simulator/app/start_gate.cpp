@@ -15,21 +15,21 @@ double milliseconds(Duration d) { return static_cast<double>(d.us) * 1e-3; }
 
 }  // namespace
 
-void StartGate::hear(const Heartbeat& heartbeat, UTime received) {
-  Heard& heard = heard_[heartbeat.process];
+void StartGate::receive(const Heartbeat& heartbeat, UTime received) {
+  ProcessReport& report = reports_[heartbeat.process];
   const std::int64_t epoch_us = heartbeat.header.name.sender_epoch_us;
-  if (heard.epoch_us != epoch_us) heard.skew = {};
-  heard.at = received;
-  heard.state = heartbeat.state;
-  heard.waiting_for = heartbeat.waiting_for;
-  heard.epoch_us = epoch_us;
+  if (report.epoch_us != epoch_us) report.skew = {};
+  report.at = received;
+  report.state = heartbeat.state;
+  report.waiting_for = heartbeat.waiting_for;
+  report.epoch_us = epoch_us;
   for (const ClockEcho& echo : heartbeat.echoes) {
-    if (echo.sender_epoch_us == own_epoch_us_) heard.skew.add(echo, heartbeat.header.utime, received);
+    if (echo.sender_epoch_us == own_epoch_us_) report.skew.add(echo, heartbeat.header.utime, received);
   }
 }
 
-std::string StartGate::skew_of(const Heard& heard) const {
-  const auto reading = heard.skew.reading();
+std::string StartGate::skew_of(const ProcessReport& report) const {
+  const auto reading = report.skew.reading();
   if (!reading) return "";
   const bool behind = reading->ahead < Duration{};
   const Duration skew = behind ? reading->ahead * -1 : reading->ahead;
@@ -42,15 +42,16 @@ std::string StartGate::skew_of(const Heard& heard) const {
 
 bool StartGate::records(UTime now) const {
   if (std::find(needed_.begin(), needed_.end(), kRecorder) == needed_.end()) return true;
-  const auto found = heard_.find(kRecorder);
-  return found != heard_.end() && found->second.state == ProcessState::Ready && now - found->second.at <= kHeartbeatAge;
+  const auto found = reports_.find(kRecorder);
+  return found != reports_.end() && found->second.state == ProcessState::Ready &&
+         now - found->second.at <= kHeartbeatAge;
 }
 
 std::string StartGate::missing(UTime now) const {
   std::string text;
   for (const std::string& name : needed_) {
-    const auto found = heard_.find(name);
-    if (found == heard_.end()) {
+    const auto found = reports_.find(name);
+    if (found == reports_.end()) {
       append(text, name, "not heard");
     } else if (now - found->second.at > kHeartbeatAge) {
       append(text, name, "no longer heard");
@@ -68,7 +69,7 @@ std::string StartGate::missing(UTime now) const {
 std::string StartGate::skewed() const {
   std::string text;
   for (const std::string& name : needed_) {
-    if (const auto found = heard_.find(name); found != heard_.end()) append(text, name, skew_of(found->second));
+    if (const auto found = reports_.find(name); found != reports_.end()) append(text, name, skew_of(found->second));
   }
   return text;
 }
@@ -76,8 +77,8 @@ std::string StartGate::skewed() const {
 std::string StartGate::clocks() const {
   std::string text;
   for (const std::string& name : needed_) {
-    const auto found = heard_.find(name);
-    if (found == heard_.end()) continue;
+    const auto found = reports_.find(name);
+    if (found == reports_.end()) continue;
     const auto reading = found->second.skew.reading();
     if (!reading) continue;
     text += fmt::format("{}{} {:+.1f} ms (round trip {:.1f} ms)", text.empty() ? "" : ", ", name,

@@ -34,7 +34,7 @@ class StartGate {
       : needed_(std::move(needed)), own_epoch_us_(own_epoch_us), max_skew_(max_skew) {}
 
   /// @param received  when the network delivered it, the listener's clock
-  void hear(const Heartbeat& heartbeat, UTime received);
+  void receive(const Heartbeat& heartbeat, UTime received);
   [[nodiscard]] bool open(UTime now) const { return missing(now).empty(); }
   /// Who is not ready, and what each is waiting for: "tern-planner (waits for a map), tern-mapper (not heard)". Empty
   /// when everyone is ready.
@@ -48,19 +48,19 @@ class StartGate {
   [[nodiscard]] std::string clocks() const;
 
  private:
-  struct Heard {
+  struct ProcessReport {
     UTime at;
     ProcessState state = ProcessState::Starting;
     std::string waiting_for;
     std::int64_t epoch_us = 0;  ///< a process that was started anew may run by another clock
     ClockSkew skew;
   };
-  [[nodiscard]] std::string skew_of(const Heard& heard) const;
+  [[nodiscard]] std::string skew_of(const ProcessReport& heard) const;
 
   std::vector<std::string> needed_;
   std::int64_t own_epoch_us_;
   Duration max_skew_;
-  std::map<std::string, Heard> heard_;
+  std::map<std::string, ProcessReport> reports_;
 };
 
 }  // namespace tern

@@ -46,7 +46,7 @@ World never_moving(const World& world) {
 
 /// Why the world's motions cannot be declared; empty: they can.
 std::string undeclarable(const World& world) {
-  const PresentAtOnce present = most_present(world, kDeclaredPast);
+  const PresentCount present = max_present(world, kDeclaredPast);
   if (pieces_for_each(present.moving, present.resting) == 0) {
     return fmt::format(
         "{} obstacles at once, more than the {} that DECLARED_MOTIONS holds (simulator.declare: false leaves them to "
@@ -64,7 +64,7 @@ std::string undeclarable(const World& world) {
 }
 
 CoarseMotions coarse_enough(const World& world) {
-  const PresentAtOnce present = most_present(world, kDeclaredPast);
+  const PresentCount present = max_present(world, kDeclaredPast);
   const std::size_t pieces = pieces_for_each(present.moving, present.resting);
   return coarse_motions(world, kDeclaredPast + kDeclaredAhead, std::max<std::size_t>(pieces, 1));
 }
@@ -158,13 +158,13 @@ void WorldBroadcast::publish_declared(UTime now, const Vec3& uav) {
   set.made_at = now;
   sort_by_reach(set.tracks, uav, now, kDeclaredAhead);
   std::vector<TrackSet> batches = split_batches(set);
-  say_left_out(batches.front().left_out, set.tracks.size());
+  report_left_out(batches.front().left_out, set.tracks.size());
   bus_.publish_paced(channels::kDeclaredMotions, std::move(batches));
   last_declared_ = now;
   std::erase_if(appearances_, [&](Duration t) { return world_zero_ + t <= now; });
 }
 
-void WorldBroadcast::say_left_out(std::int32_t left_out, std::size_t of) {
+void WorldBroadcast::report_left_out(std::int32_t left_out, std::size_t of) {
   const bool is_new = left_out > 0 && trouble_.empty();
   trouble_.clear();
   if (left_out > 0) trouble_ = fmt::format("{} of {} motions do not fit into DECLARED_MOTIONS", left_out, of);

@@ -48,7 +48,7 @@ class WorldBroadcast {
  private:
   void publish_observations(UTime now, const MotionHistory& uav);
   void publish_declared(UTime now, const Vec3& uav);
-  void say_left_out(std::int32_t left_out, std::size_t of);
+  void report_left_out(std::int32_t left_out, std::size_t of);
   void publish_truth(UTime now);
   [[nodiscard]] bool is_before_world(UTime t) const;
   [[nodiscard]] UTime declared_due() const;

@@ -35,7 +35,7 @@ void Referee::admit(double t_s, const std::function<Vec3(double)>& vehicle) {
   left_out_ += appearances_.admit(world_, t_s, vehicle);
 }
 
-std::vector<std::string> Referee::who_passes_the_start(double from_s) const {
+std::vector<std::string> Referee::passing_the_start(double from_s) const {
   const BodyDistance distance(uav_.body);
   std::set<std::int64_t> passers;
   const int steps = static_cast<int>(std::ceil(-from_s * 1e6 / kStepUs));
@@ -75,7 +75,7 @@ void Referee::step(const FlownPiece& piece, double t0_s, double t1_s) {
   const auto contact = clearance_.advance(piece, t0_s, end_s);
   if (contact) end_s = contact->time_s;
   const auto scrape = map_clearance_ ? map_clearance_->advance(piece, t0_s, end_s) : std::nullopt;
-  if (map_clearance_) least_map_clearance_m_ = std::min(least_map_clearance_m_, map_clearance_->min_clearance());
+  if (map_clearance_) min_map_clearance_m_ = std::min(min_map_clearance_m_, map_clearance_->min_clearance());
   if (scrape) end_s = scrape->time_s;
   limits_.advance(piece, t0_s, end_s);
   if (goal_ && !first_entry_s_) first_entry_s_ = first_entry(piece, t0_s, end_s, *goal_);
@@ -165,7 +165,7 @@ FlightResult Referee::result_so_far() const {
   }
   result.top_speed_mps = measures_.top_speed_mps();
   result.min_clearance_m = std::isfinite(clearance_.min_clearance()) ? clearance_.min_clearance() : kNaN;
-  result.min_map_clearance_m = std::isfinite(least_map_clearance_m_) ? least_map_clearance_m_ : kNaN;
+  result.min_map_clearance_m = std::isfinite(min_map_clearance_m_) ? min_map_clearance_m_ : kNaN;
   result.jerk_integral = measures_.jerk_integral();
   result.stops = measures_.stops();
   result.limit_violations = limits_.violations();

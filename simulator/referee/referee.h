@@ -51,7 +51,7 @@ class Referee {
 
   /// Names of those that overlap the body at the scenario's start within [from_s, 0), world time, every 10 ms: while
   /// all wait, what is on its way passes through it. No contact counts before 0.
-  [[nodiscard]] std::vector<std::string> who_passes_the_start(double from_s) const;
+  [[nodiscard]] std::vector<std::string> passing_the_start(double from_s) const;
 
   /// The vehicle flew `piece` from world time `start` on. After the verdict nothing is taken any more.
   /// @throws std::invalid_argument unless start is where the last piece ended (0 at first), duration > 0, coefficients
@@ -87,7 +87,7 @@ class Referee {
   ClearanceWatch clearance_;
   World map_;  ///< its boxes as obstacles at rest
   std::optional<ClearanceWatch> map_clearance_;
-  double least_map_clearance_m_ = std::numeric_limits<double>::infinity();
+  double min_map_clearance_m_ = std::numeric_limits<double>::infinity();
   LimitWatch limits_;
   FlightMeasures measures_;
   Duration now_;

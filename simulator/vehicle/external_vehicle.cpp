@@ -15,24 +15,24 @@ ExternalVehicle::ExternalVehicle(const UavSpec& uav, UTime now) : truth_(uav.sta
 }
 
 void ExternalVehicle::append(const UavState& state) {
-  if (!heard_) {
+  if (!has_state_) {
     truth_ = MotionHistory(state.motion.p, state.at);
   } else if (state.at <= newest_.at) {
     return;
   } else {
     truth_.append(hermite_piece(newest_.motion, state.motion, state.at - newest_.at));
   }
-  heard_ = true;
+  has_state_ = true;
   newest_ = state;
 }
 
-void ExternalVehicle::hear_truth(const UavState& state) {
-  truth_heard_ = true;
+void ExternalVehicle::receive_truth(const UavState& state) {
+  has_truth_ = true;
   append(state);
 }
 
-void ExternalVehicle::hear_estimate(const UavState& state) {
-  if (!truth_heard_) append(state);
+void ExternalVehicle::receive_estimate(const UavState& state) {
+  if (!has_truth_) append(state);
 }
 
 void ExternalVehicle::advance(UTime now) { truth_.forget_before(now - kRemembered); }

@@ -14,13 +14,13 @@ class ExternalVehicle final : public Vehicle {
   ExternalVehicle(const UavSpec& uav, UTime now);
 
   /// A state that is not after the last one is ignored.
-  void hear_truth(const UavState& state);
+  void receive_truth(const UavState& state);
   /// Counts only until a truth was heard.
-  void hear_estimate(const UavState& state);
+  void receive_estimate(const UavState& state);
 
-  void hear(const UavState&) override {}
-  void hear(const TimedSpline&) override {}
-  void hear(const Plan&) override {}
+  void receive(const UavState&) override {}
+  void receive(const TimedSpline&) override {}
+  void receive(const Plan&) override {}
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return truth_; }
   [[nodiscard]] UavState true_state() const override { return newest_; }
@@ -32,7 +32,7 @@ class ExternalVehicle final : public Vehicle {
   void append(const UavState& state);
   MotionHistory truth_;
   UavState newest_;
-  bool heard_ = false, truth_heard_ = false;
+  bool has_state_ = false, has_truth_ = false;
 };
 
 }  // namespace tern

@@ -27,7 +27,7 @@ Vec3 FlightController::commanded_acceleration(const FlightCommand& command, cons
 }
 
 Vec3 FlightController::thrust_for(const Vec3& acceleration) const {
-  const double most = 4.0 * body_.largest_thrust();
+  const double most = 4.0 * body_.max_thrust();
   Vec3 thrust = body_.mass_kg * (acceleration + Vec3(0.0, 0.0, kGravity));
   thrust.z() = std::clamp(thrust.z(), body_.least_thrust * most, most);
   const double sideways =

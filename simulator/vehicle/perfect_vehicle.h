@@ -14,9 +14,9 @@ class PerfectVehicle final : public Vehicle {
  public:
   PerfectVehicle(const UavSpec& uav, UTime now) : limits_(uav.limits), command_(uav.start, now, uav.limits) {}
 
-  void hear(const UavState& setpoint) override { command_.hear(setpoint); }
-  void hear(const TimedSpline& committed) override { command_.hear(committed); }
-  void hear(const Plan& plan) override { command_.hear(plan); }
+  void receive(const UavState& setpoint) override { command_.receive(setpoint); }
+  void receive(const TimedSpline& committed) override { command_.receive(committed); }
+  void receive(const Plan& plan) override { command_.receive(plan); }
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return command_.settled(); }
   [[nodiscard]] UavState true_state() const override { return state_at(truth().end()); }

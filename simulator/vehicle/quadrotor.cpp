@@ -121,7 +121,7 @@ QuadrotorState hovering(const QuadrotorSpec& spec, const Vec3& p, double yaw) {
 
 QuadrotorState standing(const QuadrotorSpec& spec, const Vec3& p, double yaw) {
   QuadrotorState state = hovering(spec, p, yaw);
-  state.thrust.fill(spec.least_thrust * spec.largest_thrust());
+  state.thrust.fill(spec.least_thrust * spec.max_thrust());
   state.on_ground = true;
   return state;
 }
@@ -145,7 +145,7 @@ Wrench wrench_of(const QuadrotorSpec& spec, const Rotors& thrust) {
 }
 
 Rotors allocate(const QuadrotorSpec& spec, const Wrench& wanted) {
-  const double high = spec.largest_thrust(), low = spec.least_thrust * high;
+  const double high = spec.max_thrust(), low = spec.least_thrust * high;
   Rotors tilt{}, turn{};
   for (std::size_t k = 0; k < 4; ++k) {
     tilt[k] = (wanted.torque.x() * kLeft[k] - wanted.torque.y() * kForward[k]) / (4.0 * spec.arm_m);

@@ -43,9 +43,7 @@ struct QuadrotorSpec {
     v("drag_up_per_s", drag_up_per_s, Range{0.0, 10.0}, "linear drag per mass along the rotors' axes, 1/s");
     v("drag_per_m", drag_per_m, Range{0.0, 10.0}, "quadratic drag per mass, 1/m");
   }
-  [[nodiscard]] double largest_thrust() const {
-    return thrust_to_weight * mass_kg * kGravity / 4.0;
-  }  ///< of a rotor, N
+  [[nodiscard]] double max_thrust() const { return thrust_to_weight * mass_kg * kGravity / 4.0; }  ///< of a rotor, N
 };
 
 /// Camera: 0.5 m from rotor to rotor, thrust/weight 2: 3DR's Iris as PX4's Gazebo models it, with the slower of its two

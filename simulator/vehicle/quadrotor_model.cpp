@@ -50,7 +50,7 @@ void QuadrotorModel::trim_for_wind() {
   for (int k = 0; k < kTrimSteps; ++k) {
     const Vec3 f = against + Vec3(0.0, 0.0, kGravity);
     state_.q = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), f);
-    state_.thrust.fill(std::min(config_.body.mass_kg * f.norm() / 4.0, config_.body.largest_thrust()));
+    state_.thrust.fill(std::min(config_.body.mass_kg * f.norm() / 4.0, config_.body.max_thrust()));
     against -= acceleration(config_.body, state_, mean);
   }
   controller_.trim(against);
@@ -84,7 +84,7 @@ FlightEstimate QuadrotorModel::believed() const {
 void QuadrotorModel::step_once() {
   const double dt = kVehicleStep.seconds();
   Rotors rotors;
-  rotors.fill(config_.body.least_thrust * config_.body.largest_thrust());
+  rotors.fill(config_.body.least_thrust * config_.body.max_thrust());
   if (armed_) {
     rotors = controller_.update(commanded(), believed(), dt);
   } else {
@@ -100,7 +100,7 @@ void QuadrotorModel::step_once() {
 void QuadrotorModel::advance(UTime now) {
   while (time_ + kVehicleStep <= now) {
     step_once();
-    if (latency_ > Duration{}) unsaid_.push_back(estimate());
+    if (latency_ > Duration{}) delayed_.push_back(estimate());
   }
 }
 
@@ -127,11 +127,11 @@ UavState QuadrotorModel::estimate() const {
   return state;
 }
 
-std::optional<UavState> QuadrotorModel::said_estimate() {
+std::optional<UavState> QuadrotorModel::delayed_estimate() {
   if (latency_ <= Duration{}) return estimate();
-  while (unsaid_.size() > 1 && unsaid_[1].at <= time_ - latency_) unsaid_.pop_front();
-  if (unsaid_.empty() || unsaid_.front().at > time_ - latency_) return std::nullopt;
-  return unsaid_.front();
+  while (delayed_.size() > 1 && delayed_[1].at <= time_ - latency_) delayed_.pop_front();
+  if (delayed_.empty() || delayed_.front().at > time_ - latency_) return std::nullopt;
+  return delayed_.front();
 }
 
 }  // namespace tern

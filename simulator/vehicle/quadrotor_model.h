@@ -70,7 +70,7 @@ class QuadrotorModel {
   /// What the controller takes for the truth, now: the estimator's errors, no latency. yaw from q.
   [[nodiscard]] UavState estimate() const;
   /// The newest estimate that has been said by now: of latency_s ago. @return nullopt before the first
-  [[nodiscard]] std::optional<UavState> said_estimate();
+  [[nodiscard]] std::optional<UavState> delayed_estimate();
   /// Other gains from now on.
   void tune(const FlightControllerSpec& gains) { controller_.tune(gains); }
   /// The estimator resets itself by so many metres.
@@ -95,7 +95,7 @@ class QuadrotorModel {
   bool armed_ = true;
   std::optional<UavState> command_;
   UavState start_;  // at rest there
-  std::deque<UavState> unsaid_;
+  std::deque<UavState> delayed_;
 };
 
 }  // namespace tern

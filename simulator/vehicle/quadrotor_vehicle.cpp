@@ -19,8 +19,8 @@ QuadrotorVehicle::QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& fl
       command_(uav.start, now, uav.limits),
       truth_(uav.start, now),
       newest_{.p = uav.start} {
-  said_.at = now;
-  said_.motion.p = uav.start;
+  published_.at = now;
+  published_.motion.p = uav.start;
 }
 
 void QuadrotorVehicle::advance(UTime now) {
@@ -55,8 +55,8 @@ UavState QuadrotorVehicle::true_state() const {
 }
 
 UavState QuadrotorVehicle::estimate(UTime) {
-  if (const auto said = model_.said_estimate()) said_ = *said;
-  return said_;
+  if (const auto said = model_.delayed_estimate()) published_ = *said;
+  return published_;
 }
 
 VehicleStatus QuadrotorVehicle::status(UTime now) const {

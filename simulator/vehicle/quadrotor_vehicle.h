@@ -23,9 +23,9 @@ class QuadrotorVehicle final : public Vehicle {
  public:
   QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& flight, std::uint64_t seed, UTime now);
 
-  void hear(const UavState& setpoint) override { command_.hear(setpoint); }
-  void hear(const TimedSpline& committed) override { command_.hear(committed); }
-  void hear(const Plan& plan) override { command_.hear(plan); }
+  void receive(const UavState& setpoint) override { command_.receive(setpoint); }
+  void receive(const TimedSpline& committed) override { command_.receive(committed); }
+  void receive(const Plan& plan) override { command_.receive(plan); }
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return truth_; }
   [[nodiscard]] UavState true_state() const override;
@@ -40,7 +40,7 @@ class QuadrotorVehicle final : public Vehicle {
   CommandedMotion command_;
   MotionHistory truth_;
   MotionSample newest_;  // at truth_.end()
-  UavState said_;
+  UavState published_;
 };
 
 }  // namespace tern

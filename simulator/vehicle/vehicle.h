@@ -11,7 +11,7 @@ namespace tern {
 /// A simulated vehicle: body, controller and state estimator. Pure: times are arguments and never go back; whatever is
 /// random comes from a seed. Before its first setpoint it stays where the scenario starts it, at rest.
 ///
-/// The node calls hear() for each message as it comes, and at 100 Hz advance(now), then the others. Times are the
+/// The node calls receive() for each message as it comes, and at 100 Hz advance(now), then the others. Times are the
 /// vehicle's clock.
 class Vehicle {
  public:
@@ -19,11 +19,11 @@ class Vehicle {
 
   /// A SETPOINT came. Its `at` may be some ms before the time of the next advance() or, with another host's clock,
   /// ahead of it. Messages may be lost, and late. executor/commanded_motion.h makes a command at any time of this.
-  virtual void hear(const UavState& setpoint) = 0;
+  virtual void receive(const UavState& setpoint) = 0;
   /// A HORIZON_REQUEST came with the trajectory that the executor has committed to: what to fly when setpoints cease.
-  virtual void hear(const TimedSpline& committed) = 0;
+  virtual void receive(const TimedSpline& committed) = 0;
   /// A PLAN came: what the executor will probably commit to next.
-  virtual void hear(const Plan& plan) = 0;
+  virtual void receive(const Plan& plan) = 0;
 
   /// The body moves on. What it truly did is then known until truth().end(). That may lag behind `now` by a few
   /// setpoints' time, but never stands still; nothing is judged beyond it, nor beyond `now`.

@@ -98,8 +98,8 @@ CoarseMotions coarse_motions(const World& world, Duration window, std::size_t pi
   return coarse;
 }
 
-PresentAtOnce most_present(const World& world, Duration after) {
-  PresentAtOnce most;
+PresentCount max_present(const World& world, Duration after) {
+  PresentCount most;
   std::size_t always = 0;
   std::vector<std::pair<double, int>> changes;  // at a time, arrivals before departures
   for (const WorldObstacle& o : world.obstacles) {

@@ -31,11 +31,11 @@ using CoarseMotions = std::map<std::int64_t, CoarseMotion>;
 CoarseMotions coarse_motions(const World& world, Duration window, std::size_t pieces);
 
 /// How many obstacles can be in one declaration at most.
-struct PresentAtOnce {
+struct PresentCount {
   std::size_t moving = 0, resting = 0;
 };
 
 /// Counts those that vanish while they are present and for `after` more. O(n log n).
-PresentAtOnce most_present(const World& world, Duration after);
+PresentCount max_present(const World& world, Duration after);
 
 }  // namespace tern

@@ -11,7 +11,7 @@
 namespace tern {
 namespace {
 
-constexpr std::int64_t kLongestPieceUs = 2'000'000;
+constexpr std::int64_t kMaxPieceUs = 2'000'000;
 constexpr std::int64_t kEverUs = std::numeric_limits<std::int64_t>::max() / 4;
 
 /// An interval of world time.
@@ -193,8 +193,8 @@ Track static_track(const WorldObstacle& obstacle, UTime from, UTime to) {
 
 Duration fit_piece(const ObstacleBounds& bounds) {
   const double h = std::pow(384.0 * kFitError / bounds.fourth.maxCoeff(), 0.25);
-  constexpr std::int64_t kMostUnits = kLongestPieceUs / kGridUnit.us;
-  const double units = std::min(std::floor(h * 1e6 / kGridUnit.us), static_cast<double>(kMostUnits));
+  constexpr std::int64_t kMaxUnits = kMaxPieceUs / kGridUnit.us;
+  const double units = std::min(std::floor(h * 1e6 / kGridUnit.us), static_cast<double>(kMaxUnits));
   return kGridUnit * std::max<std::int64_t>(1, static_cast<std::int64_t>(units));
 }
 

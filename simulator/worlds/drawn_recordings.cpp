@@ -21,7 +21,7 @@ constexpr int kMaxRedraws = 1000;
 constexpr double kStartSample = 0.01;    // s
 constexpr double kMeetingSample = 0.05;  // s
 // Of a copy's motion before world time 0, s: what the sensor sees of it, and points on both sides of that.
-constexpr double kBefore = kLooksAround.seconds() + 0.5;
+constexpr double kBefore = kLookAroundTime.seconds() + 0.5;
 
 /// Where someone is at file time t_s. @return nullopt if not there
 std::optional<Vec3> place_at(const RecordedTrack& track, double t_s) {
@@ -42,7 +42,7 @@ bool meets(const RecordedTrack& track, double t_s, const UavSpec& uav) {
     const double t = k * kMeetingSample;
     const auto place = place_at(track, t_s + t);
     const Vec3 vehicle = uav.start + (uav.goal - uav.start) * (bound > 0.0 ? t / bound : 0.0);
-    if (place && on_floor(*place, vehicle) < kMeeting) return true;
+    if (place && on_floor(*place, vehicle) < kMeetingDistance) return true;
   }
   return false;
 }
@@ -128,7 +128,7 @@ Result<double> draw_start(Rng& rng, const std::vector<RecordedTrack>& tracks, co
     if (met) return t;
   }
   return fail(fmt::format("{}: nobody comes within {} m of the straight way at any of {} moments from {} s to {} s",
-                          spec.file, kMeeting, kMaxDraws, first, last));
+                          spec.file, kMeetingDistance, kMaxDraws, first, last));
 }
 
 Result<ScatteredCopies> scatter_copies(Rng& rng, const std::vector<RecordedTrack>& tracks,

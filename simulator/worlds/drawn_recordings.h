@@ -12,7 +12,7 @@ namespace tern {
 
 /// Someone is met who comes this near on the floor, m, to a vehicle that flies straight from start to goal. It flies at
 /// even speed and arrives after the bound.
-inline constexpr double kMeeting = 1.0;
+inline constexpr double kMeetingDistance = 1.0;
 
 /// A whole frame of the recording at which a flight begins, drawn anew until somebody is met. Who leaves no room for a
 /// beginning (crowds_start) meets nobody. @return the time of the file, s; an Error after 10,000 draws.

@@ -12,7 +12,7 @@ namespace tern {
 
 /// Where nothing is declared, the sensor sees the world on its way for so long before world time 0. A vehicle looks
 /// around before it takes off, and learns how fast things are.
-inline constexpr Duration kLooksAround{1'500'000};
+inline constexpr Duration kLookAroundTime{1'500'000};
 
 /// Where an obstacle's centre is and how fast it goes, W.
 struct ObstacleState {
@@ -30,7 +30,7 @@ struct ObstacleBounds {
 /// An obstacle of the world: the spec of its motion, checked, with times rounded to whole µs (the world's clock).
 ///
 /// Time t is world time in seconds. Before t = 0 the world rests where it is at t = 0. Only the sensor of a world that
-/// is not declared sees it on its way there (kLooksAround, begins_s). For w = t/s and c, k, φ of the spec:
+/// is not declared sees it on its way there (kLookAroundTime, begins_s). For w = t/s and c, k, φ of the spec:
 ///   trefoil  c + (k_x (sin(w+φ) + 2 sin(2w+φ)), k_y (cos(w+φ) − 2 cos(2w+φ)), −k_z sin(3w+φ)), so that
 ///            |v| ≤ (5, 5, 3)·k/s, |a| ≤ (9, 9, 9)·k/s², |p⁗| ≤ (33, 33, 81)·k/s⁴ per axis;
 ///   wave     c + A sin(w+φ): |v| ≤ |A|/s, |a| ≤ |A|/s², |p⁗| ≤ |A|/s⁴;

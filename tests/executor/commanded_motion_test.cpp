@@ -38,13 +38,13 @@ class Flight {
     const UTime end = now_ + span;
     for (; now_ < end; now_ = now_ + kBeat) {
       if (const auto request = executor_.next_request(now_)) {
-        command_.hear(request->committed);
+        command_.receive(request->committed);
         executor_.consider(straight_plan(*request, Vec3(30.0, -4.0, 3.0)), now_ + Duration{5'000});
       }
       UTime at = now_ - kBeat;
       for (const CubicPiece& piece : executor_.pieces(at, now_).pieces) {
         at = at + piece.duration;
-        if (!lost()) command_.hear(setpoint(at, executor_.leaving(at)));
+        if (!lost()) command_.receive(setpoint(at, executor_.sample_after(at)));
       }
     }
   }
@@ -111,8 +111,8 @@ TEST(CommandedMotion, BrakesWithinTheLimitsFromASetpointThatIsOnNoCommittedCurve
     MotionSample before = moving;
     before.v -= h * moving.a;
     before.p -= h * moving.v - 0.5 * h * h * moving.a;
-    command.hear(setpoint(kZero + Duration{kBeat.us / 2}, before));
-    command.hear(setpoint(kZero + kBeat, moving));
+    command.receive(setpoint(kZero + Duration{kBeat.us / 2}, before));
+    command.receive(setpoint(kZero + kBeat, moving));
     command.settle(kZero + Duration{60'000'000});
     const MotionHistory& motion = command.settled();
     EXPECT_EQ(motion.sample(motion.end()).v, Vec3::Zero());
@@ -133,7 +133,7 @@ TEST(CommandedMotion, ATrajectoryThatDoesNotJoinTheCommittedOneIsNotTaken) {
   ASSERT_TRUE(flight.command_.is_committed());
   MotionSample elsewhere = flight.command_.sample(begins);
   elsewhere.v.x() += 0.5;
-  flight.command_.hear(braking_trajectory(elsewhere, begins, uav().limits));
+  flight.command_.receive(braking_trajectory(elsewhere, begins, uav().limits));
   const MotionSample there = flight.command_.sample(begins);
   EXPECT_EQ(there.v.x(), elsewhere.v.x() - 0.5);
 }
@@ -146,7 +146,7 @@ struct Turn {
       request = flight.executor_.next_request(flight.now_);
       if (!request) flight.fly(kBeat, [] { return false; });
     }
-    flight.command_.hear(request->committed);
+    flight.command_.receive(request->committed);
     plan = straight_plan(*request, Vec3(10.0, 20.0, 1.0));
   }
   [[nodiscard]] Vec3 planned_acceleration(UTime t) const {
@@ -164,7 +164,7 @@ TEST(CommandedMotion, LooksAheadAtAPlanBeforeItIsCommittedAndDoesNotFlyIt) {
   const UTime now = turn.request->t_s - Duration{1'000}, later = now + kLead;
   const MotionSample committed = flight.command_.sample(later);
   ASSERT_GT((turn.planned_acceleration(later) - committed.a).norm(), 0.5);
-  flight.command_.hear(turn.plan);
+  flight.command_.receive(turn.plan);
   EXPECT_EQ(flight.command_.acceleration_ahead(now, kLead), turn.planned_acceleration(later));
   const UTime before = turn.request->t_s - kLead - Duration{1'000};
   EXPECT_EQ(flight.command_.acceleration_ahead(before, kLead), flight.command_.sample(before + kLead).a);
@@ -175,7 +175,7 @@ TEST(CommandedMotion, LooksAheadAtAPlanBeforeItIsCommittedAndDoesNotFlyIt) {
 TEST(CommandedMotion, APlanThatWasNotCommittedIsForgottenWhenItWasToBegin) {
   Flight flight;
   const Turn turn(flight);
-  flight.command_.hear(turn.plan);
+  flight.command_.receive(turn.plan);
   for (UTime t = turn.request->t_s; t < turn.plan.trajectory.end() + kLead; t = t + kBeat) {
     EXPECT_EQ(flight.command_.acceleration_ahead(t, kLead), flight.command_.sample(t + kLead).a);
   }
@@ -184,7 +184,7 @@ TEST(CommandedMotion, APlanThatWasNotCommittedIsForgottenWhenItWasToBegin) {
 TEST(CommandedMotion, LooksBeyondTheEndOfAPlanThatIsShorterThanTheLead) {
   Flight flight;
   const Turn turn(flight);
-  flight.command_.hear(turn.plan);
+  flight.command_.receive(turn.plan);
   const Duration lead = turn.plan.trajectory.end() - turn.plan.trajectory.start + Duration{100'000};
   EXPECT_EQ(flight.command_.acceleration_ahead(turn.request->t_s - Duration{1'000}, lead), Vec3(Vec3::Zero()));
 }
@@ -193,8 +193,8 @@ TEST(CommandedMotion, WhatIsCommittedTakesThePlaceOfWhatWasPlanned) {
   Flight flight;
   const Turn turn(flight);
   const UTime now = turn.request->t_s - Duration{1'000};
-  flight.command_.hear(turn.plan);
-  flight.command_.hear(turn.request->committed);
+  flight.command_.receive(turn.plan);
+  flight.command_.receive(turn.request->committed);
   EXPECT_EQ(flight.command_.acceleration_ahead(now, kLead), flight.command_.sample(now + kLead).a);
 }
 
@@ -203,7 +203,7 @@ TEST(CommandedMotion, LooksAtNoPlanThatDoesNotJoinOrIsNone) {
   const Turn turn(flight);
   const auto looks_at = [&](const Plan& plan) {
     CommandedMotion command = flight.command_;
-    command.hear(plan);
+    command.receive(plan);
     const UTime now = turn.request->t_s - Duration{1'000};
     return command.acceleration_ahead(now, kLead) != command.sample(now + kLead).a;
   };
@@ -222,10 +222,10 @@ TEST(CommandedMotion, AfterASilenceAStreamThatIsFarOffIsFollowedWhenItHasGoneOn)
   UTime at = begins;
   for (; at < begins + Duration{500'000}; at = at + kBeat) {
     command.settle(at - kSetpointSilence);
-    command.hear(setpoint(at, there));
+    command.receive(setpoint(at, there));
     EXPECT_EQ(command.sample(at).p, Vec3::Zero());
   }
-  command.hear(setpoint(at, there));
+  command.receive(setpoint(at, there));
   EXPECT_EQ(command.sample(at).p, there.p);
 }
 
@@ -233,9 +233,9 @@ TEST(CommandedMotion, AfterASilenceAStreamThatIsNearIsFollowedAtOnce) {
   CommandedMotion command(Vec3::Zero(), kZero, uav().limits);
   const MotionSample there{.p = Vec3(0.05, 0.0, 0.0)};
   const UTime begins = kZero + Duration{1'000'000};
-  command.hear(setpoint(begins, there));
+  command.receive(setpoint(begins, there));
   EXPECT_EQ(command.sample(begins).p, Vec3::Zero());
-  command.hear(setpoint(begins + kBeat, there));
+  command.receive(setpoint(begins + kBeat, there));
   EXPECT_EQ(command.sample(begins + kBeat).p, there.p);
 }
 
@@ -243,7 +243,7 @@ TEST(CommandedMotion, ASetpointThatComesAfterItWasGivenUpForIsIgnored) {
   CommandedMotion command(Vec3::Zero(), kZero, uav().limits);
   EXPECT_TRUE(command.settle(kZero + kBeat * 5));
   EXPECT_FALSE(command.settle(kZero + kBeat * 5));
-  command.hear(setpoint(kZero + kBeat * 3, MotionSample{.p = Vec3(9, 9, 9)}));
+  command.receive(setpoint(kZero + kBeat * 3, MotionSample{.p = Vec3(9, 9, 9)}));
   EXPECT_EQ(command.sample(kZero + kBeat * 3).p, Vec3::Zero());
   EXPECT_EQ(command.settled().end(), kZero + kBeat * 5);
 }

@@ -25,17 +25,17 @@ TEST(PerfectVehicle, FollowsSetpointsThatComeLateAfterAll) {
   UavSpec uav;
   uav.start = Vec3::Zero();
   PerfectVehicle vehicle(uav, kStart);
-  const auto hear = [&](int from_cs, int to_cs) {
+  const auto receive = [&](int from_cs, int to_cs) {
     for (int cs = from_cs; cs <= to_cs; ++cs) {
       UavState setpoint;
       setpoint.at = kStart + Duration{10'000 * cs};
       setpoint.motion = path(0.01 * cs);
-      vehicle.hear(setpoint);
+      vehicle.receive(setpoint);
     }
   };
-  hear(1, 15);
+  receive(1, 15);
   vehicle.advance(kStart + Duration{340'000});
-  hear(16, 34);
+  receive(16, 34);
   vehicle.advance(kStart + Duration{350'000});
   for (double t = 0.0; t < 0.34; t += 0.003) {
     const MotionSample flown = vehicle.truth().sample(kStart + Duration::from_seconds(t));

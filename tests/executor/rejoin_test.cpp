@@ -38,19 +38,19 @@ Plan answer(const HorizonRequest& request, PlanOutcome outcome) {
 TEST(Rejoin, WhatWasPromisedIsTheTubeOfThePlanInForceNotTodays) {
   Executor executor = flying();
   executor.set_tube(Vec3::Constant(0.25));
-  EXPECT_EQ(executor.promised(kZero), Vec3::Constant(0.25)) << "of the next request";
+  EXPECT_EQ(executor.tube_at(kZero), Vec3::Constant(0.25)) << "of the next request";
   const auto first = executor.next_request(kZero);
   executor.consider(answer(*first, PlanOutcome::KeepCommitted), kZero + kMs * 10);
   executor.set_tube(Vec3::Constant(0.6));
-  EXPECT_EQ(executor.promised(first->t_s + kMs), Vec3::Constant(0.25)) << "errors that widen the tube do not excuse it";
+  EXPECT_EQ(executor.tube_at(first->t_s + kMs), Vec3::Constant(0.25)) << "errors that widen the tube do not excuse it";
   const auto second = executor.next_request(kZero + kMs * 50);
   EXPECT_EQ(second->tube, Vec3::Constant(0.6));
   executor.consider(answer(*second, PlanOutcome::NoPlan), kZero + kMs * 60);
-  EXPECT_EQ(executor.promised(second->t_s + kMs), Vec3::Constant(0.25)) << "nothing was certified for more";
+  EXPECT_EQ(executor.tube_at(second->t_s + kMs), Vec3::Constant(0.25)) << "nothing was certified for more";
   const auto third = executor.next_request(kZero + kMs * 100);
   executor.consider(answer(*third, PlanOutcome::KeepCommitted), kZero + kMs * 110);
-  EXPECT_EQ(executor.promised(third->t_s - kMs), Vec3::Constant(0.25));
-  EXPECT_EQ(executor.promised(third->t_s), Vec3::Constant(0.6));
+  EXPECT_EQ(executor.tube_at(third->t_s - kMs), Vec3::Constant(0.25));
+  EXPECT_EQ(executor.tube_at(third->t_s), Vec3::Constant(0.6));
 }
 
 TEST(Rejoin, AShareOfTheLimitsIsAskedForButNoLessThanIsFlown) {
@@ -111,12 +111,12 @@ TEST(Rejoin, WhatNoRequestHasToldTheVehicleIsTakenBack) {
   ASSERT_EQ(executor.consider(straight_plan(*request, Vec3(8.0, 0.0, 1.0)), kZero + kMs * 10).verdict,
             Verdict::Adopted);
   Executor told = executor;
-  EXPECT_FALSE(executor.take_back_untold(request->t_s + kMs)) << "setpoints have told the vehicle of it";
-  EXPECT_TRUE(executor.take_back_untold(request->t_s - kMs));
+  EXPECT_FALSE(executor.drop_unsent_plan(request->t_s + kMs)) << "setpoints have told the vehicle of it";
+  EXPECT_TRUE(executor.drop_unsent_plan(request->t_s - kMs));
   EXPECT_EQ(executor.committed().newest_start(), request->committed.start);
-  EXPECT_FALSE(executor.take_back_untold(request->t_s - kMs));
+  EXPECT_FALSE(executor.drop_unsent_plan(request->t_s - kMs));
   ASSERT_TRUE(told.next_request(kZero + kMs * 50));
-  EXPECT_FALSE(told.take_back_untold(request->t_s - kMs));
+  EXPECT_FALSE(told.drop_unsent_plan(request->t_s - kMs));
 }
 
 TEST(Rejoin, BrakingKeepsTheDynamicsWhereItCan) {

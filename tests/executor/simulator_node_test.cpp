@@ -371,7 +371,7 @@ TEST(SimulatorNode, WhoeverIsHeldUpTheVehicleDoesNotJumpAndArrives) {
         EXPECT_EQ(result.limit_violations, 0) << (is_executor ? "executor" : "simulator") << " held up for " << span_ms
                                               << " ms from " << begins_ms << ": " << result.detail;
         EXPECT_TRUE(span_ms > 200 || result.stops == 0) << span_ms << " ms from " << begins_ms;
-        EXPECT_EQ(flight.executor->exits(), 0) << "that is no error of tracking";
+        EXPECT_EQ(flight.executor->tube_exits(), 0) << "that is no error of tracking";
         EXPECT_TRUE(flight.requests.back().tube.isZero(0.0));
       }
     }
@@ -540,7 +540,7 @@ TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {
     EXPECT_EQ(flight.results.back().outcome, disturbance.arrives ? FlightOutcome::Reached : FlightOutcome::Timeout)
         << flight.results.back().detail;
     EXPECT_EQ(flight.results.back().limit_violations, 0);
-    EXPECT_EQ(flight.executor->exits() > 0, disturbance.leaves) << flight.executor->exits();
+    EXPECT_EQ(flight.executor->tube_exits() > 0, disturbance.leaves) << flight.executor->tube_exits();
     if (!disturbance.leaves) {
       EXPECT_EQ(flight.executor->counters().refused(), 0);
     }

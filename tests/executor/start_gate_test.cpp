@@ -44,12 +44,12 @@ struct Exchange {
 TEST(StartGate, OpensWhenEveryoneIsReadyAndSaysWhoIsNot) {
   StartGate gate({"tern-planner", "tern-mapper"}, kOwnEpoch);
   EXPECT_EQ(gate.missing(kNow), "tern-planner (not heard), tern-mapper (not heard)");
-  gate.hear(heartbeat("tern-mapper", ProcessState::Ready), kNow);
-  gate.hear(heartbeat("tern-planner", ProcessState::Waiting, "a map"), kNow);
+  gate.receive(heartbeat("tern-mapper", ProcessState::Ready), kNow);
+  gate.receive(heartbeat("tern-planner", ProcessState::Waiting, "a map"), kNow);
   EXPECT_EQ(gate.missing(kNow), "tern-planner (waits for a map)");
-  gate.hear(heartbeat("tern-planner", ProcessState::Starting), kNow);
+  gate.receive(heartbeat("tern-planner", ProcessState::Starting), kNow);
   EXPECT_EQ(gate.missing(kNow), "tern-planner (not ready)");
-  gate.hear(heartbeat("tern-planner", ProcessState::Ready), kNow);
+  gate.receive(heartbeat("tern-planner", ProcessState::Ready), kNow);
   EXPECT_TRUE(gate.open(kNow));
 }
 
@@ -57,17 +57,17 @@ TEST(StartGate, KnowsWhetherTheLogHoldsWhatIsPublished) {
   EXPECT_TRUE(StartGate({"tern-planner"}, kOwnEpoch).records(kNow)) << "nobody records";
   StartGate gate({"tern-planner", kRecorder}, kOwnEpoch);
   EXPECT_FALSE(gate.records(kNow));
-  gate.hear(heartbeat(kRecorder, ProcessState::Waiting, "CONFIGURATION of tern-planner"), kNow);
+  gate.receive(heartbeat(kRecorder, ProcessState::Waiting, "CONFIGURATION of tern-planner"), kNow);
   EXPECT_FALSE(gate.records(kNow));
   EXPECT_EQ(gate.missing(kNow), "tern-planner (not heard), tern-logger (waits for CONFIGURATION of tern-planner)");
-  gate.hear(heartbeat(kRecorder, ProcessState::Ready), kNow);
+  gate.receive(heartbeat(kRecorder, ProcessState::Ready), kNow);
   EXPECT_TRUE(gate.records(kNow));
   EXPECT_FALSE(gate.records(kNow + StartGate::kHeartbeatAge + kMs));
 }
 
 TEST(StartGate, ForgetsWhoIsNoLongerHeard) {
   StartGate gate({"tern-planner"}, kOwnEpoch);
-  gate.hear(heartbeat("tern-planner", ProcessState::Ready), kNow);
+  gate.receive(heartbeat("tern-planner", ProcessState::Ready), kNow);
   EXPECT_TRUE(gate.open(kNow + StartGate::kHeartbeatAge));
   EXPECT_EQ(gate.missing(kNow + StartGate::kHeartbeatAge + kMs), "tern-planner (no longer heard)");
 }
@@ -83,7 +83,7 @@ TEST(StartGate, IsClosedToAClockTooFarFromItsOwnAndSaysWhoseByHowMuchAndWhatToDo
                                            {12'500, "tern-planner (its clock is 12.5 ms ahead of" + rest}}) {
     StartGate gate({"tern-planner"}, kOwnEpoch);
     const Exchange exchange{Duration{skew_us}, Duration{200}, Duration{200}};
-    gate.hear(exchange.message(), exchange.received());
+    gate.receive(exchange.message(), exchange.received());
     EXPECT_EQ(gate.missing(exchange.received()), text);
     EXPECT_EQ(gate.skewed(), text);
   }
@@ -95,7 +95,7 @@ TEST(StartGate, NeverTakesADelayForSkewHoweverItIsSharedBetweenTheWays) {
       for (const std::int64_t skew_us : {-10'000, 0, 10'000}) {
         StartGate gate({"tern-planner"}, kOwnEpoch);
         const Exchange exchange{Duration{skew_us}, kMs * out_ms, kMs * back_ms};
-        gate.hear(exchange.message(), exchange.received());
+        gate.receive(exchange.message(), exchange.received());
         EXPECT_TRUE(gate.open(exchange.received())) << gate.missing(exchange.received());
       }
     }
@@ -105,7 +105,7 @@ TEST(StartGate, NeverTakesADelayForSkewHoweverItIsSharedBetweenTheWays) {
 TEST(StartGate, TellsOffsetAndDelayApart) {
   StartGate gate({"tern-planner"}, kOwnEpoch);
   const Exchange exchange{kMs * 5, kMs * 10, kMs * 10};
-  gate.hear(exchange.message(), exchange.received());
+  gate.receive(exchange.message(), exchange.received());
   EXPECT_EQ(gate.clocks(), "tern-planner +5.0 ms (round trip 20.0 ms)");
 }
 
@@ -113,7 +113,7 @@ TEST(StartGate, BelievesTheExchangeOfTheShortestRoundTrip) {
   StartGate gate({"tern-planner"}, kOwnEpoch);
   for (const Exchange& exchange :
        {Exchange{kMs * 20, kMs * 40, kMs}, Exchange{kMs * 20, kMs, kMs}, Exchange{kMs * 20, kMs, kMs * 40}}) {
-    gate.hear(exchange.message(), exchange.received());
+    gate.receive(exchange.message(), exchange.received());
   }
   EXPECT_EQ(gate.clocks(), "tern-planner +20.0 ms (round trip 2.0 ms)");
   EXPECT_FALSE(gate.open(kNow));
@@ -124,10 +124,10 @@ TEST(StartGate, IsClosedToAClockThatCannotBeCompared) {
   StartGate gate({"tern-planner"}, kOwnEpoch);
   Heartbeat message = heartbeat("tern-planner", ProcessState::Ready);
   message.echoes.pop_back();  // what it heard was another's
-  gate.hear(message, kNow);
+  gate.receive(message, kNow);
   EXPECT_EQ(gate.missing(kNow), text);
   const Exchange impossible{{}, kMs * -1, {}};
-  gate.hear(impossible.message(), impossible.received());
+  gate.receive(impossible.message(), impossible.received());
   EXPECT_EQ(gate.missing(kNow), text);
   EXPECT_EQ(gate.clocks(), "");
   EXPECT_EQ(gate.skewed(), "");
@@ -137,14 +137,14 @@ TEST(StartGate, NoticesAClockThatIsSetAndForgetsItWithItsProcess) {
   StartGate gate({"tern-planner"}, kOwnEpoch);
   const Exchange before{{}, Duration{200}, Duration{200}};
   const Exchange after{kMs * -50, Duration{300}, Duration{300}};
-  gate.hear(before.message(), kNow + before.held);
-  for (std::size_t k = 1; k < ClockSkew::kWindow; ++k) gate.hear(after.message(), after.received());
+  gate.receive(before.message(), kNow + before.held);
+  for (std::size_t k = 1; k < ClockSkew::kWindow; ++k) gate.receive(after.message(), after.received());
   EXPECT_TRUE(gate.open(kNow));
-  gate.hear(after.message(), after.received());
+  gate.receive(after.message(), after.received());
   EXPECT_FALSE(gate.open(kNow));
   Heartbeat anew = before.message();
   ++anew.header.name.sender_epoch_us;
-  gate.hear(anew, before.received());
+  gate.receive(anew, before.received());
   EXPECT_TRUE(gate.open(kNow));
 }
 

@@ -16,12 +16,12 @@ void blocked(Tube& tube, UTime at) {
   Plan plan;
   plan.outcome = PlanOutcome::KeepCommitted;
   plan.reason = PlanReason::GoalBlocked;
-  tube.answered(plan, true, at);
+  tube.on_answer(plan, true, at);
 }
 void flown(Tube& tube, UTime at) {
   Plan plan;
   plan.outcome = PlanOutcome::Optimized;
-  tube.answered(plan, false, at);
+  tube.on_answer(plan, false, at);
 }
 
 TEST(Tube, OfAPerfectVehicleIsNothing) {
@@ -35,7 +35,7 @@ TEST(Tube, OfAPerfectVehicleIsNothing) {
 
 TEST(Tube, OfAnyOtherBeginsWithWhatAWellTunedAutopilotNeeds) {
   Tube tube(0.0);
-  tube.saw(Vec3(0.0, 0.002, 0.0));
+  tube.note_error(Vec3(0.0, 0.002, 0.0));
   EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Constant(Tube::kMargin * Tube::kPriorError));
 }
 
@@ -43,7 +43,7 @@ TEST(Tube, IsNeverUnderItsFloorNorOverTheWidest) {
   Tube tube(0.4);
   EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3::Constant(0.4));
   tube.add(Vec3(0.1, 50.0, 0.0), false, UTime{1});
-  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3(0.4, kWidestTube, 0.4));
+  EXPECT_EQ(tube.width(Vec3::Zero(), kNow), Vec3(0.4, kMaxTube, 0.4));
 }
 
 TEST(Tube, CoversTheNextSecondMoreOftenThanTheQuantileAlone) {
@@ -77,9 +77,9 @@ TEST(Tube, AddsTheUncertaintyOfTheEstimate) {
 
 TEST(Tube, IsWiderAfterAnEventForAWhile) {
   Tube tube(0.2);
-  tube.left(kNow);
+  tube.add_exit(kNow);
   EXPECT_NEAR(tube.width(Vec3::Zero(), kNow).x(), 0.3, 1e-12);
-  EXPECT_NEAR(tube.width(Vec3::Zero(), kNow + Tube::kWidened).x(), 0.2, 1e-12);
+  EXPECT_NEAR(tube.width(Vec3::Zero(), kNow + Tube::kWidenedFor).x(), 0.2, 1e-12);
 }
 
 /// Of an error of 0.3 m in flight and 0.03 m at rest.
@@ -98,12 +98,12 @@ TEST(Tube, IsHalvedWithTheLimitsWhereTheStartIsBlockedDownToWhatIsMeasuredAtRest
   blocked(tube, at);
   EXPECT_NEAR(tube.width(Vec3::Zero(), kNow).x(), whole / 2.0, 1e-12);
   EXPECT_EQ(tube.share(), 0.5);
-  blocked(tube, at + Tube::kStep - Duration{1});
+  blocked(tube, at + Tube::kStepPeriod - Duration{1});
   EXPECT_EQ(tube.share(), 0.5) << "a plan that fails twenty times a second is one reason";
-  for (int k = 0; k < 10; ++k) blocked(tube, at = at + Tube::kStep);
+  for (int k = 0; k < 10; ++k) blocked(tube, at = at + Tube::kStepPeriod);
   EXPECT_NEAR(tube.width(Vec3::Zero(), kNow).x(), Tube::kTubeStep, 1e-12);
-  EXPECT_EQ(tube.share(), std::ldexp(1.0, -Tube::kMostHalvings));
-  for (int k = 0; k < Tube::kMostHalvings; ++k) flown(tube, at = at + Tube::kMostPatience);
+  EXPECT_EQ(tube.share(), std::ldexp(1.0, -Tube::kMaxHalvings));
+  for (int k = 0; k < Tube::kMaxHalvings; ++k) flown(tube, at = at + Tube::kMaxPatience);
   EXPECT_EQ(tube.width(Vec3::Zero(), kNow).x(), whole);
   EXPECT_EQ(tube.share(), 1.0);
 }
@@ -116,12 +116,12 @@ TEST(Tube, FliesSlowlyForAsLongAsAnOpeningMayBeAheadAndLongerWhereThatWasTooShor
   EXPECT_EQ(tube.share(), 0.5);
   flown(tube, at = at + Tube::kPatience * 2);
   EXPECT_EQ(tube.share(), 1.0);
-  blocked(tube, at = at + Tube::kStep);
+  blocked(tube, at = at + Tube::kStepPeriod);
   flown(tube, at + Tube::kPatience * 4 - Duration{1});
   EXPECT_EQ(tube.share(), 0.5) << "the step up was too soon: twice as long now";
   flown(tube, at = at + Tube::kPatience * 4);
   EXPECT_EQ(tube.share(), 1.0);
-  blocked(tube, at = at + Tube::kMostPatience);
+  blocked(tube, at = at + Tube::kMaxPatience);
   flown(tube, at + Tube::kPatience * 2);
   EXPECT_EQ(tube.share(), 1.0) << "that one lasted";
 }
@@ -135,11 +135,11 @@ TEST(Tube, PromisesNoLessThanWasMeasuredSoSlowly) {
 
 TEST(Tube, HoldsTheTruePlaceWhicheverSideOfAResetIsRight) {
   Tube tube(0.2);
-  tube.shifted(Vec3(0.5, -0.1, 0.0));
+  tube.add_shift(Vec3(0.5, -0.1, 0.0));
   EXPECT_LT((tube.width(Vec3::Zero(), kNow) - Vec3(0.7, 0.3, 0.2)).norm(), 1e-12);
-  tube.shifted(Vec3(-0.7, 0.0, 0.0));  // the sums are 0, 0.5 and -0.2
+  tube.add_shift(Vec3(-0.7, 0.0, 0.0));  // the sums are 0, 0.5 and -0.2
   EXPECT_LT((tube.width(Vec3::Zero(), kNow) - Vec3(0.9, 0.3, 0.2)).norm(), 1e-12);
-  tube.shifted(Vec3(0.2, 0.1, 0.0));
+  tube.add_shift(Vec3(0.2, 0.1, 0.0));
   EXPECT_LT((tube.width(Vec3::Zero(), kNow) - Vec3(0.7, 0.3, 0.2)).norm(), 1e-12) << "it may have been right before";
 }
 

@@ -114,7 +114,7 @@ TEST(ArduPilotManners, ASetpointEndsTheTakeOffAndLiftsNothing) {
   UTime now{3'000'000};
   const auto command = [&](CommandLong c) {
     c.target_system = 1;
-    autopilot.hear(to_frame(c, {255, 190}, 0), now);
+    autopilot.receive(to_frame(c, {255, 190}, 0), now);
   };
   const auto run = [&](double seconds) {
     for (const UTime end = now + Duration::from_seconds(seconds); now < end; now = now + Duration{2'000}) {
@@ -125,7 +125,7 @@ TEST(ArduPilotManners, ASetpointEndsTheTakeOffAndLiftsNothing) {
   command({.param = {1}, .command = kArmDisarm});
   ASSERT_TRUE(autopilot.armed());
   command({.param = {0, 0, 0, 0, 0, 0, 2}, .command = kNavTakeoff});
-  autopilot.hear(
+  autopilot.receive(
       to_frame(
           SetPositionTargetLocalNed{.p = {0, 0, -2}, .type_mask = 0x0800, .target_system = 1, .coordinate_frame = 1},
           {1, 191}, 0),

@@ -94,12 +94,12 @@ TEST(Bridge, RefusesParametersThatFlyAwayWhenTheLinkIsLost) {
   EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("COM_OBL_RC_ACT is 0, not within [4, 5]"));
   EXPECT_FALSE(flight.autopilot.armed());
   const auto set = [&](const char* name, std::int32_t value) {
-    flight.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(value),
-                                            .target_system = 1,
-                                            .param_id = text_of<16>(name),
-                                            .param_type = 6},
-                                   {255, 190}, 0),
-                          flight.now);
+    flight.autopilot.receive(to_frame(ParamSet{.param_value = std::bit_cast<float>(value),
+                                               .target_system = 1,
+                                               .param_id = text_of<16>(name),
+                                               .param_type = 6},
+                                      {255, 190}, 0),
+                             flight.now);
   };
   set("COM_OBL_RC_ACT", 4);
   flight.run(2.0);
@@ -125,7 +125,7 @@ TEST(Bridge, SaysWhyItIsNotArmed) {
   flight.set_parameter("SIM_ARM_REFUSE", 0.0F);
   flight.run(5.0);
   EXPECT_FALSE(flight.autopilot.armed()) << "it was not told again";
-  flight.bridge.told_to_fly();
+  flight.bridge.order_flight();
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
 }
 
@@ -142,7 +142,7 @@ TEST(Bridge, StandsBackWhenAPilotTakesOverUntilItIsToldAgain) {
   flight.bridge.land("the flight has ended");
   flight.run(3.0);
   EXPECT_EQ(flight.autopilot.mode(), "POSCTL") << "what somebody else flies is not landed";
-  flight.bridge.told_to_fly();
+  flight.bridge.order_flight();
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
   EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
 }
@@ -276,7 +276,7 @@ TEST(Bridge, DoesNotArmForAFlightThatIsUnderWay) {
   flight.run(8.0);
   EXPECT_EQ(flight.bridge.stage(), Stage::Ready);
   EXPECT_FALSE(flight.autopilot.armed());
-  flight.bridge.told_to_fly();
+  flight.bridge.order_flight();
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
 }
 
@@ -284,9 +284,9 @@ TEST(Bridge, StrangersChangeNothing) {
   FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   for (const Address stranger : {Address{2, 1}, Address{1, 2}, Address{255, 190}}) {
-    flight.bridge.hear(to_frame(Heartbeat{.custom_mode = 3U << 16U, .autopilot = 12}, stranger, 0), flight.now);
-    flight.bridge.hear(to_frame(SysStatus{.battery_remaining = 1}, stranger, 0), flight.now);
-    flight.bridge.hear(to_frame(LocalPositionNed{.time_boot_ms = 1, .p = {90, 90, 90}}, stranger, 0), flight.now);
+    flight.bridge.receive(to_frame(Heartbeat{.custom_mode = 3U << 16U, .autopilot = 12}, stranger, 0), flight.now);
+    flight.bridge.receive(to_frame(SysStatus{.battery_remaining = 1}, stranger, 0), flight.now);
+    flight.bridge.receive(to_frame(LocalPositionNed{.time_boot_ms = 1, .p = {90, 90, 90}}, stranger, 0), flight.now);
   }
   flight.run(1.0);
   EXPECT_TRUE(flight.following());
@@ -314,13 +314,13 @@ TEST(Bridge, TellsExternalVisionInTheAutopilotsFrameAndOnlyWhenAsked) {
     uav.start = Vec3(10, 20, 2);
     UTime now{1'000'000'000};
     Bridge bridge({.external_vision = asked}, uav, now);
-    bridge.hear(to_frame(Heartbeat{.autopilot = 12}, {1, 1}, 0), now);
+    bridge.receive(to_frame(Heartbeat{.autopilot = 12}, {1, 1}, 0), now);
     UavState seen;
     seen.at = now;
     seen.motion.p = Vec3(11, 22, 3);
     seen.motion.v = Vec3(0.5, 0, 0);
-    bridge.hear_vision(seen);
-    bridge.hear_vision(seen);
+    bridge.receive_vision(seen);
+    bridge.receive_vision(seen);
     std::vector<Odometry> told;
     for (const Frame& frame : bridge.take_frames()) {
       if (const auto m = from_frame<Odometry>(frame)) told.push_back(*m);
@@ -338,17 +338,17 @@ TEST(Autopilot, TakesTheTruthThatStatesNoTimeForWhenItCameButNoneWithoutAnOrigin
   const HilStateQuaternion hil{.q = {1, 0, 0, 0}, .lat = 473977418, .lon = 85455938, .alt = 488'500};
   UTime now{1'000'000'000};
   Autopilot autopilot;
-  const auto hear = [&](const auto& message) { autopilot.hear(to_frame(message, {1, 1}, 0), now); };
-  hear(Heartbeat{.autopilot = 12});
-  hear(hil);
+  const auto receive = [&](const auto& message) { autopilot.receive(to_frame(message, {1, 1}, 0), now); };
+  receive(Heartbeat{.autopilot = 12});
+  receive(hil);
   EXPECT_FALSE(autopilot.truth()) << "above where, is not known yet";
-  hear(GpsGlobalOrigin{.latitude = 473977418, .longitude = 85455938, .altitude = 488'000});
-  hear(hil);
+  receive(GpsGlobalOrigin{.latitude = 473977418, .longitude = 85455938, .altitude = 488'000});
+  receive(hil);
   ASSERT_TRUE(autopilot.truth());
   EXPECT_EQ(autopilot.truth()->at, now);
   EXPECT_LT((autopilot.truth()->motion.p - Vec3(0.0, 0.0, 0.5)).norm(), 1e-6);
   now = now + Duration{10'000};
-  hear(HilStateQuaternion{.q = {1, 0, 0, 0}});
+  receive(HilStateQuaternion{.q = {1, 0, 0, 0}});
   EXPECT_LT(autopilot.truth()->at, now) << "a simulation that does not know yet where it is";
 }
 
@@ -356,13 +356,13 @@ TEST(Autopilot, TakesTheTruthThatStatesNoTimeForWhenItCameButNoneWithoutAnOrigin
 TEST(Autopilot, TakesNoTruthWhosePositionIsThatOfBefore) {
   UTime now{1'000'000'000};
   Autopilot autopilot;
-  const auto hear = [&](const auto& message) { autopilot.hear(to_frame(message, {1, 1}, 0), now); };
-  hear(Heartbeat{.autopilot = 12});
-  hear(GpsGlobalOrigin{.latitude = 473977418, .longitude = 85455938, .altitude = 488'000});
+  const auto receive = [&](const auto& message) { autopilot.receive(to_frame(message, {1, 1}, 0), now); };
+  receive(Heartbeat{.autopilot = 12});
+  receive(GpsGlobalOrigin{.latitude = 473977418, .longitude = 85455938, .altitude = 488'000});
   int taken = 0;
   for (int k = 0; k < 30; ++k, now = now + Duration{10'000}) {
     const std::int32_t mm = 60 * (k - k % 3);  // upwards at 6 m/s
-    hear(HilStateQuaternion{
+    receive(HilStateQuaternion{
         .q = {1, 0, 0, 0}, .lat = 473977418, .lon = 85455938, .alt = 488'500 + mm, .v = {0, 0, -600}});
     ASSERT_TRUE(autopilot.truth());
     const UavState& truth = *autopilot.truth();
@@ -372,7 +372,7 @@ TEST(Autopilot, TakesNoTruthWhosePositionIsThatOfBefore) {
   }
   EXPECT_EQ(taken, 10);
   const HilStateQuaternion rests{.q = {1, 0, 0, 0}, .lat = 473977418, .lon = 85455938, .alt = 490'120};
-  for (int k = 0; k < 3; ++k, now = now + Duration{10'000}) hear(rests);
+  for (int k = 0; k < 3; ++k, now = now + Duration{10'000}) receive(rests);
   EXPECT_EQ(autopilot.truth()->at, now - Duration{10'000}) << "who rests is where it was";
 }
 
@@ -381,8 +381,8 @@ TEST(Bridge, AnswersToOthersAreNoneOfItsOwn) {
   flight.set_parameter("SIM_ARM_REFUSE", 1.0F);
   ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Engaging; }));
   const auto say = [&](std::uint8_t result, std::uint8_t component) {
-    flight.bridge.hear(to_frame(CommandAck{.command = 400, .result = result, .target_component = component}, {1, 1}, 0),
-                       flight.now);
+    flight.bridge.receive(
+        to_frame(CommandAck{.command = 400, .result = result, .target_component = component}, {1, 1}, 0), flight.now);
   };
   say(2, 190);
   say(5, 0);

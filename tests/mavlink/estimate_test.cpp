@@ -36,7 +36,7 @@ TEST(Estimate, AVehicleWhoseEstimatorHasLostItsPositionIsNotFollowing) {
   FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   flight.hides = [](const Frame& f) { return f.id == EstimatorStatus::kId; };
-  const auto say_lost = [&] { flight.bridge.hear(to_frame(EstimatorStatus{.flags = 1}, {1, 1}, 0), flight.now); };
+  const auto say_lost = [&] { flight.bridge.receive(to_frame(EstimatorStatus{.flags = 1}, {1, 1}, 0), flight.now); };
   say_lost();
   EXPECT_TRUE(flight.following()) << "a fault of an input takes the flags for a moment";
   flight.run(0.5);

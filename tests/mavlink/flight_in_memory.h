@@ -60,14 +60,15 @@ class FlightInMemory {
     } else {
       setpoint.motion.p = last.p;
     }
-    if (state && speaks) bridge.hear(setpoint);
+    if (state && speaks) bridge.receive(setpoint);
   }
 
   void run(double seconds) {
     const UTime end = now + Duration::from_seconds(seconds);
     for (; now < end; now = now + Duration{2'000}) {
       deliver();
-      if (ground_station_there && beats % 500 == 0) autopilot.hear(to_frame(Heartbeat{.type = 6}, {255, 190}, 0), now);
+      if (ground_station_there && beats % 500 == 0)
+        autopilot.receive(to_frame(Heartbeat{.type = 6}, {255, 190}, 0), now);
       if (beats++ % 5 == 0) say_setpoint();
       if (bridge_runs) bridge.step(now);
       autopilot.step(now);
@@ -78,7 +79,7 @@ class FlightInMemory {
       for (const Frame& f : autopilot.take_frames()) {
         if (!hides || !hides(f)) post(shifted(f), true);
       }
-      for (std::string& word : bridge.take_words()) words.push_back(std::move(word));
+      for (std::string& word : bridge.take_log_lines()) words.push_back(std::move(word));
       if (each) each();
     }
   }
@@ -92,10 +93,10 @@ class FlightInMemory {
   /// Of a ground station: any system may command.
   void ground_station(CommandLong command) {
     command.target_system = 1;
-    autopilot.hear(to_frame(command, {255, 190}, 0), now);
+    autopilot.receive(to_frame(command, {255, 190}, 0), now);
   }
   void set_parameter(const std::string& name, float value) {
-    autopilot.hear(
+    autopilot.receive(
         to_frame(ParamSet{.param_value = value, .target_system = 1, .param_id = text_of<16>(name), .param_type = 9},
                  {255, 190}, 0),
         now);
@@ -139,9 +140,9 @@ class FlightInMemory {
     while (!flying.empty() && flying.begin()->first <= now) {
       const auto [to_bridge, frame] = flying.begin()->second;
       if (to_bridge) {
-        if (bridge_runs) bridge.hear(frame, now);
+        if (bridge_runs) bridge.receive(frame, now);
       } else {
-        autopilot.hear(frame, now);
+        autopilot.receive(frame, now);
       }
       flying.erase(flying.begin());
     }

@@ -197,9 +197,9 @@ TEST(Frame, RandomBytesAreNoFrames) {
 }
 
 TEST(Text, IsReadUpToItsEndAndIsPrintable) {
-  EXPECT_EQ(words_of(text_of<16>("COM_OF_LOSS_T")), "COM_OF_LOSS_T");
-  EXPECT_EQ(words_of(text_of<4>("too long")), "too ");
-  EXPECT_EQ(words_of(Text<4>{'a', '\n', '\x80', 'b'}), "a??b");
+  EXPECT_EQ(string_of(text_of<16>("COM_OF_LOSS_T")), "COM_OF_LOSS_T");
+  EXPECT_EQ(string_of(text_of<4>("too long")), "too ");
+  EXPECT_EQ(string_of(Text<4>{'a', '\n', '\x80', 'b'}), "a??b");
 }
 
 }  // namespace

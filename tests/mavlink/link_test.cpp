@@ -132,10 +132,10 @@ TEST(Link, ASerialPortThatIsPulledIsOpenedAgainWhenItIsBack) {
     return portion;
   };
   EXPECT_FALSE(look(2'000));
-  EXPECT_THAT((*link)->take_words(), ElementsAre(HasSubstr("it is opened again when it is back")));
+  EXPECT_THAT((*link)->take_log_lines(), ElementsAre(HasSubstr("it is opened again when it is back")));
   cable.plug_in();
   EXPECT_FALSE(look(600)) << "nothing has come yet, but it looks at least once a second";
-  EXPECT_THAT((*link)->take_words(), ElementsAre(HasSubstr("opened again")));
+  EXPECT_THAT((*link)->take_log_lines(), ElementsAre(HasSubstr("opened again")));
   cable.say(hello);
   EXPECT_TRUE(look(1));
   EXPECT_FALSE(cable.heard().empty());

@@ -25,7 +25,7 @@ TEST(Px4Manners, OffboardIsTakenUpAgainByItselfWhenSetpointsCome) {
   EXPECT_EQ(flight.autopilot.mode(), "AUTO.LAND");
   const SetPositionTargetLocalNed target{
       .p = {0, 0, -2}, .type_mask = 0x0800, .target_system = 1, .coordinate_frame = 1};
-  flight.autopilot.hear(to_frame(target, {1, 191}, 0), flight.now);
+  flight.autopilot.receive(to_frame(target, {1, 191}, 0), flight.now);
   flight.run(0.1);
   EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
 }
@@ -93,7 +93,7 @@ TEST(Px4Manners, APilotsSwitchIsSeenWithinAQuarterOfASecond) {
     flight.ground_station(switch_to(3));
     flight.run(0.25);
     EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
-    flight.bridge.told_to_fly();
+    flight.bridge.order_flight();
     ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   }
 }
@@ -128,7 +128,7 @@ TEST(Px4Manners, AfterLandingItIsInOffboardAgainAndFliesWhenTold) {
   EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
   flight.run(5.0);
   EXPECT_FALSE(flight.autopilot.armed());
-  flight.bridge.told_to_fly();
+  flight.bridge.order_flight();
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
 }
 
@@ -197,7 +197,7 @@ TEST(Px4Manners, ParametersAreSetByTheirOwnTypeAndCommandsNameWhomTheyMean) {
   SimulatedAutopilot autopilot({}, 1, UTime{0});
   const auto answers = [&](const auto& message) {
     autopilot.take_frames();
-    autopilot.hear(to_frame(message, {255, 190}, 0), UTime{0});
+    autopilot.receive(to_frame(message, {255, 190}, 0), UTime{0});
     return autopilot.take_frames().size();
   };
   ParamSet set{.param_value = 4.0F, .target_system = 1, .param_id = text_of<16>("COM_OBL_RC_ACT"), .param_type = 9};
@@ -216,12 +216,12 @@ TEST(Px4Manners, WithoutGpsItFliesByWhatTheBridgeTellsItOfItsPlace) {
   ASSERT_TRUE(flight.bridge.truth());
   EXPECT_LT((flight.bridge.truth()->motion.p - flight.autopilot.model().truth().motion.p).norm(), 0.05);
   FlightInMemory blind({.start = Start::Arm, .set_parameters = true});
-  blind.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{0}),
-                                         .target_system = 1,
-                                         .param_id = text_of<16>("EKF2_GPS_CTRL"),
-                                         .param_type = 6},
-                                {255, 190}, 0),
-                       blind.now);
+  blind.autopilot.receive(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{0}),
+                                            .target_system = 1,
+                                            .param_id = text_of<16>("EKF2_GPS_CTRL"),
+                                            .param_type = 6},
+                                   {255, 190}, 0),
+                          blind.now);
   blind.run(10.0);
   EXPECT_FALSE(blind.autopilot.armed());
   EXPECT_THAT(blind.bridge.status(blind.now).why_not, HasSubstr("its estimator has no position"));
@@ -229,12 +229,12 @@ TEST(Px4Manners, WithoutGpsItFliesByWhatTheBridgeTellsItOfItsPlace) {
 
 TEST(Px4Manners, AirmodeIsNotFlown) {
   FlightInMemory flight({.start = Start::Arm});
-  flight.autopilot.hear(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{1}),
-                                          .target_system = 1,
-                                          .param_id = text_of<16>("MC_AIRMODE"),
-                                          .param_type = 6},
-                                 {255, 190}, 0),
-                        flight.now);
+  flight.autopilot.receive(to_frame(ParamSet{.param_value = std::bit_cast<float>(std::int32_t{1}),
+                                             .target_system = 1,
+                                             .param_id = text_of<16>("MC_AIRMODE"),
+                                             .param_type = 6},
+                                    {255, 190}, 0),
+                           flight.now);
   flight.run(10.0);
   EXPECT_FALSE(flight.autopilot.armed());
   EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("MC_AIRMODE is 1, not within [0, 0]"));

@@ -33,7 +33,7 @@ TEST(WhoFlies, OnceToldAgainItTakesAVehicleOverButNotOneThatIsTakenAfterThat) {
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   flight.ground_station(switch_to(3));
   ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::StoodBack; }));
-  flight.bridge.told_to_fly();
+  flight.bridge.order_flight();
   ASSERT_TRUE(flight.run_until([&] { return flight.bridge.stage() == Stage::Engaging; }));
   flight.ground_station(switch_to(4, 3));
   flight.each = [&] { ASSERT_EQ(flight.autopilot.mode(), "AUTO.LOITER"); };
@@ -157,7 +157,7 @@ TEST(WhoFlies, ASwitchBesideItsCommandToTakeOverIsNotOverruled) {
     flight.ground_station(flight.bridge.autopilot().firmware() == Firmware::Px4 ? switch_to(3) : switch_to(9));
     flight.run_until([&] { return flight.bridge.stage() == Stage::StoodBack; });
     flight.run(1.0);
-    flight.bridge.told_to_fly();
+    flight.bridge.order_flight();
     flight.run(1.6);
   };
   expect_nothing_is_overruled(story, kDoSetMode, Duration{-300'000});

@@ -227,7 +227,7 @@ TEST(DeclaredMotions, ThatAreFewEnoughAreNotMadeCoarser) {
 TEST(DeclaredMotions, CountWhoIsThereAtOnce) {
   std::vector<ObstacleSpec> specs = every_motion();
   for (int k = 0; k < 10; ++k) specs.push_back(moving(recorded(10.0, 3.0 * k, 2.0)));
-  const PresentAtOnce present = most_present(world_of(specs), Duration{100'000});
+  const PresentCount present = max_present(world_of(specs), Duration{100'000});
   EXPECT_EQ(present.resting, 1u);
   EXPECT_EQ(present.moving, 5u + 2u) << "the vanishing one of every_motion() and the first or second of the others";
 }

@@ -48,9 +48,9 @@ TEST(Referee, NamesWhoPassesTheStartWhileAllWait) {
   beside.motion = WaypointMotion{{{-3.0, Vec3(1, -2, 1)}, {1.0, Vec3(1, 2, 1)}}, false, true};
   s.world.obstacles = {beside, passer, absent};
   const Referee referee = referee_of(s);
-  EXPECT_THAT(referee.who_passes_the_start(-1.5), testing::ElementsAre("obstacle 1 'cube'"));
-  EXPECT_THAT(referee.who_passes_the_start(-0.5), testing::IsEmpty());
-  EXPECT_THAT(referee.who_passes_the_start(0.0), testing::IsEmpty());
+  EXPECT_THAT(referee.passing_the_start(-1.5), testing::ElementsAre("obstacle 1 'cube'"));
+  EXPECT_THAT(referee.passing_the_start(-0.5), testing::IsEmpty());
+  EXPECT_THAT(referee.passing_the_start(0.0), testing::IsEmpty());
 }
 
 TEST(Referee, JudgesAFlightThatReachesItsGoal) {

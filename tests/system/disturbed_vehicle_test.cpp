@@ -19,7 +19,7 @@ class DisturbedFlight {
                          [this] { return system_.simulator().result().has_value(); });
   }
   [[nodiscard]] const FlightResult& result() const { return *system_.simulator().result(); }
-  [[nodiscard]] std::int64_t exits() const { return system_.executor().exits(); }
+  [[nodiscard]] std::int64_t exits() const { return system_.executor().tube_exits(); }
 
  private:
   VirtualSystem system_;

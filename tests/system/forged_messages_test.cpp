@@ -202,7 +202,7 @@ TEST_F(ForgedMessages, TwoStatesInTheVehiclesNameMoveNobody) {
     ++header.name.sequence;
   }
   expect_undisturbed();
-  EXPECT_EQ(system_.executor().exits(), 0);
+  EXPECT_EQ(system_.executor().tube_exits(), 0);
 }
 
 TEST_F(ForgedMessages, AStateInTheVehiclesNameThatIsALittleOffMakesNoTube) {

@@ -5,7 +5,7 @@
 namespace tern::mavlink {
 namespace {
 
-constexpr Duration kLook{2'000};
+constexpr Duration kPollPeriod{2'000};
 
 }  // namespace
 
@@ -15,9 +15,9 @@ AutopilotSimNode::AutopilotSimNode(Bus& bus, std::unique_ptr<Link> link, const S
 
 void AutopilotSimNode::step(UTime now) {
   if (now < next_) return;
-  next_ = now + kLook;
+  next_ = now + kPollPeriod;
   while (const auto portion = link_->receive(now)) {
-    for (const Frame& frame : parser_.push(portion->bytes)) autopilot_.hear(frame, now);
+    for (const Frame& frame : parser_.push(portion->bytes)) autopilot_.receive(frame, now);
     if (link_->datagrams()) parser_.drop_rest();
   }
   autopilot_.step(now);

@@ -132,10 +132,10 @@ TEST(QuadrotorModel, SaysItsEstimateLate) {
   QuadrotorModel vehicle(config_of(QuadrotorClass::Camera), {}, {.latency_s = 0.05}, 1, Vec3(0, 0, 5), kNoGround,
                          UTime{});
   vehicle.advance(at_s(0.04));
-  EXPECT_FALSE(vehicle.said_estimate());
+  EXPECT_FALSE(vehicle.delayed_estimate());
   vehicle.advance(at_s(1.0));
-  ASSERT_TRUE(vehicle.said_estimate());
-  EXPECT_EQ(vehicle.said_estimate()->at, at_s(0.95));
+  ASSERT_TRUE(vehicle.delayed_estimate());
+  EXPECT_EQ(vehicle.delayed_estimate()->at, at_s(0.95));
 }
 
 TEST(QuadrotorModel, HoldsWhereItsLastCommandEnds) {

@@ -136,22 +136,22 @@ RC_GTEST_PROP(Allocation, StaysWithinTheRotorsLimits, ()) {
   const QuadrotorSpec spec = quadrotor_spec(*rc::gen::element(QuadrotorClass::Camera, QuadrotorClass::Racer));
   const Wrench wanted{number(100.0), Vec3(number(20.0), number(20.0), number(20.0))};
   for (const double thrust : allocate(spec, wanted)) {
-    RC_ASSERT(thrust <= spec.largest_thrust());
-    RC_ASSERT(thrust >= spec.least_thrust * spec.largest_thrust());
+    RC_ASSERT(thrust <= spec.max_thrust());
+    RC_ASSERT(thrust >= spec.least_thrust * spec.max_thrust());
   }
 }
 
 RC_GTEST_PROP(Allocation, GivesWhatCanBeHad, ()) {
   const QuadrotorSpec spec = quadrotor_spec(*rc::gen::element(QuadrotorClass::Camera, QuadrotorClass::Racer));
   Rotors thrust{};
-  for (double& t : thrust) t = spec.largest_thrust() * (*rc::gen::inRange(50, 999)) / 1000.0;
+  for (double& t : thrust) t = spec.max_thrust() * (*rc::gen::inRange(50, 999)) / 1000.0;
   const Rotors again = allocate(spec, wrench_of(spec, thrust));
   for (std::size_t k = 0; k < 4; ++k) RC_ASSERT(std::abs(again[k] - thrust[k]) < 1e-9);
 }
 
 TEST(Allocation, GivesUpHeadingBeforeHeight) {
   const QuadrotorSpec spec;
-  const double most = 4.0 * spec.largest_thrust();
+  const double most = 4.0 * spec.max_thrust();
   const Wrench had = wrench_of(spec, allocate(spec, {most, Vec3(0.0, 0.0, 1.0)}));
   EXPECT_NEAR(had.thrust, most, 1e-9);
   EXPECT_NEAR(had.torque.z(), 0.0, 1e-9);
@@ -159,7 +159,7 @@ TEST(Allocation, GivesUpHeadingBeforeHeight) {
 
 TEST(Allocation, GivesUpHeightBeforeTilt) {
   const QuadrotorSpec spec;
-  const Wrench had = wrench_of(spec, allocate(spec, {4.0 * spec.largest_thrust(), Vec3(0.3, -0.2, 0.0)}));
+  const Wrench had = wrench_of(spec, allocate(spec, {4.0 * spec.max_thrust(), Vec3(0.3, -0.2, 0.0)}));
   EXPECT_LT((had.torque - Vec3(0.3, -0.2, 0.0)).norm(), 1e-9);
 }
 
@@ -167,7 +167,7 @@ TEST(Allocation, GivesUpHeightBeforeTilt) {
 TEST(Allocation, RaisesThrustForTorqueAtMostHalfTheWayToHovering) {
   for (const auto kind : {QuadrotorClass::Camera, QuadrotorClass::Racer}) {
     const QuadrotorSpec spec = quadrotor_spec(kind);
-    const double hover = spec.mass_kg * kGravity, much = spec.largest_thrust() * spec.arm_m;
+    const double hover = spec.mass_kg * kGravity, much = spec.max_thrust() * spec.arm_m;
     for (const double share : {0.0, 0.3, 0.9, 1.5}) {
       const Wrench had = wrench_of(spec, allocate(spec, {share * hover, Vec3(2.0 * much, 0.0, 0.0)}));
       EXPECT_LE(had.thrust, std::max(share, 0.5 * (share + 1.0)) * hover + 1e-9) << share;

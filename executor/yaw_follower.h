@@ -8,7 +8,7 @@
 namespace tern {
 
 /// Rate and acceleration that an airframe of half a metre turns by without losing much thrust.
-struct HeadingConfig {
+struct YawFollowerConfig {
   double rate_max_deg_s = 120.0;
   double acceleration_max_deg_s2 = 360.0;
   double least_speed = 0.5;  ///< m/s
@@ -27,10 +27,10 @@ struct HeadingConfig {
 ///
 /// Over a step of h s to an aim e rad away the rate is at most v with v²/2a + v h/2 = |e|, from which it can stop
 /// there.
-class Heading {
+class YawFollower {
  public:
   /// At rest at yaw (rad).
-  Heading(double yaw, UTime now, const HeadingConfig& config = {});
+  YawFollower(double yaw, UTime now, const YawFollowerConfig& config = {});
 
   /// Moves on to `now` (not before the last time), where the vehicle flies at v (W, m/s). @return the yaw
   double follow(const Vec3& v, UTime now);

@@ -1,4 +1,4 @@
-#include "executor/heading.h"
+#include "executor/yaw_follower.h"
 
 #include <gtest/gtest.h>
 
@@ -17,13 +17,13 @@ constexpr Duration kStep{10'000};
 double apart(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * M_PI)); }
 Vec3 flying(double yaw, double speed = 3.0) { return {speed * std::cos(yaw), speed * std::sin(yaw), 1.0}; }
 
-TEST(Heading, NeverTurnsFasterNorSpeedsUpMoreThanItMayWhateverTheFlightDoes) {
+TEST(YawFollower, NeverTurnsFasterNorSpeedsUpMoreThanItMayWhateverTheFlightDoes) {
   Rng rng(3);
   for (int round = 0; round < 50; ++round) {
-    HeadingConfig config;
+    YawFollowerConfig config;
     config.rate_max_deg_s = rng.uniform(20.0, 400.0);
     config.acceleration_max_deg_s2 = rng.uniform(50.0, 2000.0);
-    Heading heading(rng.uniform(-4.0, 4.0), kZero, config);
+    YawFollower heading(rng.uniform(-4.0, 4.0), kZero, config);
     UTime now = kZero;
     double yaw = heading.yaw();
     double rate = 0.0;
@@ -42,13 +42,13 @@ TEST(Heading, NeverTurnsFasterNorSpeedsUpMoreThanItMayWhateverTheFlightDoes) {
   }
 }
 
-TEST(Heading, ReachesASteadyFlightsDirectionTheShorterWayInTheLeastTimeAndStaysThere) {
-  const HeadingConfig config;
+TEST(YawFollower, ReachesASteadyFlightsDirectionTheShorterWayInTheLeastTimeAndStaysThere) {
+  const YawFollowerConfig config;
   const double v = to_radians(config.rate_max_deg_s);
   const double a = to_radians(config.acceleration_max_deg_s2);
   for (const double from : {0.0, 1.0, 3.0, -2.0}) {
     for (const double to : {0.1, 1.5, -3.1, 3.0}) {
-      Heading heading(from, kZero, config);
+      YawFollower heading(from, kZero, config);
       const double way = apart(from, to);
       const double least_s = way < v * v / a ? 2.0 * std::sqrt(way / a) : way / v + v / a;
       UTime now = kZero;
@@ -67,16 +67,16 @@ TEST(Heading, ReachesASteadyFlightsDirectionTheShorterWayInTheLeastTimeAndStaysT
   }
 }
 
-TEST(Heading, OfAVehicleThatHoversKeepsItsLastAim) {
-  Heading heading(0.0, kZero);
+TEST(YawFollower, OfAVehicleThatHoversKeepsItsLastAim) {
+  YawFollower heading(0.0, kZero);
   UTime now = kZero;
   for (int k = 0; k < 10; ++k) heading.follow(flying(1.0), now = now + kStep);
   for (int k = 0; k < 300; ++k) heading.follow(flying(-2.0, 0.1), now = now + kStep);
   EXPECT_NEAR(heading.yaw(), 1.0, 1e-6);
 }
 
-TEST(Heading, ATimeThatHasPassedChangesNothing) {
-  Heading heading(0.5, kZero);
+TEST(YawFollower, ATimeThatHasPassedChangesNothing) {
+  YawFollower heading(0.5, kZero);
   EXPECT_EQ(heading.follow(flying(2.0), kZero), 0.5);
   EXPECT_EQ(heading.rate(), 0.0);
 }

@@ -1,4 +1,4 @@
-#include "executor/heading.h"
+#include "executor/yaw_follower.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ double wrapped(double angle) {
 
 }  // namespace
 
-Heading::Heading(double yaw, UTime now, const HeadingConfig& config)
+YawFollower::YawFollower(double yaw, UTime now, const YawFollowerConfig& config)
     : rate_max_(to_radians(config.rate_max_deg_s)),
       acceleration_max_(to_radians(config.acceleration_max_deg_s2)),
       least_speed_(config.least_speed),
@@ -24,7 +24,7 @@ Heading::Heading(double yaw, UTime now, const HeadingConfig& config)
       aim_(yaw_),
       at_(now) {}
 
-double Heading::follow(const Vec3& v, UTime now) {
+double YawFollower::follow(const Vec3& v, UTime now) {
   const double h = (now - at_).seconds();
   if (h <= 0.0) return yaw_;
   at_ = now;
