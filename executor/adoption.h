@@ -1,4 +1,4 @@
-// The adoption rule: which plans a vehicle flies, and in which words it refuses the others.
+// Which plans the executor adopts, and why it refuses the others.
 #pragma once
 
 #include <cstdint>
@@ -9,35 +9,36 @@
 
 namespace tern {
 
-/// What became of a plan.
+/// The executor's decision on one PLAN.
 enum class Verdict : std::uint8_t {
-  Adopted = 0,         ///< flown from t_s on
-  Kept = 1,            ///< KeepCommitted: nothing to adopt, the request is answered
-  NoPlan = 2,          ///< NoPlan: nothing to adopt, the request is answered
-  UnknownRequest = 3,  ///< refused: answers a request that was never made, or one too old to be remembered
-  AnsweredTwice = 4,   ///< refused: that request has its answer
-  Late = 5,            ///< refused: after the deadline, before t_s: the request was closed
-  TooLate = 6,         ///< refused: at or after t_s
-  Stopped = 7,         ///< refused: the vehicle was told to stop (GoalMode::Stop) or has no mission
-  Unflyable = 8,       ///< refused: the trajectory may not be flown (breach_of)
+  Adopted = 0,         ///< the vehicle flies it from t_s on
+  Kept = 1,            ///< KeepCommitted: the request is answered by the committed trajectory
+  NoPlan = 2,          ///< NoPlan: the request is answered, without a trajectory
+  UnknownRequest = 3,  ///< refused: the request was never made, or is older than the memory of closed requests
+  AnsweredTwice = 4,   ///< refused: the request already has its answer
+  Late = 5,            ///< refused: received after the deadline and before t_s; the request was closed
+  TooLate = 6,         ///< refused: received at or after t_s
+  Stopped = 7,         ///< refused: GoalMode::Stop, no goal, or the vehicle does not follow
+  Unflyable = 8,       ///< refused: the trajectory breaks a rule of breach_of()
 };
 inline constexpr int kVerdicts = 9;
 
-/// "adopted", "late", "unflyable" …
+/// Returns "adopted", "late", "unflyable" …
 const char* to_string(Verdict verdict);
-/// Everything but Adopted, Kept and NoPlan.
+/// True for every verdict except Adopted, Kept and NoPlan.
 constexpr bool is_refusal(Verdict verdict) { return verdict > Verdict::NoPlan; }
 
-/// A verdict and, for a refusal, the axis, value and limit in words.
+/// A verdict with its details.
 struct Adoption {
   Verdict verdict = Verdict::NoPlan;
-  std::string detail;
-  Breach breach = Breach::None;  ///< of Verdict::Unflyable: which rule is broken
+  std::string detail;            ///< of a refusal: axis, value and limit, or the request
+  Breach breach = Breach::None;  ///< of Verdict::Unflyable: the broken rule
 };
-/// The breach's words where there is one, else the verdict's: "flight box", "late" …
+/// Returns the name of the breach if there is one, else that of the verdict: "flight box", "late" …
 const char* to_string(const Adoption& adoption);
 
-/// Whether `trajectory` may be flown after `request`: Verdict::Adopted or Verdict::Unflyable. O(J).
+/// Checks `trajectory` against the start, limits, body, tube and flight box of `request` (core/world/flyable.h).
+/// @return Verdict::Adopted or Verdict::Unflyable. O(J) for J intervals.
 Adoption check_trajectory(const TimedSpline& trajectory, const HorizonRequest& request);
 
 }  // namespace tern

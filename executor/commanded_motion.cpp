@@ -9,23 +9,23 @@
 namespace tern {
 namespace {
 
-/// Intervals of a braking trajectory, and in how many of them its acceleration may come and go.
+/// Intervals of a braking trajectory, and the lengths of the ramps of its acceleration, in intervals.
 constexpr int kBrakingIntervals = 16;
 constexpr int kRamps[] = {1, 2, 4, 8};
 constexpr Duration kMinBrakingInterval{5'000};  ///< of an interval
 constexpr Duration kMaxBrakingInterval{1'250'000};
-/// By then the next setpoint is expected: no braking yet.
+/// The next setpoint is due within this time: the command does not brake yet.
 constexpr Duration kNextSetpoint{20'000};
-/// No honest setpoint is this much later than the one before: until then the vehicle goes on by itself.
+/// A setpoint that is later than this after the one before is a departure.
 constexpr Duration kSetpointGap{200'000};
-/// Setpoints that after a silence are farther than this from the command's way are a matter of kDepartureTime, m.
+/// After a silence, a departure of more than this must last for kDepartureTime, m.
 constexpr double kFarDeparture = 0.1;
-/// By then an executor has seen where the vehicle is, and leads on from there.
+/// Within this time an executor has seen where the vehicle is, and leads on from there.
 constexpr Duration kDepartureTime{500'000};
 
 bool agree(const Vec3& a, const Vec3& b) { return (a - b).cwiseAbs().maxCoeff() <= kJoinTolerance; }
 
-/// Jerk is not compared: it may jump.
+/// Compares position, velocity and acceleration. The jerk may jump.
 bool agree(const MotionSample& a, const MotionSample& b) {
   return agree(a.p, b.p) && agree(a.v, b.v) && agree(a.a, b.a);
 }
@@ -40,9 +40,10 @@ MotionSample start_of(const ClampedSpline& spline) {
   return sample_cubic(reparametrized(spline.power(0), 0.0, 1.0 / spline.interval_s()), 0.0);
 }
 
-/// Control points of a spline that leaves `from` with these accelerations at its knots, the first one's being from.a
-/// (a column per knot, m/s²). In between it is linear, so the velocity's control points differ by a_k Δt, the first and
-/// the last two by half of it. @pre they bring it to rest: the last two of those are taken for zero.
+/// Control points of a spline that leaves `from` with these accelerations at its knots (a column per knot, m/s²; the
+/// first is from.a). The acceleration is linear between knots, so consecutive control points of the velocity differ by
+/// a_k Δt, and the first and the last two by half of that.
+/// @pre the accelerations bring it to rest: the last two control points of the velocity are set to zero
 Points points_with(const MotionSample& from, const Points& accelerations, double interval_s) {
   const Eigen::Index intervals = accelerations.cols() - 1;
   Points q(3, intervals + 3);
@@ -57,8 +58,9 @@ Points points_with(const MotionSample& from, const Points& accelerations, double
   return q;
 }
 
-/// From `from` to rest: from.a fades within `ramp` intervals. Another acceleration, constant but for as long a ramp at
-/// either end, takes the velocity: a_k = f_k from.a + w_k c, v + Δt (a_0/2 + Σ a_k) = 0.
+/// A trajectory from `from` to rest. from.a fades out within `ramp` intervals, with weights f_k. A second acceleration
+/// c, with weights w_k that ramp up and down as long, removes the velocity: a_k = f_k from.a + w_k c, and v + Δt (a_0/2
+/// + Σ a_k) = 0.
 TimedSpline braking_in(const MotionSample& from, UTime at, Duration interval, int ramp) {
   Eigen::Matrix<double, 1, kBrakingIntervals + 1> fades, weights;
   for (int k = 0; k <= kBrakingIntervals; ++k) {
@@ -70,7 +72,7 @@ TimedSpline braking_in(const MotionSample& from, UTime at, Duration interval, in
   return {at, interval, points_with(from, from.a * fades + c * weights, dt)};
 }
 
-/// Whether the second of two setpoints is about where the first leads: a stream of somebody who states no jerk, too.
+/// Whether the second of two setpoints continues the first. Wide tolerances: a sender may leave out the jerk.
 bool goes_on(const UavState& first, const UavState& second) {
   const Duration between = second.at - first.at;
   if (between <= Duration{0} || between > kSetpointGap) return false;
@@ -91,7 +93,8 @@ double share_of(const Dynamics& dynamics, const ClampedSpline& spline) {
   return share;
 }
 
-/// The largest share of a limit that is used, over axes, derivatives and dynamics; ≤ 1 + kLimitTolerance: all are kept.
+/// The largest ratio of a value to its limit, over axes, derivatives and dynamics. All limits are kept if it is at most
+/// 1 + kLimitTolerance.
 double share_of(const Limits& limits, const TimedSpline& trajectory) {
   const ClampedSpline spline = trajectory.spline();
   const MotionBounds bounds = motion_bounds(spline);
@@ -106,7 +109,7 @@ struct Braking {
   double share = std::numeric_limits<double>::infinity();
 };
 
-/// The shortest that keeps the limits, or the one that exceeds them least.
+/// The shortest candidate that keeps the limits, or the one that exceeds them least.
 Braking best_braking(const MotionSample& from, UTime at, const Limits& limits) {
   Braking best;
   for (Duration interval = kMinBrakingInterval; interval <= kMaxBrakingInterval; interval.us += interval.us / 8) {
@@ -136,7 +139,7 @@ void CommandedMotion::receive(const UavState& setpoint) {
   if (setpoint.at <= end) return;
   const CubicPiece cubic = cubic_of(newest_, setpoint.at - end);
   const MotionSample by_cubic = sample_cubic(cubic.coefficients, cubic.duration.seconds());
-  const MotionSample by_committed = after().sample(setpoint.at);
+  const MotionSample by_committed = continuation().sample(setpoint.at);
   const bool is_soon = setpoint.at - end <= kSetpointGap;
   if (!is_soon || !(agree(by_cubic, setpoint.motion) || agree(by_committed, setpoint.motion))) {
     if (!accepts_departure(setpoint, (by_committed.p - setpoint.motion.p).norm() > kFarDeparture)) return;
@@ -145,7 +148,7 @@ void CommandedMotion::receive(const UavState& setpoint) {
   if (agree(by_cubic, setpoint.motion) || !agree(by_committed, setpoint.motion)) {
     settled_.append(cubic);
   } else {
-    settled_.append(after().pieces(end, setpoint.at));
+    settled_.append(continuation().pieces(end, setpoint.at));
   }
   received_until_ = setpoint.at;
   yaw_ = setpoint.yaw;
@@ -202,7 +205,7 @@ MotionSample CommandedMotion::sample(UTime t) const {
   if (braking_ && settled_.end() == received_until_ && later <= kNextSetpoint) {
     return sample_cubic(cubic_of(newest_, kNextSetpoint).coefficients, later.seconds());
   }
-  return after().sample(t);
+  return continuation().sample(t);
 }
 
 Vec3 CommandedMotion::acceleration_ahead(UTime t, Duration lead) const {
@@ -218,8 +221,8 @@ Vec3 CommandedMotion::acceleration_ahead(UTime t, Duration lead) const {
 bool CommandedMotion::settle(UTime until) {
   const UTime end = settled_.end();
   if (until <= end) return false;
-  settled_.append(after().pieces(end, until));
-  newest_ = after().sample(until);
+  settled_.append(continuation().pieces(end, until));
+  newest_ = continuation().sample(until);
   return true;
 }
 

@@ -1,4 +1,4 @@
-// What the vehicle flies: splines one after the other, each in force from its start until the next one's.
+// The committed trajectory: a sequence of splines, each in force from its start until the next one starts.
 #pragma once
 
 #include <vector>
@@ -8,34 +8,39 @@
 
 namespace tern {
 
-/// The committed trajectory. Invariants: it has at least one segment; segments start in ascending order; each ends at
-/// rest. So the vehicle comes to rest whatever is lost after a segment, and rests for ever at the last one's end.
-/// Joining (position, velocity, acceleration within kJoinTolerance) is the caller's rule: see Adoption.
+/// The trajectory that the vehicle flies unless a newer plan is adopted.
+///
+/// Invariants: there is at least one segment; segments start in ascending order; each segment ends at rest. So the
+/// vehicle comes to rest even if no further message arrives, and stays at the end of the last segment.
+///
+/// The caller checks that segments join (position, velocity, acceleration within kJoinTolerance): see
+/// check_trajectory().
 class CommittedTrajectory {
  public:
-  /// At rest at p (W, m) for ever, as a spline of four intervals that begins at `from`.
+  /// Constructs a trajectory at rest at p (W, m): a spline of four intervals that begins at `from`.
   CommittedTrajectory(const Vec3& p, UTime from);
 
-  /// Flies `next` from its start on. @throws std::invalid_argument unless it starts after every earlier segment, has a
-  /// form that ClampedSpline takes, and ends at rest.
+  /// Appends `next`, which is in force from its start on.
+  /// @throws std::invalid_argument unless `next` starts after every other segment, has a form that ClampedSpline
+  /// accepts, and ends at rest.
   void splice(const TimedSpline& next);
 
-  /// Takes back the segments that would start at t or later, all but the first.
+  /// Removes the segments that start at t or later. The first segment is always kept.
   void drop_from(UTime t);
 
-  /// The segment in force at t: the last that starts at or before t; before the first segment the first.
+  /// Returns the segment in force at t: the last one that starts at or before t, or the first one.
   [[nodiscard]] const TimedSpline& in_force_at(UTime t) const;
-  /// The motion at any t; before the first segment at rest at its first point.
+  /// Returns the motion at any t. Before the first segment it is at rest at that segment's first point.
   [[nodiscard]] MotionSample sample(UTime t) const;
-  /// The very splines between two times as cubic pieces, a piece per interval or part of it, rest included.
-  /// The same curve to rounding. @throws std::invalid_argument unless from < to. O(segments + pieces).
+  /// Returns the motion between two times as cubic pieces, one per interval or part of an interval, rest included.
+  /// Equals sample() up to rounding. @throws std::invalid_argument unless from < to. O(segments + pieces).
   [[nodiscard]] PiecewiseCubic pieces(UTime from, UTime to) const;
-  /// From here on it rests.
+  /// The time from which the trajectory is at rest.
   [[nodiscard]] UTime end() const { return segments_.back().timed.end(); }
   [[nodiscard]] UTime newest_start() const { return segments_.back().timed.start; }
   [[nodiscard]] std::size_t segments() const { return segments_.size(); }
 
-  /// Forgets the segments that are no longer in force at t; earlier times are then answered wrongly.
+  /// Drops the segments that end their time in force before t. Queries for earlier times are wrong afterwards.
   void forget_before(UTime t);
 
  private:

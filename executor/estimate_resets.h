@@ -1,4 +1,4 @@
-// By how much an estimator shifts the vehicle's position when it resets itself.
+// Detects resets of the vehicle's state estimator, and the shift of position that each one makes.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,22 @@
 
 namespace tern {
 
-/// VEHICLE_STATUS counts resets, UAV_STATE jumps: by what it is off where the state before led. Either may be heard
-/// first. A jump of less than kMinJump is none, and one that no reset is told of within kMatchWindow is not the
-/// estimator's.
+/// Pairs the resets that VEHICLE_STATUS counts with the jumps of UAV_STATE.
+///
+/// A jump is the difference between a state's position and the previous state carried on by the mean of both
+/// velocities. A reset and a jump belong together if they are received within kMatchWindow, in either order. Two cases
+/// are ignored: a jump under kMinJump on every axis, and a jump without a reset.
 class EstimateResets {
  public:
-  static constexpr double kMinJump = 0.05;          ///< m; noise from state to state is less
-  static constexpr Duration kMatchWindow{300'000};  ///< VEHICLE_STATUS comes at 10 Hz, UAV_STATE may come late
-  static constexpr Duration kMaxStateGap{100'000};  ///< a state that comes later tells nothing of the one before
+  static constexpr double kMinJump = 0.05;          ///< m; larger than the noise between two states
+  static constexpr Duration kMatchWindow{300'000};  ///< VEHICLE_STATUS has 10 Hz, and UAV_STATE may be late
+  static constexpr Duration kMaxStateGap{100'000};  ///< states farther apart are not compared
 
-  /// @param at  the listener's time, not descending from call to call of either kind
-  /// @return by how much the estimate was shifted (W, m), when that becomes known
+  /// Takes the next UAV_STATE.
+  /// @param at  receive time; must not descend over the calls of both overloads
+  /// @return the shift of the estimate (W, m), if this state completes a pair
   std::optional<Vec3> add(const UavState& state, UTime at);
-  /// @param resets  VehicleStatus::resets
+  /// Takes the next VehicleStatus::resets. @return as above
   std::optional<Vec3> add(std::int64_t resets, UTime at);
 
  private:
@@ -33,8 +36,8 @@ class EstimateResets {
   std::optional<Vec3> match();
   std::optional<UavState> before_;
   std::optional<std::int64_t> resets_;
-  std::optional<Jump> unmatched_jump_;    ///< the newest that no reset was told of
-  std::optional<UTime> unmatched_reset_;  ///< of a reset whose jump was not seen
+  std::optional<Jump> unmatched_jump_;    ///< the newest jump without a reset
+  std::optional<UTime> unmatched_reset_;  ///< receive time of the newest reset without a jump
 };
 
 }  // namespace tern

@@ -76,9 +76,9 @@ void Executor::rejoin(const UavState& measured) {
   last_request_.reset();
 }
 
-bool Executor::drop_unsent_plan(UTime said) {
+bool Executor::drop_unsent_plan(UTime last_setpoint) {
   const UTime start = committed_.newest_start();
-  if (start <= sent_start_ || start <= said) return false;
+  if (start <= sent_start_ || start <= last_setpoint) return false;
   committed_.drop_from(start);
   while (!tubes_.empty() && tubes_.back().from >= start) tubes_.pop_back();
   return true;

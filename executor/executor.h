@@ -1,4 +1,4 @@
-// What flies plans: asks for a horizon, adopts the answer or says why not, and always has a way to rest.
+// Requests plans, adopts the answers that can be flown, and holds the committed trajectory.
 #pragma once
 
 #include <array>
@@ -16,6 +16,7 @@
 
 namespace tern {
 
+/// The section `executor`.
 struct ExecutorConfig {
   double rate_hz = 20.0;
   Duration lead{75'000};  ///< > kDeadlineLead, ≤ 5 s
@@ -24,22 +25,22 @@ struct ExecutorConfig {
 
   template <typename V>
   void visit(V& v) {
-    v("rate_hz", rate_hz, Range{1e-3, 100.0}, "requests per second at most");
-    v("lead_s", lead, Range{0.01, 2.0}, "t_s − the time of the request, s; the planner has this less 5 ms");
+    v("rate_hz", rate_hz, Range{1e-3, 100.0}, "largest number of requests per second");
+    v("lead_s", lead, Range{0.01, 2.0}, "t_s − time of the request, s; the planner has 5 ms less than this");
     v("tube_m", tube_m, Range{0.0, kMaxTube},
-      "requests promise that the vehicle is at most this far off its setpoints, m per axis; more where more is "
-      "measured");
+      "smallest tube of a request, m per axis: how far the vehicle may be from its setpoints; a larger measured tube "
+      "replaces it");
     v("heading", heading);
   }
 };
 
-/// Everything is counted; nothing is counted twice: requests = answered_in_time + unanswered + (0 or 1 outstanding).
+/// Counts requests and plans. At any time requests = answered_in_time + unanswered + (0 or 1 outstanding).
 struct ExecutorCounters {
   std::int64_t requests = 0;
-  std::int64_t answered_in_time = 0;                  ///< whatever the answer's verdict
-  std::int64_t unanswered = 0;                        ///< closed by their deadline
-  std::array<std::int64_t, kVerdicts> verdicts = {};  ///< plans by Verdict; late, twice, unknown ones among them
-  std::array<std::int64_t, kBreaches> breaches = {};  ///< of the unflyable ones, by Breach
+  std::int64_t answered_in_time = 0;                  ///< with any verdict
+  std::int64_t unanswered = 0;                        ///< closed by their deadline or by rejoin()
+  std::array<std::int64_t, kVerdicts> verdicts = {};  ///< all plans by Verdict, also late, repeated and unknown ones
+  std::array<std::int64_t, kBreaches> breaches = {};  ///< the unflyable plans by Breach
 
   [[nodiscard]] std::int64_t of(Verdict verdict) const { return verdicts[idx(verdict)]; }
   [[nodiscard]] std::int64_t of(Breach breach) const { return breaches[idx(breach)]; }
@@ -48,75 +49,79 @@ struct ExecutorCounters {
   [[nodiscard]] std::int64_t refused() const;
 };
 
-/// Holds the committed trajectory, makes requests, adopts plans. Pure: times are arguments and never go back.
+/// Holds the committed trajectory, makes requests and adopts plans. Pure: times are arguments and must not descend.
 ///
-/// One request is outstanding at most; the next one goes out after its answer or its deadline, at no more than rate_hz.
-/// An answer is in time when now ≤ deadline; from then on the request is closed. Nothing is asked before begin()'s
-/// time, after pause(), without a mode, or in mode Stop. At rest it goes on asking: a vehicle at rest must be able to
-/// evade.
+/// 1. At most one request is outstanding. The next one follows its answer or its deadline, at no more than rate_hz.
+/// 2. An answer is in time if now ≤ deadline. After the deadline the request is closed, and its answer is refused.
+/// 3. No requests are made before the time of begin(), after pause(), without a goal mode, or in mode Stop.
+/// 4. A stationary vehicle goes on requesting plans, also at the goal: it must be able to evade.
 class Executor {
  public:
-  /// At rest at uav.start from `now` on. @throws std::invalid_argument when config is out of its ranges.
+  /// Commits to rest at uav.start from `now` on. @throws std::invalid_argument if config is out of its ranges.
   Executor(const UavSpec& uav, UTime now, const ExecutorConfig& config = {});
-  /// At the measured state, and from there to rest (braking_trajectory). The same @throws.
+  /// Commits to braking_trajectory() from the measured state. @throws std::invalid_argument as above.
   Executor(const UavSpec& uav, const UavState& measured, const ExecutorConfig& config = {});
 
-  /// The vehicle follows: the mission may ask from `go` on.
+  /// The vehicle follows: requests are made from `go` on.
   void begin(UTime go) { requests_from_ = go; }
-  /// It no longer does. What is committed stays so.
+  /// The vehicle no longer follows: no more requests. The committed trajectory stays.
   void pause() { requests_from_.reset(); }
-  /// What requests promise from now on (HorizonRequest::tube), and the share of the vehicle's limits that they ask for.
+  /// Sets the tube of the next requests (HorizonRequest::tube), and the share of the vehicle's limits that they
+  /// contain.
   /// @pre 0 < share ≤ 1
   void set_tube(const Vec3& tube, double share = 1.0);
   [[nodiscard]] const Vec3& tube() const { return tube_; }
-  /// What was promised of time t: the tube of the request whose plan was adopted last before it, or that was answered
-  /// by the committed trajectory. Before the first one, and after rejoin(), that of the next request.
+  /// The tube that the motion at t was certified for. It is the tube of the newest request up to t that was answered by
+  /// an adopted plan or by KeepCommitted. Without such a request, and after rejoin(), it is tube().
   [[nodiscard]] Vec3 tube_at(UTime t) const;
-  /// The vehicle is not where it was committed to be: from here on it is committed to come to rest from the measured
-  /// state. The open request is closed, and the next one, by which the vehicle hears of it, goes out at once. Until
-  /// that rest, limits and flight box are as wide as the way to it needs.
+  /// Commits to a braking trajectory from the measured state, because the vehicle is outside its tube. The open request
+  /// is closed. The next request, which tells the vehicle of this trajectory, is due at once. Until the trajectory is
+  /// at rest, the limits and the flight box of requests are widened as far as it needs.
   void rejoin(const UavState& measured);
-  /// The plan that was adopted last is not flown after all, if no request has carried it and it starts after `said`,
-  /// the newest setpoint. The vehicle cannot have heard of it, and flies on along what it has heard.
-  /// @return whether there was one
-  bool drop_unsent_plan(UTime said);
-  /// What the newest goal wants; nullopt: no goal yet.
+  /// Removes the plan that was adopted last if no request has contained it and it starts after `last_setpoint`, the
+  /// time of the newest setpoint. Then the vehicle has no knowledge of that plan, and continues along the trajectory
+  /// before it.
+  /// @return whether there was such a plan
+  bool drop_unsent_plan(UTime last_setpoint);
+  /// Sets the mode of the newest goal; nullopt: no goal was received.
   void set_mode(std::optional<GoalMode> mode) { mode_ = mode; }
 
-  /// The request that is due at `now`, with an empty header. @return nullopt if none is due
+  /// Returns the request that is due at `now`, with an empty header, or nullopt if none is due.
   std::optional<HorizonRequest> next_request(UTime now);
-  /// When next_request() wants to be called. @return nullopt if there is nothing to ask
+  /// Returns when next_request() is to be called, or nullopt while no requests are made.
   [[nodiscard]] std::optional<UTime> next_wakeup() const;
-  /// Judges a plan that came at `now`, and flies it from its t_s on if it may be flown. Counted, whatever it is.
+  /// Decides on a plan received at `now`. An adopted plan is in force from its t_s on. Every plan is counted.
   Adoption consider(const Plan& plan, UTime now);
 
+  /// The committed motion at t.
   [[nodiscard]] MotionSample sample(UTime t) const { return committed_.sample(t); }
-  /// The same, at a joint with the jerk of what follows: the cubic that begins at t.
+  /// The committed motion just after t. It differs from sample() at a joint, where the jerk jumps.
   [[nodiscard]] MotionSample sample_after(UTime t) const;
   [[nodiscard]] const CommittedTrajectory& committed() const { return committed_; }
-  /// The committed curve between two times (see CommittedTrajectory::pieces).
+  /// The committed motion between two times (CommittedTrajectory::pieces).
   [[nodiscard]] PiecewiseCubic pieces(UTime from, UTime to) const { return committed_.pieces(from, to); }
-  /// No one will ask for times before t any more.
+  /// Drops the memory of times before t. Later calls must not ask for them.
   void forget_before(UTime t);
   [[nodiscard]] bool at_rest(UTime t) const { return t >= committed_.end(); }
-  /// Whether requests go out: the vehicle follows, and the newest goal wants to be flown to.
+  /// Whether requests are made: the vehicle follows, and the newest goal has a mode other than Stop.
   [[nodiscard]] bool requests_plans() const { return requests_from_ && mode_ && *mode_ != GoalMode::Stop; }
   [[nodiscard]] const ExecutorCounters& counters() const { return counters_; }
 
  private:
-  /// A request that is closed, so that a late or second answer is known for what it is.
+  /// A closed request. It is remembered to recognize a late or a second answer.
   struct Closed {
     std::int64_t id = 0;
     UTime t_s;
     bool answered = false;
   };
+  /// A tube that holds from a time on.
   struct TubeFrom {
     UTime from;
     Vec3 tube;
   };
-  /// The share of the vehicle's limits, or what is left of the trajectory needs where that is more (see rejoin).
+  /// The vehicle's limits times share_, or the largest values of `committed` after `from` where those are larger.
   [[nodiscard]] Limits limits_for(const TimedSpline& committed, UTime from) const;
-  /// The flight box, or a larger one where the trajectory is already outside.
+  /// The flight box, enlarged where `committed` leaves it.
   [[nodiscard]] Box flight_box_for(const TimedSpline& committed) const;
   [[nodiscard]] Adoption judge(const Plan& plan, UTime now);
   [[nodiscard]] Verdict judge_closed(std::int64_t id, UTime now);
@@ -128,10 +133,10 @@ class Executor {
   Box flight_box_;
   Duration period_, lead_;
   CommittedTrajectory committed_;
-  UTime sent_start_;  ///< the start of the newest segment that the vehicle may have heard of
+  UTime sent_start_;  ///< start of the newest segment that a request has contained
   Vec3 tube_ = Vec3::Zero();
   double share_ = 1.0;
-  std::deque<TubeFrom> tubes_;
+  std::deque<TubeFrom> tubes_;  ///< ascending
   std::optional<UTime> requests_from_;
   std::optional<GoalMode> mode_;
   std::optional<HorizonRequest> outstanding_;

@@ -1,4 +1,4 @@
-// How far the vehicle is off its setpoints: the bound that a request promises, measured.
+// The tube: how far the vehicle may be from its setpoints, per axis, measured in flight.
 #pragma once
 
 #include <algorithm>
@@ -13,21 +13,22 @@
 
 namespace tern {
 
-/// No tube is wider, m: a vehicle that is farther off does not follow.
+/// Largest tube, m per axis. A vehicle that is farther from its setpoints does not follow them.
 inline constexpr double kMaxTube = 2.0;
 
-/// An error of less is none, m: rounding, and a trajectory that the vehicle has not heard of yet.
+/// Smaller errors count as 0, m: they are rounding, or due to a trajectory that the vehicle has not received yet.
 inline constexpr double kMinError = 1e-3;
 
-/// What all of the newest states show of an error, per axis: those of the last kWindow, kMinStates at least. A state
-/// that tells another tale than those beside it, be it noise or a lie in the vehicle's name, shows nothing.
+/// The error that all newest states have in common. Per axis it is the least error of the states of the last kWindow,
+/// or of the last kMinStates states if those are more. A single state that disagrees with its neighbours, by noise or
+/// because it is forged, does not raise it.
 class PersistentError {
  public:
   static constexpr Duration kWindow{20'000};
   static constexpr std::size_t kMinStates = 3;
   /// @param error  per axis, m
-  /// @param received  by the listener's clock: what the state says of its time may be wrong as well. Ascending
-  /// @return zero before kMinStates states have come
+  /// @param received  receive time, ascending; the state's own time may be wrong
+  /// @return the persistent error per axis, m; zero before kMinStates states
   Vec3 add(const Vec3& error, UTime received);
 
  private:
@@ -38,56 +39,59 @@ class PersistentError {
   std::deque<Seen> newest_;
 };
 
-/// The tube from what was measured, per axis: kMargin times a split-conformal quantile, plus three standard deviations
-/// of the estimate that the errors were measured by. The quantile is of the largest errors of the last two minutes'
-/// seconds: errors of neighbouring instants are alike, those of whole seconds nearly exchangeable. Until there are
-/// kPriorSeconds seconds the rest count with kPriorError: a vehicle that shows any error tracks no better than a
-/// well-tuned autopilot. Rounded up to kTubeStep, so that it changes seldom; 0 while no error reached kMinError. Never
-/// under the floor, never over kMaxTube.
+/// Measures the tube that requests contain.
 ///
-/// A vehicle that was pushed out and got a new trajectory (left) tells of an event, not of its tracking: such errors
-/// are not for add(); for kWidenedFor the tube is half as wide again.
+/// The width per axis is kMargin times a split-conformal quantile, plus three standard deviations of the estimate. The
+/// quantile is that of level 1 − kMissedShare, over the largest error of each of the last kMaxSeconds seconds. Seconds
+/// are used because errors of neighbouring instants are dependent, while those of whole seconds are nearly
+/// exchangeable. Seconds missing to kPriorSeconds count with kPriorError once an error has reached kMinError, and with
+/// 0 until then. The width is rounded up to kTubeStep, so that it changes seldom. It lies between the floor and
+/// kMaxTube.
 ///
-/// Where the estimator shifts the vehicle's position (shifted), either the place before is right or the one after, and
-/// nobody says which. From then on the tube is wider by the shift: the true place stays within it, whichever it is.
+/// | event                          | effect                                                                       |
+/// |--------------------------------|------------------------------------------------------------------------------|
+/// | the vehicle leaves the tube    | for kWidenedFor the width is 1.5 times as large                              |
+/// | the estimator is reset         | the width grows by the shift: either position, before or after, may be true  |
+/// | stationary, and no way out     | share() is halved, once in kStepPeriod, at most kMaxHalvings times           |
+/// | a plan is flown                | share() is doubled, if it has not changed during the patience                |
 ///
-/// Where the vehicle rests and the tube leaves no way (blocked), it is asked to fly slower: errors of tracking grow
-/// with speed and acceleration. The next request has limits of half the size (share) and promises half the tube, but no
-/// less than was measured at rest, or so slowly. It is halved again until plans are flown, one step in kStepPeriod at
-/// most. So it goes on for kPatience/share, as long as an opening may be ahead; then a step up is tried. One that ends
-/// blocked doubles the patience, one that lasts ends that.
+/// share() is the part of the vehicle's limits that requests contain. Tracking errors grow with speed and acceleration,
+/// so a slower vehicle fits through a smaller opening. Each halving also halves the width, but not below the width
+/// measured at that share. The patience is kPatience/share. It is doubled, up to kMaxPatience, if a step up is followed
+/// by a step down within the patience; otherwise it begins anew.
 class Tube {
  public:
   static constexpr double kTubeStep = 0.05;         ///< m
-  static constexpr double kMissedShare = 0.02;      ///< share of seconds that may leave the quantile
-  static constexpr double kMargin = 1.5;            ///< over it: a flight shall not leave the tube even once
-  static constexpr double kPriorError = 0.2;        ///< m: the tube begins with 0.3 m
-  static constexpr std::size_t kPriorSeconds = 50;  ///< seconds: the fewest of which 2 % may be missed
-  static constexpr Duration kSecond{1'000'000};     ///< over which the largest error counts
-  static constexpr std::size_t kMaxSeconds = 120;   ///< seconds
+  static constexpr double kMissedShare = 0.02;      ///< share of seconds beyond the quantile
+  static constexpr double kMargin = 1.5;            ///< on the quantile: a flight should not leave the tube even once
+  static constexpr double kPriorError = 0.2;        ///< m; with kMargin the tube begins with 0.3 m
+  static constexpr std::size_t kPriorSeconds = 50;  ///< the fewest seconds of which 2 % can be missed
+  static constexpr Duration kSecond{1'000'000};     ///< span over which the largest error is taken
+  static constexpr std::size_t kMaxSeconds = 120;
   static constexpr Duration kWidenedFor{5'000'000};
   static constexpr Duration kStepPeriod{250'000};
   static constexpr int kMaxHalvings = 5;
   static constexpr Duration kPatience{2'000'000}, kMaxPatience{60'000'000};
 
-  /// @param floor_m  promised at least, [0, kMaxTube]
+  /// @param floor_m  smallest width, [0, kMaxTube]
   explicit Tube(double floor_m) : floor_m_(floor_m) {}
 
-  /// @param error  |measured − commanded| per axis, m. Times ascend
-  /// @param rests  it is commanded to rest, and has been for a while
+  /// Adds a tracking error. @param error  |measured − commanded| per axis, m
+  /// @param rests  the committed trajectory has been at rest for a while @param at  ascending
   void add(const Vec3& error, bool rests, UTime at);
-  /// An error that tells only that the vehicle is not perfect.
+  /// Notes an error that is not used for the quantile. From kMinError on the vehicle counts as imperfect.
   void note_error(const Vec3& error) { has_error_ = has_error_ || (error.array() >= kMinError).any(); }
-  /// It is not perfect, though at rest it shows no error.
+  /// The vehicle counts as imperfect, even if no error was seen.
   void assume_errors() { has_error_ = true; }
+  /// The vehicle has left its tube.
   void add_exit(UTime at) { exited_ = at; }
-  /// The estimator has reset itself. @param by  m, W
+  /// The estimator has reset itself. @param by  shift of the position, m, W
   void add_shift(const Vec3& by);
-  /// What came of a request. @param rests  the vehicle is commanded to rest
+  /// Takes the planner's answer to a request. @param rests  the committed trajectory is at rest
   void on_answer(const Plan& plan, bool rests, UTime at);
-  /// @param sigma  of the estimate per axis, m, ≥ 0
+  /// The width per axis, m. @param sigma  standard deviation of the estimate per axis, m, ≥ 0
   [[nodiscard]] Vec3 width(const Vec3& sigma, UTime now) const;
-  /// Of the vehicle's limits that requests ask for, (0, 1].
+  /// The share of the vehicle's limits that requests contain, (0, 1].
   [[nodiscard]] double share() const;
 
  private:
@@ -98,16 +102,16 @@ class Tube {
     Vec3 largest = Vec3::Zero();
   };
   using Seconds = std::deque<Second>;
-  /// Of a vehicle that moves, m.
+  /// Width from the errors in motion, m. @param unsure  the estimate's part of it, m
   [[nodiscard]] double moving_width(int axis, double unsure) const;
   [[nodiscard]] static double quantile(const Seconds& seconds, double prior, int axis);
-  /// The newest step is this long ago, or there was none.
+  /// Whether the share has not changed for `span`.
   [[nodiscard]] bool unchanged_for(Duration span, UTime at) const { return !stepped_ || at - *stepped_ >= span; }
-  /// For how long it flies so slowly.
+  /// How long the share stays as it is before a step up.
   [[nodiscard]] Duration patience() const { return std::min(patience_ * (1 << halvings_), kMaxPatience); }
 
   double floor_m_;
-  /// The sum of all shifts, and the least and largest that it was.
+  /// Sum of all shifts, and its least and largest value per axis so far.
   Vec3 shift_ = Vec3::Zero(), min_shift_ = Vec3::Zero(), max_shift_ = Vec3::Zero();
   std::optional<UTime> exited_, stepped_;
   int halvings_ = 0;

@@ -1,4 +1,4 @@
-// Where the vehicle's nose points: until heading is planned, along the flight.
+// The yaw setpoint: it follows the direction of flight with limited rate and acceleration.
 #pragma once
 
 #include "core/base/knobs.h"
@@ -7,7 +7,7 @@
 
 namespace tern {
 
-/// Rate and acceleration that an airframe of half a metre turns by without losing much thrust.
+/// The section `executor.heading`. With the defaults, a vehicle of half a metre turns without losing much thrust.
 struct YawFollowerConfig {
   double rate_max_deg_s = 120.0;
   double acceleration_max_deg_s2 = 360.0;
@@ -15,24 +15,25 @@ struct YawFollowerConfig {
 
   template <typename V>
   void visit(V& v) {
-    v("rate_max", rate_max_deg_s, Range{1.0, 1000.0}, "the heading turns no faster, degrees/s");
-    v("acceleration_max", acceleration_max_deg_s2, Range{1.0, 1e5}, "its rate changes no faster, degrees/s²");
+    v("rate_max", rate_max_deg_s, Range{1.0, 1000.0}, "largest yaw rate, degrees/s");
+    v("acceleration_max", acceleration_max_deg_s2, Range{1.0, 1e5}, "largest yaw acceleration, degrees/s²");
     v("least_speed", least_speed, Range{0.01, 100.0},
-      "below this horizontal speed, m/s, the flight has no direction: the heading keeps its last aim");
+      "below this horizontal speed, m/s, the yaw keeps its last target");
   }
 };
 
-/// The heading that follows the direction of horizontal flight, the shorter way round: as quickly as rate and
-/// acceleration allow, slowing down in time to stop at its aim. Pure: times are arguments.
+/// Turns the yaw towards the direction of horizontal flight, the shorter way round. It turns as fast as the limits of
+/// rate and acceleration allow, and slows down in time to stop at its target.
 ///
-/// Over a step of h s to an aim e rad away the rate is at most v with v²/2a + v h/2 = |e|, from which it can stop
-/// there.
+/// For a target e rad away and a step of h s, the rate is at most the v with v²/2a + v h/2 = |e|. From this rate the
+/// yaw can still stop at its target. Pure: times are arguments.
 class YawFollower {
  public:
-  /// At rest at yaw (rad).
+  /// Starts at `yaw` (rad) with rate 0.
   YawFollower(double yaw, UTime now, const YawFollowerConfig& config = {});
 
-  /// Moves on to `now` (not before the last time), where the vehicle flies at v (W, m/s). @return the yaw
+  /// Advances to `now`, where the vehicle flies at v (W, m/s). A time before the last one changes nothing.
+  /// @return the yaw
   double follow(const Vec3& v, UTime now);
 
   [[nodiscard]] double yaw() const { return yaw_; }    ///< rad, (−π, π]

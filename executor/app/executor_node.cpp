@@ -15,10 +15,10 @@ namespace {
 
 constexpr Duration kSetpointPeriod{10'000}, kGoalPeriod{1'000'000}, kRefusalLogPeriod{1'000'000},
     kRemembered{1'000'000};
-/// A vehicle that was slower for so long stands, or hovers.
+/// A vehicle slower than this for kStationaryFor is stationary, m/s.
 constexpr double kStationarySpeed = 0.3;
 constexpr Duration kStationaryFor{200'000};
-/// After this long at rest what is measured is the error of hovering.
+/// After this long at rest, the measured error is that of hovering.
 constexpr Duration kSettled{1'000'000};
 
 }  // namespace
@@ -54,8 +54,7 @@ void ExecutorNode::wait_until_stationary(const UavState& state) {
 
 void ExecutorNode::check_tracking(const UavState& state) {
   fall_silent_if_held_up(bus_.received());
-  if (silent_since_ && state.at < *silent_since_)
-    return;  // what was, tells nothing of what the vehicle has heard since
+  if (silent_since_ && state.at < *silent_since_) return;
   if (state.at < last_setpoint_ - kRemembered) return;
   const Vec3 seen = (state.motion.p - executor_->sample(state.at).p).cwiseAbs();
   const Vec3 tube = executor_->tube_at(state.at);
@@ -91,7 +90,7 @@ void ExecutorNode::fall_silent(UTime now) {
 
 void ExecutorNode::drop_unsent_plan() {
   if (!executor_->drop_unsent_plan(last_setpoint_)) return;
-  spdlog::info("the newest plan is not flown: no request could tell the vehicle of it");
+  spdlog::info("dropped the newest plan: no request has told the vehicle of it");
 }
 
 bool ExecutorNode::check_after_silence(const UavState& state, const Vec3& error) {
@@ -107,7 +106,7 @@ bool ExecutorNode::check_after_silence(const UavState& state, const Vec3& error)
 }
 
 void ExecutorNode::on_estimate_shift(const std::optional<Vec3>& by) {
-  if (!by || !has_followed_) return;  // before, it is the estimator that says where W is
+  if (!by || !has_followed_) return;  // before the first flight, a shift moves the frame W with it
   tube_.add_shift(*by);
   spdlog::warn("the estimator has shifted the vehicle by ({:.2f}, {:.2f}, {:.2f}) m", by->x(), by->y(), by->z());
 }
@@ -116,7 +115,7 @@ void ExecutorNode::update_tube(UTime now) { executor_->set_tube(tube_.width(sigm
 
 void ExecutorNode::rejoin(const UavState& state) {
   UavState from = state;
-  if (state.at <= last_setpoint_) {  // what was said of then stays so
+  if (state.at <= last_setpoint_) {  // a published setpoint stays: carry the state on to just after it
     from.at = last_setpoint_ + Duration{1};
     const double later_s = (from.at - state.at).seconds();
     from.motion.p += later_s * (state.motion.v + 0.5 * later_s * state.motion.a);
@@ -177,7 +176,7 @@ void ExecutorNode::on_plan(const Plan& plan) {
   if (adoption.verdict == Verdict::Late || adoption.verdict == Verdict::TooLate) bus_.count_late(channels::kPlan);
   ++unlogged_refusals_;
   if (now < next_refusal_log_) return;
-  spdlog::warn("refused the plan for request {}: {} ({}); {} refused since the last word", plan.request_id,
+  spdlog::warn("refused the plan for request {}: {} ({}); {} refused since the last such line", plan.request_id,
                to_string(adoption), adoption.detail, unlogged_refusals_);
   unlogged_refusals_ = 0;
   next_refusal_log_ = now + kRefusalLogPeriod;
@@ -210,7 +209,8 @@ void ExecutorNode::step(UTime now) {
   }
 }
 
-/// Where the trajectory's jerk jumps since the last beat, and now: so each setpoint's cubic leads to the next one.
+/// Publishes a setpoint at each jump of the jerk since the last one, and one now. So the cubic of each setpoint leads
+/// to the next setpoint.
 void ExecutorNode::publish_setpoints(UTime now) {
   if (now <= last_setpoint_) return;
   UTime at = last_setpoint_;

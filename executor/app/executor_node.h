@@ -1,4 +1,4 @@
-// tern-executor: asks for plans, adopts them, and says setpoint by setpoint what the vehicle shall fly.
+// tern-executor: requests plans, adopts them, and publishes the vehicle's setpoints.
 #pragma once
 
 #include <cstdint>
@@ -15,26 +15,36 @@
 
 namespace tern {
 
-/// A vehicle that is outside its tube, but by no more than this, is left to its controller, m. While it does not
-/// follow, it may be so far off.
+/// A vehicle that is outside its tube by more than this must rejoin, m. Below it, its controller brings it back. While
+/// the vehicle does not follow, this is the largest error.
 inline constexpr double kRejoinBeyond = 0.1;
 
-/// Hears UAV_STATE, VEHICLE_STATUS, GOAL and PLAN; says HORIZON_REQUEST, SETPOINT and, at 1 Hz, the GOAL that it has
-/// taken.
+/// Flies plans: requests them, adopts them, and publishes a setpoint at 100 Hz and at each knot of the trajectory.
+/// Receives UAV_STATE, VEHICLE_STATUS, GOAL and PLAN; publishes HORIZON_REQUEST, SETPOINT and GOAL.
 ///
-/// It begins when the vehicle is still, which it is at a flight's start. An executor that was started anew in flight
-/// knows nothing of what was committed, and begins when the vehicle has flown that to its end. Then it commits to rest
-/// where the vehicle is. It asks for plans while VEHICLE_STATUS says that the vehicle is following and there is a goal.
+/// | state     | entered when                                                  | publishes      | requests plans    |
+/// |-----------|---------------------------------------------------------------|----------------|-------------------|
+/// | Waiting   | at start, also after a restart in flight                      | GOAL           | no                |
+/// | Holding   | the vehicle is stationary: its position is committed          | SETPOINT, GOAL | no                |
+/// | Following | VEHICLE_STATUS reports that the vehicle follows               | SETPOINT, GOAL | unless told to stop |
+/// | Silent    | no setpoint for kSetpointSilence, or the vehicle follows again | GOAL          | no                |
 ///
-/// It may be held up for longer than kSetpointSilence, or be told that the vehicle follows again. Then it says nothing
-/// before it has seen where the vehicle is, which may not have heard of what was adopted last. Who is not where he was
-/// committed to be gets a trajectory to rest from where he is.
+/// The vehicle is stationary at the start of a flight. After a restart in flight it first flies the trajectory that was
+/// committed before to its end. GOAL is the goal received last, at 1 Hz.
 ///
-/// The heading begins where it is measured when the vehicle first follows: estimators correct it while they take off.
+/// | event                                          | state     | effect                                              |
+/// |------------------------------------------------|-----------|-----------------------------------------------------|
+/// | two UAV_STATEs in turn outside the tube        | Following | the exit is logged and counted; the tube is widened |
+/// | beyond the tube by > kRejoinBeyond (3 states)  | Following | rejoin                                              |
+/// | off the setpoint by > kRejoinBeyond (3 states) | Holding   | rejoin                                              |
+/// | first UAV_STATE since the silence began        | Silent    | Silent ends; rejoin if it is off the trajectory     |
+/// | the vehicle stops following, or mode Stop      | Following | a plan that no request contained yet is dropped     |
+/// | the vehicle follows for the first time         | Holding   | the yaw starts at the measured yaw                  |
+/// | the estimator is reset after that              | any       | the tube grows by the shift                         |
 ///
-/// UAV_STATE against what is committed makes the tube that requests promise. A vehicle that leaves what was promised,
-/// by two states in turn, widens it, which is said. Beyond kRejoinBeyond it gets a trajectory to rest from where it is,
-/// from which the next plan goes on.
+/// Rejoin means: commit to a braking trajectory from the measured state; the next plan starts on it. The yaw starts
+/// anew because estimators correct it during take-off. Silent is needed because the vehicle may not have received the
+/// plan that was adopted last.
 class ExecutorNode final : public Node {
  public:
   ExecutorNode(Bus& bus, const UavSpec& uav, const ExecutorConfig& config);
@@ -43,11 +53,11 @@ class ExecutorNode final : public Node {
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
 
-  /// nullptr until the vehicle was found at rest.
+  /// nullptr in state Waiting.
   [[nodiscard]] const Executor* executor() const { return executor_ ? &*executor_ : nullptr; }
-  /// How often the vehicle has left its tube.
+  /// Number of times that the vehicle has left its tube.
   [[nodiscard]] std::int64_t tube_exits() const { return tube_exits_; }
-  /// All zero until then.
+  /// All zero in state Waiting.
   [[nodiscard]] ExecutorCounters counters() const { return executor_ ? executor_->counters() : ExecutorCounters(); }
 
  private:
@@ -59,12 +69,12 @@ class ExecutorNode final : public Node {
   void begin(const UavState& state);
   void check_tracking(const UavState& state);
   void rejoin(const UavState& state);
-  /// Without a step for kSetpointSilence: a plan may have been adopted of which the vehicle has not heard.
+  /// Enters Silent if the newest setpoint is older than kSetpointSilence.
   void fall_silent_if_held_up(UTime now);
   void fall_silent(UTime now);
-  /// What could not be told is not flown, or the vehicle would be elsewhere.
+  /// Drops the newest plan if no request has contained it: the vehicle does not know it, and would be elsewhere.
   void drop_unsent_plan();
-  /// The first state since the vehicle and what is committed may have parted. @return whether they have
+  /// Leaves Silent by the first state since it began. @return whether the vehicle is off the trajectory and rejoins
   bool check_after_silence(const UavState& state, const Vec3& error);
   void on_estimate_shift(const std::optional<Vec3>& by);
   void update_tube(UTime now);
@@ -79,16 +89,16 @@ class ExecutorNode final : public Node {
   std::optional<UTime> stationary_since_;
   std::optional<Goal> goal_;
   bool following_ = false, has_followed_ = false;
-  std::optional<UTime> silent_since_;  ///< nothing is said until a state of this time or later has come
+  std::optional<UTime> silent_since_;  ///< set in state Silent: a UAV_STATE of this time or later ends it
   Tube tube_;
   EstimateResets resets_;
-  Vec3 sigma_ = Vec3::Zero();    // of the estimate, m
-  std::int64_t tube_exits_ = 0;  // how often the vehicle has left its tube
+  Vec3 sigma_ = Vec3::Zero();  ///< standard deviation of the estimate, m
+  std::int64_t tube_exits_ = 0;
   bool outside_tube_ = false;
   PersistentError persistent_error_;
-  Vec3 excess_ = Vec3::Zero();               ///< of the newest state, what of its error was not promised; m
-  double measured_yaw_ = 0.0;                ///< rad, the newest
-  std::optional<YawFollower> yaw_follower_;  ///< once the executor has begun
+  Vec3 excess_ = Vec3::Zero();               ///< error of the newest state minus the tube, m
+  double measured_yaw_ = 0.0;                ///< rad, newest
+  std::optional<YawFollower> yaw_follower_;  ///< empty in state Waiting
   UTime last_setpoint_;
   UTime next_setpoint_, next_goal_;
   UTime next_refusal_log_;
