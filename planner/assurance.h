@@ -1,4 +1,4 @@
-// How sure a plan is: how much of estimated tracks' α it counts.
+// Assurance: the share of estimated tracks' error bound α that a candidate is tested against.
 #pragma once
 
 #include <vector>
@@ -8,25 +8,28 @@
 
 namespace tern {
 
-/// What counts of the α of what is estimated. What is declared or static counts in full, always.
+/// The share of α that is applied to estimated tracks. Declared and static tracks always keep their full α.
 struct Assurance {
-  int level = 0;                 ///< of kConfidenceLevels
-  double scale = 1.0;            ///< of α at that level, (0, 1]; below 1 no confidence is known
-  Duration sure_for = kMaxSpan;  ///< so long after t_s α grows; what is later counts with the α of then
+  int level = 0;                 ///< index into kConfidenceLevels
+  double scale = 1.0;            ///< factor on α at that level, (0, 1]; below 1 the confidence is unknown
+  Duration sure_for = kMaxSpan;  ///< α grows until t_s + sure_for and stays constant from then on
 };
 
-/// What is tried, in this order, where nothing is had at the promised level to the end. What is later than the vehicle
-/// needs to step aside will be predicted anew before it must be acted on. So α stops growing first (kGrowthTimes), then
-/// the level falls (kReducedLevels). Of what follows no confidence is known: parts of that α (kAlphaScales). They grow
-/// for the same time: α that did not would leave plans that speed up past what is near.
-/// @param side_step_s  what the vehicle needs to step aside (HoldDemand), s
+/// The reduced assurances in the order in which plan_with_reduced_assurance() tries them:
+///  1. α at the full level stops growing after kGrowthTimes · side_step_s. Later motion is predicted again
+///     before the vehicle must act on it.
+///  2. α at the levels kReducedLevels, growing for one side step.
+///  3. kAlphaScales of α at the lowest level, growing for one side step. If this α did not grow, a plan could speed up
+///     past an obstacle that is near.
+/// @param side_step_s  HoldDemand::side_step_s, s
 std::vector<Assurance> reduced_assurances(double side_step_s);
 
-/// For as long as it is sure; 0 where none is known: below scale 1, or sure for no time.
-/// @param set_confidence  the prediction set's (TrackSet::confidence)
+/// Returns the confidence that a trajectory certified at this assurance has up to t_s + sure_for. Returns 0 if it is
+/// unknown: for scale < 1 or sure_for = 0.
+/// @param set_confidence  confidence of the prediction set (TrackSet::confidence)
 double confidence_of(const Assurance& assurance, double set_confidence);
 
-/// Counts α of the estimated obstacles so, whatever was counted before, and those of others in full.
+/// Sets the α of every estimated obstacle to this assurance, and that of the others to full. Earlier values are lost.
 void apply_assurance(const Assurance& assurance, UTime t_s, std::vector<PlanningObstacle>& obstacles);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// One attempt: a duration and where it heads, searched and certified.
+// One attempt: a duration and a course, searched and certified.
 #pragma once
 
 #include <optional>
@@ -11,55 +11,54 @@
 
 namespace tern {
 
-/// A certified trajectory and what it is worth.
+/// A certified trajectory that may become the plan, with the values by which candidates are compared.
 struct Candidate {
   PlanOutcome outcome = PlanOutcome::NoPlan;
-  Assurance assurance;   ///< what it is certified at
-  bool relaxed = false;  ///< StartClearance::relaxed, there
+  Assurance assurance;   ///< the assurance that it was certified at
+  bool relaxed = false;  ///< StartClearance::relaxed at that assurance
   TimedSpline trajectory;
-  double clear_s = 0.0;  ///< from t_s until the end point is no longer clear, or as far as was looked
-  double hold_s = 0.0;   ///< of that, after the end
-  bool holds = false;    ///< hold_s reaches the requirement
-  double arrival_s =
-      0.0;  ///< estimate of the time from t_s to the goal, and what regions cost on it (arrival_with_exposure)
+  double clear_s = 0.0;    ///< from t_s until the end point stops being clear, or to the last time that was tested, s
+  double hold_s = 0.0;     ///< the part of clear_s after the end: the terminal clear time, s
+  bool holds = false;      ///< hold_s reaches the required hold
+  double arrival_s = 0.0;  ///< estimated arrival at the goal after t_s, with exposure (arrival_with_exposure), s
   PlanCost cost;
   std::vector<CertificatePlane> certificate;
 
-  /// Holding comes first, then the arrival.
+  /// Compares by `holds` first, then by the earlier arrival.
   [[nodiscard]] bool is_preferred_to(const Candidate& other) const {
     if (holds != other.holds) return holds;
     return arrival_s < other.arrival_s;
   }
 };
 
+/// The problem of one duration.
 struct Attempt {
   const Surroundings& near;
   const Course& course;
   HorizonProblem problem;
-  double hold_s = 0.0;           ///< how far the hold of its end is followed
-  double hold_required_s = 0.0;  ///< what its end must hold to count as holding
+  double hold_s = 0.0;           ///< the end point is tested for this long after the end, s
+  double hold_required_s = 0.0;  ///< terminal clear time from which on the candidate holds, s
 };
 
-/// What the candidate is worth on the way to the course's local goal: its arrival, and of its cost what depends on it.
+/// Sets the candidate's arrival, and the terms of its cost that depend on the course.
 void evaluate(const Surroundings& near, const Course& course, Candidate& candidate);
 
-/// Adds the times of a hold of hold_s after the last of `times`, s, a step apart.
+/// Appends times up to hold_s after the last of `times`, `step` apart, s.
 void append_hold(std::vector<double>& times, double step, double hold_s);
 
-/// Δt of J intervals that last duration_s together, rounded up to a microsecond and at least 20 ms. Below that,
-/// rounding of accelerations q/Δt² would exceed the tolerances.
-/// @return nullopt if it would exceed kMaxIntervalDuration
+/// Returns Δt of J intervals that together last duration_s: rounded up to a microsecond, and at least kMinInterval.
+/// @return nullopt if Δt would exceed kMaxIntervalDuration
 std::optional<Duration> interval_of(double duration_s, int intervals);
 
-/// The obstacles of the horizon t_s … t_s + J Δt and of the hold after it.
-/// @param times  memory
+/// Assigns to `swept` the obstacles of the horizon t_s … t_s + J Δt and of the hold after it.
+/// @param times  scratch memory
 void sweep_horizon(const Attempt& attempt, std::vector<double>& times, SweptObstacles& swept);
 
-/// Searches. @return nullopt if there is no leaf that the checker passes
+/// Runs the search and certifies its leaf. @return nullopt if there is no leaf or the checker rejects it
 std::optional<Candidate> search_candidate(const Attempt& attempt, const SearchConfig& config, SweptObstacles& swept,
                                           PlanTools& tools);
 
-/// Checks. @return nullopt if the checker refuses the control points
+/// Runs the checker on these control points. @return nullopt if it rejects them
 std::optional<Candidate> certify(const Attempt& attempt, const Points& control_points, PlanOutcome outcome,
                                  SweptObstacles& swept, PlanLog& log);
 

@@ -1,4 +1,4 @@
-// Where the plans of one request head, and when a trajectory gets there.
+// The course of one request: where its plans aim, and when a trajectory reaches the goal.
 #pragma once
 
 #include <vector>
@@ -13,40 +13,44 @@ namespace tern {
 struct Course {
   LocalGoal local;      ///< the local goal
   CostToGo cost_to_go;  ///< to the goal, for ranking
-  double step_s = 0.0;  ///< planned_duration() to the local goal; 0: it heads nowhere
-  Limits pace;          ///< what arrivals are estimated by: the plan's limits, paced() over the way to the local goal
-  const SemanticFields* fields = nullptr;  ///< what is weighed on the way; null: no semantics
+  double step_s = 0.0;  ///< planned_duration() to the local goal, s; 0: the course stays in place
+  Limits pace;          ///< for arrival estimates: the plan's limits, paced() over the distance to the local goal
+  const SemanticFields* fields = nullptr;  ///< the semantics of the course; null: none
 };
 
-/// Stays where it is: for a vehicle that is told to hold or stop, or knows no path.
+/// Returns the course that stays at the start: for a vehicle that is to hold or stop, or has no path.
 Course course_in_place(const Surroundings& near);
 
-/// Along a path around static obstacles, with the local goal at the largest radius that local_goal_along() allows. The
-/// way leads to the farthest corner of the path to which the straight line is hardly longer, or costlier. So small
-/// bends around posts are left to the search. The way into a window, out of a trap or around a region leads over its
-/// corners.
+/// Returns the course along a path around static obstacles. Its local goal is local_goal_along() the path.
+///
+/// The cost-to-go leads to the farthest corner of the path that a straight line may replace. That line may be at most
+/// kBendIgnored shorter than the path, and at most that much dearer. Small bends around posts are thus left to the
+/// search. The path into a window, out of a trap or around a region is followed from corner to corner.
 /// @pre path is not empty
 Course course_along(const std::vector<Vec3>& path, const TravelCost& cost, double largest_radius,
                     const Surroundings& near);
 
-/// The same by way of its local goal, whatever regions cost: for small steps of who found no other.
+/// Returns the course that leads straight to the local goal and ignores semantics: for the smaller steps of a vehicle
+/// that found no other plan.
 Course course_to_local_goal(Course course);
 
-/// By how much of the way from there to the local goal the trajectory's end gets nearer to it.
+/// Returns 1 − |local_goal − end| / |local_goal − from|: the share of the distance to the local goal that the
+/// trajectory covers. Returns 0 if `from` is the local goal.
 double progress_share(const Vec3& from, const Vec3& local_goal, const TimedSpline& trajectory);
 
-/// What regions cost on the way to the local goal. @pre fields is not null
+/// Returns the semantic cost on the way to the local goal. @pre course.fields is not null
 SemanticGuide guide_of(const Surroundings& near, const Course& course);
 
-/// When the goal would be reached if the trajectory were flown for a while and the rest time-optimally, per axis. It is
-/// the mean over two such whiles. Comparing ends instead would favour short plans, because every plan brakes at its end
-/// and hardly one is flown so far.
-/// @param from  the time on the trajectory that counts as 0
+/// Estimates when the goal is reached, in seconds after `from`, as the mean over kFlownTimes.
+///
+/// Each term flies the trajectory for a time of kFlownTimes, and the rest time-optimally per axis. Comparing ends
+/// instead would favour short plans: every plan brakes at its end, and few are flown that far.
 double arrival_estimate(const Course& course, const TimedSpline& trajectory, UTime from);
 
-/// The score, s: the arrival estimate from t_s on, plus the exposure cost over the same whiles and ahead
-/// (SemanticGuide), flown at v_max. That trades metres for metres as the search does. The mean distance stays out: it
-/// has no exchange rate to seconds (flights of paper_repel took 0.3 s longer with it).
+/// Returns the arrival estimate after t_s plus the exposure cost over the same times and ahead (SemanticGuide), s.
+///
+/// A metre of exposure counts as the time to fly it at v_max: the same exchange rate as in the search. The mean
+/// distance of Eq. 3 is left out, since it has no exchange rate to seconds.
 double arrival_with_exposure(const Surroundings& near, const Course& course, const TimedSpline& trajectory);
 
 }  // namespace tern

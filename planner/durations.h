@@ -1,4 +1,4 @@
-// A few durations to the local goal: too short a one leaves it out of reach, too long a one is slow.
+// The loop over a few durations. A short one may leave the local goal out of reach; a long one is slow.
 #pragma once
 
 #include "planner/course.h"
@@ -8,11 +8,15 @@
 
 namespace tern {
 
-/// Tries the scales of the least duration, in order; each leaf is optimized, and the best stands. Ends with the first
-/// end that holds near the local goal (from rest: that gets on, too), or with the budget.
-/// @param phase   whose attempts these are
-/// @param search  its lengths are for local goals at kFullStep and beyond
-/// @return why there is no plan
+/// Tries config.duration_scales of the planned duration, in order. Each search result is optimized and offered to the
+/// incumbent.
+///
+/// The loop ends with the first candidate that holds and ends within kAtLocalGoal of the local goal. At rest this
+/// candidate must also make progress. The loop also ends with the budget, or when the obstacles are not known for as
+/// long as the next duration and its hold.
+/// @param phase   the phase that the attempts are counted in
+/// @param search  its lengths apply to local goals at kFullStep and beyond
+/// @return the reason if there is no new plan
 PlanReason try_durations(const Surroundings& near, const Course& course, Phase phase, const SearchConfig& search,
                          Incumbent& incumbent, PlanTools& tools);
 

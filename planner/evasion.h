@@ -1,4 +1,4 @@
-// Evasion: the reachable stop that stays clear longest.
+// Evasion: a trajectory to a stop that stays clear, sought without regard to the goal.
 #pragma once
 
 #include <optional>
@@ -7,15 +7,21 @@
 
 namespace tern {
 
-/// Tries up to 40 stops around the vehicle, in 26 directions, at leisure or in a hurry. They lie from a fraction of the
-/// width of vehicle and largest mover to 0.8 r away. Room is sought in 14 directions, at 0.35 r and 0.8 r. A cheap
-/// forecast by the obstacles' boxes sorts them: longest clear first, of equals the nearest. The first try usually
-/// succeeds. Each stop's hold is followed as far as predictions reach. Ends early when the budget is spent. The outcome
-/// is Evade.
-/// @param phase    Evasion: the stop that stays clear longest; the first that does to the hold's cap ends the search.
-///                 Room, for a start inside a hull: of the stops that hold, the one farthest from every obstacle's box
-/// @param course  by which arrivals are estimated
-/// @return the best stop, or nullopt if none passed the checker
+/// Searches for a stop around the vehicle; the outcome of the candidate is Evade.
+///
+/// | phase   | directions | distances                                                     | best stop                 |
+/// |---------|------------|---------------------------------------------------------------|---------------------------|
+/// | Evasion | 26         | kStopShares of r, kStopWidths of vehicle and mover            | stays clear longest       |
+/// | Room    | 14         | kStopShares of r                                              | of the stops that hold,   |
+/// |         |            |                                                               | farthest from every box   |
+///
+/// Each stop is tried at both kStopPaces; the quicker one only if nothing near is estimated. A forecast against the
+/// obstacles' boxes sorts the stops: longest clear first, then the slower pace, then the soonest. The first kMaxStops
+/// are searched; usually the first succeeds. The hold of each is tested as far as predictions reach.
+///
+/// In the phase Evasion the first stop that stays clear so long ends the loop. The loop also ends with the budget.
+/// @param course  for the estimated arrivals
+/// @return the best stop, or nullopt if the checker passed none
 std::optional<Candidate> find_evasion(const Surroundings& near, const Course& course, Phase phase, PlanTools& tools);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// The committed trajectory against these predictions: what stands before anything new is found.
+// The committed trajectory, checked against the request's predictions: the first incumbent.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,14 @@
 namespace tern {
 
 struct Fallback {
-  std::optional<Candidate> committed;  ///< nullopt: it is not clear, or not known to its end; its arrival is not set
-  /// The vehicle rests where it was told to, and a promised motion comes through it.
+  /// nullopt if it is blocked, or if obstacles are followed for less than its duration. Its arrival is not set.
+  std::optional<Candidate> committed;
+  /// The vehicle has reached its goal, and a declared or static obstacle is predicted to hit it there.
   bool is_hit_at_rest = false;
 };
 
-/// From t_s on, with the hold of its end. @param has_reached_goal  nothing to do but to stay clear
+/// Checks the committed trajectory from t_s on, and then its end point for the hold.
+/// @param has_reached_goal  the vehicle only has to stay clear
 Fallback check_committed(const Surroundings& near, bool has_reached_goal, PlanTools& tools);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// The hold: how long an end of a plan must stay clear, and how far ahead that is looked at.
+// The terminal clear time (hold): how long an end must stay clear, and for how long that is tested.
 #pragma once
 
 #include <limits>
@@ -10,34 +10,41 @@
 
 namespace tern {
 
-/// What one request asks of the ends of its plans. Times are seconds from t_s.
+/// The holds that one request asks of its plans. Times are seconds after t_s.
 struct HoldDemand {
   double required_s = 0.5;  ///< an end that stays clear this long is preferred to one that does not
-  double cap_s = 1.5;       ///< how far a hold is followed
-  double until_s = std::numeric_limits<double>::infinity();  ///< no hold is asked for later than this
-  double side_step_s = 0.0;    ///< what this vehicle needs to step out of a mover's way (side_step_time)
-  double predicted_s = 0.0;    ///< how far the predictions of what moves nearby reach
-  bool none_estimated = true;  ///< all that moves nearby is promised, nothing estimated
-  double width = 0.0;          ///< of vehicle and largest mover together: half-extents, added, m
+  double cap_s = 1.5;       ///< a hold is tested for this long
+  double until_s = std::numeric_limits<double>::infinity();  ///< no hold is required beyond this time
+  double side_step_s = 0.0;    ///< time in which the vehicle steps out of a mover's way (side_step_time)
+  double predicted_s = 0.0;    ///< last time for which any mover nearby is predicted
+  bool none_estimated = true;  ///< every mover nearby is declared
+  double width = 0.0;          ///< sum of half-extents of vehicle and largest mover, largest axis, m
 
-  /// What an end reached at `end_s` should hold to be preferred, s. Where predictions widen with time, a hold after a
-  /// long plan asks for more than one after a short plan, so standing still would win. `until_s` makes them equal.
-  /// Besides, the plan must stay clear from t_s on for as long as this vehicle needs to step aside, as far as
-  /// predictions reach. An evasion that begins when that no longer holds still has its time.
+  /// Returns the hold that an end reached at end_s must have to be preferred, s:
+  ///
+  ///     clamp(until_s − end_s, 0, max(required_s, min(side_step_s, predicted_s) − end_s))
+  ///
+  /// The plan thus stays clear from t_s on for at least a side step. When a later plan no longer does, an evasion that
+  /// starts then still has its time. Where predictions widen with time, a hold is harder to have after a long plan than
+  /// after a short one. Staying would then win; until_s makes the two equal.
   [[nodiscard]] double required(double end_s) const;
-  /// How far the hold of an end reached at `end_s` is followed: never less than is asked for.
+  /// Returns for how long the hold of an end reached at end_s is tested, s: at least required(end_s).
   [[nodiscard]] double cap(double end_s) const;
-  /// How far the hold of a stop that is flown to step aside, or to wait, is followed: as far as predictions reach.
+  /// The same for a stop that the vehicle evades to or waits at: as long as predictions reach.
   [[nodiscard]] double cap_of_stop(double end_s) const;
 };
 
-/// The least time in which this vehicle, at rest, leaves the way of a mover, s. It is the time from rest to rest over
-/// the width of both (half-extents) along the second quickest axis, times kStopScale. (A mover may come along the
-/// quickest.)
+/// Returns the least time in which this vehicle, at rest, leaves the way of a mover, s.
+///
+/// It is kStopScale times the least time from rest to rest over both half-extents along the second quickest axis. The
+/// quickest axis may be the one along which the mover comes.
 double side_step_time(const Limits& limits, const Vec3& body_half, const Vec3& mover_half);
 
-/// What the request asks for among these obstacles: the largest mover's size per axis, the predictions that reach
-/// farthest. Configured holds take half the horizon at most, so that flying has the other half.
+/// Returns the holds for a request among these obstacles.
+///
+/// The configured holds are cut to half the horizon, so that the other half is left for flying. side_step_s is the
+/// longest over all movers. until_s is the mean over the estimated movers of the time for which their α stays within
+/// the width of mover and vehicle. Of the three axes this width is the middle one.
 HoldDemand hold_demand(const HorizonRequest& request, const PlannerConfig& config,
                        const std::vector<PlanningObstacle>& obstacles, double horizon_s);
 

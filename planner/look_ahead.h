@@ -1,4 +1,4 @@
-// How far ahead one request looks: how long plans and holds may be, and how far the local goal may lie.
+// How far ahead one request looks: the longest plan and hold, and the distance of the local goal.
 #pragma once
 
 #include <vector>
@@ -10,48 +10,54 @@
 
 namespace tern {
 
-/// Where the vehicle's centre may be from t_s on if nothing new is flown, W. It may lie far out of the sphere around
-/// the start.
+/// Returns a box around the centre's positions on the committed trajectory from t_s on, in W. It may reach far out of
+/// the sphere around the start.
 Box committed_box(const HorizonRequest& request);
 
-/// What the body may touch from t_s on, flying what is committed or anything within the sphere, W.
+/// Returns a box around all points that the body may touch from t_s on, in the frame W. The body flies the committed
+/// trajectory or any trajectory within the sphere.
 /// @param committed  committed_box()
 Box planning_region(const HorizonRequest& request, const PlannerConfig& config, const Box& committed);
 
-/// Times count from t_s, s; negative ones are past, very large ones mean that nothing moves within reach.
+/// Times are seconds after t_s. A negative time is past; a very large one means that no mover is within reach.
 struct LookAhead {
-  UTime followed_until = kForever;  ///< no plan, hold included, looks past this time (Foresight)
-  double followed_s = 0.0;          ///< the same
-  double horizon_s = 0.0;           ///< plans that head for the local goal end, and hold, within this
+  UTime followed_until = kForever;  ///< no plan, hold included, lasts beyond this time (Foresight)
+  double followed_s = 0.0;          ///< the same after t_s, s
+  double horizon_s = 0.0;           ///< a plan to the local goal ends, and holds, within this time
 };
 
-/// The horizon is as long as movers are predicted within the planning region. It is at least kMinHorizon, or as long
-/// as they are followed: where predictions are short, boxes that grow stand for them.
+/// Returns how far ahead a request at t_s looks.
+///
+/// The horizon is as long as movers are predicted within the region, and at least min(kMinHorizon, followed_s). Beyond
+/// the predictions, growing boxes stand for the movers.
 /// @param region  planning_region()
 LookAhead look_ahead(UTime t_s, const PredictionProducts& predictions, const Box& region);
 
-/// Where a plan heads.
+/// The local goal s_g^temp.
 struct LocalGoal {
-  Vec3 goal = Vec3::Zero();  ///< s_g^temp: the last point of the path in the ball of this radius about the start, W
+  Vec3 goal = Vec3::Zero();  ///< last point of the path within this radius of the start, W
   double radius = 0.0;       ///< m
-  double planned_s = 0.0;    ///< planned_duration() to it
+  double planned_s = 0.0;    ///< planned_duration() to it, s
 };
 
-/// The largest planned_duration() to the local goal, s: it and the hold after it fit into the horizon, and Δt is at
-/// most kMaxIntervalDuration.
+/// Returns the longest planned_duration() to a local goal, s. With the first duration scale, the plan and its hold fit
+/// into the horizon, and Δt is at most kMaxIntervalDuration.
 double max_planned_duration(const LookAhead& look, const HoldDemand& hold, const PlannerConfig& config);
 
-/// The local goal at the first of `largest_radius` and radii that shrink by a sixth with planned_duration() ≤
-/// longest_s. Where there is none (the start is too fast to stop so soon), the one that is reached first.
+/// Returns the local goal at the largest of the radii largest_radius, kRadiusShrink · largest_radius, … for which
+/// planned_duration() ≤ longest_s. If there is none, since the start is too fast to stop so soon, it returns the one
+/// with the shortest planned duration.
 /// @pre path is not empty
 LocalGoal local_goal_along(const std::vector<Vec3>& path, const MotionSample& start, const Limits& limits,
                            double largest_radius, double longest_s);
 
-/// By how much lengths shrink with a local goal nearer than kFullStep, (0, 1].
+/// Returns the factor by which the search's lengths shrink for a local goal nearer than kFullStep, (0, 1].
 double step_scale(double goal_radius);
-/// The search's lengths (bands, steps of cost, voxels that prune) for local goals at this radius. Likewise its coarse
-/// velocity for a flight there of so many seconds. So small and slow steps are resolved as well as large ones. At
-/// kFullStep and beyond, within kFullStepTime, they are the configured ones.
+/// Returns the search's configuration for a local goal at this radius, planned_s seconds away.
+///
+/// Bands, steps of cost and pruning distances shrink by step_scale(). The pruning velocity follows the mean speed of
+/// the step. Small and slow steps are thus resolved as finely as large ones. At kFullStep and beyond, within
+/// kFullStepTime, the configured lengths apply.
 SearchConfig scaled(SearchConfig search, double goal_radius, double planned_s);
 
 }  // namespace tern

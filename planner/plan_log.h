@@ -1,4 +1,4 @@
-// What plan() tells while it plans: to a watchdog, to clocks, to those who count.
+// Observation of plan() while it runs: for the watchdog, for timing, for statistics.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,23 @@ struct PlanWorkspace;
 struct SearchProblem;
 struct SearchResult;
 
-/// Is told what plan() does while it does it: for timing, and so that a watchdog always has an answer.
+/// Receives the steps of plan() as they happen: for timing, and so that a watchdog always has an answer.
 class PlanObserver {
  public:
   virtual ~PlanObserver() = default;
-  virtual void enter(Stage stage) = 0;               ///< work of this stage begins
-  virtual void answer(const Plan& best_so_far) = 0;  ///< a (better) answer stands; the first is the fallback
-  /// A search has ended: for those who judge searches.
+  virtual void enter(Stage stage) = 0;               ///< called when work of this stage begins
+  virtual void answer(const Plan& best_so_far) = 0;  ///< called for each new incumbent; the first is the fallback
+  /// Called after each search.
   virtual void searched(const SearchProblem&, SweptObstacles&, const SearchResult&) {}
-  /// Whether the nodes of searches are kept for searched(); asked before each.
+  /// Returns whether the next search keeps its nodes for searched().
   [[nodiscard]] virtual bool wants_search_nodes() const { return false; }
 };
 
-/// What an answer cost in things that can be counted (times are the observer's).
+/// The work of one answer in counts. Times are the observer's.
 struct PlanStatistics {
-  std::int64_t expansions = 0;
-  std::int64_t hulls = 0;           ///< made by CGAL
-  std::int64_t pairs_by_index = 0;  ///< pairs of obstacle and interval dropped because they cannot reach the vehicle
+  std::int64_t expansions = 0;      ///< search nodes expanded
+  std::int64_t hulls = 0;           ///< hulls made by CGAL
+  std::int64_t pairs_by_index = 0;  ///< pairs of obstacle and interval out of the vehicle's reach
   PairCounts pairs;
   std::int64_t solver_calls = 0, solver_iterations = 0;
 
@@ -59,7 +59,7 @@ class PlanLog {
   PlanObserver* observer_;
 };
 
-/// What the steps of one call change besides what they return.
+/// The objects that the steps of one call change.
 struct PlanTools {
   Budget& budget;
   PlanWorkspace& memory;

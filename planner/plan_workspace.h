@@ -1,4 +1,4 @@
-// What plan() uses again from call to call: memory, never meaning.
+// Memory that plan() uses again from call to call. It never changes an answer.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,21 @@
 
 namespace tern {
 
-/// Give the same one to every call of a thread. Once it has seen requests as large, obstacles in reach, sweeps, search,
-/// convex problem and its solver allocate nothing. A fresh one gives the same answers, byte for byte. Not for two calls
-/// at once.
+/// Pass the same workspace to every call of one thread, and never to two calls at once. A fresh workspace gives the
+/// same answers, byte for byte.
+///
+/// Once a workspace has seen a request of some size, these allocate nothing for requests up to that size: obstacles in
+/// reach, sweeps, search, convex problem and barrier solver.
 struct PlanWorkspace {
-  std::vector<PlanningObstacle> obstacles;  ///< in reach of this request
-  std::vector<std::int32_t> found;          ///< of an index
-  std::vector<double> times;                ///< of a horizon
-  SweptObstacles committed;                 ///< along what is flown if nothing new is
-  SweptObstacles horizon;                   ///< of the duration being tried
-  SweptObstacles evasion, forecast;         ///< of one evasion, of all
+  std::vector<PlanningObstacle> obstacles;  ///< obstacles in reach of the request
+  std::vector<std::int32_t> found;          ///< results of an index query
+  std::vector<double> times;                ///< interval ends of a horizon, s after t_s
+  SweptObstacles committed;                 ///< along the committed trajectory
+  SweptObstacles horizon;                   ///< of the current duration
+  SweptObstacles evasion, forecast;         ///< of the current stop; of the forecast for all stops
   SearchMemory search;
   std::vector<CertificatePlane> certificates;  ///< planes near a trajectory
-  std::vector<PlaneConstraint> planes;         ///< the same for a solver
+  std::vector<PlaneConstraint> planes;         ///< the same as constraints of the solver
   ConvexProblem convex;
   BarrierSolver barrier;
 };

@@ -1,4 +1,4 @@
-// plan(): one request, one certified answer. Pure: no clock, no log, no state; time enters only through the Budget.
+// plan(): one certified answer to one request. It is pure: without clock, log or state. Time enters only by the Budget.
 #pragma once
 
 #include "core/world/budget.h"
@@ -10,22 +10,38 @@
 namespace tern {
 
 struct PlanAnswer {
-  Plan plan;  ///< header empty
+  Plan plan;  ///< its header is empty
   PlanStatistics statistics;
 };
 
-/// Plans from request.start within the sphere of radius r around it (paper §2), in this order:
-///  1. The committed trajectory is checked against these predictions: the fallback.
-///  2. A start inside a hull seeks room first. Else the path around static obstacles gives the local goal, and the
-///     semantic A* looks for a leaf at a few durations.
-///  3. Each leaf is optimized by Eq. 4 (`planner.optimization.method`; `alternating`: with its planes fixed).
-///  4. If neither that nor the committed trajectory holds long enough, an evasion is sought.
-///  5. The best certified trajectory is chosen: separated, hold long enough, least time to the goal, in that order.
-/// Every trajectory in an answer has passed check_plan() or check_separation(). Deterministic in its arguments; the
-/// workspace is memory, never meaning.
+/// Plans from request.start within the sphere of radius r around it (paper §2).
+///
+///  1. The committed trajectory is checked against the predictions: it is the first incumbent (fallback.h). If the
+///     vehicle is at rest at its goal and this trajectory holds, it is the answer.
+///  2. The path around static obstacles gives the local goal and the cost-to-go (course.h).
+///  3. If the start is relaxed, a stop with more room is sought (evasion.h, phase Room).
+///  4. The durations are tried: semantic A*, then Eq. 4 for each leaf (durations.h, refinement.h).
+///  5. If no candidate is good enough, more is tried: see the table.
+///  6. The best new candidate or the committed trajectory is chosen (incumbent.h).
+///
+/// Steps 3 to 5 depend on whether the vehicle flies *among estimates*: on its way to a goal, with an estimated mover
+/// nearby.
+///
+/// | step | not among estimates                                  | among estimates                                    |
+/// |------|------------------------------------------------------|----------------------------------------------------|
+/// | 3    | as stated                                            | skipped                                            |
+/// | 4    | skipped at the goal, without a path, and if step 3   | skipped if the start is relaxed                    |
+/// |      | found a stop                                         |                                                    |
+/// | 5    | at rest: up to kSmallerSteps shorter local goals     | reduced assurances until one is settled            |
+/// |      | until a plan makes progress; then an evasion if      | (reduced_assurance.h); an evasion only if no       |
+/// |      | neither the best nor the committed one holds         | candidate is left                                  |
+///
+/// Every trajectory in an answer has passed check_plan() or check_separation(). The function is deterministic in its
+/// arguments; the workspace never changes an answer. The full list of rungs is in docs/planner/choice.md.
+/// @param observer  receives the incumbents and the stages; may be null
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanWorkspace& workspace, PlanObserver* observer = nullptr);
-/// The same with memory of its own.
+/// The same with a workspace of its own.
 PlanAnswer plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config, Budget& budget,
                 PlanObserver* observer = nullptr);
 

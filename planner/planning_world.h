@@ -1,4 +1,4 @@
-// What a plan is made from, prepared off the hot path: immutable products of predictions, map and goal.
+// The world of a plan: immutable products of predictions, map and goal, prepared before requests come in.
 #pragma once
 
 #include <cstdint>
@@ -20,33 +20,34 @@
 
 namespace tern {
 
-/// Where nothing moves.
+/// The time until which a region without movers is known.
 inline constexpr UTime kForever{std::numeric_limits<std::int64_t>::max()};
 
-/// Until when movers are known within a region.
+/// How long the movers within a region are known.
 struct Foresight {
-  UTime predicted_until = kForever;  ///< from then on something may be there though no piece of a track says so
-  UTime followed_until = kForever;   ///< until then the boxes of what is found there hold every track
+  UTime predicted_until = kForever;  ///< from then on a mover may be there that no piece of its track places there
+  UTime followed_until = kForever;   ///< until then the boxes of the tracks found there hold every mover
 };
 
-/// A complete prediction set with boxes around each track's motion, and an index over them. So a plan costs what is in
-/// its reach, not what is in the world.
+/// A complete prediction set with boxes around each track's motion, and an index over them. The cost of a plan thus
+/// depends on the tracks within its reach, not on all tracks.
 struct PredictionProducts {
   TrackSet set;
-  std::vector<Box> piece_boxes;             ///< of all moving tracks, one per piece of their motions
-  std::vector<PlanningObstacle> obstacles;  ///< one per track; point into this object, so that it does not move
+  std::vector<Box> piece_boxes;             ///< one per piece of each moving track
+  std::vector<PlanningObstacle> obstacles;  ///< one per track; they point into this object, so it is never copied
   BoxIndex index;                           ///< over the obstacles' boxes
 
   explicit PredictionProducts(TrackSet tracks);
   PredictionProducts(const PredictionProducts&) = delete;
   PredictionProducts& operator=(const PredictionProducts&) = delete;
 
-  /// A track counts where it can be: its pieces' box, which grows at its top speed from its last piece on. Tracks that
-  /// `index` does not find in the region reach it at followed_until at the earliest. O(tracks).
+  /// Returns how long the movers within a region are known. A mover can be in the box of its pieces, which grows at its
+  /// top speed after its last piece. A track that `index` does not find there enters the region at
+  /// followed_until or later. O(tracks).
   [[nodiscard]] Foresight foresight(const Box& region) const;
 
  private:
-  /// A track that moves, as foresight() takes it.
+  /// A moving track, for foresight().
   struct Mover {
     MotionBoxes boxes;
     double top_speed;
@@ -59,19 +60,19 @@ struct PredictionProducts {
 /// One version of the map.
 struct MapProducts {
   std::uint64_t version = 0;
-  BoxIndex occupied;  ///< voxels that are obstacles, as few boxes
+  BoxIndex occupied;  ///< the obstacle voxels, merged into boxes
   SemanticFields fields;
-  bool weighs_paths = false;  ///< paths around static obstacles know what regions cost
+  bool weighs_paths = false;  ///< paths around static obstacles include the exposure cost
 
   MapProducts(const VoxelMap& map, const PlannerConfig& config);
 };
 
-/// What a goal field was made from; equal keys, equal fields, for one configuration.
+/// The inputs of a goal field. For one configuration, equal keys give equal fields.
 struct GoalFieldKey {
   Vec3 goal = Vec3::Zero();
   std::uint64_t map_version = 0;
   std::uint64_t statics = 0;               ///< digest of the static boxes
-  Box body{Vec3(0, 0, 0), Vec3(0, 0, 0)};  ///< about its position: what the obstacles were grown by, m
+  Box body{Vec3(0, 0, 0), Vec3(0, 0, 0)};  ///< the body about its position, by which obstacles are grown, m
   Box flight_box;
   friend bool operator==(const GoalFieldKey& a, const GoalFieldKey& b) {
     return a.goal == b.goal && a.map_version == b.map_version && a.statics == b.statics &&
@@ -80,21 +81,22 @@ struct GoalFieldKey {
   }
 };
 
-/// The distances to a goal around the boxes of map and static tracks (not inflated), weighed by the exposure cost where
-/// the map says so. About 100 ms, with regions some 300. The field keeps the map.
+/// Returns the field of distances to a goal around the boxes of map and static tracks. Distances include the exposure
+/// cost if map->weighs_paths. Takes about 100 ms, with regions about 300 ms. The field keeps the map alive.
+/// @param static_boxes  boxes of static tracks, not inflated, W
 /// @param start  enlarges the region that is searched
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
                           const std::vector<Box>& static_boxes, const Vec3& start);
 
-/// A goal and the way there.
+/// A goal and the field of distances to it.
 struct GoalProducts {
   Goal goal;
   GoalFieldKey key;
-  std::shared_ptr<const GoalField> field;  ///< null for a goal to hold or stop before there was a way to any
-  GoalFieldInputs made_from;               ///< what `field` was made from, as a plan names it
+  std::shared_ptr<const GoalField> field;  ///< null if no field was ever made: the goal is to hold or stop
+  GoalFieldInputs made_from;               ///< the inputs of `field`, as a plan reports them
 };
 
-/// The snapshot of one planning call. A null member: not there yet.
+/// The snapshot for one call of plan(). A null member has not been received or prepared.
 struct PlanningWorld {
   std::shared_ptr<const PredictionProducts> predictions;
   std::shared_ptr<const MapProducts> map;

@@ -1,4 +1,4 @@
-// Where nothing is had at the promised confidence: the plan of the greatest one, new or committed.
+// Plans at a reduced assurance, where no plan holds at the full one.
 #pragma once
 
 #include "planner/course.h"
@@ -8,18 +8,27 @@
 
 namespace tern {
 
-/// Whether no less of α need be counted: something stands that holds and leads far enough (kMinSettledProgress), new or
-/// committed. What waits or flies back does not settle it: among boxes that grow, the surest plan leads away from the
-/// goal for ever.
+/// Returns whether no lower assurance is needed: a candidate, new or committed, holds and makes kMinSettledProgress.
+///
+/// A candidate that waits or flies back does not settle it. Among growing boxes the surest plan would lead away from
+/// the goal again and again.
 bool is_settled(const Surroundings& near, const Course& course, const Incumbent& incumbent);
 
-/// Counts less and less of α (reduced_assurances()) until that is settled. Where no confidence is known any more it
-/// goes on only while nothing stands at all: a committed trajectory separated at a larger α is surer. Who stands still,
-/// and at a confidence holds where it is, waits a moment (kMaxWaitAtRest), the longer the less sure it is. What has
-/// come into view is soon known better. Who has rested for longer goes on all the same. Who finds nothing even so flies
-/// to the stop that stays clear longest.
-/// @param near  afterwards the surroundings as they were counted last
-/// @return why there is no plan
+/// Tries reduced_assurances() in order until is_settled(). At each one it checks the committed trajectory, if that was
+/// not clear before, and searches the durations.
+///
+/// Let c be the confidence of an assurance, 0 if it is unknown. The vehicle has waited once it has been at rest for
+/// more than (1 − c)·kMaxWaitAtRest.
+///  - An assurance that covers all that is predicted is skipped: it is the full one.
+///  - At a scale below 1 the loop ends if there is any candidate and the vehicle has not waited. A committed
+///    trajectory that is clear at a larger α is surer.
+///  - If the start stays relaxed at an assurance, that assurance is skipped. The last one is tried all the same.
+///  - At a scale of 1 the loop ends if the vehicle is stationary, its stop holds, and it has not waited. An obstacle
+///    that has just come into view is soon better known.
+///
+/// If there is no candidate in the end, the stop that stays clear longest is sought (find_evasion).
+/// @param near  changed to the surroundings at the last assurance
+/// @return the reason if there is no new plan
 PlanReason plan_with_reduced_assurance(const Course& course, Surroundings& near, Incumbent& incumbent,
                                        PlanTools& tools);
 

@@ -1,4 +1,4 @@
-// A search result made better by Eq. 4.
+// Eq. 4 applied to a leaf of the search.
 #pragma once
 
 #include <vector>
@@ -8,17 +8,20 @@
 
 namespace tern {
 
-/// Optimizes a leaf by the configured method, within the budget's stage Optimization. An optimized trajectory may give
-/// up neither the leaf's hold nor much of its arrival. Where intervals are short (kShortInterval), arrivals say little,
-/// and it keeps most of the leaf's progress.
-/// @return the best such trajectory that the checker passes, else the leaf
+/// Optimizes a leaf by the configured method, within the budget's stage Optimization.
+///
+/// The optimized trajectory is kept if the checker passes it, it holds if the leaf holds, and it arrives at most
+/// kMaxArrivalLoss later. For Δt < kShortInterval arrivals say little; there it must also keep kMinProgressKept of the
+/// leaf's progress.
+/// @return the optimized trajectory, or the leaf
 Candidate refined(const Attempt& attempt, Candidate leaf, SweptObstacles& swept, PlanTools& tools);
 
-/// Eq. 4 for a leaf. Its goal is the local goal. With semantics it is the leaf's own end, which stands there on
-/// purpose, unless that is in the last band.
+/// Returns Eq. 4 for a leaf. Its goal is the local goal. With semantics it is the leaf's own end, where the search put
+/// it because of regions. An end within one band of the goal gets the local goal all the same.
 TrajectoryProblem trajectory_problem(const Attempt& attempt, const Points& leaf);
 
-/// Planes of widest margin, and hulls, for every pair near the trajectory: they leave the optimizer the most room.
+/// Returns the plane of widest margin and the hull for every pair near the trajectory. Such planes leave the optimizer
+/// the most room.
 std::vector<SeparatedPair> gather_pairs(const Attempt& attempt, const TimedSpline& trajectory, SweptObstacles& swept,
                                         PlanTools& tools);
 

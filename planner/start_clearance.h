@@ -1,4 +1,4 @@
-// A start inside an obstacle inflated by its α is normal with noisy predictions: α is scaled, as little as it must be.
+// Relaxed starts: with noisy predictions a start often lies inside an obstacle inflated by α. Then α is reduced.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 namespace tern {
 
 struct StartClearance {
-  bool relaxed = false;   ///< some track's α was scaled
+  bool relaxed = false;   ///< the α of at least one track was scaled
   bool collides = false;  ///< the start touches an obstacle even without its α
 };
 
-/// Where the body at p touches a track's box (half-extents + α) at time t, what counts of its α is scaled. The factor
-/// is the largest one that leaves a millimetre of room, to 1e-6 by bisection of the true distance, or 0. The other
-/// obstacles are left as they are.
+/// Scales α of every track whose box (half-extents + α) touches the body at p at time t; other obstacles stay as they
+/// are. The factor is the largest that leaves kStartSlack of room, or 0. It is found to 1e-6 by bisection of the true
+/// distance.
 StartClearance clear_start(std::vector<PlanningObstacle>& obstacles, const Body& body, const Vec3& p, UTime t);
 
 }  // namespace tern

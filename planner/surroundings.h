@@ -1,4 +1,4 @@
-// What one request plans among: the same for all its attempts.
+// The surroundings of one request: the same for all its attempts.
 #pragma once
 
 #include <vector>
@@ -19,35 +19,36 @@ struct PlanWorkspace;
 struct Surroundings {
   const HorizonRequest& request;
   const PlannerConfig& config;
-  const std::vector<PlanningObstacle>& obstacles;  ///< in reach; α scaled where the start lies inside
+  const std::vector<PlanningObstacle>& obstacles;  ///< in reach; their α is reduced if the start is relaxed
   Box committed;                                   ///< committed_box()
-  Assurance assurance;                             ///< what counts of α
+  Assurance assurance;                             ///< the share of α that is applied
   StartClearance start;
-  LookAhead look;  ///< no plan looks past its followed_until
+  LookAhead look;  ///< no plan lasts beyond look.followed_until
   HoldDemand hold;
-  Limits plan_limits;                      ///< v_max reduced to velocity_share
-  Limits pace_limits;                      ///< per_axis_limits(plan_limits): by which durations are made
-  const SemanticFields* fields = nullptr;  ///< null: nothing that they cost differs anywhere in the sphere
+  Limits plan_limits;                      ///< the vehicle's, with v_max reduced to velocity_share
+  Limits pace_limits;                      ///< per_axis_limits(plan_limits): durations are made by these
+  const SemanticFields* fields = nullptr;  ///< null if the semantic cost is the same all over the sphere
 };
 
-/// Whether what is committed has ended by then …
+/// Returns whether the committed trajectory has ended by t_s.
 bool is_at_rest(const HorizonRequest& request);
-/// … and since when, s; negative before.
+/// Returns t_s minus the end of the committed trajectory, s; negative while it lasts.
 double time_at_rest_s(const HorizonRequest& request);
-/// Neither moves nor is about to.
+/// Returns whether velocity and acceleration are zero at t_s.
 bool is_stationary(const HorizonRequest& request);
 
-/// @pre the world has predictions and a map. @param memory  keeps the obstacles until the next call
+/// Returns the surroundings at full assurance. @pre the world has predictions and a map
+/// @param memory  keeps the obstacles until the next call
 Surroundings surroundings(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config,
                           PlanWorkspace& memory);
 
-/// The same among obstacles of which less counts.
+/// Changes `near` to this assurance: α of the obstacles in `memory`, the start's clearance, and the holds.
 void reduce_assurance(const Assurance& assurance, PlanWorkspace& memory, Surroundings& near);
 
-/// The problem of J intervals of this Δt.
+/// Returns the problem of J intervals of this Δt.
 HorizonProblem horizon_problem(const Surroundings& near, Duration interval);
 
-/// Whether obstacles are known to the end of a hold of hold_s after J intervals.
+/// Returns whether obstacles are followed for J intervals and a hold of hold_s after them.
 bool is_followed(const Surroundings& near, Duration interval, double hold_s);
 
 }  // namespace tern
