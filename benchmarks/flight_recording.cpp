@@ -18,7 +18,7 @@
 namespace tern {
 namespace {
 
-constexpr Duration kLongestFlight{600LL * 1'000'000};
+constexpr Duration kMaxFlight{600LL * 1'000'000};
 
 }  // namespace
 
@@ -37,7 +37,7 @@ FlightRecording record_flight(const std::string& scenario_file, const std::vecto
     recording.moments.push_back({request, intake.snapshot()});
   });
   const SimulatorNode& simulator = system.simulator();
-  runner.run(runner.now() + kLongestFlight, [&] { return simulator.result().has_value(); });
+  runner.run(runner.now() + kMaxFlight, [&] { return simulator.result().has_value(); });
   if (simulator.result()) recording.result = *simulator.result();
   return recording;
 }

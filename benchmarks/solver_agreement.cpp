@@ -14,8 +14,8 @@
 namespace tern {
 namespace {
 
-constexpr double kAllowed = 1e-4;       ///< relative excess over Ipopt's cost
-constexpr double kSmallestCost = 1e-2;  ///< m²: costs below are compared as if they were this
+constexpr double kAllowed = 1e-4;  ///< relative excess over Ipopt's cost
+constexpr double kMinCost = 1e-2;  ///< m²: costs below are compared as if they were this
 constexpr int kIterations = 200;
 
 struct Comparison {
@@ -33,7 +33,7 @@ struct Comparison {
     barrier_ms.push_back(between - begin);
     ipopt_ms.push_back(thread_cpu_ms() - between);
     steps.push_back(barrier.iterations);
-    const double cost = std::max(ipopt.objective, kSmallestCost);
+    const double cost = std::max(ipopt.objective, kMinCost);
     excess.push_back((barrier.objective - ipopt.objective) / cost);
     gap.push_back(barrier.gap / cost);
     if (!barrier.found || barrier.solver_failed) ++unsolved;

@@ -20,7 +20,7 @@ namespace tern {
 namespace {
 
 /// No flight of a scenario lasts longer, virtual time.
-constexpr Duration kLongestFlight{3600LL * 1'000'000};
+constexpr Duration kMaxFlight{3600LL * 1'000'000};
 
 /// The digits that a stopwatch is good for: times are kept to the microsecond.
 Percentiles rounded(Percentiles p) {
@@ -59,7 +59,7 @@ void subscribe(Bus& bus, FlightWatch& watch, FlightTimes& times, FlightObserver*
 /// Runs until the watch has its verdict.
 Ending fly(VirtualSystem& system, FlightWatch& watch) {
   VirtualRunner& runner = system.runner();
-  const UTime end = runner.now() + kLongestFlight;
+  const UTime end = runner.now() + kMaxFlight;
   std::optional<Ending> ending;
   const auto ended = [&] { return (ending = watch.ending(runner.now())).has_value(); };
   const RunResult run = runner.run(end, ended);

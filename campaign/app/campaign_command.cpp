@@ -23,7 +23,7 @@ namespace tern {
 namespace {
 
 constexpr int kExitInterrupted = 130;
-constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 63U) - 1;
+constexpr std::uint64_t kMaxSeed = (std::uint64_t{1} << 63U) - 1;
 
 struct Options {
   FlightOptions flight;
@@ -47,7 +47,7 @@ CampaignOptions campaign_of(const Options& options) {
   campaign.inputs = inputs_of(options.flight);
   if (options.out.empty()) throw ConfigError("--out is required: the file for the flights");
   if (!read_pair(options.seeds, ':', campaign.first_seed, campaign.last_seed) ||
-      campaign.first_seed > campaign.last_seed || campaign.last_seed > kLargestSeed) {
+      campaign.first_seed > campaign.last_seed || campaign.last_seed > kMaxSeed) {
     throw ConfigError(fmt::format("--seeds {}: not A:B with 0 <= A <= B < 2^63", options.seeds));
   }
   Shard& shard = campaign.shard;

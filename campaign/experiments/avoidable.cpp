@@ -12,7 +12,7 @@ namespace tern {
 namespace {
 
 constexpr double kStep = 0.005;  // s
-constexpr double kNearest = 0.05, kFarthest = 12.0;
+constexpr double kMinDistance = 0.05, kMaxDistance = 12.0;
 /// The largest |p'|, |p''|, |p'''| of s³ (10 − 15 s + 6 s²) on [0, 1].
 constexpr double kPeakSpeed = 1.875, kPeakJerk = 60.0;
 const double kPeakAcceleration = 10.0 / std::sqrt(3.0);
@@ -45,7 +45,7 @@ Move random_move(Rng& rng, const Limits& limits, double from_s, double until_s) 
   const double z = rng.uniform(-1.0, 1.0);
   const double azimuth = rng.uniform(0.0, 2.0 * std::numbers::pi);
   const double r = std::sqrt(1.0 - z * z);
-  const double distance = kNearest * std::pow(kFarthest / kNearest, rng.uniform());
+  const double distance = kMinDistance * std::pow(kMaxDistance / kMinDistance, rng.uniform());
   move.by = distance * Vec3(r * std::cos(azimuth), r * std::sin(azimuth), z);
   const double slower = rng.uniform();
   move.duration_s = std::max(kStep, least_time(move.by, limits) * (1.0 + 3.0 * slower * slower));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRow = 22.0, kNames = 260.0, kPlot = 460.0, kNumbers = 250.0, kTop = 84.0;  // pixels
 /// What differs by more than this, %, ends at the frame.
-constexpr double kMostPercent = 200.0;
+constexpr double kMaxPercent = 200.0;
 
 std::vector<const ComparedMeasure*> drawn(const CampaignComparison& c) {
   std::vector<const ComparedMeasure*> rows;
@@ -35,7 +35,7 @@ double reach_of(const CampaignComparison& c, const std::vector<const ComparedMea
     if (!c.may_infer() || !d.may_infer()) continue;
     for (const double x : {d.interval.low, d.interval.high}) reach = std::max(reach, std::abs(percent(x, d.mean_a)));
   }
-  return std::min(1.05 * reach, kMostPercent);
+  return std::min(1.05 * reach, kMaxPercent);
 }
 
 std::string axis_name(const std::vector<const ComparedMeasure*>& rows) {

@@ -10,7 +10,7 @@ namespace tern {
 namespace {
 
 constexpr Duration kStep{50'000};
-constexpr Duration kLongest{600LL * 1'000'000};
+constexpr Duration kMaxFlight{600LL * 1'000'000};
 
 }  // namespace
 
@@ -27,7 +27,7 @@ FlightTrack fly_and_track(const std::string& scenario_file, const std::vector<st
     track.points.push_back({(state.at - *simulator.world_zero()).seconds(), state.motion.p, state.motion.v.norm()});
     next = state.at + kStep;
   });
-  runner.run(runner.now() + kLongest, [&] { return simulator.result().has_value(); });
+  runner.run(runner.now() + kMaxFlight, [&] { return simulator.result().has_value(); });
   return track;
 }
 

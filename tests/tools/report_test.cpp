@@ -182,8 +182,8 @@ TEST(Report, OfFiveMinutesAmong300MoversStaysUnder5MegabytesAndHidesNoExtreme) {
   RecordProperty("bytes", std::to_string(page.size()));
   EXPECT_LT(page.size(), 5'000'000U);
   const nlohmann::json path = data_in(page)["path"];
-  EXPECT_LE(path["t"].size(), kMostPathPoints);
-  EXPECT_GT(path["t"].size(), kMostPathPoints / 2);
+  EXPECT_LE(path["t"].size(), kMaxPathPoints);
+  EXPECT_GT(path["t"].size(), kMaxPathPoints / 2);
   const auto axis_speed = path["axis_speed"].get<std::vector<double>>();
   const auto clearance = path["clearance"].get<std::vector<double>>();
   EXPECT_DOUBLE_EQ(*std::max_element(axis_speed.begin(), axis_speed.end()), 5.75);

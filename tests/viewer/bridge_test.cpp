@@ -120,9 +120,9 @@ TEST(Wishes, AreOfAllPagesThatStillLook) {
   EXPECT_FALSE(wishes.layers().hulls);
   EXPECT_EQ(wishes.series(), (std::vector<std::string>{"b", "c"}));
   std::vector<std::string> many;
-  for (std::size_t k = 0; k < 10 * kMostSeries; ++k) many.push_back(std::to_string(k));
+  for (std::size_t k = 0; k < 10 * kMaxSeries; ++k) many.push_back(std::to_string(k));
   wishes.take(2, SeriesCommand{many});
-  EXPECT_EQ(wishes.series().size(), kMostSeries);
+  EXPECT_EQ(wishes.series().size(), kMaxSeries);
 }
 
 RC_GTEST_PROP(Commands, NeverThrowOnAnyBytes, (std::string text)) { (void)parse_command(text); }

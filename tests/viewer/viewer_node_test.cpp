@@ -247,7 +247,7 @@ TEST(Scene, RemembersABoundedNumberOfProcesses) {
     heartbeat.process = "p" + std::to_string(k);
     scene.hear(heartbeat, kKnownLogStart);
   }
-  EXPECT_EQ(scene.processes().size(), kMostProcesses);
+  EXPECT_EQ(scene.processes().size(), kMaxProcesses);
 }
 
 TEST(Scene, TellsAllMessagesOfWhatIsPicked) {

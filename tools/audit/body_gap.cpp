@@ -8,7 +8,7 @@ namespace tern::audit {
 namespace {
 
 constexpr double kResolution = 1e-6;  // m
-constexpr int kMostSteps = 200;
+constexpr int kMaxSteps = 200;
 /// An atom of less than this is dropped.
 constexpr double kNoWeight = 1e-14;
 
@@ -87,7 +87,7 @@ Gap body_gap(const Body& body, const Vec3& p, const Vec3& h) {
   std::vector<Atom> atoms{{p + body.vertices.col(0), 1.0}};
   Vec3 x = atoms.front().at;
   double low = -1.0;
-  for (int k = 0; k < kMostSteps; ++k) {
+  for (int k = 0; k < kMaxSteps; ++k) {
     const double length = x.norm();
     if (length < kResolution) return {-kResolution - body.radius, -kResolution - body.radius};
     const Vec3 extreme = extreme_against(body.vertices, p, h, x);

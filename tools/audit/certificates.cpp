@@ -21,7 +21,7 @@ constexpr double kPlaneTolerance = 1e-6;
 constexpr double kExtremum = 1e-8;
 /// What lcmtypes/certificate_plane_t.lcm promises of a body without a radius, m.
 constexpr double kPublishedMargin = 1e-9;
-constexpr int kMostParts = 4;
+constexpr int kMaxParts = 4;
 
 struct Part {
   int interval, part, parts;
@@ -136,7 +136,7 @@ class CaseCheck {
     }
     const Span s = span(part);
     if (apart(vehicle_box(part), obstacle.bounds(curve(part).from, s.a, s.b))) return;
-    if (part.parts == kMostParts) {
+    if (part.parts == kMaxParts) {
       return fail(fmt::format("no plane and no box separates obstacle {} in {}", id, words(part)), id);
     }
     for (int half = 0; half < 2; ++half) separated(obstacle, {part.interval, 2 * part.part + half, 2 * part.parts});
@@ -181,7 +181,7 @@ class CaseCheck {
       const double least = n.dot(box.center()) - n.cwiseAbs().dot(half) - reach(n);
       if (c->track < 0 && least + c->plane.d >= -kPlaneTolerance) return true;
     }
-    if (part.parts == kMostParts) return false;
+    if (part.parts == kMaxParts) return false;
     return voxel_separated(box, {part.interval, 2 * part.part, 2 * part.parts}) &&
            voxel_separated(box, {part.interval, 2 * part.part + 1, 2 * part.parts});
   }

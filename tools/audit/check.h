@@ -22,7 +22,7 @@ struct Finding {
   std::int64_t obstacle = kNobody;  ///< track or obstacle
 };
 /// Findings of one check that are kept, the first ones; the others are counted.
-inline constexpr std::size_t kMostFindings = 50;
+inline constexpr std::size_t kMaxFindings = 50;
 
 enum class Verdict { Held, Broken, NotChecked };
 /// "held", "broken", "not checked".
@@ -40,7 +40,7 @@ struct Check {
 
   void fail(Finding finding) {
     ++broken;
-    if (findings.size() < kMostFindings) findings.push_back(std::move(finding));
+    if (findings.size() < kMaxFindings) findings.push_back(std::move(finding));
   }
   [[nodiscard]] Verdict verdict() const {
     if (broken > 0) return Verdict::Broken;

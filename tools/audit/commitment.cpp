@@ -11,7 +11,7 @@ constexpr std::size_t kStopIntervals = 16;
 constexpr int kRamps[] = {1, 2, 4, 8};
 constexpr double kSameAcceleration = 1e-3;  ///< m/s²
 /// A stop begins at most this much after the state that it begins at: so old a state may be.
-constexpr Duration kLongestAhead{1'000'000};
+constexpr Duration kMaxAhead{1'000'000};
 
 /// Whether the acceleration fades within a ramp, and another one, constant per axis but for such a ramp at either end,
 /// takes its place.
@@ -51,7 +51,7 @@ bool is_stop(const std::vector<UavState>& estimates, const TimedSpline& spline) 
   if (!spline.spline().ends_at_rest() || !brakes(curves)) return false;
   const MotionSample first = motion_at(curves, spline.start);
   const auto before = [](const UavState& s, UTime t) { return s.at < t; };
-  const auto from = std::lower_bound(estimates.begin(), estimates.end(), spline.start - kLongestAhead, before);
+  const auto from = std::lower_bound(estimates.begin(), estimates.end(), spline.start - kMaxAhead, before);
   const auto to = std::lower_bound(from, estimates.end(), spline.start + Duration{1}, before);
   return std::any_of(from, to, [&](const UavState& s) {
     const double later_s = (spline.start - s.at).seconds();

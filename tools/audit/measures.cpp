@@ -13,7 +13,7 @@ namespace {
 constexpr double kNear = 1.0;    // m
 constexpr double kStep = 0.001;  // s: the bounds of a step are wider by its square
 /// Of one span: where a log says nothing for long, its bounds are wide anyhow.
-constexpr double kMostSteps = 10'000.0;
+constexpr double kMaxSteps = 10'000.0;
 
 /// A step of the flight, short enough that its motion is nearly straight.
 struct Step {
@@ -67,7 +67,7 @@ class Measuring {
     const double a = std::max(0.0, -begin);
     const double b = std::min(span.curve.length_s(), (window_.to - span.curve.from).seconds());
     if (a >= b) return;
-    const int count = std::max(1, static_cast<int>(std::min(kMostSteps, std::ceil((b - a) / kStep))));
+    const int count = std::max(1, static_cast<int>(std::min(kMaxSteps, std::ceil((b - a) / kStep))));
     for (int i = 0; i < count; ++i) {
       const double from = a + (b - a) * i / count;
       const double to = a + (b - a) * (i + 1) / count;

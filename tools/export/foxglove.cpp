@@ -21,7 +21,7 @@ constexpr std::int64_t kNoPlan = 4;     // plan_t.NO_PLAN
 constexpr char kFrame[] = "W";
 constexpr char kScene[] = "foxglove.SceneUpdate";
 constexpr double kHullReach = 3.0;  // m
-constexpr int kMostHulls = 60;
+constexpr int kMaxHulls = 60;
 constexpr double kPatchSide = 1.0;  // m
 
 Json time_of(std::int64_t us) { return {{"sec", us / 1'000'000}, {"nsec", us % 1'000'000 * 1000}}; }
@@ -216,7 +216,7 @@ std::optional<Drawing> drawing_of(const LoggedMessage& message) {
 std::vector<Drawing> drawings_of(const Plan& plan, UTime t_s, const TrackSet& tracks, std::int64_t received_us) {
   if (plan.outcome == PlanOutcome::NoPlan) return {};
   Triangles hulls, planes;
-  for (const PredictedHull& hull : predicted_hulls(tracks, plan.trajectory, kHullReach, kMostHulls).hulls) {
+  for (const PredictedHull& hull : predicted_hulls(tracks, plan.trajectory, kHullReach, kMaxHulls).hulls) {
     hulls.add(hull.points, hull_faces(hull.points));
   }
   for (const CertificatePlane& c : plan.certificate) {

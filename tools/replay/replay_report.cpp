@@ -24,7 +24,7 @@ constexpr const char* kRefusals[kRejections] = {
 /// What LCM sends to itself at the start.
 constexpr char kLcmSelfTest[] = "LCM_SELF_TEST";
 /// So many lines about the first answer that differs, and about what is missing.
-constexpr std::size_t kMostLines = 12;
+constexpr std::size_t kMaxLines = 12;
 
 double seconds_into(const Replay& replay, const RecordedPlan& recorded) {
   return static_cast<double>(recorded.received_us - replay.inputs.log.first_us) * 1e-6;
@@ -84,7 +84,7 @@ std::string missing_text(const Replay& replay) {
   std::string text;
   std::size_t lines = 0;
   for (const auto& [what, count] : missing) {
-    if (lines++ == kMostLines) return text + fmt::format("  … and {} more\n", missing.size() - kMostLines);
+    if (lines++ == kMaxLines) return text + fmt::format("  … and {} more\n", missing.size() - kMaxLines);
     text += fmt::format("  not in the log: {} (needed by {})\n", what, count);
   }
   return text;
@@ -111,7 +111,7 @@ std::string first_difference_text(const Replay& replay) {
   if (p->difference.parts.empty()) return text + "; only in its form\n";
   text += fmt::format("; first in the stage \"{}\", at most {:.3g} m apart\n", to_string(p->difference.parts[0].stage),
                       p->difference.position_m);
-  for (std::size_t k = 0; k < std::min(p->difference.parts.size(), kMostLines); ++k) {
+  for (std::size_t k = 0; k < std::min(p->difference.parts.size(), kMaxLines); ++k) {
     const PartDifference& part = p->difference.parts[k];
     text += fmt::format("  {:<13} {}\n", to_string(part.stage), part.what);
   }

@@ -69,7 +69,7 @@ class ExposureSoFar {
 };
 
 json path_of(const FlightRecord& record, const Audit& audit) {
-  const std::size_t share = std::max<std::size_t>(1, (record.states.size() + kMostPathPoints - 1) / kMostPathPoints);
+  const std::size_t share = std::max<std::size_t>(1, (record.states.size() + kMaxPathPoints - 1) / kMaxPathPoints);
   Columns columns{"t",         "x",   "y",   "z", "speed", "axis_speed", "acceleration", "axis_acceleration",
                   "clearance", "off", "tube"};
   json exposure = json::array();
@@ -111,7 +111,7 @@ json path_of(const FlightRecord& record, const Audit& audit) {
 json obstacles_of(const FlightRecord& record) {
   std::size_t samples = 0;
   for (const auto& [id, history] : record.truth) samples += history.moves ? history.samples.size() : 0;
-  const std::size_t share = std::max<std::size_t>(1, (samples + kMostMoverPoints - 1) / kMostMoverPoints);
+  const std::size_t share = std::max<std::size_t>(1, (samples + kMaxMoverPoints - 1) / kMaxMoverPoints);
   json movers = json::array();
   json statics = json::array();
   for (const auto& [id, history] : record.truth) {
@@ -182,7 +182,7 @@ std::vector<Answer> answers_of(const FlightRecord& record) {
 }
 
 json answers_to_json(const std::vector<Answer>& answers) {
-  const std::size_t share = std::max<std::size_t>(1, (answers.size() + kMostAnswers - 1) / kMostAnswers);
+  const std::size_t share = std::max<std::size_t>(1, (answers.size() + kMaxAnswers - 1) / kMaxAnswers);
   Columns columns{"t", "deadline", "total", "outcome", "reason", "watchdog"};
   std::vector<json> stages(kStages, json::array());
   for (std::size_t from = 0; from < answers.size(); from += share) {
@@ -291,7 +291,7 @@ json report_data(const FlightRecord& record, const Audit& audit, const Flown& fl
           {"path", path_of(record, audit)},
           {"obstacles", obstacles_of(record)},
           {"regions", regions_of(record)},
-          {"map", map_runs(record, kMostMapRuns)},
+          {"map", map_runs(record, kMaxMapRuns)},
           {"answers", answers_to_json(answers_of(record))},
           {"names", {{"outcomes", kWords<PlanOutcome>}, {"reasons", kWords<PlanReason>}, {"stages", kWords<Stage>}}},
           {"costs", costs_of(record)},

@@ -11,13 +11,13 @@ namespace tern::report {
 /// At most so many points along the flight. Beyond that, successive states share a point, which is where the first of
 /// them is. It has their greatest speed and acceleration, least clearance and last exposure, so that no extreme is
 /// hidden.
-inline constexpr std::size_t kMostPathPoints = 6'000;
+inline constexpr std::size_t kMaxPathPoints = 6'000;
 /// At most so many points of all moving obstacles together, each obstacle's samples evenly thinned.
-inline constexpr std::size_t kMostMoverPoints = 60'000;
+inline constexpr std::size_t kMaxMoverPoints = 60'000;
 /// At most so many answers; beyond that, successive ones share a point: the slowest of them.
-inline constexpr std::size_t kMostAnswers = 6'000;
+inline constexpr std::size_t kMaxAnswers = 6'000;
 /// At most so many runs of the map's voxels.
-inline constexpr std::size_t kMostMapRuns = 20'000;
+inline constexpr std::size_t kMaxMapRuns = 20'000;
 
 /// What a log does not tell of its flight.
 struct Flown {

@@ -77,11 +77,11 @@ LayersCommand layers(const json& value) {
 }
 
 SeriesCommand series(const json& value) {
-  check(value.is_array() && value.size() <= kMostSeries, "series are a list of at most 36 names");
+  check(value.is_array() && value.size() <= kMaxSeries, "series are a list of at most 36 names");
   SeriesCommand command;
   for (const json& entry : value) {
     command.names.push_back(text(entry));
-    check(command.names.back().size() <= kLongestSeriesName, "a series of that name is not known");
+    check(command.names.back().size() <= kMaxSeriesNameBytes, "a series of that name is not known");
   }
   return command;
 }

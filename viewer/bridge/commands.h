@@ -21,7 +21,7 @@ struct LayersCommand {
 struct SeriesCommand {
   std::vector<std::string> names;
 };
-inline constexpr std::size_t kMostSeries = 36, kLongestSeriesName = 96;
+inline constexpr std::size_t kMaxSeries = 36, kMaxSeriesNameBytes = 96;
 
 enum class PickKind : std::uint8_t { Vehicle, Obstacle, Plan, Request, Goal, Map, Process, Result };
 

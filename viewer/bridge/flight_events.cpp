@@ -11,8 +11,8 @@
 namespace tern {
 namespace {
 
-constexpr std::size_t kMostEvents = 4'000;
-constexpr std::size_t kMostProcessNames = 64;
+constexpr std::size_t kMaxEvents = 4'000;
+constexpr std::size_t kMaxProcessNames = 64;
 constexpr std::size_t kPasses = 5;
 constexpr double kRise = 0.1;                         ///< m
 constexpr double kFarPass = 2.0;                      ///< m: farther is no pass
@@ -21,7 +21,7 @@ constexpr double kRestSpeed = 0.05, kFlySpeed = 0.5;  ///< m/s
 }  // namespace
 
 void FlightEvents::add(UTime at, const char* kind, std::string text) {
-  if (events_.size() >= kMostEvents) {
+  if (events_.size() >= kMaxEvents) {
     ++left_out_;
   } else {
     events_.push_back({at, kind, std::move(text)});
@@ -73,7 +73,7 @@ void FlightEvents::hear(const FlightResult& message) {
 
 void FlightEvents::hear(const Heartbeat& message) {
   const std::int64_t epoch = message.header.name.sender_epoch_us;
-  if (!epochs_.contains(message.process) && epochs_.size() >= kMostProcessNames) return;
+  if (!epochs_.contains(message.process) && epochs_.size() >= kMaxProcessNames) return;
   const auto [known, is_new] = epochs_.emplace(message.process, epoch);
   if (is_new || epoch <= known->second) return;
   known->second = epoch;

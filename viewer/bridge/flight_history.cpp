@@ -11,13 +11,13 @@ namespace {
 
 constexpr Duration kEvery{50'000};
 constexpr Duration kRowEvery{40'000};  ///< answers, 50 ms apart more or less, are all kept
-constexpr std::size_t kMostSamples = 432'000;
-constexpr std::size_t kMostFields = 64;  ///< of one table
+constexpr std::size_t kMaxSamples = 432'000;
+constexpr std::size_t kMaxFields = 64;  ///< of one table
 constexpr double kDepartureSpeed = 0.05;
 
 template <class Sample>
 void forget_half(std::vector<Sample>& row, std::size_t width = 1) {
-  row.erase(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(kMostSamples / 2 * width));
+  row.erase(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(kMaxSamples / 2 * width));
 }
 
 template <class Sample>
@@ -68,13 +68,13 @@ NumberFields numbers_of(std::string_view detail_json) {
       if (!is_time && key != "channel" && key != "name") collect(channel + key, value, fields);
     }
   }
-  if (fields.size() > kMostFields) fields.resize(kMostFields);
+  if (fields.size() > kMaxFields) fields.resize(kMaxFields);
   return fields;
 }
 
 void FlightHistory::add(const UavState& state) {
   if (!motion_.empty() && state.at - motion_.back().at < kEvery) return;
-  if (motion_.size() >= kMostSamples) forget_half(motion_);
+  if (motion_.size() >= kMaxSamples) forget_half(motion_);
   motion_.push_back({state.at, state.motion.p, state.motion.v.norm()});
 }
 
@@ -90,7 +90,7 @@ bool FlightHistory::add_row(const std::string& name, UTime at, const NumberField
   if (is_first) {
     for (const auto& [field, value] : fields) table.names.push_back(field);
   }
-  if (table.at.size() >= kMostSamples) {
+  if (table.at.size() >= kMaxSamples) {
     forget_half(table.at);
     forget_half(table.values, table.names.size());
   }
@@ -108,7 +108,7 @@ bool FlightHistory::add_row(const std::string& name, UTime at, const NumberField
 
 void FlightHistory::add_answer(UTime at, PlanOutcome outcome) {
   if (!answers_.empty() && at < answers_.back().at) return;
-  if (answers_.size() >= kMostSamples) forget_half(answers_);
+  if (answers_.size() >= kMaxSamples) forget_half(answers_);
   answers_.push_back({at, static_cast<int>(outcome)});
 }
 

@@ -105,7 +105,7 @@ void Scene::hear(const FlightResult& message) {
 }
 
 void Scene::hear(const Heartbeat& message, UTime now) {
-  if (!processes_.contains(message.process) && processes_.size() >= kMostProcesses) return;
+  if (!processes_.contains(message.process) && processes_.size() >= kMaxProcesses) return;
   if (memory_ != nullptr) memory_->events.hear(message);
   HeardProcess& process = processes_[message.process];
   process.heartbeat = message;

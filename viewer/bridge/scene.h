@@ -30,7 +30,7 @@ struct HeardProcess {
 };
 
 /// Names are hostile, too: more processes than this are not remembered.
-inline constexpr std::size_t kMostProcesses = 64;
+inline constexpr std::size_t kMaxProcesses = 64;
 
 /// The map as it is drawn, and what is told of it.
 struct SeenMap {

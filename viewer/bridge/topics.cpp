@@ -8,7 +8,7 @@ namespace {
 
 /// Hulls are of what may come as near as this to the plan, m. At most so many at a time (about 10 ms of work).
 constexpr double kHullReach = 2.0;
-constexpr int kMostHulls = 240;
+constexpr int kMaxHulls = 240;
 
 std::string path_json(const Telling& telling) {
   JsonWriter json;
@@ -41,7 +41,7 @@ std::string topic_json(Topic topic, const Telling& telling) {
     case Topic::Request: return request_json(scene);
     case Topic::Plan: return plan_json(scene, telling.layers.planes);
     case Topic::Timing: return timing_json(scene);
-    case Topic::Hulls: return hulls_json(scene, kHullReach, kMostHulls);
+    case Topic::Hulls: return hulls_json(scene, kHullReach, kMaxHulls);
     case Topic::Search: return search_json(scene);
     case Topic::Map: return map_json(scene);
     case Topic::Health: return health_json(scene, telling.now);

@@ -23,7 +23,7 @@ std::vector<std::string> Wishes::series() const {
   std::set<std::string> all;
   for (const auto& [client, page] : by_page_) all.insert(page.series.begin(), page.series.end());
   std::vector<std::string> names(all.begin(), all.end());
-  names.resize(std::min(names.size(), kMostSeries));
+  names.resize(std::min(names.size(), kMaxSeries));
   return names;
 }
 

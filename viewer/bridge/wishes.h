@@ -19,7 +19,7 @@ class Wishes {
   void keep_only(const std::vector<std::int64_t>& clients);
 
   [[nodiscard]] LayersCommand layers() const;
-  /// Sorted, each once, at most kMostSeries.
+  /// Sorted, each once, at most kMaxSeries.
   [[nodiscard]] std::vector<std::string> series() const;
 
  private:

@@ -174,7 +174,7 @@ Result<ExportedPage> export_page(const PageExport& wanted) {
   const double begin_s = seconds(player->begin()), end_s = seconds(player->end());
   const double departure_s = seconds(player->memory().history.departure().value_or(player->begin()));
   const double minutes = std::max((end_s - begin_s) / 60.0, 1.0);
-  const auto most = static_cast<std::size_t>(minutes * static_cast<double>(kMostBytesPerMinute));
+  const auto most = static_cast<std::size_t>(minutes * static_cast<double>(kMaxBytesPerMinute));
   constexpr std::array<std::pair<LayersCommand, const char*>, 3> kDetails = {
       {{{true, true, true}, ""}, {{false, true, true}, "hulls"}, {{false, false, true}, "hulls and planes"}}};
   for (const auto& [layers, left_out] : kDetails) {
@@ -183,7 +183,7 @@ Result<ExportedPage> export_page(const PageExport& wanted) {
     if (html->size() <= most) return ExportedPage{std::move(*html), begin_s, end_s, departure_s, left_out};
   }
   return fail(
-      fmt::format("{}: a page of it is larger than {} MB a minute", wanted.log, kMostBytesPerMinute / 1'000'000));
+      fmt::format("{}: a page of it is larger than {} MB a minute", wanted.log, kMaxBytesPerMinute / 1'000'000));
 }
 
 }  // namespace tern

@@ -24,7 +24,7 @@ struct ExportedPage {
 };
 
 /// A page is at most as large as this for each minute of flight that it shows, bytes, and never needs to be smaller.
-inline constexpr std::int64_t kMostBytesPerMinute = 10'000'000;
+inline constexpr std::int64_t kMaxBytesPerMinute = 10'000'000;
 
 /// Plays the log and packs what the page would have been told, 20 times a second, into the page: deflated JSON
 /// (web/src/tape.js). Where it becomes too large, hulls are left out first, then planes. An Error when that is not

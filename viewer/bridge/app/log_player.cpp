@@ -14,7 +14,7 @@ namespace tern {
 namespace {
 
 /// A damaged or foreign log may name any number; the page shows eleven.
-constexpr std::size_t kMostChannels = 256;
+constexpr std::size_t kMaxChannels = 256;
 
 /// How many of a channel's newest messages a jump needs, so that a complete set, every process or the request of the
 /// newest answer is among them.
@@ -49,7 +49,7 @@ Result<LogDamage> index_part(const std::string& path, std::int32_t part, const s
     const auto known = std::ranges::find(index.channels, name);
     const auto channel = static_cast<std::int16_t>(known - index.channels.begin());
     if (known == index.channels.end()) {
-      if (index.channels.size() >= kMostChannels) continue;
+      if (index.channels.size() >= kMaxChannels) continue;
       index.channels.push_back(name);
     }
     index.entries.push_back({UTime{event->received_us}, bytes_of_events + reader->damage().bytes - data_bytes,

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = 50'000'000;
+constexpr std::size_t kMaxBytes = 50'000'000;
 constexpr char kNotBuilt[] =
     "<!doctype html><title>Tern</title><p>The page is not built. <code>launch_scripts/view_page.sh</code> builds it "
     "(Node 18 or newer); then start tern-viewer again.</p>";
@@ -38,7 +38,7 @@ Result<PageFiles> load_page(const std::string& folder) {
     PageFile page{type_of(it->path()), {std::istreambuf_iterator<char>(file), {}}};
     if (!file) return fail(it->path().string() + ": cannot be read");
     bytes += page.bytes.size();
-    if (bytes > kMostBytes) return fail(folder + ": is no built page: more than 50 MB");
+    if (bytes > kMaxBytes) return fail(folder + ": is no built page: more than 50 MB");
     files.emplace("/" + fs::relative(it->path(), folder).generic_string(), std::move(page));
   }
   if (!files.contains("/index.html")) files["/index.html"] = {"text/html; charset=utf-8", kNotBuilt};

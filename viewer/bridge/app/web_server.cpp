@@ -33,8 +33,8 @@ using Request = http::request<http::string_body>;
 
 constexpr char kStreamPath[] = "/stream";
 constexpr auto kRequestTimeout = std::chrono::seconds(10);
-constexpr unsigned kMostHeaderBytes = 8192;
-constexpr unsigned kMostBodyBytes = 1024;
+constexpr unsigned kMaxHeaderBytes = 8192;
+constexpr unsigned kMaxBodyBytes = 1024;
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -85,7 +85,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
   void start(const Request& request) {
     beast::get_lowest_layer(socket_).expires_never();
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    socket_.read_message_max(kLongestCommand);
+    socket_.read_message_max(kMaxCommandBytes);
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
       if (!error) self->open();
     });
@@ -114,7 +114,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
   }
 
   void reply(std::string json) {
-    if (replies_.size() >= kMostCommands) replies_.pop_front();
+    if (replies_.size() >= kMaxCommands) replies_.pop_front();
     replies_.push_back(std::move(json));
     push();
   }
@@ -146,7 +146,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
       return push();
     }
     const std::lock_guard lock(shared_.mutex);
-    if (shared_.inbox.size() >= kMostCommands * shared_.clients.size()) {
+    if (shared_.inbox.size() >= kMaxCommands * shared_.clients.size()) {
       ++shared_.counters.commands_dropped;
     } else {
       shared_.inbox.push_back({id_, std::move(text)});
@@ -174,8 +174,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void read() {
     parser_.emplace();
-    parser_->header_limit(kMostHeaderBytes);
-    parser_->body_limit(kMostBodyBytes);
+    parser_->header_limit(kMaxHeaderBytes);
+    parser_->body_limit(kMaxBodyBytes);
     socket_.expires_after(kRequestTimeout);
     http::async_read(socket_, input_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error) self->serve(self->parser_->release());
@@ -191,7 +191,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       if (!shared_.access.allows_origin(view(request[http::field::origin]), host)) {
         return refuse(request, http::status::forbidden, "foreign Origin");
       }
-      if (shared_.streams.size() >= kMostStreams) {
+      if (shared_.streams.size() >= kMaxStreams) {
         return refuse(request, http::status::service_unavailable, "too many pages look");
       }
       return std::make_shared<Stream>(shared_, std::move(socket_))->start(request);
@@ -230,7 +230,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   Shared& shared_;
   beast::tcp_stream socket_;
-  beast::flat_buffer input_{kMostHeaderBytes + kMostBodyBytes};
+  beast::flat_buffer input_{kMaxHeaderBytes + kMaxBodyBytes};
   std::optional<http::request_parser<http::string_body>> parser_;
 };
 
@@ -249,7 +249,7 @@ struct WebServer::Impl {
     acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
       if (error) {
         spdlog::warn("a browser could not be accepted: {}", error.message());
-      } else if (shared.connections < kMostConnections) {
+      } else if (shared.connections < kMaxConnections) {
         std::make_shared<Connection>(shared, std::move(socket))->read();
       } else {
         shared.count_refused();

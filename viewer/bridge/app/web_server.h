@@ -13,14 +13,14 @@
 namespace tern {
 
 /// Beyond these, browsers are refused (503) and connections closed.
-inline constexpr int kMostStreams = 16;
-inline constexpr int kMostConnections = 64;
+inline constexpr int kMaxStreams = 16;
+inline constexpr int kMaxConnections = 64;
 /// A page tells which frame it has drawn, {"seen": n}. It gets no more than this many ahead, so that nothing piles up
 /// in any buffer. What comes meanwhile waits on the board, where only the newest counts.
 inline constexpr int kFramesAhead = 2;
 /// What a page may say at once, bytes, and how many of its commands wait to be read.
-inline constexpr std::size_t kLongestCommand = 4096;
-inline constexpr std::size_t kMostCommands = 64;
+inline constexpr std::size_t kMaxCommandBytes = 4096;
+inline constexpr std::size_t kMaxCommands = 64;
 
 /// What a page said.
 struct ClientCommand {
@@ -48,7 +48,7 @@ class WebServer {
 
   /// The board has news.
   void wake();
-  /// To one page, a JSON text besides the frames; at most kMostCommands wait, then the oldest goes.
+  /// To one page, a JSON text besides the frames; at most kMaxCommands wait, then the oldest goes.
   void reply(std::int64_t client, std::string json);
   /// What pages have said since the last call, in order.
   std::vector<ClientCommand> take_commands();
