@@ -110,7 +110,7 @@ void report(const std::vector<Cost>& costs, int worst) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Replans the requests of virtual flights and says what they cost, ms of thread CPU time."};
-  tern::WantedFlights flights;
+  tern::FlightSelection flights;
   int repeats = 3;
   int worst = 10;
   flights.add_options(app);

@@ -42,14 +42,14 @@ FlightRecording record_flight(const std::string& scenario_file, const std::vecto
   return recording;
 }
 
-void WantedFlights::add_options(CLI::App& app) {
+void FlightSelection::add_options(CLI::App& app) {
   app.add_option("--config", scenario, "Scenario file")->required();
   app.add_option("--set", overrides, "Override key=value (repeatable)");
   app.add_option("--first", first, "First seed");
   app.add_option("--last", last, "Last seed");
 }
 
-void WantedFlights::each(const std::function<void(std::int64_t, const FlightRecording&)>& use) const {
+void FlightSelection::each(const std::function<void(std::int64_t, const FlightRecording&)>& use) const {
   for (std::int64_t seed = first; seed <= last; ++seed) {
     std::vector<std::string> with_seed = overrides;
     with_seed.push_back(fmt::format("seed={}", seed));

@@ -34,7 +34,7 @@ struct FlightRecording {
 FlightRecording record_flight(const std::string& scenario_file, const std::vector<std::string>& overrides);
 
 /// The flights that a program is asked to look at: --config, --set, --first and --last.
-struct WantedFlights {
+struct FlightSelection {
   std::string scenario;
   std::vector<std::string> overrides;  ///< key=value
   std::int64_t first = 1, last = 1;    ///< seeds

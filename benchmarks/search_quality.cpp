@@ -115,7 +115,7 @@ void report(const std::vector<Judged>& all) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Compares the searches of virtual flights with searches of five seconds. Thread CPU time."};
-  tern::WantedFlights flights;
+  tern::FlightSelection flights;
   std::size_t every = 4;
   flights.add_options(app);
   app.add_option("--every", every, "Every how many requests one is judged")->check(CLI::PositiveNumber);

@@ -44,7 +44,7 @@ struct Comparison {
     }
   }
 
-  [[nodiscard]] int broken() const {
+  [[nodiscard]] int exceeded() const {
     return static_cast<int>(std::count_if(excess.begin(), excess.end(), [](double e) { return e > kAllowed; }));
   }
 };
@@ -63,13 +63,13 @@ int compare(int count, std::uint64_t seed) {
     });
   }
   fmt::print("{} problems, {} cost more than Ipopt's by over {}, barrier failed on {}, Ipopt on {}\n",
-             comparison.excess.size(), comparison.broken(), kAllowed, comparison.unsolved, comparison.ipopt_unsolved);
+             comparison.excess.size(), comparison.exceeded(), kAllowed, comparison.unsolved, comparison.ipopt_unsolved);
   print("barrier, ms", comparison.barrier_ms);
   print("Ipopt, ms", comparison.ipopt_ms);
   print("barrier, steps", comparison.steps);
   print("excess over Ipopt", comparison.excess);
   print("certified gap", comparison.gap);
-  return comparison.broken() == 0 && comparison.unsolved == 0 ? 0 : 1;
+  return comparison.exceeded() == 0 && comparison.unsolved == 0 ? 0 : 1;
 }
 
 }  // namespace

@@ -37,12 +37,12 @@ bool was_ended(const FinishedProcess& finished) {
 class Run {
  public:
   Run(const CampaignOptions& options, const CampaignIdentity& identity, const std::vector<std::string>& flight_command,
-      FlightBook& book)
-      : options_(options), identity_(identity), command_(flight_command), book_(book) {
+      FlightTable& table)
+      : options_(options), identity_(identity), command_(flight_command), table_(table) {
     for (const std::uint64_t seed : seeds_of(options)) {
       ++progress_.total;
-      const auto known = book.flights().records.find(seed);
-      if (known == book.flights().records.end()) {
+      const auto known = table.flights().records.find(seed);
+      if (known == table.flights().records.end()) {
         waiting_.push_back(seed);
       } else {
         count(known->second);
@@ -72,7 +72,7 @@ class Run {
       if (stop) return interrupt();
     }
     report(progress_);
-    if (auto sorted = book_.close_sorted(); !sorted) return tl::unexpected(sorted.error());
+    if (auto sorted = table_.close_sorted(); !sorted) return tl::unexpected(sorted.error());
     return CampaignEnd::Complete;
   }
 
@@ -139,7 +139,7 @@ class Run {
     }
     count(flight.record);
     ++progress_.flown;
-    return book_.add(flight.record, flight.times);
+    return table_.add(flight.record, flight.times);
   }
 
   CampaignEnd interrupt() {
@@ -152,7 +152,7 @@ class Run {
   const CampaignOptions& options_;
   const CampaignIdentity& identity_;
   const std::vector<std::string>& command_;
-  FlightBook& book_;
+  FlightTable& table_;
   std::vector<std::uint64_t> waiting_;
   CampaignProgress progress_;
   DistinctFlights distinct_;
@@ -174,10 +174,10 @@ std::vector<std::uint64_t> seeds_of(const CampaignOptions& options) {
 Result<CampaignEnd> run_campaign(const CampaignOptions& options, const std::vector<std::string>& flight_command,
                                  int stop_fd, const std::function<void(const CampaignProgress&)>& report) {
   const CampaignIdentity identity = check_inputs(options.inputs, options.first_seed);
-  auto book = FlightBook::open(options.out, identity);
-  if (!book) return tl::unexpected(book.error());
+  auto table = FlightTable::open(options.out, identity);
+  if (!table) return tl::unexpected(table.error());
   try {
-    Run run(options, identity, flight_command, *book);
+    Run run(options, identity, flight_command, *table);
     auto end = run.fly_all(stop_fd, report);
     std::error_code not_empty;
     fs::remove(options.failures, not_empty);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "campaign/flight_inputs.h"
-#include "campaign/records/flight_book.h"
+#include "campaign/records/flight_table.h"
 
 namespace tern {
 

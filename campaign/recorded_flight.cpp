@@ -92,9 +92,9 @@ FlightRecord make_record(const FlightSummary& summary, const ExecutorCounters& e
 
 /// @return "passed", "broken" or "failed".
 std::string run_audit(const std::string& audit, const std::string& folder) {
-  const std::string said = folder + "/audit.txt";
-  std::filesystem::remove(said);
-  const int out = open_log(said);
+  const std::string output = folder + "/audit.txt";
+  std::filesystem::remove(output);
+  const int out = open_log(output);
   const pid_t child = start_child(
       {.command = {audit, folder + "/flight.lcm", "--json", folder + "/audit.json"}, .out = out, .error = out});
   close(out);

@@ -8,7 +8,7 @@
 #include "campaign/app/commands.h"
 #include "campaign/app/flight_options.h"
 #include "campaign/experiments/avoidable.h"
-#include "campaign/records/flight_book.h"
+#include "campaign/records/flight_table.h"
 #include "campaign/statistics/wilson.h"
 #include "runtime/config.h"
 #include "runtime/scenario_file.h"

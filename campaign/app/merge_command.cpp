@@ -5,7 +5,7 @@
 
 #include "campaign/app/commands.h"
 #include "campaign/app/summary_output.h"
-#include "campaign/records/flight_book.h"
+#include "campaign/records/flight_table.h"
 #include "runtime/config.h"
 
 namespace tern {

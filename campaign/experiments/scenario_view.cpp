@@ -28,8 +28,8 @@ constexpr double kLeft = 62.0;  // pixels, of the frame and the texts
 constexpr double kAdvance = 0.55, kBoldAdvance = 0.62;
 constexpr double kTitleSize = 15.0, kLegendSize = 12.0;  // pixels
 
-PlannedWay measured(std::vector<Vec3> points, const std::vector<Region>& regions) {
-  PlannedWay way{std::move(points), 0.0, std::vector<double>(regions.size(), 0.0)};
+PlannedPath measured(std::vector<Vec3> points, const std::vector<Region>& regions) {
+  PlannedPath way{std::move(points), 0.0, std::vector<double>(regions.size(), 0.0)};
   for (std::size_t k = 1; k < way.points.size(); ++k) {
     const Vec3 from = way.points[k - 1], leg = way.points[k] - from;
     const int samples = std::max(1, static_cast<int>(std::ceil(leg.norm() / kStep)));
@@ -45,7 +45,7 @@ PlannedWay measured(std::vector<Vec3> points, const std::vector<Region>& regions
 }
 
 /// @return the way, or in words why there is none
-Result<PlannedWay> way_of(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map) {
+Result<PlannedPath> path_between(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map) {
   const UavSpec& uav = view.scenario.uav;
   const GoalFieldKey key{uav.goal, map->version, 0, body_box(uav.body), uav.flight_box};
   const std::vector<Box> statics = static_boxes(view.world);
@@ -112,7 +112,7 @@ std::string regions_text(const ScenarioView& view) {
     if (weighs) text += fmt::format(", λ {:g}", lambda_of(view.scenario, region));
     text += "), " + heights(region);
     if (view.shortest) text += fmt::format(": {:.1f} m of the shortest way", view.shortest->in_region_m[r]);
-    if (view.weighed) text += fmt::format(", {:.1f} m of the weighed one", view.weighed->in_region_m[r]);
+    if (view.weighted) text += fmt::format(", {:.1f} m of the weighed one", view.weighted->in_region_m[r]);
     text += "\n";
   }
   return text;
@@ -134,7 +134,7 @@ PlotFrame frame_of(const ScenarioView& view) {
     if (o.present(0.0)) box.extend(o.box(0.0));
   }
   for (const Box& b : view.occupied) box.extend(b);
-  for (const auto* way : {&view.shortest, &view.weighed}) {
+  for (const auto* way : {&view.shortest, &view.weighted}) {
     for (const Vec3& p : *way ? (*way)->points : std::vector<Vec3>()) box.extend(p);
   }
   PlotFrame frame;
@@ -169,7 +169,8 @@ void draw_region(Svg& page, const PlotFrame& frame, const Region& region, const 
   page.text({at.first + 4, at.second + 14}, region.name + ", " + heights(region), "font-size=\"12\"");
 }
 
-void draw_way(Svg& page, const PlotFrame& frame, const std::optional<PlannedWay>& way, const std::string& attributes) {
+void draw_path(Svg& page, const PlotFrame& frame, const std::optional<PlannedPath>& way,
+               const std::string& attributes) {
   if (!way) return;
   std::vector<XY> points;
   for (const Vec3& p : way->points) points.push_back(frame.at(p.x(), p.y()));
@@ -177,9 +178,9 @@ void draw_way(Svg& page, const PlotFrame& frame, const std::optional<PlannedWay>
 }
 
 std::string legend_of(const ScenarioView& view) {
-  const char* ways = !view.shortest ? "the goal cannot be reached"
-                     : view.weighed ? "grey: the shortest way; blue: as the regions' λ weigh it"
-                                    : "grey: the shortest way around what rests";
+  const char* ways = !view.shortest  ? "the goal cannot be reached"
+                     : view.weighted ? "grey: the shortest way; blue: as the regions' λ weigh it"
+                                     : "grey: the shortest way around what rests";
   return fmt::format("open dot: start; orange: movers at time 0; {}", ways);
 }
 
@@ -201,15 +202,15 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
   view.map = fmt::format("{} x {} x {} voxels of {:g} m, occupied ones as {} boxes", map.grid.size.x(),
                          map.grid.size.y(), map.grid.size.z(), map.grid.resolution, view.occupied.size());
   planner.semantics = false;
-  const auto shortest = way_of(view, std::make_shared<const MapProducts>(map, planner));
+  const auto shortest = path_between(view, std::make_shared<const MapProducts>(map, planner));
   const std::string around = around_the_start(view);
   if (!around.empty() || !shortest) {
     view.blocked = around.empty() ? shortest.error().message : "the start lies in " + around;
     return view;
   }
   view.shortest = *shortest;
-  const auto weighed_way = weighed->weighs_paths ? way_of(view, weighed) : shortest;
-  if (weighed->weighs_paths && weighed_way) view.weighed = *weighed_way;
+  const auto weighted_path = weighed->weighs_paths ? path_between(view, weighed) : shortest;
+  if (weighed->weighs_paths && weighted_path) view.weighted = *weighted_path;
   return view;
 }
 
@@ -222,10 +223,10 @@ std::string to_text(const ScenarioView& view) {
   if (!view.shortest) return text + fmt::format("  goal      cannot be reached by this body: {}\n", view.blocked);
   text += fmt::format("  goal      can be reached: {:.1f} m around what rests (movers are not counted)\n",
                       view.shortest->length_m);
-  if (!view.weighed) return text;
+  if (!view.weighted) return text;
   return text +
          fmt::format("  λ         the weighed way is {:.1f} m, {:+.1f} m; what that buys stands at the regions\n",
-                     view.weighed->length_m, view.weighed->length_m - view.shortest->length_m);
+                     view.weighted->length_m, view.weighted->length_m - view.shortest->length_m);
 }
 
 std::string draw_scenario(const ScenarioView& view) {
@@ -249,8 +250,8 @@ std::string draw_scenario(const ScenarioView& view) {
     draw_box(page, frame, o.box(0.0),
              o.moves() ? "fill=\"#e07b00\" fill-opacity=\"0.65\"" : "fill=\"#7d838c\" fill-opacity=\"0.8\"");
   }
-  draw_way(page, frame, view.shortest, "stroke=\"#7d838c\" stroke-width=\"2\" stroke-dasharray=\"5 3\"");
-  draw_way(page, frame, view.weighed, "stroke=\"#1357a6\" stroke-width=\"2.5\"");
+  draw_path(page, frame, view.shortest, "stroke=\"#7d838c\" stroke-width=\"2\" stroke-dasharray=\"5 3\"");
+  draw_path(page, frame, view.weighted, "stroke=\"#1357a6\" stroke-width=\"2.5\"");
   const UavSpec& uav = view.scenario.uav;
   page.circle(frame.at(uav.start.x(), uav.start.y()), 6.0, "fill=\"white\" stroke=\"#1f2933\" stroke-width=\"2\"");
   page.circle(frame.at(uav.goal.x(), uav.goal.y()), 6.0, "fill=\"#1357a6\" stroke=\"white\"");

@@ -12,7 +12,7 @@
 namespace tern {
 
 /// A way from start to goal around what rests.
-struct PlannedWay {
+struct PlannedPath {
   std::vector<Vec3> points;  ///< W, m
   double length_m = 0.0;
   std::vector<double> in_region_m;  ///< of it, by region of the scenario
@@ -21,11 +21,11 @@ struct PlannedWay {
 struct ScenarioView {
   Scenario scenario;
   World world;
-  std::vector<Box> occupied;           ///< of the map, W
-  std::string map;                     ///< its extents as text
-  std::optional<PlannedWay> shortest;  ///< nullopt: the goal cannot be reached
-  std::string blocked;                 ///< then: what stands in the way, as text
-  std::optional<PlannedWay> weighed;   ///< by the regions' λ; nullopt: not reached, or nothing weighs
+  std::vector<Box> occupied;            ///< of the map, W
+  std::string map;                      ///< its extents as text
+  std::optional<PlannedPath> shortest;  ///< nullopt: the goal cannot be reached
+  std::string blocked;                  ///< then: what stands in the way, as text
+  std::optional<PlannedPath> weighted;  ///< by the regions' λ; nullopt: not reached, or nothing weighs
 };
 
 /// Reads the scenario as a flight would, every process's section too, and makes world, map and ways. The ways are the

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "campaign/records/flight_book.h"
+#include "campaign/records/flight_table.h"
 
 namespace tern {
 

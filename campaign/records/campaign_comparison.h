@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/records/flight_book.h"
+#include "campaign/records/flight_table.h"
 #include "campaign/statistics/paired.h"
 
 namespace tern {

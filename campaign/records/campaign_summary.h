@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/records/flight_book.h"
+#include "campaign/records/flight_table.h"
 #include "campaign/statistics/distribution.h"
 #include "campaign/statistics/wilson.h"
 

@@ -163,7 +163,7 @@ TEST_F(ReplayTest, AnAnswerThatIsNotThePlannersIsFoundWithItsStage) {
     return true;
   });
   const Replay found = replay(path);
-  EXPECT_EQ(found.broken(), 1);
+  EXPECT_EQ(found.unfulfilled(), 1);
   EXPECT_EQ(replay_exit_code(found, false), 1);
   EXPECT_TRUE(text_has(found, "first in the stage \"optimization\"")) << replay_text(found, false);
   EXPECT_TRUE(text_has(found, "control point 4"));
@@ -198,7 +198,7 @@ TEST_F(ReplayTest, SaysWhatTheLogLacksAndReplaysTheRest) {
     const Replay rest = replay(rewritten(
         [&, name = channel, n = every](LogEvent& event) { return event.channel != name || ++count % n == 0; }));
     EXPECT_GT(rest.missing(), 0) << channel;
-    EXPECT_EQ(rest.broken(), 0) << channel << "\n" << replay_text(rest, false);
+    EXPECT_EQ(rest.unfulfilled(), 0) << channel << "\n" << replay_text(rest, false);
     EXPECT_EQ(replay_exit_code(rest, false), 3) << channel;
     EXPECT_TRUE(text_has(rest, "not in the log: ")) << channel;
   }
@@ -209,7 +209,7 @@ TEST_F(ReplayTest, OfALogThatBeginsLaterSaysHowManyAnswersCameBefore) {
   const Replay rest =
       replay(rewritten([&](LogEvent& event) { return event.channel != channels::kPlan.name || ++count > 3; }));
   EXPECT_EQ(rest.missing(), 0);
-  EXPECT_EQ(rest.broken(), 0);
+  EXPECT_EQ(rest.unfulfilled(), 0);
   EXPECT_TRUE(text_has(rest, "PLAN: 3 answers were published before")) << replay_text(rest, false);
   EXPECT_EQ(replay_exit_code(rest, false), 3);
 }
@@ -224,7 +224,7 @@ TEST_F(ReplayTest, ATruncatedOrDamagedLogIsReplayedAsFarAsItGoes) {
   const std::string path = rewritten([](LogEvent&) { return true; });
   std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
   const Replay rest = replay(path);
-  EXPECT_EQ(rest.broken(), 0);
+  EXPECT_EQ(rest.unfulfilled(), 0);
   EXPECT_GT(rest.count(Agreement::Identical), 30);
   EXPECT_EQ(replay_exit_code(rest, false), 3);
   EXPECT_TRUE(text_has(rest, "its end is cut off")) << replay_text(rest, false);
@@ -237,7 +237,7 @@ TEST_F(ReplayTest, MessagesOfAnotherVersionAreCountedAndForeignChannelsPassedOve
     if (event.channel == channels::kPlan.name && ++count % 2 == 0) event.data[0] ^= 1U;
     return true;
   }));
-  EXPECT_EQ(rest.broken(), 0);
+  EXPECT_EQ(rest.unfulfilled(), 0);
   EXPECT_EQ(replay_exit_code(rest, false), 3);
   EXPECT_TRUE(text_has(rest, "of another version")) << replay_text(rest, false);
   EXPECT_TRUE(text_has(rest, "CAMERA"));

@@ -12,7 +12,7 @@
 #include "tests/support/temp_folder.h"
 #include "tools/audit/app/load_flight.h"
 #include "tools/audit/audit.h"
-#include "tools/audit/flown.h"
+#include "tools/audit/true_motion.h"
 
 namespace tern::audit {
 namespace {
@@ -104,7 +104,7 @@ TEST_F(AuditOfALog, WithoutStatesForASecondKnowsTheMotionByWhatWasCommitted) {
   const Audit whole = audit(good());
   const Audit gap = audit(log);
   EXPECT_THAT(broken(gap), IsEmpty()) << text(gap);
-  EXPECT_EQ(flown(read_).hole_count, 0);
+  EXPECT_EQ(vehicle_motion(read_).hole_count, 0);
   EXPECT_NEAR(measure_of(gap, "result", "path_m_at_least"), measure_of(whole, "result", "path_m_at_least"), 1e-3);
   EXPECT_NEAR(measure_of(gap, "result", "path_m_at_most"), measure_of(whole, "result", "path_m_at_most"), 1e-3);
   EXPECT_EQ(gap.least.high, whole.least.high);

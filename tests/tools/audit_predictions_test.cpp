@@ -9,8 +9,8 @@
 #include "core/splines/piecewise_cubic.h"
 #include "core/world/alpha_share.h"
 #include "tools/audit/audit.h"
+#include "tools/audit/pairing.h"
 #include "tools/audit/plan_case.h"
-#include "tools/audit/promised.h"
 
 namespace tern::audit {
 namespace {
@@ -333,13 +333,13 @@ TEST(AContact, IsLookedBackFrom) {
   const HorizonRequest request = world.ask(10, 5.2);
   world.record.plans = {answer_to(request, 2), answer_to(request, 4)};
   world.record.plans.back().confidence = 0.0;
-  const Contact contact = look_back(world.record, at(6.0), 0);
+  const Contact contact = contact_at(world.record, at(6.0), 0);
   EXPECT_NEAR(contact.in_predictions_s.value(), 1.0, 1e-9);
-  ASSERT_TRUE(contact.said[0] && contact.said[1] && contact.said[2]);
-  for (const auto& said : contact.said) {
+  ASSERT_TRUE(contact.predicted[0] && contact.predicted[1] && contact.predicted[2]);
+  for (const auto& said : contact.predicted) {
     EXPECT_NEAR(said->needed_m, 0.5, 1e-6);
     EXPECT_EQ(said->alpha_m, kAlpha);
-    EXPECT_FALSE(said->kept);
+    EXPECT_FALSE(said->covered);
   }
   EXPECT_EQ(contact.confidence.value(), 0.9) << "the last plan claims none";
   EXPECT_NEAR(contact.confident_s.value(), 0.8, 1e-9);
@@ -348,10 +348,10 @@ TEST(AContact, IsLookedBackFrom) {
   EXPECT_EQ(json["promised"].size(), 3U);
   EXPECT_EQ(json["promised"][0]["kept"], false);
   EXPECT_EQ(json["last_confidence"], 0.9);
-  EXPECT_FALSE(to_json(look_back(world.record, at(6.0), 1), world.record).contains("in_predictions_s"));
-  EXPECT_FALSE(look_back(world.record, at(5.9), 0).said[2]) << "it was in no set then";
-  EXPECT_TRUE(look_back(world.record, at(5.7), 0).said[0]->kept);
-  EXPECT_THAT(to_text(look_back(world.record, at(6.0), 1), world.record), HasSubstr("was not in PREDICTIONS"));
+  EXPECT_FALSE(to_json(contact_at(world.record, at(6.0), 1), world.record).contains("in_predictions_s"));
+  EXPECT_FALSE(contact_at(world.record, at(5.9), 0).predicted[2]) << "it was in no set then";
+  EXPECT_TRUE(contact_at(world.record, at(5.7), 0).predicted[0]->covered);
+  EXPECT_THAT(to_text(contact_at(world.record, at(6.0), 1), world.record), HasSubstr("was not in PREDICTIONS"));
 }
 
 TEST(ClaimedAlpha, IsWhatThePlannerCounts) {
@@ -371,7 +371,7 @@ TEST(ClaimedAlpha, IsWhatThePlannerCounts) {
     plan.alpha_scale = rng.uniform(0.1, 1.0);
     plan.sure_for = n % 2 == 0 ? Duration{200'000 * (n % 8)} : Duration::from_seconds(rng.uniform(0.0, 2.0));
     const std::size_t last = track.motion.locate(at(5.0) + plan.sure_for).index;
-    const std::vector<Vec3> claimed = claimed_alpha(track, plan, at(5.0));
+    const std::vector<Vec3> claimed = counted_alpha(track, plan, at(5.0));
     for (std::size_t k = 0; k < claimed.size(); ++k) {
       const Vec3 counted = AlphaShare{plan.level, plan.alpha_scale, last}.of(track, k);
       EXPECT_LT((claimed[k] - counted).norm(), 1e-12) << n << " piece " << k;

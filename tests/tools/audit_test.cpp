@@ -175,11 +175,11 @@ TEST_F(AuditedFlight, WithADelayedAnswerNamesThatRequest) {
 }
 
 TEST_F(AuditedFlight, WithAShrunkAlphaNamesTheObstacleThatLeavesIt) {
-  std::int64_t obstacle = kNobody;
+  std::int64_t obstacle = kNoObstacle;
   const Audit audit = audit_with<TrackSet>(channels::kPredictions.name, [&](TrackSet& set) {
     for (Track& track : set.tracks) {
       if (track.kind == TrackKind::Static) continue;
-      if (obstacle == kNobody) obstacle = track.id;
+      if (obstacle == kNoObstacle) obstacle = track.id;
       for (Vec3& alpha : track.alpha) {
         if (track.id == obstacle) alpha.setZero();
       }

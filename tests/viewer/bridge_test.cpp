@@ -8,7 +8,7 @@
 #include "viewer/bridge/board.h"
 #include "viewer/bridge/commands.h"
 #include "viewer/bridge/json_writer.h"
-#include "viewer/bridge/wishes.h"
+#include "viewer/bridge/subscriptions.h"
 
 namespace tern {
 namespace {
@@ -108,21 +108,21 @@ TEST(Commands, OfAnyOtherFormAreRefused) {
   }
 }
 
-TEST(Wishes, AreOfAllPagesThatStillLook) {
-  Wishes wishes;
-  wishes.take(1, LayersCommand{true, false, false});
-  wishes.take(1, SeriesCommand{{"b", "a"}});
-  wishes.take(2, LayersCommand{false, true, false});
-  wishes.take(2, SeriesCommand{{"b", "c"}});
-  EXPECT_TRUE(wishes.layers().hulls && wishes.layers().planes && !wishes.layers().search);
-  EXPECT_EQ(wishes.series(), (std::vector<std::string>{"a", "b", "c"}));
-  wishes.keep_only({2});
-  EXPECT_FALSE(wishes.layers().hulls);
-  EXPECT_EQ(wishes.series(), (std::vector<std::string>{"b", "c"}));
+TEST(Subscriptions, AreOfAllPagesThatStillLook) {
+  Subscriptions subscriptions;
+  subscriptions.take(1, LayersCommand{true, false, false});
+  subscriptions.take(1, SeriesCommand{{"b", "a"}});
+  subscriptions.take(2, LayersCommand{false, true, false});
+  subscriptions.take(2, SeriesCommand{{"b", "c"}});
+  EXPECT_TRUE(subscriptions.layers().hulls && subscriptions.layers().planes && !subscriptions.layers().search);
+  EXPECT_EQ(subscriptions.series(), (std::vector<std::string>{"a", "b", "c"}));
+  subscriptions.keep_only({2});
+  EXPECT_FALSE(subscriptions.layers().hulls);
+  EXPECT_EQ(subscriptions.series(), (std::vector<std::string>{"b", "c"}));
   std::vector<std::string> many;
   for (std::size_t k = 0; k < 10 * kMaxSeries; ++k) many.push_back(std::to_string(k));
-  wishes.take(2, SeriesCommand{many});
-  EXPECT_EQ(wishes.series().size(), kMaxSeries);
+  subscriptions.take(2, SeriesCommand{many});
+  EXPECT_EQ(subscriptions.series().size(), kMaxSeries);
 }
 
 RC_GTEST_PROP(Commands, NeverThrowOnAnyBytes, (std::string text)) { (void)parse_command(text); }

@@ -144,8 +144,8 @@ TEST(PredictedHulls, AreBoundedNearestFirst) {
 /// Where the planes of a plan are drawn.
 std::vector<Vec3> plane_places(const HorizonRequest& request, const Plan& plan) {
   Scene scene;
-  scene.hear(request);
-  scene.hear(plan);
+  scene.receive(request);
+  scene.receive(plan);
   std::vector<Vec3> places;
   const json told = json::parse(plan_json(scene, true));
   for (const json& plane : told["planes"]) {

@@ -85,7 +85,7 @@ TEST(FlightHistory, KeepsARowPerFiftyMillisecondsAndWhatIsNoNumberAsNone) {
 TEST(FlightHistory, HasEveryNumberOfAMessage) {
   const support::KnownScene known(kStart);
   Scene scene;
-  scene.hear(known.state(at(2.0)));
+  scene.receive(known.state(at(2.0)));
   const NumberFields fields = numbers_of(detail_json(scene, {}));
   const auto value = [&](const std::string& name) {
     const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.first == name; });
@@ -113,31 +113,31 @@ Goal goal_at(double seconds, GoalMode mode) {
 TEST(WorldTime, BeginsWithTheFirstRequest) {
   WorldTime time;
   EXPECT_EQ(time.zero(), std::nullopt);
-  time.hear(goal_at(1.0, GoalMode::Go));
+  time.receive(goal_at(1.0, GoalMode::Go));
   EXPECT_EQ(time.zero(), std::nullopt);
-  for (const double t : {2.0, 2.05}) time.hear(request_at(t));
+  for (const double t : {2.0, 2.05}) time.receive(request_at(t));
   EXPECT_EQ(time.zero(), at(2.0));
 }
 
 TEST(WorldTime, OfAVehicleThatIsToldToHoldFirstBeginsWhenItIsToGo) {
   WorldTime time;
-  time.hear(goal_at(1.0, GoalMode::Hold));
-  time.hear(request_at(2.0));
-  time.hear(goal_at(9.0, GoalMode::Go));
-  time.hear(request_at(8.99));  // overtaken by the goal
+  time.receive(goal_at(1.0, GoalMode::Hold));
+  time.receive(request_at(2.0));
+  time.receive(goal_at(9.0, GoalMode::Go));
+  time.receive(request_at(8.99));  // overtaken by the goal
   EXPECT_EQ(time.zero(), std::nullopt);
-  time.hear(request_at(9.05));
-  time.hear(goal_at(20.0, GoalMode::Go));
-  time.hear(request_at(21.0));
+  time.receive(request_at(9.05));
+  time.receive(goal_at(20.0, GoalMode::Go));
+  time.receive(request_at(21.0));
   EXPECT_EQ(time.zero(), at(9.05));
 }
 
 TEST(Scene, CountsTimeFromWorldTime0) {
   Scene::Memory memory;
   Scene scene(&memory);
-  scene.hear(state_at(0.0, Vec3::Zero(), Vec3::Zero()));
+  scene.receive(state_at(0.0, Vec3::Zero(), Vec3::Zero()));
   EXPECT_EQ(memory.zero(), kStart) << "as long as it is not known";
-  scene.hear(request_at(3.0));
+  scene.receive(request_at(3.0));
   EXPECT_EQ(memory.zero(), at(3.0));
   const json chart = json::parse(memory.history.chart_json(memory.zero(), at(5.0), {}));
   EXPECT_EQ(chart["begin_s"], -3.0);
@@ -150,9 +150,9 @@ TEST(Scene, RemembersClearancesToObstaclesAndToTheMapApart) {
   Scene scene(&memory);
   VoxelMap map = known.map();
   for (VoxelLabel& label : map.labels) label = label == VoxelLabel::Repulsive ? VoxelLabel::Occupied : label;
-  scene.hear(map);
-  scene.hear(known.truth(kStart));
-  scene.hear(known.state(kStart));
+  scene.receive(map);
+  scene.receive(known.truth(kStart));
+  scene.receive(known.state(kStart));
   const json chart =
       json::parse(memory.history.chart_json(kStart, kStart, {"clearance.obstacles_m", "clearance.map_m"}));
   EXPECT_NEAR(chart["series"]["clearance.obstacles_m"][1][0].get<double>(), *scene.clearance(), 1e-4);
@@ -179,7 +179,7 @@ TEST(FlightEvents, AreTheChangesOfTheOutcome) {
         std::pair(PlanOutcome::Evade, PlanReason::None)}) {
     plan.outcome = outcome;
     plan.reason = reason;
-    events.hear(plan);
+    events.receive(plan);
   }
   EXPECT_EQ(told(events, "outcome"), (Texts{"first answer: optimized", "optimized → keep committed (worse plan)"}));
   EXPECT_EQ(told(events, "evasion"), Texts{"keep committed → evade"});
@@ -190,34 +190,34 @@ TEST(FlightEvents, AreGoalsStopsLateAnswersRestartsAndTheResultOnce) {
   Goal goal;
   goal.id = 1;
   goal.position = Vec3(1.0, 2.0, 3.0);
-  events.hear(goal);
-  events.hear(goal);
+  events.receive(goal);
+  events.receive(goal);
   goal.id = 2;
   goal.mode = GoalMode::Hold;
-  events.hear(goal);
+  events.receive(goal);
   EXPECT_EQ(told(events, "goal"), (Texts{"goal 1: 1.0, 2.0, 3.0", "goal 2: hold"}));
   for (const double speed : {0.0, 3.0, 0.2, 0.0, 0.0, 0.2, 0.0}) {
-    events.hear(state_at(0.0, Vec3(1.0, 0.0, 0.0), Vec3(speed, 0.0, 0.0)));
+    events.receive(state_at(0.0, Vec3(1.0, 0.0, 0.0), Vec3(speed, 0.0, 0.0)));
   }
   EXPECT_EQ(told(events, "stop"), Texts{"at rest at 1.0, 0.0, 0.0"});
   PlanTiming timing;
   timing.request_id = 5;
-  events.hear(timing, 80.0, 0.0);
-  events.hear(timing, 80.0, 90.0);
-  events.hear(timing, 80.0, 70.0);
+  events.receive(timing, 80.0, 0.0);
+  events.receive(timing, 80.0, 90.0);
+  events.receive(timing, 80.0, 70.0);
   EXPECT_EQ(told(events, "late"), Texts{"answer 5: 80.0 of 70 ms"});
   Heartbeat heartbeat;
   heartbeat.process = "tern-planner";
   for (const std::int64_t epoch : {1, 1, 2, 2}) {
     heartbeat.header.name.sender_epoch_us = epoch;
-    events.hear(heartbeat);
+    events.receive(heartbeat);
   }
   EXPECT_EQ(told(events, "restart"), Texts{"tern-planner was started anew"});
   FlightResult result;
   result.outcome = FlightOutcome::Collision;
   result.detail = "mover 3";
-  events.hear(result);
-  events.hear(result);
+  events.receive(result);
+  events.receive(result);
   EXPECT_EQ(told(events, "result"), Texts{"collision: mover 3"});
 }
 
@@ -232,9 +232,9 @@ TEST(Scene, CallsAnAnswerLateByTheFlightsClockWhateverThePace) {
     PlanTiming timing = known.timing(id);
     timing.header.utime = plan.header.utime;
     timing.total_ms = 80.0;
-    scene.hear(request);
-    scene.hear(plan);
-    scene.hear(timing);
+    scene.receive(request);
+    scene.receive(plan);
+    scene.receive(timing);
     EXPECT_EQ(json::parse(timing_json(scene))["late"], id == 2);
   }
   EXPECT_EQ(told(memory.events, "late"), Texts{"answer 2: 80.0 of 70 ms"});
@@ -245,7 +245,7 @@ TEST(FlightEvents, AreTheFiveNearestPasses) {
   for (int k = 0; k <= 2'000; ++k) {
     const double t = 0.01 * k;
     // Passes at t = 1, 3, 5 …, each nearer than the last by 0.04 m; at 1 m between them.
-    events.hear_clearance(at(t), 0.55 - 0.02 * t + 0.45 * std::cos(M_PI * t), std::nullopt);
+    events.receive_clearance(at(t), 0.55 - 0.02 * t + 0.45 * std::cos(M_PI * t), std::nullopt);
   }
   const Texts passes = told(events, "clearance");
   EXPECT_EQ(passes.size(), 5U);

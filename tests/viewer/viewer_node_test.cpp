@@ -14,7 +14,7 @@
 #include "tests/viewer/known_scene.h"
 #include "viewer/bridge/app/listening_socket.h"
 #include "viewer/bridge/app/log_player.h"
-#include "viewer/bridge/own_goal.h"
+#include "viewer/bridge/page_goal.h"
 #include "viewer/bridge/scene_json.h"
 
 namespace tern {
@@ -184,16 +184,16 @@ TEST(Scene, TellsClearanceFromTheBodyToTheNearestBox) {
   Scene scene;
   EXPECT_EQ(scene.clearance(), std::nullopt);
   const support::KnownScene known(kKnownLogStart);
-  scene.hear(known.state(kKnownLogStart));
-  scene.hear(known.truth(kKnownLogStart));
+  scene.receive(known.state(kKnownLogStart));
+  scene.receive(known.truth(kKnownLogStart));
   const double nearest = std::hypot(2.0 - 0.4, 3.0 - std::sin(1.0) - 0.4);  // mover 1 at (2, −3 + sin 1)
   EXPECT_NEAR(*scene.clearance(), nearest, 1e-9);
-  scene.hear(known.request(kKnownLogStart, 1));
+  scene.receive(known.request(kKnownLogStart, 1));
   EXPECT_NEAR(*scene.clearance(), nearest - 0.1, 1e-9);
 }
 
 /// A goal, and states of vehicles.
-class OwnGoalTest : public testing::Test {
+class PageGoalTest : public testing::Test {
  protected:
   static Goal goal(std::int64_t id) {
     Goal goal;
@@ -204,39 +204,39 @@ class OwnGoalTest : public testing::Test {
   void hear_vehicle(std::int64_t epoch_us) {
     UavState state;
     state.header.name.sender_epoch_us = epoch_us;
-    scene_.hear(state);
+    scene_.receive(state);
   }
   bool is_sent_at(double seconds) {
     return own_.due(scene_, kKnownLogStart + Duration::from_seconds(seconds)).has_value();
   }
   Scene scene_;
-  OwnGoal own_;
+  PageGoal own_;
 };
 
-TEST_F(OwnGoalTest, IsRepeatedUntilANewerOneIsHeard) {
+TEST_F(PageGoalTest, IsRepeatedUntilANewerOneIsHeard) {
   EXPECT_FALSE(is_sent_at(0.0));
   own_.set(goal(2), scene_, kKnownLogStart);
   EXPECT_TRUE(is_sent_at(0.0));
   EXPECT_FALSE(is_sent_at(0.9));
   EXPECT_TRUE(is_sent_at(1.0));
   hear_vehicle(5);  // the first that is heard
-  scene_.hear(goal(2));
+  scene_.receive(goal(2));
   EXPECT_TRUE(is_sent_at(2.0));
-  scene_.hear(goal(3));
+  scene_.receive(goal(3));
   EXPECT_FALSE(is_sent_at(3.0));
   EXPECT_FALSE(is_sent_at(4.0));
 }
 
-TEST_F(OwnGoalTest, IsNotSentToTheVehicleOfAnotherFlight) {
+TEST_F(PageGoalTest, IsNotSentToTheVehicleOfAnotherFlight) {
   hear_vehicle(5);
   own_.set(goal(2), scene_, kKnownLogStart);
-  scene_.hear(goal(2));
+  scene_.receive(goal(2));
   EXPECT_TRUE(is_sent_at(0.0));
   hear_vehicle(kKnownLogStart.us + 500'000);
   EXPECT_FALSE(is_sent_at(1.0));
   EXPECT_FALSE(is_sent_at(2.0));
   EXPECT_FALSE(scene_.goal());
-  scene_.hear(goal(1));
+  scene_.receive(goal(1));
   EXPECT_EQ(scene_.goal()->id, 1);
 }
 
@@ -245,7 +245,7 @@ TEST(Scene, RemembersABoundedNumberOfProcesses) {
   for (int k = 0; k < 1'000; ++k) {
     Heartbeat heartbeat;
     heartbeat.process = "p" + std::to_string(k);
-    scene.hear(heartbeat, kKnownLogStart);
+    scene.receive(heartbeat, kKnownLogStart);
   }
   EXPECT_EQ(scene.processes().size(), kMaxProcesses);
 }
@@ -254,15 +254,15 @@ TEST(Scene, TellsAllMessagesOfWhatIsPicked) {
   Scene scene;
   const support::KnownScene known(kKnownLogStart);
   const HorizonRequest request = known.request(kKnownLogStart, 7);
-  scene.hear(known.state(kKnownLogStart));
-  scene.hear(known.truth(kKnownLogStart));
-  scene.hear(known.predictions(kKnownLogStart));
-  scene.hear(request);
-  scene.hear(known.plan(request));
-  scene.hear(known.timing(7));
-  scene.hear(known.heartbeat(), kKnownLogStart);
-  scene.hear(known.goal());
-  scene.hear(known.map());
+  scene.receive(known.state(kKnownLogStart));
+  scene.receive(known.truth(kKnownLogStart));
+  scene.receive(known.predictions(kKnownLogStart));
+  scene.receive(request);
+  scene.receive(known.plan(request));
+  scene.receive(known.timing(7));
+  scene.receive(known.heartbeat(), kKnownLogStart);
+  scene.receive(known.goal());
+  scene.receive(known.map());
   const auto channels = [&](const PickCommand& pick) {
     std::vector<std::string> names;
     const json detail = json::parse(detail_json(scene, pick));

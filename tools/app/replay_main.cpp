@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   return tern::run_tool(app, "tern-replay", argc, argv, [&] {
     const bool what_if = !options.other.empty();
     const tern::Replay replay = tern::value_or_throw(tern::replay_log(log, options));
-    tern::value_or_throw(tern::keep_answers(log, options, save, dump));
+    tern::value_or_throw(tern::write_extract(log, options, save, dump));
     fmt::print("{}", tern::replay_text(replay, what_if));
     if (!json.empty() && !tern::write_text(json, tern::replay_json(replay, what_if))) {
       throw tern::ConfigError(json + ": cannot be written");

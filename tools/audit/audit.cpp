@@ -100,7 +100,7 @@ std::optional<Contact> contact_of(const FlightRecord& record, const Audit& audit
   const auto touched =
       std::ranges::find_if(audit.clearance, [](const ClearancePoint& p) { return p.clearance_m <= 0.0; });
   if (touched == audit.clearance.end()) return std::nullopt;
-  return look_back(record, touched->at, touched->obstacle);
+  return contact_at(record, touched->at, touched->obstacle);
 }
 
 nlohmann::json coverage_json(const Audit& audit) {
@@ -215,7 +215,7 @@ nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
     for (const Finding& f : check.findings) {
       nlohmann::json one = {{"time_s", record.seconds(f.at)}, {"what", f.what}};
       if (f.request > 0) one["request"] = f.request;
-      if (f.obstacle != kNobody) one["obstacle"] = f.obstacle;
+      if (f.obstacle != kNoObstacle) one["obstacle"] = f.obstacle;
       findings.push_back(std::move(one));
     }
     nlohmann::json measures = nlohmann::json::object();
@@ -232,8 +232,11 @@ nlohmann::json to_json(const Audit& audit, const FlightRecord& record) {
   }
   nlohmann::json tracks = nlohmann::json::array();
   for (const TrackCoverage& t : audit.tracks) {
-    tracks.push_back(
-        {{"track", t.track}, {"obstacle", t.obstacle}, {"promises", t.sets}, {"kept", t.kept}, {"worst_m", t.worst_m}});
+    tracks.push_back({{"track", t.track},
+                      {"obstacle", t.obstacle},
+                      {"promises", t.sets},
+                      {"kept", t.covered},
+                      {"worst_m", t.worst_m}});
   }
   nlohmann::json all = {
       {"log", record.path},

@@ -18,7 +18,7 @@ namespace tern::audit {
 struct ClearancePoint {
   UTime at;
   double clearance_m = 0.0;  ///< to the nearest obstacle's box, body included; negative in overlap
-  std::int64_t obstacle = kNobody;
+  std::int64_t obstacle = kNoObstacle;
 };
 
 /// Where the vehicle was in its tube at a state that is judged: on the axis on which it was nearest to the edge.
@@ -34,22 +34,22 @@ inline constexpr std::array kAges{0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75
 inline constexpr std::size_t kAgeBins = kAges.size() + 1;
 using ByAge = std::array<std::array<PromiseCount, kHorizons>, kAgeBins>;
 
-/// What one track promised and kept.
+/// What one track promised and covered.
 struct TrackCoverage {
   std::int64_t track = 0, obstacle = 0;
-  std::int64_t sets = 0, kept = 0;  ///< promises (a set's pieces) that truth reaches; those that held throughout
-  double worst_m = 0.0;             ///< farthest that the true box stood out of its promise; ≤ 0: never
+  std::int64_t sets = 0, covered = 0;  ///< promises (a set's pieces) that truth reaches; those that held throughout
+  double worst_m = 0.0;                ///< farthest that the true box stood out of its promise; ≤ 0: never
 };
 
 /// The least clearance of the flight.
-struct Least {
+struct LeastClearance {
   bool known = false;            ///< there was something to be near to
   double low = 0.0, high = 0.0;  ///< it lies between them, m
   bool proven = false;  ///< low is a bound; false: between samples by interpolation, or without what is missing
 };
 
 /// How many obstacles were there at some time of the flight: between its samples some may have come or gone.
-struct Met {
+struct ObstacleCount {
   std::int64_t fewest = 0, most = 0;
   bool known = false;  ///< the log tells of all: no OBSTACLE_TRUTH is missing
 };
@@ -64,8 +64,8 @@ struct Audit {
   std::vector<std::string> missing;  ///< what the log lacks, in words
   std::vector<ClearancePoint> clearance;
   std::vector<TubePoint> tube;
-  Least least, least_of_map;  ///< to the true obstacles; to the occupied voxels
-  Met met;
+  LeastClearance least, least_of_map;  ///< to the true obstacles; to the occupied voxels
+  ObstacleCount obstacle_count;
   Collision collision = Collision::None;
   std::optional<Contact> contact;    ///< of a collision with an obstacle
   Coverage coverage;                 ///< of the flight

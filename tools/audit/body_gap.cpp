@@ -73,7 +73,7 @@ Vec3 point_of(const std::vector<Atom>& atoms) {
 
 }  // namespace
 
-Box covered(const Body& body, const Box& positions) {
+Box swept_box(const Body& body, const Box& positions) {
   const Vec3 radius = Vec3::Constant(body.radius);
   return {positions.min() - (radius - body.vertices.rowwise().minCoeff()),
           positions.max() + (body.vertices.rowwise().maxCoeff() + radius)};

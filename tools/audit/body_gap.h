@@ -19,6 +19,6 @@ struct Gap {
 Gap body_gap(const Body& body, const Vec3& p, const Vec3& h);
 
 /// The smallest box that holds the body at all of these positions.
-Box covered(const Body& body, const Box& positions);
+Box swept_box(const Body& body, const Box& positions);
 
 }  // namespace tern::audit

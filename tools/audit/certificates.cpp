@@ -46,7 +46,7 @@ class CaseCheck {
 
   void run() {
     if (case_.plan.outcome == PlanOutcome::KeepCommitted && !same(case_.plan.trajectory, case_.request.committed)) {
-      fail("keeps a trajectory that is not the committed one", kNobody);
+      fail("keeps a trajectory that is not the committed one", kNoObstacle);
     }
     for (const CertificatePlane& plane : case_.plan.certificate) on_its_side(plane);
     for (std::size_t k = 0; k < case_.curves.size(); ++k) {
@@ -115,7 +115,7 @@ class CaseCheck {
     if (known != vehicle_boxes_.end()) return known->second;
     const Span s = span(part);
     const Box centre = enclose(curve(part), s.a, s.b, kExtremum);
-    return vehicle_boxes_.emplace(part, grown(covered(body_, centre), tube_)).first->second;
+    return vehicle_boxes_.emplace(part, grown(swept_box(body_, centre), tube_)).first->second;
   }
 
   static bool apart(const Box& a, const Box& b) {
@@ -170,7 +170,7 @@ class CaseCheck {
     if (voxel_separated(box, whole)) return;
     fail(fmt::format("nothing separates the map's voxel at ({:.2f}, {:.2f}, {:.2f}) m in {}", box.center().x(),
                      box.center().y(), box.center().z(), words(whole)),
-         kNobody);
+         kNoObstacle);
   }
 
   [[nodiscard]] bool voxel_separated(const Box& box, const Part& part) {

@@ -12,14 +12,14 @@
 namespace tern::audit {
 
 /// No track, no obstacle.
-inline constexpr std::int64_t kNobody = INT64_MIN;
+inline constexpr std::int64_t kNoObstacle = INT64_MIN;
 
 /// One thing that was broken.
 struct Finding {
-  UTime at;                         ///< vehicle's clock
-  std::string what;                 ///< in words, with value and limit
-  std::int64_t request = 0;         ///< 0: none in particular
-  std::int64_t obstacle = kNobody;  ///< track or obstacle
+  UTime at;                             ///< vehicle's clock
+  std::string what;                     ///< in words, with value and limit
+  std::int64_t request = 0;             ///< 0: none in particular
+  std::int64_t obstacle = kNoObstacle;  ///< track or obstacle
 };
 /// Findings of one check that are kept, the first ones; the others are counted.
 inline constexpr std::size_t kMaxFindings = 50;

@@ -8,7 +8,7 @@
 #include "core/world/box_cover.h"
 #include "tools/audit/audit.h"
 #include "tools/audit/body_gap.h"
-#include "tools/audit/flown.h"
+#include "tools/audit/true_motion.h"
 
 namespace tern::audit {
 namespace {
@@ -33,7 +33,7 @@ double passed_over(double low) { return low < 0.5 * kNearTouch ? kTouchResolutio
 struct Closest {
   double low = kFar, high = kFar;
   UTime at;
-  std::int64_t obstacle = kNobody;  ///< nobody: none nearer than where the search began
+  std::int64_t obstacle = kNoObstacle;  ///< nobody: none nearer than where the search began
 
   /// Takes what is lower.
   void lower(double than, UTime when, std::int64_t whom) {
@@ -47,7 +47,7 @@ struct Encounter {
   Vec3 half;
   Curve relative;  ///< vehicle − obstacle
   Vec3 error;      ///< the truth is within relative ± error, m
-  std::int64_t obstacle = kNobody;
+  std::int64_t obstacle = kNoObstacle;
   UTime sure_from, sure_to;  ///< the flight surely lasted from and to here
 };
 
@@ -89,10 +89,10 @@ Curve difference(const Curve& a, const Curve& b, UTime from, UTime to) {
 template <class Visit>
 void meet(const SampledMotion& vehicle, const SampledMotion& obstacle, const Window& window, const Visit& visit) {
   std::size_t k = 0;
-  for (const Sampled& own : vehicle.spans) {
+  for (const MotionSpan& own : vehicle.spans) {
     while (k < obstacle.spans.size() && obstacle.spans[k].curve.to <= own.curve.from) ++k;
     for (std::size_t i = k; i < obstacle.spans.size() && obstacle.spans[i].curve.from < own.curve.to; ++i) {
-      const Sampled& other = obstacle.spans[i];
+      const MotionSpan& other = obstacle.spans[i];
       const UTime from = std::max({own.curve.from, other.curve.from, window.from});
       const UTime to = std::min({own.curve.to, other.curve.to, window.to});
       if (from < to && !own.hole) visit(own, other, difference(own.curve, other.curve, from, to));
@@ -119,7 +119,7 @@ struct Watch {
     approach.proven.low = approach.interpolated.low = std::max(nearest, kResolution);
     const Vec3 half = largest_half_extents(history);
     std::size_t point = 0;
-    meet(vehicle, motion, window, [&](const Sampled& own, const Sampled& other, const Curve& relative) {
+    meet(vehicle, motion, window, [&](const MotionSpan& own, const MotionSpan& other, const Curve& relative) {
       const Encounter e{body, half, relative, own.error + other.error, id, window.sure_from(), window.sure_to()};
       search(e, 0.0, relative.length_s(), other.proven ? approach.proven : approach.interpolated);
       if (!other.proven) approach.between_samples = false;
@@ -140,7 +140,7 @@ struct Watch {
     for (const ObstacleHistory::Sample& s : history.samples) {
       while (k < vehicle.spans.size() && vehicle.spans[k].curve.to < s.at) ++k;
       if (k == vehicle.spans.size() || s.at > window.sure_to()) return;
-      const Sampled& own = vehicle.spans[k];
+      const MotionSpan& own = vehicle.spans[k];
       if (own.hole || s.at < own.curve.from || s.at < window.sure_from()) continue;
       const Encounter e{body, s.half_extents, own.curve, own.error, id, window.sure_from(), window.sure_to()};
       const Gap gap = gap_within(e, own.curve.p((s.at - own.curve.from).seconds()) - s.p);
@@ -228,25 +228,25 @@ class Verdicts {
     if (!a.between_samples) ++undeclared_;
     proven_.high = std::min(proven_.high, a.proven.high);
     for (const auto& [from, to] : {std::pair{&a.proven, &proven_}, {&a.interpolated, &interpolated_}}) {
-      if (from->obstacle != kNobody) to->lower(from->low, from->at, from->obstacle);
+      if (from->obstacle != kNoObstacle) to->lower(from->low, from->at, from->obstacle);
     }
     if (a.proven.high < 0.0) {
       const Closest& c = a.proven;
       check_.fail({c.at, fmt::format("overlaps {} by {:.3f} m", names_(c.obstacle), -c.high), 0, c.obstacle});
-    } else if (a.proven.obstacle != kNobody && a.proven.low < passed_over(a.proven.low)) {
+    } else if (a.proven.obstacle != kNoObstacle && a.proven.low < passed_over(a.proven.low)) {
       undecided(a.proven, "the log tells no better");
-    } else if (a.interpolated.obstacle != kNobody && a.interpolated.low < passed_over(a.interpolated.low)) {
+    } else if (a.interpolated.obstacle != kNoObstacle && a.interpolated.low < passed_over(a.interpolated.low)) {
       undecided(a.interpolated, "by interpolation: its motion was not declared");
     }
   }
 
-  Least finish(bool whole) {
+  LeastClearance finish(bool whole) {
     if (undeclared_ > 0)
       check_.unchecked["obstacles between their samples: their motion was not declared, or not kept to"] = undeclared_;
-    Least least;
-    const bool near = proven_.obstacle != kNobody;
+    LeastClearance least;
+    const bool near = proven_.obstacle != kNoObstacle;
     const Closest& closest = near && proven_.low <= interpolated_.low ? proven_ : interpolated_;
-    if (closest.obstacle == kNobody) return least;
+    if (closest.obstacle == kNoObstacle) return least;
     least.known = true;
     least.high = proven_.high;
     least.proven = undeclared_ == 0 && whole;
@@ -262,7 +262,7 @@ class Verdicts {
                                    record_.seconds(c.at), c.low - passed_over(c.low), c.high, why)];
   }
 
-  void say(const Least& least, const Closest& closest) {
+  void say(const LeastClearance& least, const Closest& closest) {
     const std::int64_t fewest = surely_.value_or(check_.checked);
     check_.summary = fmt::format("least {:.4f} to {:.4f} m, to {} at {:.3f} s{}; {}{} {}{}", least.low, least.high,
                                  names_(closest.obstacle), record_.seconds(closest.at),
@@ -295,7 +295,7 @@ struct Wall {
 /// Nearest first.
 std::vector<Wall> walls_of(const VoxelMap& map, const Watch& watch) {
   std::vector<Box> flown;
-  for (const Sampled& span : watch.vehicle.spans) {
+  for (const MotionSpan& span : watch.vehicle.spans) {
     if (span.hole || span.curve.to <= watch.window.from || span.curve.from >= watch.window.to) continue;
     const auto points = bernstein_points(span.curve, 0.0, span.curve.length_s());
     flown.push_back(grown(Box(points.rowwise().minCoeff(), points.rowwise().maxCoeff()), span.error));
@@ -327,7 +327,7 @@ Check check_map(const FlightRecord& record, Audit& audit) {
     check.unchecked["the map changed in flight: which one was in force when is not in the log"] = 1;
   if (record.requests.empty() || record.maps.size() != 1) return check;
   std::vector<ClearancePoint> nobodys;
-  Watch watch{record, record.requests.front().body, judged(record), flown(record), nobodys};
+  Watch watch{record, record.requests.front().body, judged_window(record), vehicle_motion(record), nobodys};
   if (collided(record)) watch.window.to = watch.window.to + kAfterCollision;
   const std::vector<Wall> walls = walls_of(record.maps.begin()->second, watch);
   if (walls.empty()) {
@@ -341,7 +341,7 @@ Check check_map(const FlightRecord& record, Audit& audit) {
     if (wall.at_least > verdicts.nearest()) break;
     const Vec3 centre = wall.box.center();
     const ObstacleHistory history{{{watch.window.from, centre, Vec3::Zero(), 0.5 * wall.box.sizes()}}, false};
-    const SampledMotion at_rest{{{resting(centre, watch.window.from, watch.window.to)}}, {}, 0};
+    const SampledMotion at_rest{{{stationary_curve(centre, watch.window.from, watch.window.to)}}, {}, 0};
     verdicts.take(watch.watch(wall.id, history, at_rest, verdicts.nearest()));
   }
   check.checked = static_cast<std::int64_t>(walls.size());  // the others are farther by their boxes
@@ -355,11 +355,11 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
     check.unchecked["the body is not known: no HORIZON_REQUEST"] = 1;
     return check;
   }
-  Watch watch{record, record.requests.front().body, judged(record), flown(record), audit.clearance};
+  Watch watch{record, record.requests.front().body, judged_window(record), vehicle_motion(record), audit.clearance};
   if (collided(record)) watch.window.to = watch.window.to + kAfterCollision;
   count_holes(watch.vehicle, channels::kUavState.name, check);
   for (const UavState& s : record.states) {
-    if (s.at >= watch.window.from && s.at <= watch.window.to) audit.clearance.push_back({s.at, kFar, kNobody});
+    if (s.at >= watch.window.from && s.at <= watch.window.to) audit.clearance.push_back({s.at, kFar, kNoObstacle});
   }
   Verdicts verdicts(record, check);
   const Enclosing enclosed = enclosing(record, watch.window);
@@ -367,10 +367,11 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
   static const std::vector<DeclaredPiece> kNothing;
   for (const auto& [id, history] : record.truth) {
     if (!may_be_met(history, enclosed)) continue;
-    ++audit.met.most;
-    if (is_met(history, watch.window)) ++audit.met.fewest;
+    ++audit.obstacle_count.most;
+    if (is_met(history, watch.window)) ++audit.obstacle_count.fewest;
     const auto declared = record.declared.find(id);
-    const SampledMotion motion = moved(history, declared == record.declared.end() ? kNothing : declared->second);
+    const SampledMotion motion =
+        obstacle_motion(history, declared == record.declared.end() ? kNothing : declared->second);
     holes.holes = holes.holes + motion.holes;
     holes.hole_count += motion.hole_count;
     if (!motion.spans.empty()) verdicts.take(watch.watch(id, history, motion, verdicts.nearest()));
@@ -382,10 +383,10 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
     check.unchecked["obstacles that came or went in flight, up to a sample's time before or after"] = passers;
   const bool whole =
       watch.vehicle.hole_count == 0 && holes.hole_count == 0 && record.truth_left_out == 0 && passers == 0;
-  audit.met.known = holes.hole_count == 0 && record.truth_left_out == 0;
-  verdicts.count(audit.met.fewest);
+  audit.obstacle_count.known = holes.hole_count == 0 && record.truth_left_out == 0;
+  verdicts.count(audit.obstacle_count.fewest);
   audit.least = verdicts.finish(whole);
-  std::erase_if(audit.clearance, [](const ClearancePoint& p) { return p.obstacle == kNobody; });
+  std::erase_if(audit.clearance, [](const ClearancePoint& p) { return p.obstacle == kNoObstacle; });
   return check;
 }
 

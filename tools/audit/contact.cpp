@@ -5,24 +5,25 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tools/audit/promised.h"
+#include "tools/audit/pairing.h"
 
 namespace tern::audit {
 namespace {
 
-std::optional<Foretold> foretold(const Track& track, const ObstacleHistory& truth, UTime made_at, UTime at) {
-  Foretold said{0.0, 0.0, true};
+std::optional<PredictionAtContact> prediction_at_contact(const Track& track, const ObstacleHistory& truth,
+                                                         UTime made_at, UTime at) {
+  PredictionAtContact predicted{0.0, 0.0, true};
   UTime seen = made_at;
-  follow(track, truth, std::max(made_at, track.motion.start), at, [&](const Needed& n) {
+  follow(track, truth, std::max(made_at, track.motion.start), at, [&](const RequiredAlpha& n) {
     const Vec3 out = n.alpha - track.alpha[n.piece];
     Eigen::Index worst = 0;
-    said.kept = said.kept && out.maxCoeff(&worst) <= kOutTolerance;
-    said.needed_m = std::max(0.0, n.alpha[worst]);
-    said.alpha_m = track.alpha[n.piece][worst];
+    predicted.covered = predicted.covered && out.maxCoeff(&worst) <= kOutTolerance;
+    predicted.needed_m = std::max(0.0, n.alpha[worst]);
+    predicted.alpha_m = track.alpha[n.piece][worst];
     seen = n.at;
   });
   if (at - seen > kUnknownFor) return std::nullopt;
-  return said;
+  return predicted;
 }
 
 void see_sets(const FlightRecord& record, Contact& contact) {
@@ -30,11 +31,11 @@ void see_sets(const FlightRecord& record, Contact& contact) {
   if (truth == record.truth.end()) return;
   Pairing pairing(record);
   std::optional<UTime> first, last;
-  struct Said {
+  struct NewestSet {
     const Track* track = nullptr;  // none: it had no track in that set
     UTime made_at;
   };
-  std::array<Said, kBeforeContact.size()> newest;  // made so long before the contact
+  std::array<NewestSet, kBeforeContact.size()> newest;  // made so long before the contact
   for (const auto& [name, set] : record.predictions) {
     if (set.made_at > contact.at) continue;
     const auto& pairs = pairing.pair(set);
@@ -48,19 +49,19 @@ void see_sets(const FlightRecord& record, Contact& contact) {
       newest[k] = {track == set.tracks.end() ? nullptr : &*track, set.made_at};
     }
     if (track == set.tracks.end()) continue;
-    if (!last || set.made_at - *last > kGone) first = set.made_at;
+    if (!last || set.made_at - *last > kForgottenAfter) first = set.made_at;
     last = set.made_at;
   }
   for (std::size_t k = 0; k < newest.size(); ++k) {
-    const auto [said, made_at] = newest[k];
-    if (said != nullptr) contact.said[k] = foretold(*said, truth->second, made_at, contact.at);
+    const auto [track, made_at] = newest[k];
+    if (track != nullptr) contact.predicted[k] = prediction_at_contact(*track, truth->second, made_at, contact.at);
   }
-  if (last && contact.at - *last <= kGone) contact.in_predictions_s = (contact.at - *first).seconds();
+  if (last && contact.at - *last <= kForgottenAfter) contact.in_predictions_s = (contact.at - *first).seconds();
 }
 
 }  // namespace
 
-Contact look_back(const FlightRecord& record, UTime at, std::int64_t obstacle) {
+Contact contact_at(const FlightRecord& record, UTime at, std::int64_t obstacle) {
   Contact contact;
   contact.at = at;
   contact.obstacle = obstacle;
@@ -84,10 +85,10 @@ std::string to_text(const Contact& contact, const FlightRecord& record) {
               : std::string("It was not in PREDICTIONS.\n");
   for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
     text += fmt::format("  {} s before ", kBeforeContact[k]);
-    const auto& said = contact.said[k];
-    text += said ? fmt::format("an alpha of {:.2f} m was promised, {:.2f} m were needed: {}.\n", said->alpha_m,
-                               said->needed_m, said->kept ? "kept" : "broken")
-                 : std::string("nothing was promised of it.\n");
+    const auto& predicted = contact.predicted[k];
+    text += predicted ? fmt::format("an alpha of {:.2f} m was promised, {:.2f} m were needed: {}.\n",
+                                    predicted->alpha_m, predicted->needed_m, predicted->covered ? "kept" : "broken")
+                      : std::string("nothing was promised of it.\n");
   }
   text += contact.confidence ? fmt::format("  The last plan that claimed a confidence ({}) began {:.2f} s before.\n",
                                            *contact.confidence, *contact.confident_s)
@@ -105,10 +106,12 @@ nlohmann::json to_json(const Contact& contact, const FlightRecord& record) {
     json["last_confidence"] = *contact.confidence, json["last_confidence_s"] = *contact.confident_s;
   json["promised"] = nlohmann::json::array();
   for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
-    if (!contact.said[k]) continue;
-    const Foretold& said = *contact.said[k];
-    json["promised"].push_back(
-        {{"before_s", kBeforeContact[k]}, {"needed_m", said.needed_m}, {"alpha_m", said.alpha_m}, {"kept", said.kept}});
+    if (!contact.predicted[k]) continue;
+    const PredictionAtContact& predicted = *contact.predicted[k];
+    json["promised"].push_back({{"before_s", kBeforeContact[k]},
+                                {"needed_m", predicted.needed_m},
+                                {"alpha_m", predicted.alpha_m},
+                                {"kept", predicted.covered}});
   }
   return json;
 }

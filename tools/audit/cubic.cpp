@@ -98,7 +98,7 @@ Curve Curve::cut(UTime later, UTime end) const {
   return part;
 }
 
-Curve resting(const Vec3& p, UTime from, UTime to) {
+Curve stationary_curve(const Vec3& p, UTime from, UTime to) {
   return {from, to, {Cubic{{p.x()}}, Cubic{{p.y()}}, Cubic{{p.z()}}}};
 }
 

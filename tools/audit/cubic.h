@@ -52,7 +52,7 @@ struct Curve {
 };
 
 /// At p all the time.
-Curve resting(const Vec3& p, UTime from = {}, UTime to = {});
+Curve stationary_curve(const Vec3& p, UTime from = {}, UTime to = {});
 
 /// Holds the curve over [a, b] seconds; each face is within `tolerance` of it.
 Box enclose(const Curve& curve, double a, double b, double tolerance);

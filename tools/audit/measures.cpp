@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "tools/audit/audit.h"
-#include "tools/audit/flown.h"
+#include "tools/audit/true_motion.h"
 
 namespace tern::audit {
 namespace {
@@ -28,7 +28,7 @@ struct Step {
 };
 
 /// Bounds of |v| over [a, b]: v is quadratic, and lies in the hull of three points.
-void bound_speed(const Sampled& span, double a, double b, Step& step) {
+void bound_speed(const MotionSpan& span, double a, double b, Step& step) {
   const Vec3 v0 = span.curve.v(a);
   const Vec3 v1 = span.curve.v(b);
   const Vec3 net[] = {v0, v0 + 0.5 * (b - a) * span.curve.a(a), v1};
@@ -43,7 +43,7 @@ void bound_speed(const Sampled& span, double a, double b, Step& step) {
   step.best_speed = speed;
 }
 
-Step step_of(const Sampled& span, double a, double b) {
+Step step_of(const MotionSpan& span, double a, double b) {
   Step step;
   const Eigen::Matrix<double, 3, 4> points = bernstein_points(span.curve, a, b);
   step.middle = span.curve.p(0.5 * (a + b));
@@ -62,7 +62,7 @@ class Measuring {
     for (const Region& region : record.regions) measures_.regions.emplace_back().region = region.name;
   }
 
-  void take(const Sampled& span) {
+  void take(const MotionSpan& span) {
     const double begin = (span.curve.from - window_.from).seconds();
     const double a = std::max(0.0, -begin);
     const double b = std::min(span.curve.length_s(), (window_.to - span.curve.from).seconds());
@@ -176,8 +176,8 @@ class Measuring {
 }  // namespace
 
 Measures measure(const FlightRecord& record) {
-  Measuring measuring(record, judged(record));
-  for (const Sampled& span : flown(record).spans) measuring.take(span);
+  Measuring measuring(record, judged_window(record));
+  for (const MotionSpan& span : vehicle_motion(record).spans) measuring.take(span);
   return measuring.finish();
 }
 

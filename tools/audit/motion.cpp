@@ -7,7 +7,7 @@
 #include "tools/audit/audit.h"
 #include "tools/audit/body_gap.h"
 #include "tools/audit/commitment.h"
-#include "tools/audit/flown.h"
+#include "tools/audit/true_motion.h"
 
 namespace tern::audit {
 namespace {
@@ -111,7 +111,7 @@ class LimitCheck {
 
   /// @param off  what the position may be off these, m
   void inside(UTime at, const HorizonRequest& request, const Box& positions, const Vec3& off) {
-    const Box body = grown(covered(request.body, positions), off);
+    const Box body = grown(swept_box(request.body, positions), off);
     const Box& room = request.flight_box;
     for (int axis = 0; axis < 3; ++axis) {
       ++check_.checked;
@@ -170,7 +170,7 @@ Check check_limits(const FlightRecord& record) {
     }
   }
   if (!record.requests.empty()) {
-    const Window window = judged(record);
+    const Window window = judged_window(record);
     for (const UavState& state : record.states) {
       if (window.contains(state.at)) limits.state(state, record.requests.front());
     }
@@ -253,7 +253,7 @@ Check check_commitment(const FlightRecord& record) {
     check.unchecked["setpoints: several executors sent requests"] = static_cast<std::int64_t>(all.size());
   double worst = 0.0;
   if (all.size() == 1) {
-    const Window window = judged(record);
+    const Window window = judged_window(record);
     for (const UavState& s : record.setpoints) {
       if (!window.contains(s.at)) continue;
       if (s.at < all.front().list.front().spline.start) {

@@ -27,14 +27,14 @@ PredictedBox::PredictedBox(const Track& track, std::vector<Vec3> alpha)
     : track_(track), alpha_(std::move(alpha)), curves_(curves_of(track.motion)) {}
 
 std::vector<PredictedBox::Stretch> PredictedBox::stretches(UTime origin, double from, double to) const {
-  if (track_.kind == TrackKind::Static) return {{resting(curves_.front().p(0.0)), 0.0, 0.0, half(0)}};
+  if (track_.kind == TrackKind::Static) return {{stationary_curve(curves_.front().p(0.0)), 0.0, 0.0, half(0)}};
   std::vector<Stretch> all;
   const auto grown_by = [&](std::size_t piece, double s) -> Vec3 {
     return half(piece) + Vec3::Constant(track_.top_speed * s);
   };
   const double first = (curves_.front().from - origin).seconds();
   const double last = (curves_.back().to - origin).seconds();
-  if (from < first) all.push_back({resting(curves_.front().p(0.0)), 0.0, 0.0, grown_by(0, first - from)});
+  if (from < first) all.push_back({stationary_curve(curves_.front().p(0.0)), 0.0, 0.0, grown_by(0, first - from)});
   for (std::size_t k = 0; k < curves_.size(); ++k) {
     const double start = (curves_[k].from - origin).seconds();
     const double a = std::max(from - start, 0.0);
@@ -45,7 +45,7 @@ std::vector<PredictedBox::Stretch> PredictedBox::stretches(UTime origin, double 
   }
   if (to > last) {
     const Curve& end = curves_.back();
-    all.push_back({resting(end.p(end.length_s())), 0.0, 0.0, grown_by(curves_.size() - 1, to - last)});
+    all.push_back({stationary_curve(end.p(end.length_s())), 0.0, 0.0, grown_by(curves_.size() - 1, to - last)});
   }
   return all;
 }
@@ -58,7 +58,7 @@ Box PredictedBox::bounds(UTime origin, double from, double to) const {
   return all;
 }
 
-std::vector<Vec3> claimed_alpha(const Track& track, const Plan& plan, UTime t_s) {
+std::vector<Vec3> counted_alpha(const Track& track, const Plan& plan, UTime t_s) {
   std::vector<Vec3> alpha = track.alpha;
   if (track.kind != TrackKind::Estimated) return alpha;
   const UTime sure_to = t_s + plan.sure_for;
@@ -107,7 +107,7 @@ std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, 
                   remaining(plan, request->t_s),
                   {}};
   for (const Track& track : result.predictions.tracks) {
-    std::vector<Vec3> alpha = claimed_alpha(track, plan, request->t_s);
+    std::vector<Vec3> alpha = counted_alpha(track, plan, request->t_s);
     if (plan.relaxed) {
       const double part = relaxed_share(track, alpha, request->body, request->start.p, request->t_s);
       for (Vec3& a : alpha) a *= part;

@@ -52,7 +52,7 @@ struct PlanCase {
 
 /// Per piece, the α that the plan counts, m. Of what is estimated it is that of the plan's level, times its scale, and
 /// it grows no more from `sure_for` after t_s on. Of the rest it is all. @pre the track's shares are complete
-std::vector<Vec3> claimed_alpha(const Track& track, const Plan& plan, UTime t_s);
+std::vector<Vec3> counted_alpha(const Track& track, const Plan& plan, UTime t_s);
 
 /// Of that α, the largest part that leaves the body at p a millimetre of room from the track at t: what `relaxed`
 /// promises. It is 1 where there is room with all of it, 0 where there is none without any. To 1e-6, low.

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "tools/audit/audit.h"
-#include "tools/audit/flown.h"
-#include "tools/audit/promised.h"
+#include "tools/audit/pairing.h"
+#include "tools/audit/true_motion.h"
 
 namespace tern::audit {
 namespace {
@@ -19,12 +19,12 @@ constexpr std::array kClassAges{std::pair{0.1, PredictionClass::New}, std::pair{
                                 std::pair{1.0, PredictionClass::Grown}};
 
 /// What became of one promise.
-struct Promise {
+struct JudgedPrediction {
   UTime from, until;
   bool certain = false, complete = false;
   double worst = -1e9;  ///< how far the true box stood out of it, m
   UTime worst_at;
-  std::array<std::array<bool, kLevels>, kHorizons> kept;
+  std::array<std::array<bool, kLevels>, kHorizons> covered;
   std::array<double, kHorizons> half_m;
   std::array<bool, kHorizons> judged;
 };
@@ -48,7 +48,7 @@ std::size_t bin_of(double age_s) { return idx(std::lower_bound(kAges.begin(), kA
 class PredictionsCheck {
  public:
   PredictionsCheck(const FlightRecord& record, Audit& audit, Check& check)
-      : record_(record), audit_(audit), check_(check), window_(judged(record)), pairing_(record) {}
+      : record_(record), audit_(audit), check_(check), window_(judged_window(record)), pairing_(record) {}
 
   void take(const TrackSet& set) {
     if (set.made_at > window_.sure_to() || record_.truth.empty()) return;
@@ -60,7 +60,7 @@ class PredictionsCheck {
       const Track& track = set.tracks[k];
       const auto pair = pairs.find(track.id);
       if (pair == pairs.end()) {
-        nobodys_.insert(track.id);
+        unpaired_.insert(track.id);
       } else {
         take(set, track, pair->second, ages_s[k]);
       }
@@ -72,11 +72,11 @@ class PredictionsCheck {
     const auto set = record_.predictions.find(plan.inputs.predictions);
     const auto pairs = pairs_.find(plan.inputs.predictions);
     if (set == record_.predictions.end() || pairs == pairs_.end()) return;
-    std::set<std::int64_t> kept_clear_of;
-    for (const CertificatePlane& plane : plan.certificate) kept_clear_of.insert(plane.track);
+    std::set<std::int64_t> with_plane;
+    for (const CertificatePlane& plane : plan.certificate) with_plane.insert(plane.track);
     for (const Track& track : set->second.tracks) {
       const auto pair = pairs->second.find(track.id);
-      if (pair == pairs->second.end() || !kept_clear_of.contains(track.id)) continue;
+      if (pair == pairs->second.end() || !with_plane.contains(track.id)) continue;
       if (!is_certain(set->second, track)) claim(plan, request, track, pair->second.obstacle);
     }
   }
@@ -90,20 +90,20 @@ class PredictionsCheck {
     audit_.coverage.confidence = audit_.promised_confidence;
     for (Coverage& group : groups_) group.confidence = audit_.promised_confidence;
     audit_.shares = kept_shares(groups_);
-    if (!nobodys_.empty()) {
+    if (!unpaired_.empty()) {
       check_.unchecked["tracks that belong to no true obstacle, or to one that another track is nearer to"] =
-          static_cast<std::int64_t>(nobodys_.size());
+          static_cast<std::int64_t>(unpaired_.size());
     }
     judge_shares();
   }
 
   [[nodiscard]] std::string summary() const {
-    if (promises_ == 0) return "";
-    return fmt::format("{} of {} whole promises of {} tracks kept (confidence {})", promises_kept_, promises_,
+    if (predictions_ == 0) return "";
+    return fmt::format("{} of {} whole promises of {} tracks kept (confidence {})", covered_, predictions_,
                        tracks_.size(), audit_.promised_confidence);
   }
-  [[nodiscard]] std::int64_t promises() const { return promises_; }
-  [[nodiscard]] std::int64_t promises_kept() const { return promises_kept_; }
+  [[nodiscard]] std::int64_t count() const { return predictions_; }
+  [[nodiscard]] std::int64_t covered() const { return covered_; }
 
  private:
   /// How long each track has been in the sets, before the flight, too, s.
@@ -112,82 +112,83 @@ class PredictionsCheck {
     for (const Track& track : set.tracks) {
       const std::pair key{set.header.name.sender_epoch_us, track.id};
       auto [known, is_new] = seen_.try_emplace(key, Seen{set.made_at, set.made_at});
-      if (set.made_at - known->second.last > kGone) known->second.first = set.made_at;
+      if (set.made_at - known->second.last > kForgottenAfter) known->second.first = set.made_at;
       known->second.last = set.made_at;
       ages_s.push_back((set.made_at - known->second.first).seconds());
     }
     return ages_s;
   }
 
-  void take(const TrackSet& set, const Track& track, const Spoken& of, double age_s) {
-    const Promise promise = look(set, track, record_.truth.at(of.obstacle));
-    if (promise.worst == -1e9) return;
+  void take(const TrackSet& set, const Track& track, const PairedObstacle& of, double age_s) {
+    const JudgedPrediction prediction = judge(set, track, record_.truth.at(of.obstacle));
+    if (prediction.worst == -1e9) return;
     TrackCoverage& own = tracks_.try_emplace(track.id, TrackCoverage{track.id, of.obstacle, 0, 0, -1e9}).first->second;
-    own.worst_m = std::max(own.worst_m, promise.worst);
-    const bool kept = promise.worst <= kOutTolerance;
-    if (promise.certain) ++check_.checked;
-    if (promise.certain && !kept) broken(track.id, of.obstacle, promise);
-    if (promise.complete || (promise.certain && !kept)) {
-      ++own.sets, ++promises_;
-      own.kept += kept ? 1 : 0;
-      promises_kept_ += kept ? 1 : 0;
+    own.worst_m = std::max(own.worst_m, prediction.worst);
+    const bool covered = prediction.worst <= kOutTolerance;
+    if (prediction.certain) ++check_.checked;
+    if (prediction.certain && !covered) report_missed(track.id, of.obstacle, prediction);
+    if (prediction.complete || (prediction.certain && !covered)) {
+      ++own.sets, ++predictions_;
+      own.covered += covered ? 1 : 0;
+      covered_ += covered ? 1 : 0;
     }
-    count(track, of, age_s, promise);
+    count(track, of, age_s, prediction);
   }
 
-  [[nodiscard]] Promise look(const TrackSet& set, const Track& track, const ObstacleHistory& truth) const {
-    Promise promise;
-    promise.from = std::max({track.motion.start, set.made_at, window_.sure_from()});
-    promise.until = end_of(set, track);
-    promise.certain = is_certain(set, track);
-    for (auto& levels : promise.kept) levels.fill(true);
-    const UTime seen =
-        follow(track, truth, promise.from, std::min(promise.until, window_.sure_to()), [&](const Needed& n) {
-          const Vec3 out = n.alpha - track.alpha[n.piece];
-          if (out.maxCoeff() > promise.worst) promise.worst = out.maxCoeff(), promise.worst_at = n.at;
-          const double ahead_s = (n.at - promise.from).seconds();
-          for (std::size_t level = 0; level < kLevels; ++level) {
-            if ((n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance) continue;
-            for (std::size_t h = 0; h < kHorizons; ++h) {
-              if (ahead_s <= kCoveredAhead[h]) promise.kept[h][level] = false;
-            }
-          }
-        });
-    promise.complete = seen >= promise.until;
+  [[nodiscard]] JudgedPrediction judge(const TrackSet& set, const Track& track, const ObstacleHistory& truth) const {
+    JudgedPrediction prediction;
+    prediction.from = std::max({track.motion.start, set.made_at, window_.sure_from()});
+    prediction.until = end_of(set, track);
+    prediction.certain = is_certain(set, track);
+    for (auto& levels : prediction.covered) levels.fill(true);
+    const UTime seen = follow(track, truth, prediction.from, std::min(prediction.until, window_.sure_to()),
+                              [&](const RequiredAlpha& n) {
+                                const Vec3 out = n.alpha - track.alpha[n.piece];
+                                if (out.maxCoeff() > prediction.worst)
+                                  prediction.worst = out.maxCoeff(), prediction.worst_at = n.at;
+                                const double ahead_s = (n.at - prediction.from).seconds();
+                                for (std::size_t level = 0; level < kLevels; ++level) {
+                                  if ((n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance) continue;
+                                  for (std::size_t h = 0; h < kHorizons; ++h) {
+                                    if (ahead_s <= kCoveredAhead[h]) prediction.covered[h][level] = false;
+                                  }
+                                }
+                              });
+    prediction.complete = seen >= prediction.until;
     for (std::size_t h = 0; h < kHorizons; ++h) {
       const bool whole = std::isinf(kCoveredAhead[h]);
-      const UTime end = whole ? promise.until : promise.from + Duration::from_seconds(kCoveredAhead[h]);
-      promise.judged[h] = end <= promise.until && seen >= end;
-      promise.half_m[h] = track.alpha[track.motion.locate(std::min(end, promise.until)).index].mean();
+      const UTime end = whole ? prediction.until : prediction.from + Duration::from_seconds(kCoveredAhead[h]);
+      prediction.judged[h] = end <= prediction.until && seen >= end;
+      prediction.half_m[h] = track.alpha[track.motion.locate(std::min(end, prediction.until)).index].mean();
     }
-    return promise;
+    return prediction;
   }
 
-  [[nodiscard]] static PredictionClass class_of(const Track& track, const Promise& promise, bool in_view,
+  [[nodiscard]] static PredictionClass class_of(const Track& track, const JudgedPrediction& prediction, bool in_view,
                                                 double age_s) {
-    if (promise.certain) return PredictionClass::Declared;
+    if (prediction.certain) return PredictionClass::Declared;
     if (!in_view) return PredictionClass::Unseen;
-    if (is_at_rest(track, promise)) return PredictionClass::AtRest;
+    if (is_at_rest(track, prediction)) return PredictionClass::AtRest;
     for (const auto& [until_s, kind] : kClassAges) {
       if (age_s <= until_s) return kind;
     }
     return PredictionClass::Old;
   }
 
-  [[nodiscard]] static bool is_at_rest(const Track& track, const Promise& promise) {
-    const UTime later = std::min(promise.from + Duration{1'000'000}, promise.until);
-    return (centre_at(track, later) - centre_at(track, promise.from)).norm() <= kRestingWay;
+  [[nodiscard]] static bool is_at_rest(const Track& track, const JudgedPrediction& prediction) {
+    const UTime later = std::min(prediction.from + Duration{1'000'000}, prediction.until);
+    return (centre_at(track, later) - centre_at(track, prediction.from)).norm() <= kRestingWay;
   }
 
-  void count(const Track& track, const Spoken& of, double age_s, const Promise& promise) {
-    const PredictionClass kind = class_of(track, promise, of.in_view, age_s);
+  void count(const Track& track, const PairedObstacle& of, double age_s, const JudgedPrediction& prediction) {
+    const PredictionClass kind = class_of(track, prediction, of.in_view, age_s);
     Coverage& coverage = by_obstacle_[of.obstacle];
     for (std::size_t h = 0; h < kHorizons; ++h) {
-      if (!promise.judged[h]) continue;
-      PromiseCount one{1, {}, promise.half_m[h]};
-      for (std::size_t level = 0; level < kLevels; ++level) one.kept[level] = promise.kept[h][level] ? 1 : 0;
+      if (!prediction.judged[h]) continue;
+      PromiseCount one{1, {}, prediction.half_m[h]};
+      for (std::size_t level = 0; level < kLevels; ++level) one.kept[level] = prediction.covered[h][level] ? 1 : 0;
       coverage.promises[{kind, h}] += one;
-      if (promise.certain || !of.in_view) continue;
+      if (prediction.certain || !of.in_view) continue;
       (kind == PredictionClass::AtRest ? audit_.rest_by_age : audit_.moving_by_age)[bin_of(age_s)][h] += one;
     }
   }
@@ -199,22 +200,22 @@ class PredictionsCheck {
     const UTime ends = std::max(plan.trajectory.end(), request.t_s) + plan.hold;
     const UTime until = std::min({ends, request.t_s + plan.sure_for, track.motion.end(), window_.sure_to()});
     if (request.t_s < track.motion.start || request.t_s > until) return;
-    bool kept = true;
-    const UTime seen = follow(track, record_.truth.at(obstacle), request.t_s, until, [&](const Needed& n) {
-      kept = kept && (n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance;
+    bool covered = true;
+    const UTime seen = follow(track, record_.truth.at(obstacle), request.t_s, until, [&](const RequiredAlpha& n) {
+      covered = covered && (n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance;
     });
-    if (kept && seen < until) return;  // nobody knows
-    by_obstacle_[obstacle].claims[level] += ClaimCount{1, kept ? 1 : 0};
+    if (covered && seen < until) return;  // nobody knows
+    by_obstacle_[obstacle].claims[level] += ClaimCount{1, covered ? 1 : 0};
   }
 
   /// A declared promise admits no exception. Each track is named once.
-  void broken(std::int64_t track, std::int64_t obstacle, const Promise& promise) {
+  void report_missed(std::int64_t track, std::int64_t obstacle, const JudgedPrediction& prediction) {
     if (!named_.insert(track).second) {
       ++check_.broken;
       return;
     }
-    check_.fail({promise.worst_at,
-                 fmt::format("obstacle {} stood out of its declared motion by {:.4g} m", obstacle, promise.worst), 0,
+    check_.fail({prediction.worst_at,
+                 fmt::format("obstacle {} stood out of its declared motion by {:.4g} m", obstacle, prediction.worst), 0,
                  obstacle});
   }
 
@@ -250,10 +251,10 @@ class PredictionsCheck {
   std::map<std::pair<std::int64_t, std::int64_t>, Seen> seen_;
   std::map<std::int64_t, TrackCoverage> tracks_;
   std::map<std::int64_t, Coverage> by_obstacle_;
-  std::map<MessageName, std::map<std::int64_t, Spoken>> pairs_;
+  std::map<MessageName, std::map<std::int64_t, PairedObstacle>> pairs_;
   std::vector<Coverage> groups_;
-  std::set<std::int64_t> nobodys_, named_;
-  std::int64_t promises_ = 0, promises_kept_ = 0;
+  std::set<std::int64_t> unpaired_, named_;
+  std::int64_t predictions_ = 0, covered_ = 0;
 };
 
 }  // namespace
@@ -275,10 +276,10 @@ Check check_predictions(const FlightRecord& record, Audit& audit) {
     check.unchecked["plans that claim no confidence: relaxed, or certified for a part of alpha"] = without;
   predictions.judge();
   check.summary = predictions.summary();
-  if (predictions.promises() > 0) {
-    check.measures = {{"promises", static_cast<double>(predictions.promises())},
-                      {"promises_kept_share",
-                       static_cast<double>(predictions.promises_kept()) / static_cast<double>(predictions.promises())}};
+  if (predictions.count() > 0) {
+    check.measures = {
+        {"promises", static_cast<double>(predictions.count())},
+        {"promises_kept_share", static_cast<double>(predictions.covered()) / static_cast<double>(predictions.count())}};
   }
   if (record.incomplete_predictions > 0)
     check.unchecked["prediction sets of which a batch is missing"] = record.incomplete_predictions;

@@ -69,14 +69,14 @@ class ResultCheck {
 
   void collision() {
     ++check_.checked;
-    const Least& least = audit_.least;
+    const LeastClearance& least = audit_.least;
     const bool overlapped = audit_.check("clearance").broken + audit_.check("map").broken > 0;
     if (result_.outcome != FlightOutcome::Collision) {
       if (overlapped)
         fail(fmt::format("says {}, but an obstacle or the map was overlapped", to_string(result_.outcome)));
       return;
     }
-    const auto is_clear = [](const Least& l) { return l.known && l.proven && l.low > 0.0; };
+    const auto is_clear = [](const LeastClearance& l) { return l.known && l.proven && l.low > 0.0; };
     const bool by_map = std::isfinite(result_.min_map_clearance_m) && !is_clear(audit_.least_of_map);
     const bool contradicted = is_clear(least) && !by_map;
     audit_.collision = overlapped ? Collision::Agrees : contradicted ? Collision::Contradicts : Collision::CannotTell;
@@ -84,7 +84,7 @@ class ResultCheck {
     if (audit_.collision == Collision::CannotTell) ++check_.unchecked["the collision that FLIGHT_RESULT tells of"];
   }
 
-  void clearance(const char* what, const Least& least, double said) {
+  void clearance(const char* what, const LeastClearance& least, double said) {
     if (!least.known || !std::isfinite(said)) return;
     if (result_.outcome == FlightOutcome::Collision) return;  // until the end of the referee's step only
     ++check_.checked;
@@ -96,11 +96,12 @@ class ResultCheck {
   }
 
   void obstacles() {
-    const Met& met = audit_.met;
-    if (!met.known || met.most == 0 || result_.outcome == FlightOutcome::Collision) return;
+    const ObstacleCount& obstacle_count = audit_.obstacle_count;
+    if (!obstacle_count.known || obstacle_count.most == 0 || result_.outcome == FlightOutcome::Collision) return;
     ++check_.checked;
-    if (result_.obstacles >= met.fewest && result_.obstacles <= met.most) return;
-    fail(fmt::format("says {} obstacles, recomputed {} to {}", result_.obstacles, met.fewest, met.most));
+    if (result_.obstacles >= obstacle_count.fewest && result_.obstacles <= obstacle_count.most) return;
+    fail(fmt::format("says {} obstacles, recomputed {} to {}", result_.obstacles, obstacle_count.fewest,
+                     obstacle_count.most));
   }
 
   void agree(const char* what, double said, const Between& found, double off) {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "tools/audit/audit.h"
-#include "tools/audit/flown.h"
+#include "tools/audit/true_motion.h"
 
 namespace tern::audit {
 namespace {
@@ -57,7 +57,7 @@ bool followed(const std::vector<VehicleStatus>& statuses, UTime t) {
   return after == statuses.end() ? t - before.at <= kStatusHole : after->at - before.at <= kStatusHole;
 }
 
-struct Widest {
+struct TrackingExtremes {
   double error_m = 0.0;
   double margin_m = INFINITY;
   Vec3 tube = Vec3::Zero();
@@ -69,8 +69,8 @@ struct Widest {
 Check check_tube(const FlightRecord& record, Audit& audit) {
   Check check{.name = "tube", .claim = "the vehicle stayed within the promised tube about its setpoints"};
   const std::vector<HorizonRequest> requests = promises(record);
-  const Window window = judged(record);
-  Widest worst;
+  const Window window = judged_window(record);
+  TrackingExtremes worst;
   for (const UavState& state : record.states) {
     if (!window.contains(state.at)) continue;
     const HorizonRequest* request = in_force(requests, state.at);

@@ -203,8 +203,8 @@ Result<void> write_fixture(const Extract& extract, const std::string& path) {
   return {};
 }
 
-Result<void> keep_answers(const std::string& path, const ReplayOptions& options, const std::string& log,
-                          const std::string& fixture) {
+Result<void> write_extract(const std::string& path, const ReplayOptions& options, const std::string& log,
+                           const std::string& fixture) {
   if (log.empty() && fixture.empty()) return {};
   const auto chosen = extract(path, options);
   if (!chosen) return tl::make_unexpected(chosen.error());

@@ -31,7 +31,7 @@ Result<void> write_log(const Extract& extract, const std::string& path);
 Result<void> write_fixture(const Extract& extract, const std::string& path);
 
 /// Extracts answers of the log at `path` into a log, a fixture, or both; an empty name: not that.
-Result<void> keep_answers(const std::string& path, const ReplayOptions& options, const std::string& log,
-                          const std::string& fixture);
+Result<void> write_extract(const std::string& path, const ReplayOptions& options, const std::string& log,
+                           const std::string& fixture);
 
 }  // namespace tern

@@ -63,7 +63,7 @@ class Replayer {
       if (is_users) throw;
       ReplayedPlan failed;
       failed.index = index;
-      failed.weaker = weaker_promise(inputs_, inputs_.plans[index].plan);
+      failed.tolerance_reason = tolerance_reason(inputs_, inputs_.plans[index].plan);
       failed.difference.agreement = Agreement::Different;
       failed.difference.parts = {{Stage::Fallback, fmt::format("planning it again failed: {}", e.what())}};
       return failed;
@@ -74,7 +74,7 @@ class Replayer {
     const RecordedPlan& recorded = inputs_.plans[index];
     ReplayedPlan result;
     result.index = index;
-    result.weaker = weaker_promise(inputs_, recorded.plan);
+    result.tolerance_reason = tolerance_reason(inputs_, recorded.plan);
     const auto problem = rebuilder_.problem_of(recorded.plan);
     if (!problem) {
       result.missing = problem.error().message;
@@ -114,7 +114,7 @@ bool is_chosen(const RecordedPlan& recorded, const LogContents& log, const Repla
          recorded.plan.request_id == options.request.value_or(recorded.plan.request_id);
 }
 
-std::string weaker_promise(const RecordedInputs& inputs, const Plan& plan) {
+std::string tolerance_reason(const RecordedInputs& inputs, const Plan& plan) {
   if (plan.inputs.planner_build != planner_build()) {
     return fmt::format("the planner was built from other sources, or otherwise: build {:016x}, here {:016x}",
                        plan.inputs.planner_build, planner_build());
@@ -134,10 +134,10 @@ std::int64_t Replay::missing() const {
   return std::ranges::count_if(plans, [](const ReplayedPlan& p) { return !p.missing.empty(); });
 }
 
-std::int64_t Replay::broken() const {
+std::int64_t Replay::unfulfilled() const {
   return std::ranges::count_if(plans, [](const ReplayedPlan& p) {
     if (!p.missing.empty() || p.difference.agreement == Agreement::Identical) return false;
-    return p.weaker.empty() || p.difference.agreement == Agreement::Different;
+    return p.tolerance_reason.empty() || p.difference.agreement == Agreement::Different;
   });
 }
 

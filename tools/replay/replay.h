@@ -28,7 +28,7 @@ bool is_chosen(const RecordedPlan& recorded, const LogContents& log, const Repla
 struct ReplayedPlan {
   std::size_t index = 0;                      ///< in RecordedInputs::plans
   std::string missing;                        ///< what the log does not hold of its inputs; empty: it was replayed
-  std::string weaker;                         ///< why only kReplayTolerance is promised; empty: the same bytes are
+  std::string tolerance_reason;               ///< why only kReplayTolerance is promised; empty: the same bytes are
   PlanOutcome outcome = PlanOutcome::NoPlan;  ///< of the plan made again
   PlanDifference difference;
 };
@@ -42,7 +42,7 @@ struct Replay {
   [[nodiscard]] std::int64_t count(Agreement agreement) const;  ///< of those that were replayed
   [[nodiscard]] std::int64_t missing() const;
   /// Those that do not keep the promise that holds for them.
-  [[nodiscard]] std::int64_t broken() const;
+  [[nodiscard]] std::int64_t unfulfilled() const;
   /// Whether the log is an extract (write_log): then gaps in its senders' numbers mean nothing.
   [[nodiscard]] bool is_extract() const;
   /// Answers that planners numbered before the first one that the log has of them; 0 for an extract.
@@ -58,6 +58,6 @@ struct Replay {
 Result<Replay> replay_log(const std::string& path, const ReplayOptions& options);
 
 /// Why a replay here of an answer of that log may differ in its last bits; empty: it may not.
-std::string weaker_promise(const RecordedInputs& inputs, const Plan& plan);
+std::string tolerance_reason(const RecordedInputs& inputs, const Plan& plan);
 
 }  // namespace tern

@@ -60,11 +60,11 @@ std::string what_the_log_lacks(const Replay& replay) {
 }
 
 std::string promise_text(const Replay& replay) {
-  std::map<std::string, std::int64_t> weaker;
-  for (const ReplayedPlan& p : replay.plans) ++weaker[p.weaker];
-  if (weaker.empty()) return "";
+  std::map<std::string, std::int64_t> reasons;
+  for (const ReplayedPlan& p : replay.plans) ++reasons[p.tolerance_reason];
+  if (reasons.empty()) return "";
   std::string text;
-  for (const auto& [why, count] : weaker) {
+  for (const auto& [why, count] : reasons) {
     if (why.empty()) {
       text += fmt::format("Promised for {}: the same bytes (planner build {:016x} on the same platform: {})\n", count,
                           planner_build(), platform());
@@ -95,7 +95,7 @@ const ReplayedPlan* first_difference(const Replay& replay) {
   const ReplayedPlan* first = nullptr;
   for (const ReplayedPlan& p : replay.plans) {
     if (!p.missing.empty() || p.difference.agreement == Agreement::Identical) continue;
-    if (p.difference.agreement == Agreement::Different || p.weaker.empty()) return &p;
+    if (p.difference.agreement == Agreement::Different || p.tolerance_reason.empty()) return &p;
     if (first == nullptr) first = &p;
   }
   return first;
@@ -174,7 +174,7 @@ std::string replay_json(const Replay& replay, bool what_if) {
   root["equivalent"] = replay.count(Agreement::Equivalent);
   root["different"] = replay.count(Agreement::Different);
   root["not_replayed"] = replay.missing();
-  root["promise_broken"] = replay.broken();
+  root["promise_broken"] = replay.unfulfilled();
   root["incomplete"] = replay.incomplete();
   auto& list = root["plans"] = nlohmann::ordered_json::array();
   for (const ReplayedPlan& p : replay.plans) {
@@ -183,7 +183,7 @@ std::string replay_json(const Replay& replay, bool what_if) {
     line["request"] = recorded.plan.request_id;
     line["planner"] = recorded.plan.header.name.sender_epoch_us;
     line["time_s"] = seconds_into(replay, recorded);
-    line["promise"] = p.weaker.empty() ? "bytes" : "tolerance";
+    line["promise"] = p.tolerance_reason.empty() ? "bytes" : "tolerance";
     if (!p.missing.empty()) {
       line["missing"] = p.missing;
     } else {
@@ -201,7 +201,7 @@ std::string replay_json(const Replay& replay, bool what_if) {
 }
 
 int replay_exit_code(const Replay& replay, bool what_if) {
-  if (!what_if && replay.broken() > 0) return 1;
+  if (!what_if && replay.unfulfilled() > 0) return 1;
   return replay.incomplete() ? 3 : 0;
 }
 

@@ -282,11 +282,11 @@ json flight_of(const FlightRecord& record) {
 
 }  // namespace
 
-json report_data(const FlightRecord& record, const Audit& audit, const Flown& flown) {
+json report_data(const FlightRecord& record, const Audit& audit, const FlightLaunch& launch) {
   json flight = flight_of(record);
-  flight["recorded_us"] = WallClock::system_time_us(UTime{record.contents.first_us}, flown.pace);
-  if (flown.pace != 1.0) flight["pace"] = flown.pace;
-  if (!flown.command.empty()) flight["command"] = flown.command;
+  flight["recorded_us"] = WallClock::system_time_us(UTime{record.contents.first_us}, launch.pace);
+  if (launch.pace != 1.0) flight["pace"] = launch.pace;
+  if (!launch.command.empty()) flight["command"] = launch.command;
   return {{"flight", flight},
           {"path", path_of(record, audit)},
           {"obstacles", obstacles_of(record)},

@@ -20,15 +20,16 @@ inline constexpr std::size_t kMaxAnswers = 6'000;
 inline constexpr std::size_t kMaxMapRuns = 20'000;
 
 /// What a log does not tell of its flight.
-struct Flown {
+struct FlightLaunch {
   std::string command = {};  ///< what was typed to fly; empty: not known
   double pace = 1.0;         ///< of the flight's clocks, (0, 1]: the log's times are theirs, the date is not
 };
 
 /// The keys are those that page/*.js read.
-nlohmann::json report_data(const audit::FlightRecord& record, const audit::Audit& audit, const Flown& flown = {});
+nlohmann::json report_data(const audit::FlightRecord& record, const audit::Audit& audit,
+                           const FlightLaunch& launch = {});
 
 /// The whole page, self-contained: style, script, charts' library and data within.
-std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const Flown& flown = {});
+std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const FlightLaunch& launch = {});
 
 }  // namespace tern::report

@@ -24,15 +24,15 @@ std::string escaped(const nlohmann::json& data) {
 
 }  // namespace
 
-std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const Flown& flown) {
+std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const FlightLaunch& launch) {
   // Nothing may be fetched: the page is all there is.
   return std::string("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n" +
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
          "script-src 'unsafe-inline'; img-src data:\">\n<title>Tern flight report</title>\n<style>" +
          kPageStyle + "</style>\n</head>\n<body>\n<main></main>\n<script type=\"application/json\" id=\"data\">" +
-         escaped(report_data(record, audit, flown)) + "</script>\n<!-- uPlot\n" + kPageChartsLicence + "-->\n<script>" +
-         kPageCharts + "</script>\n<script>" + kPageScript + "</script>\n</body>\n</html>\n";
+         escaped(report_data(record, audit, launch)) + "</script>\n<!-- uPlot\n" + kPageChartsLicence +
+         "-->\n<script>" + kPageCharts + "</script>\n<script>" + kPageScript + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace tern::report

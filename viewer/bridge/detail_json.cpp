@@ -124,7 +124,7 @@ void write_goal(JsonWriter& json, const Scene& scene) {
 
 void write_map(JsonWriter& json, const Scene& scene) {
   if (!scene.map()) return;
-  const SeenMap& map = *scene.map();
+  const DrawnMap& map = *scene.map();
   json.begin_object()
       .key("channel")
       .text(channels::kSemanticMap.name)

@@ -28,7 +28,7 @@ void FlightEvents::add(UTime at, const char* kind, std::string text) {
   }
 }
 
-void FlightEvents::hear(const UavState& message) {
+void FlightEvents::receive(const UavState& message) {
   const double speed = message.motion.v.norm();
   if (flies_ && speed < kRestSpeed) {
     const Vec3& p = message.motion.p;
@@ -38,7 +38,7 @@ void FlightEvents::hear(const UavState& message) {
   flies_ = flies_ || speed > kFlySpeed;
 }
 
-void FlightEvents::hear(const Plan& message) {
+void FlightEvents::receive(const Plan& message) {
   if (outcome_ == message.outcome) return;
   const std::string before = outcome_ ? fmt::format("{} → ", to_string(*outcome_)) : "first answer: ";
   const std::string why = message.reason == PlanReason::None ? "" : fmt::format(" ({})", to_string(message.reason));
@@ -47,7 +47,7 @@ void FlightEvents::hear(const Plan& message) {
   outcome_ = message.outcome;
 }
 
-void FlightEvents::hear(const PlanTiming& message, double taken_ms, double allowed_ms) {
+void FlightEvents::receive(const PlanTiming& message, double taken_ms, double allowed_ms) {
   const bool is_late = allowed_ms > 0.0 && taken_ms > allowed_ms;
   if (!is_late && !message.from_watchdog) return;
   add(message.header.utime, "late",
@@ -55,7 +55,7 @@ void FlightEvents::hear(const PlanTiming& message, double taken_ms, double allow
                   message.from_watchdog ? ", by the watchdog" : ""));
 }
 
-void FlightEvents::hear(const Goal& message) {
+void FlightEvents::receive(const Goal& message) {
   if (message.id <= goal_id_) return;
   goal_id_ = message.id;
   const Vec3& p = message.position;
@@ -64,14 +64,14 @@ void FlightEvents::hear(const Goal& message) {
                                    : fmt::format("goal {}: {}", message.id, to_string(message.mode)));
 }
 
-void FlightEvents::hear(const FlightResult& message) {
+void FlightEvents::receive(const FlightResult& message) {
   if (std::exchange(has_result_, true)) return;
   add(message.header.utime, "result",
       message.detail.empty() ? to_string(message.outcome)
                              : fmt::format("{}: {}", to_string(message.outcome), message.detail));
 }
 
-void FlightEvents::hear(const Heartbeat& message) {
+void FlightEvents::receive(const Heartbeat& message) {
   const std::int64_t epoch = message.header.name.sender_epoch_us;
   if (!epochs_.contains(message.process) && epochs_.size() >= kMaxProcessNames) return;
   const auto [known, is_new] = epochs_.emplace(message.process, epoch);
@@ -80,12 +80,12 @@ void FlightEvents::hear(const Heartbeat& message) {
   add(message.header.utime, "restart", message.process + " was started anew");
 }
 
-void FlightEvents::hear_clearance(UTime at, std::optional<double> obstacles_m, std::optional<double> map_m) {
-  if (obstacles_m) obstacles_.hear(at, *obstacles_m);
-  if (map_m) map_.hear(at, *map_m);
+void FlightEvents::receive_clearance(UTime at, std::optional<double> obstacles_m, std::optional<double> map_m) {
+  if (obstacles_m) obstacles_.receive(at, *obstacles_m);
+  if (map_m) map_.receive(at, *map_m);
 }
 
-void FlightEvents::Passes::hear(UTime at, double metres) {
+void FlightEvents::Passes::receive(UTime at, double metres) {
   high_ = std::max(high_, metres);
   const bool approaches = low_ || metres < high_ - kRise;
   if (approaches && (!low_ || metres < low_->metres)) low_ = {at, metres};

@@ -24,15 +24,15 @@ struct FlightEvent {
 /// Hears messages in the order of their arrival. Pure.
 class FlightEvents {
  public:
-  void hear(const UavState& message);
-  void hear(const Plan& message);
+  void receive(const UavState& message);
+  void receive(const Plan& message);
   /// @param taken_ms, allowed_ms  by the flight's clock, from the request to its answer and to its deadline; 0: unknown
-  void hear(const PlanTiming& message, double taken_ms, double allowed_ms);
-  void hear(const Goal& message);
-  void hear(const FlightResult& message);
-  void hear(const Heartbeat& message);
+  void receive(const PlanTiming& message, double taken_ms, double allowed_ms);
+  void receive(const Goal& message);
+  void receive(const FlightResult& message);
+  void receive(const Heartbeat& message);
   /// @param obstacles_m, map_m  from the body to the nearest obstacle and to the nearest occupied voxel
-  void hear_clearance(UTime at, std::optional<double> obstacles_m, std::optional<double> map_m);
+  void receive_clearance(UTime at, std::optional<double> obstacles_m, std::optional<double> map_m);
 
   /// All so far, by time: of the clearances those of the flight's five nearest passes, of obstacles and of the map.
   [[nodiscard]] std::vector<FlightEvent> events() const;
@@ -43,7 +43,7 @@ class FlightEvents {
   /// A pass is a local minimum from which the clearance has risen by more than 0.1 m.
   class Passes {
    public:
-    void hear(UTime at, double metres);
+    void receive(UTime at, double metres);
     void write(const char* what, std::vector<FlightEvent>& events) const;
 
    private:

@@ -78,13 +78,13 @@ void FlightHistory::add(const UavState& state) {
   motion_.push_back({state.at, state.motion.p, state.motion.v.norm()});
 }
 
-bool FlightHistory::wants(const std::string& table, UTime at) const {
+bool FlightHistory::keeps_row(const std::string& table, UTime at) const {
   const auto found = tables_.find(table);
   return found == tables_.end() || found->second.at.empty() || at - found->second.at.back() >= kRowEvery;
 }
 
 bool FlightHistory::add_row(const std::string& name, UTime at, const NumberFields& fields) {
-  if (fields.empty() || !wants(name, at)) return false;
+  if (fields.empty() || !keeps_row(name, at)) return false;
   Table& table = tables_[name];
   const bool is_first = table.names.empty();
   if (is_first) {

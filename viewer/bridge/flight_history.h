@@ -29,7 +29,7 @@ class FlightHistory {
   /// At most one per 50 ms is kept.
   void add(const UavState& state);
   /// Whether a row of this name would be kept now: at most one per 40 ms is. Who asks before saves the work.
-  [[nodiscard]] bool wants(const std::string& table, UTime at) const;
+  [[nodiscard]] bool keeps_row(const std::string& table, UTime at) const;
   /// @param fields  of one message; its first row says which fields a table has
   /// @return whether it is the first
   bool add_row(const std::string& table, UTime at, const NumberFields& fields);

@@ -16,7 +16,7 @@ double ball_radius(const Body& body) { return body.vertices.colwise().norm().max
 
 }  // namespace
 
-void Scene::hear(const UavState& message) {
+void Scene::receive(const UavState& message) {
   const std::int64_t epoch_us = message.header.name.sender_epoch_us;
   const bool is_its_own =
       goal_ && (goal_->header.name.sender_epoch_us == epoch_us || goal_->header.utime.us > epoch_us);
@@ -31,10 +31,10 @@ void Scene::hear(const UavState& message) {
 
 void Scene::remember_state() {
   if (memory_ == nullptr) return;
-  memory_->events.hear(*state_);
+  memory_->events.receive(*state_);
   const auto obstacles = clearance(), map = map_clearance();
-  memory_->events.hear_clearance(state_->at, obstacles, map);  // the least may lie where the history is thinned out
-  if (!memory_->history.wants(channels::kUavState.name, state_->at)) return;
+  memory_->events.receive_clearance(state_->at, obstacles, map);  // the least may lie where the history is thinned out
+  if (!memory_->history.keeps_row(channels::kUavState.name, state_->at)) return;
   memory_->history.add(*state_);
   remember(channels::kUavState.name, state_->at, numbers_of(detail_json(*this, {})));
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -47,79 +47,79 @@ void Scene::remember(const std::string& table, UTime at, const NumberFields& fie
   if (memory_->history.add_row(table, at, fields)) mark(Topic::Fields);
 }
 
-void Scene::hear(const ObstacleTruth& complete_set) {
+void Scene::receive(const ObstacleTruth& complete_set) {
   truth_ = complete_set;
   mark(Topic::Truth);
 }
 
-void Scene::hear(TrackSet complete_set) {
+void Scene::receive(TrackSet complete_set) {
   tracks_ = std::move(complete_set);
   mark(Topic::Tracks);
 }
 
-void Scene::hear(const HorizonRequest& message) {
+void Scene::receive(const HorizonRequest& message) {
   request_ = message;
-  if (memory_ != nullptr) memory_->world_time.hear(message);
-  asked_[message.id] = {message.header.utime, message.deadline};
-  while (asked_.size() > kRememberedRequests) asked_.erase(asked_.begin());
+  if (memory_ != nullptr) memory_->world_time.receive(message);
+  request_times_[message.id] = {message.header.utime, message.deadline};
+  while (request_times_.size() > kRememberedRequests) request_times_.erase(request_times_.begin());
   mark(Topic::Request);
 }
 
-void Scene::hear(const Plan& message) {
+void Scene::receive(const Plan& message) {
   plan_ = message;
-  if (memory_ != nullptr) memory_->events.hear(message);
+  if (memory_ != nullptr) memory_->events.receive(message);
   mark(Topic::Plan);
   mark(Topic::Hulls);
 }
 
-void Scene::hear(const PlanTiming& message) {
+void Scene::receive(const PlanTiming& message) {
   timing_ = message;
   mark(Topic::Timing);
   if (memory_ == nullptr || !plan_ || plan_->request_id != message.request_id) return;
   const UTime at = message.header.utime;
-  memory_->events.hear(message, taken_ms(), allowed_ms());
+  memory_->events.receive(message, taken_ms(), allowed_ms());
   memory_->history.add_answer(at, plan_->outcome);
-  if (!memory_->history.wants(channels::kPlan.name, at)) return;
+  if (!memory_->history.keeps_row(channels::kPlan.name, at)) return;
   remember(channels::kPlan.name, at, numbers_of(detail_json(*this, {PickKind::Plan, 0, ""})));
 }
 
-void Scene::hear(const SearchView& message) {
+void Scene::receive(const SearchView& message) {
   search_ = message;
   mark(Topic::Search);
 }
 
-void Scene::hear(const Goal& message) {
+void Scene::receive(const Goal& message) {
   if (goal_ && message.id < goal_->id) return;
   goal_ = message;
   if (memory_ != nullptr) {
-    memory_->events.hear(message);
-    memory_->world_time.hear(message);
+    memory_->events.receive(message);
+    memory_->world_time.receive(message);
   }
   mark(Topic::Goal);
 }
 
-void Scene::hear(const FlightResult& message) {
+void Scene::receive(const FlightResult& message) {
   result_ = message;
-  if (memory_ != nullptr) memory_->events.hear(message);
+  if (memory_ != nullptr) memory_->events.receive(message);
   mark(Topic::Result);
 }
 
-void Scene::hear(const Heartbeat& message, UTime now) {
+void Scene::receive(const Heartbeat& message, UTime now) {
   if (!processes_.contains(message.process) && processes_.size() >= kMaxProcesses) return;
-  if (memory_ != nullptr) memory_->events.hear(message);
-  HeardProcess& process = processes_[message.process];
+  if (memory_ != nullptr) memory_->events.receive(message);
+  ObservedProcess& process = processes_[message.process];
   process.heartbeat = message;
-  process.heard = now;
+  process.received = now;
   mark(Topic::Health);
 }
 
-void Scene::hear(const ConfigurationReport& message) {
+void Scene::receive(const ConfigurationReport& message) {
   const auto found = processes_.find(message.process);
   if (found != processes_.end()) found->second.configuration = message;
 }
 
-void Scene::hear(const VoxelMap& map) {
-  SeenMap seen{voxel_surface(map), map.grid, map.version, map.class_names, {}};
+void Scene::receive(const VoxelMap& map) {
+  DrawnMap seen{voxel_surface(map), map.grid, map.version, map.class_names, {}};
   for (const VoxelLabel label : map.labels) ++seen.voxels[idx(label)];
   map_ = std::move(seen);
   mark(Topic::Map);
@@ -157,17 +157,19 @@ bool Scene::has_room_at(const Vec3& p) const {
   return !request_ || centre_box(request_->flight_box, request_->body).contains(p);
 }
 
-const Scene::Asked* Scene::asked() const {
+const Scene::RequestTimes* Scene::timed_request() const {
   if (!timing_) return nullptr;
-  const auto found = asked_.find(timing_->request_id);
-  return found == asked_.end() ? nullptr : &found->second;
+  const auto found = request_times_.find(timing_->request_id);
+  return found == request_times_.end() ? nullptr : &found->second;
 }
 
-double Scene::allowed_ms() const { return asked() ? (asked()->deadline - asked()->at).seconds() * 1e3 : 0.0; }
+double Scene::allowed_ms() const {
+  return timed_request() ? (timed_request()->deadline - timed_request()->at).seconds() * 1e3 : 0.0;
+}
 
 double Scene::taken_ms() const {
-  const bool is_answer = asked() && plan_ && plan_->request_id == timing_->request_id;
-  return is_answer ? (plan_->header.utime - asked()->at).seconds() * 1e3 : 0.0;
+  const bool is_answer = timed_request() && plan_ && plan_->request_id == timing_->request_id;
+  return is_answer ? (plan_->header.utime - timed_request()->at).seconds() * 1e3 : 0.0;
 }
 
 bool Scene::take_change(Topic topic) {

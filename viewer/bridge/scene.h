@@ -23,9 +23,9 @@
 namespace tern {
 
 /// A process as it was heard.
-struct HeardProcess {
+struct ObservedProcess {
   Heartbeat heartbeat;
-  UTime heard;
+  UTime received;
   std::optional<ConfigurationReport> configuration;
 };
 
@@ -33,7 +33,7 @@ struct HeardProcess {
 inline constexpr std::size_t kMaxProcesses = 64;
 
 /// The map as it is drawn, and what is told of it.
-struct SeenMap {
+struct DrawnMap {
   VoxelSurface surface;
   VoxelGrid grid;
   std::uint64_t version = 0;
@@ -60,18 +60,18 @@ class Scene {
 
   /// A state of another vehicle (a new sender epoch) is another flight's: goals that were sent before it began are
   /// forgotten.
-  void hear(const UavState& message);
-  void hear(const ObstacleTruth& complete_set);
-  void hear(TrackSet complete_set);
-  void hear(const HorizonRequest& message);
-  void hear(const Plan& message);
-  void hear(const PlanTiming& message);
-  void hear(const SearchView& message);
-  void hear(const Goal& message);
-  void hear(const FlightResult& message);
-  void hear(const Heartbeat& message, UTime now);
-  void hear(const ConfigurationReport& message);
-  void hear(const VoxelMap& map);
+  void receive(const UavState& message);
+  void receive(const ObstacleTruth& complete_set);
+  void receive(TrackSet complete_set);
+  void receive(const HorizonRequest& message);
+  void receive(const Plan& message);
+  void receive(const PlanTiming& message);
+  void receive(const SearchView& message);
+  void receive(const Goal& message);
+  void receive(const FlightResult& message);
+  void receive(const Heartbeat& message, UTime now);
+  void receive(const ConfigurationReport& message);
+  void receive(const VoxelMap& map);
   /// Forgets everything but the map, for a jump in a log.
   void clear();
 
@@ -86,8 +86,8 @@ class Scene {
   [[nodiscard]] const std::optional<SearchView>& search() const { return search_; }
   [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
   [[nodiscard]] const std::optional<FlightResult>& result() const { return result_; }
-  [[nodiscard]] const std::optional<SeenMap>& map() const { return map_; }
-  [[nodiscard]] const std::map<std::string, HeardProcess>& processes() const { return processes_; }
+  [[nodiscard]] const std::optional<DrawnMap>& map() const { return map_; }
+  [[nodiscard]] const std::map<std::string, ObservedProcess>& processes() const { return processes_; }
 
   /// From the body to the nearest true obstacle, m; nullopt before both were heard. A body of vertices counts as the
   /// ball around it.
@@ -124,13 +124,13 @@ class Scene {
   std::optional<SearchView> search_;
   std::optional<Goal> goal_;
   std::optional<FlightResult> result_;
-  std::optional<SeenMap> map_;
-  std::map<std::string, HeardProcess> processes_;
-  struct Asked {
+  std::optional<DrawnMap> map_;
+  std::map<std::string, ObservedProcess> processes_;
+  struct RequestTimes {
     UTime at, deadline;
   };
-  [[nodiscard]] const Asked* asked() const;  ///< of the request that `timing` answers; null: not known
-  std::map<std::int64_t, Asked> asked_;      ///< of the last requests, by id
+  [[nodiscard]] const RequestTimes* timed_request() const;  ///< of the request that `timing` answers; null: not known
+  std::map<std::int64_t, RequestTimes> request_times_;      ///< of the last requests, by id
   std::bitset<kTopics> changed_;
 };
 

@@ -174,7 +174,7 @@ std::string search_json(const Scene& scene) {
 
 std::string map_json(const Scene& scene) {
   if (!scene.map()) return kNothing;
-  const SeenMap& map = *scene.map();
+  const DrawnMap& map = *scene.map();
   JsonWriter json;
   json.begin_object().key("origin").vec3(map.surface.grid.origin);
   json.key("resolution").number(map.surface.grid.resolution).key("faces").begin_list();
@@ -198,7 +198,7 @@ std::string health_json(const Scene& scene, UTime now) {
     }
     json.begin_object().key("name").text(name).key("state").text(to_string(process.heartbeat.state));
     json.key("waiting_for").text(process.heartbeat.waiting_for);
-    json.key("age_s").number((now - process.heard).seconds()).key("received").integer(received);
+    json.key("age_s").number((now - process.received).seconds()).key("received").integer(received);
     json.key("refused").integer(refused).key("lost").integer(lost).end_object();
   }
   return json.end_list().take();

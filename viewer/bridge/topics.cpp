@@ -10,10 +10,10 @@ namespace {
 constexpr double kHullReach = 2.0;
 constexpr int kMaxHulls = 240;
 
-std::string path_json(const Telling& telling) {
+std::string path_json(const TopicSource& source) {
   JsonWriter json;
   json.begin_object();
-  telling.memory.history.write_path(json, telling.zero, telling.until);
+  source.memory.history.write_path(json, source.zero, source.until);
   return json.end_object().take();
 }
 
@@ -31,26 +31,26 @@ bool is_of_the_past(Topic topic) {
          topic == Topic::Ghost;
 }
 
-std::string topic_json(Topic topic, const Telling& telling) {
-  const Scene& scene = telling.scene;
-  const FlightHistory& history = telling.memory.history;
+std::string topic_json(Topic topic, const TopicSource& source) {
+  const Scene& scene = source.scene;
+  const FlightHistory& history = source.memory.history;
   switch (topic) {
     case Topic::State: return state_json(scene);
     case Topic::Truth: return truth_json(scene);
     case Topic::Tracks: return tracks_json(scene);
     case Topic::Request: return request_json(scene);
-    case Topic::Plan: return plan_json(scene, telling.layers.planes);
+    case Topic::Plan: return plan_json(scene, source.layers.planes);
     case Topic::Timing: return timing_json(scene);
     case Topic::Hulls: return hulls_json(scene, kHullReach, kMaxHulls);
     case Topic::Search: return search_json(scene);
     case Topic::Map: return map_json(scene);
-    case Topic::Health: return health_json(scene, telling.now);
+    case Topic::Health: return health_json(scene, source.now);
     case Topic::Goal: return goal_json(scene);
     case Topic::Result: return result_json(scene);
-    case Topic::Chart: return history.chart_json(telling.zero, telling.until, telling.series);
-    case Topic::Path: return path_json(telling);
+    case Topic::Chart: return history.chart_json(source.zero, source.until, source.series);
+    case Topic::Path: return path_json(source);
     case Topic::Fields: return fields_json(history);
-    case Topic::Events: return telling.memory.events.json(telling.zero);
+    case Topic::Events: return source.memory.events.json(source.zero);
     case Topic::Session:
     case Topic::Player:
     case Topic::Ghost: break;

@@ -10,7 +10,7 @@
 
 namespace tern {
 
-struct Telling {
+struct TopicSource {
   const Scene& scene;
   const Scene::Memory& memory;
   UTime zero;   ///< the flight's time 0
@@ -24,7 +24,7 @@ struct Telling {
 bool is_of_the_past(Topic topic);
 
 /// One JSON value; "null" where nothing was heard, and for topics that are not of the scene (Session, Player, Ghost).
-std::string topic_json(Topic topic, const Telling& telling);
+std::string topic_json(Topic topic, const TopicSource& source);
 
 /// Another flight's path over this one: {"name", "radius", "t", "curve"}, both departing at the same t. "null" while
 /// one of them has not departed.

@@ -4,7 +4,7 @@
 
 namespace tern {
 
-void WorldTime::hear(const Goal& message) {
+void WorldTime::receive(const Goal& message) {
   const bool goes = message.mode == GoalMode::Go;
   if (!std::exchange(has_goal_, true)) holds_ = !goes;
   if (!holds_ || !goes) return;
@@ -12,7 +12,7 @@ void WorldTime::hear(const Goal& message) {
   not_before_ = message.header.utime;
 }
 
-void WorldTime::hear(const HorizonRequest& message) {
+void WorldTime::receive(const HorizonRequest& message) {
   const bool has_begun = !holds_ && message.header.utime >= not_before_;
   if (!zero_ && has_begun) zero_ = message.header.utime;
 }

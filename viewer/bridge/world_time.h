@@ -12,8 +12,8 @@ namespace tern {
 /// the first request after the goal to go to.
 class WorldTime {
  public:
-  void hear(const Goal& message);
-  void hear(const HorizonRequest& message);
+  void receive(const Goal& message);
+  void receive(const HorizonRequest& message);
   /// @return nullopt before it began, or where nobody asked for a plan
   [[nodiscard]] std::optional<UTime> zero() const { return zero_; }
 

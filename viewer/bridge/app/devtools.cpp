@@ -75,17 +75,17 @@ Devtools::~Devtools() {
 
 std::string Devtools::read_message() {
   while (true) {
-    const std::size_t end = heard_.find('\0');
+    const std::size_t end = unread_.find('\0');
     if (end != std::string::npos) {
-      std::string message = heard_.substr(0, end);
-      heard_.erase(0, end + 1);
+      std::string message = unread_.substr(0, end);
+      unread_.erase(0, end + 1);
       return message;
     }
     pollfd answer{from_, POLLIN, 0};
     std::vector<char> buffer(1U << 16U);
     const ssize_t n = poll(&answer, 1, kPatienceMs) > 0 ? read(from_, buffer.data(), buffer.size()) : 0;
     if (n <= 0) throw std::runtime_error("the browser does not answer");
-    heard_.append(buffer.data(), static_cast<std::size_t>(n));
+    unread_.append(buffer.data(), static_cast<std::size_t>(n));
   }
 }
 

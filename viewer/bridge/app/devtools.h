@@ -32,7 +32,7 @@ class Devtools {
 
   pid_t browser_ = 0;
   int to_ = -1, from_ = -1;
-  std::string heard_, session_;
+  std::string unread_, session_;
   std::int64_t calls_ = 0;
 };
 

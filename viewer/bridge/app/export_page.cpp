@@ -89,11 +89,11 @@ std::string session_json(const PageExport& wanted) {
 Result<std::string> still_json(const PageExport& wanted, const LogPlayer& player) {
   const auto fields = player.memory().history.fields();
   const Scene nothing;
-  const Telling telling{nothing, player.memory(), player.zero(), player.end(), player.end(), {}, fields};
+  const TopicSource source{nothing, player.memory(), player.zero(), player.end(), player.end(), {}, fields};
   JsonWriter json;
   json.begin_object().key("session").raw(session_json(wanted));
   for (const Topic topic : {Topic::Chart, Topic::Path, Topic::Fields, Topic::Events}) {
-    json.key(to_string(topic)).raw(topic_json(topic, telling));
+    json.key(to_string(topic)).raw(topic_json(topic, source));
   }
   if (!wanted.ghost.empty()) {
     const auto ghost = LogPlayer::open(wanted.ghost, wanted.suffix);

@@ -195,7 +195,7 @@ const std::vector<std::uint8_t>& LogPlayer::read(const LogIndex::Entry& entry) {
 
 void LogPlayer::feed(std::size_t entry, SceneIntake& intake) {
   const LogIndex::Entry& e = index_.entries[entry];
-  if (!intake.hear(index_.channels[idx(e.channel)], read(e), e.received)) ++refused_;
+  if (!intake.receive(index_.channels[idx(e.channel)], read(e), e.received)) ++refused_;
 }
 
 std::string LogPlayer::json() const {

@@ -21,13 +21,13 @@ constexpr std::tuple kShown{kUavState,   kObstacleTruth, kPredictions, kHorizonR
 }  // namespace
 
 void SceneIntake::subscribe(Bus& bus) {
-  const auto hear = [this, &bus]<class T>(const Channel<T>& channel) {
+  const auto subscribe_to = [this, &bus]<class T>(const Channel<T>& channel) {
     bus.subscribe(channel, [this, &bus](const T& message) { take(message, bus.clock().now()); });
   };
-  for_each_channel(hear, kShown);
+  for_each_channel(subscribe_to, kShown);
 }
 
-bool SceneIntake::hear(std::string_view channel, std::span<const std::uint8_t> bytes, UTime at) {
+bool SceneIntake::receive(std::string_view channel, std::span<const std::uint8_t> bytes, UTime at) {
   bool accepted = true;
   const auto read = [&]<class T>(const Channel<T>&) {
     const auto message = decode<T>(bytes);
@@ -41,17 +41,17 @@ bool SceneIntake::hear(std::string_view channel, std::span<const std::uint8_t> b
 template <class T>
 void SceneIntake::take(const T& message, UTime at) {
   if constexpr (std::is_same_v<T, ObstacleTruth>) {
-    if (auto batches = truth_.add(message)) scene_.hear(join_batches(std::move(*batches)));
+    if (auto batches = truth_.add(message)) scene_.receive(join_batches(std::move(*batches)));
   } else if constexpr (std::is_same_v<T, TrackSet>) {
-    if (auto batches = tracks_.add(message)) scene_.hear(join_batches(std::move(*batches)));
+    if (auto batches = tracks_.add(message)) scene_.receive(join_batches(std::move(*batches)));
   } else if constexpr (std::is_same_v<T, MapChunk>) {
     const auto complete = maps_.add(message);
     if (!complete) spdlog::warn("{}", complete.error().message);
-    if (complete && *complete) scene_.hear(maps_.take());
+    if (complete && *complete) scene_.receive(maps_.take());
   } else if constexpr (std::is_same_v<T, Heartbeat>) {
-    scene_.hear(message, at);
+    scene_.receive(message, at);
   } else {
-    scene_.hear(message);
+    scene_.receive(message);
   }
 }
 

@@ -20,7 +20,7 @@ class SceneIntake {
   void subscribe(Bus& bus);
   /// One message of a log. @return false when it was refused; true also for channels that the page does not show.
   /// @param channel  without a vehicle's suffix
-  bool hear(std::string_view channel, std::span<const std::uint8_t> bytes, UTime at);
+  bool receive(std::string_view channel, std::span<const std::uint8_t> bytes, UTime at);
   /// Forgets unfinished sets: the log jumps.
   void restart();
 

@@ -87,9 +87,9 @@ void ViewerNode::post_session() {
 void ViewerNode::step(UTime now) {
   if (now < next_step_) return;
   next_step_ = now + kStepPeriod;
-  for (const ClientCommand& command : server_->take_commands()) obey(command, now);
+  for (const ClientCommand& command : server_->take_commands()) execute(command, now);
   jump();
-  wishes_.keep_only(server_->clients());
+  subscriptions_.keep_only(server_->clients());
   if (player_) player_->advance(now, intake_);
   repeat_goal(now);
   if (server_->clients().empty()) return;
@@ -98,30 +98,30 @@ void ViewerNode::step(UTime now) {
   server_->wake();
 }
 
-void ViewerNode::obey(const ClientCommand& said, UTime now) {
-  const auto command = parse_command(said.text);
-  if (command) return std::visit([&](const auto& c) { obey(said.client, c, now); }, *command);
+void ViewerNode::execute(const ClientCommand& received, UTime now) {
+  const auto command = parse_command(received.text);
+  if (command) return std::visit([&](const auto& c) { execute(received.client, c, now); }, *command);
   JsonWriter json;
-  server_->reply(said.client, json.begin_object().key("refused").text(command.error().message).end_object().take());
+  server_->reply(received.client, json.begin_object().key("refused").text(command.error().message).end_object().take());
 }
 
-void ViewerNode::obey(std::int64_t client, const LayersCommand& layers, UTime) {
-  wishes_.take(client, layers);
+void ViewerNode::execute(std::int64_t client, const LayersCommand& layers, UTime) {
+  subscriptions_.take(client, layers);
   for (const Topic topic : {Topic::Plan, Topic::Hulls, Topic::Search}) scene_.mark(topic);
 }
 
-void ViewerNode::obey(std::int64_t client, const SeriesCommand& series, UTime) {
-  wishes_.take(client, series);
-  told_once_.reset(idx(Topic::Chart));
+void ViewerNode::execute(std::int64_t client, const SeriesCommand& series, UTime) {
+  subscriptions_.take(client, series);
+  posted_once_.reset(idx(Topic::Chart));
   scene_.mark(Topic::Chart);
 }
 
-void ViewerNode::obey(std::int64_t client, const PickCommand& pick, UTime) {
+void ViewerNode::execute(std::int64_t client, const PickCommand& pick, UTime) {
   JsonWriter json;
   server_->reply(client, json.begin_object().key("detail").raw(detail_json(scene_, pick)).end_object().take());
 }
 
-void ViewerNode::obey(std::int64_t, const PlayCommand& play, UTime now) {
+void ViewerNode::execute(std::int64_t, const PlayCommand& play, UTime now) {
   if (!player_) return;
   jump();
   const bool again = play.play && player_->position() == player_->end();
@@ -129,7 +129,7 @@ void ViewerNode::obey(std::int64_t, const PlayCommand& play, UTime now) {
   player_->play(play.play, now);
 }
 
-void ViewerNode::obey(std::int64_t, const SeekCommand& seek, UTime) {
+void ViewerNode::execute(std::int64_t, const SeekCommand& seek, UTime) {
   if (player_) jump_to_ = UTime{seek.at_us};
 }
 
@@ -139,17 +139,17 @@ void ViewerNode::jump() {
   jump_to_.reset();
 }
 
-void ViewerNode::obey(std::int64_t, const StepCommand& step, UTime) {
+void ViewerNode::execute(std::int64_t, const StepCommand& step, UTime) {
   if (!player_) return;
   jump();
   player_->step(step.plans, scene_, intake_);
 }
 
-void ViewerNode::obey(std::int64_t, const SpeedCommand& speed, UTime) {
+void ViewerNode::execute(std::int64_t, const SpeedCommand& speed, UTime) {
   if (player_) player_->set_speed(speed.factor);
 }
 
-void ViewerNode::obey(std::int64_t client, const GoalCommand& command, UTime now) {
+void ViewerNode::execute(std::int64_t client, const GoalCommand& command, UTime now) {
   JsonWriter json;
   json.begin_object().key("goal").begin_object();
   const char* refusal = player_                 ? "a log is played"
@@ -164,7 +164,7 @@ void ViewerNode::obey(std::int64_t client, const GoalCommand& command, UTime now
     goal.id = (scene_.goal() ? scene_.goal()->id : 0) + 1;
     goal.mode = command.mode;
     goal.position = command.position;
-    own_goal_.set(goal, scene_, now);
+    page_goal_.set(goal, scene_, now);
     repeat_goal(now);
     spdlog::info("a page sent goal {}: {:.2f}, {:.2f}, {:.2f}", goal.id, goal.position.x(), goal.position.y(),
                  goal.position.z());
@@ -174,7 +174,7 @@ void ViewerNode::obey(std::int64_t client, const GoalCommand& command, UTime now
 }
 
 void ViewerNode::repeat_goal(UTime now) {
-  if (const auto goal = own_goal_.due(scene_, now)) bus_.publish(channels::kGoal, *goal);
+  if (const auto goal = page_goal_.due(scene_, now)) bus_.publish(channels::kGoal, *goal);
 }
 
 void ViewerNode::post(UTime now) {
@@ -184,8 +184,8 @@ void ViewerNode::post(UTime now) {
 bool ViewerNode::is_wanted(Topic topic) const {
   switch (topic) {
     case Topic::Session: return false;
-    case Topic::Hulls: return wishes_.layers().hulls;
-    case Topic::Search: return wishes_.layers().search;
+    case Topic::Hulls: return subscriptions_.layers().hulls;
+    case Topic::Search: return subscriptions_.layers().search;
     case Topic::Ghost: return ghost_.has_value();
     default: return true;
   }
@@ -196,12 +196,12 @@ void ViewerNode::post_if_changed(Topic topic, UTime now) {
   if (!is_wanted(topic) || now < next_post_[k]) return;
   const bool is_told_once = topic == Topic::Ghost || (player_ && is_of_the_past(topic));
   if (is_told_once) {
-    if (told_once_[k]) return;
+    if (posted_once_[k]) return;
   } else if (topic != Topic::Player && !scene_.take_change(topic)) {
     return;
   }
   const std::string json = json_of(topic, player_ ? player_->position() : now);
-  told_once_[k] = json != "null";
+  posted_once_[k] = json != "null";
   if (topic != Topic::Player || player_) board_.post(topic, json);
   next_post_[k] = now + period(topic);
 }
@@ -214,7 +214,7 @@ std::string ViewerNode::json_of(Topic topic, UTime now) const {
     return ghost_json(options_.ghost, ghost_->body_radius(), ghost_->memory().history, memory.history, zero);
   }
   const UTime until = player_ ? player_->end() : scene_.state() ? scene_.state()->at : zero;
-  return topic_json(topic, {scene_, memory, zero, until, now, wishes_.layers(), wishes_.series()});
+  return topic_json(topic, {scene_, memory, zero, until, now, subscriptions_.layers(), subscriptions_.series()});
 }
 
 }  // namespace tern

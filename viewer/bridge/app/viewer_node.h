@@ -13,8 +13,8 @@
 #include "viewer/bridge/app/scene_intake.h"
 #include "viewer/bridge/app/web_server.h"
 #include "viewer/bridge/commands.h"
-#include "viewer/bridge/own_goal.h"
-#include "viewer/bridge/wishes.h"
+#include "viewer/bridge/page_goal.h"
+#include "viewer/bridge/subscriptions.h"
 
 namespace tern {
 
@@ -48,15 +48,15 @@ class ViewerNode final : public Node {
  private:
   void listen();
   void post_session();
-  void obey(const ClientCommand& command, UTime now);
-  void obey(std::int64_t client, const LayersCommand& layers, UTime now);
-  void obey(std::int64_t client, const SeriesCommand& series, UTime now);
-  void obey(std::int64_t client, const PickCommand& pick, UTime now);
-  void obey(std::int64_t client, const PlayCommand& play, UTime now);
-  void obey(std::int64_t client, const SeekCommand& seek, UTime now);
-  void obey(std::int64_t client, const StepCommand& step, UTime now);
-  void obey(std::int64_t client, const SpeedCommand& speed, UTime now);
-  void obey(std::int64_t client, const GoalCommand& goal, UTime now);
+  void execute(const ClientCommand& command, UTime now);
+  void execute(std::int64_t client, const LayersCommand& layers, UTime now);
+  void execute(std::int64_t client, const SeriesCommand& series, UTime now);
+  void execute(std::int64_t client, const PickCommand& pick, UTime now);
+  void execute(std::int64_t client, const PlayCommand& play, UTime now);
+  void execute(std::int64_t client, const SeekCommand& seek, UTime now);
+  void execute(std::int64_t client, const StepCommand& step, UTime now);
+  void execute(std::int64_t client, const SpeedCommand& speed, UTime now);
+  void execute(std::int64_t client, const GoalCommand& goal, UTime now);
   void jump();
   void repeat_goal(UTime now);
   void post(UTime now);
@@ -75,9 +75,9 @@ class ViewerNode final : public Node {
   Board board_;
   std::string url_;
   std::unique_ptr<WebServer> server_;  ///< after the board that it reads
-  Wishes wishes_;
-  std::bitset<kTopics> told_once_;
-  OwnGoal own_goal_;
+  Subscriptions subscriptions_;
+  std::bitset<kTopics> posted_once_;
+  PageGoal page_goal_;
   UTime next_step_;
   std::array<UTime, kTopics> next_post_{};
 };

@@ -134,13 +134,13 @@ class Stream : public std::enable_shared_from_this<Stream> {
   void read() {
     socket_.async_read(input_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (error) return self->socket_.next_layer().close();
-      self->hear(beast::buffers_to_string(self->input_.data()));
+      self->receive(beast::buffers_to_string(self->input_.data()));
       self->input_.consume(self->input_.size());
       self->read();
     });
   }
 
-  void hear(std::string text) {
+  void receive(std::string text) {
     if (const auto n = seen_frame(text)) {
       seen_ = std::max(seen_, std::min(*n, reader_.frame));
       return push();

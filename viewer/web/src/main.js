@@ -165,7 +165,7 @@ function forget() {
 
 // Layers -------------------------------------------------------------------------------------------------------------
 
-function tellWishes() {
+function sendSubscriptions() {
   send({ layers: ON_DEMAND.filter((name) => layers[name]) });
   send({ series: charts.names() });
 }
@@ -343,7 +343,7 @@ window.tern = {
 const handlers = {
   open() {
     counts.connections += 1;
-    tellWishes();
+    sendSubscriptions();
   },
   close: hud.showGone,
   frame: takeFrame,

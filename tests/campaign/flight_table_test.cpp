@@ -1,4 +1,4 @@
-#include "campaign/records/flight_book.h"
+#include "campaign/records/flight_table.h"
 
 #include <gtest/gtest.h>
 
@@ -19,16 +19,16 @@ std::string text_of(const std::string& path) {
 
 void append(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::app) << text; }
 
-FlightBook open(const std::string& file) {
-  auto book = FlightBook::open(file, some_flight(1).identity);
-  if (!book) throw std::runtime_error(book.error().message);
-  return std::move(*book);
+FlightTable open(const std::string& file) {
+  auto table = FlightTable::open(file, some_flight(1).identity);
+  if (!table) throw std::runtime_error(table.error().message);
+  return std::move(*table);
 }
 
-class FlightBookTest : public ::testing::Test {
+class FlightTableTest : public ::testing::Test {
  protected:
-  void add(FlightBook& book, std::uint64_t seed) {
-    const auto added = book.add(some_flight(seed), some_times(seed));
+  void add(FlightTable& table, std::uint64_t seed) {
+    const auto added = table.add(some_flight(seed), some_times(seed));
     ASSERT_TRUE(added) << added.error().message;
   }
 
@@ -36,79 +36,79 @@ class FlightBookTest : public ::testing::Test {
   std::string file_ = folder_.file("flights.csv");
 };
 
-TEST_F(FlightBookTest, HoldsWhatWasAddedWhenItIsOpenedAgain) {
+TEST_F(FlightTableTest, HoldsWhatWasAddedWhenItIsOpenedAgain) {
   {
-    FlightBook book = open(file_);
-    add(book, 7), add(book, 2);
+    FlightTable table = open(file_);
+    add(table, 7), add(table, 2);
   }
-  FlightBook book = open(file_);
-  EXPECT_TRUE(book.has(7));
-  EXPECT_TRUE(book.has(2));
-  EXPECT_FALSE(book.has(1));
-  EXPECT_EQ(to_cells(book.flights().records.at(7)), to_cells(some_flight(7)));
-  EXPECT_EQ(book.flights().times.at(2).times, some_times(2).times);
+  FlightTable table = open(file_);
+  EXPECT_TRUE(table.has(7));
+  EXPECT_TRUE(table.has(2));
+  EXPECT_FALSE(table.has(1));
+  EXPECT_EQ(to_cells(table.flights().records.at(7)), to_cells(some_flight(7)));
+  EXPECT_EQ(table.flights().times.at(2).times, some_times(2).times);
 }
 
-TEST_F(FlightBookTest, SortedIsTheSameWhateverTheOrder) {
+TEST_F(FlightTableTest, SortedIsTheSameWhateverTheOrder) {
   {
-    FlightBook book = open(file_);
-    add(book, 3), add(book, 1), add(book, 2);
-    ASSERT_TRUE(book.close_sorted());
+    FlightTable table = open(file_);
+    add(table, 3), add(table, 1), add(table, 2);
+    ASSERT_TRUE(table.close_sorted());
   }
   const std::string other = folder_.file("other.csv");
   {
-    FlightBook book = open(other);
-    add(book, 2), add(book, 3), add(book, 1);
-    ASSERT_TRUE(book.close_sorted());
+    FlightTable table = open(other);
+    add(table, 2), add(table, 3), add(table, 1);
+    ASSERT_TRUE(table.close_sorted());
   }
   EXPECT_EQ(text_of(file_), text_of(other));
   EXPECT_EQ(text_of(times_file(file_)), text_of(times_file(other)));
 }
 
-TEST_F(FlightBookTest, WhatADeadWriterLeftOfALineIsCutOff) {
+TEST_F(FlightTableTest, WhatADeadWriterLeftOfALineIsCutOff) {
   {
-    FlightBook book = open(file_);
-    add(book, 3);
+    FlightTable table = open(file_);
+    add(table, 3);
   }
   const std::string whole = text_of(file_);
   append(file_, csv_line(to_cells(some_flight(4))).substr(0, 30));
   append(times_file(file_), csv_line(to_cells(some_times(4))));  // times without their flight
   {
-    FlightBook book = open(file_);
-    EXPECT_FALSE(book.has(4));
-    EXPECT_FALSE(book.flights().times.contains(4));
+    FlightTable table = open(file_);
+    EXPECT_FALSE(table.has(4));
+    EXPECT_FALSE(table.flights().times.contains(4));
     EXPECT_EQ(text_of(file_), whole);
-    add(book, 4);
+    add(table, 4);
   }
   EXPECT_EQ(text_of(file_), whole + csv_line(to_cells(some_flight(4))));
 }
 
-TEST_F(FlightBookTest, RefusesAnotherCampaignAndSaysWhy) {
+TEST_F(FlightTableTest, RefusesAnotherCampaignAndSaysWhy) {
   {
-    FlightBook book = open(file_);
-    add(book, 1);
+    FlightTable table = open(file_);
+    add(table, 1);
   }
   CampaignIdentity other = some_flight(1).identity;
   other.count = 300;
-  const auto refused = FlightBook::open(file_, other);
+  const auto refused = FlightTable::open(file_, other);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("count 100 against 300"), std::string::npos) << refused.error().message;
 }
 
-TEST_F(FlightBookTest, IsHeldByOne) {
-  FlightBook book = open(file_);
-  const auto second = FlightBook::open(file_, some_flight(1).identity);
+TEST_F(FlightTableTest, IsHeldByOne) {
+  FlightTable table = open(file_);
+  const auto second = FlightTable::open(file_, some_flight(1).identity);
   ASSERT_FALSE(second);
   EXPECT_NE(second.error().message.find("another campaign writes"), std::string::npos);
 }
 
-TEST_F(FlightBookTest, NamesFileAndLineOfWhatItCannotRead) {
+TEST_F(FlightTableTest, NamesFileAndLineOfWhatItCannotRead) {
   {
-    FlightBook book = open(file_);
-    add(book, 1);
+    FlightTable table = open(file_);
+    add(table, 1);
   }
   append(file_, "a,b\n");
-  const auto refused = FlightBook::open(file_, some_flight(1).identity);
+  const auto refused = FlightTable::open(file_, some_flight(1).identity);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message.find(file_ + ":3: 2 cells, not "), 0U) << refused.error().message;
 }

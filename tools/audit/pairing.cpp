@@ -1,4 +1,4 @@
-#include "tools/audit/promised.h"
+#include "tools/audit/pairing.h"
 
 #include <set>
 #include <tuple>
@@ -41,12 +41,12 @@ bool Pairing::is_in_view(const Track& track, UTime made_at) const {
   return false;
 }
 
-const std::map<std::int64_t, Spoken>& Pairing::pair(const TrackSet& set) {
+const std::map<std::int64_t, PairedObstacle>& Pairing::pair(const TrackSet& set) {
   now_.clear();
   std::set<std::int64_t> taken;
   const auto give = [&](std::int64_t track, std::int64_t obstacle, bool in_view) {
     if (now_.contains(track) || !taken.insert(obstacle).second) return;
-    now_.emplace(track, Spoken{obstacle, in_view});
+    now_.emplace(track, PairedObstacle{obstacle, in_view});
     had_[track] = obstacle;
   };
   std::vector<Near> pairs;
@@ -65,7 +65,7 @@ const std::map<std::int64_t, Spoken>& Pairing::pair(const TrackSet& set) {
         if (truth == nullptr) continue;
         const Vec3 away = (p - truth->p).cwiseAbs();
         const double to_box = (away - truth->half_extents).cwiseMax(0.0).norm();
-        if (to_box < kSameThing) pairs.push_back({to_box, away.norm(), track.id, obstacle});
+        if (to_box < kPairingRange) pairs.push_back({to_box, away.norm(), track.id, obstacle});
       }
     }
   }

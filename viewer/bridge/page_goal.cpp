@@ -1,4 +1,4 @@
-#include "viewer/bridge/own_goal.h"
+#include "viewer/bridge/page_goal.h"
 
 namespace tern {
 namespace {
@@ -7,13 +7,13 @@ constexpr Duration kGoalPeriod{1'000'000};
 
 }  // namespace
 
-void OwnGoal::set(const Goal& goal, const Scene& scene, UTime now) {
+void PageGoal::set(const Goal& goal, const Scene& scene, UTime now) {
   goal_ = goal;
   vehicle_us_ = scene.vehicle_us();
   next_ = now;
 }
 
-std::optional<Goal> OwnGoal::due(const Scene& scene, UTime now) {
+std::optional<Goal> PageGoal::due(const Scene& scene, UTime now) {
   if (!goal_ || now < next_) return std::nullopt;
   next_ = now + kGoalPeriod;
   if (vehicle_us_ == 0) vehicle_us_ = scene.vehicle_us();

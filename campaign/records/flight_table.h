@@ -34,17 +34,17 @@ Result<void> join(Flights& all, Flights more);
 
 /// Appends to both files. A flight is in the book once add() has returned: its line was written in one piece and has
 /// reached the disk.
-class FlightBook {
+class FlightTable {
  public:
   /// Opens or begins a book and holds it alone until the end.
   /// @return an Error when another process holds it, when it cannot be read or written, or when its flights are of
   /// another identity.
-  static Result<FlightBook> open(const std::string& file, const CampaignIdentity& identity);
-  FlightBook(FlightBook&& other) noexcept = default;
-  FlightBook& operator=(FlightBook&&) = delete;
-  FlightBook(const FlightBook&) = delete;
-  FlightBook& operator=(const FlightBook&) = delete;
-  ~FlightBook();
+  static Result<FlightTable> open(const std::string& file, const CampaignIdentity& identity);
+  FlightTable(FlightTable&& other) noexcept = default;
+  FlightTable& operator=(FlightTable&&) = delete;
+  FlightTable(const FlightTable&) = delete;
+  FlightTable& operator=(const FlightTable&) = delete;
+  ~FlightTable();
 
   [[nodiscard]] const Flights& flights() const { return flights_; }
   [[nodiscard]] bool has(std::uint64_t seed) const { return flights_.records.contains(seed); }
@@ -54,7 +54,7 @@ class FlightBook {
   Result<void> close_sorted();
 
  private:
-  explicit FlightBook(std::string file) : file_(std::move(file)) {}
+  explicit FlightTable(std::string file) : file_(std::move(file)) {}
   Result<void> begin(const std::string& path, Descriptor& table, const CsvRecord& columns,
                      std::size_t whole_bytes) const;
 

@@ -1,15 +1,15 @@
-#include "viewer/bridge/wishes.h"
+#include "viewer/bridge/subscriptions.h"
 
 #include <algorithm>
 #include <set>
 
 namespace tern {
 
-void Wishes::keep_only(const std::vector<std::int64_t>& clients) {
+void Subscriptions::keep_only(const std::vector<std::int64_t>& clients) {
   std::erase_if(by_page_, [&](const auto& entry) { return std::ranges::find(clients, entry.first) == clients.end(); });
 }
 
-LayersCommand Wishes::layers() const {
+LayersCommand Subscriptions::layers() const {
   LayersCommand all;
   for (const auto& [client, page] : by_page_) {
     all.hulls = all.hulls || page.layers.hulls;
@@ -19,7 +19,7 @@ LayersCommand Wishes::layers() const {
   return all;
 }
 
-std::vector<std::string> Wishes::series() const {
+std::vector<std::string> Subscriptions::series() const {
   std::set<std::string> all;
   for (const auto& [client, page] : by_page_) all.insert(page.series.begin(), page.series.end());
   std::vector<std::string> names(all.begin(), all.end());

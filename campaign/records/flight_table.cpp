@@ -1,4 +1,4 @@
-#include "campaign/records/flight_book.h"
+#include "campaign/records/flight_table.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -122,30 +122,30 @@ Result<void> join(Flights& all, Flights more) {
   return {};
 }
 
-Result<FlightBook> FlightBook::open(const std::string& file, const CampaignIdentity& identity) {
-  FlightBook book(file);
+Result<FlightTable> FlightTable::open(const std::string& file, const CampaignIdentity& identity) {
+  FlightTable opened(file);
   auto held = lock(file + ".lock");
   if (!held) return tl::unexpected(held.error());
-  book.lock_ = std::move(*held);
-  const auto whole = read_both(file, book.flights_);
+  opened.lock_ = std::move(*held);
+  const auto whole = read_both(file, opened.flights_);
   if (!whole) return tl::unexpected(whole.error());
-  if (!book.flights_.records.empty()) {
-    const std::string differs = difference(book.flights_.records.begin()->second.identity, identity);
+  if (!opened.flights_.records.empty()) {
+    const std::string differs = difference(opened.flights_.records.begin()->second.identity, identity);
     if (!differs.empty()) {
       return fail(fmt::format("{}: holds flights of another campaign: {}; name another file", file, differs));
     }
   }
-  if (auto begun = book.begin(times_file(file), book.times_file_, times_columns(), whole->times); !begun) {
+  if (auto begun = opened.begin(times_file(file), opened.times_file_, times_columns(), whole->times); !begun) {
     return tl::unexpected(begun.error());
   }
-  if (auto begun = book.begin(file, book.flights_file_, flight_columns(), whole->flights); !begun) {
+  if (auto begun = opened.begin(file, opened.flights_file_, flight_columns(), whole->flights); !begun) {
     return tl::unexpected(begun.error());
   }
-  return book;
+  return opened;
 }
 
-Result<void> FlightBook::begin(const std::string& path, Descriptor& table, const CsvRecord& columns,
-                               std::size_t whole_bytes) const {
+Result<void> FlightTable::begin(const std::string& path, Descriptor& table, const CsvRecord& columns,
+                                std::size_t whole_bytes) const {
   table = Descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
   const std::string head = whole_bytes == 0 ? csv_line(columns) : "";
   if (table.get() < 0 || ftruncate(table.get(), static_cast<off_t>(whole_bytes)) != 0 ||
@@ -155,11 +155,11 @@ Result<void> FlightBook::begin(const std::string& path, Descriptor& table, const
   return {};
 }
 
-FlightBook::~FlightBook() {
+FlightTable::~FlightTable() {
   if (lock_.get() >= 0) unlink((file_ + ".lock").c_str());
 }
 
-Result<void> FlightBook::add(const FlightRecord& record, const FlightTimes& times) {
+Result<void> FlightTable::add(const FlightRecord& record, const FlightTimes& times) {
   // Times first: they count only with their flight.
   const auto append = [](const Descriptor& table, const CsvRecord& cells) {
     const std::string line = csv_line(cells);
@@ -172,6 +172,6 @@ Result<void> FlightBook::add(const FlightRecord& record, const FlightTimes& time
   return {};
 }
 
-Result<void> FlightBook::close_sorted() { return write_flights(file_, flights_); }
+Result<void> FlightTable::close_sorted() { return write_flights(file_, flights_); }
 
 }  // namespace tern

@@ -7,19 +7,19 @@
 
 #include "tools/audit/check.h"
 #include "tools/audit/flight_record.h"
-#include "tools/audit/flown.h"
+#include "tools/audit/true_motion.h"
 
 namespace tern::audit {
 
 /// A track in view may speak of an obstacle whose box is so near to its centre, m.
-inline constexpr double kSameThing = 2.0;
+inline constexpr double kPairingRange = 2.0;
 /// Without a sample for longer the truth is not known.
 inline constexpr Duration kUnknownFor = kTruthHole;
 /// A track is in view for so long after a detection whose box meets its own.
 inline constexpr Duration kInViewFor{300'000};
 
 /// Who was not in the sets for longer is new when it is there again.
-inline constexpr Duration kGone{500'000};
+inline constexpr Duration kForgottenAfter{500'000};
 /// A true box may stand out of a promise by this, m: rounding.
 inline constexpr double kOutTolerance = 1e-6;
 
@@ -29,8 +29,8 @@ inline bool claims_confidence(const Plan& plan) {
 }
 
 /// Whom a track speaks of, and whether a sensor saw it just now.
-struct Spoken {
-  std::int64_t obstacle = kNobody;
+struct PairedObstacle {
+  std::int64_t obstacle = kNoObstacle;
   bool in_view = true;
 };
 
@@ -40,29 +40,29 @@ class Pairing {
   explicit Pairing(const FlightRecord& record) : record_(record) {}
 
   /// Sets in the order of their making. A track is that obstacle's whose id it has. Of the others those in view get
-  /// what is left, the nearest pairs first, up to kSameThing. Nearness is how far the track's centre is from the true
-  /// box, then from its centre. A track out of view keeps the obstacle that it had, while no other track has it: who
-  /// has lost sight of something still promises where it is. In a log without observations all tracks are in view.
+  /// what is left, the nearest pairs first, up to kPairingRange. Nearness is how far the track's centre is from the
+  /// true box, then from its centre. A track out of view keeps the obstacle that it had, while no other track has it:
+  /// who has lost sight of something still promises where it is. In a log without observations all tracks are in view.
   /// @return by track; tracks that are not in it are nobody's.
-  const std::map<std::int64_t, Spoken>& pair(const TrackSet& set);
+  const std::map<std::int64_t, PairedObstacle>& pair(const TrackSet& set);
 
  private:
   [[nodiscard]] bool is_in_view(const Track& track, UTime made_at) const;
 
   const FlightRecord& record_;
-  std::map<std::int64_t, Spoken> now_;
+  std::map<std::int64_t, PairedObstacle> now_;
   std::map<std::int64_t, std::int64_t> had_;  ///< obstacle by track
 };
 
 /// The true box at a sample, against a track's piece.
-struct Needed {
+struct RequiredAlpha {
   UTime at;
   std::size_t piece = 0;
   Vec3 alpha;  ///< the least α per axis that holds the true box, m; negative: the box is inside without any
 };
 
-/// Calls visit(Needed) for the samples of an obstacle in [from, until], up to its first hole. @return until when it is
-/// known, at most `until`; `from` where it is not known at all.
+/// Calls visit(RequiredAlpha) for the samples of an obstacle in [from, until], up to its first hole. @return until when
+/// it is known, at most `until`; `from` where it is not known at all.
 template <class Visit>
 UTime follow(const Track& track, const ObstacleHistory& truth, UTime from, UTime until, const Visit& visit) {
   auto sample = std::lower_bound(truth.samples.begin(), truth.samples.end(), from,
@@ -78,7 +78,7 @@ UTime follow(const Track& track, const ObstacleHistory& truth, UTime from, UTime
     const PowerCubic& c = pieces[piece].coefficients;
     const double t = track.kind == TrackKind::Static ? 0.0 : (sample->at - begin).seconds();
     const Vec3 p = ((c.col(0) * t + c.col(1)) * t + c.col(2)) * t + c.col(3);
-    visit(Needed{sample->at, piece, (sample->p - p).cwiseAbs() + sample->half_extents - track.half_extents});
+    visit(RequiredAlpha{sample->at, piece, (sample->p - p).cwiseAbs() + sample->half_extents - track.half_extents});
     followed = sample->at;
   }
   return followed;

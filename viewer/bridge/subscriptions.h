@@ -11,7 +11,7 @@
 namespace tern {
 
 /// Of all pages together.
-class Wishes {
+class Subscriptions {
  public:
   void take(std::int64_t client, const LayersCommand& layers) { by_page_[client].layers = layers; }
   void take(std::int64_t client, const SeriesCommand& series) { by_page_[client].series = series.names; }

@@ -9,7 +9,7 @@
 namespace tern::audit {
 
 /// A motion over a stretch of time, and how far the truth may be from it.
-struct Sampled {
+struct MotionSpan {
   Curve curve;
   Vec3 error = Vec3::Zero();  ///< the truth is within curve ± error at each instant, m per axis
   double speed_error = 0.0;   ///< the true |v| is within |curve's v| ± this, m/s
@@ -27,9 +27,9 @@ inline constexpr Duration kTruthHole{200'000};
 inline constexpr Duration kDeclaredHole{5'000'000};
 
 struct SampledMotion {
-  std::vector<Sampled> spans;   ///< in order; an obstacle's holes are left out
-  Duration holes;               ///< how long they are together
-  std::int64_t hole_count = 0;  ///< how many
+  std::vector<MotionSpan> spans;  ///< in order; an obstacle's holes are left out
+  Duration holes;                 ///< how long they are together
+  std::int64_t hole_count = 0;    ///< how many
 };
 
 /// The vehicle from its first to its last state, without a gap.
@@ -41,11 +41,11 @@ struct SampledMotion {
 /// derivative at both ends, and |e″| ≤ M = A + max |H″|. So over a span h, per axis,
 ///     |e| ≤ M h²/16,   |e′| ≤ M h/4,   ∫|e′| ≤ M h²/8,
 /// each attained by e″ = M, −M, M on the span's quarters [0, 1], [1, 3], [3, 4].
-SampledMotion flown(const FlightRecord& record);
+SampledMotion vehicle_motion(const FlightRecord& record);
 
 /// An obstacle between its samples. What its owner declared holds within its α, whatever the motion, where the samples
 /// at both ends keep to it. What nobody declared is only interpolated (proven = false). What does not move, rests.
-SampledMotion moved(const ObstacleHistory& history, const std::vector<DeclaredPiece>& declared);
+SampledMotion obstacle_motion(const ObstacleHistory& history, const std::vector<DeclaredPiece>& declared);
 
 /// The time that the referee judged, or all that was recorded. After the verdict the vehicle asks for no more plans,
 /// and answers for nothing.
@@ -58,6 +58,6 @@ struct Window {
 };
 /// Each state is judged when it is published. So the verdict came after the last state but one before FLIGHT_RESULT. It
 /// came no later than FLIGHT_RESULT, nor than flight_time after the first request.
-Window judged(const FlightRecord& record);
+Window judged_window(const FlightRecord& record);
 
 }  // namespace tern::audit

@@ -11,7 +11,7 @@ namespace tern {
 
 /// It is repeated at 1 Hz until somebody sends a goal with a larger id, or another vehicle (a new sender epoch) flies.
 /// Pure.
-class OwnGoal {
+class PageGoal {
  public:
   /// @param goal  to be sent from `now` on
   void set(const Goal& goal, const Scene& scene, UTime now);

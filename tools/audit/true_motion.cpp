@@ -1,4 +1,4 @@
-#include "tools/audit/flown.h"
+#include "tools/audit/true_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ class Committed {
     return list_[k].spline.start;
   }
   /// Its curves over [from, to]. @pre it is known throughout
-  void append(UTime from, UTime to, double error, std::vector<Sampled>& spans) const {
+  void append(UTime from, UTime to, double error, std::vector<MotionSpan>& spans) const {
     while (from < to) {
       const std::size_t k = index_at(from).value();
       const UTime end = k + 1 < list_.size() ? std::min(to, list_[k + 1].spline.start) : to;
@@ -54,7 +54,7 @@ class Committed {
       const Curve& last = list_[k].curves.back();
       if (end > last.to) {
         const UTime rests = std::max(from, last.to);
-        spans.push_back({resting(last.p(last.length_s()), rests, end), Vec3::Constant(error)});
+        spans.push_back({stationary_curve(last.p(last.length_s()), rests, end), Vec3::Constant(error)});
       }
       from = end;
     }
@@ -62,7 +62,7 @@ class Committed {
   [[nodiscard]] MotionSample at(UTime t) const { return motion_at(list_[index_at(t).value()].curves, t); }
 
  private:
-  static void add(const Curve& curve, UTime from, UTime to, double error, std::vector<Sampled>& spans) {
+  static void add(const Curve& curve, UTime from, UTime to, double error, std::vector<MotionSpan>& spans) {
     if (from < to) spans.push_back({curve.cut(from, to), Vec3::Constant(error)});
   }
 
@@ -96,8 +96,8 @@ Vec3 greatest_acceleration(const FlightRecord& record) {
 }
 
 /// flown.h has the bounds.
-Sampled bridge(UTime from, const MotionSample& a, UTime to, const MotionSample& b, const Vec3& greatest) {
-  Sampled span{hermite(from, a.p, a.v, to, b.p, b.v)};
+MotionSpan bridge(UTime from, const MotionSample& a, UTime to, const MotionSample& b, const Vec3& greatest) {
+  MotionSpan span{hermite(from, a.p, a.v, to, b.p, b.v)};
   const double h = span.curve.length_s();
   const Vec3 m = greatest + span.curve.a(0.0).cwiseAbs().cwiseMax(span.curve.a(h).cwiseAbs());
   span.error = m * (h * h / 16.0);
@@ -116,11 +116,11 @@ bool keeps_to(const DeclaredPiece& piece, const TrueSample& s) {
 
 /// What was declared over [a, b], if that is all of it and both samples keep to it. `first`: no earlier piece is
 /// needed.
-std::optional<std::vector<Sampled>> declared_between(const TrueSample& a, const TrueSample& b,
-                                                     const std::vector<DeclaredPiece>& pieces, std::size_t& first) {
+std::optional<std::vector<MotionSpan>> declared_between(const TrueSample& a, const TrueSample& b,
+                                                        const std::vector<DeclaredPiece>& pieces, std::size_t& first) {
   if (b.at - a.at > kDeclaredHole) return std::nullopt;
   while (first < pieces.size() && pieces[first].curve.to <= a.at) ++first;
-  std::vector<Sampled> spans;
+  std::vector<MotionSpan> spans;
   UTime from = a.at;
   for (std::size_t k = first; k < pieces.size() && from < b.at; ++k) {
     const DeclaredPiece& piece = pieces[k];
@@ -141,7 +141,7 @@ bool rests(const ObstacleHistory& history, const TrueSample& a, const TrueSample
 
 }  // namespace
 
-SampledMotion flown(const FlightRecord& record) {
+SampledMotion vehicle_motion(const FlightRecord& record) {
   const Committed committed(record);
   const Vec3 greatest = greatest_acceleration(record);
   SampledMotion motion;
@@ -161,7 +161,7 @@ SampledMotion flown(const FlightRecord& record) {
                                   since < b.at ? committed.at(since) : b.motion, greatest));
     if (off_b) committed.append(since, b.at, *off_b, motion.spans);
   }
-  for (const Sampled& span : motion.spans) {
+  for (const MotionSpan& span : motion.spans) {
     if (!span.hole) continue;
     motion.holes = motion.holes + (span.curve.to - span.curve.from);
     ++motion.hole_count;
@@ -169,7 +169,7 @@ SampledMotion flown(const FlightRecord& record) {
   return motion;
 }
 
-SampledMotion moved(const ObstacleHistory& history, const std::vector<DeclaredPiece>& declared) {
+SampledMotion obstacle_motion(const ObstacleHistory& history, const std::vector<DeclaredPiece>& declared) {
   SampledMotion motion;
   std::size_t first = 0;
   for (std::size_t k = 0; k + 1 < history.samples.size(); ++k) {
@@ -180,12 +180,12 @@ SampledMotion moved(const ObstacleHistory& history, const std::vector<DeclaredPi
       if (goes_on) {
         motion.spans.back().curve.to = b.at;
       } else {
-        motion.spans.push_back({resting(a.p, a.at, b.at)});
+        motion.spans.push_back({stationary_curve(a.p, a.at, b.at)});
       }
     } else if (const auto spans = declared_between(a, b, declared, first)) {
       motion.spans.insert(motion.spans.end(), spans->begin(), spans->end());
     } else if (b.at - a.at <= kTruthHole) {
-      Sampled span{hermite(a.at, a.p, a.v, b.at, b.p, b.v)};
+      MotionSpan span{hermite(a.at, a.p, a.v, b.at, b.p, b.v)};
       span.proven = false;
       motion.spans.push_back(span);
     } else {
@@ -196,7 +196,7 @@ SampledMotion moved(const ObstacleHistory& history, const std::vector<DeclaredPi
   return motion;
 }
 
-Window judged(const FlightRecord& record) {
+Window judged_window(const FlightRecord& record) {
   if (record.results.empty() || record.requests.empty()) return {record.zero(), record.end(), Duration{}};
   const FlightResult& result = record.results.back();
   if (std::isnan(result.flight_time_s)) return {record.zero(), record.end(), Duration{}};
