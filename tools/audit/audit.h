@@ -1,4 +1,4 @@
-// Recomputes a flight from what was recorded, and trusts nothing that the planner said of it.
+// Recomputes a recorded flight from its messages. Values that the planner computed are not trusted.
 #pragma once
 
 #include <array>
@@ -14,65 +14,65 @@
 
 namespace tern::audit {
 
-/// How near the flight came to what really was there, at each state.
+/// The true clearance at one recorded state.
 struct ClearancePoint {
   UTime at;
   double clearance_m = 0.0;  ///< to the nearest obstacle's box, body included; negative in overlap
   std::int64_t obstacle = kNoObstacle;
 };
 
-/// Where the vehicle was in its tube at a state that is judged: on the axis on which it was nearest to the edge.
+/// The tracking error at one judged state, on the axis on which the vehicle was nearest to the tube's face.
 struct TubePoint {
   UTime at;
-  double off_m = 0.0;   ///< its setpoint, ≥ 0
-  double tube_m = 0.0;  ///< what was promised; less than off_m: it was outside
+  double off_m = 0.0;   ///< from its setpoint, ≥ 0
+  double tube_m = 0.0;  ///< half-width of the promised tube; the vehicle was outside if it is less than off_m
 };
 
-/// Estimates by how long their track had been in PREDICTIONS, s: bin k is (kAges[k − 1], kAges[k]], the first one 0
-/// alone, the last one all that is older.
+/// Bounds of age bins, s: how long a track had been in PREDICTIONS when an estimate was made. Bin k is
+/// (kAges[k − 1], kAges[k]]. The first bin is age 0 alone; the last bin holds every age above the last bound.
 inline constexpr std::array kAges{0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0};
 inline constexpr std::size_t kAgeBins = kAges.size() + 1;
 using ByAge = std::array<std::array<PromiseCount, kHorizons>, kAgeBins>;
 
-/// What one track promised and covered.
+/// How many predictions of one track covered its obstacle.
 struct TrackCoverage {
   std::int64_t track = 0, obstacle = 0;
-  std::int64_t sets = 0, covered = 0;  ///< promises (a set's pieces) that truth reaches; those that held throughout
-  double worst_m = 0.0;                ///< farthest that the true box stood out of its promise; ≤ 0: never
+  std::int64_t sets = 0, covered = 0;  ///< judged prediction intervals, one per set; those that covered throughout
+  double worst_m = 0.0;                ///< how far the true box stood out of an interval at most; ≤ 0: never
 };
 
-/// The least clearance of the flight.
+/// Bounds of the flight's least clearance.
 struct LeastClearance {
-  bool known = false;            ///< there was something to be near to
-  double low = 0.0, high = 0.0;  ///< it lies between them, m
-  bool proven = false;  ///< low is a bound; false: between samples by interpolation, or without what is missing
+  bool known = false;            ///< the log has something to be near to
+  double low = 0.0, high = 0.0;  ///< bounds, m
+  bool proven = false;  ///< low is a proven bound; false: interpolated between samples, or messages are missing
 };
 
-/// How many obstacles were there at some time of the flight: between its samples some may have come or gone.
+/// How many obstacles the flight met. An obstacle may appear or vanish between two samples, so these are bounds.
 struct ObstacleCount {
   std::int64_t fewest = 0, most = 0;
-  bool known = false;  ///< the log tells of all: no OBSTACLE_TRUTH is missing
+  bool known = false;  ///< no OBSTACLE_TRUTH is missing
 };
 
-/// What the referee saw of a collision, against what was recomputed.
+/// How the referee's collision agrees with the recomputed clearance.
 enum class Collision { None, Agrees, CannotTell, Contradicts };
-/// "none", "agrees", "cannot tell", "contradicts".
+/// Returns the name: none, agrees, cannot tell, contradicts.
 const char* to_string(Collision collision);
 
 struct Audit {
   std::vector<Check> checks;
-  std::vector<std::string> missing;  ///< what the log lacks, in words
+  std::vector<std::string> missing;  ///< the messages that the log lacks, in words
   std::vector<ClearancePoint> clearance;
   std::vector<TubePoint> tube;
   LeastClearance least, least_of_map;  ///< to the true obstacles; to the occupied voxels
   ObstacleCount obstacle_count;
   Collision collision = Collision::None;
-  std::optional<Contact> contact;    ///< of a collision with an obstacle
-  Coverage coverage;                 ///< of the flight
-  std::vector<KeptShare> shares;     ///< the same with its intervals, the obstacles being groups
-  ByAge moving_by_age, rest_by_age;  ///< of estimates
+  std::optional<Contact> contact;    ///< set after a collision with an obstacle
+  Coverage coverage;                 ///< summed over the flight
+  std::vector<KeptShare> shares;     ///< the same with intervals; each obstacle is one group
+  ByAge moving_by_age, rest_by_age;  ///< of estimated tracks
   std::vector<TrackCoverage> tracks;
-  double promised_confidence = 1.0;  ///< the least that a prediction set said
+  double promised_confidence = 1.0;  ///< the lowest confidence of any prediction set
 
   [[nodiscard]] Verdict verdict() const;
   [[nodiscard]] const Check& check(const std::string& name) const;  ///< @throws std::out_of_range
@@ -80,15 +80,15 @@ struct Audit {
 
 Audit audit_flight(const FlightRecord& record);
 
-/// For people: a line per check, the findings below it, at last what could not be checked.
+/// Text for people: a line per check, its findings below it, and last a list of messages that are missing.
 std::string to_text(const Audit& audit, const FlightRecord& record);
-/// For programs. docs/after_the_flight.md lists the keys.
+/// JSON for programs; docs/reference/audit.md lists the keys.
 nlohmann::json to_json(const Audit& audit, const FlightRecord& record);
 
-/// Signed distance from p (W) to a region, m: the Euclidean one outside, minus that to its border inside. 1-Lipschitz.
+/// Returns the signed distance from p (W) to a region's border, m: Euclidean, negative inside. It is 1-Lipschitz.
 double distance_to(const Region& region, const Vec3& p);
 
-// The checks, in files of their own.
+// One check per function; each has a source of its own.
 Check check_clearance(const FlightRecord& record, Audit& audit);
 Check check_map(const FlightRecord& record, Audit& audit);
 Check check_limits(const FlightRecord& record);

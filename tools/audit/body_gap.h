@@ -1,24 +1,24 @@
-// How far the vehicle's body is from a box, by support functions alone.
+// The distance between the vehicle's body and a box, from support functions alone.
 #pragma once
 
 #include "core/world/vehicle.h"
 
 namespace tern::audit {
 
-/// Bounds of the signed distance, m: negative where they overlap.
+/// Bounds of a signed distance, m; negative in overlap.
 struct Gap {
   double low = 0.0, high = 0.0;
 };
 
-/// The distance from the body to the box of half-extents h about the origin, the body's position being `p`.
+/// Bounds the distance between the body at `p` and the box of half-extents h about the origin.
 ///
-/// A sphere: exact, negative in overlap (the depth along the nearest axis). Another body: the point of least norm of
-/// body − box (P. Wolfe, *Finding the nearest point in a polytope*, 1976). Every step's support value proves a lower
-/// bound, the point itself an upper one. They agree within 1e-6 m, or as far as 200 steps come. In overlap both are
-/// −1e-6 (and the radius less): the depth is not asked for.
+/// - Sphere: exact. In overlap it is minus the depth along the nearest axis.
+/// - Other bodies: the point of least norm of body − box (P. Wolfe, *Finding the nearest point in a polytope*, 1976).
+///   Each step's support value proves a lower bound; the point itself is an upper bound. The two agree within 1e-6 m,
+///   or as closely as 200 steps bring them. In overlap both are −1e-6 minus the body's radius; no depth is computed.
 Gap body_gap(const Body& body, const Vec3& p, const Vec3& h);
 
-/// The smallest box that holds the body at all of these positions.
+/// Returns the smallest box that holds the body at every position in `positions`.
 Box swept_box(const Body& body, const Box& positions);
 
 }  // namespace tern::audit

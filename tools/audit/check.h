@@ -1,4 +1,4 @@
-// One question that the auditor asks of a flight, and its answer.
+// One check of the audit: what it claims, how often it was checked, and what was found.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,31 @@
 
 namespace tern::audit {
 
-/// No track, no obstacle.
+/// Stands for a missing track or obstacle.
 inline constexpr std::int64_t kNoObstacle = INT64_MIN;
 
-/// One thing that was broken.
+/// One violation.
 struct Finding {
   UTime at;                             ///< vehicle's clock
   std::string what;                     ///< in words, with value and limit
-  std::int64_t request = 0;             ///< 0: none in particular
-  std::int64_t obstacle = kNoObstacle;  ///< track or obstacle
+  std::int64_t request = 0;             ///< id; 0: belongs to no request
+  std::int64_t obstacle = kNoObstacle;  ///< id of a track or obstacle
 };
-/// Findings of one check that are kept, the first ones; the others are counted.
+/// A check stores its first kMaxFindings findings and counts the others.
 inline constexpr std::size_t kMaxFindings = 50;
 
 enum class Verdict { Held, Broken, NotChecked };
-/// "held", "broken", "not checked".
+/// Returns "held", "broken" or "not checked".
 const char* to_string(Verdict verdict);
 
 struct Check {
-  std::string name;          ///< one word: "clearance"
-  std::string claim;         ///< what is true if it held
-  std::string summary = {};  ///< the numbers, in words
+  std::string name;          ///< one word: "clearance"  ///< one word: "clearance"
+  std::string claim;         ///< the statement that holds if nothing is broken
+  std::string summary = {};  ///< the result in words
   std::int64_t checked = 0, broken = 0;
   std::vector<Finding> findings = {};
-  std::map<std::string, std::int64_t> unchecked = {};  ///< what could not be checked, and how often
-  std::vector<std::pair<std::string, double>> measures =
-      {};  ///< named numbers with their unit in the name; none is NaN
+  std::map<std::string, std::int64_t> unchecked = {};  ///< reason → how often something could not be checked for it
+  std::vector<std::pair<std::string, double>> measures = {};  ///< name with unit → value; never NaN
 
   void fail(Finding finding) {
     ++broken;

@@ -1,4 +1,4 @@
-// What the vehicle was committed to, put together again from its requests.
+// Reconstructs the committed trajectories from the executor's requests.
 #pragma once
 
 #include <vector>
@@ -8,39 +8,39 @@
 
 namespace tern::audit {
 
-/// A trajectory in force from its start until the next one's.
+/// A trajectory that is in force from its start until the next one starts.
 struct Commitment {
   TimedSpline spline;
   std::vector<Curve> curves;
-  std::int64_t request = 0;  ///< of the plan that it is; 0: no plan in the log is this one
-  bool after_gap = false;    ///< requests before it are missing: others may have been flown in between
-  bool is_stop = false;      ///< no plan's, but the executor's own: from a measured state to rest
-  UTime known_until;         ///< until then at least it was in force, if no later one in the list is
+  std::int64_t request = 0;  ///< id of the request that the plan answers; 0: it is no plan of this log
+  bool after_gap = false;    ///< requests before it are missing, so other trajectories may have been flown in between
+  bool is_stop = false;      ///< the executor's own braking trajectory, from a measured state to rest
+  UTime known_until;         ///< in force at least until then, unless a later entry of the list starts earlier
 };
 
-/// Whether a trajectory begins where UAV_STATE said that the vehicle was, and only brakes: in sixteen intervals, with
-/// one acceleration per axis but where it comes and goes. So an executor leads on a vehicle that is not where it was
-/// committed to be. It may begin up to a second after that state, to which its motion at constant acceleration leads.
+/// Returns true for the executor's braking trajectory (rejoin). It has sixteen intervals and one acceleration per axis,
+/// except where that sets in and ends. It starts from a recorded UAV_STATE, or up to one second later from the state
+/// extrapolated with constant acceleration.
 bool is_stop(const std::vector<UavState>& estimates, const TimedSpline& spline);
 
-/// The trajectories that one executor flew, in order. Each request says which one was in force; what was adopted after
-/// the last request is told by the setpoints that follow it. A stop takes back what would have begun after it.
+/// The trajectories that one executor committed to, in order. Each request carries the committed trajectory. After the
+/// last request, the setpoints show what was adopted. A braking trajectory cancels entries that would start after it.
 struct Commitments {
-  std::int64_t executor = 0;  ///< the sender epoch of its requests
+  std::int64_t executor = 0;  ///< sender epoch of its requests
   std::vector<Commitment> list;
 
-  /// In force at t; before the first, the first.
+  /// Returns the trajectory in force at t; before the first one, the first.
   [[nodiscard]] const Commitment& at(UTime t) const;
 };
 std::vector<Commitments> commitments(const FlightRecord& record);
 
-/// Whether two trajectories are the same to the last bit.
+/// Returns true if both trajectories are equal bit by bit.
 bool same(const TimedSpline& a, const TimedSpline& b);
 
-/// Largest difference per axis of positions (m), velocities (m/s) and accelerations (m/s²).
+/// Returns the largest difference on any axis of position (m), velocity (m/s) or acceleration (m/s²).
 double join_gap(const MotionSample& a, const MotionSample& b);
 
-/// True for the outcomes that bring a trajectory of their own.
+/// Returns true if the plan's outcome comes with a trajectory of its own.
 inline bool brings_trajectory(const Plan& plan) {
   return plan.outcome != PlanOutcome::KeepCommitted && plan.outcome != PlanOutcome::NoPlan;
 }

@@ -1,4 +1,4 @@
-// Single values from the configurations that processes published.
+// Reads single values from the CONFIGURATION messages of a log.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace tern::audit {
 
-/// A value of CONFIGURATION's YAML as it is written there, "uav.limits.v_max"; empty: it says none.
+/// Returns the value at a path such as "uav.limits.v_max", spelled as in the YAML; empty if the YAML has none.
 std::string setting(const std::string& yaml, std::string_view path);
 
-/// A value of the section `planner`. It is of the configuration that plans name, whoever published it, else of
-/// tern-planner's own; empty when the log has neither.
+/// Returns a value of the section `planner`, empty if the log has none. The configuration whose hash the plans name
+/// takes precedence, whoever published it. Otherwise tern-planner's own is read.
 std::string planner_setting(const FlightRecord& record, const std::string& key);
 
 }  // namespace tern::audit

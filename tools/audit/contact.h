@@ -1,5 +1,5 @@
-// What had been predicted of the obstacle that a flight touched, before it did: was it seen, was it foretold, was it
-// risked?
+// What was known of the obstacle that a flight touched: was it tracked, did predictions cover it, was the risk
+// accepted?
 #pragma once
 
 #include <array>
@@ -13,32 +13,33 @@
 
 namespace tern::audit {
 
-/// Promises are looked at that were made so long before the contact, s.
+/// How long before the contact predictions are examined, s.
 inline constexpr std::array kBeforeContact{0.25, 0.5, 1.0};
 
-/// What one of them predicted of the time of the contact, on the axis on which it was worst.
+/// One earlier prediction for the time of contact, on the axis with the smallest margin.
 struct PredictionAtContact {
-  double needed_m = 0.0;  ///< α that would have held the true box; 0: it was inside without any
-  double alpha_m = 0.0;   ///< what was promised
-  bool covered = false;   ///< at all times up to the contact and on all axes
+  double needed_m = 0.0;  ///< the error bound α that would have covered the true box; 0: covered without any
+  double alpha_m = 0.0;   ///< the α that was predicted
+  bool covered = false;   ///< on every axis, at all times up to the contact
 };
 
+/// A contact, and the predictions and plans before it.
 struct Contact {
   UTime at;  ///< vehicle's clock
   std::int64_t obstacle = kNoObstacle;
-  double speed_mps = 0.0;                  ///< the vehicle's, by its last state until then
-  std::optional<double> in_predictions_s;  ///< so long some track of it had been there; none: there was none
+  double speed_mps = 0.0;                  ///< of the vehicle, from its last state before the contact
+  std::optional<double> in_predictions_s;  ///< age of the obstacle's track; none: it had no track
   std::array<std::optional<PredictionAtContact>, kBeforeContact.size()> predicted;  ///< none: it had no track then
-  std::optional<double> confidence;   ///< of the last plan that claimed one, in (0, 1]
-  std::optional<double> confident_s;  ///< how long before the contact that plan began, s, ≥ 0
+  std::optional<double> confidence;   ///< of the last plan with a confidence, in (0, 1]
+  std::optional<double> confident_s;  ///< start of that plan, s before the contact, ≥ 0
 };
 
-/// @param at, obstacle  what was touched first, and when
+/// @param at, obstacle  time of the first contact, and the obstacle that was touched
 Contact contact_at(const FlightRecord& record, UTime at, std::int64_t obstacle);
 
-/// For people, a line for each thing that is known.
+/// Text for people: a line per known fact.
 std::string to_text(const Contact& contact, const FlightRecord& record);
-/// For programs: docs/after_the_flight.md lists the keys.
+/// JSON for programs; docs/reference/audit.md lists the keys.
 nlohmann::json to_json(const Contact& contact, const FlightRecord& record);
 
 }  // namespace tern::audit

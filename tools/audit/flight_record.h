@@ -1,4 +1,4 @@
-// A recorded flight as the auditor and the report need it: all messages of interest, decoded and put in order.
+// A recorded flight: the messages that audit and report need, decoded and sorted.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@
 
 namespace tern::audit {
 
-/// A true obstacle over time.
+/// The recorded truth of one obstacle.
 struct ObstacleHistory {
   struct Sample {
     UTime at;
@@ -33,59 +33,60 @@ struct ObstacleHistory {
   bool moves = false;
 };
 
-/// What its owner promised of an obstacle: its centre within curve ± alpha (m, per axis) for as long as the curve
+/// A declared motion: the owner promises that the centre stays within curve ± alpha (m, per axis) while the curve
 /// lasts.
 struct DeclaredPiece {
   Curve curve;
   Vec3 alpha;
 };
 
-/// What a log holds of one flight. Times are the vehicle's clock.
+/// The messages of one flight. Times are on the vehicle's clock.
 ///
-/// A log may hold more than one: a simulator that starts anew brings another world, whose obstacles, vehicle and time
-/// have nothing to do with those before. The flight is the first one that asked for a horizon; the others are named.
+/// A log may hold several flights, since a restarted simulator begins a new world. This is the first flight with a
+/// HORIZON_REQUEST; the others are only listed.
 struct FlightRecord {
   std::string path;
   LogContents contents;
-  std::vector<std::string> other_flights;  ///< in words: whose messages were left out
+  std::vector<std::string> other_flights;  ///< in words: flights whose messages were skipped
 
-  /// What the vehicle flew: VEHICLE_TRUTH, or where nobody knows the truth, UAV_STATE. Times strictly ascending, as
-  /// below.
+  /// The flown states: VEHICLE_TRUTH, or UAV_STATE if the log has no VEHICLE_TRUTH. Times strictly ascending, here and
+  /// in every list of states below.
   std::vector<UavState> states;
   std::vector<UavState> estimates, setpoints;     ///< UAV_STATE, SETPOINT
   std::vector<VehicleStatus> statuses;            ///< VEHICLE_STATUS
   std::map<std::int64_t, ObstacleHistory> truth;  ///< by obstacle
-  /// What was declared of each mover, by obstacle: the newest word at each time, without overlap, in order.
+  /// Declared motions by obstacle: at each time the newest declaration; no overlaps, ascending.
   std::map<std::int64_t, std::vector<DeclaredPiece>> declared;
-  std::vector<ObservationSet> observations;  ///< OBSTACLE_OBSERVATIONS, of all sensors, by time
-  std::vector<HorizonRequest> requests;      ///< in the log's order, as all below
+  std::vector<ObservationSet> observations;  ///< OBSTACLE_OBSERVATIONS of all sensors, by time
+  std::vector<HorizonRequest> requests;      ///< in the log's order, like every list below
   std::vector<Plan> plans;
   std::vector<PlanTiming> timings;
-  std::vector<Goal> goals;                          ///< each that differs from the one before
-  std::set<MessageName> goal_names;                 ///< of all, repetitions included
-  std::set<std::uint64_t> configuration_hashes;     ///< of all that were published
-  std::map<MessageName, TrackSet> predictions;      ///< complete sets by the name that plans call them
-  std::int64_t incomplete_predictions = 0;          ///< sets of which a batch is missing
-  std::int64_t truth_left_out = 0;                  ///< most obstacles that a truth message says it left out
-  std::map<std::uint64_t, VoxelMap> maps;           ///< complete ones, by version
-  std::vector<FlightResult> results;                ///< each that differs from the one before; its first message
+  std::vector<Goal> goals;                          ///< without repetitions
+  std::set<MessageName> goal_names;                 ///< of all goals, repetitions included
+  std::set<std::uint64_t> configuration_hashes;     ///< of every CONFIGURATION
+  std::map<MessageName, TrackSet> predictions;      ///< complete sets, by the name that plans give
+  std::int64_t incomplete_predictions = 0;          ///< sets with a missing batch
+  std::int64_t truth_left_out = 0;                  ///< the most obstacles that any OBSTACLE_TRUTH says it omitted
+  std::map<std::uint64_t, VoxelMap> maps;           ///< complete maps, by version
+  std::vector<FlightResult> results;                ///< first message of each that differs from its predecessor
   std::vector<ConfigurationReport> configurations;  ///< the last of each process
-  std::vector<Region> regions;                      ///< the scenario's; filled by whoever can read configurations
-  std::map<std::string, std::string> class_labels;  ///< what its classes are: "attractive", "repulsive", …
+  std::vector<Region> regions;                      ///< of the scenario; filled by load_flight()
+  std::map<std::string, std::string>
+      class_labels;  ///< what its classes are: "attractive", "repulsive", …  ///< class → "attractive", "repulsive", …
 
-  /// Messages of a channel that were sent but cannot be read: lost by their numbers, or refused.
+  /// Returns how many messages of a channel were lost (by their sequence numbers) or refused.
   [[nodiscard]] std::int64_t unread(const std::string& channel) const;
-  /// The request of this name, to which a plan answers. @return nullptr if it is not in the log
+  /// Returns the request with this name. @return nullptr if it is not in the log
   [[nodiscard]] const HorizonRequest* request(const MessageName& name) const;
-  /// When the flight began: the first request's time, else the first state's. An autopilot is told to hold until world
-  /// time begins: there it is the first request after the goal to go to.
+  /// Returns the start of the flight: the time of the first request, or of the first state if there is no request. With
+  /// an autopilot, whose first goal is to hold, it is the first request after the first goal to go.
   [[nodiscard]] UTime zero() const;
-  /// Until when it is judged: the last state's time.
+  /// Returns the end of the judged time: the time of the last state.
   [[nodiscard]] UTime end() const;
   [[nodiscard]] double seconds(UTime t) const { return (t - zero()).seconds(); }
 };
 
-/// Reads a log (a file and its parts, or the folder of flight.lcm). @return an Error when it cannot be opened.
+/// Reads a log (a file with its further parts, or a flight's folder). @return an Error if it cannot be opened
 Result<FlightRecord> read_flight(const std::string& path);
 
 }  // namespace tern::audit

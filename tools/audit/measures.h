@@ -1,4 +1,4 @@
-// What the referee measures of a flight besides obstacles, recomputed between proven bounds.
+// The referee's measures other than clearance, recomputed with proven bounds.
 #pragma once
 
 #include <string>
@@ -8,35 +8,37 @@
 
 namespace tern::audit {
 
-/// A number that lies between two bounds.
+/// A value between two bounds.
 struct Between {
-  double low = 0.0, high = 0.0, best = 0.0;  ///< best: along the recorded curve
+  double low = 0.0, high = 0.0, best = 0.0;  ///< best: computed along the recorded curve
 };
 
-/// How often a border may have been crossed.
+/// How often a region's border may have been crossed.
 struct Border {
-  int crossings = 0;  ///< stretches of time in which it may have been
-  bool open = false;  ///< the newest step belongs to one
+  int crossings = 0;  ///< time spans in which a crossing is possible
+  bool open = false;  ///< the latest step belongs to such a span
 };
 
+/// Time and length in one region.
 struct RegionMeasure {
   std::string region;
   Between seconds, metres;            ///< inside
-  Between near_seconds, near_metres;  ///< within 1 m of it
+  Between near_seconds, near_metres;  ///< within 1 m of it, inside included
   Border border, near_border;
 };
 
+/// The measures of the whole flight.
 struct Measures {
   Between path_m;
-  Between top_speed;  ///< m/s; low: what a referee that looks every kRefereeLook must have seen
+  Between top_speed;  ///< m/s; low: the least that a referee with steps of kRefereeLook must have seen
   std::vector<RegionMeasure> regions;
-  double unseen_s = 0.0;  ///< of the flight, before the log's first state and after its last
+  double unseen_s = 0.0;  ///< part of the flight before the first and after the last recorded state
 };
 
-/// The referee takes the speed at instants at most this far apart, s.
+/// Longest time between two speeds that the referee reads, s.
 inline constexpr double kRefereeLook = 0.005;
 
-/// The whole flight, holes included: where no state was recorded the bounds are wide.
+/// Measures the whole flight. Where states are missing, the bounds are wide.
 Measures measure(const FlightRecord& record);
 
 }  // namespace tern::audit

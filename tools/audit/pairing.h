@@ -1,4 +1,4 @@
-// Which true obstacle a track speaks of, and how much α its promise needed.
+// Which true obstacle a track belongs to, and the error bound α that would have covered it.
 #pragma once
 
 #include <algorithm>
@@ -11,39 +11,43 @@
 
 namespace tern::audit {
 
-/// A track in view may speak of an obstacle whose box is so near to its centre, m.
+/// A track in view may be paired with an obstacle whose box is at most this far from the track's centre, m.
 inline constexpr double kPairingRange = 2.0;
-/// Without a sample for longer the truth is not known.
+/// The truth is unknown in a longer gap between samples.
 inline constexpr Duration kUnknownFor = kTruthHole;
-/// A track is in view for so long after a detection whose box meets its own.
+/// A track is in view for this long after a detection whose box overlaps its own.
 inline constexpr Duration kInViewFor{300'000};
 
-/// Who was not in the sets for longer is new when it is there again.
+/// A track that is missing from the sets for longer counts as new when it reappears.
 inline constexpr Duration kForgottenAfter{500'000};
-/// A true box may stand out of a promise by this, m: rounding.
+/// Tolerance for rounding: a true box may stand out of a prediction interval by this much, m.
 inline constexpr double kOutTolerance = 1e-6;
 
-/// Whether a plan claims a number: a level of confidence, all of its α, for some time.
+/// Returns true if the plan claims a confidence: a level of α at full scale, for some time.
 inline bool claims_confidence(const Plan& plan) {
   return plan.outcome != PlanOutcome::NoPlan && plan.confidence > 0.0 && !plan.relaxed;
 }
 
-/// Whom a track speaks of, and whether a sensor saw it just now.
+/// The obstacle of a track, and whether a sensor saw it within kInViewFor.
 struct PairedObstacle {
   std::int64_t obstacle = kNoObstacle;
   bool in_view = true;
 };
 
-/// Pairs the tracks of each set with obstacles, an obstacle with one track at most.
+/// Pairs the tracks of each set with true obstacles. An obstacle has at most one track.
 class Pairing {
  public:
   explicit Pairing(const FlightRecord& record) : record_(record) {}
 
-  /// Sets in the order of their making. A track is that obstacle's whose id it has. Of the others those in view get
-  /// what is left, the nearest pairs first, up to kPairingRange. Nearness is how far the track's centre is from the
-  /// true box, then from its centre. A track out of view keeps the obstacle that it had, while no other track has it:
-  /// who has lost sight of something still promises where it is. In a log without observations all tracks are in view.
-  /// @return by track; tracks that are not in it are nobody's.
+  /// Pairs one set; call it in the order in which the sets were made.
+  ///
+  /// 1. A track whose id is that of a true obstacle is paired with it.
+  /// 2. Other tracks in view get the remaining obstacles within kPairingRange, nearest pairs first. The order is by
+  ///    distance from the track's centre to the true box, then to the box's centre.
+  /// 3. A track out of view keeps its earlier obstacle unless another track has it: its prediction still applies.
+  ///
+  /// In a log without observations every track is in view.
+  /// @return by track id; unpaired tracks are not in it
   const std::map<std::int64_t, PairedObstacle>& pair(const TrackSet& set);
 
  private:
@@ -51,18 +55,18 @@ class Pairing {
 
   const FlightRecord& record_;
   std::map<std::int64_t, PairedObstacle> now_;
-  std::map<std::int64_t, std::int64_t> had_;  ///< obstacle by track
+  std::map<std::int64_t, std::int64_t> had_;  ///< track → the obstacle it was last paired with
 };
 
-/// The true box at a sample, against a track's piece.
+/// The α that one truth sample requires of a track's piece.
 struct RequiredAlpha {
   UTime at;
   std::size_t piece = 0;
-  Vec3 alpha;  ///< the least α per axis that holds the true box, m; negative: the box is inside without any
+  Vec3 alpha;  ///< the least α per axis that covers the true box, m; ≤ 0: covered without any
 };
 
-/// Calls visit(RequiredAlpha) for the samples of an obstacle in [from, until], up to its first hole. @return until when
-/// it is known, at most `until`; `from` where it is not known at all.
+/// Calls visit(RequiredAlpha) for the obstacle's samples in [from, until], up to the first gap of kUnknownFor.
+/// @return the time up to which the truth is known, at most `until`; `from` if it is unknown there
 template <class Visit>
 UTime follow(const Track& track, const ObstacleHistory& truth, UTime from, UTime until, const Visit& visit) {
   auto sample = std::lower_bound(truth.samples.begin(), truth.samples.end(), from,
@@ -84,7 +88,7 @@ UTime follow(const Track& track, const ObstacleHistory& truth, UTime from, UTime
   return followed;
 }
 
-/// α of a piece at a level of confidence, m.
+/// Returns α of a piece at a level of confidence, m.
 inline Vec3 alpha_at(const Track& track, std::size_t piece, std::size_t level) {
   if (level == 0 || track.shares.empty()) return track.alpha[piece];
   return static_cast<double>(track.shares[piece][level - 1]) * track.alpha[piece];

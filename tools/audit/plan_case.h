@@ -1,4 +1,4 @@
-// A plan with all that it was made from, ready to be checked.
+// A plan together with its inputs, ready to be checked.
 #pragma once
 
 #include <optional>
@@ -10,23 +10,23 @@
 
 namespace tern::audit {
 
-/// A predicted obstacle over time, as the planner was told to take it: a box about a moving centre. Before its first
-/// piece and after its last it stays where the piece begins or ends, and grows at its top speed.
+/// A predicted obstacle over time: a box with moving centre, as the planner must take it. Before the first piece and
+/// after the last one the centre stays, and the box grows at the track's top speed.
 class PredictedBox {
  public:
-  /// @param alpha  that counts, per piece, m: see PlanCase
+  /// @param alpha  the counted α per piece, m: see counted_alpha()
   PredictedBox(const Track& track, std::vector<Vec3> alpha);
 
-  /// A stretch of time: the centre moves along `curve` for its parameter in [a, b]; half-extents are the largest ones
-  /// where they grow.
+  /// A time span in which the centre moves along `curve`, parameter in [a, b]. Where the box grows, `half` is its
+  /// largest half-extents in the span.
   struct Stretch {
     Curve curve;
     double a = 0.0, b = 0.0;
     Vec3 half;
   };
-  /// All of [from, to], seconds after origin, in order.
+  /// Covers [from, to], seconds after origin, in order.
   [[nodiscard]] std::vector<Stretch> stretches(UTime origin, double from, double to) const;
-  /// Holds the box over that time; tight to 1e-4 m.
+  /// Returns a box that contains the obstacle over that time; tight to 1e-4 m.
   [[nodiscard]] Box bounds(UTime origin, double from, double to) const;
   [[nodiscard]] const Track& track() const { return track_; }
 
@@ -38,27 +38,28 @@ class PredictedBox {
   std::vector<Curve> curves_;
 };
 
-/// What a plan says it was made from, and its trajectory from t_s on.
+/// A plan, the inputs that it names, and its trajectory from t_s on.
 struct PlanCase {
   const Plan& plan;
   const HorizonRequest& request;
   const TrackSet& predictions;
   const VoxelMap* map = nullptr;        ///< null: the plan names none
   std::vector<Curve> curves;            ///< from t_s on: interval k of the certificate is curves[k]
-  std::vector<PredictedBox> obstacles;  ///< of the predictions; α as the plan says that it counts
+  std::vector<PredictedBox> obstacles;  ///< the predictions, with the α that the plan counted
 
   [[nodiscard]] Vec3 end_point() const { return plan.trajectory.control_points.rightCols<1>(); }
 };
 
-/// Per piece, the α that the plan counts, m. Of what is estimated it is that of the plan's level, times its scale, and
-/// it grows no more from `sure_for` after t_s on. Of the rest it is all. @pre the track's shares are complete
+/// Returns the α per piece that the plan counted, m. For an estimated track it is α of the plan's level times the
+/// plan's scale, constant from t_s + `sure_for` on. For other tracks it is the full α.
+/// @pre the track's shares are complete
 std::vector<Vec3> counted_alpha(const Track& track, const Plan& plan, UTime t_s);
 
-/// Of that α, the largest part that leaves the body at p a millimetre of room from the track at t: what `relaxed`
-/// promises. It is 1 where there is room with all of it, 0 where there is none without any. To 1e-6, low.
+/// Returns the largest share of α, in [0, 1], that leaves 1 mm between the body at p and the track at t: the share that
+/// a relaxed start must count. 1: the full α fits; 0: even no α leaves room. Precise to 1e-6, rounded down.
 double relaxed_share(const Track& track, const std::vector<Vec3>& alpha, const Body& body, const Vec3& p, UTime t);
 
-/// Puts a plan together with its inputs. @return nullopt, and the reason in `why`, if the log lacks one of them.
+/// Looks up a plan's inputs. @return nullopt if the log lacks one of them; `why` says which
 std::optional<PlanCase> find_case(const FlightRecord& record, const Plan& plan, std::string& why);
 
 }  // namespace tern::audit

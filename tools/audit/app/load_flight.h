@@ -1,4 +1,4 @@
-// A recorded flight with the regions that its processes' configurations draw.
+// Loads a recorded flight with its scenario's regions, and the facts that stand beside the log.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace tern::audit {
 
-/// read_flight(), and the scenario's regions from a CONFIGURATION in the log (every process publishes the scenario).
+/// read_flight(), and the scenario's regions from any CONFIGURATION in the log: every process publishes the scenario.
 Result<FlightRecord> load_flight(const std::string& path);
 
-/// What was typed to fly, as the folder of a flight keeps it beside the log; empty: not known.
+/// The command that started the flight, from the flight's folder beside the log; empty if that folder has none.
 std::string typed_command(const std::string& path);
 
-/// The pace of the flight's clocks, (0, 1], as the folder of a flight keeps it beside the log; 1 where it says none.
+/// The pace of the flight's clocks, in (0, 1], from the flight's folder beside the log; 1 if that folder has none.
 double flown_pace(const std::string& path);
 
 }  // namespace tern::audit
