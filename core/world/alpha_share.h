@@ -1,4 +1,4 @@
-// How much of a prediction's α counts: all of it, at the promised level, or less.
+// The share of a track's error bound α that a test applies: all of it, or less.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +8,22 @@
 
 namespace tern {
 
-/// Of a track's α: its share at a level, scaled.
+/// The share of α: its value at a level of confidence, scaled, and optionally limited from one piece on.
 struct AlphaShare {
-  int level = 0;       ///< of kConfidenceLevels
-  double scale = 1.0;  ///< [0, 1], on top of it
-  /// The piece from which on α counts as there at most: it grows no more.
+  int level = 0;       ///< index into kConfidenceLevels
+  double scale = 1.0;  ///< [0, 1], multiplies α at that level
+  /// On later pieces α is at most its value on this piece.
   std::size_t grows_to = std::numeric_limits<std::size_t>::max();
 
+  /// Returns the applied α of a piece, m.
   [[nodiscard]] Vec3 of(const Track& track, std::size_t piece) const {
     const auto at = [&](std::size_t k) -> Vec3 { return (scale * track.share_at(k, level)) * track.alpha[k]; };
     return piece <= grows_to ? at(piece) : Vec3(at(piece).cwiseMin(at(grows_to)));
   }
 };
 
-/// Track::bounds(), as far as what counts of α makes it sure.
-/// @param first  pieces before this one end before t0 and need not be looked at
-Box bounds_at(const Track& track, UTime t0, UTime t1, const AlphaShare& count, PiecewiseCubic::Located first);
+/// Returns Track::bounds() with a share of α instead of all of it.
+/// @param first  where to begin: all pieces before this one end before t0
+Box bounds_at(const Track& track, UTime t0, UTime t1, const AlphaShare& share, PiecewiseCubic::Located first);
 
 }  // namespace tern

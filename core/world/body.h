@@ -1,23 +1,26 @@
-// A body and what surrounds it.
+// Regions around a vehicle's body.
 #pragma once
 
 #include "core/world/vehicle.h"
 
 namespace tern {
 
-/// The body ⊕ the box [−margin, margin]: what it covers when its position is off by up to `margin` per axis.
+/// Returns body ⊕ [−margin, margin]: the region that the body covers if its position is wrong by up to `margin` per
+/// axis.
 ///
-/// Exact. Vertices v become v ± margin; of a body that is a box (or a ball) only the corners of the grown box are kept.
-/// @param margin  m, ≥ 0 per axis; zero leaves the body as it is, to the last bit
+/// The result is exact. Every vertex v becomes the corners v ± margin. For a box (or a ball) only the corners of the
+/// enlarged box are kept.
+/// @param margin  m, ≥ 0 per axis; zero returns the body unchanged to the last bit
 Body grown(const Body& body, const Vec3& margin);
 
-/// The smallest box that holds the body, about its position, m.
+/// Returns the smallest box that contains the body, relative to its position, m.
 Box body_box(const Body& body);
 
-/// The positions at which a body of this box meets `box`.
+/// Returns the box of all positions at which a body with this bounding box meets `box`.
 Box places_at(const Box& box, const Box& body);
 
-/// The positions at which it lies within `room`; empty if it is larger.
+/// Returns the box of all positions at which a body with this bounding box lies within `room`. It is empty if the body
+/// is larger than the room.
 Box places_within(const Box& room, const Box& body);
 
 }  // namespace tern

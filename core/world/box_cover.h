@@ -1,4 +1,4 @@
-// Occupied voxels as few axis-aligned boxes: what planner and referee keep clear of.
+// Occupied voxels as a small number of axis-aligned boxes. The planner and the referee use these boxes as obstacles.
 #pragma once
 
 #include <vector>
@@ -8,17 +8,19 @@
 
 namespace tern {
 
-/// Disjoint boxes whose union is exactly that of the grid's voxels that are `wanted` (by index).
+/// Returns disjoint boxes whose union is exactly the union of the `wanted` voxels of a grid.
 ///
-/// Greedy: from the first uncovered voxel (in index order) the box grows to its full run along one axis, then over
-/// whole rows, then layers. Of the three starting axes the one of largest volume is kept. Not the least number of boxes
-/// (that is NP-hard), but one for a box, and a wall with a window in 4 to 5. O(voxels) time for compact shapes, one bit
-/// of memory per voxel. The order is that of the boxes' least voxels: the same for the same map.
+/// The method is greedy. From the first uncovered voxel, in index order, a box grows along one axis, then over whole
+/// rows, then over whole layers. All three first axes are tried, and the largest box is kept. The smallest number of
+/// boxes is NP-hard to find. This method gives 1 box for a box, and 4 to 5 for a wall with a window.
+///
+/// It takes O(voxels) for compact shapes and one bit of memory per voxel. Boxes are ordered by their first voxel, so
+/// equal maps give equal results.
+/// @param wanted  an entry per voxel, by VoxelGrid::index
 std::vector<Box> cover_with_boxes(const VoxelGrid& grid, std::vector<bool> wanted);
 
-/// Of the map's obstacle voxels. These are the occupied ones and, when `unknown_is_obstacle`, the unknown ones inside
-/// the map's extents. What lies outside the map is nobody's here. CertificatePlane's −1 − k names the k-th box of a map
-/// version.
+/// Returns the boxes of a map's obstacles: the occupied voxels and, if `unknown_is_obstacle`, the unknown ones. The
+/// space outside the map is not covered. CertificatePlane::track = −1 − k names the k-th box of a map version.
 std::vector<Box> cover_with_boxes(const VoxelMap& map, bool unknown_is_obstacle);
 
 }  // namespace tern

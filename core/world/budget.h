@@ -1,4 +1,5 @@
-// A budget that is a clock when live and counts in a replay: why the same log gives the same plan whatever the load.
+// The budget of a planning attempt. In a flight it asks a clock; in a replay it counts. The same log therefore gives
+// the same plan on every machine.
 #pragma once
 
 #include <functional>
@@ -9,20 +10,20 @@
 
 namespace tern {
 
-/// Every loop that time may end asks `expired(stage)` once per turn. What asked how often is counted per attempt and
-/// stage; where the gate said stop is kept as a BudgetCut. A replay's gate stops at exactly those counts.
+/// Ends loops when time is up. Every such loop calls expired(stage) once per turn. The calls are counted per attempt
+/// and stage; a call that ends a loop is recorded as a BudgetCut. A replay ends the loops at the recorded counts.
 class Budget {
  public:
-  /// @return true when the loop must end here: its count is how often it has asked before, from 0.
+  /// Returns true if the loop must end. `here.count` is the number of its earlier calls.
   using Gate = std::function<bool(const BudgetCut& here)>;
 
   explicit Budget(Gate gate) : gate_(std::move(gate)) {}
 
-  /// Never ends anything: the loops' own limits do.
+  /// Returns a budget that never ends a loop.
   static Budget unlimited() {
     return Budget([](const BudgetCut&) { return false; });
   }
-  /// Ends loops where the cuts say.
+  /// Returns a budget that ends loops at the given cuts.
   static Budget replay(std::vector<BudgetCut> cuts) {
     return Budget([cuts = std::move(cuts)](const BudgetCut& here) {
       for (const BudgetCut& cut : cuts) {
@@ -34,7 +35,7 @@ class Budget {
     });
   }
 
-  /// Starts the next attempt of a phase: counts begin anew. @return false: it has had kMaxAttempts
+  /// Starts the next attempt of a phase and sets all counts to 0. @return false if the phase has had kMaxAttempts
   bool begin_attempt(Phase phase) {
     int& begun = begun_[idx(phase)];
     if (begun == kMaxAttempts) return false;
@@ -44,6 +45,7 @@ class Budget {
     return true;
   }
 
+  /// True if the loop of this stage must end. Once true, it stays true for the rest of the attempt.
   bool expired(Stage stage) {
     const auto s = idx(stage);
     if (spent_[s]) return true;
@@ -57,6 +59,7 @@ class Budget {
     return true;
   }
 
+  /// Returns the cuts of all attempts, in their order.
   [[nodiscard]] const std::vector<BudgetCut>& cuts() const { return cuts_; }
 
  private:

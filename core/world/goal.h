@@ -1,4 +1,4 @@
-// GOAL: where to fly, sent on demand and repeated at 1 Hz.
+// The message GOAL: where to fly. It is sent on demand and repeated at 1 Hz.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,16 @@
 
 namespace tern {
 
+/// The task of the vehicle.
 enum class GoalMode : std::uint8_t {
   Go = 0,    ///< fly to the position and rest there
-  Hold = 1,  ///< come to rest by the committed trajectory and stay, evading what closes in
-  Stop = 2,  ///< come to rest by the committed trajectory and ask for no more plans
+  Hold = 1,  ///< come to rest at the end of the committed trajectory; evade approaching obstacles
+  Stop = 2,  ///< come to rest at the end of the committed trajectory; request no plans
 };
 
 struct Goal {
   Header header;
-  std::int64_t id = 0;  ///< > 0; a new goal has a new, larger id
+  std::int64_t id = 0;  ///< > 0; every new goal has a larger id
   GoalMode mode = GoalMode::Go;
   Vec3 position = Vec3::Zero();  ///< W, m
 };

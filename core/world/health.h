@@ -1,4 +1,4 @@
-// HEARTBEAT and CONFIGURATION: how each process is, and what it runs with.
+// The messages HEARTBEAT and CONFIGURATION: the state of each process, and the configuration that it runs with.
 #pragma once
 
 #include <cstdint>
@@ -10,56 +10,60 @@
 
 namespace tern {
 
+/// The state of a process.
 enum class ProcessState : std::uint8_t { Starting = 0, Waiting = 1, Ready = 2, Finished = 3, Failed = 4 };
 
-/// Why a received message was refused.
+/// The reason why a received message was refused.
 enum class Rejection : std::uint8_t {
-  Length = 0,        ///< not exactly the bytes that its counts ask for
-  Fingerprint = 1,   ///< another type, or another version of it
+  Length = 0,        ///< its length is not the one that its counts require
+  Fingerprint = 1,   ///< it is of another type, or of another version of the type
   Count = 2,         ///< a count is negative or beyond its limit
-  Number = 3,        ///< not finite, or a number beyond its range
-  Enumeration = 4,   ///< an unknown value of an enumeration
-  Time = 5,          ///< times out of order, or absurd
+  Number = 3,        ///< a number is not finite or outside its range
+  Enumeration = 4,   ///< a value of an enumeration is unknown
+  Time = 5,          ///< times are out of order or outside their range
   Inconsistent = 6,  ///< fields contradict each other
-  Future = 7,        ///< it claims a time that the listener's clock is far from
-  Sender = 8,        ///< another sender is heard on this channel, or this one cannot have sent it
-  Repeated = 9,      ///< it came already; with keys also: too long ago
-  /// With keys only (runtime/authentication.h): no tag, or none that its role's key gives.
+  Future = 7,        ///< it claims a time too far ahead of the receiver's clock
+  Sender = 8,        ///< another sender is accepted on this channel, or its named sender cannot have sent it
+  Repeated = 9,      ///< it was received already; with keys also: it is too old.
+  /// With keys only (runtime/authentication.h): the tag is missing, or its role's key gives another one.
   Unauthenticated = 10,
 };
 inline constexpr int kRejections = 11;
 
-/// Counters of one channel as one process saw it.
+/// Counters of one channel in one process.
 struct ChannelCounters {
   std::int64_t sent = 0;
-  std::int64_t received = 0;                ///< accepted
-  std::int64_t rejected[kRejections] = {};  ///< by Rejection
-  std::int64_t lost = 0;                    ///< gaps in sequence numbers
-  std::int64_t late = 0;                    ///< accepted but too old to be used
+  std::int64_t received = 0;                ///< accepted messages
+  std::int64_t rejected[kRejections] = {};  ///< refused messages, by Rejection
+  std::int64_t lost = 0;                    ///< messages missing by their sequence numbers
+  std::int64_t late = 0;                    ///< accepted messages that were too old to be used
 };
 
-/// The newest heartbeat heard of another process: by it that one compares the clocks (runtime/clock_exchange.h).
+/// The newest heartbeat received from another process. That process compares the clocks by it
+/// (runtime/clock_exchange.h).
 struct ClockEcho {
-  std::int64_t sender_epoch_us = 0;  ///< that process
-  UTime sent;                        ///< its heartbeat's utime, its clock
-  UTime received;                    ///< own clock
+  std::int64_t sender_epoch_us = 0;  ///< names the other process
+  UTime sent;                        ///< `utime` of its heartbeat, by its clock
+  UTime received;                    ///< when the heartbeat was received, by the own clock
 };
 
+/// HEARTBEAT: how a process is.
 struct Heartbeat {
   Header header;
   std::string process;  ///< "tern-planner"
   std::string build_id;
   ProcessState state = ProcessState::Starting;
-  std::string waiting_for;  ///< what it waits for, in words; empty when nothing
+  std::string waiting_for;  ///< in words what the process waits for; may be empty
   std::map<std::string, ChannelCounters> channels;
-  std::vector<ClockEcho> echoes;  ///< by epoch ascending
+  std::vector<ClockEcho> echoes;  ///< in ascending order of their epochs
 };
 
+/// CONFIGURATION: what a process runs with.
 struct ConfigurationReport {
   Header header;
   std::string process;
   std::string build_id;
-  std::string platform;    ///< compiler, CPU features, C library, BLAS: what floating point depends on besides
+  std::string platform;    ///< compiler, CPU features, C library, BLAS: floating-point results depend on them
   std::string yaml;        ///< the effective configuration
   std::uint64_t hash = 0;  ///< digest of yaml
 };

@@ -1,9 +1,8 @@
-// Published maxima of the messages (lcmtypes/ names the same numbers): what a sender may not exceed and a receiver
-// refuses.
+// The limits of message fields. lcmtypes/ states the same numbers. Senders keep them, and receivers refuse messages
+// beyond them.
 //
-// A message may reach each of its maxima only as far as kMaxMessageBytes allows all of them together. The ranges of
-// numbers are far beyond any vehicle: they keep sums, products and integer times of accepted values finite, they do not
-// judge them.
+// Each limit is legal by itself; all together may exceed kMaxMessageBytes. The ranges of numbers are far beyond any
+// vehicle. They keep sums, products and integer times of accepted values finite.
 #pragma once
 
 #include <cstdint>
@@ -12,34 +11,34 @@
 
 namespace tern {
 
-inline constexpr double kMaxCoordinate = 1e6;                      ///< |position| per axis and extents, m
+inline constexpr double kMaxCoordinate = 1e6;                      ///< |position| and extents per axis, m
 inline constexpr double kMaxSpeed = 1e6;                           ///< |velocity| per axis, m/s
 inline constexpr double kMaxAcceleration = 1e9;                    ///< |acceleration| per axis, m/s²
 inline constexpr double kMaxJerk = 1e12;                           ///< |jerk| per axis, m/s³
 inline constexpr double kMaxBodyExtent = 1e3;                      ///< radius and |vertex| per axis of a body, m
 inline constexpr std::int64_t kMaxTimeUs = 4'000'000'000'000'000;  ///< |time|, µs: the year 2096
 inline constexpr Duration kMaxSpan{1'000'000'000'000};             ///< of a track's piece or a hold: 11 days
-inline constexpr Duration kMinIntervalDuration{1'000};             ///< of a trajectory's spline
-/// Of a trajectory's spline: what the planner sends, messages carry and the executor flies at most. A plan of a vehicle
-/// that is slower than its sphere asks for heads for a nearer point.
+inline constexpr Duration kMinIntervalDuration{1'000};             ///< smallest Δt of a trajectory
+/// The largest Δt of a trajectory, for planner, messages and executor. A vehicle too slow to cross its sphere in J
+/// intervals of this length plans to a nearer point.
 inline constexpr Duration kMaxIntervalDuration{60'000'000};
-/// An answer's deadline is at least this long before t_s: what it needs to be received, checked and spliced.
+/// The deadline of an answer lies at least this long before t_s, so that it can be received, checked and adopted.
 inline constexpr Duration kDeadlineLead{5'000};
 
 inline constexpr int kMaxDetections = 700;         ///< in an ObservationSet
-inline constexpr int kMaxTracksPerBatch = 320;     ///< in a TrackSet
-inline constexpr int kMaxPiecesPerBatch = 460;     ///< of all its tracks together; so also of one track
-inline constexpr int kMaxObstaclesPerBatch = 700;  ///< in an ObstacleTruth
+inline constexpr int kMaxTracksPerBatch = 320;     ///< in a batch of a TrackSet
+inline constexpr int kMaxPiecesPerBatch = 460;     ///< of all tracks of a batch together, so also of one track
+inline constexpr int kMaxObstaclesPerBatch = 700;  ///< in a batch of an ObstacleTruth
 inline constexpr int kMinControlPoints = 7;        ///< of a trajectory
 inline constexpr int kMaxControlPoints = 64;       ///< of a trajectory
 inline constexpr int kMaxBodyVertices = 64;
 inline constexpr int kMaxCertificatePlanes = 1200;
 inline constexpr int kMaxBudgetCuts = 256;
-inline constexpr int kMaxMapClasses = 256;     ///< class names of a map, the empty one included
+inline constexpr int kMaxMapClasses = 256;     ///< class names of a map, including the empty one
 inline constexpr int kMaxMapClassText = 8192;  ///< bytes of all class names together
 inline constexpr int kMaxHeartbeatChannels = 64;
 inline constexpr int kMaxClockEchoes = 16;
-inline constexpr int kMaxChannelName = 63;     ///< bytes (LCM's own limit)
+inline constexpr int kMaxChannelName = 63;     ///< bytes; LCM's own limit
 inline constexpr int kMaxProcessText = 64;     ///< bytes
 inline constexpr int kMaxBuildIdText = 256;    ///< bytes
 inline constexpr int kMaxPlatformText = 1024;  ///< bytes

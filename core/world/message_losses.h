@@ -1,4 +1,4 @@
-// How many messages of a channel were lost: the one count of the bus, of tern-logger and of those who read logs.
+// The number of lost messages of a channel. The bus, tern-logger and all readers of logs count by this class.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,29 @@
 
 namespace tern {
 
-/// The sequence numbers of one channel, by sender, in the order of arrival. Pure. SequenceWindow says what is new and
-/// what is lost. A sender whose numbers begin again after kReplaySilence of silence is a log that is played once more.
+/// Counts the lost messages of one channel from sequence numbers in the order of arrival.
+///
+/// Each sender has a SequenceWindow, which decides what is new and what is lost. If a sender's numbers start again
+/// after a silence of kReplaySilence, a log is being played once more, and its window restarts.
 class MessageLosses {
  public:
   static constexpr Duration kReplaySilence{2'500'000};
 
-  /// @param arrived  listener's clock
+  /// Judges one message. @param arrived  when it arrived, by the receiver's clock
   SequenceWindow::Verdict add(const MessageName& name, UTime arrived);
 
-  /// Messages that the senders sent between those that came.
+  /// Returns the number of messages missing between those that arrived.
   [[nodiscard]] std::int64_t lost() const;
-  /// Messages that they sent before the first that came: lost, unless the listener joined late.
+  /// Returns the number of messages sent before the first one that arrived. They are lost unless the receiver joined
+  /// late.
   [[nodiscard]] std::int64_t before_first() const;
 
  private:
   struct Sender {
     SequenceWindow window;
-    UTime at;  ///< when its last new message came
+    UTime at;  ///< when its last new message arrived
   };
-  RecentSenders<std::int64_t, Sender> senders_;  ///< by epoch
+  RecentSenders<std::int64_t, Sender> senders_;  ///< the key is the sender's epoch
   std::int64_t lost_by_forgotten_ = 0, before_forgotten_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What people, scripts and files call the enumerators of messages: the one table of all programs.
+// The printed words of the messages' enumerators, for all programs, scripts and files.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace tern {
 
-/// The words for each enumerator of E, by its number. lcmtypes/ has the same names in capitals.
+/// The word of each enumerator of E, by its number. lcmtypes/ has the same names in capitals.
 template <class E>
 inline constexpr std::array<const char*, 0> kWords{};
 template <>
@@ -62,16 +62,17 @@ inline constexpr std::array<const char*, kBreaches> kWords<Breach>{
     "none",   "shape", "start",     "join",       "end",    "velocity",      "acceleration",   "jerk",
     "thrust", "tilt",  "body rate", "flight box", "sphere", "not separated", "too many planes"};
 
+/// An enumeration whose enumerators have words.
 template <class E>
 concept Named = !kWords<E>.empty();
 
-/// In words: "search only". @throws std::out_of_range when no enumerator has this value.
+/// Returns the word: "search only". @throws std::out_of_range if no enumerator has this value
 template <Named E>
 constexpr const char* to_string(E value) {
   return kWords<E>.at(idx(value));
 }
 
-/// As files and scripts write it: "search_only".
+/// Returns the word as files and scripts write it: "search_only".
 template <Named E>
 std::string key(E value) {
   std::string text = to_string(value);
@@ -79,7 +80,7 @@ std::string key(E value) {
   return text;
 }
 
-/// @return the enumerator of these words, or nullopt if there is none.
+/// Returns the enumerator with this word, or nullopt if there is none.
 template <Named E>
 std::optional<E> named(std::string_view words) {
   for (std::size_t k = 0; k < kWords<E>.size(); ++k) {

@@ -1,4 +1,4 @@
-// What a listener remembers of each sender, in bounded memory.
+// A receiver's memory of senders, of bounded size.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +8,16 @@
 
 namespace tern {
 
-/// A Known for each sender. Forged senders cost no memory: the one not heard longest is forgotten first.
+/// Keeps a value of type Known for each of the kMaxSenders most recent senders. A new sender replaces the one that was
+/// silent longest, so forged senders cannot fill the memory.
 template <class Name, class Known>
 class RecentSenders {
  public:
-  /// Many more than restart while a message is on its way.
+  /// Far more than the number of senders that restart while a message is on its way.
   static constexpr std::size_t kMaxSenders = 64;
 
-  /// What is known of a sender that was heard now; a new Known for one that is not remembered.
-  /// @param forget  called with what is forgotten for it
+  /// Returns the value of a sender that has just sent; a new Known if the sender is not remembered.
+  /// @param forget  called with the value that is dropped for a new sender
   template <class Forget = void (*)(const Known&)>
   Known& touch(
       const Name& name, Forget&& forget = [](const Known&) {}) {
@@ -31,7 +32,7 @@ class RecentSenders {
     return entry.known;
   }
 
-  /// Calls visit(known) for each.
+  /// Calls visit(known) for each sender.
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (const auto& [name, entry] : senders_) visit(entry.known);
@@ -40,7 +41,7 @@ class RecentSenders {
  private:
   struct Entry {
     Known known;
-    std::int64_t heard = 0;  ///< counts what was heard
+    std::int64_t heard = 0;  ///< count_ at the sender's last message
   };
   std::map<Name, Entry> senders_;
   std::int64_t count_ = 0;

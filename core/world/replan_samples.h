@@ -1,4 +1,4 @@
-// What PLAN_TIMING measures, gathered for percentiles.
+// The times of PLAN_TIMING, collected for percentiles.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace tern {
 
-/// Times of answers, ms. `total` has every answer; `first_answer` and the stages have those answers in which they ran:
-/// what was not done took no time, and would pull every percentile down.
+/// Times of answers, ms. `total` holds every answer. `first_answer` and `stage` hold only answers in which the step
+/// ran, because zeros of other answers would lower the percentiles.
 struct ReplanSamples {
   std::vector<double> total, first_answer, stage[kStages];
 

@@ -6,9 +6,9 @@ namespace tern {
 
 Box Track::bounds(UTime t0, UTime t1) const { return bounds_at(*this, t0, t1, {}, {0, motion.start}); }
 
-Box bounds_at(const Track& track, UTime t0, UTime t1, const AlphaShare& count, PiecewiseCubic::Located first) {
+Box bounds_at(const Track& track, UTime t0, UTime t1, const AlphaShare& share, PiecewiseCubic::Located first) {
   const PiecewiseCubic& motion = track.motion;
-  const auto half = [&](std::size_t piece) -> Vec3 { return track.half_extents + count.of(track, piece); };
+  const auto half = [&](std::size_t piece) -> Vec3 { return track.half_extents + share.of(track, piece); };
   if (track.kind == TrackKind::Static) return box_around(motion.pieces.front().coefficients.col(3), half(0));
   Box box;
   UTime piece_start = first.start;

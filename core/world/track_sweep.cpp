@@ -22,7 +22,7 @@ void add_piece(std::vector<CentredBox>& out, const PowerCubic& cubic, double a, 
 
 }  // namespace
 
-void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaShare& count, const Vec3& body_half,
+void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaShare& share, const Vec3& body_half,
                UTime origin, double from, double to) {
   const double start = (track.motion.start - origin).seconds();
   double piece_from = start;
@@ -32,7 +32,7 @@ void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaShar
     const double a = std::max(from, piece_from);
     const double b = std::min(to, piece_to);
     if (a <= b) {
-      const Vec3 half = track.half_extents + count.of(track, k) + body_half;
+      const Vec3 half = track.half_extents + share.of(track, k) + body_half;
       add_piece(out, piece.coefficients, a - piece_from, b - piece_from, half);
     }
     piece_from = piece_to;
@@ -43,9 +43,9 @@ void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaShar
   if (to > piece_from) {
     const CubicPiece& last = track.motion.pieces.back();
     add_growing(to - piece_from, position_of(last.coefficients, last.duration.seconds()),
-                count.of(track, track.alpha.size() - 1));
+                share.of(track, track.alpha.size() - 1));
   }
-  if (from < start) add_growing(start - from, track.motion.pieces.front().coefficients.col(3), count.of(track, 0));
+  if (from < start) add_growing(start - from, track.motion.pieces.front().coefficients.col(3), share.of(track, 0));
 }
 
 }  // namespace tern

@@ -20,7 +20,7 @@ inline constexpr double kBetaMax = 0.005;
 /// so much that 256 samples of a piece do not suffice has a larger one. Outside the pieces: a box that grows at top
 /// speed.
 /// @param body_half  added to all half-extents, m, ≥ 0
-void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaShare& count, const Vec3& body_half,
+void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaShare& share, const Vec3& body_half,
                UTime origin, double from, double to);
 
 }  // namespace tern
