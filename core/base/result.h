@@ -7,7 +7,8 @@
 
 namespace tern {
 
-/// An explanation for the person who must mend the failure. It names file, line, key, value and limit where they apply.
+/// An explanation for the person who must mend the failure. It names file, line, key, value and limit where they
+/// apply.
 struct Error {
   std::string message;
 };

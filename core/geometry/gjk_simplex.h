@@ -143,8 +143,8 @@ struct Descent {
 inline constexpr double kNoProof = std::numeric_limits<double>::infinity();
 
 // Runs the descent from one support point of A − B; support(v) returns the point of A − B that is lowest along v. The
-// descent ends in one of three cases: the distance (m) is known to be at most `enough`; it is proven to exceed `proof`;
-// rounding prevents progress.
+// descent ends if the distance (m) is known to be at most `enough` or proven to exceed `proof`, or if rounding
+// prevents progress.
 template <class Support>
 Descent descend(const Support& support, const Vertex& first, double enough, double proof) {
   Descent d;

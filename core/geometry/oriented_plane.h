@@ -11,8 +11,8 @@ namespace tern {
 using HullKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using HullPoint = HullKernel::Point_3;
 
-/// The plane through p, q, r. Its positive side is the one from which p, q, r turn counter-clockwise. Results are exact
-/// for |coordinates| < 1e90.
+/// The plane through p, q, r. Its positive side is the one from which p, q, r turn counter-clockwise. Results are
+/// exact for |coordinates| < 1e90.
 ///
 /// Three methods are tried in turn:
 /// 1. Doubles, if the result exceeds its rounding error.

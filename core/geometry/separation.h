@@ -24,16 +24,16 @@ struct Separation {
 /// kTouchingTolerance.
 ///
 /// The plane touches A: min n·a + d = 0 up to rounding, and never below 0. Every b has n·b + d ≤ −max(clearance,
-/// kPlaneMargin). Both claims hold in exact arithmetic and as Plane::signed_distance() computes them; both are verified
-/// on all points. The result depends on the arguments only, so a replay gives the same bits. O(n + m), about 0.3 µs for
-/// 30 + 4 points; no heap.
+/// kPlaneMargin). Both claims hold in exact arithmetic and as Plane::signed_distance() computes them; both are
+/// verified on all points. The result depends on the arguments only, so a replay gives the same bits. O(n + m), about
+/// 0.3 µs for 30 + 4 points; no heap.
 /// @param a  the obstacle's points, 3×n, n ≥ 1
 /// @param b  the vehicle's points, 3×m, m ≥ 1
 /// @param clearance  m, ≥ 0: the radius of a spherical vehicle; 0 for a point, or if the body is already in the hull
 /// @return nullopt if the hulls are not separated, or if the question is in doubt even after GLPK was asked. For
 ///   coordinates within 1e4 m doubt arises within kTouchingTolerance only.
-/// @throws std::invalid_argument if a set is empty, the clearance is negative, or a coordinate is not finite. For the
-///   last, nullopt is also possible; a plane is never returned.
+/// @throws std::invalid_argument if a set is empty, the clearance is negative, or a coordinate is not finite. For
+///   the last, nullopt is also possible; a plane is never returned.
 std::optional<Separation> separate(const Points& a, const Points& b, double clearance);
 
 /// Counters of one thread for PLAN_TIMING: how separate() settled its questions.

@@ -12,8 +12,8 @@ namespace tern {
 /// inequalities hold in scaled coordinates; the result is normalised to |n| = 1.
 ///
 /// The plane lies half way between the hulls along its normal. Its margin is not the largest possible. A call takes
-/// about 25 µs; infeasible problems are solved twice. Threads may call it at the same time, because Debian's GLPK keeps
-/// one environment per thread.
+/// about 25 µs; infeasible problems are solved twice. Threads may call it at the same time, because Debian's GLPK
+/// keeps one environment per thread.
 /// @param a, b  3×n and 3×m points, n, m ≥ 1, finite
 /// @return nullopt if the hulls touch or overlap, or if rounding leaves the question in doubt
 /// @throws std::invalid_argument if a set is empty or a coordinate is not finite

@@ -25,8 +25,8 @@ inline constexpr int kMaxIntervals = 128;
 ///
 ///     N_{i,k} = (τ − τ_i)/(τ_{i+k} − τ_i) N_{i,k−1} + (τ_{i+k+1} − τ)/(τ_{i+k+1} − τ_{i+1}) N_{i+1,k−1}
 ///
-/// The first two and the last two intervals have matrices of their own. Accessors throw std::out_of_range unless
-/// 0 ≤ j < J, allocate nothing and take a few ns.
+/// The first two and the last two intervals have matrices of their own. Accessors throw std::out_of_range unless 0 ≤ j
+/// < J, allocate nothing and take a few ns.
 class SplineBasis {
  public:
   /// @throws std::invalid_argument unless 1 ≤ intervals ≤ kMaxIntervals
@@ -109,8 +109,8 @@ Points3 start_control_points(const MotionSample& start, double interval_s);
 /// Returns the spline that stays at p (W, m).
 ClampedSpline at_rest(const Vec3& p, int intervals, double interval_s);
 
-/// The largest |v|, |a|, |j| per axis: true extrema, not bounds from control points. Up to rounding (about 1e-15 of the
-/// value) a comparison with a limit is therefore exact.
+/// The largest |v|, |a|, |j| per axis: true extrema, not bounds from control points. Up to rounding (about 1e-15 of
+/// the value) a comparison with a limit is therefore exact.
 struct MotionBounds {
   Vec3 v_max = Vec3::Zero();  ///< m/s, ≥ 0
   Vec3 a_max = Vec3::Zero();  ///< m/s², ≥ 0

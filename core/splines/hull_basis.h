@@ -9,8 +9,8 @@ namespace tern {
 /// The basis by which hull points are computed.
 enum class HullBasis { Minvo, Bezier, Bspline };
 
-/// Returns the 4×4 matrix that turns power coefficients (3×4, of u³ u² u 1) into the control points of the basis. Their
-/// hull contains the cubic over u ∈ [0, 1]. Bspline assumes uniform knots.
+/// Returns the 4×4 matrix that turns power coefficients (3×4, of u³ u² u 1) into the control points of the basis.
+/// Their hull contains the cubic over u ∈ [0, 1]. Bspline assumes uniform knots.
 const Eigen::Matrix4d& hull_inverse_3(HullBasis basis);
 
 /// Returns the 4×4 matrix that turns the control points q_j … q_{j+3} of a clamped spline into hull points of interval

@@ -14,8 +14,8 @@ using PowerCubic = Eigen::Matrix<double, 3, 4>;  ///< coefficients of u³ u² u 
 /// Returns the matrix A of degree 3 or 2, with P(u) = V · A · [u^N … u 1]ᵀ for u ∈ [0, 1]. Rows are basis polynomials,
 /// columns are powers of u, the highest first.
 ///
-/// The basis polynomials are ≥ 0 on [0, 1] and sum to 1, both up to rounding (about 1e-15). The curve therefore lies in
-/// the convex hull of V's columns. For degree 3 this simplex is 2.36 times smaller than the Bernstein one and 254.9
+/// The basis polynomials are ≥ 0 on [0, 1] and sum to 1, both up to rounding (about 1e-15). The curve therefore lies
+/// in the convex hull of V's columns. For degree 3 this simplex is 2.36 times smaller than the Bernstein one and 254.9
 /// times smaller than the one of the uniform B-spline. Degree 2 is a closed form, degree 3 the published numeric
 /// optimum.
 const Eigen::Matrix4d& minvo_basis_3();

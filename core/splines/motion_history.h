@@ -20,7 +20,8 @@ class MotionHistory {
   void append(const PiecewiseCubic& motion);
 
   [[nodiscard]] UTime end() const { return end_; }
-  /// Returns the motion at t ≤ end(): at a joint that of the later piece, at end() that of the last one. O(log pieces).
+  /// Returns the motion at t ≤ end(): at a joint that of the later piece, at end() that of the last one. O(log
+  /// pieces).
   /// @throws std::invalid_argument if t > end()
   [[nodiscard]] MotionSample sample(UTime t) const;
   /// Returns the pieces between two times; the first and the last one are cut.

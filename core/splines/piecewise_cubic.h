@@ -55,8 +55,8 @@ Box cubic_bounds(const PowerCubic& coefficients, double t0_s, double t1_s);
 /// Returns the coefficients of s ↦ c(t0 + s(t1 − t0)), s ∈ [0, 1].
 PowerCubic reparametrized(const PowerCubic& coefficients, double t0_s, double t1_s);
 
-/// Returns the cubic Hermite piece with the positions and velocities of two samples; their a and j are not read. With h
-/// the duration and d = (p_1 − p_0)/h:
+/// Returns the cubic Hermite piece with the positions and velocities of two samples; their a and j are not read. With
+/// h the duration and d = (p_1 − p_0)/h:
 ///
 ///     c_3 = (v_0 + v_1 − 2d)/h²,   c_2 = (3d − 2v_0 − v_1)/h,   c_1 = v_0,   c_0 = p_0
 ///
@@ -79,8 +79,8 @@ PiecewiseCubic hermite_fit(UTime start, Duration piece, int pieces, const Motion
 /// @param max_fourth_derivative  max|p⁗| over the piece, m/s⁴, ≥ 0
 double hermite_error_bound(double h_s, double max_fourth_derivative);
 
-/// Returns the part of a spline from time `from` to its end, as the same curve up to rounding. The first piece may be a
-/// part of an interval; the others are whole intervals.
+/// Returns the part of a spline from time `from` to its end, as the same curve up to rounding. The first piece may be
+/// a part of an interval; the others are whole intervals.
 /// @param spline_start  when the spline starts
 /// @throws std::invalid_argument unless spline_start ≤ from < end and Δt is a whole number of µs (to 1e-3 µs)
 PiecewiseCubic remaining_motion(const ClampedSpline& spline, UTime spline_start, UTime from);

@@ -42,8 +42,8 @@ struct BreachReport {
   [[nodiscard]] std::string text() const;
 };
 
-/// Returns the box of positions at which the body lies inside the flight box (W). Its min exceeds its max on
-/// each axis where the body is larger than the flight box.
+/// Returns the box of positions at which the body lies inside the flight box (W). Its min exceeds its max on each axis
+/// where the body is larger than the flight box.
 Box centre_box(const Box& flight_box, const Body& body);
 
 /// Tests thrust, tilt and body rates at their true extrema, each to kLimitTolerance. O(J).

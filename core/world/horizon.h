@@ -101,8 +101,8 @@ struct PlanCost {
   double total = 0.0;
 };
 
-/// The inputs of the goal field (the cost-to-go), apart from the goal's position. Another thread prepares the field, so
-/// its map and its static tracks may be older than those of the plan.
+/// The inputs of the goal field (the cost-to-go), apart from the goal's position. Another thread prepares the field,
+/// so its map and its static tracks may be older than those of the plan.
 struct GoalFieldInputs {
   std::uint64_t map_version = 0;       ///< the map whose boxes it contains; 0: there was no field
   std::int64_t statics_epoch_us = 0;   ///< epoch of the predictor whose static tracks it contains; 0: none
@@ -132,8 +132,8 @@ struct Plan {
   TimedSpline trajectory;  ///< starts at t_s; for KeepCommitted it is the committed one; meaningless for NoPlan
   Duration hold;           ///< terminal clear time: how long the end point stays clear after the end; capped.
   /// The confidence that an estimated track stays within the box that the certificate uses. That box applies α at
-  /// `level`, times `alpha_scale`; declared and static tracks keep all of their α. It is 1 if no track is estimated. It
-  /// is 0 for a scaled α, whose confidence is unknown, and for NoPlan.
+  /// `level`, times `alpha_scale`; declared and static tracks keep all of their α. It is 1 if no track is estimated.
+  /// It is 0 for a scaled α, whose confidence is unknown, and for NoPlan.
   double confidence = 0.0;
   int level = 0;             ///< index into kConfidenceLevels; 0: the confidence of the predictions
   double alpha_scale = 1.0;  ///< [0, 1]; below 1 at the last level only

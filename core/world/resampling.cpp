@@ -110,8 +110,8 @@ class Merger {
     for (std::size_t k = 0; k + 1 < left_; ++k) propose(k);
   }
 
-  Track reduced_to(std::size_t most) {
-    while (left_ > most) {
+  Track reduced_to(std::size_t max_pieces) {
+    while (left_ > max_pieces) {
       const Candidate best = candidates_.top();
       candidates_.pop();
       const auto [cost, length, at, version, next_version] = best;
@@ -216,13 +216,13 @@ class Merger {
 
 }  // namespace
 
-Track resampled(const Track& track, std::size_t most) {
-  if (most < 1 || track.motion.pieces.empty()) {
+Track resampled(const Track& track, std::size_t max_pieces) {
+  if (max_pieces < 1 || track.motion.pieces.empty()) {
     throw std::invalid_argument("a track of " + std::to_string(track.motion.pieces.size()) +
-                                " pieces resampled to at most " + std::to_string(most));
+                                " pieces resampled to at most " + std::to_string(max_pieces));
   }
-  if (track.kind == TrackKind::Static || track.motion.pieces.size() <= most) return track;
-  return Merger(track).reduced_to(most);
+  if (track.kind == TrackKind::Static || track.motion.pieces.size() <= max_pieces) return track;
+  return Merger(track).reduced_to(max_pieces);
 }
 
 }  // namespace tern

@@ -11,7 +11,6 @@ RampUp ramp_up(double v, double a, double j) {
   return {time, 0.5 * v * time};
 }
 
-// Ramp up, cruise, ramp down; the peak speed by bisection where v_max is not reached.
 double rest_to_rest_s(double distance, double v_max, double a, double j) {
   if (distance <= 0.0) return 0.0;
   const RampUp full = ramp_up(v_max, a, j);

@@ -1,4 +1,4 @@
-// A scenario: the world, the vehicle, what its regions mean. Plain values; runtime/ reads them from YAML, strictly.
+// A scenario as plain values: the world, the vehicle, and the meaning of its regions. runtime/ reads it from YAML.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace tern {
 
-/// Motions of BENCHMARKS; t is world time in seconds.
+/// An obstacle at rest at its centre c. In the motions below, t is the world's time in seconds.
 struct StaticMotion {};
 /// c + (k_x (sin(w+φ) + 2 sin(2w+φ)), k_y (cos(w+φ) − 2 cos(2w+φ)), −k_z sin(3w+φ)), w = t/s.
 struct TrefoilMotion {
@@ -28,19 +28,22 @@ struct WaveMotion {
   double slowness = 1.0;          ///< s, > 0
   double phase = 0.0;             ///< φ, rad
 };
-/// c + velocity · (t − from_s) from from_s on; before it rests at c.
+/// At rest at c until from_s; then c + velocity · (t − from_s).
 struct LinearMotion {
   Vec3 velocity = Vec3::Zero();  ///< m/s
-  double from_s = 0.0;           ///< world time, s
+  double from_s = 0.0;           ///< world's time, s
 };
-/// Straight lines between timed points (c is not used); rests at the ends, or repeats, or exists between them only.
+/// Straight lines between timed points; c is not used. Before the first and after the last time the obstacle rests at
+/// the end point, or it repeats its motion, or it does not exist.
 struct WaypointMotion {
-  std::vector<std::pair<double, Vec3>> points;  ///< (world time s, position m), times strictly ascending, ≥ 1
-  bool repeat = false;  ///< the last point is the first one; the motion goes round for ever, also before the first time
-  bool vanish = false;  ///< absent before the first time and after the last (recorded people); not with repeat
-  double leave_out_within_m = 0.0;  ///< with vanish: who appears in flight nearer to the vehicle is left out of it, m
+  std::vector<std::pair<double, Vec3>> points;  ///< (world's time s, position m), ≥ 1, times strictly ascending
+  bool repeat = false;  ///< the motion repeats at all times; its last point equals the first one
+  bool vanish = false;  ///< it exists between the first and the last time only (recorded people); not with repeat.
+  /// With vanish: the obstacle is left out of the flight if it appears within this distance of the vehicle, m.
+  double leave_out_within_m = 0.0;
 };
 
+/// One obstacle: a box that moves.
 struct ObstacleSpec {
   std::string name;                         ///< may be empty
   Vec3 centre = Vec3::Zero();               ///< c, W, m
@@ -48,57 +51,62 @@ struct ObstacleSpec {
   std::variant<StaticMotion, TrefoilMotion, WaveMotion, LinearMotion, WaypointMotion> motion;
 };
 
-/// Tracks of people or things from a text file of white-space separated numbers.
+/// Recorded tracks of people or things, from a text file of numbers separated by white space.
 struct RecordedTracksSpec {
-  std::string file;  ///< relative to the scenario's folder, or to TERN_DATA, or absolute
+  std::string file;  ///< absolute, or relative to the scenario's folder or to TERN_DATA
   int columns = 5;   ///< numbers per line
-  int id_column = 0, frame_column = 1, x_column = 2, y_column = 3;  ///< id_column −1: the file is one track
-  std::optional<int> z_column;                                      ///< none: z is not recorded
+  int id_column = 0, frame_column = 1, x_column = 2, y_column = 3;  ///< id_column −1: all lines are one track
+  std::optional<int> z_column;                                      ///< nullopt: z is not recorded
   double metres_per_unit = 1.0;
   double frames_per_second = 25.0;
-  double least_step_s = 0.0;  ///< positions of a track that follow sooner than this are passed over
-  /// World time 0 is this time of the file (frame / frames_per_second); nullopt: the seed draws it.
+  double least_step_s = 0.0;  ///< the smallest time between two positions of a track; positions in between are skipped.
+  /// The time in the file (frame / frames_per_second) that is the world's time 0; nullopt: the seed draws it.
   std::optional<double> start_s;
-  Vec3 half_extents = Vec3(0.25, 0.25, 1.0);  ///< of every person, m
-  double centre_z = 1.0;                      ///< boxes stand here, m
-  bool wait_for_clear_start =
-      true;  ///< start at the first frame ≥ start_s when none comes within 1 m of the start for 1 s
-  double leave_out_within_m = 3.0;  ///< of WaypointMotion: there the recording begins, not the person
-  int copies = 0;  ///< > 0: so many movers on pieces of the tracks, drawn by the seed, in place of them
-  Box within;      ///< where the copies are, W; with copies only
+  Vec3 half_extents = Vec3(0.25, 0.25, 1.0);  ///< of every box, m
+  double centre_z = 1.0;                      ///< z of every centre if it is not recorded, m.
+  /// The file's time 0 is moved to the first frame ≥ start_s after which nobody comes within 1 m of the start for 1 s.
+  bool wait_for_clear_start = true;
+  /// See WaypointMotion: such a track begins there because the recording does, and would jump in beside the vehicle.
+  double leave_out_within_m = 3.0;
+  int copies = 0;  ///< > 0: this many obstacles on pieces of the tracks, drawn by the seed, instead of the tracks
+  Box within;      ///< the region of the copies, W; with copies only
 };
 
+/// The obstacles of a world: generated, listed and recorded ones together.
 struct WorldSpec {
-  std::string generator =
-      "none";     ///< none, paper_corridor, paper_attract, paper_repel, corridor_demo, mader_corridor, sando_forest
-  int count = 0;  ///< N of the generator, 0 … 100000
-  std::optional<double> slowness;            ///< of the generator's trefoils instead of its own, > 0
-  std::vector<ObstacleSpec> obstacles;       ///< besides the generator's
-  std::vector<RecordedTracksSpec> recorded;  ///< besides these
+  /// none, paper_corridor, paper_attract, paper_repel, corridor_demo, mader_corridor, sando_forest
+  std::string generator = "none";
+  int count = 0;                             ///< number N of generated obstacles, 0 … 100000
+  std::optional<double> slowness;            ///< of the generated trefoils, > 0; nullopt: the generator's own
+  std::vector<ObstacleSpec> obstacles;       ///< listed obstacles
+  std::vector<RecordedTracksSpec> recorded;  ///< recorded obstacles
 };
 
+/// The regions and their weights in the planner's cost.
 struct SemanticsSpec {
   bool enabled = true;
   std::vector<Region> regions;
   double lambda_attractive = 2.0;                       ///< λ_att ≥ 0
   double lambda_repulsive = 2.0;                        ///< λ_rep ≥ 0
-  std::vector<std::pair<std::string, double>> lambdas;  ///< classes with a λ of their own, ≥ 0; not named: the label's
+  std::vector<std::pair<std::string, double>> lambdas;  ///< λ ≥ 0 of single classes; all others have their label's λ
   std::string cost = "exposure";                        ///< exposure, mean_distance
-  /// class → label name (unknown, free, occupied, attractive, repulsive)
+  /// Class name → label name (unknown, free, occupied, attractive, repulsive).
   std::vector<std::pair<std::string, std::string>> classes = {{"texture", "attractive"}, {"water", "repulsive"}};
 };
 
+/// The vehicle and its task.
 struct UavSpec {
-  Vec3 start = Vec3(0.0, 0.0, 1.0);  ///< at rest, W, m
-  Vec3 goal = Vec3(75.0, -1.0, 1.0);
+  Vec3 start = Vec3(0.0, 0.0, 1.0);   ///< W, m; the vehicle is at rest there
+  Vec3 goal = Vec3(75.0, -1.0, 1.0);  ///< W, m
   Limits limits;
   Body body;
-  Box flight_box{Vec3::Constant(-1e4), Vec3::Constant(1e4)};  ///< the body stays inside
+  Box flight_box{Vec3::Constant(-1e4), Vec3::Constant(1e4)};  ///< the body stays inside, W, m
 };
 
+/// A scenario, without the sections of the processes.
 struct Scenario {
   std::string name;
-  std::string file;  ///< where it was read
+  std::string file;  ///< path of the scenario's file
   std::uint64_t seed = 1;
   WorldSpec world;
   UavSpec uav;
@@ -106,20 +114,21 @@ struct Scenario {
   std::optional<double> timeout_s;  ///< flight_timeout_s() has the default
 };
 
-/// When a flight has taken too long, world time, s: timeout_s, or 3 × bound + 10 s.
+/// Returns the world's time at which a flight ends with Timeout, s: timeout_s, or 3 × rest_to_rest_bound_s() + 10 s.
 double flight_timeout_s(const Scenario& scenario);
 
-/// Time to reach speed v from rest, and how far that takes, under acceleration a and jerk j (may be infinite).
+/// Time and distance of an acceleration from rest.
 struct RampUp {
   double time, distance;  ///< s, m
 };
+/// Returns how one axis reaches speed v from rest fastest, under acceleration a and jerk j; j may be infinite.
 RampUp ramp_up(double v, double a, double j);
 
-/// The time-optimal time of one axis from rest to rest over `distance` ≥ 0, s; j may be infinite.
+/// Returns the shortest time of one axis from rest to rest over `distance` ≥ 0, s; j may be infinite. The peak speed
+/// is found by bisection if v_max is not reached.
 double rest_to_rest_s(double distance, double v_max, double a, double j);
 
-/// BENCHMARKS' bound: the per-axis time-optimal rest-to-rest time from start to goal, jerk included where it is
-/// limited, s.
+/// Returns a lower bound of the flight time from rest to rest, s: the largest rest_to_rest_s() of the three axes.
 double rest_to_rest_bound_s(const Vec3& from, const Vec3& to, const Limits& limits);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// SEARCH_VIEW: what a search looked at, for people.
+// The message SEARCH_VIEW: the nodes of a search, for display.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,17 @@ namespace tern {
 
 inline constexpr int kMaxSearchNodes = 2000;  ///< in a SearchView
 
-/// A node that the search found clear.
+/// A node whose part of the spline was found clear.
 struct SearchViewNode {
   Vec3 position = Vec3::Zero();  ///< control point, W, m
-  std::int32_t parent = -1;      ///< index of a node before it; −1: the root
+  std::int32_t parent = -1;      ///< index of an earlier node; −1: the root
 };
 
+/// SEARCH_VIEW: the nodes of the last search of an answer.
 struct SearchView {
   Header header;
   std::int64_t request_id = 0;  ///< > 0
-  std::int32_t left_out = 0;    ///< nodes that did not fit
+  std::int32_t left_out = 0;    ///< nodes that did not fit into the message
   std::vector<SearchViewNode> nodes;
 };
 

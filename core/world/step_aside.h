@@ -1,4 +1,4 @@
-// Who must step aside, and for what: a seeded vehicle at rest and the movers that come at it.
+// Seeded encounters in which a vehicle at rest must step aside for approaching obstacles.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,26 @@
 
 namespace tern {
 
-/// No mover touches the vehicle's start before this world time, s: motions are declared 4.5 s ahead.
+/// No obstacle touches the vehicle's start before this world's time, s. It exceeds the 4.5 s for which motions are
+/// declared ahead.
 inline constexpr double kStepAsideQuiet = 4.8;
 
-/// One encounter: a vehicle with limits of its own and one to five boxes on straight lines through where it rests.
+/// One encounter: a vehicle with limits of its own, and one to five boxes on straight lines through its position.
 struct StepAside {
   Limits limits;
   Body body;
-  std::vector<ObstacleSpec> movers;  ///< motion linear
+  std::vector<ObstacleSpec> movers;  ///< with LinearMotion
 };
 
-/// A pure function of (seed, start). Draws, in this order, from Rng(seed):
-///  vehicle: v_max log-uniform in [0.5, 6] m/s; a_max log-uniform in [1, 20] m/s², half of it on z. One in five has no
-///    jerk limit, the others j_max log-uniform in [5, 200] m/s³. A sphere of radius log-uniform in [0.1, 0.4] m.
-///  movers: one to five, each with half-extents log-uniform in [0.1, 1.5] m per axis. A direction is uniform on the
-///  sphere, a speed log-uniform in [0.4 m/s, 2 v_max]. A drawn point of its box (grown by the radius) goes through the
-///  start. It first touches a vehicle that stays there at a time uniform in [kStepAsideQuiet, kStepAsideQuiet + 4] s.
+/// Returns the encounter of a seed. Rng(seed) draws in this order:
+///
+/// 1. The vehicle: v_max log-uniform in [0.5, 6] m/s; a_max log-uniform in [1, 20] m/s², half of it on z. One vehicle
+///    in five has no jerk limit; the others have j_max log-uniform in [5, 200] m/s³. The body is a sphere with a
+///    radius log-uniform in [0.1, 0.4] m.
+/// 2. One to five obstacles. Half-extents are log-uniform in [0.1, 1.5] m per axis, directions are uniform on the
+///    sphere, speeds are log-uniform in [0.4 m/s, 2 v_max].
+/// 3. The path of each: a random point of its box, enlarged by the radius, passes through the start. It first touches
+///    a vehicle that stays there at a time uniform in [kStepAsideQuiet, kStepAsideQuiet + 4] s.
 StepAside draw_step_aside(std::uint64_t seed, const Vec3& start);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// TRACK_BOUNDS: why predicted boxes are as wide as they are, for people.
+// The message TRACK_BOUNDS: the reason for the width of predicted boxes, for display.
 #pragma once
 
 #include <cstdint>
@@ -11,45 +11,46 @@ namespace tern {
 
 inline constexpr int kMaxTrackBounds = 800;  ///< in a TrackBounds
 
-/// By what a track is predicted.
+/// The kind of model that predicts a track, or the age of a track that is too young for one.
 enum class MotionKind : std::uint8_t {
-  New,      ///< seen once
-  Young,    ///< seen for less than kYoungAge (calibration.h)
-  Steady,   ///< best by steady models (model_bank.h)
-  Calm,     ///< by calm ones
-  Lively,   ///< by lively ones
-  Learnt,   ///< by the one that is learnt in the flight (learnt_model.h)
-  Resting,  ///< at rest
+  New,      ///< detected once
+  Young,    ///< detected for less than kYoungAge (predictor/tracking)
+  Steady,   ///< predicted best by steady models
+  Calm,     ///< predicted best by calm models
+  Lively,   ///< predicted best by lively models
+  Learnt,   ///< predicted best by the model that is learnt in flight
+  Resting,  ///< stationary
 };
 inline constexpr std::size_t kMotionKinds = 7;
 
-/// What the width of a promise follows from.
+/// The source of a track's α.
 enum class BoundRule : std::uint8_t {
-  Model,     ///< what the models say themselves
-  Prior,     ///< errors that such tracks made in recordings: they count more than this flight's own
-  Measured,  ///< errors that such tracks made in this flight
-  Reach,     ///< how far anything can have moved
+  Model,     ///< the variance of the models
+  Prior,     ///< prediction errors of such tracks in recordings; they weigh more than those of this flight
+  Measured,  ///< prediction errors of such tracks in this flight
+  Reach,     ///< the largest distance that an obstacle can have moved
 };
 inline constexpr std::size_t kBoundRules = 4;
 
-/// Of one estimated track, so far ahead. Half-widths, m, of the axis on which they are largest. Of what rests the
-/// models say what its filter holds at all times, and past errors are starts.
+/// The bounds of one estimated track at one time ahead: half-widths, m, on the axis where they are largest. For a
+/// stationary track, `model` is the filter's position bound, and `measured` comes from tracks that started to move.
 struct TrackBound {
   std::int64_t id = 0;
   MotionKind kind = MotionKind::New;
   BoundRule ruled_by = BoundRule::Model;
-  double ahead_s = 0.0;   ///< after TrackBounds::at
-  double model = 0.0;     ///< what the models say themselves: z σ, P[|error| > z σ] = 1 − confidence
-  double measured = 0.0;  ///< what past errors ask for
+  double ahead_s = 0.0;   ///< time after TrackBounds::at, s
+  double model = 0.0;     ///< bound by the models' variance: z σ, where P[|error| > z σ] = 1 − confidence
+  double measured = 0.0;  ///< bound by past prediction errors
   double promised = 0.0;  ///< α at that time
-  double evidence = 0.0;  ///< for how many independent errors this flight's own count, in the band of that time
+  double evidence = 0.0;  ///< number of independent errors to which this flight's errors are equivalent
 };
 
+/// TRACK_BOUNDS: the bounds of the estimated tracks of one prediction set.
 struct TrackBounds {
   Header header;
-  UTime at;                   ///< when the predictions began
+  UTime at;                   ///< start of the predictions
   double confidence = 1.0;    ///< (0, 1]
-  std::int32_t left_out = 0;  ///< tracks that did not fit
+  std::int32_t left_out = 0;  ///< tracks that did not fit into the message
   std::vector<TrackBound> bounds;
 };
 

@@ -1,4 +1,5 @@
-// Which tracks matter most to the vehicle, for when not all of them fit.
+// The order of tracks by their importance for the vehicle. If not all tracks fit into a message, the last are left
+// out.
 #pragma once
 
 #include <vector>
@@ -8,8 +9,9 @@
 
 namespace tern {
 
-/// Orders tracks by the distance from `vehicle` (W, m) to the region that each may occupy during [now, now + horizon].
-/// It is 0 for those that can reach the vehicle. Ties: by the distance to it at `now`, then by id. O(n log n + pieces).
+/// Sorts tracks by the distance from `vehicle` (W, m) to the region that each may occupy during [now, now + horizon].
+/// It is 0 for tracks that can reach the vehicle. Ties are resolved by the distance at `now`, then by id. O(n log n +
+/// pieces).
 void sort_by_reach(std::vector<Track>& tracks, const Vec3& vehicle, UTime now, Duration horizon);
 
 }  // namespace tern

@@ -1,4 +1,5 @@
-// Where a predicted obstacle is during a time span: boxes along its motion, whose convex hull holds it (paper §3.2).
+// The sweep of a predicted obstacle over a time span: boxes along its motion, whose convex hull contains it (paper
+// §3.2).
 #pragma once
 
 #include <vector>
@@ -9,17 +10,17 @@
 
 namespace tern {
 
-/// β ≤ this, m: how far a hull may exceed the true sweep because motion is sampled.
+/// The largest β, m: how far the hull may exceed the true sweep because the motion is sampled.
 inline constexpr double kBetaMax = 0.005;
 
-/// Appends boxes whose convex hull holds the track's box, with what counts of its α, over [from, to] seconds after
-/// origin.
+/// Appends boxes whose convex hull contains the track's box, with a share of its α, during [from, to] seconds after
+/// `origin`.
 ///
-/// β: within a cubic piece |ξ''| ≤ a per axis. So the chord between samples h apart leaves the curve by at most a h²/8,
-/// by which the boxes are grown. Samples stand at every piece break, and h keeps β ≤ kBetaMax. Only what is accelerated
-/// so much that 256 samples of a piece do not suffice has a larger one. Outside the pieces: a box that grows at top
-/// speed.
-/// @param body_half  added to all half-extents, m, ≥ 0
+/// Within a cubic piece |ξ''| ≤ a per axis, so the chord between samples h apart is at most β = a h²/8 off the curve.
+/// The boxes are enlarged by β. There is a sample at every joint, and h is small enough for β ≤ kBetaMax. At most 256
+/// samples per piece are used, so very large accelerations give a larger β. Outside the pieces the box grows at
+/// top_speed.
+/// @param body_half  half-extents of the body, added to those of the boxes, m, ≥ 0
 void add_sweep(std::vector<CentredBox>& out, const Track& track, const AlphaShare& share, const Vec3& body_half,
                UTime origin, double from, double to);
 

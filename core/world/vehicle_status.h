@@ -1,4 +1,4 @@
-// VEHICLE_STATUS: whether the vehicle follows SETPOINT, and how it is.
+// The message VEHICLE_STATUS: whether the vehicle follows its setpoints, and its condition.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +12,32 @@
 
 namespace tern {
 
-/// What the vehicle's state estimator says of itself.
+/// The health that the vehicle's state estimator reports.
 enum class EstimatorHealth : std::uint8_t {
   Good = 0,
-  Degraded = 1,  ///< UAV_STATE goes on, with the sigma that is said
-  Lost = 2,      ///< UAV_STATE cannot be believed
+  Degraded = 1,  ///< UAV_STATE continues, with the stated `position_sigma`
+  Lost = 2,      ///< UAV_STATE is not reliable
 };
 inline constexpr int kEstimatorHealths = 3;
 
-/// The mode of a vehicle that is where its setpoints say. Every other one that names its mode has errors of tracking.
+/// The mode of a vehicle without tracking error: it is always at its setpoint.
 inline constexpr std::string_view kPerfectMode = "perfect";
 
-/// The vehicle as the one who flies it (simulator, autopilot bridge) knows it. The executor asks for plans only while
-/// it is following.
+/// VEHICLE_STATUS: the vehicle as the simulator or the autopilot bridge knows it. The executor requests plans only
+/// while `following` is true.
 struct VehicleStatus {
   Header header;
   UTime at;  ///< vehicle's clock
   bool armed = false;
-  bool following = false;  ///< it is armed and flies SETPOINT; false: somebody else flies, or nobody
+  bool following = false;  ///< the vehicle is armed and tracks SETPOINT
   bool landed = false;
-  std::string mode;               ///< the autopilot's own word: "OFFBOARD", "POSCTL"; may be empty
-  std::string why_not;            ///< why it does not follow, in words; empty exactly when it is following
-  std::optional<double> battery;  ///< what is left, [0, 1]; nullopt: unknown
+  std::string mode;               ///< the autopilot's own name of its mode: "OFFBOARD", "POSCTL"; may be empty
+  std::string why_not;            ///< in words why the vehicle does not follow; empty exactly if it follows
+  std::optional<double> battery;  ///< remaining charge, [0, 1]; nullopt: unknown
   EstimatorHealth estimator = EstimatorHealth::Good;
-  /// Standard deviation of UAV_STATE's position per axis of W, m, ≥ 0. 0: none is known.
+  /// Standard deviation of UAV_STATE's position per axis of W, m, ≥ 0; 0: unknown.
   Vec3 position_sigma = Vec3::Zero();
-  /// How often UAV_STATE's position has jumped (the estimator reset itself), ≥ 0, since the vehicle's process started.
+  /// Number of position jumps of UAV_STATE since the vehicle's process started (the estimator reset itself), ≥ 0.
   std::int64_t resets = 0;
 };
 

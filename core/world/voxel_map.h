@@ -1,4 +1,4 @@
-// The metric-semantic map M (paper §2): labelled voxels, and the chunks in which it travels.
+// The metric-semantic map M (paper §2): labelled voxels, and the message SEMANTIC_MAP that carries it in chunks.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,27 @@
 
 namespace tern {
 
+/// The label of a voxel.
 enum class VoxelLabel : std::uint8_t { Unknown = 0, Free = 1, Occupied = 2, Attractive = 3, Repulsive = 4 };
 inline constexpr int kVoxelLabels = 5;
 
-/// The grid's frame: voxel (i, j, k) is the cube from origin + resolution·(i, j, k), side `resolution`.
+/// A grid of voxels. Voxel (i, j, k) is the cube with the lower corner origin + resolution·(i, j, k).
 struct VoxelGrid {
-  Vec3 origin = Vec3::Zero();                      ///< the least corner, W, m
-  double resolution = 0.25;                        ///< m, > 0
+  Vec3 origin = Vec3::Zero();                      ///< lower corner of the grid, W, m
+  double resolution = 0.25;                        ///< side of a voxel, m, > 0
   Eigen::Vector3i size = Eigen::Vector3i::Zero();  ///< voxels per axis, ≥ 0
 
   [[nodiscard]] std::int64_t voxels() const { return static_cast<std::int64_t>(size.x()) * size.y() * size.z(); }
-  /// x runs fastest, then y, then z.
+  /// Returns the index of a voxel: x runs fastest, then y, then z.
   [[nodiscard]] std::int64_t index(const Eigen::Vector3i& v) const {
     return v.x() + static_cast<std::int64_t>(size.x()) * (v.y() + static_cast<std::int64_t>(size.y()) * v.z());
   }
+  /// Returns the voxel with an index.
   [[nodiscard]] Eigen::Vector3i cell(std::int64_t index) const;
   [[nodiscard]] bool contains(const Eigen::Vector3i& v) const {
     return (v.array() >= 0).all() && (v.array() < size.array()).all();
   }
-  /// The voxel that holds p (may lie outside the grid).
+  /// Returns the voxel that contains p (W, m); it may lie outside the grid.
   [[nodiscard]] Eigen::Vector3i cell_of(const Vec3& p) const;
   [[nodiscard]] Vec3 centre(const Eigen::Vector3i& v) const {
     return origin + resolution * (v.cast<double>() + Vec3::Constant(0.5));
@@ -41,61 +43,66 @@ struct VoxelGrid {
   [[nodiscard]] Box bounds() const { return {origin, origin + resolution * size.cast<double>()}; }
 };
 
-/// Labels and classes of every voxel. Immutable once made; named by its digest.
+/// A labelled grid. A map does not change once it is made; its digest names it.
 struct VoxelMap {
   VoxelGrid grid;
-  std::vector<VoxelLabel> labels;        ///< grid.voxels() entries, by grid.index
-  std::vector<std::uint8_t> classes;     ///< same size; index into class_names, 0 = none
-  std::vector<std::string> class_names;  ///< class_names[0] = "" (no class)
+  std::vector<VoxelLabel> labels;        ///< a label per voxel, by grid.index()
+  std::vector<std::uint8_t> classes;     ///< an index into class_names per voxel; 0: no class
+  std::vector<std::string> class_names;  ///< class_names[0] is ""
   std::uint64_t version = 0;             ///< compute_version()
 
-  /// Digest of everything above; never 0.
+  /// Returns the digest of grid, labels, classes and class names; never 0.
   [[nodiscard]] std::uint64_t compute_version() const;
 };
 
-/// A run of equal voxels.
+/// Consecutive voxels with equal label and class.
 struct VoxelRun {
   VoxelLabel label = VoxelLabel::Unknown;
   std::uint8_t class_index = 0;
   std::int32_t length = 0;  ///< ≥ 1
 };
 
-/// SEMANTIC_MAP: one chunk of a map; chunks are sent in rotation, so that a late joiner gets them all.
+/// SEMANTIC_MAP: one chunk of a map. Chunks are sent in rotation, so a process that starts late receives all of them.
 struct MapChunk {
   Header header;
   std::uint64_t version = 0;
   VoxelGrid grid;
   std::vector<std::string> class_names;
-  std::int32_t index = 0, count = 1;  ///< this chunk of so many, count ≤ kMaxMapChunks
-  std::int64_t first_voxel = 0;       ///< where this chunk's runs begin
+  std::int32_t index = 0, count = 1;  ///< number of this chunk, 0 … count − 1; count ≤ kMaxMapChunks
+  std::int64_t first_voxel = 0;       ///< index of the first voxel of the runs
   std::vector<VoxelRun> runs;
 };
 inline constexpr int kMaxMapChunks = 4096;
 inline constexpr int kMaxRunsPerChunk = 8000;
 inline constexpr std::int64_t kMaxVoxels = 200'000'000;
 
-/// Cuts a map into chunks (header empty). At least one chunk, even for an empty grid.
+/// Returns the chunks of a map, with empty headers. An empty grid gives one chunk.
 std::vector<MapChunk> to_chunks(const VoxelMap& map);
 
-/// A sender of maps that has sent nothing for so long has ended: a map of one chunk comes once a second.
+/// After this silence the sender of maps is considered gone. (A map of one chunk is sent once a second.)
 inline constexpr Duration kMapSilence{2'500'000};
 
-/// Collects chunks in any order, of any version; a newer version (one not seen in progress) replaces an unfinished one.
-/// Of two senders the one heard first is listened to until it has sent nothing for kMapSilence. Chunks of both in turn
-/// would complete neither's map.
+/// Assembles a map from chunks that arrive in any order.
+///
+/// | chunk                                                   | effect                                          |
+/// |---------------------------------------------------------|-------------------------------------------------|
+/// | of another sender, less than kMapSilence after the last | ignored, as mixed chunks would complete no map  |
+/// | of another sender, later                                | the unfinished map is dropped; a new one begins |
+/// | of the version that was completed last, or a repeated one | ignored                                       |
+/// | of another version                                      | the unfinished map is dropped; a new one begins |
+/// | inconsistent with the unfinished map                    | an Error; the unfinished map is dropped         |
 class MapAssembler {
  public:
-  /// Takes a chunk. @return true when it completed a map, which `take` then gives. What another sender sends beside
-  /// the one that is listened to is passed over.
-  /// An inconsistent chunk (other grid, overlapping runs, wrong digest at the end) is an Error and discards that
-  /// version.
+  /// Adds a chunk. Returns true if it completes the map, which take() then returns. An Error names the inconsistency:
+  /// of the grid, the class names, the number of chunks, the runs, or the digest of the complete map.
   Result<bool> add(const MapChunk& chunk);
+  /// Returns the complete map and forgets it. @pre add() has returned true
   [[nodiscard]] VoxelMap take();
 
  private:
   VoxelMap map_;
-  std::int64_t epoch_us_ = 0;  ///< of the sender that is listened to
-  UTime heard_;                ///< when it sent its newest chunk, its clock
+  std::int64_t epoch_us_ = 0;  ///< epoch of the sender whose chunks are used
+  UTime heard_;                ///< when it sent its newest chunk, by its clock
   std::uint64_t finished_version_ = 0;
   std::vector<bool> have_;
   int missing_ = 0;
