@@ -56,7 +56,7 @@ struct ObstacleCount {
 
 /// How the referee's collision agrees with the recomputed clearance.
 enum class Collision { None, Agrees, CannotTell, Contradicts };
-/// Returns the name: none, agrees, cannot tell, contradicts.
+/// Returns the lower-case name, with "cannot tell" for CannotTell.
 const char* to_string(Collision collision);
 
 struct Audit {

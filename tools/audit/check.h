@@ -29,7 +29,7 @@ enum class Verdict { Held, Broken, NotChecked };
 const char* to_string(Verdict verdict);
 
 struct Check {
-  std::string name;          ///< one word: "clearance"  ///< one word: "clearance"
+  std::string name;          ///< one word: "clearance"
   std::string claim;         ///< the statement that holds if nothing is broken
   std::string summary = {};  ///< the result in words
   std::int64_t checked = 0, broken = 0;

@@ -71,8 +71,7 @@ struct FlightRecord {
   std::vector<FlightResult> results;                ///< first message of each that differs from its predecessor
   std::vector<ConfigurationReport> configurations;  ///< the last of each process
   std::vector<Region> regions;                      ///< of the scenario; filled by load_flight()
-  std::map<std::string, std::string>
-      class_labels;  ///< what its classes are: "attractive", "repulsive", …  ///< class → "attractive", "repulsive", …
+  std::map<std::string, std::string> class_labels;  ///< class → "attractive", "repulsive", …
 
   /// Returns how many messages of a channel were lost (by their sequence numbers) or refused.
   [[nodiscard]] std::int64_t unread(const std::string& channel) const;

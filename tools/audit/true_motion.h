@@ -15,7 +15,7 @@ struct MotionSpan {
   double speed_error = 0.0;   ///< the true speed is within this of the curve's speed, m/s
   double wander_m = 0.0;      ///< the true path is at most this much longer than the curve's, m
   bool proven = true;         ///< false: nothing bounds the error; the curve interpolates between its ends
-  bool hole = false;  ///< of the vehicle: no state for longer than kStateHole, so the log does not tell what was flown
+  bool hole = false;          ///< of the vehicle: no state for longer than kStateHole, so the flown motion is unknown
 };
 
 /// A longer time without a vehicle state is a hole.
@@ -54,8 +54,8 @@ SampledMotion vehicle_motion(const FlightRecord& record);
 /// - An obstacle that does not move is stationary.
 SampledMotion obstacle_motion(const ObstacleHistory& history, const std::vector<DeclaredPiece>& declared);
 
-/// The time that the referee judged, or all recorded time without a referee. After the verdict the vehicle asks for no
-/// plans and is not judged.
+/// The time that the referee judged, or all recorded time without a referee. The vehicle is judged until the verdict;
+/// then it stops asking for plans.
 struct Window {
   UTime from, to;   ///< contains the flight
   Duration unsure;  ///< the flight began at most this long after `from` and ended at most this long before `to`: one

@@ -1,4 +1,4 @@
-// Messages as tables: a file per channel, and one per list within its messages.
+// Writes messages as CSV tables: a file per channel, and a file per list within its messages.
 #pragma once
 
 #include <filesystem>
@@ -11,17 +11,22 @@
 
 namespace tern::exporting {
 
-/// CHANNEL.csv has a row per message: `message` (its number in this file, from 0), `received_us`, then its fields,
-/// nested ones with dots and those of a fixed array with their index: "motion.position.x [m]", "stage_ms.3". A list has
-/// a file of its own, CHANNEL.LIST.csv, with a row per element: `message` (whose it is), `index`, then the element's
-/// fields. The header row tells the unit where the name does not. RFC 4180 with '\n'; numbers read back to the same
-/// double, "nan" and "inf" included.
+/// Writes CSV files (RFC 4180 with '\n').
+///
+/// - CHANNEL.csv has a row per message. Columns: `message` (row number, from 0), `received_us`, then the fields. Nested
+///   fields are joined by dots, elements of a fixed array by their index: "motion.position.x [m]", "stage_ms.3".
+/// - CHANNEL.LIST.csv has a row per element of a list. Columns: `message` (the row number of its message), `index`,
+/// then
+///   the element's fields.
+///
+/// The header row names the unit unless the field's name does. Numbers read back to the same double, "nan" and "inf"
+/// included.
 class CsvFiles {
  public:
-  /// Files appear in `folder` with the first message of their channel; what was there under that name is replaced.
+  /// A file is created in `folder` with the first message of its channel. It replaces a file of the same name.
   explicit CsvFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
   void add(const LoggedMessage& message);
-  /// Closes all. @return an Error that names the first file that could not be written.
+  /// Closes all files. @return an Error that names the first file that could not be written
   Result<void> finish();
 
  private:

@@ -1,4 +1,4 @@
-// One pass through a log, into everything that was asked for.
+// Exports a log in one pass.
 #pragma once
 
 #include <string>
@@ -8,14 +8,17 @@
 namespace tern::exporting {
 
 struct ExportOptions {
-  std::string log;         ///< a file, or the folder of flight.lcm
-  std::string csv_folder;  ///< made where it is missing; empty: no tables
-  std::string mcap_file;   ///< empty: none
-  std::string suffix;      ///< what the vehicle's channels end with
+  std::string log;         ///< a file, or a flight's folder with flight.lcm
+  std::string csv_folder;  ///< created if missing; empty: no tables
+  std::string mcap_file;   ///< empty: no MCAP file
+  std::string suffix;      ///< of the vehicle's channels
 };
 
-/// @return what was written and what the log did not give, for people. An Error when nothing was asked for, the log
-/// cannot be opened or holds no message of Tern's, or something cannot be written.
+/// Writes the files that the options name.
+/// @return text for people: the files written, and the messages that could not be read. Error cases:
+/// - the options name no file
+/// - the log cannot be opened, or is without a message of Tern
+/// - a file cannot be written
 Result<std::string> export_log(const ExportOptions& options);
 
 }  // namespace tern::exporting

@@ -1,4 +1,4 @@
-// What Foxglove's 3D panel draws of a flight, in its own well-known schemas.
+// Converts messages to Foxglove's schemas, for its 3D panel.
 #pragma once
 
 #include <cstdint>
@@ -13,33 +13,35 @@
 
 namespace tern::exporting {
 
+/// One message on one Foxglove topic.
 struct Drawing {
-  std::string
-      topic;  ///< "/tern/uav", "/tern/obstacles", "/tern/committed", "/tern/plan", "/tern/hulls", "/tern/planes",
-              ///< "/tern/regions"
+  /// "/tern/uav", "/tern/obstacles", "/tern/committed", "/tern/plan", "/tern/hulls", "/tern/planes", "/tern/regions"
+  std::string topic;
   std::string schema;  ///< "foxglove.PoseInFrame" or "foxglove.SceneUpdate"
   Json message;
 };
 
-/// The vehicle's pose of UAV_STATE, the true obstacles as cubes, the committed path of a request and the path of a plan
-/// as lines. All in frame "W", at the time of receipt. Nothing for other messages, and for an answer without a plan.
+/// Converts a message: UAV_STATE to a pose, OBSTACLE_TRUTH to cubes, the committed trajectory of a request and the
+/// trajectory of a plan to lines. The frame is "W", the time that of receipt.
+/// @return nullopt for other messages, and for an answer without a trajectory
 std::optional<Drawing> drawing_of(const LoggedMessage& message);
 
-/// What a plan stands on: where the moving obstacles within 3 m of it may be while it is flown (predicted_hulls.h).
-/// Besides, of each certificate plane a patch where it stands between vehicle and obstacle (plane_place.h). Each takes
-/// the place of those of the plan before. Nothing for an answer without a plan.
+/// Draws what a plan was checked against. Hulls: where moving obstacles within 3 m of the plan may be while it is flown
+/// (predicted_hulls.h). Planes: a patch of each separating plane, between vehicle and obstacle (plane_place.h). Both
+/// replace those of the previous plan.
+/// @return empty for an answer without a trajectory
 /// @param t_s     of the request that was answered
 /// @param tracks  the prediction set that the plan names
 std::vector<Drawing> drawings_of(const Plan& plan, UTime t_s, const TrackSet& tracks, std::int64_t received_us);
 
-/// A semantic map: an entity per label and class, of boxes (box_cover.h), named by class in its text and its metadata
-/// ("label", "class"). It replaces the map before.
+/// Draws a semantic map: an entity per label and class, made of boxes (box_cover.h). Its text and its metadata
+/// ("label", "class") name the class. It replaces the previous map.
 Drawing drawing_of(const VoxelMap& map, std::int64_t received_us);
 
-/// The part of Foxglove's schema that drawing_of() uses.
+/// Returns the part of Foxglove's schema that the functions above use.
 Json foxglove_schema(const std::string& name);
 
-/// The schema of one of Tern's message types (message_types.h), with its units and comments.
+/// Returns the JSON schema of one of Tern's message types (message_types.h), with units and comments.
 Json message_schema(const std::string& type);
 
 }  // namespace tern::exporting

@@ -1,4 +1,4 @@
-// The faces of a convex hull, as triangles to draw.
+// Triangulates the surface of a convex hull, for drawing.
 #pragma once
 
 #include <array>
@@ -8,9 +8,10 @@
 
 namespace tern::exporting {
 
-/// Triangles that cover the surface of conv(vertices): columns of it, counter-clockwise seen from outside. None when
-/// the points lie in a plane. For drawing: points within 1e-6 of the hull's size of a plane lie in it.
-/// @param vertices  3×m: extreme points (core/geometry/convex_hull.h). O(m⁴), about 20 µs for the 16 of a swept box
+/// Returns triangles that cover the surface of conv(vertices): column indices, counter-clockwise seen from outside.
+/// Empty if the points lie in a plane. Tolerance: a point within 1e-6 of the hull's size of a plane counts as in it.
+/// Cost O(m⁴), about 20 µs for the 16 vertices of a swept box.
+/// @param vertices  3×m: extreme points (core/geometry/convex_hull.h)
 std::vector<std::array<int, 3>> hull_faces(const Points& vertices);
 
 }  // namespace tern::exporting

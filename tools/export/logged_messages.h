@@ -1,4 +1,4 @@
-// Every message of a log that its receivers would accept, whatever its type.
+// Reads all of Tern's messages in a log, of any type, as JSON.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,15 @@
 
 namespace tern::exporting {
 
+/// One message that its receivers would accept.
 struct LoggedMessage {
   std::string channel;  ///< on the wire, suffix included
   std::string type;     ///< "plan_t"
   std::int64_t received_us = 0;
-  Json fields;  ///< message_json()
+  Json fields;  ///< see message_json()
 };
 
-/// Asks `log` for all of Tern's channels. @param suffix  that `log` was made with
+/// Registers `use` for all of Tern's channels in `log`. @param suffix  the one that `log` was made with
 void on_every_channel(FlightLog& log, const std::string& suffix, std::function<void(const LoggedMessage&)> use);
 
 }  // namespace tern::exporting

@@ -1,4 +1,4 @@
-// MCAP files (https://mcap.dev/spec): JSON messages with their JSON schemas.
+// Writes MCAP files (https://mcap.dev/spec) with JSON messages and JSON schemas.
 #pragma once
 
 #include <boost/crc.hpp>
@@ -15,23 +15,28 @@
 
 namespace tern::exporting {
 
-/// Writes Header, Chunks with an index after each, DataEnd, and a summary: schemas, channels, Statistics, where each
-/// chunk is, where each kind of record is. Schema and Channel stand in the chunk of their first message and in the
-/// summary. Chunks, data and summary have their checksums; the records of a chunk are
-/// compressed by Zstandard.
+/// Writes these records, in this order:
+///
+/// 1. Header
+/// 2. Chunks, compressed by Zstandard, each followed by its index
+/// 3. DataEnd
+/// 4. the summary: schemas, channels, Statistics, the index of chunks, the index of record kinds
+///
+/// A Schema and a Channel are written to the chunk of their first message and to the summary. Chunks, data and summary
+/// have checksums.
 class McapWriter {
  public:
-  /// A chunk is ended when its records are more than this, bytes.
+  /// A chunk is closed when its records exceed this size, bytes.
   static constexpr std::size_t kChunkBytes = 4 << 20;
 
   explicit McapWriter(const std::string& path);
 
-  /// The first message of a topic settles its schema. Numbers that are not finite become null.
-  /// @param schema_name  the same name means the same schema
+  /// Adds a message. The first message of a topic fixes its schema. Infinite values and NaN become null.
+  /// @param schema_name  the same name means the same schema  ///< topics with the same name share the schema
   /// @param time_us      since the Unix epoch, ≥ 0
   void add(const std::string& topic, const std::string& schema_name, Json (*schema)(const std::string& name),
            std::int64_t time_us, const Json& message);
-  /// Ends the file. @return an Error when it could not be written.
+  /// Completes the file. @return an Error if it could not be written
   Result<void> finish();
 
  private:
@@ -44,7 +49,7 @@ class McapWriter {
     std::uint64_t messages = 0;
     void take(std::uint64_t ns);
   };
-  /// Where the messages of a channel are: time, offset in the chunk's records.
+  /// Index of one channel in a chunk: time, offset in the chunk's records.
   using MessageIndex = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
   struct Chunk {
     std::string records;

@@ -1,4 +1,4 @@
-// A message as JSON, named and ordered as its definition in lcmtypes/ is.
+// Converts an encoded message to JSON, with names and order of its definition in lcmtypes/.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace tern::exporting {
 
 using Json = nlohmann::ordered_json;
 
-/// The fields of a message that decode() (messages/codec.h) accepts. Texts are strings, digests "0x" and 16 digits,
-/// booleans true or false, enumerations numbers. Numbers that are not finite stay so; text that is made of them says
+/// Converts a message that decode() (messages/codec.h) accepts. Texts become strings, digests "0x" with 16 digits,
+/// booleans true or false, and enumerations numbers. Infinite values and NaN remain in the value; printed JSON has
 /// null.
-/// @throws std::out_of_range when there is no such type, or the bytes are fewer than its fields take
+/// @throws std::out_of_range if the type is unknown, or the bytes are too few for its fields
 Json message_json(std::string_view type, std::span<const std::uint8_t> bytes);
 
 }  // namespace tern::exporting

@@ -1,4 +1,4 @@
-// What lcmtypes/*.lcm say of the messages: the fields in the order of the wire, with units and comments.
+// The definitions in lcmtypes/*.lcm: fields in wire order, with units and comments.
 #pragma once
 
 #include <map>
@@ -14,14 +14,15 @@ struct MessageField {
 
   std::string name;
   std::string type;     ///< an LCM primitive, or the name of another MessageType
-  std::string comment;  ///< as the definition has it
-  std::string unit;     ///< "m/s^2", in brackets before the comment; empty: none, or the name (_us) or the type says it
+  std::string comment;  ///< as in the definition
+  std::string unit;     ///< "m/s^2", in brackets before the comment; empty: none, or given by name (_us) or type
   Form form = Form::Value;
   int size = 0;         ///< of a FixedArray
-  std::string count;    ///< the field that counts a List or a Text (UTF-8 bytes)
-  bool digest = false;  ///< an int64_t that carries 64 unsigned bits: "[digest]" before the comment
+  std::string count;    ///< the field that holds the length of a List or Text (in UTF-8 bytes)
+  bool digest = false;  ///< an int64_t that carries 64 unsigned bits; marked "[digest]" before the comment
 };
 
+/// One message type.
 struct MessageType {
   std::string name;
   std::string comment;
@@ -30,14 +31,14 @@ struct MessageType {
 
 using MessageTypes = std::map<std::string, MessageType, std::less<>>;
 
-/// lcmtypes/*.lcm, one after the other, as they were when this was built.
+/// The text of all lcmtypes/*.lcm, as of the build.
 extern const char* const kDefinitions;
 
-/// Reads definitions in the form that lcmtypes/ has: a field per line, its comment behind it. Lines of another form are
-/// passed over.
+/// Parses definitions in the form that lcmtypes/ has: one field per line, followed by its comment. Other lines are
+/// skipped.
 MessageTypes parse_definitions(std::string_view text);
 
-/// All of kDefinitions.
+/// Returns the types of kDefinitions.
 const MessageTypes& message_types();
 
 }  // namespace tern::exporting

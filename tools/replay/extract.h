@@ -1,4 +1,4 @@
-// Some answers of a log with what they name and nothing else: a small log to keep, to send, to test with.
+// Extracts some answers of a log, with their inputs and nothing else, to keep, to send or to test with.
 #pragma once
 
 #include <string>
@@ -9,28 +9,29 @@
 
 namespace tern {
 
-/// A log that write_log wrote has a message on this channel: what is not in it was left out on purpose.
+/// A log written by write_log() has a message on this channel. It marks the log's gaps as deliberate.
 inline constexpr char kExtractMark[] = "TERN_EXTRACT";
 
-/// Answers and all that they were made from.
+/// Answers and all of their inputs.
 struct Extract {
   RecordedInputs inputs;
-  std::vector<TrackSet> predictions;  ///< complete sets, in the log's order: those named, and those that static tracks
-                                      ///< were remembered from
+  /// Complete sets in the log's order: those that the plans name, and those from which static tracks were taken.
+  std::vector<TrackSet> predictions;
 };
 
-/// @param options  which answers (its other settings are not used)
-/// @param every  of those, keep every n-th, n ≥ 1
+/// Reads answers and their inputs from a log.
+/// @param options  selects the answers; its other settings are ignored
+/// @param every    keeps every n-th of them, n ≥ 1
 Result<Extract> extract(const std::string& path, const ReplayOptions& options, int every = 1);
 
-/// Writes it as a log, which must not exist yet. A replay of it replays the same answers.
+/// Writes the extract as a log. The file must not exist. Its replay gives the same answers.
 Result<void> write_log(const Extract& extract, const std::string& path);
 
-/// Writes it as text (text_log.h), with a comment that says what was asked and answered. A replay takes it as a log; a
-/// unit test takes it by load_fixture (tests/support/fixture.h).
+/// Writes the extract as text (text_log.h), headed by a comment with request and answer. tern-replay reads it like a
+/// log; unit tests read it with load_fixture() (tests/support/fixture.h).
 Result<void> write_fixture(const Extract& extract, const std::string& path);
 
-/// Extracts answers of the log at `path` into a log, a fixture, or both; an empty name: not that.
+/// Writes an extract of the log at `path` to a log, a fixture, or both. An empty name skips that file.
 Result<void> write_extract(const std::string& path, const ReplayOptions& options, const std::string& log,
                            const std::string& fixture);
 

@@ -1,4 +1,4 @@
-// How far two answers to one request agree, and where they part.
+// Compares two answers to one request: how far they agree, and which stage makes the first difference.
 #pragma once
 
 #include <string>
@@ -8,30 +8,32 @@
 
 namespace tern {
 
-/// Plans that agree to this are the same on another machine, m: DESIGN's promise where bytes cannot be promised.
+/// Positions of equivalent plans agree to this on another machine, m; identical bytes are promised on the same machine.
 inline constexpr double kReplayTolerance = 1e-6;
 
 enum class Agreement : std::uint8_t {
   Identical = 0,   ///< byte for byte
-  Equivalent = 1,  ///< the same outcome, and positions to kReplayTolerance at all times
+  Equivalent = 1,  ///< the same outcome, and positions within kReplayTolerance at all times
   Different = 2,
 };
 
-/// A part of the two answers that differs.
+/// A part in which the answers differ.
 struct PartDifference {
-  Stage stage = Stage::Check;  ///< the stage that makes this part
+  Stage stage = Stage::Check;  ///< the stage that produces this part
   std::string what;            ///< in words, with both values
 };
 
+/// The comparison of two answers.
 struct PlanDifference {
   Agreement agreement = Agreement::Identical;
-  double position_m = 0.0;            ///< the largest distance between the two trajectories at one time
-  std::vector<PartDifference> parts;  ///< in the order of the stages, so the first is where the answers part
+  double position_m = 0.0;            ///< the largest distance between the trajectories at equal times
+  std::vector<PartDifference> parts;  ///< in order of the stages: the first one is where the answers part
 };
 
-/// @param recorded, again  answers to one request; the header is not compared
-/// @param recorded_work, work what they cost in countable things, where known. Tells apart stages that leave no trace
-/// in the plan (an optimizer that made the same of another search's leaf)
+/// Compares the trajectories and every part of two answers.
+/// @param recorded, again  answers to one request; headers are not compared
+/// @param recorded_work, work  counted work of both, null if unknown. It tells stages apart that leave no trace in the
+/// plan, such as an optimizer that made the same trajectory of another leaf
 PlanDifference difference_of(const Plan& recorded, const Plan& again, const PlanTiming* recorded_work,
                              const PlanStatistics* work);
 

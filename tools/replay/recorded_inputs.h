@@ -1,4 +1,4 @@
-// What a log holds of planners' answers and of what they were made from.
+// Reads the planners' answers of a log and their inputs.
 #pragma once
 
 #include <cstdint>
@@ -21,26 +21,26 @@ namespace tern {
 /// An answer of a planner.
 struct RecordedPlan {
   Plan plan;
-  std::int64_t received_us = 0;      ///< when the logger had it, µs since the Unix epoch
-  std::optional<PlanTiming> timing;  ///< what it cost; nullopt if the log has none
+  std::int64_t received_us = 0;      ///< by the logger, µs since the Unix epoch
+  std::optional<PlanTiming> timing;  ///< its measured cost; nullopt if the log has none
 };
 
-/// Everything that plans name but the prediction sets, which are many: those are read by read_prediction_sets.
+/// The inputs that plans name, except prediction sets: those are many and are read by read_prediction_sets().
 struct RecordedInputs {
   std::vector<RecordedPlan> plans;  ///< in the log's order
   std::map<MessageName, HorizonRequest> requests;
   std::map<MessageName, Goal> goals;
   std::map<std::uint64_t, VoxelMap> maps;                       ///< complete ones, by version
-  std::map<std::uint64_t, ConfigurationReport> configurations;  ///< any one of each hash
-  std::map<std::int64_t, std::string> platforms;                ///< by the sender epoch of the process, any process
+  std::map<std::uint64_t, ConfigurationReport> configurations;  ///< one of each hash
+  std::map<std::int64_t, std::string> platforms;                ///< by the sender epoch of any process
   LogContents log;
 };
 
-/// @param path  a log (all its parts are read) or the folder of a flight. @return an Error when it cannot be opened.
+/// @param path  a log (all its parts are read) or a flight's folder. @return an Error if it cannot be opened
 Result<RecordedInputs> read_recorded_inputs(const std::string& path, const std::string& suffix = "");
 
-/// Calls `use` with each complete prediction set of any predictor, in the order in which they became complete.
-/// @return what the log holds of predictions.
+/// Calls `use` with each complete prediction set, of any predictor, in the order of completion.
+/// @return the log's contents as far as predictions are concerned
 Result<LogContents> read_prediction_sets(const std::string& path, const std::string& suffix,
                                          const std::function<void(TrackSet)>& use);
 

@@ -1,4 +1,4 @@
-// plan() again, as it was when a recorded answer was made.
+// Repeats plan() under the conditions of a recorded answer.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,15 @@
 
 namespace tern {
 
+/// An answer that was planned again.
 struct Replanned {
-  Plan plan;                                 ///< header and what a node adds to the inputs are the recorded answer's
-  std::optional<PlanStatistics> statistics;  ///< nothing for an answer of the watchdog, which the worker outlived
+  Plan plan;  ///< the header and the inputs that the node adds are copied from the recorded answer
+  std::optional<PlanStatistics>
+      statistics;  ///< nullopt for an answer of the watchdog, since the worker's plan() ended later
 };
 
-/// Plans with the counts that `recorded` spent. Of a watchdog's answer: the improvement that it sent (the last one, if
-/// there are fewer).
+/// Plans with the counts that `recorded` spent. For an answer of the watchdog it returns the improvement that the
+/// watchdog sent, or the last one if there are fewer.
 Replanned replan(const PlanProblem& problem, const Plan& recorded);
 
 }  // namespace tern

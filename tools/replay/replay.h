@@ -1,4 +1,4 @@
-// Every answer of a log, planned again and compared.
+// Plans every answer of a log again and compares.
 #pragma once
 
 #include <cstdint>
@@ -13,51 +13,52 @@
 
 namespace tern {
 
-/// Which answers, and with which settings.
+/// Selects answers and settings.
 struct ReplayOptions {
   std::string suffix;                   ///< of the vehicle's channels
   std::optional<double> from_s, to_s;   ///< of the log's time: seconds since its first message
-  std::optional<std::int64_t> request;  ///< answers to requests of this id alone
-  OtherSettings other;                  ///< what-if; empty: as recorded
+  std::optional<std::int64_t> request;  ///< only answers to requests with this id
+  OtherSettings other;                  ///< changed settings for a what-if replay; empty: as recorded
 };
 
-/// Whether an answer is one of those asked for.
+/// Returns true if the options select this answer.
 bool is_chosen(const RecordedPlan& recorded, const LogContents& log, const ReplayOptions& options);
 
-/// What became of one answer.
+/// The result for one answer.
 struct ReplayedPlan {
-  std::size_t index = 0;                      ///< in RecordedInputs::plans
-  std::string missing;                        ///< what the log does not hold of its inputs; empty: it was replayed
-  std::string tolerance_reason;               ///< why only kReplayTolerance is promised; empty: the same bytes are
-  PlanOutcome outcome = PlanOutcome::NoPlan;  ///< of the plan made again
+  std::size_t index = 0;         ///< in RecordedInputs::plans
+  std::string missing;           ///< the inputs that the log lacks; empty: it was replayed
+  std::string tolerance_reason;  ///< why only kReplayTolerance is promised; empty: identical bytes are promised
+  PlanOutcome outcome = PlanOutcome::NoPlan;  ///< of the new plan
   PlanDifference difference;
 };
 
+/// The replay of a log.
 struct Replay {
   RecordedInputs inputs;
   std::string suffix;       ///< of the channels that were read
-  LogContents predictions;  ///< as read_prediction_sets saw the log
+  LogContents predictions;  ///< as read_prediction_sets() saw the log
   std::vector<ReplayedPlan> plans;
 
-  [[nodiscard]] std::int64_t count(Agreement agreement) const;  ///< of those that were replayed
+  [[nodiscard]] std::int64_t count(Agreement agreement) const;  ///< of the replayed answers
   [[nodiscard]] std::int64_t missing() const;
-  /// Those that do not keep the promise that holds for them.
+  /// Returns how many replayed answers differ by more than is promised for them.
   [[nodiscard]] std::int64_t unfulfilled() const;
-  /// Whether the log is an extract (write_log): then gaps in its senders' numbers mean nothing.
+  /// Returns true if write_log() wrote the log. Gaps in sequence numbers then mean nothing.
   [[nodiscard]] bool is_extract() const;
-  /// Answers that planners numbered before the first one that the log has of them; 0 for an extract.
+  /// Returns how many answers the planners numbered before the log's first one; 0 for an extract.
   [[nodiscard]] std::int64_t answers_before() const;
-  /// Whether the log lacks anything that a replay needs: inputs, answers that were lost, refused or damaged.
+  /// Returns true if the log lacks inputs, or if answers were lost, refused or damaged.
   [[nodiscard]] bool incomplete() const;
 };
 
-/// Reads the log twice, the predictions in the second pass; memory is bounded by what answers, requests and maps take.
-/// Costs what planning cost. @return an Error when the log cannot be opened, holds not one whole event, or has answers
-/// of which none is chosen.
-/// @throws ConfigError for other settings that are not well-formed or cannot take effect.
+/// Reads the log twice, predictions in the second pass, and plans each selected answer again. Memory is bounded by
+/// answers, requests and maps; the time is that of planning.
+/// @return an Error if the log cannot be opened, is without a complete event, or if no answer is selected
+/// @throws ConfigError if a what-if setting is malformed or can have no effect
 Result<Replay> replay_log(const std::string& path, const ReplayOptions& options);
 
-/// Why a replay here of an answer of that log may differ in its last bits; empty: it may not.
+/// Returns why a replay on this machine may differ from that log in its last bits; empty: it may not.
 std::string tolerance_reason(const RecordedInputs& inputs, const Plan& plan);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// What a replay found, for people and for programs.
+// Reports a replay as text for people and as JSON for programs.
 #pragma once
 
 #include <string>
@@ -7,14 +7,16 @@
 
 namespace tern {
 
-/// What the log holds and lacks, which promise holds, how many answers match, and where the first that does not parts.
-/// @param what_if  other settings were asked for: what changes is told, not judged
+/// Text: contents and gaps of the log, the precision that is promised, the number of equal answers, and the first
+/// difference.
+/// @param what_if  the settings differ from the recorded ones, so differences are listed but not judged
 std::string replay_text(const Replay& replay, bool what_if);
 
-/// The same with a line per answer, as JSON.
+/// The same as JSON, with a line per answer.
 std::string replay_json(const Replay& replay, bool what_if);
 
-/// 0: every answer is as promised; 1: one is not; 3: nothing differs, but something is missing. What-if: 0 or 3.
+/// 0: all answers agree as promised; 1: an answer differs; 3: no answer differs, but the log lacks something. With
+/// `what_if`: 0 or 3.
 int replay_exit_code(const Replay& replay, bool what_if);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// From the names in a plan to the request, world and configuration that it was made from.
+// Rebuilds the inputs of a plan from the names that the plan carries.
 #pragma once
 
 #include <cstdint>
@@ -18,34 +18,36 @@
 
 namespace tern {
 
-/// All that plan() is given, but for the budget.
+/// The arguments of plan(), except the budget.
 struct PlanProblem {
   HorizonRequest request;
   PlanningWorld world;
   PlannerConfig config;
 };
 
-/// Settings in place of those of the log.
+/// Settings that replace those of the log.
 struct OtherSettings {
-  std::string file;                   ///< a scenario file whose `planner:` (and `semantics:`, if it has one) holds; ""
-  std::vector<std::string> settings;  ///< "planner.search.samples_xy=5": over the file's, or over the log's own
+  std::string file;  ///< a scenario file whose `planner:` section (and `semantics:`, if present) applies; may be empty
+  std::vector<std::string>
+      settings;  ///< "planner.search.samples_xy=5": overrides the file, or the log's settings if no file is given
   [[nodiscard]] bool empty() const { return file.empty() && settings.empty(); }
-  /// @throws ConfigError for a setting that has no effect in a replay. Planned with are `planner` and, of `semantics`,
-  /// enabled, lambda_attractive, lambda_repulsive, lambdas and cost. All else stands in the recorded messages.
+  /// Effective settings are those of `planner`, and of `semantics`: enabled, lambda_attractive, lambda_repulsive,
+  /// lambdas and cost. Everything else is part of the recorded messages.
+  /// @throws ConfigError for a setting that has no effect in a replay
   void check() const;
 };
 
-/// Prediction sets are given one after the other; a plan can be rebuilt from when its set was given until the next is.
-/// What takes long (fields of maps, distances to goals) is made once and kept.
+/// Receives the prediction sets one after the other. A plan can be rebuilt between its own set and the next one. Map
+/// fields and cost-to-go take long; they are computed once and cached.
 class WorldRebuilder {
  public:
   /// @param inputs  outlives this object
   WorldRebuilder(const RecordedInputs& inputs, OtherSettings other);
 
-  /// The next complete set of any predictor, in the log's order: static tracks are remembered as planners do.
+  /// Adds the next complete set of any predictor, in the log's order. Static tracks are remembered as planners do.
   void add(TrackSet set);
 
-  /// @return an Error that names what the log does not hold.
+  /// Returns the inputs of a plan. @return an Error that names the inputs that the log lacks
   Result<PlanProblem> problem_of(const Plan& plan);
 
  private:
@@ -56,7 +58,7 @@ class WorldRebuilder {
   };
   struct Field {
     GoalFieldKey key;
-    std::shared_ptr<const MapProducts> map;  ///< of one configuration, whose weights the field knows
+    std::shared_ptr<const MapProducts> map;  ///< of one configuration: the field depends on its weights
     Vec3 start;
     std::shared_ptr<const GoalField> field;
   };
@@ -72,8 +74,8 @@ class WorldRebuilder {
   std::map<std::uint64_t, Configuration> configurations_;  ///< by hash
   std::vector<Field> fields_;                              ///< the newest last
   std::shared_ptr<const PredictionProducts> predictions_;
-  std::map<std::pair<std::int64_t, std::int64_t>, StaticTracks> memories_;  ///< by epoch and first set
-  /// Those that plans name, by digest; nullopt: not met yet.
+  std::map<std::pair<std::int64_t, std::int64_t>, StaticTracks> memories_;  ///< by sender epoch and first set
+  /// The static tracks that plans name, by digest; nullopt: not seen yet.
   std::map<std::uint64_t, std::optional<std::vector<Box>>> statics_;
 };
 

@@ -1,4 +1,4 @@
-// The semantic map as seen from above, in runs.
+// The semantic map from above, run-length encoded.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,9 +7,9 @@
 
 namespace tern::report {
 
-/// Of the newest map, the voxels within a metre of the heights that were flown. A column is the first of occupied,
-/// repulsive, attractive that occurs there; columns come along x in runs [x, y, length, label] in cells. Empty when
-/// there is no map, or when it takes more than `most` runs.
+/// Encodes the newest map's voxels within 1 m of the flown heights. A column of voxels gets the first of these labels
+/// that occurs in it: occupied, repulsive, attractive. Equal neighbours along x form a run [x, y, length, label] in
+/// cells. Empty if there is no map, or if it needs more than `most` runs.
 nlohmann::json map_runs(const audit::FlightRecord& record, std::size_t most);
 
 }  // namespace tern::report

@@ -1,4 +1,4 @@
-// What a report shows of a flight, as JSON: decimated so that it stays small however long the flight was.
+// The data of a report as JSON, decimated: its size is bounded for a flight of any length.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,28 +8,27 @@
 
 namespace tern::report {
 
-/// At most so many points along the flight. Beyond that, successive states share a point, which is where the first of
-/// them is. It has their greatest speed and acceleration, least clearance and last exposure, so that no extreme is
-/// hidden.
+/// Most points along the flight. If there are more states, consecutive states share a point at the first one's place.
+/// It has their greatest speed and acceleration, their least clearance and their last exposure: no extreme is lost.
 inline constexpr std::size_t kMaxPathPoints = 6'000;
-/// At most so many points of all moving obstacles together, each obstacle's samples evenly thinned.
+/// Most points of all moving obstacles together; samples are thinned evenly.
 inline constexpr std::size_t kMaxMoverPoints = 60'000;
-/// At most so many answers; beyond that, successive ones share a point: the slowest of them.
+/// Most answers. If there are more, consecutive answers share a point, which shows the slowest of them.
 inline constexpr std::size_t kMaxAnswers = 6'000;
-/// At most so many runs of the map's voxels.
+/// Most runs of the map's voxels.
 inline constexpr std::size_t kMaxMapRuns = 20'000;
 
-/// What a log does not tell of its flight.
+/// Facts about a flight that its log does not contain.
 struct FlightLaunch {
-  std::string command = {};  ///< what was typed to fly; empty: not known
-  double pace = 1.0;         ///< of the flight's clocks, (0, 1]: the log's times are theirs, the date is not
+  std::string command = {};  ///< the command that started the flight; empty: unknown
+  double pace = 1.0;         ///< of the flight's clocks, (0, 1]; the date is converted from the log's times with it
 };
 
-/// The keys are those that page/*.js read.
+/// Returns the data; page/*.js reads these keys.
 nlohmann::json report_data(const audit::FlightRecord& record, const audit::Audit& audit,
                            const FlightLaunch& launch = {});
 
-/// The whole page, self-contained: style, script, charts' library and data within.
+/// Returns the whole page, self-contained: style, script, chart library and data.
 std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const FlightLaunch& launch = {});
 
 }  // namespace tern::report
