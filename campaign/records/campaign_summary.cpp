@@ -117,9 +117,9 @@ void add_times(CampaignSummary& s, const Flights& flights) {
 void add_coverage(CampaignSummary& s, const Records& all) {
   std::vector<Coverage> flights;
   for (const FlightRecord* r : all) {
-    if (!r->coverage.promises.empty()) flights.push_back(r->coverage);
+    if (!r->coverage.intervals.empty()) flights.push_back(r->coverage);
   }
-  s.coverage = kept_shares(flights);
+  s.coverage = coverage_shares(flights);
 }
 
 /// Six decimals: micrometres, nanoseconds of a time in milliseconds.
@@ -153,16 +153,16 @@ void add_tracking(Json& json, const CampaignSummary& s) {
 
 Json coverage_json(const CampaignSummary& s) {
   Json shares = Json::array();
-  for (const KeptShare& k : s.coverage) {
+  for (const CoverageShare& k : s.coverage) {
     shares.push_back({{"what", k.what},
                       {"horizon", k.horizon},
                       {"promised", k.confidence},
                       {"flights", k.groups},
                       {"made", k.made},
-                      {"kept", k.kept},
+                      {"kept", k.covered},
                       {"share", k.share()},
                       {"ci95", {k.interval.low, k.interval.high}},
-                      {"broken", k.is_broken()},
+                      {"broken", k.is_refuted()},
                       {"half_m", std::isfinite(k.half_m) ? Json(k.half_m) : Json(nullptr)}});
   }
   return shares;

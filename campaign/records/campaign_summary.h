@@ -41,7 +41,7 @@ struct CampaignSummary {
   std::int64_t timed_flights = 0;                         ///< of which the answers' times are known
   std::map<std::string, RegionExposure> exposure;         ///< by region, over all flights
   std::map<std::string, std::int64_t> audits;             ///< by verdict; empty: none was asked for
-  std::vector<KeptShare> coverage;                        ///< of predictions and of plans' claims; groups are flights
+  std::vector<CoverageShare> coverage;                        ///< of predictions and of plans' claims; groups are flights
   std::vector<std::uint64_t> failed_seeds;                ///< of all that are no success
   std::vector<std::string> machines, compilers;           ///< on which and by which it was flown
 };

@@ -1,4 +1,4 @@
-// Promised against kept: how many predictions held, and how wide they were. Counts that can be summed over flights.
+// Coverage of prediction intervals: counts that can be summed over flights, and shares with bounds.
 #pragma once
 
 #include <array>
@@ -16,87 +16,88 @@
 
 namespace tern {
 
-/// What predictions have in common, by what is known when they are made: nothing of what came of them.
+/// The class of a prediction. It follows from what is known when the prediction is made.
 enum class PredictionClass : std::uint8_t {
-  Declared = 0,  ///< promised by its owner, or static: certain
+  Declared = 0,  ///< declared by its owner, or static: certain
   Unseen = 1,    ///< estimated; no detection met its box in the last 0.3 s
-  AtRest = 2,  ///< estimated and in view; the centre is predicted to stay within kRestingWay of its place for a second
-  New = 3,     ///< in view, estimated to move; its track is in PREDICTIONS for at most 0.1 s
-  Young = 4,   ///< at most 0.3 s
-  Grown = 5,   ///< at most 1 s
-  Old = 6,     ///< longer
+  AtRest = 2,    ///< estimated and in view; the predicted centre stays within kRestingWay of its place for a second
+  New = 3,       ///< estimated, in view and moving; its track has been in PREDICTIONS for at most 0.1 s
+  Young = 4,     ///< the same, for at most 0.3 s
+  Grown = 5,     ///< the same, for at most 1 s
+  Old = 6,       ///< the same, for longer
 };
 inline constexpr std::size_t kPredictionClasses = 7;
 inline constexpr double kRestingWay = 0.1;  ///< m
 /// "declared", "unseen", "at rest", "new", "young", "grown", "old".
 const char* to_string(PredictionClass kind);
 
-/// A promise is judged at all times from its making up to so long ahead, s; the last one up to its own end.
+/// An interval is checked at all times up to each of these, s after its making; the last one is its own end.
 inline constexpr std::array<double, 5> kCoveredAhead{0.25, 0.5, 1.0, 2.0, std::numeric_limits<double>::infinity()};
 inline constexpr std::size_t kHorizons = kCoveredAhead.size();
 /// "0.25", "0.5", "1", "2", "whole".
 std::string horizon_name(std::size_t horizon);
 
-/// Promises of one class up to one horizon. A promise is a prediction of one track in one set of PREDICTIONS.
-struct PromiseCount {
+/// The prediction intervals of one class up to one horizon. Each is the prediction of one track in one set of
+/// PREDICTIONS.
+struct IntervalCount {
   std::int64_t made = 0;
-  std::array<std::int64_t, kLevels> kept{};  ///< of these, by level of confidence, with the α of that level
-  double half_sum_m = 0.0;                   ///< Σ of α at the horizon as promised, mean of the axes, m
-  PromiseCount& operator+=(const PromiseCount& other);
-  friend bool operator==(const PromiseCount&, const PromiseCount&) = default;
+  std::array<std::int64_t, kLevels> covered{};  ///< by level of confidence, with that level's α
+  double half_width_sum_m = 0.0;                ///< Σ of α at the horizon, level 0, mean of the axes, m
+  IntervalCount& operator+=(const IntervalCount& other);
+  friend bool operator==(const IntervalCount&, const IntervalCount&) = default;
 };
 
-/// What plans claimed at one level: a claim is that one track that a plan keeps clear of stays, from t_s until the
-/// plan's end and hold, within the box that the plan counted.
+/// The claims of plans at one level. A plan makes one claim for each track that it keeps clear of: from t_s until the
+/// plan's end and hold, the track stays within the box that the plan used.
 struct ClaimCount {
-  std::int64_t made = 0, kept = 0;
+  std::int64_t made = 0, covered = 0;
   ClaimCount& operator+=(const ClaimCount& other);
   friend bool operator==(const ClaimCount&, const ClaimCount&) = default;
 };
 
-/// Of one flight, or of one obstacle in it.
+/// The counts of one flight, or of one obstacle in it.
 struct Coverage {
-  double confidence = 1.0;                                                   ///< the least that a set promised
-  std::map<std::pair<PredictionClass, std::size_t>, PromiseCount> promises;  ///< by class and horizon
+  double confidence = 1.0;                                                     ///< the least of all sets, at level 0
+  std::map<std::pair<PredictionClass, std::size_t>, IntervalCount> intervals;  ///< by class and horizon
   std::array<ClaimCount, kLevels> claims{};
   Coverage& operator+=(const Coverage& other);
   friend bool operator==(const Coverage&, const Coverage&) = default;
 };
 
-/// {"confidence": 0.99, "old": {"0.25": [made, mean half-width, kept, kept, …], …}, "claims": [[made, kept], …]}; "" if
-/// nothing was promised.
+/// {"confidence": 0.99, "old": {"0.25": [made, mean half-width, covered, covered, …], …},
+///  "claims": [[made, covered], …]}; "" without intervals.
 std::string to_text(const Coverage& coverage);
-/// What to_text wrote, widths to 0.1 mm. @return nullopt for other texts.
+/// Parses the text of to_text(), with widths to 0.1 mm. @return nullopt for other texts.
 std::optional<Coverage> parse_coverage(std::string_view text);
 
 inline constexpr const char* kPlans = "plans";
 
-/// A promise and what became of it. Groups are independent of each other, within one anything goes: the obstacles of a
-/// flight, or the flights of a campaign.
-struct KeptShare {
+/// The covered share of one class and horizon, or of the claims of plans. Groups must be independent of each other;
+/// within a group nothing is assumed. A group is an obstacle of a flight, or a flight of a campaign.
+struct CoverageShare {
   std::string what;         ///< a class, or kPlans
-  std::string horizon;      ///< horizon_name(); of plans "whole"
-  double confidence = 0.0;  ///< promised
-  std::int64_t groups = 0, made = 0, kept = 0;
+  std::string horizon;      ///< horizon_name(); for plans "whole"
+  double confidence = 0.0;  ///< the stated one
+  std::int64_t groups = 0, made = 0, covered = 0;
   Interval interval;                                         ///< share_interval() at 5 %
-  double greatest = 1.0;                                     ///< greatest_share() at kFalseAlarm/kJudgedShares
-  double half_m = std::numeric_limits<double>::quiet_NaN();  ///< mean half-width as promised; of plans NaN
+  double upper_bound = 1.0;                                  ///< share_upper_bound() at kFalseAlarm/kTestedShares
+  double half_m = std::numeric_limits<double>::quiet_NaN();  ///< mean half-width; for plans NaN
 
-  [[nodiscard]] double share() const { return static_cast<double>(kept) / static_cast<double>(made); }
-  /// The promise cannot have been true.
-  [[nodiscard]] bool is_broken() const { return greatest < confidence; }
+  [[nodiscard]] double share() const { return static_cast<double>(covered) / static_cast<double>(made); }
+  /// True if the stated confidence is too high for what was observed.
+  [[nodiscard]] bool is_refuted() const { return upper_bound < confidence; }
 };
 
-/// With at most this probability any of the shares of a flight (or campaign) whose promises are all true is_broken():
-/// each of kJudgedShares tests has its part of it (Bonferroni). What is declared is not among them; it is certain.
+/// The probability that any share of a flight or campaign is_refuted() although all confidences are true. Each of the
+/// kTestedShares tests has its part of it (Bonferroni). Declared tracks are not counted, because they are certain.
 inline constexpr double kFalseAlarm = 1e-3;
-inline constexpr double kJudgedShares = (kPredictionClasses - 1) * kHorizons * kLevels + kLevels;
+inline constexpr double kTestedShares = (kPredictionClasses - 1) * kHorizons * kLevels + kLevels;
 
-/// By class, horizon and level, then the claims of plans by level; only what was promised at all.
-std::vector<KeptShare> kept_shares(const std::vector<Coverage>& groups);
+/// Returns the shares by class, horizon and level, then those of plans by level; none where nothing was made.
+std::vector<CoverageShare> coverage_shares(const std::vector<Coverage>& groups);
 
-/// A table for people: of each class and of plans the share kept with its interval, and the half-widths. Of the lower
-/// levels those that are broken; "!" marks what is broken. "" when there is nothing.
-std::string to_text(const std::vector<KeptShare>& shares);
+/// A table for people: for each class and for plans the covered share with its interval, then the half-widths. Lower
+/// levels appear only if refuted; "!" marks a refuted share. "" if there are no shares.
+std::string to_text(const std::vector<CoverageShare>& shares);
 
 }  // namespace tern

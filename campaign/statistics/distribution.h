@@ -1,4 +1,4 @@
-// A set of numbers in six.
+// Mean, percentiles and range of a set of numbers.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace tern {
 
-/// NaN each when there were no numbers.
+/// All NaN for an empty set.
 struct Distribution {
   std::int64_t count = 0;
   double mean = std::numeric_limits<double>::quiet_NaN();
@@ -18,8 +18,8 @@ struct Distribution {
   double max = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Percentiles by nearest rank (core/base/percentiles.h). Numbers that are NaN (a measure that a flight does not have)
-/// are left out. O(n log n).
+/// Describes the numbers that are not NaN; a flight without the measure has NaN. Percentiles are by nearest rank
+/// (core/base/percentiles.h). O(n log n).
 Distribution describe(std::vector<double> numbers);
 
 }  // namespace tern

@@ -28,7 +28,7 @@ double log_wealth(const std::vector<GroupShare>& groups, double largest, double 
 
 }  // namespace
 
-double least_share(const std::vector<GroupShare>& groups, double error) {
+double share_lower_bound(const std::vector<GroupShare>& groups, double error) {
   double largest = 0.0;
   bool any = false;
   for (const GroupShare& group : groups) {
@@ -45,13 +45,13 @@ double least_share(const std::vector<GroupShare>& groups, double error) {
   return low;
 }
 
-double greatest_share(std::vector<GroupShare> groups, double error) {
+double share_upper_bound(std::vector<GroupShare> groups, double error) {
   for (GroupShare& group : groups) group.some = group.all - group.some;
-  return 1.0 - least_share(groups, error);
+  return 1.0 - share_lower_bound(groups, error);
 }
 
 Interval share_interval(const std::vector<GroupShare>& groups, double error) {
-  return {least_share(groups, 0.5 * error), greatest_share(groups, 0.5 * error)};
+  return {share_lower_bound(groups, 0.5 * error), share_upper_bound(groups, 0.5 * error)};
 }
 
 }  // namespace tern

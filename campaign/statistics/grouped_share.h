@@ -1,4 +1,4 @@
-// A share of things that come in groups, within which anything may depend on anything: between proven bounds.
+// Bounds of a share whose items come in groups, without assumptions about dependence within a group.
 #pragma once
 
 #include <vector>
@@ -7,25 +7,25 @@
 
 namespace tern {
 
-/// Of `all` things of a group, `some` have what is counted.
+/// One group: `some` of its `all` items have the property.
 struct GroupShare {
   double all = 0.0, some = 0.0;  ///< 0 ≤ some ≤ all, all > 0
 };
 
-/// The lower end of a one-sided interval of the share Σ some/Σ all of the groups' population. The true one is smaller
-/// with probability `error` at most. 0 without groups, or where none has anything.
+/// Returns a lower bound of the share Σ some/Σ all in the population of groups. The true share is smaller with
+/// probability `error` at most. 0 without groups, or if no item has the property.
 ///
-/// By betting (I. Waudby-Smith, A. Ramdas, "Estimating means of bounded random variables by betting", JRSS B 2024): let
-/// x be a group's share and w = all/(largest all). Were the share s or less, each wealth ∏ (1 + θ w (x/s − 1)) would
-/// have an expectation of at most 1. So would its mean over the stakes θ in [0, 1], which then exceeds 1/error with
-/// probability `error` at most. The end is the least s that is not refuted so. Groups are taken for independent of each
-/// other; within a group nothing is assumed. To 1e-7. O(n) for each of some 25 halvings. @pre 0 < error < 1
-double least_share(const std::vector<GroupShare>& groups, double error);
+/// By betting (I. Waudby-Smith, A. Ramdas, "Estimating means of bounded random variables by betting", JRSS B 2024). Let
+/// x be a group's share and w = all/(largest all). If the share were s or less, each wealth ∏ (1 + θ w (x/s − 1)) would
+/// have an expectation of at most 1, and so would its mean over the stakes θ in [0, 1]. That mean exceeds 1/error with
+/// probability `error` at most. The bound is the least s that is not refuted in this way, to 1e-7.
+/// O(n) for each of some 25 halvings. @pre groups are independent of each other; 0 < error < 1
+double share_lower_bound(const std::vector<GroupShare>& groups, double error);
 
-/// The upper end likewise: 1 − least_share() of the rest.
-double greatest_share(std::vector<GroupShare> groups, double error);
+/// Returns the upper bound: 1 − share_lower_bound() of the items without the property.
+double share_upper_bound(std::vector<GroupShare> groups, double error);
 
-/// Both ends, each at half of `error`.
+/// Returns both bounds, each at half of `error`.
 Interval share_interval(const std::vector<GroupShare>& groups, double error = 0.05);
 
 }  // namespace tern

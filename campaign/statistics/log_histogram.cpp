@@ -13,7 +13,7 @@ namespace tern {
 namespace {
 
 int bin_of(double x) {
-  return static_cast<int>(std::floor(std::log(std::max(x, LogHistogram::kLeast)) / std::log(LogHistogram::kBinRatio)));
+  return static_cast<int>(std::floor(std::log(std::max(x, LogHistogram::kMin)) / std::log(LogHistogram::kBinRatio)));
 }
 
 }  // namespace
@@ -23,16 +23,16 @@ void LogHistogram::add(double x) {
   ++bins_[bin_of(x)];
   ++count_;
   sum_ += x;
-  least_ = std::min(least_, x);
-  greatest_ = std::max(greatest_, x);
+  min_ = std::min(min_, x);
+  max_ = std::max(max_, x);
 }
 
 void LogHistogram::merge(const LogHistogram& other) {
   for (const auto& [bin, count] : other.bins_) bins_[bin] += count;
   count_ += other.count_;
   sum_ += other.sum_;
-  least_ = std::min(least_, other.least_);
-  greatest_ = std::max(greatest_, other.greatest_);
+  min_ = std::min(min_, other.min_);
+  max_ = std::max(max_, other.max_);
 }
 
 double LogHistogram::percentile(int percent) const {
@@ -41,20 +41,19 @@ double LogHistogram::percentile(int percent) const {
   std::int64_t passed = 0;
   for (const auto& [bin, count] : bins_) {
     passed += count;
-    if (passed > rank) return std::clamp(std::pow(kBinRatio, bin + 0.5), least_, greatest_);
+    if (passed > rank) return std::clamp(std::pow(kBinRatio, bin + 0.5), min_, max_);
   }
-  return greatest_;
+  return max_;
 }
 
 Distribution LogHistogram::describe() const {
   if (count_ == 0) return {};
-  return {count_,   sum_ / static_cast<double>(count_), percentile(50), percentile(95), percentile(99), least_,
-          greatest_};
+  return {count_, sum_ / static_cast<double>(count_), percentile(50), percentile(95), percentile(99), min_, max_};
 }
 
 std::string LogHistogram::to_text() const {
   if (count_ == 0) return "";
-  std::string text = fmt::format("{} {} {} {}", count_, sum_, least_, greatest_);
+  std::string text = fmt::format("{} {} {} {}", count_, sum_, min_, max_);
   for (const auto& [bin, count] : bins_) text += fmt::format(" {}:{}", bin, count);
   return text;
 }
@@ -64,7 +63,7 @@ std::optional<LogHistogram> LogHistogram::parse(std::string_view text) {
   if (text.empty()) return histogram;
   std::istringstream in{std::string(text)};
   in.imbue(std::locale::classic());
-  if (!(in >> histogram.count_ >> histogram.sum_ >> histogram.least_ >> histogram.greatest_)) return std::nullopt;
+  if (!(in >> histogram.count_ >> histogram.sum_ >> histogram.min_ >> histogram.max_)) return std::nullopt;
   std::int64_t total = 0;
   for (std::string entry; in >> entry;) {
     std::istringstream pair(entry);

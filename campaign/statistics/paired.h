@@ -1,4 +1,4 @@
-// Two treatments of the same cases: how much they differ, and whether that is more than chance.
+// Compares two treatments of the same cases.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,22 @@
 
 namespace tern {
 
-/// The mean of b − a over pairs (a, b) with a 95 % percentile bootstrap interval (Efron and Tibshirani 1993, §13.3).
+/// The mean of b − a over pairs (a, b), with a 95 % percentile bootstrap interval (Efron and Tibshirani 1993, §13.3).
 struct PairedDifference {
-  std::int64_t pairs = 0, different = 0;  ///< all; of these, those with a ≠ b
+  std::int64_t pairs = 0, different = 0;  ///< all pairs, and those with a ≠ b
   double mean_a = 0.0, mean_b = 0.0;
   double difference = 0.0;
-  Interval interval;  ///< of the difference; both ends 0 where no pair differs
-  /// Of five pairs or fewer not even differences of one sign are more than chance at 5 %: 2 · 2^−5 > 0.05.
+  Interval interval;  ///< of the difference; both ends are 0 if no pair differs
+  /// False for fewer than six pairs. Five differences of one sign are not significant at 5 %: 2 · 2^−5 > 0.05.
   [[nodiscard]] bool may_infer() const { return pairs >= 6; }
 };
 
-/// 2000 resamples of whole pairs, the same ones for equal numbers of pairs. O(2000 n). @pre all are finite
+/// Uses 2000 resamples of whole pairs, the same ones for equal numbers of pairs. O(2000 n). @pre all are finite
 PairedDifference paired_difference(const std::vector<std::pair<double, double>>& pairs);
 
-/// McNemar's exact test of two success rates over the same cases. It is the two-sided binomial probability, at rate
-/// 1/2, of as uneven a split of the pairs in which one alone succeeds. Without such pairs it is 1.
+/// McNemar's exact test of two success rates over the same cases. Returns the two-sided binomial probability, at rate
+/// 1/2, of a split at least as uneven as that of the pairs in which exactly one treatment succeeds. 1 without such
+/// pairs.
 double mcnemar(std::int64_t a_alone, std::int64_t b_alone);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// Wilson's interval of a rate: what a campaign of n flights says about the next one.
+// Wilson's interval of a success rate.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ struct Interval {
   double low = 0.0, high = 1.0;
 };
 
-/// The Wilson score interval of `successes` out of n (E. B. Wilson, 1927): all rates p with
-/// |k/n − p| ≤ z √(p (1 − p) / n). It never leaves [0, 1] and says something at 0 and at n of n. [0, 1] for n = 0.
-/// @pre 0 ≤ successes ≤ n
+/// The Wilson score interval of k = `successes` out of n (E. B. Wilson, 1927): all rates p with
+/// |k/n − p| ≤ z √(p (1 − p) / n). It stays within [0, 1], and is informative for k = 0 and k = n, too. [0, 1] for
+/// n = 0. @pre 0 ≤ successes ≤ n
 Interval wilson_interval(std::int64_t successes, std::int64_t n, double z = kNormalQuantile95);
 
 }  // namespace tern

@@ -57,13 +57,13 @@ void PredictorNode::on_observations(const ObservationSet& observations) {
   ObservationSet usable = without_explained(observations, declared_);
   if (const std::size_t unusable = remove_unusable(usable); unusable > 0) {
     const std::string text = fmt::format("{}: {} detections whose standard deviation is above {} m are not used", input,
-                                         unusable, kLargestDeviation);
+                                         unusable, kMaxDeviation);
     watch_.trouble("unusable", text, bus_.clock().now());
   }
-  const Taken taken = tracker_.update(usable);
-  if (taken == Taken::Yes) return have_input(input, observations.at);
+  const UpdateOutcome taken = tracker_.update(usable);
+  if (taken == UpdateOutcome::Used) return have_input(input, observations.at);
   bus_.count_late(channels::kObstacleObservations);
-  if (taken == Taken::Repeated) {
+  if (taken == UpdateOutcome::Repeated) {
     const std::string text = input + ": two sets of one instant, the second is ignored (do two sensors have one id?)";
     watch_.trouble("repeated", text, bus_.clock().now());
   }

@@ -12,7 +12,7 @@ void AxisFilter::predict(double dt, double q) {
 }
 
 void AxisFilter::update(double z, double r) {
-  const double s = xx + std::max(r, kLeastVariance);
+  const double s = xx + std::max(r, kMinVariance);
   const double gain_x = xx / s;
   const double gain_v = xv / s;
   const double innovation = z - x;
@@ -24,13 +24,13 @@ void AxisFilter::update(double z, double r) {
 }
 
 Fit fit(const Vec3& x, const Vec3& variance, const Vec3& z, const Vec3& r) {
-  const Vec3 s = variance + r.cwiseMax(kLeastVariance);
+  const Vec3 s = variance + r.cwiseMax(kMinVariance);
   return {s, ((z - x).array().square() / s.array()).sum()};
 }
 
 Box gate_box(const Vec3& x, const Vec3& variance, double gate, const Vec3& r) {
   constexpr double kRounding = 1.0 + 1e-9;  // of some ten operations at 1e-16 each
-  return box_around(x, kRounding * (gate * (variance + r.cwiseMax(kLeastVariance))).cwiseSqrt());
+  return box_around(x, kRounding * (gate * (variance + r.cwiseMax(kMinVariance))).cwiseSqrt());
 }
 
 }  // namespace tern

@@ -10,7 +10,7 @@ namespace tern {
 
 /// No measurement is taken to be better than this, m²: 0.1 mm standard deviation. A sensor may say 0 (it gives truth),
 /// and a filter with S = 0 has no gain.
-inline constexpr double kLeastVariance = 1e-8;
+inline constexpr double kMinVariance = 1e-8;
 
 /// State (x, v) with covariance P = [xx xv; xv vv], all of one axis of W.
 ///
@@ -37,7 +37,7 @@ struct Fit {
   double distance2 = 0.0;  ///< Σ (z − x)²/S: χ² with three degrees of freedom where the model holds
   /// −2 ln of the density of the detection, but for a constant; ≥ 0. A distance alone is least for the estimate that
   /// knows least.
-  [[nodiscard]] double surprise() const { return distance2 + std::log((s / kLeastVariance).prod()); }
+  [[nodiscard]] double neg_log_likelihood() const { return distance2 + std::log((s / kMinVariance).prod()); }
 };
 
 /// @param x, variance  m, m², of the estimate; @param z, r  of the detection, r taken as kLeastVariance if less

@@ -54,10 +54,10 @@ BankStep bank_step(double dt) {
   return steps;
 }
 
-BankLook bank_look(const BankStep& ahead, const BankStep& first) {
-  BankLook looks;
-  for (std::size_t j = 0; j < kModels; ++j) looks[j] = look(ahead[j], first[j]);
-  return looks;
+BankOutputRows bank_output_rows(const BankStep& ahead, const BankStep& first) {
+  BankOutputRows rows;
+  for (std::size_t j = 0; j < kModels; ++j) rows[j] = output_rows(ahead[j], first[j]);
+  return rows;
 }
 
 template <typename Number, typename Bank>
@@ -74,12 +74,12 @@ FilterStates<Number> BankFilter::states(Bank& bank, std::size_t model) {
 MotionFilter BankFilter::of(std::size_t model) const { return MotionFilter(states<const double>(*this, model)); }
 
 BankFilter::BankFilter(const Vec3& z, const Vec3& r) : lead_(kWidestModel) {
-  part(r);
+  separate_axes(r);
   for (std::size_t j = 0; j < kModels; ++j) start(motion_models()[j], z, r, states<double>(*this, j));
 }
 
-void BankFilter::part(const Vec3& r) {
-  const Vec3 known = r.cwiseMax(kLeastVariance);
+void BankFilter::separate_axes(const Vec3& r) {
+  const Vec3 known = r.cwiseMax(kMinVariance);
   if (!others_.empty() || (known[0] == known[1] && known[1] == known[2])) return;
   others_.assign(covariances_.begin(), covariances_.end());
   others_.insert(others_.end(), covariances_.begin(), covariances_.end());
@@ -90,9 +90,9 @@ void BankFilter::predict(const BankStep& step) {
 }
 
 void BankFilter::update(const Vec3& z, const Vec3& r) {
-  part(r);
+  separate_axes(r);
   for (std::size_t j = 0; j < kModels; ++j) {
-    evidence_[j] = kEvidenceForgetting * evidence_[j] - 0.5 * fit_of(of(j), z, r).surprise();
+    evidence_[j] = kEvidenceForgetting * evidence_[j] - 0.5 * fit_of(of(j), z, r).neg_log_likelihood();
     tern::update(z, r, states<double>(*this, j));
   }
   lead_ = idx(std::max_element(evidence_.begin(), evidence_.end()) - evidence_.begin());
@@ -102,12 +102,12 @@ double BankFilter::distance2(const Vec3& z, const Vec3& r) const {
   return std::min(fit_of(lead(), z, r).distance2, fit_of(of(kWidestModel), z, r).distance2);
 }
 
-double BankFilter::surprise_within(double gate, const Vec3& z, const Vec3& r) const {
+double BankFilter::cost_within(double gate, const Vec3& z, const Vec3& r) const {
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t model : {lead_, kWidestModel}) {
     if (is_beyond(model, gate, z, r)) continue;
     const Fit fit = fit_of(of(model), z, r);
-    if (fit.distance2 <= gate) least = std::min(least, fit.surprise());
+    if (fit.distance2 <= gate) least = std::min(least, fit.neg_log_likelihood());
   }
   return least;
 }
@@ -126,7 +126,7 @@ bool BankFilter::is_beyond(std::size_t model, double gate, const Vec3& z, const 
   const double* x = means_.data() + mean;
   const double* variance = covariances_.data() + covariance;
   for (int axis = 0; axis < 3; ++axis, x += kOrders[model]) {
-    if (std::pow(z[axis] - *x, 2) > gate * (*variance + std::max(r[axis], kLeastVariance))) return true;
+    if (std::pow(z[axis] - *x, 2) > gate * (*variance + std::max(r[axis], kMinVariance))) return true;
     if (others_.empty()) continue;
     variance = axis == 0 ? others_.data() + covariance : variance + kCovariances;
   }

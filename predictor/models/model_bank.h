@@ -30,9 +30,9 @@ inline constexpr std::size_t kWidestModel = 7;
 
 using BankStep = PerModel<ModelStep>;
 BankStep bank_step(double dt);
-using BankLook = PerModel<ModelLook>;
+using BankOutputRows = PerModel<OutputRows>;
 /// `ahead` after `first`.
-BankLook bank_look(const BankStep& ahead, const BankStep& first);
+BankOutputRows bank_output_rows(const BankStep& ahead, const BankStep& first);
 
 /// One track's filters. Their evidence (the likelihood of one step, forgotten over some 20 detections) serves
 /// association alone: which detection is a track's. It is no judge of predictions.
@@ -48,7 +48,7 @@ class BankFilter {
   [[nodiscard]] double distance2(const Vec3& z, const Vec3& r) const;
   /// How unlikely the detection is: the less of the two models' surprise() that are nearer than the gate.
   /// @return infinite if neither is
-  [[nodiscard]] double surprise_within(double gate, const Vec3& z, const Vec3& r) const;
+  [[nodiscard]] double cost_within(double gate, const Vec3& z, const Vec3& r) const;
   /// A box that holds all detections of at most the variance r whose surprise_within() is finite.
   [[nodiscard]] Box gate_box(double gate, const Vec3& r) const;
   [[nodiscard]] MotionFilter of(std::size_t model) const;
@@ -64,7 +64,7 @@ class BankFilter {
   /// Whether one axis alone is beyond the gate: most pairs of a track and a detection are, and cost no more than that.
   [[nodiscard]] bool is_beyond(std::size_t model, double gate, const Vec3& z, const Vec3& r) const;
   /// Gives each axis a covariance of its own, where they begin to differ.
-  void part(const Vec3& r);
+  void separate_axes(const Vec3& r);
 
   std::array<double, kMeans> means_{};              // of one model after the other
   std::array<double, kCovariances> covariances_{};  // of the first axis

@@ -65,11 +65,11 @@ void predict_covariance(const Square<N>& phi, const Square<N>& q, double* covari
 
 }  // namespace
 
-ModelLook look(const ModelStep& step) {
+OutputRows output_rows(const ModelStep& step) {
   return {step.phi.row(0).transpose(), step.phi.row(1).transpose(), step.q(0, 0)};
 }
 
-ModelLook look(const ModelStep& ahead, const ModelStep& first) {
+OutputRows output_rows(const ModelStep& ahead, const ModelStep& first) {
   const ModelVector row = ahead.phi.row(0).transpose();
   return {first.phi.transpose() * row, first.phi.transpose() * ahead.phi.row(1).transpose(),
           ahead.q(0, 0) + row.dot(first.q * row)};
@@ -77,7 +77,7 @@ ModelLook look(const ModelStep& ahead, const ModelStep& first) {
 
 void start(const MotionModel& model, const Vec3& z, const Vec3& r, const FilterStates<double>& states) {
   const int n = states.order;
-  const Vec3 known = r.cwiseMax(kLeastVariance);
+  const Vec3 known = r.cwiseMax(kMinVariance);
   Eigen::Map<Eigen::MatrixXd>(states.mean, n, 3) = model.shift * z.transpose();
   for_each_covariance(states, [&](int axis) {
     Eigen::Map<Eigen::MatrixXd>(states.covariance[idx(axis)], n, n) =
@@ -96,7 +96,7 @@ void predict(const ModelStep& step, const FilterStates<double>& states) {
 }
 
 void update(const Vec3& z, const Vec3& r, const FilterStates<double>& states) {
-  const Vec3 known = r.cwiseMax(kLeastVariance);
+  const Vec3 known = r.cwiseMax(kMinVariance);
   with_order(states.order, [&](auto order) {
     constexpr int kOrder = decltype(order)::value;
     Eigen::Map<Means<kOrder>> mean(states.mean);
@@ -124,19 +124,19 @@ AxisFilter MotionFilter::marginal(int axis) const {
   return {mean[0], mean[1], p[0], p[1], p[n + 1]};
 }
 
-FilterLook MotionFilter::at(const ModelLook& ahead) const {
+FilterPrediction MotionFilter::at(const OutputRows& ahead) const {
   return with_order(states_.order, [&](auto order) {
     constexpr int kOrder = decltype(order)::value;
     const Eigen::Map<const Column<kOrder>> position(ahead.position.data()), velocity(ahead.velocity.data());
     const Eigen::Map<const Means<kOrder>> mean(states_.mean);
-    FilterLook said{mean.transpose() * position, mean.transpose() * velocity, Vec3::Zero()};
+    FilterPrediction predicted{mean.transpose() * position, mean.transpose() * velocity, Vec3::Zero()};
     double variance = 0.0;
     for_each_covariance(states_, [&](int axis) {
       const Column<kOrder> moved = square<kOrder>(states_.covariance[idx(axis)]) * position;
       variance = std::max(0.0, ahead.variance + moved.dot(position));
-      said.variance.tail(3 - axis).setConstant(variance);
+      predicted.variance.tail(3 - axis).setConstant(variance);
     });
-    return said;
+    return predicted;
   });
 }
 

@@ -11,17 +11,17 @@
 namespace tern {
 
 /// The rows of a step that positions and velocities ahead need: p = φ s, var p = φ P φᵀ + q.
-struct ModelLook {
+struct OutputRows {
   ModelVector position;   ///< φ
   ModelVector velocity;   ///< the same for s_1
   double variance = 0.0;  ///< q, m²
 };
-ModelLook look(const ModelStep& step);
+OutputRows output_rows(const ModelStep& step);
 /// Of `ahead` after `first`.
-ModelLook look(const ModelStep& ahead, const ModelStep& first);
+OutputRows output_rows(const ModelStep& ahead, const ModelStep& first);
 
 /// What a filter says of some time ahead, per axis.
-struct FilterLook {
+struct FilterPrediction {
   Vec3 position, velocity;  ///< m, m/s
   Vec3 variance;            ///< of the position, m²
 };
@@ -45,7 +45,7 @@ class MotionFilter {
   [[nodiscard]] Vec3 velocity() const { return state(1); }
   [[nodiscard]] Vec3 variance() const;                ///< of the position, m²
   [[nodiscard]] AxisFilter marginal(int axis) const;  ///< position and velocity alone
-  [[nodiscard]] FilterLook at(const ModelLook& ahead) const;
+  [[nodiscard]] FilterPrediction at(const OutputRows& ahead) const;
   /// All states of an axis.
   [[nodiscard]] const double* mean(int axis) const {
     return states_.mean + static_cast<std::ptrdiff_t>(states_.order) * axis;

@@ -11,7 +11,7 @@ namespace {
 // Of 1 − confidence, what may be broken by the end of each band: errors of the later bands come on top.
 constexpr PerBand<double> kAllowedShare{0.5, 0.6, 0.7, 0.85, 1.0};
 // No margin is sought beyond, m: nothing is known there, and the reach set rules. Halvings of the range, to 0.1 mm.
-constexpr double kLargestMargin = 100.0;
+constexpr double kMaxMargin = 100.0;
 constexpr int kHalvings = 20;
 
 }  // namespace
@@ -26,14 +26,14 @@ double margin_growth(std::size_t band, double ahead_s) {
   return (ahead_s + kMarginStart) / (kBandEnds[band] + kMarginStart);
 }
 
-Vec3 promised_half(const Vec3& deviation, const PerBand<double>& margins, double ahead_s) {
+Vec3 interval_half_width(const Vec3& deviation, const PerBand<double>& margins, double ahead_s) {
   const std::size_t band = band_of(ahead_s);
   const double margin = margins[band] * margin_growth(band, ahead_s);
   if (margin > 0.0) return kModelSigmas * deviation + Vec3::Constant(margin);
   return std::max(0.0, kModelSigmas + margin) * deviation;
 }
 
-double containing_margin(const Vec3& error, const Vec3& deviation, std::size_t band, double ahead_s) {
+double covering_margin(const Vec3& error, const Vec3& deviation, std::size_t band, double ahead_s) {
   double margin = -kModelSigmas;
   for (int axis = 0; axis < 3; ++axis) {
     const double beyond = std::abs(error[axis]) - kModelSigmas * deviation[axis];
@@ -43,17 +43,17 @@ double containing_margin(const Vec3& error, const Vec3& deviation, std::size_t b
 }
 
 void NewestScores::add(float score) {
-  if (newest_.size() < most_) {
+  if (newest_.size() < capacity_) {
     newest_.push_back(score);
   } else {
     sorted_.erase(std::lower_bound(sorted_.begin(), sorted_.end(), newest_[oldest_]));
     newest_[oldest_] = score;
-    oldest_ = (oldest_ + 1) % most_;
+    oldest_ = (oldest_ + 1) % capacity_;
   }
   sorted_.insert(std::upper_bound(sorted_.begin(), sorted_.end(), score), score);
 }
 
-double NewestScores::above(double q) const {
+double NewestScores::count_above(double q) const {
   const auto beyond = std::upper_bound(sorted_.begin(), sorted_.end(), q,
                                        [](double value, float score) { return value < static_cast<double>(score); });
   return static_cast<double>(sorted_.end() - beyond);
@@ -65,18 +65,18 @@ Calibration::Calibration(double confidence) {
   }
   for (auto& pool : pools_) pool.assign(kBands, NewestScores(kPoolScores));
   for (Class& of : classes_) of.scores.assign(kBands, NewestScores(kOwnScores));
-  begin(WorldPace::Any);
+  begin(SceneSpeed::Any);
   refresh();
 }
 
-void Calibration::begin(WorldPace pace) {
-  pace_ = pace;
+void Calibration::begin(SceneSpeed scene_speed) {
+  scene_speed_ = scene_speed;
   for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
     for (std::size_t level = 0; level < confidence_.size(); ++level) {
       const double scale =
-          (level == 0 ? 1.0 : kFirstLevel) * (1.0 - confidence_[level]) / (1.0 - kConfidenceLevels[level]);
+          (level == 0 ? 1.0 : kInitialLevel) * (1.0 - confidence_[level]) / (1.0 - kConfidenceLevels[level]);
       for (std::size_t band = 0; band < kBands; ++band) {
-        classes_[kind].log_theta[level][band] = std::log(scale * prior_level(pace, kind, band, level));
+        classes_[kind].log_theta[level][band] = std::log(scale * prior_level(scene_speed, kind, band, level));
       }
     }
   }
@@ -87,51 +87,52 @@ double Calibration::allowed(std::size_t level, std::size_t band) const {
   return kAllowedShare[band] * (1.0 - confidence_[level]);
 }
 
-double Calibration::worth(std::size_t band) { return tern::worth(kBandEnds[band]); }
+double Calibration::score_weight(std::size_t band) { return tern::score_weight(kBandEnds[band]); }
 
 double Calibration::margin(TrackClass kind, std::size_t band, double level) const {
   const auto row = static_cast<std::size_t>(kind);
   const NewestScores &own = classes_[row].scores[band], &pool = pools_[pool_of(kind)][band];
-  const double each = worth(band);
+  const double each = score_weight(band);
   const double of_pool = kPoolWeight / (kPriorWeight + each * pool.size());
   const double allowed = level * (kPoolWeight + each * own.size());
-  double low = -kModelSigmas, high = kLargestMargin;
+  double low = -kModelSigmas, high = kMaxMargin;
   for (int halving = 0; halving < kHalvings; ++halving) {
     const double q = 0.5 * (low + high);
     const double above =
-        of_pool * (kPriorWeight * prior_above(pace_, row, band, q) + each * pool.above(q)) + each * own.above(q);
+        of_pool * (kPriorWeight * prior_share_above(scene_speed_, row, band, q) + each * pool.count_above(q)) +
+        each * own.count_above(q);
     (above <= allowed ? high : low) = q;
   }
   return high;
 }
 
-PerLevel Calibration::margins(TrackClass kind, double real) const {
+PerLevel Calibration::margins(TrackClass kind, double real_share) const {
   const Class& of = classes_[static_cast<std::size_t>(kind)];
   PerLevel margins;
   for (std::size_t level = 0; level < margins.size(); ++level) {
     for (std::size_t band = 0; band < kBands; ++band) {
-      margins[level][band] = margin(kind, band, std::exp(of.log_theta[level][band]) / real);
+      margins[level][band] = margin(kind, band, std::exp(of.log_theta[level][band]) / real_share);
     }
   }
   return margins;
 }
 
-void Calibration::set_pace(WorldPace pace) {
-  if (pace != pace_) begin(pace);
+void Calibration::set_scene_speed(SceneSpeed scene_speed) {
+  if (scene_speed != scene_speed_) begin(scene_speed);
 }
 
 void Calibration::add(TrackClass kind, std::size_t band, float score,
-                      const std::array<bool, kConfidenceLevels.size()>& broken, WorldPace made_in) {
+                      const std::array<bool, kConfidenceLevels.size()>& missed, SceneSpeed made_under) {
   Class& of = classes_[static_cast<std::size_t>(kind)];
   if (pool_of(kind) == kPools - 1) of.scores[band].add(score);
   pools_[pool_of(kind)][band].add(score);
   is_stale_[pool_of(kind)] = true;
-  if (made_in != pace_) return;
-  for (std::size_t level = 0; level < broken.size(); ++level) {
+  if (made_under != scene_speed_) return;
+  for (std::size_t level = 0; level < missed.size(); ++level) {
     const double share = allowed(level, band);
     double& log_theta = of.log_theta[level][band];
-    log_theta += kAdaption * (share - (broken[level] ? 1.0 : 0.0));
-    log_theta = std::clamp(log_theta, std::log(kLeastLevel * share), std::log(kLargestLevel * share));
+    log_theta += kAdaption * (share - (missed[level] ? 1.0 : 0.0));
+    log_theta = std::clamp(log_theta, std::log(kMinLevel * share), std::log(kMaxLevel * share));
   }
 }
 

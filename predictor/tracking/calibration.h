@@ -38,7 +38,7 @@ constexpr std::size_t pool_of(TrackClass kind) {
   return k < 2 ? k : k % 2 == 1 ? kPools - 1 : 1 + k / 2;
 }
 /// What people are told of a class.
-constexpr MotionKind kind_of(TrackClass of) {
+constexpr MotionKind motion_kind_of(TrackClass of) {
   const auto k = static_cast<std::size_t>(of);
   return static_cast<MotionKind>(k < 2 ? k : 1 + k / 2);
 }
@@ -66,14 +66,14 @@ double margin_growth(std::size_t band, double ahead_s);
 /// what came.
 class NewestScores {
  public:
-  explicit NewestScores(std::size_t most) : most_(most) {}
+  explicit NewestScores(std::size_t capacity) : capacity_(capacity) {}
   void add(float score);
   [[nodiscard]] double size() const { return static_cast<double>(sorted_.size()); }
   /// How many are larger than q.
-  [[nodiscard]] double above(double q) const;
+  [[nodiscard]] double count_above(double q) const;
 
  private:
-  std::size_t most_;
+  std::size_t capacity_;
   std::vector<float> newest_;  // a ring
   std::size_t oldest_ = 0;
   std::vector<float> sorted_;
@@ -101,9 +101,9 @@ class Calibration {
   static constexpr double kAdaption = 0.2;
   /// At the lower confidences θ begins with this part of the prior's: how fast things are in this world some ten scores
   /// tell, and until then little is made of not being sure.
-  static constexpr double kFirstLevel = 0.25;
+  static constexpr double kInitialLevel = 0.25;
   /// θ/allowed stays within these.
-  static constexpr double kLeastLevel = 0.1, kLargestLevel = 2.0;
+  static constexpr double kMinLevel = 0.1, kMaxLevel = 2.0;
 
   /// @param confidence of level 0, in (0, 1)
   explicit Calibration(double confidence);
@@ -111,25 +111,25 @@ class Calibration {
   /// horizon.
   [[nodiscard]] double allowed(std::size_t level, std::size_t band) const;
   /// For how many independent scores one of a band counts: (0, 1].
-  [[nodiscard]] static double worth(std::size_t band);
+  [[nodiscard]] static double score_weight(std::size_t band);
   [[nodiscard]] const PerLevel& margins(TrackClass kind) const {
     return classes_[static_cast<std::size_t>(kind)].margins;
   }
   /// Of tracks of which only the share `real` exists: what does not exist breaks no promise. O(halvings · log scores).
-  [[nodiscard]] PerLevel margins(TrackClass kind, double real) const;
+  [[nodiscard]] PerLevel margins(TrackClass kind, double real_share) const;
   /// For how many independent scores those of the class's pool count: below kPriorWeight the prior counts more.
   [[nodiscard]] double evidence(TrackClass kind, std::size_t band) const {
-    return worth(band) * pools_[pool_of(kind)][band].size();
+    return score_weight(band) * pools_[pool_of(kind)][band].size();
   }
   /// Another prior rules from the next refresh() on. Scores stay; θ begins anew: that one prior was too wide says
   /// nothing of the other.
-  void set_pace(WorldPace pace);
+  void set_scene_speed(SceneSpeed scene_speed);
   /// Counts from the next refresh() on.
   /// @param broken  by level: whether the promise that was made had been broken by the end of the band
   /// @param made_in  what ruled when it was made: another prior's promises teach θ nothing
-  void add(TrackClass kind, std::size_t band, float score, const std::array<bool, kConfidenceLevels.size()>& broken,
-           WorldPace made_in);
-  [[nodiscard]] WorldPace pace() const { return pace_; }
+  void add(TrackClass kind, std::size_t band, float score, const std::array<bool, kConfidenceLevels.size()>& missed,
+           SceneSpeed made_under);
+  [[nodiscard]] SceneSpeed scene_speed() const { return scene_speed_; }
   /// margins() by all that was added.
   void refresh();
 
@@ -138,21 +138,21 @@ class Calibration {
     std::vector<NewestScores> scores;  // by band; none where the class is all of its pool
     PerLevel log_theta, margins;
   };
-  void begin(WorldPace pace);
+  void begin(SceneSpeed scene_speed);
   /// The least q that at most the share `level` of the class's scores exceeds.
   [[nodiscard]] double margin(TrackClass kind, std::size_t band, double level) const;
 
   std::array<double, kConfidenceLevels.size()> confidence_;
-  WorldPace pace_ = WorldPace::Any;
+  SceneSpeed scene_speed_ = SceneSpeed::Any;
   std::array<std::vector<NewestScores>, kPools> pools_;  // by band
   std::array<Class, kTrackClasses> classes_;
   std::array<bool, kPools> is_stale_;
 };
 
 /// Half-width of the promise per axis so long after the last detection, m.
-Vec3 promised_half(const Vec3& deviation, const PerBand<double>& margins, double ahead_s);
+Vec3 interval_half_width(const Vec3& deviation, const PerBand<double>& margins, double ahead_s);
 
 /// The least q of the band that contains this error, per axis, at this time. @pre deviation > 0
-double containing_margin(const Vec3& error, const Vec3& deviation, std::size_t band, double ahead_s);
+double covering_margin(const Vec3& error, const Vec3& deviation, std::size_t band, double ahead_s);
 
 }  // namespace tern

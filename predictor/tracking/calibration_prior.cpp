@@ -12,18 +12,18 @@ struct Row {
   std::array<double, kPriorProbabilities.size()> quantiles;
 };
 // Made by `tern-calibrate --made-up 100 --prior FILE`, from made-up movers alone.
-constexpr std::array<Row, kWorldPaces * kTrackClasses * kBands> kTable{{
+constexpr std::array<Row, kSceneSpeeds * kTrackClasses * kBands> kTable{{
 #include "predictor/tracking/calibration_prior.inc"
 }};
 
-const Row& row(WorldPace pace, std::size_t kind, std::size_t band) {
-  return kTable[(static_cast<std::size_t>(pace) * kTrackClasses + kind) * kBands + band];
+const Row& row(SceneSpeed scene_speed, std::size_t kind, std::size_t band) {
+  return kTable[(static_cast<std::size_t>(scene_speed) * kTrackClasses + kind) * kBands + band];
 }
 
 }  // namespace
 
-double prior_above(WorldPace pace, std::size_t kind, std::size_t band, double q) {
-  const auto& quantiles = row(pace, kind, band).quantiles;
+double prior_share_above(SceneSpeed scene_speed, std::size_t kind, std::size_t band, double q) {
+  const auto& quantiles = row(scene_speed, kind, band).quantiles;
   const auto next = std::upper_bound(quantiles.begin(), quantiles.end(), q);
   if (next == quantiles.begin()) return 1.0;
   if (next == quantiles.end()) return 0.0;
@@ -32,8 +32,8 @@ double prior_above(WorldPace pace, std::size_t kind, std::size_t band, double q)
   return 1.0 - (1.0 - u) * kPriorProbabilities[k - 1] - u * kPriorProbabilities[k];
 }
 
-double prior_level(WorldPace pace, std::size_t kind, std::size_t band, std::size_t level) {
-  return row(pace, kind, band).levels[level];
+double prior_level(SceneSpeed scene_speed, std::size_t kind, std::size_t band, std::size_t level) {
+  return row(scene_speed, kind, band).levels[level];
 }
 
 }  // namespace tern

@@ -27,8 +27,8 @@ void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<De
 }
 
 // Whether a detection is not where the track of its id can be, but where another one can: ids were exchanged.
-bool is_exchanged(const std::vector<TrackedObject>& objects, const Detection& detection, const Surprise& surprise) {
-  const auto fits = [&](const TrackedObject& o) { return std::isfinite(surprise(o, detection)); };
+bool is_exchanged(const std::vector<TrackedObject>& objects, const Detection& detection, const MatchCost& match_cost) {
+  const auto fits = [&](const TrackedObject& o) { return std::isfinite(match_cost(o, detection)); };
   const auto own = std::ranges::find_if(objects, [&](const TrackedObject& o) { return o.id == detection.track_id; });
   return own != objects.end() && !fits(*own) && std::ranges::any_of(objects, fits);
 }
@@ -40,7 +40,7 @@ double dearest(const Eigen::MatrixXd& cost) {
 
 // Among objects with the given confirmation, and detections without an id, that are still free.
 void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-                       bool confirmed, const Surprise& surprise, const GateBox& gate_box, Matching& matching) {
+                       bool confirmed, const MatchCost& match_cost, const GateBox& gate_box, Matching& matching) {
   std::vector<std::size_t> rows, columns;
   for (std::size_t o = 0; o < objects.size(); ++o) {
     if (objects[o].confirmed == confirmed && matching.detection_of[o] == kNoDetection) rows.push_back(o);
@@ -59,7 +59,7 @@ void match_by_distance(const std::vector<TrackedObject>& objects, const std::vec
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const Detection& detection = detections[columns[c]];
       if (!within.contains(detection.position)) continue;
-      cost(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = surprise(object, detection);
+      cost(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = match_cost(object, detection);
     }
   }
   const std::vector<int> column_of = assign(cost, dearest(cost) + 1.0);
@@ -74,14 +74,14 @@ void match_by_distance(const std::vector<TrackedObject>& objects, const std::vec
 }  // namespace
 
 Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-               const Surprise& surprise, const GateBox& gate_box) {
+               const MatchCost& match_cost, const GateBox& gate_box) {
   Matching matching{std::vector<int>(objects.size(), kNoDetection), std::vector<bool>(detections.size(), false), {}};
   for (const Detection& detection : detections) {
-    matching.anonymous.push_back(detection.track_id == kNoTrackId || is_exchanged(objects, detection, surprise));
+    matching.anonymous.push_back(detection.track_id == kNoTrackId || is_exchanged(objects, detection, match_cost));
   }
   match_by_id(objects, detections, matching);
-  match_by_distance(objects, detections, true, surprise, gate_box, matching);
-  match_by_distance(objects, detections, false, surprise, gate_box, matching);
+  match_by_distance(objects, detections, true, match_cost, gate_box, matching);
+  match_by_distance(objects, detections, false, match_cost, gate_box, matching);
   matching.anonymous.assign(detections.size(), false);
   match_by_id(objects, detections, matching);
   return matching;

@@ -15,7 +15,7 @@ inline constexpr double kAssociationGate = 21.1;
 inline constexpr int kNoDetection = -1;
 
 /// How unlikely a detection is of a track (Fit::surprise), infinite beyond the gate.
-using Surprise = std::function<double(const TrackedObject&, const Detection&)>;
+using MatchCost = std::function<double(const TrackedObject&, const Detection&)>;
 /// A box that holds all detections of at most this variance (m²) whose surprise of the track is finite. Most pairs of a
 /// track and a detection are told apart by that.
 using GateBox = std::function<Box(const TrackedObject&, const Vec3& variance)>;
@@ -29,6 +29,6 @@ struct Matching {
 /// The others by the most likely assignment (the least sum of surprises), first to confirmed tracks, then to tentative
 /// ones. A track without a detection costs more than any pair within the gate, so who is alone with one gets it.
 Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
-               const Surprise& surprise, const GateBox& gate_box);
+               const MatchCost& match_cost, const GateBox& gate_box);
 
 }  // namespace tern

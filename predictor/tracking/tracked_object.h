@@ -26,7 +26,7 @@ struct TrackedObject {
   int detections = 1;                                     ///< since then
   Vec3 position = Vec3::Zero(), variance = Vec3::Zero();  ///< of the last detection: W, m; m²
   BankFilter moving;
-  LearntFrom learnt_from;             ///< of `moving`, at the last detection
+  LearntInput learnt_input;           ///< of `moving`, at the last detection
   std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
   UTime resting_since;
   double resting_average = 3.0;  ///< of its χ²₃, see kRestingLimit

@@ -16,8 +16,8 @@ namespace {
 std::array<AxisFilter, 3> start_filters(const Detection& detection, double speed_variance) {
   std::array<AxisFilter, 3> axes;
   for (int i = 0; i < 3; ++i) {
-    axes[static_cast<std::size_t>(i)] = {detection.position[i], 0.0, std::max(detection.variance[i], kLeastVariance),
-                                         0.0, speed_variance};
+    axes[static_cast<std::size_t>(i)] = {detection.position[i], 0.0, std::max(detection.variance[i], kMinVariance), 0.0,
+                                         speed_variance};
   }
   return axes;
 }
@@ -37,10 +37,10 @@ bool is_seen_at(const std::array<AxisFilter, 3>& place, const ObservationSet& se
 }
 
 // How much less likely it is that these are one thing, by their sizes.
-double size_surprise(const Vec3& half, const Detection& detection) {
+double size_cost(const Vec3& half, const Detection& detection) {
   const double scale = std::max(half.maxCoeff(), detection.half_extents.maxCoeff());
-  const Vec3 variance = 2.0 * detection.variance + Vec3::Constant(std::pow(kSizeShare * scale, 2) + kLeastVariance);
-  return std::min(kMostOfSize, (half - detection.half_extents).cwiseAbs2().cwiseQuotient(variance).sum());
+  const Vec3 variance = 2.0 * detection.variance + Vec3::Constant(std::pow(kSizeShare * scale, 2) + kMinVariance);
+  return std::min(kMaxSizeCost, (half - detection.half_extents).cwiseAbs2().cwiseQuotient(variance).sum());
 }
 
 bool is_beyond(double range_m, const Vec3& from, const Vec3& centre, const Vec3& half) {
@@ -63,21 +63,21 @@ std::pair<UTime, std::int32_t> key(const ObservationSet& set) { return {set.at, 
 }  // namespace
 
 Tracker::Tracker(const TrackerConfig& config)
-    : config_(config), ends_(piece_ends(config.prediction)), judge_(config.prediction.confidence, config.learns) {
+    : config_(config), ends_(piece_ends(config.prediction)), scorer_(config.prediction.confidence, config.learns) {
   for (const Duration end : ends_) steps_ahead_.push_back(bank_step(end.seconds()));
   bound_at_ = idx(std::ranges::lower_bound(ends_, std::min(kBoundsAhead, ends_.back())) - ends_.begin());
-  model_sigmas_ = quantile_for(1.0 - config.prediction.confidence, 0.0);
+  model_sigmas_ = escape_quantile(1.0 - config.prediction.confidence, 0.0);
   for (std::size_t level = 0; level < rest_quantiles_.size(); ++level) {
-    const double broken = 1.0 - confidence_at(config.prediction.confidence, static_cast<int>(level));
-    rest_quantiles_[level] = quantile_for((1.0 - kStartShare) * broken / 3.0, kRestCrossings);
+    const double missed = 1.0 - confidence_at(config.prediction.confidence, static_cast<int>(level));
+    rest_quantiles_[level] = escape_quantile((1.0 - kStartShare) * missed / 3.0, kRestCrossings);
   }
 }
 
-Taken Tracker::update(const ObservationSet& observations) {
-  if (!steps_.empty() && observations.at + kReorderWindow < newest()) return Taken::TooOld;
+UpdateOutcome Tracker::update(const ObservationSet& observations) {
+  if (!steps_.empty() && observations.at + kReorderWindow < newest()) return UpdateOutcome::TooOld;
   const auto place =
       std::ranges::lower_bound(steps_, key(observations), {}, [](const Step& a) { return key(a.observations); });
-  if (place != steps_.end() && key(place->observations) == key(observations)) return Taken::Repeated;
+  if (place != steps_.end() && key(place->observations) == key(observations)) return UpdateOutcome::Repeated;
   auto step = steps_.insert(place, Step{observations, std::move(spare_)});
   for (; step != steps_.end(); ++step) {
     step->after = step == steps_.begin() ? before_steps_ : (step - 1)->after;
@@ -88,18 +88,18 @@ Taken Tracker::update(const ObservationSet& observations) {
     spare_ = std::exchange(before_steps_, std::move(steps_.front().after));
     steps_.pop_front();
   }
-  return Taken::Yes;
+  return UpdateOutcome::Used;
 }
 
 void Tracker::advance(State& state, const ObservationSet& observations) const {
   const UTime at = observations.at;
-  std::erase_if(state.views, [&](const View& view) { return view.sensor_id == observations.sensor_id; });
+  std::erase_if(state.views, [&](const SensorView& view) { return view.sensor_id == observations.sensor_id; });
   state.views.push_back({observations.sensor_id, at, observations.range_m, observations.sensor_position});
   predict_to(state, at);
   const std::vector<Detection>& detections = observations.detections;
   const Matching matching = match(
       state.objects, detections,
-      [&](const TrackedObject& object, const Detection& detection) { return surprise(object, at, detection); },
+      [&](const TrackedObject& object, const Detection& detection) { return match_cost(object, at, detection); },
       [&](const TrackedObject& object, const Vec3& variance) { return gate_box(object, at, variance); });
   for (std::size_t o = 0; o < state.objects.size(); ++o) {
     TrackedObject& object = state.objects[o];
@@ -115,7 +115,7 @@ void Tracker::advance(State& state, const ObservationSet& observations) const {
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
   }
   std::erase_if(state.objects, [&](const TrackedObject& object) {
-    const bool dead = is_dead(object, observations);
+    const bool dead = is_expired(object, observations);
     if (dead && object.detections == 1 && !object.confirmed) ++state.existence.never;
     return dead;
   });
@@ -126,7 +126,7 @@ void Tracker::advance(State& state, const ObservationSet& observations) const {
                        std::ranges::any_of(state.objects, [&](const TrackedObject& o) { return o.id == given; });
     if (known) continue;
     const std::int64_t id = given == kNoTrackId ? state.next_id++ : given;
-    state.objects.push_back(born(detections[d], observations, id));
+    state.objects.push_back(start_track(detections[d], observations, id));
   }
   std::ranges::sort(state.objects, [](const TrackedObject& a, const TrackedObject& b) { return a.id < b.id; });
 }
@@ -143,7 +143,7 @@ void Tracker::predict_to(State& state, UTime at) const {
 
 void Tracker::take(TrackedObject& object, const Detection& detection, const ObservationSet& from,
                    RestRecord& rest) const {
-  const bool rested = object.confirmed && rests(object);
+  const bool rested = object.confirmed && is_stationary(object);
   const UTime seen = object.last_seen;
   const std::array<AxisFilter, 3> stood = object.resting;
   take(object, detection, from);
@@ -162,8 +162,8 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
 }
 
 void Tracker::take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const {
-  if (is_lost(object, from.at) || object.moving.distance2(detection.position, detection.variance) > kJumpGate) {
-    const TrackedObject anew = born(detection, from, object.id);
+  if (may_be_another(object, from.at) || object.moving.distance2(detection.position, detection.variance) > kJumpGate) {
+    const TrackedObject anew = start_track(detection, from, object.id);
     restart(object, detection, from);
     object.resting = anew.resting;
     object.resting_since = from.at;
@@ -172,7 +172,7 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
     const double resting2 = fit_of(object.resting, detection).distance2;
     object.resting_average += kRestingForgetting * (resting2 - object.resting_average);
     object.moving.update(detection.position, detection.variance);
-    if (config_.learns) object.learnt_from = learnt_from(object.moving);
+    if (config_.learns) object.learnt_input = learnt_input(object.moving);
     ++object.detections;
     update_axes(object.resting, detection);
     if (object.resting_average > kRestingLimit) {
@@ -192,7 +192,7 @@ void Tracker::take(TrackedObject& object, const Detection& detection, const Obse
   object.hits |= 1u;
 }
 
-TrackedObject Tracker::born(const Detection& detection, const ObservationSet& from, std::int64_t id) const {
+TrackedObject Tracker::start_track(const Detection& detection, const ObservationSet& from, std::int64_t id) const {
   TrackedObject object;
   object.id = id;
   object.last_seen = from.at;
@@ -208,20 +208,21 @@ TrackedObject Tracker::born(const Detection& detection, const ObservationSet& fr
   return object;
 }
 
-bool Tracker::is_dead(const TrackedObject& object, const ObservationSet& observations) const {
+bool Tracker::is_expired(const TrackedObject& object, const ObservationSet& observations) const {
   const Duration unseen = observations.at - object.last_seen;
   const bool can_miss = object.last_seen_by == observations.sensor_id;
   if (!object.confirmed) return can_miss ? object.age >= config_.confirm_window : unseen > kTentativeUnseen;
   if (unseen <= config_.coast) return false;
-  const bool is_missed = can_miss && !(rests(object) && is_out_of_range(object, observations));
+  const bool is_missed = can_miss && !(is_stationary(object) && is_out_of_range(object, observations));
   return is_missed || unseen > config_.remember_rest;
 }
 
-bool Tracker::is_lost(const TrackedObject& object, UTime at) const {
-  return (at - object.last_seen).seconds() > kUnseen && std::countr_zero(object.hits) > kMissesOfLost && !rests(object);
+bool Tracker::may_be_another(const TrackedObject& object, UTime at) const {
+  return (at - object.last_seen).seconds() > kUnseenAfter && std::countr_zero(object.hits) > kMissesToRestart &&
+         !is_stationary(object);
 }
 
-bool Tracker::rests(const TrackedObject& object) const {
+bool Tracker::is_stationary(const TrackedObject& object) const {
   if (object.last_seen - object.resting_since < config_.resting_after) return false;
   return std::ranges::all_of(object.resting, [](const AxisFilter& axis) {
     return std::abs(axis.v) <= std::max(kRestingSpeed, kRestingSpeedSigmas * std::sqrt(axis.vv));
@@ -229,19 +230,19 @@ bool Tracker::rests(const TrackedObject& object) const {
 }
 
 bool Tracker::is_remembered(const TrackedObject& object, UTime at) const {
-  return at - object.last_seen > config_.coast && rests(object);
+  return at - object.last_seen > config_.coast && is_stationary(object);
 }
 
-double Tracker::surprise(const TrackedObject& object, UTime at, const Detection& detection) const {
+double Tracker::match_cost(const TrackedObject& object, UTime at, const Detection& detection) const {
   constexpr double kBeyond = std::numeric_limits<double>::infinity();
   double of_place = kBeyond;
   if (is_remembered(object, at)) {
     const Fit fit = fit_of(object.resting, detection);
-    if (fit.distance2 <= kAssociationGate) of_place = fit.surprise();
+    if (fit.distance2 <= kAssociationGate) of_place = fit.neg_log_likelihood();
   } else {
-    of_place = object.moving.surprise_within(kAssociationGate, detection.position, detection.variance);
+    of_place = object.moving.cost_within(kAssociationGate, detection.position, detection.variance);
   }
-  return of_place < kBeyond ? of_place + size_surprise(object.half_extents, detection) : kBeyond;
+  return of_place < kBeyond ? of_place + size_cost(object.half_extents, detection) : kBeyond;
 }
 
 Box Tracker::gate_box(const TrackedObject& object, UTime at, const Vec3& variance) const {
@@ -250,31 +251,32 @@ Box Tracker::gate_box(const TrackedObject& object, UTime at, const Vec3& varianc
   return tern::gate_box({x.x, y.x, z.x}, {x.xx, y.xx, z.xx}, kAssociationGate, variance);
 }
 
-SeenTrack Tracker::seen(const TrackedObject& object) const {
-  return {object.id, object.born, object.detections, object.position, object.variance, &object.moving, rests(object)};
+DetectedTrack Tracker::seen(const TrackedObject& object) const {
+  return {object.id,       object.born,    object.detections,    object.position,
+          object.variance, &object.moving, is_stationary(object)};
 }
 
 void Tracker::settle(const Step& step) {
   const ObservationSet& from = step.observations;
-  std::vector<SeenTrack> detected;
+  std::vector<DetectedTrack> detected;
   std::set<std::int64_t> all;
   for (const TrackedObject& object : step.after.objects) {
     all.insert(object.id);
     if (object.last_seen == from.at && object.last_seen_by == from.sensor_id) detected.push_back(seen(object));
   }
-  judge_.take(from.at, detected, all);
+  scorer_.update(from.at, detected, all);
 }
 
-Judge::Verdict Tracker::verdict(const TrackedObject& object) const {
-  return judge_.verdict(seen(object), object.last_seen);
+PredictionScorer::Assessment Tracker::assessment(const TrackedObject& object) const {
+  return scorer_.assessment(seen(object), object.last_seen);
 }
 
 bool Tracker::is_published(const TrackedObject& object, const ExistenceRecord& existence) const {
   if (object.confirmed || object.detections > 1) return true;
-  return object.age <= kMissesOfNew && existence.real() > 1.0 - config_.prediction.confidence;
+  return object.age <= kMissesToHide && existence.real_share() > 1.0 - config_.prediction.confidence;
 }
 
-double Tracker::top_speed() const { return std::max(config_.prediction.max_speed, judge_.fastest()); }
+double Tracker::top_speed() const { return std::max(config_.prediction.max_speed, scorer_.max_axis_speed()); }
 
 std::pair<Waypoint, Vec3> Tracker::resting_at(const TrackedObject& object, const State& state, UTime from,
                                               double ahead_s) const {
@@ -291,16 +293,16 @@ std::pair<Waypoint, Vec3> Tracker::resting_at(const TrackedObject& object, const
     sigma[axis] = std::sqrt(at.xx);
   }
   for (std::size_t level = 0; level < waypoint.half.size(); ++level) {
-    const double broken = 1.0 - confidence_at(config_.prediction.confidence, static_cast<int>(level));
-    const double moved_s = std::max(0.0, unseen_s - trusted_rest_s(state.rest, kStartShare * broken));
+    const double missed = 1.0 - confidence_at(config_.prediction.confidence, static_cast<int>(level));
+    const double moved_s = std::max(0.0, unseen_s - trusted_rest_s(state.rest, kStartShare * missed));
     waypoint.half[level] = rest_quantiles_[level] * sigma;
     if (moved_s > 0.0) waypoint.half[level] += unnoticed + Vec3::Constant(top_speed() * moved_s);
   }
   return {waypoint, rest_quantiles_.front() * sigma};
 }
 
-Tracker::Belief Tracker::at_rest(const TrackedObject& object, const State& state, UTime from) const {
-  Belief belief;
+Tracker::Forecast Tracker::at_rest(const TrackedObject& object, const State& state, UTime from) const {
+  Forecast belief;
   TrackBound& bound = belief.bound;
   for (std::size_t k = 0; k < ends_.size(); ++k) {
     const auto [waypoint, model] = resting_at(object, state, from, ends_[k].seconds());
@@ -314,48 +316,50 @@ Tracker::Belief Tracker::at_rest(const TrackedObject& object, const State& state
   return belief;
 }
 
-const std::vector<LearntLook>& Tracker::learnt_looks(std::size_t group, UTime last_seen, Ahead& ahead) const {
-  std::vector<LearntLook>& looks = ahead.learnt[{group, last_seen}];
+const std::vector<LearntCoefficients>& Tracker::learnt_coefficients(std::size_t group, UTime last_seen,
+                                                                    PredictionInputs& ahead) const {
+  std::vector<LearntCoefficients>& looks = ahead.learnt[{group, last_seen}];
   if (!looks.empty()) return looks;
   for (const Duration end : ends_) {
-    looks.push_back(judge_.learnt().at((ahead.from - last_seen + end).seconds(), group));
+    looks.push_back(scorer_.learnt().at((ahead.from - last_seen + end).seconds(), group));
   }
   return looks;
 }
 
-Tracker::Belief Tracker::moving(const TrackedObject& object, Ahead& ahead) const {
-  const Judge::Verdict verdict = this->verdict(object);
+Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs& ahead) const {
+  const PredictionScorer::Assessment assessment = this->assessment(object);
   const bool is_sure = object.confirmed || object.detections > 1;
-  const PerLevel& margins = is_sure ? judge_.calibration().margins(verdict.kind) : ahead.of_unsure;
+  const PerLevel& margins = is_sure ? scorer_.calibration().margins(assessment.kind) : ahead.of_unsure;
   const double since_s = (ahead.from - object.last_seen).seconds();
-  const bool is_unseen = since_s > kUnseen;
-  Belief belief{std::vector<Waypoint>(ends_.size()), {}};
+  const bool is_unseen = since_s > kUnseenAfter;
+  Forecast belief{std::vector<Waypoint>(ends_.size()), {}};
   for (std::size_t k = 0; k < ends_.size(); ++k) {
     Waypoint& waypoint = belief.waypoints[k];
     const double ahead_s = since_s + ends_[k].seconds();
-    const PerCandidate<double> weights = weights_at(verdict.weights, ahead_s);
-    FilterLook learnt;
+    const PerCandidate<double> weights = weights_at(assessment.weights, ahead_s);
+    FilterPrediction learnt;
     if (weights[kLearnt] > 0.0) {
-      learnt = said_by(learnt_looks(*verdict.group, object.last_seen, ahead)[k], object.learnt_from);
+      learnt =
+          learnt_prediction(learnt_coefficients(*assessment.group, object.last_seen, ahead)[k], object.learnt_input);
     }
-    const Mixed said = mixed(object.moving, ahead.looks[k], learnt, weights);
+    const MixturePrediction said = mixture_prediction(object.moving, ahead.looks[k], learnt, weights);
     waypoint.centre = said.centre;
     waypoint.velocity = said.velocity;
     if (k == bound_at_) belief.bound.model = model_sigmas_ * said.deviation.maxCoeff();
     for (std::size_t level = 0; level < margins.size(); ++level) {
-      waypoint.half[level] = promised_half(said.deviation, margins[is_unseen ? 0 : level], ahead_s);
+      waypoint.half[level] = interval_half_width(said.deviation, margins[is_unseen ? 0 : level], ahead_s);
     }
   }
   TrackBound& bound = belief.bound;
-  bound.kind = kind_of(verdict.kind);
-  bound.evidence = judge_.calibration().evidence(verdict.kind, band_of(since_s + ends_[bound_at_].seconds()));
+  bound.kind = motion_kind_of(assessment.kind);
+  bound.evidence = scorer_.calibration().evidence(assessment.kind, band_of(since_s + ends_[bound_at_].seconds()));
   bound.ruled_by = bound.evidence < Calibration::kPriorWeight ? BoundRule::Prior : BoundRule::Measured;
   return belief;
 }
 
-bool Tracker::is_gone(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start) {
-  if (start.half.front().maxCoeff() <= kKnownWithin) return false;
-  return std::ranges::any_of(views, [&](const View& view) {
+bool Tracker::has_left_range(const TrackedObject& object, const std::vector<SensorView>& views, const Waypoint& start) {
+  if (start.half.front().maxCoeff() <= kMaxUnseenAlpha) return false;
+  return std::ranges::any_of(views, [&](const SensorView& view) {
     return view.sensor_id == object.last_seen_by && object.last_seen < view.at &&
            is_beyond(view.range_m, view.from, start.centre, object.half_extents);
   });
@@ -365,14 +369,14 @@ std::vector<Track> Tracker::predict(UTime now, std::vector<TrackBound>* why) con
   const State& newest = newest_state();
   const UTime from = std::max(now, newest.at);
   const BankStep first = bank_step((from - newest.at).seconds());
-  Ahead ahead{from, judge_.calibration().margins(TrackClass::New, newest.existence.real()), {}, {}};
-  for (const BankStep& step : steps_ahead_) ahead.looks.push_back(bank_look(step, first));
+  PredictionInputs ahead{from, scorer_.calibration().margins(TrackClass::New, newest.existence.real_share()), {}, {}};
+  for (const BankStep& step : steps_ahead_) ahead.looks.push_back(bank_output_rows(step, first));
   std::vector<Track> tracks;
   for (const TrackedObject& object : newest.objects) {
     if (!is_published(object, newest.existence)) continue;
-    const bool is_resting = rests(object);
+    const bool is_resting = is_stationary(object);
     auto [waypoints, bound] = is_resting ? at_rest(object, newest, from) : moving(object, ahead);
-    if (is_gone(object, newest.views, waypoints.front())) continue;
+    if (has_left_range(object, newest.views, waypoints.front())) continue;
     const double seen_speed = is_resting ? 0.0 : waypoints.front().velocity.cwiseAbs().maxCoeff();
     Track track;
     track.id = object.id;

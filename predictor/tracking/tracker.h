@@ -11,8 +11,8 @@
 #include "core/world/observation.h"
 #include "core/world/track.h"
 #include "core/world/track_bounds.h"
-#include "predictor/models/promise.h"
-#include "predictor/tracking/judge.h"
+#include "predictor/models/prediction_interval.h"
+#include "predictor/tracking/prediction_scorer.h"
 #include "predictor/tracking/rest_record.h"
 #include "predictor/tracking/tracked_object.h"
 
@@ -24,7 +24,7 @@ inline constexpr std::int64_t kFirstOwnTrackId = 1'000'000'000;
 inline constexpr double kJumpGate = 100.0;
 /// Sizes tell who is who, but alone they exclude nobody, whatever part of a thing is seen: standard deviation of a
 /// half-extent as a share of the largest, beside that of a face; and the most that they count for, of a surprise.
-inline constexpr double kSizeShare = 0.25, kMostOfSize = 20.0;
+inline constexpr double kSizeShare = 0.25, kMaxSizeCost = 20.0;
 /// How far back observations may come out of order.
 inline constexpr Duration kReorderWindow{300'000};
 /// Extents grow at once to the largest seen and shrink by this share of the difference per detection.
@@ -42,18 +42,18 @@ inline constexpr Duration kTentativeUnseen{1'500'000};
 /// vehicle's way within the sensor's frame.
 inline constexpr double kRangeMargin = 0.5;
 /// What is not seen beyond its sensor's range is predicted while it is known where it is, to so many metres.
-inline constexpr double kKnownWithin = 1.0;
+inline constexpr double kMaxUnseenAlpha = 1.0;
 /// What is unseen for longer, s, has one α for all confidences: they are calibrated by what is seen again and again.
-inline constexpr double kUnseen = 0.3;
+inline constexpr double kUnseenAfter = 0.3;
 /// Who has been unseen for that long, and was missed by so many of its sensor's sets, is not surely what is found there
 /// next: that may have come into view just now. Its motion begins anew.
-inline constexpr int kMissesOfLost = 3;
+inline constexpr int kMissesToRestart = 3;
 /// Of 1 − confidence, the share that is left to a start that the α of what rests does not contain.
 inline constexpr double kStartShare = 0.5;
 /// The crossings of Rice's formula for what rests: π/2 of a speed that does not change, and room for noise.
 inline constexpr double kRestCrossings = 2.5;
 /// Detected once, a track is published until its sensor has failed to see it so often.
-inline constexpr int kMissesOfNew = 2;
+inline constexpr int kMissesToHide = 2;
 /// What rests has no speed beyond so many standard deviations per axis, or beyond kRestingSpeed m/s.
 inline constexpr double kRestingSpeedSigmas = 3.0;
 inline constexpr double kRestingSpeed = 0.05;
@@ -77,12 +77,12 @@ struct TrackerConfig {
 struct ExistenceRecord {
   int again = 0, never = 0;  ///< tracks
   /// Laplace's rule of succession, begun with one that was.
-  [[nodiscard]] double real() const { return (again + 1.0) / (again + never + 1.0); }
+  [[nodiscard]] double real_share() const { return (again + 1.0) / (again + never + 1.0); }
 };
 
 /// What became of an observation set.
-enum class Taken {
-  Yes,
+enum class UpdateOutcome {
+  Used,
   TooOld,    ///< older than the newest by more than kReorderWindow
   Repeated,  ///< there was a set of that sensor and time
 };
@@ -106,7 +106,7 @@ class Tracker {
 
   /// Nothing changes unless the answer is Yes. The tracker has no clock: a set from the future makes all others too
   /// old.
-  Taken update(const ObservationSet& observations);
+  UpdateOutcome update(const ObservationSet& observations);
 
   /// The tracks predicted from `now` over the horizon, kind Estimated, by id ascending: what is new from its first
   /// detection on, if it is real more often than promises are broken. Tracks whose detections have stopped altogether
@@ -123,15 +123,15 @@ class Tracker {
   /// Time of the newest observation; 0 when there was none.
   [[nodiscard]] UTime newest() const { return steps_.empty() ? UTime{} : steps_.back().observations.at; }
   /// True if it is predicted at rest.
-  [[nodiscard]] bool rests(const TrackedObject& object) const;
+  [[nodiscard]] bool is_stationary(const TrackedObject& object) const;
   /// What was learnt of predictions: models' weights and margins. It lags by kReorderWindow.
-  [[nodiscard]] const Judge& judge() const { return judge_; }
+  [[nodiscard]] const PredictionScorer& scorer() const { return scorer_; }
   /// The weights and the class that an object of objects() is predicted with.
-  [[nodiscard]] Judge::Verdict verdict(const TrackedObject& object) const;
+  [[nodiscard]] PredictionScorer::Assessment assessment(const TrackedObject& object) const;
 
  private:
   /// What a sensor saw last.
-  struct View {
+  struct SensorView {
     std::int32_t sensor_id = 0;
     UTime at;
     double range_m = 0.0;  // 0: without limit
@@ -139,7 +139,7 @@ class Tracker {
   };
   struct State {
     UTime at;
-    std::vector<View> views;  // one per sensor
+    std::vector<SensorView> views;  // one per sensor
     std::int64_t next_id = kFirstOwnTrackId;
     std::vector<TrackedObject> objects;
     RestRecord rest;
@@ -154,9 +154,10 @@ class Tracker {
   void predict_to(State& state, UTime at) const;
   void take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
   void take(TrackedObject& object, const Detection& detection, const ObservationSet& from, RestRecord& rest) const;
-  [[nodiscard]] TrackedObject born(const Detection& detection, const ObservationSet& from, std::int64_t id) const;
-  [[nodiscard]] bool is_dead(const TrackedObject& object, const ObservationSet& observations) const;
-  [[nodiscard]] double surprise(const TrackedObject& object, UTime at, const Detection& detection) const;
+  [[nodiscard]] TrackedObject start_track(const Detection& detection, const ObservationSet& from,
+                                          std::int64_t id) const;
+  [[nodiscard]] bool is_expired(const TrackedObject& object, const ObservationSet& observations) const;
+  [[nodiscard]] double match_cost(const TrackedObject& object, UTime at, const Detection& detection) const;
   /// A box that holds all detections of at most this variance whose surprise is finite.
   [[nodiscard]] Box gate_box(const TrackedObject& object, UTime at, const Vec3& variance) const;
   /// Whether it rested when it was last seen, longer ago than `coast`. Then what is found there belongs to it, not
@@ -164,31 +165,33 @@ class Tracker {
   [[nodiscard]] bool is_remembered(const TrackedObject& object, UTime at) const;
   [[nodiscard]] bool is_published(const TrackedObject& object, const ExistenceRecord& existence) const;
   /// Whether what is detected as this track may as well be something new.
-  [[nodiscard]] bool is_lost(const TrackedObject& object, UTime at) const;
+  [[nodiscard]] bool may_be_another(const TrackedObject& object, UTime at) const;
   /// Whether it has left its sensor's range and says no more than that anything may come from there.
-  [[nodiscard]] static bool is_gone(const TrackedObject& object, const std::vector<View>& views, const Waypoint& start);
+  [[nodiscard]] static bool has_left_range(const TrackedObject& object, const std::vector<SensorView>& views,
+                                           const Waypoint& start);
   void settle(const Step& step);
-  [[nodiscard]] SeenTrack seen(const TrackedObject& object) const;
+  [[nodiscard]] DetectedTrack seen(const TrackedObject& object) const;
   [[nodiscard]] double top_speed() const;  // of what is new or starts
   /// Where a start is contained, so is one that the last detection shows and the filter does not yet believe.
   /// @return with what the filter alone says at level 0
   [[nodiscard]] std::pair<Waypoint, Vec3> resting_at(const TrackedObject& object, const State& state, UTime from,
                                                      double ahead_s) const;
   /// Waypoints at ends_, and what of a bound they know: all but what is promised.
-  struct Belief {
+  struct Forecast {
     std::vector<Waypoint> waypoints;
     TrackBound bound;
   };
-  [[nodiscard]] Belief at_rest(const TrackedObject& object, const State& state, UTime from) const;
+  [[nodiscard]] Forecast at_rest(const TrackedObject& object, const State& state, UTime from) const;
   /// What the tracks of one prediction share.
-  struct Ahead {
+  struct PredictionInputs {
     UTime from;
-    PerLevel of_unsure;           // margins of what was detected once, and may be a false alarm
-    std::vector<BankLook> looks;  // at ends_
-    std::map<std::pair<std::size_t, UTime>, std::vector<LearntLook>> learnt;  // by group and last detection
+    PerLevel of_unsure;                 // margins of what was detected once, and may be a false alarm
+    std::vector<BankOutputRows> looks;  // at ends_
+    std::map<std::pair<std::size_t, UTime>, std::vector<LearntCoefficients>> learnt;  // by group and last detection
   };
-  [[nodiscard]] const std::vector<LearntLook>& learnt_looks(std::size_t group, UTime last_seen, Ahead& ahead) const;
-  [[nodiscard]] Belief moving(const TrackedObject& object, Ahead& ahead) const;
+  [[nodiscard]] const std::vector<LearntCoefficients>& learnt_coefficients(std::size_t group, UTime last_seen,
+                                                                           PredictionInputs& ahead) const;
+  [[nodiscard]] Forecast moving(const TrackedObject& object, PredictionInputs& ahead) const;
 
   TrackerConfig config_;
   std::vector<Duration> ends_;         // of pieces
@@ -199,7 +202,7 @@ class Tracker {
   State before_steps_;
   State spare_;             // memory for the next step: its meaning is over
   std::deque<Step> steps_;  // ascending by (time, sensor), the newest kReorderWindow
-  Judge judge_;
+  PredictionScorer scorer_;
 };
 
 }  // namespace tern

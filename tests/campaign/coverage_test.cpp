@@ -1,4 +1,4 @@
-// Promised against kept: bounds that hold whatever depends on what within a group, and counts that can be summed.
+// Coverage of prediction intervals: bounds that hold for any dependence within a group, and counts that can be summed.
 #include "campaign/statistics/coverage.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ RC_GTEST_PROP(GroupedShare, LiesWithinItsIntervalAndMirrors, ()) {
   const Interval interval = share_interval(groups), mirrored = share_interval(rest);
   RC_ASSERT(0.0 <= interval.low && interval.low <= some / all && some / all <= interval.high && interval.high <= 1.0);
   RC_ASSERT(std::abs(interval.low + mirrored.high - 1.0) < 1e-6);
-  RC_ASSERT(least_share(groups, 1e-5) <= interval.low);
+  RC_ASSERT(share_lower_bound(groups, 1e-5) <= interval.low);
 }
 
 TEST(GroupedShare, OfEqualGroupsIsAlmostAsTightAsTheBinomialInterval) {
@@ -62,7 +62,7 @@ TEST(GroupedShare, IsWrongNoMoreOftenThanItSaysWhateverDependsOnWhatWithinAGroup
 
 TEST(GroupedShare, RefutesWhatManyGroupsMissALittle) {
   const std::vector<GroupShare> groups(15, GroupShare{100.0, 90.0});
-  EXPECT_LT(greatest_share(groups, 1e-5), 0.99);
+  EXPECT_LT(share_upper_bound(groups, 1e-5), 0.99);
 }
 
 Coverage some_flight(Rng& rng) {
@@ -70,9 +70,9 @@ Coverage some_flight(Rng& rng) {
   flight.confidence = 0.99;
   for (const PredictionClass kind : {PredictionClass::Declared, PredictionClass::New, PredictionClass::Old}) {
     for (std::size_t h = 0; h < kHorizons; ++h) {
-      PromiseCount count{100, {}, std::round(rng.uniform(0.0, 1e4)) * 1e-2};
-      for (auto& kept : count.kept) kept = static_cast<std::int64_t>(rng.uniform(0.0, 101.0));
-      flight.promises[{kind, h}] = count;
+      IntervalCount count{100, {}, std::round(rng.uniform(0.0, 1e4)) * 1e-2};
+      for (auto& covered : count.covered) covered = static_cast<std::int64_t>(rng.uniform(0.0, 101.0));
+      flight.intervals[{kind, h}] = count;
     }
   }
   flight.claims[3] = {7, 5};
@@ -101,7 +101,7 @@ TEST(Coverage, RefusesOtherTexts) {
 TEST(Coverage, OfAllFlightsIsTheSumAndItsGroupsAreFlights) {
   Rng rng(5);
   const std::vector<Coverage> flights{some_flight(rng), some_flight(rng), some_flight(rng)};
-  for (const KeptShare& share : kept_shares(flights)) {
+  for (const CoverageShare& share : coverage_shares(flights)) {
     EXPECT_EQ(share.groups, 3);
     EXPECT_EQ(share.made, share.what == kPlans ? 21 : 300);
     EXPECT_EQ(share.confidence == 1.0, share.what == "declared");
@@ -111,11 +111,11 @@ TEST(Coverage, OfAllFlightsIsTheSumAndItsGroupsAreFlights) {
 TEST(Coverage, WhoseWorstClassIsBrokenIsSaidByAMark) {
   Coverage flight;
   flight.confidence = 0.99;
-  flight.promises[{PredictionClass::Old, 0}] = {100, {80, 100, 100, 100, 100}, 10.0};
-  const std::string text = to_text(kept_shares(std::vector<Coverage>(20, flight)));
+  flight.intervals[{PredictionClass::Old, 0}] = {100, {80, 100, 100, 100, 100}, 10.0};
+  const std::string text = to_text(coverage_shares(std::vector<Coverage>(20, flight)));
   EXPECT_NE(text.find("]!"), std::string::npos) << text;
-  flight.promises[{PredictionClass::Old, 0}].kept[0] = 99;
-  EXPECT_EQ(to_text(kept_shares(std::vector<Coverage>(20, flight))).find("]!"), std::string::npos);
+  flight.intervals[{PredictionClass::Old, 0}].covered[0] = 99;
+  EXPECT_EQ(to_text(coverage_shares(std::vector<Coverage>(20, flight))).find("]!"), std::string::npos);
 }
 
 }  // namespace

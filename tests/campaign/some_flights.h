@@ -30,7 +30,7 @@ inline FlightRecord some_flight(std::uint64_t seed) {
   flight.messages["PLAN"] = {260, 1, 2};
   flight.tracking = {0.05, 0.125, 0.25, 0.1 / x};
   flight.coverage.confidence = 0.99;
-  flight.coverage.promises[{PredictionClass::Old, 1}] = {100, {98, 97, 95, 90, 70}, 12.5};
+  flight.coverage.intervals[{PredictionClass::Old, 1}] = {100, {98, 97, 95, 90, 70}, 12.5};
   flight.coverage.claims[2] = {10, 9};
   return flight;
 }

@@ -89,7 +89,7 @@ RC_GTEST_PROP(LogHistogram, PercentilesAreWithinOnePercentOfSorting, ()) {
   const Distribution exact = describe(numbers), binned = histogram.describe();
   RC_ASSERT(binned.count == exact.count);
   RC_ASSERT(binned.min == exact.min && binned.max == exact.max);
-  const auto near = [](double a, double b) { return std::abs(a - b) <= 0.01 * std::max(a, b) + LogHistogram::kLeast; };
+  const auto near = [](double a, double b) { return std::abs(a - b) <= 0.01 * std::max(a, b) + LogHistogram::kMin; };
   RC_ASSERT(near(binned.mean, exact.mean));
   RC_ASSERT(near(binned.p50, exact.p50) && near(binned.p95, exact.p95) && near(binned.p99, exact.p99));
 }

@@ -43,11 +43,11 @@ TEST(CampaignSummary, SumsPromisesAndClaimsOverFlights) {
   const CampaignSummary s = summarize(thirty_flights());
   ASSERT_EQ(s.coverage.size(), 6U) << "a class with one horizon and five confidences; the plans of one";
   EXPECT_EQ(s.coverage[0].made, 3000);
-  EXPECT_EQ(s.coverage[0].kept, 2940);
+  EXPECT_EQ(s.coverage[0].covered, 2940);
   EXPECT_EQ(s.coverage[0].groups, 30);
   EXPECT_NEAR(s.coverage[0].half_m, 0.125, 1e-12);
-  EXPECT_TRUE(s.coverage[0].is_broken()) << "0.98 in each of thirty flights is not 0.99";
-  EXPECT_FALSE(s.coverage[1].is_broken());
+  EXPECT_TRUE(s.coverage[0].is_refuted()) << "0.98 in each of thirty flights is not 0.99";
+  EXPECT_FALSE(s.coverage[1].is_refuted());
   EXPECT_EQ(s.coverage[5].what, kPlans);
   EXPECT_EQ(s.coverage[5].made, 300);
   const auto json = nlohmann::json::parse(to_json(s, ""));

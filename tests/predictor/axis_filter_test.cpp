@@ -86,7 +86,7 @@ TEST(AxisFilter, TwoStepsMakeTheSameAsOne) {
 }
 
 TEST(AxisFilter, StaysPositiveWithMeasurementsWithoutNoise) {
-  AxisFilter filter{0.0, 0.0, kLeastVariance, 0.0, 8.0};
+  AxisFilter filter{0.0, 0.0, kMinVariance, 0.0, 8.0};
   for (int i = 1; i <= 3000; ++i) {
     filter.predict(1.0 / 30, 1e-4);
     filter.update(0.01 * i, 0.0);
@@ -120,7 +120,7 @@ TEST(Fit, SurprisesByTheLogarithmOfTheDensity) {
   for (int k = 0; k < 100; ++k) {
     const Vec3 x(rng.normal(), rng.normal(), rng.normal()), y(rng.normal(), rng.normal(), rng.normal());
     const Vec3 of_x = Vec3::Constant(rng.uniform(0.1, 2.0)), of_y = Vec3::Constant(rng.uniform(0.1, 2.0));
-    EXPECT_NEAR(fit(x, of_x, z, r).surprise() - fit(y, of_y, z, r).surprise(),
+    EXPECT_NEAR(fit(x, of_x, z, r).neg_log_likelihood() - fit(y, of_y, z, r).neg_log_likelihood(),
                 -2.0 * (log_density(x, of_x + r) - log_density(y, of_y + r)), 1e-9);
   }
 }

@@ -18,14 +18,14 @@ namespace {
 double above(double q, std::size_t kind, std::size_t band, const std::vector<float>& own,
              const std::vector<float>& all) {
   const auto larger = [&](const std::vector<float>& scores) {
-    return Calibration::worth(band) * static_cast<double>(std::count_if(scores.begin(), scores.end(), [&](float s) {
-             return static_cast<double>(s) > q;
-           }));
+    return Calibration::score_weight(band) *
+           static_cast<double>(
+               std::count_if(scores.begin(), scores.end(), [&](float s) { return static_cast<double>(s) > q; }));
   };
   const auto count = [&](const std::vector<float>& scores) {
-    return Calibration::worth(band) * static_cast<double>(scores.size());
+    return Calibration::score_weight(band) * static_cast<double>(scores.size());
   };
-  const double prior = Calibration::kPriorWeight * prior_above(WorldPace::Any, kind, band, q);
+  const double prior = Calibration::kPriorWeight * prior_share_above(SceneSpeed::Any, kind, band, q);
   const double pool = (prior + larger(all)) / (Calibration::kPriorWeight + count(all));
   return (Calibration::kPoolWeight * pool + larger(own)) / (Calibration::kPoolWeight + count(own));
 }
@@ -41,7 +41,7 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
       const bool is_own = k % 3 == 0;
       all.push_back(static_cast<float>(rng.uniform(-1.5, 0.5)));
       if (is_own) own.push_back(all.back());
-      calibration.add(is_own ? TrackClass::CalmOld : TrackClass::LivelyOld, kBand, all.back(), {}, WorldPace::Any);
+      calibration.add(is_own ? TrackClass::CalmOld : TrackClass::LivelyOld, kBand, all.back(), {}, SceneSpeed::Any);
     }
     const auto newest = [](std::vector<float>& s, std::size_t most) {
       if (s.size() > most) s.erase(s.begin(), s.end() - static_cast<std::ptrdiff_t>(most));
@@ -53,10 +53,10 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
     for (std::size_t level = 0; level < margins.size(); ++level) {
       // None was broken: theta has risen with each.
       const double allowed = calibration.allowed(level, kBand);
-      const double risen = (level == 0 ? 1.0 : Calibration::kFirstLevel) *
-                           prior_level(WorldPace::Any, kKind, kBand, level) *
+      const double risen = (level == 0 ? 1.0 : Calibration::kInitialLevel) *
+                           prior_level(SceneSpeed::Any, kKind, kBand, level) *
                            std::exp(Calibration::kAdaption * allowed * static_cast<double>((scores + 2) / 3));
-      const double theta = std::min(Calibration::kLargestLevel * allowed, risen);
+      const double theta = std::min(Calibration::kMaxLevel * allowed, risen);
       const double q = margins[level][kBand];
       EXPECT_LE(above(q + 1e-6, kKind, kBand, own, all), theta * (1.0 + 1e-9)) << scores << ", " << level;
       if (q > -kModelSigmas + 1e-3) {
@@ -68,15 +68,15 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
 
 TEST(Calibration, WhatWasPromisedByAnotherPriorTeachesNothing) {
   std::array<PerLevel, 2> margins;
-  for (const WorldPace made_in : {WorldPace::Any, WorldPace::Slow}) {
+  for (const SceneSpeed made_under : {SceneSpeed::Any, SceneSpeed::Slow}) {
     Rng rng(4);
     Calibration calibration(0.99);
-    calibration.set_pace(WorldPace::Slow);
+    calibration.set_scene_speed(SceneSpeed::Slow);
     for (int k = 0; k < 1000; ++k) {
-      calibration.add(TrackClass::New, 1, static_cast<float>(rng.uniform()), {}, made_in);
+      calibration.add(TrackClass::New, 1, static_cast<float>(rng.uniform()), {}, made_under);
     }
     calibration.refresh();
-    margins[made_in == WorldPace::Slow ? 1 : 0] = calibration.margins(TrackClass::New);
+    margins[made_under == SceneSpeed::Slow ? 1 : 0] = calibration.margins(TrackClass::New);
   }
   for (std::size_t level = 1; level < kConfidenceLevels.size(); ++level) {
     EXPECT_LT(margins[1][level][1], margins[0][level][1]) << "none was broken, so less will do";
@@ -94,18 +94,18 @@ TEST(PromisedHalf, ContainsAnErrorByItsOwnMarginAndByNoLess) {
       deviation[axis] = std::exp(rng.uniform(-4.0, 1.0));
     }
     PerBand<double> margins{};
-    margins[band] = containing_margin(error, deviation, band, ahead);
-    EXPECT_LE((error.cwiseAbs() - promised_half(deviation, margins, ahead)).maxCoeff(), 1e-9);
+    margins[band] = covering_margin(error, deviation, band, ahead);
+    EXPECT_LE((error.cwiseAbs() - interval_half_width(deviation, margins, ahead)).maxCoeff(), 1e-9);
     if (margins[band] < 1e-3 - kModelSigmas) continue;
     margins[band] -= 1e-3;
-    EXPECT_GT((error.cwiseAbs() - promised_half(deviation, margins, ahead)).maxCoeff(), 0.0);
+    EXPECT_GT((error.cwiseAbs() - interval_half_width(deviation, margins, ahead)).maxCoeff(), 0.0);
   }
 }
 
 TEST(Calibration, ASlowWorldsPriorIsTakenBackAsIfItHadNotRuled) {
   const Calibration fresh(0.99);
   Calibration calibration(0.99);
-  calibration.set_pace(WorldPace::Slow);
+  calibration.set_scene_speed(SceneSpeed::Slow);
   calibration.refresh();
   for (std::size_t kind = 0; kind < kTrackClasses; ++kind) {
     const PerLevel &slow = calibration.margins(static_cast<TrackClass>(kind)),
@@ -115,7 +115,7 @@ TEST(Calibration, ASlowWorldsPriorIsTakenBackAsIfItHadNotRuled) {
   }
   const auto young = TrackClass::Young;
   EXPECT_LT(calibration.margins(young)[0][2], 0.5 * fresh.margins(young)[0][2]);
-  calibration.set_pace(WorldPace::Any);
+  calibration.set_scene_speed(SceneSpeed::Any);
   calibration.refresh();
   for (std::size_t level = 0; level < kConfidenceLevels.size(); ++level) {
     for (std::size_t band = 0; band < kBands; ++band) {
@@ -130,7 +130,7 @@ TEST(Calibration, BreaksWhatItMayAtEachLevelWhateverTheWorldIs) {
     Rng rng(3);
     Calibration calibration(0.99);
     constexpr int kPromises = 8'000, kLearning = 2'000;
-    std::array<std::array<int, kBands>, kLevels> broken{};
+    std::array<std::array<int, kBands>, kLevels> missed{};
     for (int promise = 0; promise < kPromises; ++promise) {
       const PerLevel margins = calibration.margins(TrackClass::CalmOld);
       std::array<bool, kLevels> out{};
@@ -139,16 +139,16 @@ TEST(Calibration, BreaksWhatItMayAtEachLevelWhateverTheWorldIs) {
         q = 0.5 * q + scale * kBandEnds[band] * rng.normal();
         for (std::size_t level = 0; level < out.size(); ++level) {
           out[level] = out[level] || q > margins[level][band];
-          broken[level][band] += promise >= kLearning && out[level] ? 1 : 0;
+          missed[level][band] += promise >= kLearning && out[level] ? 1 : 0;
         }
-        calibration.add(TrackClass::CalmOld, band, static_cast<float>(q), out, WorldPace::Any);
+        calibration.add(TrackClass::CalmOld, band, static_cast<float>(q), out, SceneSpeed::Any);
       }
       calibration.refresh();
     }
     for (std::size_t level = 0; level < kConfidenceLevels.size(); ++level) {
       EXPECT_LE(calibration.allowed(level, kBands - 1), 1.0 - kConfidenceLevels[level] + 1e-12);
       for (std::size_t band = 0; band < kBands; ++band) {
-        const double share = static_cast<double>(broken[level][band]) / (kPromises - kLearning);
+        const double share = static_cast<double>(missed[level][band]) / (kPromises - kLearning);
         // Four deviations of so many that are broken independently.
         const double allowed = calibration.allowed(level, band);
         const double deviation = std::sqrt((1.0 - allowed) / (allowed * (kPromises - kLearning)));

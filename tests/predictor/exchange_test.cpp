@@ -33,7 +33,7 @@ double margin_of_pairs(bool exchanged) {
   }
   double largest = 0.0;
   for (const TrackClass kind : {TrackClass::SteadyOld, TrackClass::CalmOld, TrackClass::LivelyOld}) {
-    largest = std::max(largest, tracker.judge().calibration().margins(kind)[0][band_of(1.0)]);
+    largest = std::max(largest, tracker.scorer().calibration().margins(kind)[0][band_of(1.0)]);
   }
   return largest;
 }

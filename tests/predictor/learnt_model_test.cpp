@@ -24,17 +24,17 @@ using testing::Path;
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kOldest = kLearntGroups - 1;
 
-LearntFrom drawn(Rng& rng) {
-  LearntFrom track;
+LearntInput drawn(Rng& rng) {
+  LearntInput track;
   track.position = Vec3(rng.uniform(-50, 50), rng.uniform(-50, 50), rng.uniform(0, 5));
   for (double& x : track.features) x = rng.normal();
   return track;
 }
 
 // Some law: what comes beyond straight on, per feature, as large as Taylor's series would have it.
-FeatureWeights law(std::size_t horizon) {
+FeatureCoefficients law(std::size_t horizon) {
   Rng rng(40 + horizon);
-  FeatureWeights weights;
+  FeatureCoefficients weights;
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i < kFeatures; ++i) {
       const auto order = 1 + i % kFeaturesPerAxis;
@@ -46,32 +46,32 @@ FeatureWeights law(std::size_t horizon) {
   return weights;
 }
 
-Vec3 by_law(const LearntFrom& track, std::size_t horizon) {
+Vec3 true_position(const LearntInput& track, std::size_t horizon) {
   const Features& x = track.features;
   const Vec3 velocity(x[0], x[kFeaturesPerAxis], x[2 * kFeaturesPerAxis]);
   return track.position + kLearntAhead[horizon] * velocity + law(horizon).transpose() * x;
 }
 
-struct Teaching {
-  int lessons = 0;
+struct SampleSource {
+  int samples = 0;
   Vec3 noise = Vec3::Constant(0.01);  // m
   double outliers = 0.0;              // share of lessons from something else
   std::size_t first_group = 0;        // of those that are taught, in turn
 };
 
-void teach(LearntModel& model, const Teaching& how, Rng& rng) {
-  for (int n = 0; n < how.lessons; ++n) {
-    const LearntFrom track = drawn(rng);
-    const bool is_outlier = rng.uniform() < how.outliers;
-    const std::size_t group = how.first_group + static_cast<std::size_t>(n) % (kLearntGroups - how.first_group);
+void add_samples(LearntModel& model, const SampleSource& source, Rng& rng) {
+  for (int n = 0; n < source.samples; ++n) {
+    const LearntInput track = drawn(rng);
+    const bool is_outlier = rng.uniform() < source.outliers;
+    const std::size_t group = source.first_group + static_cast<std::size_t>(n) % (kLearntGroups - source.first_group);
     for (std::size_t h = 0; h < kLearntTimes; ++h) {
-      Vec3 came = by_law(track, h);
+      Vec3 observed = true_position(track, h);
       for (int axis = 0; axis < 3; ++axis) {
-        came[axis] += how.noise[axis] * rng.normal() + (is_outlier ? 20.0 * rng.normal() : 0.0);
+        observed[axis] += source.noise[axis] * rng.normal() + (is_outlier ? 20.0 * rng.normal() : 0.0);
       }
-      model.learn(h, group, track, came, Vec3::Constant(1e-6), 1.0);
+      model.add_sample(h, group, track, observed, Vec3::Constant(1e-6), 1.0);
     }
-    model.refresh();
+    model.refit();
   }
 }
 
@@ -79,9 +79,10 @@ double rms_error(const LearntModel& model, Rng& rng) {
   double sum = 0.0;
   constexpr int kTracks = 100;
   for (int n = 0; n < kTracks; ++n) {
-    const LearntFrom track = drawn(rng);
+    const LearntInput track = drawn(rng);
     for (std::size_t h = 0; h < kLearntTimes; ++h) {
-      sum += (said_by(model.at(kLearntAhead[h], kOldest), track).position - by_law(track, h)).squaredNorm();
+      sum += (learnt_prediction(model.at(kLearntAhead[h], kOldest), track).position - true_position(track, h))
+                 .squaredNorm();
     }
   }
   return std::sqrt(sum / (3.0 * kTracks * kLearntTimes));
@@ -90,31 +91,31 @@ double rms_error(const LearntModel& model, Rng& rng) {
 TEST(LearntModel, FindsALinearLawInNoise) {
   Rng rng(1);
   LearntModel model;
-  EXPECT_EQ(model.known_to(kOldest), 0.0);
-  teach(model, {.lessons = 1000}, rng);
-  EXPECT_EQ(model.known_to(0), kLearntAhead.back());
-  EXPECT_EQ(model.known_to(kOldest), kLearntAhead.back());
+  EXPECT_EQ(model.horizon_s(kOldest), 0.0);
+  add_samples(model, {.samples = 1000}, rng);
+  EXPECT_EQ(model.horizon_s(0), kLearntAhead.back());
+  EXPECT_EQ(model.horizon_s(kOldest), kLearntAhead.back());
   EXPECT_LT(rms_error(model, rng), 0.01);
 }
 
 TEST(LearntModel, OneLessonInTwentyFromSomethingElseHardlyDisturbsIt) {
   Rng rng(2);
   LearntModel model;
-  teach(model, {.lessons = 800, .outliers = 0.05}, rng);
+  add_samples(model, {.samples = 800, .outliers = 0.05}, rng);
   EXPECT_LT(rms_error(model, rng), 0.03);
 }
 
 TEST(LearntModel, KnowsHowWrongItIs) {
   // Each time ahead goes by 40 errors, which tell a deviation to 11 % (1σ): four models' mean to half of that.
-  constexpr int kModelsTaught = 4;
+  constexpr int kFittedModels = 4;
   std::array<Vec3, kLearntTimes> mean;
   mean.fill(Vec3::Zero());
-  for (std::uint64_t seed = 3; seed < 3 + kModelsTaught; ++seed) {
+  for (std::uint64_t seed = 3; seed < 3 + kFittedModels; ++seed) {
     Rng rng(seed);
     LearntModel model;
-    teach(model, {.lessons = 1200, .noise = Vec3(0.1, 0.2, 0.3)}, rng);
+    add_samples(model, {.samples = 1200, .noise = Vec3(0.1, 0.2, 0.3)}, rng);
     for (std::size_t h = 0; h < kLearntTimes; ++h) {
-      mean[h] += model.at(kLearntAhead[h], kOldest).variance.cwiseSqrt() / kModelsTaught;
+      mean[h] += model.at(kLearntAhead[h], kOldest).variance.cwiseSqrt() / kFittedModels;
     }
   }
   // Student's t trusts what surprises less, and so finds Gaussian noise a little smaller than it is.
@@ -128,24 +129,24 @@ TEST(LearntModel, KnowsHowWrongItIs) {
 
 // A lesson of one group, which all times ahead learn: what `by` says, and noise.
 template <typename Law>
-void teach_one(LearntModel& model, std::size_t group, double noise, Rng& rng, const Law& by) {
-  const LearntFrom track = drawn(rng);
+void add_one_sample(LearntModel& model, std::size_t group, double noise, Rng& rng, const Law& by) {
+  const LearntInput track = drawn(rng);
   for (std::size_t h = 0; h < kLearntTimes; ++h) {
-    const Vec3 came = by(track, h) + noise * Vec3(rng.normal(), rng.normal(), rng.normal());
-    model.learn(h, group, track, came, Vec3::Constant(1e-6), 1.0);
+    const Vec3 observed = by(track, h) + noise * Vec3(rng.normal(), rng.normal(), rng.normal());
+    model.add_sample(h, group, track, observed, Vec3::Constant(1e-6), 1.0);
   }
 }
 
 TEST(LearntModel, WhatTheOldDoToTheMillimetreDoesNotOutweighWhatTheYoungDo) {
   Rng rng(7);
   LearntModel model;
-  const auto otherwise = [](const LearntFrom& track, std::size_t h) {
-    return Vec3(by_law(track, h) - 0.5 * (law(h).transpose() * track.features));
+  const auto otherwise = [](const LearntInput& track, std::size_t h) {
+    return Vec3(true_position(track, h) - 0.5 * (law(h).transpose() * track.features));
   };
   for (int n = 0; n < 300; ++n) {
-    teach_one(model, kOldest, 0.001, rng, by_law);
-    teach_one(model, kOldest - 1, 0.1, rng, otherwise);
-    model.refresh();
+    add_one_sample(model, kOldest, 0.001, rng, true_position);
+    add_one_sample(model, kOldest - 1, 0.1, rng, otherwise);
+    model.refit();
   }
   for (std::size_t h = 0; h < kLearntTimes; ++h) {
     const double apart = 0.5 * law(h).colwise().norm().maxCoeff();  // what the two do, RMS
@@ -159,23 +160,23 @@ TEST(LearntModel, ForgetsHowWrongItWasBeforeItWasTaught) {
   Rng rng(8);
   LearntModel model;
   // All of a crowd at once, as when a sensor is switched on: nobody learnt before the last of them was judged.
-  for (int n = 0; n < 60; ++n) teach_one(model, kOldest, 0.01, rng, by_law);
-  model.refresh();
-  const double untaught = model.at(kLearntAhead.back(), kOldest).variance.maxCoeff();
+  for (int n = 0; n < 60; ++n) add_one_sample(model, kOldest, 0.01, rng, true_position);
+  model.refit();
+  const double unfitted = model.at(kLearntAhead.back(), kOldest).variance.maxCoeff();
   for (int n = 0; n < 10; ++n) {
-    teach_one(model, kOldest, 0.01, rng, by_law);
-    model.refresh();
+    add_one_sample(model, kOldest, 0.01, rng, true_position);
+    model.refit();
   }
-  EXPECT_LT(model.at(kLearntAhead.back(), kOldest).variance.maxCoeff(), 0.02 * untaught);
-  EXPECT_EQ(model.known_to(kOldest), kLearntAhead.back());
+  EXPECT_LT(model.at(kLearntAhead.back(), kOldest).variance.maxCoeff(), 0.02 * unfitted);
+  EXPECT_EQ(model.horizon_s(kOldest), kLearntAhead.back());
 }
 
 TEST(LearntModel, SaysNothingOfAGroupThatNobodyWasJudgedIn) {
   Rng rng(4);
   LearntModel model;
-  teach(model, {.lessons = 100, .first_group = kOldest}, rng);
-  EXPECT_EQ(model.known_to(kOldest), kLearntAhead.back());
-  EXPECT_EQ(model.known_to(0), 0.0);
+  add_samples(model, {.samples = 100, .first_group = kOldest}, rng);
+  EXPECT_EQ(model.horizon_s(kOldest), kLearntAhead.back());
+  EXPECT_EQ(model.horizon_s(0), 0.0);
 }
 
 TEST(LearntModel, BeforeItLearntItIsTheFilterThatItGoesBy) {
@@ -187,8 +188,8 @@ TEST(LearntModel, BeforeItLearntItIsTheFilterThatItGoesBy) {
   }
   const LearntModel model;
   for (const double ahead : kLearntAhead) {
-    const FilterLook by_filter = bank.of(kLearntFrom).at(look(bank_step(ahead)[kLearntFrom]));
-    const FilterLook by_learnt = said_by(model.at(ahead, kOldest), learnt_from(bank));
+    const FilterPrediction by_filter = bank.of(kFeatureModel).at(output_rows(bank_step(ahead)[kFeatureModel]));
+    const FilterPrediction by_learnt = learnt_prediction(model.at(ahead, kOldest), learnt_input(bank));
     EXPECT_LT((by_filter.position - by_learnt.position).norm(), 1e-9) << ahead;
   }
 }
@@ -196,9 +197,9 @@ TEST(LearntModel, BeforeItLearntItIsTheFilterThatItGoesBy) {
 TEST(LearntModel, VelocityIsTheDerivativeOfPositionAndBothAreContinuous) {
   Rng rng(6);
   LearntModel model;
-  teach(model, {.lessons = 100}, rng);
-  const LearntFrom track = drawn(rng);
-  const auto said = [&](double ahead) { return said_by(model.at(ahead, kOldest), track); };
+  add_samples(model, {.samples = 100}, rng);
+  const LearntInput track = drawn(rng);
+  const auto said = [&](double ahead) { return learnt_prediction(model.at(ahead, kOldest), track); };
   constexpr double kStep = 1e-5;
   for (double ahead = 0.0; ahead < 3.6; ahead += 0.0137) {
     const Vec3 slope = (said(ahead + kStep).position - said(ahead).position) / kStep;
@@ -219,7 +220,7 @@ TEST(LearntGroup, GoesByAge) {
 
 // The learnt model predicted this group better than all others did.
 ModelScores scored_well(std::size_t group) {
-  ModelScores scores(-kFarthestBehind);
+  ModelScores scores(-kMaxScoreGap);
   PerCandidate<double> score{};
   score[kLearnt] = 3.0;
   for (std::size_t h = 0; h < kScoredHorizons; ++h) {
@@ -244,13 +245,13 @@ TEST(LearntWeights, WhoIsNotAskedIsNotJudged) {
   scores.add(0, score, std::nullopt, kPoolForgetting);
   scores.add(0, score, kOldest - 1, kPoolForgetting);
   EXPECT_EQ(scores.at(0, kOldest)[kLearnt], before);
-  EXPECT_EQ(scores.at(0, kOldest - 1)[kLearnt], -kFarthestBehind);
+  EXPECT_EQ(scores.at(0, kOldest - 1)[kLearnt], -kMaxScoreGap);
 }
 
 TEST(LearntWeights, FadeBeyondWhatIsLearntAndAlwaysSumToOne) {
   const ModelScores pool = scored_well(kOldest), own;
-  for (const double learnt_to : {0.0, 0.25, 0.375, 1.0, 1.5, 3.0}) {
-    const HorizonWeights weights = model_weights(pool, own, kOldest, learnt_to);
+  for (const double learnt_horizon_s : {0.0, 0.25, 0.375, 1.0, 1.5, 3.0}) {
+    const HorizonWeights weights = model_weights(pool, own, kOldest, learnt_horizon_s);
     PerCandidate<double> before = weights_at(weights, 0.0);
     for (double ahead = 0.0; ahead < 5.0; ahead += 0.002) {
       const PerCandidate<double> at = weights_at(weights, ahead);
@@ -259,12 +260,12 @@ TEST(LearntWeights, FadeBeyondWhatIsLearntAndAlwaysSumToOne) {
         sum += at[j];
         most = std::max(most, std::abs(at[j] - before[j]));
       }
-      ASSERT_NEAR(sum, 1.0, 1e-12) << learnt_to << " s, " << ahead << " s";
-      ASSERT_LT(most, 0.05) << learnt_to << " s, " << ahead << " s";
-      if (learnt_to > 0.0 && ahead <= learnt_to) {
-        ASSERT_GT(at[kLearnt], 0.9) << learnt_to << " s, " << ahead << " s";
-      } else if (ahead >= kUnlearnt * learnt_to) {
-        ASSERT_EQ(at[kLearnt], 0.0) << learnt_to << " s, " << ahead << " s";
+      ASSERT_NEAR(sum, 1.0, 1e-12) << learnt_horizon_s << " s, " << ahead << " s";
+      ASSERT_LT(most, 0.05) << learnt_horizon_s << " s, " << ahead << " s";
+      if (learnt_horizon_s > 0.0 && ahead <= learnt_horizon_s) {
+        ASSERT_GT(at[kLearnt], 0.9) << learnt_horizon_s << " s, " << ahead << " s";
+      } else if (ahead >= kLearntFade * learnt_horizon_s) {
+        ASSERT_EQ(at[kLearnt], 0.0) << learnt_horizon_s << " s, " << ahead << " s";
       }
       before = at;
     }
@@ -306,7 +307,7 @@ Outcome follow(const std::vector<Path>& paths, bool learns, double seconds) {
       half += track.alpha[track.motion.locate(then).index].mean();
     }
     for (const TrackedObject& object : tracker.objects()) {
-      outcome.learnt += tracker.verdict(object).kind == TrackClass::Learnt ? 1 : 0;
+      outcome.learnt += tracker.assessment(object).kind == TrackClass::Learnt ? 1 : 0;
     }
   }
   outcome.rms = std::sqrt(squares / outcome.promises);

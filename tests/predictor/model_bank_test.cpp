@@ -31,7 +31,7 @@ void expect_near(double value, double wanted, double scale) { EXPECT_NEAR(value,
 
 void expect_equal(const BankFilter& bank, std::size_t model, const std::array<PlainFilter, 3>& plain,
                   const ModelStep& step) {
-  const FilterLook ahead = bank.of(model).at(look(step));
+  const FilterPrediction ahead = bank.of(model).at(output_rows(step));
   for (int axis = 0; axis < 3; ++axis) {
     PlainFilter there = plain[static_cast<std::size_t>(axis)];
     const AxisFilter now = bank.of(model).marginal(axis);
@@ -94,7 +94,7 @@ TEST(BankFilter, ItsGateBoxHoldsAllThatIsNoSurprise) {
     for (int n = 0; n < 200; ++n) {
       const Vec3 z = bank.lead().position() + 3.0 * Vec3(rng.normal(), rng.normal(), rng.normal());
       const Vec3 r = rng.uniform() * most;
-      if (!std::isfinite(bank.surprise_within(21.1, z, r))) continue;
+      if (!std::isfinite(bank.cost_within(21.1, z, r))) continue;
       ++within;
       EXPECT_TRUE(box.contains(z));
     }

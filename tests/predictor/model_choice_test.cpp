@@ -38,7 +38,7 @@ TEST(ModelChoice, WalkersArePredictedBetterByScoresAheadThanByTheLikelihoodOfThe
   Rng rng(4);
   std::vector<Path> walkers;
   for (int k = 0; k < 12; ++k) walkers.push_back(walker(rng, kApart * k));
-  const BankLook ahead = bank_look(bank_step(kAhead), bank_step(0.0));
+  const BankOutputRows ahead = bank_output_rows(bank_step(kAhead), bank_step(0.0));
   Tracker tracker(TrackerConfig{});
   SquaredErrors errors;
   int predicted = 0;
@@ -52,10 +52,10 @@ TEST(ModelChoice, WalkersArePredictedBetterByScoresAheadThanByTheLikelihoodOfThe
       const auto y = static_cast<std::size_t>(std::lround(object.position.y() / kApart));
       const std::size_t likeliest = object.moving.leading();
       const Vec3 truth = walkers.at(y)(t + kAhead);
-      const Judge::Verdict verdict = tracker.verdict(object);
-      const LearntLook learnt = tracker.judge().learnt().at(kAhead, verdict.group.value_or(0));
-      const Mixed said =
-          mixed(object.moving, ahead, said_by(learnt, object.learnt_from), weights_at(verdict.weights, kAhead));
+      const PredictionScorer::Assessment assessment = tracker.assessment(object);
+      const LearntCoefficients learnt = tracker.scorer().learnt().at(kAhead, assessment.group.value_or(0));
+      const MixturePrediction said = mixture_prediction(
+          object.moving, ahead, learnt_prediction(learnt, object.learnt_input), weights_at(assessment.weights, kAhead));
       errors.by_next_detection += (object.moving.lead().at(ahead[likeliest]).position - truth).squaredNorm();
       errors.by_scores_ahead += (said.centre - truth).squaredNorm();
       ++predicted;

@@ -54,7 +54,7 @@ Kept watch(const std::vector<Parked>& boxes, double until_s, const TrackerConfig
         for (const Vec3& alpha : track.alpha) kept.largest_alpha = std::max(kept.largest_alpha, alpha.maxCoeff());
         const auto object = std::find_if(tracker.objects().begin(), tracker.objects().end(),
                                          [&](const TrackedObject& o) { return o.id == track.id; });
-        if (!tracker.rests(*object)) continue;
+        if (!tracker.is_stationary(*object)) continue;
         const Vec3 p = track.motion.sample(track.motion.start).p;
         for (const Parked& box : boxes) {
           if (std::abs(p.x() - box.place.x()) > 5.0 || now >= box.end_s) continue;

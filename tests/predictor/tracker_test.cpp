@@ -39,7 +39,7 @@ double feed(Tracker& tracker, const std::vector<Path>& paths, double from, doubl
     for (const Path& path : paths) {
       if (rng.uniform() >= dropout) detections.push_back(detection_of(path(t), kNoise, rng));
     }
-    EXPECT_EQ(tracker.update(observations_at(t, detections)), Taken::Yes);
+    EXPECT_EQ(tracker.update(observations_at(t, detections)), UpdateOutcome::Used);
   }
   return t;
 }
@@ -491,7 +491,7 @@ TEST(Tracker, TakesObservationsOutOfOrderAsIfInOrder) {
   for (std::size_t k = 0; k < sets.size(); k += 6) {
     std::reverse(sets.begin() + static_cast<std::ptrdiff_t>(k), sets.begin() + static_cast<std::ptrdiff_t>(k + 6));
   }
-  for (const ObservationSet& set : sets) EXPECT_EQ(out_of_order.update(set), Taken::Yes);
+  for (const ObservationSet& set : sets) EXPECT_EQ(out_of_order.update(set), UpdateOutcome::Used);
   ASSERT_EQ(in_order.objects().size(), out_of_order.objects().size());
   for (std::size_t i = 0; i < in_order.objects().size(); ++i) {
     const TrackedObject &a = in_order.objects()[i], &b = out_of_order.objects()[i];
@@ -506,7 +506,7 @@ TEST(Tracker, TakesObservationsOutOfOrderAsIfInOrder) {
     EXPECT_EQ(a[i].alpha, b[i].alpha) << "calibrated by the same promises";
     EXPECT_EQ(a[i].shares, b[i].shares);
   }
-  EXPECT_EQ(out_of_order.update(observations_at(1.0, {})), Taken::TooOld);
+  EXPECT_EQ(out_of_order.update(observations_at(1.0, {})), UpdateOutcome::TooOld);
 }
 
 TEST(Tracker, TakesASetOnce) {
@@ -515,8 +515,8 @@ TEST(Tracker, TakesASetOnce) {
   for (int k = 0; k < 2; ++k) {
     const ObservationSet set = observations_at(k / kRate, {detection_of(Vec3::Zero(), kNoise, rng)});
     once.update(set);
-    EXPECT_EQ(twice.update(set), Taken::Yes);
-    EXPECT_EQ(twice.update(set), Taken::Repeated);
+    EXPECT_EQ(twice.update(set), UpdateOutcome::Used);
+    EXPECT_EQ(twice.update(set), UpdateOutcome::Repeated);
   }
   EXPECT_FALSE(twice.objects().front().confirmed) << "confirmed by two detections";
   EXPECT_EQ(twice.objects().front().moving.lead().variance(), once.objects().front().moving.lead().variance());

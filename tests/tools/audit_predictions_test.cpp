@@ -99,9 +99,9 @@ struct World {
   }
 };
 
-const KeptShare& share(const Audit& audit, const std::string& what, const std::string& horizon,
+const CoverageShare& share(const Audit& audit, const std::string& what, const std::string& horizon,
                        double confidence = 0.99) {
-  for (const KeptShare& s : audit.shares) {
+  for (const CoverageShare& s : audit.shares) {
     if (s.what == what && s.horizon == horizon && s.confidence == confidence) return s;
   }
   throw std::out_of_range(what);
@@ -112,8 +112,8 @@ TEST(AuditedPredictions, ThatHoldAreKeptInEveryClassAndAtEveryLevel) {
   world.predict(1'000);
   const auto [audit, check] = world.audit();
   EXPECT_EQ(check.verdict(), Verdict::Held);
-  for (const KeptShare& s : audit.shares) {
-    EXPECT_EQ(s.kept, s.made) << s.what;
+  for (const CoverageShare& s : audit.shares) {
+    EXPECT_EQ(s.covered, s.made) << s.what;
     EXPECT_EQ(s.interval.high, 1.0);
     EXPECT_NEAR(s.half_m, kAlpha, 1e-12);
   }
@@ -129,8 +129,8 @@ TEST(AuditedPredictions, AreBrokenForAllTimesUpToTheHorizonThatReachAMiss) {
   const auto [audit, check] = world.audit();
   for (const auto& [horizon, length] :
        std::map<std::string, double>{{"0.25", 0.25}, {"0.5", 0.5}, {"1", 1.0}, {"2", 2.0}}) {
-    const KeptShare& s = share(audit, "old", horizon);
-    EXPECT_EQ(s.made - s.kept, static_cast<int>(length / 0.05) + 1) << horizon;
+    const CoverageShare& s = share(audit, "old", horizon);
+    EXPECT_EQ(s.made - s.covered, static_cast<int>(length / 0.05) + 1) << horizon;
   }
   EXPECT_EQ(check.verdict(), Verdict::Held) << "one thing of one flight says little of a probability";
 }
@@ -150,7 +150,7 @@ TEST(AuditedPredictions, ThatCannotHaveKeptTheirPromiseFailTheFlight) {
   for (int id = 0; id < 30; ++id) world.push(id, 3.0 + 0.2 * id, 0.5, 0.5);  // each misses some 10 % of the time
   const auto [audit, check] = world.audit();
   EXPECT_EQ(check.verdict(), Verdict::Broken);
-  EXPECT_TRUE(share(audit, "old", "0.5").is_broken());
+  EXPECT_TRUE(share(audit, "old", "0.5").is_refuted());
   EXPECT_THAT(check.findings.front().what, HasSubstr("promises of class old"));
 }
 
@@ -207,7 +207,7 @@ TEST(AuditedPredictions, OfWhatNoSensorSeesAreAClassOfTheirOwn) {
   world.predict(1'000);
   observe(world, 1, 5.0);
   const auto [audit, check] = world.audit();
-  const KeptShare& unseen = share(audit, "unseen", "0.25");
+  const CoverageShare& unseen = share(audit, "unseen", "0.25");
   EXPECT_EQ(unseen.groups, 1);
   EXPECT_NEAR(static_cast<double>(unseen.made), 20.0 * (kFlight - 5.0 - 0.25 - 0.25), 2.0);
 }

@@ -105,11 +105,11 @@ std::optional<Contact> contact_of(const FlightRecord& record, const Audit& audit
 
 nlohmann::json coverage_json(const Audit& audit) {
   nlohmann::json rows = nlohmann::json::array();
-  for (const KeptShare& s : audit.shares) {
-    nlohmann::json row = {{"what", s.what},         {"horizon", s.horizon},    {"promised", s.confidence},
-                          {"obstacles", s.groups},  {"made", s.made},          {"kept", s.kept},
-                          {"low", s.interval.low},  {"high", s.interval.high}, {"at_most", s.greatest},
-                          {"broken", s.is_broken()}};
+  for (const CoverageShare& s : audit.shares) {
+    nlohmann::json row = {{"what", s.what},          {"horizon", s.horizon},    {"promised", s.confidence},
+                          {"obstacles", s.groups},   {"made", s.made},          {"kept", s.covered},
+                          {"low", s.interval.low},   {"high", s.interval.high}, {"at_most", s.upper_bound},
+                          {"broken", s.is_refuted()}};
     if (std::isfinite(s.half_m)) row["half_m"] = s.half_m;
     rows.push_back(std::move(row));
   }
@@ -120,14 +120,14 @@ nlohmann::json by_age_json(const ByAge& by_age) {
   nlohmann::json rows = nlohmann::json::array();
   for (std::size_t bin = 0; bin < kAgeBins; ++bin) {
     for (std::size_t h = 0; h < kHorizons; ++h) {
-      const PromiseCount& count = by_age[bin][h];
+      const IntervalCount& count = by_age[bin][h];
       if (count.made == 0) continue;
       const nlohmann::json until = bin < kAges.size() ? nlohmann::json(kAges[bin]) : nlohmann::json();
       rows.push_back({{"until_s", until},
                       {"horizon", horizon_name(h)},
                       {"made", count.made},
-                      {"kept", count.kept[0]},
-                      {"half_m", count.half_sum_m / static_cast<double>(count.made)}});
+                      {"kept", count.covered[0]},
+                      {"half_m", count.half_width_sum_m / static_cast<double>(count.made)}});
     }
   }
   return rows;

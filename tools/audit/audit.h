@@ -32,7 +32,7 @@ struct TubePoint {
 /// (kAges[k − 1], kAges[k]]. The first bin is age 0 alone; the last bin holds every age above the last bound.
 inline constexpr std::array kAges{0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0};
 inline constexpr std::size_t kAgeBins = kAges.size() + 1;
-using ByAge = std::array<std::array<PromiseCount, kHorizons>, kAgeBins>;
+using ByAge = std::array<std::array<IntervalCount, kHorizons>, kAgeBins>;
 
 /// How many predictions of one track covered its obstacle.
 struct TrackCoverage {
@@ -67,10 +67,10 @@ struct Audit {
   LeastClearance least, least_of_map;  ///< to the true obstacles; to the occupied voxels
   ObstacleCount obstacle_count;
   Collision collision = Collision::None;
-  std::optional<Contact> contact;    ///< set after a collision with an obstacle
-  Coverage coverage;                 ///< summed over the flight
-  std::vector<KeptShare> shares;     ///< the same with intervals; each obstacle is one group
-  ByAge moving_by_age, rest_by_age;  ///< of estimated tracks
+  std::optional<Contact> contact;     ///< set after a collision with an obstacle
+  Coverage coverage;                  ///< summed over the flight
+  std::vector<CoverageShare> shares;  ///< the same with intervals; each obstacle is one group
+  ByAge moving_by_age, rest_by_age;   ///< of estimated tracks
   std::vector<TrackCoverage> tracks;
   double promised_confidence = 1.0;  ///< the lowest confidence of any prediction set
 

@@ -89,7 +89,7 @@ class PredictionsCheck {
     }
     audit_.coverage.confidence = audit_.promised_confidence;
     for (Coverage& group : groups_) group.confidence = audit_.promised_confidence;
-    audit_.shares = kept_shares(groups_);
+    audit_.shares = coverage_shares(groups_);
     if (!unpaired_.empty()) {
       check_.unchecked["tracks that belong to no true obstacle, or to one that another track is nearer to"] =
           static_cast<std::int64_t>(unpaired_.size());
@@ -185,9 +185,9 @@ class PredictionsCheck {
     Coverage& coverage = by_obstacle_[of.obstacle];
     for (std::size_t h = 0; h < kHorizons; ++h) {
       if (!prediction.judged[h]) continue;
-      PromiseCount one{1, {}, prediction.half_m[h]};
-      for (std::size_t level = 0; level < kLevels; ++level) one.kept[level] = prediction.covered[h][level] ? 1 : 0;
-      coverage.promises[{kind, h}] += one;
+      IntervalCount one{1, {}, prediction.half_m[h]};
+      for (std::size_t level = 0; level < kLevels; ++level) one.covered[level] = prediction.covered[h][level] ? 1 : 0;
+      coverage.intervals[{kind, h}] += one;
       if (prediction.certain || !of.in_view) continue;
       (kind == PredictionClass::AtRest ? audit_.rest_by_age : audit_.moving_by_age)[bin_of(age_s)][h] += one;
     }
@@ -222,13 +222,13 @@ class PredictionsCheck {
   /// Estimates may fail as often as their confidence says. Of each class and level the horizon is named that was missed
   /// by most.
   void judge_shares() {
-    std::map<std::pair<std::string, double>, const KeptShare*> worst;
-    for (const KeptShare& share : audit_.shares) {
+    std::map<std::pair<std::string, double>, const CoverageShare*> worst;
+    for (const CoverageShare& share : audit_.shares) {
       if (share.what == to_string(PredictionClass::Declared)) continue;
       ++check_.checked;
-      if (!share.is_broken()) continue;
-      const KeptShare*& one = worst[{share.what, share.confidence}];
-      if (one == nullptr || share.greatest < one->greatest) one = &share;
+      if (!share.is_refuted()) continue;
+      const CoverageShare*& one = worst[{share.what, share.confidence}];
+      if (one == nullptr || share.upper_bound < one->upper_bound) one = &share;
     }
     for (const auto& [key, share] : worst) {
       const std::string of = share->what == kPlans ? "claims of plans" : "promises of class " + share->what;
@@ -236,7 +236,7 @@ class PredictionsCheck {
       check_.fail(
           {window_.sure_from(),
            fmt::format("{:.4f} of {} {} held {}, of {} obstacles; {} promised, at most {:.4f} can be true",
-                       share->share(), share->made, of, until, share->groups, share->confidence, share->greatest)});
+                       share->share(), share->made, of, until, share->groups, share->confidence, share->upper_bound)});
     }
   }
 

@@ -10,8 +10,8 @@
 #include "core/base/files.h"
 #include "runtime/config.h"
 #include "tools/calibrate/coverage.h"
-#include "tools/calibrate/made_up.h"
 #include "tools/calibrate/prior_table.h"
+#include "tools/calibrate/synthetic.h"
 
 namespace tern::calibrate {
 namespace {
@@ -20,12 +20,13 @@ void write(const std::string& file, const std::string& text) {
   if (!write_text(file, text)) throw std::runtime_error(file + " cannot be written");
 }
 
-// Given models' classes hold in worlds where nothing can be learnt, so they are of a tracker that does not learn.
-Source source_of(const std::string& name, double weight, const std::vector<Judged>& learning,
-                 const std::vector<Judged>& given) {
-  Source source{name, weight, given};
-  std::ranges::copy_if(learning, std::back_inserter(source.judged),
-                       [](const Judged& one) { return one.kind == TrackClass::Learnt; });
+// The classes of the bank's models must hold where nothing can be learnt. Their scores come from a tracker without the
+// learnt model.
+Source source_of(const std::string& name, double weight, const std::vector<ScoredPrediction>& learning,
+                 const std::vector<ScoredPrediction>& without_learning) {
+  Source source{name, weight, without_learning};
+  std::ranges::copy_if(learning, std::back_inserter(source.scored),
+                       [](const ScoredPrediction& one) { return one.kind == TrackClass::Learnt; });
   return source;
 }
 
@@ -34,29 +35,30 @@ Source source_of(const std::string& name, double weight, const std::vector<Judge
 void calibrate(const CalibrationRequest& request) {
   Study sum;
   std::vector<Source> sources, slow;
-  const auto judge = [&](const Recording& recording, Study& given, Study& learning) {
+  const auto add_study = [&](const Recording& recording, Study& without_learning, Study& learning) {
     add(learning, study(recording, TrackerConfig{}));
-    TrackerConfig unlearnt;
-    unlearnt.learns = false;
-    if (!request.prior.empty()) add(given, study(recording, unlearnt));
+    TrackerConfig bank_only;
+    bank_only.learns = false;
+    if (!request.prior.empty()) add(without_learning, study(recording, bank_only));
   };
-  for (const MadeUpSource& source : made_up_sources()) {
-    Study given, learning;
-    for (int seed = 1; seed <= request.made_up; ++seed) {
-      judge(made_up(source, static_cast<std::uint64_t>(seed)), given, learning);
+  for (const SyntheticSource& source : synthetic_sources()) {
+    Study without_learning, learning;
+    for (int seed = 1; seed <= request.synthetic; ++seed) {
+      add_study(synthetic_recording(source, static_cast<std::uint64_t>(seed)), without_learning, learning);
     }
     add(sum, learning);
-    if (!source.is_foreseen) given = Study{};
-    sources.push_back(source_of(std::string(source.name), source.weight, learning.judged, given.judged));
-    slow.push_back(source_of(std::string(source.name), source.weight, learning.slow, given.slow));
+    if (!source.is_predictable) without_learning = Study{};
+    sources.push_back(source_of(std::string(source.name), source.weight, learning.scored, without_learning.scored));
+    slow.push_back(
+        source_of(std::string(source.name), source.weight, learning.scored_slow, without_learning.scored_slow));
   }
   for (const std::string& log : request.logs) {
     const Recording recording = value_or_throw(read_recording(log));
-    Study given, learning;
-    judge(recording, given, learning);
+    Study without_learning, learning;
+    add_study(recording, without_learning, learning);
     add(sum, learning);
-    sources.push_back(source_of(recording.name, 1.0, learning.judged, given.judged));
-    slow.push_back(source_of(recording.name, 1.0, learning.slow, given.slow));
+    sources.push_back(source_of(recording.name, 1.0, learning.scored, without_learning.scored));
+    slow.push_back(source_of(recording.name, 1.0, learning.scored_slow, without_learning.scored_slow));
   }
   const std::string table = coverage_table(sum);
   fmt::print("{}", table);

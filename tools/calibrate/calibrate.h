@@ -1,4 +1,4 @@
-// What tern-calibrate does: holds predictions against what came, and makes the table that calibration begins with.
+// tern-calibrate: compares predictions with recorded or synthetic truth, and makes the prior of the calibration.
 #pragma once
 
 #include <string>
@@ -7,13 +7,15 @@
 namespace tern::calibrate {
 
 struct CalibrationRequest {
-  std::vector<std::string> logs;  ///< files, or folders of flight.lcm
-  int made_up = 0;                ///< recordings of made-up movers of each kind
-  std::string csv;                ///< the coverage table goes there, too; "": nowhere
-  std::string prior;              ///< the table that calibration begins with, of these logs; "": not made
+  std::vector<std::string> logs;  ///< files, or folders that hold flight.lcm
+  int synthetic = 0;              ///< synthetic recordings of each kind of motion
+  std::string csv;                ///< file for a copy of the coverage table; "": none
+  std::string prior;              ///< file for the prior made from all recordings; "": none
 };
 
-/// Prints the coverage table. @throws std::runtime_error for a log that cannot be read or a file not written.
+/// Predicts the obstacles of all recordings anew from their detections, and prints the coverage table.
+/// @throws std::runtime_error if a log cannot be read, a file cannot be written, or the recordings do not suffice for a
+/// prior.
 void calibrate(const CalibrationRequest& request);
 
 }  // namespace tern::calibrate

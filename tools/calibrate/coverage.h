@@ -1,4 +1,4 @@
-// Promised against kept: how often, and how wide, by class of track and time ahead.
+// Coverage of prediction intervals: the share that covered, and their width, by class of track and time ahead.
 #pragma once
 
 #include <array>
@@ -11,50 +11,51 @@
 
 namespace tern::calibrate {
 
-/// Kept: the true box was inside the promised one at all times up to there, s.
+/// An interval covers up to one of these times, s, if the true box stayed inside the predicted one until then.
 inline constexpr std::array<double, 5> kCoveredAhead{0.25, 0.5, 1.0, 2.0, 4.5};
 
-/// The promises of one track of one class up to one time ahead: what a bootstrap draws. By level of confidence.
-struct TrackPromises {
-  int promises = 0;
-  std::array<int, kLevels> kept{};
-  std::array<double, kLevels> half_sum{};  ///< Σ of the half-width there, mean of the axes, m
+/// The intervals of one track in one cell: the unit that the bootstrap draws. Arrays are by level of confidence.
+struct TrackIntervals {
+  int intervals = 0;
+  std::array<int, kLevels> covered{};
+  std::array<double, kLevels> half_width_sum{};  ///< Σ of the half-width at that time, mean of the axes, m
 };
 
-/// The promises of one class up to one time ahead.
+/// All intervals of one class up to one time ahead.
 struct CoverageCell {
-  std::string what;  ///< class, the track's age, or how old the flight is: for so long anything was learnt
+  std::string what;  ///< "all moving", a class, an age of tracks, or a part of the recording
   double ahead_s = 0.0;
-  std::vector<TrackPromises> tracks;
+  std::vector<TrackIntervals> tracks;
 };
 
-/// A share and the ends of its 95 % interval, by a bootstrap over tracks (1000 draws from a fixed seed).
-struct Covered {
-  int promises = 0, tracks = 0;
+/// The covered share with its 95 % interval, by a bootstrap over tracks (1000 draws from a fixed seed).
+struct CellCoverage {
+  int intervals = 0, tracks = 0;
   double share = 0.0, low = 0.0, high = 0.0;
-  double half_m = 0.0;  ///< mean half-width
+  double mean_half_width = 0.0;  ///< m
 };
-Covered covered(const CoverageCell& cell, int level);
+CellCoverage cell_coverage(const CoverageCell& cell, int level);
 
-/// A prediction is made each kEvery observation sets, at the time when the set was received. What its tracks promise is
-/// held against the obstacle whose centre is nearest at its start, if that is within kSameThing.
-inline constexpr int kEvery = 5;
-inline constexpr double kSameThing = 1.0;  ///< m
+/// Predictions are made at every kPredictEvery-th observation set, at the time when it was received. A predicted track
+/// is compared with the obstacle whose centre is nearest at the prediction's start, if that is within
+/// kMaxMatchDistance.
+inline constexpr int kPredictEvery = 5;
+inline constexpr double kMaxMatchDistance = 1.0;  ///< m
 
 struct Study {
-  double confidence = 0.99;         ///< promised
-  std::vector<CoverageCell> cells;  ///< by class, then by the track's age
-  std::vector<Judged> judged;       ///< the tracker's own scores …
-  std::vector<Judged> slow;         ///< … those in slow worlds
+  double confidence = 0.99;                   ///< of level 0
+  std::vector<CoverageCell> cells;            ///< ascending by what, then by ahead_s
+  std::vector<ScoredPrediction> scored;       ///< of the tracker's own PredictionScorer
+  std::vector<ScoredPrediction> scored_slow;  ///< those from recordings in which nothing reached kSlowSpeed
 };
 
-/// Feeds a recording to a tracker that is new.
+/// Feeds a recording to a new tracker.
 Study study(const Recording& recording, const TrackerConfig& config);
 
-/// A line of CSV per cell and level of confidence, with its interval.
+/// CSV: a line per cell and level of confidence. "kept" is the covered share.
 std::string coverage_table(const Study& study);
 
-/// `other` is added to `sum`, cell by cell.
+/// Adds `other` to `sum`, cell by cell.
 void add(Study& sum, const Study& other);
 
 }  // namespace tern::calibrate

@@ -1,33 +1,38 @@
-// The table that calibration begins with (predictor/tracking/calibration_prior.inc), made from scores.
+// Makes the prior of the calibration (predictor/tracking/calibration_prior.inc) from scores.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "predictor/tracking/judge.h"
+#include "predictor/tracking/prediction_scorer.h"
 
 namespace tern::calibrate {
 
-/// The scores of one source, and how much is promised of it, in (0, 1]: 1 where all is.
+/// The scores of one source: a log, or one kind of synthetic motion.
 struct Source {
   std::string name;
-  double weight = 1.0;
-  std::vector<Judged> judged;
+  double weight = 1.0;  ///< (0, 1]; with a weight w its miss rate may be 1/w times the allowed one
+  std::vector<ScoredPrediction> scored;
 };
 
-/// A class of one source with fewer promises than this says nothing.
-inline constexpr std::size_t kFewPromises = 150;
+/// A source with fewer predictions of a class is ignored for that class.
+inline constexpr std::size_t kMinPredictions = 150;
 
-/// calibration_prior.inc: two tables, of all sources, then of their slow recordings. A row is per class and band the
-/// level θ for each confidence, and quantiles of the scores.
+/// Returns the text of calibration_prior.inc: two tables, one from all sources, one from their slow recordings. A row
+/// per class and band holds the level θ of each confidence and quantiles of the scores.
 ///
-/// A flight does not know in which world it is, so the promise is to hold in each. For no source may its broken
-/// promises, times its weight, be more than Calibration::allowed. The quantile at p is the largest of the sources' at 1
-/// − (1 − p)/weight. Where few of a source's promises of an age are of one kind of motion, it counts there by three
-/// times their share. So each kind may break a third of what is allowed. Margins are found band by band: of the
-/// promises that the bands before have not broken, so many may break in this one. θ is the share of the scores of that
-/// distribution above the margin, at most what is allowed. A class that slow recordings do not know well is
-/// that of all, and so is a row that promises less.
+/// A flight does not know which kind of motion it will meet, so the prior covers each source by itself instead of their
+/// average:
+/// 1. For each source, its miss rate times its weight is at most Calibration::allowed.
+/// 2. The quantile at p is the largest of the sources' quantiles at 1 − (1 − p)/weight.
+/// 3. A source with few predictions of a motion (steady, calm, lively) at an age weighs less: at most three times that
+///    motion's share. So each of the three motions may use a third of what is allowed.
+/// 4. Margins are found band by band. Predictions that an earlier band missed no longer count in a later one.
+/// 5. θ is the share of scores above the margin, at most what is allowed and at least a tenth of it.
+/// 6. The slow table repeats a row of the other one where slow recordings have too few predictions of the class, or
+///    would give a wider margin.
+///
+/// @throws std::runtime_error if no source has kMinPredictions of a class, evaluated to the end of each band
 std::string prior_table(const std::vector<Source>& sources, const std::vector<Source>& slow_sources);
 
 }  // namespace tern::calibrate

@@ -1,4 +1,4 @@
-// What a log holds of sensors and of the truth: all that a predictor is judged by.
+// The observations and the truth of one recorded or synthetic flight.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,29 @@
 
 namespace tern::calibrate {
 
-/// An observation set, and when it was received.
+/// An observation set with its time of arrival.
 struct Received {
   UTime at;
   ObservationSet set;
 };
 
-/// Where one obstacle was, by time.
+/// The true motion of one obstacle.
 struct TruePath {
   Vec3 half_extents = Vec3::Zero();  ///< m
   std::map<UTime, Vec3> centres;     ///< W, m
-  /// Straight between two samples at most kTruthGap apart. @return nullopt where there are none.
+  /// Returns the centre at t, linear between two samples at most kTruthGap apart. nullopt if there are none.
   [[nodiscard]] std::optional<Vec3> at(UTime t) const;
 };
 inline constexpr double kTruthGap = 0.15;  ///< s
 
 struct Recording {
-  std::string name;                        ///< the log's
-  std::vector<Received> observations;      ///< in the order of their coming
-  std::map<std::int64_t, TruePath> truth;  ///< by obstacle; empty where nobody knew
+  std::string name;                        ///< the log's path, or the synthetic source
+  std::vector<Received> observations;      ///< in order of arrival
+  std::map<std::int64_t, TruePath> truth;  ///< by obstacle; empty if the log has no OBSTACLE_TRUTH
 };
 
-/// OBSTACLE_OBSERVATIONS and OBSTACLE_TRUTH of a log. Times are the vehicle's. @return an Error that names path and
-/// reason where the log cannot be read, or holds no observations.
+/// Reads OBSTACLE_OBSERVATIONS and OBSTACLE_TRUTH of a log. Times are the vehicle's. @return an Error with path and
+/// reason if the log cannot be read or has no observations.
 Result<Recording> read_recording(const std::string& path);
 
 }  // namespace tern::calibrate

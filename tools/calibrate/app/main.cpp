@@ -1,5 +1,4 @@
-// tern-calibrate: holds predictions against what came, in logs of flights, and makes the table that calibration begins
-// with.
+// tern-calibrate: measures the coverage of predictions in recorded flights, and makes the prior of the calibration.
 #include <CLI/CLI.hpp>
 
 #include "runtime/tool.h"
@@ -7,14 +6,14 @@
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Predicts the obstacles of recorded flights anew from their detections, and says how often and how widely "
-      "promises were kept. Exit code: 0, or 2 for bad arguments or logs."};
+      "Predicts the obstacles of recorded flights anew from their detections. Prints the coverage and the width of the "
+      "prediction intervals. Exit code: 0, or 2 for bad arguments or logs."};
   tern::calibrate::CalibrationRequest request;
-  app.add_option("LOG", request.logs, "Logs: files, or folders of flight.lcm");
-  app.add_option("--made-up", request.made_up, "So many recordings of made-up movers of each kind, too")
+  app.add_option("LOG", request.logs, "Logs: files, or folders that hold flight.lcm");
+  app.add_option("--made-up", request.synthetic, "Add this many synthetic recordings of each kind of motion")
       ->check(CLI::Range(0, 100));
-  app.add_option("--csv", request.csv, "Write the table there, too")->type_name("FILE");
-  app.add_option("--prior", request.prior, "Write the table that calibration begins with, of these logs")
+  app.add_option("--csv", request.csv, "Also write the table to FILE")->type_name("FILE");
+  app.add_option("--prior", request.prior, "Write the prior of the calibration, made from all recordings, to FILE")
       ->type_name("FILE");
   return tern::run_tool(app, "tern-calibrate", argc, argv, [&] {
     tern::calibrate::calibrate(request);

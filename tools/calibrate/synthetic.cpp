@@ -1,4 +1,4 @@
-#include "tools/calibrate/made_up.h"
+#include "tools/calibrate/synthetic.h"
 
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace tern::calibrate {
 namespace {
 
-constexpr double kLasts = 12.0, kRate = 30.0, kLatency = 0.05, kDropout = 0.05;
+constexpr double kDuration = 12.0, kRate = 30.0, kLatency = 0.05, kDropout = 0.05;
 struct Sensor {
   double sigma;  // m
   int every;     // of kRate frames
@@ -21,7 +21,7 @@ constexpr double kApart = 20.0;  // m
 constexpr std::array kShortest{1.5, 9.0};
 constexpr int kWaves = 4;
 
-// What all movers of one recording have in common, where they are alike: a loop, and how long it takes.
+// The loop that all obstacles of one recording share: its shape and rate.
 struct Loop {
   double omega = 0.0;  // rad/s
   int harmonic = 2;
@@ -40,34 +40,34 @@ Loop draw_loop(Rng& rng) {
   return loop;
 }
 
-// One mover, advanced frame by frame.
+// One obstacle, advanced frame by frame.
 class Mover {
  public:
-  Mover(MadeUp kind, const Loop& loop, const Vec3& place, Rng& rng) : kind_(kind), p_(place) {
+  Mover(SyntheticMotion kind, const Loop& loop, const Vec3& place, Rng& rng) : kind_(kind), p_(place) {
     switch (kind) {
-      case MadeUp::Walkers:
+      case SyntheticMotion::Walkers:
         head_out(rng, rng.uniform(0.5, 1.8));
         q_ = rng.uniform(0.08, 0.25);
         sway_ = rng.uniform(0.0, 0.05);
         break;
-      case MadeUp::Wanderers: waves(rng, rng.uniform(0.2, 1.2), rng.uniform(1.0, 4.0)); break;
-      case MadeUp::Racers:
+      case SyntheticMotion::Wanderers: waves(rng, rng.uniform(0.2, 1.2), rng.uniform(1.0, 4.0)); break;
+      case SyntheticMotion::Racers:
         jumps_ = rng.uniform() < 0.5;
         jumps_ ? head_out(rng, rng.uniform(1.0, 8.0)) : waves(rng, rng.uniform(1.5, 6.0), rng.uniform(0.5, 2.0));
         break;
-      case MadeUp::Drifters:
+      case SyntheticMotion::Drifters:
         v_ = Vec3(rng.normal(), rng.normal(), 0.3 * rng.normal());
         q_ = rng.uniform(0.3, 0.9);
         break;
-      case MadeUp::Turners: head_out(rng, rng.uniform(0.8, 2.0)); break;
-      case MadeUp::Loopers: go_round(loop, rng); break;
+      case SyntheticMotion::Turners: head_out(rng, rng.uniform(0.8, 2.0)); break;
+      case SyntheticMotion::Loopers: go_round(loop, rng); break;
     }
   }
 
   Vec3 step(Rng& rng) {
     const double dt = 1.0 / kRate;
     t_ += dt;
-    if (kind_ == MadeUp::Turners && rng.uniform() < 0.3 * dt) head_out(rng, v_.norm());
+    if (kind_ == SyntheticMotion::Turners && rng.uniform() < 0.3 * dt) head_out(rng, v_.norm());
     if (jumps_ && rng.uniform() < dt) a_ = 5.0 * Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
     if (jumps_ && v_.norm() > 9.0) a_ = -0.5 * v_;
     Vec3 v = v_;
@@ -87,7 +87,7 @@ class Mover {
     const double angle = rng.uniform(0.0, 2.0 * std::numbers::pi);
     v_ = speed * Vec3(std::cos(angle), std::sin(angle), 0.0);
   }
-  // At a phase of its own, larger or smaller than others.
+  // The loop with a size and phase of its own.
   void go_round(const Loop& loop, Rng& rng) {
     const double size = rng.uniform(0.7, 1.4), phase = rng.uniform(0.0, 2.0 * std::numbers::pi);
     const auto wave = [&](int harmonic, const Eigen::Array3d& amplitude, const Eigen::Array3d& turned) {
@@ -109,7 +109,7 @@ class Mover {
     }
   }
 
-  MadeUp kind_;
+  SyntheticMotion kind_;
   Vec3 p_, v_ = Vec3::Zero(), a_ = Vec3::Zero();
   double q_ = 0.0, sway_ = 0.0, t_ = 0.0;
   bool jumps_ = false;
@@ -118,22 +118,22 @@ class Mover {
 
 }  // namespace
 
-const std::vector<MadeUpSource>& made_up_sources() {
-  static const std::vector<MadeUpSource> sources{
-      {MadeUp::Walkers, "walkers", 1.0},   {MadeUp::Wanderers, "wanderers", 1.0},
-      {MadeUp::Racers, "racers", 1.0},     {MadeUp::Loopers, "loopers", 1.0, false},
-      {MadeUp::Drifters, "drifters", 0.1}, {MadeUp::Turners, "turners", 0.02}};
+const std::vector<SyntheticSource>& synthetic_sources() {
+  static const std::vector<SyntheticSource> sources{
+      {SyntheticMotion::Walkers, "walkers", 1.0},   {SyntheticMotion::Wanderers, "wanderers", 1.0},
+      {SyntheticMotion::Racers, "racers", 1.0},     {SyntheticMotion::Loopers, "loopers", 1.0, false},
+      {SyntheticMotion::Drifters, "drifters", 0.1}, {SyntheticMotion::Turners, "turners", 0.02}};
   return sources;
 }
 
-Recording made_up(const MadeUpSource& source, std::uint64_t seed) {
+Recording synthetic_recording(const SyntheticSource& source, std::uint64_t seed) {
   struct Present {
     Mover mover;
     double until_s;
     std::int64_t id;
   };
   Rng rng(seed);
-  const Loop loop = source.kind == MadeUp::Loopers ? draw_loop(rng) : Loop{};
+  const Loop loop = source.motion == SyntheticMotion::Loopers ? draw_loop(rng) : Loop{};
   const Sensor& sensor = kSensors[seed % kSensors.size()];
   Recording recording;
   recording.name = std::string(source.name);
@@ -142,10 +142,10 @@ Recording made_up(const MadeUpSource& source, std::uint64_t seed) {
   std::int64_t ids = 0;
   const auto arrive = [&](int slot, double t) {
     const Vec3 place(kApart * kApart * slot, kApart * static_cast<double>(ids % 50), 1.0);
-    return Present{Mover(source.kind, loop, place, rng), t + rng.uniform(kShortest[0], kShortest[1]), ids++};
+    return Present{Mover(source.motion, loop, place, rng), t + rng.uniform(kShortest[0], kShortest[1]), ids++};
   };
   for (int slot = 0; slot < kAtOnce; ++slot) present.push_back(arrive(slot, 0.0));
-  for (int frame = 0; frame < static_cast<int>(kLasts * kRate); ++frame) {
+  for (int frame = 0; frame < static_cast<int>(kDuration * kRate); ++frame) {
     Received received;
     received.set.at = UTime{} + Duration::from_seconds(1.0 + frame / kRate);
     received.at = received.set.at + Duration::from_seconds(kLatency);

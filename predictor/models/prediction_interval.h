@@ -33,7 +33,7 @@ std::vector<Duration> piece_ends(const PredictionSpec& spec);
 double escape_probability(double z, double crossings);
 
 /// The least z with escape_probability(z, crossings) ≤ probability. @pre 0 < probability < 1, crossings ≥ 0.
-double quantile_for(double probability, double crossings);
+double escape_quantile(double probability, double crossings);
 
 /// A prediction at one of piece_ends.
 struct Waypoint {

@@ -1,4 +1,4 @@
-#include "predictor/models/promise.h"
+#include "predictor/models/prediction_interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace tern {
 namespace {
 
 // Halvings of [0, kLargestQuantile]: to 1e-9.
-constexpr double kLargestQuantile = 40.0;
+constexpr double kMaxQuantile = 40.0;
 constexpr int kHalvings = 36;
 
 MotionSample sample_of(const Waypoint& waypoint) {
@@ -43,9 +43,9 @@ double escape_probability(double z, double crossings) {
   return std::erfc(z / std::numbers::sqrt2) + std::exp(-0.5 * z * z) * crossings / std::numbers::pi;
 }
 
-double quantile_for(double probability, double crossings) {
+double escape_quantile(double probability, double crossings) {
   double low = 0.0;
-  double high = kLargestQuantile;
+  double high = kMaxQuantile;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (escape_probability(middle, crossings) <= probability ? high : low) = middle;
