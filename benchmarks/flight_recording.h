@@ -1,4 +1,4 @@
-// The requests of a whole virtual flight, each with the world that the planner answered it in.
+// Records the planner's requests of a virtual flight, each with the world in which it was answered.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@ class App;
 
 namespace tern {
 
-/// What plan() is given.
+/// The arguments of one plan() call.
 struct Moment {
   HorizonRequest request;
   PlanningWorld world;
 };
 
+/// A virtual flight and its plan() calls.
 struct FlightRecording {
   Scenario scenario;
   PlannerConfig config;
@@ -29,26 +30,26 @@ struct FlightRecording {
   std::vector<Moment> moments;
 };
 
-/// Flies a scenario file (with `key=value` overrides) on virtual time and keeps what its planner was asked.
-/// @throws ConfigError for what run_process would refuse.
+/// Flies a scenario file (with `key=value` overrides) on virtual time and records every plan() call.
+/// @throws ConfigError for inputs that run_process() would refuse
 FlightRecording record_flight(const std::string& scenario_file, const std::vector<std::string>& overrides);
 
-/// The flights that a program is asked to look at: --config, --set, --first and --last.
+/// The flights that the command line selects: --config, --set, --first and --last.
 struct FlightSelection {
   std::string scenario;
   std::vector<std::string> overrides;  ///< key=value
-  std::int64_t first = 1, last = 1;    ///< seeds
+  std::int64_t first = 1, last = 1;    ///< seeds, both included
 
   void add_options(CLI::App& app);
   void each(const std::function<void(std::int64_t seed, const FlightRecording& flight)>& use) const;
 };
 
-/// CPU time that this thread spends on the work, ms.
+/// Returns the CPU time of this thread for `work`, ms.
 double cpu_ms_of(const std::function<void()>& work);
-/// … on the answer to one request, without a limit.
+/// Returns the CPU time of one plan() call without a time limit, ms.
 double plan_ms(const Moment& moment, const PlannerConfig& config, PlanWorkspace& workspace);
 
-/// "p50 1.000  p90 2.000  p99 3.000  max 4.000". @pre not empty
+/// Returns "p50 1.000  p90 2.000  p99 3.000  max 4.000". @pre values is not empty
 std::string percentiles_text(std::vector<double> values);
 
 }  // namespace tern

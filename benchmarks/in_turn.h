@@ -1,4 +1,4 @@
-// Measures a piece of work on many cases, so that no single one decides what it costs.
+// Benchmarks one operation over many inputs, so that no single input decides the result.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -7,7 +7,7 @@
 
 namespace tern {
 
-/// Measures ask(case): of one case after the other, again from the first.
+/// Measures ask(case) for one case after the other, and starts over at the end of the list.
 template <class Case, class Ask>
 void in_turn(benchmark::State& state, const std::vector<Case>& cases, const Ask& ask) {
   std::size_t k = 0;

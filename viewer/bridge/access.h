@@ -1,4 +1,5 @@
-// Whose requests the bridge answers: a page of another site must not reach a vehicle through the user's browser.
+// Decides whose requests the bridge answers: a page of another site must not reach a vehicle through the user's
+// browser.
 #pragma once
 
 #include <string>
@@ -7,18 +8,19 @@
 
 namespace tern {
 
-/// Decides by the headers Host and Origin, which a browser sets and a page cannot forge.
+/// Checks the headers Host and Origin, which a browser sets and a page cannot forge.
 ///
-/// Host must name this machine: a loopback name or address, the address that was bound, or a name that the user
-/// allowed. So a foreign name that resolves to 127.0.0.1 (DNS rebinding) is refused. Origin, when there is one, must be
-/// the page that this host served, "http://" + Host. So another site's page, or another server's on this machine, is
-/// refused. A request without Origin does not come from a page.
+/// - Host must name this machine: a loopback name or address, the bound address, or a name that the user allowed. This
+///   stops DNS rebinding, where a foreign name resolves to 127.0.0.1.
+/// - Origin, if present, must be "http://" + Host: the page that this bridge served. This refuses pages of other sites
+/// and
+///   of other servers on this machine. A request without Origin does not come from a page.
 class Access {
  public:
-  /// @param names  besides "localhost", "127.0.0.1" and "[::1]"; without ports; "" is ignored
+  /// @param names  allowed in addition to "localhost", "127.0.0.1" and "[::1]"; without ports; "" is ignored
   explicit Access(std::vector<std::string> names = {});
   [[nodiscard]] bool allows_host(std::string_view host) const;
-  /// @param origin  empty: none was sent
+  /// @param origin  empty: the request has none
   [[nodiscard]] bool allows_origin(std::string_view origin, std::string_view host) const;
 
  private:

@@ -1,4 +1,4 @@
-// What the page is told, by topic: only the newest text of each counts.
+// The newest JSON text of each topic, for the page.
 #pragma once
 
 #include <array>
@@ -9,46 +9,54 @@
 
 namespace tern {
 
-/// A frame is a JSON object with a member per topic that changed since the reader's last frame.
+/// The topics of a frame. A frame is a JSON object with one member per topic that changed since the reader's last
+/// frame.
 enum class Topic : std::uint8_t {
-  Session,  ///< live or log, what is allowed, the scenario
-  Player,   ///< where a log stands
+  Session,  ///< live or log, permissions, the scenario
+  Player,   ///< position in the log
   State,    ///< the vehicle
-  Truth,    ///< obstacles as they are
-  Tracks,   ///< obstacles as predicted
+  Truth,    ///< true obstacles
+  Tracks,   ///< predicted obstacles
   Request,  ///< the committed trajectory, limits, flight box
   Plan,     ///< the last answer
-  Timing,   ///< what it cost
+  Timing,   ///< its cost
   Hulls,    ///< on demand
   Search,   ///< on demand
   Map,      ///< faces of the labelled voxels
   Health,   ///< every process
   Goal,
   Result,
-  Chart,   ///< the whole flight in numbers: the fields that pages ask for
-  Path,    ///< where it flew
-  Fields,  ///< what could be charted
-  Events,  ///< what happened when
-  Ghost,   ///< another log's path
+  Chart,   ///< the fields that pages chart, over the whole flight
+  Path,    ///< the flown path
+  Fields,  ///< names of all fields that can be charted
+  Events,  ///< marks of the timeline
+  Ghost,   ///< the path of another log
 };
 inline constexpr int kTopics = 19;
 const char* to_string(Topic topic);
 
-/// The newest text per topic. A writer never waits for a reader. A text that a reader has not taken when the next one
-/// comes is dropped for that reader and counted. A text that stands there already is not told again. Thread-safe.
+/// Holds the newest text per topic. Thread-safe.
+///
+/// | event                                          | effect                               |
+/// |------------------------------------------------|--------------------------------------|
+/// | a new text is posted                           | readers get it with their next frame |
+/// | the same text is posted again                  | none                                 |
+/// | a text is replaced before a reader has read it | counted as dropped for that reader   |
+///
+/// Writers never wait for readers.
 class Board {
  public:
-  /// What one reader has been given.
+  /// The state of one reader.
   struct Reader {
     std::array<std::int64_t, kTopics> taken{};
-    std::int64_t frame = 0;    ///< counts the frames that it got
-    std::int64_t dropped = 0;  ///< texts that were replaced before it took them
+    std::int64_t frame = 0;    ///< number of frames that it got
+    std::int64_t dropped = 0;  ///< texts that were replaced before it read them
   };
 
-  /// @param json  a JSON value; "null" takes back what the topic said
+  /// Posts a text. @param json  a JSON value; "null" clears the topic
   void post(Topic topic, std::string json);
-  /// The next frame for this reader: {"frame": n, "dropped": k, topic: value …}; empty when there is nothing new. A new
-  /// reader gets everything, and has dropped nothing.
+  /// Returns the reader's next frame, {"frame": n, "dropped": k, topic: value …}; empty if nothing is new. The first
+  /// frame of a reader has every topic, and no drops.
   std::string take(Reader& reader) const;
 
  private:

@@ -1,4 +1,4 @@
-// What happened in a flight, and when: the marks on the page's timeline.
+// The events of a flight: the marks on the page's timeline.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,19 @@
 
 namespace tern {
 
+/// One event.
 struct FlightEvent {
   UTime at;
   const char* kind;  ///< "goal", "outcome", "evasion", "clearance", "stop", "late", "restart" or "result"
   std::string text;  ///< in words
 };
 
-/// Hears messages in the order of their arrival. Pure.
+/// Collects events from messages in the order of arrival. Pure.
 class FlightEvents {
  public:
   void receive(const UavState& message);
   void receive(const Plan& message);
-  /// @param taken_ms, allowed_ms  by the flight's clock, from the request to its answer and to its deadline; 0: unknown
+  /// @param taken_ms, allowed_ms  on the flight's clock, from the request to its answer and to its deadline; 0: unknown
   void receive(const PlanTiming& message, double taken_ms, double allowed_ms);
   void receive(const Goal& message);
   void receive(const FlightResult& message);
@@ -34,13 +35,13 @@ class FlightEvents {
   /// @param obstacles_m, map_m  from the body to the nearest obstacle and to the nearest occupied voxel
   void receive_clearance(UTime at, std::optional<double> obstacles_m, std::optional<double> map_m);
 
-  /// All so far, by time: of the clearances those of the flight's five nearest passes, of obstacles and of the map.
+  /// Returns all events by time. Of clearances, the five nearest passes of obstacles and of the map are included.
   [[nodiscard]] std::vector<FlightEvent> events() const;
-  /// {"left_out": n, "events": [{"t": s from `zero`, "kind", "text"}]}
+  /// Returns {"left_out": n, "events": [{"t": s from `zero`, "kind", "text"}]}.
   [[nodiscard]] std::string json(UTime zero) const;
 
  private:
-  /// A pass is a local minimum from which the clearance has risen by more than 0.1 m.
+  /// Finds passes: local minima after which the clearance rises by more than 0.1 m.
   class Passes {
    public:
     void receive(UTime at, double metres);
@@ -52,8 +53,8 @@ class FlightEvents {
       double metres;
     };
     std::vector<Pass> nearest_;
-    std::optional<Pass> low_;  ///< the least since the last pass, while it has not risen
-    double high_ = 0.0;        ///< the greatest since the last pass
+    std::optional<Pass> low_;  ///< least clearance since the last pass, until it rises
+    double high_ = 0.0;        ///< greatest clearance since the last pass
   };
   void add(UTime at, const char* kind, std::string text);
 
@@ -63,7 +64,7 @@ class FlightEvents {
   std::optional<PlanOutcome> outcome_;
   std::int64_t goal_id_ = 0;
   bool flies_ = false, has_result_ = false;
-  std::map<std::string, std::int64_t> epochs_;  ///< of processes, by name
+  std::map<std::string, std::int64_t> epochs_;  ///< sender epochs of processes, by name
 };
 
 }  // namespace tern

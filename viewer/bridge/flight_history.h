@@ -1,4 +1,4 @@
-// A flight's past, in bounded memory: the path, every number that messages carry, the answers' outcomes.
+// The past of a flight, in bounded memory: path, every number of the messages, outcomes of the answers.
 #pragma once
 
 #include <map>
@@ -15,38 +15,38 @@
 
 namespace tern {
 
-/// {"PLAN_TIMING.total_ms", 12.5}, …: the numbers of one message, by channel and field.
+/// The numbers of one message by channel and field: {"PLAN_TIMING.total_ms", 12.5}, …
 using NumberFields = std::vector<std::pair<std::string, double>>;
 
-/// The numbers in what detail_json() tells: numbers and booleans; a list of three is its x, y and z. Names, times in
-/// µs since the epoch and longer lists are left out.
+/// Extracts numbers and booleans from detail_json(). A list of three becomes x, y and z. Names, times in µs since the
+/// epoch and longer lists are skipped.
 NumberFields numbers_of(std::string_view detail_json);
 
-/// Times are the vehicle's clock; what comes out of order is left out. A row that is full (432,000: six hours of
-/// answers, nearly five of states) forgets its older half.
+/// Stores samples by the vehicle's clock; samples out of order are ignored. A table holds 432,000 rows, six hours of
+/// answers or nearly five hours of states. When it is full, its older half is deleted.
 class FlightHistory {
  public:
-  /// At most one per 50 ms is kept.
+  /// Adds a state; at most one per 50 ms is stored.
   void add(const UavState& state);
-  /// Whether a row of this name would be kept now: at most one per 40 ms is. Who asks before saves the work.
+  /// Returns true if add_row() would store a row at this time: at most one per 40 ms. Ask before computing the fields.
   [[nodiscard]] bool keeps_row(const std::string& table, UTime at) const;
-  /// @param fields  of one message; its first row says which fields a table has
-  /// @return whether it is the first
+  /// Adds a row. @param fields  of one message; the first row fixes the columns of its table
+  /// @return true if it is the first row
   bool add_row(const std::string& table, UTime at, const NumberFields& fields);
   void add_answer(UTime at, PlanOutcome outcome);
 
-  /// The names of all fields that were ever heard, sorted.
+  /// Returns the names of all fields received so far, sorted.
   [[nodiscard]] std::vector<std::string> fields() const;
   [[nodiscard]] UTime begin() const { return motion_.empty() ? UTime{} : motion_.front().at; }
-  /// When it flew first (faster than 0.05 m/s); nullopt before.
+  /// Returns when the vehicle first exceeded 0.05 m/s; nullopt if it did not.
   [[nodiscard]] std::optional<UTime> departure() const;
 
-  /// {"zero_us", "begin_s", "end_s", "series": {name: [[t…], [value…]]}, "outcomes": [[t…], [outcome…]]}, t in seconds
-  /// from `zero`, all of the flight until `until`. A series has at most 2·`most` points: of every stretch the least and
-  /// the greatest, so that no extreme is lost.
+  /// Returns {"zero_us", "begin_s", "end_s", "series": {name: [[t…], [value…]]}, "outcomes": [[t…], [outcome…]]}, with
+  /// t in seconds from `zero`, from the begin to `until`. A series has at most 2·`most` points: the least and the
+  /// greatest of each stretch, so no extreme is lost.
   [[nodiscard]] std::string chart_json(UTime zero, UTime until, const std::vector<std::string>& names,
                                        std::size_t most = 600) const;
-  /// Members "t": [s from `zero`…], "curve": [x, y, z, speed, …] from the start to `until`, at most `most` points.
+  /// Writes members "t": [s from `zero`…] and "curve": [x, y, z, speed, …] up to `until`, with at most `most` points.
   void write_path(JsonWriter& json, UTime zero, UTime until, std::size_t most = 3'000) const;
 
  private:
@@ -58,7 +58,7 @@ class FlightHistory {
   struct Table {
     std::vector<std::string> names;
     std::vector<UTime> at;
-    std::vector<float> values;  ///< a row after the other
+    std::vector<float> values;  ///< row by row
   };
   struct Answer {
     UTime at;

@@ -1,4 +1,4 @@
-// JSON for the page, written straight to text: thousands of numbers, thirty times a second.
+// Writes JSON text directly: the page gets thousands of numbers, thirty times a second.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace tern {
 
-/// Writes one JSON value; commas are its own business, the nesting is the caller's. Numbers are rounded to 0.1 mm (or
-/// their own 1e-4): what a screen shows; not finite ones become null.
+/// Writes one JSON value. It inserts the commas; the caller is responsible for the nesting. Numbers are rounded to
+/// 1e-4, 0.1 mm on the screen; infinite values and NaN become null.
 class JsonWriter {
  public:
   JsonWriter& begin_object();
@@ -21,9 +21,9 @@ class JsonWriter {
   JsonWriter& number(double x);
   JsonWriter& integer(std::int64_t x);
   JsonWriter& flag(bool x);
-  JsonWriter& text(std::string_view utf8);  ///< likewise
-  JsonWriter& point(const Vec3& p);         ///< three numbers of the list that is open
-  JsonWriter& points(const Points& p);      ///< likewise, one point after the other
+  JsonWriter& text(std::string_view utf8);  ///< escaped
+  JsonWriter& point(const Vec3& p);         ///< adds three numbers to the open list
+  JsonWriter& points(const Points& p);      ///< adds three numbers per point to the open list
   JsonWriter& vec3(const Vec3& p);          ///< [x, y, z]
   JsonWriter& raw(std::string_view json);   ///< a value that is JSON already
   [[nodiscard]] std::string take();

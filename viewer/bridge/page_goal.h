@@ -1,4 +1,4 @@
-// A goal that a page has sent.
+// A goal sent by a page.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace tern {
 
-/// It is repeated at 1 Hz until somebody sends a goal with a larger id, or another vehicle (a new sender epoch) flies.
-/// Pure.
+/// Repeats the goal at 1 Hz. It ends when a goal with a larger id arrives, or when another vehicle (a new sender epoch)
+/// flies. Pure.
 class PageGoal {
  public:
-  /// @param goal  to be sent from `now` on
+  /// @param goal  published from `now` on
   void set(const Goal& goal, const Scene& scene, UTime now);
-  /// What to send now, if anything.
+  /// Returns the goal if it is time to publish it.
   std::optional<Goal> due(const Scene& scene, UTime now);
 
  private:
   std::optional<Goal> goal_;
-  std::int64_t vehicle_us_ = 0;  ///< the vehicle that it is for; 0: the first that is heard
+  std::int64_t vehicle_us_ = 0;  ///< sender epoch of its vehicle; 0: the first vehicle that is received
   UTime next_{};
 };
 

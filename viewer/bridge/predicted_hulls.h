@@ -1,4 +1,4 @@
-// Where obstacles may be while a plan is flown: their predicted hulls, interval by interval.
+// Hulls of the places that predicted obstacles may occupy while a plan is flown, interval by interval.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,24 @@
 
 namespace tern {
 
+/// The hull of one track over one interval.
 struct PredictedHull {
   std::int64_t track = 0;
   int interval = 0;
-  Points points;  ///< 3×m: the extreme points, W, m
+  Points points;  ///< 3×m: extreme points, W, m
 };
 
+/// The hulls of a plan.
 struct PredictedHulls {
-  std::vector<PredictedHull> hulls;  ///< the tracks nearest to the plan first
-  int left_out = 0;                  ///< hulls that were not made because there were `most` already
+  std::vector<PredictedHull> hulls;  ///< of the tracks nearest to the plan first
+  int left_out = 0;                  ///< number of hulls beyond `most`
 };
 
-/// A hull for each interval of the plan and each moving track that may come within `reach` of it. It is conv of the
-/// track's box grown by its α, swept along the prediction (core/world/track_sweep.h): the paper's C_ij without the
+/// Makes a hull for each interval of the plan and each moving track within `reach` of it. The hull is conv of the
+/// track's box grown by α and swept along the prediction (core/world/track_sweep.h): the paper's C_ij without the
 /// vehicle's body.
-/// @param reach  m, ≥ 0: a hull is made where the track's box in that interval is no farther from the plan's curve
-/// @param most   hulls made at most; each costs about 40 µs
+/// @param reach  m, ≥ 0: greatest distance between the track's box in an interval and the plan's curve
+/// @param most   greatest number of hulls; each costs about 40 µs
 PredictedHulls predicted_hulls(const TrackSet& tracks, const TimedSpline& plan, double reach, int most);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// What is known of a flight right now: the newest message of each kind.
+// The present state of a flight: the newest message of each kind.
 #pragma once
 
 #include <bitset>
@@ -22,17 +22,17 @@
 
 namespace tern {
 
-/// A process as it was heard.
+/// A process, its last heartbeat and its configuration.
 struct ObservedProcess {
   Heartbeat heartbeat;
   UTime received;
   std::optional<ConfigurationReport> configuration;
 };
 
-/// Names are hostile, too: more processes than this are not remembered.
+/// Greatest number of processes, since a hostile sender may invent names.
 inline constexpr std::size_t kMaxProcesses = 64;
 
-/// The map as it is drawn, and what is told of it.
+/// The map as drawn, with its label counts.
 struct DrawnMap {
   VoxelSurface surface;
   VoxelGrid grid;
@@ -41,25 +41,24 @@ struct DrawnMap {
   std::array<std::int64_t, kVoxelLabels> voxels{};  ///< by label
 };
 
-/// Takes validated messages, complete sets and whole maps. Which topics changed is noted for whoever tells the page.
+/// Takes validated messages, complete sets and whole maps, and records which topics changed.
 class Scene {
  public:
-  /// An answer may come when its request is no longer the newest: so many are asked about.
+  /// Number of requests that are remembered, since an answer may come when its request is no longer the newest.
   static constexpr std::size_t kRememberedRequests = 16;
 
-  /// What is remembered of the flight.
+  /// The past of the flight, filled by the scene.
   struct Memory {
     FlightHistory history;
     FlightEvents events;
     WorldTime world_time;
-    /// The flight's time 0: that of the world, and before it is known, that of the first state.
+    /// Returns the flight's time 0: the start of world time, or the time of the first state until that is known.
     [[nodiscard]] UTime zero() const { return world_time.zero().value_or(history.begin()); }
   };
-  /// @param memory  is told of everything that is heard; may be null
+  /// @param memory  receives every message too; may be null
   explicit Scene(Memory* memory = nullptr) : memory_(memory) {}
 
-  /// A state of another vehicle (a new sender epoch) is another flight's: goals that were sent before it began are
-  /// forgotten.
+  /// A new sender epoch means another vehicle and another flight: goals that were sent before it began are dropped.
   void receive(const UavState& message);
   void receive(const ObstacleTruth& complete_set);
   void receive(TrackSet complete_set);
@@ -72,11 +71,11 @@ class Scene {
   void receive(const Heartbeat& message, UTime now);
   void receive(const ConfigurationReport& message);
   void receive(const VoxelMap& map);
-  /// Forgets everything but the map, for a jump in a log.
+  /// Clears everything except the map, for a jump in a log.
   void clear();
 
   [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
-  /// The sender epoch of the vehicle's states; 0: none was heard.
+  /// Returns the sender epoch of the vehicle's states; 0 before the first one.
   [[nodiscard]] std::int64_t vehicle_us() const { return state_ ? state_->header.name.sender_epoch_us : 0; }
   [[nodiscard]] const std::optional<ObstacleTruth>& truth() const { return truth_; }
   [[nodiscard]] const std::optional<TrackSet>& tracks() const { return tracks_; }
@@ -89,24 +88,25 @@ class Scene {
   [[nodiscard]] const std::optional<DrawnMap>& map() const { return map_; }
   [[nodiscard]] const std::map<std::string, ObservedProcess>& processes() const { return processes_; }
 
-  /// From the body to the nearest true obstacle, m; nullopt before both were heard. A body of vertices counts as the
-  /// ball around it.
+  /// Returns the distance from the body to the nearest true obstacle, m; nullopt until both are known. A body given by
+  /// vertices counts as the ball around it.
   [[nodiscard]] std::optional<double> clearance() const;
-  /// From the body, taken for a ball as well, to the nearest occupied voxel of the map, m.
-  /// @return nullopt before both were heard, or if nothing is occupied.
+  /// Returns the distance from the ball around the body to the nearest occupied voxel, m.
+  /// @return nullopt until both are known, or if no voxel is occupied
   [[nodiscard]] std::optional<double> map_clearance() const;
-  /// Of the ball around the vehicle's body, m; 0 before a request says it.
+  /// Returns the radius of the ball around the body, m; 0 before the first request.
   [[nodiscard]] double body_radius() const;
-  /// Whether the body is within the flight box when its centre is there; true before a request says both.
+  /// Returns true if the body centred at p is inside the flight box, or before the first request.
   [[nodiscard]] bool has_room_at(const Vec3& p) const;
-  /// What the planner was given for the answer that `timing` tells of, ms by the flight's clock; 0: not known.
+  /// Returns the time from the request to its deadline for the answer that `timing` describes, ms on the flight's
+  /// clock; 0 if unknown.
   [[nodiscard]] double allowed_ms() const;
-  /// From that request to that answer, ms by the flight's clock; 0: not known.
-  /// At a pace below 1 the wall time that `timing` tells is longer.
+  /// Returns the time from that request to its answer, ms on the flight's clock; 0 if unknown. At a pace below 1 the
+  /// wall time in `timing` is longer.
   [[nodiscard]] double taken_ms() const;
   [[nodiscard]] bool is_late() const { return allowed_ms() > 0.0 && taken_ms() > allowed_ms(); }
 
-  /// True once per change.
+  /// Returns true once after each change of the topic.
   bool take_change(Topic topic);
   void mark(Topic topic) { changed_.set(idx(topic)); }
 
@@ -129,7 +129,7 @@ class Scene {
   struct RequestTimes {
     UTime at, deadline;
   };
-  [[nodiscard]] const RequestTimes* timed_request() const;  ///< of the request that `timing` answers; null: not known
+  [[nodiscard]] const RequestTimes* timed_request() const;  ///< of the request that `timing` answers; null: unknown
   std::map<std::int64_t, RequestTimes> request_times_;      ///< of the last requests, by id
   std::bitset<kTopics> changed_;
 };

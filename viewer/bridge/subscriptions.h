@@ -1,4 +1,4 @@
-// What pages want of that which is made only while someone looks.
+// The optional layers and chart series that pages subscribe to; they are computed only while a page shows them.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@
 
 namespace tern {
 
-/// Of all pages together.
+/// The union of all pages' subscriptions.
 class Subscriptions {
  public:
   void take(std::int64_t client, const LayersCommand& layers) { by_page_[client].layers = layers; }
   void take(std::int64_t client, const SeriesCommand& series) { by_page_[client].series = series.names; }
-  /// @param clients  the pages that still look
+  /// Drops the subscriptions of disconnected pages. @param clients  the connected pages
   void keep_only(const std::vector<std::int64_t>& clients);
 
   [[nodiscard]] LayersCommand layers() const;
-  /// Sorted, each once, at most kMaxSeries.
+  /// Returns the series, sorted and unique, at most kMaxSeries.
   [[nodiscard]] std::vector<std::string> series() const;
 
  private:

@@ -1,4 +1,4 @@
-// What the page is told on each topic: of a live flight, of a log, or into a file.
+// Makes the JSON of each topic: for a live flight, for a log, or for an exported page.
 #pragma once
 
 #include <string>
@@ -10,24 +10,25 @@
 
 namespace tern {
 
+/// The inputs of topic_json().
 struct TopicSource {
   const Scene& scene;
   const Scene::Memory& memory;
   UTime zero;   ///< the flight's time 0
-  UTime until;  ///< as far as its past is told
-  UTime now;    ///< ages of processes are counted to it
+  UTime until;  ///< end of the past to include
+  UTime now;    ///< ages of processes are relative to it
   LayersCommand layers;
   std::vector<std::string> series;
 };
 
-/// Of a log these are of the whole flight, told once.
+/// Returns true for topics about the past. For a log they cover the whole flight and are sent once.
 bool is_of_the_past(Topic topic);
 
-/// One JSON value; "null" where nothing was heard, and for topics that are not of the scene (Session, Player, Ghost).
+/// Returns one JSON value; "null" if nothing was received, and for Session, Player and Ghost, which the scene lacks.
 std::string topic_json(Topic topic, const TopicSource& source);
 
-/// Another flight's path over this one: {"name", "radius", "t", "curve"}, both departing at the same t. "null" while
-/// one of them has not departed.
+/// Returns another flight's path, {"name", "radius", "t", "curve"}, shifted so that both depart at the same t. Returns
+/// "null" until both have departed.
 std::string ghost_json(const std::string& name, double radius, const FlightHistory& ghost, const FlightHistory& shown,
                        UTime zero);
 

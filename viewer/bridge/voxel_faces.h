@@ -1,4 +1,4 @@
-// The outer faces of labelled voxels, as few rectangles: what a page draws of a map.
+// Merges the outer faces of labelled voxels into few rectangles, for drawing.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace tern {
 
-/// A rectangle of voxel faces that look the same way, in whole voxels of the drawn grid.
+/// A rectangle of voxel faces with one orientation, in whole voxels of the drawn grid.
 struct VoxelFace {
   VoxelLabel label = VoxelLabel::Free;
   std::uint8_t direction = 0;                      ///< 0 … 5: −x, +x, −y, +y, −z, +z
@@ -16,19 +16,20 @@ struct VoxelFace {
   Eigen::Vector3i high = Eigen::Vector3i::Zero();  ///< greatest corner; equal to low along the direction's axis
 };
 
+/// The faces of a map.
 struct VoxelSurface {
-  VoxelGrid grid;  ///< of the drawing: the map's, or a coarser one
+  VoxelGrid grid;  ///< as drawn: the map's grid, or a coarser one
   std::vector<VoxelFace> faces;
   std::vector<bool> occupied;  ///< by grid.index
 };
 
-/// Every face between an occupied, attractive or repulsive voxel and one of another label (or the grid's outside),
-/// joined greedily to rectangles. A grid of more than `max_voxels` is coarsened first by a whole factor: a coarse voxel
-/// has the gravest label within it (occupied, repulsive, attractive). O(voxels).
+/// Returns every face between a voxel labelled occupied, attractive or repulsive and one of another label, or the
+/// grid's outside. Faces are merged greedily. A grid of more than `max_voxels` is first coarsened by an integer factor;
+/// a coarse voxel gets the first label found in it of: occupied, repulsive, attractive. O(voxels).
 VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels = 4'000'000);
 
-/// From p to the nearest occupied voxel as drawn, m (of a coarsened map no farther than it is). It is 0 within one,
-/// infinity where there is none. O(faces).
+/// Returns the distance from p to the nearest occupied voxel as drawn, m: 0 inside one, infinity if there is none. In a
+/// coarsened map it is at most the true distance. O(faces).
 double distance_to_occupied(const VoxelSurface& surface, const Vec3& p);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// When world time began, by what a flight's listeners hear.
+// Finds the start of world time from received messages.
 #pragma once
 
 #include <optional>
@@ -8,18 +8,18 @@
 
 namespace tern {
 
-/// World time begins with the first HORIZON_REQUEST. An autopilot is told to hold until it does: there it begins with
-/// the first request after the goal to go to.
+/// World time starts with the first HORIZON_REQUEST. With an autopilot, the first goal is to hold; then world time
+/// starts with the first request after the first goal to go.
 class WorldTime {
  public:
   void receive(const Goal& message);
   void receive(const HorizonRequest& message);
-  /// @return nullopt before it began, or where nobody asked for a plan
+  /// Returns the start of world time; nullopt before it, or if nobody requested a plan.
   [[nodiscard]] std::optional<UTime> zero() const { return zero_; }
 
  private:
-  bool has_goal_ = false, holds_ = false;  ///< holds: the first goal was to hold or stop, and none to go has come
-  UTime not_before_{};                     ///< when the first goal to go was sent, if it was not the first
+  bool has_goal_ = false, holds_ = false;  ///< holds_: the first goal was hold or stop, and no goal to go has followed
+  UTime not_before_{};                     ///< when the first goal to go was sent, unless it was the first goal
   std::optional<UTime> zero_;
 };
 

@@ -1,4 +1,4 @@
-// A headless browser that does what it is told (Chrome DevTools Protocol, over a pair of pipes).
+// Controls a headless browser by the Chrome DevTools Protocol, over a pair of pipes.
 #pragma once
 
 #include <sys/types.h>
@@ -9,21 +9,22 @@
 
 namespace tern {
 
-/// One page in a browser of its own, which ends with this.
+/// A browser process with one page. The destructor ends the process.
 class Devtools {
  public:
-  /// @param program  Chromium, looked up in PATH  @param profile  an empty folder that it may write to
-  /// @throws std::runtime_error when it cannot be started or does not answer
+  /// @param program  Chromium, searched in PATH
+  /// @param profile  an empty folder that Chromium may write to
+  /// @throws std::runtime_error if it cannot be started or stays silent
   Devtools(const std::string& program, const std::string& profile, int width, int height);
   ~Devtools();
   Devtools(const Devtools&) = delete;
   Devtools& operator=(const Devtools&) = delete;
 
-  /// Opens a page and waits until `ready`, a JavaScript expression, is true. @throws std::runtime_error after 60 s
+  /// Opens a page and waits until the JavaScript expression `ready` is true. @throws std::runtime_error after 60 s
   void open(const std::string& url, const std::string& ready);
-  /// @return what a JavaScript expression comes to. @throws std::runtime_error when it throws
+  /// Returns the value of a JavaScript expression. @throws std::runtime_error if the expression throws
   nlohmann::json evaluate(const std::string& expression);
-  /// The page as it is drawn now: a JPEG file's bytes.
+  /// Returns the page as drawn at this moment: the bytes of a JPEG file.
   std::string picture();
 
  private:

@@ -1,4 +1,4 @@
-// tern-viewer --export and --video: a log becomes a file, and the process has done its work.
+// tern-viewer --export and --video: write a file from a log, then end the process.
 #pragma once
 
 #include <memory>
@@ -13,16 +13,18 @@ class App;
 
 namespace tern {
 
-/// --export, --video and what goes with them. A film's options without --video are refused.
+/// Adds --export, --video and their options. The options of a film are refused without --video.
 void add_export_options(CLI::App& app, ViewerOptions& options);
 
-/// A log is played on a bus that ends in this process: no network is needed, and none is disturbed. Where one is
-/// played, what only a live flight has is refused; where a file is written, what only a page in the browser has: it
-/// would have no effect. @pre app has all options of tern-viewer; `options` outlives it
+/// Puts a log on a bus of its own inside this process, so a played log neither needs nor disturbs the network.
+///
+/// Options without effect are refused: with a log, the options of a live flight; with --export or --video, the options
+/// of a page in the browser.
+/// @pre app has all options of tern-viewer; `options` outlives it
 void keep_logs_apart(CLI::App& app, const ViewerOptions& options);
 
-/// Writes the files that the options ask for, or shows the flight if they ask for none.
-/// @throws ConfigError when that cannot be done
+/// Writes the files that the options name, or makes the viewer if they name none.
+/// @throws ConfigError if reading a log or writing a file fails
 std::unique_ptr<Node> make_viewer(Bus& bus, const Scenario& scenario, const ViewerOptions& options);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// A flight as one page that plays itself: no server, no network, to mail to a colleague.
+// Exports a flight as one HTML page that plays itself, without server or network.
 #pragma once
 
 #include <cstdint>
@@ -9,34 +9,36 @@
 
 namespace tern {
 
+/// The inputs of export_page().
 struct PageExport {
-  std::string log;     ///< what LogPlayer::open takes
-  std::string ghost;   ///< another log, drawn over it; empty: none
-  std::string suffix;  ///< only channels that end with it
+  std::string log;     ///< see LogPlayer::open()
+  std::string ghost;   ///< another log to draw over it; empty: none
+  std::string suffix;  ///< only channels with this suffix are read
   std::string page;    ///< folder of the built page
 };
 
+/// An exported page.
 struct ExportedPage {
   std::string html;
-  double begin_s = 0.0, end_s = 0.0;  ///< of what it shows, s since the flight's time 0
-  double departure_s = 0.0;           ///< when the vehicle first flies, likewise; begin_s: never
-  std::string left_out;               ///< what did not fit, in words; "" when everything did
+  double begin_s = 0.0, end_s = 0.0;  ///< the exported time, s since the flight's time 0
+  double departure_s = 0.0;           ///< the vehicle's departure, on the same clock; begin_s if it never departs
+  std::string left_out;               ///< in words, layers that did not fit; empty: everything fitted
 };
 
-/// A page is at most as large as this for each minute of flight that it shows, bytes, and never needs to be smaller.
+/// Size limit of a page per minute of flight, bytes.
 inline constexpr std::int64_t kMaxBytesPerMinute = 10'000'000;
 
-/// Plays the log and packs what the page would have been told, 20 times a second, into the page: deflated JSON
-/// (web/src/tape.js). Where it becomes too large, hulls are left out first, then planes. An Error when that is not
-/// enough, the log cannot be read or the page is not built.
+/// Plays the log and packs the page's topics, 20 times a second, into the page as deflated JSON (web/src/tape.js). If
+/// the page gets too large, hulls are left out first, then planes.
+/// @return an Error if the page is still too large, or if the log or the built page cannot be read
 Result<ExportedPage> export_page(const PageExport& wanted);
 
-/// The page in one file: scripts and styles of `files` written into its index.html, its licences, and `tape`.
-/// @param packed  base64 of a deflated tape
-/// @return an Error when the page is not built
+/// Builds a single-file page: index.html with the scripts and styles of `files`, the licences, and the tape.
+/// @param packed  base64 of the deflated tape
+/// @return an Error if the page is not built
 Result<std::string> inline_page(const PageFiles& files, const std::string& packed);
 
-/// Deflate without a head (RFC 1951).
+/// Compresses by raw Deflate (RFC 1951), without a header.
 std::string deflated(const std::string& bytes);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// A flight as a film: an exported page, drawn picture by picture by a headless Chromium, written by ffmpeg.
+// Makes a video of a flight: headless Chromium draws an exported page frame by frame, ffmpeg encodes the frames.
 #pragma once
 
 #include <limits>
@@ -10,23 +10,24 @@
 
 namespace tern {
 
-/// What a film is of, and how large it is.
+/// Format and time span of a film.
 struct FilmForm {
   std::vector<int> size{1280, 720};  ///< width and height, pixels, even
-  int rate = 25;                     ///< pictures a second, 1 ... 60
-  /// From, to: s since the vehicle first flies; what is outside the log is left out.
+  int rate = 25;                     ///< frames per second, 1 … 60
+  /// From, to: s since the vehicle's departure; cut to the log's time.
   std::vector<double> part{-0.5, std::numeric_limits<double>::infinity()};
 };
 
+/// A film to make.
 struct Film {
   ExportedPage page;
-  std::string file;  ///< to be written; its name's end says what: "flight.mp4", "flight.webp" (an animation)
+  std::string file;  ///< output file; its suffix selects the format: "flight.mp4", or "flight.webp" for an animation
   FilmForm form;
 };
 
-/// The vehicle is chased, and predicted hulls are drawn. The programs are `chromium` and `ffmpeg`, or what
-/// TERN_CHROMIUM and TERN_FFMPEG name. Takes some 0.3 s a picture without a GPU.
-/// @return an Error when one of them is not installed or fails, or no picture is in that part of the flight
+/// Makes a film with the chase camera and predicted hulls. It runs `chromium` and `ffmpeg`, or the programs that
+/// TERN_CHROMIUM and TERN_FFMPEG name. Takes about 0.3 s per frame without a GPU.
+/// @return an Error if a program is missing or fails, or if the time span has no frame
 Result<bool> make_film(const Film& film);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// The socket on which browsers are awaited: opened here, or inherited from who started this process.
+// The socket that browsers connect to: opened by this process, or inherited from its parent.
 #pragma once
 
 #include <string>
@@ -7,21 +7,22 @@
 
 namespace tern {
 
-/// Where a bridge waits when it is not told a port: the first that is free of this many from the first.
+/// Ports to try if none is given: the first free one of kViewPorts, beginning with kFirstViewPort.
 inline constexpr int kFirstViewPort = 8765;
 inline constexpr int kViewPorts = 100;
-/// How an inherited socket is named in the environment (tern-listen sets both).
+/// Environment variables that pass on an inherited socket and its URL; tern-listen sets both.
 inline constexpr char kListenFdVariable[] = "TERN_LISTEN_FD";
 inline constexpr char kListenUrlVariable[] = "TERN_LISTEN_URL";
 
-/// Opens a listening TCP socket, which children inherit only if `inheritable`.
-/// @param where  "127.0.0.1", "127.0.0.1:8765", "[::1]:8765"; port 0 is any free port, no port one of ours
+/// Opens a listening TCP socket. Child processes inherit it only if `inheritable`.
+/// @param where  "127.0.0.1", "127.0.0.1:8765", "[::1]:8765". Port 0 takes any free port; without a port, kViewPorts
+/// are tried
 Result<int> open_listening_socket(const std::string& where, bool inheritable);
 
-/// "http://127.0.0.1:8765/". An Error when fd is not a listening TCP socket.
+/// Returns "http://127.0.0.1:8765/", or an Error if fd is not a listening TCP socket.
 Result<std::string> listening_url(int fd);
 
-/// The part of a URL between "http://" and the port: "127.0.0.1".
+/// Returns the part of a URL between "http://" and the port: "127.0.0.1".
 std::string host_of_url(const std::string& url);
 
 }  // namespace tern

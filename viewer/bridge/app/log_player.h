@@ -1,4 +1,4 @@
-// A recorded flight as a tape: play, pause, step, speed, scrub.
+// Plays a recorded flight: play, pause, step, speed, seek.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace tern {
 
-/// Where the messages of one log lie in its files: 24 bytes of memory each, so that a log of any length can be played.
+/// Where a log's messages lie in its files. An entry takes 24 bytes of memory, so a log of any length can be played.
 struct LogIndex {
   struct Entry {
     UTime received;
@@ -23,38 +23,38 @@ struct LogIndex {
   };
   std::vector<std::string> channels;  ///< without the vehicle's suffix
   std::vector<Entry> entries;         ///< times ascending
-  std::string damage;                 ///< what could not be read, in words; "" when all could
+  std::string damage;                 ///< in words, the unreadable part of the log; empty: all was read
 };
 
-/// Plays a log into a scene by the time at which its messages were received.
+/// Plays a log into a scene, by the receive times of its messages.
 class LogPlayer {
  public:
-  /// Reads the whole log once, for its index and the flight's history (charts and path).
-  /// @param path  a file that tern-logger began (its further parts are found), or a flight's folder
-  /// @param suffix  only channels that end with it are played, "" for all
-  /// @return an Error that names the file when it cannot be read or holds no message of Tern's
+  /// Reads the whole log once, for the index and the flight's history (charts and path).
+  /// @param path    the first file of a log (further parts are found), or a flight's folder
+  /// @param suffix  only channels with this suffix are played; "": all
+  /// @return an Error that names the file if it is unreadable, or without a message of Tern
   static Result<LogPlayer> open(const std::string& path, const std::string& suffix);
 
   [[nodiscard]] UTime begin() const { return index_.entries.front().received; }
   [[nodiscard]] UTime end() const { return index_.entries.back().received; }
-  /// The flight's time 0: that of the world, or the log's begin where that is not known.
+  /// Returns the flight's time 0: the start of world time, or the log's begin if that is unknown.
   [[nodiscard]] UTime zero() const { return memory_.world_time.zero().value_or(begin()); }
   [[nodiscard]] UTime position() const { return position_; }
   [[nodiscard]] bool playing() const { return playing_; }
   [[nodiscard]] const Scene::Memory& memory() const { return memory_; }
-  /// The radius of the ball around the vehicle's body, m; 0 when no request says it.
+  /// Returns the radius of the ball around the vehicle's body, m; 0 if no request tells it.
   [[nodiscard]] double body_radius() const { return body_radius_; }
 
   void play(bool on, UTime wall_now);
   void set_speed(double factor) { speed_ = factor; }
-  /// Brings the scene to what it was at t: the newest complete set, plan and so on before it.
+  /// Sets the scene to its state at t: the newest message of each kind before t.
   void seek(UTime t, Scene& scene, SceneIntake& intake);
-  /// To the next (1) or the last (−1) answer of the planner, and pauses there.
+  /// Goes to the next (1) or previous (−1) answer of the planner, and pauses.
   void step(int plans, Scene& scene, SceneIntake& intake);
-  /// Plays on to what the wall clock asks for; pauses at the log's end.
+  /// Plays on to the position that the wall clock asks for; pauses at the log's end.
   void advance(UTime wall_now, SceneIntake& intake);
 
-  /// {"begin_us", "zero_us", "end_us", "at_us", "playing", "speed", "refused", "damage"}
+  /// Returns {"begin_us", "zero_us", "end_us", "at_us", "playing", "speed", "refused", "damage"}.
   [[nodiscard]] std::string json() const;
 
  private:
@@ -73,7 +73,7 @@ class LogPlayer {
   double body_radius_ = 0.0;
   std::vector<std::uint8_t> buffer_;
   UTime position_, wall_{};
-  std::size_t next_ = 0;  ///< the first entry that was not played
+  std::size_t next_ = 0;  ///< the first entry that is not yet played
   bool playing_ = false;
   double speed_ = 1.0;
   std::int64_t refused_ = 0;

@@ -1,4 +1,4 @@
-// The built page, in memory: what is not in this table cannot be asked for.
+// The files of the built page, in memory. The server serves nothing else.
 #pragma once
 
 #include <map>
@@ -8,21 +8,22 @@
 
 namespace tern {
 
+/// One file of the page.
 struct PageFile {
   std::string type;  ///< "text/html; charset=utf-8"
   std::string bytes;
 };
 
-/// By URL path, "/index.html"; "/" is the index.
+/// Files by URL path, such as "/index.html"; "/" is the index.
 using PageFiles = std::map<std::string, PageFile, std::less<>>;
 
-/// Reads a folder that Vite built. Without an index.html there: one page that says how it is built. An Error when a
-/// file cannot be read or all together are more than 50 MB.
+/// Reads a folder that Vite built. If it has no index.html, the result is one page that explains how to build it.
+/// @return an Error if a file cannot be read, or if all files together exceed 50 MB
 Result<PageFiles> load_page(const std::string& folder);
 
-/// Where the page lies when nobody says. Of an installed program, PREFIX/bin/tern-viewer:
-/// PREFIX/share/tern/viewer-page; of one in a build tree, build/release/bin/tern-viewer: build/viewer-page, where
-/// view_page.sh builds it.
+/// Returns the default folder of the page:
+/// - PREFIX/share/tern/viewer-page for an installed program PREFIX/bin/tern-viewer
+/// - build/viewer-page, where view_page.sh builds it, for build/release/bin/tern-viewer
 std::string default_page_folder();
 
 }  // namespace tern

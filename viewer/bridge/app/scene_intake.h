@@ -1,4 +1,4 @@
-// Messages of the bus or of a log → the scene.
+// Passes messages of the bus or of a log to the scene.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,18 @@
 
 namespace tern {
 
-/// Collects sets and maps until they are complete.
+/// Collects batches of sets and maps until they are complete.
 class SceneIntake {
  public:
   explicit SceneIntake(Scene& scene) : scene_(scene) {}
 
-  /// Live: hears everything that the page shows.
+  /// Subscribes to every channel that the page shows, for a live flight.
   void subscribe(Bus& bus);
-  /// One message of a log. @return false when it was refused; true also for channels that the page does not show.
-  /// @param channel  without a vehicle's suffix
+  /// Takes one message of a log.
+  /// @param channel  without the vehicle's suffix
+  /// @return false if the message was refused; true also for channels that the page does not show
   bool receive(std::string_view channel, std::span<const std::uint8_t> bytes, UTime at);
-  /// Forgets unfinished sets: the log jumps.
+  /// Discards incomplete sets, for a jump in a log.
   void restart();
 
  private:

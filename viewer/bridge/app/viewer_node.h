@@ -1,4 +1,4 @@
-// tern-viewer's node: the bus, or a log, on a page in the browser.
+// tern-viewer's node: shows the bus, or a log, on a page in the browser.
 #pragma once
 
 #include <bitset>
@@ -18,25 +18,26 @@
 
 namespace tern {
 
+/// The options of tern-viewer.
 struct ViewerOptions {
-  std::string listen = "127.0.0.1";      ///< address, perhaps with :PORT; not read when TERN_LISTEN_FD names a socket
-  std::string page;                      ///< the built page's folder; empty: default_page_folder()
-  std::vector<std::string> allow_hosts;  ///< names besides loopback by which browsers may call this host
-  bool allow_goals = false;              ///< pages may send goals
-  std::string log;                       ///< plays this log; empty: live
-  std::string export_to;                 ///< writes the log as one page there; empty: does not
-  std::string video_to;                  ///< likewise, as a film
-  FilmForm film;                         ///< of video_to
-  std::string ghost;                     ///< another log, drawn over it; empty: none
-  std::optional<int> looked_fd;          ///< a byte is written there when the first page looks
-  std::string url_file;                  ///< the page's URL is written there; empty: nowhere
+  std::string listen = "127.0.0.1";  ///< address, optionally with :PORT; ignored if TERN_LISTEN_FD passes a socket
+  std::string page;                  ///< folder of the built page; empty: default_page_folder()
+  std::vector<std::string>
+      allow_hosts;               ///< host names, in addition to loopback, by which browsers may address the bridge
+  bool allow_goals = false;      ///< pages may send goals
+  std::string log;               ///< log to play; empty: live
+  std::string export_to;         ///< file for --export; empty: none
+  std::string video_to;          ///< file for --video; empty: none
+  FilmForm film;                 ///< of video_to
+  std::string ghost;             ///< another log to draw over it; empty: none
+  std::optional<int> looked_fd;  ///< the bridge writes a byte there when the first page connects
+  std::string url_file;          ///< the bridge writes the page's URL there; empty: nowhere
 };
 
-/// Posts each topic to the board no more often than it is looked at, and nothing while nobody looks. Never waits for a
-/// browser.
+/// Posts topics to the board while a page is connected, each at most at its own rate. It never waits for a browser.
 class ViewerNode final : public Node {
  public:
-  /// @throws ConfigError when it cannot listen, or the log or page cannot be read.
+  /// @throws ConfigError if listening fails, or reading the log or the page
   ViewerNode(Bus& bus, const Scenario& scenario, ViewerOptions options);
   ~ViewerNode() override;
 
@@ -67,14 +68,14 @@ class ViewerNode final : public Node {
   Bus& bus_;
   Scenario scenario_;
   ViewerOptions options_;
-  Scene::Memory memory_;  ///< live
+  Scene::Memory memory_;  ///< of a live flight
   Scene scene_;
   SceneIntake intake_;
   std::optional<LogPlayer> player_, ghost_;
   std::optional<UTime> jump_to_;
   Board board_;
   std::string url_;
-  std::unique_ptr<WebServer> server_;  ///< after the board that it reads
+  std::unique_ptr<WebServer> server_;  ///< declared after board_, which it reads
   Subscriptions subscriptions_;
   std::bitset<kTopics> posted_once_;
   PageGoal page_goal_;

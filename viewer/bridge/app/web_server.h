@@ -1,4 +1,4 @@
-// Serves the page and streams the board to every browser. The only place that knows HTTP and WebSocket (Boost.Beast).
+// Serves the page and streams the board to every browser. All HTTP and WebSocket code (Boost.Beast) is here.
 #pragma once
 
 #include <cstdint>
@@ -12,47 +12,49 @@
 
 namespace tern {
 
-/// Beyond these, browsers are refused (503) and connections closed.
+/// Limits of concurrent streams and connections. A further stream gets 503; a further connection is closed.
 inline constexpr int kMaxStreams = 16;
 inline constexpr int kMaxConnections = 64;
-/// A page tells which frame it has drawn, {"seen": n}. It gets no more than this many ahead, so that nothing piles up
-/// in any buffer. What comes meanwhile waits on the board, where only the newest counts.
+/// Most frames sent but not yet drawn. A page acknowledges a drawn frame with {"seen": n}, so no buffer fills up. In
+/// the meantime new texts replace older ones on the board.
 inline constexpr int kFramesAhead = 2;
-/// What a page may say at once, bytes, and how many of its commands wait to be read.
+/// Limits of one command, bytes, and of commands that wait to be read.
 inline constexpr std::size_t kMaxCommandBytes = 4096;
 inline constexpr std::size_t kMaxCommands = 64;
 
-/// What a page said.
+/// A command as a page sent it.
 struct ClientCommand {
   std::int64_t client = 0;
   std::string text;
 };
 
+/// Counts since the start.
 struct WebCounters {
-  std::int64_t frames = 0;            ///< sent
-  std::int64_t dropped = 0;           ///< texts that some page was too slow for
-  std::int64_t refused = 0;           ///< requests: a foreign Host or Origin, an unknown path or method, too many
-  std::int64_t commands_dropped = 0;  ///< a page talked faster than it is listened to
+  std::int64_t frames = 0;   ///< sent
+  std::int64_t dropped = 0;  ///< texts that a slow page missed
+  std::int64_t refused =
+      0;  ///< requests with a foreign Host or Origin or an unknown path or method, or beyond kMaxStreams
+  std::int64_t commands_dropped = 0;  ///< commands beyond kMaxCommands
 };
 
-/// Runs in a thread of its own; every function may be called from any thread, and none waits for a browser.
+/// Runs a thread of its own. Every function may be called from any thread; none waits for a browser.
 class WebServer {
  public:
-  /// @param listening_fd  a listening TCP socket; taken over
-  /// @param board  outlives this
-  /// @throws std::system_error when the socket cannot be used.
+  /// @param listening_fd  a listening TCP socket; the server closes it
+  /// @param board  outlives the server
+  /// @throws std::system_error if the socket cannot be used
   WebServer(int listening_fd, PageFiles files, Access access, const Board& board);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
-  /// The board has news.
+  /// Tells the server that the board has new texts.
   void wake();
-  /// To one page, a JSON text besides the frames; at most kMaxCommands wait, then the oldest goes.
+  /// Sends a JSON text to one page, outside the frames. At most kMaxCommands wait; then the oldest is dropped.
   void reply(std::int64_t client, std::string json);
-  /// What pages have said since the last call, in order.
+  /// Returns the commands received since the last call, in order.
   std::vector<ClientCommand> take_commands();
-  /// Pages that look, by number: a number is given once.
+  /// Returns the numbers of the connected pages. A number is never used twice.
   [[nodiscard]] std::vector<std::int64_t> clients() const;
   [[nodiscard]] WebCounters counters() const;
 
