@@ -10,7 +10,7 @@ CHECK = Path(__file__).with_name("docs_commands.py")
 
 SOUND = """A page with `fly.sh --audit --report` and `FILE:LINE: KEY`.
 
-    launch_scripts/fly.sh --scenario passers --set planner.search.samples_xy=7 --pace=0.5    # --not-an-option
+    launch_scripts/fly.sh --scenario corridor_demo --set planner.search.samples_xy=7 --pace=0.5    # --not-an-option
     export LCM_DEFAULT_URL='udpm://239.255.76.67:7800?ttl=0'; TERN_PACE=1 build/release/bin/tern-key new FILE
     for p in planner predictor; do launch_scripts/$p.sh --config scenarios/corridor_demo.yaml & done
     launch_scripts/planner.sh --config scenarios/corridor_demo.yaml \\
