@@ -1,7 +1,7 @@
-// Signs what leaves, and checks what comes in, before anything is decoded: bytes in, bytes out.
+// Signs outgoing messages and verifies incoming ones before they are decoded: bytes in, bytes out.
 //
-// A tag binds a message to its channel, role, sender, number and time (messages/trailer.h, runtime/mac.h). It is
-// checked first; then the message must be new. Whose message is refused has changed nothing here.
+// A tag binds a message to its channel, role, sender, sequence number and time (messages/trailer.h, runtime/mac.h). The
+// tag is checked first, then whether the message is new. A refused message changes no state here.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,19 @@
 
 namespace tern {
 
-/// With keys nothing is accepted that was on its way for longer, by the sender's clock and the time at which the kernel
-/// took it. Any network is faster; a receiver that starts anew, and so remembers nothing, can be shown no older
-/// message.
+/// Largest age of a signed message: from its sending (the sender's clock) to its arrival at the kernel (the listener's
+/// clock). Every network is faster. A receiver that restarts remembers no sequence numbers; the limit protects it from
+/// recorded messages.
 inline constexpr Duration kMaxTransit{2'000'000};
 
-/// Which numbers of one sender have come: the highest, and the 64 up to it. So messages may overtake each other by 63
-/// places and still count once each. SequenceWindow is no substitute: it forgets a number that no next one confirmed,
-/// which is right against noise and wrong against replay. Here each number is true, since its tag was.
+/// The sequence numbers of one sender that have arrived: the highest, and which of the 63 below it. A message that is
+/// overtaken by up to 63 others is still accepted, and every message is accepted once.
+///
+/// SequenceWindow is no substitute: it forgets a number that is not confirmed by the next one. That protects against
+/// noise. Here every number has a valid tag, and forgetting would allow replay.
 class ReplayWindow {
  public:
-  /// @return whether the number is new: higher than all, or within the window and not yet seen. Then it is seen.
+  /// Marks the number as seen. @return whether it was new: above the highest, or within the window and not seen.
   /// @pre sequence > 0
   bool admit(std::int64_t sequence);
 
@@ -37,21 +39,25 @@ class ReplayWindow {
   std::uint64_t seen_ = 0;  ///< bit k: highest_ − k
 };
 
-/// What has come on one channel, by role and epoch of the sender.
+/// The sequence numbers that arrived on one channel, by the sender's role and epoch.
 using ReplayGuard = RecentSenders<std::pair<Role, std::int64_t>, ReplayWindow>;
 
+/// A message whose tag is valid.
 struct VerifiedMessage {
   std::span<const std::uint8_t> message;  ///< without its trailer
   Role role;
 };
 
-/// Appends the trailer with its tag. @param channel  without suffix  @param wire_name  with it
-/// @throws std::invalid_argument when the ring has no key for it.
+/// Appends the trailer with its tag.
+/// @param channel  without suffix  @param wire_name  with it
+/// @throws std::invalid_argument if the ring has no key for the channel.
 void sign(Bytes& message, const KeyRing& keys, std::string_view channel, std::string_view wire_name,
           const Header& header);
 
-/// Unauthenticated: no trailer, another role's channel, no key of that role, another tag. Repeated: kMaxTransit,
-/// or not new by `guard`. @param received  when the kernel took it
+/// Checks a message that carries a trailer.
+/// @param received  when the kernel took it, the listener's clock
+/// @return Unauthenticated for a missing trailer, another role's channel, a role whose key is missing, or a wrong tag.
+///   Repeated for a message older than kMaxTransit, or one that `guard` has seen.
 tl::expected<VerifiedMessage, Rejection> verify(std::span<const std::uint8_t> bytes, const KeyRing& keys,
                                                 ReplayGuard& guard, std::string_view channel,
                                                 std::string_view wire_name, UTime received);

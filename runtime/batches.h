@@ -1,4 +1,4 @@
-// Collects the batches of a set; only complete sets are handed on.
+// Collects the batches of a set and hands on complete sets only.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +14,21 @@
 
 namespace tern {
 
-/// Collects batches of T (with members `header` and `batch`), of each sender by itself (whom to listen to is the bus's
-/// matter: SenderWatch). A newer set of a sender replaces an unfinished one, which is counted in incomplete().
+/// Collects batches of T (with members `header` and `batch`), separately for each sender. The bus decides which sender
+/// is accepted (SenderWatch).
 ///
-/// Newer is what was sent later (header.utime, then the sequence number), not what has a larger set number. So a false
-/// set number mutes no later set.
+/// A newer set of a sender replaces its unfinished one, which is then counted in incomplete(). Sets are ordered by the
+/// time of sending (header.utime, then the sequence number). A wrong set number therefore blocks no later set.
 template <class T>
 class BatchCollector {
  public:
-  /// Senders whose sets are collected; the one not heard longest is forgotten first.
+  /// Number of senders whose sets are collected. The sender that has been silent longest is forgotten first.
   static constexpr std::size_t kMaxSenders = 4;
 
-  /// @return the batches of the set in index order when `message` completed it. Batches that were sent before the set
-  /// at hand began are dropped, and so are those that contradict its count. Out-of-order arrival within a set is fine;
-  /// a repeated batch changes nothing.
+  /// @return the batches of the set in index order, if `message` completes it; else nullopt.
+  ///
+  /// Batches of one set may arrive in any order; a repeated batch changes nothing. A batch is dropped if it was sent
+  /// before the current set began, or if its count contradicts that set's.
   std::optional<std::vector<T>> add(const T& message) {
     Unfinished& set = of(message.header.name.sender_epoch_us);
     const std::pair sent{message.header.utime, message.header.name.sequence};
@@ -54,7 +55,7 @@ class BatchCollector {
  private:
   struct Unfinished {
     std::int64_t number = 0;                            ///< 0: none yet
-    std::pair<UTime, std::int64_t> newest{UTime{}, 0};  ///< of its batches: when sent, sequence
+    std::pair<UTime, std::int64_t> newest{UTime{}, 0};  ///< time and sequence number of the newest batch
     std::vector<std::optional<T>> parts;
     int missing = 0;
     std::int64_t heard = 0;

@@ -1,4 +1,4 @@
-// Child processes that do not outlive their parent.
+// Child processes that end with their parent.
 #pragma once
 
 #include <sys/types.h>
@@ -11,31 +11,33 @@
 
 namespace tern {
 
+/// How to start a program.
 struct ChildProcess {
-  std::vector<std::string> command;  ///< a program, looked up in PATH if its name has no slash, and its arguments
+  std::vector<std::string> command;  ///< program (looked up in PATH if its name has no slash) and arguments
   int out = STDOUT_FILENO;           ///< the descriptor that becomes its standard output
   int error = STDERR_FILENO;         ///< the descriptor that becomes its standard error
-  std::vector<int> inherited = {};   ///< close-on-exec descriptors that it gets nevertheless
-  bool own_group = false;            ///< leads a process group, so that a terminal's Ctrl-C does not reach it
-  std::optional<std::uint64_t> cpu_limit_s = {};         ///< more CPU time ends it by SIGXCPU
-  std::optional<std::uint64_t> memory_limit_bytes = {};  ///< of address space
+  std::vector<int> inherited = {};   ///< close-on-exec descriptors that the child keeps
+  bool own_group = false;            ///< starts a process group of its own: a terminal's Ctrl-C does not reach it
+  std::optional<std::uint64_t> cpu_limit_s = {};         ///< CPU time after which SIGXCPU ends it
+  std::optional<std::uint64_t> memory_limit_bytes = {};  ///< limit of its address space
 };
 
 /// How a process ended.
 struct ProcessEnd {
   int exit_code = 0;  ///< valid if signal is 0
-  int signal = 0;     ///< the one that ended it, or 0
+  int signal = 0;     ///< signal that ended it, or 0
 };
 
-/// Starts a program with empty standard input and no signal blocked. The kernel kills it when the parent dies, however
-/// that comes. What cannot be executed ends with exit code 127, or 126 if it is there; its standard error says so.
+/// Starts a program with empty standard input and no signal blocked. The kernel kills it when the parent dies for any
+/// reason. A child that cannot execute the program reports why on its standard error. Its exit code is then 127 if the
+/// program does not exist, else 126.
 /// @pre the caller has one thread  @return its process id  @throws std::runtime_error if no process can be made
 pid_t start_child(const ChildProcess& child);
 
 /// Opens a file for appending, close-on-exec. @return its descriptor  @throws std::runtime_error that names the file
 int open_log(const std::string& path);
 
-/// Waits until a child has ended. @pre nobody else has waited for it
+/// Waits until a child has ended. @pre it has not been waited for
 ProcessEnd await_child(pid_t pid);
 
 /// @return how a child ended, or nullopt if it still runs.

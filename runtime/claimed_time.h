@@ -1,4 +1,4 @@
-// The newest time that a message claims has been: what nobody can know yet is refused (SenderWatch).
+// The newest time that a message claims to know of. SenderWatch refuses messages that claim times in the future.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 
 namespace tern {
 
-/// A request is for at most this much later than it was made: the executor's own limit.
+/// Largest time from the making of a request to its start, t_s: the executor's own limit.
 inline constexpr Duration kMaxLead{5'000'000};
 
-/// When it was sent, and before that when its sender started.
+/// The later of the time of sending and the sender's start.
 inline UTime claimed_time(const Header& header) { return std::max(header.utime, UTime{header.name.sender_epoch_us}); }
 
 template <class T>
@@ -29,10 +29,10 @@ inline UTime claimed_time(const ObstacleTruth& m) { return std::max(claimed_time
 inline UTime claimed_time(const UavState& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const VehicleStatus& m) { return std::max(claimed_time(m.header), m.at); }
 inline UTime claimed_time(const HorizonRequest& m) { return std::max(claimed_time(m.header), m.t_s - kMaxLead); }
-/// An id counts from 1, or is the time when the goal was set: then a later one is always larger.
+/// A goal's id counts from 1, or is the time at which the goal was set, so that later goals have larger ids.
 inline UTime claimed_time(const Goal& m) { return std::max(claimed_time(m.header), UTime{m.id}); }
-/// Its time is there to be compared (ClockSkew), and says nothing of the world: a clock that is far ahead shall be
-/// named, not unheard.
+/// Heartbeats and configurations claim no time, so they are accepted whatever their clock shows. Clocks are compared by
+/// heartbeats (ClockSkew), and a clock that is far ahead should be reported.
 inline UTime claimed_time(const Heartbeat&) { return {}; }
 inline UTime claimed_time(const ConfigurationReport&) { return {}; }
 

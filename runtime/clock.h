@@ -1,4 +1,4 @@
-// The only clocks in Tern. Libraries get times as arguments.
+// The only clocks in Tern. Libraries receive times as arguments.
 #pragma once
 
 #include <cstdint>
@@ -7,24 +7,29 @@
 
 namespace tern {
 
+/// A clock that never goes back.
 class Clock {
  public:
   virtual ~Clock() = default;
-  /// Never goes back.
   [[nodiscard]] virtual UTime now() const = 0;
-  /// What this clock showed when the system's real-time clock showed `unix_us`, µs since the Unix epoch, lately: not
-  /// before that was set last. A clock that has nothing to do with the system's says now().
+  /// This clock's time at the moment when the system's real-time clock showed `unix_us`, µs since the Unix epoch. A
+  /// clock that is unrelated to the system's returns now().
+  /// @pre the system's clock has not been set since then
   [[nodiscard]] virtual UTime at_system_time(std::int64_t /*unix_us*/) const { return now(); }
-  /// How far the system's real-time clock has been set forward (negative: back) since this clock was made.
+  /// How far the system's real-time clock was set forward (negative: back) since this clock was made.
   [[nodiscard]] virtual Duration drift() const { return {}; }
-  /// How long this clock takes for `span` by the system's.
+  /// The system's time that passes while this clock advances by `span`.
   [[nodiscard]] virtual Duration in_system_time(Duration span) const { return span; }
 };
 
-/// The system's real-time clock when this was made, and from there on its steady one. What slews the one (chrony, PTP)
-/// slews the other, but setting the system's clock does not set this. Plus a fixed offset (`--clock-offset-us`, so that
-/// skew can be tested). At a pace below 1 (`--pace`) it goes slower by that factor since kPaceOriginUs. All clocks of
-/// one pace agree, and a flight has more of the machine for each of its seconds. Thread-safe.
+/// The system's real-time clock at construction, continued by the steady clock. Setting the system's clock does not
+/// move it; slewing (chrony, PTP) affects it like the system's clock.
+///
+/// @param offset  is added (`--clock-offset-us`), so that clock skew can be tested.
+/// @param pace  below 1 slows the clock by that factor since kPaceOriginUs (`--pace`). All clocks of one pace agree,
+///   and each second of flight has more computing time.
+///
+/// Thread-safe.
 class WallClock final : public Clock {
  public:
   /// 2026-01-01 00:00 UTC, µs since the Unix epoch.
@@ -32,7 +37,7 @@ class WallClock final : public Clock {
 
   /// @pre 0 < pace ≤ 1
   explicit WallClock(Duration offset = {}, double pace = 1.0);
-  /// What the system's clock showed, µs since the Unix epoch, when one of this pace without an offset showed `t`.
+  /// The system's time, µs since the Unix epoch, at which a clock of this pace without offset shows `t`.
   static std::int64_t system_time_us(UTime t, double pace);
   [[nodiscard]] UTime now() const override;
   [[nodiscard]] UTime at_system_time(std::int64_t unix_us) const override;
@@ -40,15 +45,15 @@ class WallClock final : public Clock {
   [[nodiscard]] Duration in_system_time(Duration span) const override;
 
  private:
-  /// What this shows when the system's steady clock plus ahead_ns_ shows `unix_us`.
+  /// The time shown when the system's steady clock plus ahead_ns_ shows `unix_us`.
   [[nodiscard]] UTime at(std::int64_t unix_us) const;
 
   Duration offset_;
   double pace_;
-  std::int64_t ahead_ns_;  ///< the system's clock, of the steady one, when this was made
+  std::int64_t ahead_ns_;  ///< real-time minus steady clock at construction, ns
 };
 
-/// Time that moves only when told to: tests and campaigns.
+/// A clock that is moved by its owner: tests and campaigns.
 class VirtualClock final : public Clock {
  public:
   explicit VirtualClock(UTime start) : now_(start) {}
@@ -60,8 +65,8 @@ class VirtualClock final : public Clock {
   UTime now_;
 };
 
-/// A time from which only the calling thread's CPU time counts on, whoever else uses the machine.
-/// @pre now() is called by the thread that made it
+/// A clock that advances with the CPU time of the thread that made it, independent of the machine's load.
+/// @pre now() is called by that thread
 class ThreadCpuClock final : public Clock {
  public:
   explicit ThreadCpuClock(UTime start);

@@ -1,5 +1,5 @@
-// How far another process's clock is from this one's, and how long messages take between them. Heartbeats that echo
-// what they heard tell it (RFC 5905, the Network Time Protocol, section 8).
+// Estimates the difference between the clocks of two processes, and the round trip between them. Heartbeats carry
+// echoes of received heartbeats for it (RFC 5905, the Network Time Protocol, section 8).
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@
 
 namespace tern {
 
-/// The other's side of the exchange: remembers the newest heartbeat of each process, to be told back. Pure.
+/// The responding side of the exchange: remembers the newest heartbeat of each process, to be echoed. Pure.
 class ClockEchoes {
  public:
-  /// What is older is not told back: its sender is gone, or the clocks have drifted since.
+  /// Older heartbeats are not echoed: the sender is gone, or the clocks may have drifted.
   static constexpr Duration kOldest{2'500'000};
 
-  /// @param received  the listener's clock   @return whether this process was not known, or not heard for kOldest
+  /// @param received  the listener's clock   @return whether the process is new, or was silent for kOldest
   bool receive(const Header& header, UTime received) {
     const std::int64_t epoch_us = header.name.sender_epoch_us;
     forget_before(received - kOldest);
@@ -50,25 +50,29 @@ class ClockEchoes {
   std::map<std::int64_t, ClockEcho> heard_;
 };
 
-/// What exchanges said of another's clock.
+/// The result of one exchange.
 struct ClockReading {
-  Duration ahead;       ///< of the listener's; negative: behind. Off by half the round trip at most
-  Duration round_trip;  ///< both ways together, without the time between hearing and answering, ≥ 0
+  Duration ahead;       ///< of the listener's clock; negative: behind; error ≤ round_trip / 2
+  Duration round_trip;  ///< both ways, without the responder's waiting time, ≥ 0
 };
 
-/// One sender's clock against the listener's. Pure.
+/// The difference between one sender's clock and the listener's. Pure.
 ///
-/// In an exchange the listener sends a heartbeat at T1, which the other receives at T2. The other echoes it at T3,
-/// which comes at T4. T1 and T4 are by the listener's clock, T2 and T3 by the other's. Then the other is ahead by ((T2
-/// − T1) + (T3 − T4)) / 2, off by at most half the round trip (T4 − T1) − (T3 − T2). A delay that is the same both ways
-/// moves nothing. Of the newest kWindow exchanges the one of the shortest round trip counts (section 10, the clock
-/// filter). A clock that is set while the sender runs is believed after kWindow exchanges at most.
+/// In an exchange the listener sends a heartbeat at T1, and the other process receives it at T2. The other echoes it at
+/// T3, and the echo arrives at T4. The listener's clock gives T1 and T4, the other's T2 and T3.
+///
+///     ahead      = ((T2 − T1) + (T3 − T4)) / 2
+///     round trip = (T4 − T1) − (T3 − T2),  |error of ahead| ≤ round trip / 2
+///
+/// A delay that is equal in both directions cancels. Of the newest kWindow exchanges, reading() uses the one with the
+/// shortest round trip (RFC 5905 section 10, the clock filter). After a sender's clock was set, the reading follows
+/// within kWindow exchanges.
 class ClockSkew {
  public:
   static constexpr std::size_t kWindow = 6;  ///< three seconds of heartbeats
 
-  /// What came before it was sent (a clock was set, or the sender lies) is left out.
-  /// @param echo  of a heartbeat of the listener
+  /// Adds an exchange. It is ignored if its round trip is negative: a clock was set, or the sender's times are wrong.
+  /// @param echo  of a heartbeat of the listener: T1 (sent), T2 (received)
   /// @param sent  T3
   /// @param received  T4
   void add(const ClockEcho& echo, UTime sent, UTime received) {

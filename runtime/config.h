@@ -1,4 +1,5 @@
-// Strict configuration: an unknown key, a wrong type or a value out of range names file, line, key, value and limit.
+// Strict configuration: an unknown key, a wrong type or a value out of range is refused with file, line, key, value and
+// limit.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +19,28 @@
 
 namespace tern {
 
-/// what() is for the user: "scenarios/x.yaml:12: uav.limits.v_max: -3 is out of range (0, 1000]". For a value of the
-/// command line it is "--set uav.limits.v_max=-3: uav.limits.v_max: -3 is out of range (0, 1000]".
+/// A refused configuration. Its text is written for the user, as in "scenarios/x.yaml:12: uav.limits.v_max: -3 is out
+/// of range (0, 1000]". For a value of the command line it begins "--set uav.limits.v_max=-3: ".
 class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What was asked for. @throws ConfigError for an Error: its text, after `before`.
+/// Returns the result's value. @throws ConfigError with `before` and the error's text if there is none.
 template <class T>
 T value_or_throw(Result<T> result, const std::string& before = "") {
   if (!result) throw ConfigError(before + result.error().message);
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// One mapping of a YAML file. Every read names its default, so that the effective configuration can be written out
-/// whole. All methods throw ConfigError. Call finish() when all keys are read: it refuses the unknown ones. Copies, and
-/// sections got twice by the same key, are the same section.
+/// One mapping of a YAML file. Each read states its default, so the effective configuration can be written out. All
+/// methods throw ConfigError. After reading all keys call finish(), which refuses the unread ones. Copies of a section,
+/// and sections obtained twice with one key, are the same section.
 ///
-/// Types are strict. A number is a plain scalar like 3, -0.5, 1e-3 or inf, an integer has no point, a flag is true or
-/// false. A quoted scalar is text only. A key without a value is an error, except for an empty section or list.
+/// Types are strict:
+/// - A number is a plain scalar such as 3, -0.5, 1e-3 or inf. An integer has no decimal point.
+/// - A flag is true or false.
+/// - A quoted scalar is text only.
+/// - A key without a value is an error, except for an empty section or list.
 class ConfigSection {
  public:
   double number(std::string_view key, double fallback, Range range = {}, std::string_view meaning = {});
@@ -44,7 +48,7 @@ class ConfigSection {
                        std::string_view meaning = {});
   bool flag(std::string_view key, bool fallback, std::string_view meaning = {});
   std::string text(std::string_view key, const std::string& fallback, std::string_view meaning = {});
-  /// One of the words.
+  /// One of `words`.
   std::string choice(std::string_view key, const std::string& fallback, const std::vector<std::string>& words,
                      std::string_view meaning = {});
   Vec3 vec3(std::string_view key, const Vec3& fallback, Range each = {}, std::string_view meaning = {});
@@ -52,9 +56,9 @@ class ConfigSection {
   Vec3 vec3_or_number(std::string_view key, const Vec3& fallback, Range each = {});
   std::vector<double> numbers(std::string_view key, const std::vector<double>& fallback, Range each = {},
                               std::string_view meaning = {});
-  /// Rows of `columns` numbers each, [[1, 2], [3, 4]]; absent is empty.
+  /// Rows of `columns` numbers each, as [[1, 2], [3, 4]]; empty if the key is absent.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns, Range each = {});
-  /// Reads every knob of a struct (core/base/knobs.h) and finishes.
+  /// Reads every knob of a struct (core/base/knobs.h), then finishes.
   template <typename Config>
   void read(Config& config);
   /// The same, of a struct that is as its constructor makes it.
@@ -64,23 +68,23 @@ class ConfigSection {
     read(config);
     return config;
   }
-  /// Whether the key is given; marks it as known.
+  /// Whether the key is given. Marks it as known.
   [[nodiscard]] bool has(std::string_view key);
   double required_number(std::string_view key, Range range = {});
   std::string required_text(std::string_view key, std::string_view meaning = {});
   Vec3 required_vec3(std::string_view key, Range each = {}, std::string_view meaning = {});
-  ConfigSection section(std::string_view key);            ///< an absent mapping is an empty one
-  std::vector<ConfigSection> list(std::string_view key);  ///< of mappings; absent is empty
+  ConfigSection section(std::string_view key);            ///< an absent mapping is read as an empty one
+  std::vector<ConfigSection> list(std::string_view key);  ///< list of mappings; empty if absent
   std::vector<std::string> keys() const;                  ///< in file order (for open tables such as classes)
   /// Marks a key as known without reading it (another process's section).
   void ignore(std::string_view key);
   /// @throws ConfigError at the first key that was neither read nor ignored; it lists the known ones.
   void finish() const;
-  /// A ConfigError that names this section's key, for rules between fields. Those come after finish(), so that a
-  /// misspelt key is called unknown and its default is not blamed.
+  /// A ConfigError that names this section's key, for rules between fields. Check such rules after finish(): a misspelt
+  /// key is then reported as unknown before its default is blamed.
   [[nodiscard]] ConfigError error(std::string_view key, const std::string& what) const;
 
-  /// Made by ConfigDocument only: a default-constructed section may not be used.
+  /// Made by ConfigDocument only; a default-constructed section may not be used.
   struct Impl;
   explicit ConfigSection(std::shared_ptr<Impl> impl = nullptr) : impl_(std::move(impl)) {}
 
@@ -88,20 +92,20 @@ class ConfigSection {
   std::shared_ptr<Impl> impl_;
 };
 
-/// A YAML file with `--set key.path=value` overrides applied.
 class ConfigDocument {
  public:
-  /// An override's path may name an entry of a list as in `world.obstacles[2].centre`; what is missing of the path is
-  /// made; its value is YAML. Overrides are applied in their order. An empty file name is an empty document.
-  /// @throws ConfigError: no such file, one that parse_yaml refuses, an override that is not key=value.
+  /// Reads a file and applies the overrides in their order. An empty file name is an empty document. The path of an
+  /// override may name an entry of a list, as `world.obstacles[2].centre`. Missing parts of the path are created. The
+  /// value is YAML.
+  /// @throws ConfigError for a missing file, text that parse_yaml refuses, or an override without "key=value".
   static ConfigDocument load(const std::string& file, const std::vector<std::string>& overrides);
-  /// The same for YAML in memory; `name` stands where the file's name would.
+  /// The same for YAML in memory; `name` is used in messages in place of the file's name.
   static ConfigDocument parse(const std::string& yaml, const std::string& name,
                               const std::vector<std::string>& overrides = {});
   ConfigSection root();
-  /// All values that were read, defaults included, as YAML, in the order of reading: published on CONFIGURATION.
+  /// All values read so far, defaults included, as YAML in the order of reading. It is published on CONFIGURATION.
   [[nodiscard]] std::string effective() const;
-  /// All keys that were read, in the order of reading; of a list those of its first entry.
+  /// All keys read so far, in the order of reading; of a list the keys of its first entry.
   [[nodiscard]] std::vector<Knob> knobs() const;
   [[nodiscard]] const std::string& file() const;
 
@@ -110,7 +114,7 @@ class ConfigDocument {
   std::shared_ptr<Impl> impl_;
 };
 
-/// What a struct's visit() calls: reads each knob, whose default is the member's value.
+/// The visitor for a struct's visit(): reads each knob; the member's value is the default.
 class KnobReader {
  public:
   explicit KnobReader(ConfigSection section) : section_(std::move(section)) {}
@@ -121,7 +125,8 @@ class KnobReader {
     value = static_cast<int>(section_.integer(key, value, static_cast<std::int64_t>(range.low),
                                               static_cast<std::int64_t>(range.high), meaning));
   }
-  /// In seconds. Divided, not multiplied as by seconds(): the shortest decimal is that of the whole microseconds.
+  /// In seconds. Divides by 10⁶ instead of multiplying as seconds() does, so that the default prints as the shortest
+  /// decimal of the whole microseconds.
   void operator()(std::string_view key, Duration& value, Range range, std::string_view meaning) {
     const double seconds = static_cast<double>(value.us) / 1e6;
     value = Duration::from_seconds(section_.number(key, seconds, range, meaning));

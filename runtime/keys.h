@@ -1,8 +1,9 @@
-// The keys that a process holds: those of the channels that it says or hears, no others.
+// The keys that a process holds: those of the channels that it publishes or receives.
 //
-// All are derived from one master key of a flight, or of a fleet of hosts. Each channel that is one role's has a key,
-// under the label "tern key 1 PLAN". For all other channels each role has one, "tern key 1 planner". A MAC's key signs
-// as well as it verifies, so who hears a channel could sign on it; who does not, cannot (docs/security.md).
+// All keys are derived from one master key of a flight, or of a fleet of hosts. A channel that belongs to one role has
+// a key of its own, under the label "tern key 1 PLAN". For the other channels each role has a key, "tern key 1
+// planner". The key of a MAC both signs and verifies. So a receiver of a channel could also sign on it
+// (docs/security.md).
 #pragma once
 
 #include <map>
@@ -15,46 +16,47 @@
 
 namespace tern {
 
-/// Keys by channel, and the role in which their holder speaks. A value; copies are wiped as keys are.
+/// Keys by channel, and the role of their holder. A value; the keys of copies are wiped as well.
 class KeyRing {
  public:
-  /// The ring of one of Tern's processes (roles.h); of a process of another name: all keys, as Observer.
+  /// The ring of one of Tern's processes (roles.h). A process of another name gets all keys, in the role Observer.
   static KeyRing derive(const Key& master, std::string_view process);
-  /// Reads what to_text() wrote. Or derives `process`'s ring from a master key: 32 bytes, or 64 hexadecimal digits and
-  /// an end of line.
-  /// @return an Error that says what is wrong, and nothing of the contents.
+  /// Reads the text that to_text() wrote. Or derives `process`'s ring from a master key: 32 bytes, or 64 hexadecimal
+  /// digits and an optional end of line.
+  /// @return an Error that describes the problem without quoting the contents.
   static Result<KeyRing> parse(std::string_view text, std::string_view process);
 
-  /// As lines of text: "tern keys 1", the role, and per key its name and 64 hexadecimal digits.
+  /// Lines of text: "tern keys 1", the role, then for each key its name and 64 hexadecimal digits.
   [[nodiscard]] std::string to_text() const;
 
   [[nodiscard]] Role role() const { return role_; }
-  /// The role in which the holder speaks on a channel: the channel's, or its own.
+  /// The role in which the holder publishes on a channel: the channel's owner, or its own role.
   [[nodiscard]] Role role_on(std::string_view channel) const { return role_of(channel).value_or(role_); }
-  /// The key of messages on `channel` by `role`; nullptr when the ring has none, or the channel is another role's.
+  /// The key for messages of `role` on `channel`; nullptr if the ring has none, or if the channel belongs to another
+  /// role.
   /// @param channel  without a vehicle's suffix
   [[nodiscard]] const Key* find(std::string_view channel, Role role) const;
 
  private:
   explicit KeyRing(Role role) : role_(role) {}
   Role role_;
-  std::map<std::string, Key, std::less<>> keys_;  ///< by channel, or by role's name
+  std::map<std::string, Key, std::less<>> keys_;  ///< by channel, or by a role's name
 };
 
-/// A file with a master key, or a ring for `process`.
-/// @return an Error that names the path and what is wrong: unreadable, no regular file, readable by others (mode &
-/// 077), no key in it.
+/// Reads a file with a master key, or with a ring for `process`.
+/// @return an Error that names the path and the problem: unreadable, no regular file, readable by others (mode & 077),
+///   or no key in it.
 Result<KeyRing> read_key_file(const std::string& path, std::string_view process);
 
-/// The same of an open file without a name (memfd, an unlinked file), from its beginning, wherever its offset is;
-/// closes it. A pipe is refused: a process that is started again would find it empty.
+/// Reads the same from an open file without a name (memfd, an unlinked file), from its beginning, and closes it. A pipe
+/// is refused: a restarted process would find it empty.
 Result<KeyRing> read_key_fd(int fd, std::string_view process);
 
-/// Writes a ring into a sealed file in memory without a name, for read_key_fd of a program that inherits it. @return
-/// its descriptor, close-on-exec.
+/// Writes a ring into a sealed, nameless file in memory, for read_key_fd of a program that inherits it.
+/// @return its descriptor, close-on-exec.
 Result<int> seal_in_memory(const KeyRing& ring);
 
-/// A master key of a file, as above but for rings.
+/// Reads a master key from a file, with the checks of read_key_file. A ring is refused.
 Result<Key> read_master_key(const std::string& path);
 
 /// 64 lower-case hexadecimal digits.

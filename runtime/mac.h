@@ -1,4 +1,4 @@
-// Keyed BLAKE2b (RFC 7693) and SHA-256: the one door to libsodium.
+// Keyed BLAKE2b (RFC 7693) and SHA-256: the only use of libsodium.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ namespace tern {
 
 inline constexpr std::size_t kKeyBytes = 32;
 
-/// A secret. Its memory is overwritten when it ends.
+/// A secret key. Its memory is overwritten by the destructor.
 class Key {
  public:
-  /// @pre kKeyBytes of them
+  /// @pre bytes.size() == kKeyBytes
   explicit Key(std::span<const std::uint8_t> bytes);
   Key(const Key&) = default;
   Key& operator=(const Key&) = default;
@@ -28,25 +28,27 @@ class Key {
   std::array<std::uint8_t, kKeyBytes> bytes_ = {};
 };
 
-/// From the kernel's random numbers. Like all that makes keys and tags: @throws std::runtime_error when libsodium
-/// cannot start.
+/// A key from the kernel's random numbers. This function and all that make keys or tags throw std::runtime_error if
+/// libsodium cannot start.
 Key random_key();
 
-/// BLAKE2b of `label`, 32 bytes, under `master`: who has it can find neither the master nor another label's key.
+/// BLAKE2b of `label`, 32 bytes, keyed with `master`. Its holder can compute neither the master nor the key of another
+/// label.
 Key derive_key(const Key& master, std::string_view label);
 
-/// The tag of a message: BLAKE2b, 16 bytes, under `key`. It covers the channel's name on the wire, after one byte with
-/// its length, and `signed_bytes`, the message with its trailer's head. Time grows with the length, 1 µs per kB.
+/// The tag of a message: BLAKE2b, 16 bytes, keyed with `key`. It covers the length of the channel's name on the wire
+/// (one byte), that name, and `signed_bytes`. The latter is the message with the head of its trailer. Cost: 1 µs per
+/// kB.
 /// @pre wire_name has at most 255 bytes
 Tag make_tag(const Key& key, std::string_view wire_name, std::span<const std::uint8_t> signed_bytes);
 
-/// Whether both are equal, in a time that does not depend on where they differ.
+/// Whether both tags are equal. The time taken does not depend on where they differ.
 bool equal_tags(const Tag& a, const Tag& b);
 
-/// SHA-256 (FIPS 180-4), which MAVLink's signatures ask for.
+/// SHA-256 (FIPS 180-4), which MAVLink's signatures use.
 std::array<std::uint8_t, 32> sha256(std::span<const std::uint8_t> bytes);
 
-/// Overwrites memory that held a secret; never optimized away.
+/// Overwrites memory that held a secret; the compiler cannot remove it.
 void wipe(std::span<std::uint8_t> bytes);
 
 }  // namespace tern

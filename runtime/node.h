@@ -1,5 +1,5 @@
-// A node: a process's life as values and deadlines, so that it runs alone on the wall clock or with all others in
-// virtual time.
+// A node: the behaviour of a process as message handlers and deadlines. It runs alone on the wall clock, or with other
+// nodes in virtual time.
 #pragma once
 
 #include <limits>
@@ -13,22 +13,22 @@ namespace tern {
 
 inline constexpr UTime kNever{std::numeric_limits<std::int64_t>::max()};
 
-/// What a node says of itself on HEARTBEAT.
+/// The state that a node reports on HEARTBEAT.
 struct NodeHealth {
   ProcessState state = ProcessState::Starting;
-  std::string waiting_for;  ///< in words; empty when nothing
+  std::string waiting_for;  ///< in words; may be empty
 };
 
-/// Subscribes on its Bus in its constructor; handlers and step() are called from one thread, never re-entered.
+/// Subscribes on its Bus in its constructor. Handlers and step() are called from one thread and never re-entered.
 class Node {
  public:
   virtual ~Node() = default;
-  /// When step() wants to be called next; kNever when only a message can change anything.
+  /// When step() should be called next; kNever if the node only reacts to messages.
   [[nodiscard]] virtual UTime next_wakeup() const = 0;
-  /// Called when next_wakeup() has come, and after each batch of messages. now never goes back.
+  /// Called when next_wakeup() has come, and after each batch of messages. `now` never goes back.
   virtual void step(UTime now) = 0;
   [[nodiscard]] virtual NodeHealth health() const = 0;
-  /// An exit code when the node has done its work.
+  /// The exit code, once the node has finished its work.
   [[nodiscard]] virtual std::optional<int> finished() const { return std::nullopt; }
 };
 

@@ -1,4 +1,4 @@
-// Who may speak on which channel, and who hears it: by the table of channels.
+// The role that owns each channel, and the channels that each process publishes or receives (messages/channels.h).
 #pragma once
 
 #include <optional>
@@ -17,20 +17,19 @@ const char* to_string(Role role);
 /// @return the role of that name, or nullopt if there is none.
 std::optional<Role> role_named(std::string_view name);
 
-/// Whose channel it is; nothing for HEARTBEAT, CONFIGURATION and channels that are not Tern's: on these each role
-/// speaks for itself.
+/// The role that owns a channel. Nullopt for HEARTBEAT, CONFIGURATION and channels that are not Tern's: on these each
+/// role publishes with its own key.
 /// @param channel  without a vehicle's suffix
 std::optional<Role> role_of(std::string_view channel);
 
-/// The role of one of Tern's processes ("tern-planner"); nothing for other names.
+/// The role of one of Tern's processes ("tern-planner"); nullopt for other names.
 std::optional<Role> role_of_process(std::string_view process);
 
-/// What one of Tern's processes takes part in, besides HEARTBEAT and CONFIGURATION, which all say and hear (clocks are
-/// compared by heartbeats).
+/// One of Tern's processes. All of them also publish and receive HEARTBEAT and CONFIGURATION.
 struct ProcessRole {
   std::string_view process;
   Role role;
-  std::vector<std::string_view> channels;  ///< that it says or hears and that are one role's
+  std::vector<std::string_view> channels;  ///< channels owned by one role that it publishes or receives
 };
 
 /// All of Tern's processes.

@@ -1,4 +1,4 @@
-// Who is heard on a channel: one sender at a time, each message once, nothing from the future.
+// Decides which messages of a channel are accepted: one sender at a time, each message once, none from the future.
 #pragma once
 
 #include <cstdint>
@@ -11,44 +11,52 @@
 
 namespace tern {
 
-/// No message may claim a time farther ahead of the listener's clock: ten times what clocks may differ
+/// A message must not claim a time farther ahead of the listener's clock: ten times the permitted difference of clocks
 /// (docs/safety.md).
 inline constexpr Duration kMaxAhead{100'000};
-/// HEARTBEAT reports a channel's troubles (a second sender, messages from the future) until they have not happened for
-/// so long.
+/// HEARTBEAT reports a problem of a channel (a second sender, messages from the future) until it has been absent this
+/// long.
 inline constexpr Duration kSenderTroubleReported{2'000'000};
 
-/// How long the sender that is heard on a channel must be silent before another one is heard.
-/// @return nullopt if any number may speak at a time: OBSTACLE_OBSERVATIONS, GOAL, HEARTBEAT, CONFIGURATION, and
-/// channels that Tern does not know.
+/// How long the active sender of a channel must be silent before another one is accepted.
+/// @return nullopt if any number of senders may publish at a time: OBSTACLE_OBSERVATIONS, GOAL, HEARTBEAT,
+///   CONFIGURATION, and channels that Tern does not know.
 std::optional<Duration> sender_silence(std::string_view channel);
 
 /// Judges the headers of one channel's messages in the order of their arrival. Pure.
 ///
-/// On a channel with one speaker, the sender that was heard first stays the speaker until it has been silent for
-/// `silence`. Then whoever speaks next is. So a restarted process is heard as soon as the dead one has been silent for
-/// that long. One that runs beside it by mistake changes nothing, neither while it lives nor when it ends
-/// (docs/decisions/who-is-heard.md). Sequence numbers are judged by sender (SequenceWindow).
+/// On a channel with one sender at a time:
+/// | event                                                 | effect                                  |
+/// |-------------------------------------------------------|-----------------------------------------|
+/// | first message                                         | its sender becomes the active one       |
+/// | message of the active sender                          | judged by its sequence number           |
+/// | message of another, active one silent for ≤ `silence` | refused; counted as a second sender     |
+/// | message of another, active one silent for longer      | that sender becomes the active one      |
+///
+/// So a restarted process is accepted once the old one has been silent for `silence`. A second process started by
+/// mistake has no effect, while it runs and when it ends (docs/decisions/who-is-heard.md). Sequence numbers are judged
+/// separately for each sender (SequenceWindow).
 class SenderWatch {
  public:
-  /// @param own_epoch_us  of the listener's own messages, which come back to it
+  /// @param own_epoch_us  epoch of the listener, whose own messages come back to it
   explicit SenderWatch(std::optional<Duration> silence = {}, std::int64_t own_epoch_us = 0)
       : silence_(silence), own_epoch_us_(own_epoch_us) {}
 
-  /// @return why a message is refused, or nullopt if it is to be handed on.
-  /// @param claimed  the newest time that the message says has been (claimed_time)   @param arrived  listener's clock
-  /// @param own_sent  how many messages the listener itself has sent on this channel
+  /// @param claimed  the newest time that the message claims to know of (claimed_time)
+  /// @param arrived  listener's clock
+  /// @param own_sent  number of messages that the listener itself has sent on this channel
+  /// @return the reason to refuse the message, or nullopt if it is accepted.
   std::optional<Rejection> judge(const MessageName& name, UTime claimed, UTime arrived, std::int64_t own_sent);
 
-  /// Messages that every sender that was heard has sent and that did not come.
+  /// Messages sent by accepted senders that did not arrive.
   [[nodiscard]] std::int64_t lost() const { return losses_.lost(); }
-  /// Whether another sender than the speaker has spoken several times, and lately.
+  /// Whether a second sender has published several times, and recently.
   [[nodiscard]] bool has_second_sender(UTime now) const;
-  /// How far ahead of the listener's clock messages were stamped, if several were lately.
+  /// How far ahead of the listener's clock recent messages were stamped; nullopt unless there were several.
   [[nodiscard]] std::optional<Duration> ahead(UTime now) const;
 
  private:
-  /// Something that happens again and again.
+  /// Counts an event that occurs repeatedly.
   struct Repetition {
     std::int64_t times = 0;
     UTime last;

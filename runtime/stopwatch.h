@@ -1,17 +1,17 @@
-// How long things took: never what time it is.
+// Measures durations; none of these is a time of day.
 #pragma once
 
 #include <cstdint>
 
 namespace tern {
 
-/// Monotonic wall time, ms; only differences mean anything.
+/// Monotonic wall time, ms; only differences are meaningful.
 double monotonic_ms();
 
-/// CPU time that the calling thread has used, ms.
+/// CPU time used by the calling thread, ms.
 double thread_cpu_ms();
 
-/// The most memory that this process has had resident, kB.
+/// Largest resident memory of this process so far, kB.
 std::int64_t peak_rss_kb();
 
 }  // namespace tern

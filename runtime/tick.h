@@ -1,11 +1,12 @@
-// A beat that keeps its phase and never catches up.
+// Periodic deadlines that keep their phase and skip what was missed.
 #pragma once
 
 #include "core/base/time.h"
 
 namespace tern {
 
-/// The first of due + period, due + 2·period … that is after `now`: a process that was held up skips what it missed.
+/// Returns the first of due + period, due + 2·period, … that is after `now`. A process that was held up skips the
+/// missed ticks.
 /// @pre due ≤ now, period > 0
 constexpr UTime next_tick(UTime due, Duration period, UTime now) {
   return due + period * ((now - due).us / period.us + 1);

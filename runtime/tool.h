@@ -1,4 +1,4 @@
-// How every tool ends that works on a flight after it.
+// Runs a tool that works on recorded flights: its parsing and exit codes.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@ class App;
 
 namespace tern {
 
-/// Parses, then runs. @return what run returns, or 0 after --help and --version. A bad command line, and whatever run
-/// throws, is said on stderr ("NAME: why") and is kExitBadConfiguration.
+/// Parses, then runs. A bad command line, and an exception of `run`, are printed on stderr as "NAME: reason".
+/// @return the result of `run`; 0 after --help or --version; kExitBadConfiguration after an error.
 int run_tool(CLI::App& app, const std::string& name, int argc, char** argv, const std::function<int()>& run);
 
 }  // namespace tern

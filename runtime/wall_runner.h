@@ -1,15 +1,14 @@
-// Runs a hosted node on the wall clock: the life of a process.
+// Runs a hosted node on the wall clock.
 #pragma once
 
 #include "runtime/process.h"
 
 namespace tern {
 
-/// Waits for messages, the node's next wakeup (to the microsecond that the kernel's timers give) or a signal, and
-/// steps.
+/// Waits for messages, the node's next wakeup or a signal, and steps the node.
 /// @param stop_fd  readable when the process is to end (a signalfd, a pipe); −1: none
-/// @return the node's exit code when it has finished, 0 when stop_fd became readable.
-/// @throws what a handler or the node threw; std::runtime_error when polling or LCM fails.
+/// @return the node's exit code when it has finished; 0 when stop_fd became readable.
+/// @throws the exception of a handler or the node; std::runtime_error if polling or LCM fails.
 int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd);
 
 }  // namespace tern

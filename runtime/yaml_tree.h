@@ -1,4 +1,4 @@
-// A YAML document as plain values that know where they stand; the only place that knows yaml-cpp.
+// A YAML document as plain values with their positions; the only use of yaml-cpp.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,12 @@
 
 namespace tern {
 
-/// What a document may be at most. The largest is read in under 100 MB and about a second; a path of ten thousand
-/// waypoints has 50,000 values in half a megabyte.
+/// Limits of a document. The largest is read in under 100 MB and about a second; a path of ten thousand waypoints has
+/// 50,000 values in half a megabyte.
 inline constexpr std::size_t kMaxYamlBytes = std::size_t{4} << 20U;
-inline constexpr std::size_t kMaxYamlValues = 200'000;  ///< keys count, and what an alias repeats, each time
-inline constexpr std::size_t kMaxYamlDepth = 32;        ///< levels of nesting; scenario files are shallow
+inline constexpr std::size_t kMaxYamlValues =
+    200'000;                                      ///< keys included; a value repeated by an alias counts each time
+inline constexpr std::size_t kMaxYamlDepth = 32;  ///< levels of nesting; scenario files are shallow
 
 struct YamlEntry;
 
@@ -21,15 +22,15 @@ struct YamlValue {
   enum class Kind { Null, Scalar, Sequence, Mapping };
   Kind kind = Kind::Null;
   std::string where;               ///< "scenarios/x.yaml:12" or "--set key=value"
-  std::string scalar;              ///< of a Scalar
+  std::string scalar;              ///< text of a Scalar
   bool quoted = false;             ///< a quoted scalar is text only
-  std::vector<YamlValue> items;    ///< of a Sequence
-  std::vector<YamlEntry> entries;  ///< of a Mapping, in file order, no key twice
+  std::vector<YamlValue> items;    ///< elements of a Sequence
+  std::vector<YamlEntry> entries;  ///< entries of a Mapping, in file order, no key twice
 
-  /// The entry, or nullptr.
+  /// The value of a key, or nullptr.
   [[nodiscard]] const YamlValue* find(std::string_view key) const;
   [[nodiscard]] YamlValue* find(std::string_view key);
-  /// For messages: the scalar itself, "a list", "a mapping", "nothing".
+  /// Text for messages: the scalar itself, "a list", "a mapping" or "nothing".
   [[nodiscard]] std::string describe() const;
 };
 
@@ -38,18 +39,18 @@ struct YamlEntry {
   YamlValue value;
 };
 
-/// Parses a document whose top is a mapping (or nothing, which is an empty one).
-/// Linear in the text's length and in the number of values; an alias is counted before it is repeated.
-/// @throws ConfigError for what is not YAML, a key given twice, a key that is not a scalar, a limit above broken.
+/// Parses a document whose top is a mapping; an empty document is an empty mapping. Linear in the text's length and in
+/// the number of values, repetitions by aliases included.
+/// @throws ConfigError for malformed YAML, a key given twice, a key other than a scalar, or a broken limit above.
 YamlValue parse_yaml(const std::string& text, const std::string& name);
 
-/// Applies "key.path=value" (the text after --set) to a document. @throws ConfigError naming the override.
+/// Applies "key.path=value" (the argument of --set) to a document. @throws ConfigError that names the override.
 void apply_override(YamlValue& document, const std::string& override_text);
 
-/// The scalar as it must be written to be read back as the same text: plain where that is safe, else quoted.
+/// Writes a scalar so that it is read back as the same text: plain where that is safe, else quoted.
 std::string yaml_text(std::string_view text);
 
-/// The number in the shortest form that reads back as the same double; ".inf" for infinity.
+/// Writes a number in the shortest form that is read back as the same double; ".inf" for infinity.
 std::string yaml_number(double value);
 
 }  // namespace tern
