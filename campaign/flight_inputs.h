@@ -1,5 +1,4 @@
-// What a flight is made from, before it is flown: the scenario by name, the campaign it belongs to, its world spelt
-// out.
+// The inputs of a flight: the scenario by name, the overrides of its campaign, and a complete scenario file.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +12,34 @@
 
 namespace tern {
 
-/// All flights of a campaign but for their seeds.
+/// The inputs that all flights of a campaign share; only the seed differs.
 struct FlightInputs {
   std::string scenario_file;
-  std::vector<std::string> overrides;  ///< key=value, in order; none of `seed`
+  std::vector<std::string> overrides;  ///< key=value, in order; `seed` is not among them
   Charge charge = Charge::Cpu;
 
-  /// The overrides, and the seed's last.
+  /// Returns the overrides, with the seed appended.
   [[nodiscard]] std::vector<std::string> with_seed(std::uint64_t seed) const;
 };
 
-/// The path of a scenario: a file, or a name in ./scenarios, in the source tree's scenarios folder, or in
-/// share/tern/scenarios beside an installed program. The source tree is the one from which the program was built (for
-/// build/PRESET/bin/PROGRAM: three folders up).
-/// @return an Error that lists the names that there are.
+/// Returns the path of a scenario. `wanted` is a file, or a name in one of these folders:
+///
+/// 1. ./scenarios
+/// 2. scenarios of the source tree: for the program build/PRESET/bin/PROGRAM, three folders up
+/// 3. share/tern/scenarios beside an installed program
+/// @return an Error that lists the available names
 Result<std::string> find_scenario(const std::string& wanted);
 
-/// The scenario, and the section of every process, whoever flies. @throws ConfigError.
+/// Reads the scenario and the section of every process. @throws ConfigError
 void read_every_section(ConfigDocument& document);
 
-/// Reads all that a flight would read, and makes the world of the seed. @throws ConfigError for what run_process would
-/// refuse.
+/// Reads everything that a flight would read, and makes the world of the seed.
+/// @throws ConfigError for inputs that run_process() would refuse
 CampaignIdentity check_inputs(const FlightInputs& inputs, std::uint64_t seed);
 
-/// A scenario file that makes the same flight wherever it lies, on this host. Every obstacle of the seed's world is
-/// listed, every process's section complete, files of points by absolute paths.
-/// @throws ConfigError as check_inputs.
+/// Returns a scenario file that repeats this flight from any folder on this host. It lists every obstacle of the seed's
+/// world, completes every process's section, and names point files by absolute paths.
+/// @throws ConfigError as check_inputs() does
 std::string spell_out(const FlightInputs& inputs, std::uint64_t seed);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// One flight of a campaign: flown, watched as tern-monitor watches, recorded as tern-logger records.
+// One flight of a campaign, with the summary of tern-monitor and the log of tern-logger.
 #pragma once
 
 #include <stdexcept>
@@ -9,46 +9,48 @@
 
 namespace tern {
 
-/// The disk did not take what a flight has to leave: no flight's fault.
+/// Thrown if a file of the flight cannot be written. It is not counted as a failure of the flight.
 class CannotRecord : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// The exit code of a flying process that says so, and of a campaign that ends for it.
+/// The exit code for that, of a flight's process and of the campaign.
 inline constexpr int kExitCannotWrite = 3;
 
-/// A program that looks at each flight's log afterwards: "tern-audit LOG --json FILE". From FILE comes what it says of
-/// coverage (its key coverage_sums) and of tracking (measures of its check "tube"); a program that writes none says
-/// nothing.
+/// A program that reads each flight's log: "tern-audit LOG --json FILE". FILE gives coverage (key coverage_sums) and
+/// tracking (measures of check "tube"). Without FILE, both are unknown.
 struct Auditor {
   std::string program;  ///< empty: none
   bool judges =
       true;  ///< its exit code is a verdict: 0 passed, 1 broken; anything else failed, whether it judges or not
 };
 
-/// Watches a flight from outside: called with every plan and its request.
+/// Observes a flight. Called with every request and every plan.
 struct FlightObserver {
   virtual ~FlightObserver() = default;
   virtual void on_request(const HorizonRequest&) {}
   virtual void on_plan(const Plan&) {}
 };
 
+/// The result of one flight.
 struct RecordedFlight {
   FlightRecord record;
   FlightTimes times;
 };
 
-/// Flies one seed. Three files go into `folder`, which must exist: flight.lcm (every message, with virtual times),
-/// summary.json (tern-monitor's) and scenario.yaml (spell_out). The last is written before the flight, so that a crash
-/// leaves it.
-/// @param auditor  its output goes into audit.txt and audit.json
-/// @throws ConfigError for bad inputs; CannotRecord.
+/// Flies one seed and writes three files to `folder`, which must exist:
+///
+/// - scenario.yaml (spell_out()), before the flight, so that it survives a crash
+/// - flight.lcm: every message, with virtual times
+/// - summary.json, as tern-monitor writes it
+/// @param auditor  its output goes to audit.txt and audit.json
+/// @throws ConfigError for bad inputs; CannotRecord
 RecordedFlight fly_recorded(const FlightInputs& inputs, std::uint64_t seed, const CampaignIdentity& identity,
                             const std::string& folder, const Auditor& auditor, FlightObserver* observer = nullptr);
 
-/// "Intel(R) Xeon(R) CPU @ 2.20GHz, 2 cores".
+/// Returns "Intel(R) Xeon(R) CPU @ 2.20GHz, 2 cores".
 std::string machine_name();
 
-/// "GNU 12.2.0 Release".
+/// Returns "GNU 12.2.0 Release".
 std::string compiler_name();
 
 }  // namespace tern

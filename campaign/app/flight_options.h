@@ -1,4 +1,4 @@
-// The options that say what is flown, the same for a campaign and for one flight.
+// The options that select what is flown, the same for a campaign and for a single flight.
 #pragma once
 
 #include <string>
@@ -12,25 +12,26 @@ class App;
 
 namespace tern {
 
+/// The values of these options.
 struct FlightOptions {
   std::string world;
-  std::string count;                  ///< "" when not given
+  std::string count;                  ///< "" if not given
   std::vector<std::string> settings;  ///< key=value
   std::string charge = "cpu";
   std::string audit, coverage;  ///< programs
-  bool oracle = false;          ///< motions declared, whatever the scenario says
+  bool oracle = false;          ///< declare the motion of every obstacle, whatever the scenario says
 };
 
-/// --world, --count, --set: what a world is made from.
+/// Adds --world, --count and --set, which define the world.
 void add_world_options(CLI::App& app, FlightOptions& options);
 
-/// Those, --charge, --audit, --coverage and --oracle.
+/// Adds the world options, --charge, --audit, --coverage and --oracle.
 void add_flight_options(CLI::App& app, FlightOptions& options);
 
-/// @throws ConfigError when there is no such world, or a setting sets the seed or has no effect.
+/// @throws ConfigError if the world is unknown, or if a setting sets the seed or has no effect
 FlightInputs inputs_of(const FlightOptions& options);
 
-/// This program's command to fly one of them: "--seed N --folder DIR" is to be added.
+/// Returns the command of this program for one flight, without "--seed N --folder DIR".
 std::vector<std::string> flight_command(const FlightOptions& options);
 
 }  // namespace tern

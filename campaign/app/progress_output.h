@@ -1,4 +1,4 @@
-// How far a campaign is, on stderr: a bar that is written over on a terminal, else a line now and then.
+// Shows a campaign's progress on stderr: a bar on a terminal, otherwise a line from time to time.
 #pragma once
 
 #include <chrono>
@@ -8,16 +8,17 @@
 
 namespace tern {
 
-/// "[######..............]  37/1000  success 97.30 % [86.18, 99.52]  8.1 flights/min, 1 h 58 min left". Where flights
-/// are equal, how many differ stands in the interval's place: they say no more than those.
-/// @param elapsed_s  since this call's first flight began
+/// Returns "[######..............]  37/1000  success 97.30 % [86.18, 99.52]  8.1 flights/min, 1 h 58 min left". If some
+/// flights are equal, the number of different flights replaces the interval, since equal flights add no information.
+/// @param elapsed_s  since the first flight of this call started
 std::string progress_line(const CampaignProgress& progress, double elapsed_s);
 
+/// Prints the progress.
 class ProgressOutput {
  public:
   ProgressOutput();
   void show(const CampaignProgress& progress);
-  /// Leaves the last state standing.
+  /// Ends the bar's line.
   void finish();
 
  private:

@@ -1,4 +1,4 @@
-// A campaign's summary, from its flights to its reader.
+// Prints and writes the summary of a campaign.
 #pragma once
 
 #include <cstdint>
@@ -6,14 +6,14 @@
 
 namespace tern {
 
-/// Reads FLIGHTS.csv, prints its summary on stdout and writes it as JSON. @param summary_file  "": none
-/// @return the exit code: 0, or 3 when a file cannot be read or written (said on stderr).
+/// Reads FLIGHTS.csv, prints its summary on stdout and writes it as JSON. @param summary_file  "": no file
+/// @return the exit code: 0, or 3 if a file cannot be read or written; the reason is printed on stderr
 int write_summary(const std::string& flights_file, const std::string& summary_file, const std::string& command);
 
-/// How many flights of FLIGHTS.csv were audited; 0 where there is no such file.
+/// Returns how many flights of FLIGHTS.csv were audited; 0 if the file does not exist.
 std::int64_t count_audited(const std::string& flights_file);
 
-/// This process's command line, quoted for a shell where it must be.
+/// Returns this process's command line, quoted for a shell where necessary.
 std::string command_line();
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// What semantics bought and what it cost: flights with them against the same seeds' flights without.
+// Benefit and cost of semantics: flights with semantics against flights of the same seeds without.
 #pragma once
 
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace tern {
 
-/// All flights of one world, method and λ. Means over the flights that reached the goal.
+/// All flights of one world, method and λ. Means are over the flights that reached the goal.
 struct ExposureSummary {
   std::string world, method;
   double lambda = 0.0;
   int flights = 0, reached = 0;
   MeanInterval inside_m, inside_s, near_m, near_s, path_length_m, flight_time_s;
-  /// Differences to the flight of the same seed without semantics, where both reached the goal. Gained: metres more
-  /// inside what attracts, metres fewer inside what repels; near: within 1 m, inside included.
+  /// Differences to the flight of the same seed without semantics, if both reached the goal. Gained: additional metres
+  /// inside an attracting region, or fewer metres inside a repelling one. Near: within 1 m, inside included.
   MeanInterval gained_m, gained_near_m, longer_m, later_s;
 };
 
-/// One per (world, method, λ), in the order of semantic_worlds, semantic_methods and λ.
+/// One summary per (world, method, λ), in the order of semantic_worlds, semantic_methods and λ.
 std::vector<ExposureSummary> summarize_exposure(const std::vector<SemanticFlight>& flights);
 
-/// With a header.
+/// With a header line.
 std::string to_csv(const std::vector<ExposureSummary>& summaries);
-/// Two tables of Markdown: what was flown, and against no semantics.
+/// Two Markdown tables: means of the flights, and differences to flights without semantics.
 std::string to_markdown(const std::vector<ExposureSummary>& summaries);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// What the figures of the paper's section 6 are drawn from, as JSON; docs/results/figures.py draws them.
+// Data of the figures of the paper's section 6, as JSON; docs/results/figures.py draws them.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace tern {
 
-/// Per case of search_cases(): title, start, goal, regions. If something was found, per segment: 25 points of the
-/// curve, both hulls, the plane and its gap, the obstacle's box in the segment's middle. The plane is n, d of n·p = d;
-/// null: none separates the whole.
+/// Returns title, start, goal and regions per case of search_cases(). If a path was found, each segment has 25 points
+/// of the curve, both hulls, the plane, its gap, and the obstacle's box in the middle of the segment. A plane is n, d
+/// of n·p = d; null if no plane separates the whole segment.
 std::string search_data(const std::vector<SearchOutcome>& outcomes);
 
-/// Regions, obstacles (movers where they are as the flight with semantics passes them) and both flights as rows of
-/// t, x, y, z, speed.
+/// Returns regions, obstacles and both flights as rows of t, x, y, z, speed. A moving obstacle is drawn where it is
+/// when the flight with semantics passes it.
 std::string corridor_data(const FlightTrack& without, const FlightTrack& with);
 
 }  // namespace tern

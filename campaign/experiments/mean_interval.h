@@ -1,12 +1,12 @@
-// The mean of a few flights' numbers, and how sure it is.
+// The mean of a sample with its 95 % interval.
 #pragma once
 
 #include <vector>
 
 namespace tern {
 
-/// Mean and half the width of its 95 % interval by Student's t (n − 1 degrees of freedom). This assumes only that means
-/// of so many flights are about normal.
+/// Mean and half width of its 95 % interval by Student's t with n − 1 degrees of freedom. It assumes that the mean is
+/// approximately normal.
 struct MeanInterval {
   int n = 0;
   double mean = 0.0;

@@ -1,4 +1,4 @@
-// A scenario before it is flown: what is in it, whether its goal can be reached, what λ buys; as text and as a plan.
+// Inspects a scenario without flying it: its contents, whether the goal can be reached, and the effect of λ.
 #pragma once
 
 #include <optional>
@@ -11,32 +11,35 @@
 
 namespace tern {
 
-/// A way from start to goal around what rests.
+/// A path from start to goal around static obstacles.
 struct PlannedPath {
   std::vector<Vec3> points;  ///< W, m
   double length_m = 0.0;
-  std::vector<double> in_region_m;  ///< of it, by region of the scenario
+  std::vector<double> in_region_m;  ///< length inside each region of the scenario
 };
 
+/// A scenario with its world, map and paths.
 struct ScenarioView {
   Scenario scenario;
   World world;
   std::vector<Box> occupied;            ///< of the map, W
-  std::string map;                      ///< its extents as text
+  std::string map;                      ///< extents as text
   std::optional<PlannedPath> shortest;  ///< nullopt: the goal cannot be reached
-  std::string blocked;                  ///< then: what stands in the way, as text
-  std::optional<PlannedPath> weighted;  ///< by the regions' λ; nullopt: not reached, or nothing weighs
+  std::string blocked;                  ///< if the goal cannot be reached: the obstruction, as text
+  std::optional<PlannedPath> weighted;  ///< with the regions' λ; nullopt: unreachable, or λ has no effect
 };
 
-/// Reads the scenario as a flight would, every process's section too, and makes world, map and ways. The ways are the
-/// planner's own around static obstacles and occupied voxels, for this body and flight box. Movers are in no way.
-/// @throws ConfigError for what a flight would refuse.
+/// Reads the scenario and every process's section as a flight would, and makes world, map and paths. Paths are the
+/// planner's own, around static obstacles and occupied voxels, for this body and flight box. Moving obstacles are
+/// ignored.
+/// @throws ConfigError for inputs that a flight would refuse
 ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64_t> seed);
 
-/// A screen of text.
+/// Returns about a screenful of text.
 std::string to_text(const ScenarioView& view);
 
-/// Seen from above: flight box, regions, occupied voxels, what rests, movers at world time 0, both ways. SVG.
+/// Returns an SVG from above: flight box, regions, occupied voxels, static obstacles, moving obstacles at world time 0,
+/// both paths.
 std::string draw_scenario(const ScenarioView& view);
 
 }  // namespace tern

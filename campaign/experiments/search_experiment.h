@@ -1,4 +1,4 @@
-// The paper's section 6.1: semantic A* alone against one moving obstacle, with what separates its six segments from it.
+// The paper's section 6.1: semantic A* alone against one moving obstacle, and the planes of its six segments.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,24 @@
 
 namespace tern {
 
+/// One case of the experiment.
 struct SearchCase {
   std::string name, title;
-  std::string scenario;                ///< file's name without its ending
+  std::string scenario;                ///< file name without its ending
   std::vector<std::string> overrides;  ///< key=value
 };
-/// None, attractive (λ_att = 2) and repulsive (λ_rep = 0.5).
+/// Returns the cases: no region, attractive (λ_att = 2), repulsive (λ_rep = 0.5).
 const std::vector<SearchCase>& search_cases();
 
-/// One interval of the plan beside the obstacle.
+/// One interval of the plan, and the obstacle over that interval.
 struct SearchSegment {
   Points curve_hull;     ///< 3×4, MINVO points, m
   Points obstacle_hull;  ///< 3×n, C_ij without the radius, m
   Plane plane;           ///< of widest margin between the two
-  double gap_m = 0.0;    ///< that it leaves, vehicle's radius included; 0: none separates the whole interval
+  double gap_m = 0.0;    ///< margin of the plane, vehicle's radius included; 0: no plane separates the whole interval
 };
 
+/// The result of one case.
 struct SearchOutcome {
   bool found = false;
   Scenario scenario;
@@ -35,14 +37,15 @@ struct SearchOutcome {
   TimedSpline trajectory;
   std::vector<SearchSegment> segments;
   double path_length_m = 0.0;
-  double mean_distance_m = 0.0;         ///< to the region's centre, over the path; without a region 0
-  double inside_m = 0.0, near_m = 0.0;  ///< metres in the region, and within 1 m of it (inside included)
+  double mean_distance_m = 0.0;         ///< path average of the distance to the region's centre; 0 without a region
+  double inside_m = 0.0, near_m = 0.0;  ///< length inside the region, and within 1 m of it (inside included)
   std::int64_t expansions = 0;
 };
 
-/// plan() with its optimizer off and a path that knows no regions, from rest at the start, without a clock: the search
-/// alone, deterministic.
-/// @param more  key=value, over the case's own. @throws ConfigError for a scenario that is not there or invalid.
+/// Runs plan() from rest at the start, with the optimizer off, a path that ignores regions, and no clock. The result is
+/// that of the search alone, and deterministic.
+/// @param more  key=value, overrides the case's own
+/// @throws ConfigError if the scenario is missing or invalid
 SearchOutcome run_search_case(const SearchCase& wanted, const std::vector<std::string>& more = {});
 
 std::string search_columns();

@@ -1,4 +1,4 @@
-// The flights behind the paper's section 6.2: worlds with one region, methods and λ.
+// The flights of the paper's section 6.2: worlds with one region, methods and λ.
 #pragma once
 
 #include <cstdint>
@@ -9,31 +9,34 @@
 
 namespace tern {
 
-/// A way to use regions. The paper's own is "mean_distance".
+/// A way to use regions; "mean_distance" is that of the paper.
 struct SemanticMethod {
   std::string name;                    ///< in CSV files
   std::vector<std::string> overrides;  ///< key=value
 };
-/// "off": without semantics; "exposure" and "mean_distance": the costs in the search and choice alone; "exposure+path"
-/// (the default of the planner) and "mean_distance+path": the path to the goal knows regions too.
+/// Returns the methods:
+/// - "off": without semantics
+/// - "exposure", "mean_distance": cost in the search and in the choice only
+/// - "exposure+path" (the planner's default), "mean_distance+path": cost in the global path, too
 const std::vector<SemanticMethod>& semantic_methods();
-/// @throws std::invalid_argument for a name that is not there.
+/// @throws std::invalid_argument for an unknown name
 const SemanticMethod& semantic_method(const std::string& name);
 
-/// paper_attract or paper_repel.
+/// A world: paper_attract or paper_repel.
 struct SemanticWorld {
-  std::string scenario;    ///< name of the file, without its ending
-  std::string lambda_key;  ///< which λ its region has
+  std::string scenario;    ///< file name without its ending
+  std::string lambda_key;  ///< the λ of its region
   bool attracts;
 };
 const std::vector<SemanticWorld>& semantic_worlds();
 
-/// What is flown with each seed.
+/// One case, flown with every seed.
 struct SemanticCase {
   std::string world, method;
   double lambda = 0.0;  ///< 0 for "off"
 };
 
+/// The result of one flight.
 struct SemanticFlight {
   SemanticCase flown;
   std::uint64_t seed = 1;
@@ -43,17 +46,17 @@ struct SemanticFlight {
 };
 SemanticFlight semantic_flight(const SemanticCase& flown, const FlightRecord& record);
 
-/// λ on against off, in both worlds: off, the paper's method and the default, both with λ = 2.
+/// Returns the cases "off", the paper's method and the default in both worlds, the latter two with λ = 2.
 std::vector<SemanticCase> on_off_cases();
-/// Off and every method with λ = 0.5, 1, 2, 4, 8.
+/// Returns the cases "off", and every method with λ = 0.5, 1, 2, 4, 8.
 std::vector<SemanticCase> sweep_cases();
 inline constexpr double kSweepLambdas[] = {0.5, 1.0, 2.0, 4.0, 8.0};
 
-/// What the scenario file is overridden with. The worlds have no walls, but here they have the corridor's floor and
-/// ceiling, z ∈ [0, 4]. Their regions are as high, so they must be passed at their sides.
+/// Returns the overrides of a case. These worlds have no walls, so the corridor's floor and ceiling, z ∈ [0, 4], are
+/// added. Regions are as high, so they can only be passed at their sides.
 std::vector<std::string> overrides_of(const SemanticCase& wanted);
 
-/// With a header.
+/// With a header line.
 std::string to_csv(const std::vector<SemanticFlight>& flights);
 
 }  // namespace tern

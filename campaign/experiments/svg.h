@@ -1,4 +1,4 @@
-// Drawings as SVG text: shapes on a page, and frames that turn data into places on it.
+// Writes SVG drawings: shapes on a page, and frames that map data to the page.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace tern {
 
-/// A place on the page (pixels, y downwards) or in data.
+/// A point on the page (pixels, y downwards) or in data.
 using XY = std::pair<double, double>;
 
-/// `attributes` are SVG's own, as in fill="none" stroke="#888". Coordinates are written to a tenth of a pixel.
+/// An SVG page. `attributes` are SVG's own: fill="none" stroke="#888". Coordinates have a precision of 0.1 pixel.
 class Svg {
  public:
-  /// A white page of so many pixels.
+  /// Begins a white page of this size in pixels.
   Svg(double width, double height);
 
   void rect(const XY& corner, double width, double height, const std::string& attributes);
@@ -21,12 +21,12 @@ class Svg {
   void line(const XY& from, const XY& to, const std::string& attributes);
   void polyline(const std::vector<XY>& points, const std::string& attributes);
   void polygon(const std::vector<XY>& points, const std::string& attributes);
-  /// @param text  any; what XML reserves is escaped
+  /// @param text  reserved characters of XML are escaped
   void text(const XY& at, const std::string& text, const std::string& attributes = "");
-  /// What follows, up to close_group, has these attributes (opacity, transform, clip-path).
+  /// Applies attributes (opacity, transform, clip-path) to everything up to close_group().
   void open_group(const std::string& attributes);
   void close_group();
-  /// Names a rectangle for clip-path="url(#name)".
+  /// Defines a rectangle for clip-path="url(#name)".
   void clip_rect(const std::string& name, const XY& corner, double width, double height);
 
   [[nodiscard]] std::string finish() const;
@@ -44,11 +44,11 @@ struct PlotFrame {
 
   [[nodiscard]] XY at(double x, double y) const;
   [[nodiscard]] XY at(const XY& data) const { return at(data.first, data.second); }
-  /// Border, ticks, numbers and names.
+  /// Draws border, ticks, numbers and axis names.
   void draw_axes(Svg& page, const std::string& x_name, const std::string& y_name) const;
 };
 
-/// Up to about `most` round numbers within the range, ascending.
+/// Returns up to about `most` round numbers within the range, ascending.
 std::vector<double> round_ticks(const XY& range, int most);
 
 }  // namespace tern

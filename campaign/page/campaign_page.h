@@ -1,4 +1,4 @@
-// A campaign as one HTML page that needs nothing but itself: how its measures are distributed, and what failed.
+// A campaign as one self-contained HTML page: distributions of its measures, and its failed flights.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tern {
 
-/// @param failures  where the folders of failed flights are, as a link from the page's own place; "": no links
+/// @param failures  folder of the failed flights, as a link relative to the page; "": no links
 std::string campaign_page(const Flights& flights, const std::string& failures);
 
 }  // namespace tern

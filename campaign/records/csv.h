@@ -1,4 +1,4 @@
-// Comma-separated values by the book (RFC 4180), but for lines that end with LF alone.
+// Comma-separated values by RFC 4180, except that lines end with LF.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,19 @@ namespace tern {
 
 using CsvRecord = std::vector<std::string>;
 
-/// One record with its line end. Cells with a comma, a quote or a line break are quoted, quotes within doubled.
+/// Returns one record with its line end. Cells with a comma, quote or line break are quoted; quotes in them are
+/// doubled.
 std::string csv_line(const CsvRecord& cells);
 
+/// The records of a text.
 struct CsvRecords {
   std::vector<CsvRecord> records;
-  std::vector<std::size_t> lines;  ///< of each record: the line on which it begins, from 1
-  std::size_t whole_bytes = 0;     ///< up to the end of the last whole record: a writer that died leaves a rest
+  std::vector<std::size_t> lines;  ///< of each record, the number of its first line, from 1
+  std::size_t whole_bytes = 0;  ///< up to the end of the last complete record; a writer that crashed may leave a rest
 };
 
-/// Reads records that end with LF or CR LF; a last one without a line end is a rest, not a record. Nothing is refused:
-/// a quote within a cell that does not begin with one stands for itself.
+/// Parses records that end with LF or CR LF. Text after the last line end is a rest, not a record. Nothing is refused:
+/// a quote inside a cell that does not start with one is an ordinary character.
 CsvRecords parse_csv(std::string_view text);
 
 }  // namespace tern

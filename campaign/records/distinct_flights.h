@@ -1,4 +1,4 @@
-// How many flights differ from each other: those that a seed does not change are one flight, flown often.
+// Counts flights that differ from each other. Flights that the seed does not change are one flight, flown often.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tern {
 
-/// Flights differ in outcome, time, way, clearance or jerk. Those that nobody judged count as different.
+/// Two flights differ in outcome, time, path length, clearance or jerk. Flights without a referee count as different.
 class DistinctFlights {
  public:
   /// O(log n).

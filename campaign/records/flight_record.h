@@ -1,4 +1,4 @@
-// What a campaign keeps of one flight: a line of FLIGHTS.csv, and a line of what was measured of its answers.
+// One flight's row in FLIGHTS.csv, and its row of measured answer times.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace tern {
 
-/// What all flights of a campaign have in common. Flights of different identities are not put into one file.
+/// The properties that all flights of a campaign share. Flights of different identities are kept in different files.
 struct CampaignIdentity {
   std::string scenario;       ///< its name
   std::int64_t count = 0;     ///< obstacles of the world's generator
@@ -29,70 +29,73 @@ struct CampaignIdentity {
   friend bool operator==(const CampaignIdentity&, const CampaignIdentity&) = default;
 };
 
-/// The fields in which they differ, as text: `scenario "a" against "b"`; "" when they are equal.
+/// Returns the differing fields as text: `scenario "a" against "b"`; "" if all are equal.
 std::string difference(const CampaignIdentity& a, const CampaignIdentity& b);
 
-/// How the vehicle followed its setpoints, by the audit; NaN when none was asked for.
+/// Tracking errors by the audit; NaN without an audit.
 struct Tracking {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  double rmse_m = kNone, error_m = kNone;  ///< of its distance to them: RMSE and greatest
-  double tube_m = kNone;                   ///< greatest half-width of the tubes that were promised
-  double margin_m = kNone;                 ///< least distance that was left to a tube's face, negative outside
+  double rmse_m = kNone, error_m = kNone;  ///< RMSE and maximum of the distance to the setpoints
+  double tube_m = kNone;                   ///< greatest half-width of the promised tubes
+  double margin_m = kNone;                 ///< least distance to a face of the tube; negative outside
 };
 
+/// The results of one flight.
 struct FlightRecord {
   CampaignIdentity identity;
   std::uint64_t seed = 0;
-  FlightResult result;  ///< outcome and detail always; a measure that no referee gave is NaN (counts: 0)
+  FlightResult result;  ///< outcome and detail are always set; without a referee, measures are NaN and counts 0
   std::int64_t requests = 0, answered_in_time = 0;
   std::int64_t answers_late = 0, answers_refused = 0;  ///< by the executor
   std::array<std::int64_t, kPlanOutcomes> plans = {};
   std::array<std::int64_t, kPlanReasons> reasons = {};
-  ReplanTimes replan_ms;  ///< NaN where times are not charged: they would differ from run to run
+  ReplanTimes replan_ms;  ///< NaN if times are not charged, since they would differ from run to run
   std::map<std::string, MessageCount> messages;
   std::int64_t restarts = 0;
   Tracking tracking;
-  Coverage coverage;  ///< of predictions, by the audit; nothing when none was asked for
-  std::string audit;  ///< "passed", "broken", "failed"; "" when none was asked for
-  std::string log;    ///< of a failed flight: its log, relative to the campaign's failures
+  Coverage coverage;  ///< of predictions, by the audit; empty without an audit
+  std::string audit;  ///< "passed", "broken", "failed"; "" without an audit
+  std::string log;    ///< of a failed flight, relative to the folder of failures
 };
 
-/// A flight that nobody judged, with NaN for all measures.
+/// Returns the result of a flight without a referee; all measures are NaN.
 FlightResult unjudged(FlightOutcome outcome, std::string detail);
 
-/// Reached, within all limits, and kept by the audit.
+/// Returns true if the goal was reached, within all limits, and the audit did not find a violation.
 bool is_success(const FlightRecord& record);
 
-/// The names of the columns, in order: the keys of fly.sh's summary, nested ones joined by '_'.
+/// Returns the names of the columns, in order: the keys of fly.sh's summary, nested ones joined by '_'.
 const CsvRecord& flight_columns();
 
-/// Over which pairs of flights of one seed a column's numbers are compared.
+/// Which pairs of flights with one seed a column is compared over.
 enum class Compared {
   No,       ///< not a measure
   Reached,  ///< pairs in which both reached the goal
   All,
 };
+/// The description of a column.
 struct ColumnNote {
-  std::string name, meaning;  ///< with the unit
+  std::string name, meaning;  ///< the meaning includes the unit
   Compared compared = Compared::No;
 };
-/// The dictionary of the columns, in order.
+/// Returns the dictionary of the columns, in order.
 std::vector<ColumnNote> column_notes();
 
-/// One cell per column. What has no value is empty. Reads back equal, but for times: they are kept to the microsecond.
+/// Returns one cell per column; unknown values are empty cells. Reading restores equal values, except times, which are
+/// rounded to 1 µs.
 CsvRecord to_cells(const FlightRecord& record);
-/// @return an Error that names column and cell.
+/// Reads a row. @return an Error that names column and cell
 Result<FlightRecord> read_flight(const CsvRecord& cells);
 
-/// What PLAN_TIMING measures of each answer.
+/// The times that PLAN_TIMING measures of each answer.
 inline constexpr std::array kMeasuredTimes = {"replan_ms", "first_answer_ms", "hulls_ms",
                                               "search_ms", "optimization_ms", "check_ms"};
 
-/// All of a flight's answers, in a form that can be merged. A stage counts the answers in which it ran.
+/// The answer times of one flight, in a form that can be merged. A stage counts only the answers in which it ran.
 struct FlightTimes {
   std::uint64_t seed = 0;
-  std::string machine;   ///< on which they were measured
-  std::string compiler;  ///< of the program
+  std::string machine;   ///< machine of the measurement
+  std::string compiler;  ///< compiler of the program
   std::array<LogHistogram, kMeasuredTimes.size()> times;
 };
 

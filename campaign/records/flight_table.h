@@ -1,4 +1,4 @@
-// FLIGHTS.csv as a book that is written on while flights end, by one process, and survives its death at any moment.
+// FLIGHTS.csv as a table that one process extends while flights end; it survives a crash of that process at any time.
 #pragma once
 
 #include <cstdint>
@@ -14,31 +14,29 @@ namespace tern {
 /// The flights of a campaign, by seed.
 struct Flights {
   std::map<std::uint64_t, FlightRecord> records;
-  std::map<std::uint64_t, FlightTimes> times;  ///< of some of them, at least
+  std::map<std::uint64_t, FlightTimes> times;  ///< may lack some of the flights
 };
 
-/// FLIGHTS.csv's companion with the answers' times: "FLIGHTS.csv.times".
+/// Returns the name of the file with the answer times: "FLIGHTS.csv.times".
 std::string times_file(const std::string& flights_file);
 
-/// Reads both files; the companion may be missing. A rest without a line end is left out, and so are times of flights
-/// that are not in the book.
-/// @return an Error that names file, line and column; also when flights differ in identity.
+/// Reads both files; the file of times may be missing. Text without a line end is ignored, and so are times of flights
+/// that are not in FLIGHTS.csv.
+/// @return an Error that names file, line and column; also if flights differ in identity
 Result<Flights> read_flights(const std::string& file);
 
-/// Writes both files anew, by seed: first beside them, then in their place, so that there is always a whole one.
+/// Writes both files, sorted by seed. New files are written first and then renamed, so a complete file always exists.
 Result<void> write_flights(const std::string& file, const Flights& flights);
 
-/// Adds the flights of another file of the same campaign. @return an Error when identities differ, or a seed is in both
-/// with other results; `all` is then as it was but for what came before.
+/// Adds the flights of another file of the same campaign. @return an Error if identities differ, or if both contain a
+/// seed with different results; `all` then has the flights before that seed
 Result<void> join(Flights& all, Flights more);
 
-/// Appends to both files. A flight is in the book once add() has returned: its line was written in one piece and has
-/// reached the disk.
+/// Appends to both files. When add() returns, the flight's line was written in one piece and has reached the disk.
 class FlightTable {
  public:
-  /// Opens or begins a book and holds it alone until the end.
-  /// @return an Error when another process holds it, when it cannot be read or written, or when its flights are of
-  /// another identity.
+  /// Opens or creates a table and locks it.
+  /// @return an Error if another process has locked it, if it cannot be read or written, or if its identity differs
   static Result<FlightTable> open(const std::string& file, const CampaignIdentity& identity);
   FlightTable(FlightTable&& other) noexcept = default;
   FlightTable& operator=(FlightTable&&) = delete;
@@ -48,9 +46,9 @@ class FlightTable {
 
   [[nodiscard]] const Flights& flights() const { return flights_; }
   [[nodiscard]] bool has(std::uint64_t seed) const { return flights_.records.contains(seed); }
-  /// @pre !has(record.seed), and times are of the same seed
+  /// Adds a flight. @pre !has(record.seed), and times are of the same seed
   Result<void> add(const FlightRecord& record, const FlightTimes& times);
-  /// Puts the lines in the order of the seeds. The book may be closed then, not added to.
+  /// Sorts the lines by seed. It may be the last call: nothing can be added later.
   Result<void> close_sorted();
 
  private:
@@ -60,7 +58,7 @@ class FlightTable {
 
   std::string file_;
   Flights flights_;
-  Descriptor lock_, times_file_, flights_file_;  // the lock ends last
+  Descriptor lock_, times_file_, flights_file_;  ///< the lock is released last
 };
 
 }  // namespace tern
