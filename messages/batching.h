@@ -1,4 +1,4 @@
-// Complete sets ↔ numbered batches of one message each (DESIGN: sizes and loss).
+// Conversion between complete sets and numbered batches of one message each.
 #pragma once
 
 #include <cstddef>
@@ -9,27 +9,34 @@
 
 namespace tern {
 
-/// Cuts a complete set into 1 … kMaxBatches batches that encode() takes, in the order of its tracks. Put those first
-/// that can reach the vehicle soonest. Header, set number, time and confidence are copied from `whole` into each batch;
-/// index and count are set. An empty set is one empty batch.
+/// Splits a complete set into 1 … kMaxBatches batches that encode() accepts. The order of the tracks is kept, so the
+/// caller puts those first that can reach the vehicle soonest. Header, set number, time and confidence are copied into
+/// each batch. An empty set gives one empty batch.
 ///
-/// What is too long is made coarser, not left out. Where the tracks do not fit, each is resampled to its share, its
-/// error in α (core/world/resampling.h). A share is 2s pieces in the first half of the order and s in the second, with
-/// the largest s for which all fit. Some 1900 tracks fit with one piece each; those beyond are left out, the last ones
-/// first. So is a track whose resampled numbers leave a message's ranges (α beyond 1e6 m, pieces of weeks). `left_out`
-/// of every batch counts them, added to `whole.left_out`. O(tracks), or O(n log n) of the pieces to resample.
+/// If the tracks do not fit, they are made coarser rather than left out:
+///
+/// 1. Each track is resampled to at most 2s pieces in the first half of the order and s pieces in the second half. The
+///    error goes into α (core/world/resampling.h). s is the largest number for which all tracks fit.
+/// 2. About 1900 tracks fit with one piece each. Further ones are left out, the last ones first.
+/// 3. A track is also left out if resampling takes its numbers out of a message's ranges (α beyond 1e6 m, pieces of
+///    weeks).
+///
+/// `left_out` of every batch is `whole.left_out` plus the tracks left out here. O(tracks), or O(n log n) of the pieces
+/// if tracks are resampled.
 std::vector<TrackSet> split_batches(const TrackSet& whole);
 std::vector<ObstacleTruth> split_batches(const ObstacleTruth& whole);
 
-/// The most pieces, up to kMaxPiecesPerBatch, for each of `tracks` declared tracks if one set shall hold them all
-/// beside `single` tracks of one piece. It is 0 when they are too many even with one piece each. O(tracks).
+/// Returns the largest number of pieces per track for which one set holds `tracks` declared tracks of that many
+/// pieces. The set also holds `single` tracks of one piece. At most kMaxPiecesPerBatch; 0 if the tracks do not fit
+/// even with one piece each. O(tracks).
 std::size_t pieces_for_each(std::size_t tracks, std::size_t single);
 
-/// The set again, sorted by id; header and set number of the first batch, batch 0 of 1. Where batches disagree (an
-/// honest sender's do not) the careful value holds: the oldest time, the least confidence, the most left out. Of an id
-/// that occurs twice both remain.
-/// @param batches  all batches of one set, as BatchCollector gives them. @throws std::invalid_argument when there is
-/// none.
+/// Returns the complete set, sorted by id, with header and set number of the first batch, as batch 0 of 1.
+///
+/// Batches of a correct sender agree in their other fields. If they differ, the cautious value is used: the oldest
+/// time, the lowest confidence, the largest `left_out`. If two entries have the same id, both remain.
+/// @param batches  all batches of one set, as BatchCollector returns them
+/// @throws std::invalid_argument if there is no batch
 TrackSet join_batches(std::vector<TrackSet> batches);
 ObstacleTruth join_batches(std::vector<ObstacleTruth> batches);
 

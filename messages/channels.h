@@ -1,5 +1,5 @@
-// The contract of the bus: which message travels on which channel, who says it, how often. Whoever wants all channels
-// walks this table; lcmtypes/README.md explains it.
+// The channels of the bus: type, sender, rate. Code that handles all channels walks this table.
+// docs/reference/messages.md is made from it and from lcmtypes/.
 #pragma once
 
 #include <cstdint>
@@ -22,79 +22,100 @@
 
 namespace tern {
 
-/// A part in a flight. The numbers are on the wire (trailer.h).
+/// The role of a process in a flight. The numbers are on the wire (trailer.h).
 enum class Role : std::uint8_t {
-  Vehicle = 1,  ///< tern-simulator, or sensors and autopilot bridge
+  Vehicle = 1,  ///< tern-simulator; on an aircraft the sensors and the autopilot bridge
   Predictor = 2,
   Planner = 3,
   Mapper = 4,
-  Operator = 5,  ///< who says goals: tern-viewer, a mission; the vehicle repeats them
+  Operator = 5,  ///< sends goals: tern-viewer, a mission; the vehicle repeats them
   Observer = 6,  ///< tern-monitor, tern-logger, and any other process
-  Executor = 7,  ///< tern-executor: what the vehicle shall fly
+  Executor = 7,  ///< tern-executor: sends the setpoints
 };
 
+/// The owner of the messages of a channel.
 enum class Scope : std::uint8_t {
-  Shared,   ///< of the world, whichever vehicles are in it
-  Vehicle,  ///< of one vehicle
+  Shared,   ///< the world; all vehicles share the channel
+  Vehicle,  ///< one vehicle; its channels may have a suffix
 };
 
-/// A channel, and by T the type of its messages.
+/// A channel whose messages have the type T.
 template <class T>
 struct Channel {
   const char* name;  ///< without a vehicle's suffix
   Scope scope = Scope::Vehicle;
   const char* rate = "";           ///< in words
-  bool latched = false;            ///< the newest message is repeated, so that who comes late gets it
-  std::optional<Role> owner = {};  ///< the one role that speaks; nullopt: each role, for itself
-  std::optional<Duration> silence =
-      {};  ///< of the sender that is heard before another one is; nullopt: several may speak
+  bool latched = false;            ///< the newest message is repeated for processes that start late
+  std::optional<Role> owner = {};  ///< the only role that may send; nullopt: every role may, for itself.
+  /// A sender owns the channel until it is silent for this long; then another one may take over. nullopt: several
+  /// senders may send at the same time.
+  std::optional<Duration> silence = {};
 };
 
 namespace channels {
 
 inline constexpr Duration kSilence{1'000'000};
-/// The planner calls predictions of this age stale: it cannot wait longer for a predictor that was started anew. Nor
-/// can a vehicle in flight for a planner or an executor: plans are short.
+/// For senders on which a vehicle in flight depends. Predictions of this age are stale, and plans are short, so a
+/// restarted predictor, planner or executor must be accepted by then.
 inline constexpr Duration kShortSilence{300'000};
 inline constexpr auto kAnyone = std::nullopt;
 inline constexpr bool kLatched = true, kStream = false;
 
 // clang-format off
+/// The state of the vehicle as estimated.
 inline constexpr Channel<UavState> kUavState{
     "UAV_STATE", Scope::Vehicle, "100 Hz", kStream, Role::Vehicle, kSilence};
+/// The state of the vehicle as commanded; besides the regular ones, a setpoint for each knot of the committed
+/// trajectory.
 inline constexpr Channel<UavState> kSetpoint{
     "SETPOINT", Scope::Vehicle, "100 Hz", kStream, Role::Executor, kShortSilence};
+/// Whether the vehicle follows its setpoints and why not; armed, landed, mode, battery, health of the estimator.
 inline constexpr Channel<VehicleStatus> kVehicleStatus{
     "VEHICLE_STATUS", Scope::Vehicle, "10 Hz, and at once when it changes", kLatched, Role::Vehicle, kSilence};
+/// The detections of one sensor at one time; several sensors may send.
 inline constexpr Channel<ObservationSet> kObstacleObservations{
     "OBSTACLE_OBSERVATIONS", Scope::Vehicle, "30 Hz", kStream, Role::Vehicle, kAnyone};
+/// Motions that the owner of obstacles declares, with α.
 inline constexpr Channel<TrackSet> kDeclaredMotions{
     "DECLARED_MOTIONS", Scope::Shared, "5 Hz", kStream, Role::Vehicle, kSilence};
+/// Per track a box, cubic pieces, and per piece α with its shares at lower levels of confidence.
 inline constexpr Channel<TrackSet> kPredictions{
     "PREDICTIONS", Scope::Vehicle, "20 Hz", kStream, Role::Predictor, kShortSilence};
+/// For display: per estimated track, about 1 s ahead, the bounds from which α follows.
 inline constexpr Channel<TrackBounds> kTrackBounds{
     "TRACK_BOUNDS", Scope::Vehicle, "2 Hz", kStream, Role::Predictor, kShortSilence};
+/// Labels and classes of voxels, run-length coded; a digest names the map.
 inline constexpr Channel<MapChunk> kSemanticMap{
     "SEMANTIC_MAP", Scope::Shared, "≥ 1 Hz, chunks in rotation", kLatched, Role::Mapper, kMapSilence};
+/// Go, hold or stop, and where; every new goal has a larger id.
 inline constexpr Channel<Goal> kGoal{
     "GOAL", Scope::Vehicle, "on demand, repeated at 1 Hz", kLatched, Role::Operator, kAnyone};
+/// Asks for a plan from the committed state at t_s, by a deadline, within limits.
 inline constexpr Channel<HorizonRequest> kHorizonRequest{
     "HORIZON_REQUEST", Scope::Vehicle, "10–20 Hz", kStream, Role::Executor, kShortSilence};
+/// The answer: trajectory, certificate, confidence, hold, cost, and the names of its inputs.
 inline constexpr Channel<Plan> kPlan{
     "PLAN", Scope::Vehicle, "one per request", kStream, Role::Planner, kShortSilence};
+/// Time by stage, work and memory of one answer.
 inline constexpr Channel<PlanTiming> kPlanTiming{
     "PLAN_TIMING", Scope::Vehicle, "one per request", kStream, Role::Planner, kShortSilence};
+/// For display: the nodes of the last search.
 inline constexpr Channel<SearchView> kSearchView{
     "SEARCH_VIEW", Scope::Vehicle, "one per request, only with `planner.publish_search`", kStream, Role::Planner,
     kShortSilence};
+/// The state of a process, what it waits for, counters by channel, echoes of other heartbeats.
 inline constexpr Channel<Heartbeat> kHeartbeat{
     "HEARTBEAT", Scope::Vehicle, "2 Hz, and at once for a new process", kStream, kAnyone, kAnyone};
+/// The effective configuration of a process as YAML, with its hash.
 inline constexpr Channel<ConfigurationReport> kConfiguration{
     "CONFIGURATION", Scope::Vehicle, "at start, 0.2 Hz", kLatched, kAnyone, kAnyone};
+/// The obstacles as they really are.
 inline constexpr Channel<ObstacleTruth> kObstacleTruth{
     "OBSTACLE_TRUTH", Scope::Shared, "30 Hz", kStream, Role::Vehicle, kSilence};
+/// The state of the vehicle as it really is, if it is known.
 inline constexpr Channel<UavState> kVehicleTruth{
     "VEHICLE_TRUTH", Scope::Vehicle, "100 Hz", kStream, Role::Vehicle, kSilence};
+/// The referee's verdict and its measures.
 inline constexpr Channel<FlightResult> kFlightResult{
     "FLIGHT_RESULT", Scope::Vehicle, "at the end", kLatched, Role::Vehicle, kSilence};
 // clang-format on
@@ -120,13 +141,13 @@ inline constexpr std::tuple kAll{kUavState,
 
 }  // namespace channels
 
-/// Calls visit(channel) for each of Tern's channels, or for each of a tuple of some.
+/// Calls visit(channel) for each of Tern's channels, or for each channel of the tuple `all`.
 template <class Visit, class Channels = decltype(channels::kAll)>
 constexpr void for_each_channel(Visit&& visit, const Channels& all = channels::kAll) {
   std::apply([&visit](const auto&... channel) { (visit(channel), ...); }, all);
 }
 
-/// Calls visit(channel) for the one of this name, if it is among them. @return whether it is
+/// Calls visit(channel) for the channel with this name. @return false if there is none
 /// @param name  without a vehicle's suffix
 template <class Visit, class Channels = decltype(channels::kAll)>
 bool visit_channel(std::string_view name, Visit&& visit, const Channels& all = channels::kAll) {

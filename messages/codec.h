@@ -1,5 +1,5 @@
-// Bytes ↔ values: one pair per message, pure. A message is accepted only when every check passes (docs/architecture.md,
-// "Bad input").
+// Conversion between bytes and values, a pair of functions per message. decode() accepts a message only if every check
+// passes (docs/architecture.md, "Bad input").
 #pragma once
 
 #include <cstdint>
@@ -14,65 +14,69 @@ namespace tern {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// The message's LCM encoding (fingerprint first).
-/// @throws std::invalid_argument for a caller's bug: a count beyond its limit, more than kMaxMessageBytes.
+/// Returns the LCM encoding of a message.
+/// @throws std::invalid_argument if a count is beyond its limit or the message is longer than kMaxMessageBytes
 template <class T>
 Bytes encode(const T& value);
 
-/// The value of exactly these bytes, or why they are refused. Checks fingerprint, then counts (at fixed offsets, within
-/// limits), then the length that the counts ask for. Then: numbers finite and in range; enumerations known; times in
-/// order; fields consistent. A trailer may follow (trailer.h); its tag is not checked here. Never throws, allocates no
-/// more than the message's own size asks for.
+/// Returns the value of a message, or the reason for its refusal. It never throws and allocates no more memory than
+/// the message's size requires. The checks are, in this order:
+///
+/// 1. the fingerprint;
+/// 2. the counts, which lie at fixed offsets;
+/// 3. the length that the counts require; one trailer may follow (trailer.h), whose tag is not checked here;
+/// 4. numbers finite and in their ranges, enumerations known, times in order, fields consistent.
 template <class T>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes);
 
-/// What lcmtypes/ calls the message. Beside each: the rules between its fields for which decode refuses it.
+/// The name of the message's type in lcmtypes/. The comments below state the rules between its fields; decode()
+/// refuses a message that breaks one.
 template <class T>
 inline constexpr const char* kLcmType = nullptr;
 
 template <>
 inline constexpr const char* kLcmType<UavState> = "uav_state_t";
-/// Inconsistent: following though not armed; following with a reason why not, or not following without one.
+/// Inconsistent: a vehicle follows unarmed; a following one has a `why_not`; another one has none.
 template <>
 inline constexpr const char* kLcmType<VehicleStatus> = "vehicle_status_t";
-/// Inconsistent: two detections with one track id.
+/// Inconsistent: two detections have the same track id.
 template <>
 inline constexpr const char* kLcmType<ObservationSet> = "observation_set_t";
-/// Pieces and α of all tracks travel as one flat array.
-/// Inconsistent: the tracks' piece counts do not sum to the pieces; two tracks have one id; a static track moves or has
-/// several pieces.
+/// Inconsistent: the tracks' piece counts do not sum to the number of pieces; two tracks have the same id; a static
+/// track moves or has several pieces.
 template <>
 inline constexpr const char* kLcmType<TrackSet> = "track_set_t";
 template <>
 inline constexpr const char* kLcmType<TrackBounds> = "track_bounds_t";
-/// Inconsistent: runs that end beyond the grid, a class that has no name, a first class name that is not empty.
+/// Inconsistent: runs end beyond the grid; a class has no name; the first class name has text.
 template <>
 inline constexpr const char* kLcmType<MapChunk> = "map_chunk_t";
 template <>
 inline constexpr const char* kLcmType<Goal> = "goal_t";
-/// Time: t_s before the committed trajectory, a deadline later than t_s − kDeadlineLead. Inconsistent: a committed
-/// trajectory that does not end at rest, a start that is not its state at t_s (to kJoinTolerance), an empty flight box.
+/// Time: t_s precedes the committed trajectory; the deadline is later than t_s − kDeadlineLead. Inconsistent: the
+/// committed trajectory does not end at rest; `start` differs from its state at t_s by more than kJoinTolerance; the
+/// flight box is empty.
 template <>
 inline constexpr const char* kLcmType<HorizonRequest> = "horizon_request_t";
-/// Inconsistent: a certificate plane of an interval or part that the trajectory does not have, or whose normal is not
-/// of length 1 (to 1e-6). Whether the trajectory is a good one is the executor's and the audit's to judge.
+/// Inconsistent: a certificate plane names an interval or part beyond those of the trajectory; the length of a normal
+/// differs from 1 by more than 1e-6. The executor and the audit judge the trajectory itself.
 template <>
 inline constexpr const char* kLcmType<Plan> = "plan_t";
 template <>
 inline constexpr const char* kLcmType<PlanTiming> = "plan_timing_t";
-/// Inconsistent: a node whose parent does not come before it.
+/// Inconsistent: a node precedes its parent.
 template <>
 inline constexpr const char* kLcmType<SearchView> = "search_view_t";
-/// Inconsistent: name lengths that do not sum to the names' bytes, channels or echoes that are not in ascending order.
+/// Inconsistent: the name lengths do not sum to the names' bytes; channels or echoes are out of ascending order.
 template <>
 inline constexpr const char* kLcmType<Heartbeat> = "heartbeat_t";
-/// Inconsistent: a hash that is not digest(yaml).
+/// Inconsistent: the hash differs from digest(yaml).
 template <>
 inline constexpr const char* kLcmType<ConfigurationReport> = "configuration_t";
-/// Inconsistent: two obstacles with one id.
+/// Inconsistent: two obstacles have the same id.
 template <>
 inline constexpr const char* kLcmType<ObstacleTruth> = "obstacle_truth_t";
-/// Inconsistent: name lengths that do not sum to the names' bytes. The seven measures may be NaN.
+/// Inconsistent: the name lengths do not sum to the names' bytes. The eight measures may be NaN.
 template <>
 inline constexpr const char* kLcmType<FlightResult> = "flight_result_t";
 

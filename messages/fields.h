@@ -1,4 +1,4 @@
-// The fields that messages share, both ways; reading checks each one and remembers what was wrong first.
+// Writing and reading of message fields. Reading checks every field and remembers the first reason for a refusal.
 #pragma once
 
 #include <algorithm>
@@ -26,10 +26,10 @@
 
 namespace tern::wire {
 
-/// The least number of an open range (0, …].
+/// The smallest number > 0: the lower end of a range (0, …].
 inline constexpr double kAboveZero = std::numeric_limits<double>::denorm_min();
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// The largest double: a range up to it takes every finite number.
+/// The largest finite number: a range up to it accepts every finite number.
 inline constexpr double kMaxNumber = std::numeric_limits<double>::max();
 inline constexpr std::int64_t kMaxCounter = std::numeric_limits<std::int64_t>::max();
 
@@ -41,14 +41,15 @@ tern_msgs::motion_t to_lcm(const MotionSample& motion);
 std::vector<tern_msgs::vec3_t> to_lcm(const Points& points);
 void append(std::vector<std::uint8_t>& bytes, std::string_view text);
 
-/// An enumeration or a bool as a message carries it.
+/// Returns an enumerator or a bool as a message carries it.
 template <class Enum>
 std::int8_t to_int8(Enum value) {
   return static_cast<std::int8_t>(value);
 }
 
-/// Writes fields by the calls with which FieldReader reads them, so that a message lists its fields once, for both
-/// ways. A call names the field on the wire, the value, and its range, which here is the caller's to keep.
+/// Writes fields. Its functions have the same names and arguments as those of FieldReader, so a message lists its
+/// fields once for both directions. The arguments are the field on the wire, the value and its range; the range is not
+/// checked.
 class FieldWriter {
  public:
   template <class M, class T>
@@ -83,13 +84,13 @@ class FieldWriter {
   }
 };
 
-/// Hands out a flat array in pieces, one after the other.
+/// Gives out a flat array in consecutive slices.
 template <class E>
 class Slices {
  public:
   explicit Slices(const std::vector<E>& all) : rest_(all) {}
 
-  /// The next n elements; fewer when there are no more, which complete() then says.
+  /// Returns the next n elements, or all that are left if there are fewer; complete() is false from then on.
   std::span<const E> take(std::size_t n) {
     overrun_ = overrun_ || n > rest_.size();
     const std::span<const E> slice = rest_.first(std::min(n, rest_.size()));
@@ -97,7 +98,7 @@ class Slices {
     return slice;
   }
 
-  /// True when exactly all elements were taken.
+  /// True if exactly all elements were taken.
   [[nodiscard]] bool complete() const { return !overrun_ && rest_.empty(); }
 
  private:
@@ -105,16 +106,17 @@ class Slices {
   bool overrun_ = false;
 };
 
-/// UTF-8 without control characters but tab and newline (U+0000 … U+001F, U+007F): safe to print and to put into JSON.
+/// True if the text is UTF-8 without control characters (U+0000 … U+001F, U+007F) except tab and newline. Such a text
+/// is safe to print and to put into JSON.
 bool is_plain_text(std::string_view text);
 
-/// Reads fields. A refused number, time or enumeration reads as the least legal one, so that later arithmetic is safe.
-/// In the end accept() refuses the message, with the reason that comes first in the order of codec.h, whatever the
-/// order of reading.
+/// Reads fields and checks them. A refused number, time or enumeration is read as its smallest legal value, so later
+/// arithmetic is safe. At the end accept() refuses the message with the smallest Rejection noted, in whatever order
+/// the fields were read.
 class FieldReader {
  public:
-  /// The two ways' form (FieldWriter): the field, where its value goes, its range. `any` takes every value, `list`
-  /// calls each(element, value).
+  /// The functions of FieldWriter. Their arguments are the field, its value and its range. `any` accepts every value;
+  /// `list` calls each(element, value).
   template <class M, class T>
   void any(M m, T& x) {
     x = static_cast<T>(m);
@@ -129,10 +131,10 @@ class FieldReader {
   void vec3(const tern_msgs::vec3_t& m, Vec3& x, double low, double high) { x = vec3(m, low, high); }
   void position(const tern_msgs::vec3_t& m, Vec3& x) { x = position(m); }
   void extents(const tern_msgs::vec3_t& m, Vec3& x) { x = extents(m); }
-  /// A column for each, components within ±limit.
+  /// Reads a column per point, with components in [−limit, limit].
   void points(const std::vector<tern_msgs::vec3_t>& list, Points& x, double limit);
   void motion(const tern_msgs::motion_t& m, MotionSample& x);
-  /// Enumerators count from 0 to `last`.
+  /// Accepts the enumerators 0 … last.
   template <class Enum>
   void enumeration(std::int8_t m, Enum& x, Enum last) {
     x = static_cast<Enum>(note(0 <= m && m <= to_int8(last), Rejection::Enumeration) ? m : std::int8_t{0});
@@ -150,28 +152,28 @@ class FieldReader {
     for (std::size_t i = 0; i < m.size(); ++i) each(m[i], values[i]);
   }
 
-  /// low ≤ x ≤ high; never NaN. Number.
+  /// Accepts low ≤ x ≤ high, and refuses NaN, with the reason Number.
   double number(double x, double low, double high);
   template <class Integer>
   Integer integer(Integer x, Integer low, Integer high) {
     return note(low <= x && x <= high, Rejection::Number) ? x : low;
   }
   std::int64_t counter(std::int64_t x) { return integer<std::int64_t>(x, 0, kMaxCounter); }
-  /// Each component within [low, high].
+  /// Accepts components in [low, high].
   Vec3 vec3(const tern_msgs::vec3_t& v, double low, double high);
   Vec3 position(const tern_msgs::vec3_t& v) { return vec3(v, -kMaxCoordinate, kMaxCoordinate); }
   Vec3 extents(const tern_msgs::vec3_t& v) { return vec3(v, 0.0, kMaxCoordinate); }
   bool flag(std::int8_t x) { return note(x == 0 || x == 1, Rejection::Enumeration) && x == 1; }
   Duration duration(std::int64_t us, Duration low, Duration high);
-  /// Plain text; Number when a byte is not.
+  /// Accepts plain text (is_plain_text()), and refuses other bytes with the reason Number.
   std::string text(std::span<const std::uint8_t> bytes);
-  /// Rules between fields.
+  /// Notes whether a rule between fields holds.
   bool in_order(bool ok) { return note(ok, Rejection::Time); }
   bool consistent(bool ok) { return note(ok, Rejection::Inconsistent); }
 
-  /// True while nothing was refused.
+  /// True if every field so far was accepted.
   [[nodiscard]] bool ok() const { return !refused_; }
-  /// The value, or the first reason against it.
+  /// Returns the value, or the reason for its refusal.
   template <class T>
   [[nodiscard]] tl::expected<T, Rejection> accept(T value) const {
     if (refused_) return tl::make_unexpected(*refused_);
@@ -187,7 +189,7 @@ class FieldReader {
   std::optional<Rejection> refused_;
 };
 
-/// True when the values are strictly ascending once sorted: none occurs twice.
+/// True if no value occurs twice.
 bool all_different(std::vector<std::int64_t> values);
 
 }  // namespace tern::wire

@@ -1,4 +1,4 @@
-// A message on the wire: its arrays and its fields, stated once for both ways. encode and decode (codec.h) follow.
+// encode() and decode() of all messages, made from each message's list of arrays and fields.
 #pragma once
 
 #include <exception>
@@ -12,16 +12,17 @@
 
 namespace tern::wire {
 
-/// Each message's source specializes it.
+/// The form of a message on the wire. The source file of each message specializes it.
 ///
-///     using Message = …;                                     the generated type
-///     static constexpr Layout kLayout{…};                    its arrays
-///     static void fields(auto& io, auto& m, auto& value);    its fields, by a FieldWriter or a FieldReader
-///     static void write_rest(Message&, const T&);            optional: fields that have another form on the wire
-///     static void read_rest(FieldReader&, const Message&, T&);  optional: the same, and the rules between fields
+///     using Message = …;                                        the generated type
+///     static constexpr Layout kLayout{…};                       its arrays
+///     static void fields(auto& io, auto& m, auto& value);       its fields; io is a FieldWriter or a FieldReader
+///     static void write_rest(Message&, const T&);               optional: fields with another form on the wire
+///     static void read_rest(FieldReader&, const Message&, T&);  optional: such fields, and rules between fields
 template <class T>
 struct Form;
 
+/// Reads and checks the fields of a decoded message.
 template <class T>
 tl::expected<T, Rejection> read_fields(const typename Form<T>::Message& message) {
   FieldReader read;
@@ -45,7 +46,7 @@ Bytes encode(const T& value) {
   return wire::encode(std::move(message), Form::kLayout);
 }
 
-/// Form first, then the generated decoder, then the fields.
+/// Checks the length first, then calls the generated decoder, then reads the fields.
 template <class T>
 tl::expected<T, Rejection> decode(std::span<const std::uint8_t> bytes) {
   try {

@@ -1,8 +1,8 @@
-// The form of every message: counts at fixed offsets right behind the fingerprint, then fixed fields, then flat arrays.
+// The layout of every message: the fingerprint, all counts at fixed offsets, fixed fields, flat arrays.
 //
-// So the exact length of a message follows from its first bytes, before a generated decoder sees it. Those throw, or
-// wrap a hostile count and read beyond their buffer. A message states its arrays once, as a Layout, and encoder and
-// decoder do the rest.
+// The exact length of a message therefore follows from its first bytes, and it is checked before a generated decoder
+// runs. (With a hostile count, generated decoders throw or read beyond their buffer.) A message states its arrays
+// once, as a Layout.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ namespace tern::wire {
 inline constexpr std::size_t kFingerprintBytes = 8;
 inline constexpr std::size_t kCountBytes = 4;
 
-/// The big-endian integer at `offset`. @pre it lies within `bytes`.
+/// Returns the big-endian integer at `offset`. @pre it lies within `bytes`
 template <class Integer>
 Integer read_integer(std::span<const std::uint8_t> bytes, std::size_t offset) {
   std::make_unsigned_t<Integer> x = 0;
@@ -34,14 +34,14 @@ Integer read_integer(std::span<const std::uint8_t> bytes, std::size_t offset) {
   return static_cast<Integer>(x);
 }
 
-/// One variable array of the generated type M and the count that rules it alone.
+/// One array of the generated type M, and its count.
 template <class M, class E>
 struct Array {
   std::int32_t M::*count;
   std::vector<E> M::*items;
   std::int32_t min_count, max_count;  ///< legal counts
 
-  /// Bytes of one element on the wire.
+  /// Returns the size of one element on the wire, bytes.
   static std::size_t element_bytes() {
     if constexpr (std::is_class_v<E>) {
       return static_cast<std::size_t>(E{}._getEncodedSizeNoHash());
@@ -53,25 +53,25 @@ struct Array {
 template <class M, class E>
 Array(std::int32_t M::*, std::vector<E> M::*, std::int32_t, std::int32_t) -> Array<M, E>;
 
-/// All arrays of M, in the order in which M declares their counts (first) and the arrays (last).
+/// All arrays of M, in the order in which M declares their counts (at its start) and the arrays (at its end).
 template <class M, class... E>
 struct Layout {
   std::tuple<Array<M, E>...> arrays;
 
   constexpr explicit Layout(Array<M, E>... of) : arrays(of...) {}
 
-  /// Calls visit(array) for each.
+  /// Calls visit(array) for each array.
   template <class Visit>
   void for_each(Visit&& visit) const {
     std::apply([&](const auto&... array) { (visit(array), ...); }, arrays);
   }
 
-  /// Bytes up to the end of the counts.
+  /// Returns the size of fingerprint and counts, bytes.
   static constexpr std::size_t head_bytes() { return kFingerprintBytes + kCountBytes * sizeof...(E); }
 };
 
-/// Sets the counts from the arrays' sizes and encodes.
-/// @throws std::invalid_argument when a count is out of its range or the whole is longer than kMaxMessageBytes.
+/// Sets the counts from the arrays' sizes and encodes the message.
+/// @throws std::invalid_argument if a count is out of its range or the message is longer than kMaxMessageBytes
 template <class M, class... E>
 Bytes encode(M message, const Layout<M, E...>& layout) {
   layout.for_each([&](const auto& array) {
@@ -93,8 +93,8 @@ Bytes encode(M message, const Layout<M, E...>& layout) {
   return bytes;
 }
 
-/// How many of the bytes are an M, judged by fingerprint, counts and length: all, or all but one trailer. Or why they
-/// cannot be one. Allocates nothing beyond an empty message.
+/// Returns the size of the message at the start of `bytes`, from its fingerprint and its counts: all bytes, or all but
+/// one trailer. If the bytes cannot be an M, returns the reason. Allocates an empty message only.
 template <class M, class... E>
 tl::expected<std::size_t, Rejection> message_bytes(std::span<const std::uint8_t> bytes, const Layout<M, E...>& layout) {
   if (bytes.size() < kFingerprintBytes) return tl::make_unexpected(Rejection::Length);
