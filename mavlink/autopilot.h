@@ -1,4 +1,4 @@
-// What is known of an autopilot from its messages: mode, position, health, clock, parameters.
+// The state of an autopilot as its messages report it: mode, position, health, clock, parameters.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace tern::mavlink {
 
-/// An older estimate says nothing of where the vehicle is.
+/// An older estimate does not count as the vehicle's position.
 inline constexpr Duration kStateAge{500'000};
 
 enum class Firmware : std::uint8_t { Px4, ArduPilot, Other };
@@ -27,80 +27,82 @@ inline constexpr std::uint16_t kNavLand = 21, kNavTakeoff = 22, kDoSetMode = 176
 /// MAV_RESULT.
 inline constexpr std::uint8_t kAccepted = 0, kInProgress = 5;
 inline constexpr std::uint8_t kArmedBit = 128;
-/// Silent for longer, and the link counts as lost: its states come at 30 to 100 Hz.
+/// After this long without a frame the link counts as lost. States come at 30 to 100 Hz.
 inline constexpr Duration kLinkSilence{300'000};
 
-/// "temporarily rejected", "denied" …
+/// Returns the text of a MAV_RESULT: "temporarily rejected", "denied" …
 std::string result_text(std::uint8_t mav_result);
 
-/// Pure: hears frames, answers questions. The first HEARTBEAT of an autopilot (component 1) decides who it is; frames
-/// of any other system or component change nothing and are counted.
+/// Collects what an autopilot reports. Pure: frames and receive times in.
+///
+/// The first HEARTBEAT of an autopilot (component 1) decides which system is meant. Frames of any other system or
+/// component are counted and ignored.
 class Autopilot {
  public:
-  /// @param system  only this system id; 0: the first that is heard
+  /// @param system  the system id to accept; 0: that of the first HEARTBEAT
   explicit Autopilot(std::uint8_t system = 0) : wanted_(system) {}
 
-  /// @return whether the frame is the autopilot's
+  /// Takes a frame. @return whether it is the autopilot's
   bool receive(const Frame& frame, UTime received);
 
   [[nodiscard]] const std::optional<Address>& address() const { return address_; }
   [[nodiscard]] Firmware firmware() const;
-  /// It is heard, and its mode too since the last silence: HEARTBEAT comes at 1 Hz only.
+  /// Whether frames arrive, and HEARTBEAT has reported the mode since the last silence. HEARTBEAT has only 1 Hz.
   [[nodiscard]] bool linked(UTime now) const {
     return address_ && !mode_is_old_ && now - last_received_ <= kLinkSilence;
   }
   [[nodiscard]] UTime last_received() const { return last_received_; }
-  /// Whether frames come again after a silence, but no HEARTBEAT yet.
+  /// Whether frames arrive again after a silence, without a HEARTBEAT yet.
   [[nodiscard]] bool mode_is_old() const { return mode_is_old_; }
-  /// The longest silence since the newest HEARTBEAT, the one that lasts included: so long nobody knows its mode.
+  /// The longest silence since the newest HEARTBEAT, including the present one. During it the mode may have changed.
   [[nodiscard]] Duration silence(UTime now) const { return std::max(longest_gap_, now - last_received_); }
   [[nodiscard]] bool armed() const { return (heartbeat_.base_mode & kArmedBit) != 0; }
-  /// Its own word: "OFFBOARD", "GUIDED", "AUTO.LAND".
+  /// The name of the mode: "OFFBOARD", "GUIDED", "AUTO.LAND"; "" before the first HEARTBEAT.
   [[nodiscard]] std::string mode() const;
-  /// When HEARTBEAT told it last.
+  /// Receive time of the newest HEARTBEAT.
   [[nodiscard]] UTime mode_received() const { return mode_received_; }
-  /// DO_SET_MODE's parameters for the mode that it is in.
+  /// The parameters of DO_SET_MODE for the present mode.
   [[nodiscard]] std::array<float, 7> mode_command() const;
-  /// The mode that follows setpoints: OFFBOARD of PX4, GUIDED of ArduPilot; and the one that lands.
+  /// Names of the mode that follows setpoints (PX4: OFFBOARD, ArduPilot: GUIDED) and of the one that lands.
   [[nodiscard]] const char* following_mode() const;
   [[nodiscard]] const char* landing_mode() const;
   [[nodiscard]] bool follows() const { return mode() == following_mode(); }
   [[nodiscard]] bool landing() const { return mode() == landing_mode(); }
-  /// It does not what it was told, but what its failsafe is set to (PX4: HEARTBEAT's system_status is critical).
+  /// Whether it is in a failsafe (PX4: armed, and HEARTBEAT's system_status is critical).
   [[nodiscard]] bool in_failsafe() const;
   [[nodiscard]] std::optional<bool> landed() const { return landed_; }
-  /// A take-off of its own is under way, as EXTENDED_SYS_STATE says.
+  /// Whether EXTENDED_SYS_STATE reports a take-off.
   [[nodiscard]] bool taking_off() const { return taking_off_; }
   [[nodiscard]] std::optional<double> battery() const { return battery_; }  ///< [0, 1]
-  /// Lost: it has had no position or velocity for kFaultPasses, or never yet. A fault of its inputs takes that from a
-  /// PX4's flags for a moment, while the position is good.
+  /// Lost: without position or velocity for kFaultPasses, or from the start. A shorter gap counts as Degraded: an input
+  /// fault clears a PX4's flags for a moment while the position is good.
   [[nodiscard]] EstimatorHealth estimator() const;
-  [[nodiscard]] Vec3 sigma() const;  ///< the estimator's own accuracy per axis, m; 0: not said
+  [[nodiscard]] Vec3 sigma() const;  ///< the estimator's accuracy per axis, m; 0: not reported
   [[nodiscard]] const ClockFit& clock() const { return clock_; }
   [[nodiscard]] int resets() const { return resets_; }
-  /// The newest state in its local frame, as ENU; `at` is ours. a and j are zero: it does not say them.
+  /// The newest state in its local frame, as ENU, with `at` in our clock. a and j are zero: they are not reported.
   [[nodiscard]] const std::optional<UavState>& state() const { return state_; }
-  /// When it was first heard to be armed, or disarmed, as it is now.
+  /// Receive time of the first HEARTBEAT with the present arming.
   [[nodiscard]] UTime arming_changed() const { return arming_changed_; }
-  /// Home's height in the local frame, m, as GLOBAL_POSITION_INT had it since then: arming may move home. nullopt: not
-  /// said.
+  /// Height of home in the local frame, m, from GLOBAL_POSITION_INT since the arming last changed, since arming may
+  /// move home. nullopt: not reported.
   [[nodiscard]] std::optional<double> home_height() const { return home_height_; }
-  /// The newest true state by HIL_STATE_QUATERNION, as ENU from GPS_GLOBAL_ORIGIN, or from where the first one was
-  /// (take_own_origin); nothing before an origin is known. Only simulators say it. One that states no time, as PX4's
-  /// does, counts for when it was received.
+  /// The newest true state from HIL_STATE_QUATERNION, which only simulators send. It is ENU relative to
+  /// GPS_GLOBAL_ORIGIN, or to an own origin (take_own_origin); nullopt before an origin is known. A message without a
+  /// time, as of a PX4, gets its receive time.
   [[nodiscard]] const std::optional<UavState>& truth() const { return truth_; }
-  /// An estimator without GPS says no origin: external vision gives it one. A vehicle that stands disarmed when its
-  /// truth is first heard is at the origin. Of one that is armed the truth is shifted so that it agrees with the
-  /// estimate; there is none before it has one.
+  /// Uses an own origin for the truth: an estimator without GPS, as with external vision, reports none. If the vehicle
+  /// is disarmed when the first truth arrives, it is at the origin. If it is armed, the truth is shifted to agree with
+  /// the estimate, and there is none before an estimate.
   void take_own_origin() { own_origin_ = true; }
   [[nodiscard]] const std::map<std::string, double>& parameters() const { return parameters_; }
-  /// The newest STATUSTEXT, warning or worse. To "Arming denied …" the newest "Preflight Fail …" is added, which says
-  /// why.
+  /// The newest STATUSTEXT of severity warning or worse. "Arming denied …" is followed by the newest "Preflight Fail
+  /// …", which contains the reason.
   [[nodiscard]] std::string last_warning() const;
-  /// Acknowledgements and texts since the last call.
+  /// Return acknowledgements and texts since the last call.
   std::deque<CommandAck> take_acks() { return std::exchange(acks_, {}); }
   std::deque<std::string> take_texts() { return std::exchange(texts_, {}); }
-  [[nodiscard]] std::int64_t strangers() const { return strangers_; }  ///< frames of others
+  [[nodiscard]] std::int64_t strangers() const { return strangers_; }  ///< number of frames from other senders
 
  private:
   void receive_health(const EstimatorStatus& status, UTime received);
@@ -120,7 +122,7 @@ class Autopilot {
   bool taking_off_ = false;
   std::optional<double> battery_;
   std::optional<EstimatorStatus> health_;
-  std::optional<UTime> placed_;  ///< when the estimator last said that it has a position and velocity
+  std::optional<UTime> placed_;  ///< when the estimator last reported position and velocity
   UTime health_received_;
   ClockFit clock_;
   std::optional<std::uint8_t> reset_counter_;
@@ -132,12 +134,12 @@ class Autopilot {
   double yaw_ = 0.0;
   std::optional<GpsGlobalOrigin> origin_;
   bool own_origin_ = false;
-  Vec3 own_shift_ = Vec3::Zero();  ///< of an origin of its own, ENU
+  Vec3 own_shift_ = Vec3::Zero();  ///< of the truth from the own origin, ENU, m
   std::map<std::string, double> parameters_;
   std::string warning_, failed_check_;
   std::deque<CommandAck> acks_;
   std::deque<std::string> texts_;
-  std::string text_;  ///< what has come of a text in several chunks
+  std::string text_;  ///< the chunks of a text so far
   std::uint16_t text_id_ = 0;
   std::int64_t strangers_ = 0;
 };

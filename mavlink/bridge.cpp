@@ -185,7 +185,7 @@ std::string Bridge::not_ready(UTime now) const {
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
   if (!autopilot_.landed()) return "it does not say whether it has landed (EXTENDED_SYS_STATE)";
   if (!config_.check_parameters) return {};
-  return parameter_faults(required(), autopilot_.parameters(), parameters_asked_ >= kAskedOften);
+  return parameter_faults(required(), autopilot_.parameters(), parameters_asked_ >= kMaxParameterRounds);
 }
 
 std::string Bridge::estimate_fault(UTime now) const {

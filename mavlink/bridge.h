@@ -1,4 +1,4 @@
-// Between SETPOINT and an autopilot: take-off, following, standing back, landing.
+// The bridge between SETPOINT and an autopilot: take-off, following, standing back, landing.
 #pragma once
 
 #include <string>
@@ -15,59 +15,80 @@ namespace tern::mavlink {
 
 /// MAV_COMP_ID_ONBOARD_COMPUTER.
 inline constexpr std::uint8_t kOwnComponent = 191;
-/// Rounds of requests after which a parameter that has not come is not there: of 20 % lost packets one in 10^5 each
-/// way.
-inline constexpr int kAskedOften = 6;
+/// After this many requests, a parameter without an answer counts as absent. If 20 % of the packets are lost in one
+/// direction, all six are lost with probability 0.2⁶ = 6·10⁻⁵.
+inline constexpr int kMaxParameterRounds = 6;
 
-/// Where a flight is.
+/// The stage of a flight. Bridge has the tables of stages and events.
 enum class Stage : std::uint8_t {
-  Waiting,    ///< for a link, an estimate, a clock, parameters
-  Ready,      ///< to be told to fly, or for the pilot
-  Engaging,   ///< asks for OFFBOARD, then to be armed
+  Waiting,    ///< link, estimate, clock or parameters are missing
+  Ready,      ///< waits for an order to fly, or for the pilot
+  Engaging,   ///< requests the following mode, then arming
   Climbing,   ///< from the ground to uav.start
   Following,  ///< flies SETPOINT
-  StoodBack,  ///< somebody else flies; until told again
+  StoodBack,  ///< another pilot flies, until the next order
   Landing,
   Landed
 };
 const char* to_string(Stage stage);
 
-/// Pure: frames and times in, frames out. The caller sends what take_frames() gives and calls step() at rate_hz or
-/// more.
+/// Flies a vehicle with an autopilot (PX4 or ArduPilot). Pure: frames and times in, frames out. The caller sends the
+/// frames of take_frames() and calls step() at rate_hz or more.
 ///
-/// W is the autopilot's local frame, shifted: the local origin lies at (uav.start.x, uav.start.y, 0). So a vehicle that
-/// has started its estimator where it stands climbs straight up to uav.start. What is said to the autopilot: HEARTBEAT
-/// 2 Hz, TIMESYNC 10 Hz, in flight five times a second the question for its HEARTBEAT. From the moment that its
-/// position is known SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz: the stream runs before OFFBOARD is asked for.
-/// It carries
-///   p, v of the command half a period later, acceleration_gain·a(now + lead_s) + drag_per_s·v, and the heading.
-/// An autopilot holds it for a period, and would else be half a period late. An ArduPilot carries it on: p, v of now.
-/// The gain is for level axes: the D term of an autopilot's vertical loop is 0. While the vehicle is not following, the
-/// command is to stay where it is.
+/// W is the autopilot's local frame, shifted: the local origin lies at (uav.start.x, uav.start.y, 0). So a vehicle
+/// whose estimator was started where it stands climbs straight up to uav.start.
 ///
-/// While the estimate is dead the vehicle is not following: it is told to come to rest where it was commanded to be.
+/// *Following mode* is OFFBOARD of PX4, GUIDED of ArduPilot.
 ///
-/// An ArduPilot is asked to take off (NAV_TAKEOFF), to uav.start's height above its home. Setpoints would end that:
-/// they begin when it is up, and none are sent before it follows. A take-off that is found under way is waited for,
-/// too.
+/// | stage     | entered when                                                  | setpoints to a PX4             |
+/// |-----------|---------------------------------------------------------------|--------------------------------|
+/// | Waiting   | at start, and after an order in StoodBack or Landed           | none                           |
+/// | Ready     | link, clock, estimate and parameters are good                 | stay here                      |
+/// | Engaging  | ordered to fly, and setpoints have been sent for 1 s          | stay here                      |
+/// | Climbing  | armed in the following mode on the ground                     | up to uav.start at climb_speed |
+/// | Following | uav.start is reached, or armed in the following mode in the air | SETPOINT, or stay here       |
+/// | StoodBack | another pilot flies                                           | none; start pilot: stay here   |
+/// | Landing   | land() while the bridge flies                                 | stay here, until it lands      |
+/// | Landed    | disarmed, and no arming request for 1.5 s                     | none                           |
 ///
-/// Following begins when OFFBOARD and armed are confirmed by HEARTBEAT, in the air. It ends when the autopilot leaves
-/// OFFBOARD or disarms, by a pilot, a failsafe or a bridge of another. The bridge then stands back and stops its
-/// stream. With start pilot the stream goes on and says the vehicle's own place. The bridge flies again only when told:
-/// by a new GOAL, or with start pilot by the switch. A vehicle that it finds armed, but not in OFFBOARD, is somebody
-/// else's, too. So is one that is armed in another mode while the bridge engages or lands it. A bridge that was started
-/// anew and finds the vehicle armed and in OFFBOARD in the air goes on following.
+/// | event                                                       | stage               | next stage                |
+/// |-------------------------------------------------------------|---------------------|---------------------------|
+/// | link, clock, estimate or parameters are no longer good      | Ready               | Waiting                   |
+/// | the pilot's switch: armed in the following mode             | Ready               | Climbing or Following     |
+/// | armed in another mode (start arm, not ordered by GOAL)      | Ready               | StoodBack                 |
+/// | mode or arming changed by another sender; no success in 120 s | Engaging          | StoodBack                 |
+/// | the autopilot leaves the following mode, or disarms         | Climbing, Following | StoodBack                 |
+/// | battery below battery_land                                  | Climbing, Following | Landing                   |
+/// | FLIGHT_RESULT, or the process ends                          | Engaging, Climbing, Following | Landing         |
+/// | the autopilot leaves the landing mode                       | Landing             | StoodBack                 |
+/// | order_flight(): a new GOAL                                  | StoodBack, Landed   | Waiting                   |
+/// | the pilot's switch, start pilot                             | StoodBack           | Waiting                   |
 ///
-/// A pilot may switch while a mode that the bridge has commanded is on its way, or just before. So a mode is commanded
-/// right after HEARTBEAT has told the one before, with a question for HEARTBEAT in front. A mode that is neither the
-/// one before nor the one commanded is a pilot's. The bridge stands back, and if its own command comes into effect
-/// after all, it commands the pilot's mode.
+/// A restarted bridge passes through Waiting and Ready to Following if the vehicle flies in the following mode.
+/// SETPOINT is flown while it is received, within far_m of the vehicle, and the estimate is alive. Otherwise the
+/// vehicle is commanded to stop, with a dead estimate at the place of the last setpoint, and VEHICLE_STATUS reports
+/// *not following*.
 ///
-/// It has landed when the autopilot is disarmed and 1.5 s have passed since the bridge last asked for arming.
+/// **Setpoints.** SET_POSITION_TARGET_LOCAL_NED goes out at rate_hz, with p and v of the command, the yaw, and
+/// acceleration_gain·a(now + lead_s) + drag_per_s·v. The gain applies to the level axes: the vertical loop of an
+/// autopilot has no D term. A PX4 holds a setpoint for one period, so p and v are those of half a period later. An
+/// ArduPilot extrapolates, so p and v are those of now. The bridge also sends HEARTBEAT at 2 Hz, TIMESYNC at 10 Hz, and
+/// in flight a request for the autopilot's HEARTBEAT at 5 Hz.
 ///
-/// PX4 takes OFFBOARD up again by itself as soon as setpoints come again, whatever its failsafe was doing. So none is
-/// sent while the vehicle may be in one. After a silence of COM_OF_LOSS_T, HEARTBEAT has to tell the mode first. While
-/// it tells of a failsafe there are none, unless somebody told the bridge to fly.
+/// **A pilot's switch has priority.**
+/// 1. A mode is commanded only within 50 ms after HEARTBEAT has reported the current one. A request for HEARTBEAT goes
+/// in
+///    front of the command.
+/// 2. A mode that is neither the one before nor the commanded one is a pilot's choice: the bridge stands back.
+/// 3. If the bridge's command takes effect after that, the bridge commands the pilot's mode.
+///
+/// **Failsafe of a PX4.** PX4 returns to OFFBOARD as soon as it receives setpoints, in any failsafe. So no setpoint is
+/// sent while the vehicle may be in a failsafe: after a silence of COM_OF_LOSS_T, HEARTBEAT must report the mode first.
+/// During a reported failsafe, setpoints are sent only after order_flight().
+///
+/// **Take-off of an ArduPilot.** The bridge sends NAV_TAKEOFF, to uav.start's height above the vehicle's home. A
+/// setpoint would end that take-off, so setpoints start when the vehicle is up. A take-off that is under way already is
+/// waited for.
 class Bridge {
  public:
   Bridge(const BridgeConfig& config, const UavSpec& uav, UTime now);
@@ -76,38 +97,40 @@ class Bridge {
   void receive(const UavState& setpoint);
   void receive(const TimedSpline& committed) { command_.receive(committed); }
   void receive(const Plan& plan) { command_.receive(plan); }
-  /// Where a motion-capture system sees the vehicle, W. Nothing comes of it unless external_vision is on.
+  /// Takes the vehicle's state (W) from a motion-capture system. Used only with external_vision.
   void receive_vision(const UavState& seen);
-  /// Somebody wants it to fly: a new GOAL of mode Go.
+  /// A new GOAL of mode Go orders the vehicle to fly.
   void order_flight();
-  /// A flight has begun that this bridge knows nothing of (it was started anew): it does not arm unless told.
+  /// A flight is under way that this bridge did not start, since it was restarted: it arms only when ordered.
   void flight_is_under_way();
+  /// Lands the vehicle if the bridge flies it. @param why  for the log and VEHICLE_STATUS
   void land(const std::string& why);
   void step(UTime now);
 
-  /// What is to be sent, in order.
+  /// Returns the frames to send, in order, since the last call.
   std::vector<Frame> take_frames() { return std::exchange(out_, {}); }
-  /// In W; nullopt while nothing is known. @pre the caller publishes each `at` once
+  /// The estimated state in W, or nullopt before the first one. @pre the caller publishes each `at` once
   [[nodiscard]] std::optional<UavState> state() const { return in_world(autopilot_.state()); }
-  /// W is the estimator's frame as it was before take-off: there the truth agrees with the estimate, and what is
-  /// between them later has come since. Of a vehicle that is first seen armed, as by a bridge that was started anew,
-  /// the truth agrees with the estimate of then. nullopt before there was an estimate.
+  /// The true state in W, where the autopilot reports it (simulation); nullopt before the first estimate.
+  ///
+  /// W is the estimator's frame before take-off: there the truth equals the estimate, and a later difference is drift.
+  /// If the vehicle is armed when first seen, as by a restarted bridge, the truth equals the estimate of that time.
   [[nodiscard]] std::optional<UavState> truth() const;
   [[nodiscard]] VehicleStatus status(UTime now) const;
-  /// Sentences for the log since the last call.
+  /// Returns lines for the log since the last call.
   std::vector<std::string> take_log_lines() { return std::exchange(log_lines_, {}); }
   [[nodiscard]] Stage stage() const { return stage_; }
   [[nodiscard]] const Autopilot& autopilot() const { return autopilot_; }
-  /// Whether this bridge has to see to the vehicle's landing when it is asked to end.
+  /// Whether this bridge must land the vehicle before it ends.
   [[nodiscard]] bool flies() const {
     return stage_ == Stage::Engaging || stage_ == Stage::Climbing || stage_ == Stage::Following ||
            stage_ == Stage::Landing;
   }
 
  private:
-  /// The system is the autopilot's when that is known.
+  /// Sender's address. The system id is replaced by the autopilot's once that is known.
   static constexpr Address kSelf{1, kOwnComponent};
-  /// A command that was sent this long ago has come to nothing, or HEARTBEAT tells of it.
+  /// A command has taken effect, or is lost, within this time.
   static constexpr Duration kCommandFlight{1'500'000};
   void enter(Stage stage, const std::string& why = {});
   void step_stage(UTime now);
@@ -125,17 +148,17 @@ class Bridge {
   void request_parameters(UTime now);
   void request_streams(UTime now);
   void request_mode(UTime now);
-  /// COMMAND_LONG that makes it enter `wanted`, unless HEARTBEAT has not told the mode just now.
+  /// Commands the mode `wanted`, if HEARTBEAT has just reported the current one.
   void command_mode(UTime now, const std::string& wanted, std::uint16_t number, const std::array<float, 7>& param);
-  /// Of a HEARTBEAT: what it tells of a mode that was commanded.
+  /// Compares the mode of a new HEARTBEAT with the commanded one.
   void watch_mode(UTime now);
   void forget_commanded_mode();
   void stream(UTime now);
   [[nodiscard]] bool is_silent() const;
   void request_take_off(UTime now);
-  /// ArduPilot: setpoints do not lift it off the ground.
+  /// ArduPilot: setpoints do not lift the vehicle off the ground.
   [[nodiscard]] bool takes_off_by_command() const { return autopilot_.firmware() == Firmware::ArduPilot; }
-  /// An ArduPilot that a bridge before this one, or somebody, has told to take off: a setpoint would end that.
+  /// Whether an ArduPilot takes off by NAV_TAKEOFF: a setpoint would end that.
   [[nodiscard]] bool is_taking_off() const { return takes_off_by_command() && autopilot_.taking_off(); }
   void hold_here(UTime now);
   void anchor_truth();
@@ -163,21 +186,21 @@ class Bridge {
 
   BridgeConfig config_;
   UavSpec uav_;
-  Vec3 origin_;                       ///< of the local frame, in W
-  UTime sent_vision_;                 ///< the time of the newest state that was told
-  std::optional<Vec3> truth_anchor_;  ///< added to the truth
+  Vec3 origin_;                       ///< origin of the local frame, in W, m
+  UTime sent_vision_;                 ///< time of the newest state sent as ODOMETRY
+  std::optional<Vec3> truth_anchor_;  ///< added to the position of the truth
   Autopilot autopilot_;
   CommandedMotion command_;
   bool setpoint_received_ = false;
   Stage stage_ = Stage::Waiting;
-  std::string why_;               ///< of the newest stage
-  bool ordered_;                  ///< to fly
-  bool ordered_by_goal_ = false;  ///< by somebody, not by the configuration: also a vehicle that is in somebody's hands
+  std::string why_;               ///< reason of the newest stage
+  bool ordered_;                  ///< to fly: by `start: arm` or by a GOAL
+  bool ordered_by_goal_ = false;  ///< such an order also takes over a vehicle that is armed already
   UTime stage_since_, now_;
-  int parameters_asked_ = 0;  ///< rounds
+  int parameters_asked_ = 0;  ///< rounds of requests
   UTime next_heartbeat_, next_timesync_, next_target_, next_command_, next_parameters_, next_streams_, next_mode_;
   std::optional<UTime> streaming_since_;
-  /// How the vehicle was found when the bridge was told to fly it, or began to; until it is in OFFBOARD.
+  /// Mode and arming when the bridge was ordered to fly, or began to engage. Kept until the following mode is reached.
   struct Found {
     std::string mode;
     bool armed = false;
@@ -187,23 +210,23 @@ class Bridge {
     UTime at;
     std::string before, wanted;
   };
-  std::optional<CommandedMode> commanded_mode_;  ///< until HEARTBEAT tells of it
+  std::optional<CommandedMode> commanded_mode_;  ///< until HEARTBEAT reports it
   struct PilotsMode {
     std::string mode;
-    std::array<float, 7> command;  ///< of DO_SET_MODE
+    std::array<float, 7> command;  ///< parameters of DO_SET_MODE
   };
-  std::optional<PilotsMode> pilots_mode_;  ///< chosen while a mode that was commanded was on its way
-  bool take_off_asked_ = false;            ///< since it began to engage
-  bool landing_seen_ = false;              ///< the autopilot has confirmed that it lands
+  std::optional<PilotsMode> pilots_mode_;  ///< chosen by a pilot while a commanded mode was on its way
+  bool take_off_asked_ = false;            ///< since stage Engaging
+  bool landing_seen_ = false;              ///< the autopilot has reported the landing mode
   std::optional<UTime> arm_asked_;
-  bool followed_ = false;  ///< at the last setpoint that was sent
+  bool followed_ = false;  ///< when the last setpoint was sent
   TrackingLag lag_;
   UTime lag_at_;
   bool lag_was_logged_ = false;
-  bool clock_is_off_ = false;  ///< was said of the vehicle in flight
-  UavState last_sent_;         ///< of what it followed
-  UavState own_;               ///< the command while it does not follow: at rest here, or on its way up
-  std::string refusal_;        ///< the newest answer to a command that was not taken, in words
+  bool clock_is_off_ = false;  ///< logged for this flight
+  UavState last_sent_;         ///< newest command sent while following
+  UavState own_;               ///< command while not following: at rest here, or climbing
+  std::string refusal_;        ///< text of the newest refused command
   std::uint8_t sequence_ = 0;
   std::vector<Frame> out_;
   std::vector<std::string> log_lines_;

@@ -55,7 +55,7 @@ void Bridge::request_streams(UTime now) {
 
 void Bridge::request_parameters(UTime now) {
   if (now < next_parameters_ || !autopilot_.address()) return;
-  next_parameters_ = now + (parameters_asked_ < kAskedOften ? kFirstParameterPeriod : kParameterPeriod);
+  next_parameters_ = now + (parameters_asked_ < kMaxParameterRounds ? kFirstParameterPeriod : kParameterPeriod);
   const Address to = *autopilot_.address();
   ++parameters_asked_;
   for (const RequiredParameter& r : required()) {

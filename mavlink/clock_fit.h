@@ -1,4 +1,4 @@
-// The autopilot's clock against ours, by TIMESYNC: offset and rate.
+// Offset and rate of the autopilot's clock against ours, from TIMESYNC.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +9,25 @@
 
 namespace tern::mavlink {
 
-/// Its time as a line over ours, fitted to the exchanges of the last kWindow whose round trip is short. The offset of
-/// one is known to half its round trip, and its clock may run at another rate (1 % was seen). After an exchange that is
-/// off the line by more than kStep and half its round trip only the latest ones count: the rate has changed. After one
-/// that is off by more than a second all begins anew: the autopilot has restarted.
+/// Fits the autopilot's time as a line over ours, to the exchanges of the last kWindow with a short round trip.
+///
+/// An exchange gives the offset to half its round trip. The rates of both clocks may differ (1 % was measured). An
+/// exchange that is off the line by more than kStep and half its round trip shows a changed rate: only the latest
+/// exchanges are kept. One that is off by more than a second shows a restart of the autopilot: the fit begins anew.
 class ClockFit {
  public:
   static constexpr Duration kWindow{10'000'000};
   static constexpr Duration kStep{100'000};
   static constexpr std::size_t kMinExchanges = 5;
 
-  /// A question that left at `sent` came back at `received`; between them its clock read `theirs_us`.
+  /// Adds an exchange: a request sent at `sent` was answered at `received`, and the autopilot's clock read `theirs_us`.
   void add(UTime sent, std::int64_t theirs_us, UTime received);
-  /// Our time at its time. @return nullopt before kMinExchanges exchanges
+  /// Converts its time to ours, and back. @return nullopt before kMinExchanges exchanges
   [[nodiscard]] std::optional<UTime> ours(std::int64_t theirs_us) const;
   [[nodiscard]] std::optional<std::int64_t> theirs_us(UTime ours) const;
-  [[nodiscard]] double rate() const { return rate_; }  ///< its seconds per second of ours
+  [[nodiscard]] double rate() const { return rate_; }  ///< seconds of its clock per second of ours
   [[nodiscard]] bool ready() const { return exchanges_.size() >= kMinExchanges; }
-  [[nodiscard]] Duration round_trip() const;  ///< the shortest of the window
+  [[nodiscard]] Duration round_trip() const;  ///< the shortest in the window
 
  private:
   struct Exchange {

@@ -1,4 +1,4 @@
-// MAVLink's frames: bytes ↔ messages, checksums, signatures. https://mavlink.io/en/guide/serialization.html
+// MAVLink frames: bytes ↔ messages, checksums, signatures. https://mavlink.io/en/guide/serialization.html
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@ namespace tern::mavlink {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Who sends, or who is meant. 0: everyone.
+/// Sender or receiver. 0: everyone.
 struct Address {
   std::uint8_t system = 0, component = 0;
   friend auto operator<=>(const Address&, const Address&) = default;
 };
 
-/// A message as it travels. The payload is as long as its type with all extensions, zeros where the sender cut them.
+/// A message on the wire. The payload has the full length of its type with all extensions; truncated bytes are zero.
 struct Frame {
   Address from;
   std::uint8_t sequence = 0;
@@ -27,53 +27,57 @@ struct Frame {
   Bytes payload;
 };
 
-/// What a frame's checksum and length rest on, by message id.
+/// What a frame's checksum and length depend on, per message id.
 struct MessageForm {
   std::uint32_t id = 0;
   std::uint8_t crc_extra = 0;
-  std::uint8_t min_length = 0;  ///< without extensions: of a MAVLink 1 frame
+  std::uint8_t min_length = 0;  ///< without extensions: the length in MAVLink 1
   std::uint8_t length = 0;      ///< with extensions
 };
-/// @return nullopt if the message is none of messages.h.
+/// Returns the form of a message, or nullopt if messages.h does not contain it.
 std::optional<MessageForm> form_of(std::uint32_t id);
 
-/// CRC-16/MCRF4XX: reflected polynomial 0x8408, begun with `crc`, no final xor.
+/// CRC-16/MCRF4XX: reflected polynomial 0x8408, initial value `crc`, no final xor.
 std::uint16_t crc16(std::span<const std::uint8_t> bytes, std::uint16_t crc = 0xFFFF);
 
-/// SHA-256, by whoever has one.
+/// A SHA-256 function. It is passed in, so that this library needs no cryptography.
 using Sha256 = std::function<std::array<std::uint8_t, 32>(std::span<const std::uint8_t>)>;
 
-/// A shared secret and this end's link. Signatures prove that the sender knows the secret, and that a frame is new.
+/// A shared secret and the id of this end's link. A valid signature proves that the sender knows the secret and that
+/// the frame is new.
 struct SigningKey {
   std::array<std::uint8_t, 32> secret{};
   std::uint8_t link = 0;
   Sha256 sha256;
 };
-/// Microseconds since the Unix epoch as a signature's time: units of 10 µs since 2015-01-01.
+/// Converts µs since the Unix epoch to a signature's time: units of 10 µs since 2015-01-01.
 std::uint64_t signature_time(std::int64_t utime_us);
 
-/// A MAVLink 2 frame: trailing zeros of the payload cut, one byte left. @param time  of the signature; strictly
-/// ascending per key. @pre the id is known, the payload as long as its form  @throws std::invalid_argument otherwise
+/// Encodes a MAVLink 2 frame. Trailing zeros of the payload are cut, down to one byte.
+/// @param time  of the signature; must ascend strictly per key
+/// @pre the id is known and the payload has the length of its form  @throws std::invalid_argument otherwise
 Bytes to_bytes(const Frame& frame, const SigningKey* key = nullptr, std::uint64_t time = 0);
 
-/// What a parser met.
+/// Counts what a parser found.
 struct ParserCounters {
-  std::int64_t frames = 0;     ///< handed over
-  std::int64_t unknown = 0;    ///< of messages that are none of ours: skipped by their length
-  std::int64_t bad = 0;        ///< checksum, length or flags wrong: the search goes on one byte later
+  std::int64_t frames = 0;     ///< returned frames
+  std::int64_t unknown = 0;    ///< frames of messages that messages.h does not contain: skipped by their length
+  std::int64_t bad = 0;        ///< wrong checksum, length or flags: the search continues one byte later
   std::int64_t garbage = 0;    ///< bytes between frames
-  std::int64_t unsigned_ = 0;  ///< a key is needed: unsigned, wrongly signed, or not newer than the last
+  std::int64_t unsigned_ = 0;  ///< with a key: unsigned, wrongly signed, or not newer than the last frame
 };
 
-/// Finds frames in a stream of bytes (MAVLink 1 and 2). Any bytes may come, in any portions; memory stays below two
-/// frames and a portion. With a key only frames signed by it are handed over, each newer than the last of its sender
-/// and link. A sender's first one is at most a minute older than `time`.
+/// Finds MAVLink 1 and 2 frames in a stream of bytes. Any bytes may arrive, in any portions. Memory stays below two
+/// frames and one portion.
+///
+/// With a key, a frame is returned if it is signed by the key and newer than the last frame of its sender and link. The
+/// first frame of a sender must be at most one minute older than `time`.
 class Parser {
  public:
   explicit Parser(std::optional<SigningKey> key = {}) : key_(std::move(key)) {}
-  /// @param time  signature_time of now
+  /// Returns the frames that `bytes` completes. @param time  signature_time of now
   std::vector<Frame> push(std::span<const std::uint8_t> bytes, std::uint64_t time = 0);
-  /// A datagram ends: what is incomplete will not be completed.
+  /// Drops an incomplete frame at the end of a datagram.
   void drop_rest();
   [[nodiscard]] const ParserCounters& counters() const { return counters_; }
 

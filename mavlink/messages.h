@@ -1,4 +1,5 @@
-// The messages that a bridge needs, field by field in wire order. https://mavlink.io/en/messages/common.html
+// The MAVLink messages that a bridge needs, with their fields in wire order.
+// https://mavlink.io/en/messages/common.html
 #pragma once
 
 #include <algorithm>
@@ -16,9 +17,9 @@
 namespace tern::mavlink {
 
 template <std::size_t N>
-using Text = std::array<char, N>;  ///< zero-terminated unless it is full
+using Text = std::array<char, N>;  ///< zero-terminated, unless all N bytes are used
 
-/// Each message: its id, CRC_EXTRA, length without extensions, and its fields.
+/// Each message has its id, CRC_EXTRA, length without extensions, and its fields.
 struct Heartbeat {
   static constexpr std::uint32_t kId = 0;
   static constexpr std::uint8_t kCrcExtra = 50, kMinLength = 9;
@@ -146,7 +147,7 @@ struct SetPositionTargetLocalNed {
   std::uint32_t time_boot_ms = 0;
   std::array<float, 3> p{}, v{}, a{};
   float yaw = 0.0F, yaw_rate = 0.0F;
-  std::uint16_t type_mask = 0;  ///< a set bit: that field does not count
+  std::uint16_t type_mask = 0;  ///< a set bit: that field is ignored
   std::uint8_t target_system = 0, target_component = 0, coordinate_frame = 0;
   static constexpr auto fields(auto& m) {
     return std::tie(m.time_boot_ms, m.p, m.v, m.a, m.yaw, m.yaw_rate, m.type_mask, m.target_system, m.target_component,
@@ -157,7 +158,7 @@ struct SetPositionTargetLocalNed {
 struct Timesync {
   static constexpr std::uint32_t kId = 111;
   static constexpr std::uint8_t kCrcExtra = 34, kMinLength = 16;
-  std::int64_t tc1 = 0, ts1 = 0;  ///< ns; tc1 = 0: a question, answered with the own time in tc1 and ts1 copied
+  std::int64_t tc1 = 0, ts1 = 0;  ///< ns; tc1 = 0: a request. The answer has the own time in tc1, and ts1 copied
   std::uint8_t target_system = 0, target_component = 0;
   static constexpr auto fields(auto& m) { return std::tie(m.tc1, m.ts1, m.target_system, m.target_component); }
 };
@@ -181,7 +182,7 @@ struct EstimatorStatus {
   static constexpr std::uint32_t kId = 230;
   static constexpr std::uint8_t kCrcExtra = 163, kMinLength = 42;
   std::uint64_t time_usec = 0;
-  std::array<float, 6> ratios{};  ///< vel, pos_horiz, pos_vert, mag, hagl, tas: innovations over what is still believed
+  std::array<float, 6> ratios{};  ///< vel, pos_horiz, pos_vert, mag, hagl, tas: innovation over its gate
   float pos_horiz_accuracy = 0.0F, pos_vert_accuracy = 0.0F;  ///< m
   std::uint16_t flags = 0;
   static constexpr auto fields(auto& m) {
@@ -227,14 +228,14 @@ using AllMessages =
                GlobalPositionInt, GpsGlobalOrigin, CommandLong, CommandAck, SetPositionTargetLocalNed, Timesync,
                HilStateQuaternion, EstimatorStatus, ExtendedSysState, StatusText, Odometry>;
 
-/// Bytes of a message's fields together.
+/// The length of a message's fields in bytes, with extensions.
 template <class M>
 constexpr std::size_t length_of() {
   M message;
   return std::apply([](const auto&... field) { return (sizeof(field) + ...); }, M::fields(message));
 }
 
-/// The payload, little-endian, uncut.
+/// Encodes a message: the payload is little-endian and untruncated.
 template <class M>
 Frame to_frame(const M& message, Address from, std::uint8_t sequence) {
   static_assert(std::endian::native == std::endian::little);
@@ -248,7 +249,7 @@ Frame to_frame(const M& message, Address from, std::uint8_t sequence) {
   return frame;
 }
 
-/// @return nullopt if the frame is another message.
+/// Decodes a frame. @return nullopt if it is another message
 template <class M>
 std::optional<M> from_frame(const Frame& frame) {
   if (frame.id != M::kId || frame.payload.size() != length_of<M>()) return std::nullopt;
@@ -268,13 +269,13 @@ Text<N> text_of(std::string_view words) {
   words.copy(text.data(), N);
   return text;
 }
-/// Up to the first zero.
+/// The bytes up to the first zero.
 template <std::size_t N>
 std::string_view bytes_of(const Text<N>& text) {
   return {text.data(), static_cast<std::size_t>(std::find(text.begin(), text.end(), '\0') - text.begin())};
 }
-/// What is not printable ASCII becomes '?'. A tab at the end, by which PX4 marks texts that it says as events, too, is
-/// left out.
+/// Replaces characters that are not printable ASCII by '?'. Removes a tab at the end: PX4 marks texts so that it also
+/// sends as events.
 std::string printable(std::string words);
 template <std::size_t N>
 std::string string_of(const Text<N>& text) {

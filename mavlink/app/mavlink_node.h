@@ -1,4 +1,4 @@
-// tern-mavlink: a bridge on the bus.
+// tern-mavlink: the bridge as a process.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,14 @@
 
 namespace tern::mavlink {
 
-/// Hears SETPOINT, HORIZON_REQUEST, GOAL, FLIGHT_RESULT; says UAV_STATE and VEHICLE_STATUS, and VEHICLE_TRUTH where the
-/// autopilot tells it. A GOAL of mode Go with a larger id than the first one heard tells the bridge to fly (again);
-/// FLIGHT_RESULT to land. With start arm it arms by itself only as long as no GOAL was heard: a bridge that is started
-/// anew in or after a flight waits. While another process says VEHICLE_STATUS it says nothing, to nobody: of two
-/// bridges one flies.
+/// Connects a Bridge to the bus. Receives SETPOINT, HORIZON_REQUEST, PLAN, GOAL and FLIGHT_RESULT; publishes UAV_STATE,
+/// VEHICLE_STATUS, and VEHICLE_TRUTH if the autopilot reports it.
 ///
-/// When it ends while it flies, it has the autopilot land, and waits kLandPatience for it to do so.
+/// - A GOAL of mode Go with a larger id than the first one orders the bridge to fly (again).
+/// - FLIGHT_RESULT makes it land.
+/// - `start: arm` arms only before the first GOAL: a bridge that is restarted during or after a flight waits.
+/// - While another process publishes VEHICLE_STATUS, it publishes and sends nothing: one of two bridges flies.
+/// - If it ends while it flies, it has the autopilot land, and waits up to kLandPatience for that.
 class MavlinkNode final : public Node {
  public:
   static constexpr Duration kLandPatience{30'000'000};
@@ -45,7 +46,7 @@ class MavlinkNode final : public Node {
   Parser parser_;
   Bridge bridge_;
   UTime begun_, next_, next_status_;
-  UTime received_;  ///< when the newest bytes came, at most now
+  UTime received_;  ///< receive time of the newest bytes, at most now
   std::optional<UTime> other_received_;
   std::optional<std::int64_t> goal_id_;
   UTime published_state_, published_truth_;
