@@ -14,14 +14,14 @@ constexpr std::uint8_t kInt32 = 6;
 constexpr std::uint8_t kFrameLocalNed = 1;
 constexpr std::uint8_t kOnGround = 1, kTakingOff = 3;
 constexpr std::uint8_t kWarning = 4;
-/// MAV_STATE: while armed, PX4 says this in a failsafe.
+/// MAV_STATE that PX4 reports in a failsafe while armed.
 constexpr std::uint8_t kCritical = 5;
 constexpr Duration kOdometryRules{500'000};
-/// Answers and texts that wait at most.
+/// Largest number of queued acknowledgements and texts.
 constexpr std::size_t kMaxQueued = 64;
 constexpr std::size_t kMaxParameters = 4096, kMaxText = 400;
 
-/// How long an estimator may lack a position for a fault of its inputs.
+/// A gap of the position that is shorter than this counts as an input fault.
 constexpr Duration kFaultPasses{1'000'000};
 /// ESTIMATOR_STATUS_FLAGS.
 constexpr unsigned kVelocity = 2, kPositionRelative = 8, kPositionAbsolute = 16, kAccelerometerWrong = 2048;
@@ -64,7 +64,8 @@ Vec3 ned_from(const GpsGlobalOrigin& origin, std::int32_t lat, std::int32_t lon,
           k * std::cos(b) * std::sin(turn) * kEarthRadius, (origin.altitude - alt_mm) * 1e-3};
 }
 
-/// Whether it flies on where it was: a simulation tells attitude and velocity more often than position (PX4's Gazebo).
+/// Whether the position is that of the message before, although the vehicle moves: PX4's Gazebo updates attitude and
+/// velocity more often than position.
 bool is_stale(const HilStateQuaternion& hil, const std::optional<HilStateQuaternion>& before) {
   constexpr double kMoves = 30.0;  // cm/s: between two positions by more than the message resolves
   if (!before || hil.lat != before->lat || hil.lon != before->lon || hil.alt != before->alt) return false;
@@ -107,7 +108,7 @@ std::string Autopilot::last_warning() const {
 }
 
 void Autopilot::receive_text(const StatusText& chunk) {
-  // Longer texts come in chunks of one id, the last one zero-terminated.
+  // A long text is sent in chunks with one id; the last one is zero-terminated.
   if (chunk.id == 0 || chunk.id != text_id_ || chunk.chunk_seq == 0) text_.clear();
   text_id_ = chunk.id;
   const std::string_view bytes = bytes_of(chunk.text);
@@ -172,7 +173,7 @@ std::optional<UTime> Autopilot::ours(std::uint64_t theirs_us, UTime received) co
   if (theirs_us > static_cast<std::uint64_t>(INT64_MAX)) return std::nullopt;
   const auto at = clock_.ours(static_cast<std::int64_t>(theirs_us));
   if (!at || received - *at > Duration{1'000'000}) return std::nullopt;
-  return std::min(*at, received);  // a fit may be a little ahead; what was received had happened
+  return std::min(*at, received);  // the fit may be slightly ahead of the receive time
 }
 
 void Autopilot::receive_position(const Frame& frame, UTime received) {
@@ -214,7 +215,7 @@ void Autopilot::receive_health(const EstimatorStatus& status, UTime received) {
 }
 
 void Autopilot::receive_truth(const HilStateQuaternion& hil, UTime received) {
-  if (hil.lat == 0 && hil.lon == 0 && hil.alt == 0) return;  // it does not know yet
+  if (hil.lat == 0 && hil.lon == 0 && hil.alt == 0) return;  // not known yet
   if (is_stale(hil, std::exchange(last_truth_, hil))) return;
   const std::optional<UTime> at = hil.time_usec == 0 ? received : ours(hil.time_usec, received);
   if (!at || (truth_ && *at <= truth_->at)) return;
@@ -234,7 +235,7 @@ void Autopilot::receive_truth(const HilStateQuaternion& hil, UTime received) {
 }
 
 void Autopilot::receive_parameter(const ParamValue& value) {
-  // PX4 puts an integer's bytes into the float; ArduPilot its value.
+  // PX4 puts an integer's bytes into the float, ArduPilot its value.
   double number = value.param_value;
   if (firmware() != Firmware::ArduPilot && value.param_type == kInt32) {
     number = std::bit_cast<std::int32_t>(value.param_value);
@@ -253,7 +254,7 @@ EstimatorHealth Autopilot::estimator() const {
 
 Vec3 Autopilot::sigma() const {
   if (!health_) return Vec3::Zero();
-  // PX4's horizontal accuracy is the root of the sum of both axes' variances.
+  // PX4's horizontal accuracy is the square root of the sum of both axes' variances.
   const double level = health_->pos_horiz_accuracy / std::numbers::sqrt2, up = health_->pos_vert_accuracy;
   const auto sane = [](double x) { return std::isfinite(x) && x >= 0.0 && x < 1e6 ? x : 0.0; };
   return {sane(level), sane(level), sane(up)};

@@ -9,16 +9,16 @@ namespace tern::mavlink {
 namespace {
 
 constexpr Duration kHeartbeatPeriod{500'000}, kTimesyncPeriod{100'000};
-/// Of the autopilot's clock: a simulation that is slower moves in slow motion and cannot follow.
+/// Largest deviation of the autopilot clock's rate. A slower simulation moves in slow motion and cannot follow.
 constexpr double kClockOff = 0.05;
 constexpr Duration kHeld{4'000'000};
-/// A lag that long is no noise: well tuned, it is a hundredth of a second or two, s.
+/// A lag of this size is logged, s. With a good feed-forward it is 0.01 to 0.02 s.
 constexpr double kLag = 0.1;
-/// By this it stops when it is taken over in flight, m/s².
+/// Deceleration when the vehicle is taken over in flight, m/s².
 constexpr double kStop = 4.0;
 constexpr std::uint8_t kOnboardController = 18, kNoAutopilot = 8, kActive = 4;
 
-/// Old senders do not say to whom.
+/// Old senders leave the target at 0.
 bool is_mine(const CommandAck& ack) { return ack.target_component == 0 || ack.target_component == kOwnComponent; }
 
 std::string seconds(Duration d) { return fmt::format("{:.1f} s", d.seconds()); }
@@ -100,7 +100,7 @@ void Bridge::order_flight() {
   found_.reset();
   if (autopilot_.armed()) found_ = Found{autopilot_.mode(), true};
   forget_commanded_mode();
-  if (stage_ == Stage::StoodBack || stage_ == Stage::Landed) enter(Stage::Waiting, "told to fly");
+  if (stage_ == Stage::StoodBack || stage_ == Stage::Landed) enter(Stage::Waiting, "ordered to fly by a new GOAL");
 }
 
 void Bridge::flight_is_under_way() {
@@ -113,7 +113,7 @@ void Bridge::land(const std::string& why) {
   if (!followed_) hold_here(now_);
   enter(Stage::Landing, why);
   if (!autopilot_.armed() && arm_asked_ && now_ - *arm_asked_ < kCommandFlight) {
-    log_lines_.push_back("the autopilot may be about to arm, as it was asked to: it is asked to disarm");
+    log_lines_.push_back("the autopilot may still execute the arming request: disarming it");
   }
 }
 
@@ -143,7 +143,7 @@ void Bridge::anchor_truth_at_first_sight() {
   truth_anchor_ = state->motion.p + state->motion.v * later - truth->motion.p;
   if (!autopilot_.armed()) return;
   log_lines_.push_back(
-      "the vehicle is first seen in flight: its truth is said so that it agrees with the estimate of now");
+      "the vehicle was in flight when first seen: its truth is shifted to agree with the present estimate");
 }
 
 std::vector<RequiredParameter> Bridge::required() const {
@@ -154,7 +154,7 @@ std::vector<RequiredParameter> Bridge::required() const {
 std::string Bridge::clock_fault() const {
   const double rate = autopilot_.clock().rate();
   if (std::abs(rate - 1.0) <= kClockOff) return {};
-  return fmt::format("its clock runs at {:.2f} of ours: its simulation does not keep real time", rate);
+  return fmt::format("its clock runs at {:.2f} of ours: its simulation does not run in real time", rate);
 }
 
 void Bridge::watch_clock() {
@@ -178,19 +178,19 @@ void Bridge::watch_lag() {
 }
 
 std::string Bridge::not_ready(UTime now) const {
-  if (!autopilot_.address()) return "no autopilot is heard";
-  if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_received());
+  if (!autopilot_.address()) return "no HEARTBEAT of an autopilot was received";
+  if (!autopilot_.linked(now)) return "no message from the autopilot for " + seconds(now - autopilot_.last_received());
   if (!autopilot_.clock().ready()) return "its clock is not yet known (TIMESYNC)";
   if (std::string fault = clock_fault(); !fault.empty()) return fault;
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
-  if (!autopilot_.landed()) return "it does not say whether it has landed (EXTENDED_SYS_STATE)";
+  if (!autopilot_.landed()) return "it does not report whether it has landed (EXTENDED_SYS_STATE)";
   if (!config_.check_parameters) return {};
   return parameter_faults(required(), autopilot_.parameters(), parameters_asked_ >= kMaxParameterRounds);
 }
 
 std::string Bridge::estimate_fault(UTime now) const {
   const auto& state = autopilot_.state();
-  if (!state || now - state->at > kStateAge) return "it says no position (ODOMETRY, LOCAL_POSITION_NED)";
+  if (!state || now - state->at > kStateAge) return "it reports no position (ODOMETRY, LOCAL_POSITION_NED)";
   if (autopilot_.estimator() == EstimatorHealth::Lost) return "its estimator has no position (ESTIMATOR_STATUS)";
   return {};
 }
@@ -202,9 +202,9 @@ std::string Bridge::why_not_following(UTime now) const {
   }
   if (stage_ == Stage::Engaging && !refusal_.empty()) return refusal_;
   if (stage_ != Stage::Following) return fmt::format("{}{}{}", to_string(stage_), why_.empty() ? "" : ": ", why_);
-  if (!autopilot_.linked(now)) return "nothing heard of the autopilot for " + seconds(now - autopilot_.last_received());
+  if (!autopilot_.linked(now)) return "no message from the autopilot for " + seconds(now - autopilot_.last_received());
   if (std::string fault = estimate_fault(now); !fault.empty()) return fault;
-  if (!setpoint_received_) return "no SETPOINT is heard";
+  if (!setpoint_received_) return "no SETPOINT was received";
   if (!setpoint_near(now)) return fmt::format("SETPOINT is more than {:g} m from the vehicle", config_.far_m);
   return {};
 }
@@ -234,7 +234,7 @@ bool Bridge::setpoint_near(UTime now) const {
 void Bridge::hold_here(UTime now) {
   const auto here = state();
   if (!here) return;
-  const bool dead = followed_ && !estimate_fault(now).empty();  // where it was to be is all that is known
+  const bool dead = followed_ && !estimate_fault(now).empty();  // the last command is all that is known
   own_ = dead ? last_sent_ : *here;
   const Vec3 v = own_.motion.v;
   own_.motion.p += v * (v.norm() / (2.0 * kStop));

@@ -5,10 +5,10 @@
 
 namespace tern::mavlink {
 
-/// Who begins a flight.
+/// How a flight begins.
 enum class Start {
   Pilot,  ///< a person arms, takes off and switches to OFFBOARD (GUIDED); then the bridge flies
-  Arm     ///< the bridge asks for OFFBOARD, arms and climbs by itself
+  Arm     ///< the bridge requests OFFBOARD (GUIDED), arms and climbs
 };
 
 struct BridgeConfig {
@@ -33,26 +33,27 @@ struct BridgeConfig {
   void visit(V& v) {
     v("start", start, KnobWords<Start>{{"pilot", Start::Pilot}, {"arm", Start::Arm}},
       "`pilot`: a person arms, takes off and switches to OFFBOARD (GUIDED); `arm`: the bridge does, and climbs");
-    v("system", system, Range{0, 255}, "MAVLink system id of the autopilot; 0: the first that is heard");
+    v("system", system, Range{0, 255}, "MAVLink system id of the autopilot; 0: that of the first HEARTBEAT");
     v("rate_hz", rate_hz, Range{20.0, 100.0}, "setpoints per second to the autopilot");
     v("acceleration_gain", acceleration_gain, Range{0.0, 3.0},
-      "on the commanded level acceleration: 1 + MPC_XY_VEL_D_ACC, whose term opposes all of it");
-    v("drag_per_s", drag_per_s, Range{0.0, 5.0}, "acceleration added per commanded velocity, against drag, 1/s");
-    v("lead_s", lead_s, Range{0.0, 0.5}, "the acceleration is taken this much ahead, against the lag of tilting, s");
-    v("climb_speed", climb_speed, Range{0.1, 5.0}, "of the climb to `uav.start`, m/s");
-    v("reach_m", reach_m, Range{0.1, 100.0}, "who stands farther from below `uav.start` does not take off, m");
+      "factor on the level acceleration: 1 + MPC_XY_VEL_D_ACC, since that term opposes the whole acceleration");
+    v("drag_per_s", drag_per_s, Range{0.0, 5.0}, "feed-forward against drag: acceleration per commanded velocity, 1/s");
+    v("lead_s", lead_s, Range{0.0, 0.5}, "the acceleration is that of this much later, because tilting takes time, s");
+    v("climb_speed", climb_speed, Range{0.1, 5.0}, "speed of the climb to `uav.start`, m/s");
+    v("reach_m", reach_m, Range{0.1, 100.0},
+      "a vehicle farther than this from the point below `uav.start` does not take off, m");
     v("far_m", far_m, Range{0.1, 100.0}, "a setpoint farther than this from the vehicle is not flown, m");
-    v("battery_start", battery_start, Range{0.0, 1.0}, "with less it does not take off, share");
-    v("battery_land", battery_land, Range{0.0, 1.0}, "with less it lands, share");
-    v("sigma_share", sigma_share, Range{0.0, 10.0}, "of the estimator's own accuracy that VEHICLE_STATUS says");
-    v("check_parameters", check_parameters, "refuse to fly with parameters that docs/autopilot.md warns of");
-    v("set_parameters", set_parameters, "write the recommended ones first, on the ground");
+    v("battery_start", battery_start, Range{0.0, 1.0}, "smallest battery charge for a take-off, share");
+    v("battery_land", battery_land, Range{0.0, 1.0}, "below this battery charge the vehicle lands, share");
+    v("sigma_share", sigma_share, Range{0.0, 10.0}, "factor on the estimator's accuracy for VEHICLE_STATUS");
+    v("check_parameters", check_parameters,
+      "refuse to fly while the autopilot has parameters that docs/reference/autopilot.md forbids");
+    v("set_parameters", set_parameters, "write the recommended parameters to the autopilot, on the ground");
     v("without_remote", without_remote,
-      "nobody holds a remote control and no ground station is there, as in simulation: parameters have to say so, too");
+      "there is no remote control and no ground station, as in simulation: more parameters are required");
     v("external_vision", external_vision,
-      "the autopilot is told where it is, by ODOMETRY: as a simulation says (HIL_STATE_QUATERNION), or as "
-      "VEHICLE_TRUTH of "
-      "a motion-capture system does");
+      "send the vehicle's position to the autopilot as ODOMETRY: from a simulation's HIL_STATE_QUATERNION, or from a "
+      "motion-capture system's VEHICLE_TRUTH");
   }
 };
 

@@ -1,4 +1,4 @@
-// Who has the vehicle while modes are commanded: no command of the bridge overrules a pilot's switch.
+// Commanded modes. A pilot's switch has priority over a command of the bridge.
 #include <fmt/format.h>
 
 #include "mavlink/bridge.h"
@@ -6,9 +6,9 @@
 namespace tern::mavlink {
 namespace {
 
-/// HEARTBEAT comes by itself once a second.
+/// Periods of requests for HEARTBEAT, which an autopilot sends once a second by itself.
 constexpr Duration kModePeriod{200'000}, kOldModePeriod{50'000};
-/// What HEARTBEAT has told is then no older than the link.
+/// Within this time after a HEARTBEAT its mode is current.
 constexpr Duration kJustNow{50'000};
 
 }  // namespace
@@ -20,7 +20,7 @@ void Bridge::request_mode(UTime now) {
   request(kRequestMessage, Heartbeat::kId);
 }
 
-/// Commands are obeyed in order: the answer to the question in front tells the mode that this command ends.
+/// Commands are executed in order: the HEARTBEAT that is requested in front reports the mode that this command ends.
 void Bridge::command_mode(UTime now, const std::string& wanted, std::uint16_t number,
                           const std::array<float, 7>& param) {
   if (now < next_command_ || now - autopilot_.mode_received() > kJustNow) return;
@@ -42,12 +42,13 @@ void Bridge::watch_mode(UTime now) {
   }
   if (mode != commanded.wanted) {
     pilots_mode_ = {mode, autopilot_.mode_command()};
-    if (stage_ != Stage::StoodBack) stand_back(fmt::format("the autopilot has left for {}: somebody else flies", mode));
+    if (stage_ != Stage::StoodBack)
+      stand_back(fmt::format("the autopilot has changed to {}: another pilot flies", mode));
     return;
   }
   if (!pilots_mode_ || gives_back) return forget_commanded_mode();
   log_lines_.push_back(
-      fmt::format("{} was chosen before {} was commanded: it is given back", pilots_mode_->mode, mode));
+      fmt::format("a pilot chose {} before the bridge commanded {}: commanding it again", pilots_mode_->mode, mode));
   command_mode(now, pilots_mode_->mode, kDoSetMode, pilots_mode_->command);
 }
 

@@ -1,4 +1,4 @@
-// What the bridge tells the autopilot: commands, parameters, setpoints, where it is.
+// The bridge's messages to the autopilot: commands, parameters, setpoints, external vision.
 #include <fmt/format.h>
 
 #include <bit>
@@ -11,7 +11,7 @@ namespace tern::mavlink {
 namespace {
 
 constexpr Duration kCommandPeriod{1'000'000}, kParameterPeriod{1'000'000}, kFirstParameterPeriod{300'000};
-/// PX4 hears nothing else for some 10 ms per stream that it is asked for: seldom in flight.
+/// A PX4 handles no other message for about 10 ms per requested stream, so requests are rare in flight.
 constexpr Duration kStreamsPeriod{2'000'000}, kStreamsPeriodInFlight{30'000'000};
 /// COM_OF_LOSS_T's default, s.
 constexpr double kOffboardLoss = 1.0;
@@ -45,7 +45,7 @@ void Bridge::request_streams(UTime now) {
   request(kSetMessageInterval, HilStateQuaternion::kId, 10'000);
   request(kSetMessageInterval, EstimatorStatus::kId, 200'000);
   request(kSetMessageInterval, ExtendedSysState::kId, 200'000);
-  if (autopilot_.firmware() == Firmware::ArduPilot) {  // it says neither unasked, nor its heading by ODOMETRY
+  if (autopilot_.firmware() == Firmware::ArduPilot) {  // it sends these on request only, and no heading in ODOMETRY
     request(kSetMessageInterval, AttitudeQuaternion::kId, 20'000);
     request(kSetMessageInterval, LocalPositionNed::kId, 20'000);
     request(kSetMessageInterval, GlobalPositionInt::kId, 200'000);
@@ -84,7 +84,7 @@ void Bridge::receive_vision(const UavState& seen) {
   send_vision(local);
 }
 
-/// Level: an estimator takes position, velocity and heading from it, its tilt from its own sensors.
+/// The attitude is level: an estimator uses position, velocity and heading, and measures its tilt by itself.
 void Bridge::send_vision(const UavState& local) {
   if (!config_.external_vision || !autopilot_.address() || local.at < sent_vision_ + kVisionPeriod) return;
   sent_vision_ = local.at;
@@ -103,14 +103,14 @@ void Bridge::send_vision(const UavState& local) {
 }
 
 bool Bridge::may_be_in_failsafe(UTime now) const {
-  if (autopilot_.firmware() == Firmware::ArduPilot) return false;  // it stays in GUIDED, and stops
+  if (autopilot_.firmware() == Firmware::ArduPilot) return false;  // it stops and stays in GUIDED
   if (!flies()) return autopilot_.in_failsafe() && !ordered_by_goal_;
   const auto known = autopilot_.parameters().find("COM_OF_LOSS_T");
   const double loss_s = known != autopilot_.parameters().end() ? known->second : kOffboardLoss;
   return autopilot_.silence(now).seconds() > loss_s;
 }
 
-/// A setpoint ends the take-off of an ArduPilot, and on the ground it does nothing: none before it is up.
+/// An ArduPilot gets no setpoint before it is up: a setpoint ends its take-off, and has no effect on the ground.
 bool Bridge::is_silent() const {
   if (stage_ == Stage::Landing && landing_seen_) return true;
   if (takes_off_by_command()) {
@@ -128,7 +128,7 @@ void Bridge::stream(UTime now) {
   if (!streaming_since_) streaming_since_ = now;
   if (stage_ == Stage::StoodBack) hold_here(now);
   const bool following = stage_ == Stage::Following && followed_;
-  // What is held for a period is right on average if it is right in the middle. An ArduPilot carries it on by itself.
+  // A setpoint that is held for a period is right on average if it is right in the middle. An ArduPilot extrapolates.
   const Duration held = autopilot_.firmware() == Firmware::ArduPilot ? Duration{} : Duration{period.us / 2};
   const MotionSample m = following ? command_.sample(now + held) : own_.motion;
   if (following) {

@@ -1,4 +1,4 @@
-// From one stage of a flight to the next.
+// The stages of a flight and their transitions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,21 +10,21 @@
 namespace tern::mavlink {
 namespace {
 
-/// A stream of setpoints has to run before OFFBOARD is asked for.
+/// Setpoints are sent for this long before OFFBOARD is requested.
 constexpr Duration kStreamFirst{1'000'000};
-/// A simulation's estimator takes this long on a slow machine until it may be armed.
+/// On a slow machine, a simulated estimator may take this long before arming is possible.
 constexpr Duration kEngagePatience{120'000'000};
-/// Arrived at the top of the climb, m and m/s.
+/// The climb ends within this distance of uav.start, below this speed; m and m/s.
 constexpr double kThere = 0.3, kThereSpeed = 0.4;
-/// With less to climb it may not leave the ground, m.
+/// Smallest climb, m: with less the vehicle may not leave the ground.
 constexpr double kMinClimb = 0.3;
-/// The climb's setpoint waits when it is so far above the vehicle, m: rotors spin up, and PX4 takes off gently.
+/// The climb's setpoint waits while it is this far above the vehicle, m: rotors spin up, and PX4 takes off slowly.
 constexpr double kClimbAhead = 0.5;
-/// A vehicle that is armed by such a command stands for as long as its rotors need to spin up.
+/// Period of disarm requests. It is shorter than the spin-up, so an armed vehicle is still on the ground.
 constexpr Duration kDisarmPeriod{250'000};
-/// ArduPilot begins its take-off anew when it is asked again on the ground, where its rotors spin up.
+/// Period of take-off requests. An ArduPilot on the ground restarts its take-off with each one.
 constexpr Duration kTakeOffPeriod{3'000'000};
-/// So long it may take until an ArduPilot says where home is: it is asked to say so at 5 Hz.
+/// An ArduPilot reports home within this time: GLOBAL_POSITION_INT is requested at 5 Hz.
 constexpr Duration kHomePatience{1'000'000};
 constexpr float kPx4Offboard = 6, kArduPilotGuided = 4;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
@@ -35,11 +35,11 @@ void Bridge::step_waiting(UTime now) {
   request_parameters(now);
   const std::string why = not_ready(now);
   if (why.empty()) return enter(Stage::Ready);
-  // Seconds that pass are no news.
+  // A silence that only grows longer is not logged again.
   if (autopilot_.linked(now) || !autopilot_.address()) enter(Stage::Waiting, why);
 }
 
-/// Why it does not take off from where it stands.
+/// The reason why it cannot take off from its place, or "".
 std::string Bridge::ground_fault() const {
   const Vec3 climb = uav_.start - state()->motion.p;
   const double aside = climb.head<2>().norm(), battery = autopilot_.battery().value_or(1.0);
@@ -65,12 +65,12 @@ void Bridge::step_ready(UTime now) {
   if (armed && !ours && has_other_pilot) return stand_back(other_pilot_reason());
   if (const std::string fault = in_air() ? "" : ground_fault(); !fault.empty()) return enter(Stage::Ready, fault);
   if (ours) return enter(takes_off_by_command() ? Stage::Engaging : Stage::Climbing);
-  if (!ordered_) return enter(Stage::Ready, "waits for the pilot to arm, take off and switch, or for a new GOAL");
+  if (!ordered_) return enter(Stage::Ready, "waits for the pilot (arm, take off, switch) or for a new GOAL");
   if (takes_off_by_command()) return enter(Stage::Engaging);
   if (streaming_since_ && now - *streaming_since_ >= kStreamFirst) enter(Stage::Engaging);
 }
 
-/// ArduPilot takes the height above its home. That is where it was armed, unless somebody has set it.
+/// NAV_TAKEOFF has the height above home: the place of arming, unless home was set.
 void Bridge::request_take_off(UTime now) {
   const auto said = autopilot_.home_height();
   if (now < next_command_ || (!said && now - autopilot_.arming_changed() < kHomePatience)) return;
@@ -95,12 +95,12 @@ void Bridge::engage_next(UTime now) {
 }
 
 std::string Bridge::other_pilot_reason() const {
-  return fmt::format("the vehicle is {}in {}: somebody else flies", autopilot_.armed() ? "armed " : "",
+  return fmt::format("the vehicle is {}in {}: another pilot flies", autopilot_.armed() ? "armed " : "",
                      autopilot_.mode());
 }
 
-/// Until it has the vehicle that stays as it was found. HEARTBEAT tells mode and arming at once, and the bridge arms
-/// only what follows: who is in another mode, or armed, was switched or armed by somebody else.
+/// Whether another sender has changed mode or arming since the bridge began to engage. HEARTBEAT reports both together,
+/// and the bridge arms in the following mode only. So any other mode, or arming in another mode, is someone else's.
 bool Bridge::is_taken_over() {
   if (!autopilot_.follows()) return !found_ || found_->mode != autopilot_.mode() || found_->armed < autopilot_.armed();
   found_.reset();
@@ -140,7 +140,7 @@ void Bridge::step_flying(UTime now) {
   if (!autopilot_.linked(now)) return;
   if (!autopilot_.armed()) return stand_back("the autopilot has disarmed");
   if (!autopilot_.follows()) {
-    return stand_back(fmt::format("the autopilot has left for {}: somebody else flies", autopilot_.mode()));
+    return stand_back(fmt::format("the autopilot has changed to {}: another pilot flies", autopilot_.mode()));
   }
   if (autopilot_.battery().value_or(1.0) < config_.battery_land) {
     return land(fmt::format("battery {:.0f} %", 100.0 * *autopilot_.battery()));
@@ -175,10 +175,10 @@ void Bridge::step_landing(UTime now) {
     return;
   }
   if (landing_seen_ || !autopilot_.follows()) {
-    return stand_back(fmt::format("the autopilot has left for {}: somebody else flies", autopilot_.mode()));
+    return stand_back(fmt::format("the autopilot has changed to {}: another pilot flies", autopilot_.mode()));
   }
   if (arming && !in_air()) return request_disarm(now);
-  // An ArduPilot makes integers of a place that is unknown; it does not look at it.
+  // An ArduPilot converts the unknown position to integers; it does not use it.
   const float here = autopilot_.firmware() == Firmware::ArduPilot ? 0.0F : kUnknown;
   command_mode(now, autopilot_.landing_mode(), kNavLand, {0, 0, 0, here, here, here, 0});
 }
@@ -192,7 +192,7 @@ void Bridge::step_stage(UTime now) {
     case Stage::Following: return step_flying(now);
     case Stage::StoodBack:
       if (config_.start == Start::Pilot && autopilot_.follows() && autopilot_.armed() && !pilots_mode_)
-        enter(Stage::Waiting, "the switch");
+        enter(Stage::Waiting, "the pilot has switched to the following mode");
       return;
     case Stage::Landing: return step_landing(now);
     case Stage::Landed: return;

@@ -6,11 +6,11 @@
 namespace tern::mavlink {
 namespace {
 
-/// Below this span, µs, a rate is noise.
+/// Shortest span for a rate, µs.
 constexpr double kRateSpan = 1e6;
-/// A clock that is off by more is another one.
+/// A clock that is off by more has restarted.
 constexpr Duration kRestart{1'000'000};
-/// Queues that are shorter than this are none.
+/// Shorter delays in queues are tolerated.
 constexpr Duration kQueue{1'000};
 
 }  // namespace
@@ -20,7 +20,7 @@ void ClockFit::add(UTime sent, std::int64_t theirs_us, UTime received) {
   const UTime middle{sent.us + (received.us - sent.us) / 2};
   if (const auto expected = ours(theirs_us)) {
     const Duration off = middle - *expected;
-    // An exchange that waited tells the offset to half its round trip only; a rate is unknown at first.
+    // An exchange gives the offset to half its round trip; at first the rate is unknown.
     const Duration span = middle - exchanges_.front().middle, unknown{rate_is_known_ ? 0 : span.us / 2};
     const Duration most = kStep + (middle - sent) + unknown;
     if (off > kRestart || off < kRestart * -1) {

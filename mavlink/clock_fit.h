@@ -11,9 +11,12 @@ namespace tern::mavlink {
 
 /// Fits the autopilot's time as a line over ours, to the exchanges of the last kWindow with a short round trip.
 ///
-/// An exchange gives the offset to half its round trip. The rates of both clocks may differ (1 % was measured). An
-/// exchange that is off the line by more than kStep and half its round trip shows a changed rate: only the latest
-/// exchanges are kept. One that is off by more than a second shows a restart of the autopilot: the fit begins anew.
+/// An exchange gives the offset to half its round trip. The rates of both clocks may differ (1 % was measured).
+///
+/// | an exchange is off the line by      | meaning                   | effect                             |
+/// |-------------------------------------|---------------------------|------------------------------------|
+/// | > kStep and half its round trip     | the rate has changed      | only the latest exchanges are kept |
+/// | > 1 s                               | the autopilot restarted   | the fit begins anew                |
 class ClockFit {
  public:
   static constexpr Duration kWindow{10'000'000};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint8_t kMagic1 = 0xFE, kMagic2 = 0xFD, kSignedFlag = 0x01;
 constexpr std::size_t kHead1 = 6, kHead2 = 10, kCrc = 2, kSignature = 13, kShortTag = 6;
-/// Signers that are remembered: more than a link carries.
+/// Largest number of remembered signers: more than one link carries.
 constexpr std::size_t kMaxSigners = 64;
 constexpr std::uint64_t kMinute = 6'000'000;
 
@@ -134,7 +134,7 @@ Parser::Outcome Parser::read_frame(std::span<const std::uint8_t> bytes, std::uin
   }
   const auto payload = bytes.subspan(head, length);
   frame.payload.assign(payload.begin(), payload.end());
-  frame.payload.resize(form->length, 0);  // what a newer sender appended is cut
+  frame.payload.resize(form->length, 0);  // extensions of newer versions are cut
   frames.push_back(std::move(frame));
   ++counters_.frames;
   return Outcome::Frame;

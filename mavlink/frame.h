@@ -27,7 +27,7 @@ struct Frame {
   Bytes payload;
 };
 
-/// What a frame's checksum and length depend on, per message id.
+/// Checksum seed and lengths of a message, per id.
 struct MessageForm {
   std::uint32_t id = 0;
   std::uint8_t crc_extra = 0;

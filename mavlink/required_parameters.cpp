@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-/// Whole, so that it reads well and single precision holds it.
+/// The recommended value is rounded up to an integer, which single precision holds exactly.
 RequiredParameter at_least(const char* name, double value, const char* why) {
   return {name, value, kAny, std::ceil(value), false, why};
 }
@@ -35,7 +35,7 @@ std::vector<RequiredParameter> bounds_of_px4(const UavSpec& uav) {
   return bounds;
 }
 
-/// The greatest level jerk of a plan, m/s³.
+/// The largest level jerk of a plan, m/s³.
 double jerk_of(const Limits& limits) {
   const double per_axis = limits.j_max.head<2>().norm();
   if (!limits.dynamics) return per_axis;
@@ -43,23 +43,23 @@ double jerk_of(const Limits& limits) {
   return std::min(per_axis, rate * limits.dynamics->thrust_max);
 }
 
-/// Copter shapes the acceleration that it is told in GUIDED by its jerk limits (ModeGuided::posvelaccel_control_run,
-/// AP_Math's shape_accel_xy); its speeds and accelerations bound corrections alone.
+/// In GUIDED, Copter shapes the commanded acceleration by its jerk limits (ModeGuided::posvelaccel_control_run,
+/// AP_Math's shape_accel_xy). Its limits of speed and acceleration bound corrections only.
 std::vector<RequiredParameter> bounds_of_copter(const UavSpec& uav) {
-  const char* const shaped = "it shapes what it is told by this, and lags metres behind faster changes, m/s3";
+  const char* const shaped = "it limits the commanded jerk to this, and lags metres behind faster changes, m/s3";
   const double tilt = uav.limits.dynamics ? uav.limits.dynamics->tilt_max_deg : Dynamics::kTilt.high;
   std::vector<RequiredParameter> bounds{at_least("ANGLE_MAX", 100.0 * tilt, "plans may tilt as far, 0.01 degrees")};
   const double jerk = jerk_of(uav.limits), up = std::min(uav.limits.j_max.z(), jerk);
   if (std::isfinite(jerk)) bounds.push_back(at_least("PSC_JERK_XY", jerk, shaped));
   if (std::isfinite(up)) bounds.push_back(at_least("PSC_JERK_Z", up, shaped));
-  for (RequiredParameter& bound : bounds) bound.may_be_absent = true;  // 4.7 calls them otherwise
+  for (RequiredParameter& bound : bounds) bound.may_be_absent = true;  // 4.7 has other names
   return bounds;
 }
 
 std::vector<RequiredParameter> of_copter(const UavSpec& uav, std::uint8_t system, const char* blind) {
   std::vector<RequiredParameter> required{
       {"GUID_TIMEOUT", 0.2, 1.0, 0.5, false, blind},
-      {"FS_GCS_ENABLE", 5, 5, 5, false, "without this link it would fly on or fly home; 5 lands"}};
+      {"FS_GCS_ENABLE", 5, 5, 5, false, "after a loss of this link it would fly on or fly home; 5 lands"}};
   for (const auto& [name, other] : {std::pair{"SYSID_MYGCS", "MAV_GCS_SYSID"}, {"MAV_GCS_SYSID", "SYSID_MYGCS"}}) {
     const double id = system;
     required.push_back({name, id, id, id, false, "the bridge's HEARTBEAT would not count for FS_GCS_ENABLE"});
@@ -77,24 +77,25 @@ bool RequiredParameter::allows(double value) const {
 
 std::vector<RequiredParameter> required_parameters(Firmware firmware, const UavSpec& uav, std::uint8_t system,
                                                    bool without_remote, bool external_vision) {
-  const char* const blind = "so long it flies on blindly when setpoints cease, s";
+  const char* const blind = "for this time it flies on without setpoints, s";
   if (firmware == Firmware::ArduPilot) return of_copter(uav, system, blind);
   if (firmware != Firmware::Px4) return {};
   std::vector<RequiredParameter> required{
       {"COM_OBL_RC_ACT", 4, 5, 4, true, "without setpoints it would return and climb; 4 lands, 5 holds"},
       {"COM_OF_LOSS_T", 0.2, 1.0, 0.5, false, blind},
-      {"MC_AIRMODE", 0, 0, 0, true, "who turns fast at little thrust would be lifted"},
+      {"MC_AIRMODE", 0, 0, 0, true, "a vehicle that turns fast at little thrust would be lifted"},
       {"MPC_ACC_DECOUPLE", 0, 0, 0, true,
-       "who climbs or sinks would accelerate sideways by more or less than he is told"}};
+       "a climbing or sinking vehicle would accelerate sideways by more or less than commanded"}};
   required.back().may_be_absent = true;
   if (without_remote) {
-    required.push_back({"COM_RC_IN_MODE", 4, 4, 4, true, "there is no remote control, and it would not be armed"});
+    required.push_back({"COM_RC_IN_MODE", 4, 4, 4, true, "without a remote control it refuses to arm"});
     required.push_back({"COM_RCL_EXCEPT", 4, 31, 7, true, "without remote control it would leave OFFBOARD (bit 2)", 4});
-    required.push_back({"NAV_DLL_ACT", 0, 0, 0, true, "there is no ground station, whose loss it would act on"});
+    required.push_back(
+        {"NAV_DLL_ACT", 0, 0, 0, true, "it would act on the loss of a ground station that does not exist"});
   }
   for (const RequiredParameter& bound : bounds_of_px4(uav)) required.push_back(bound);
   if (!external_vision) return required;
-  const char* const seen = "its estimator shall go by the ODOMETRY that it is told, and by nothing that contradicts it";
+  const char* const seen = "its estimator must use the ODOMETRY from the bridge and no source that contradicts it";
   for (const auto& [name, value] : {std::pair{"EKF2_EV_CTRL", 15},
                                     {"EKF2_HGT_REF", 3},
                                     {"EKF2_GPS_CTRL", 0},

@@ -26,8 +26,8 @@ struct RequiredParameter {
   [[nodiscard]] bool allows(double value) const;
 };
 
-/// Returns the table of docs/reference/autopilot.md: the behaviour after a loss, and the autopilot's own limits, which
-/// must not be narrower than what is planned for `uav`. Empty for an unknown firmware.
+/// Returns the table of docs/reference/autopilot.md: the behaviour after a loss, and lower bounds for the autopilot's
+/// own limits, from what is planned for `uav`. Empty for an unknown firmware.
 /// @param system  the autopilot's system id, which the bridge uses as well
 /// @param without_remote  there is neither a remote control nor a ground station
 /// @param external_vision  the estimator uses the ODOMETRY that the bridge sends

@@ -12,13 +12,14 @@ int main(int argc, char** argv) {
   const tern::ProcessDescription description{
       .name = "tern-mavlink",
       .section = "mavlink",
-      .summary = "Flies SETPOINT with an autopilot over MAVLink, and says UAV_STATE and VEHICLE_STATUS",
+      .summary = "Flies SETPOINT with an autopilot over MAVLink, and publishes UAV_STATE and VEHICLE_STATUS",
       .add_options =
           [&](CLI::App& app) {
             app.add_option("--connect", url,
-                           "udp://ADDRESS:PORT (listens), udp://ADDRESS:PORT@ADDRESS:PORT (and speaks first), "
+                           "udp://ADDRESS:PORT (listens), udp://ADDRESS:PORT@ADDRESS:PORT (listens and sends first), "
                            "udpout://ADDRESS:PORT, serial:///dev/NAME:BAUD");
-            app.add_option("--signing-key", key_file, "Sign MAVLink's frames by this secret (32 bytes, mode 600)");
+            app.add_option("--signing-key", key_file,
+                           "Sign MAVLink frames with this secret (file of 32 bytes, mode 600)");
           },
       .read_section = [](tern::ConfigSection section) { section.read<BridgeConfig>(); }};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
@@ -30,10 +31,10 @@ int main(int argc, char** argv) {
       std::copy(secret.bytes().begin(), secret.bytes().end(), key->secret.begin());
       key->sha256 = tern::sha256;
     }
-    if (url.empty()) throw tern::ConfigError("--connect URL is needed");
+    if (url.empty()) throw tern::ConfigError("--connect URL is required");
     constexpr tern::Duration kSecond{1'000'000};
     if (url.starts_with("serial://") && context.bus.clock().in_system_time(kSecond) != kSecond) {
-      throw tern::ConfigError("--pace: the clock of a real autopilot cannot be slowed");
+      throw tern::ConfigError("--pace: a real autopilot's clock cannot be slowed; use --pace 1");
     }
     auto link = tern::value_or_throw(open_link(url), "--connect ");
     return std::make_unique<MavlinkNode>(context.bus, std::move(link), context.scenario.uav, config, key);

@@ -11,10 +11,10 @@
 namespace tern::mavlink {
 namespace {
 
-/// How often the link is looked at.
+/// Period of polling the link.
 constexpr Duration kPollPeriod{2'000};
 constexpr Duration kStatusPeriod{100'000};
-/// VEHICLE_STATUS comes at 10 Hz: who hears none for so long is alone.
+/// VEHICLE_STATUS has 10 Hz: without one for this long there is no other bridge.
 constexpr Duration kListenFirst{350'000}, kOtherSilence{1'000'000};
 
 }  // namespace
@@ -53,7 +53,7 @@ MavlinkNode::~MavlinkNode() {
   publish(next_status_);
   const bool landed = bridge_.stage() == Stage::Landed;
   spdlog::log(landed ? spdlog::level::info : spdlog::level::err, "the autopilot {}",
-              landed ? "has landed" : "did not say that it has landed");
+              landed ? "has landed" : "did not report that it has landed");
 }
 
 void MavlinkNode::on_goal(const Goal& goal) {

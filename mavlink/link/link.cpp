@@ -36,7 +36,7 @@ bool introduces_autopilot(std::span<const std::uint8_t> bytes) {
 
 class UdpLink final : public Link {
  public:
-  /// @param peer  nullopt: who first introduces itself  @param accepts_all  and not the peer alone
+  /// @param peer  nullopt: the first autopilot that sends  @param accepts_all  accept datagrams of all senders
   UdpLink(Descriptor socket, std::optional<sockaddr_in> peer, bool accepts_all)
       : socket_(std::move(socket)), peer_(peer), fixed_(peer.has_value()), accepts_all_(accepts_all) {}
 
@@ -125,14 +125,14 @@ class SerialLink final : public Link {
     if (port_.get() < 0) return std::nullopt;
     Bytes bytes(4096);
     const ssize_t n = read(port_.get(), bytes.data(), bytes.size());
-    // A port that waits says EAGAIN; one that is gone has ended.
-    if (n == 0 || (n < 0 && is_gone())) lose(n == 0 ? "it has ended" : std::strerror(errno), now);
+    // EAGAIN: no bytes at present. End of file or another error: the port is gone.
+    if (n == 0 || (n < 0 && is_gone())) lose(n == 0 ? "end of file" : std::strerror(errno), now);
     if (n <= 0) return std::nullopt;
     bytes.resize(static_cast<std::size_t>(n));
     return Portion{std::move(bytes), {}};
   }
 
-  /// What is left of a frame goes before the next one, which is lost if the port does not take all of that.
+  /// Sends the rest of the last frame first. If the port does not take it whole, the new frame is lost.
   void send(std::span<const std::uint8_t> bytes) override {
     if (port_.get() < 0) return;
     rest_.erase(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(put(rest_)));
@@ -153,7 +153,7 @@ class SerialLink final : public Link {
   }
 
   void lose(const std::string& why, UTime now) {
-    log_lines_.push_back(fmt::format("{}: {}: it is opened again when it is back", path_, why));
+    log_lines_.push_back(fmt::format("{}: {}: waiting for the port to come back", path_, why));
     port_ = Descriptor();
     rest_.clear();
     pause_ = kFirstPause;
@@ -176,8 +176,8 @@ class SerialLink final : public Link {
   std::string path_;
   speed_t speed_;
   Descriptor port_;
-  Bytes rest_;  ///< of a frame, of which the port has taken the beginning
-  UTime next_;  ///< look for the port
+  Bytes rest_;  ///< of a frame that was sent in part
+  UTime next_;  ///< time of the next attempt to open the port
   Duration pause_{};
   std::vector<std::string> log_lines_;
 };
@@ -202,7 +202,7 @@ std::optional<sockaddr_in> address_of(const std::string& place) {
   return address;
 }
 
-/// @param here  where it listens; nullopt: at any port  @param there  its peer; nullopt: who speaks first
+/// @param here  own address; nullopt: any port  @param there  the peer; nullopt: the first autopilot that sends
 Result<std::unique_ptr<Link>> open_udp(const std::string& url, const std::optional<std::string>& here,
                                        const std::optional<std::string>& there) {
   const auto own = here ? address_of(*here) : std::nullopt, peer = there ? address_of(*there) : std::nullopt;

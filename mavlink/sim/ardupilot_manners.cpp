@@ -1,4 +1,4 @@
-// What a simulated autopilot does in ArduPilot's manners.
+// The simulated autopilot's behaviour as an ArduPilot.
 #include <algorithm>
 
 #include "mavlink/sim/simulated_autopilot.h"
@@ -33,7 +33,7 @@ std::uint8_t SimulatedAutopilot::take_off(float above_home, UTime now) {
   return kAccepted;
 }
 
-/// On the ground rotors idle, whatever setpoints say; after a while they stop.
+/// On the ground the rotors idle until NAV_TAKEOFF. After kDisarmDelay the vehicle disarms.
 bool SimulatedAutopilot::ardupilots_rotors_lift(UTime t) {
   if (!model_.truth().on_ground) return true;
   if (takes_off_to_) return t - armed_since_ >= kSpoolUp;

@@ -17,19 +17,19 @@ constexpr std::uint8_t kGroundStation = 6;
 constexpr Duration kOldTarget{500'000}, kStreamFirst{500'000}, kDisarmAfter{1'000'000};
 /// COM_SPOOLUP_TIME, MPC_TKO_RAMP_T, COM_DISARM_PRFLT, COM_DL_LOSS_T.
 constexpr Duration kSpoolUp{1'000'000}, kRamp{3'000'000}, kTakeOffPatience{10'000'000}, kLinkLoss{10'000'000};
-/// Of the speed that the ramp begins with, so that it is one.
+/// Share of its speed at the beginning of the ramp.
 constexpr double kRampFrom = 0.02;
 constexpr double kDescend = 0.7, kStop = 4.0;
 constexpr std::array kIntegers{"COM_OBL_RC_ACT", "COM_RC_IN_MODE", "COM_RCL_EXCEPT",  "NAV_DLL_ACT",
                                "EKF2_EV_CTRL",   "EKF2_HGT_REF",   "EKF2_GPS_CTRL",   "EKF2_MAG_TYPE",
                                "EKF2_BARO_CTRL", "MC_AIRMODE",     "MPC_ACC_DECOUPLE"};
 constexpr std::uint8_t kUnknownSource = 0, kNaive = 1, kVision = 2, kVio = 3, kLocalNed = 1;
-/// Without any the estimator has no position (EKF2_NOAID_TOUT is longer).
+/// After this long without ODOMETRY the estimator has no position (EKF2_NOAID_TOUT is longer).
 constexpr Duration kVisionLoss{1'000'000};
 
 bool is_integer(const std::string& name) { return std::ranges::find(kIntegers, name) != kIntegers.end(); }
 
-/// Without the feed-forward that a bridge sends.
+/// The configuration without the feed-forward, which the bridge sends.
 QuadrotorConfig bare(const SimulatedAutopilotConfig& config) {
   QuadrotorConfig quadrotor = config.quadrotor;
   quadrotor.controller.velocity_d = config.velocity_d;
@@ -59,7 +59,7 @@ SimulatedAutopilot::SimulatedAutopilot(const SimulatedAutopilotConfig& config, s
   begin_streams(now);
 }
 
-/// PX4 ends such texts by a tab, and cuts them where they are longer than a message.
+/// Sends a text as PX4 does: with a tab at its end, and in chunks if it is longer than a message.
 void SimulatedAutopilot::send_warning(const std::string& words) {
   constexpr std::size_t kChunk = 50;
   const std::string text = words + "\t";
@@ -286,7 +286,8 @@ void SimulatedAutopilot::watch_offboard(UTime now) {
   enter(action == 4 ? Mode::Land : action == 5 ? Mode::Loiter : Mode::Position);
 }
 
-/// Rotors idle on the ground until they have spun up and a setpoint is above; then speed is had bit by bit.
+/// On the ground the rotors idle until they have spun up and the setpoint is above the vehicle. Then the speed ramps
+/// up.
 bool SimulatedAutopilot::rotors_lift(UTime t) {
   if (!armed_) return false;
   if (is_ardupilot()) return ardupilots_rotors_lift(t);

@@ -1,4 +1,4 @@
-// An autopilot behind MAVLink: the simulator's quadrotor, with what was measured of PX4's manners.
+// A simulated autopilot behind MAVLink: the simulator's quadrotor, with the behaviour that was measured of PX4.
 #pragma once
 
 #include <deque>
@@ -11,58 +11,68 @@
 
 namespace tern::mavlink {
 
+/// The firmware whose behaviour is simulated.
 enum class Manners : std::uint8_t { Px4, ArduPilot };
 
-/// The section `autopilot_sim`. Of `quadrotor.controller` velocity_d, tilt_max, rate_max, speed_max, drag_per_s and
-/// lead_s do not count: an autopilot has the first four from its parameters, and leaves the others to the bridge.
+/// The section `autopilot_sim`.
+///
+/// Six keys of `quadrotor.controller` are ignored: an autopilot has velocity_d, tilt_max, rate_max and speed_max from
+/// its parameters, and leaves drag_per_s and lead_s to the bridge.
 struct SimulatedAutopilotConfig {
   Manners manners = Manners::Px4;
   double clock_rate = 0.99;
   double velocity_d = 0.2;
   Duration answer_after{100'000};
   Duration busy_for{2'000'000};
-  QuadrotorConfig quadrotor;  ///< this and the next two are those of the section `simulator`
+  QuadrotorConfig quadrotor;  ///< this and the next two are read from the section `simulator`
   WindSpec wind;
   EstimatorSpec estimator;
 
   template <typename V>
   void visit(V& v) {
     v("manners", manners, KnobWords<Manners>{{"px4", Manners::Px4}, {"ardupilot", Manners::ArduPilot}},
-      "whose modes, take-off and messages are its own");
+      "firmware whose modes, take-off and messages are simulated");
     v("clock_rate", clock_rate, Range{0.9, 1.1}, "seconds of its clock per second");
-    v("answer_after_s", answer_after, Range{0.0, 2.0}, "acknowledgements come this late, s");
-    v("busy_s", busy_for, Range{0.0, 60.0}, "so long after its start it rejects commands for the moment, s");
-    v("velocity_d", velocity_d, Range{0.0, 2.0}, "MPC_XY_VEL_D_ACC: acceleration against all of its own, share");
+    v("answer_after_s", answer_after, Range{0.0, 2.0}, "delay of acknowledgements, s");
+    v("busy_s", busy_for, Range{0.0, 60.0}, "for this time after its start it rejects commands temporarily, s");
+    v("velocity_d", velocity_d, Range{0.0, 2.0},
+      "MPC_XY_VEL_D_ACC: D gain of the velocity loop, which opposes the whole acceleration");
   }
 };
 
-/// It stands on the ground at the origin of its local frame until it is armed. Pure: frames and times in, frames out.
+/// A vehicle with an autopilot. It stands on the ground at the origin of its local frame until it is armed. Pure:
+/// frames and times in, frames out.
 ///
-/// As PX4 does: HEARTBEAT 1 Hz, SYS_STATUS and EXTENDED_SYS_STATE 5 Hz, LOCAL_POSITION_NED and ODOMETRY 30 Hz,
-/// ATTITUDE_QUATERNION 50 Hz, TIMESYNC 10 Hz, other rates by SET_MESSAGE_INTERVAL. HIL_STATE_QUATERNION states no time.
+/// | behaviour       | PX4, as measured                               | ArduPilot Copter, from its source            |
+/// |-----------------|------------------------------------------------|----------------------------------------------|
+/// | modes           | POSCTL, OFFBOARD, AUTO.LOITER, AUTO.LAND       | LOITER, GUIDED, LAND                         |
+/// | streams         | see below                                      | HEARTBEAT 1 Hz, SYS_STATUS 5 Hz              |
+/// | following mode  | needs setpoints for 0.5 s to arm, or in flight | at any time                                  |
+/// | setpoints       | held until the next one                        | extrapolated until the next one              |
+/// | they cease      | after COM_OF_LOSS_T: COM_OBL_RC_ACT            | after GUID_TIMEOUT: stops, in GUIDED         |
+/// | they come again | returns to OFFBOARD                            | follows them                                 |
+/// | take-off        | by setpoints: spin-up 1 s, speed ramp 3 s      | by NAV_TAKEOFF; a setpoint ends it           |
+/// | no take-off     | disarms after 10 s                             | disarms after 10 s                           |
+/// | after landing   | disarms; the mode is that before landing       | disarms; stays in LAND                       |
+/// | parameters      | integers bytewise; only the right type is set  | numbers, of any type                         |
 ///
-/// Disarmed, it takes any mode. To be armed in OFFBOARD, or to take it in flight, it must have heard setpoints for half
-/// a second. COM_OF_LOSS_T after the last one it does what COM_OBL_RC_ACT says; as soon as they come again, it takes
-/// OFFBOARD up again. Setpoints are held, not carried on.
+/// Streams of PX4: HEARTBEAT and ESTIMATOR_STATUS 1 Hz, SYS_STATUS and EXTENDED_SYS_STATE 5 Hz, LOCAL_POSITION_NED and
+/// ODOMETRY 30 Hz, ATTITUDE_QUATERNION 50 Hz, TIMESYNC 10 Hz. SET_MESSAGE_INTERVAL adds streams and changes rates.
+/// HIL_STATE_QUATERNION has no time. An ArduPilot never sends ESTIMATOR_STATUS or HIL_STATE_QUATERNION, and sends
+/// ODOMETRY in another frame.
 ///
-/// It is not armed while NAV_DLL_ACT asks for a ground station that is not heard. With EKF2_GPS_CTRL 0 it has a
-/// position only while EKF2_EV_CTRL is 15 and ODOMETRY tells it; what it takes for its position is its model's all the
-/// same. After arming, rotors spin up for a second, and take-off has its speed bit by bit within three more. Who has
-/// not begun within 10 s is disarmed. It disarms when it has landed, and is then in the mode from before it landed.
+/// Further rules:
+/// - Disarmed, it accepts any mode.
+/// - PX4 refuses to arm while NAV_DLL_ACT requires a ground station and none is heard.
+/// - With EKF2_GPS_CTRL 0 it has a position only while EKF2_EV_CTRL is 15 and ODOMETRY arrives. The values are the
+/// model's
+///   in any case.
+/// - Any system may command it, with the right target. Requests for unknown parameters get no answer.
+/// - The velocity loop has the D term MPC_XY_VEL_D_ACC, which opposes the whole acceleration.
+/// - ArduPilot's home is where it was armed, shifted up by SIM_HOME_UP.
 ///
-/// Any system may command it, but has to say whom it means. A parameter is set by its own type only; of those it does
-/// not have, it says nothing. The velocity loop has a D term, MPC_XY_VEL_D_ACC, which opposes the whole acceleration.
-///
-/// With ArduPilot's manners (Copter, by its source; no real one was asked) it says HEARTBEAT, SYS_STATUS and what
-/// SET_MESSAGE_INTERVAL asked for: neither ESTIMATOR_STATUS nor HIL_STATE_QUATERNION, and ODOMETRY in another frame.
-/// Its modes are GUIDED, LOITER and LAND. Setpoints do not lift it off the ground. NAV_TAKEOFF does, in GUIDED, to a
-/// height above home, and a setpoint ends that. Setpoints are carried on until the next one. Home is where it was
-/// armed, shifted up by SIM_HOME_UP. Who stands armed for 10 s without taking off is disarmed. GUID_TIMEOUT after the
-/// last setpoint it stops, in GUIDED. It stays in LAND when it has landed. Parameters travel as numbers, whatever their
-/// type.
-///
-/// Parameters beside PX4's: SIM_ARM_REFUSE (it refuses to arm), SIM_BAT_PCT (what is left, %), SIM_EST_JUMP (writing it
-/// shifts the estimate by so many metres).
+/// Own parameters: SIM_ARM_REFUSE (refuses to arm), SIM_BAT_PCT (battery charge, %), SIM_EST_JUMP (writing it shifts
+/// the estimate by so many metres).
 class SimulatedAutopilot {
  public:
   SimulatedAutopilot(const SimulatedAutopilotConfig& config, std::uint64_t seed, UTime now);
@@ -92,7 +102,7 @@ class SimulatedAutopilot {
   void intend(Mode mode);
   void enter(Mode mode);
   [[nodiscard]] bool is_busy(UTime now) const { return now - started_ < config_.busy_for; }
-  /// ArduPilot's own take-off: until it is up.
+  /// ArduPilot: NAV_TAKEOFF is under way.
   [[nodiscard]] bool is_taking_off() const { return takes_off_to_ && command_.motion.p.z() < *takes_off_to_; }
   [[nodiscard]] bool is_ardupilot() const { return config_.manners == Manners::ArduPilot; }
   bool rotors_lift(UTime t);
@@ -129,16 +139,16 @@ class SimulatedAutopilot {
   bool armed_ = false;
   Mode mode_ = Mode::Position;
   Mode intended_ = Mode::Position, after_disarming_ = Mode::Position;
-  bool failsafe_ = false;  ///< it flies mode_, not what was intended
+  bool failsafe_ = false;  ///< mode_ is that of the failsafe, not intended_
   UavState command_;
-  UavState target_;  ///< the newest setpoint, local ENU
+  UavState target_;  ///< newest setpoint, local ENU
   std::optional<UTime> streaming_since_, last_target_, landed_since_, ramp_since_;
   std::optional<UTime> ground_station_received_, vision_received_;
   UTime armed_since_;
-  double home_up_ = 0.0;                ///< of the estimate's frame
-  std::optional<double> takes_off_to_;  ///< of the estimate's frame
-  bool guided_ = false;                 ///< by setpoints, since GUIDED began
-  double ramp_ = 1.0;                   ///< of its speed, while it takes off
+  double home_up_ = 0.0;                ///< in the estimate's frame, m
+  std::optional<double> takes_off_to_;  ///< in the estimate's frame, m
+  bool guided_ = false;                 ///< setpoints were received since GUIDED began
+  double ramp_ = 1.0;                   ///< share of its speed during take-off
   UTime last_step_;
   double battery_ = 0.9;
   std::map<std::string, double> parameters_;

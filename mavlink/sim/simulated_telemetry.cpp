@@ -1,4 +1,4 @@
-// What a simulated autopilot says of itself.
+// The simulated autopilot's streams and acknowledgements.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,12 +10,12 @@
 namespace tern::mavlink {
 namespace {
 
-/// Of the place on a map where it stands, 1e-7 degrees and mm.
+/// Geographic position of the local origin, 1e-7 degrees and mm.
 constexpr std::int32_t kLatitude = 473977418, kLongitude = 85455938, kAltitude = 488'000;
 constexpr std::uint8_t kPx4 = 12, kArduPilot = 3, kLocalNed = 1, kLocalFrd = 20;
 /// MAV_STATE.
 constexpr std::uint8_t kStandby = 3, kActive = 4, kCritical = 5;
-/// ESTIMATOR_STATUS_FLAGS: attitude alone, and with all that a flight needs.
+/// ESTIMATOR_STATUS_FLAGS: attitude only; all flags that a flight needs.
 constexpr std::uint16_t kAttitudeAlone = 0x0001, kAllAiding = 0x033F;
 
 std::array<float, 3> rates_frd(const Vec3& w) {

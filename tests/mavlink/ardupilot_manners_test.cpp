@@ -52,7 +52,7 @@ TEST(ArduPilotManners, APilotWhoSwitchesWhileItTakesOffHasTheVehicle) {
   flight.each = [&] { ASSERT_EQ(flight.autopilot.mode(), "LOITER"); };
   flight.run(5.0);
   EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
-  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("armed in LOITER: somebody else flies"));
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("armed in LOITER: another pilot flies"));
 }
 
 TEST(ArduPilotManners, WithStartPilotItIsTakenUpWhenThePilotArmsInGuidedAndFollowedAgainAfterTheSwitch) {

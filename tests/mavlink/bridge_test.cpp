@@ -50,7 +50,7 @@ double tracking(FlightInMemory& flight, double seconds) {
 
 TEST(Bridge, TakesOffFollowsAndLands) {
   FlightInMemory flight;
-  EXPECT_EQ(flight.bridge.status(flight.now).why_not, "no autopilot is heard");
+  EXPECT_EQ(flight.bridge.status(flight.now).why_not, "no HEARTBEAT of an autopilot was received");
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
   EXPECT_LT((flight.autopilot.model().truth().motion.p - Vec3(0, 0, 2)).norm(), 0.5);
   flight.bridge.land("the flight has ended");
@@ -135,13 +135,13 @@ TEST(Bridge, StandsBackWhenAPilotTakesOverUntilItIsToldAgain) {
   flight.ground_station(switch_to(3));
   ASSERT_TRUE(flight.run_until([&] { return !flight.following(); }));
   EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
-  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("has left for POSCTL: somebody else flies"));
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("has changed to POSCTL: another pilot flies"));
   flight.run(20.0);
   EXPECT_EQ(flight.autopilot.mode(), "POSCTL");
   EXPECT_TRUE(flight.autopilot.armed());
   flight.bridge.land("the flight has ended");
   flight.run(3.0);
-  EXPECT_EQ(flight.autopilot.mode(), "POSCTL") << "what somebody else flies is not landed";
+  EXPECT_EQ(flight.autopilot.mode(), "POSCTL") << "what another pilot flies is not landed";
   flight.bridge.order_flight();
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); }));
   EXPECT_EQ(flight.autopilot.mode(), "OFFBOARD");
@@ -178,7 +178,7 @@ TEST(Bridge, ALongCutLeavesTheAutopilotToItsFailsafe) {
     ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
     flight.cut = true;
     flight.run(0.5);
-    EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("nothing heard of the autopilot"));
+    EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("no message from the autopilot"));
     flight.run(seconds - 0.5);
     flight.cut = false;
     flight.each = [&] { ASSERT_TRUE(flight.autopilot.mode() == "AUTO.LAND" || !flight.autopilot.armed()) << seconds; };

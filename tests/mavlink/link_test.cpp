@@ -132,7 +132,7 @@ TEST(Link, ASerialPortThatIsPulledIsOpenedAgainWhenItIsBack) {
     return portion;
   };
   EXPECT_FALSE(look(2'000));
-  EXPECT_THAT((*link)->take_log_lines(), ElementsAre(HasSubstr("it is opened again when it is back")));
+  EXPECT_THAT((*link)->take_log_lines(), ElementsAre(HasSubstr("waiting for the port to come back")));
   cable.plug_in();
   EXPECT_FALSE(look(600)) << "nothing has come yet, but it looks at least once a second";
   EXPECT_THAT((*link)->take_log_lines(), ElementsAre(HasSubstr("opened again")));

@@ -202,7 +202,7 @@ TEST_F(MavlinkProcesses, OutliveAShortCutAndStandBackAfterALongOne) {
   EXPECT_TRUE(status.following) << status.why_not;
   relay.cut = true;
   run_ms(1500);
-  EXPECT_THAT(status.why_not, HasSubstr("nothing heard of the autopilot"));
+  EXPECT_THAT(status.why_not, HasSubstr("no message from the autopilot"));
   relay.cut = false;
   ASSERT_TRUE(until([&] { return status.mode == "AUTO.LAND"; }));
   EXPECT_FALSE(status.following);
@@ -216,7 +216,7 @@ TEST_F(MavlinkProcesses, AfterACutOfFiveSecondsFindTheVehicleLandedAndLeaveItThe
   relay.cut = true;
   run_ms(5000);
   EXPECT_FALSE(status.following);
-  EXPECT_THAT(status.why_not, HasSubstr("nothing heard of the autopilot"));
+  EXPECT_THAT(status.why_not, HasSubstr("no message from the autopilot"));
   relay.cut = false;
   ASSERT_TRUE(until([&] { return !status.armed; })) << "its failsafe has landed it";
   run_ms(1500);
@@ -233,7 +233,7 @@ TEST_F(MavlinkProcesses, GiveWayToAPilotAndFlyAgainWhenTold) {
   run_ms(50);
   ground_station(kPilot);
   ASSERT_TRUE(until([&] { return !status.following; }));
-  EXPECT_THAT(status.why_not, HasSubstr("has left for POSCTL"));
+  EXPECT_THAT(status.why_not, HasSubstr("has changed to POSCTL"));
   say_goal(1);
   run_ms(1500);
   EXPECT_EQ(status.mode, "POSCTL") << "a goal that is repeated is no new one";

@@ -25,7 +25,7 @@ TEST(WhoFlies, WhileItEngagesAPilotWhoArmsInAnotherModeHasTheVehicle) {
   flight.each = [&] { ASSERT_EQ(flight.autopilot.mode(), "POSCTL"); };
   flight.run(5.0);
   EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
-  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("armed in POSCTL: somebody else flies"));
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("armed in POSCTL: another pilot flies"));
 }
 
 TEST(WhoFlies, OnceToldAgainItTakesAVehicleOverButNotOneThatIsTakenAfterThat) {
@@ -50,7 +50,7 @@ TEST(WhoFlies, WhileItLandsAPilotWhoSwitchesHasTheVehicle) {
   flight.each = [&] { ASSERT_EQ(flight.autopilot.mode(), "POSCTL"); };
   flight.run(5.0);
   EXPECT_EQ(flight.bridge.stage(), Stage::StoodBack);
-  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("has left for POSCTL"));
+  EXPECT_THAT(flight.bridge.status(flight.now).why_not, HasSubstr("has changed to POSCTL"));
   EXPECT_TRUE(flight.autopilot.armed());
 }
 

@@ -1,4 +1,4 @@
-// tern-autopilot-sim: a simulated autopilot on a link.
+// tern-autopilot-sim: a simulated autopilot as a process.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace tern::mavlink {
 
-/// Speaks MAVLink on its link alone; on the bus only HEARTBEAT and CONFIGURATION.
+/// Runs a SimulatedAutopilot on a link. On the bus it publishes only HEARTBEAT and CONFIGURATION.
 class AutopilotSimNode final : public Node {
  public:
   AutopilotSimNode(Bus& bus, std::unique_ptr<Link> link, const SimulatedAutopilotConfig& config, std::uint64_t seed);

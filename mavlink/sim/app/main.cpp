@@ -10,10 +10,10 @@ int main(int argc, char** argv) {
   const tern::ProcessDescription description{
       .name = "tern-autopilot-sim",
       .section = "autopilot_sim",
-      .summary = "An autopilot with a quadrotor of its own behind MAVLink, in PX4's manners or ArduPilot's",
+      .summary = "A simulated quadrotor with an autopilot behind MAVLink, which behaves like PX4 or ArduPilot",
       .add_options =
           [&](CLI::App& app) {
-            app.add_option("--connect", url, "udpout://ADDRESS:PORT of the bridge, or another end of a link");
+            app.add_option("--connect", url, "udpout://ADDRESS:PORT of the bridge, or another link");
           },
       .read_section = [](tern::ConfigSection section) { section.read<SimulatedAutopilotConfig>(); }};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     simulator.section("quadrotor").read(config.quadrotor);
     simulator.section("wind").read(config.wind);
     simulator.section("estimator").read(config.estimator);
-    if (url.empty()) throw tern::ConfigError("--connect URL is needed");
+    if (url.empty()) throw tern::ConfigError("--connect URL is required");
     auto link = tern::value_or_throw(open_link(url), "--connect ");
     return std::make_unique<AutopilotSimNode>(context.bus, std::move(link), config, context.scenario.seed);
   });
