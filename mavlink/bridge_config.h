@@ -50,7 +50,7 @@ struct BridgeConfig {
       "refuse to fly while the autopilot has parameters that docs/reference/autopilot.md forbids");
     v("set_parameters", set_parameters, "write the recommended parameters to the autopilot, on the ground");
     v("without_remote", without_remote,
-      "there is no remote control and no ground station, as in simulation: more parameters are required");
+      "there is neither a remote control nor a ground station, as in simulation; more parameters are required");
     v("external_vision", external_vision,
       "send the vehicle's position to the autopilot as ODOMETRY: from a simulation's HIL_STATE_QUATERNION, or from a "
       "motion-capture system's VEHICLE_TRUTH");

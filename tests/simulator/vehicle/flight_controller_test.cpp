@@ -94,7 +94,7 @@ TEST(FlightController, KeepsItsHeightWhenMoreIsAskedThanTheRotorsHave) {
 }
 
 TEST(FlightController, ADTermLagsBehindAConstantAcceleration) {
-  // a·(1 + D) is what must be sent (docs/autopilot.md).
+  // a·(1 + D) is what must be sent (docs/reference/autopilot.md).
   FlightCommand command;
   for (const double sent : {1.0, 1.2}) {
     Loop loop;
