@@ -1,4 +1,4 @@
-// When a process is started again, and how a flight's exit code comes about.
+// Rules for restarts and for a flight's exit code (docs/reference/exit_codes.md).
 #pragma once
 
 #include <string>
@@ -8,37 +8,37 @@
 
 namespace tern {
 
-inline constexpr int kExitFailed = 3;       ///< the system itself failed
-inline constexpr int kExitBroken = 4;       ///< the audit found something broken, in a flight that did not collide
-inline constexpr int kExitSignalled = 128;  ///< plus the number of the signal that ended the flight, or a process
+inline constexpr int kExitFailed = 3;       ///< the system failed
+inline constexpr int kExitBroken = 4;       ///< the audit found something broken in a flight without a collision
+inline constexpr int kExitSignalled = 128;  ///< plus the number of the signal that ended the flight or a process
 
-/// Waiting times before the restarts of one process: 10 ms, doubled by each restart, at most 1 s. After a run of 5 s or
-/// more they begin anew.
+/// Waiting times before the restarts of one process: 10 ms, doubled with each restart, at most 1 s. After a run of at
+/// least 5 s they begin at 10 ms again.
 class Backoff {
  public:
-  /// The time to wait now that the process has ended. @param run  how long it ran, ≥ 0
+  /// Returns the time to wait after the process has ended. @param run  how long it ran, ≥ 0
   Duration next(Duration run);
 
  private:
   Duration delay_{};
 };
 
-/// Whether another run cannot mend it: exit codes 0 (done), 2 (bad configuration), 3 (no network, nobody ready), 126
-/// and 127 (cannot be run).
+/// Whether a restart is useless: exit codes 0 (done), 2 (bad configuration), 3 (network or a process missing), 126 and
+/// 127 (not executable).
 bool is_permanent(const ProcessEnd& end);
 
-/// As a shell tells it: 128 + n for signal n.
+/// The exit code as a shell reports it: 128 + n for signal n.
 int shell_code(const ProcessEnd& end);
 
-/// "signal KILL", "exit code 70".
+/// "signal KILL" or "exit code 70".
 std::string to_text(const ProcessEnd& end);
 
-/// The flight's exit code by the monitor's: 0 reached, 1 collision, 2 not reached in time, 3 failed. Without a summary
-/// the monitor's code is no judgement.
+/// The flight's exit code from the monitor's: 0 reached, 1 collision, 2 not reached in time, 3 failed. Without a
+/// summary the monitor did not judge, and the flight has failed.
 int code_after_flight(int monitor_code, bool has_summary);
 
-/// The flight's exit code after tern-audit. @param code  before, 0 … 3  @param audit_code  0 held, 1 broken, else
-/// failed
+/// The flight's exit code after tern-audit.
+/// @param code  before the audit, 0 … 3  @param audit_code  0 holds, 1 broken, other: the audit failed
 int code_after_audit(int code, int audit_code);
 
 }  // namespace tern

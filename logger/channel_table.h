@@ -1,4 +1,4 @@
-// What came in, channel by channel: the logger's last word.
+// Counts the received messages of each channel; the logger prints the counts when it ends.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,26 @@
 
 namespace tern {
 
-/// Reads the head of the message that Tern sends on a channel; refuses what the channel's receivers would refuse.
+/// Decodes the header of a message that Tern sends on a channel. Refuses the messages that the channel's receivers
+/// refuse.
 using HeadDecoder = tl::expected<Header, Rejection> (*)(std::span<const std::uint8_t>);
 
-/// The decoder of one of Tern's channels (messages/channels.h); nullptr for a channel that is not Tern's.
+/// The decoder of one of Tern's channels (messages/channels.h); nullptr for other channels.
 /// @param channel  without a vehicle's suffix
 HeadDecoder find_head_decoder(std::string_view channel);
 
-/// A channel's messages as the logger saw them.
+/// Counts of one channel's messages.
 struct ChannelCount {
-  std::int64_t received = 0;  ///< all, refused ones too
+  std::int64_t received = 0;  ///< all messages, refused ones included
   std::int64_t bytes = 0;
-  std::int64_t refused = 0;  ///< not what Tern sends on this channel; 0 on channels that are not Tern's
-  std::int64_t lost = 0;     ///< by its senders' numbers (MessageLosses); 0 on channels that are not Tern's
+  std::int64_t refused = 0;  ///< not a valid message of this channel; 0 on channels that are not Tern's
+  std::int64_t lost = 0;     ///< by the senders' sequence numbers (MessageLosses); 0 on channels that are not Tern's
 };
 
-/// Counts messages. The first message heard of a sender begins its count, so a late joiner has lost nothing.
+/// Counts messages. A sender's first message begins its count, so joining late is no loss.
 class ChannelTable {
  public:
-  /// @param suffix  what the vehicle's channels end with, "" for none
+  /// @param suffix  end of the vehicle's channel names, "" for none
   explicit ChannelTable(std::string suffix = "") : suffix_(std::move(suffix)) {}
   void add(std::string_view channel, UTime received, std::span<const std::uint8_t> data);
   [[nodiscard]] std::map<std::string, ChannelCount> counts() const;

@@ -1,4 +1,4 @@
-// Tells the first delivery of a message from its repetitions.
+// Filters repeated deliveries of a message.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,14 @@
 
 namespace tern {
 
-/// Remembers the names of the newest messages of one channel. A network may deliver a message more than once; it is
-/// counted once.
+/// Remembers the names of the newest messages of one channel, because a network may deliver a message several times.
 class DuplicateFilter {
  public:
-  /// Names that are remembered; a repetition comes within milliseconds, a channel carries at most some hundred per
-  /// second.
+  /// Number of remembered names. A repetition arrives within milliseconds, and a channel carries at most some hundred
+  /// messages per second.
   static constexpr std::size_t kRemembered = 4096;
 
-  /// True for the first message of that name. A message without a name ({0, 0}) is always the first.
+  /// True for the first message of this name. A message without a name ({0, 0}) always counts as the first.
   bool is_first(const MessageName& name) {
     if (name == MessageName{}) return true;
     if (!names_.insert(name).second) return false;

@@ -1,4 +1,4 @@
-// Watches a flight by its messages: what to show of it now, when it has ended and how, and its summary.
+// Watches a flight by its messages: the live view, the flight's end and its summary.
 #pragma once
 
 #include <cstdint>
@@ -23,30 +23,30 @@ namespace tern {
 
 inline constexpr char kSimulatorProcess[] = "tern-simulator";
 inline constexpr char kExecutorProcess[] = "tern-executor";
-/// Without a heartbeat of the simulator for so long, there is no flight.
+/// If the simulator sends no heartbeat for this long, the flight has failed.
 inline constexpr Duration kSimulatorSilence{20'000'000};
-/// After the verdict every process has a last heartbeat to send, with its last counts.
+/// After the verdict each process has this long to send a last heartbeat with its final counts.
 inline constexpr Duration kLastReports{600'000};
-/// Without a heartbeat of it for so long, a simulator that another one follows has ended: four may be lost.
+/// A simulator that another one follows has ended if it sends no heartbeat for this long: four may be lost.
 inline constexpr Duration kSuccessorSilence{2'500'000};
-/// The referee has this much longer than the scenario's own timeout to say something.
+/// The referee may publish its verdict this long after the scenario's timeout.
 inline constexpr Duration kResultSlack{60'000'000};
 
-/// What a live line shows.
+/// The values of the live line.
 struct LiveView {
-  bool flying = false;     ///< a horizon was asked for; else the rest but `waiting` and `beside` is meaningless
-  std::string waiting;     ///< who is not ready, and why
-  std::string beside;      ///< "2 tern-predictor": processes of which more than one live; empty when there is none
+  bool flying = false;     ///< a request was sent; if false, only `waiting` and `beside` are valid
+  std::string waiting;     ///< processes that are not ready, and why
+  std::string beside;      ///< "2 tern-predictor": processes of which several run; may be empty
   double elapsed_s = 0.0;  ///< since the first request, vehicle's clock
-  double progress = 0.0;   ///< of the straight distance from start to goal, 0 … 1
+  double progress = 0.0;   ///< share of the straight distance from start to goal, 0 … 1
   double speed_mps = 0.0;
-  double nearest_m = 0.0;  ///< distance of the body's box to the nearest obstacle; NaN: none known
-  /// The same to the map's occupied voxels; NaN: none known.
+  double nearest_m = 0.0;  ///< distance from the body's box to the nearest obstacle; NaN: none known
+  /// Distance from the body's box to the map's occupied voxels; NaN: none known.
   double nearest_wall_m = std::numeric_limits<double>::quiet_NaN();
-  double replan_p50_ms = 0.0, replan_p99_ms = 0.0;  ///< of all answers so far; NaN: none
+  double replan_p50_ms = 0.0, replan_p99_ms = 0.0;  ///< over all answers so far; NaN: none
   std::int64_t requests = 0, answered_in_time = 0;
-  PlanReason reason = PlanReason::None;  ///< the newest plan's
-  std::int32_t left_out = 0;             ///< tracks that the newest plan knew nothing of
+  PlanReason reason = PlanReason::None;  ///< of the newest plan
+  std::int32_t left_out = 0;             ///< tracks missing in the predictions of the newest plan
 };
 
 /// How a flight ended.
@@ -55,19 +55,20 @@ struct Ending {
   std::string detail;
 };
 
-/// Pure: messages and times come in, values go out.
+/// Judges a flight by its messages. Pure: messages and times come in, values go out.
 ///
-/// The flight ends kLastReports after FLIGHT_RESULT, with its outcome. Before that it has failed in four cases:
-///  - fail() was called (the launcher knows of a process that cannot run).
-///  - The simulator was not heard for kSimulatorSilence, from the watch's beginning on.
-///  - The simulator started anew after the first request, and the one that the flight began with is silent: its world
-///    is lost.
-///  - The referee says nothing kResultSlack after the scenario's timeout.
-/// Verdict and loss of the world are those of the simulator that the flight began with, whoever else says so. A verdict
-/// that its own next heartbeat contradicts (it flies on) is dropped.
+/// The flight ends kLastReports after FLIGHT_RESULT, with that outcome. It has failed if one of these comes first:
+/// - fail() is called (the launcher reports a process that cannot run).
+/// - The simulator sends no heartbeat for kSimulatorSilence, from the watch's beginning on.
+/// - Another simulator has started after the first request, and the flight's own is silent for kSuccessorSilence: its
+///   world is lost.
+/// - There is no verdict kResultSlack after the scenario's timeout.
+///
+/// Only the simulator with which the flight began can give the verdict or lose the world. Its next heartbeat may
+/// contradict a verdict, if it flies on: that verdict is dropped.
 class FlightWatch {
  public:
-  /// @param now  the watcher's clock, as everywhere here unless the vehicle's is named
+  /// @param now  the watcher's clock, as in all functions here; the vehicle's clock is named where it is meant
   FlightWatch(const Scenario& scenario, UTime now);
 
   void receive(const Heartbeat& heartbeat, UTime now);
@@ -77,16 +78,16 @@ class FlightWatch {
   void receive(const Plan& plan) { ledger_.add(plan); }
   void receive(const PlanTiming& timing);
   void receive(const FlightResult& result, UTime now);
-  /// A complete set.
+  /// @param obstacles  of a complete set
   void receive(std::vector<TrueObstacle> obstacles) { obstacles_ = std::move(obstacles); }
-  /// The newest map's occupied voxels (cover_with_boxes()).
+  /// @param occupied  the newest map's occupied voxels (cover_with_boxes())
   void receive_map(std::vector<Box> occupied) { occupied_ = std::move(occupied); }
-  /// Something outside of the messages made the flight impossible. The first reason stays.
+  /// Ends the flight for a reason outside the messages. The first reason stays.
   void fail(std::string detail);
 
   [[nodiscard]] std::optional<Ending> ending(UTime now) const;
   [[nodiscard]] LiveView live() const;
-  /// All but log and version, which the watch does not know.
+  /// The summary except log and version, which the watch does not know.
   [[nodiscard]] FlightSummary summary(const Ending& ending) const;
 
  private:
@@ -103,8 +104,8 @@ class FlightWatch {
   std::optional<UavState> state_;
   std::optional<HorizonRequest> first_request_;
   std::optional<UTime> first_request_at_;
-  std::int64_t world_epoch_us_ = 0;  ///< the simulator's at the first request; 0: none yet
-  UTime beat_;                       ///< when a heartbeat was heard last
+  std::int64_t world_epoch_us_ = 0;  ///< the simulator's epoch at the first request; 0: none yet
+  UTime beat_;                       ///< time of the last heartbeat
   std::vector<TrueObstacle> obstacles_;
   std::vector<Box> occupied_;
   DuplicateFilter timings_filter_;

@@ -1,4 +1,4 @@
-// Every process by its heartbeats: alive, restarted, how many beside each other, what its channels lost.
+// Tracks every process by its heartbeats: restarts, several at a time, lost messages.
 #pragma once
 
 #include <cstdint>
@@ -11,41 +11,41 @@
 
 namespace tern {
 
-/// Heartbeats come at 2 Hz: a process that was not heard for longer has lost two in a row, or ended.
+/// Heartbeats come at 2 Hz: a process that is silent for longer has ended, or two heartbeats in a row were lost.
 inline constexpr Duration kHeartbeatTimeout{1'250'000};
 
-/// A channel's messages over all processes that listen to it.
+/// A channel's messages, summed over all processes that receive it.
 struct MessageCount {
   std::int64_t received = 0;  ///< accepted
-  std::int64_t rejected = 0;  ///< refused, whatever the reason
+  std::int64_t rejected = 0;  ///< refused for any reason
   std::int64_t lost = 0;      ///< gaps in sequence numbers
 };
 
-/// Keeps the newest heartbeat of each start (sender epoch) of each process, so that the counts of one that died are
-/// kept. A start that was heard once and not again within kHeartbeatTimeout is noise: it is forgotten, and counts
+/// Keeps the newest heartbeat of each start (sender epoch) of each process, so the counts of ended processes stay. A
+/// start with a single heartbeat and none within kHeartbeatTimeout after it is noise: it is forgotten and counted
 /// nowhere.
 class ProcessTable {
  public:
-  /// @param now  the listener's clock, as everywhere here
+  /// @param now  the listener's clock, as in all functions here
   void add(const Heartbeat& heartbeat, UTime now);
 
-  /// The start of a process that counts: the one that was heard first, until it has been silent for kHeartbeatTimeout.
-  /// 0: it was never heard.
+  /// The epoch of the active start of a process: the first one received, until it is silent for kHeartbeatTimeout. 0 if
+  /// there was none.
   [[nodiscard]] std::int64_t epoch_us(const std::string& process) const;
-  /// @return when a start of a process was heard last, or nullopt if never.
+  /// @return when the last heartbeat of that start arrived, or nullopt if there was none.
   [[nodiscard]] std::optional<UTime> heard(const std::string& process, std::int64_t epoch_us) const;
-  /// Starts beyond the first, over all processes. A start that ended before its second heartbeat was not seen; one that
-  /// was heard while an earlier one lived is no restart.
+  /// Number of starts beyond the first, summed over all processes. Starts that end before their second heartbeat are
+  /// not seen. A start that overlaps an earlier one is not a restart.
   [[nodiscard]] std::int64_t restarts() const;
-  /// Processes of which more than one lived at a time, and how many at most.
+  /// Processes of which several ran at a time, with the largest number.
   [[nodiscard]] const std::map<std::string, int>& beside() const { return beside_; }
-  /// "2 tern-predictor, 3 tern-mapper": those of which more than one live now; empty when there is none.
+  /// "2 tern-predictor, 3 tern-mapper": processes of which several run at `now`; may be empty.
   [[nodiscard]] std::string concurrent_now(UTime now) const;
-  /// Received, rejected and lost summed over every start of every process: what came in twice, at two processes, counts
-  /// twice.
+  /// Received, rejected and lost messages, summed over every start of every process. A message that two processes
+  /// received counts twice.
   [[nodiscard]] std::map<std::string, MessageCount> messages() const;
-  /// Who is not ready and why, in words: "tern-planner: a map; tern-mapper: starting". Empty when all that were heard
-  /// are ready.
+  /// The processes that are not ready, with reasons: "tern-planner: a map; tern-mapper: starting". Empty if all are
+  /// ready.
   [[nodiscard]] std::string waiting() const;
 
  private:
@@ -56,7 +56,7 @@ class ProcessTable {
   };
   struct Process {
     std::map<std::int64_t, Start> starts;  ///< by sender epoch; never empty
-    std::int64_t counts = 0;               ///< the epoch of the start that counts
+    std::int64_t counts = 0;               ///< epoch of the active start
   };
   void forget_noise(UTime now);
   [[nodiscard]] static int living(const Process& process, UTime now);

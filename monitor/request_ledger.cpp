@@ -31,7 +31,7 @@ void RequestLedger::add(const Plan& plan) {
   last_reason_ = plan.reason;
   last_left_out_ = plan.inputs.left_out;
   if (last_left_out_ > 0) ++left_out_.plans;
-  left_out_.most_tracks = std::max(left_out_.most_tracks, last_left_out_);
+  left_out_.max_tracks = std::max(left_out_.max_tracks, last_left_out_);
   const auto request = deadlines_.find(plan.request_id);
   if (request == deadlines_.end()) return;
   ++settled_;

@@ -105,7 +105,7 @@ std::string to_json(const FlightSummary& summary) {
       {"second_answers", summary.second_answers},
       {"plans", plans_by_outcome(summary)},
       {"confidence", plans_by_confidence(summary)},
-      {"left_out", {{"plans", summary.left_out.plans}, {"most_tracks", summary.left_out.most_tracks}}},
+      {"left_out", {{"plans", summary.left_out.plans}, {"most_tracks", summary.left_out.max_tracks}}},
       {"replan_ms", to_json(summary.replan_ms)},
       {"exposure", exposure_by_region(result)},
       {"messages", messages_by_channel(summary)},

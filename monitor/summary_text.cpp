@@ -102,7 +102,7 @@ std::string plan_lines(const FlightSummary& s) {
   if (s.left_out.plans == 0) return text;
   return text +
          fmt::format("  left out      {} plans rest on incomplete predictions: up to {} tracks are not in them\n",
-                     s.left_out.plans, s.left_out.most_tracks);
+                     s.left_out.plans, s.left_out.max_tracks);
 }
 
 std::string message_lines(const FlightSummary& s) {

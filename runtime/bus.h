@@ -133,6 +133,7 @@ class Bus {
   }
   [[nodiscard]] std::int64_t unsent() const;      ///< paced messages replaced by a newer set before they were sent
   [[nodiscard]] std::int64_t deliveries() const;  ///< delivered messages, also refused ones; with keys: verified ones
+
   /// The time, by this bus's clock, at which the kernel took the message being delivered from the network. The handler
   /// may run much later.
   /// @pre called from a handler

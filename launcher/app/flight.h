@@ -7,16 +7,19 @@
 
 namespace tern {
 
-/// Flies, and looks back as it was asked to. However it ends, nobody is left, and a summary is where it was asked for.
+/// Flies, then runs the audit and the report if requested. However the flight ends, no process is left behind, and the
+/// summary is written where it was requested.
 ///
-/// Two processes do it. This one waits, with nothing to do that could fail, and sums up. Its child holds the keys,
-/// starts the flight's processes and keeps them running; it leads a session and process group of its own. If the child
-/// is killed, the kernel kills what it started, and this one whoever is left of its group. If this one is killed, the
-/// kernel sends the child SIGTERM, which ends the flight in order.
-/// @return the flight's exit code (exit_codes.h)
+/// Two processes share the work:
+/// - This process waits and sums up. It has little to do, so that little can fail.
+/// - Its child holds the keys, starts the flight's processes and restarts them. It leads a session and a process group.
+///
+/// If the child is killed, the kernel kills the processes that it started, and this process kills the rest of its
+/// group. If this process is killed, the kernel sends SIGTERM to the child, which ends the flight in order.
+/// @return the flight's exit code (docs/reference/exit_codes.md)
 int fly(const LaunchOptions& options);
 
-/// Writes the summary that was asked for of a flight that could not begin. @param reason  in words
+/// Writes the requested summary of a flight that could not begin. @param reason  in words
 void summarize_failure(const LaunchOptions& options, const std::string& reason);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// Processes that are started, started again when they die, and ended.
+// Starts processes, restarts those that die, and ends all of them.
 #pragma once
 
 #include <csignal>
@@ -12,38 +12,42 @@
 
 namespace tern {
 
-/// Blocks SIGCHLD, and SIGINT, SIGTERM and SIGHUP but for those that are ignored, as a shell has it for background
-/// jobs. Children start with none blocked. @return the blocked ones
+/// Blocks SIGCHLD, SIGINT, SIGTERM and SIGHUP, except signals that are ignored, as in background jobs of a shell.
+/// Children start with no signal blocked. @return the blocked signals
 sigset_t block_signals();
 
+/// The reason why Supervisor::wait returns.
 struct SupervisorEvent {
-  std::string process;  ///< which is gone for good; empty: a signal came
-  int code = 0;         ///< its exit code, or 128 + n for signal n
+  std::string process;  ///< process that ended and is not restarted; empty: a signal arrived
+  int code = 0;         ///< exit code of that process, or 128 + n for signal n
 };
 
-/// Not thread-safe; its process stays single-threaded.
+/// Starts and restarts processes. Not thread-safe; its process must stay single-threaded.
 class Supervisor {
  public:
-  /// @param signals  of block_signals
+  /// @param signals  from block_signals
   explicit Supervisor(const sigset_t& signals) : signals_(signals) {}
 
-  /// Each process gets at most TERN_MEMORY_LIMIT_KB of address space (by default 4 GB; 0: no limit). So a message that
-  /// asks for absurd memory ends the process, not the machine.
+  /// Starts a process. Its address space is limited to TERN_MEMORY_LIMIT_KB (by default 4 GB; 0: unlimited). A message
+  /// that asks for absurd memory then ends the process instead of the machine.
   void start(SupervisedProcess process);
-  /// Keeps all running until one is gone for good or a signal comes. Restarts are said on the process's standard error.
+  /// Keeps all processes running until one ends that is not restarted, or a signal arrives. A restart is reported on
+  /// the process's standard error.
   SupervisorEvent wait();
-  /// Ends one before the others, if it runs: it may take half a minute of its clock, whose pace this is, to land.
+  /// Ends a process before the others, if it runs. It may take 32 s of its clock to land.
+  /// @param pace  of that clock
   void end_first(const std::string& name, double pace);
-  /// Ends all: SIGTERM to all but `last`, SIGKILL to those that are left after 1 s, then the same to `last`, which
-  /// records their last messages, with 5 s. Signals that come meanwhile stay pending.
+  /// Ends all processes: SIGTERM to all except `last`, then SIGKILL to those left after 1 s. Then the same for `last`,
+  /// which records the last messages, with 5 s. Signals that arrive meanwhile stay pending.
   void stop(const std::string& last);
 
  private:
+  /// A process and its restarts.
   struct Supervised {
     SupervisedProcess process;
     std::optional<pid_t> pid;  ///< while it runs
-    UTime started;             ///< lately
-    std::optional<UTime> due;  ///< the next start
+    UTime started;             ///< time of the last start
+    std::optional<UTime> due;  ///< time of the next start
     Backoff backoff;
     int restarts = 0;
   };
@@ -56,10 +60,10 @@ class Supervisor {
   std::vector<Supervised> supervised_;
 };
 
-/// Runs a command, and runs it again when it dies. On SIGTERM, SIGINT or SIGHUP the command gets SIGTERM, and SIGKILL 1
-/// s later; tern-mavlink has 32 s of its clock before that, to land the vehicle.
-/// @param log  file for all that is said; empty: where this process says it
-/// @return the command's exit code when another run cannot mend it; 0 after a signal
+/// Runs a command and restarts it when it dies. SIGTERM, SIGINT and SIGHUP end the command by SIGTERM, and by SIGKILL 1
+/// s later. tern-mavlink first gets 32 s of its clock, to land the vehicle.
+/// @param log  file for its output; empty: the output of this process
+/// @return the command's exit code if a restart cannot help; 0 after a signal
 int keep_alive(const std::vector<std::string>& command, const std::string& log);
 
 }  // namespace tern

@@ -47,7 +47,7 @@ LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& 
   });
   bus.subscribe(channels::kHeartbeat, [this](const Heartbeat& heartbeat) {
     if (!role_of_process(heartbeat.process)) return;
-    heard_[heartbeat.process] = {bus_.received(), heartbeat.header.name.sender_epoch_us};
+    starts_[heartbeat.process] = {bus_.received(), heartbeat.header.name.sender_epoch_us};
   });
   bus.subscribe(channels::kConfiguration, [this](const ConfigurationReport& report) {
     const bool is_ours = role_of_process(report.process).has_value();
@@ -74,7 +74,7 @@ void LoggerNode::flush() {
 
 std::string LoggerNode::missing_configurations() const {
   std::string text;
-  for (const auto& [process, heard] : heard_) {
+  for (const auto& [process, heard] : starts_) {
     if (bus_.clock().now() - heard.at > kHeardLately || configurations_.contains(heard.epoch_us)) continue;
     text += (text.empty() ? "CONFIGURATION of " : ", ") + process;
   }

@@ -1,4 +1,4 @@
-// tern-logger: every message of every channel goes to the log.
+// tern-logger: writes every message of every channel to the log.
 #pragma once
 
 #include <cstdint>
@@ -14,31 +14,33 @@
 
 namespace tern {
 
-/// What a kill can cost at most.
+/// Time between flushes: a kill loses the messages of at most this time.
 inline constexpr Duration kFlushPeriod{100'000};
 
 /// The section `logger:` of a scenario file.
 struct LoggerConfig {
-  std::int64_t rotate_bytes =
-      0;  ///< `rotate_mb` · 10⁶: a part of the log that is as long is followed by the next; 0: never
+  /// `rotate_mb` · 10⁶: a part of the log that has this length is followed by a new part; 0: never
+  std::int64_t rotate_bytes = 0;
 };
 
-/// Reads and finishes the section. @throws ConfigError.
+/// Reads the section and finishes it. @throws ConfigError.
 LoggerConfig read_logger_config(ConfigSection section);
 
-/// Writes every message as it came, with the kernel's time of receipt, and hands it to the kernel every kFlushPeriod.
-/// LCM's own receiving thread empties the socket meanwhile, so that a slow disk costs memory, not messages
-/// (Bus::listen). What is larger than any reader takes (kLogMaxDataBytes; only fragments can be) is counted and left
-/// out. A disk that takes nothing makes it Failed, with the reason in waiting_for; it goes on trying.
+/// Writes every message as it came, with the kernel's time of receipt, and flushes every kFlushPeriod.
 ///
-/// It is Ready when it has the CONFIGURATION of every one of Tern's processes whose heartbeat it hears: without them
-/// nothing replays. Processes repeat theirs while it waits (NodeHost), and a simulator that is recorded waits for it.
+/// - LCM's receiving thread empties the socket meanwhile. So a slow disk costs memory, not messages (Bus::listen).
+/// - A message longer than kLogMaxDataBytes, which no reader takes (only LCM fragments can be), is counted and left
+///   out.
+/// - If the disk takes no data, the node is Failed, with the reason in waiting_for; it continues to try.
+/// - The node is Ready when it has the CONFIGURATION of every process of Tern whose heartbeat it receives: without them
+///   a flight cannot be replayed. Processes repeat theirs while it waits (NodeHost), and a recorded simulator waits for
+///   it.
 class LoggerNode final : public Node {
  public:
-  /// @param path  of the log; an existing folder means flight.lcm in it
-  /// @throws ConfigError when the log cannot be made.
+  /// @param path  of the log; for an existing folder, flight.lcm in it
+  /// @throws ConfigError if the log cannot be made.
   LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path);
-  /// Flushes and says a line per channel.
+  /// Flushes, and prints a line per channel.
   ~LoggerNode() override;
   LoggerNode(const LoggerNode&) = delete;
   LoggerNode& operator=(const LoggerNode&) = delete;
@@ -55,8 +57,8 @@ class LoggerNode final : public Node {
   void report() const;
   [[nodiscard]] std::string missing_configurations() const;
 
-  /// The newest process of a name.
-  struct Heard {
+  /// The newest start of a process name.
+  struct Start {
     UTime at;
     std::int64_t epoch_us = 0;
   };
@@ -64,11 +66,11 @@ class LoggerNode final : public Node {
   LogWriter writer_;
   ChannelTable table_;
   Bus& bus_;
-  std::map<std::string, Heard> heard_;     ///< by process
-  std::set<std::int64_t> configurations_;  ///< senders' epochs whose CONFIGURATION came
+  std::map<std::string, Start> starts_;    ///< by process name
+  std::set<std::int64_t> configurations_;  ///< epochs of the senders whose CONFIGURATION arrived
   UTime next_flush_;
   std::int64_t too_large_ = 0;
-  std::string trouble_;  ///< why the last flush failed; empty when it did not
+  std::string trouble_;  ///< why the last flush failed; empty after a success
 };
 
 }  // namespace tern

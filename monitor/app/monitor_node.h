@@ -1,4 +1,4 @@
-// tern-monitor: shows a flight, judges its end, sums it up.
+// tern-monitor: shows a flight, judges its end and writes its summary.
 #pragma once
 
 #include <optional>
@@ -15,14 +15,13 @@
 namespace tern {
 
 struct MonitorOptions {
-  std::string summary_file;  ///< where the summary's JSON goes; empty: nowhere
-  std::string log;           ///< path of the recording, for the summary
-  std::string command;       ///< what the user typed, for the summary
-  std::string
-      failure_file;  ///< once it exists, the flight has failed for the reason that is its text; empty: none is watched
+  std::string summary_file;  ///< file for the summary's JSON; empty: none
+  std::string log;           ///< path of the recording, named in the summary
+  std::string command;       ///< command line of the user, named in the summary
+  std::string failure_file;  ///< if this file appears, the flight has failed, and its text is the reason; empty: none
 };
 
-/// Listens to the channels that it judges by and to those that nobody else may count. Finishes with the outcome as exit
+/// Receives the channels by which it judges, and those that no other process counts. Finishes with the outcome as exit
 /// code: 0 reached, 1 collision, 2 timeout, 3 failed.
 class MonitorNode final : public Node {
  public:

@@ -1,4 +1,4 @@
-// The bus → a watch.
+// Connects a bus to a FlightWatch.
 #pragma once
 
 #include <tuple>
@@ -8,7 +8,7 @@
 
 namespace tern {
 
-/// Hands `watch` all messages that it judges by; not OBSTACLE_TRUTH, which it only shows. Both must outlive the bus's
+/// Hands `watch` all messages by which it judges; not OBSTACLE_TRUTH, which is only shown. Both must outlive the bus's
 /// deliveries.
 inline void subscribe_flight(Bus& bus, FlightWatch& watch) {
   constexpr std::tuple kJudged{channels::kHeartbeat,      channels::kUavState, channels::kGoal,

@@ -1,4 +1,4 @@
-// Standard output as a place for one line that changes.
+// Standard output with one line that changes.
 #pragma once
 
 #include <string>
@@ -7,13 +7,14 @@
 
 namespace tern {
 
-/// On a terminal the line is rewritten in place, five times a second; elsewhere it is a line of its own every 5 s.
+/// Prints a live line. On a terminal it is rewritten in place, five times a second; elsewhere a new line is printed
+/// every 5 s.
 class LiveOutput {
  public:
   LiveOutput();
-  /// When show() is due next, at least so long after the last time.
+  /// Least time between two calls of show().
   [[nodiscard]] Duration period() const;
-  /// How wide a line may be: the terminal's width, else without limit.
+  /// The terminal's width; without a terminal there is no limit.
   [[nodiscard]] std::size_t columns() const;
   void show(const std::string& line);
   /// Ends the live line, if there is one, and prints text below it.

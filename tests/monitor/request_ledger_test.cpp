@@ -117,7 +117,7 @@ TEST(RequestLedger, CountsThePlansOfIncompleteSetsAndKeepsTheNewest) {
     EXPECT_EQ(ledger.last_left_out(), left_out);
   }
   EXPECT_EQ(ledger.left_out().plans, 2);
-  EXPECT_EQ(ledger.left_out().most_tracks, 12);
+  EXPECT_EQ(ledger.left_out().max_tracks, 12);
 }
 
 TEST(RequestLedger, CountsTrajectoriesByTheirConfidence) {
