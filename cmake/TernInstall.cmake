@@ -38,6 +38,11 @@ foreach(program ${executables})
   endif()
 endforeach()
 
+# What every flight needs: fly.sh builds no more. Its options add their own programs (launch_scripts/fly.sh).
+add_custom_target(flight)
+add_dependencies(flight tern-launch tern-simulator tern-predictor tern-planner tern-executor tern-mapper tern-monitor
+                 tern-logger)
+
 # The scripts find programs and scenarios from their own place (launch_scripts/lib.sh).
 foreach(folder scenarios launch_scripts lcmtypes)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION share/tern COMPONENT programs USE_SOURCE_PERMISSIONS

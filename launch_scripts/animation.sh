@@ -11,7 +11,7 @@ log=${1:-}
 help_if_asked "$@"
 [[ $log != -* ]] || { say "animation.sh: no option $log (--help)" >&2 && exit 2; }
 "$TERN_ROOT/launch_scripts/view_page.sh"
-build_programs
+build_programs tern-viewer
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 if [[ -z $log ]]; then

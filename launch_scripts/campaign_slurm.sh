@@ -27,7 +27,7 @@ dir=$1 shards=$2
 shift 2
 
 if [[ -z ${SLURM_JOB_ID:-} ]]; then
-  build_programs
+  build_programs tern-campaign tern-audit
   mkdir -p "$dir/shards"
   array=$(sbatch --parsable --array="1-$shards" --cpus-per-task="${CPUS:-4}" "${BASH_SOURCE[0]}" "$dir" "$shards" "$@")
   merge=$(sbatch --parsable --dependency="afterok:${array%%;*}" "${BASH_SOURCE[0]}" "$dir" "$shards" --merge)

@@ -8,11 +8,12 @@ typed=$(printf '%q ' "$0" "$@")
 typed=${typed% }
 scenario=corridor_demo install=$([[ -n $TERN_INSTALLED ]] || echo yes) view='' check='' goals=() url='' isolated='' autopilot=''
 flight=("$TERN_BIN/tern-launch" fly --programs="$TERN_BIN") # and its options
+programs=(flight)                                           # what is built for it; CMake's target of what every flight needs
 
 # There will be no flight, for this reason: the summary that was asked for says so, too.
 on_death() { [[ ! -x ${flight[0]} ]] || "${flight[@]}" --failed="$1" --config="$scenario" || true; }
 
-# parse OPTION...: sets scenario, install, view, url and isolated; the rest becomes options of `flight`.
+# parse OPTION...: sets scenario, install, view, url and isolated, and adds to programs; the rest becomes options of `flight`.
 parse() {
   local option value
   while [[ $# -gt 0 ]]; do
@@ -20,7 +21,7 @@ parse() {
     shift
     case $option in
       --isolated) isolated=yes && continue ;;
-      --audit | --report) flight+=("$option") && continue ;;
+      --audit | --report) flight+=("$option") && programs+=("tern-${option#--}") && continue ;;
       --allow-goals) goals=(--set=simulator.min_flight_s=100000 --set=timeout_s=1000000 --allow-goals) && continue ;;
       --no-install) install='' && continue ;;
       --view) view=127.0.0.1 && continue ;;
@@ -32,6 +33,7 @@ parse() {
         shift
         ;;
       --key)
+        programs+=(tern-key)
         [[ $# -gt 0 && $1 != -* ]] || { flight+=(--new-key) && continue; }
         value=$1
         shift
@@ -74,6 +76,20 @@ parse() {
   flight=("${flight[@]:0:3}" "${goals[@]}" "${flight[@]:3}") # before the user's own values, which win
 }
 
+# gives SECTION: whether scenario or settings may hold this section. Then its process reads it, even if it does not fly.
+gives() { grep -q "$1" "$scenario_file" || [[ ${flight[*]} == *" --set=$1"* ]]; }
+
+# Adds to programs what parse did not.
+choose_programs() {
+  if [[ -n $check ]]; then
+    programs=(tern-campaign)
+    return
+  fi
+  [[ -z $view ]] || programs+=(tern-viewer tern-listen)
+  [[ -z $autopilot ]] && ! gives mavlink || programs+=(tern-mavlink)
+  [[ $autopilot != sim ]] && ! gives autopilot_sim || programs+=(tern-autopilot-sim)
+}
+
 # Becomes a look at the scenario. What only a flight has is refused.
 check_scenario() {
   local setting options=() drawing
@@ -93,7 +109,8 @@ parse "$@"
 scenario_file=$(find_scenario "$scenario")
 lists=("$TERN_ROOT/launch_scripts/packages.txt" ${view:+"$TERN_ROOT/launch_scripts/packages_view.txt"})
 [[ -z $install ]] || "$TERN_ROOT/launch_scripts/install.sh" "${lists[@]}" || die "the packages could not be installed"
-build_programs || die "the programs could not be built"
+choose_programs
+build_programs "${programs[@]}" || die "the programs could not be built"
 [[ -z $check ]] || check_scenario
 [[ -z $view || -n $TERN_INSTALLED ]] || "$TERN_ROOT/launch_scripts/view_page.sh" || die "the page could not be built"
 [[ -x ${flight[0]} ]] || die "${flight[0]} is not there"

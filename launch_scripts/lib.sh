@@ -21,6 +21,7 @@ readonly TERN_BIN TERN_BIN_GIVEN
 readonly TERN_PAGE=${TERN_PAGE:-$TERN_ROOT/build/viewer-page}
 
 readonly MANY_STEPS=20 # but for links, of a build that shows its progress
+readonly FEW_STEPS=10  # after which it says how long the rest takes
 readonly FIRST_PORT=7667
 readonly LAST_PORT=7766
 readonly LCM_GROUP=239.255.76.67
@@ -57,12 +58,37 @@ configure_build() {
   said=$(cmake --preset release 2>&1) || { printf '%s\n' "$said" >&2 && return 1; }
 }
 
-# Builds the programs unless the environment says where they are. When much is left to do, it says how long that takes and
-# shows ninja's progress. Else it shows one line, gone when it is done, and what fails. A subshell, with which the lock ends.
+# time_left DONE ALL SECONDS: prints how long a build takes from here that has taken so long for DONE of its ALL steps.
+time_left() {
+  local left=$(($3 * ($2 - $1) / $1))
+  ((left < 60)) && printf 'less than 1 min left' || printf '%d min left' $(((left + 30) / 60))
+}
+
+# show_progress: prints ninja's lines from standard input, and in each step's line how long the rest takes if the steps to come
+# take as long as those that are done. A terminal shows the newest step alone, and what the compiler says.
+show_progress() {
+  local line text began=$SECONDS clear='' width=80
+  [[ ! -t 1 ]] || { clear=$'\r\033[K' && width=$(tput cols 2>/dev/null || echo 80); }
+  while IFS= read -r line; do
+    text=$line
+    if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\ (.*) ]]; then
+      if ((BASH_REMATCH[1] > FEW_STEPS && BASH_REMATCH[1] < BASH_REMATCH[2])); then
+        text="[${BASH_REMATCH[1]}/${BASH_REMATCH[2]}] $(time_left "${BASH_REMATCH[@]:1:2}" $((SECONDS - began))): ${BASH_REMATCH[3]}"
+      fi
+      [[ -z $clear ]] || { printf '%s%s' "$clear" "${text:0:width-1}" && continue; }
+    fi
+    printf '%s%s\n' "$clear" "$text"
+  done
+  printf '%s' "$clear"
+}
+
+# build_programs [TARGET...]: builds them (by default every program) unless the environment says where programs are. When much
+# is left to do, it shows each step and how long the rest takes, measured on those that are done. Else it shows one line, gone
+# when it is done, and what fails. A subshell, with which the lock ends.
 build_programs() (
   [[ -z $TERN_BIN_GIVEN ]] || exit 0
   lock_build
-  build=(cmake --build --preset release --target apps) failed=''
+  build=(cmake --build --preset release --target "${@:-apps}") failed=''
   [[ ! -t 2 ]] || printf 'Building what has changed …' >&2
   configure_build || exit 1
   left=$("${build[@]}" -- -n 2>/dev/null)
@@ -73,16 +99,16 @@ build_programs() (
   [[ ! -t 2 ]] || printf '\r\033[K' >&2
   [[ -z $failed ]] || { printf '%s\n' "$said" >&2 && exit 1; }
   ((long > MANY_STEPS)) || exit 0
-  cores=$(nproc)
-  say "Building Tern's programs, $steps steps: up to $(((20 + cores - 1) / cores)) minutes on $cores cores. Later only what has changed."
-  "${build[@]}"
+  set -o pipefail
+  say "Building Tern's programs, $steps steps. Later only what has changed."
+  "${build[@]}" 2>&1 | show_progress
 )
 
-# exec_process NAME ARG...: becomes the program, which is built first if it is not there.
+# exec_process NAME ARG...: becomes the program, which is built first, alone, if it is not there.
 exec_process() {
   local name=$1
   shift
-  [[ -x $TERN_BIN/$name ]] || build_programs >&2
+  [[ -x $TERN_BIN/$name ]] || build_programs "$name" >&2
   [[ -x $TERN_BIN/$name ]] || die "$TERN_BIN/$name is not there"
   exec "$TERN_BIN/$name" "$@"
 }

@@ -58,7 +58,7 @@ while (($#)); do
 done
 
 for name in $only; do grep -q "^$name " <<<"$campaigns" || die "no campaign $name"; done
-build_programs
+build_programs tern-campaign tern-audit
 mkdir -p "$out"
 cd "$TERN_ROOT"
 out=${out#"$TERN_ROOT/"}

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tern {
 namespace {
@@ -73,11 +74,13 @@ std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, co
 }
 
 std::vector<std::vector<std::string>> checks_of_unused_sections(const LaunchOptions& options,
-                                                                const std::vector<SupervisedProcess>& processes) {
+                                                                const std::vector<SupervisedProcess>& processes,
+                                                                const std::vector<std::string>& sections) {
   std::vector<std::vector<std::string>> checks;
-  for (const char* name : {kMavlink, kAutopilotSim}) {
-    const auto flies = [&](const SupervisedProcess& p) { return p.name == name; };
+  for (const auto& [name, section] : {std::pair{kMavlink, "mavlink"}, std::pair{kAutopilotSim, "autopilot_sim"}}) {
+    const auto flies = [name = name](const SupervisedProcess& p) { return p.name == name; };
     if (std::any_of(processes.begin(), processes.end(), flies)) continue;
+    if (std::find(sections.begin(), sections.end(), section) == sections.end()) continue;
     auto& words = checks.emplace_back();
     words = {options.programs + "/" + name, "--check-config", "--config", options.scenario};
     for (const std::string& value : options.overrides) words.insert(words.end(), {"--set", value});

@@ -56,10 +56,16 @@ inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kV
 std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, const std::string& record,
                                                 const std::map<std::string, int>& key_fds);
 
-/// Commands that check the sections of programs which this flight does not use. So a misspelt key is found in every
-/// flight. A command ends with 0, or prints the refusal on standard error.
+/// Returns the commands that check a section of the scenario whose process does not fly: a misspelt key is an error of
+/// the file in any case. A section that the scenario does not have needs no check, and its program need not be built.
+/// Each command ends with 0, or prints what it refuses on standard error.
+/// @param sections  the scenario's keys, overrides included
 std::vector<std::vector<std::string>> checks_of_unused_sections(const LaunchOptions& options,
-                                                                const std::vector<SupervisedProcess>& processes);
+                                                                const std::vector<SupervisedProcess>& processes,
+                                                                const std::vector<std::string>& sections);
+std::vector<std::vector<std::string>> checks_of_unused_sections(const LaunchOptions& options,
+                                                                const std::vector<SupervisedProcess>& processes,
+                                                                const std::vector<std::string>& sections);
 
 /// Joins words to a line that a shell reads as these words.
 std::string shell_line(const std::vector<std::string>& words);

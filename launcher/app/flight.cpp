@@ -202,7 +202,7 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
   int listens[2] = {-1, -1};
   if (pipe2(listens, O_CLOEXEC) == 0) options.listens_fd = listens[1];
   auto processes = flight_processes(options, record, make_keys(options));
-  run_checks(checks_of_unused_sections(options, processes), record);
+  run_checks(checks_of_unused_sections(options, processes, document.root().keys()), record);
   announce(options, record, processes);
   Supervisor supervisor(signals);
   for (SupervisedProcess& process : processes) {

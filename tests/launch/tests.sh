@@ -371,12 +371,77 @@ a_build_shows_its_progress_while_much_is_left() {
   mkdir "$tree/build/release/bin"
   touch "$tree/build/release/bin/tern-launch"
   [[ $(code "${build[@]}") == 0 ]] || fail "exit code: $(cat "$work/out")"
-  expect "how much" has_text "programs, [0-9]* steps: up to" "$work/out"
-  expect "ninja's progress" has_text "^\[39/39\]" "$work/out"
+  expect "how much" has_text "programs, [0-9]* steps" "$work/out"
+  expect "ninja's progress" has_text "^\[39/39\] [^:]*$" "$work/out"
+  expect "how long" has_text "^\[20/39\] less than 1 min left: " "$work/out"
   rm "$tree/build/release/7"
   [[ $(code "${build[@]}") == 0 ]] || fail "exit code: $(cat "$work/out")"
   [[ ! -s $work/out ]] || fail "little was left, and it said: $(cat "$work/out")"
   expect "it is built" test -e "$tree/build/release/7"
+}
+
+a_build_that_fails_says_why_and_fails() {
+  make_tree 40 true
+  cat >>"$tree/CMakeLists.txt" <<'END'
+add_custom_target(wrong COMMAND sh -c "echo a mistake; exit 1" VERBATIM)
+add_dependencies(wrong apps)
+END
+  # shellcheck disable=SC2016  # the inner shell expands it
+  [[ $(code bash -c 'source "$0" && build_programs wrong' "$tree/launch_scripts/lib.sh") == 1 ]] || fail "exit code"
+  expect "the steps before" has_text "^\[30/" "$work/out"
+  expect "the compiler's words" has_text "^a mistake" "$work/out"
+}
+
+the_time_left_is_measured() {
+  # shellcheck disable=SC2016  # the inner shell expands it
+  local left=(bash -c 'source "$0" && time_left "$@"' "$scripts/lib.sh")
+  [[ $("${left[@]}" 20 220 20) == '3 min left' ]] || fail "$("${left[@]}" 20 220 20)"
+  [[ $("${left[@]}" 20 220 5) == 'less than 1 min left' ]] || fail "$("${left[@]}" 20 220 5)"
+}
+
+# fly.sh OPTION... builds these targets and no other: $1, options: $2...
+expect_built() {
+  local targets=$1
+  shift
+  rm -f "$tree"/build/release/built-*
+  [[ $(code "$tree/launch_scripts/fly.sh" --no-install --scenario "$work/$fly_scenario" "$@") != 0 ]] || fail "nothing was there to fly"
+  local built
+  built=$(cd "$tree/build/release" && printf '%s ' built-*)
+  [[ ${built//built-/} == "$targets " ]] || fail "fly.sh $*: built $built: $(cat "$work/out")"
+}
+
+fly_builds_what_flies_and_an_option_adds_its_programs() {
+  local name fly_scenario=plain.yaml
+  make_tree 1 true
+  for name in flight tern-{audit,autopilot-sim,campaign,key,listen,mavlink,report,viewer}; do
+    # shellcheck disable=SC2016  # cmake expands it
+    printf 'add_custom_target(%s COMMAND ${CMAKE_COMMAND} -E touch built-%s VERBATIM)\n' "$name" "$name" >>"$tree/CMakeLists.txt"
+  done
+  echo 'name: plain' >"$work/plain.yaml"
+  printf 'mavlink:\n  rate_hz: 50\n' >"$work/bridged.yaml"
+  expect_built 'flight'
+  expect_built 'flight tern-audit' --audit
+  expect_built 'flight tern-audit tern-report' --report --audit
+  expect_built 'flight tern-key' --key
+  expect_built 'flight tern-listen tern-viewer' --view
+  expect_built 'flight tern-mavlink' --autopilot udp://127.0.0.1:14540
+  expect_built 'flight tern-autopilot-sim tern-mavlink' --autopilot sim
+  expect_built 'flight tern-mavlink' --set mavlink.rate_hz=50
+  expect_built 'tern-campaign' --check
+  fly_scenario=bridged.yaml
+  expect_built 'flight tern-mavlink'
+}
+
+a_program_that_is_not_there_is_built_alone() {
+  make_tree 1 true
+  ln -s run.sh "$tree/launch_scripts/one.sh"
+  cat >>"$tree/CMakeLists.txt" <<'END'
+add_custom_target(tern-one COMMAND sh -c "mkdir -p bin && printf '#!/bin/sh\\necho here' >bin/tern-one && chmod +x bin/tern-one"
+  VERBATIM)
+END
+  [[ $(code "$tree/launch_scripts/one.sh") == 0 ]] || fail "exit code: $(cat "$work/out")"
+  expect "it runs" has_text "^here$" "$work/out"
+  [[ ! -e $tree/build/release/1 ]] || fail "all programs were built"
 }
 
 programs_that_need_not_be_linked_anew_are_no_build_to_speak_of() {

@@ -88,9 +88,10 @@ TEST(FlightProcesses, InheritTheirOwnKeysAndTheViewerTheSocket) {
 
 TEST(FlightProcesses, WhoDoesNotFlyChecksItsSectionNevertheless) {
   LaunchOptions options = demo();
+  Words sections = {"uav", "mavlink", "autopilot_sim"};
   const auto checked = [&] {
     Words programs;
-    for (const Words& words : checks_of_unused_sections(options, flight_processes(options, "r", {}))) {
+    for (const Words& words : checks_of_unused_sections(options, flight_processes(options, "r", {}), sections)) {
       EXPECT_EQ(Words(words.begin() + 1, words.end()),
                 (Words{"--check-config", "--config", "demo.yaml", "--set", "seed=2", "--set", "uav.goal=[1,2,3]"}));
       programs.push_back(words.front());
@@ -101,6 +102,11 @@ TEST(FlightProcesses, WhoDoesNotFlyChecksItsSectionNevertheless) {
   options.autopilot = "udp://127.0.0.1:14540";
   EXPECT_EQ(checked(), Words{"bin/tern-autopilot-sim"});
   options.autopilot_sim = true;
+  EXPECT_EQ(checked(), Words{});
+  options = demo();
+  sections = {"uav", "mavlink"};
+  EXPECT_EQ(checked(), Words{"bin/tern-mavlink"});
+  sections = {"uav"};  // then the programs need not be there
   EXPECT_EQ(checked(), Words{});
 }
 
