@@ -10,12 +10,12 @@
 
 namespace tern {
 
-/// Returns a box around the centre's positions on the committed trajectory from t_s on, in W. It may reach far out of
+/// Returns a box in W around the centre's positions on the committed trajectory from t_s on. It may reach far out of
 /// the sphere around the start.
 Box committed_box(const HorizonRequest& request);
 
-/// Returns a box around all points that the body may touch from t_s on, in the frame W. The body flies the committed
-/// trajectory or any trajectory within the sphere.
+/// Returns a box in W around all points that the body may touch from t_s on. The body flies the committed trajectory or
+/// any trajectory within the sphere.
 /// @param committed  committed_box()
 Box planning_region(const HorizonRequest& request, const PlannerConfig& config, const Box& committed);
 

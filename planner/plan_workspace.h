@@ -14,8 +14,8 @@ namespace tern {
 /// Pass the same workspace to every call of one thread, and never to two calls at once. A fresh workspace gives the
 /// same answers, byte for byte.
 ///
-/// Once a workspace has seen a request of some size, these allocate nothing for requests up to that size: obstacles in
-/// reach, sweeps, search, convex problem and barrier solver.
+/// A request that is no larger than earlier ones allocates only its results, hulls and Ipopt's memory: see
+/// tests/planner/allocation_test.cpp.
 struct PlanWorkspace {
   std::vector<PlanningObstacle> obstacles;  ///< obstacles in reach of the request
   std::vector<std::int32_t> found;          ///< results of an index query

@@ -1,4 +1,4 @@
-// Exactly one answer per request, in time: from the worker when it is done, else from the watchdog.
+// The answer desk: exactly one answer per request and in time, from the worker or else from the watchdog.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,36 @@
 
 namespace tern {
 
-/// The watchdog sends what stands this long before the deadline: an answer must still travel and be checked.
+/// The watchdog sends the incumbent this long before the deadline, since an answer must still travel and be checked.
 inline constexpr Duration kWatchdogLead{4'000};
 
-/// The answer while the worker has none: NoPlan, out of time; it rests on the request alone.
+/// Returns the first incumbent of a request: NoPlan, out of time. It depends on the request alone.
 Plan unanswered(const HorizonRequest& request);
 
-/// Shared by the receiving thread (opens requests, runs the watchdog) and the worker (improves and gives answers).
+/// Shared by the receiving thread, which opens requests and runs the watchdog, and the worker, which gives answers.
 /// Thread-safe.
+///
+/// | event                                    | effect                                             |
+/// |------------------------------------------|----------------------------------------------------|
+/// | open() while another request is open     | that request's incumbent is sent first             |
+/// | improve() for the open request           | the plan becomes the incumbent                     |
+/// | answer() for the open request            | the plan is sent, and the request is closed        |
+/// | watch() kWatchdogLead before the deadline | the incumbent is sent, and the request is closed   |
+/// | improve() or answer() for another request | ignored                                            |
 class AnswerDesk {
  public:
   explicit AnswerDesk(Bus& bus, std::uint64_t configuration_hash)
       : bus_(bus), configuration_hash_(configuration_hash) {}
 
-  /// A request came in at `now`. An older one that is still open is answered first with what stands.
+  /// Opens a request that arrived at `now`.
   void open(const HorizonRequest& request, UTime now);
-  /// The worker has a better answer for this request; kept for the watchdog.
+  /// Takes an incumbent from the worker.
   void improve(const Plan& plan);
-  /// The worker is done. @return false when the watchdog had answered already.
+  /// Takes the worker's answer. @return false if the watchdog has answered already
   bool answer(const Plan& plan, const PlanTiming& timing);
-  /// Sends what stands when the watchdog's time has come.
+  /// Runs the watchdog.
   void watch(UTime now);
-  /// @return when watch() wants to be called, or nullopt if no request is open.
+  /// Returns when watch() must be called, or nullopt if no request is open.
   [[nodiscard]] std::optional<UTime> watch_time() const;
 
  private:
@@ -39,7 +47,7 @@ class AnswerDesk {
     std::int64_t id = 0;
     UTime arrived;
     UTime watch_at;
-    Plan incumbent;  ///< unanswered(), until the worker has more
+    Plan incumbent;  ///< unanswered() until the worker has a candidate
     std::int32_t improvements = 0;
   };
   void send_incumbent(UTime now);

@@ -12,13 +12,13 @@
 namespace tern {
 namespace {
 
-/// Boxes are the same within this: what holds goal or start counts a little less.
+/// Boxes are equal within kPathSpacing: a box that contains goal or start was shrunk a little.
 bool are_same(const Box& a, const Box& b) {
   const Vec3 apart = (a.min() - b.min()).cwiseAbs().cwiseMax((a.max() - b.max()).cwiseAbs());
   return apart.maxCoeff() <= kPathSpacing;
 }
 
-/// Whether a region reaches into a box: looked for at the middles of so many parts per axis of what both bounds share.
+/// Returns whether a region reaches into a box. It samples kParts³ points of the intersection of their bounds.
 bool reaches_into(const Region& region, const Box& box) {
   constexpr int kParts = 8;
   const Box both = region.bounds().intersection(box);
@@ -31,7 +31,7 @@ bool reaches_into(const Region& region, const Box& box) {
   return false;
 }
 
-/// What the box is of: "obstacle 'post'", "region 'left', region 'back'"; "" where it has no name.
+/// Returns the names of the box: "obstacle 'post'" or "region 'left', region 'back'"; "" if it has none.
 std::string names_of(const Box& box, bool is_obstacle, const std::vector<NamedPlace>& places) {
   constexpr std::size_t kMaxNamed = 3;
   std::vector<std::string> names;
@@ -65,20 +65,20 @@ std::string blocked_in_words(const GoalField& field, const GoalFieldKey& key, co
                              const Vec3& start, const std::vector<NamedPlace>& places) {
   if (!places_within(key.flight_box, key.body).contains(key.goal)) return "it is not within the flight box";
   const auto blocker = field.blocker(start);
-  if (!blocker) return "no way within the flight box leads there";
+  if (!blocker) return "no path within the flight box leads to it";
   const Vec3 spacing = Vec3::Constant(kPathSpacing);
   const Box box(blocker->min() + key.body.max() + spacing, blocker->max() + key.body.min() - spacing);
   const bool is_static = std::ranges::any_of(static_boxes, [&](const Box& b) { return are_same(b, box); });
   const std::string names = names_of(box, is_static, places);
   const std::string what = is_static       ? (names.empty() ? "an obstacle" : names)
-                           : names.empty() ? "what the map says is occupied"
-                                           : fmt::format("what the map says is occupied ({})", names);
+                           : names.empty() ? "an occupied part of the map"
+                                           : fmt::format("an occupied part of the map ({})", names);
   const auto place = [](const Vec3& p) {
     const Vec3 r = (p * 100.0).array().round() / 100.0 + 0.0;  // never -0.00
     return fmt::format("({:.2f}, {:.2f}, {:.2f})", r.x(), r.y(), r.z());
   };
   return fmt::format("{} from {} to {} {}", what, place(box.min()), place(box.max()),
-                     blocker->contains(key.goal) ? "leaves no room there" : "is the first in the way");
+                     blocker->contains(key.goal) ? "leaves no room at the goal" : "is the first to block the way");
 }
 
 }  // namespace tern

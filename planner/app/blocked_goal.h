@@ -1,4 +1,4 @@
-// Why there is no way to a goal, for a person.
+// The reason why no path leads to a goal, as text for people.
 #pragma once
 
 #include <string>
@@ -9,17 +9,18 @@
 
 namespace tern {
 
-/// What a scenario calls by name and a path has to go around.
+/// An obstacle or region with a name in the scenario, which paths go around.
 struct NamedPlace {
-  bool is_obstacle = false;  ///< else it is a region of an occupied class
+  bool is_obstacle = false;  ///< false for a region of an occupied class
   Region where;
 };
 
-/// The scenario's own obstacles that rest, as far as they have names, and its regions of occupied classes.
+/// Returns the scenario's named static obstacles, and its regions of occupied classes.
 std::vector<NamedPlace> named_places(const Scenario& scenario);
 
-/// Where no path leads from `start` to the field's goal: what stands in the way, in words, as it is in W.
-/// @param field  made from these (make_goal_field)  @param places  what may be called by its name
+/// Returns the reason why no path leads from `start` to the field's goal, with positions in W.
+/// @param field   made from key and static_boxes (make_goal_field)
+/// @param places  the obstacles and regions that are called by name
 std::string blocked_in_words(const GoalField& field, const GoalFieldKey& key, const std::vector<Box>& static_boxes,
                              const Vec3& start, const std::vector<NamedPlace>& places);
 

@@ -1,4 +1,4 @@
-// The scenario's `planner:` section, strictly.
+// Reads the scenario's `planner:` section.
 #pragma once
 
 #include "core/world/scenario.h"
@@ -7,7 +7,8 @@
 
 namespace tern {
 
-/// Every knob with its default and range; semantics come from the scenario. @throws ConfigError.
+/// Reads every key of PlannerConfig; semantics come from the scenario's `semantics:`.
+/// @throws ConfigError for an unknown key, a wrong type, or a value out of range
 PlannerConfig read_planner_config(ConfigSection section, const SemanticsSpec& semantics);
 
 }  // namespace tern

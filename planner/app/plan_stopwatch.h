@@ -1,4 +1,4 @@
-// Measures one call of plan(): PLAN_TIMING, and the answers on the way for the watchdog.
+// The observer of one call of plan(): measures PLAN_TIMING and passes incumbents to the watchdog.
 #pragma once
 
 #include <functional>
@@ -13,19 +13,20 @@ namespace tern {
 
 class PlanStopwatch final : public PlanObserver {
  public:
-  /// @param clock_ms  what its times are read from: monotonic_ms, or thread_cpu_ms where only work shall count
+  /// @param improved  is called with every incumbent
+  /// @param clock_ms  the clock of the times: monotonic_ms, or thread_cpu_ms to count work alone
   PlanStopwatch(std::function<void(const Plan&)> improved, double (*clock_ms)())
       : improved_(std::move(improved)), clock_ms_(clock_ms) {}
 
   void enter(Stage stage) override;
   void answer(const Plan& best_so_far) override;
-  /// From now on, searches are kept.
+  /// Makes later searches keep their nodes.
   void keep_search() { keeps_search_ = true; }
   [[nodiscard]] bool wants_search_nodes() const override { return keeps_search_; }
   void searched(const SearchProblem&, SweptObstacles&, const SearchResult& result) override;
-  /// The nodes of the last search that was kept.
+  /// Returns the nodes of the last search.
   [[nodiscard]] std::vector<SearchViewNode> take_nodes() { return std::move(nodes_); }
-  /// What has been measured; call it when plan() is done.
+  /// Returns the measurements. Call it after plan() has returned.
   [[nodiscard]] PlanTiming timing(const PlanAnswer& answer);
 
  private:
@@ -39,7 +40,7 @@ class PlanStopwatch final : public PlanObserver {
   double stage_ms_[kStages] = {};
   bool keeps_search_ = false;
   std::vector<SearchViewNode> nodes_;
-  double first_answer_ms_ = 0.0;  ///< of the first certified trajectory that is new
+  double first_answer_ms_ = 0.0;  ///< until the first new certified trajectory; 0: none yet
 };
 
 }  // namespace tern

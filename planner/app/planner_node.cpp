@@ -15,10 +15,10 @@
 namespace tern {
 namespace {
 
-/// Workers are looked after this often, whether messages come or not.
+/// Workers are checked this often, with or without messages.
 constexpr Duration kLookEvery{20'000};
 
-/// Ends each stage by the clock, so that the whole is done before the watchdog acts.
+/// Returns a budget that ends each stage by the clock, so that the worker is done before the watchdog acts.
 Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
   const auto at = [&](double share) {
     return arrived + Duration{static_cast<std::int64_t>(share * static_cast<double>((watch_at - arrived).us))};
@@ -32,13 +32,14 @@ Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
   });
 }
 
-/// By when it was sent, which no one can forge far ahead; numbers only tell apart what was sent at one instant.
+/// Compares by the time of sending, which cannot be forged far ahead. Sequence numbers only order messages of one
+/// instant.
 bool is_newer(const Header& request, const Header& last) {
   if (request.name.sender_epoch_us != last.name.sender_epoch_us) return true;
   return std::pair(request.utime, request.name.sequence) > std::pair(last.utime, last.name.sequence);
 }
 
-/// plan(), and what it cost. `budget` and `stopwatch` were made for this call.
+/// Calls plan() and measures it. @pre `budget` and `stopwatch` were made for this call
 std::pair<Plan, PlanTiming> timed_plan(const HorizonRequest& request, const PlanningWorld& world,
                                        const PlannerConfig& config, Budget& budget, PlanWorkspace& workspace,
                                        PlanStopwatch& stopwatch) {
@@ -80,7 +81,7 @@ void PlannerNode::step(UTime now) {
   if (worker_) look_after_workers(now);
 }
 
-/// The watchdog. What it has answered need not be planned any more.
+/// Runs the watchdog. A request that it has answered is not planned.
 void PlannerNode::watch(UTime now) {
   desk_.watch(now);
   if (waiting_ && now >= waiting_->deadline - kWatchdogLead) waiting_.reset();
@@ -92,8 +93,9 @@ void PlannerNode::look_after_workers(UTime now) {
   if (!failure) failure = intake_.failure();
   const bool stuck = stuck_at_ && now >= *stuck_at_ && worker_->busy();
   if (!failure && !stuck) return;
-  spdlog::critical("{}; this process ends so that it is started again",
-                   failure ? "internal error in a worker: " + *failure : "the worker has missed two deadlines");
+  spdlog::critical("{}; this process exits with code {} to be restarted",
+                   failure ? "internal error in a worker: " + *failure : "the worker has missed two deadlines",
+                   kExitStuck);
   exit_code_ = kExitStuck;
 }
 

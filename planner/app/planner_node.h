@@ -1,4 +1,4 @@
-// tern-planner's node: requests in, certified plans out, in time whatever happens.
+// The node of tern-planner: one plan per request, always in time.
 #pragma once
 
 #include <memory>
@@ -18,22 +18,22 @@
 
 namespace tern {
 
-/// A worker is not taken for stuck before this, however near the deadline its request came. A busy machine may keep it
-/// waiting, and a restart loses the map.
+/// A worker is not considered stuck before this time, even if its request had a short deadline. A busy machine may keep
+/// it waiting, and a restart loses the map.
 inline constexpr Duration kStuckAfter{500'000};
 
-/// How a node spends time.
+/// How a node spends time on a plan.
 struct PlannerExecution {
-  /// Plan in a thread of its own, under the wall clock and the watchdog; else at once, in virtual time.
+  /// true: plan in a worker thread, under the wall clock and the watchdog. false: plan at once, in virtual time.
   bool threaded = true;
-  Duration virtual_latency{15'000};  ///< virtual time from request to answer: the budget is unlimited then …
-  /// … unless a plan takes the CPU time of its thread instead, under the budget and the watchdog of a live one.
+  Duration virtual_latency{15'000};  ///< virtual time from request to answer; the budget is unlimited.
+  /// In virtual time: an answer takes the CPU time of its thread instead, under the budget and watchdog of live flight.
   bool charge_cpu = false;
 };
 
 class PlannerNode final : public Node {
  public:
-  /// @param places  what may be called by its name where no way leads to a goal
+  /// @param places  obstacles and regions that messages about a blocked goal call by name
   PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& config, std::uint64_t configuration_hash,
               const PlannerExecution& execution, std::vector<NamedPlace> places = {});
   ~PlannerNode() override;
@@ -41,8 +41,7 @@ class PlannerNode final : public Node {
   [[nodiscard]] UTime next_wakeup() const override;
   void step(UTime now) override;
   [[nodiscard]] NodeHealth health() const override;
-  /// kExitStuck when a worker is stuck (it has missed two deadlines, and been at it for kStuckAfter at least) or has
-  /// thrown.
+  /// Returns kExitStuck if a worker has thrown, or is stuck: it has missed two deadlines and been busy for kStuckAfter.
   [[nodiscard]] std::optional<int> finished() const override { return exit_code_; }
 
  private:
@@ -61,22 +60,22 @@ class PlannerNode final : public Node {
   PlannerExecution execution_;
   WorldIntake intake_;
   AnswerDesk desk_;
-  Header last_request_;                    ///< the newest: a network may deliver a message late
-  std::optional<HorizonRequest> waiting_;  ///< came in while the worker was busy
+  Header last_request_;                    ///< header of the newest request: the network may deliver messages late
+  std::optional<HorizonRequest> waiting_;  ///< the request that came in while the worker was busy
   UTime waiting_since_{};
-  std::optional<UTime> stuck_at_;  ///< when what the worker is at has taken too long
-  UTime next_look_{};              ///< at the workers
+  std::optional<UTime> stuck_at_;  ///< from then on the worker's job has taken too long
+  UTime next_look_{};              ///< time of the next check of the workers
   std::optional<int> exit_code_;
   struct Delayed {
-    std::vector<std::pair<UTime, Plan>> improvements;  ///< what stood on the way, and from when on
-    std::size_t next = 0;                              ///< the first of them that the desk has not seen
+    std::vector<std::pair<UTime, Plan>> improvements;  ///< incumbents with their times
+    std::size_t next = 0;                              ///< index of the first that the desk has not received
     UTime due;
     Plan plan;
     PlanTiming timing;
   };
-  PlanWorkspace workspace_;         ///< of whichever thread plans: one request at a time
-  std::optional<Delayed> delayed_;  ///< virtual time: the answer of a worker that is still at it
-  std::unique_ptr<Worker> worker_;  ///< null in virtual time. Last: its job uses the others
+  PlanWorkspace workspace_;         ///< used by one thread at a time
+  std::optional<Delayed> delayed_;  ///< in virtual time: the answer that is not due yet
+  std::unique_ptr<Worker> worker_;  ///< null in virtual time. Last member: its job uses the others
 };
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// A thread that runs one job at a time: planning, or preparing what planning needs, off the receiving thread.
+// A thread that runs one job at a time beside the receiving thread: planning, or preparing maps and fields.
 #pragma once
 
 #include <condition_variable>
@@ -10,7 +10,7 @@
 
 namespace tern {
 
-/// What a job throws ends it and the worker, which then takes no more: see failure().
+/// Runs jobs one at a time. If a job throws, the worker takes no further job (failure()).
 class Worker {
  public:
   Worker();
@@ -19,10 +19,10 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Starts the job if the worker is idle. @return false when it is busy or has failed; the job is then not taken.
+  /// Starts the job if the worker is idle. @return false if it is busy or has failed
   bool try_start(std::function<void()> job);
   [[nodiscard]] bool busy() const;
-  /// The text of what a job threw.
+  /// Returns the text of the exception that a job threw.
   [[nodiscard]] std::optional<std::string> failure() const;
 
  private:

@@ -32,9 +32,9 @@ PlanningWorld WorldIntake::snapshot() const {
 std::string WorldIntake::missing() const {
   const PlanningWorld world = snapshot();
   if (!world.predictions) return "predictions";
-  if (!world.map) return pending_map_ ? "the map's fields (being made)" : "a semantic map";
+  if (!world.map) return pending_map_ ? "the map's fields (in preparation)" : "a semantic map";
   if (!newest_goal_) return "a goal";
-  if (!world.goal) return "the goal's distance field (being made)";
+  if (!world.goal) return "the goal's distance field (in preparation)";
   return "";
 }
 
@@ -48,7 +48,7 @@ void WorldIntake::set_vehicle(const HorizonRequest& request) {
 }
 
 void WorldIntake::forget_before(std::int64_t run_us) {
-  spdlog::info("another vehicle asks: the former one's goal and static obstacles are forgotten");
+  spdlog::info("requests come from another vehicle: the previous vehicle's goal and static obstacles are discarded");
   statics_ = StaticTracks();
   if (const auto predictions = snapshot().predictions) statics_.add(predictions->set);
   const auto is_of_this_run = [&](const std::optional<Goal>& goal) {
@@ -93,7 +93,7 @@ void WorldIntake::on_goal(const Goal& goal) {
   hold();
 }
 
-/// The way to the former goal stays as it is, for when that is the goal again.
+/// Keeps the distance field of the previous goal, in case that becomes the goal again.
 void WorldIntake::hold() {
   if (!newest_goal_ || newest_goal_->mode == GoalMode::Go) return;
   const auto known = snapshot().goal;
@@ -102,7 +102,7 @@ void WorldIntake::hold() {
   publish(goal_number_, std::make_shared<const GoalProducts>(std::move(products)));
 }
 
-/// What was begun for an older goal, and is ready after a newer one was, is not used.
+/// A product for an older goal that is ready after one for a newer goal is dropped.
 void WorldIntake::publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal) {
   const std::lock_guard lock(mutex_);
   if (number < ready_number_) return;
@@ -125,7 +125,7 @@ void WorldIntake::prepare() {
   if (!newest_goal_ || newest_goal_->mode != GoalMode::Go || !world.map || !world.predictions) return;
   const GoalFieldKey key{newest_goal_->position, world.map->version, statics_.digest(), body_, flight_box_};
   if (world.goal && world.goal->field && world.goal->key == key) {
-    // A repetition is named, too: plans name what a logger that joined late has heard.
+    // A repeated goal is published by its new name: plans then name a message that a late logger has received.
     if (world.goal->goal.header.name == newest_goal_->header.name) return;
     return publish(goal_number_, std::make_shared<const GoalProducts>(
                                      GoalProducts{*newest_goal_, key, world.goal->field, world.goal->made_from}));

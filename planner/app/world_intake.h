@@ -1,4 +1,4 @@
-// Messages in, an immutable PlanningWorld out: what plans are made from, prepared off the hot path.
+// Receives predictions, map and goal, and prepares an immutable PlanningWorld from them.
 #pragma once
 
 #include <cstdint>
@@ -17,31 +17,37 @@
 
 namespace tern {
 
-/// The vehicle hears a goal when the planner does, and repeats it from then on.
+/// The vehicle receives a goal when the planner does, and repeats it from then on. After this time it has taken it.
 inline constexpr Duration kGoalTaken{500'000};
 
-/// Subscribes PREDICTIONS, SEMANTIC_MAP and GOAL. A map's fields and a goal's distances take up to seconds. A worker
-/// makes them in the background, and they are used once they are ready; without one (virtual time) they are made at
-/// once. To hold or stop needs neither: such a goal counts from the moment it comes.
+/// Subscribes to PREDICTIONS, SEMANTIC_MAP and GOAL, and prepares the world of plans.
 ///
-/// The goal with the largest id counts, but the vehicle knows best: what it repeats kGoalTaken after another one came
-/// is what it has taken.
+/// | message                    | effect                                                                              |
+/// |----------------------------|-------------------------------------------------------------------------------------|
+/// | a complete prediction set  | used at once; its static tracks are remembered                                      |
+/// | a complete map             | its fields are made in the background and then used; seconds for a large map        |
+/// | a goal to go to            | its distance field is made in the background and then used, again for a new map,    |
+/// |                            | new static tracks, body or flight box                                               |
+/// | a goal to hold or stop     | used at once: it needs no field                                                     |
+/// | a goal with a smaller id   | ignored, unless the vehicle sends it kGoalTaken after the last one                  |
+/// | requests of a new vehicle  | goals sent before that flight and remembered static tracks are discarded            |
+///
+/// Without a worker (virtual time) products are made at once.
 class WorldIntake {
  public:
-  /// @param places  what may be called by its name where no way leads to a goal
+  /// @param places  obstacles and regions that messages about a blocked goal call by name
   WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& uav, bool in_background,
               std::vector<NamedPlace> places);
 
   [[nodiscard]] PlanningWorld snapshot() const;
-  /// What is still missing, as text; empty when a plan can be made.
+  /// Returns the missing input as text, or "" if a plan can be made.
   [[nodiscard]] std::string missing() const;
-  /// Starts the preparation that the newest messages ask for, if none runs.
+  /// Starts the preparation that the newest messages require, unless one is running.
   void prepare();
-  /// The vehicle as a request describes it: paths are made for its body and flight box from then on. A new sender epoch
-  /// means another vehicle and another flight: goals sent before it began and static tracks of the former one are
-  /// forgotten.
+  /// Sets the vehicle that requests describe: paths are made for its body and flight box from then on. A new sender
+  /// epoch means another vehicle and another flight.
   void set_vehicle(const HorizonRequest& request);
-  /// The text of what a preparation threw; none is made any more.
+  /// Returns the text of the exception that a preparation threw. No further one is started.
   [[nodiscard]] std::optional<std::string> failure() const { return worker_ ? worker_->failure() : std::nullopt; }
 
  private:
@@ -63,17 +69,17 @@ class WorldIntake {
   std::optional<VoxelMap> pending_map_;
   std::optional<Goal> newest_goal_;
   UTime goal_heard_;
-  std::optional<Goal> overruled_goal_;  ///< the newest with a smaller id: another flight's, if there comes one
-  std::int64_t goal_number_ = 0;        ///< counts what newest_goal_ was
-  Box body_;                            ///< about its position
+  std::optional<Goal> overruled_goal_;  ///< the newest goal with a smaller id: it may belong to the next flight
+  std::int64_t goal_number_ = 0;        ///< counts the values of newest_goal_
+  Box body_;                            ///< of the vehicle, about its position
   Box flight_box_;
   Vec3 at_;
-  MessageName vehicle_;  ///< the request that described it last; none: as configured
+  MessageName vehicle_;  ///< the request that described the vehicle last; none: as configured
 
   mutable std::mutex mutex_;  ///< guards ready_ and ready_number_
   PlanningWorld ready_;
   std::int64_t ready_number_ = 0;   ///< the goal_number_ of ready_.goal
-  std::unique_ptr<Worker> worker_;  ///< null: at once. Last: its job uses the others
+  std::unique_ptr<Worker> worker_;  ///< null: prepare at once. Last member: its job uses the others
 };
 
 }  // namespace tern

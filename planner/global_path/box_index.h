@@ -1,4 +1,4 @@
-// A spatial index over fixed boxes: which ones meet a region, does a segment meet any.
+// A spatial index over fixed boxes: finds the boxes that intersect a region or a segment.
 #pragma once
 
 #include <array>
@@ -9,55 +9,57 @@
 
 namespace tern {
 
-/// A path keeps at least this far from every box, m. It is above the rounding of the slab test (1e-11 m at 10⁴ m from
-/// the origin) and below anything that matters to a vehicle.
+/// Least distance of a path from every box, m. It exceeds the rounding of the slab test (1e-11 m at 10⁴ m from the
+/// origin), and is too small to matter to a vehicle.
 inline constexpr double kPathClearance = 1e-6;
 
-/// Does the closed segment ab meet the closed box? Slab method; exact but for rounding in the last places of a
-/// parameter.
+/// Returns whether the closed segment ab intersects the closed box, by the slab method. It is exact up to rounding of
+/// the segment's parameter.
 bool segment_meets_box(const Vec3& a, const Vec3& b, const Box& box);
 
-/// What of a box stands in the way of a path from p: all of it, or, if p lies in it, what lies deeper than p. So who is
-/// in the margin of an obstacle leaves it, or goes along it, and does not go through. Empty if p is in its middle.
+/// Returns the part of a box that blocks a path from p. If p is outside, this is the box. If p is inside, it is the
+/// part that lies deeper than p; at the centre it is empty. A path from the margin of an obstacle may thus leave the
+/// margin or follow it, but not cross the obstacle.
 Box core_beyond(const Box& box, const Vec3& p);
 
-/// A tree of bounding boxes (split at the median of the longest axis, ties by index). Immutable; queries do not
-/// allocate.
+/// A tree of bounding boxes, split at the median of the longest axis, with ties broken by index. It is immutable, and
+/// queries do not allocate.
 class BoxIndex {
  public:
   BoxIndex() = default;
-  /// O(n log n). Empty boxes are allowed and never found.
+  /// Builds the index in O(n log n). Empty boxes are allowed; queries never find them.
   explicit BoxIndex(std::vector<Box> boxes);
 
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
 
-  /// Calls visit(index of the box) for every box that meets the closed region, in an order fixed by the boxes alone.
-  /// Stops when visit returns true.
+  /// Calls visit(index) for every box that intersects the closed region, in an order that depends on the boxes alone.
+  /// Stops as soon as visit returns true.
   /// @return whether it was stopped
   template <class Visit>
   bool visit(const Box& region, Visit&& visit) const {
     return walk([&](const Box& box) { return box.intersects(region); }, visit);
   }
 
-  /// The indices of the boxes that meet the closed region, ascending.
+  /// Returns the indices of the boxes that intersect the closed region, ascending.
   [[nodiscard]] std::vector<std::int32_t> query(const Box& region) const;
-  /// The same into `found`, which keeps its memory.
+  /// Writes the same to `found`, whose memory is kept.
   void query(const Box& region, std::vector<std::int32_t>& found) const;
 
-  /// Does the closed segment come nearer than kPathClearance (per axis) to any box?
+  /// Returns whether the closed segment comes nearer than kPathClearance (per axis) to any box.
   [[nodiscard]] bool blocks(const Vec3& a, const Vec3& b) const;
 
-  /// The same, but of boxes that contain `start` (to kPathClearance) only the core beyond it blocks.
+  /// The same, but of a box that contains `start` (to kPathClearance) only core_beyond() it blocks.
   [[nodiscard]] bool blocks(const Vec3& a, const Vec3& b, const Vec3& start) const;
 
-  /// Is p within kPathClearance (per axis) of any box?
+  /// Returns whether p is within kPathClearance (per axis) of any box.
   [[nodiscard]] bool covers(const Vec3& p) const { return blocks(p, p); }
 
  private:
   struct Node {
     Box box;
-    std::int32_t first = 0;  ///< leaf: first of order_; else the right child (the left one follows its parent)
-    std::int32_t count = 0;  ///< leaf: > 0 boxes; 0: inner
+    std::int32_t first =
+        0;  ///< leaf: start of its range in order_; inner node: right child (the left child follows its parent)
+    std::int32_t count = 0;  ///< number of boxes of a leaf; 0 for an inner node
   };
   static constexpr int kLeafSize = 4;
   static constexpr int kMaxDepth = 64;

@@ -14,22 +14,26 @@
 
 namespace tern {
 
-/// Node numbers that are no nodes.
+/// Node numbers with a special meaning.
 inline constexpr std::int32_t kGoalNode = -1;
 inline constexpr std::int32_t kNoNode = -2;
 
-/// Invariant of a closed node: the segment to its `next` (a node, or the goal) is free; to_go is its cost plus next's
-/// to_go. Where cost is more than length, a straight line need not be the cheapest. Then the way over the node itself
-/// is also tried (Theta* on weighted grids). A node is queued as if it saw the turning point of the node that found it.
-/// That is tested only when it is popped; if it is false, the best closed neighbour takes its place.
+/// The search of a GoalField.
+///
+/// Invariant of a closed node: the segment to its `next` (a node, or the goal) is free. Its to_go is the cost of that
+/// segment plus the to_go of `next`.
+///
+/// A node is queued as if it saw the turning point of the node that found it. That is tested only when it is popped; if
+/// it is false, the best closed neighbour becomes its `next`. Where cost differs from length, a straight line may not
+/// be the cheapest. Then the way over the node itself is also tried (Theta* on weighted grids).
 class GoalSearch {
  public:
-  /// Keeps references: grid, obstacles and cost must live as long as the search.
+  /// @pre grid, obstacles and cost outlive the search
   GoalSearch(const RectilinearGrid& grid, const BoxIndex& obstacles, const Vec3& goal, const TravelCost& cost);
   void run();
 
-  std::vector<double> to_go;       ///< per node, metres of way (TravelCost); infinite: not reached
-  std::vector<std::int32_t> next;  ///< per node: the turning point it sees
+  std::vector<double> to_go;       ///< per node: cost to the goal (TravelCost), m; infinite if it is not reached
+  std::vector<std::int32_t> next;  ///< per node: the visible turning point
 
  private:
   enum class State : std::uint8_t { Open, Sighted, Closed, Blocked };

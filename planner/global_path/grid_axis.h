@@ -1,4 +1,4 @@
-// One axis of a rectilinear grid whose lines may lie unevenly: evenly at first, then one more wherever a gap needs it.
+// One axis of a rectilinear grid. Its lines are evenly spaced at first; more are added where a gap needs one.
 #pragma once
 
 #include <cstdint>
@@ -9,26 +9,26 @@
 
 namespace tern {
 
-/// Ascending coordinates with a constant-time search.
+/// The ascending coordinates of the lines, with a search in constant time.
 class GridAxis {
  public:
   GridAxis() = default;
-  /// Lines at low, at high, and between them at anchor + k·step; none nearer than step/4 to an end.
+  /// Makes lines at low, at high, and between them at anchor + k·step, except nearer than step/4 to an end.
   /// @pre low ≤ high, step > 0
   GridAxis(double low, double high, double step, double anchor);
 
-  /// Adds lines (those outside [low, high] are ignored; equal ones are added once).
+  /// Adds lines. Lines outside [low, high] are ignored; equal ones are added once.
   void add(const std::vector<double>& lines);
 
   [[nodiscard]] int size() const { return static_cast<int>(lines_.size()); }
   [[nodiscard]] double operator[](int i) const { return lines_[idx(i)]; }
   [[nodiscard]] double low() const { return lines_.front(); }
   [[nodiscard]] double high() const { return lines_.back(); }
-  /// The largest i ≤ size − 2 with line i ≤ x; 0 when x lies below. (0 for an axis of one line.)
+  /// Returns the largest i ≤ size − 2 with line i ≤ x; 0 if x is below all lines, or if there is only one.
   [[nodiscard]] int cell(double x) const;
-  /// Is there a line in the open interval (a, b)?
+  /// Returns whether a line lies in the open interval (a, b).
   [[nodiscard]] bool has_line_between(double a, double b) const;
-  /// The lines in the closed interval [a, b]: the first one, and the one after the last.
+  /// Returns the index of the first line in the closed interval [a, b], and the index after the last one.
   [[nodiscard]] std::pair<int, int> lines_within(double a, double b) const;
 
  private:

@@ -1,4 +1,4 @@
-// Nodes at the crossings of three sets of unevenly spaced lines.
+// A grid of nodes at the crossings of three sets of unevenly spaced lines.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,7 @@
 
 namespace tern {
 
-/// Node (i, j, k) stands at (x_i, y_j, z_k); cell (i, j, k) has it as its least corner. x runs fastest in the
-/// numbering.
+/// Node (i, j, k) is at (x_i, y_j, z_k), the least corner of cell (i, j, k). Nodes are numbered with x running fastest.
 struct RectilinearGrid {
   using Cell = Eigen::Vector3i;
   GridAxis axis[3];
@@ -29,12 +28,12 @@ struct RectilinearGrid {
   }
   [[nodiscard]] Vec3 position(const Cell& c) const { return {axis[0][c.x()], axis[1][c.y()], axis[2][c.z()]}; }
   [[nodiscard]] Vec3 position(std::int32_t node) const { return position(cell_of(node)); }
-  /// The cell that holds p, or the nearest one.
+  /// Returns the cell that contains p, or the nearest one.
   [[nodiscard]] Cell cell(const Vec3& p) const {
     return {axis[0].cell(p.x()), axis[1].cell(p.y()), axis[2].cell(p.z())};
   }
 
-  /// The nodes (from, to), `to` excluded, that lie in the closed box.
+  /// Returns the range (from, to) of the nodes in the closed box; `to` is excluded.
   [[nodiscard]] std::pair<Cell, Cell> nodes_within(const Box& box) const {
     Cell from;
     Cell to;
@@ -42,7 +41,7 @@ struct RectilinearGrid {
     return {from, to};
   }
 
-  /// Calls visit(node) for the nodes c − below … c + above, as far as they exist, in the order of their numbers.
+  /// Calls visit(node) for the existing nodes c − below … c + above, in order of their numbers.
   template <class Visit>
   void for_neighbours(const Cell& c, int below, int above, const Visit& visit) const {
     const Cell from = (c - Cell::Constant(below)).cwiseMax(0);

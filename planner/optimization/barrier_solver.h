@@ -1,4 +1,4 @@
-// The convex problem of `alternating` by a dense primal-dual barrier method of our own: small, exact about its answer.
+// A dense primal-dual barrier method for the convex problem of `alternating`, with a certified gap.
 #pragma once
 
 #include <memory>
@@ -8,28 +8,30 @@
 
 namespace tern {
 
-/// Ends when the certified gap is at most this share of |objective|, or kGapAbsolute.
+/// The solver ends when the certified gap is at most kGapShare · |objective|, or at most kGapAbsolute.
 inline constexpr double kGapShare = 1e-5;
-inline constexpr double kGapAbsolute = 1e-8;  ///< m², objectives are in ω_g m²
+inline constexpr double kGapAbsolute = 1e-8;  ///< in units of the objective, ω_g m²
 
-/// Minimises from x0, which need not be strictly feasible: the search's result lies on every bound widened to it.
+/// Minimises from x0. x0 may be infeasible; the search's result lies on every bound that was widened to it.
 ///
-/// Mehrotra's predictor-corrector on the perturbed conditions of optimality. With constraints c_i(x) ≤ 0 (rows scaled
-/// to unit length, spheres (‖W_k x + p_k‖² − r²)/2r: both in metres), slacks s > 0 and multipliers λ > 0:
+/// The method is Mehrotra's predictor-corrector on the perturbed optimality conditions. The constraints are c_i(x) ≤ 0:
+/// rows scaled to unit length, and spheres as (‖W_k x + p_k‖² − r²)/2r, so both are in metres. With slacks s > 0 and
+/// multipliers λ > 0:
 ///
 ///     ∇f(x) + Σ λ_i ∇c_i(x) = 0,   c(x) + s = 0,   s_i λ_i = σμ
 ///
-/// A step solves (∇²L + Jᵀ diag(λ/s) J) Δx = …, a dense symmetric system of 3(J − 2) variables, by Cholesky, twice with
-/// one factor. Slacks start at no less than kMinFirstSlack, so iterates may leave the feasible set at first. Those
-/// strictly inside are kept, so that the solve can be ended at any time. For such an x weak duality gives a bound that
-/// needs no trust in the iteration: f is at least as curved as H, so
+/// A step solves (∇²L + Jᵀ diag(λ/s) J) Δx = …, a dense symmetric system of 3(J − 2) variables, by Cholesky: twice with
+/// one factor. Slacks start at kMinFirstSlack or more, so the first iterates may be infeasible. Every strictly feasible
+/// iterate is kept, so the solve can be stopped at any time.
+///
+/// For a feasible x, weak duality bounds the gap without trust in the iteration, since f is at least as curved as H:
 ///
 ///     f(x) − f*  ≤  Σ λ_i (−c_i(x)) + ½ rᵀ H⁻¹ r,   r = ∇f(x) + Σ λ_i ∇c_i(x).
 ///
-/// One order of operations, no BLAS, no libm but sqrt: the same problem gives the same bits. O(rows · nonzeros² + n³)
-/// per step. `solver_failed`: no pivot, or no step left before the gap closed.
+/// The order of operations is fixed, without BLAS, and of libm only sqrt is used: the same problem gives the same bits.
+/// A step costs O(rows · nonzeros² + n³). `solver_failed` means no pivot, or no step left before the gap closed.
 ///
-/// Keeps its arrays: a problem that is no larger than those before it allocates nothing. Not for two calls at once.
+/// The solver allocates only for a problem larger than all before. One object serves one call at a time.
 class BarrierSolver {
  public:
   BarrierSolver();

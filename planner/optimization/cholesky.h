@@ -9,7 +9,7 @@
 
 namespace tern {
 
-/// Symmetric positive definite systems by L Lᵀ, row-major, fixed order.
+/// Solves symmetric positive definite systems by L Lᵀ, row-major.
 class Cholesky {
  public:
   void resize(int n) {
@@ -18,9 +18,10 @@ class Cholesky {
     inverse_.resize(static_cast<std::size_t>(n));
   }
 
-  /// Row-major lower triangle to fill before factor().
+  /// The row-major lower triangle, to be filled before factor().
   double* matrix() { return l_.data(); }
 
+  /// Factorizes in place. @return false if a pivot is not positive and finite
   bool factor() {
     for (int r = 0; r < n_; ++r) {
       double* row = &l_[idx(r * n_)];
@@ -49,6 +50,7 @@ class Cholesky {
     }
   }
 
+  /// y := (L Lᵀ)⁻¹ y.
   void solve(double* y) const {
     solve_lower(y);
     for (int r = n_ - 1; r >= 0; --r) {

@@ -1,4 +1,4 @@
-// What a solver of the convex problem answers.
+// The result of a solver of the convex problem.
 #pragma once
 
 #include <functional>
@@ -8,15 +8,15 @@
 namespace tern {
 
 struct ConvexSolution {
-  bool found = false;          ///< some feasible point was seen (x0 counts); x is the best of them
+  bool found = false;          ///< a feasible point was found, x0 included; x is the best one
   bool solver_failed = false;  ///< the solver ended in error (found may still be true)
   FreeVariables x;
   double objective = 0.0;
   int iterations = 0;
-  double gap = -1.0;  ///< certified: objective − optimum ≤ gap; < 0: no certificate
+  double gap = -1.0;  ///< certified: objective − optimum ≤ gap; negative without a certificate
 };
 
-/// Asked once per iteration; true ends the solve with the best so far.
+/// Called once per iteration; true ends the solve with the best point so far.
 using StopFunction = std::function<bool()>;
 
 }  // namespace tern

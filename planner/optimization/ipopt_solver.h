@@ -1,4 +1,4 @@
-// Ipopt behind two functions. The only Ipopt in Tern; not safe from two threads at once (MUMPS).
+// Ipopt behind two functions, its only use in Tern. Not thread-safe, because of MUMPS.
 #pragma once
 
 #include "planner/optimization/convex_solution.h"
@@ -6,22 +6,22 @@
 
 namespace tern {
 
-/// How a run of Ipopt ended; its points were shown on the way.
+/// The end of a run of Ipopt. Its points were passed to the Visit function.
 struct IpoptRun {
-  bool failed = false;  ///< in error: not solved, not to an acceptable level, not stopped, iterations not used up
+  bool failed = false;  ///< ended in error: neither solved, nor acceptable, nor stopped, nor out of iterations
   int iterations = 0;
 };
 
-/// Shown x and c(x), first for x0, then wherever Ipopt evaluates the constraints: what is to be kept is the caller's to
-/// decide.
+/// Called with x and c(x), first for x0, then for each x at which Ipopt evaluates the constraints. The caller decides
+/// which to keep.
 using Visit = std::function<void(const Eigen::VectorXd& x, const Eigen::VectorXd& constraints)>;
 
-/// Minimises from x0 with exact derivatives. @param stop  asked once per iteration
+/// Minimises from x0 with exact derivatives. @param stop  called once per iteration
 IpoptRun minimise_by_ipopt(const NonlinearProblem& problem, const Eigen::VectorXd& x0, int max_iterations,
                            const StopFunction& stop, const Visit& visit);
 
-/// The convex problem from x0; every feasible point that Ipopt evaluates is a candidate, so the solve can be ended at
-/// any time. No certified gap.
+/// Solves the convex problem from x0. Every feasible point that Ipopt evaluates is a candidate, so the solve can be
+/// stopped at any time. There is no certified gap.
 ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                               const StopFunction& stop);
 

@@ -1,4 +1,4 @@
-// A smooth problem as a general solver asks for it: values and exact sparse derivatives.
+// A smooth problem for a general solver: values and exact sparse derivatives.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace tern {
 
-/// Which entries of a matrix can be non-zero, in the order in which their values are given.
+/// The entries of a matrix that can be non-zero, in the order of their values.
 struct SparsePattern {
   std::vector<int> rows, columns;
 
@@ -30,9 +30,9 @@ class NonlinearProblem {
   [[nodiscard]] virtual double objective(const Eigen::VectorXd& x) const = 0;
   [[nodiscard]] virtual Eigen::VectorXd gradient(const Eigen::VectorXd& x) const = 0;     ///< ∇f
   [[nodiscard]] virtual Eigen::VectorXd constraints(const Eigen::VectorXd& x) const = 0;  ///< c
-  /// ∇c, one value per entry of the pattern.
+  /// Writes ∇c, one value per entry of jacobian_pattern().
   virtual void jacobian(const Eigen::VectorXd& x, double* values) const = 0;
-  /// factor ∇²f + Σ multiplier_i ∇²c_i, one value per entry of the pattern.
+  /// Writes factor ∇²f + Σ multiplier_i ∇²c_i, one value per entry of hessian_pattern().
   virtual void hessian(const Eigen::VectorXd& x, double factor, const double* multipliers, double* values) const = 0;
 
  protected:
@@ -40,10 +40,11 @@ class NonlinearProblem {
   SparsePattern jacobian_pattern_, hessian_pattern_;
 };
 
-/// A ConvexProblem so seen: c stacks A x and ‖W_k x + p_k‖², whose gradients are A's rows and 2 W_kᵀ(W_k x + p_k).
+/// A ConvexProblem as a NonlinearProblem: c stacks A x and ‖W_k x + p_k‖², with the gradients A and 2 W_kᵀ(W_k x +
+/// p_k).
 class ConvexAsNonlinear final : public NonlinearProblem {
  public:
-  explicit ConvexAsNonlinear(const ConvexProblem& problem);  ///< kept by reference
+  explicit ConvexAsNonlinear(const ConvexProblem& problem);  ///< must outlive this object
 
   [[nodiscard]] int variables() const override { return p_.variables(); }
   [[nodiscard]] double objective(const Eigen::VectorXd& x) const override { return p_.objective(x); }

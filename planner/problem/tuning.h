@@ -1,5 +1,5 @@
-// The planner's tuning numbers: chosen by experiment, neither derived nor knobs. Tolerances stand where they are
-// defined.
+// The planner's tuning numbers: chosen by experiment. Keys of the scenario are in planner_config.h; tolerances stand
+// where they are defined.
 #pragma once
 
 #include <cstdint>
@@ -10,159 +10,162 @@ namespace tern {
 
 // ---- Durations (duration.h, attempt.h)
 
-/// Below this Δt rounding of accelerations q/Δt² would exceed the tolerances, s.
+/// The least Δt, s. Below it, rounding of accelerations q/Δt² would exceed the tolerances.
 inline constexpr double kMinInterval = 0.02;
-/// A spline of J intervals from rest to rest takes this much longer than the per-axis bound of min_duration().
+/// Duration of a spline of J intervals from rest to rest, as a multiple of min_duration().
 inline constexpr double kStopScale = 1.5;
-/// Jerk is gentle where less than this share of a_max is reached on the way …
+/// Jerk is gentle if less than this share of a_max is reached on the way.
 inline constexpr double kGentleShare = 0.1;
-/// … which counts as no shorter than this, m.
+/// The way in paced() is at least this long, m.
 inline constexpr double kMinPacedLength = 1e-4;
 
 // ---- How far ahead (look_ahead.h, hold.h, planning_world.h)
 
-/// The horizon is at least this long where movers are followed so far, s.
+/// The horizon is at least this long if movers are followed for so long, s.
 inline constexpr double kMinHorizon = 3.0;
-/// How far past its last piece a track's box is followed where the vehicle may meet it. By then the box of what is
-/// faster than a metre per second fills the sphere; who needs longer takes smaller steps (LookAhead).
+/// The growing box of a track near the vehicle is followed for this time after the track's last piece. By then the box
+/// of a mover faster than 1 m/s fills the sphere. A slower vehicle takes smaller steps (LookAhead).
 inline constexpr Duration kTrackBoxReach{4'000'000};
-/// Holds are followed in such steps, s, where Δt is shorter: so that a hold costs few hulls.
+/// The least step in which a hold is tested, s. It keeps the number of hulls small where Δt is shorter.
 inline constexpr double kHoldStep = 0.1;
-/// The horizon does not cut holds below this, s.
+/// Half the horizon limits configured holds, but to no less than this, s.
 inline constexpr double kMinHold = 0.1;
 
-// ---- The local goal and the way to it (heading.h, look_ahead.h, planner.cpp)
+// ---- The local goal and the way to it (course.h, look_ahead.h, planner.cpp)
 
-/// The sphere's border is left to rounding and to MINVO points that bulge: local goals lie this far inside, as a share
-/// of r.
+/// Largest radius of a local goal as a share of r. The margin to the sphere is for rounding and for MINVO points, which
+/// bulge beyond the curve.
 inline constexpr double kLocalGoalShare = 0.985;
-/// From one radius of the local goal to the next smaller one.
+/// Ratio between successive radii of the local goal.
 inline constexpr double kRadiusShrink = 5.0 / 6.0;
-/// No local goal is nearer, m: what the gentlest vehicle flies from rest to rest in kMinHorizon is longer.
+/// Least radius of a local goal, m. In kMinHorizon even the gentlest vehicle flies farther from rest to rest.
 inline constexpr double kMinRadius = 1e-4;
-/// Static obstacles are grown by this for paths, m: flights by hulls need a little room.
+/// Static obstacles are grown by this for paths, m. Plans are separated by hulls, which need a little room.
 inline constexpr double kPathSpacing = 0.02;
-/// A path that is longer than the straight line, or cheaper, by no more than this counts as straight, m.
+/// A path counts as straight if the straight line is at most this much shorter, and at most this much dearer, m.
 inline constexpr double kBendIgnored = 0.15;
-/// At rest on the way to a goal and without a plan: how many smaller steps are tried, and by what they shrink.
+/// A vehicle at rest without a plan tries this many smaller steps, each shorter by this factor.
 inline constexpr int kSmallerSteps = 3;
 inline constexpr double kSmallerStep = 3.0;
-/// A plan from there that leads no further than this share of the way to the local goal is none.
+/// A candidate makes progress if it covers more than this share of the distance to the local goal.
 inline constexpr double kMinProgress = 0.01;
 
 // ---- The search's lengths for near local goals (look_ahead.h)
 
-/// Local goals at least this far away, m, and flights there of at most so many seconds are what the search's lengths
-/// were chosen for.
+/// The configured lengths of the search apply to local goals at least this far away, m, that are at most so many
+/// seconds away.
 inline constexpr double kFullStep = 2.0;
 inline constexpr double kFullStepTime = 4.0;
-/// Of a step's mean speed: velocities that differ by less are one to its pruning.
+/// Pruning merges velocities that differ by less than this share of the step's mean speed.
 inline constexpr double kCoarseVelocityShare = 0.4;
 
 // ---- The search (semantic_a_star.h, step_reach.h)
 
-/// A share of r that is surely within S, with what the curve bulges.
+/// A child aims at most this share of r away, so that its curve, with its bulge, is within S.
 inline constexpr double kSphereShare = 0.97;
-/// The last band of the cost-to-go is so many times finer than the others, so that the goal itself is reached.
+/// The last band of the cost-to-go is divided into this many, so that plans end at the goal itself.
 inline constexpr std::int64_t kFinerBands = 10;
-/// Shares of the way back to the steady range at which a step's thrust is tried, where it is too much without.
+/// If a step needs too much thrust, it is tried at these shares of the distance back to the steady range.
 inline constexpr double kReturnShares[] = {0.25, 0.5, 0.75, 1.0};
 
 // ---- Paths around static obstacles (goal_field.h)
 
-/// How often a path is tightened as a whole, and how often the pull at one vertex is halved.
+/// Passes in which a path is tightened, and halvings of the pull at one vertex.
 inline constexpr int kTightenPasses = 3;
 inline constexpr int kPullHalvings = 6;
 
-// ---- What a trajectory is worth (heading.h, refinement.h, standing_answer.h, planner.cpp)
+// ---- Comparing trajectories (course.h, refinement.h, incumbent.h, durations.cpp)
 
-/// For how long a trajectory is taken to be flown before a better one follows, s. Where a step takes minutes, it is
-/// this share of the step: nothing better follows within a second.
+/// How long a trajectory is assumed to be flown before the next plan: max(min_s, share · Course::step_s). The share
+/// matters where a step takes minutes.
 struct FlownTime {
-  double min_s;
-  double share;
+  double min_s;  ///< s
+  double share;  ///< of the step
 };
 inline constexpr FlownTime kFlownTimes[] = {{0.3, 0.15}, {0.8, 0.4}};
-/// Chords of this much time stand for the curve in semantic costs: they leave it by a_max·kChord²/8, centimetres, s.
+/// Duration of the chords that represent the curve in semantic costs, s. They leave it by at most a_max·kChord²/8, some
+/// centimetres.
 inline constexpr double kChord = 0.1;
-/// An optimized trajectory may arrive so much later than the search's, and one that sets out than waiting, s.
+/// An optimized trajectory may arrive this much later than the leaf, and a departure from rest this much later than
+/// staying, s.
 inline constexpr double kMaxArrivalLoss = 0.05;
-/// Where Δt is shorter than this arrivals say little, and one step may cross the sphere …
+/// Below this Δt arrivals say little, and one step may cross the sphere.
 inline constexpr Duration kShortInterval{40'000};
-/// … and an optimized trajectory keeps this share of the leaf's progress at least.
+/// Below kShortInterval an optimized trajectory must keep this share of the leaf's progress.
 inline constexpr double kMinProgressKept = 0.5;
-/// A plan that sets out ends nearer to the local goal by this, m.
+/// A departure from rest ends nearer to the local goal by at least this, m. Two ends nearer to each other are one.
 inline constexpr double kMinApproach = 1e-6;
-/// No longer duration is tried once an end that holds lies this near the local goal, m.
+/// Once a candidate that holds ends this near to the local goal, no longer duration is tried, m.
 inline constexpr double kAtLocalGoal = 1.0;
 
-// ---- Less sure (assurance.h, less_sure.h)
+// ---- Reduced assurance (assurance.h, reduced_assurance.h)
 
-/// How long α grows, in times that the vehicle needs to step aside: at the promised level …
+/// How long α at the full level grows, in side-step times.
 inline constexpr double kGrowthTimes[] = {2.0, 1.0};
-/// … then once that time at these levels.
+/// The levels of α that follow; they grow for one side-step time.
 inline constexpr int kReducedLevels[] = {2, 4};
-/// Parts of the last level's α, growing for that time, that are counted where even that leaves nothing.
+/// The scales of the lowest level's α that follow; they grow for one side-step time.
 inline constexpr double kAlphaScales[] = {0.8, 0.6, 0.45, 0.35, 0.25};
-/// Nodes expanded per duration there, at most, in all and after the first leaf: several such searches share the time.
+/// Limits of nodes expanded per duration, in all and after the first leaf. Several such searches share the budget.
 inline constexpr int kReducedExpansions = 300;
 inline constexpr int kReducedHoldExpansions = 100;
-/// Less of α is counted until something leads at least this share of the way to the local goal.
+/// A candidate settles the assurance if it holds and covers at least this share of the distance to the local goal.
 inline constexpr double kMinSettledProgress = 0.25;
-/// Who rests short of the goal sets out at a confidence after this times what is missing to 1, if it may stay, s.
+/// A vehicle whose stop holds waits (1 − c)·kMaxWaitAtRest before it departs at confidence c, s.
 inline constexpr double kMaxWaitAtRest = 1.0;
 
 // ---- A multirotor's thrust (safety/thrust_set.h, search/step_reach.h, optimization/convex_problem.h)
 
-/// Plans lower the thrust's vertical part by at most this share of g; half of it where rest must remain reachable.
+/// Plans lower the vertical part of the thrust by at most this share of g, and by half of that where rest must remain
+/// reachable.
 inline constexpr double kThrustDip = 0.5;
-/// In Eq. 4 that part keeps this share of what the search's result has at each knot, so that jerk may be bounded by it.
+/// In Eq. 4 the vertical part of the thrust keeps this share of the leaf's at each knot. The bound on jerk relies on
+/// it.
 inline constexpr double kMinThrustKept = 0.8;
 
 // ---- The budget by the clock (app/planner_node.h)
 
-/// Shares of the time from arrival to the watchdog: after these, no new duration is tried, the search ends, the
-/// optimizer and evasion end.
+/// Shares of the time from the request's arrival to the watchdog. After the first no new duration begins, after the
+/// second the search ends, after the third optimizer and evasion end.
 inline constexpr double kAttemptShare = 0.3;
 inline constexpr double kSearchShare = 0.42;
 inline constexpr double kOptimizationShare = 0.85;
 
 // ---- Evasion (evasion.h)
 
-/// Stops that are searched for at most, and nodes expanded for each.
+/// Limits of stops that are searched for, and of nodes expanded for each.
 inline constexpr int kMaxStops = 40;
 inline constexpr int kStopExpansions = 150;
-/// Durations over min_duration(): at leisure, and as quick as a far stop can be flown. To hurry far away pays where
-/// motion is promised; among estimated movers, whose boxes grow, it leads into what is not yet known.
+/// Durations of stops as multiples of min_duration(): the slow pace, and the quickest that a far stop allows. The quick
+/// pace helps among declared movers. Among estimated ones, whose boxes grow, it leads to where little is known.
 inline constexpr double kStopPaces[] = {kStopScale, 1.15};
-/// Stops lie this far away, in what vehicle and largest mover are wide together, but within a share of r …
+/// Distances of stops in widths of vehicle and largest mover together; those beyond this share of r are left out.
 inline constexpr double kStopWidths[] = {0.3, 0.6, 1.1, 2.0};
 inline constexpr double kMaxWidthShare = 0.9;
-/// … or, to get far away, in r.
+/// Distances of far stops in r.
 inline constexpr double kStopShares[] = {0.35, 0.8};
-/// The forecast's steps, and how far it reaches at most, s.
+/// Step and greatest length of the forecast, s.
 inline constexpr double kForecastStep = 0.05;
 inline constexpr double kMaxForecast = 20.0;
 
 // ---- A start inside a hull (start_clearance.h)
 
-/// An α that is scaled leaves this much room at the start, m: more than touching, because the first interval's hull
-/// moves on.
+/// A scaled α leaves this much room at the start, m. Touching is not enough: the hull of the first interval moves on.
 inline constexpr double kStartSlack = 1e-3;
 
 // ---- Eq. 4 (convex_problem.h, barrier_solver.h)
 
-/// Limits farther away than this share of themselves are left out: an axis that x0 leaves at rest may go to half its
-/// limit.
+/// A limit is a constraint only if x0 is nearer to it than this times the limit.
 inline constexpr double kLimitReach = 1.5;
-/// Jerk is bounded by this times x0's own at least, so that x0 lies strictly inside.
+/// The bound on jerk is at least this times the jerk of x0, so that x0 lies strictly inside.
 inline constexpr double kJerkRoom = 1.001;
-/// The barrier method's first slacks are no less, m.
+/// The least first slack of the barrier method, m.
 inline constexpr double kMinFirstSlack = 0.1;
-/// How much of the way to the nearest bound a step goes, and the step below which it has failed.
+/// A step covers at most this share of the distance to the nearest bound. Below kMinStep the solver has failed.
 inline constexpr double kStepShare = 0.995;
 inline constexpr double kMinStep = 1e-8;
-/// The first barrier, of what there is to gain, and the last, of the tolerance: shared among the constraints.
+/// The first barrier parameter as a share of the possible gain, the last as a share of the tolerance. Both are divided
+/// by the number of constraints.
 inline constexpr double kFirstBarrierShare = 0.1;
 inline constexpr double kLastBarrierShare = 0.3;
 

@@ -1,4 +1,4 @@
-// The one checker: decides every answer, in flight and in tests. What it passes is certified.
+// The checker: it certifies every trajectory that plan() returns, in flight and in tests.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,20 @@
 
 namespace tern {
 
-/// The first rule broken, or the certificate.
+/// The first rule that is broken, or the certificate.
 struct CheckReport : BreachReport {
-  std::int64_t obstacle = 0;                       ///< which was not separated
+  std::int64_t obstacle = 0;                       ///< id of the first obstacle that is not separated
   std::vector<CertificatePlane> certificate = {};  ///< a plane for every pair whose boxes overlap
   PairCounts pairs = {};
 };
 
-/// Checks a new plan against everything: breach_of(), then S with kLimitTolerance, then Eq. 1.
-/// @param obstacles  origin t_s; its first J intervals are the plan's. It holds every obstacle that can touch the
-/// sphere, not only those that a solver saw.
+/// Checks a new plan: breach_of() (start, limits, end at rest, flight box), then S with kLimitTolerance, then Eq. 1.
+/// @param obstacles  origin t_s; the first J intervals are the plan's. It must hold every obstacle that can touch the
+/// sphere, not only those that a solver used.
 CheckReport check_plan(const TimedSpline& plan, const HorizonProblem& problem, SweptObstacles& obstacles);
 
-/// Checks only Eq. 1 for a motion already committed to: pieces in powers of u, one per interval of `obstacles`.
+/// Checks only Eq. 1, for a motion that is already committed.
+/// @param pieces  in powers of u ∈ [0, 1], one per interval of `obstacles`
 CheckReport check_separation(const std::vector<PowerCubic>& pieces, SweptObstacles& obstacles);
 
 }  // namespace tern

@@ -1,4 +1,5 @@
-// One interval of a curve against all obstacles of that time: boxes, then planes, then the interval split in time.
+// Separation of one interval of a curve from all obstacles: by boxes, then planes, then with the interval split in
+// time.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +11,12 @@
 
 namespace tern {
 
-/// How pairs of (obstacle, interval part) were settled.
+/// Counts of pairs (obstacle, part of an interval) by the test that decided them.
 struct PairCounts {
   std::int64_t by_box = 0;      ///< their boxes are disjoint
-  std::int64_t by_instant = 0;  ///< they touch at one of five instants
-  std::int64_t by_cache = 0;    ///< separated along the direction that separated the obstacle's part last
-  std::int64_t by_plane = 0;    ///< by the distance algorithm
+  std::int64_t by_instant = 0;  ///< they touch at one of five instants: not separated
+  std::int64_t by_cache = 0;    ///< separated along the direction that last separated this part of the obstacle
+  std::int64_t by_plane = 0;    ///< decided by the distance algorithm (GJK)
 
   PairCounts& operator+=(const PairCounts& o) {
     by_box += o.by_box;
@@ -26,46 +27,54 @@ struct PairCounts {
   }
 };
 
-/// What stands against an interval.
+/// The result for one interval.
 struct Separated {
   bool ok = true;
-  std::int64_t blocker = 0;  ///< id of the first obstacle that is not separated, when !ok
+  std::int64_t blocker = 0;  ///< if !ok, the id of the first obstacle that is not separated
 };
 
-/// Eq. 1 for one interval: is the curve (powers of u ∈ [0, 1] over the whole interval) separated from every obstacle?
+/// Returns whether the curve is separated from every obstacle in an interval (Eq. 1).
 ///
-/// A pair whose boxes are disjoint needs no plane. Otherwise a plane must separate the MINVO points of the whole
-/// interval, of both its halves, or of the quarters of a half that fails. Planes are made from (hull, points), so that
-/// anyone can make them again.
-/// @param planes  gets every plane that was needed
+/// A pair whose boxes are disjoint needs no plane. For any other pair a plane must separate the MINVO points of the
+/// whole interval. If there is none, both halves need one each; if a half has none, both its quarters do. Each plane is
+/// a pure function of hull and points, so anyone can compute it again.
+/// @param power   the curve in powers of u ∈ [0, 1] over the whole interval
+/// @param planes  receives every plane that was needed
 Separated separate_interval(SweptObstacles& obstacles, int interval, const PowerCubic& power, PairCounts& counts,
                             std::vector<CertificatePlane>& planes);
 
-/// Planes for a solver, by the same splitting, from every obstacle whose boxes come nearer than `reach`, m, to the
-/// spline's. They are made from the sweeps, without hulls. In each interval they end at the first obstacle that is not
-/// separated.
-/// @param basis   whose hull points stand for the curve
-/// @param planes  gets them
+/// Finds planes for a solver, by the same splitting, from every obstacle whose boxes come nearer than `reach` to those
+/// of the spline.
+///
+/// The planes are made from the sweeps, without hulls. In each interval the search for planes ends at the first
+/// obstacle that is not separated.
+/// @param basis   its hull points represent the curve
+/// @param reach   m
+/// @param planes  receives them
 void find_planes(SweptObstacles& obstacles, const ClampedSpline& spline, HullBasis basis, double reach,
                  PairCounts& counts, std::vector<CertificatePlane>& planes);
 
-/// The question of separate_interval() for many curves: only yes or no, without planes or hulls. The answer is the same
-/// but for rounding within kTouchingTolerance of touching. What blocked the interval last is asked first.
-/// @param points  the curve's hull points (of `form`, MINVO) over the whole interval
+/// Answers the question of separate_interval() with yes or no: for many curves, since it needs neither planes nor
+/// hulls.
+///
+/// The answers are equal, except that rounding may turn a pair within kTouchingTolerance of touching into "not
+/// separated". The obstacle that blocked the interval last is tested first.
+/// @param points  the curve's hull points (of `form`; MINVO by default) over the whole interval
 bool is_separated(SweptObstacles& obstacles, int interval, const PowerCubic& power, const Points4& points,
                   PairCounts& counts, HullForm form = {});
 
 /// How long a body at rest stays separated from every obstacle.
 struct ClearTime {
-  double seconds = 0.0;                       ///< 0 when it is not separated in the first interval
-  const PlanningObstacle* blocker = nullptr;  ///< what ends it; null: nothing as far as was looked
+  double seconds = 0.0;                       ///< 0 if it is not separated in the first interval, s
+  const PlanningObstacle* blocker = nullptr;  ///< the obstacle that ends it; null if it lasts to the last interval
 };
 
-/// Of the body at rest at p, from the start of interval `first` on: to the end of the last interval in which it is
-/// separated.
+/// Returns the clear time of the body at rest at p, counted from the start of interval `first`. It ends with the last
+/// interval in which the body is separated.
 ClearTime clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts);
 
-/// Whether a hold lasts as long as is asked. Holds are differences of times, so that a full one may round to just less.
+/// Returns whether a hold is as long as required. Holds are differences of times, so rounding may make a full one
+/// slightly shorter.
 inline bool lasts(double hold_s, double required_s) { return hold_s >= required_s - 1e-9; }
 
 }  // namespace tern

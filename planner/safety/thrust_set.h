@@ -1,4 +1,4 @@
-// Which accelerations the plans of a multirotor use: a convex set inside what Dynamics allows, for search and
+// The accelerations that plans of a multirotor use: a convex set inside the limits of Dynamics, for search and
 // optimizer.
 #pragma once
 
@@ -6,35 +6,40 @@
 
 namespace tern {
 
-/// With f = a + g e₃, the accelerations at the knots of a plan keep to
+/// A convex set of accelerations a. With the thrust per mass f = a + g e₃:
 ///
-///     f_z ≥ floor ≥ thrust_min          a half-space, sufficient for |f| ≥ thrust_min (which is not convex)
+///     f_z ≥ floor ≥ thrust_min          a half-space; it implies |f| ≥ thrust_min, which is not convex
 ///     |f| ≤ thrust_max                  a ball
-///     ‖f_xy‖₈ ≤ tan(tilt_max) f_z       ‖(x, y)‖₈ = max + (√2 − 1) min of |x|, |y|
+///     ‖f_xy‖₈ ≤ tan(tilt_max) f_z       ‖(x, y)‖₈ = max(|x|, |y|) + (√2 − 1) min(|x|, |y|)
 ///
-/// The last is a regular octagon with corners on the axes, inside the cone. It loses 7.6 % (1 − cos 22.5°) midway
-/// between corners.
+/// The last one is a regular octagon inside the cone of allowed tilts, with corners on the axes. Midway between corners
+/// it loses 7.6 % (1 − cos 22.5°).
 ///
-/// Between knots the acceleration is a weighted mean of theirs, so the whole plan keeps to the set. The floor is
-/// thrust_min or g/2, whichever is more: body rates are |j_⊥|/|f|, and who falls freely cannot turn.
+/// Plans keep the accelerations at their knots in the set. Between knots the acceleration is a weighted mean of these,
+/// so the whole plan stays in the set. The floor is max(thrust_min, g/2): the body rate is |j_⊥|/|f|, so a vehicle in
+/// free fall cannot turn.
 struct ThrustSet {
-  double least, floor, ceiling, slope, rate;  ///< m/s² (three), 1, rad/s
+  double least, floor, ceiling, slope,
+      rate;  ///< thrust_min, floor, thrust_max (m/s²), tan(tilt_max), largest body rate (rad/s)
 
   explicit ThrustSet(const Dynamics& dynamics);
 
   [[nodiscard]] bool contains(const Vec3& a) const;
-  /// Whether an interval from a0 to a1 may be flown: a1 is in the set and the exact body rate within its limit.
+  /// Returns whether an interval from a0 to a1 can be flown: a1 is in the set, and exact thrust and body rate keep
+  /// their limits.
   [[nodiscard]] bool allows(const Vec3& a0, const Vec3& a1, double duration_s) const;
 };
 
 /// tan 22.5° = √2 − 1.
 inline constexpr double kOctagon = 0.41421356237309503;
-/// ‖(x, y)‖₈ ≥ ‖(x, y)‖₂.
+/// Returns ‖(x, y)‖₈, which is at least ‖(x, y)‖₂.
 double octagon_norm(double x, double y);
 
-/// Limits per axis from which the dynamics follow. All corners of the box of accelerations lie in the ThrustSet. No
-/// jerk of the box turns an f above the floor faster than body_rate_max: √3 j ≤ rate · floor. Without dynamics the same
-/// limits. What is planned by these can always be flown; what is flown may do more.
+/// Returns limits per axis that imply the dynamics; without dynamics it returns the limits unchanged.
+///
+/// All corners of the box of accelerations are in the ThrustSet. A jerk within the box turns an f above the floor no
+/// faster than body_rate_max: √3 j ≤ rate · floor. A plan within these limits can always be flown; a flyable plan may
+/// exceed them.
 Limits per_axis_limits(const Limits& limits);
 
 }  // namespace tern

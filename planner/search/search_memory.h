@@ -1,4 +1,4 @@
-// What a search keeps from call to call so that it allocates nothing: memory, never meaning.
+// Memory of the search, kept from call to call so that it allocates nothing. It never changes a result.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace tern {
 
-/// A control point q_l and how it was reached.
+/// A search node: a control point q_l with its index and its parent.
 struct SearchNode {
   Vec3 q = Vec3::Zero();
-  Vec3 v = Vec3::Zero();  ///< v_{l-1}, the velocity control point that led here
-  Vec3 a = Vec3::Zero();  ///< a_{l-2}, the acceleration at the knot before it
-  int parent = -1;
-  int l = 0;
-  double g = 0.0;  ///< λ_g · length + accumulated semantics
+  Vec3 v = Vec3::Zero();  ///< v_{l−1}, the velocity control point that leads to it, m/s
+  Vec3 a = Vec3::Zero();  ///< a_{l−2}, the acceleration at the knot before it, m/s²
+  int parent = -1;        ///< index of the parent; −1 for the root
+  int l = 0;              ///< index of the control point
+  double g = 0.0;         ///< λ_g · length + accumulated semantics
 };
 
-/// An open node's place in the order of expansion: (band, f in steps, depth, f, index).
+/// The key of an open node in the order of expansion: (band, f in steps, depth, f, index).
 struct SearchEntry {
   std::int64_t band;
   std::int64_t f_step;
@@ -36,7 +36,7 @@ struct SearchEntry {
   }
 };
 
-/// A velocity of one axis, and how far from there the way to the end can lead on it.
+/// A sampled velocity of one axis, and the bounds of the remaining displacement with it.
 struct SearchAxisSample {
   double v;
   AxisReach::Interval ahead;
@@ -66,9 +66,9 @@ class KeySet {
  private:
   struct Slot {
     std::uint64_t key = 0;
-    std::uint32_t generation = 0;  ///< filled when this is the set's
+    std::uint32_t generation = 0;  ///< the slot is filled if this equals the set's
   };
-  /// Where the key is, or where it would be put.
+  /// Returns the slot of the key, or the one in which it would be put.
   [[nodiscard]] std::size_t find(std::uint64_t key) const {
     std::uint64_t h = key * 0x9e3779b97f4a7c15ULL;
     h ^= h >> 32;
@@ -84,14 +84,14 @@ class KeySet {
     }
   }
 
-  std::vector<Slot> slots_;  ///< a power of two of them
+  std::vector<Slot> slots_;  ///< their number is a power of two
   std::uint32_t generation_ = 1;
   std::size_t size_ = 0;
 };
 
 struct SearchMemory {
   std::vector<SearchNode> nodes;
-  std::vector<SearchEntry> open;  ///< a heap
+  std::vector<SearchEntry> open;  ///< a heap of the open nodes
   KeySet closed;
   std::array<std::vector<SearchAxisSample>, 3> samples;
   StepReach reach;

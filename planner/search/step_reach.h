@@ -1,4 +1,4 @@
-// Which velocity control points may follow, so that the limits hold and rest remains reachable.
+// The velocity control points that may follow, such that limits hold and rest remains reachable.
 #pragma once
 
 #include <array>
@@ -11,32 +11,32 @@
 
 namespace tern {
 
-/// Three AxisReach by plan_limits, and a multirotor's thrust where they have dynamics.
+/// Three AxisReach within plan_limits, and a multirotor's thrust if they have dynamics.
 ///
-/// Dynamics couple the axes. The limits per axis that per_axis_limits() finds imply them, so an end at rest that is
-/// reachable by these can be flown. One step may use any acceleration in the ThrustSet, at any allowed body rate, if
-/// later steps can end at rest by per_axis_limits limits. So every state that flyable() leads to has such a step again.
-/// The set of states is larger than what per_axis_limits limits alone would reach.
+/// Dynamics couple the axes. per_axis_limits() imply them, so an end at rest that these limits reach can be flown. One
+/// step may use any acceleration in the ThrustSet, at any allowed body rate, if later steps can end at rest within
+/// per_axis_limits(). Each state after a flyable() step therefore has such a step again. The states are more than
+/// per_axis_limits() alone would reach.
 class StepReach {
  public:
-  /// Keeps its memory.
+  /// Keeps its memory from call to call.
   void assign(const HorizonProblem& problem);
 
-  /// How far q_{n-2} − q_l can lie on this axis (AxisReach).
+  /// Returns bounds of q_{n−2} − q_l on this axis (AxisReach::displacement), m.
   [[nodiscard]] AxisReach::Interval displacement(int axis, int l, double v_previous) const {
     return steps_[shared_[idx(axis)]].displacement(l, v_previous);
   }
 
-  /// What may follow v_l and a_{l-1}: per axis, and the part of it that per_axis_limits limits reach.
+  /// The velocities that may follow v_l and a_{l−1}.
   struct Steps {
-    Vec3 v, a;
-    std::array<AxisReach::Interval, 3> range;
-    std::array<AxisReach::Interval, 3> steady;  ///< with dynamics only; empty where they reach none of it
+    Vec3 v, a;                                  ///< v_l, m/s, and a_{l−1}, m/s²
+    std::array<AxisReach::Interval, 3> range;   ///< per axis, m/s
+    std::array<AxisReach::Interval, 3> steady;  ///< with dynamics: the part within per_axis_limits(), m/s
   };
   [[nodiscard]] Steps from(int l, const Vec3& v, const Vec3& a_previous) const;
 
-  /// The wanted velocity, or the first on the way from it to the steady range that may be flown.
-  /// @return nullopt if none may
+  /// Returns the wanted velocity if it can be flown, else the first of kReturnShares of the way to the steady range
+  /// that can. @return nullopt if none can
   [[nodiscard]] std::optional<Vec3> flyable(const Steps& from, const Vec3& wanted) const {
     return thrust_ ? with_thrust(from, wanted) : wanted;
   }
@@ -45,8 +45,8 @@ class StepReach {
   [[nodiscard]] std::optional<Vec3> with_thrust(const Steps& from, const Vec3& wanted) const;
 
   double dt_ = 0.0;
-  std::array<std::size_t, 3> shared_{};      ///< per axis: the first one with the same limits
-  std::array<AxisReach, 3> steps_, steady_;  ///< of those
+  std::array<std::size_t, 3> shared_{};      ///< per axis: the first axis with the same limits
+  std::array<AxisReach, 3> steps_, steady_;  ///< one for each axis of shared_
   std::optional<ThrustSet> thrust_;
 };
 

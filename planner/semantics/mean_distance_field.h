@@ -1,4 +1,4 @@
-// Eq. 3 as a field: the mean distance to all voxels of a label on a coarse grid, interpolated trilinearly.
+// Eq. 3 as a field: the mean distance to all voxels of a kind, on a coarse grid with trilinear interpolation.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,31 @@
 namespace tern {
 
 struct MeanDistanceOptions {
-  double spacing = 0.5;             ///< of the grid, m; enlarged where the domain needs more than max_nodes
-  std::int64_t max_nodes = 60'000;  ///< bounds build time (about 2–10 µs a node) and memory (4 bytes a node)
-  double node_error = 0.02;         ///< bound of the clusters' error at a node, m
-  double far_error = 0.05;          ///< bound of the answer outside the grid, where the tree is asked directly, m
+  double spacing = 0.5;             ///< spacing of the grid, m; enlarged if the domain would need more than max_nodes
+  std::int64_t max_nodes = 60'000;  ///< limits build time (2 to 10 µs per node) and memory (4 bytes per node)
+  double node_error = 0.02;         ///< bound of the error that clusters cause at a node, m
+  double far_error = 0.05;          ///< bound of the error outside the grid, where the tree is queried, m
 };
 
-/// f(p) = mean ‖p − v‖ is convex and 1-Lipschitz. So the trilinear interpolation lies above f by at most error(). This
-/// is a sum of two:
-///  * The clusters' error at the nodes (either sign) and 1e-6 of the largest value for storage in floats.
-///  * The interpolation's, for one voxel at distance δ from p at most min(√3/2·h, 3h²/(8(δ − √3h))) with h the spacing
-///    (1-Lipschitz; |f''| ≤ 1/δ per axis). It is averaged over the worst arrangement of n voxels on their lattice, a
-///    ball about p. For a few hundred cubic metres at h = 0.5 m it is a few centimetres; for a single voxel, 0.44 m.
+/// The field f(p) = mean ‖p − v‖ over voxel centres v. It is convex and 1-Lipschitz, so trilinear interpolation is at
+/// or above f. error() bounds the error by a sum of two:
+///
+///  - At the nodes: the error of the clusters (either sign), and 1e-6 of the largest value for storage as floats.
+///  - Of the interpolation: for one voxel at distance δ from p at most min(√3/2·h, 3h²/(8(δ − √3h))), with the spacing
+///  h
+///    (1-Lipschitz; |f''| ≤ 1/δ per axis). This is averaged over the worst arrangement of n voxels on their lattice: a
+///    ball about p.
+///
+/// With h = 0.5 m the bound is a few centimetres for a few hundred cubic metres, and 0.44 m for a single voxel.
 class MeanDistanceField {
  public:
   MeanDistanceField() = default;
-  /// @param domain  where the grid is laid (the map's extents, say); not empty
+  /// @param domain  region of the grid, for example the map's extents, W; not empty
   MeanDistanceField(VoxelTree tree, double resolution, const Box& domain, const MeanDistanceOptions& options);
 
-  /// f(p), m: interpolated inside the domain, by the tree (about 1 µs) outside.
+  /// Returns f(p), m: interpolated inside the domain, from the tree outside it (about 1 µs).
   [[nodiscard]] double operator()(const Vec3& p) const;
-  /// Bound of |answer − f(p)| inside the domain, m.
+  /// Returns a bound of the error inside the domain, m.
   [[nodiscard]] double error() const { return error_; }
   [[nodiscard]] double spacing() const { return spacing_; }
 

@@ -1,4 +1,4 @@
-// What regions add to Eq. 2 on the way to a local goal, and to the choice between trajectories.
+// The semantic cost of a course: added to Eq. 2 in the search, and to the arrival in the choice.
 #pragma once
 
 #include "core/base/types.h"
@@ -8,24 +8,29 @@
 
 namespace tern {
 
-/// Either cost, in metres of way, as what was flown (`along`) plus what is expected of the rest (`ahead`).
+/// The semantic cost in metres: the cost of the part that is flown (`along`) plus the expected cost of the rest
+/// (`ahead`).
 ///
-/// Exposure: both are integrals of λ-weighted exposure, `ahead` along the straight line to the local goal. Straight on,
-/// the sum stays the same and a search goes deep. Leaving what repels, or reaching what attracts, lowers it.
-///
-/// Mean distance (Eq. 3): `along` is 0. `ahead` is λ_att C_att − λ_rep C_rep at the node, counted from the same at the
-/// point of the straight way with equal progress. Only nodes of equal progress compete, so the order is Eq. 2's. But
-/// progress is not penalized for coming nearer to what repels.
+///  - Exposure: both are integrals of λ-weighted exposure; `ahead` is along the straight line to the local goal. On
+///  that
+///    line the sum is constant, so the search goes deep. Leaving a repulsive region lowers it, as does reaching an
+///    attractive one.
+///  - Mean distance (Eq. 3): `along` is 0. `ahead` is λ_att C_att − λ_rep C_rep at q, minus the same at the point of
+///  the
+///    straight line with equal progress. Only nodes of equal progress compete, so the order is that of Eq. 2. Progress
+///    is not penalized for coming nearer to a repulsive region.
 class SemanticGuide {
  public:
-  /// Keeps a reference to the fields.
+  /// @param fields  must outlive the guide
   SemanticGuide(const SemanticFields& fields, SemanticCost cost, const Vec3& start, const Vec3& local_goal)
       : fields_(&fields), cost_(cost), start_(start), way_(local_goal - start) {}
 
+  /// Returns the cost of the step from a to b, m.
   [[nodiscard]] double along(const Vec3& a, const Vec3& b) const;
+  /// Returns the expected cost of the rest of the way from q, m.
   [[nodiscard]] double ahead(const Vec3& q) const;
 
-  /// along + ahead of a trajectory that is flown from `from_s` for `while_s` and then left.
+  /// Returns along + ahead of a trajectory that is flown from from_s for while_s and then left, m.
   [[nodiscard]] double of(const ClampedSpline& trajectory, double from_s, double while_s) const;
 
  private:

@@ -8,7 +8,8 @@
 
 namespace tern {
 
-/// The value at x (in grid steps, each within [0, size − 1] but for rounding) of samples whose x index runs fastest.
+/// Returns the interpolated value at x, in grid steps, each within [0, size − 1] up to rounding. The samples' x index
+/// runs fastest.
 /// @pre every size ≥ 2
 inline double trilinear(const std::vector<float>& samples, const Eigen::Vector3i& size, const Vec3& x) {
   const int i = std::clamp(static_cast<int>(x.x()), 0, size.x() - 2);

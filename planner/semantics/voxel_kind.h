@@ -1,4 +1,4 @@
-// Which voxels are meant: a label, and of it all classes or some.
+// A kind of voxels: a label with all or some of its classes.
 #pragma once
 
 #include <bitset>
@@ -10,9 +10,9 @@ namespace tern {
 
 struct VoxelKind {
   VoxelLabel label = VoxelLabel::Unknown;
-  std::bitset<256> classes;  ///< by VoxelMap's class index
+  std::bitset<256> classes;  ///< bit k: class index k of VoxelMap
 
-  /// All voxels of a label, whatever their class.
+  /// All voxels of a label, of every class.
   VoxelKind(VoxelLabel of) : label(of) { classes.set(); }  // NOLINT(google-explicit-constructor): a label is a kind
   VoxelKind(VoxelLabel of, const std::bitset<256>& only) : label(of), classes(only) {}
 

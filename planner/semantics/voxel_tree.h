@@ -1,5 +1,5 @@
-// A hierarchy of clusters of voxels: sums of distances to very many voxels in the time of a few dozen, with a proven
-// error.
+// A hierarchy of voxel clusters: sums of distances to very many voxels in the time of a few dozen, with a proven error
+// bound.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,19 @@ namespace tern {
 ///
 ///     mean ‖p − v‖ = D + (tr Σ − uᵀΣu)/(2D) + e,   |e| ≤ (1/6)(2/√3) ρ tr Σ / (D − ρ)².
 ///
-/// This is Taylor: the linear term vanishes at the centroid, and the third derivative of ‖x‖ is at most 2/(√3 ‖x‖²). A
-/// cluster is opened unless its bound is at most `error`; leaves are summed exactly. So the whole mean errs by at most
-/// `error`.
+/// This is Taylor's theorem: the linear term vanishes at the centroid, and the third derivative of ‖x‖ is at most
+/// 2/(√3 ‖x‖²). A cluster whose bound exceeds `error` is opened, and leaves are summed exactly. So the error of the
+/// whole mean is at most `error`.
 class VoxelTree {
  public:
   VoxelTree() = default;
-  /// Of the map's voxels of this kind. O(n log n); moments are exact integers, so their order does not matter.
+  /// Builds the tree of the map's voxels of this kind in O(n log n). Moments are exact integers, so the order of voxels
+  /// does not matter.
   VoxelTree(const VoxelMap& map, const VoxelKind& kind);
 
   [[nodiscard]] std::int64_t voxels() const { return static_cast<std::int64_t>(voxels_.size()); }
-  /// Σ ‖p − v‖ / n to within error > 0, m. @pre voxels() > 0. Allocates nothing; about 5 ns per cluster visited.
+  /// Returns Σ ‖p − v‖ / n to within `error`, m. Allocates nothing; takes about 5 ns per visited cluster.
+  /// @pre voxels() > 0, error > 0
   [[nodiscard]] double mean_distance(const Vec3& p, double error) const;
 
  private:
@@ -36,10 +38,10 @@ class VoxelTree {
     Vec3 centroid;                      ///< in voxels
     Eigen::Matrix3d covariance;         ///< voxels²
     double trace = 0.0;                 ///< of the covariance
-    double radius = 0.0;                ///< of the ball about the centroid that holds every centre, voxels
+    double radius = 0.0;                ///< radius of the ball about the centroid that contains all centres, voxels
     double weight = 0.0;                ///< number of voxels
-    std::int32_t first = 0, count = 0;  ///< of voxels_
-    std::int32_t right = 0;             ///< 0: a leaf; the left child follows its parent
+    std::int32_t first = 0, count = 0;  ///< range in voxels_
+    std::int32_t right = 0;             ///< right child, 0 for a leaf; the left child follows its parent
   };
   static constexpr int kLeafSize = 8;
 

@@ -85,7 +85,7 @@ std::string blocked_by(const std::string& wall) {
 
 TEST(ScenarioView, CallsWhatBlocksTheGoalByItsName) {
   EXPECT_THAT(blocked_by("world: {obstacles: [{name: gate, centre: [5, 0, 1.5], half_extents: [0.2, 3, 1.5]}]}\n"),
-              HasSubstr("obstacle 'gate' from (4.80, -3.00, 0.00) to (5.20, 3.00, 3.00) is the first in the way"));
+              HasSubstr("obstacle 'gate' from (4.80, -3.00, 0.00) to (5.20, 3.00, 3.00) is the first to block the way"));
   EXPECT_THAT(blocked_by("world: {obstacles: [{centre: [5, 0, 1.5], half_extents: [0.2, 3, 1.5]}]}\n"),
               HasSubstr("an obstacle from"));
   const std::string regions =
@@ -94,7 +94,7 @@ TEST(ScenarioView, CallsWhatBlocksTheGoalByItsName) {
       "    - {name: meadow, class: grass, box: {min: [4, -3, 0], max: [6, 3, 3]}}\n";
   const std::string by_map =
       blocked_by("semantics:\n  classes: {wall: occupied, grass: attractive}\n  regions:\n" + regions);
-  EXPECT_THAT(by_map, HasSubstr("what the map says is occupied (region 'facade') from"));
+  EXPECT_THAT(by_map, HasSubstr("an occupied part of the map (region 'facade') from"));
 }
 
 }  // namespace
