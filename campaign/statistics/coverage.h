@@ -47,8 +47,8 @@ struct IntervalCount {
   friend bool operator==(const IntervalCount&, const IntervalCount&) = default;
 };
 
-/// The claims of plans at one level. A plan makes one claim for each track that it keeps clear of: from t_s until the
-/// plan's end and hold, the track stays within the box that the plan used.
+/// The claims of plans at one level. A plan makes one claim for each track that it keeps clear of. The claim is that
+/// from t_s until the plan's end and hold the track stays within the box that the plan used.
 struct ClaimCount {
   std::int64_t made = 0, covered = 0;
   ClaimCount& operator+=(const ClaimCount& other);
@@ -93,7 +93,7 @@ struct CoverageShare {
 inline constexpr double kFalseAlarm = 1e-3;
 inline constexpr double kTestedShares = (kPredictionClasses - 1) * kHorizons * kLevels + kLevels;
 
-/// Returns the shares by class, horizon and level, then those of plans by level; none where nothing was made.
+/// Returns the shares by class, horizon and level, then those of plans by level, as far as intervals were made.
 std::vector<CoverageShare> coverage_shares(const std::vector<Coverage>& groups);
 
 /// A table for people: for each class and for plans the covered share with its interval, then the half-widths. Lower

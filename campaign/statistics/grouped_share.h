@@ -16,9 +16,9 @@ struct GroupShare {
 /// probability `error` at most. 0 without groups, or if no item has the property.
 ///
 /// By betting (I. Waudby-Smith, A. Ramdas, "Estimating means of bounded random variables by betting", JRSS B 2024). Let
-/// x be a group's share and w = all/(largest all). If the share were s or less, each wealth ∏ (1 + θ w (x/s − 1)) would
-/// have an expectation of at most 1, and so would its mean over the stakes θ in [0, 1]. That mean exceeds 1/error with
-/// probability `error` at most. The bound is the least s that is not refuted in this way, to 1e-7.
+/// x be a group's share and w = all/(largest all). For a true share of s or less, each wealth ∏ (1 + θ w (x/s − 1))
+/// has an expectation of at most 1. The same holds for its mean over the stakes θ in [0, 1], which therefore exceeds
+/// 1/error with probability `error` at most. The bound is the least s that is not refuted in this way, to 1e-7.
 /// O(n) for each of some 25 halvings. @pre groups are independent of each other; 0 < error < 1
 double share_lower_bound(const std::vector<GroupShare>& groups, double error);
 

@@ -22,9 +22,9 @@ struct PairedDifference {
 /// Uses 2000 resamples of whole pairs, the same ones for equal numbers of pairs. O(2000 n). @pre all are finite
 PairedDifference paired_difference(const std::vector<std::pair<double, double>>& pairs);
 
-/// McNemar's exact test of two success rates over the same cases. Returns the two-sided binomial probability, at rate
-/// 1/2, of a split at least as uneven as that of the pairs in which exactly one treatment succeeds. 1 without such
-/// pairs.
+/// McNemar's exact test of two success rates over the same cases. It looks at the pairs in which exactly one
+/// treatment succeeds. Returns the two-sided binomial probability, at rate 1/2, of a split at least as uneven as
+/// theirs. 1 without such pairs.
 double mcnemar(std::int64_t a_alone, std::int64_t b_alone);
 
 }  // namespace tern

@@ -13,7 +13,7 @@ struct Interval {
 };
 
 /// The Wilson score interval of k = `successes` out of n (E. B. Wilson, 1927): all rates p with
-/// |k/n − p| ≤ z √(p (1 − p) / n). It stays within [0, 1], and is informative for k = 0 and k = n, too. [0, 1] for
+/// |k/n − p| ≤ z √(p (1 − p) / n). It stays within [0, 1], and is informative even for k = 0 and k = n. [0, 1] for
 /// n = 0. @pre 0 ≤ successes ≤ n
 Interval wilson_interval(std::int64_t successes, std::int64_t n, double z = kNormalQuantile95);
 

@@ -8,15 +8,19 @@
 
 namespace tern {
 
-/// No measurement is taken to be better than this, m²: 0.1 mm standard deviation. A sensor may say 0 (it gives truth),
-/// and a filter with S = 0 has no gain.
+/// The least variance of a measurement, m²: 0.1 mm standard deviation. A sensor of ground truth reports 0, and with
+/// S = 0 a filter has no gain.
 inline constexpr double kMinVariance = 1e-8;
 
-/// State (x, v) with covariance P = [xx xv; xv vv], all of one axis of W.
+/// The state (x, v) of one axis of W with its covariance P = [xx xv; xv vv].
 ///
-/// Motion: ẋ = v, v̇ = w, w white with spectral density q (m²/s³). Over dt, with F = [1 dt; 0 1]:
-///   (x, v) ← F (x, v),   P ← F P Fᵀ + q [dt³/3 dt²/2; dt²/2 dt],
-/// so that two steps make the same as one step of their sum. Measurement: z = x + n, n of variance r:
+/// Motion: ẋ = v, v̇ = w, w white with spectral density q (m²/s³).
+///
+/// Over dt, with F = [1 dt; 0 1],
+///   (x, v) ← F (x, v),   P ← F P Fᵀ + q [dt³/3 dt²/2; dt²/2 dt].
+/// Two steps equal one step of their sum.
+///
+/// Measurement: z = x + n, n of variance r. Then
 ///   S = xx + r, K = (xx, xv)/S, (x, v) ← (x, v) + K (z − x), P ← P − K S Kᵀ.
 struct AxisFilter {
   double x = 0.0;   ///< m
@@ -27,24 +31,24 @@ struct AxisFilter {
 
   /// @param dt s, ≥ 0; @param q m²/s³, ≥ 0.
   void predict(double dt, double q);
-  /// @param z m; @param r m², taken as kLeastVariance if less.
+  /// @param z m; @param r m², raised to kMinVariance if less
   void update(double z, double r);
 };
 
-/// How well a detection fits an estimate, over three axes with S the variance of their difference.
+/// How well a detection z fits an estimate x on three axes. S is the variance of z − x.
 struct Fit {
   Vec3 s = Vec3::Zero();   ///< S, m²
-  double distance2 = 0.0;  ///< Σ (z − x)²/S: χ² with three degrees of freedom where the model holds
-  /// −2 ln of the density of the detection, but for a constant; ≥ 0. A distance alone is least for the estimate that
-  /// knows least.
+  double distance2 = 0.0;  ///< Σ (z − x)²/S: χ² with three degrees of freedom if the model is right.
+  /// Returns −2 ln of the detection's density, up to a constant; ≥ 0. Unlike distance2 it does not favour the estimate
+  /// with the largest variance.
   [[nodiscard]] double neg_log_likelihood() const { return distance2 + std::log((s / kMinVariance).prod()); }
 };
 
-/// @param x, variance  m, m², of the estimate; @param z, r  of the detection, r taken as kLeastVariance if less
+/// @param x, variance  of the estimate, m, m²; @param z, r  of the detection, r raised to kMinVariance if less
 Fit fit(const Vec3& x, const Vec3& variance, const Vec3& z, const Vec3& r);
 
-/// A box that holds all z with Fit::distance2 ≤ gate, of detections of at most the variance r (m²), and little more: no
-/// axis has more than the whole distance.
+/// Returns a box that contains every z with Fit::distance2 ≤ gate, for detections with a variance of at most r (m²). It
+/// is the bounding box of the gate's ellipsoid for r.
 Box gate_box(const Vec3& x, const Vec3& variance, double gate, const Vec3& r);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// The declared model: passes on what owners promise, and lets it win over what is merely seen.
+// Declared tracks: cut to the horizon, and merged with the estimated tracks that they do not explain.
 #pragma once
 
 #include <numbers>
@@ -9,28 +9,29 @@
 
 namespace tern {
 
-/// A detection is a declared track's if its whole box lies in the declared one, grown by α and by this many standard
-/// deviations of its position: 4 of a face's. A sensor that measures both faces of a box independently knows each √2
-/// times worse than the centre between them.
+/// A declared track explains a detection whose whole box lies in the declared box grown by α and by a margin. The
+/// margin is this many standard deviations of the detection's position, which is 4 σ of a face. A sensor that measures
+/// both faces of a box independently knows each face √2 times worse than the centre.
 inline constexpr double kExplainedSigmas = 4.0 * std::numbers::sqrt2;
 
-/// The declared tracks over [now, now + horizon]: pieces that ended by `now` and pieces that begin after now + horizon
-/// go, the others stay bit for bit with their α (the first one begins when it began). A track that is over keeps its
-/// last piece, so that its region goes on growing at its top speed; Static tracks stay as they are. Order is kept.
+/// Returns the declared tracks without the pieces that ended by `now` or begin after now + horizon. The other pieces
+/// and their α stay bit for bit, so the first piece may begin before `now`. A track whose pieces all ended keeps its
+/// last one, and its region grows at its top speed. Static tracks stay as they are. The order is kept.
 std::vector<Track> trimmed(const std::vector<Track>& declared, UTime now, Duration horizon);
 
-/// A declared track explains detections while its pieces last, and this much before and after (sensors are late). Not
-/// longer: a region that has grown for seconds would hide whatever else is there.
+/// A declared track explains detections from this long before its first piece until this long after its last one,
+/// because sensors are late. A region that has grown for longer would hide other obstacles.
 inline constexpr Duration kExplainedSlack{300'000};
 
-/// The set without the detections that declared tracks explain: those with a declared track's id, and those whose box
-/// lies in a declared region at the time of the observation (kExplainedSigmas, kExplainedSlack). What sticks out of it
-/// is something else, or a thing larger than its owner says, and is estimated. O(detections · tracks).
+/// Returns the set without the detections that declared tracks explain. They have a declared track's id, or their box
+/// lies in a declared region at the time of the observation (kExplainedSigmas, kExplainedSlack). A detection
+/// that sticks out of every region is another obstacle, or one larger than declared, and is estimated.
+/// O(detections · tracks).
 ObservationSet without_explained(ObservationSet observations, const std::vector<Track>& declared);
 
-/// The declared tracks, and those estimated ones that they do not explain at `now`: whose box, without its α, is not
-/// within a declared region. Where an estimate has the id of a
-/// declared track that is over, the estimate replaces it: ids are unique. By id ascending.
+/// Returns the declared tracks together with the estimated tracks that they do not explain at `now`. An estimated track
+/// is explained if its box, without its α, lies within a declared region. An unexplained estimate replaces a declared
+/// track with the same id, because ids are unique. Ascending by id.
 std::vector<Track> merged(std::vector<Track> declared, const std::vector<Track>& estimated, UTime now);
 
 }  // namespace tern

@@ -55,8 +55,8 @@ FilterPrediction learnt_prediction(const LearntCoefficients& coefficients, const
 /// Obstacles that move alike share one W(h). On a circle, for example, velocity and acceleration determine the future
 /// position for every centre and phase; a model of single axes cannot express that.
 ///
-/// Each group of ages has a W at the times kLearntAhead and a cubic spline between them. With y the observed offset
-/// from the constant-velocity prediction p + h v,
+/// Each group of ages has a W at the times kLearntAhead and a cubic spline between them. Let y be the observed
+/// offset from the constant-velocity prediction p + h v. Then
 ///   W = (A_0 + S/u)⁻¹ (A_0 W_0 + m/u),   S = Σ w x xᵀ,   m = Σ w x yᵀ.
 /// - S and m are the sufficient statistics. All samples of the next older group enter them with the weight of at most
 ///   20 samples (a pseudo-count).

@@ -1,4 +1,4 @@
-// The motion models that all tracks are predicted with, and one track's filters of them.
+// The bank of motion models, and the Kalman filters of one track: one per model.
 #pragma once
 
 #include <array>
@@ -16,26 +16,25 @@ inline constexpr std::size_t kModels = 15;
 template <typename T>
 using PerModel = std::array<T, kModels>;
 
-/// A coarse grid over how long motion lasts and how fast it is: from what walks on to what swings, a factor of 1.4 to 4
-/// apart. Which of them a track follows, and at which horizon, its weights say (model_scores.h): none is fitted to a
-/// world.
+/// A coarse grid over time scales and speeds, from steady walking to swinging, with steps of a factor 1.4 to 4. No
+/// model is fitted to a scene. The weights of a track (model_scores.h) choose among them, per horizon.
 const PerModel<MotionModel>& motion_models();
-/// Their orders.
+/// The models' orders (MotionModel::order).
 inline constexpr PerModel<int> kOrders{2, 2, 3, 4, 7, 7, 7, 2, 3, 4, 4, 7, 7, 7, 7};
-/// The first so many are steady (calm constant velocities), the next ones up to the second number calm (they accelerate
-/// slowly), the others lively.
+/// Models below the first index are steady (constant velocity with little noise). Those below the second are calm (slow
+/// accelerations). The rest are lively.
 inline constexpr std::size_t kSteadyModels = 2, kCalmModels = 7;
-/// This one is a constant velocity of any size: nothing else is known of what was seen once.
+/// A constant velocity with a wide prior. It leads for a track that was detected once.
 inline constexpr std::size_t kWidestModel = 7;
 
 using BankStep = PerModel<ModelStep>;
 BankStep bank_step(double dt);
 using BankOutputRows = PerModel<OutputRows>;
-/// `ahead` after `first`.
+/// The rows for the step `first` followed by the step `ahead`.
 BankOutputRows bank_output_rows(const BankStep& ahead, const BankStep& first);
 
-/// One track's filters. Their evidence (the likelihood of one step, forgotten over some 20 detections) serves
-/// association alone: which detection is a track's. It is no judge of predictions.
+/// One track's filters. Each has an evidence: its log likelihood of the detections, with a memory of some 20 of them.
+/// Evidence serves the matching of detections only; predictions are weighed by ModelScores.
 class BankFilter {
  public:
   BankFilter() = default;
@@ -43,16 +42,15 @@ class BankFilter {
 
   void predict(const BankStep& step);
   void update(const Vec3& z, const Vec3& r);
-  /// Σ over axes of (z − x)²/S, by the model of the most evidence or the widest, whichever is nearer: χ² of three
-  /// degrees of freedom where it holds.
+  /// Returns Fit::distance2 by the leading model or by kWidestModel, whichever is less.
   [[nodiscard]] double distance2(const Vec3& z, const Vec3& r) const;
-  /// How unlikely the detection is: the less of the two models' surprise() that are nearer than the gate.
-  /// @return infinite if neither is
+  /// Returns the lesser Fit::neg_log_likelihood() of the leading model and kWidestModel, among those whose distance2 is
+  /// within the gate. Infinite if neither is.
   [[nodiscard]] double cost_within(double gate, const Vec3& z, const Vec3& r) const;
-  /// A box that holds all detections of at most the variance r whose surprise_within() is finite.
+  /// Returns a box that contains every detection with a variance of at most r whose cost_within() is finite.
   [[nodiscard]] Box gate_box(double gate, const Vec3& r) const;
   [[nodiscard]] MotionFilter of(std::size_t model) const;
-  /// The model of the most evidence.
+  /// The index of the model with the most evidence.
   [[nodiscard]] std::size_t leading() const { return lead_; }
   [[nodiscard]] MotionFilter lead() const { return of(leading()); }
 
@@ -61,14 +59,14 @@ class BankFilter {
   static constexpr int kCovariances = std::inner_product(kOrders.begin(), kOrders.end(), kOrders.begin(), 0);
   template <typename Number, typename Bank>
   static FilterStates<Number> states(Bank& bank, std::size_t model);
-  /// Whether one axis alone is beyond the gate: most pairs of a track and a detection are, and cost no more than that.
+  /// True if one axis alone exceeds the gate. It is a fast test, which rejects most pairs of track and detection.
   [[nodiscard]] bool is_beyond(std::size_t model, double gate, const Vec3& z, const Vec3& r) const;
-  /// Gives each axis a covariance of its own, where they begin to differ.
+  /// Gives each axis its own covariances from the first r on whose entries differ.
   void separate_axes(const Vec3& r);
 
-  std::array<double, kMeans> means_{};              // of one model after the other
+  std::array<double, kMeans> means_{};              // of all models, one after the other
   std::array<double, kCovariances> covariances_{};  // of the first axis
-  std::vector<double> others_;                      // of the two others; empty while all are alike
+  std::vector<double> others_;                      // of the two other axes; empty while all axes are equal
   PerModel<double> evidence_{};
   std::size_t lead_ = 0;
 };

@@ -43,7 +43,7 @@ void ModelScores::add(std::size_t horizon, const PerCandidate<double>& scores, s
   const double best = *std::max_element(sums.bank.begin(), sums.bank.end());
   for (double& sum : sums.bank) sum = std::max(sum - best, -kMaxScoreGap);
   if (!group) return;
-  // What is learnt may be far ahead of all given models: what these are to each other stays.
+  // The learnt model may be far ahead of the bank, whose models keep their differences.
   double& learnt = sums.learnt[*group];
   learnt = std::clamp(added(learnt, scores[kLearnt]) - best, -kMaxScoreGap, kMaxScoreGap);
 }

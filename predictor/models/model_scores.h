@@ -1,4 +1,5 @@
-// Which motion model predicts best, by horizon: scores of what was predicted against what came.
+// Scores of the motion models by horizon, the weights that follow, and the mixture that they make.
+// Equations: docs/prediction.md, steps 5 and 6.
 #pragma once
 
 #include <array>
@@ -10,43 +11,45 @@
 
 namespace tern {
 
-/// Predictions are scored so far ahead, s: what the planner needs, not the next detection, which sways with a walker's
-/// head and would choose a smooth model for people.
+/// The times ahead at which models are scored, s: those that the planner needs. The likelihood of the next detection
+/// would not do. A walker's head sways, so it would choose models that are poor a second ahead.
 inline constexpr std::array<double, 4> kScoredAhead{0.25, 0.5, 1.0, 2.0};
 inline constexpr std::size_t kScoredHorizons = kScoredAhead.size();
-/// A track's predictions are scored once in so many seconds.
+/// The time between two scored predictions of a track, s.
 inline constexpr double kScorePeriod = 0.25;
-/// Scores of spans that overlap are alike: for how many independent ones one over `ahead_s` counts, (0, 1].
+/// Returns the weight of a score over the span `ahead_s`, (0, 1]. Overlapping spans have correlated scores: one score
+/// counts as kScorePeriod/ahead_s independent ones.
 constexpr double score_weight(double ahead_s) { return ahead_s > kScorePeriod ? kScorePeriod / ahead_s : 1.0; }
-/// Forgetting per score: of all tracks of a kind, and of one track.
+/// Factor on the sum of scores at each new one: for the tracks of a pool, and for one track.
 inline constexpr double kPoolForgetting = 0.98;
 inline constexpr double kOwnForgetting = 0.9;
-/// No model falls behind the best given one by more, so that it can come back (the floor that M. Herbster's and M. K.
-/// Warmuth's fixed share keeps, "Tracking the best expert", 1998), nor is the learnt one ahead of it by more.
+/// No model's sum is farther than this below that of the bank's best, so every model can recover. It is the floor that
+/// fixed share keeps (M. Herbster, M. K. Warmuth, "Tracking the best expert", 1998). The learnt model is also at most
+/// this much ahead.
 inline constexpr double kMaxScoreGap = 8.0;
-/// What weighs less is not used.
+/// Smaller weights are set to 0.
 inline constexpr double kMinWeight = 0.02;
 
-/// The bank's models and, last, the one that is learnt (learnt_model.h).
+/// Index of the learnt model (learnt_model.h). It follows the models of the bank.
 inline constexpr std::size_t kLearnt = kModels;
 template <typename T>
 using PerCandidate = std::array<T, kModels + 1>;
 
-/// log density of Student's t (ν = 4) with scale² `variance`, up to a constant: one surprise does not decide alone.
+/// Returns the log density of Student's t (ν = 4) with scale² `variance`, up to a constant. Its heavy tails keep one
+/// outlier from deciding alone.
 double predictive_score(double error, double variance);
 
-/// Sums of scores by horizon and model, each as it is worth, against the best given model's. The learnt one has a sum
-/// for each of its groups: how well it foretells tracks that it has watched for long says nothing of those that just
-/// came.
+/// Discounted, weighted sums of scores per horizon and model, relative to the best model of the bank. The learnt model
+/// has a sum per group of ages, because its record on old tracks does not apply to new ones.
 class ModelScores {
  public:
   ModelScores() = default;
-  /// @param initial_learnt_score  what the learnt model's sums begin with
+  /// @param initial_learnt_score  first value of the learnt model's sums
   explicit ModelScores(double initial_learnt_score);
-  /// @param group  the learnt model's, to which its score belongs; without one that is not looked at
+  /// @param group  the group of the learnt model's score; without a group, that score is ignored
   void add(std::size_t horizon, const PerCandidate<double>& scores, std::optional<std::size_t> group,
            double forgetting);
-  /// @param group  without one the learnt model's is that of none, 0
+  /// Returns the sums of all models. Without a group, that of the learnt model is 0.
   [[nodiscard]] PerCandidate<double> at(std::size_t horizon, std::optional<std::size_t> group) const;
 
  private:
@@ -57,30 +60,30 @@ class ModelScores {
   std::array<Sums, kScoredHorizons> sums_{};
 };
 
-/// How much each candidate counts, at the scored horizons.
+/// The weights of the models at the scored horizons.
 struct HorizonWeights {
   using Scored = std::array<PerCandidate<double>, kScoredHorizons>;
-  Scored with_learnt, without_learnt;  ///< with the learnt model, and without
-  double learnt_horizon_s = 0.0;       ///< s ahead, the learnt model says something; 0: nothing
+  Scored with_learnt, without_learnt;
+  double learnt_horizon_s = 0.0;  ///< the learnt model takes part up to here; 0: not at all
 };
 
-/// Softmax of the sums of both, without what weighs less than kLeastWeight.
-/// @param group  of the learnt model  @param learnt_to  HorizonWeights::learnt_to; 0 where there is no group
+/// Returns the softmax of the sums of `pool` and `own` together, without weights below kMinWeight.
+/// @param group  of the learnt model; @param learnt_horizon_s  0 without a group
 HorizonWeights model_weights(const ModelScores& pool, const ModelScores& own, std::optional<std::size_t> group,
                              double learnt_horizon_s);
 
-/// Linear in log time between the horizons, that of the nearest one outside. From learnt_to to kUnlearnt times that the
-/// learnt model's weight fades. Sums to 1.
+/// Returns the weights at a time ahead; they sum to 1. They are linear in log time between the scored horizons and
+/// constant outside them. From learnt_horizon_s to kLearntFade times that, the learnt model's weight fades to 0.
 PerCandidate<double> weights_at(const HorizonWeights& weights, double ahead_s);
 inline constexpr double kLearntFade = 1.2;
 
-/// What the bank says of some time ahead: mean and deviation of the mixture, per axis of W.
+/// Mean and standard deviation of the mixture at a time ahead, per axis of W.
 struct MixturePrediction {
   Vec3 centre = Vec3::Zero();     ///< m
   Vec3 velocity = Vec3::Zero();   ///< m/s
   Vec3 deviation = Vec3::Zero();  ///< of the centre, m
 };
-/// @param learnt  what the learnt model says; not looked at if its weight is 0
+/// @param learnt  the learnt model's prediction; ignored if its weight is 0
 MixturePrediction mixture_prediction(const BankFilter& bank, const BankOutputRows& ahead,
                                      const FilterPrediction& learnt, const PerCandidate<double>& weights);
 

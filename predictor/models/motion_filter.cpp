@@ -13,7 +13,7 @@ using Column = Eigen::Matrix<double, N, 1>;
 template <int N>
 using Means = Eigen::Matrix<double, N, 3>;
 
-// f<N>() for the order N: with sizes that the compiler knows the products are several times as fast.
+// Calls f<N>() for the order N. With sizes known at compile time the products are several times faster.
 template <typename F>
 auto with_order(int order, const F& f) {
   switch (order) {
@@ -24,7 +24,7 @@ auto with_order(int order, const F& f) {
   }
 }
 
-// Once where the axes share a covariance.
+// Calls f once if the axes share a covariance, else for each axis.
 template <typename Number, typename F>
 void for_each_covariance(const FilterStates<Number>& states, const F& f) {
   f(0);
@@ -43,7 +43,7 @@ Eigen::Map<Square<N>> square(double* entries) {
   return Eigen::Map<Square<N>>(entries);
 }
 
-// P ← Φ P Φᵀ + Q, column by column, which compilers make the best of; then the lower half is mirrored.
+// P ← Φ P Φᵀ + Q, column by column, which compilers vectorise best; then the lower half is mirrored.
 template <int N>
 void predict_covariance(const Square<N>& phi, const Square<N>& q, double* covariance) {
   auto p = square<N>(covariance);

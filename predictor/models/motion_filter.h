@@ -1,4 +1,4 @@
-// A Kalman filter of one motion model on the three axes of W, in memory that is somebody else's (model_bank.h).
+// A Kalman filter of one motion model on the three axes of W. Its memory belongs to the bank (model_bank.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,33 +10,34 @@
 
 namespace tern {
 
-/// The rows of a step that positions and velocities ahead need: p = φ s, var p = φ P φᵀ + q.
+/// The rows of a step that a prediction of position and velocity needs: p = φ s, var p = φ P φᵀ + q.
 struct OutputRows {
   ModelVector position;   ///< φ
-  ModelVector velocity;   ///< the same for s_1
+  ModelVector velocity;   ///< the row of s_1
   double variance = 0.0;  ///< q, m²
 };
 OutputRows output_rows(const ModelStep& step);
-/// Of `ahead` after `first`.
+/// The rows for the step `first` followed by the step `ahead`.
 OutputRows output_rows(const ModelStep& ahead, const ModelStep& first);
 
-/// What a filter says of some time ahead, per axis.
+/// A prediction for one time ahead, per axis of W.
 struct FilterPrediction {
   Vec3 position, velocity;  ///< m, m/s
   Vec3 variance;            ///< of the position, m²
 };
 
-/// States of three axes that share a model. While sensors give all axes one variance, so does the covariance.
+/// The states of three axes that share a model. While all measurements have one variance on all axes, the axes also
+/// share one covariance.
 ///
-/// @tparam Number  double, or const double to look only
+/// @tparam Number  double, or const double for reading
 template <typename Number>
 struct FilterStates {
   int order = 0;
   Number* mean = nullptr;               ///< order × 3, an axis per column
-  std::array<Number*, 3> covariance{};  ///< of each axis, order × order; the same one while all are alike
+  std::array<Number*, 3> covariance{};  ///< of each axis, order × order; equal pointers while they are shared
 };
 
-/// A filter's answers.
+/// Reads the states of a filter.
 class MotionFilter {
  public:
   explicit MotionFilter(const FilterStates<const double>& states) : states_(states) {}
@@ -59,10 +60,10 @@ class MotionFilter {
   FilterStates<const double> states_;
 };
 
-/// Begins with the first measurement: z (m) with variances r (m²; taken as kLeastVariance if less).
+/// Initializes the states from the first measurement: z (m) with variances r (m², raised to kMinVariance if less).
 void start(const MotionModel& model, const Vec3& z, const Vec3& r, const FilterStates<double>& states);
 void predict(const ModelStep& step, const FilterStates<double>& states);
-/// @pre covariances of the axes are apart if r differs between them
+/// @pre each axis has its own covariance if r differs between the axes
 void update(const Vec3& z, const Vec3& r, const FilterStates<double>& states);
 
 }  // namespace tern

@@ -17,7 +17,7 @@ constexpr double kExponentialRate = 6.0;                              // of the 
 // Taylor's series at ‖F‖h ≤ kTaylorStep: the first omitted term is below 1e-15.
 constexpr int kTaylorTerms = 13;
 constexpr double kTaylorStep = 0.5;
-// Doublings after which a stationary process has forgotten where it began.
+// After this many doublings a stationary process has forgotten its start.
 constexpr int kStationaryDoublings = 12;
 
 template <int N>
@@ -45,8 +45,8 @@ ModelStep step_of(const MotionModel& model, double dt) {
   return {phi, q};
 }
 
-// (position, its derivatives, the constant) of a stationary process of this companion polynomial and white-noise
-// density: ṡ_{n−1} = −Σ c_i s_i with s_0 the position less the constant.
+// The model (position, its derivatives, the constant) of a stationary process with this companion polynomial and
+// white-noise density: ṡ_{n−1} = −Σ c_i s_i, where s_0 is the position less the constant.
 MotionModel around_a_constant(MotionFamily family, double ell, double speed, double rate, double density,
                               const Eigen::VectorXd& polynomial) {
   const Eigen::Index n = polynomial.size();

@@ -19,7 +19,7 @@ MotionSample sample_of(const Waypoint& waypoint) {
   return sample;
 }
 
-// The largest of the axes' shares, rounded up.
+// The largest of the axes' shares, rounded up to the next float.
 float share_of(const Vec3& part, const Vec3& alpha) {
   double share = std::numeric_limits<float>::min();
   for (int axis = 0; axis < 3; ++axis) {

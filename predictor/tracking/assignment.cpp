@@ -10,7 +10,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// For each row the column of the cheapest complete assignment. rows ≤ columns, finite costs. Index 0 is a sentinel.
+// Returns for each row the column of the cheapest complete assignment. @pre rows ≤ columns, finite costs. Index 0 is a
+// sentinel.
 std::vector<Index> cheapest_assignment(const Eigen::MatrixXd& cost) {
   const auto rows = static_cast<std::size_t>(cost.rows());
   const auto columns = static_cast<std::size_t>(cost.cols());
@@ -59,7 +60,7 @@ struct Group {
   std::vector<Index> rows, columns;
 };
 
-// Marks index as seen. @return true if it was not.
+// Marks the index as seen. @return true the first time
 bool first_time(std::vector<bool>& seen, Index index) {
   const auto i = static_cast<std::size_t>(index);
   if (seen[i]) return false;
@@ -100,7 +101,7 @@ std::vector<int> assign(const Eigen::MatrixXd& cost, double gate) {
     const auto rows = static_cast<Index>(group.rows.size());
     const auto columns = static_cast<Index>(group.columns.size());
     if (columns == 0) continue;
-    // A column of its own per row stands for "unassigned"; a pair beyond the gate costs more than leaving both alone.
+    // Each row has an extra column that means "unassigned". A pair beyond the gate costs more than leaving both alone.
     Eigen::MatrixXd square = Eigen::MatrixXd::Constant(rows, columns + rows, gate);
     for (Index r = 0; r < rows; ++r) {
       for (Index c = 0; c < columns; ++c) {

@@ -8,9 +8,9 @@
 namespace tern {
 namespace {
 
-// Of 1 − confidence, what may be broken by the end of each band: errors of the later bands come on top.
+// The allowed miss rate up to the end of each band, as a share of 1 − confidence. Later bands add their own misses.
 constexpr PerBand<double> kAllowedShare{0.5, 0.6, 0.7, 0.85, 1.0};
-// No margin is sought beyond, m: nothing is known there, and the reach set rules. Halvings of the range, to 0.1 mm.
+// The largest margin, m; the reach set is smaller. The number of halvings gives 0.1 mm.
 constexpr double kMaxMargin = 100.0;
 constexpr int kHalvings = 20;
 

@@ -1,4 +1,4 @@
-// What calibration begins with: quantiles of scores on made-up movers (tern-calibrate made the table).
+// The prior of the calibration: quantiles of scores on synthetic obstacles, made by tern-calibrate.
 #pragma once
 
 #include <array>
@@ -8,22 +8,23 @@
 
 namespace tern {
 
-/// The table holds quantiles at these probabilities; the last one stands for 1: what one promise in 400 exceeds
-/// in worlds that are not this one is left to be learnt.
+/// The probabilities of the table's quantiles. The last one stands for 1, but is the quantile at kPriorLastProbability.
+/// The largest scores, of one prediction in 400, depend on the scene and are left to be learnt.
 inline constexpr std::array kPriorProbabilities{0.0, 0.2,  0.4,   0.5,   0.6,  0.7,   0.8, 0.85,
                                                 0.9, 0.95, 0.975, 0.985, 0.99, 0.995, 1.0};
 inline constexpr double kPriorLastProbability = 0.9975;
 
-/// What is known of a world: nothing, or that what moves in it is slow (kSlowSpeed).
+/// The speed of a scene: unknown, or known to be slow (kSlowSpeed). Each has its own prior.
 enum class SceneSpeed { Any, Slow };
 inline constexpr std::size_t kSceneSpeeds = 2;
-/// m/s, over kSpeedSpan (judge.h). Walking people are slower, what flies or drives is mostly faster. The table is of
-/// recordings that are slower per axis, so that it knows movers that are a little faster.
+/// A slow scene has no track as fast as this over kSpeedSpan (prediction_scorer.h), m/s. Walking people are slower,
+/// most flying and driving obstacles are faster. The slow prior is made of recordings that are slower on every axis, so
+/// it includes obstacles that are a little faster.
 inline constexpr double kSlowSpeed = 2.5;
 
-/// The share of scores of a class (TrackClass) and band that exceed q: linear between the table's quantiles.
+/// Returns the prior share of scores above q, for a class (TrackClass) and band. Linear between the quantiles.
 double prior_share_above(SceneSpeed scene_speed, std::size_t kind, std::size_t band, double q);
-/// θ of Calibration for a level of kConfidenceLevels.
+/// Returns the prior θ (Calibration) for a level of kConfidenceLevels.
 double prior_level(SceneSpeed scene_speed, std::size_t kind, std::size_t band, std::size_t level);
 
 }  // namespace tern

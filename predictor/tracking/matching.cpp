@@ -26,19 +26,19 @@ void match_by_id(const std::vector<TrackedObject>& objects, const std::vector<De
   }
 }
 
-// Whether a detection is not where the track of its id can be, but where another one can: ids were exchanged.
+// True if a detection lies outside the gate of its id's track but inside another track's: ids were exchanged.
 bool is_exchanged(const std::vector<TrackedObject>& objects, const Detection& detection, const MatchCost& match_cost) {
   const auto fits = [&](const TrackedObject& o) { return std::isfinite(match_cost(o, detection)); };
   const auto own = std::ranges::find_if(objects, [&](const TrackedObject& o) { return o.id == detection.track_id; });
   return own != objects.end() && !fits(*own) && std::ranges::any_of(objects, fits);
 }
 
-// Of the pairs within the gate; 0 if there is none.
+// The largest cost within the gate; 0 without such pairs.
 double dearest(const Eigen::MatrixXd& cost) {
   return cost.unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; }).maxCoeff();
 }
 
-// Among objects with the given confirmation, and detections without an id, that are still free.
+// Matches free objects with the given confirmation and free anonymous detections.
 void match_by_distance(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
                        bool confirmed, const MatchCost& match_cost, const GateBox& gate_box, Matching& matching) {
   std::vector<std::size_t> rows, columns;

@@ -1,4 +1,4 @@
-// Which detection of a set belongs to which track.
+// Matches the detections of one observation set to tracks. Step 2 of docs/prediction.md.
 #pragma once
 
 #include <functional>
@@ -9,25 +9,30 @@
 
 namespace tern {
 
-/// A detection belongs to a track only if Σ over axes (z − x)²/S is at most this: χ² of three degrees of freedom,
-/// 0.9999.
+/// The gate of Σ over axes (z − x)²/S within which a detection may belong to a track. It is the 0.9999 quantile of χ²
+/// with three degrees of freedom.
 inline constexpr double kAssociationGate = 21.1;
 inline constexpr int kNoDetection = -1;
 
-/// How unlikely a detection is of a track (Fit::surprise), infinite beyond the gate.
+/// The cost of matching a detection to a track (Fit::neg_log_likelihood); infinite beyond the gate.
 using MatchCost = std::function<double(const TrackedObject&, const Detection&)>;
-/// A box that holds all detections of at most this variance (m²) whose surprise of the track is finite. Most pairs of a
-/// track and a detection are told apart by that.
+/// A box that contains every detection with at most this variance (m²) whose cost is finite. It rejects most pairs of
+/// track and detection.
 using GateBox = std::function<Box(const TrackedObject&, const Vec3& variance)>;
 
 struct Matching {
-  std::vector<int> detection_of;       ///< per track, an index or kNoDetection
-  std::vector<bool> taken, anonymous;  ///< per detection: it has a track; it is matched by likelihood
+  std::vector<int> detection_of;  ///< per track: an index, or kNoDetection
+  std::vector<bool> taken;        ///< per detection: it belongs to a track
+  std::vector<bool> anonymous;    ///< per detection: it is matched by cost instead of by id
 };
 
-/// By id, unless ids were exchanged: the detection is not where the track of its id can be, but where another one can.
-/// The others by the most likely assignment (the least sum of surprises), first to confirmed tracks, then to tentative
-/// ones. A track without a detection costs more than any pair within the gate, so who is alone with one gets it.
+/// Matches in four passes:
+/// 1. A detection with an id goes to the track of that id. If it lies outside that track's gate and inside another
+///    one's, ids were exchanged, and the id is ignored.
+/// 2. All other detections go to confirmed tracks, by the assignment with the least total cost.
+/// 3. The remaining ones go to tentative tracks in the same way.
+/// 4. A detection that is still free goes to the track of its id, if that is free.
+/// A track without a detection costs more than any pair within the gate, so as many pairs as possible are made.
 Matching match(const std::vector<TrackedObject>& objects, const std::vector<Detection>& detections,
                const MatchCost& match_cost, const GateBox& gate_box);
 

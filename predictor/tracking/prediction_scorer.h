@@ -104,7 +104,7 @@ class PredictionScorer {
     Vec3 centre, variance;
   };
   struct StoredPrediction {
-    // What was predicted: the start, and the mixture at each of kEvaluatedAhead.
+    // The prediction: its start, and the mixture at each of kEvaluatedAhead.
     UTime at;
     Vec3 position;  // as detected at `at`
     std::array<MixturePrediction, kEvaluatedAhead.size()> mixture;

@@ -1,25 +1,26 @@
-// How long what rests may be trusted to stay: by what was seen of things that rest.
+// How long a stationary track can be trusted to stay, by the record of all stationary tracks.
+// Step 9 of docs/prediction.md.
 #pragma once
 
 #include <cmath>
 
 namespace tern {
 
-/// Of all tracks together: how long they were seen at rest, and how often one of them started.
+/// The record of all tracks of a flight.
 struct RestRecord {
-  /// A flight begins as if things had rested for so long, all together, without a start.
-  double rested_s = 5.0;  ///< Σ over tracks of the time seen at rest, s
-  int starts = 0;         ///< tracks that had been at rest and moved
+  /// Σ over tracks of the time seen at rest, s. The initial value is a prior without starts.
+  double rested_s = 5.0;
+  int starts = 0;  ///< tracks that had been at rest and moved
 };
 
-/// For how long from its last detection on a thing that rests starts with at most this probability, s.
+/// Returns the time from its last detection within which a stationary track starts with at most this probability, s.
 ///
-/// Starts are taken for a Poisson process of one unknown rate λ for all things that rest, a priori uniform. After K
-/// starts in E seconds λ has the density of Gamma(K + 1, E), so that
-///   P[a start within s] = 1 − (E/(E + s))^(K+1)     (Laplace's rule of succession in continuous time: s/(E + s) for K
-///   = 0),
-/// and the answer is s = E ((1 − P)^(−1/(K+1)) − 1): 0 while nothing is known, longer the longer and the more things
-/// rest without a start. @pre 0 < probability < 1.
+/// Starts are a Poisson process with one unknown rate λ for all stationary tracks, a priori uniform. After K starts in
+/// E seconds, λ has the density Gamma(K + 1, E). Hence
+///   P[a start within s] = 1 − (E/(E + s))^(K+1),
+/// which is Laplace's rule of succession in continuous time: s/(E + s) for K = 0. The result is
+///   s = E ((1 − P)^(−1/(K+1)) − 1).
+/// It grows with the time at rest, and shrinks with the number of starts. @pre 0 < probability < 1
 inline double trusted_rest_s(const RestRecord& record, double probability) {
   return record.rested_s * (std::pow(1.0 - probability, -1.0 / (record.starts + 1)) - 1.0);
 }

@@ -1,4 +1,4 @@
-// One thing that is tracked.
+// The state of one track.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 
 namespace tern {
 
-/// One tracked thing, all at the time of the tracker's state.
+/// One track. Its filters are at the time of the tracker's state. "Counted" sets are defined at Tracker.
 struct TrackedObject {
   std::int64_t id = 0;
   bool confirmed = false;
-  std::uint32_t hits = 1;  ///< bit k: detected in the set k sets ago, of those that count (Tracker)
-  int age = 1;             ///< sets since birth that count, this one included
+  std::uint32_t hits = 1;  ///< bit k: detected in the counted set k sets ago
+  int age = 1;             ///< counted sets since the first detection, that one included
   UTime last_seen;
   std::int32_t last_seen_by = 0;  ///< sensor_id
   Vec3 half_extents = Vec3::Zero();
-  UTime born;                                             ///< when `moving` began
+  UTime born;                                             ///< start of `moving`
   int detections = 1;                                     ///< since then
   Vec3 position = Vec3::Zero(), variance = Vec3::Zero();  ///< of the last detection: W, m; m²
   BankFilter moving;
   LearntInput learnt_input;           ///< of `moving`, at the last detection
-  std::array<AxisFilter, 3> resting;  ///< with kRestingSigma, since resting_since
+  std::array<AxisFilter, 3> resting;  ///< the resting hypothesis (kRestingSigma), since resting_since
   UTime resting_since;
-  double resting_average = 3.0;  ///< of its χ²₃, see kRestingLimit
-  /// Where it rested until the resting hypothesis failed. It has started once it is beyond kJumpGate of that; noise
-  /// alone comes back.
+  double resting_average = 3.0;  ///< average of its χ²₃, see kRestingLimit
+  /// The place of rest, after the resting hypothesis failed there. A detection beyond kJumpGate of it confirms a start;
+  /// after mere noise the track rests there again.
   std::optional<std::array<AxisFilter, 3>> stood;
 };
 

@@ -36,7 +36,7 @@ bool is_seen_at(const std::array<AxisFilter, 3>& place, const ObservationSet& se
                              [&](const Detection& d) { return fit_of(place, d).distance2 <= kAssociationGate; });
 }
 
-// How much less likely it is that these are one thing, by their sizes.
+// The cost that different sizes add to a match.
 double size_cost(const Vec3& half, const Detection& detection) {
   const double scale = std::max(half.maxCoeff(), detection.half_extents.maxCoeff());
   const Vec3 variance = 2.0 * detection.variance + Vec3::Constant(std::pow(kSizeShare * scale, 2) + kMinVariance);
@@ -110,7 +110,7 @@ void Tracker::advance(State& state, const ObservationSet& observations) const {
     }
     if (d != kNoDetection) {
       if (object.detections == 1 && !object.confirmed) ++state.existence.again;
-      take(object, detections[static_cast<std::size_t>(d)], observations, state.rest);
+      update_track(object, detections[static_cast<std::size_t>(d)], observations, state.rest);
     }
     object.confirmed = object.confirmed || std::popcount(object.hits) >= config_.confirm_hits;
   }
@@ -141,27 +141,27 @@ void Tracker::predict_to(State& state, UTime at) const {
   state.at = at;
 }
 
-void Tracker::take(TrackedObject& object, const Detection& detection, const ObservationSet& from,
-                   RestRecord& rest) const {
+void Tracker::update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from,
+                           RestRecord& rest) const {
   const bool rested = object.confirmed && is_stationary(object);
   const UTime seen = object.last_seen;
   const std::array<AxisFilter, 3> stood = object.resting;
-  take(object, detection, from);
+  update_track(object, detection, from);
   if (rested && object.resting_since == from.at) {
     object.stood = stood;
-    // It may go at any speed now, as what is seen for the first time.
+    // Its new speed is as unknown as that of a new track.
     restart(object, detection, from);
   } else if (rested) {
     rest.rested_s += (from.at - seen).seconds();
     object.stood.reset();
   } else if (object.stood && fit_of(*object.stood, detection).distance2 > kJumpGate) {
-    // Else something still stands there, and this is another thing.
+    // A detection at the old place means that the obstacle still rests there, and that this is another one.
     if (!is_seen_at(*object.stood, from)) ++rest.starts;
     object.stood.reset();
   }
 }
 
-void Tracker::take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const {
+void Tracker::update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from) const {
   if (may_be_another(object, from.at) || object.moving.distance2(detection.position, detection.variance) > kJumpGate) {
     const TrackedObject anew = start_track(detection, from, object.id);
     restart(object, detection, from);
@@ -251,7 +251,7 @@ Box Tracker::gate_box(const TrackedObject& object, UTime at, const Vec3& varianc
   return tern::gate_box({x.x, y.x, z.x}, {x.xx, y.xx, z.xx}, kAssociationGate, variance);
 }
 
-DetectedTrack Tracker::seen(const TrackedObject& object) const {
+DetectedTrack Tracker::detected_track(const TrackedObject& object) const {
   return {object.id,       object.born,    object.detections,    object.position,
           object.variance, &object.moving, is_stationary(object)};
 }
@@ -262,13 +262,14 @@ void Tracker::settle(const Step& step) {
   std::set<std::int64_t> all;
   for (const TrackedObject& object : step.after.objects) {
     all.insert(object.id);
-    if (object.last_seen == from.at && object.last_seen_by == from.sensor_id) detected.push_back(seen(object));
+    if (object.last_seen == from.at && object.last_seen_by == from.sensor_id)
+      detected.push_back(detected_track(object));
   }
   scorer_.update(from.at, detected, all);
 }
 
 PredictionScorer::Assessment Tracker::assessment(const TrackedObject& object) const {
-  return scorer_.assessment(seen(object), object.last_seen);
+  return scorer_.assessment(detected_track(object), object.last_seen);
 }
 
 bool Tracker::is_published(const TrackedObject& object, const ExistenceRecord& existence) const {
@@ -302,59 +303,59 @@ std::pair<Waypoint, Vec3> Tracker::resting_at(const TrackedObject& object, const
 }
 
 Tracker::Forecast Tracker::at_rest(const TrackedObject& object, const State& state, UTime from) const {
-  Forecast belief;
-  TrackBound& bound = belief.bound;
+  Forecast forecast;
+  TrackBound& bound = forecast.bound;
   for (std::size_t k = 0; k < ends_.size(); ++k) {
     const auto [waypoint, model] = resting_at(object, state, from, ends_[k].seconds());
-    belief.waypoints.push_back(waypoint);
+    forecast.waypoints.push_back(waypoint);
     if (k == bound_at_) bound.model = model.maxCoeff();
   }
   bound.kind = MotionKind::Resting;
   bound.evidence = state.rest.starts;
-  const bool may_have_gone = belief.waypoints[bound_at_].half.front().maxCoeff() > bound.model;
+  const bool may_have_gone = forecast.waypoints[bound_at_].half.front().maxCoeff() > bound.model;
   bound.ruled_by = may_have_gone ? BoundRule::Reach : BoundRule::Model;
-  return belief;
+  return forecast;
 }
 
 const std::vector<LearntCoefficients>& Tracker::learnt_coefficients(std::size_t group, UTime last_seen,
-                                                                    PredictionInputs& ahead) const {
-  std::vector<LearntCoefficients>& looks = ahead.learnt[{group, last_seen}];
-  if (!looks.empty()) return looks;
+                                                                    PredictionInputs& inputs) const {
+  std::vector<LearntCoefficients>& coefficients = inputs.learnt[{group, last_seen}];
+  if (!coefficients.empty()) return coefficients;
   for (const Duration end : ends_) {
-    looks.push_back(scorer_.learnt().at((ahead.from - last_seen + end).seconds(), group));
+    coefficients.push_back(scorer_.learnt().at((inputs.from - last_seen + end).seconds(), group));
   }
-  return looks;
+  return coefficients;
 }
 
-Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs& ahead) const {
+Tracker::Forecast Tracker::moving(const TrackedObject& object, PredictionInputs& inputs) const {
   const PredictionScorer::Assessment assessment = this->assessment(object);
   const bool is_sure = object.confirmed || object.detections > 1;
-  const PerLevel& margins = is_sure ? scorer_.calibration().margins(assessment.kind) : ahead.of_unsure;
-  const double since_s = (ahead.from - object.last_seen).seconds();
+  const PerLevel& margins = is_sure ? scorer_.calibration().margins(assessment.kind) : inputs.unsure_margins;
+  const double since_s = (inputs.from - object.last_seen).seconds();
   const bool is_unseen = since_s > kUnseenAfter;
-  Forecast belief{std::vector<Waypoint>(ends_.size()), {}};
+  Forecast forecast{std::vector<Waypoint>(ends_.size()), {}};
   for (std::size_t k = 0; k < ends_.size(); ++k) {
-    Waypoint& waypoint = belief.waypoints[k];
+    Waypoint& waypoint = forecast.waypoints[k];
     const double ahead_s = since_s + ends_[k].seconds();
     const PerCandidate<double> weights = weights_at(assessment.weights, ahead_s);
     FilterPrediction learnt;
     if (weights[kLearnt] > 0.0) {
       learnt =
-          learnt_prediction(learnt_coefficients(*assessment.group, object.last_seen, ahead)[k], object.learnt_input);
+          learnt_prediction(learnt_coefficients(*assessment.group, object.last_seen, inputs)[k], object.learnt_input);
     }
-    const MixturePrediction said = mixture_prediction(object.moving, ahead.looks[k], learnt, weights);
-    waypoint.centre = said.centre;
-    waypoint.velocity = said.velocity;
-    if (k == bound_at_) belief.bound.model = model_sigmas_ * said.deviation.maxCoeff();
+    const MixturePrediction mixture = mixture_prediction(object.moving, inputs.rows[k], learnt, weights);
+    waypoint.centre = mixture.centre;
+    waypoint.velocity = mixture.velocity;
+    if (k == bound_at_) forecast.bound.model = model_sigmas_ * mixture.deviation.maxCoeff();
     for (std::size_t level = 0; level < margins.size(); ++level) {
-      waypoint.half[level] = interval_half_width(said.deviation, margins[is_unseen ? 0 : level], ahead_s);
+      waypoint.half[level] = interval_half_width(mixture.deviation, margins[is_unseen ? 0 : level], ahead_s);
     }
   }
-  TrackBound& bound = belief.bound;
+  TrackBound& bound = forecast.bound;
   bound.kind = motion_kind_of(assessment.kind);
   bound.evidence = scorer_.calibration().evidence(assessment.kind, band_of(since_s + ends_[bound_at_].seconds()));
   bound.ruled_by = bound.evidence < Calibration::kPriorWeight ? BoundRule::Prior : BoundRule::Measured;
-  return belief;
+  return forecast;
 }
 
 bool Tracker::has_left_range(const TrackedObject& object, const std::vector<SensorView>& views, const Waypoint& start) {
@@ -369,13 +370,13 @@ std::vector<Track> Tracker::predict(UTime now, std::vector<TrackBound>* why) con
   const State& newest = newest_state();
   const UTime from = std::max(now, newest.at);
   const BankStep first = bank_step((from - newest.at).seconds());
-  PredictionInputs ahead{from, scorer_.calibration().margins(TrackClass::New, newest.existence.real_share()), {}, {}};
-  for (const BankStep& step : steps_ahead_) ahead.looks.push_back(bank_output_rows(step, first));
+  PredictionInputs inputs{from, scorer_.calibration().margins(TrackClass::New, newest.existence.real_share()), {}, {}};
+  for (const BankStep& step : steps_ahead_) inputs.rows.push_back(bank_output_rows(step, first));
   std::vector<Track> tracks;
   for (const TrackedObject& object : newest.objects) {
     if (!is_published(object, newest.existence)) continue;
     const bool is_resting = is_stationary(object);
-    auto [waypoints, bound] = is_resting ? at_rest(object, newest, from) : moving(object, ahead);
+    auto [waypoints, bound] = is_resting ? at_rest(object, newest, from) : moving(object, inputs);
     if (has_left_range(object, newest.views, waypoints.front())) continue;
     const double seen_speed = is_resting ? 0.0 : waypoints.front().velocity.cwiseAbs().maxCoeff();
     Track track;

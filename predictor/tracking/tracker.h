@@ -1,4 +1,4 @@
-// Tracks from noisy, late, anonymous detections: born, confirmed, coasting, dead.
+// Tracks obstacles from noisy, late, anonymous detections, and predicts them. The steps: docs/prediction.md.
 #pragma once
 
 #include <array>
@@ -18,123 +18,136 @@
 
 namespace tern {
 
-/// Tracks of detections without an id get ids from here on; sensors and owners use smaller ones.
+/// The first id of tracks whose detections have no id. Sensors and owners use smaller ids.
 inline constexpr std::int64_t kFirstOwnTrackId = 1'000'000'000;
-/// A detection with its track's id farther than this is another thing, or a jump: the track starts anew there.
+/// A detection with its track's id but a larger distance2 is another obstacle, or a jump: the filters restart.
 inline constexpr double kJumpGate = 100.0;
-/// Sizes tell who is who, but alone they exclude nobody, whatever part of a thing is seen: standard deviation of a
-/// half-extent as a share of the largest, beside that of a face; and the most that they count for, of a surprise.
+/// Sizes add to the cost of a match, but never exclude one, because a sensor may see any part of an obstacle.
+/// kSizeShare is the standard deviation of a half-extent as a share of the largest one. kMaxSizeCost bounds the added
+/// cost.
 inline constexpr double kSizeShare = 0.25, kMaxSizeCost = 20.0;
-/// How far back observations may come out of order.
+/// Observation sets are put in order if they are at most this much older than the newest.
 inline constexpr Duration kReorderWindow{300'000};
-/// Extents grow at once to the largest seen and shrink by this share of the difference per detection.
+/// Half-extents grow at once to the largest seen, and shrink by this share of the difference per detection.
 inline constexpr double kExtentShrink = 0.1;
-/// The resting hypothesis: so little acceleration is put down to what rests, m/s^1.5 (√ of the spectral density).
+/// The resting hypothesis is a constant velocity with this √ of the spectral density of acceleration, m/s^1.5.
 inline constexpr double kRestingSigma = 0.01;
-/// It is given up when the average of its χ²₃ over about ten detections exceeds this (mean 3, deviation 0.56: 4
-/// deviations).
+/// The hypothesis fails when the average of its χ²₃ over about ten detections exceeds this: the mean 3 plus four
+/// standard deviations of 0.56.
 inline constexpr double kRestingLimit = 5.3;
 inline constexpr double kRestingForgetting = 0.1;
-/// A tentative track is buried after so long without a detection even if the sensor that saw it sends no more sets: 15
-/// frames of a sensor at 10 Hz.
+/// A tentative track whose sensor is silent is deleted this long after its last detection: 15 frames at 10 Hz.
 inline constexpr Duration kTentativeUnseen{1'500'000};
-/// A thing whose box is farther from the sensor than its range less this should not be seen, m: some σ and the
-/// vehicle's way within the sensor's frame.
+/// A track counts as out of range if its box is farther from the sensor than the range less this margin, m. It allows
+/// for some σ and for the vehicle's motion during a frame.
 inline constexpr double kRangeMargin = 0.5;
-/// What is not seen beyond its sensor's range is predicted while it is known where it is, to so many metres.
+/// A track that has left its sensor's range is published while its α at the start is at most this, m.
 inline constexpr double kMaxUnseenAlpha = 1.0;
-/// What is unseen for longer, s, has one α for all confidences: they are calibrated by what is seen again and again.
+/// A track without detections for longer than this, s, has one α for all levels. The lower levels are calibrated on
+/// tracks that are seen again and again.
 inline constexpr double kUnseenAfter = 0.3;
-/// Who has been unseen for that long, and was missed by so many of its sensor's sets, is not surely what is found there
-/// next: that may have come into view just now. Its motion begins anew.
+/// After kUnseenAfter and this many missed sets of its sensor, the filters restart from the next matched detection. It
+/// may be another obstacle that just came into view.
 inline constexpr int kMissesToRestart = 3;
-/// Of 1 − confidence, the share that is left to a start that the α of what rests does not contain.
+/// The share of 1 − confidence that is left to starts of stationary tracks which α does not cover.
 inline constexpr double kStartShare = 0.5;
-/// The crossings of Rice's formula for what rests: π/2 of a speed that does not change, and room for noise.
+/// The crossings (escape_probability()) of a stationary track: π/2 for a speed that does not change, and a reserve for
+/// noise.
 inline constexpr double kRestCrossings = 2.5;
-/// Detected once, a track is published until its sensor has failed to see it so often.
+/// A track that was detected once is published until its sensor has missed it this often.
 inline constexpr int kMissesToHide = 2;
-/// What rests has no speed beyond so many standard deviations per axis, or beyond kRestingSpeed m/s.
+/// A stationary track has on each axis a speed of at most kRestingSpeed, m/s, or of this many standard deviations.
 inline constexpr double kRestingSpeedSigmas = 3.0;
 inline constexpr double kRestingSpeed = 0.05;
-/// Bounds are told at the end of the piece of a prediction that holds this time.
+/// TRACK_BOUNDS reports the bounds at the end of the piece that contains this time ahead.
 inline constexpr Duration kBoundsAhead{1'000'000};
 
 struct TrackerConfig {
   PredictionSpec prediction;
-  int confirm_hits = 3;             ///< a track is confirmed once detected in so many …
-  int confirm_window = 5;           ///< … of its first observation sets that count (Tracker), hits ≤ window ≤ 32
-  Duration coast{1'500'000};        ///< a confirmed track dies when not detected for longer
-  Duration resting_after{600'000};  ///< a track that has been consistent with rest so long is predicted at rest
-  /// What rests and is out of the sensor's range, and what only a sensor saw that has fallen silent, outlives its last
-  /// detection so long: the world goes on behind us.
+  int confirm_hits = 3;             ///< a track is confirmed after this many detections …
+  int confirm_window = 5;           ///< … in its first so many counted sets (Tracker); hits ≤ window ≤ 32
+  Duration coast{1'500'000};        ///< a confirmed track survives its last detection by this time
+  Duration resting_after{600'000};  ///< a track that was consistent with rest for this long is stationary.
+  /// Survival after the last detection of a stationary track out of range, and of any confirmed track whose sensor is
+  /// silent.
   Duration remember_rest{30'000'000};
-  /// With the model that is learnt (learnt_model.h).
+  /// Whether the learnt model takes part (learnt_model.h).
   bool learns = true;
 };
 
-/// How often what was detected once was detected again: what of it was real.
+/// How many tracks that were detected once were detected again.
 struct ExistenceRecord {
   int again = 0, never = 0;  ///< tracks
-  /// Laplace's rule of succession, begun with one that was.
+  /// The estimated share of real obstacles: Laplace's rule of succession with one success at first.
   [[nodiscard]] double real_share() const { return (again + 1.0) / (again + never + 1.0); }
 };
 
-/// What became of an observation set.
 enum class UpdateOutcome {
   Used,
-  TooOld,    ///< older than the newest by more than kReorderWindow
-  Repeated,  ///< there was a set of that sensor and time
+  TooOld,    ///< older than the newest set by more than kReorderWindow
+  Repeated,  ///< a set of that sensor and time was used already
 };
 
-/// Steps of one update, in this order. Predict every track to the observation's time. Match detections that have ids by
-/// id, unless ids were exchanged; the others within the gate by the most likely assignment, first to confirmed tracks,
-/// what remains to tentative ones. Update what is matched; count hits and misses, confirm (n of m), bury. Start a
-/// tentative track from each detection that is left. Ids, sensors': one space for all sensors.
+/// One update does this, in order:
+/// 1. It predicts every track to the time of the observation set.
+/// 2. It matches detections to tracks (matching.h), and updates the matched tracks.
+/// 3. It counts hits and misses, confirms and deletes tracks.
+/// 4. Each detection that is left starts a tentative track. Ids are common to all sensors.
 ///
-/// Only the sensor that saw a track last can miss it: sensors see different things at different rates, and that one of
-/// them does not see what another does says nothing. So a set counts in a track's age and hits if it holds a detection
-/// of it or is of that sensor, and a confirmed track dies by sets of that sensor; should the sensor be silent, the
-/// others' sets bury the track after kTentativeUnseen or, confirmed, after remember_rest.
+/// Only the sensor that detected a track last can miss it, because sensors see different things at different rates. A
+/// set *counts* for a track if it is from that sensor or detects the track.
 ///
-/// A pure function of the observations: sets that come out of order within kReorderWindow give the same tracks as in
-/// order of (time, sensor). Not thread-safe. A set of d detections and t tracks costs O(d·t) and the assignment's
-/// groups.
+/// | state     | event                                                             | effect          |
+/// |-----------|-------------------------------------------------------------------|-----------------|
+/// | tentative | confirm_hits detections in the first confirm_window counted sets  | confirmed       |
+/// | tentative | confirm_window counted sets with fewer detections                 | deleted         |
+/// | tentative | another sensor's set, kTentativeUnseen after the last detection   | deleted         |
+/// | confirmed | a miss later than `coast`, unless stationary and out of range     | deleted         |
+/// | confirmed | any set later than `remember_rest` after the last detection       | deleted         |
+/// | any       | distance2 above kJumpGate, or a detection after kMissesToRestart  | filters restart |
+/// | any       | consistent with rest for `resting_after`                          | stationary      |
+/// | stationary | the resting hypothesis fails                                     | filters restart |
+///
+/// A pure function of the observations. Sets that come out of order within kReorderWindow give the same tracks as in
+/// order of (time, sensor). A set of d detections and t tracks costs O(d·t) and the assignment of its groups. Not
+/// thread-safe.
 class Tracker {
  public:
   explicit Tracker(const TrackerConfig& config);
 
-  /// Nothing changes unless the answer is Yes. The tracker has no clock: a set from the future makes all others too
-  /// old.
+  /// Takes an observation set; only the outcome Used changes the tracker. @pre the time is not in the future: the
+  /// tracker has no clock, and every older set would be TooOld
   UpdateOutcome update(const ObservationSet& observations);
 
-  /// The tracks predicted from `now` over the horizon, kind Estimated, by id ascending: what is new from its first
-  /// detection on, if it is real more often than promises are broken. Tracks whose detections have stopped altogether
-  /// remain, with growing α; but what has left its sensor's range is left out once its α at the start exceeds
-  /// kKnownWithin: then it says no more than that anything may come from there, and that nobody promises. If `now` lies
-  /// before the newest observation, that is where they start.
-  /// @param why  what each of them is as wide as it is by, in the same order, if anybody asks
+  /// Returns the tracks predicted from `now` over the horizon, of kind Estimated, ascending by id. They start at
+  /// newest() if that is later than `now`.
+  ///
+  /// - A track that was detected once is published if such tracks are real more often than intervals may miss.
+  /// - A track without detections stays, with growing α.
+  /// - A track that has left its sensor's range is left out once α at its start exceeds kMaxUnseenAlpha. Its interval
+  ///   would only say that something may come from there.
+  /// @param why  if not null: the reason for each track's width, in the same order
   [[nodiscard]] std::vector<Track> predict(UTime now, std::vector<TrackBound>* why = nullptr) const;
 
-  /// All tracks, tentative ones too, by id ascending, at newest().
+  /// All tracks, tentative ones included, ascending by id, at newest().
   [[nodiscard]] const std::vector<TrackedObject>& objects() const { return newest_state().objects; }
-  /// What was seen of things at rest, at newest().
+  /// The record of stationary tracks, at newest().
   [[nodiscard]] const RestRecord& rest() const { return newest_state().rest; }
-  /// Time of the newest observation; 0 when there was none.
+  /// The time of the newest observation set; 0 if there is none.
   [[nodiscard]] UTime newest() const { return steps_.empty() ? UTime{} : steps_.back().observations.at; }
-  /// True if it is predicted at rest.
+  /// True if the track is predicted at rest.
   [[nodiscard]] bool is_stationary(const TrackedObject& object) const;
-  /// What was learnt of predictions: models' weights and margins. It lags by kReorderWindow.
+  /// The weights of the models and the margins. They lag by kReorderWindow.
   [[nodiscard]] const PredictionScorer& scorer() const { return scorer_; }
-  /// The weights and the class that an object of objects() is predicted with.
+  /// The weights and the class with which an object of objects() is predicted.
   [[nodiscard]] PredictionScorer::Assessment assessment(const TrackedObject& object) const;
 
  private:
-  /// What a sensor saw last.
+  /// The newest set of a sensor: its time, and where the sensor was.
   struct SensorView {
     std::int32_t sensor_id = 0;
     UTime at;
-    double range_m = 0.0;  // 0: without limit
+    double range_m = 0.0;  // 0: unlimited
     Vec3 from = Vec3::Zero();
   };
   struct State {
@@ -152,55 +165,57 @@ class Tracker {
   [[nodiscard]] const State& newest_state() const { return steps_.empty() ? before_steps_ : steps_.back().after; }
   void advance(State& state, const ObservationSet& observations) const;
   void predict_to(State& state, UTime at) const;
-  void take(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
-  void take(TrackedObject& object, const Detection& detection, const ObservationSet& from, RestRecord& rest) const;
+  void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from) const;
+  void update_track(TrackedObject& object, const Detection& detection, const ObservationSet& from,
+                    RestRecord& rest) const;
   [[nodiscard]] TrackedObject start_track(const Detection& detection, const ObservationSet& from,
                                           std::int64_t id) const;
   [[nodiscard]] bool is_expired(const TrackedObject& object, const ObservationSet& observations) const;
   [[nodiscard]] double match_cost(const TrackedObject& object, UTime at, const Detection& detection) const;
-  /// A box that holds all detections of at most this variance whose surprise is finite.
+  /// Returns a box that contains every detection with at most this variance whose match_cost() is finite.
   [[nodiscard]] Box gate_box(const TrackedObject& object, UTime at, const Vec3& variance) const;
-  /// Whether it rested when it was last seen, longer ago than `coast`. Then what is found there belongs to it, not
-  /// whatever a mover could have become.
+  /// True for a stationary track that was last seen longer ago than `coast`. Only detections at its place belong to it;
+  /// the gate of a moving track would be far too wide by then.
   [[nodiscard]] bool is_remembered(const TrackedObject& object, UTime at) const;
   [[nodiscard]] bool is_published(const TrackedObject& object, const ExistenceRecord& existence) const;
-  /// Whether what is detected as this track may as well be something new.
+  /// True if a detection of this track may be another obstacle (kMissesToRestart).
   [[nodiscard]] bool may_be_another(const TrackedObject& object, UTime at) const;
-  /// Whether it has left its sensor's range and says no more than that anything may come from there.
+  /// True if the track has left its sensor's range and its start is no longer known to kMaxUnseenAlpha.
   [[nodiscard]] static bool has_left_range(const TrackedObject& object, const std::vector<SensorView>& views,
                                            const Waypoint& start);
+  /// Passes a step that can no longer change on to the scorer.
   void settle(const Step& step);
-  [[nodiscard]] DetectedTrack seen(const TrackedObject& object) const;
-  [[nodiscard]] double top_speed() const;  // of what is new or starts
-  /// Where a start is contained, so is one that the last detection shows and the filter does not yet believe.
-  /// @return with what the filter alone says at level 0
+  [[nodiscard]] DetectedTrack detected_track(const TrackedObject& object) const;
+  [[nodiscard]] double top_speed() const;  // of new and starting tracks, m/s per axis.
+  /// Returns the waypoint of a stationary track, and the half-width that the filter alone gives at level 0. Once α
+  /// allows for a start, it also covers the offset between the last detection and the filter's position.
   [[nodiscard]] std::pair<Waypoint, Vec3> resting_at(const TrackedObject& object, const State& state, UTime from,
                                                      double ahead_s) const;
-  /// Waypoints at ends_, and what of a bound they know: all but what is promised.
+  /// The waypoints at ends_, and the parts of TrackBound that do not depend on the published α.
   struct Forecast {
     std::vector<Waypoint> waypoints;
     TrackBound bound;
   };
   [[nodiscard]] Forecast at_rest(const TrackedObject& object, const State& state, UTime from) const;
-  /// What the tracks of one prediction share.
+  /// The values that all tracks of one prediction share.
   struct PredictionInputs {
     UTime from;
-    PerLevel of_unsure;                 // margins of what was detected once, and may be a false alarm
-    std::vector<BankOutputRows> looks;  // at ends_
+    PerLevel unsure_margins;           // of tracks that were detected once, and may be false alarms
+    std::vector<BankOutputRows> rows;  // at ends_
     std::map<std::pair<std::size_t, UTime>, std::vector<LearntCoefficients>> learnt;  // by group and last detection
   };
   [[nodiscard]] const std::vector<LearntCoefficients>& learnt_coefficients(std::size_t group, UTime last_seen,
-                                                                           PredictionInputs& ahead) const;
-  [[nodiscard]] Forecast moving(const TrackedObject& object, PredictionInputs& ahead) const;
+                                                                           PredictionInputs& inputs) const;
+  [[nodiscard]] Forecast moving(const TrackedObject& object, PredictionInputs& inputs) const;
 
   TrackerConfig config_;
-  std::vector<Duration> ends_;         // of pieces
-  std::size_t bound_at_ = 0;           // of them, where bounds are told
+  std::vector<Duration> ends_;         // piece_ends()
+  std::size_t bound_at_ = 0;           // index of ends_ at which bounds are reported
   double model_sigmas_ = 0.0;          // of the models' own bound at level 0
-  std::vector<BankStep> steps_ahead_;  // to them
+  std::vector<BankStep> steps_ahead_;  // to ends_
   std::array<double, kConfidenceLevels.size()> rest_quantiles_{};
   State before_steps_;
-  State spare_;             // memory for the next step: its meaning is over
+  State spare_;             // only its memory is reused
   std::deque<Step> steps_;  // ascending by (time, sensor), the newest kReorderWindow
   PredictionScorer scorer_;
 };

@@ -1,4 +1,4 @@
-// Which detections a tracker can use.
+// Removes detections that are too uncertain to use.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 namespace tern {
 
-/// A detection whose standard deviation is larger on some axis says nothing of use, m: its box at 4 σ is wider than
-/// all that is flown through within a horizon. One of the 1e6 m that a message may hold would make α larger than
-/// PREDICTIONS can say, and leave a covariance to rounding once a good detection follows (1e12 m² − 1e12 m²).
+/// The largest usable standard deviation on an axis, m: at 4 σ the box is wider than all that a vehicle crosses within
+/// a horizon. Messages may hold up to 1e6 m. That would make α larger than PREDICTIONS can hold, and leave a covariance
+/// of rounding errors after the next good detection (1e12 m² − 1e12 m²).
 inline constexpr double kMaxDeviation = 30.0;
 
-/// Takes the others out of a set. @return how many
+/// Removes the detections with a larger deviation. @return their number
 inline std::size_t remove_unusable(ObservationSet& set) {
   return std::erase_if(set.detections,
                        [](const Detection& d) { return !(d.variance.maxCoeff() <= kMaxDeviation * kMaxDeviation); });

@@ -14,8 +14,7 @@ struct CalibrationRequest {
 };
 
 /// Predicts the obstacles of all recordings anew from their detections, and prints the coverage table.
-/// @throws std::runtime_error if a log cannot be read, a file cannot be written, or the recordings do not suffice for a
-/// prior.
+/// @throws std::runtime_error for an unreadable log, an unwritable file, or too few recordings for a prior
 void calibrate(const CalibrationRequest& request);
 
 }  // namespace tern::calibrate

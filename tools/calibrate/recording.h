@@ -34,7 +34,7 @@ struct Recording {
 };
 
 /// Reads OBSTACLE_OBSERVATIONS and OBSTACLE_TRUTH of a log. Times are the vehicle's. @return an Error with path and
-/// reason if the log cannot be read or has no observations.
+/// reason for an unreadable log, or one without observations.
 Result<Recording> read_recording(const std::string& path);
 
 }  // namespace tern::calibrate

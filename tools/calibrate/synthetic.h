@@ -27,8 +27,8 @@ struct SyntheticSource {
 const std::vector<SyntheticSource>& synthetic_sources();
 
 /// Returns the first 12 s of a flight with twelve obstacles at a time, 20 m apart. Each exists for 1.5 to 9 s, and its
-/// truth is known at 30 Hz. Depending on the seed, the sensor sends 30, 15 or 10 sets a second, exact or with σ up to
-/// 0.1 m. Detections arrive 50 ms late, and 5 % are dropped. A function of source and seed.
+/// truth is known at 30 Hz. Depending on the seed, the sensor sends 30, 15 or 10 sets a second, exact or with σ of
+/// 0.02 to 0.1 m. Detections arrive 50 ms late, and 5 % are dropped. A function of source and seed.
 Recording synthetic_recording(const SyntheticSource& source, std::uint64_t seed);
 
 }  // namespace tern::calibrate
