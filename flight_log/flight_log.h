@@ -1,4 +1,4 @@
-// A recorded flight as typed messages: every part of its log, and a count of all that could not be used.
+// A recorded flight as typed messages, read from all parts of its log. Messages that could not be used are counted.
 #pragma once
 
 #include <cstdint>
@@ -21,49 +21,51 @@
 
 namespace tern {
 
-/// What a log holds of one channel.
+/// The content of a log on one channel.
 struct LogChannel {
-  std::int64_t messages = 0, bytes = 0;    ///< all of them
-  std::int64_t refused[kRejections] = {};  ///< by Rejection; Fingerprint: another version of the message, or no message
-  std::int64_t lost = 0;                   ///< by its senders' numbers (MessageLosses)
-  std::int64_t before_first = 0;           ///< what its senders had sent before the first message that the log has
-  std::int64_t repeated = 0;               ///< the same bytes again: a network that delivers a message more than once
-  bool read =
-      false;  ///< it was asked for: only then its messages were decoded, and refused, lost and repeated are known
-  bool foreign = false;  ///< not one of Tern's channels
+  std::int64_t messages = 0, bytes = 0;    ///< all messages
+  std::int64_t refused[kRejections] = {};  ///< refused messages by Rejection; Fingerprint may also be no message at all
+  std::int64_t lost = 0;                   ///< lost messages by their sequence numbers (MessageLosses)
+  std::int64_t before_first = 0;           ///< messages that were sent before the first one in the log
+  std::int64_t repeated = 0;               ///< messages that the network delivered again.
+  /// True if the channel has a handler. Only then its messages are decoded, and `refused`, `lost`, `repeated` are
+  /// known.
+  bool read = false;
+  bool foreign = false;  ///< it is not one of Tern's channels
 
-  /// Refused, whatever the reason.
+  /// Returns the number of refused messages.
   [[nodiscard]] std::int64_t refused_total() const {
     return std::accumulate(std::begin(refused), std::end(refused), std::int64_t{0});
   }
 };
 
-/// What a log holds.
+/// The content of a log.
 struct LogContents {
   std::vector<std::string> parts;              ///< the files, in order
-  std::int64_t events = 0;                     ///< whole events
-  std::int64_t first_us = 0, last_us = 0;      ///< when the earliest and latest was received, µs since the Unix epoch
-  LogDamage damage;                            ///< of all parts together; truncated: the last one is
-  std::map<std::string, LogChannel> channels;  ///< by name on the wire, suffix included
+  std::int64_t events = 0;                     ///< complete events
+  std::int64_t first_us = 0, last_us = 0;      ///< when the first and the last were received, µs since the Unix epoch
+  LogDamage damage;                            ///< of all parts together; `truncated` is that of the last part
+  std::map<std::string, LogChannel> channels;  ///< by name on the wire, including the suffix
 };
 
-/// The files of a log: `path` (or flight.lcm in the folder `path`) and the parts that tern-logger wrote after it.
+/// Returns the files of a log: `path` (or flight.lcm in the folder `path`) and the parts that tern-logger wrote after
+/// it.
 std::vector<std::string> log_parts(const std::string& path);
 
-/// Hands a log's messages to those who ask for their channels, in the log's order.
+/// Passes the messages of a log to handlers of their channels, in the log's order.
 ///
 ///     FlightLog log;
 ///     log.on(channels::kPlan, [&](const Plan& plan, std::int64_t received_us) { … });
 ///     const Result<LogContents> contents = log.read("flight.lcm");
 ///
-/// Bounded memory: no more than one event is held (LogReader). Only what decode() accepts is handed over. Each message,
-/// by its name, is handed over once, however often the network delivered it among the newest 4096 of its channel.
+/// Handlers get only messages that decode() accepts. A message that the network delivered again, among the newest 4096
+/// of its channel, is passed on once. Memory is bounded: one event is held at a time (LogReader).
 class FlightLog {
  public:
-  /// @param suffix  what the vehicle's channels end with, "" for none
+  /// @param suffix  the suffix of the vehicle's channels; may be empty
   explicit FlightLog(std::string suffix = "") : suffix_(std::move(suffix)) {}
 
-  /// Several handlers of one channel are called in the order of their asking.
+  /// Adds a handler of a channel. Several handlers of one channel are called in the order in which they were added.
   template <class T>
   void on(const Channel<T>& channel,
           std::type_identity_t<std::function<void(const T&, std::int64_t received_us)>> handler) {
@@ -77,8 +79,8 @@ class FlightLog {
         });
   }
 
-  /// Reads all parts once, or a text log (text_log.h). Can be called again, for a second pass. @return an Error when a
-  /// part cannot be opened. What a handler throws ends the reading.
+  /// Reads all parts of a log, or a text log (text_log.h). A second call reads them again. An exception of a handler
+  /// ends the reading and is passed on. @return an Error if a part cannot be opened
   Result<LogContents> read(const std::string& path);
 
  private:

@@ -1,4 +1,4 @@
-// Reads an LCM log that may be damaged, with bounded memory, and says what it could not read.
+// Reads an LCM log that may be damaged, with bounded memory, and counts the damage.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,27 @@
 
 namespace tern {
 
-/// What a reader had to leave out.
+/// The damage of a log.
 struct LogDamage {
-  std::int64_t places = 0;   ///< runs of bytes that are no events
-  std::int64_t bytes = 0;    ///< of those
-  std::int64_t missing = 0;  ///< events that the gaps in the numbers say were there; 0 where numbers start anew
-  bool truncated = false;    ///< the file's end is no event's end
+  std::int64_t places = 0;   ///< damaged places: runs of bytes outside events
+  std::int64_t bytes = 0;    ///< bytes at these places
+  std::int64_t missing = 0;  ///< events missing by their numbers; numbers that start again count as no gap
+  bool truncated = false;    ///< the file ends within an event
 };
 
-/// Reads one file in its order. An event counts as whole when the next one, or the end of the file, follows it. Else
-/// its length is doubted if another event begins within it. After damage the reader goes on at the next event that
-/// looks whole. The format has no checksum: damage within the data of a message is for the message's own decoder to
-/// find.
+/// Reads the events of one file in their order.
+///
+/// An event is complete if the next event, or the end of the file, follows it. Otherwise its length is considered
+/// wrong if another event begins within it. After damage, reading continues at the next event that looks complete. The
+/// format has no checksum; damage within the data of a message is left to the message's decoder.
 class LogReader {
  public:
-  /// @return an Error that names path and reason when the file cannot be opened.
+  /// Opens a file. @return an Error that names path and reason if it cannot be opened
   static Result<LogReader> open(const std::string& path);
 
-  /// The next whole event, or nothing at the end. Never throws but std::bad_alloc.
+  /// Returns the next complete event, or nullopt at the end. It throws std::bad_alloc only.
   std::optional<LogEvent> next();
-  /// Grows while reading; final when next() has returned nothing.
+  /// Returns the damage so far; it is final once next() has returned nullopt.
   [[nodiscard]] const LogDamage& damage() const { return damage_; }
 
  private:
@@ -52,7 +53,7 @@ class LogReader {
   LogEvent take(const Head& head);
 
   File file_;
-  std::vector<std::uint8_t> window_;  ///< read ahead; [cursor_, end) is still to be judged
+  std::vector<std::uint8_t> window_;  ///< bytes read ahead; [cursor_, end) is not yet judged
   std::size_t cursor_ = 0;
   bool in_damage_ = false;
   std::optional<std::int64_t> last_number_;

@@ -1,4 +1,4 @@
-// Puts the batches of recorded track sets together.
+// Assembles recorded track sets from their batches.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace tern {
 
-/// Not the receivers' BatchCollector, which forgets a set as soon as a newer one begins: whichever set a process had
-/// shall be found.
+/// Assembles track sets, also when batches of different sets are mixed. (The BatchCollector of the receivers drops a
+/// set when a newer one begins; a reader of logs must find every set that some process received.)
 class RecordedSets {
  public:
-  /// @return the whole set when `batch` completed it.
+  /// Adds a batch. @return the complete set if this batch completes it
   std::optional<TrackSet> add(const TrackSet& batch) {
     const std::pair key{batch.header.name.sender_epoch_us, batch.batch.set};
     auto& parts = unfinished_[key];
@@ -36,7 +36,7 @@ class RecordedSets {
     return join_batches(std::move(batches));
   }
 
-  /// Sets of which a batch is missing although a later set of that sender is whole.
+  /// Returns the number of incomplete sets whose sender has a later complete one.
   [[nodiscard]] std::int64_t incomplete() const {
     std::int64_t count = given_up_;
     for (const auto& [key, parts] : unfinished_) {
@@ -47,11 +47,11 @@ class RecordedSets {
   }
 
  private:
-  /// Sets that never become complete are given up, the oldest first, when so many others are begun.
+  /// If more sets than this are incomplete, the oldest one is dropped.
   static constexpr std::size_t kMaxUnfinished = 32;
 
   std::map<std::pair<std::int64_t, std::int64_t>, std::map<std::int32_t, TrackSet>> unfinished_;
-  std::map<std::int64_t, std::int64_t> newest_;  ///< complete set, by sender
+  std::map<std::int64_t, std::int64_t> newest_;  ///< newest complete set, by sender
   std::int64_t given_up_ = 0;
 };
 

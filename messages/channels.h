@@ -65,8 +65,7 @@ inline constexpr bool kLatched = true, kStream = false;
 /// The state of the vehicle as estimated.
 inline constexpr Channel<UavState> kUavState{
     "UAV_STATE", Scope::Vehicle, "100 Hz", kStream, Role::Vehicle, kSilence};
-/// The state of the vehicle as commanded; besides the regular ones, a setpoint for each knot of the committed
-/// trajectory.
+/// The state of the vehicle as commanded: at a fixed rate, and at each knot of the committed trajectory.
 inline constexpr Channel<UavState> kSetpoint{
     "SETPOINT", Scope::Vehicle, "100 Hz", kStream, Role::Executor, kShortSilence};
 /// Whether the vehicle follows its setpoints and why not; armed, landed, mode, battery, health of the estimator.

@@ -19,8 +19,8 @@ using Bytes = std::vector<std::uint8_t>;
 template <class T>
 Bytes encode(const T& value);
 
-/// Returns the value of a message, or the reason for its refusal. It never throws and allocates no more memory than
-/// the message's size requires. The checks are, in this order:
+/// Returns the value of a message, or the reason for its refusal. It never throws, and the message's size bounds its
+/// memory. The checks are, in this order:
 ///
 /// 1. the fingerprint;
 /// 2. the counts, which lie at fixed offsets;
@@ -42,8 +42,8 @@ inline constexpr const char* kLcmType<VehicleStatus> = "vehicle_status_t";
 /// Inconsistent: two detections have the same track id.
 template <>
 inline constexpr const char* kLcmType<ObservationSet> = "observation_set_t";
-/// Inconsistent: the tracks' piece counts do not sum to the number of pieces; two tracks have the same id; a static
-/// track moves or has several pieces.
+/// Inconsistent: the tracks' piece counts do not sum to the number of pieces. Also: two tracks have the same id; a
+/// static track moves or has several pieces.
 template <>
 inline constexpr const char* kLcmType<TrackSet> = "track_set_t";
 template <>
@@ -58,8 +58,8 @@ inline constexpr const char* kLcmType<Goal> = "goal_t";
 /// flight box is empty.
 template <>
 inline constexpr const char* kLcmType<HorizonRequest> = "horizon_request_t";
-/// Inconsistent: a certificate plane names an interval or part beyond those of the trajectory; the length of a normal
-/// differs from 1 by more than 1e-6. The executor and the audit judge the trajectory itself.
+/// Inconsistent: a certificate plane names an interval or part beyond those of the trajectory. Also: the length of a
+/// normal differs from 1 by more than 1e-6. The executor and the audit judge the trajectory itself.
 template <>
 inline constexpr const char* kLcmType<Plan> = "plan_t";
 template <>

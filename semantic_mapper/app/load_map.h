@@ -1,4 +1,4 @@
-// A scenario and its mapper section become a map: finds and reads the files.
+// Makes the map of a scenario; finds and reads the point cloud files.
 #pragma once
 
 #include "core/world/scenario.h"
@@ -7,14 +7,15 @@
 
 namespace tern {
 
-/// The map of the scenario's regions, the configured point clouds and, where asked for, its static obstacles. With
-/// semantics off only what is occupied stays. Files are sought as given if absolute; else beside the scenario, then in
-/// data_folder().
-/// @param environment  TERN_DATA's value, may be null
-/// @throws ConfigError that names the key and the file: not found, unreadable, refused by its reader; a map too large.
+/// Returns the map of the scenario's regions, the configured point clouds and, if configured, its static obstacles.
+/// With `semantics.enabled: false` only occupied voxels remain. Relative file names are searched in the scenario's
+/// folder, then in data_folder().
+/// @param environment  value of TERN_DATA; may be null
+/// @throws ConfigError with key and file, if a file is missing, unreadable or refused by its reader, or if the map
+///   would be too large
 VoxelMap load_map(const Scenario& scenario, const MapperConfig& config, const char* environment);
 
-/// No point cloud may be larger, bytes.
+/// The largest point cloud file, bytes.
 inline constexpr std::uintmax_t kMaxCloudBytes = 4'000'000'000;
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// The section `mapper:` of a scenario file.
+// The section `mapper:` of a scenario.
 #pragma once
 
 #include <optional>
@@ -12,28 +12,32 @@
 
 namespace tern {
 
+/// The file format of a point cloud.
 enum class CloudFormat { Las, Ply };
 
+/// One point cloud: its file and how its points become voxels (CloudLayer).
 struct CloudSource {
-  std::string file;  ///< as the scenario names it
+  std::string file;  ///< as written in the scenario
   CloudFormat format = CloudFormat::Las;
   PointFrame frame;
   int min_points = 1;
   double point_radius = 0.0;            ///< m
   std::vector<std::string> fill_below;  ///< class names
-  ConfigSection section;                ///< where it was read: for errors that show only when the file is opened
+  ConfigSection section;                ///< the section, for errors that are found when the file is opened
 };
 
+/// The configuration of tern-mapper.
 struct MapperConfig {
   double resolution = 0.25;    ///< m
   std::optional<Box> extents;  ///< W, m
   VoxelLabel background = VoxelLabel::Free;
   bool voxelize_obstacles = false;
-  std::vector<std::pair<std::string, VoxelLabel>> classes;  ///< point clouds': class or group name → label
+  std::vector<std::pair<std::string, VoxelLabel>> classes;  ///< of point clouds: class or group name → label
   std::vector<CloudSource> sources;
 };
 
-/// Reads and finishes the section; README.md is the table of keys. @throws ConfigError.
+/// Reads the section and checks that it has no further keys. The keys are listed in docs/reference/keys.md.
+/// @throws ConfigError
 MapperConfig read_mapper_config(ConfigSection section);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// tern-mapper: a map, published for ever in chunks.
+// The node of tern-mapper: publishes a map in chunks, again and again.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace tern {
 
-/// A rotation begins every second, or when the one before is done.
+/// A rotation of all chunks begins every second, or when the last rotation ends.
 inline constexpr Duration kMapPeriod{1'000'000};
-/// SEMANTIC_MAP takes no more than this of the network, bytes/s.
+/// The largest rate of SEMANTIC_MAP, bytes/s.
 inline constexpr std::int64_t kMapBytesPerSecond = 1'000'000;
 
-/// Publishes the chunks of a map in rotation: one at a time, at least kPacing apart and kMapBytesPerSecond on average.
-/// So a small map is whole once a second, and a large one repeats without a pause.
+/// Publishes the chunks of a map in rotation. Chunks are at least kPacing apart, and their rate is at most
+/// kMapBytesPerSecond. A small map is therefore complete once a second; a large one is repeated without pause.
 class MapperNode final : public Node {
  public:
-  /// @throws std::invalid_argument when the map takes more than kMaxMapChunks.
+  /// @throws std::invalid_argument if the map needs more than kMaxMapChunks chunks
   MapperNode(Bus& bus, const VoxelMap& map);
 
   [[nodiscard]] UTime next_wakeup() const override { return next_; }
@@ -31,12 +31,12 @@ class MapperNode final : public Node {
  private:
   Bus& bus_;
   std::vector<MapChunk> chunks_;
-  std::size_t at_ = 0;  // the next chunk
+  std::size_t at_ = 0;  // index of the next chunk
   UTime rotation_began_;
   UTime next_;
 };
 
-/// The node of a process: reads the section, loads the map, says what is in it. @throws ConfigError.
+/// Returns the node of tern-mapper: reads its section, loads the map and logs its content. @throws ConfigError
 std::unique_ptr<Node> make_mapper_node(ProcessContext& context);
 
 }  // namespace tern

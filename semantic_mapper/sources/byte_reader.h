@@ -1,4 +1,4 @@
-// Numbers at given offsets of a file's bytes, in either byte order.
+// Reads numbers of either byte order from a file's bytes.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@
 
 namespace tern {
 
-/// The number that starts at `offset`, stored in `order`. @pre offset + sizeof(T) ≤ bytes.size()
+/// Returns the number at `offset`, stored in byte order `order`. @pre offset + sizeof(T) ≤ bytes.size()
 template <class T>
 T read_number(std::span<const std::uint8_t> bytes, std::size_t offset, std::endian order = std::endian::little) {
   static_assert(std::is_arithmetic_v<T>);

@@ -1,4 +1,4 @@
-// PLY point clouds with a class per vertex (Turk, "The PLY Polygon File Format", 1994).
+// Reader of PLY point clouds with a class per vertex (Turk, "The PLY Polygon File Format", 1994).
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,18 @@
 
 namespace tern {
 
-/// The vertices of an ASCII, little-endian or big-endian binary PLY file. Of each vertex x, y, z are read, and the
-/// class: the first of the properties `label`, `class`, `classification`, `class_id`, `semantic`, `scalar_Label`,
-/// `scalar_Classification`. A file without any of them gives class 0. Other scalar properties are passed over; elements
-/// after the vertices are not looked at.
+/// Returns the vertices of an ASCII or a little-endian or big-endian binary PLY file. O(bytes).
 ///
-/// Errors name `file`, offset, value and limit. It fails for no PLY, a header beyond kMaxPlyHeader bytes, elements
-/// before the vertices, list properties in a vertex, unknown types, properties given twice. It also fails for more
-/// vertices than kMaxCloudPoints or than the file has, and coordinates beyond kMaxCoordinate in W. Text must be a
-/// number, and a class an integer in [0, 255]. O(bytes).
+/// The properties x, y, z and the class are read. The class is the first of the properties `label`, `class`,
+/// `classification`, `class_id`, `semantic`, `scalar_Label`, `scalar_Classification`; without any of them it is 0.
+/// Other scalar properties, and elements after the vertices, are ignored.
+///
+/// An Error names `file`, offset, value and limit. Errors are:
+///
+/// * another format, or a header of more than kMaxPlyHeader bytes;
+/// * elements before the vertices, list properties in a vertex, unknown types, a property given twice;
+/// * more vertices than kMaxCloudPoints, or than the file holds;
+/// * text that is no number, a class outside [0, 255] or with a fraction, coordinates beyond kMaxCoordinate in W.
 Result<PointCloud> parse_ply(std::span<const std::uint8_t> bytes, const std::string& file, const PointFrame& frame);
 
 inline constexpr std::size_t kMaxPlyHeader = 65'536;

@@ -1,4 +1,4 @@
-// A labelled point cloud becomes voxels.
+// Labels voxels from a point cloud.
 #pragma once
 
 #include "semantic_mapper/voxel_map/map_builder.h"
@@ -6,10 +6,14 @@
 
 namespace tern {
 
-/// Paints a cloud. Each point marks its voxel and those whose centre lies within point_radius. A voxel with at least
-/// min_points marks of one label is painted with it, under the class with the most marks (ties: the lower number).
-/// Columns below voxels of the fill_below classes are painted alike, down to the map's floor. So an airborne scan's
-/// roofs become solid buildings. Points outside the grid are left out.
+/// Labels the voxels of a point cloud.
+///
+/// 1. Each point marks its voxel, and all voxels whose centre lies within point_radius. Points outside the grid are
+///    ignored.
+/// 2. A voxel with at least min_points marks of one label gets that label. Its class is the one with the most marks;
+///    of equal counts, the one with the lower number.
+/// 3. The column below a voxel of a fill_below class gets the same label, down to the map's floor. The roofs of an
+///    airborne scan so become solid buildings.
 void paint_cloud(const CloudLayer& cloud, VoxelPainter& painter);
 
 }  // namespace tern

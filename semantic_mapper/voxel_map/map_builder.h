@@ -1,4 +1,4 @@
-// Regions, boxes and point clouds become one labelled voxel map.
+// Builds one labelled voxel map from regions, boxes and point clouds.
 #pragma once
 
 #include <array>
@@ -15,48 +15,53 @@
 
 namespace tern {
 
-/// What a class means: a label, under a name.
+/// The label of a class and the class name under which voxels get it.
 struct ClassMeaning {
   std::string name;
   VoxelLabel label = VoxelLabel::Unknown;
 };
 
-/// A point cloud and how its points become voxels.
+/// A point cloud, and how its points become voxels.
 struct CloudLayer {
   PointCloud points;
-  std::array<std::optional<ClassMeaning>, 256> classes;  ///< by class number; none: such points are left out
-  std::array<bool, 256>
-      fill_below{};           ///< voxels of these classes stand on columns of the same, down to the map's floor
-  double point_radius = 0.0;  ///< m, ≥ 0: a point marks every voxel whose centre is this near (and its own)
-  int min_points = 1;         ///< ≥ 1: a voxel needs so many points of one label
+  std::array<std::optional<ClassMeaning>, 256> classes;  ///< by class number; nullopt: such points are left out.
+  /// By class number; true: the columns below such voxels are filled, down to the map's floor.
+  std::array<bool, 256> fill_below{};
+  double point_radius = 0.0;  ///< m, ≥ 0: a point marks its voxel and every voxel whose centre is this near
+  int min_points = 1;         ///< ≥ 1: number of marks of one label that a voxel needs
 };
 
+/// The sources of a map.
 struct MapSources {
   std::vector<Region> regions;
-  std::vector<std::pair<std::string, VoxelLabel>> region_classes;  ///< class name → label, for every region's class
-  std::vector<Box> obstacles;                                      ///< become occupied, class "obstacle"
+  std::vector<std::pair<std::string, VoxelLabel>>
+      region_classes;          ///< class name → label, for the class of every region
+  std::vector<Box> obstacles;  ///< occupied, with the class "obstacle"
   std::vector<CloudLayer> clouds;
 };
 
+/// The grid of a map and its background.
 struct MapBuildOptions {
   double resolution = 0.25;       ///< m, > 0
-  std::optional<Box> extents;     ///< of the map; without: bounds of all sources, and what `include` adds
-  Box include;                    ///< added to the bounds when that takes no more than kMaxRoomyVoxels (the flight box)
-  Vec3 somewhere = Vec3::Zero();  ///< where the single voxel lies of a map that would be empty
-  VoxelLabel background = VoxelLabel::Free;  ///< of voxels that no source speaks of
+  std::optional<Box> extents;     ///< W, m; nullopt: the bounds of all sources, enlarged by `include`
+  Box include;                    ///< added to the bounds if the map then has at most kMaxRoomyVoxels (the flight box)
+  Vec3 somewhere = Vec3::Zero();  ///< W, m: position of the single voxel of a map without sources
+  VoxelLabel background = VoxelLabel::Free;  ///< label of voxels without a source
 };
 
-/// Where a map's extents are our choice, it stays handy.
+/// `include` enlarges the bounds only if the map then has at most this many voxels.
 inline constexpr std::int64_t kMaxRoomyVoxels = 8'000'000;
 
-/// Where sources disagree about a voxel, the stronger label stays: occupied > repulsive > attractive > free > unknown.
-/// Of equal labels the first source's class stays, regions before obstacles before clouds.
+/// Returns the map of all sources. O(voxels + points·(point_radius/resolution)³ + points·log(points)).
 ///
-/// Regions labelled occupied and obstacles mark every voxel that they overlap, so nothing solid is lost. (A prism also
-/// marks voxels whose square only comes within the half-diagonal of its outline.) Other regions mark the voxels whose
-/// centre they contain. The grid's corner lies on a multiple of the resolution, so equal sources give equal voxels
-/// whatever the extents. Sources outside the extents are cut. Fails when the map would have more than kMaxVoxels,
-/// naming extents and limits. O(voxels + points·(point_radius/resolution)³ + points·log(points)).
+/// 1. If sources disagree about a voxel, the stronger label is kept: occupied > repulsive > attractive > free >
+///    unknown. Of equal labels the class of the first source is kept: regions, then obstacles, then clouds.
+/// 2. Occupied regions and obstacles mark every voxel that they overlap. (A prism also marks voxels within half a
+///    voxel's diagonal of its outline.) Other regions mark the voxels whose centre they contain.
+/// 3. The grid's corner is a multiple of the resolution, so the voxels do not depend on the extents. Sources are cut
+///    at the extents.
+///
+/// @return an Error with extents and limits if the map would have more than kMaxVoxels
 Result<VoxelMap> build_map(const MapSources& sources, const MapBuildOptions& options);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// Labels voxels one after the other; the stronger label stays.
+// Labels voxels one by one; the stronger label is kept.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,27 @@
 
 namespace tern {
 
+/// A map in the making.
 class VoxelPainter {
  public:
   VoxelPainter(const VoxelGrid& grid, VoxelLabel background);
 
-  /// The index of a class name, entered when it is new. @throws std::length_error beyond kMaxMapClasses.
+  /// Returns the index of a class name and adds the name if it is new.
+  /// @throws std::length_error if there would be more than kMaxMapClasses
   std::uint8_t class_index(const std::string& name);
-  /// Labels a voxel unless it carries a label as strong or stronger. @pre index in [0, grid.voxels())
+  /// Labels a voxel unless it has an equal or a stronger label already. @pre index in [0, grid().voxels())
   void paint(std::int64_t index, VoxelLabel label, std::uint8_t class_index);
-  /// Paints the voxels that meet `region` and for which `inside` (given the voxel's box) holds.
+  /// Labels the voxels that overlap `region` and for whose box `inside` returns true.
   void paint_if(const Box& region, VoxelLabel label, std::uint8_t class_index,
                 const std::function<bool(const Box&)>& inside);
 
   [[nodiscard]] const VoxelGrid& grid() const { return map_.grid; }
-  /// The map with its version. The painter is empty afterwards.
+  /// Returns the map with its version. The painter is empty afterwards.
   VoxelMap finish();
 
  private:
   VoxelMap map_;
-  std::vector<std::uint8_t> strength_;  ///< of what was painted; 0: background
+  std::vector<std::uint8_t> strength_;  ///< strength of each voxel's label; 0: background
 };
 
 }  // namespace tern
