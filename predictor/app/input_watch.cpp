@@ -7,7 +7,7 @@ namespace tern {
 
 void InputWatch::used(const std::string& input, UTime now) {
   std::erase_if(used_, [now](const auto& entry) {
-    return entry.second.times < kExpectedAfter && now - entry.second.last > kTroubleSaid;
+    return entry.second.times < kExpectedAfter && now - entry.second.last > kTroubleReported;
   });
   if (used_.size() >= kMaxInputs && !used_.contains(input)) return;
   Use& use = used_[input];
@@ -17,7 +17,7 @@ void InputWatch::used(const std::string& input, UTime now) {
 
 void InputWatch::trouble(const std::string& kind, const std::string& text, UTime now) {
   const auto [found, is_new] = troubles_.try_emplace(kind);
-  if (is_new || now - found->second.at > kTroubleSaid) spdlog::warn("{}", text);
+  if (is_new || now - found->second.at > kTroubleReported) spdlog::warn("{}", text);
   found->second = {text, now};
 }
 
@@ -35,7 +35,7 @@ std::string InputWatch::silent(UTime now) const {
 std::string InputWatch::troubles(UTime now) const {
   std::string text;
   for (const auto& [kind, trouble] : troubles_) {
-    if (now - trouble.at <= kTroubleSaid) text += (text.empty() ? "" : "; ") + trouble.text;
+    if (now - trouble.at <= kTroubleReported) text += (text.empty() ? "" : "; ") + trouble.text;
   }
   return text;
 }

@@ -16,8 +16,8 @@ PredictorConfig read_predictor_config(ConfigSection section) {
   }
   const std::size_t pieces = piece_ends(tracker.prediction).size() - 1;
   if (pieces > static_cast<std::size_t>(kMaxPiecesPerBatch)) {
-    throw section.error("piece_s", std::to_string(pieces) + " pieces up to horizon_s are more than a message takes, " +
-                                       std::to_string(kMaxPiecesPerBatch) + ": longer pieces, or piece_growth");
+    throw section.error("piece_s", std::to_string(pieces) + " pieces up to horizon_s are more than a message holds, " +
+                                       std::to_string(kMaxPiecesPerBatch) + ": set longer pieces, or piece_growth");
   }
   return config;
 }

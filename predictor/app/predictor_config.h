@@ -11,9 +11,9 @@ enum class PredictorModel { Declared, Detections, Both };
 struct PredictorConfig {
   PredictorModel model = PredictorModel::Both;
   double rate_hz = 20.0;
-  TrackerConfig tracker;  ///< its prediction.horizon serves the declared model too
+  TrackerConfig tracker;  ///< its prediction.horizon also cuts declared tracks
 
-  /// Between published sets.
+  /// The time between two published sets.
   [[nodiscard]] Duration period() const { return Duration::from_seconds(1.0 / rate_hz); }
 
   template <typename V>
@@ -23,29 +23,33 @@ struct PredictorConfig {
       KnobWords<PredictorModel>{{"declared", PredictorModel::Declared},
                                 {"detections", PredictorModel::Detections},
                                 {"both", PredictorModel::Both}},
-      "`declared`: declared motions alone, detections are ignored. `detections`: detections alone. `both`: "
-      "declared motions, and estimates of what they do not explain");
-    v("rate_hz", rate_hz, Range{1.0, 100.0}, "sets per second");
-    v("horizon_s", prediction.horizon, Range{0.1, 30.0}, "how far predictions reach, s");
-    v("piece_s", prediction.piece, Range{0.05, 5.0}, "length of the first pieces, s; at most 460 over the horizon");
-    v("piece_growth", prediction.piece_growth, Range{0.0, 1.0}, "a piece is at least so much of the time before it");
+      "source of tracks. `declared`: declared motions. `detections`: detections. `both`: declared motions, and "
+      "detections that they do not explain");
+    v("rate_hz", rate_hz, Range{1.0, 100.0}, "sets of predictions per second");
+    v("horizon_s", prediction.horizon, Range{0.1, 30.0}, "how far ahead predictions reach, s");
+    v("piece_s", prediction.piece, Range{0.05, 5.0},
+      "length of the first pieces, s; at most 460 pieces over the horizon");
+    v("piece_growth", prediction.piece_growth, Range{0.0, 1.0},
+      "least length of a piece, as a share of the time from the start of the prediction to the piece");
     v("confidence", prediction.confidence, Range{0.5, 0.999999},
-      "probability that a track keeps its α over all its pieces");
+      "probability that the prediction interval covers a track over the whole horizon");
     v("max_speed", prediction.max_speed, Range::positive(1e3),
-      "what is new or starts is believed to be no faster, m/s per axis, unless something faster was seen");
-    v("confirm_hits", tracker.confirm_hits, Range{1, 32}, "a track is confirmed by so many detections …");
+      "largest speed of a new or starting track, m/s per axis; a faster speed that was seen replaces it");
+    v("confirm_hits", tracker.confirm_hits, Range{1, 32}, "a track is confirmed by this many detections …");
     v("confirm_window", tracker.confirm_window, Range{1, 32},
-      "… in its first so many frames of the sensor that saw it last (others' frames count when they see it too)");
-    v("coast_s", tracker.coast, Range{0.0, 60.0}, "how long a confirmed track outlives its last detection, s");
+      "… in its first frames, this many; frames count if they detect the track, or come from the sensor that detected "
+      "it last");
+    v("coast_s", tracker.coast, Range{0.0, 60.0},
+      "how long a confirmed track is predicted after its last detection, s");
     v("remember_rest_s", tracker.remember_rest, Range{0.0, 1e6},
-      "how long what rests outlives its last detection while it is out of the sensor's range, and anything while the "
-      "sensor that saw it is silent and others are not, s");
+      "the same for a stationary track out of the sensor's range, and for any confirmed track whose sensor is silent, "
+      "s");
     v("resting_after_s", tracker.resting_after, Range{0.1, 1e6},
-      "how long something must rest before it is predicted at rest, s; very large: never");
+      "how long a track must be consistent with rest before it is predicted at rest, s; very large: never");
   }
 };
 
-/// Reads and finishes the section. @throws ConfigError.
+/// Reads and checks the section. @throws ConfigError
 PredictorConfig read_predictor_config(ConfigSection section);
 
 }  // namespace tern

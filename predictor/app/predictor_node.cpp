@@ -39,32 +39,34 @@ void PredictorNode::on_declared(const TrackSet& batch) {
   have_input(kDeclaredInput, declared.made_at);
 }
 
-bool PredictorNode::may_speak(const ObservationSet& observations, UTime now) {
-  std::erase_if(speakers_, [now](const auto& entry) { return now - entry.second.at > kSensorSilence; });
-  if (speakers_.size() >= kMaxInputs && !speakers_.contains(observations.sensor_id)) return true;
+bool PredictorNode::is_active_sender(const ObservationSet& observations, UTime now) {
+  std::erase_if(senders_, [now](const auto& entry) { return now - entry.second.at > kSensorSilence; });
+  if (senders_.size() >= kMaxInputs && !senders_.contains(observations.sensor_id)) return true;
   const std::int64_t epoch_us = observations.header.name.sender_epoch_us;
-  Speaker& speaker = speakers_.try_emplace(observations.sensor_id, Speaker{epoch_us, now}).first->second;
-  if (speaker.epoch_us == epoch_us) speaker.at = now;
-  return speaker.epoch_us == epoch_us;
+  Sender& sender = senders_.try_emplace(observations.sensor_id, Sender{epoch_us, now}).first->second;
+  if (sender.epoch_us == epoch_us) sender.at = now;
+  return sender.epoch_us == epoch_us;
 }
 
 void PredictorNode::on_observations(const ObservationSet& observations) {
   const std::string input = fmt::format("obstacle observations of sensor {}", observations.sensor_id);
-  if (!may_speak(observations, bus_.clock().now())) {
+  if (!is_active_sender(observations, bus_.clock().now())) {
     bus_.count_late(channels::kObstacleObservations);
-    return watch_.trouble("speakers", input + ": a second process sends some, which are not used", bus_.clock().now());
+    return watch_.trouble("senders",
+                          input + ": a second process sends sets, which are not used (do two sensors have one id?)",
+                          bus_.clock().now());
   }
   ObservationSet usable = without_explained(observations, declared_);
   if (const std::size_t unusable = remove_unusable(usable); unusable > 0) {
-    const std::string text = fmt::format("{}: {} detections whose standard deviation is above {} m are not used", input,
+    const std::string text = fmt::format("{}: {} detections with a standard deviation above {} m are not used", input,
                                          unusable, kMaxDeviation);
     watch_.trouble("unusable", text, bus_.clock().now());
   }
-  const UpdateOutcome taken = tracker_.update(usable);
-  if (taken == UpdateOutcome::Used) return have_input(input, observations.at);
+  const UpdateOutcome outcome = tracker_.update(usable);
+  if (outcome == UpdateOutcome::Used) return have_input(input, observations.at);
   bus_.count_late(channels::kObstacleObservations);
-  if (taken == UpdateOutcome::Repeated) {
-    const std::string text = input + ": two sets of one instant, the second is ignored (do two sensors have one id?)";
+  if (outcome == UpdateOutcome::Repeated) {
+    const std::string text = input + ": two sets of one time, the second is not used (do two sensors have one id?)";
     watch_.trouble("repeated", text, bus_.clock().now());
   }
 }
@@ -80,7 +82,7 @@ void PredictorNode::step(UTime now) {
   if (now < next_) return;
   publish(now);
   next_ = next_ + config_.period();
-  if (next_ <= now) next_ = now + config_.period();  // what was missed is not made up for
+  if (next_ <= now) next_ = now + config_.period();  // missed periods are skipped
 }
 
 void PredictorNode::publish_bounds(const TrackSet& set, const std::vector<TrackBound>& bounds, UTime now) {
@@ -89,10 +91,10 @@ void PredictorNode::publish_bounds(const TrackSet& set, const std::vector<TrackB
   of.at = now;
   of.confidence = set.confidence;
   for (const Track& track : set.tracks) {
-    // An owner may send estimates, too: of these it knows nothing.
+    // An owner may also declare estimated tracks; they have no bounds here.
     const auto bound = std::ranges::lower_bound(bounds, track.id, {}, &TrackBound::id);
     if (track.kind != TrackKind::Estimated || bound == bounds.end() || bound->id != track.id) continue;
-    of.at = track.motion.start;  // of all of them; later than now if a sensor's clock is ahead
+    of.at = track.motion.start;  // the same for all; later than now if a sensor's clock is ahead
     if (of.bounds.size() < kMaxTrackBounds) {
       of.bounds.push_back(*bound);
     } else {
@@ -108,8 +110,8 @@ void PredictorNode::publish(UTime now) {
   set.made_at = *made_at_;
   const Duration horizon = config_.tracker.prediction.horizon;
   std::vector<TrackBound> bounds;
-  const bool asked = now >= next_bounds_;
-  set.tracks = merged(trimmed(declared_, now, horizon), tracker_.predict(now, asked ? &bounds : nullptr), now);
+  const bool is_bounds_due = now >= next_bounds_;
+  set.tracks = merged(trimmed(declared_, now, horizon), tracker_.predict(now, is_bounds_due ? &bounds : nullptr), now);
   const bool estimated = std::any_of(set.tracks.begin(), set.tracks.end(),
                                      [](const Track& track) { return track.kind == TrackKind::Estimated; });
   set.confidence = estimated ? config_.tracker.prediction.confidence : 1.0;
@@ -118,15 +120,14 @@ void PredictorNode::publish(UTime now) {
   std::vector<TrackSet> batches = split_batches(set);
   if (declared_left_out_ > 0) {
     watch_.trouble("declared left out",
-                   fmt::format("{} declared motions are not known: their owner left them out", declared_left_out_),
-                   now);
+                   fmt::format("{} declared motions are missing: their owner left them out", declared_left_out_), now);
   }
   if (const std::int32_t left_out = batches.front().left_out - declared_left_out_; left_out > 0) {
     const std::string text =
         fmt::format("{} of {} tracks do not fit into a set: the farthest are left out", left_out, set.tracks.size());
     watch_.trouble("left out", text, now);
   }
-  if (asked) publish_bounds(set, bounds, now);
+  if (is_bounds_due) publish_bounds(set, bounds, now);
   bus_.publish_paced(channels::kPredictions, std::move(batches));
 }
 

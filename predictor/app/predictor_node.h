@@ -1,4 +1,4 @@
-// tern-predictor: observations and declared motions in, predictions out.
+// The node of tern-predictor: observations and declared motions in, predictions out.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +20,23 @@
 namespace tern {
 
 inline constexpr Duration kBoundsPeriod{500'000};
-/// So long must the process that speaks for a sensor be silent before another one is heard.
+/// Another process may send a sensor's sets after the first one was silent for this long.
 inline constexpr Duration kSensorSilence{1'000'000};
 
-/// Publishes a complete set of predictions each period from the first input on, for ever: when inputs stop, made_at
-/// stays and the α of what was tracked grows, so that the planner sees for itself how old the world is. A world without
-/// obstacles is an empty set. made_at is the newest of the declared set's made_at and the observations' times, as far
-/// as the model uses them. What is too old or repeated is not used and counted as late, as is what another process says
-/// for a sensor whose own process was heard within kSensorSilence; what is stamped in the future does not come through
-/// the bus.
+/// Receives observations and declared motions, and publishes predictions.
 ///
-/// Waiting until there is an input, while the newest is older than kInputsStopped, and while one that was used is
-/// silent for so long: a dead sensor beside another input does not show in made_at. Troubles (a repeated input, tracks
-/// that do not fit into a set) are said on HEARTBEAT in any state. Why the boxes of estimated tracks are as wide as
-/// they are is published with the first set of each kBoundsPeriod.
+/// - From the first input on, it publishes a complete set of PREDICTIONS each period. An empty world is an empty set.
+/// - made_at is the time of the newest input that the model uses: made_at of a declared set, or the time of an
+///   observation set. When all inputs stop, made_at stays and α of estimated tracks grows, so the planner sees the age.
+/// - Observation sets are counted as late and not used if they are too old, repeated, or sent by a second process. The
+///   bus rejects sets with a time in the future.
+/// - TRACK_BOUNDS, the reason for each estimated track's width, is published with the first set of each kBoundsPeriod.
+///
+/// | HEARTBEAT            | while                                                                          |
+/// |----------------------|--------------------------------------------------------------------------------|
+/// | Waiting              | there was no input; the newest is older than kInputsStopped; an input is silent |
+/// | Ready                | otherwise                                                                      |
+/// | a trouble, any state | it happened within kTroubleReported, for example tracks that do not fit a set  |
 class PredictorNode final : public Node {
  public:
   PredictorNode(Bus& bus, const PredictorConfig& config);
@@ -45,27 +48,27 @@ class PredictorNode final : public Node {
  private:
   void on_declared(const TrackSet& batch);
   void on_observations(const ObservationSet& observations);
-  /// Of a sensor one process is heard at a time, as on a channel with one speaker.
-  bool may_speak(const ObservationSet& observations, UTime now);
+  /// True if the sender is the active one of its sensor: one process per sensor_id, as on a channel with one sender.
+  bool is_active_sender(const ObservationSet& observations, UTime now);
   void have_input(const std::string& input, UTime made_at);
   void publish(UTime now);
-  /// Says why the set's tracks are as wide as they are, in its order. @param bounds  by id ascending
+  /// Publishes the bounds of the set's estimated tracks, in its order. @param bounds  ascending by id
   void publish_bounds(const TrackSet& set, const std::vector<TrackBound>& bounds, UTime now);
 
   Bus& bus_;
   PredictorConfig config_;
   InputWatch watch_;
-  struct Speaker {
+  struct Sender {
     std::int64_t epoch_us = 0;
     UTime at;
   };
-  std::map<std::int32_t, Speaker> speakers_;  // by sensor; none that has fallen silent
+  std::map<std::int32_t, Sender> senders_;  // by sensor; silent ones are removed
   BatchCollector<TrackSet> collector_;
   std::vector<Track> declared_;
   std::int32_t declared_left_out_ = 0;
   Tracker tracker_;
   std::optional<Vec3> vehicle_;   // W, m
-  std::optional<UTime> made_at_;  // none: no input yet
+  std::optional<UTime> made_at_;  // empty: no input yet
   std::int64_t sets_ = 0;
   UTime next_ = kNever;
   UTime next_bounds_;

@@ -122,7 +122,7 @@ TEST_F(BadInput, DetectionsWithAbsurdVariances) {
     absurd.variance = Vec3::Constant(kVariances[static_cast<std::size_t>(k++) % kVariances.size()]);
     return std::vector{detection_of(walker(t), kNoise, rng_), absurd};
   });
-  EXPECT_TRUE(says("detections whose standard deviation is above"));
+  EXPECT_TRUE(says("detections with a standard deviation above"));
   EXPECT_EQ(unheard(), 0) << "one absurd detection must not make a set that the planner refuses";
   EXPECT_GE(held(walker, 0.5, 4.0, 1.0), 0.99) << "what is detected well is predicted as ever";
   for (const TrackSet& set : sets_) {

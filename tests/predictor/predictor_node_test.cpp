@@ -328,7 +328,7 @@ TEST_F(PredictorNodeTest, SaysWhatOwnersLeftOut) {
   run_for(0.15);
   ASSERT_FALSE(sets_.empty());
   EXPECT_EQ(sets_.back().left_out, 12);
-  EXPECT_TRUE(says("12 declared motions are not known: their owner left them out")) << node_->health().waiting_for;
+  EXPECT_TRUE(says("12 declared motions are missing: their owner left them out")) << node_->health().waiting_for;
 }
 
 TEST_F(PredictorNodeTest, CountsObservationsThatComeTooLate) {
@@ -447,7 +447,7 @@ TEST_F(PredictorNodeTest, CountsASetThatComesTwice) {
   observe({}, Duration{100'000}, 1);
   run_for(0.1);
   EXPECT_EQ(late(channels::kObstacleObservations.name), 1);
-  EXPECT_TRUE(says("sensor 1: two sets of one instant")) << node_->health().waiting_for;
+  EXPECT_TRUE(says("sensor 1: two sets of one time")) << node_->health().waiting_for;
 }
 
 }  // namespace
