@@ -16,11 +16,11 @@ struct Assurance {
 };
 
 /// The reduced assurances in the order in which plan_with_reduced_assurance() tries them:
-///  1. α at the full level stops growing after kGrowthTimes · side_step_s. Later motion is predicted again
-///     before the vehicle must act on it.
+///  1. α at the full level stops growing after kGrowthTimes · side_step_s. Later motion is predicted again before
+///     the vehicle must act on it.
 ///  2. α at the levels kReducedLevels, growing for one side step.
-///  3. kAlphaScales of α at the lowest level, growing for one side step. If this α did not grow, a plan could speed up
-///     past an obstacle that is near.
+///  3. kAlphaScales of α at the lowest level, growing for one side step. If this α did not grow, a plan could speed
+///     up past an obstacle that is near.
 /// @param side_step_s  HoldDemand::side_step_s, s
 std::vector<Assurance> reduced_assurances(double side_step_s);
 

@@ -24,16 +24,15 @@ struct GoalFieldOptions {
 
 /// Distances to a goal on the nodes of a rectilinear grid.
 ///
-///  - Search: any-angle Dijkstra from the goal (Lazy Theta*, Nash et al. 2010, without a heuristic). Every reached node
-///    knows a visible turning point on its way to the goal, so paths are not bound to the grid's directions.
+///  - Search: any-angle Dijkstra from the goal (Lazy Theta*, Nash et al. 2010, without a heuristic). Every reached
+///    node knows a visible turning point on its way to the goal, so paths are not bound to the grid's directions.
 ///  - Free space is decided by exact tests: every segment is tested against the boxes. A gap of less than two steps
-///  gets
-///    a grid line at its middle if it has none. The gap may be between two boxes, or between a box and the flight box.
-///    So a window of 0.6 m stays open to a vehicle of 0.2 m in a grid of 0.25 m.
+///    gets a grid line at its middle if it has none. The gap may be between two boxes, or between a box and the
+///    flight box. So a window of 0.6 m stays open to a vehicle of 0.2 m in a grid of 0.25 m.
 ///  - Cost: with a TravelCost the path of least cost is sought instead of the shortest. It leads around repulsive
 ///    regions and through attractive ones as far as that pays.
-///  - Region: the bounds of goal, options.start, obstacles and cost.region, plus a margin, cut by the flight box. Open
-///    worlds (flight boxes of ±10⁴ m) cost as much as their obstacles.
+///  - Region: the bounds of goal, options.start, obstacles and cost.region, plus a margin, cut by the flight box.
+///    Open worlds (flight boxes of ±10⁴ m) cost as much as their obstacles.
 ///
 /// The field is deterministic: ties are broken by node index, and of libm only sqrt is used.
 class GoalField {

@@ -46,8 +46,8 @@ struct ConvexProblem {
 
 /// Room from x0 to every bound, in the bound's unit (m, m/s, m/s², m/s³, m²).
 ///
-/// If x0 lay on opposite bounds, the feasible set would have no interior and the solver would fail; that happened in
-/// one of 10,000 recorded problems. The room is a tenth of the checker's tolerance (kLimitTolerance) for limits of 1. A
+/// If x0 lay on opposite bounds, the feasible set would have no interior, and the solver would fail. That happened in
+/// one of 10,000 recorded problems. For limits of 1 the room is a tenth of the checker's tolerance (kLimitTolerance). A
 /// result that breaks a smaller limit is rejected by the checker.
 inline constexpr double kStartRoom = 1e-7;
 

@@ -53,10 +53,10 @@ struct SearchResult {
 ///
 ///  - Nodes are control points q_l with their index l, from q_2 on. A child is q_{l+1} = q_l + v_l Δt.
 ///  - For children, v_l is sampled uniformly per axis, in the interval that v_max, a_max, j_max and the end at rest
-///    allow (AxisReach, StepReach). One more child aims at the goal. If the goal is outside S, and a step may leave S
-///    or Δt < kShortInterval, this child aims at the border of S instead.
-///  - A node is tested for collision when it is popped, on interval l − 3. A leaf (l = n − 2) is also tested on the two
-///    closing intervals, and for its hold.
+///    allow (AxisReach, StepReach). One more child aims at the goal. If the goal is outside S, and a step may leave
+///    S or Δt < kShortInterval, this child aims at the border of S instead.
+///  - A node is tested for collision when it is popped, on interval l − 3. A leaf (l = n − 2) is also tested on the
+///    two closing intervals, and for its hold.
 ///  - Leaves are ranked by hold ≥ required, then band of the cost-to-go, then f, then index.
 ///  - Bands are counted from 0. With dynamics, and a goal outside S, they are counted from the border of S.
 ///  - The search ends when no open node can win by more than a step of f. It also ends after max_expansions, after

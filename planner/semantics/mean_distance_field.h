@@ -20,10 +20,9 @@ struct MeanDistanceOptions {
 /// or above f. error() bounds the error by a sum of two:
 ///
 ///  - At the nodes: the error of the clusters (either sign), and 1e-6 of the largest value for storage as floats.
-///  - Of the interpolation: for one voxel at distance δ from p at most min(√3/2·h, 3h²/(8(δ − √3h))), with the spacing
-///  h
-///    (1-Lipschitz; |f''| ≤ 1/δ per axis). This is averaged over the worst arrangement of n voxels on their lattice: a
-///    ball about p.
+///  - Of the interpolation: for one voxel at distance δ from p at most min(√3/2·h, 3h²/(8(δ − √3h))), with the
+///    spacing h (1-Lipschitz; |f''| ≤ 1/δ per axis). This is averaged over the worst arrangement of n voxels on
+///    their lattice: a ball about p.
 ///
 /// With h = 0.5 m the bound is a few centimetres for a few hundred cubic metres, and 0.44 m for a single voxel.
 class MeanDistanceField {

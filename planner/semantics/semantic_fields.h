@@ -50,11 +50,10 @@ class DistanceBand {
 /// The mean distance of Eq. 3 and our exposure, for the labels Attractive and Repulsive, with one λ per class.
 ///
 ///  - Exposure e_c(p) is 1 inside class c and decreases linearly to 0 at the margin outside. The repulsive cost per
-///  metre
-///    is max_c λ_c e_c(p). The attractive cost is λ* − max_c λ_c e_c(p), with λ* = max_c λ_c. So costs are never
-///    negative, and overlapping regions of one class cost as much as one.
-///  - Mean distance: C = (1/|M|) Σ_{v ∈ M} w_v ‖p − v‖ over all voxel centres of the label, where w_v is the λ of v's
-///    class. For equal λ this is λ C of Eq. 3.
+///    metre is max_c λ_c e_c(p). The attractive cost is λ* − max_c λ_c e_c(p), with λ* = max_c λ_c. So costs are
+///    never negative, and overlapping regions of one class cost as much as one.
+///  - Mean distance: C = (1/|M|) Σ_{v ∈ M} w_v ‖p − v‖ over all voxel centres of the label, where w_v is the λ of
+///    v's class. For equal λ this is λ C of Eq. 3.
 ///
 /// Fields are immutable. Queries are without allocation and use only sqrt of libm, so that a replay computes the same
 /// bytes. A query takes at most 50 ns per distinct λ inside the grids. Building takes about 0.5 s for 10⁶ labelled

@@ -12,13 +12,11 @@ namespace tern {
 /// (`ahead`).
 ///
 ///  - Exposure: both are integrals of λ-weighted exposure; `ahead` is along the straight line to the local goal. On
-///  that
-///    line the sum is constant, so the search goes deep. Leaving a repulsive region lowers it, as does reaching an
-///    attractive one.
+///    that line the sum is constant, so the search goes deep. Leaving a repulsive region lowers it, as does reaching
+///    an attractive one.
 ///  - Mean distance (Eq. 3): `along` is 0. `ahead` is λ_att C_att − λ_rep C_rep at q, minus the same at the point of
-///  the
-///    straight line with equal progress. Only nodes of equal progress compete, so the order is that of Eq. 2. Progress
-///    is not penalized for coming nearer to a repulsive region.
+///    the straight line with equal progress. Only nodes of equal progress compete, so the order is that of Eq. 2.
+///    Progress is not penalized for coming nearer to a repulsive region.
 class SemanticGuide {
  public:
   /// @param fields  must outlive the guide
