@@ -14,14 +14,14 @@
 namespace tern {
 namespace {
 
-/// Semantics enter Eq. 2 summed along the path and by what is expected of the rest. The guide must outlive the problem
-/// (by pointer: a function that holds more allocates).
+/// Adds the semantic cost to Eq. 2: summed along the path, and expected ahead. The guide must outlive the problem; it
+/// is passed by pointer, because a larger function object would allocate.
 void add_semantics(const SemanticGuide* guide, SearchProblem& problem) {
   problem.accumulated = [guide](const Vec3& a, const Vec3& b) { return guide->along(a, b); };
   problem.pointwise = [guide](const Vec3& q) { return guide->ahead(q); };
 }
 
-/// But for what evaluate() adds.
+/// Returns the terms of the cost that do not depend on the course.
 PlanCost cost_of(const Attempt& attempt, const TimedSpline& trajectory) {
   PlanCost cost;
   const Points& q = trajectory.control_points;

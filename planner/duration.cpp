@@ -30,7 +30,7 @@ double axis_duration(int axis, const MotionSample& start, double d, const Limits
   return time + std::min(a / limits.j_max[axis], std::sqrt(peak / limits.j_max[axis]));
 }
 
-/// Brakes to rest and flies on, or back, from there.
+/// Returns the time to brake to rest and then to fly on, or back, to d, s.
 double stop_and_go(int axis, const MotionSample& start, double d, const Limits& limits) {
   const double v_max = limits.v_max[axis];
   const double a = limits.a_max[axis];

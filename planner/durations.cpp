@@ -16,7 +16,7 @@ PlanReason reason_of_nothing(const Surroundings& near, const Budget& budget) {
   return budget.cuts().empty() ? PlanReason::Infeasible : PlanReason::OutOfTime;
 }
 
-/// Whether a longer duration need not be tried.
+/// Returns whether the loop ends before the next, longer duration.
 bool is_enough(const Surroundings& near, const Course& course, const Incumbent& incumbent, Budget& budget) {
   const std::optional<Candidate>& best = incumbent.best();
   if (!best) return false;

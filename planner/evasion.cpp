@@ -36,11 +36,11 @@ struct Stop {
   Vec3 point = Vec3::Zero();
   Duration interval;     ///< Δt of the way there
   double way_s = 0.0;    ///< J Δt
-  bool hurries = false;  ///< the quicker pace: a search may well find it too quick
-  double clear_s = 0.0;  ///< forecast: when the way there, or resting there, first meets an obstacle's box
+  bool hurries = false;  ///< the quick pace, which the search may not reach
+  double clear_s = 0.0;  ///< forecast time until the way there, or the rest there, first touches an obstacle's box, s
 };
 
-/// How far away stops are tried, m. Room is sought far away only.
+/// Returns the distances of stops, m; for Room only the far ones.
 std::vector<double> distances(const Surroundings& near, Phase phase) {
   const double r = near.config.sphere_radius_m;
   std::vector<double> all;
@@ -53,7 +53,7 @@ std::vector<double> distances(const Surroundings& near, Phase phase) {
   return all;
 }
 
-/// Where all stops are forecast: the sphere, for so long.
+/// Sweeps all obstacles in the sphere for duration_s, at most kMaxForecast.
 const SweptObstacles& sweep_forecast(const Surroundings& near, double duration_s, PlanWorkspace& memory) {
   std::vector<double>& times = memory.times;
   times.assign(1, 0.0);
@@ -64,7 +64,8 @@ const SweptObstacles& sweep_forecast(const Surroundings& near, double duration_s
   return swept;
 }
 
-/// A smooth way from the start to rest at the stop (a cubic in time), sampled once per step of the forecast.
+/// Returns when a smooth way from the start to rest at the stop (a cubic in time) first enters an obstacle's box. It is
+/// sampled once per step of the forecast.
 double forecast(const SweptObstacles& swept, const MotionSample& start, const Stop& stop) {
   for (int k = 0; k < swept.intervals(); ++k) {
     const double middle = 0.5 * (swept.time(k) + swept.time(k + 1));
@@ -79,12 +80,12 @@ double forecast(const SweptObstacles& swept, const MotionSample& start, const St
   return swept.time(swept.intervals());
 }
 
-/// Of equal forecasts those at leisure come first, then the sooner ones.
+/// Orders by the longer forecast, then the slow pace, then the shorter way.
 bool comes_first(const Stop& a, const Stop& b) {
   return std::make_tuple(-a.clear_s, a.hurries, a.way_s) < std::make_tuple(-b.clear_s, b.hurries, b.way_s);
 }
 
-/// @return nullopt if the point is outside the flight box, or the pace too slow to be flown
+/// Returns the stop at a point. @return nullopt if it is outside the flight box, or its Δt is too long
 std::optional<Stop> stop_at(const Surroundings& near, const Box& box, const Vec3& point, double pace) {
   if (!box.contains(point)) return std::nullopt;
   const double least = min_duration(near.request.start, point, near.pace_limits);
@@ -93,7 +94,7 @@ std::optional<Stop> stop_at(const Surroundings& near, const Box& box, const Vec3
   return Stop{point, *interval, interval->seconds() * near.config.intervals, pace < kStopScale, 0.0};
 }
 
-/// All stops within the flight box, the best forecast first.
+/// Returns the best kMaxStops stops within the flight box, the best forecast first.
 std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorkspace& memory) {
   const Box box = centre_box(near.request.flight_box, near.request.body);
   std::vector<Stop> stops;
@@ -117,7 +118,7 @@ std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorks
   return stops;
 }
 
-/// From the end point to the nearest obstacle's box in the first interval after the end, m.
+/// Returns the distance from the end point to the nearest obstacle's box in the first interval after the end, m.
 double room_at_end(const SweptObstacles& swept, int intervals, const TimedSpline& trajectory) {
   const Vec3 end = trajectory.control_points.col(trajectory.control_points.cols() - 1);
   double room = std::numeric_limits<double>::infinity();

@@ -11,7 +11,8 @@
 namespace tern {
 namespace {
 
-/// What is left of the motion from t_s on, and the ends of its pieces, from 0.
+/// Returns the pieces of the committed trajectory from t_s on. `times` receives their ends in seconds after t_s, from
+/// 0.
 std::vector<PowerCubic> remaining_pieces(const HorizonRequest& request, std::vector<double>& times) {
   const TimedSpline& committed = request.committed;
   std::vector<PowerCubic> pieces;

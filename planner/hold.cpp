@@ -29,8 +29,8 @@ double side_step_time(const Limits& limits, const Vec3& body_half, const Vec3& m
 
 namespace {
 
-/// How long from t_s on α, if it grows to the end, stays within `width`, s: beyond, a prediction says little more than
-/// that it may be there.
+/// Returns for how long after t_s the growing α stays within `width`, s. Beyond that, a prediction says little more
+/// than that the obstacle may be there.
 double known_for(const PlanningObstacle& obstacle, double width, UTime t_s) {
   const PiecewiseCubic& motion = obstacle.track->motion;
   const AlphaShare growing{obstacle.alpha.level, obstacle.alpha.scale};
@@ -47,7 +47,8 @@ double middle_of(Vec3 sides) {
   return sides[1];
 }
 
-/// The longest of side_step_time() out of their ways. A box no larger than another one on any axis asks no more.
+/// Returns the longest side_step_time() over all movers. A mover that is no larger than an earlier one on any axis is
+/// skipped.
 double max_side_step_time(const HorizonRequest& request, const std::vector<PlanningObstacle>& obstacles) {
   const Limits limits = per_axis_limits(request.limits);
   std::vector<Vec3> sizes;

@@ -56,8 +56,8 @@ Plan Incumbent::choose(PlanReason reason) const {
   return stays ? committed_plan(PlanReason::WorsePlan) : filled(&*best_, PlanReason::None);
 }
 
-/// Of two ends that do not hold, the one that stays clear longer leaves more time to step aside. (Of estimates the
-/// farther future is known worse: there it is the arrival that counts.)
+/// If neither end holds, the candidate that stays clear for less time is worse: it leaves less time to step aside.
+/// Among estimates the arrival decides instead, because their far future is hardly known.
 bool Incumbent::is_worse_than_committed(const Candidate& candidate) const {
   if (!committed_) return false;
   const bool neither_holds = !candidate.holds && !committed_->holds;
@@ -69,7 +69,8 @@ bool Incumbent::makes_progress(const Candidate& candidate) const {
   return progress_share(near_.request.start.p, blank_.local_goal, candidate.trajectory) > kMinProgress;
 }
 
-/// To stay at rest is no way to arrive, however early it is estimated to.
+/// At rest, of two candidates with equal holds, the one that makes progress is better, whatever the estimated arrivals
+/// are. Otherwise is_preferred_to() decides.
 bool Incumbent::is_better_than_best(const Candidate& candidate) const {
   if (!best_) return true;
   const bool leads = makes_progress(candidate);
@@ -77,9 +78,9 @@ bool Incumbent::is_better_than_best(const Candidate& candidate) const {
   return candidate.is_preferred_to(*best_);
 }
 
-/// What leads nowhere while the committed one leads on; from rest, also what ends where that does, but later.
-/// (Half-way, a later one is faster, and its arrival is estimated as earlier. If it were flown for that, it would be
-/// put off again at the next request, for ever.)
+/// Returns true if the committed trajectory makes progress and the candidate does not. From rest it also returns true
+/// if both end at the same point and the candidate later. Such a candidate is faster half-way, so its arrival is
+/// estimated as earlier. If it replaced the committed trajectory, the departure would be delayed at every request.
 bool Incumbent::is_delayed(const Candidate& candidate) const {
   if (candidate.holds != committed_->holds) return false;
   if (makes_progress(*committed_) && !makes_progress(candidate)) return true;
@@ -89,9 +90,9 @@ bool Incumbent::is_delayed(const Candidate& candidate) const {
   return apart.norm() < kMinApproach;
 }
 
-/// A vehicle at rest gains nothing by waiting: a plan that gets nearer is flown even if it arrives as late, or later by
-/// kMaxArrivalLoss. Who has waited flies it whenever it arrives. (Arrivals are counted per axis. Where one axis is
-/// slow, those of rest and of a plan that begins gently are equal. A plan that strays on that axis arrives later.)
+/// At rest, a candidate that ends nearer to the goal is flown if it arrives at most kMaxArrivalLoss later than staying.
+/// After kMaxWaitAtRest it is flown whatever its arrival. Arrivals are counted per axis: a plan that begins gently, or
+/// strays on a slow axis, may arrive no earlier than staying does.
 bool Incumbent::departs_from_rest() const {
   if (!is_at_rest(near_.request) || best_->holds != committed_->holds) return false;
   if (time_at_rest_s(near_.request) <= kMaxWaitAtRest && best_->arrival_s > committed_->arrival_s + kMaxArrivalLoss)

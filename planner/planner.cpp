@@ -16,7 +16,7 @@
 namespace tern {
 namespace {
 
-/// What every answer to the request says.
+/// Returns the fields that are the same in every answer to the request.
 Plan blank_plan(const HorizonRequest& request, const PlanningWorld& world, const PlannerConfig& config) {
   Plan p;
   p.request_id = request.id;
@@ -42,21 +42,24 @@ bool is_usable(const PlanningWorld& world, const HorizonRequest& request, const 
   return (request.header.utime - world.predictions->set.made_at).seconds() <= config.stale_after_s;
 }
 
-/// At rest where it shall be: nothing to do but to stay clear.
+/// Returns whether the vehicle is at rest at the goal, or at rest and told to hold or stop. It then only has to stay
+/// clear.
 bool has_reached_goal(const HorizonRequest& request, const Goal& goal, const PlannerConfig& config) {
   if (!is_at_rest(request)) return false;
   return goal.mode != GoalMode::Go || (request.start.p - goal.position).norm() <= config.goal_tolerance_m;
 }
 
-/// The path around static obstacles. @return nullopt if there is none; empty for who shall hold or stop
+/// Returns the path around static obstacles; nullopt if there is none, empty if the goal is to hold or stop.
 std::optional<std::vector<Vec3>> path_to_goal(const GoalProducts& goal, const Vec3& from) {
   if (goal.goal.mode != GoalMode::Go) return std::vector<Vec3>{};
   return goal.field->path_from(from);
 }
 
-/// Smaller and smaller steps, while nothing gets on. @param course_at  heads along the path, to a local goal so far
-/// away
-/// @param reason  why nothing was found so far @return why there is nothing
+/// Tries smaller and smaller steps until a candidate makes progress.
+/// @param course_at  returns the course along the path with a local goal at a radius
+/// @param course     changed to the last course
+/// @param reason     the reason if there is no plan so far
+/// @return the reason if there is no plan
 PlanReason try_smaller_steps(const Surroundings& near, const auto& course_at, Course& course, PlanReason reason,
                              Incumbent& incumbent, PlanTools& tools) {
   for (int k = 0; k < kSmallerSteps && !incumbent.makes_progress(); ++k) {
@@ -74,7 +77,7 @@ bool needs_evasion(const Incumbent& incumbent, const Fallback& fallback) {
   return fallback.is_hit_at_rest || !(incumbent.committed() && incumbent.committed()->holds);
 }
 
-/// The reachable stop that stays clear longest, if that is longer than what stands.
+/// Replaces the best candidate by an evasion, if that stays clear longer than the best and the committed trajectory.
 void evade(const Surroundings& near, const Course& course, Incumbent& incumbent, PlanTools& tools) {
   auto found = find_evasion(near, course, Phase::Evasion, tools);
   const double best_s = incumbent.best() ? incumbent.best()->clear_s : 0.0;

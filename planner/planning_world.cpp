@@ -11,10 +11,10 @@
 namespace tern {
 namespace {
 
-/// What reaches the vehicle later than this does not reach it.
+/// An obstacle that would arrive later than this counts as one that never arrives.
 constexpr Duration kMaxArrivalTime{1'000'000'000'000};
 
-/// The track's box over one piece, as Track::bounds() has it.
+/// Returns the track's box over one piece, as Track::bounds() does.
 Box piece_box(const Track& track, std::size_t k) {
   const CubicPiece& piece = track.motion.pieces[k];
   return grown(cubic_bounds(piece.coefficients, 0.0, piece.duration.seconds()), track.half_extents + track.alpha[k]);
@@ -87,7 +87,7 @@ GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const M
   for (Box& box : boxes) {
     const Box solid = places_at(box, key.body);
     box = grown(solid, Vec3::Constant(kPathSpacing));
-    if (!solid.contains(key.goal)) box = core_beyond(box, key.goal);  // a goal beside a wall is not in it
+    if (!solid.contains(key.goal)) box = core_beyond(box, key.goal);  // so that a goal beside a wall can be reached
   }
   GoalFieldOptions options;
   options.start = start;

@@ -28,7 +28,8 @@ PlanReason plan_with_reduced_assurance(const Course& course, Surroundings& near,
   const std::vector<Assurance> all = reduced_assurances(near.hold.side_step_s);
   for (const Assurance& reduced : all) {
     if (is_settled(near, course, incumbent)) break;
-    if (reduced.level == 0 && reduced.sure_for.seconds() >= near.hold.predicted_s) continue;  // that is all there is
+    if (reduced.level == 0 && reduced.sure_for.seconds() >= near.hold.predicted_s)
+      continue;  // the same as the full assurance
     const bool has_waited =
         time_at_rest_s(near.request) > kMaxWaitAtRest * (1.0 - confidence_of(reduced, incumbent.set_confidence()));
     if (reduced.scale < 1.0 && (incumbent.best() || incumbent.committed()) && !has_waited) break;

@@ -34,7 +34,7 @@ const Points& hull_of(SweptObstacles& obstacles, const CertificatePlane& plane) 
   throw std::logic_error("hull_of: a plane of an obstacle that is not in its interval");
 }
 
-/// Eq. 4 for one leaf, by either method.
+/// Solves Eq. 4 for one leaf by either method.
 class Refinement {
  public:
   Refinement(const Attempt& attempt, const Candidate& leaf, SweptObstacles& swept, PlanTools& tools)
@@ -46,7 +46,7 @@ class Refinement {
         hold_required_(std::min(attempt.hold_required_s, leaf.hold_s)),
         stop_([&budget = tools.budget] { return budget.expired(Stage::Optimization); }) {}
 
-  /// With the planes fixed the problem is convex; the planes anew at its solution, and again.
+  /// Solves the convex problem with fixed planes, makes new planes at its solution, and repeats.
   std::optional<Candidate> alternating(const TimedSpline& from) {
     std::optional<Candidate> best;
     for (int round = 0; round < config_.rounds; ++round) {
@@ -61,7 +61,7 @@ class Refinement {
     return best;
   }
 
-  /// Points and planes together.
+  /// Solves for points and planes together.
   std::optional<Candidate> joint(const TimedSpline& from) {
     tools_.log.enter(Stage::Optimization);
     if (stop_()) return std::nullopt;
@@ -111,8 +111,9 @@ class Refinement {
   StopFunction stop_;
 };
 
-/// @return nullopt if the method is SearchOnly, or no better iterate passes the checker and holds as long as required
-/// (or as the leaf did)
+/// Optimizes the leaf by the configured method.
+/// @return nullopt if the method is SearchOnly, or if no iterate passes the checker and holds as long as required (or
+/// as the leaf does)
 std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf, SweptObstacles& swept,
                                    PlanTools& tools) {
   Refinement refinement(attempt, leaf, swept, tools);
@@ -127,7 +128,7 @@ std::optional<Candidate> optimized(const Attempt& attempt, const Candidate& leaf
   return second ? second : first;
 }
 
-/// By how much the cost-to-go is smaller at the end, m.
+/// Returns the decrease of the cost-to-go from start to end, m.
 double progress_of(const Attempt& attempt, const Candidate& candidate) {
   const CostToGo& cost_to_go = attempt.course.cost_to_go;
   return cost_to_go.from(attempt.problem.start.p) - cost_to_go.from(candidate.trajectory.control_points.rightCols<1>());

@@ -10,13 +10,13 @@
 namespace tern {
 namespace {
 
-/// Halvings of the scale: α of a metre to a micrometre.
+/// Halvings of the scale: an α of one metre is resolved to a micrometre.
 constexpr int kHalvings = 20;
 
-/// How far the body at p is from the track's box at time t when its α is scaled by s.
+/// The distance of the body at p from the track's box at time t, as a function of the scale of α.
 class StartDistance {
  public:
-  /// @param body  its vertices about p; @param box  memory
+  /// @param body  its vertices at p, W. @param box  scratch memory
   StartDistance(const Track& track, const AlphaShare& count, const Points& body, double radius, UTime t, Points& box)
       : body_(body),
         box_(box),
@@ -30,7 +30,7 @@ class StartDistance {
     return distance(box_, body_) > radius_ + slack;
   }
 
-  /// The largest scale that leaves kStartSlack; 0 when none does.
+  /// Returns the largest scale that leaves kStartSlack, or 0.
   [[nodiscard]] double largest_scale() {
     double low = 0.0;
     double high = 1.0;
@@ -48,8 +48,9 @@ class StartDistance {
   Vec3 centre_, half_, alpha_;
 };
 
-/// Whether the box of all its pieces keeps the obstacle away from the body about p, so that no distance need be asked.
-/// @param reach  half-extents of the body
+/// Returns whether the box around all pieces proves that the obstacle does not touch the body at p. If so, no distance
+/// is computed.
+/// @param reach  half-extents of the body, m
 bool is_surely_clear(const PlanningObstacle& o, const Vec3& reach, const Vec3& p, UTime t) {
   if (o.boxes == nullptr || t < o.track->motion.start || t > o.boxes->end) return false;
   constexpr double kWithRounding = 2.0 * kTouchingTolerance;

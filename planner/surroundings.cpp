@@ -7,7 +7,7 @@
 namespace tern {
 namespace {
 
-/// Tracks and map boxes that can matter.
+/// Collects the tracks and map boxes in the region.
 void find_obstacles(const Box& region, const PlanningWorld& world, PlanWorkspace& memory) {
   memory.obstacles.clear();
   world.predictions->index.query(region, memory.found);
@@ -21,7 +21,7 @@ void find_obstacles(const Box& region, const PlanningWorld& world, PlanWorkspace
   }
 }
 
-/// The fields, if what they cost differs anywhere in the sphere. The mean distance of Eq. 3 differs everywhere.
+/// Returns the fields if their cost varies within the sphere, else null. The mean distance of Eq. 3 varies everywhere.
 const SemanticFields* semantics_in_reach(const HorizonRequest& request, const SemanticFields& fields,
                                          const PlannerConfig& config) {
   if (!config.semantics) return nullptr;

@@ -6,7 +6,7 @@
 namespace tern {
 namespace {
 
-/// @return the text of what it threw.
+/// Runs the job. @return the text of the exception that it threw, if any
 std::optional<std::string> failure_of(const std::function<void()>& job) {
   try {
     job();

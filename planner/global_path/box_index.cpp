@@ -6,7 +6,7 @@
 namespace tern {
 namespace {
 
-/// A segment made ready for the slab test against many boxes.
+/// A segment prepared for slab tests against many boxes.
 class Slabs {
  public:
   Slabs(const Vec3& a, const Vec3& b) : a_(a) {
@@ -17,7 +17,7 @@ class Slabs {
     }
   }
 
-  /// Does it meet the closed box grown by `growth`?
+  /// Returns whether it intersects the closed box grown by `growth`.
   [[nodiscard]] bool meets(const Box& box, double growth) const {
     double enter = 0.0;
     double leave = 1.0;

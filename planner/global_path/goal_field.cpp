@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Spacing, at least options.resolution, at which the region takes no more than max_nodes.
+/// Returns the least spacing ≥ options.resolution for which the region has at most max_nodes.
 double affordable_step(const Box& region, const GoalFieldOptions& options) {
   double step = options.resolution;
   const auto nodes = [&] { return ((region.sizes() / step).array() + 2.0).prod(); };
@@ -75,7 +75,7 @@ void GoalField::open_gaps(double step) {
       note(axis.low(), box.min()[i]);
       note(box.max()[i], axis.high());
     }
-    // The widest first, and no more than a quarter of the lines that are there: gaps must not make the grid explode.
+    // The widest gaps first, and at most a quarter of the existing lines: gaps must not make the grid explode.
     std::sort(gaps.begin(), gaps.end());
     gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
     gaps.resize(std::min(gaps.size(), static_cast<std::size_t>(8 + axis.size() / 4)));
@@ -90,7 +90,7 @@ Vec3 GoalField::position(std::int32_t node) const { return node == kGoalNode ? g
 
 double GoalField::to_go(std::int32_t node) const { return node == kGoalNode ? 0.0 : to_go_[idx(node)]; }
 
-/// The best point to fly to first: a node near the start, or better what such a node sees.
+/// Returns the best first point of a path: a node near the start, or the turning point that such a node sees.
 std::int32_t GoalField::first_turn(const Vec3& start) const {
   std::int32_t best = kNoNode;
   double shortest = kInfinity;
@@ -102,7 +102,7 @@ std::int32_t GoalField::first_turn(const Vec3& start) const {
     best = turn;
     shortest = length;
   };
-  // A narrow place may hide the nearest nodes: then the next ring of them is asked.
+  // In a narrow place the nearest nodes may be hidden: then the next ring of nodes is tried.
   for (int ring = 0; ring <= 2 && best == kNoNode; ++ring) {
     grid_.for_neighbours(grid_.cell(start), ring, ring + 1, [&](std::int32_t node) {
       if (!(to_go(node) < kInfinity)) return;
@@ -132,7 +132,7 @@ std::optional<std::vector<Vec3>> GoalField::path_from(const Vec3& start) const {
 }
 
 std::optional<Box> GoalField::blocker(const Vec3& start) const {
-  Vec3 from = goal_, to = goal_;  // of the line that is looked along
+  Vec3 from = goal_, to = goal_;  // ends of the line to the goal
   if (goal_free_) {
     from = start;
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(to_go_.size()); ++node) {
@@ -161,7 +161,7 @@ void GoalField::tighten(std::vector<Vec3>& path) const {
   constexpr double kMinPull = 1.0 / (1 << kPullHalvings);
   const Vec3 start = path.front();
   const auto is_free = [&](const Vec3& a, const Vec3& b) { return !obstacles_.blocks(a, b, start); };
-  // Length alone needs no asking: erasing a vertex or pulling it to a chord never makes a path longer.
+  // By length alone, erasing a vertex or pulling it to a chord never makes a path longer.
   const auto is_cheaper = [&](const Vec3& a, const Vec3& v, const Vec3& w, const Vec3& b) {
     return cost_.is_length() || cost_(a, w) + cost_(w, b) <= cost_(a, v) + cost_(v, b);
   };

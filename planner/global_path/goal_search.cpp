@@ -6,7 +6,7 @@ namespace tern {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A way must be shorter by this to replace another, m: rounding must not decide.
+/// A way replaces another only if it is shorter by this, m: rounding must not decide.
 constexpr double kGain = 1e-9;
 
 }  // namespace
@@ -55,7 +55,7 @@ void GoalSearch::queue_around_goal() {
   });
 }
 
-/// Makes the node see its turning point. @return false when it must wait: its way is longer than thought, or gone.
+/// Makes the node see its turning point. @return false if it is queued again with a longer way, or has none
 bool GoalSearch::sight(std::int32_t node) {
   const auto n = idx(node);
   const Vec3 p = grid_.position(node);

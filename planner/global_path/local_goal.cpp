@@ -6,7 +6,7 @@
 namespace tern {
 namespace {
 
-/// The last point of the segment ab that lies on the sphere, when b is outside.
+/// Returns the last point of the segment ab on the sphere. @pre b is outside it
 std::optional<Vec3> last_exit(const Vec3& a, const Vec3& b, const Vec3& centre, double radius) {
   // ‖a + t d − centre‖² = radius² for the larger root t.
   const Vec3 d = b - a;

@@ -10,10 +10,10 @@
 namespace tern {
 namespace {
 
-constexpr double kWithRounding = 1.0 + 1e-9;  ///< products and quotients that differ by more differ without rounding
-constexpr double kStrictlyInside = 1e-10;     ///< m: beyond the rounding of positions 10 km from the origin
+constexpr double kWithRounding = 1.0 + 1e-9;  ///< a larger ratio is not due to rounding
+constexpr double kStrictlyInside = 1e-10;     ///< m; larger than the rounding of positions 10 km from the origin
 
-/// All constraints with their gradients, in y = x − x0. Rows are constant, sphere gradients follow y.
+/// All constraints with their gradients, in y = x − x0. Gradients of rows are constant, those of spheres depend on y.
 class Constraints {
  public:
   void assign(const ConvexProblem& p, const FreeVariables& x0) {
@@ -29,7 +29,7 @@ class Constraints {
   [[nodiscard]] int count() const { return linear_ + spheres(); }
   [[nodiscard]] int spheres() const { return static_cast<int>(at_.size()); }
 
-  /// c_i(y) for all i; sets the spheres' gradients.
+  /// Writes c_i(y) for all i, and updates the gradients of spheres.
   void evaluate(const std::vector<double>& y, std::vector<double>& c) {
     for (int i = 0; i < linear_; ++i) c[idx(i)] = dot(i, y.data()) - bound_[idx(i)];
     for (int k = 0; k < spheres(); ++k) {
@@ -77,7 +77,7 @@ class Constraints {
     }
   }
 
-  /// lower triangle += multiplier ∇²c_i: nothing for rows.
+  /// lower triangle += multiplier ∇²c_i, which is 0 for rows.
   void add_curvature(int i, double multiplier, double* matrix) const {
     if (i < linear_) return;
     const double scaled = multiplier / radius_;
@@ -85,7 +85,7 @@ class Constraints {
     const double* weight = weight_.data() + of.begin;
     for (int e = 0; e < of.count; ++e) {
       double* row = matrix + idx((of.column + e) * n_ + of.column);
-      for (int f = e % 3; f <= e; f += 3) row[f] += scaled * weight[e] * weight[f];  // axes do not mix
+      for (int f = e % 3; f <= e; f += 3) row[f] += scaled * weight[e] * weight[f];  // axes are independent
     }
   }
 
@@ -96,7 +96,7 @@ class Constraints {
     int column, stride;
   };
 
-  /// The same for a known count, which the compiler unrolls: most gradients have few entries.
+  /// add_outer() for a constant count, which the compiler unrolls. Most gradients have few entries.
   template <int kCount>
   void add_few(const double* value, double factor, double* corner, int stride) const {
     for (int e = 0; e < kCount; ++e) {
@@ -161,7 +161,7 @@ class Constraints {
 
 }  // namespace
 
-/// One problem at a time, in y = x − x0.
+/// The state of one solve, in y = x − x0.
 class BarrierSolver::Iteration {
  public:
   ConvexSolution solve(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
@@ -222,7 +222,7 @@ class BarrierSolver::Iteration {
     return true;
   }
 
-  /// What the unconstrained optimum would gain bounds what there is to gain; spread over the constraints.
+  /// Returns the first barrier parameter. The gain of the unconstrained optimum bounds the possible gain.
   double first_barrier() {
     work_ = gradient0_;
     hessian_factor_.solve_lower(work_.data());
@@ -241,13 +241,13 @@ class BarrierSolver::Iteration {
     }
     dual_residual_ = gradient_;
     for (int i = 0; i < m_; ++i) {
-      // A feasible constraint's slack may only grow by being told the truth: its residual is gone.
+      // For a feasible constraint the slack may grow to the true distance; its residual then vanishes.
       slack_[idx(i)] = std::max(slack_[idx(i)], -c_[idx(i)]);
       constraints_.add_gradient(i, multiplier_[idx(i)], dual_residual_.data());
     }
   }
 
-  /// Keeps y if it is the best point strictly inside, and the multipliers' bound if it is the highest.
+  /// Keeps y if it is the best strictly feasible point, and the dual bound if it is the highest.
   void harvest() {
     const FreeVariables x = x0_ + Eigen::Map<const Eigen::VectorXd>(y_.data(), n_);
     const double objective = problem_->objective(x);
@@ -298,8 +298,8 @@ class BarrierSolver::Iteration {
     mu_affine /= std::max(m_, 1);
     const double ratio = mu > 0.0 ? mu_affine / mu : 0.0;
     const double target = std::max(ratio * ratio * ratio * mu, kLastBarrierShare * tolerance_ / std::max(m_, 1));
-    // The second-order term is the error of the whole affine step. Where only a share of that step can be gone, all of
-    // it overcorrects: iterates have been seen to cycle.
+    // The second-order term is the error of the whole affine step, so it is scaled by the possible share of that step.
+    // With the full term iterates may cycle.
     for (int i = 0; i < m_; ++i)
       complement_[idx(i)] += affine * slack_step_[idx(i)] * multiplier_step_[idx(i)] - target;
     direction();
@@ -312,7 +312,7 @@ class BarrierSolver::Iteration {
     return length > kMinStep;
   }
 
-  /// Newton's direction for the complementarity residual in complement_.
+  /// Computes Newton's direction for the complementarity residual in complement_.
   void direction() {
     for (int r = 0; r < n_; ++r) step_[idx(r)] = -dual_residual_[idx(r)];
     for (int i = 0; i < m_; ++i) {
@@ -329,10 +329,10 @@ class BarrierSolver::Iteration {
     }
   }
 
-  /// The longest step ≤ 1 that keeps slacks and multipliers positive, times `share` where a bound is hit.
+  /// Returns the longest step ≤ 1 that keeps slacks and multipliers positive, times `share` if a bound limits it.
   [[nodiscard]] double largest_step(double share) const {
     double length = 1.0;
-    // Hardly any bound shortens it. Those that surely do not are passed over, because divisions are slow.
+    // Few bounds limit the step. The others are skipped without a division, which would be slow.
     const auto keep_positive = [&](double value, double step) {
       if (share * value < -kWithRounding * length * step) length = std::min(length, -share * value / step);
     };

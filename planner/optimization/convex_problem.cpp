@@ -10,7 +10,7 @@
 namespace tern {
 namespace {
 
-/// A reach: x0 may be as far from the row as it will.
+/// A reach for rows that are always constraints, however far x0 is.
 constexpr double kAlways = std::numeric_limits<double>::infinity();
 
 class Builder {
@@ -23,7 +23,7 @@ class Builder {
     out.sphere_offsets.clear();
   }
 
-  /// direction·point ≤ limit; dropped when it does not depend on x, or when x0 is farther than `reach` from it.
+  /// Adds direction·point ≤ limit, unless it does not depend on x, or x0 is farther than `reach` from it.
   void add_row(const AffinePoint& point, const Vec3& direction, double limit, double reach) {
     if (point.fixed()) return;
     FreeVariables row(3 * free_);
@@ -50,8 +50,8 @@ class Builder {
     }
   }
 
-  /// The first two intervals are bounded by velocity control points: their hull points depend almost wholly on the
-  /// start, which may move at the limit.
+  /// Bounds velocities by hull points, in the first two intervals by velocity control points: hull points there depend
+  /// almost wholly on the start, which may move at the limit.
   void add_limits() {
     for (int j = 0; j < problem_.intervals; ++j) {
       if (j < 2) {
@@ -64,8 +64,9 @@ class Builder {
     }
   }
 
-  /// Thrust, tilt and body rates (ThrustSet) at the knots that are free, and of each interval. Body rates by |j| ≤ rate
-  /// · least f_z of the interval, which keeps kMinThrustKept of x0's; where x0 itself jerks more, by its own jerk.
+  /// Adds thrust and tilt (ThrustSet) at the free knots, and body rates per interval. Body rates are bounded by |j| ≤
+  /// rate · least f_z of the interval, where f_z keeps kMinThrustKept of that of x0. If the jerk of x0 is larger, it is
+  /// the bound.
   void add_dynamics() {
     if (!problem_.plan_limits.dynamics) return;
     const ThrustSet set(*problem_.plan_limits.dynamics);
@@ -86,7 +87,7 @@ class Builder {
     }
   }
 
-  /// Only the sides that cut the sphere: the others follow from it, and each row costs Ipopt time.
+  /// Adds only the sides that cut the sphere: the others follow from it, and each row costs Ipopt time.
   void add_box_rows(const AffinePoint& p) {
     const Vec3 above = problem_.centre_box.max() - problem_.start.p;
     const Vec3 below = problem_.start.p - problem_.centre_box.min();
@@ -121,7 +122,7 @@ class Builder {
     add_square(end, problem_.goal, problem_.weight_goal);
   }
 
-  /// So that x0 is strictly inside.
+  /// Widens bounds so that x0 is strictly feasible.
   void widen_bounds() {
     for (int r = 0; r < out_.row_count(); ++r) {
       double& bound = out_.bounds[idx(r)];
@@ -138,14 +139,14 @@ class Builder {
     out_.sphere_offsets.push_back(offset);
   }
 
-  /// ‖point‖ ≤ radius, scaled to the radius of S.
+  /// Adds ‖point‖ ≤ radius, scaled to the radius of S.
   void add_ball(const AffinePoint& point, double radius) {
     if (point.fixed()) return;
     const double scale = problem_.sphere_radius / radius;
     add_sphere(point.weights * scale, point.offset * scale);
   }
 
-  /// ‖f_xy‖₈ ≤ slope f_z.
+  /// Adds ‖f_xy‖₈ ≤ slope f_z.
   void add_tilt(const AffinePoint& thrust, double slope) {
     for (const Vec3& side : {Vec3(1.0, kOctagon, -slope), Vec3(kOctagon, 1.0, -slope)}) {
       for (int signs = 0; signs < 4; ++signs) {
@@ -156,7 +157,7 @@ class Builder {
     }
   }
 
-  /// weight · ‖point − target‖².
+  /// Adds weight · ‖point − target‖² to the objective.
   void add_square(const AffinePoint& point, const Vec3& target, double weight) {
     const Vec3 offset = point.offset - target;
     for (Eigen::Index i = 0; i < free_; ++i) {

@@ -25,7 +25,7 @@ void JointProblem::add_block(const TrajectoryProblem& problem, const CurvePoints
   block.vertices = pair.hull.colwise() - problem.start.p;
   block.curve = points.hull(c.interval, c.u0, c.u1);
   for (AffinePoint& p : block.curve) p.offset -= problem.start.p;
-  // Interval j moves with q_j … q_{j+3}: free points j − 3 … j.
+  // Interval j depends on q_j … q_{j+3}, the free points j − 3 … j.
   block.first_point = std::max(c.interval - 3, 0);
   block.free_points = std::min(c.interval, points.free_points() - 1) - block.first_point + 1;
   start_.segment<3>(block.variable) = c.plane.n;

@@ -19,7 +19,7 @@ ConvexAsNonlinear::ConvexAsNonlinear(const ConvexProblem& problem) : p_(problem)
     }
   }
   for (int r = 0; r < n; ++r) {
-    for (int c = r % 3; c <= r; c += 3) hessian_pattern_.add(r, c);  // axes do not mix
+    for (int c = r % 3; c <= r; c += 3) hessian_pattern_.add(r, c);  // axes are independent
   }
 }
 

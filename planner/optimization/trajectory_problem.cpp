@@ -12,7 +12,7 @@ AffinePoint scaled(AffinePoint p, double factor) {
   return p;
 }
 
-/// Of the part [u0, u1]: powers of u = u0 + s(u1 − u0) from powers of s, highest first.
+/// Returns M with (u³, u², u, 1)ᵀ = M (s³, s², s, 1)ᵀ for u = u0 + s(u1 − u0).
 Eigen::Matrix4d to_part(double u0, double u1) {
   const double w = u1 - u0;
   const double a = u0;

@@ -13,10 +13,10 @@ Box box_of(const Points4& points) { return {points.rowwise().minCoeff(), points.
 
 using Candidate = SweptObstacles::Candidate;
 
-/// Is the curve's part more than the body's radius (and kTouchingTolerance) away from the sweep? As separate() of the
-/// hull and the points would say, but for rounding.
-/// @param points  hull points of the part, or one point at rest
-/// @param by_cache  whether the direction that separated the part last did so again
+/// Returns whether the part of the curve is farther than the body's radius (and kTouchingTolerance) from the sweep. Up
+/// to rounding this is the answer of separate() for the hull and the points.
+/// @param points    hull points of the part, or one point at rest
+/// @param by_cache  receives whether the direction that last separated the part did so again
 bool is_separated(SweptObstacles& obstacles, const Candidate& candidate, const Eigen::Ref<const Points>& points,
                   const TimePart& part, bool& by_cache) {
   const auto [boxes, direction] = obstacles.sweep(candidate, part);
@@ -39,9 +39,8 @@ bool is_separated(SweptObstacles& obstacles, const Candidate& candidate, const E
   return separated;
 }
 
-/// A plane for a certificate, from the hull, which is only made where there is a plane. A solver's plane of the sweep
-/// parts from it by rounding, and only separate() says what a published one promises. Who has hull and points makes it
-/// again, to the bit.
+/// Returns a plane for a certificate, made by separate() from the hull. The hull is made only if a plane of the sweep
+/// exists, which differs from this one by rounding. Anyone with hull and points can compute it again, bit for bit.
 std::optional<Separation> certificate_plane(SweptObstacles& obstacles, const Candidate& candidate,
                                             const Points4& points, const TimePart& part) {
   bool by_cache = false;
@@ -49,14 +48,14 @@ std::optional<Separation> certificate_plane(SweptObstacles& obstacles, const Can
   return separate(obstacles.hull(candidate, part), points, obstacles.body().radius);
 }
 
-/// A plane for a solver, not to be published.
+/// Returns a plane for a solver. It is not published.
 std::optional<Separation> solver_plane(SweptObstacles& obstacles, const Candidate& candidate, const Points4& points,
                                        const TimePart& part) {
   return separate_sweep(obstacles.sweep(candidate, part).boxes, points, obstacles.vertices_to_add(),
                         obstacles.body().radius);
 }
 
-/// One interval of a curve against all obstacles, split in time where one plane does not do.
+/// Separates one interval of a curve from all obstacles; splits it in time if one plane is not enough.
 struct Splitting {
   using PlaneMaker = std::optional<Separation> (*)(SweptObstacles&, const Candidate&, const Points4&, const TimePart&);
 
@@ -107,7 +106,7 @@ struct Splitting {
   }
 };
 
-/// A curve over one interval: the hull points of its parts, and its points at the quarters, when first needed.
+/// A curve over one interval. The hull points of its parts, and its points at the quarters, are made at first use.
 class Curve {
  public:
   Curve(const PowerCubic& power, const Points4& points, HullForm form) : power_(power), form_(form) {
@@ -143,7 +142,7 @@ class Curve {
   std::array<bool, SweptObstacles::kQuarters> has_quarter_{};
 };
 
-/// Yes or no for one curve.
+/// Decides for one curve whether it is separated.
 class SeparationTest {
  public:
   SeparationTest(SweptObstacles& obstacles, int interval, Curve& curve, PairCounts& counts)
@@ -159,7 +158,7 @@ class SeparationTest {
   }
 
  private:
-  /// At one of five instants: most of what blocks is found so.
+  /// Tests five instants: most collisions are found by them.
   bool touches(const Candidate& candidate) {
     if (!obstacles_.body_is_round_or_box()) return false;
     const double radius2 = obstacles_.body().radius * obstacles_.body().radius;

@@ -21,7 +21,7 @@ bool is_box(const Points& vertices) {
   return found == 8;
 }
 
-/// cloud ⊕ (−vertices).
+/// Returns cloud ⊕ (−vertices).
 Points minkowski_difference(const Points& cloud, const Points& vertices) {
   Points sum(3, cloud.cols() * vertices.cols());
   for (Eigen::Index v = 0; v < vertices.cols(); ++v) {
@@ -30,7 +30,7 @@ Points minkowski_difference(const Points& cloud, const Points& vertices) {
   return sum;
 }
 
-/// Where the track's box is at one instant, as add_sweep() has it but without β.
+/// Returns the track's box at one instant, as add_sweep() makes it but without β.
 CentredBox box_at(const Track& track, const AlphaShare& count, const Vec3& body_half, UTime origin, double at) {
   double piece_from = (track.motion.start - origin).seconds();
   const auto grown_half = [&](const Vec3& alpha, double seconds) -> Vec3 {
@@ -50,7 +50,7 @@ CentredBox box_at(const Track& track, const AlphaShare& count, const Vec3& body_
           grown_half(count.of(track, track.alpha.size() - 1), at - piece_from)};
 }
 
-/// Rounding between the box of a piece and the box of a part of it, m, with room to spare.
+/// An upper bound of the rounding between the box of a piece and that of a part of it, m.
 constexpr double kRoughSlack = 1e-6;
 
 UTimeSpan microseconds(UTime origin, double from, double to) {
@@ -65,12 +65,12 @@ Box sweep_box(const PlanningObstacle& obstacle, const Vec3& body_half, UTime ori
   return grown(box, body_half + Vec3::Constant(kBetaMax));
 }
 
-/// Whether boxes of its pieces are known that hold the obstacle over the span.
+/// Returns whether boxes of the obstacle's pieces are known for the whole span.
 bool is_within_pieces(const PlanningObstacle& o, const UTimeSpan& t) {
   return o.boxes != nullptr && t.from >= o.track->motion.start && t.to <= o.boxes->end;
 }
 
-/// A track's pieces in a series of time spans. Beginnings must not descend: pieces that are over are not met again.
+/// A track's pieces in a series of time spans, in order of their starts. Pieces that have ended are skipped for good.
 class PieceWalk {
  public:
   explicit PieceWalk(const PlanningObstacle& o) : obstacle_(o), first_{0, o.track->motion.start} {}
@@ -82,7 +82,7 @@ class PieceWalk {
       first_.start = first_.start + pieces[first_.index++].duration;
     }
   }
-  /// Whether the boxes of its pieces keep it out of `near`, so that nothing finer need be asked.
+  /// Returns whether the boxes of the pieces prove that the track stays out of `near`.
   [[nodiscard]] bool is_surely_out_of(const Box& near) const {
     const auto& pieces = obstacle_.track->motion.pieces;
     if (!is_within_pieces(obstacle_, t_)) return false;

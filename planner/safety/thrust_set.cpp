@@ -8,10 +8,10 @@
 namespace tern {
 namespace {
 
-/// Corners of the box touch the set's border: rounding must not put them outside.
+/// Corners of the box touch the border of the set; this keeps rounding from putting them outside.
 constexpr double kInside = 1.0 - 1e-9;
 
-/// How far below g the thrust's vertical part goes in plans.
+/// Returns how far plans lower the vertical part of the thrust below g, m/s².
 double dip_of(double thrust_min) { return std::min(kThrustDip * kGravity, kGravity - thrust_min); }
 
 }  // namespace
@@ -34,7 +34,7 @@ bool ThrustSet::contains(const Vec3& a) const {
          a.head<2>().squaredNorm() + up * up <= ceiling * ceiling;
 }
 
-/// thrust_bounds() in squares: the search asks it of every child.
+/// Compares squares of the values of thrust_bounds(), because the search calls it for every child.
 bool ThrustSet::allows(const Vec3& a0, const Vec3& a1, double duration_s) const {
   if (!contains(a1)) return false;
   const Vec3 f0 = a0 + Vec3(0.0, 0.0, kGravity), way = a1 - a0;

@@ -12,14 +12,14 @@ namespace {
 using Point = Eigen::Vector2d;
 using Polygon = std::vector<Point>;
 
-/// A velocity taken from the end of its range must not fall out by rounding, m/s.
+/// Tolerance by which a velocity at the end of its range stays in it despite rounding, m/s.
 constexpr double kOnBoundary = 1e-9;
 
 double cross(const Point& o, const Point& a, const Point& b) {
   return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
 }
 
-/// Counter-clockwise convex hull (Andrew's monotone chain) of `points`, which are put in order.
+/// Computes the counter-clockwise convex hull of `points` by Andrew's monotone chain; sorts `points`.
 void convex(Polygon& points, Polygon& hull) {
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
@@ -42,7 +42,7 @@ void convex(Polygon& points, Polygon& hull) {
   hull.resize(k - 1);
 }
 
-/// The part of a convex polygon with sign·coordinate ≤ limit (Sutherland–Hodgman).
+/// Computes the part of a convex polygon with sign·coordinate ≤ limit (Sutherland–Hodgman).
 void clip(const Polygon& polygon, int coordinate, double sign, double limit, Polygon& kept) {
   kept.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -55,7 +55,7 @@ void clip(const Polygon& polygon, int coordinate, double sign, double limit, Pol
   }
 }
 
-/// Leaves the part within the limits in `polygon`; `other` is memory.
+/// Clips `polygon` to the limits; `other` is scratch memory.
 void clip_box(Polygon& polygon, Polygon& other, double v_max, double a_max) {
   for (const double sign : {1.0, -1.0}) {
     clip(polygon, 0, sign, v_max, other);
@@ -69,7 +69,7 @@ double largest_velocity(const Polygon& polygon) {
   return largest;
 }
 
-/// The a for which (v + a Δt, a) lies in the polygon.
+/// Returns the range of a for which (v + a Δt, a) is in the polygon.
 AxisReach::Interval line_in_polygon(const Polygon& polygon, double v, double dt) {
   // In sheared coordinates (v' − a Δt, a) the line is vertical: the polygon's a-range at first coordinate v.
   constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -140,7 +140,7 @@ AxisReach::Interval AxisReach::next_velocity(int l, double v, double a_previous)
   Interval a = line_in_polygon(finishable_[idx(l) + 1], v, dt_);
   a.low = std::max({a.low, -a_max_, a_previous - j_step_});
   a.high = std::min({a.high, a_max_, a_previous + j_step_});
-  // At the edge of what can be finished one acceleration alone is left, and rounding may turn its bounds around.
+  // On the border of the set only one acceleration is left, and rounding may exchange its bounds.
   if (a.low > a.high && (a.low - a.high) * dt_ <= kOnBoundary) a.low = a.high = 0.5 * (a.low + a.high);
   return {v + a.low * dt_, v + a.high * dt_};
 }

@@ -29,21 +29,21 @@ struct Leaf {
   }
 };
 
-/// So many bands fit into an integer.
+/// The largest number of bands, which fits into an integer.
 constexpr double kMaxBands = 1e15;
 
-/// Bands of the cost-to-go: `width` wide, and kFinerBands times finer within the last one.
+/// Returns the band of a cost-to-go. Bands have this width; the last one is divided into kFinerBands.
 std::int64_t band_of(double cost_to_go, double width) {
   const double bands = std::min(cost_to_go / width, kMaxBands);
   return bands < 1.0 ? static_cast<std::int64_t>(bands * kFinerBands)
                      : kFinerBands - 1 + static_cast<std::int64_t>(bands);
 }
 
-/// Bands counted from the border of S, the first half as wide: as, counted from 0, the border leaves on the mean. That
-/// may leave a millimetre, and a whole tree is searched in vain for a leaf in it.
+/// Returns the band counted from the border of S; the first one is half as wide. Counted from 0, the border would cut a
+/// band anywhere, sometimes leaving a millimetre, and the search would expand a whole tree for a leaf in it.
 std::int64_t band_from_border(double beyond, double width) { return std::llround(std::min(beyond / width, kMaxBands)); }
 
-/// No point of S has a smaller cost-to-go.
+/// Returns a lower bound of the cost-to-go of all points of S.
 double min_cost_to_go_in_sphere(const SearchProblem& problem) {
   return std::max(0.0, (problem.cost_to_go.point - problem.start.p).norm() - problem.sphere_radius) +
          problem.cost_to_go.rest;
@@ -90,7 +90,7 @@ class Search {
 
  private:
   static constexpr auto kLater = [](const Entry& a, const Entry& b) { return b.before(a); };
-  /// Of equals the deepest is expanded first, so that the search goes deep instead of wide.
+  /// Returns f in steps. Of nodes with equal steps the deepest is expanded first, so that the search goes deep.
   [[nodiscard]] std::int64_t step_of(double f) const {
     return static_cast<std::int64_t>(std::floor(f / config_.cost_step_m));
   }
@@ -109,7 +109,7 @@ class Search {
     add(root, ahead_of(root.l, root.v));
   }
 
-  /// How far the way from q_l to the end can lead, given v_{l-1}.
+  /// Returns a box of the displacements from q_l to the end, for a given v_{l−1}.
   [[nodiscard]] Box ahead_of(int l, const Vec3& v) const {
     Vec3 low;
     Vec3 high;
@@ -121,14 +121,14 @@ class Search {
     return {low, high};
   }
 
-  /// The best band that a leaf in there may lie in.
+  /// Returns the best band that a leaf in the box may have.
   [[nodiscard]] std::int64_t band_within(const Box& reachable) const {
     const double cost_to_go = std::max(problem_.cost_to_go.from(reachable), min_cost_to_go_);
     return counts_from_border_ ? band_from_border(cost_to_go - min_cost_to_go_, config_.band_m)
                                : band_of(cost_to_go, config_.band_m);
   }
 
-  /// @param ahead  ahead_of() it
+  /// @param ahead  ahead_of() the node
   void add(const Node& n, const Box& ahead) {
     const Box reachable(n.q + ahead.min(), n.q + ahead.max());
     double f = n.g + config_.lambda_h * problem_.cost_to_go.from(n.q);
@@ -156,7 +156,7 @@ class Search {
     result_.nodes.push_back({n.q, n.parent < 0 ? -1 : kept_[idx(n.parent)]});
   }
 
-  /// q_{l-3} … q_l as powers of u on interval l − 3.
+  /// Returns q_{l−3} … q_l, the control points of interval l − 3.
   [[nodiscard]] Points4 window(int index) {
     Points4 q;
     int i = index;
@@ -228,7 +228,7 @@ class Search {
     }
   }
 
-  /// What the children of a node share: a velocity on one axis is that of many.
+  /// Samples the velocities of one axis, which many children share.
   void sample_axis(int axis, int l, const AxisReach::Interval& range, int count) {
     std::vector<AxisSample>& samples = samples_[idx(axis)];
     samples.clear();
@@ -238,8 +238,8 @@ class Search {
     }
   }
 
-  /// Where the start drives v_1 beyond the limit, the velocity's peak inside interval 0 depends on v_2. With Bézier
-  /// velocities c_k = v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it stays within v_max exactly if b_2 ≥ b_1²/b_0.
+  /// If the start drives v_1 beyond the limit, the velocity's peak inside interval 0 depends on v_2. With the Bézier
+  /// velocities c_k = v_0, v_1, (v_1 + v_2)/2 and b_k = v_max − c_k it is within v_max exactly if b_2 ≥ b_1²/b_0.
   void bound_first_peak(int axis, AxisReach::Interval& v2) const {
     const double limit = problem_.limits.v_max[axis];
     for (const double sign : {1.0, -1.0}) {
@@ -256,7 +256,7 @@ class Search {
     return (q - problem_.start.p).squaredNorm() <= problem_.sphere_radius * problem_.sphere_radius;
   }
 
-  /// Whether steps by neighbouring samples end farther apart than the radius of S.
+  /// Returns whether the steps of neighbouring samples end farther apart than the radius of S.
   [[nodiscard]] bool oversteps(const std::array<AxisReach::Interval, 3>& range) const {
     const auto apart = [&](int axis, int samples) {
       const AxisReach::Interval& r = range[idx(axis)];
@@ -267,8 +267,8 @@ class Search {
     return widest > problem_.sphere_radius;
   }
 
-  /// Where the first step to a goal outside S may already leave S, or any other would, children aim at where the way
-  /// leaves it.
+  /// If the goal is outside S and a step may leave S, the aimed children aim at the point where the straight line to
+  /// the goal leaves S.
   void aim_within_sphere(const Node& root, const std::array<AxisReach::Interval, 3>& range) {
     const Vec3 to_goal = problem_.cost_to_go.point - problem_.start.p;
     if (in_sphere(problem_.cost_to_go.point)) return;
@@ -277,7 +277,7 @@ class Search {
     aim_ = problem_.start.p + to_goal * (kSphereShare * problem_.sphere_radius / to_goal.norm());
   }
 
-  /// The velocity that, braking in time, comes to the goal: what is left of the way over what is left of the steps.
+  /// Returns the velocity that leads to aim_ and brakes in time: the remaining way divided by the remaining steps.
   [[nodiscard]] Vec3 aimed_velocity(const Node& n, const std::array<AxisReach::Interval, 3>& range) const {
     const int steps = leaf_index() - n.l;
     const double share = steps == 1 ? 1.0 : steps - 0.5;
@@ -289,7 +289,7 @@ class Search {
     return v;
   }
 
-  /// @param ahead  ahead_of() the child, if its velocity is the wanted one
+  /// @param ahead  ahead_of() the child if its velocity is the wanted one
   void add_child(int index, const Node& n, const StepReach::Steps& steps, const Vec3& wanted, const Box& ahead) {
     const std::optional<Vec3> flyable = reach_.flyable(steps, wanted);
     if (!flyable) return;
@@ -307,8 +307,8 @@ class Search {
     add(child, v == wanted ? ahead : ahead_of(child.l, v));
   }
 
-  /// Position, index and coarse velocity in one key. Marked only once a node has passed its collision test, so that a
-  /// blocked node never closes the only way.
+  /// Returns position, index and coarse velocity as one key. A key is closed only after its node has passed the
+  /// collision test, so that a blocked node does not close the only way.
   [[nodiscard]] std::uint64_t key(const Node& n) const {
     const Vec3 p = (n.q - problem_.start.p) / config_.prune_position_m;
     const Vec3 v = n.v / config_.prune_velocity_mps;
@@ -340,18 +340,18 @@ class Search {
   Budget& budget_;
   const double dt_;
   const SplineBasis& basis_;
-  const double min_cost_to_go_;    ///< to go from anywhere in S, m
-  const bool counts_from_border_;  ///< the bands (docs/inside_the_planner.md: a multirotor)
-  Vec3 aim_;                       ///< where one child of each node aims
+  const double min_cost_to_go_;    ///< least cost-to-go of all points of S, m
+  const bool counts_from_border_;  ///< of bands (docs/planner/search.md)
+  Vec3 aim_;                       ///< the point at which one child of each node aims, W
   StepReach& reach_;
   std::vector<Node>& nodes_;
   std::vector<Entry>& open_;
   KeySet& closed_;
   std::array<std::vector<AxisSample>, 3>& samples_;  ///< of the node that is expanded
   Points3 start_;
-  std::vector<std::int32_t> kept_;  ///< by node: its index in the result's, −1: none
+  std::vector<std::int32_t> kept_;  ///< by node: its index in result_.nodes, or −1
   Leaf best_;
-  std::int64_t give_up_at_ = 0;  ///< when a leaf that holds has not followed the first leaf by then
+  std::int64_t give_up_at_ = 0;  ///< number of expansions at which the search for a leaf that holds ends
   SearchResult result_;
 };
 

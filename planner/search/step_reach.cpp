@@ -7,7 +7,7 @@
 namespace tern {
 namespace {
 
-/// Of two axes.
+/// Returns whether two axes have the same limits.
 bool are_equal(const Limits& limits, int a, int b) {
   return limits.v_max[a] == limits.v_max[b] && limits.a_max[a] == limits.a_max[b] && limits.j_max[a] == limits.j_max[b];
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr double kSqrt3 = 1.7320508075688772;
 constexpr double kPi = 3.14159265358979323846;
 
-/// The spacing, at least the one asked for, at which the domain takes no more than max_nodes.
+/// Returns the least spacing ≥ options.spacing for which the domain has at most max_nodes.
 double affordable_spacing(const Vec3& extent, const MeanDistanceOptions& options) {
   double h = options.spacing;
   const auto nodes = [&] { return ((extent / h).array().ceil() + 1.0).prod(); };

@@ -12,8 +12,8 @@ namespace {
 
 using Cell = Eigen::Vector3i;
 
-/// The smallest box of voxels (both corners included) that holds every voxel of the kind; low > high when there is
-/// none.
+/// Returns the smallest box of voxels, both corners included, that contains every voxel of the kind; low > high if
+/// there is none.
 std::pair<Cell, Cell> bounds_of(const VoxelMap& map, const VoxelKind& kind) {
   Cell low = map.grid.size;
   Cell high = Cell::Constant(-1);
@@ -30,7 +30,7 @@ std::pair<Cell, Cell> bounds_of(const VoxelMap& map, const VoxelKind& kind) {
   return {low, high};
 }
 
-/// The part [first, second] of the segment's parameters 0 … 1 that lies in the box; first > second: none.
+/// Returns the range of the segment's parameter, within 0 … 1, that lies in the box; first > second if there is none.
 std::pair<double, double> part_inside(const Vec3& a, const Vec3& b, const Box& box) {
   double from = 0.0;
   double to = 1.0;
