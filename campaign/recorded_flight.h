@@ -20,8 +20,8 @@ inline constexpr int kExitCannotWrite = 3;
 /// tracking (measures of check "tube"). Without FILE, both are unknown.
 struct Auditor {
   std::string program;  ///< empty: none
-  bool judges =
-      true;  ///< its exit code is a verdict: 0 passed, 1 broken; anything else failed, whether it judges or not
+  /// True: exit code 0 means passed, 1 broken. Any other exit code means failed, in either case.
+  bool judges = true;
 };
 
 /// Observes a flight. Called with every request and every plan.

@@ -9,9 +9,9 @@
 
 namespace tern {
 
-/// Returns title, start, goal and regions per case of search_cases(). If a path was found, each segment has 25 points
-/// of the curve, both hulls, the plane, its gap, and the obstacle's box in the middle of the segment. A plane is n, d
-/// of n·p = d; null if no plane separates the whole segment.
+/// Returns title, start, goal and regions per case of search_cases(). If a path was found, its segments follow. Each
+/// has 25 points of the curve, both hulls, the plane with its gap, and the obstacle's box in the middle of the segment.
+/// A plane is n, d of n·p = d; null if no plane separates the whole segment.
 std::string search_data(const std::vector<SearchOutcome>& outcomes);
 
 /// Returns regions, obstacles and both flights as rows of t, x, y, z, speed. A moving obstacle is drawn where it is

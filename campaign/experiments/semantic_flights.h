@@ -17,7 +17,7 @@ struct SemanticMethod {
 /// Returns the methods:
 /// - "off": without semantics
 /// - "exposure", "mean_distance": cost in the search and in the choice only
-/// - "exposure+path" (the planner's default), "mean_distance+path": cost in the global path, too
+/// - "exposure+path" (the planner's default), "mean_distance+path": cost in the global path as well
 const std::vector<SemanticMethod>& semantic_methods();
 /// @throws std::invalid_argument for an unknown name
 const SemanticMethod& semantic_method(const std::string& name);

@@ -27,7 +27,7 @@ struct CampaignComparison {
   std::int64_t different_a = 0, different_b = 0;  ///< flights of the pairs that differ from each other
   std::vector<ComparedMeasure> measures;          ///< over the pairs that have a value (Compared), at least one
   bool same_flights = false;  ///< same configuration and version, and no pair differs in any measure
-  /// Returns true if the pairs are independent of each other. Otherwise no interval and no p-value is valid.
+  /// Returns true if the pairs are independent of each other. Otherwise intervals and p-values are invalid.
   [[nodiscard]] bool may_infer() const { return !same_flights && different_a == pairs && different_b == pairs; }
 };
 

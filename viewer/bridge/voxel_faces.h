@@ -24,8 +24,8 @@ struct VoxelSurface {
 };
 
 /// Returns every face between a voxel labelled occupied, attractive or repulsive and one of another label, or the
-/// grid's outside. Faces are merged greedily. A grid of more than `max_voxels` is first coarsened by an integer factor;
-/// a coarse voxel gets the first label found in it of: occupied, repulsive, attractive. O(voxels).
+/// grid's outside. Faces are merged greedily. A grid of more than `max_voxels` is first coarsened by an integer factor.
+/// A coarse voxel gets the first of these labels that it contains: occupied, repulsive, attractive. O(voxels).
 VoxelSurface voxel_surface(const VoxelMap& map, std::int64_t max_voxels = 4'000'000);
 
 /// Returns the distance from p to the nearest occupied voxel as drawn, m: 0 inside one, infinity if there is none. In a

@@ -18,8 +18,8 @@ void add_export_options(CLI::App& app, ViewerOptions& options);
 
 /// Puts a log on a bus of its own inside this process, so a played log neither needs nor disturbs the network.
 ///
-/// Options without effect are refused: with a log, the options of a live flight; with --export or --video, the options
-/// of a page in the browser.
+/// Refuses options that would have no effect. With a log, these are the options of a live flight. With --export or
+/// --video, they are the options of a page in the browser.
 /// @pre app has all options of tern-viewer; `options` outlives it
 void keep_logs_apart(CLI::App& app, const ViewerOptions& options);
 
