@@ -109,13 +109,13 @@ void report(const std::vector<Cost>& costs, int worst) {
 }  // namespace tern
 
 int main(int argc, char** argv) {
-  CLI::App app{"Replans the requests of virtual flights and says what they cost, ms of thread CPU time."};
+  CLI::App app{"Replans the requests of virtual flights and prints their cost, ms of thread CPU time."};
   tern::FlightSelection flights;
   int repeats = 3;
   int worst = 10;
   flights.add_options(app);
   app.add_option("--repeats", repeats, "Measurements per request; the least counts");
-  app.add_option("--worst", worst, "How many of the dearest requests are listed");
+  app.add_option("--worst", worst, "How many of the most expensive requests are listed");
   CLI11_PARSE(app, argc, argv);
   std::vector<tern::Cost> costs;
   tern::PlanWorkspace workspace;

@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
   tern::FlightSelection flights;
   std::size_t every = 4;
   flights.add_options(app);
-  app.add_option("--every", every, "Every how many requests one is judged")->check(CLI::PositiveNumber);
+  app.add_option("--every", every, "Judge every n-th request")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   std::vector<tern::Judged> all;
   flights.each([&](std::int64_t, const tern::FlightRecording& flight) { tern::judge_flight(flight, every, all); });

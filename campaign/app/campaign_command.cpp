@@ -84,12 +84,13 @@ int fly(const Options& options) {
     return kExitCannotWrite;
   }
   if (*end == CampaignEnd::Interrupted) {
-    fmt::print(stderr, "interrupted; the same command goes on where this one stopped\n");
+    fmt::print(stderr, "interrupted; run the same command again to continue\n");
     return kExitInterrupted;
   }
   const int code = write_summary(campaign.out, options.summary, command_line());
   if (!campaign.audit.empty() && code == 0) {
-    fmt::print("    {} were audited now, {} before\n", count_audited(campaign.out) - audited_before, audited_before);
+    fmt::print("    {} audited in this run, {} before it\n", count_audited(campaign.out) - audited_before,
+               audited_before);
   }
   return code;
 }
@@ -99,7 +100,7 @@ void refuse_own_options(const CLI::App& app) {
   const std::string command = app.get_subcommands().front()->get_name();
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0) continue;
-    throw CLI::ValidationError(option->get_name(), fmt::format("is no option of {}, or belongs behind it", command));
+    throw CLI::ValidationError(option->get_name(), fmt::format("is not an option of {}, or must follow it", command));
   }
 }
 
@@ -115,9 +116,9 @@ void add_campaign(CLI::App& app, Command& chosen) {
   app.add_option("--jobs", options->jobs, "Flights at once (default: one per core)")
       ->type_name("K")
       ->check(CLI::Range(1, 10'000));
-  app.add_option("--out", options->out, "A line per flight; what it holds already is not flown again")
+  app.add_option("--out", options->out, "A line per flight; flights that it already holds are skipped")
       ->type_name("FLIGHTS.csv");
-  app.add_option("--summary", options->summary, "The campaign in numbers")->type_name("FILE.json");
+  app.add_option("--summary", options->summary, "Summary of the campaign")->type_name("FILE.json");
   app.add_option("--failures", options->failures, "Folder for flights that failed (default FLIGHTS.csv.failures)")
       ->type_name("DIR");
   app.add_option("--cpu-limit", options->cpu_limit_s, "Seconds of CPU time after which a flight has failed")

@@ -28,7 +28,7 @@ int check(const Options& options) {
   if (!options.out.empty()) {
     const bool was_there = std::filesystem::exists(options.out);
     if (!write_text(options.out, draw_scenario(view))) throw ConfigError(options.out + ": cannot be written");
-    fmt::print("  drawn     {}{}\n", options.out, was_there ? ", in place of the one that was there" : "");
+    fmt::print("  drawn     {}{}\n", options.out, was_there ? ", replacing the old file" : "");
   }
   return view.shortest ? 0 : kExitUnreachable;
 }
@@ -39,10 +39,10 @@ void add_check(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "check",
-      "Look at a scenario without flying it: what is in it, a plan, a way to the goal; exit code 1: there is none");
+      "Inspect a scenario without flying it: contents, drawing, path to the goal; exit code 1: there is no path");
   add_world_options(*command, options->flight);
   command->add_option("--seed", options->seed, "Seed (default: the scenario's)");
-  command->add_option("--out", options->out, "Draw its plan there")->type_name("FILE.svg");
+  command->add_option("--out", options->out, "Draw it from above")->type_name("FILE.svg");
   command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });
 }
 

@@ -36,7 +36,7 @@ int compare_files(const Options& options) {
     fmt::print("{}", to_text(comparison, kTables.at(options.form)));
   }
   if (comparison.may_infer()) return 0;
-  fmt::print(stderr, "{} and {}: no interval means anything, flights are equal\n", options.a, options.b);
+  fmt::print(stderr, "{} and {}: some flights are equal, so intervals would be meaningless\n", options.a, options.b);
   return kExitEqualFlights;
 }
 
@@ -65,8 +65,8 @@ int print_columns() {
 void add_compare(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("compare",
-                                         "Two campaigns of a scenario over the same seeds: every measure, B against A; "
-                                         "exit code 2: their flights are equal, "
+                                         "Compare two campaigns of a scenario over the same seeds, B against A; "
+                                         "exit code 2: some flights are equal, "
                                          "nothing can be inferred");
   command->add_option("a", options->a, "One campaign's flights")->required()->type_name("A.csv");
   command->add_option("b", options->b, "The other's")->required()->type_name("B.csv");
@@ -74,14 +74,14 @@ void add_compare(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember({"text", "markdown", "latex", "svg"}));
   command->callback([&chosen, options] { chosen = [options] { return compare_files(*options); }; });
   auto page = std::make_shared<PageOptions>();
-  CLI::App* html =
-      app.add_subcommand("page", "A campaign as one HTML page: distributions, and what failed with its logs");
-  html->add_option("flights", page->flights, "What a campaign wrote")->required()->type_name("FLIGHTS.csv");
+  CLI::App* html = app.add_subcommand(
+      "page", "Write a campaign as one HTML page: distributions, and failed flights with their logs");
+  html->add_option("flights", page->flights, "Flights of a campaign")->required()->type_name("FLIGHTS.csv");
   html->add_option("--out", page->out, "The page (default FLIGHTS.csv.html)")->type_name("FILE.html");
   html->add_option("--failures", page->failures, "Folder of the flights that failed (default FLIGHTS.csv.failures)")
       ->type_name("DIR");
   html->callback([&chosen, page] { chosen = [page] { return write_page(*page); }; });
-  CLI::App* columns = app.add_subcommand("columns", "What each column of FLIGHTS.csv means");
+  CLI::App* columns = app.add_subcommand("columns", "Print the meaning of each column of FLIGHTS.csv");
   columns->callback([&chosen] { chosen = print_columns; });
 }
 

@@ -24,7 +24,7 @@ std::string why_not_run(const std::string& program) {
   for (std::string folder; !runs && std::getline(folders, folder, ':');) {
     runs = can_run(std::filesystem::path(folder) / program);
   }
-  return runs ? "" : program + ": no program that can be run";
+  return runs ? "" : program + ": is not an executable program";
 }
 
 }  // namespace
@@ -39,20 +39,20 @@ void add_world_options(CLI::App& app, FlightOptions& options) {
 
 void add_flight_options(CLI::App& app, FlightOptions& options) {
   add_world_options(app, options);
-  app.add_option("--charge", options.charge, "What planning takes of virtual time: its thread's CPU time, or 15 ms")
+  app.add_option("--charge", options.charge, "Virtual time that planning takes: the CPU time of its thread, or 15 ms")
       ->check(CLI::IsMember({"cpu", "counts"}))
       ->capture_default_str();
   CLI::Option* audit = app.add_option("--audit", options.audit,
-                                      "Run this program on every log: exit code 0 passed, 1 broken; and keep the "
-                                      "coverage of predictions that it says")
+                                      "Run this program on every log (exit code 0: passed, 1: broken) and record its "
+                                      "coverage of predictions")
                            ->type_name("PROGRAM")
                            ->check(why_not_run);
-  app.add_option("--coverage", options.coverage, "The same, for the coverage alone: it judges no flight")
+  app.add_option("--coverage", options.coverage, "The same for the coverage only, without a verdict")
       ->type_name("PROGRAM")
       ->check(why_not_run)
       ->excludes(audit);
   app.add_flag("--oracle", options.oracle,
-               "The same flights with all motions declared: what perfect prediction reaches");
+               "Declare the motion of every obstacle: the same flights with perfect prediction");
 }
 
 FlightInputs inputs_of(const FlightOptions& options) {

@@ -50,7 +50,7 @@ void add_fly_one(CLI::App& app, Command& chosen) {
   command->add_option("--folder", options->folder, "For scenario.yaml, flight.lcm and summary.json")
       ->type_name("DIR")
       ->capture_default_str();
-  command->add_flag("--trace", options->trace, "Say every answer on stderr");
+  command->add_flag("--trace", options->trace, "Print every answer on stderr");
   command->callback([&chosen, options] { chosen = [options] { return fly_one(*options); }; });
 }
 

@@ -58,9 +58,9 @@ int judge(const Options& options) {
 void add_judge_contacts(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "judge-contacts", "Of a vehicle that rests: which contacts of a campaign random moves would have avoided");
+      "judge-contacts", "Find the contacts of a stationary vehicle that random moves would have avoided");
   add_world_options(*command, options->flight);
-  command->add_option("flights", options->flights, "What a campaign of this world wrote")
+  command->add_option("flights", options->flights, "Flights of a campaign in this world")
       ->required()
       ->type_name("FLIGHTS.csv");
   command->add_option("--moves", options->moves, "Random moves per contact")

@@ -28,10 +28,10 @@ int merge(const Options& options) {
 
 void add_merge(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("merge", "Make one file of the flights of several shards");
+  CLI::App* command = app.add_subcommand("merge", "Merge the flights of several shards into one file");
   command->add_option("parts", options->parts, "Files of flights")->required()->type_name("PART.csv ...");
-  command->add_option("--out", options->out, "For all of them, by seed")->required()->type_name("FLIGHTS.csv");
-  command->add_option("--summary", options->summary, "The campaign in numbers")->type_name("FILE.json");
+  command->add_option("--out", options->out, "The merged file, by seed")->required()->type_name("FLIGHTS.csv");
+  command->add_option("--summary", options->summary, "Summary of the campaign")->type_name("FILE.json");
   command->callback([&chosen, options] { chosen = [options] { return merge(*options); }; });
 }
 

@@ -16,9 +16,9 @@ struct Options {
 
 void add_summarize(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("summarize", "Sum up a file of flights again");
-  command->add_option("flights", options->flights, "What a campaign wrote")->required()->type_name("FLIGHTS.csv");
-  command->add_option("--summary", options->summary, "The campaign in numbers")->type_name("FILE.json");
+  CLI::App* command = app.add_subcommand("summarize", "Print the summary of a file of flights");
+  command->add_option("flights", options->flights, "Flights of a campaign")->required()->type_name("FLIGHTS.csv");
+  command->add_option("--summary", options->summary, "Summary of the campaign")->type_name("FILE.json");
   command->callback([&chosen, options] {
     chosen = [options] { return write_summary(options->flights, options->summary, command_line()); };
   });

@@ -111,8 +111,8 @@ std::string regions_text(const ScenarioView& view) {
     const bool weighs = label == to_string(VoxelLabel::Attractive) || label == to_string(VoxelLabel::Repulsive);
     if (weighs) text += fmt::format(", λ {:g}", lambda_of(view.scenario, region));
     text += "), " + heights(region);
-    if (view.shortest) text += fmt::format(": {:.1f} m of the shortest way", view.shortest->in_region_m[r]);
-    if (view.weighted) text += fmt::format(", {:.1f} m of the weighed one", view.weighted->in_region_m[r]);
+    if (view.shortest) text += fmt::format(": {:.1f} m of the shortest path", view.shortest->in_region_m[r]);
+    if (view.weighted) text += fmt::format(", {:.1f} m of the weighted one", view.weighted->in_region_m[r]);
     text += "\n";
   }
   return text;
@@ -179,9 +179,9 @@ void draw_path(Svg& page, const PlotFrame& frame, const std::optional<PlannedPat
 
 std::string legend_of(const ScenarioView& view) {
   const char* ways = !view.shortest  ? "the goal cannot be reached"
-                     : view.weighted ? "grey: the shortest way; blue: as the regions' λ weigh it"
-                                     : "grey: the shortest way around what rests";
-  return fmt::format("open dot: start; orange: movers at time 0; {}", ways);
+                     : view.weighted ? "grey: the shortest path; blue: weighted by the regions' λ"
+                                     : "grey: the shortest path around static obstacles";
+  return fmt::format("open dot: start; orange: moving obstacles at time 0; {}", ways);
 }
 
 }  // namespace
@@ -221,11 +221,11 @@ std::string to_text(const ScenarioView& view) {
                       (s.uav.goal - s.uav.start).norm());
   text += fmt::format("  world     {}\n  map       {}\n", world_text(view.world), view.map) + regions_text(view);
   if (!view.shortest) return text + fmt::format("  goal      cannot be reached by this body: {}\n", view.blocked);
-  text += fmt::format("  goal      can be reached: {:.1f} m around what rests (movers are not counted)\n",
+  text += fmt::format("  goal      can be reached: {:.1f} m around static obstacles (moving ones are ignored)\n",
                       view.shortest->length_m);
   if (!view.weighted) return text;
   return text +
-         fmt::format("  λ         the weighed way is {:.1f} m, {:+.1f} m; what that buys stands at the regions\n",
+         fmt::format("  λ         the weighted path is {:.1f} m, {:+.1f} m; its effect is listed at the regions\n",
                      view.weighted->length_m, view.weighted->length_m - view.shortest->length_m);
 }
 

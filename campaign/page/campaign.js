@@ -23,7 +23,7 @@ function tiles() {
   main.append(el("div", { class: "tiles" }, ...shown.map(([value, unit, name]) =>
     el("div", { class: "tile" }, el("b", {}, String(value), el("small", {}, unit)), el("span", {}, name)))));
   if (s.different_flights < s.flights) {
-    main.append(el("p", { class: "note" }, `The ${s.flights} flights are ${s.different_flights} different ones: no interval means anything.`));
+    main.append(el("p", { class: "note" }, `The ${s.flights} flights are ${s.different_flights} different ones, so intervals would be meaningless.`));
   }
 }
 
@@ -56,7 +56,7 @@ function histogram(parent, measure, values) {
 
 function failures() {
   if (!data.failures.length) return;
-  const box = card("What failed", "A log opens in tern-viewer and tern-report; scenario.yaml beside it flies the same world again.");
+  const box = card("Failed flights", "A log opens in tern-viewer and tern-report; scenario.yaml beside it repeats the flight.");
   const logOf = (f) => (f.log && data.folder ? el("a", { href: encodeURI(`${data.folder}/${f.log}`) }, f.log) : f.log || "–");
   table(box, ["seed", "outcome", "what happened", "audit", "log"].map((word) => [word, false]),
     data.failures.map((f) => [String(f.seed), f.outcome, f.detail, f.audit || "–", logOf(f)]));
@@ -64,10 +64,10 @@ function failures() {
 
 function coverage() {
   if (!s.coverage.length) return;
-  const box = card("Predictions: promised and kept", "Share of predictions that held on all axes at all times up to so long ahead; plans: claims that held to the plan's end. " +
-    "Bar: 95 % interval, from 0.5 to 1; tick: what was promised; red: cannot have been true.");
+  const box = card("Coverage of predictions", "Share of predictions that covered on all axes, at all times up to the horizon; plans: claims that held to the plan's end. " +
+    "Bar: 95 % interval, from 0.5 to 1; tick: the promised confidence; red: implausible.");
   const horizons = ["0.25", "0.5", "1", "2", "whole"];
-  const cell = (k) => k && keptCell({ ...k, low: k.ci95[0], high: k.ci95[1] }, `${k.kept} of ${k.made} in ${k.flights} flights, ` +
+  const cell = (k) => k && coverageCell({ ...k, low: k.ci95[0], high: k.ci95[1] }, `${k.kept} of ${k.made} in ${k.flights} flights, ` +
     `${k.ci95[0].toFixed(4)} to ${k.ci95[1].toFixed(4)}; half-width ${short(k.half_m)} m`);
   const rows = [...new Set(s.coverage.map((k) => k.what + "|" + k.promised))].map((key) => {
     const [what, promised] = key.split("|");

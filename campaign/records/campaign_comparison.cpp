@@ -53,7 +53,7 @@ void add_exposure(CampaignComparison& comparison, const std::vector<Pair>& pairs
       if (const auto other = of_b.find(row); other != of_b.end()) numbers[row].emplace_back(metres, other->second);
     }
   }
-  for (const auto& [row, both] : numbers) comparison.measures.push_back({row, "of the way", paired_difference(both)});
+  for (const auto& [row, both] : numbers) comparison.measures.push_back({row, "of the path", paired_difference(both)});
 }
 
 using Row = std::vector<std::string>;
@@ -118,7 +118,7 @@ std::string success_lines(const CampaignComparison& c) {
     text += "no intervals: A and B are the same flights, of one configuration and version\n";
   } else if (!c.may_infer()) {
     text += fmt::format(
-        "no intervals: of {} flights, {} of A and {} of B differ from the others; equal flights say no more than one\n",
+        "no intervals: of {} flights, {} of A and {} of B differ from the others; equal flights add no information\n",
         c.pairs, c.different_a, c.different_b);
   }
   return text;
@@ -163,7 +163,7 @@ Result<CampaignComparison> compare(const Flights& a, const Flights& b) {
   c.a = pairs.front().first->identity;
   c.b = pairs.front().second->identity;
   if (c.a.scenario != c.b.scenario) {
-    return fail(fmt::format("their scenarios differ, \"{}\" and \"{}\": a seed makes no pair of them", c.a.scenario,
+    return fail(fmt::format("their scenarios differ, \"{}\" and \"{}\": their seeds cannot be compared", c.a.scenario,
                             c.b.scenario));
   }
   c.p_value = mcnemar(static_cast<std::int64_t>(c.a_alone.size()), static_cast<std::int64_t>(c.b_alone.size()));

@@ -186,8 +186,7 @@ std::string audit_line(const CampaignSummary& s) {
   }
   text = fmt::format("  audited {} of {}{}\n", audited, s.flights, text);
   if (audited == s.flights) return text;
-  return text +
-         fmt::format("    {} were flown before without --audit: nothing is known of them\n", s.flights - audited);
+  return text + fmt::format("    {} were flown earlier without --audit\n", s.flights - audited);
 }
 
 }  // namespace
@@ -268,7 +267,7 @@ std::string to_text(const CampaignSummary& s) {
   text += fmt::format("  reached {}, collisions {} ({} while moving, {} at rest), timeouts {}, failed {}\n", s.reached,
                       s.collisions, s.contacts_moving, s.contacts_at_rest, s.timeouts, s.failed);
   text += fmt::format(
-      "  obstacles in a flight {:.0f} to {:.0f}, mean {:.1f}; {} left out (they began beside the vehicle)\n",
+      "  obstacles in a flight {:.0f} to {:.0f}, mean {:.1f}; {} left out (they started too near to the vehicle)\n",
       s.obstacles.min, s.obstacles.max, s.obstacles.mean, s.obstacles_left_out);
   text += fmt::format("  {:<20}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "mean", "p50", "p95", "p99", "min", "max");
   const auto row = [&](const char* name, const Distribution& d) {

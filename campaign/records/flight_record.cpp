@@ -122,19 +122,20 @@ void add_measures(std::vector<Column>& columns) {
   add("detail", "in words: what was hit, which limit, what failed", kNo, &FlightResult::detail);
   add("flight_time_s", "world time at arrival or end, s", kReached, &FlightResult::flight_time_s);
   add("first_entry_s", "first within 0.2 m of the goal, s", kReached, &FlightResult::first_entry_s);
-  add("path_length_m", "length of the way, m", kReached, &FlightResult::path_length_m);
+  add("path_length_m", "length of the path, m", kReached, &FlightResult::path_length_m);
   add("mean_speed_mps", "straight distance / flight time, m/s", kReached, &FlightResult::mean_speed_mps);
   add("top_speed_mps", "greatest speed, m/s", kAll, &FlightResult::top_speed_mps);
-  add("stops", "times under 0.1 m/s on the way, after the first second", kAll, &FlightResult::stops);
+  add("stops", "times below 0.1 m/s before the goal, after the first second", kAll, &FlightResult::stops);
   add("min_clearance_m", "least distance to an obstacle in continuous time, negative in overlap, m", kAll,
       &FlightResult::min_clearance_m);
   add("min_map_clearance_m", "the same to the map's occupied voxels, m", kAll, &FlightResult::min_map_clearance_m);
   add("jerk_integral", "jerk squared over time, m^2/s^5", kReached, &FlightResult::jerk_integral);
   add("limit_violations", "of speed, acceleration, jerk, flight box, and jumps", kAll, &FlightResult::limit_violations);
-  add("contacts_moving", "touched something while faster than 0.1 m/s", kAll, &FlightResult::contacts_moving);
-  add("contacts_at_rest", "was touched while slower", kAll, &FlightResult::contacts_at_rest);
-  add("obstacles", "that were there at some time of the flight", kNo, &FlightResult::obstacles);
-  add("obstacles_left_out", "recorded ones that began too near to the vehicle", kNo, &FlightResult::obstacles_left_out);
+  add("contacts_moving", "contacts while faster than 0.1 m/s", kAll, &FlightResult::contacts_moving);
+  add("contacts_at_rest", "contacts while slower", kAll, &FlightResult::contacts_at_rest);
+  add("obstacles", "that existed at some time of the flight", kNo, &FlightResult::obstacles);
+  add("obstacles_left_out", "recorded obstacles that started too near to the vehicle", kNo,
+      &FlightResult::obstacles_left_out);
 }
 
 void add_answers(std::vector<Column>& columns) {
@@ -142,7 +143,7 @@ void add_answers(std::vector<Column>& columns) {
   const auto add = [&](const char* name, const char* meaning, auto member) {
     columns.push_back(column(name, meaning, Compared::All, member));
   };
-  add("requests", "horizons asked for", &R::requests);
+  add("requests", "plans requested", &R::requests);
   add("answered_in_time", "of these, by their deadline", &R::answered_in_time);
   add("answers_late", "by the executor's clock", &R::answers_late);
   add("answers_refused", "by the executor", &R::answers_refused);
@@ -182,10 +183,10 @@ void add_tracking(std::vector<Column>& columns) {
   const auto add = [&](const char* name, const char* meaning, double Tracking::*member) {
     columns.push_back(column(name, meaning, Compared::Reached, &FlightRecord::tracking, member));
   };
-  add("tracking_rmse_m", "of --audit: RMSE of the vehicle about its setpoints, m", &Tracking::rmse_m);
-  add("tracking_error_m", "of --audit: its greatest distance to them, m", &Tracking::error_m);
-  add("tube_m", "of --audit: greatest half-width of the tubes that were promised, m", &Tracking::tube_m);
-  add("tube_margin_m", "of --audit: least distance left to a tube's face, negative outside, m", &Tracking::margin_m);
+  add("tracking_rmse_m", "by --audit: RMSE of the distance to the setpoints, m", &Tracking::rmse_m);
+  add("tracking_error_m", "by --audit: greatest distance to the setpoints, m", &Tracking::error_m);
+  add("tube_m", "by --audit: greatest half-width of the promised tubes, m", &Tracking::tube_m);
+  add("tube_margin_m", "by --audit: least distance to a face of the tube, negative outside, m", &Tracking::margin_m);
 }
 
 std::vector<Column> make_columns() {
@@ -205,15 +206,15 @@ std::vector<Column> make_columns() {
   add_tracking(columns);
   columns.push_back(
       column("coverage",
-             "JSON of --audit or --coverage, per class and time ahead: predictions, mean half-width m, kept "
-             "at each confidence; claims: of plans, made and kept at each",
+             "JSON of --audit or --coverage, per class and time ahead: predictions, mean half-width m, covered "
+             "at each confidence; claims: of plans, made and true at each",
              kNo, &R::coverage));
   columns.push_back(column("restarts", "of processes in flight", kNo, &R::restarts));
   columns.push_back(column("audit", "passed, broken, failed; empty: not audited", kNo, &R::audit));
   columns.push_back(column("log", "of a failed flight, relative to the failures' folder", kNo, &R::log));
-  columns.push_back(column("charge", "cpu or counts: what planning took of virtual time", kNo, &R::identity,
-                           &CampaignIdentity::charge));
-  columns.push_back(column("configuration", "digest of all settings but the seed", kNo, &R::identity,
+  columns.push_back(
+      column("charge", "cpu or counts: virtual time that planning took", kNo, &R::identity, &CampaignIdentity::charge));
+  columns.push_back(column("configuration", "digest of all settings except the seed", kNo, &R::identity,
                            &CampaignIdentity::configuration));
   columns.push_back(column("version", "build", kNo, &R::identity, &CampaignIdentity::version));
   return columns;

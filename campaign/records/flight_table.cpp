@@ -27,7 +27,7 @@ Result<std::size_t> read_table(const std::string& path, const CsvRecord& columns
     const std::string place = fmt::format("{}:{}", path, table.lines[k]);
     if (k == 0) {
       if (table.records[k] == columns) continue;
-      return fail(place + ": not the columns that this version writes");
+      return fail(place + ": has other columns than this version writes");
     }
     if (Result<void> taken = take(table.records[k]); !taken) {
       return fail(fmt::format("{}: {}", place, taken.error().message));
@@ -115,7 +115,7 @@ Result<void> join(Flights& all, Flights more) {
   for (auto& [seed, record] : more.records) {
     const auto [known, is_new] = all.records.emplace(seed, record);
     if (!is_new && to_cells(known->second) != to_cells(record)) {
-      return fail(fmt::format("seed {} was flown before, with another result", seed));
+      return fail(fmt::format("seed {} is in both, with different results", seed));
     }
   }
   all.times.merge(more.times);

@@ -141,7 +141,7 @@ TEST(CampaignSummary, SaysHowManyWereNotAudited) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) flights.records[seed].audit = seed == 2 ? "broken" : "passed";
   const std::string text = to_text(summarize(flights));
   EXPECT_NE(text.find("audited 8 of 30, 1 broken, 7 passed"), std::string::npos) << text;
-  EXPECT_NE(text.find("22 were flown before without --audit"), std::string::npos) << text;
+  EXPECT_NE(text.find("22 were flown earlier without --audit"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -74,10 +74,10 @@ bad_arguments_end_with_a_clear_word_and_exit_code_2() {
   refused "seeds are set by --seeds" --world "$hop" "${out[@]}" --set seed=3
   refused "--charge" --world "$hop" "${out[@]}" --charge wall
   refused "--jobs" --world "$hop" "${out[@]}" --jobs 0
-  refused "nowhere: no program that can be run" --world "$hop" "${out[@]}" --audit nowhere
-  refused "$hop: no program that can be run" --world "$hop" "${out[@]}" --coverage "$hop"
+  refused "nowhere: is not an executable program" --world "$hop" "${out[@]}" --audit nowhere
+  refused "$hop: is not an executable program" --world "$hop" "${out[@]}" --coverage "$hop"
   refused "--bogus" --world "$hop" "${out[@]}" --bogus
-  refused "world: is no option of summarize" --world x summarize "$work/x.csv"
+  refused "world: is not an option of summarize" --world x summarize "$work/x.csv"
   refused "no tern-logger runs" --world "$here/short_hop.yaml" --set logger.rotate_mb=3 --out "$work/x.csv"
   refused "charge" judge-contacts --world "$here/short_hop.yaml" --charge cpu "$work/x.csv"
   refused "parts is required" merge --out "$work/x.csv"
@@ -150,7 +150,7 @@ an_interrupted_campaign_ends_cleanly_and_goes_on() {
   kill -INT "$pid"
   wait "$pid" || code=$?
   [[ $code == 130 ]] || fail "exit code $code"
-  said "the same command goes on"
+  said "run the same command again"
   nobody_left || fail "still there: $(pgrep -af "$work/")"
   [[ ! -e $work/flights.csv.failures ]] || fail "left behind: $(ls -a "$work/flights.csv.failures")"
   fly "$work/flights.csv" --seeds 1:24
@@ -164,7 +164,7 @@ whoever_ends_a_flight_s_process_interrupts_the_campaign_and_fails_no_flight() {
   eventually 60 pkill -TERM -f "fly-one .*$work/"
   wait "$pid" || code=$?
   [[ $code == 130 ]] || fail "exit code $code: $(cat "$work/flights.csv")"
-  said "the same command goes on"
+  said "run the same command again"
   [[ $(wc -l <"$work/flights.csv") == 1 ]] || fail "a flight was counted: $(cat "$work/flights.csv")"
   [[ ! -e $work/flights.csv.failures ]] || fail "left behind: $(ls -a "$work/flights.csv.failures")"
 }
@@ -218,7 +218,7 @@ a_resumed_campaign_says_how_many_were_audited_now_before_and_not() {
   fly "$resumed" --seeds 1:3 --audit true
   grep -q 'audited 1 of 3' "$resumed.said" || fail "$(cat "$resumed.said")"
   fly "$resumed" --seeds 1:5 --audit true
-  for words in 'audited 3 of 5' '2 were flown before without --audit' '2 were audited now, 1 before'; do
+  for words in 'audited 3 of 5' '2 were flown earlier without --audit' '2 audited in this run, 1 before it'; do
     grep -q -- "$words" "$resumed.said" || fail "not said: $words, but $(cat "$resumed.said")"
   done
 }

@@ -347,7 +347,7 @@ TEST(AuditClearance, CountsTheObstaclesThatWereThereDuringTheFlightAndNoOthers) 
     return std::string();
   };
   EXPECT_EQ(says(2), "");
-  EXPECT_EQ(says(3), "says 3 obstacles, recomputed 2 to 2");
+  EXPECT_EQ(says(3), "FLIGHT_RESULT says 3 obstacles, recomputed 2 to 2");
 }
 
 }  // namespace

@@ -205,7 +205,7 @@ TEST_F(AuditOfALog, OfTwoPlannersCountsTheAnswersOfTheSecondAsSuch) {
   const Audit audited = audit(both);
   EXPECT_THAT(broken(audited), IsEmpty()) << text(audited);
   EXPECT_EQ(measure_of(audited, "answers", "second_answers"), static_cast<double>(record_->plans.size()));
-  EXPECT_THAT(audited.check("answers").summary, HasSubstr("second answers of another planner"));
+  EXPECT_THAT(audited.check("answers").summary, HasSubstr("second answers by another planner"));
 }
 
 TEST_F(AuditOfALog, OfAPlannerThatAnswersTwiceIsBroken) {
@@ -312,7 +312,7 @@ TEST_F(AuditOfALog, OfACollisionThatTheLogContradictsIsBroken) {
   });
   const Audit audited = audit(log);
   EXPECT_EQ(audited.collision, Collision::Contradicts);
-  EXPECT_THAT(text(audited), HasSubstr("BROKEN: the referee saw a collision, the log contradicts it\n"));
+  EXPECT_THAT(text(audited), HasSubstr("BROKEN: the referee saw a collision, but the log contradicts it\n"));
   EXPECT_EQ(run_program(log), 1);
 }
 

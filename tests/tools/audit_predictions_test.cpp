@@ -100,7 +100,7 @@ struct World {
 };
 
 const CoverageShare& share(const Audit& audit, const std::string& what, const std::string& horizon,
-                       double confidence = 0.99) {
+                           double confidence = 0.99) {
   for (const CoverageShare& s : audit.shares) {
     if (s.what == what && s.horizon == horizon && s.confidence == confidence) return s;
   }
@@ -151,7 +151,7 @@ TEST(AuditedPredictions, ThatCannotHaveKeptTheirPromiseFailTheFlight) {
   const auto [audit, check] = world.audit();
   EXPECT_EQ(check.verdict(), Verdict::Broken);
   EXPECT_TRUE(share(audit, "old", "0.5").is_refuted());
-  EXPECT_THAT(check.findings.front().what, HasSubstr("promises of class old"));
+  EXPECT_THAT(check.findings.front().what, HasSubstr("predictions of class old"));
 }
 
 TEST(AuditedPredictions, OfFewBadObstaclesAmongManyAreNotCalledBroken) {
@@ -305,7 +305,7 @@ TEST(AuditedPredictions, OfPlansThatClaimNothingAreCountedApart) {
   world.record.plans.back().confidence = 0.0;
   const auto [audit, check] = world.audit();
   EXPECT_EQ(audit.coverage.claims[4].made, 0);
-  EXPECT_THAT(check.unchecked, Contains(Pair(HasSubstr("claim no confidence"), 1)));
+  EXPECT_THAT(check.unchecked, Contains(Pair(HasSubstr("without a confidence"), 1)));
 }
 
 TEST(AuditedPredictions, AreCountedFromTheBeginAndAsOldAsTheyAreThen) {
@@ -343,7 +343,7 @@ TEST(AContact, IsLookedBackFrom) {
   }
   EXPECT_EQ(contact.confidence.value(), 0.9) << "the last plan claims none";
   EXPECT_NEAR(contact.confident_s.value(), 0.8, 1e-9);
-  EXPECT_THAT(to_text(contact, world.record), HasSubstr("an alpha of 0.10 m was promised, 0.50 m were needed: broken"));
+  EXPECT_THAT(to_text(contact, world.record), HasSubstr("alpha was 0.10 m, needed were 0.50 m: missed"));
   const nlohmann::json json = to_json(contact, world.record);
   EXPECT_EQ(json["promised"].size(), 3U);
   EXPECT_EQ(json["promised"][0]["kept"], false);

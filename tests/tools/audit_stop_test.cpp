@@ -67,8 +67,9 @@ TEST_F(AuditOfStops, FromMeasuredStatesSaysThatNoPlanCertifiedThem) {
   EXPECT_EQ(audit.check("commitment").verdict(), Verdict::Held) << to_text(audit, *record_);
   EXPECT_EQ(audit.check("continuity").verdict(), Verdict::Held);
   EXPECT_EQ(audit.check("tube").verdict(), Verdict::Broken) << "the vehicle did leave it";
-  EXPECT_THAT(to_text(audit, *record_), HasSubstr("commitment: stops from a measured state, which no plan certified"));
-  EXPECT_THAT(to_text(audit, *record_), HasSubstr("continuity: stops from a measured state"));
+  EXPECT_THAT(to_text(audit, *record_),
+              HasSubstr("commitment: braking trajectories from a measured state, not certified by a plan"));
+  EXPECT_THAT(to_text(audit, *record_), HasSubstr("continuity: braking trajectories from a measured state"));
 }
 
 TEST_F(AuditOfStops, ThatBeginElsewhereOrLeadOnAreBroken) {

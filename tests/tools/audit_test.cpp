@@ -109,7 +109,7 @@ TEST_F(AuditedFlight, WithPlanesLeftOutNamesThePairsThatNothingSeparates) {
   });
   EXPECT_THAT(broken(audit), ElementsAre("certificates"));
   EXPECT_THAT(audit.check("certificates").findings,
-              Each(Field(&Finding::what, HasSubstr("no plane and no box separates obstacle"))));
+              Each(Field(&Finding::what, HasSubstr("neither a plane nor a box separates obstacle"))));
 }
 
 TEST_F(AuditedFlight, WithATamperedControlPointNamesThatPlan) {

@@ -7,7 +7,7 @@ const { TERN_BIN } = process.env;
 const scenario = (name) => new URL(`../../scenarios/${name}.yaml`, import.meta.url).pathname;
 const CARDS = [
   'Where it flew', 'Speed, m/s', 'Acceleration, m/s²', 'Clearance, m', 'Exposure, m', 'Replan time by stage, ms', 'Plan outcomes',
-  'Audit', 'Prediction coverage', 'Half-width of predictions, m', 'Tracks nearest to leaving their promise', 'Replan time, ms', 'Answers', 'Regions', 'Log',
+  'Audit', 'Prediction coverage', 'Half-width of predictions, m', 'Tracks nearest to leaving their intervals', 'Replan time, ms', 'Answers', 'Regions', 'Log',
   'Processes',
 ];
 const CHARTS = 8; // two views of the map, speed, acceleration, clearance, exposure, replan times, outcomes

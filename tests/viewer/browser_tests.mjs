@@ -265,7 +265,7 @@ await run({
     await eventually('a process is ready', async () => (await dots()).includes('ready'));
     await end(viewer, 'SIGKILL');
     await eventually('no process is said to be ready', async () => /^unknown(,unknown)*$/.test(await dots()));
-    await eventually('it says so', async () => (await text(page, '#mode')) === 'bridge gone');
+    await eventually('it says so', async () => (await text(page, '#mode')) === 'bridge lost');
     const before = await status(page);
     await startViewer('--listen', new URL(viewer.url).host);
     await shows(page, 'it is back', (s) => s.connections === 2 && s.frames > before.frames + 5 && s.obstacles === OBSTACLES);

@@ -212,7 +212,7 @@ TEST(FlightEvents, AreGoalsStopsLateAnswersRestartsAndTheResultOnce) {
     heartbeat.header.name.sender_epoch_us = epoch;
     events.receive(heartbeat);
   }
-  EXPECT_EQ(told(events, "restart"), Texts{"tern-planner was started anew"});
+  EXPECT_EQ(told(events, "restart"), Texts{"tern-planner restarted"});
   FlightResult result;
   result.outcome = FlightOutcome::Collision;
   result.detail = "mover 3";

@@ -205,14 +205,14 @@ test('words: what was clicked on', () => {
   };
   assert.equal(
     obstacleInWords(7, known),
-    'A mover at 2.0 m/s, 1.0 × 1.0 × 1.0 m; the vehicle is 2.40 m away; the planner is told of it; 2 planes of the newest plan keep it apart.');
-  assert.match(obstacleInWords(8, known), /^It stands still, .* 3\.90 m away; the planner is not told of it/);
-  assert.equal(obstacleInWords(9, known), 'It is not there any more.');
+    'Moving at 2.0 m/s, 1.0 × 1.0 × 1.0 m; the vehicle is 2.40 m away; the planner knows it from PREDICTIONS; 2 planes of the newest plan separate it from the vehicle.');
+  assert.match(obstacleInWords(8, known), /^Stationary, .* 3\.90 m away; the planner does not know it/);
+  assert.equal(obstacleInWords(9, known), 'It has gone.');
   known.state.p = [3, 0, 1.45];
   assert.match(obstacleInWords(7, known), /overlaps it by 0\.10 m/);
   const at = { toArray: () => [0, 3, 1], getComponent: (k) => [0, 3, 1][k] };
   known.state.p = [0, 0, 1];
   assert.equal(
     mapInWords({ point: at, layer: 'walls' }, known),
-    'Occupied: a wall of the map, nothing flies through it; here at 0.0, 3.0, 1.0; the vehicle is 2.90 m away; its nearest wall is 0.40 m away.');
+    'Occupied: a wall of the map; here at 0.0, 3.0, 1.0; the vehicle is 2.90 m away; its nearest wall is 0.40 m away.');
 });

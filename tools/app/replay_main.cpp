@@ -18,17 +18,18 @@ int main(int argc, char** argv) {
   app.add_option("LOG", log,
                  "A log of tern-logger or lcm-logger (its further parts are read too), or a flight's folder")
       ->required();
-  app.add_option("--planner-config", options.other.file, "What if: a scenario file whose planner section holds instead")
+  app.add_option("--planner-config", options.other.file, "What if: use the planner section of this scenario file")
       ->type_name("FILE");
-  app.add_option("--set", options.other.settings, "What if: a setting, as planner.search.samples_xy=5 (repeatable)")
+  app.add_option("--set", options.other.settings,
+                 "What if: change a setting, as planner.search.samples_xy=5 (repeatable)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--from", options.from_s, "Answers from this time of the log on, seconds")->type_name("S");
-  app.add_option("--to", options.to_s, "Answers up to this time of the log, seconds")->type_name("S");
-  app.add_option("--request", options.request, "Answers to this request alone")->type_name("ID");
-  app.add_option("--channel-suffix", options.suffix, "What the vehicle's channels end with")->type_name("S");
-  app.add_option("--json", json, "Write what was found, with a line per answer, to this file")->type_name("FILE");
-  app.add_option("--save", save, "Write those answers with only what they name as a new, small log")->type_name("FILE");
+  app.add_option("--from", options.from_s, "Only answers from this time of the log on, seconds")->type_name("S");
+  app.add_option("--to", options.to_s, "Only answers up to this time of the log, seconds")->type_name("S");
+  app.add_option("--request", options.request, "Only answers to this request")->type_name("ID");
+  app.add_option("--channel-suffix", options.suffix, "Suffix of the vehicle's channels")->type_name("S");
+  app.add_option("--json", json, "Write the result, with a line per answer, to this file")->type_name("FILE");
+  app.add_option("--save", save, "Write the selected answers and their inputs as a new, small log")->type_name("FILE");
   app.add_option("--dump", dump, "Write the answer to --request ID with its world as a text fixture for a unit test")
       ->type_name("FILE")
       ->needs("--request");

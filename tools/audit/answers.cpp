@@ -64,8 +64,9 @@ class AnswerCheck {
     }
     ++check_.checked;
     if (set->second.batch.set != plan.inputs.prediction_set) fail(plan, "names predictions of another set");
-    if (set->second.left_out != plan.inputs.left_out) fail(plan, "says another number of left out tracks than they do");
-    if (plan.inputs.left_out > 0) ++check_.unchecked["plans on predictions that left tracks out"];
+    if (set->second.left_out != plan.inputs.left_out)
+      fail(plan, "its number of left-out tracks differs from that of its predictions");
+    if (plan.inputs.left_out > 0) ++check_.unchecked["plans from predictions that left tracks out"];
     const double age_s = (request.header.utime - set->second.made_at).seconds();
     oldest_s_ = std::max(oldest_s_, age_s);
     if (age_s > stale_after_)
@@ -90,9 +91,9 @@ class AnswerCheck {
         --unread;
         ++check_.unchecked["requests whose answer may be among the PLANs that were lost or refused"];
       } else if (was_replaced(r)) {
-        ++check_.unchecked["requests that another one replaced before their deadline"];
+        ++check_.unchecked["requests that were replaced before their deadline"];
       } else if (planner_changed(record_, r.header.utime)) {
-        ++check_.unchecked["requests while no planner was there"];
+        ++check_.unchecked["requests while no planner was running"];
       } else {
         ++check_.checked;
         check_.fail({r.deadline, "was never answered", r.id});
@@ -105,7 +106,7 @@ class AnswerCheck {
     check_.summary =
         fmt::format("{} answers to {} requests, at least {:.1f} ms to spare; predictions at most {:.0f} ms old{}",
                     answers_.size(), record_.requests.size(), least_spare_s_ * 1e3, oldest_s_ * 1e3,
-                    second_answers_ > 0 ? fmt::format("; {} second answers of another planner", second_answers_) : "");
+                    second_answers_ > 0 ? fmt::format("; {} second answers by another planner", second_answers_) : "");
     check_.measures = {{"least_spare_s", least_spare_s_},
                        {"oldest_predictions_s", oldest_s_},
                        {"second_answers", static_cast<double>(second_answers_)}};

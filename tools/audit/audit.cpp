@@ -26,7 +26,7 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
   std::vector<std::string> missing;
   const LogContents& log = record.contents;
   if (log.damage.places > 0) {
-    missing.push_back(fmt::format("the log is damaged at {} places ({} bytes; {} events are missing by their numbers)",
+    missing.push_back(fmt::format("the log is damaged in {} places ({} bytes; {} events are missing, by their numbers)",
                                   log.damage.places, log.damage.bytes, log.damage.missing));
   }
   if (log.damage.truncated) missing.push_back("the log ends in the middle of an event");
@@ -57,7 +57,7 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
   }
   if (!record.requests.empty() && record.requests.front().id > 1) {
     missing.push_back(
-        fmt::format("the log begins with request {}: those before it are not in it", record.requests.front().id));
+        fmt::format("the log begins with request {}: earlier requests are missing", record.requests.front().id));
   }
   return missing;
 }
@@ -72,8 +72,8 @@ std::vector<std::string> named_and_missing(const FlightRecord& record) {
     }
     if (names.configuration_hash != 0 && !record.configuration_hashes.contains(names.configuration_hash)) {
       ++plans[fmt::format(
-          "CONFIGURATION {:016x} of the planner (stale_after_s and unknown are taken to be the "
-          "defaults)",
+          "CONFIGURATION {:016x} of the planner (the defaults of stale_after_s and unknown "
+          "are assumed)",
           names.configuration_hash)];
     }
   }
@@ -89,7 +89,7 @@ std::string words(Collision collision) {
     case Collision::None: return "";
     case Collision::Agrees: return ": the referee saw a collision, and so does the log";
     case Collision::CannotTell: return ", but the referee saw a collision: too close to tell from the log";
-    case Collision::Contradicts: return ": the referee saw a collision, the log contradicts it";
+    case Collision::Contradicts: return ": the referee saw a collision, but the log contradicts it";
   }
   return "";
 }
@@ -192,8 +192,7 @@ std::string to_text(const Audit& audit, const FlightRecord& record) {
                           f.request > 0 ? fmt::format("request {}: ", f.request) : "", f.what);
     }
     const auto more = check.broken - static_cast<std::int64_t>(listed);
-    if (check.broken > 0 && more > 0)
-      text += fmt::format("      and {} more of {} things checked\n", more, check.checked);
+    if (check.broken > 0 && more > 0) text += fmt::format("      and {} more, of {} checked\n", more, check.checked);
   }
   if (audit.contact) text += "\n" + to_text(*audit.contact, record);
   if (!audit.shares.empty()) text += "\n" + to_text(audit.shares);

@@ -137,7 +137,7 @@ class CaseCheck {
     const Span s = span(part);
     if (apart(vehicle_box(part), obstacle.bounds(curve(part).from, s.a, s.b))) return;
     if (part.parts == kMaxParts) {
-      return fail(fmt::format("no plane and no box separates obstacle {} in {}", id, words(part)), id);
+      return fail(fmt::format("neither a plane nor a box separates obstacle {} in {}", id, words(part)), id);
     }
     for (int half = 0; half < 2; ++half) separated(obstacle, {part.interval, 2 * part.part + half, 2 * part.parts});
   }
@@ -246,7 +246,7 @@ void for_each_case(const FlightRecord& record, Check& check, const Visit& visit)
 
 Check check_certificates(const FlightRecord& record) {
   Check check{.name = "certificates",
-              .claim = "each plan is separated from all that was predicted, as its certificate says"};
+              .claim = "each plan is separated from every predicted obstacle, as its certificate says"};
   const bool unknown = planner_setting(record, "unknown") == "obstacle";
   std::int64_t plans = 0, planes = 0, voxels = 0, relaxed = 0;
   for_each_case(record, check, [&](const PlanCase& plan) {
@@ -267,7 +267,7 @@ Check check_certificates(const FlightRecord& record) {
 }
 
 Check check_holds(const FlightRecord& record) {
-  Check check{.name = "holds", .claim = "each plan's end stays clear of all that was predicted for as long as it says"};
+  Check check{.name = "holds", .claim = "each plan's end stays clear of every predicted obstacle for its hold"};
   double shortest = INFINITY;
   for_each_case(record, check, [&](const PlanCase& plan) {
     check_hold(plan, check);

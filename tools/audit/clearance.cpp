@@ -234,7 +234,7 @@ class Verdicts {
       const Closest& c = a.proven;
       check_.fail({c.at, fmt::format("overlaps {} by {:.3f} m", names_(c.obstacle), -c.high), 0, c.obstacle});
     } else if (a.proven.obstacle != kNoObstacle && a.proven.low < passed_over(a.proven.low)) {
-      undecided(a.proven, "the log tells no better");
+      undecided(a.proven, "the log is not precise enough");
     } else if (a.interpolated.obstacle != kNoObstacle && a.interpolated.low < passed_over(a.interpolated.low)) {
       undecided(a.interpolated, "by interpolation: its motion was not declared");
     }
@@ -242,7 +242,8 @@ class Verdicts {
 
   LeastClearance finish(bool whole) {
     if (undeclared_ > 0)
-      check_.unchecked["obstacles between their samples: their motion was not declared, or not kept to"] = undeclared_;
+      check_.unchecked["obstacles between their samples: their motion was not declared, or left its declaration"] =
+          undeclared_;
     LeastClearance least;
     const bool near = proven_.obstacle != kNoObstacle;
     const Closest& closest = near && proven_.low <= interpolated_.low ? proven_ : interpolated_;
@@ -322,9 +323,9 @@ bool collided(const FlightRecord& record) {
 
 Check check_map(const FlightRecord& record, Audit& audit) {
   Check check{.name = "map", .claim = "the body stayed clear of the map's occupied voxels, in continuous time"};
-  if (record.requests.empty()) check.unchecked["the body is not known: no HORIZON_REQUEST"] = 1;
+  if (record.requests.empty()) check.unchecked["the body is unknown: no HORIZON_REQUEST"] = 1;
   if (record.maps.size() > 1)
-    check.unchecked["the map changed in flight: which one was in force when is not in the log"] = 1;
+    check.unchecked["the map changed in flight: the log does not tell which one was in force"] = 1;
   if (record.requests.empty() || record.maps.size() != 1) return check;
   std::vector<ClearancePoint> nobodys;
   Watch watch{record, record.requests.front().body, judged_window(record), vehicle_motion(record), nobodys};
@@ -352,7 +353,7 @@ Check check_map(const FlightRecord& record, Audit& audit) {
 Check check_clearance(const FlightRecord& record, Audit& audit) {
   Check check{.name = "clearance", .claim = "the body stayed clear of every true obstacle, in continuous time"};
   if (record.requests.empty()) {
-    check.unchecked["the body is not known: no HORIZON_REQUEST"] = 1;
+    check.unchecked["the body is unknown: no HORIZON_REQUEST"] = 1;
     return check;
   }
   Watch watch{record, record.requests.front().body, judged_window(record), vehicle_motion(record), audit.clearance};
@@ -380,7 +381,7 @@ Check check_clearance(const FlightRecord& record, Audit& audit) {
   if (record.truth_left_out > 0) check.unchecked["obstacles that OBSTACLE_TRUTH left out"] = record.truth_left_out;
   const std::int64_t passers = count_passers(record, watch.window, enclosed);
   if (passers > 0)
-    check.unchecked["obstacles that came or went in flight, up to a sample's time before or after"] = passers;
+    check.unchecked["obstacles that appeared or vanished in flight, at a time known to one sample"] = passers;
   const bool whole =
       watch.vehicle.hole_count == 0 && holes.hole_count == 0 && record.truth_left_out == 0 && passers == 0;
   audit.obstacle_count.known = holes.hole_count == 0 && record.truth_left_out == 0;

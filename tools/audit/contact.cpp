@@ -86,13 +86,13 @@ std::string to_text(const Contact& contact, const FlightRecord& record) {
   for (std::size_t k = 0; k < kBeforeContact.size(); ++k) {
     text += fmt::format("  {} s before ", kBeforeContact[k]);
     const auto& predicted = contact.predicted[k];
-    text += predicted ? fmt::format("an alpha of {:.2f} m was promised, {:.2f} m were needed: {}.\n",
-                                    predicted->alpha_m, predicted->needed_m, predicted->covered ? "kept" : "broken")
-                      : std::string("nothing was promised of it.\n");
+    text += predicted ? fmt::format("alpha was {:.2f} m, needed were {:.2f} m: {}.\n", predicted->alpha_m,
+                                    predicted->needed_m, predicted->covered ? "covered" : "missed")
+                      : std::string("it was not predicted.\n");
   }
-  text += contact.confidence ? fmt::format("  The last plan that claimed a confidence ({}) began {:.2f} s before.\n",
+  text += contact.confidence ? fmt::format("  The last plan with a confidence ({}) began {:.2f} s before.\n",
                                            *contact.confidence, *contact.confident_s)
-                             : std::string("  No plan before claimed a confidence.\n");
+                             : std::string("  No earlier plan had a confidence.\n");
   return text;
 }
 

@@ -77,7 +77,7 @@ double distance_to(const Region& region, const Vec3& p) {
 Check check_exposure(const FlightRecord& record) {
   Check check{.name = "exposure", .claim = "seconds and metres in and near each region are what the referee says"};
   if (record.regions.empty() && !record.results.empty() && !record.results.back().exposure.empty()) {
-    check.unchecked["regions: no CONFIGURATION in the log tells their shapes"] = 1;
+    check.unchecked["regions: the log has no CONFIGURATION with their shapes"] = 1;
     return check;
   }
   if (record.regions.empty()) {

@@ -212,7 +212,7 @@ Check check_continuity(const FlightRecord& record) {
         continue;
       }
       if (own.list[k].is_stop) {
-        ++check.unchecked["stops from a measured state: the vehicle was not where it was committed to be"];
+        ++check.unchecked["braking trajectories from a measured state: the vehicle was off the committed trajectory"];
         continue;
       }
       const UTime at = own.list[k].spline.start;
@@ -221,14 +221,13 @@ Check check_continuity(const FlightRecord& record) {
       ++splices;
     }
   }
-  check.summary = fmt::format("{} splices, none jumps by more than {:.2g} (m, m/s, m/s2 per axis)", splices, worst);
+  check.summary = fmt::format("{} splices, the largest jump is {:.2g} (m, m/s, m/s2 per axis)", splices, worst);
   check.measures = {{"splices", static_cast<double>(splices)}, {"worst_jump", worst}};
   return check;
 }
 
 Check check_commitment(const FlightRecord& record) {
-  Check check{.name = "commitment",
-              .claim = "what was commanded is the committed trajectory, and that is a logged plan"};
+  Check check{.name = "commitment", .claim = "setpoints lie on the committed trajectory, and that is a logged plan"};
   const std::vector<Commitments> all = commitments(record);
   const bool plans_unread = record.unread(channels::kPlan.name) > 0;
   const bool states_unread = record.unread(channels::kUavState.name) > 0;
@@ -239,13 +238,13 @@ Check check_commitment(const FlightRecord& record) {
       if (own.list[k].request != 0) continue;
       if (own.list[k].is_stop) {
         const char* const since = is_kept(record, own.list[k]) ? "before the next answer" : "at all";
-        ++check.unchecked[fmt::format("stops from a measured state, which no plan certified {}", since)];
+        ++check.unchecked[fmt::format("braking trajectories from a measured state, not certified by a plan {}", since)];
       } else if (plans_unread) {
         ++check.unchecked["committed trajectories whose plan may be among the PLANs that were lost or refused"];
       } else if (states_unread) {
-        ++check.unchecked["committed trajectories that may be stops from a UAV_STATE that was lost or refused"];
+        ++check.unchecked["committed trajectories that may start from a UAV_STATE that was lost or refused"];
       } else {
-        check.fail({own.list[k].spline.start, "flies a trajectory that no plan in the log brought"});
+        check.fail({own.list[k].spline.start, "flies a trajectory that is no plan of the log"});
       }
     }
   }

@@ -91,7 +91,7 @@ class PredictionsCheck {
     for (Coverage& group : groups_) group.confidence = audit_.promised_confidence;
     audit_.shares = coverage_shares(groups_);
     if (!unpaired_.empty()) {
-      check_.unchecked["tracks that belong to no true obstacle, or to one that another track is nearer to"] =
+      check_.unchecked["tracks without a true obstacle, or with one that another track is nearer to"] =
           static_cast<std::int64_t>(unpaired_.size());
     }
     judge_shares();
@@ -99,7 +99,7 @@ class PredictionsCheck {
 
   [[nodiscard]] std::string summary() const {
     if (predictions_ == 0) return "";
-    return fmt::format("{} of {} whole promises of {} tracks kept (confidence {})", covered_, predictions_,
+    return fmt::format("{} of {} predictions of {} tracks covered to their end (confidence {})", covered_, predictions_,
                        tracks_.size(), audit_.promised_confidence);
   }
   [[nodiscard]] std::int64_t count() const { return predictions_; }
@@ -215,7 +215,7 @@ class PredictionsCheck {
       return;
     }
     check_.fail({prediction.worst_at,
-                 fmt::format("obstacle {} stood out of its declared motion by {:.4g} m", obstacle, prediction.worst), 0,
+                 fmt::format("obstacle {} left its declared motion by {:.4g} m", obstacle, prediction.worst), 0,
                  obstacle});
   }
 
@@ -231,11 +231,11 @@ class PredictionsCheck {
       if (one == nullptr || share.upper_bound < one->upper_bound) one = &share;
     }
     for (const auto& [key, share] : worst) {
-      const std::string of = share->what == kPlans ? "claims of plans" : "promises of class " + share->what;
+      const std::string of = share->what == kPlans ? "claims of plans" : "predictions of class " + share->what;
       const std::string until = std::isdigit(share->horizon.front()) ? "for " + share->horizon + " s" : "to the end";
       check_.fail(
           {window_.sure_from(),
-           fmt::format("{:.4f} of {} {} held {}, of {} obstacles; {} promised, at most {:.4f} can be true",
+           fmt::format("{:.4f} of {} {} covered {}, of {} obstacles; {} was promised, at most {:.4f} is plausible",
                        share->share(), share->made, of, until, share->groups, share->confidence, share->upper_bound)});
     }
   }
@@ -260,7 +260,8 @@ class PredictionsCheck {
 }  // namespace
 
 Check check_predictions(const FlightRecord& record, Audit& audit) {
-  Check check{.name = "predictions", .claim = "what was real stayed within the alpha that was promised of it"};
+  Check check{.name = "predictions",
+              .claim = "every true box stayed within its prediction interval, as often as promised"};
   PredictionsCheck predictions(record, audit, check);
   for (const auto& [name, set] : record.predictions) predictions.take(set);
   std::int64_t without = 0;
@@ -272,8 +273,7 @@ Check check_predictions(const FlightRecord& record, Audit& audit) {
       ++without;
     }
   }
-  if (without > 0)
-    check.unchecked["plans that claim no confidence: relaxed, or certified for a part of alpha"] = without;
+  if (without > 0) check.unchecked["plans without a confidence: relaxed, or certified for a part of alpha"] = without;
   predictions.judge();
   check.summary = predictions.summary();
   if (predictions.count() > 0) {
@@ -282,7 +282,7 @@ Check check_predictions(const FlightRecord& record, Audit& audit) {
         {"promises_kept_share", static_cast<double>(predictions.covered()) / static_cast<double>(predictions.count())}};
   }
   if (record.incomplete_predictions > 0)
-    check.unchecked["prediction sets of which a batch is missing"] = record.incomplete_predictions;
+    check.unchecked["prediction sets with a missing batch"] = record.incomplete_predictions;
   return check;
 }
 

@@ -73,15 +73,17 @@ class ResultCheck {
     const bool overlapped = audit_.check("clearance").broken + audit_.check("map").broken > 0;
     if (result_.outcome != FlightOutcome::Collision) {
       if (overlapped)
-        fail(fmt::format("says {}, but an obstacle or the map was overlapped", to_string(result_.outcome)));
+        fail(fmt::format("FLIGHT_RESULT says {}, but the body overlapped an obstacle or the map",
+                         to_string(result_.outcome)));
       return;
     }
     const auto is_clear = [](const LeastClearance& l) { return l.known && l.proven && l.low > 0.0; };
     const bool by_map = std::isfinite(result_.min_map_clearance_m) && !is_clear(audit_.least_of_map);
     const bool contradicted = is_clear(least) && !by_map;
     audit_.collision = overlapped ? Collision::Agrees : contradicted ? Collision::Contradicts : Collision::CannotTell;
-    if (contradicted) fail(fmt::format("says collision, but the least clearance is at least {:.4f} m", least.low));
-    if (audit_.collision == Collision::CannotTell) ++check_.unchecked["the collision that FLIGHT_RESULT tells of"];
+    if (contradicted)
+      fail(fmt::format("FLIGHT_RESULT says collision, but the least clearance is at least {:.4f} m", least.low));
+    if (audit_.collision == Collision::CannotTell) ++check_.unchecked["the collision that FLIGHT_RESULT reports"];
   }
 
   void clearance(const char* what, const LeastClearance& least, double said) {
@@ -91,7 +93,8 @@ class ResultCheck {
     const bool too_low = least.proven && said < least.low - kRounding;
     if (!least.proven) ++check_.unchecked[fmt::format("whether FLIGHT_RESULT's least {} is too low", what)];
     if (too_low || said > least.high + kClearanceOff) {
-      fail(fmt::format("says least {} {:.4f} m, recomputed {:.4f} to {:.4f} m", what, said, least.low, least.high));
+      fail(fmt::format("FLIGHT_RESULT says least {} {:.4f} m, recomputed {:.4f} to {:.4f} m", what, said, least.low,
+                       least.high));
     }
   }
 
@@ -100,14 +103,14 @@ class ResultCheck {
     if (!obstacle_count.known || obstacle_count.most == 0 || result_.outcome == FlightOutcome::Collision) return;
     ++check_.checked;
     if (result_.obstacles >= obstacle_count.fewest && result_.obstacles <= obstacle_count.most) return;
-    fail(fmt::format("says {} obstacles, recomputed {} to {}", result_.obstacles, obstacle_count.fewest,
+    fail(fmt::format("FLIGHT_RESULT says {} obstacles, recomputed {} to {}", result_.obstacles, obstacle_count.fewest,
                      obstacle_count.most));
   }
 
   void agree(const char* what, double said, const Between& found, double off) {
     ++check_.checked;
     if (said >= found.low - off && said <= found.high + off) return;
-    fail(fmt::format("says {} {:.6g}, recomputed {}", what, said, text(found)));
+    fail(fmt::format("FLIGHT_RESULT says {} {:.6g}, recomputed {}", what, said, text(found)));
   }
 
   void bounds(const std::string& name, const Between& x) {

@@ -76,7 +76,7 @@ Check check_tube(const FlightRecord& record, Audit& audit) {
     const HorizonRequest* request = in_force(requests, state.at);
     if (request == nullptr) continue;
     if (!followed(record.statuses, state.at)) {
-      ++check.unchecked["states while the vehicle did not follow, or its process was held up"];
+      ++check.unchecked["states while the vehicle was not following, or its process was delayed"];
       continue;
     }
     const auto after = std::ranges::upper_bound(record.setpoints, state.at, {}, &UavState::at);
@@ -106,7 +106,7 @@ Check check_tube(const FlightRecord& record, Audit& audit) {
   check.summary = fmt::format("at most {:.3g} m off its setpoints (RMSE {:.3g} m), {:.3g} m {} the tube of {:.3g} m{}",
                               worst.error_m, rmse, inside ? std::max(worst.margin_m, 0.0) : -worst.margin_m,
                               inside ? "inside" : "beyond", worst.tube.maxCoeff(),
-                              inside ? "" : "; where a setpoint is missing 1 mm is allowed");
+                              inside ? "" : "; 1 mm is allowed where a setpoint is missing");
   check.measures = {{"tracking_error_m", worst.error_m},
                     {"tracking_rmse_m", rmse},
                     {"tube_margin_m", worst.margin_m},

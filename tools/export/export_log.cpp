@@ -23,7 +23,7 @@ namespace {
 std::string shortfalls(const LogContents& contents) {
   std::string text;
   for (const auto& [name, channel] : contents.channels) {
-    if (channel.foreign) text += fmt::format("{}: left out, not a channel of Tern's\n", name);
+    if (channel.foreign) text += fmt::format("{}: left out: not a channel of Tern\n", name);
     if (const std::int64_t refused = channel.refused_total(); refused > 0) {
       text += fmt::format("{}: {} of {} messages left out, damaged or of another version\n", name, refused,
                           channel.messages);
@@ -33,7 +33,7 @@ std::string shortfalls(const LogContents& contents) {
   if (contents.damage.places > 0) {
     text += fmt::format("the log is damaged in {} places, {} bytes\n", contents.damage.places, contents.damage.bytes);
   }
-  if (contents.damage.truncated) text += "the log breaks off within a message\n";
+  if (contents.damage.truncated) text += "the log ends within a message\n";
   return text;
 }
 
@@ -102,7 +102,7 @@ class Proofs {
 
 Result<std::string> export_log(const ExportOptions& options) {
   const bool to_csv = !options.csv_folder.empty(), to_mcap = !options.mcap_file.empty();
-  if (!to_csv && !to_mcap) return fail("nothing to write: --csv DIR, --mcap FILE or both");
+  if (!to_csv && !to_mcap) return fail("nothing to write: name --csv DIR, --mcap FILE or both");
   std::error_code error;
   if (to_csv) std::filesystem::create_directories(options.csv_folder, error);
   if (error) return fail(options.csv_folder + ": " + error.message());
@@ -124,7 +124,7 @@ Result<std::string> export_log(const ExportOptions& options) {
   }
   const auto contents = log.read(options.log);
   if (!contents) return tl::make_unexpected(contents.error());
-  if (messages == 0) return fail(options.log + ": not one message of Tern's in it");
+  if (messages == 0) return fail(options.log + ": has no message of Tern");
   if (const auto written = csv.finish(); !written) return tl::make_unexpected(written.error());
   if (mcap) {
     if (const auto written = mcap->finish(); !written) return tl::make_unexpected(written.error());

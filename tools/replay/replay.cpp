@@ -102,8 +102,9 @@ Result<void> check_choice(const RecordedInputs& inputs, const ReplayOptions& opt
     return static_cast<double>(p.received_us - inputs.log.first_us) * 1e-6;
   };
   const RecordedPlan &first = inputs.plans.front(), &last = inputs.plans.back();
-  return fail(fmt::format("no answer is chosen; the log has those from {:.3f} s (request {}) to {:.3f} s (request {})",
-                          at_s(first), first.plan.request_id, at_s(last), last.plan.request_id));
+  return fail(
+      fmt::format("no answer is selected; the log has answers from {:.3f} s (request {}) to {:.3f} s (request {})",
+                  at_s(first), first.plan.request_id, at_s(last), last.plan.request_id));
 }
 
 }  // namespace
@@ -116,11 +117,11 @@ bool is_chosen(const RecordedPlan& recorded, const LogContents& log, const Repla
 
 std::string tolerance_reason(const RecordedInputs& inputs, const Plan& plan) {
   if (plan.inputs.planner_build != planner_build()) {
-    return fmt::format("the planner was built from other sources, or otherwise: build {:016x}, here {:016x}",
+    return fmt::format("the planner's build differs (sources, compiler or flags): {:016x}, here {:016x}",
                        plan.inputs.planner_build, planner_build());
   }
   const auto recorded = inputs.platforms.find(plan.header.name.sender_epoch_us);
-  if (recorded == inputs.platforms.end()) return "the log does not say on what platform the planner ran";
+  if (recorded == inputs.platforms.end()) return "the log does not name the planner's platform";
   if (recorded->second == platform()) return "";
   return fmt::format("another platform: {}; here {}", recorded->second, platform());
 }
@@ -168,7 +169,7 @@ Result<Replay> replay_log(const std::string& path, const ReplayOptions& options)
   options.other.check();
   auto inputs = read_recorded_inputs(path, options.suffix);
   if (!inputs) return tl::make_unexpected(inputs.error());
-  if (inputs->log.events == 0) return fail(path + ": not one whole event in it");
+  if (inputs->log.events == 0) return fail(path + ": has no complete event");
   if (auto chosen = check_choice(*inputs, options); !chosen) return tl::make_unexpected(chosen.error());
   Replayer replayer(*inputs, options);
   auto predictions = read_prediction_sets(path, options.suffix, [&](TrackSet set) { replayer.add(std::move(set)); });

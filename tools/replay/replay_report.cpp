@@ -20,7 +20,7 @@ constexpr const char* kAgreements[] = {"identical", "equivalent", "different"};
 constexpr const char* kRefusals[kRejections] = {
     "of a wrong length",          "of another version",      "with a count out of range",  "with a number out of range",
     "with an unknown enumerator", "with times out of order", "that contradict themselves", "from the future",
-    "of another sender",          "that came already",       "without a tag that holds"};
+    "of another sender",          "that came twice",         "without a valid tag"};
 /// What LCM sends to itself at the start.
 constexpr char kLcmSelfTest[] = "LCM_SELF_TEST";
 /// So many lines about the first answer that differs, and about what is missing.
@@ -37,7 +37,7 @@ std::string what_the_log_lacks(const Replay& replay) {
     text += fmt::format("  damaged in {} place(s), {} bytes are no messages{}\n", damage.places, damage.bytes,
                         damage.truncated ? "; its end is cut off" : "");
   }
-  if (damage.missing > 0) text += fmt::format("  {} messages are gone by their numbers\n", damage.missing);
+  if (damage.missing > 0) text += fmt::format("  {} messages are missing, by their numbers\n", damage.missing);
   std::map<std::string, LogChannel> channels = replay.inputs.log.channels;
   for (const auto& [name, channel] : replay.predictions.channels) {
     if (channel.read) channels[name] = channel;
@@ -55,7 +55,7 @@ std::string what_the_log_lacks(const Replay& replay) {
   if (const std::int64_t n = replay.answers_before(); n > 0) {
     text += fmt::format("  PLAN: {} answers were published before the first one in the log\n", n);
   }
-  if (!foreign.empty()) text += fmt::format("  not Tern's, passed over: {}\n", foreign);
+  if (!foreign.empty()) text += fmt::format("  not Tern's, ignored: {}\n", foreign);
   return text;
 }
 
@@ -108,7 +108,7 @@ std::string first_difference_text(const Replay& replay) {
   std::string text =
       fmt::format("The first that differs: request {}, {:.3f} s into the log, {}", recorded.plan.request_id,
                   seconds_into(replay, recorded), to_string(recorded.plan.outcome));
-  if (p->difference.parts.empty()) return text + "; only in its form\n";
+  if (p->difference.parts.empty()) return text + "; only in its encoding\n";
   text += fmt::format("; first in the stage \"{}\", at most {:.3g} m apart\n", to_string(p->difference.parts[0].stage),
                       p->difference.position_m);
   for (std::size_t k = 0; k < std::min(p->difference.parts.size(), kMaxLines); ++k) {
@@ -131,7 +131,7 @@ std::string changes_text(const Replay& replay) {
     sum += p.difference.position_m;
     largest = std::max(largest, p.difference.position_m);
   }
-  std::string text = "With the other settings, planned for the recorded situations and with the recorded counts:\n";
+  std::string text = "With the changed settings, on the recorded requests and with the recorded counts:\n";
   for (const auto& [change, count] : outcomes) {
     const auto [before, after] = change;
     text += before == after ? fmt::format("  {:>6}  {} as before\n", count, to_string(before))

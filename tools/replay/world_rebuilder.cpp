@@ -43,7 +43,7 @@ void OtherSettings::check() const {
                                           [key](std::string_view above) { return is_within(key, above); });
     if (planned_with) continue;
     throw ConfigError(
-        fmt::format("--set {}: has no effect on a replay, whose situations are the recorded ones; it "
+        fmt::format("--set {}: has no effect on a replay, which repeats recorded requests; it "
                     "takes {}",
                     setting, fmt::join(kPlannedWith, ", ")));
   }
@@ -76,7 +76,7 @@ Result<WorldRebuilder::Configuration*> WorldRebuilder::configuration_of(std::uin
   if (known != configurations_.end()) return &known->second;
   const auto report = inputs_.configurations.find(hash);
   if (report == inputs_.configurations.end()) return fail(fmt::format("configuration {:016x}", hash));
-  if (is_cut(report->second.yaml)) return fail(fmt::format("the whole of configuration {:016x}", hash));
+  if (is_cut(report->second.yaml)) return fail(fmt::format("the complete configuration {:016x}", hash));
   Configuration made;
   const bool own = other_.file.empty();
   auto document = ConfigDocument::parse(report->second.yaml, "the log's configuration",
@@ -137,7 +137,7 @@ Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanIn
   Vec3 start = configuration.uav.start;
   if (from.vehicle != MessageName{}) {
     const auto request = inputs_.requests.find(from.vehicle);
-    if (request == inputs_.requests.end()) return fail("request " + text(from.vehicle) + " (for the way to the goal)");
+    if (request == inputs_.requests.end()) return fail("request " + text(from.vehicle) + " (for the path to the goal)");
     key.body = body_box(grown(request->second.body, request->second.tube));
     key.flight_box = request->second.flight_box;
     start = request->second.start.p;

@@ -81,7 +81,7 @@ SeriesCommand series(const json& value) {
   SeriesCommand command;
   for (const json& entry : value) {
     command.names.push_back(text(entry));
-    check(command.names.back().size() <= kMaxSeriesNameBytes, "a series of that name is not known");
+    check(command.names.back().size() <= kMaxSeriesNameBytes, "the name of a series is too long");
   }
   return command;
 }

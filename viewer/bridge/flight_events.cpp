@@ -77,7 +77,7 @@ void FlightEvents::receive(const Heartbeat& message) {
   const auto [known, is_new] = epochs_.emplace(message.process, epoch);
   if (is_new || epoch <= known->second) return;
   known->second = epoch;
-  add(message.header.utime, "restart", message.process + " was started anew");
+  add(message.header.utime, "restart", message.process + " restarted");
 }
 
 void FlightEvents::receive_clearance(UTime at, std::optional<double> obstacles_m, std::optional<double> map_m) {

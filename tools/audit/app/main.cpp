@@ -31,10 +31,10 @@ int run(const std::string& log, const std::string& json_file) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Recomputes a recorded flight and says what was broken. Exit code: 0 held, 1 broken, 2 bad arguments or log."};
+      "Recomputes a recorded flight and lists violations. Exit code: 0 held, 1 broken, 2 bad arguments or log."};
   app.set_version_flag("--version", fmt::format("tern-audit {}", tern::build_id()));
   std::string log, json;
-  app.add_option("LOG", log, "The log: a file (its parts are found), or the folder of flight.lcm")->required();
-  app.add_option("--json", json, "Write the audit as JSON there, too")->type_name("FILE");
+  app.add_option("LOG", log, "The log: a file (further parts are found), or a flight's folder")->required();
+  app.add_option("--json", json, "Also write the audit as JSON to this file")->type_name("FILE");
   return tern::run_tool(app, "tern-audit", argc, argv, [&] { return run(log, json); });
 }

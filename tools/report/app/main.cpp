@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
       "Draws a recorded flight as one self-contained HTML file. Exit code: 0 written, 2 bad arguments or log."};
   app.set_version_flag("--version", fmt::format("tern-report {}", tern::build_id()));
   std::string log, page;
-  app.add_option("LOG", log, "The log: a file (its parts are found), or the folder of flight.lcm")->required();
+  app.add_option("LOG", log, "The log: a file (further parts are found), or a flight's folder")->required();
   app.add_option("-o,--out,--output", page, "The file to write (default: beside the log)")->type_name("FILE.html");
   return tern::run_tool(app, "tern-report", argc, argv, [&] { return run(log, page.empty() ? beside(log) : page); });
 }

@@ -37,7 +37,7 @@ function motion() {
   const shared = path.share > 1 ? ` A point stands for ${path.share} states: the greatest of them.` : "";
   for (const [title, name, unit, limits] of [["Speed", "speed", "m/s", flight.v_max], ["Acceleration", "acceleration", "m/s²", flight.a_max]]) {
     if (most(path[name]) === 0 && most(path.speed) > 0) {
-      card(`${title}, ${unit}`, "Nobody said the vehicle's acceleration: autopilots tell none.", row);
+      card(`${title}, ${unit}`, "The log has no acceleration; autopilots publish none.", row);
       continue;
     }
     const box = card(`${title}, ${unit}`, `Magnitude, and the largest component of an axis, to which the limit applies.${shared}`, row);
@@ -53,10 +53,10 @@ function motion() {
 function tracking() {
   const { tube_m: widest, tracking_error_m: largest } = check("tube").measures;
   if (!(widest > 0 || largest > 1e-3)) return;
-  const shared = path.share > 1 ? ` A point stands for ${path.share} states: the nearest to the edge.` : "";
-  chart(card("Off its setpoints, m", `On the axis on which the vehicle was nearest to the edge of its tube. Dashed: what was promised.${shared}`), {
+  const shared = path.share > 1 ? ` A point stands for ${path.share} states: the one nearest to the tube's face.` : "";
+  chart(card("Tracking error, m", `Distance from the setpoint, on the axis nearest to the tube's face. Dashed: the promised tube.${shared}`), {
     columns: [path.t, path.off, path.tube],
-    series: [{ label: "off its setpoint", colour: "c1", fill: true, value: (u, y) => fixed(y, 3) },
+    series: [{ label: "tracking error", colour: "c1", fill: true, value: (u, y) => fixed(y, 3) },
       { label: "tube", colour: "bad", dash: [6, 4], width: 1.2, value: (u, y) => fixed(y, 3) }],
     range: upTo(path.off.concat(path.tube)),
   });
@@ -88,7 +88,7 @@ function replanning() {
   // A deadline far above all answers would leave nothing to see of them: then it is told, not drawn.
   const slowest = most(answers.total), shortest = least(answers.deadline);
   const above = slowest > 0 && slowest < 0.3 * shortest;
-  const deadline = above ? `The deadline, ${fixed(shortest, 0)} ms after each request, lies above the chart: the slowest answer took ${percent(slowest / shortest, 0)} of it.` : "Dashed: the time that it had until its deadline.";
+  const deadline = above ? `The deadline, ${fixed(shortest, 0)} ms after each request, lies above the chart: the slowest answer took ${percent(slowest / shortest, 0)} of it.` : "Dashed: the time until its deadline.";
   const box = card("Replan time by stage, ms", `Wall time of each answer, stacked by stage. ${deadline}${shared}`);
   const sums = STAGES.map(() => []);
   answers.t.forEach((_, i) => { let sum = 0; answers.stages.forEach((ms, k) => { sum += ms[i] || 0; sums[k].push(ms[i] == null ? null : sum); }); });

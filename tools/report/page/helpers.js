@@ -31,7 +31,7 @@ const table = (parent, columns, rows) => {
   parent.append(el("div", { class: "scroll" }, el("table", {}, el("thead", {}, head), el("tbody", {}, ...body))));
 };
 /** A share with its interval as a bar from 0.5 to 1, and a tick at what was promised. */
-const keptCell = ({ share, low, high, promised, broken }, words) => {
+const coverageCell = ({ share, low, high, promised, broken }, words) => {
   const at = (x) => `${Math.min(1, Math.max(0, 2 * x - 1)) * 100}%`;
   const from = Math.max(0.5, low), width = Math.max(0.004, high - from);
   const bar = el("i", { class: broken ? "below" : "", style: `left: ${at(Math.min(from, 0.998))}; width: ${2 * width * 100}%` });

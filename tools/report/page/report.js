@@ -5,9 +5,9 @@ function head() {
   const outcome = result ? result.outcome : "no verdict";
   const tone = outcome === "reached" ? "good" : result ? "bad" : "warn";
   const verdict = { held: ["good", "audit held"], broken: ["bad", "audit broken"], "not checked": ["warn", "not audited"] }[audit.verdict];
-  if (audit.collision === "cannot tell") verdict.splice(0, 2, "warn", "audit " + audit.verdict + ", the collision too close to tell");
+  if (audit.collision === "cannot tell") verdict.splice(0, 2, "warn", "audit " + audit.verdict + ", the collision is too close to tell");
   const date = flight.recorded_us > 1e15 ? new Date(flight.recorded_us / 1000).toISOString().slice(0, 16).replace("T", " ") + " UTC, " : "";
-  const met = result ? `, ${whole(result.obstacles)} obstacles` + (result.left_out ? ` (${whole(result.left_out)} left out: they began beside the vehicle)` : "") : "";
+  const met = result ? `, ${whole(result.obstacles)} obstacles` + (result.left_out ? ` (${whole(result.left_out)} left out: they started too near to the vehicle)` : "") : "";
   main.append(el("header", {}, el("div", { class: "kind" }, "Tern flight report"),
     el("h1", {}, flight.scenario || "flight", el("span", { class: "badge " + tone }, outcome), el("span", { class: "badge " + verdict[0] }, verdict[1])),
     el("div", { class: "where" }, `${date}${fixed(flight.length_s, 1)} s recorded${flight.pace ? ` at a pace of ${flight.pace}` : ""} in ${flight.log}`),
@@ -25,9 +25,9 @@ function head() {
     ...(result && result.contacts_moving + result.contacts_at_rest > 0 ? [[`${whole(result.contacts_moving)} / ${whole(result.contacts_at_rest)}`, "", "contacts while moving / at rest"]] : []),
     least(clearance, "obstacles"),
     ...(leastOf(walls) === undefined ? [] : [least(walls, "the map")]),
-    [whole(answers.t.length), "", "plans asked for"],
+    [whole(answers.t.length), "", "plans requested"],
     [fixed(total[0], 1) + " / " + fixed(total[2], 1), "ms", "replan p50 / p99"],
-    [percent(check("predictions").measures.promises_kept_share, 2), "", "predictions kept"],
+    [percent(check("predictions").measures.promises_kept_share, 2), "", "predictions covered"],
   ];
   main.append(el("div", { class: "tiles" }, ...tiles.map(([value, unit, name]) =>
     el("div", { class: "tile" }, el("b", {}, value, unit ? el("small", {}, " " + unit) : null), el("span", {}, name)))));
@@ -35,10 +35,10 @@ function head() {
 
 // ---- tables
 function auditTable() {
-  const box = card("Audit", "What was recomputed from the log, with nothing of the planner's own.", main, "long");
+  const box = card("Audit", "Recomputed from the log, independently of the planner.", main, "long");
   const verdicts = { held: "good", broken: "bad", "not checked": "warn" };
   const list = (kind, lines) => (lines.length ? el("ul", { class: kind }, ...lines.map((l) => el("li", {}, l))) : null);
-  table(box, [["", false], ["check", false], ["what was found", false], ["checked", true]], audit.checks.map((c) => {
+  table(box, [["", false], ["check", false], ["result", false], ["checked", true]], audit.checks.map((c) => {
     const findings = c.findings.slice(0, 8).map((f) => `${fixed(f.time_s, 3)} s  ${f.request ? "request " + f.request + ": " : ""}${f.what}`);
     if (c.broken > findings.length) findings.push(`and ${whole(c.broken - findings.length)} more`);
     return [el("span", { class: "badge " + verdicts[c.verdict] }, c.verdict), el("b", {}, c.name),
@@ -76,7 +76,7 @@ function tables() {
   if (path.share > 1) rules.push(`states: one point for ${path.share}, with their greatest speed and acceleration and their least clearance`);
   if (obstacles.share > 1) rules.push(`obstacles: every ${obstacles.share}th sample`);
   if (answers.share > 1) rules.push(`answers: the slowest of ${answers.share}`);
-  main.append(el("footer", {}, "Written by tern-report. Charts: uPlot (MIT). Drag over a chart to look closer, double-click to go back. " + (rules.length ? "Thinned out: " + rules.join("; ") + "." : "Nothing was thinned out.")));
+  main.append(el("footer", {}, "Written by tern-report. Charts: uPlot (MIT). Drag over a chart to zoom, double-click to zoom out. " + (rules.length ? "Thinned out: " + rules.join("; ") + "." : "Nothing was thinned out.")));
 }
 
 head();

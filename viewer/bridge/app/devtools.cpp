@@ -94,7 +94,7 @@ json Devtools::call(const std::string& method, const json& parameters) {
   if (!session_.empty()) command["sessionId"] = session_;
   const std::string text = command.dump() + '\0';
   if (write(to_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
-    throw std::runtime_error("the browser does not listen: is it installed?");
+    throw std::runtime_error("the browser does not start: is it installed?");
   }
   while (true) {
     const json message = json::parse(read_message());
@@ -107,7 +107,7 @@ json Devtools::call(const std::string& method, const json& parameters) {
 void Devtools::open(const std::string& url, const std::string& ready) {
   call("Page.navigate", {{"url", url}});
   for (int waited = 0; evaluate(ready) != true; waited += kLookMs) {
-    if (waited >= kPatienceMs) throw std::runtime_error("the page does not begin to draw");
+    if (waited >= kPatienceMs) throw std::runtime_error("the page does not start to draw");
     usleep(kLookMs * 1000);
   }
 }

@@ -40,11 +40,11 @@ void add_export_options(CLI::App& app, ViewerOptions& options) {
       ->allow_extra_args(false)
       ->check(CLI::Range(64, 4096))
       ->needs(video);
-  app.add_option("--video-rate", options.film.rate, "Pictures a second (default 25)")
+  app.add_option("--video-rate", options.film.rate, "Frames per second (default 25)")
       ->check(CLI::Range(1, 60))
       ->needs(video);
   app.add_option("--video-part", options.film.part,
-                 "Seconds since the vehicle first flies (default: from -0.5 to the end)")
+                 "Seconds since the vehicle's departure (default: from -0.5 to the end)")
       ->type_name("FROM TO")
       ->expected(2)
       ->allow_extra_args(false)
@@ -56,7 +56,7 @@ void keep_logs_apart(CLI::App& app, const ViewerOptions& options) {
     if (options.log.empty()) return;
     const auto refuse = [&app](const char* name, const char* where) {
       if (app.get_option(name)->count() == 0) return;
-      throw CLI::ValidationError(name, fmt::format("has no effect where {}", where));
+      throw CLI::ValidationError(name, fmt::format("has no effect when {}", where));
     };
     for (const char* name : {"--config", "--set", "--lcm-url", "--clock-offset-us", "--allow-goals"}) {
       refuse(name, "a log is played");

@@ -182,8 +182,7 @@ Result<ExportedPage> export_page(const PageExport& wanted) {
     if (!html) return fail(html.error().message);
     if (html->size() <= most) return ExportedPage{std::move(*html), begin_s, end_s, departure_s, left_out};
   }
-  return fail(
-      fmt::format("{}: a page of it is larger than {} MB a minute", wanted.log, kMaxBytesPerMinute / 1'000'000));
+  return fail(fmt::format("{}: its page would exceed {} MB per minute", wanted.log, kMaxBytesPerMinute / 1'000'000));
 }
 
 }  // namespace tern

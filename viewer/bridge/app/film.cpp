@@ -73,7 +73,7 @@ class Encoder {
     close(pictures[0]);
   }
   void add(const std::string& picture) {
-    if (write_all(to_, picture) != picture.size()) throw std::runtime_error("ffmpeg does not take the pictures");
+    if (write_all(to_, picture) != picture.size()) throw std::runtime_error("ffmpeg stopped reading the frames");
   }
   void finish() {
     close(to_);
@@ -100,8 +100,9 @@ Result<bool> make_film(const Film& film) try {
   const double to = std::min(departure + part.at(1), shown.end_s);
   const int pictures = static_cast<int>(std::ceil((to - from) * rate));
   if (pictures < 1) {
-    return fail(fmt::format("nothing is in {} to {} s: it flies at {:.1f} s, the log is of {:.1f} to {:.1f} s",
-                            part.at(0), part.at(1), departure, shown.begin_s, shown.end_s));
+    return fail(
+        fmt::format("--video-part {} {} is empty: the vehicle departs at {:.1f} s, the log has {:.1f} to {:.1f} s",
+                    part.at(0), part.at(1), departure, shown.begin_s, shown.end_s));
   }
   std::signal(SIGPIPE, SIG_IGN);
   const Workplace workplace;

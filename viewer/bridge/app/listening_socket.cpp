@@ -72,7 +72,7 @@ Result<int> open_listening_socket(const std::string& where, bool inheritable) {
   }
   for (int port = first; port <= last; ++port) {
     const auto address = make_address(host, port);
-    if (!address) return fail(fmt::format("{}: not an address (127.0.0.1, [::1], each perhaps with :PORT)", where));
+    if (!address) return fail(fmt::format("{}: not an address (127.0.0.1, [::1], optionally with :PORT)", where));
     const int fd = try_listen(*address, inheritable);
     if (fd >= 0) return fd;
     if (errno != EADDRINUSE) break;

@@ -12,16 +12,16 @@ int main(int argc, char** argv) {
       .add_options = [&options](CLI::App& app) {
         app.add_option("--log,LOG", options.log, "Play this log instead of the live bus")->type_name("FILE");
         tern::add_export_options(app, options);
-        app.add_option("--ghost", options.ghost, "Draw this log's flight over it")->type_name("FILE");
+        app.add_option("--ghost", options.ghost, "Draw the flight of another log over it")->type_name("FILE");
         app.add_option("--listen", options.listen,
-                       "Where browsers are awaited; without a port, the first free one from 8765 (default 127.0.0.1)")
+                       "Address to listen on; without a port, the first free one from 8765 (default 127.0.0.1)")
             ->type_name("ADDRESS[:PORT]");
         app.add_option("--page", options.page, "Folder of the built page")->type_name("DIR");
         app.add_flag("--allow-goals", options.allow_goals, "Pages may send goals");
-        app.add_option("--allow-host", options.allow_hosts, "Another name by which browsers may call this host")
+        app.add_option("--allow-host", options.allow_hosts, "Another name by which browsers may address this host")
             ->type_name("NAME")
             ->allow_extra_args(false);
-        app.add_option("--looked-fd", options.looked_fd, "Write a byte there when the first page looks");
+        app.add_option("--looked-fd", options.looked_fd, "Write a byte there when the first page connects");
         app.add_option("--url-file", options.url_file, "Write the page's URL there")->type_name("FILE");
         tern::keep_logs_apart(app, options);
       }};

@@ -155,7 +155,7 @@ void ViewerNode::execute(std::int64_t client, const GoalCommand& command, UTime 
   const char* refusal = player_                 ? "a log is played"
                         : !options_.allow_goals ? "tern-viewer was started without --allow-goals"
                         : command.mode == GoalMode::Go && !scene_.has_room_at(command.position)
-                            ? "the body would not be within the flight box"
+                            ? "the body would leave the flight box"
                             : nullptr;
   if (refusal != nullptr) {
     json.key("refused").text(refusal);

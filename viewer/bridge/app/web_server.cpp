@@ -192,7 +192,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
         return refuse(request, http::status::forbidden, "foreign Origin");
       }
       if (shared_.streams.size() >= kMaxStreams) {
-        return refuse(request, http::status::service_unavailable, "too many pages look");
+        return refuse(request, http::status::service_unavailable, "too many pages are connected");
       }
       return std::make_shared<Stream>(shared_, std::move(socket_))->start(request);
     }

@@ -88,7 +88,7 @@ class Chart {
     this.values = this.names.map(() => element('b', 'numbers'));
     const curves = this.names.map((name, k) => {
       const curve = element('button', 'curve', label(name));
-      curve.title = `${name}: a click takes it away`;
+      curve.title = `${name}: click to remove it`;
       curve.dataset.field = name;
       curve.style.setProperty('--color', palette.curves[k % palette.curves.length]);
       curve.append(this.values[k]);

@@ -39,7 +39,7 @@ export function forget() {
 
 /** Nobody says any more how anything is. */
 export function showGone() {
-  chip('mode', 'bridge gone', 'gone');
+  chip('mode', 'bridge lost', 'gone');
   for (const item of byId('health').children) item.className = 'unknown';
 }
 

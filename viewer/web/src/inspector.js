@@ -85,7 +85,7 @@ export class Inspector {
     const scroll = this.panel.scrollTop;
     this.say(detail.title, this.words?.() ?? '');
     const parts = detail.messages.flatMap((message) => [cell('h3', message.channel), fields(message)]);
-    document.getElementById('messages').replaceChildren(...(parts.length ? parts : [cell('p', detail.note ?? 'nothing was heard of it')]));
+    document.getElementById('messages').replaceChildren(...(parts.length ? parts : [cell('p', detail.note ?? 'no message about it was received')]));
     this.panel.scrollTop = scroll;
   }
 }

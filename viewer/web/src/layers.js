@@ -12,7 +12,7 @@ export const LAYERS = [
   { name: 'minvo', on: true, says: 'simplices around the plan', colors: [palette.plan] },
   { name: 'committed', on: true, says: 'the trajectory in force', colors: [palette.committed] },
   { name: 'sphere', on: true, says: 'S, in which the local goal lies', colors: [palette.sphere] },
-  { name: 'hulls', on: false, says: 'where movers may be, soon and later', colors: [palette.hull, palette.hullLater] },
+  { name: 'hulls', on: false, says: 'where moving obstacles may be, soon and later', colors: [palette.hull, palette.hullLater] },
   { name: 'planes', on: false, says: 'of the certificate, where bounding boxes do not separate plan and obstacle', colors: [palette.plane] },
   { name: 'search', on: false, says: 'tree of the last search', colors: [palette.search] },
   { name: 'ghost', on: true, says: 'the other log', colors: [palette.ghost] },

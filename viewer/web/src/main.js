@@ -176,8 +176,8 @@ function setLayer(name, on) {
   if (name === 'obstacles') obstacles.show(on);
   if (ON_DEMAND.includes(name)) send({ layers: ON_DEMAND.filter((other) => layers[other]) });
   if (name === 'planes') proofs.takePlanes(on ? known.plan : null, obstacles.pickedId);
-  if (name === 'planes' && on) hud.toast('planes stand only where bounding boxes do not separate plan and obstacle');
-  if (name === 'search' && on && !known.search) hud.toast('the planner tells with --set planner.publish_search=true');
+  if (name === 'planes' && on) hud.toast('planes exist only where bounding boxes do not separate plan and obstacle');
+  if (name === 'search' && on && !known.search) hud.toast('the planner publishes it with --set planner.publish_search=true');
 }
 makeSwitches(document.getElementById('layers'), setLayer);
 offer('ghost', false);
@@ -214,7 +214,7 @@ const controls = new Controls(cameras, {
 document.getElementById('eventlist').onclick = () => {
   const loud = timeline.events.filter(({ kind }) => kind !== QUIET);
   const quiet = timeline.events.length - loud.length;
-  inspector.list('What happened', loud, jump, `and the outcome changed ${quiet} times: the band`);
+  inspector.list('Events', loud, jump, `and ${quiet} more changes of the outcome, in the band`);
 };
 
 function pickObstacle(id) {

@@ -29,7 +29,7 @@ export class Player {
   ask(command) {
     this.rest = undefined;
     if (this.state) this.send({ player: command });
-    else this.refuse('a flight that is flown cannot be wound back; when it has ended, its log can');
+    else this.refuse('a live flight cannot be rewound; play its log afterwards');
   }
 
   toggle() {

@@ -2,7 +2,7 @@
 // bridge's log player answers to.
 import { countUpTo } from './time_rows.js';
 
-const NO_DETAIL = 'this file holds the pictures, not the messages; tern-viewer --log shows them';
+const NO_DETAIL = 'this file does not contain the messages; tern-viewer --log shows them';
 
 /** The tape that this page carries, or null. It is packed: base64 of a deflated JSON text. */
 export async function readTape() {

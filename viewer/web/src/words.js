@@ -20,19 +20,19 @@ function size(half) {
 export function obstacleInWords(id, known) {
   const set = known.truth ?? known.tracks;
   const k = set?.id.indexOf(id) ?? -1;
-  if (k < 0) return 'It is not there any more.';
+  if (k < 0) return 'It has gone.';
   const row = (list) => list.slice(3 * k, 3 * k + 3);
   const speed = Math.hypot(...row(set.v));
-  const parts = [`${set.moves[k] ? `A mover at ${speed.toFixed(1)} m/s` : 'It stands still'}, ${size(row(set.h))}`];
+  const parts = [`${set.moves[k] ? `Moving at ${speed.toFixed(1)} m/s` : 'Stationary'}, ${size(row(set.h))}`];
   if (known.state) parts.push(fromBody(distanceToBox(known.state.p, row(set.p), row(set.h)), known));
   const isPredicted = known.tracks?.id.includes(id);
-  if (known.tracks) parts.push(isPredicted ? 'the planner is told of it' : 'the planner is not told of it: no prediction holds it');
+  if (known.tracks) parts.push(isPredicted ? 'the planner knows it from PREDICTIONS' : 'the planner does not know it: PREDICTIONS lacks it');
   const planes = (known.plan?.planes ?? []).filter((plane) => plane.track === id).length;
-  if (known.plan?.planes) parts.push(`${planes === 0 ? 'no plane' : planes === 1 ? 'one plane' : `${planes} planes`} of the newest plan keep it apart`);
+  if (known.plan?.planes) parts.push(`${planes === 0 ? 'no plane' : planes === 1 ? 'one plane' : `${planes} planes`} of the newest plan separate it from the vehicle`);
   return `${parts.join('; ')}.`;
 }
 
-const KINDS = { walls: 'Occupied: a wall of the map, nothing flies through it', regions: 'A region of the map' };
+const KINDS = { walls: 'Occupied: a wall of the map', regions: 'A region of the map' };
 
 /** @param hit  of Regions */
 export function mapInWords({ point: at, layer }, known) {
