@@ -96,22 +96,25 @@ void sift(const std::string& master_path, const std::string& log, const std::str
 }  // namespace tern
 
 int main(int argc, char** argv) {
-  CLI::App app("Makes the keys by which Tern's processes sign their messages", "tern-key");
+  CLI::App app(
+      "Makes the keys with which Tern's processes sign their messages. Exit code: 0 written, 2 bad arguments or files.",
+      "tern-key");
   app.require_subcommand(1);
   std::string master, process, out;
-  auto* const make_command = app.add_subcommand("new", "Write a new random master key, mode 600");
-  make_command->add_option("FILE", out)->required();
-  auto* const derive_command = app.add_subcommand("derive", "Write what one process needs of a master key, mode 600");
-  derive_command->add_option("MASTER", master)->required();
-  derive_command->add_option("PROCESS", process, "As tern-planner")->required();
-  derive_command->add_option("FILE", out)->required();
+  auto* const make_command = app.add_subcommand("new", "Write a new random master key to FILE (mode 600)");
+  make_command->add_option("FILE", out, "New file")->required();
+  auto* const derive_command =
+      app.add_subcommand("derive", "Write the keys of one process, derived from a master key, to FILE (mode 600)");
+  derive_command->add_option("MASTER", master, "File of the master key")->required();
+  derive_command->add_option("PROCESS", process, "Name of the process, as in tern-planner")->required();
+  derive_command->add_option("FILE", out, "New file")->required();
   std::string log, suffix;
-  auto* const sift_command = app.add_subcommand("sift", "Copy the messages of a log that a master key verifies");
-  sift_command->add_option("MASTER", master)->required();
-  sift_command->add_option("LOG", log, "The log: a file (its parts are found), or the folder of flight.lcm")
+  auto* const sift_command = app.add_subcommand("sift", "Copy the messages of a log whose tags a master key verifies");
+  sift_command->add_option("MASTER", master, "File of the master key")->required();
+  sift_command->add_option("LOG", log, "Log file (its further parts are found), or a folder with flight.lcm")
       ->required();
-  sift_command->add_option("OUT", out, "A log that is not there yet")->required();
-  sift_command->add_option("--channel-suffix", suffix, "What the vehicle's channels end with");
+  sift_command->add_option("OUT", out, "New log")->required();
+  sift_command->add_option("--channel-suffix", suffix, "End of the vehicle's channel names");
   return tern::run_tool(app, "tern-key", argc, argv, [&] {
     if (*make_command) tern::write_file(out, tern::to_hex(tern::random_key()) + "\n");
     if (*sift_command) tern::sift(master, log, out, suffix);

@@ -61,38 +61,44 @@ struct Options {
 void declare(CLI::App& app, Options& options, const ProcessDescription& description) {
   app.set_version_flag("--version", fmt::format("{} {}", description.name, build_id()));
   if (description.read_section) {
-    app.add_flag("--help-config", options.help_config, "Say every key of this process in the scenario file, and end");
-    app.add_flag("--check-config", options.check_config, "Read the scenario and this process's keys in it, and end");
+    app.add_flag("--help-config", options.help_config,
+                 "Print every key of this process's section of the scenario file, and exit");
+    app.add_flag("--check-config", options.check_config,
+                 "Read the scenario and this process's section of it, and exit");
   }
-  app.add_option("--config", options.config, "Scenario file (YAML); without it, all defaults")->type_name("FILE");
+  app.add_option("--config", options.config, "Scenario file (YAML); without it all keys have their defaults")
+      ->type_name("FILE");
   app.add_option("--set", options.overrides,
-                 "Override a value of the scenario file, as uav.limits.v_max=3 (repeatable)")
+                 "Override a value of the scenario file, as in uav.limits.v_max=3 (repeatable)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   app.add_option("--lcm-url", options.lcm_url,
-                 fmt::format("LCM network; else LCM_DEFAULT_URL, else {}", kDefaultLcmUrl))
+                 fmt::format("LCM network (default: LCM_DEFAULT_URL, else {})", kDefaultLcmUrl))
       ->type_name("URL");
-  app.add_option("--clock-offset-us", options.clock_offset_us, "Added to the system clock, to test skew")
+  app.add_option("--clock-offset-us", options.clock_offset_us,
+                 "Microseconds added to the system clock, to test clock skew")
       ->type_name("N");
   app.add_option("--pace", options.pace,
-                 "Seconds of flight per second of the system's clock, the same for all processes")
+                 "Seconds of flight per second of the system clock; the same for all processes of a flight")
       ->envname("TERN_PACE")
       ->type_name("P")
       ->check(CLI::Range(0.01, 1.0));
   const auto plain = [](const std::string& suffix) {
     return Bus::is_channel_name(suffix) ? std::string() : suffix + ": only letters, digits, '_' and '-'";
   };
-  app.add_option("--channel-suffix", options.channel_suffix, "Appended to every channel name, one per vehicle")
+  app.add_option("--channel-suffix", options.channel_suffix, "Text appended to every channel name; one per vehicle")
       ->type_name("S")
       ->check(plain);
-  app.add_option("--log-level", options.log_level, "How much to say on stderr")
+  app.add_option("--log-level", options.log_level, "Least level of the messages that are logged to stderr")
       ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
       ->capture_default_str();
-  auto* const key_file = app.add_option("--key-file", options.key_file,
-                                        "Sign and verify every message: a key, or this program's ring (mode 600)")
-                             ->type_name("FILE")
-                             ->check([](const std::string& path) { return path.empty() ? "no file is named" : ""; });
-  app.add_option("--key-fd", options.key_fd, "The same from an open file, not a pipe; closed when read")
+  auto* const key_file =
+      app.add_option("--key-file", options.key_file,
+                     "Sign and verify every message with the keys of FILE (mode 600), made by tern-key")
+          ->type_name("FILE")
+          ->check([](const std::string& path) { return path.empty() ? "the name of the file is empty" : ""; });
+  app.add_option("--key-fd", options.key_fd,
+                 "The same from open file descriptor N (no pipe), which is closed after reading")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->excludes(key_file);

@@ -110,10 +110,10 @@ void add_campaign(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
   add_flight_options(app, options->flight);
   app.add_option("--seeds", options->seeds, "First and last seed")->type_name("A:B")->capture_default_str();
-  app.add_option("--shard", options->shard, "Fly only every N-th seed, from the I-th on")
+  app.add_option("--shard", options->shard, "Fly only every N-th seed, beginning with the I-th")
       ->type_name("I/N")
       ->capture_default_str();
-  app.add_option("--jobs", options->jobs, "Flights at once (default: one per core)")
+  app.add_option("--jobs", options->jobs, "Number of flights at a time (default: one per core)")
       ->type_name("K")
       ->check(CLI::Range(1, 10'000));
   app.add_option("--out", options->out, "A line per flight; flights that it already holds are skipped")
@@ -121,7 +121,7 @@ void add_campaign(CLI::App& app, Command& chosen) {
   app.add_option("--summary", options->summary, "Summary of the campaign")->type_name("FILE.json");
   app.add_option("--failures", options->failures, "Folder for flights that failed (default FLIGHTS.csv.failures)")
       ->type_name("DIR");
-  app.add_option("--cpu-limit", options->cpu_limit_s, "Seconds of CPU time after which a flight has failed")
+  app.add_option("--cpu-limit", options->cpu_limit_s, "CPU time after which a flight counts as failed, s")
       ->type_name("S")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();

@@ -34,7 +34,9 @@ void add_world_options(CLI::App& app, FlightOptions& options) {
   app.add_option("--count", options.count, "Number of obstacles (world.count)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--set", options.settings, "Override key=value (repeatable)")->type_name("KEY=VALUE")->take_all();
+  app.add_option("--set", options.settings, "Override a value of the scenario file (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->take_all();
 }
 
 void add_flight_options(CLI::App& app, FlightOptions& options) {

@@ -44,10 +44,11 @@ int fly_one(const Options& options) try {
 
 void add_fly_one(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("fly-one", "Fly one seed in this process and record it; two lines of CSV");
+  CLI::App* command =
+      app.add_subcommand("fly-one", "Fly one seed in this process and record it; prints two lines of CSV");
   add_flight_options(*command, options->flight);
   command->add_option("--seed", options->seed, "Seed")->capture_default_str();
-  command->add_option("--folder", options->folder, "For scenario.yaml, flight.lcm and summary.json")
+  command->add_option("--folder", options->folder, "Folder for scenario.yaml, flight.lcm and summary.json")
       ->type_name("DIR")
       ->capture_default_str();
   command->add_flag("--trace", options->trace, "Print every answer on stderr");

@@ -63,7 +63,7 @@ void add_judge_contacts(CLI::App& app, Command& chosen) {
   command->add_option("flights", options->flights, "Flights of a campaign in this world")
       ->required()
       ->type_name("FLIGHTS.csv");
-  command->add_option("--moves", options->moves, "Random moves per contact")
+  command->add_option("--moves", options->moves, "Number of random moves per contact")
       ->check(CLI::Range(1, 100'000'000))
       ->capture_default_str();
   command->callback([&chosen, options] { chosen = [options] { return judge(*options); }; });

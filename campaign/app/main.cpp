@@ -11,7 +11,7 @@
 #include "runtime/version.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Flies a scenario with many seeds on virtual time: a line of CSV per flight, and a summary."};
+  CLI::App app{"Flies a scenario with many seeds on virtual time. Writes a row of CSV per flight, and a summary."};
   app.set_version_flag("--version", std::string("tern-campaign ") + tern::build_id());
   tern::Command chosen;
   tern::add_campaign(app, chosen);

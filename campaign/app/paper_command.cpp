@@ -107,17 +107,22 @@ int corridor(const Options& options) {
 
 void add_paper(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* alone =
-      app.add_subcommand("paper-6.1", "The paper's 6.1: the search alone, three cases; CSV, and JSON for the figure");
+  CLI::App* alone = app.add_subcommand(
+      "paper-6.1", "Section 6.1 of the paper: the search alone in three cases. Writes CSV, and JSON for the figure");
   CLI::App* flights = app.add_subcommand(
-      "paper-6.2", "The paper's 6.2: flights with semantics on against off; CSV, Markdown, and JSON for the figures");
+      "paper-6.2",
+      "Section 6.2 of the paper: flights with semantics on and off. Writes CSV, Markdown, and JSON for the figures");
   for (CLI::App* command : {alone, flights}) {
     command->add_option("--out", options->out, "Folder for the files")->type_name("DIR")->capture_default_str();
   }
-  alone->add_option("--set", options->settings, "Override key=value (repeatable)")->type_name("KEY=VALUE");
-  flights->add_option("--seeds", options->seeds, "Seeds 1 to N of each (default 100, with --sweep 10)")->type_name("N");
-  flights->add_option("--jobs", options->jobs, "Flights at once")->check(CLI::Range(1, 10'000))->capture_default_str();
-  flights->add_flag("--sweep", options->sweep, "λ from 0 to 8 with each method instead");
+  alone->add_option("--set", options->settings, "Override a value of the scenario file (repeatable)")
+      ->type_name("KEY=VALUE");
+  flights->add_option("--seeds", options->seeds, "Seeds 1 to N of each world (default 100; with --sweep 10)")
+      ->type_name("N");
+  flights->add_option("--jobs", options->jobs, "Number of flights at a time")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  flights->add_flag("--sweep", options->sweep, "Instead vary λ from 0 to 8 with each method");
   alone->callback([&chosen, options] { chosen = [options] { return search(*options); }; });
   flights->callback([&chosen, options] { chosen = [options] { return corridor(*options); }; });
 }

@@ -10,41 +10,40 @@
 #include "runtime/version.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Starts processes, keeps them running, and ends them", "tern-launch");
+  CLI::App app("Starts processes, restarts those that die, and ends them", "tern-launch");
   app.set_version_flag("--version", std::string("tern-launch ") + tern::build_id());
   app.require_subcommand(1);
   tern::LaunchOptions options;
   std::string failed, log;
   std::vector<std::string> command;
   CLI::App& fly = *app.add_subcommand("fly", "Fly a scenario; launch_scripts/fly.sh calls this");
-  fly.add_option("--programs", options.programs, "The folder of Tern's programs")->required();
+  fly.add_option("--programs", options.programs, "Folder of Tern's programs")->required();
   fly.add_option("--config", options.scenario, "Scenario file")->required();
-  fly.add_option("--set", options.overrides, "As of every process")->allow_extra_args(false);
+  fly.add_option("--set", options.overrides, "Override a value of the scenario file")->allow_extra_args(false);
   fly.option_defaults()->take_last();
   fly.add_option("--lcm-url", options.lcm_url, "LCM network");
-  fly.add_option("--pace", options.pace, "Of time")->envname("TERN_PACE")->check(CLI::Range(0.01, 1.0));
-  fly.add_option("--namespace", options.namespace_flags, "The flags of unshare that made its network namespace");
-  fly.add_option("--record", options.record, "The flight's folder (default: a new one in --flights)");
-  fly.add_option("--flights", options.flights, "The folder of records");
-  fly.add_option("--summary", options.summary, "Write the summary there, too");
-  fly.add_option("--typed", options.command, "What the user typed, for the record");
+  fly.add_option("--pace", options.pace, "Pace of the flight")->envname("TERN_PACE")->check(CLI::Range(0.01, 1.0));
+  fly.add_option("--namespace", options.namespace_flags, "Flags of unshare(1) that made the network namespace");
+  fly.add_option("--record", options.record, "Folder of the flight (default: a new one in --flights)");
+  fly.add_option("--flights", options.flights, "Folder for new flights");
+  fly.add_option("--summary", options.summary, "Also write the summary to this file");
+  fly.add_option("--typed", options.command, "Command line of the user, for the record");
   fly.add_flag(
-      "--new-key", [&](std::int64_t) { options.key = ""; }, "Sign every message, with a new key");
-  fly.add_option("--key-file", options.key, "Sign every message, with the master key of this file");
-  fly.add_option("--view-fd", options.view_fd, "A listening socket (tern-listen): tern-viewer shows the flight there");
-  fly.add_option("--view-url", options.view_url, "That socket's URL");
-  fly.add_option("--view-wait", options.view_wait_s, "The flight waits so long for the first page, s")
-      ->check(CLI::Range(0, 86400));
-  fly.add_option("--page", options.page, "The folder of tern-viewer's page");
-  fly.add_flag("--allow-goals", options.allow_goals, "The page may send goals");
-  fly.add_option("--autopilot", options.autopilot, "tern-mavlink flies the vehicle of the autopilot there");
-  fly.add_flag("--autopilot-sim", options.autopilot_sim, "That autopilot is tern-autopilot-sim");
-  fly.add_flag("--audit", options.audit, "Recompute the flight when it has ended");
-  fly.add_flag("--report", options.report, "Draw the flight when it has ended");
-  fly.add_option("--failed", failed, "Do not fly: write the summary of a flight that could not begin, for this reason");
-  CLI::App& keep = *app.add_subcommand("keep", "Run COMMAND, and run it again when it dies")->prefix_command();
-  keep.add_option("--log", log, "File for all that is said (default: standard output and error)");
-  keep.add_option("COMMAND", command)->required();
+      "--new-key", [&](std::int64_t) { options.key = ""; }, "Sign every message with a new key");
+  fly.add_option("--key-file", options.key, "Sign every message with the master key of this file");
+  fly.add_option("--view-fd", options.view_fd, "Listening socket (tern-listen) for tern-viewer");
+  fly.add_option("--view-url", options.view_url, "URL of that socket");
+  fly.add_option("--view-wait", options.view_wait_s, "Longest wait for the first page, s")->check(CLI::Range(0, 86400));
+  fly.add_option("--page", options.page, "Folder of tern-viewer's page");
+  fly.add_flag("--allow-goals", options.allow_goals, "Pages may send goals");
+  fly.add_option("--autopilot", options.autopilot, "Autopilot that flies the vehicle (tern-mavlink)");
+  fly.add_flag("--autopilot-sim", options.autopilot_sim, "The autopilot is tern-autopilot-sim");
+  fly.add_flag("--audit", options.audit, "Run tern-audit after the flight");
+  fly.add_flag("--report", options.report, "Run tern-report after the flight");
+  fly.add_option("--failed", failed, "Do not fly; write a summary with this reason of failure");
+  CLI::App& keep = *app.add_subcommand("keep", "Run COMMAND, and restart it when it dies")->prefix_command();
+  keep.add_option("--log", log, "File for its output (default: standard output and error)");
+  keep.add_option("COMMAND", command, "Program and its arguments")->required();
   try {
     app.parse(argc, argv);
     if (keep) return tern::keep_alive(command, log);

@@ -14,14 +14,13 @@ int main(int argc, char** argv) {
   const tern::ProcessDescription description{
       .name = "tern-logger",
       .section = "logger",
-      .summary = "Records every message of every channel in a log that LCM's tools open",
+      .summary = "Records every message of every channel in a log, which LCM's tools can open",
       .add_options =
           [&](CLI::App& app) {
-            app.add_option("--record", path,
-                           "The log to write, or the folder for flight.lcm; never overwritten: a part is added")
+            app.add_option("--record", path, "Log to write, or folder for flight.lcm. An existing log gets a new part")
                 ->type_name("PATH")
                 ->capture_default_str();
-            app.add_option("--listens-fd", listens_fd, "Write a byte there when every message is recorded from now on");
+            app.add_option("--listens-fd", listens_fd, "Write a byte to this descriptor when recording has begun");
           },
       .read_section = tern::read_logger_config};
   return tern::run_process(argc, argv, description, [&](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {

@@ -9,13 +9,15 @@ int main(int argc, char** argv) {
   const tern::ProcessDescription description{
       .name = "tern-monitor",
       .section = "",
-      .summary = "Shows a flight, judges its end and sums it up; exit code 0 reached, 1 collision, 2 timeout, 3 failed",
+      .summary =
+          "Shows a flight, judges its end and writes a summary. Exit code: 0 reached, 1 collision, 2 timeout, 3 failed",
       .add_options = [&options](CLI::App& app) {
         app.add_option("--summary", options.summary_file, "Write the summary as JSON")->type_name("FILE");
         app.add_option("--log", options.log, "Path of the recording, named in the summary")->type_name("FILE");
-        app.add_option("--command", options.command, "What was typed to fly, named in the summary")->type_name("TEXT");
+        app.add_option("--command", options.command, "Command line of the user, named in the summary")
+            ->type_name("TEXT");
         app.add_option("--failure-file", options.failure_file,
-                       "Once it exists, the flight has failed; its text says why")
+                       "If this file appears, the flight has failed, and its text is the reason")
             ->type_name("FILE");
       }};
   return tern::run_process(argc, argv, description,

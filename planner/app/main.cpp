@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   const tern::ProcessDescription description{
       .name = "tern-planner",
       .section = "planner",
-      .summary = "Plans collision-free trajectories and certifies every one of them.",
+      .summary = "Plans collision-free trajectories and certifies each of them",
       .read_section = [](tern::ConfigSection section) { tern::read_planner_config(std::move(section), {}); }};
   return tern::run_process(argc, argv, description, [](tern::ProcessContext& context) -> std::unique_ptr<tern::Node> {
     const tern::PlannerConfig config = tern::read_planner_config(context.section, context.scenario.semantics);

@@ -11,10 +11,12 @@ int main(int argc, char** argv) {
   const tern::ProcessDescription description{
       .name = "tern-simulator",
       .section = "simulator",
-      .summary = "The world of a scenario, its sensors and its vehicle, and the referee; ends with FLIGHT_RESULT",
+      .summary =
+          "Simulates the world, the sensors and the vehicle of a scenario, and judges the flight (FLIGHT_RESULT)",
       .add_options =
           [&recorded](CLI::App& app) {
-            app.add_flag("--recorded", recorded, "Wait for tern-logger, too: it shall hold all that a replay needs");
+            app.add_flag("--recorded", recorded,
+                         "Also wait for tern-logger, so that its log holds everything that a replay needs");
           },
       .read_section = [](tern::ConfigSection section) { tern::read_simulator_config(section, 0); },
       .example = "simulator: {sensor: {mode: noisy}, vehicle: quadrotor}"};

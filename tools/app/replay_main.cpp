@@ -11,12 +11,13 @@
 #include "tools/replay/replay_report.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Plans every answer of a log again from the inputs that it names, and compares byte for byte."};
+  CLI::App app{
+      "Plans every answer of a log again from its recorded inputs and compares the bytes. Exit code: 0 equal, 1 "
+      "different, 2 bad arguments or log, 3 inputs are missing in the log."};
   std::string log, json, save, dump;
   tern::ReplayOptions options;
   app.set_version_flag("--version", fmt::format("tern-replay {}", tern::build_id()));
-  app.add_option("LOG", log,
-                 "A log of tern-logger or lcm-logger (its further parts are read too), or a flight's folder")
+  app.add_option("LOG", log, "Log of tern-logger or lcm-logger (its further parts are found), or a flight's folder")
       ->required();
   app.add_option("--planner-config", options.other.file, "What if: use the planner section of this scenario file")
       ->type_name("FILE");

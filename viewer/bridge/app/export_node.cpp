@@ -30,11 +30,11 @@ void write(const std::string& html, const std::string& file) {
 }  // namespace
 
 void add_export_options(CLI::App& app, ViewerOptions& options) {
-  app.add_option("--export", options.export_to, "Write the log there as one page that plays itself")
+  app.add_option("--export", options.export_to, "Write the log as one page that plays the flight")
       ->type_name("FILE.html");
-  auto* const video = app.add_option("--video", options.video_to, "Write the log there as a film (Chromium, ffmpeg)")
+  auto* const video = app.add_option("--video", options.video_to, "Write the log as a film (needs Chromium and ffmpeg)")
                           ->type_name("FILE.mp4|FILE.webp");
-  app.add_option("--video-size", options.film.size, "Pixels, even (default 1280 720)")
+  app.add_option("--video-size", options.film.size, "Size in pixels, even numbers (default 1280 720)")
       ->type_name("WIDTH HEIGHT")
       ->expected(2)
       ->allow_extra_args(false)

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
       .section = "",
       .summary = "Shows a flight in the browser, live or from a log",
       .add_options = [&options](CLI::App& app) {
-        app.add_option("--log,LOG", options.log, "Play this log instead of the live bus")->type_name("FILE");
+        app.add_option("--log,LOG", options.log, "Play this log instead of a live flight")->type_name("FILE");
         tern::add_export_options(app, options);
         app.add_option("--ghost", options.ghost, "Draw the flight of another log over it")->type_name("FILE");
         app.add_option("--listen", options.listen,
