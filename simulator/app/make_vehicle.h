@@ -1,4 +1,4 @@
-// The vehicle that a scenario flies.
+// Makes the vehicle of a scenario.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace tern {
 
-/// At rest at scenario.uav.start from `now` on; what is random in it comes from the scenario's seed.
+/// Makes the vehicle, at rest at scenario.uav.start from `now` on. Its noise comes from the scenario's seed.
 std::unique_ptr<Vehicle> make_vehicle(const Scenario& scenario, const SimulatorConfig& config, UTime now);
 
 }  // namespace tern

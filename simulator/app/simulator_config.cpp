@@ -5,10 +5,10 @@
 namespace tern {
 namespace {
 
-/// Of what happens again and again, Hz: periods stay far from the end of time.
+/// Smallest rate of a periodic event, Hz: longer periods could overflow times.
 constexpr double kMinRate = 1e-3;
 
-/// The words of a text that spaces or commas separate.
+/// Splits a text at spaces and commas.
 std::vector<std::string> split_words(std::string text) {
   for (char& c : text) {
     if (c == ',') c = ' ';

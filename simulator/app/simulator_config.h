@@ -1,4 +1,4 @@
-// The section `simulator:` of a scenario file (simulator/README.md lists the keys).
+// The section `simulator:` of a scenario file (docs/reference/keys.md lists the keys).
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ namespace tern {
 
 struct SimulatorConfig {
   bool declare = true;  ///< publish DECLARED_MOTIONS; false: perception only
-  /// World time waits for these.
+  /// Processes that world time waits for.
   std::vector<std::string> wait_for = {"tern-executor", "tern-predictor", "tern-mapper", "tern-planner"};
-  Duration wait{15'000'000};                ///< for so long, then the flight has failed, > 0
-  Duration max_clock_skew = kMaxClockSkew;  ///< of these from the vehicle's, > 0
-  bool send_goal = true;      ///< send the scenario's goal; false: the mission waits for a GOAL of someone else
-  double min_flight_s = 0.0;  ///< an arrival counts only from this world time on, ≥ 0 (a vehicle that guards a place)
+  Duration wait{15'000'000};                ///< time to wait for them, > 0; after it the flight has failed
+  Duration max_clock_skew = kMaxClockSkew;  ///< of their clocks from the vehicle's, > 0
+  bool send_goal = true;      ///< publish the scenario's goal; false: the mission waits for a GOAL of another process
+  double min_flight_s = 0.0;  ///< earliest arrival, world time, s, ≥ 0: for a vehicle that guards a place
   SensorConfig sensor;
   std::optional<QuadrotorFlight> quadrotor;  ///< nullopt: the perfect vehicle, or an external one
-  bool external = false;                     ///< others fly it and say its state
+  bool external = false;                     ///< other processes fly the vehicle and publish its state
 };
 
 /// Reads and finishes the section. `seed` seeds the sensor's noise. @throws ConfigError.

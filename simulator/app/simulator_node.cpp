@@ -18,11 +18,11 @@ namespace {
 constexpr Duration kStatePeriod{10'000};
 constexpr Duration kStatusPeriod{100'000};
 constexpr Duration kGoalPeriod{1'000'000};
-/// Held up for longer than this, a vehicle has lost setpoints, or hears them too late to have flown them.
+/// After a pause longer than this, the vehicle has lost setpoints, or receives them too late to fly them.
 constexpr Duration kMaxStepGap{400'000};
-/// UAV_STATE comes several times in it.
+/// After such a pause the vehicle ignores setpoints for this long. UAV_STATE is published several times in it.
 constexpr Duration kResumeDelay{50'000};
-/// What this process said is back by then, or was lost.
+/// A message of this process has come back within this time, or is lost.
 constexpr Duration kEcho{300'000};
 constexpr Duration kResultPeriod{200'000};
 constexpr int kResults = 6;
@@ -33,12 +33,12 @@ UTime whole_ms(UTime t) { return {(t.us + 999) / 1'000 * 1'000}; }
 
 Goal scenario_goal(const Scenario& scenario, bool external) {
   Goal goal;
-  goal.id = external ? 2 : 1;  // before it comes its held() form
+  goal.id = external ? 2 : 1;  // held() has the id before it
   goal.position = scenario.uav.goal;
   return goal;
 }
 
-/// What an external vehicle is told before world time begins: the planner needs a goal, and nobody shall fly there yet.
+/// The goal of an external vehicle before world zero. The planner needs a goal, but the vehicle must not fly there yet.
 Goal held(Goal goal) {
   goal.id -= 1;
   goal.mode = GoalMode::Hold;
@@ -116,7 +116,7 @@ void SimulatorNode::step(UTime now) {
   broadcast_.step(now, vehicle_->truth());
   if (now >= next_status_) config_.external ? void(next_status_ = kNever) : publish_status(now);
   if (now >= next_goal_) {
-    // Plans name the GOAL that was heard first: the log must have it.
+    // Plans refer to the first GOAL, so the log must contain it.
     const bool is_kept = world_zero_ || gate_.records(now);
     if (goal_ && is_kept) bus_.publish(channels::kGoal, config_.external && !has_begun(now) ? held(*goal_) : *goal_);
     next_goal_ = next_tick(next_goal_, is_kept ? kGoalPeriod : kStatePeriod, now);

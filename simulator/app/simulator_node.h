@@ -1,4 +1,4 @@
-// tern-simulator: the world, its sensor, the vehicle that follows setpoints, and the referee.
+// tern-simulator: the world, its sensor, the vehicle and the referee.
 #pragma once
 
 #include <memory>
@@ -19,21 +19,33 @@
 
 namespace tern {
 
-inline constexpr int kExitNotReady = 3;  ///< a process that the flight needs was not ready in time
+inline constexpr int kExitNotReady = 3;  ///< a required process was not ready in time
 
-/// A flight has three parts.
-///   Waiting: everything rests and is declared so, until every process of config.wait_for says Ready. The map of a
-///     mapper among them must be here, too: the referee judges its occupied voxels. After config.wait the flight has
-///     failed, FLIGHT_RESULT names who is missing, and the exit code is kExitNotReady. Flying: from world zero on (0.3
-///     s after the last process was ready, a whole ms) the world moves, and the referee watches. VEHICLE_STATUS says
-///     that the vehicle follows, upon which the executor asks for horizons. Ended: VEHICLE_STATUS says so,
-///     FLIGHT_RESULT is repeated for a second, the vehicle comes to rest, then the exit code is 0 whatever the verdict.
-///     A simulator that was held up for over kSetpointSilence says nothing of the vehicle before it has heard what was
-///     sent meanwhile. Its own VEHICLE_STATUS comes back to it after all of that. Held up for over 0.4 s it may have
-///     missed setpoints. Then for a moment the vehicle flies on along what it knows to be committed, and VEHICLE_STATUS
-///     says that it does not follow. So the executor leads on from where it is. The referee judges the vehicle's true
-///     motion. UAV_STATE is what its estimator says, VEHICLE_TRUTH what is so. The goal is the scenario's (id 1, unless
-///     config.send_goal is false) until a GOAL with a larger id comes. The newest is repeated at 1 Hz.
+/// Runs one flight.
+///
+/// | part    | begins                                               | world (WorldBroadcast)   | vehicle       |
+/// |---------|------------------------------------------------------|--------------------------|---------------|
+/// | Waiting | at start                                             | at rest, and declared so | not following |
+/// | Flying  | at world zero: 0.3 s after all are ready, a whole ms | moves; the referee judges | follows      |
+/// | Ended   | at the verdict                                       | moves                    | not following |
+///
+/// World zero is 1.5 s after all are ready if motions are not declared.
+///
+/// Waiting: all processes of config.wait_for must report Ready. If a mapper is among them, its map must be received,
+/// since the referee judges its occupied voxels. After config.wait the flight has failed: FLIGHT_RESULT names the
+/// missing processes, and the exit code is kExitNotReady.
+///
+/// Ended: FLIGHT_RESULT is repeated for a second while the vehicle comes to rest. Then the exit code is 0, for every
+/// verdict.
+///
+/// The referee judges the vehicle's true motion (VEHICLE_TRUTH). UAV_STATE is the estimator's output. The goal is the
+/// scenario's, with id 1, unless config.send_goal is false. A GOAL with a larger id replaces it. It is repeated at 1
+/// Hz.
+///
+/// A process that was held up for more than kSetpointSilence publishes no vehicle message until its own VEHICLE_STATUS
+/// has come back. Then all messages sent meanwhile have been received. After more than 0.4 s, setpoints may be lost.
+/// Then VEHICLE_STATUS reports *not following* for a moment, while the vehicle flies its committed trajectory. So the
+/// executor continues from where the vehicle is.
 class SimulatorNode final : public Node {
  public:
   /// Time begins at bus.clock().now().
@@ -60,9 +72,9 @@ class SimulatorNode final : public Node {
   void publish_state(UTime now);
   void publish_status(UTime now);
   [[nodiscard]] bool has_begun(UTime now) const;
-  /// Whether setpoints may have been missed: no step for long.
+  /// Whether setpoints may have been lost, since the last step is long ago.
   [[nodiscard]] bool has_missed_setpoints(UTime now) const;
-  /// Whether messages of the time in which this process was held up may still be on their way to it.
+  /// Whether messages that were sent while this process was held up may still be on their way.
   [[nodiscard]] bool is_catching_up(UTime now);
   [[nodiscard]] std::string why_not_flying(UTime now) const;
   void admit(UTime now);
@@ -76,7 +88,7 @@ class SimulatorNode final : public Node {
   std::unique_ptr<Vehicle> vehicle_;
   Referee referee_;
   MapAssembler map_;
-  bool needs_map_ = false;    ///< the flight waits for a mapper, whose map the referee has not got yet
+  bool needs_map_ = false;    ///< the flight waits for the mapper's map, for the referee
   WorldBroadcast broadcast_;  // of the referee's world
   std::optional<Goal> goal_;
   std::optional<UTime> world_zero_;
@@ -85,7 +97,7 @@ class SimulatorNode final : public Node {
   int results_left_ = 0;
   bool logged_skewed_ = false;
   UTime last_step_, resumes_at_;
-  std::optional<UTime> catching_up_since_;  ///< held up until then, and not everything sent before was heard
+  std::optional<UTime> catching_up_since_;  ///< set while messages from before this time are on their way
   UTime next_state_, next_truth_, next_goal_, next_status_, next_result_ = kNever;
 };
 

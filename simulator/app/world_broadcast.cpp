@@ -23,7 +23,7 @@ namespace {
 constexpr Duration kDeclaredPeriod{200'000};
 constexpr Duration kTruthPeriod{33'333};
 
-/// Everything that is there at world time 0, never moving, with the ids that it has.
+/// All obstacles that are present at world time 0, as static ones, with their ids.
 World at_rest_at_zero(const World& world) {
   World resting;
   for (const WorldObstacle& obstacle : world.obstacles) {
@@ -31,20 +31,20 @@ World at_rest_at_zero(const World& world) {
     ObstacleSpec spec = obstacle.spec();
     spec.centre = obstacle.at(0.0).p;
     spec.motion = StaticMotion{};
-    // The same shape within the same bounds: what was accepted moving is accepted at rest.
+    // Accepted as a moving obstacle, so accepted with the same shape and bounds as a static one.
     resting.obstacles.push_back(WorldObstacle::make(obstacle.id(), std::move(spec)).value());
   }
   return resting;
 }
 
-/// Of a world, what never moves, with the ids that it has.
+/// The obstacles that never move, with their ids.
 World never_moving(const World& world) {
   World resting = world;
   std::erase_if(resting.obstacles, [](const WorldObstacle& obstacle) { return obstacle.moves(); });
   return resting;
 }
 
-/// Why the world's motions cannot be declared; empty: they can.
+/// The reason why the world's motions cannot be declared, or "".
 std::string undeclarable(const World& world) {
   const PresentCount present = max_present(world, kDeclaredPast);
   if (pieces_for_each(present.moving, present.resting) == 0) {
@@ -69,7 +69,7 @@ CoarseMotions coarse_enough(const World& world) {
   return coarse_motions(world, kDeclaredPast + kDeclaredAhead, std::max<std::size_t>(pieces, 1));
 }
 
-/// When who was absent at first appears, world time, ascending.
+/// World times at which obstacles appear, ascending.
 std::vector<Duration> appearances_of(const World& world) {
   std::vector<Duration> times;
   for (const WorldObstacle& o : world.obstacles) {
@@ -110,7 +110,7 @@ WorldBroadcast::WorldBroadcast(Bus& bus, const World& world, const SimulatorConf
 void WorldBroadcast::start(UTime world_zero, UTime now) {
   world_zero_ = frames_zero_ = world_zero;
   frame_ = static_cast<std::int64_t>(std::ceil((now - world_zero).seconds() * config_.sensor.rate_hz));
-  // What was declared until now is no longer so.
+  // The declared rest ends at world zero, so the motions are declared at once.
   next_declared_ = now;
 }
 
@@ -152,7 +152,7 @@ void WorldBroadcast::publish_observations(UTime now, const MotionHistory& uav) {
 
 void WorldBroadcast::publish_declared(UTime now, const Vec3& uav) {
   TrackSet set = declare_motions(world_, world_zero_, now - kDeclaredPast, now + kDeclaredAhead, coarse_);
-  // Whoever is not there yet promises nothing: before its motion begins a track is a box that grows into the past.
+  // An obstacle is not declared before its motion begins: extrapolated into the past its box would grow.
   std::erase_if(set.tracks, [now](const Track& track) { return track.motion.start > now; });
   set.batch.set = ++declared_set_;
   set.made_at = now;

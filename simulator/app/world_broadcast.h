@@ -1,4 +1,4 @@
-// What the simulator says of its obstacles: detections, declared motions, the truth.
+// Publishes the simulator's obstacles: detections, declared motions, the truth.
 #pragma once
 
 #include <cstdint>
@@ -13,36 +13,39 @@
 
 namespace tern {
 
-/// Declared motions reach from this much before now …
+/// Declared motions cover this much time before now …
 inline constexpr Duration kDeclaredPast{100'000};
-/// … to this much after: t_s, the longest plan and its hold (3.5 s), and the age of a set that is still fresh.
+/// … and this much after: t_s, the longest plan and its hold (3.5 s), and the largest age of a fresh set.
 inline constexpr Duration kDeclaredAhead{4'500'000};
 
-/// Sets of motions are at least this far apart, so that the batches of one have left before the next comes.
+/// Least time between two sets, so that all batches of one are sent before the next one.
 inline constexpr Duration kDeclaredApart{20'000};
 
-/// The world of the scenario, its data from data_folder(). @throws ConfigError for make_world's Errors.
+/// Makes the scenario's world, with data from data_folder(). @throws ConfigError for an Error of make_world.
 World world_of(const Scenario& scenario);
-/// The same, if what moves in it can be declared, or if config.declare is false. @throws ConfigError, too, for more
-/// obstacles at once than a set of DECLARED_MOTIONS holds, or one faster than a message may say.
+/// As world_of(), and checks that DECLARED_MOTIONS can hold the world, unless config.declare is false.
+/// @throws ConfigError as above, for too many obstacles at once, or for one that is too fast for the message.
 World flyable_world_of(const Scenario& scenario, const SimulatorConfig& config);
 
-/// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, DECLARED_MOTIONS at 5 Hz and when someone appears
-/// (kDeclaredApart later at most), OBSTACLE_TRUTH at 30 Hz. Motions with too many pieces are declared coarser.
+/// Publishes OBSTACLE_OBSERVATIONS at the sensor's rate and latency, OBSTACLE_TRUTH at 30 Hz, and DECLARED_MOTIONS at 5
+/// Hz and at most kDeclaredApart after an obstacle appears. Motions with too many pieces are declared coarser.
 ///
-/// Until start() a declared world rests as it is at world time 0, and is declared so. Then it rests until world_zero
-/// and is declared to move from there on. Of a world that is not declared only what never moves is there until start().
-/// Then it moves on its way to world time 0: who saw its movers rest till then would learn that what rests starts at
-/// any moment.
+/// | world        | until start()                        | from start() to world zero      | after world zero |
+/// |--------------|--------------------------------------|---------------------------------|------------------|
+/// | declared     | rests as at world time 0             | rests; motion declared from there on | moves       |
+/// | not declared | only obstacles that never move exist | moves towards world time 0      | moves            |
+///
+/// A world that is not declared moves before world zero. A predictor that saw its movers at rest would learn that
+/// stationary objects start at any moment.
 class WorldBroadcast {
  public:
   WorldBroadcast(Bus& bus, const World& world, const SimulatorConfig& config, UTime now);
 
   void start(UTime world_zero, UTime now);
   [[nodiscard]] UTime next_wakeup() const;
-  /// Publishes what is due; the sensor is where the vehicle truly was when a frame was taken.
+  /// Publishes all due messages. The sensor is at the vehicle's true position at the time of each frame.
   void step(UTime now, const MotionHistory& uav);
-  /// Motions that the newest declaration had to leave out, as text; empty: none.
+  /// Text about motions that did not fit into the newest declaration; empty: all fitted.
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  private:
@@ -55,15 +58,15 @@ class WorldBroadcast {
 
   Bus& bus_;
   const World& world_;
-  World before_;  // what is there until start(), or until world zero
+  World before_;  ///< the obstacles until start(), or until world zero
   SimulatorConfig config_;
   UTime world_zero_ = kFarFuture;
-  // Frames count from the process's start, then from world zero: those before that have numbers below 0.
+  // Frames are numbered from the process's start, later from world zero; earlier frames then have negative numbers.
   UTime frames_zero_;
   std::int64_t frame_ = 0;
   std::int64_t declared_set_ = 0, truth_set_ = 0;
   CoarseMotions coarse_;
-  std::vector<Duration> appearances_;  // ascending world times, those that were declared are gone
+  std::vector<Duration> appearances_;  ///< world times of appearances still to declare, ascending
   std::string trouble_;
   UTime next_declared_, next_truth_;
   UTime last_declared_;

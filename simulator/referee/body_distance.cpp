@@ -11,10 +11,10 @@
 namespace tern {
 namespace {
 
-/// Below this length a cross product of edges is no direction, m².
+/// Shortest cross product of edges that is used as a direction, m².
 constexpr double kNoDirection = 1e-12;
 
-/// From the origin to the box of centre c and half-extents h.
+/// Distance from the origin to the box of centre c and half-extents h.
 double signed_distance_to_box(const Vec3& c, const Vec3& h) {
   const Vec3 beyond = c.cwiseAbs() - h;
   return beyond.maxCoeff() > 0.0 ? beyond.cwiseMax(0.0).norm() : beyond.maxCoeff();

@@ -10,7 +10,7 @@ namespace {
 
 /// Golden section stops when the bracket is this long on the chord, m: well under kContactTolerance.
 constexpr double kChordTolerance = 1e-7;
-/// No interval is halved below this, s: some ten roundings of a world time.
+/// Shortest interval, s: about ten roundings of a world time.
 constexpr double kMinIntervalDuration = 1e-9;
 
 struct ChordMinimum {
@@ -96,7 +96,7 @@ std::optional<Contact> ClearanceWatch::advance(const FlownPiece& piece, double t
   return first;
 }
 
-/// Searches the parts between corners; the first contact, if the minimum of one is negative.
+/// Searches the parts between corners. @return the first contact, if a minimum is negative
 std::optional<double> ClearanceWatch::meet(const Pair& pair, double t0_s, double t1_s) {
   for (double from = t0_s;;) {
     const double to = std::min(t1_s, pair.obstacle.next_corner(from));
@@ -109,7 +109,7 @@ std::optional<double> ClearanceWatch::meet(const Pair& pair, double t0_s, double
   }
 }
 
-/// Lowers min_ by what [t0, t1] holds. @return an instant of overlap, or NaN.
+/// Lowers min_ to the minimum over [t0, t1]. @return an instant of overlap, or NaN
 double ClearanceWatch::search(const Pair& pair, double t0_s, double t1_s) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const double h = t1_s - t0_s;
@@ -127,7 +127,7 @@ double ClearanceWatch::search(const Pair& pair, double t0_s, double t1_s) {
   min_ = std::min(min_, upper);
   const bool sign_open = lower < 0.0 && upper >= 0.0;
   const double enough = sign_open ? kContactTolerance : kClearanceTolerance;
-  const double best = sign_open ? upper : min_;  // another obstacle's overlap does not tell this one's sign
+  const double best = sign_open ? upper : min_;  // min_ may be another obstacle's overlap
   const bool settled = best - lower <= enough || h < kMinIntervalDuration;
   if (settled) return upper < 0.0 ? at : kNone;
   const double middle = t0_s + 0.5 * h;

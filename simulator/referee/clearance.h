@@ -1,4 +1,4 @@
-// Clearance in continuous time: the least distance between the flown body and every true obstacle, with no gap between
+// Clearance in continuous time: the least distance between the flown body and every true obstacle, without gaps between
 // samples.
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace tern {
 
-/// The reported minimum is attained at some instant, and no instant is lower by more than this, m.
+/// The reported minimum is attained at some instant, and exceeds the true minimum by at most this, m.
 inline constexpr double kClearanceTolerance = 1e-3;
-/// The sign of the minimum is right unless its magnitude is below this, m.
+/// The sign of the minimum is right if its magnitude is at least this, m.
 inline constexpr double kContactTolerance = 1e-6;
-/// The first contact is found to this, s.
+/// Accuracy of the time of the first contact, s.
 inline constexpr double kContactTimeResolution = 1e-6;
 
 /// A body's first overlap with an obstacle.
@@ -26,30 +26,31 @@ struct Contact {
   std::int64_t id = 0;  ///< of the obstacle
 };
 
-/// Follows the clearance along a flight, step by step.
+/// Computes the clearance along a flight, step by step.
 ///
-/// Over [t0, t1] without a corner, the position relative to an obstacle leaves its chord by at most a (t1 − t0)²/8.
-/// Here a is the sum of both bounds on acceleration. Along the chord the signed distance is convex, so golden section
-/// finds its minimum to a known error. The sum of the three is a proven lower bound. Intervals are halved until lower
-/// and upper bound agree to kClearanceTolerance, and further while they disagree about the sign. Prefilter: an obstacle
-/// seen at distance d cannot come nearer than d − (metres flown since) − (its speed bound)·(time since). So most steps
-/// look at few obstacles: 300 obstacles at 100 Hz cost microseconds a step.
+/// Between corners, the relative position over [t0, t1] deviates from its chord by at most a (t1 − t0)²/8. Here a is
+/// the sum of both bounds of acceleration. Along the chord the signed distance is convex, so golden section finds its
+/// minimum to a known error. The chord's minimum minus error and deviation is a proven lower bound. Intervals are
+/// halved until lower and upper bound agree to kClearanceTolerance, and further while they differ in sign.
+///
+/// Prefilter: an obstacle seen at distance d cannot be nearer than d − (metres flown since) − (its speed bound)·(time
+/// since). So most steps look at few obstacles: 300 obstacles at 100 Hz cost microseconds a step.
 class ClearanceWatch {
  public:
   /// The world must outlive the watch.
   ClearanceWatch(const World& world, const Body& body);
 
-  /// Takes the flight over [t0, t1] (t0 = the last t1; world time ≥ 0, s; the piece holds throughout).
-  /// @return the first contact in it, if there is one (of equal times the least id).
+  /// Takes the flight over [t0, t1], world time, s. @pre t0 is the last t1 (0 at first), and `piece` holds throughout
+  /// @return the first contact in it, or nullopt; of equal times that of the least id
   std::optional<Contact> advance(const FlownPiece& piece, double t0_s, double t1_s);
 
-  /// Least clearance so far, m; ∞ while no obstacle was present.
+  /// Least clearance so far, m; ∞ if no obstacle was present.
   [[nodiscard]] double min_clearance() const { return min_; }
 
  private:
   struct Sighting {
     double distance = -std::numeric_limits<double>::infinity();  ///< m; −∞: never seen
-    double odometer = 0.0;                                       ///< m flown then
+    double odometer = 0.0;                                       ///< m flown at that time
     double time_s = 0.0;
   };
   struct Pair;
@@ -61,7 +62,7 @@ class ClearanceWatch {
   std::vector<Sighting> sightings_;
   std::vector<double> speeds_;         ///< per obstacle, bound of ‖v‖, m/s
   std::vector<double> accelerations_;  ///< per obstacle, bound of ‖a‖ between corners, m/s²
-  double odometer_ = 0.0;              ///< bound on the metres flown
+  double odometer_ = 0.0;              ///< bound of the metres flown
   double min_ = std::numeric_limits<double>::infinity();
 };
 

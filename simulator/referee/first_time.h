@@ -1,15 +1,15 @@
-// When a function of known steepness first falls below zero: no instant in between is passed over.
+// The first time at which a function with a known Lipschitz constant is negative, without missing one in between.
 #pragma once
 
 #include <optional>
 
 namespace tern {
 
-/// The first t in [t0, t1] with f(t) < 0, to `resolution`, for f with |f(a) − f(b)| ≤ lipschitz·|a − b|.
+/// Returns the first t in [t0, t1] with f(t) < 0, to `resolution`, for f with |f(a) − f(b)| ≤ lipschitz·|a − b|.
 ///
-/// Halves where the bound does not exclude a zero. What is returned has f < 0 truly; what is passed over is not deeper
-/// than lipschitz·resolution. The cost is logarithmic for a crossing, and up to (t1 − t0)/resolution for an f that
-/// follows zero.
+/// An interval is halved unless the bound excludes a zero. The returned t has f(t) < 0. A missed excursion is not
+/// deeper than lipschitz·resolution. The cost is logarithmic for a crossing, and up to (t1 − t0)/resolution for an f
+/// that stays near zero.
 /// @pre t0 ≤ t1, lipschitz ≥ 0, resolution > 0.
 template <class F>
 std::optional<double> first_time_below_zero(const F& f, double lipschitz, double t0, double t1, double resolution) {

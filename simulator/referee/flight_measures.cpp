@@ -37,7 +37,7 @@ double fraction_inside(const F& inside, double t0, double t1) {
   return first ? change : 1.0 - change;
 }
 
-/// Rounding of a join that was accepted at its very tolerance.
+/// Rounding of a joint that was accepted exactly at the tolerance.
 constexpr double kJoinRounding = 1e-9;
 
 bool differs(const Vec3& a, const Vec3& b) {

@@ -14,34 +14,34 @@
 
 namespace tern {
 
-inline constexpr double kGoalRadius = 0.2;      ///< reached and first entry: within this distance of the goal, m
-inline constexpr double kRestSpeed = 0.1;       ///< reached and stopped: under this speed, m/s
+inline constexpr double kGoalRadius = 0.2;      ///< arrival and first entry: within this distance of the goal, m
+inline constexpr double kRestSpeed = 0.1;       ///< arrival and stops: under this speed, m/s
 inline constexpr double kStopsCountFrom = 1.0;  ///< stops count after this world time, s
 inline constexpr double kNearRegion = 1.0;      ///< "near" a region: within this distance of it, m
-/// First entry, arrival, stops and crossings of regions are found to this, s.
+/// Accuracy of the times of first entry, arrival, stops and crossings of regions, s.
 inline constexpr double kMeasureTimeResolution = 1e-5;
 
-/// The first instant in [t0, t1] within kGoalRadius of the goal, and the first one there at under kRestSpeed.
+/// Return the first instant in [t0, t1] within kGoalRadius of the goal, and the first one there below kRestSpeed.
 std::optional<double> first_entry(const FlownPiece& piece, double t0_s, double t1_s, const Vec3& goal);
 std::optional<double> first_arrival(const FlownPiece& piece, double t0_s, double t1_s, const Vec3& goal);
 
-/// Counts how often limits or the flight box are left, and where first.
+/// Counts violations of the limits and of the flight box.
 ///
-/// Compares speed, acceleration, jerk per axis with Limits·(1 + kLimitTolerance), at the true extrema of the pieces.
-/// Compares the body's bounding box with the flight box, and jumps between consecutive pieces with kJoinTolerance: in
-/// position, velocity, and acceleration where jerk is limited. A violation that lasts over consecutive pieces counts
-/// once; a jump counts each time.
+/// Per axis, speed, acceleration and jerk are compared with Limits·(1 + kLimitTolerance) at the true extrema of the
+/// pieces. The body's bounding box is compared with the flight box. Jumps between consecutive pieces are compared with
+/// kJoinTolerance: of position, of velocity, and of acceleration if the jerk is limited. A violation over consecutive
+/// pieces counts once; a jump counts each time.
 class LimitWatch {
  public:
   /// @param body_bounds the body's bounding box about its position, m.
   LimitWatch(const UavSpec& uav, const Box& body_bounds);
 
   void advance(const FlownPiece& piece, double t0_s, double t1_s);
-  /// The next piece begins with `now`, the one before ended with `before`.
+  /// Takes a joint: the last piece ended with `before`, the next one begins with `now`.
   void join(const MotionSample& before, const MotionSample& now, double t_s);
 
   [[nodiscard]] std::int64_t violations() const { return violations_; }
-  [[nodiscard]] const std::string& first() const { return first_; }  ///< in words; empty if none
+  [[nodiscard]] const std::string& first() const { return first_; }  ///< text of the first violation; empty if none
 
  private:
   enum Kind { Speed, Acceleration, Jerk, FlightBox };
@@ -61,7 +61,7 @@ class FlightMeasures {
  public:
   explicit FlightMeasures(const std::vector<Region>& regions);
 
-  /// Takes the flight over [t0, t1]; `arrives`: it ends with arrival, so that slowing down for it is no stop.
+  /// Takes the flight over [t0, t1]. @param arrives  it ends with arrival, so slowing down is not a stop
   void advance(const FlownPiece& piece, double t0_s, double t1_s, bool arrives);
 
   [[nodiscard]] double path_length_m() const { return path_length_m_; }

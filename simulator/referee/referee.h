@@ -1,4 +1,4 @@
-// The referee: watches what the vehicle truly flies against what is truly there, and judges (BENCHMARKS: measures).
+// The referee: judges what the vehicle truly flew against the true obstacles.
 #pragma once
 
 #include <functional>
@@ -19,53 +19,55 @@
 
 namespace tern {
 
-/// Judges one flight, fed as consecutive cubic pieces of the vehicle's true motion from world time 0 on.
+/// Judges one flight from consecutive cubic pieces of the vehicle's true motion, from world time 0 on.
 ///
-/// The flight ends, and the verdict stands, at the first of three:
-///  - Arrival within 0.2 m of the goal at under 0.1 m/s: Reached, or Failed if a limit or the flight box was ever left.
-///  - Clearance of obstacles or of the map below 0 in continuous time: Collision.
-///  - scenario.timeout_s, or 3 × rest_to_rest_bound_s + 10 s: Timeout.
-/// min_clearance_m is attained and at most kClearanceTolerance above the true minimum. With a collision it is taken
-/// until the end of that step (≤ 10 ms), so that it says how deep. Pieces are cut to steps of at most 10 ms; a step
-/// costs microseconds.
+/// | event that ends the flight                                    | verdict                                     |
+/// |---------------------------------------------------------------|---------------------------------------------|
+/// | within 0.2 m of the goal at under 0.1 m/s                     | Reached; Failed if a limit was violated     |
+/// | clearance of an obstacle or of the map < 0, continuous time   | Collision                                   |
+/// | scenario.timeout_s, or 3 × rest_to_rest_bound_s + 10 s        | Timeout                                     |
+///
+/// The first event decides. min_clearance_m is attained and at most kClearanceTolerance above the true minimum. After a
+/// collision it includes the rest of that step (≤ 10 ms), so that it tells the depth. Pieces are cut to steps of at
+/// most 10 ms; a step costs microseconds.
 class Referee {
  public:
-  /// @param judged  the limits beyond which the true motion counts as a violation
+  /// @param judged  limits beyond which the true motion counts as a violation
   Referee(const Scenario& scenario, World world, const Limits& judged);
-  /// The scenario's own limits.
+  /// Uses the scenario's limits.
   Referee(const Scenario& scenario, World world) : Referee(scenario, std::move(world), scenario.uav.limits) {}
   Referee(const Referee&) = delete;
   Referee& operator=(const Referee&) = delete;
 
-  /// From here on the flight shall end at `goal` (W, m; the scenario's at first); nullopt: nowhere, as while it holds.
+  /// Sets the goal (W, m; at first the scenario's). nullopt: there is none, as in mode Hold.
   void set_goal(const std::optional<Vec3>& goal);
-  /// An arrival counts only from this world time on, s: for a vehicle that guards the place where it is.
+  /// Sets the earliest arrival, world time, s: for a vehicle that guards its place.
   void set_earliest_arrival(double t_s) { earliest_arrival_s_ = t_s; }
 
-  /// The occupied voxels of the newest map, as boxes (cover_with_boxes()): from now on a contact with one of them is a
-  /// collision too. An error leaves the map as it was: a box beyond WorldObstacle::kMaxCoordinate.
+  /// Sets the occupied voxels of the newest map, as boxes (cover_with_boxes()). A contact with one is a collision.
+  /// @return an Error for a box beyond WorldObstacle::kMaxCoordinate; the map then stays as it was
   Result<void> set_map(const std::vector<Box>& occupied);
-  /// Decides who of those who appeared by world time t_s is part of the flight (Appearances); call it first.
-  /// @param vehicle  where it was at a world time, W
+  /// Decides which obstacles that have appeared by world time t_s take part (Appearances). Call it before the other
+  /// functions. @param vehicle  its position (W) at a world time
   void admit(double t_s, const std::function<Vec3(double)>& vehicle);
 
-  /// Names of those that overlap the body at the scenario's start within [from_s, 0), world time, every 10 ms: while
-  /// all wait, what is on its way passes through it. No contact counts before 0.
+  /// Names of the obstacles that overlap the body at the scenario's start within [from_s, 0), world time, checked every
+  /// 10 ms. Contacts before 0 do not count.
   [[nodiscard]] std::vector<std::string> passing_the_start(double from_s) const;
 
-  /// The vehicle flew `piece` from world time `start` on. After the verdict nothing is taken any more.
-  /// @throws std::invalid_argument unless start is where the last piece ended (0 at first), duration > 0, coefficients
-  /// finite.
+  /// Takes `piece`, flown from world time `start` on. Ignored after the verdict.
+  /// @throws std::invalid_argument unless start is the end of the last piece (0 at first), duration > 0, and all
+  /// coefficients are finite.
   void advance(Duration start, const CubicPiece& piece);
 
-  [[nodiscard]] Duration now() const { return now_; }  ///< how far the flight was told
+  [[nodiscard]] Duration now() const { return now_; }  ///< world time up to which the flight was taken
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] double timeout_s() const { return timeout_s_; }
 
   [[nodiscard]] std::optional<FlightResult> verdict() const;
-  /// The measures until now; before the verdict outcome is Failed and detail says that the flight has not ended.
-  /// NaN: min_clearance_m where no obstacle was ever present, min_map_clearance_m where no voxel was occupied,
-  /// first_entry_s and mean_speed_mps where there is none.
+  /// The measures so far. Before the verdict, outcome is Failed and detail tells that the flight has not ended. NaN:
+  /// min_clearance_m without any obstacle, min_map_clearance_m without an occupied voxel, first_entry_s and
+  /// mean_speed_mps without an entry.
   [[nodiscard]] FlightResult result_so_far() const;
 
  private:

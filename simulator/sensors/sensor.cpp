@@ -23,7 +23,7 @@ void require_valid(const SensorConfig& c) {
   require(c.max_detections >= 0, "max_detections negative:", c.max_detections);
 }
 
-/// One seed per frame (splitmix64): neighbours share nothing.
+/// The seed of a frame (splitmix64): neighbouring frames are independent.
 std::uint64_t frame_seed(std::uint64_t seed, std::int64_t frame) {
   std::uint64_t x = seed + 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(frame) + 1);
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -1,4 +1,4 @@
-// What a vehicle believes of its own motion: the truth with noise, a bias that drifts, and jumps; said late.
+// The vehicle's state estimator: the truth with noise, a drifting bias, and jumps.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tern {
 
-/// All zero: it knows the truth at once.
+/// The section `estimator`. All zero: the estimate is the truth.
 struct EstimatorSpec {
   double position_sigma_m = 0.0;
   double velocity_sigma = 0.0;
@@ -35,17 +35,17 @@ struct EstimatorSpec {
   }
 };
 
-/// The error is a first-order Markov process each for noise and bias, begun in its stationary state, and the sum of all
-/// jumps. Deterministic from the seed. Latency is its user's to keep.
+/// Noise and bias are first-order Markov processes in their stationary state, and jumps add up. Deterministic from the
+/// seed. The caller applies the latency.
 class Estimator {
  public:
   Estimator(const EstimatorSpec& spec, std::uint64_t seed);
   void advance(double dt);
   [[nodiscard]] Vec3 position_error() const { return noise_ + bias_ + jumped_; }  ///< estimate − truth, m
   [[nodiscard]] Vec3 velocity_error() const { return velocity_; }                 ///< m/s
-  /// Jumps now by so many metres, level, in any direction.
+  /// Shifts the estimate by so many metres, level, in a random direction.
   void jump(double metres);
-  [[nodiscard]] int jumps() const { return jumps_; }  ///< so far
+  [[nodiscard]] int jumps() const { return jumps_; }  ///< number so far
 
  private:
   Vec3 normal();

@@ -1,4 +1,4 @@
-// A vehicle that others fly: an autopilot behind tern-mavlink.
+// A vehicle that other processes fly: an autopilot behind tern-mavlink.
 #pragma once
 
 #include "core/world/scenario.h"
@@ -6,16 +6,15 @@
 
 namespace tern {
 
-/// Its truth is what is heard of it: cubics through the states that are told, VEHICLE_TRUTH, or UAV_STATE from whoever
-/// tells no truth. Until the first it rests at scenario.uav.start. It follows what it is told elsewhere, and says
-/// nothing of itself.
+/// Its true motion is the received one: cubics through VEHICLE_TRUTH, or through UAV_STATE until a VEHICLE_TRUTH
+/// arrives. Until the first state it rests at scenario.uav.start. It ignores setpoints and publishes no state.
 class ExternalVehicle final : public Vehicle {
  public:
   ExternalVehicle(const UavSpec& uav, UTime now);
 
-  /// A state that is not after the last one is ignored.
+  /// Takes VEHICLE_TRUTH. A state that is not after the last one is ignored.
   void receive_truth(const UavState& state);
-  /// Counts only until a truth was heard.
+  /// Takes UAV_STATE. Ignored after the first VEHICLE_TRUTH.
   void receive_estimate(const UavState& state);
 
   void receive(const UavState&) override {}

@@ -41,7 +41,7 @@ Vec3 FlightController::rates_for(const Vec3& thrust, const FlightCommand& comman
   const Vec3 up = estimate.q * Vec3::UnitZ();
   const Eigen::Quaterniond tilt = Eigen::Quaterniond::FromTwoVectors(up, thrust);
   const Eigen::Quaterniond tilted = tilt * estimate.q;
-  // The heading that is left: about the thrust's axis.
+  // The remaining heading error is about the thrust's axis.
   const Vec3 z = thrust.normalized();
   const Vec3 ahead(std::cos(command.yaw), std::sin(command.yaw), 0.0);
   const Vec3 wanted_x = (ahead - ahead.dot(z) * z).normalized();

@@ -6,7 +6,8 @@
 
 namespace tern {
 
-/// Gains; PX4's names in brackets. The defaults are for both classes: rates are commanded per inertia.
+/// The section `quadrotor.controller`, with PX4's names in brackets. The gains fit both classes: torques are commanded
+/// per inertia.
 struct FlightControllerSpec {
   double position_p = 2.5;    ///< [MPC_XY_P, MPC_Z_P]
   double velocity_p = 5.0;    ///< [MPC_XY_VEL_P_ACC]
@@ -19,8 +20,8 @@ struct FlightControllerSpec {
   double rate_max = 12.0;     ///< [MC_ROLLRATE_MAX], about the forward axis and the axis to the left
   double yaw_rate_max = 3.5;  ///< [MC_YAWRATE_MAX]
   double speed_max = 20.0;    ///< [MPC_XY_VEL_MAX]
-  double drag_per_s = 0.0;    ///< added to the commanded acceleration per commanded velocity
-  double lead_s = 0.0;        ///< the commanded acceleration is taken this much later, by the commanded jerk
+  double drag_per_s = 0.0;    ///< feed-forward: acceleration per commanded velocity
+  double lead_s = 0.0;        ///< the commanded acceleration is that of this much later, by the commanded jerk
   template <typename V>
   void visit(V& v) {
     v("position_p", position_p, Range{0.0, 20.0}, "velocity per position error, 1/s");
@@ -40,34 +41,38 @@ struct FlightControllerSpec {
   }
 };
 
-/// What is to be followed: the SETPOINT, or a hold.
+/// The command: a SETPOINT, or a place to hold.
 struct FlightCommand {
   MotionSample motion;  ///< p, v, a, j in W
   double yaw = 0.0;     ///< rad
   double yaw_rate = 0.0;
 };
 
-/// What the controller takes for the truth.
+/// The state that the controller uses.
 struct FlightEstimate {
-  Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();  ///< W; a without gravity's share: dv/dt
+  Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();  ///< W; a = dv/dt, without gravity
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
   Vec3 w = Vec3::Zero();
 };
 
-/// velocity:     v_c = v + position_p (p − p̂), at most speed_max
-/// acceleration: a_c = a + lead_s j + drag_per_s v + velocity_p (v_c − v̂) + ∫ velocity_i (v_c − v̂) − velocity_d â_xy
-/// thrust:       m (a_c + g), tilted by at most tilt_max and within what the rotors have; vertical comes first
-/// rates:        by the quaternion error of that direction, then of the heading (Brescianini, D'Andrea 2018)
-/// torque:       J rate_p (ω_c − ω̂) + ω̂ × J ω̂
-/// The integral stands still while the wrench cannot be had. Deterministic; holds the integral only.
+/// | loop         | equation                                                                                   |
+/// |--------------|--------------------------------------------------------------------------------------------|
+/// | velocity     | v_c = v + position_p (p − p̂), at most speed_max                                            |
+/// | acceleration | a_c = a + lead_s j + drag_per_s v + velocity_p (v_c − v̂) + I − velocity_d â_xy             |
+/// | integral     | I = ∫ velocity_i (v_c − v̂), frozen while the wrench is not available                       |
+/// | thrust       | m (a_c + g), tilted by at most tilt_max, within the rotors' limits; vertical has priority  |
+/// | rates        | from the quaternion error of that direction, then of the heading (Brescianini, D'Andrea 2018) |
+/// | torque       | J rate_p (ω_c − ω̂) + ω̂ × J ω̂                                                               |
+///
+/// Deterministic; the integral is its only state.
 class FlightController {
  public:
   FlightController(const QuadrotorSpec& body, const FlightControllerSpec& gains) : body_(body), gains_(gains) {}
-  /// The rotors' commands for the next dt, s.
+  /// Returns the rotors' commands for the next dt, s.
   Rotors update(const FlightCommand& command, const FlightEstimate& estimate, double dt);
   void reset() { integral_.setZero(); }
   void tune(const FlightControllerSpec& gains) { gains_ = gains; }
-  /// As after hovering for long where this acceleration (W, m/s²) was needed against the wind.
+  /// Sets the integral as after a long hover that needed this acceleration (W, m/s²) against the wind.
   void trim(const Vec3& against) { integral_ = against; }
 
  private:

@@ -3,10 +3,10 @@
 namespace tern {
 namespace {
 
-/// The longest time that anybody looks back: the sensor's latency and the referee's lag.
+/// History that the sensor's latency and the referee's lag need.
 constexpr Duration kRemembered{4'000'000};
-/// Setpoints come so late at most: a busy machine holds up the executor, then the thread that receives them. Truth that
-/// has gone on along an older trajectory by then could only jump to the one that they are of.
+/// Largest delay of a setpoint: a busy machine holds up the executor and the receiving thread. A truth that had already
+/// continued along the older trajectory would jump to the late setpoint.
 constexpr Duration kLatest{500'000};
 
 }  // namespace

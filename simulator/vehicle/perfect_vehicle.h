@@ -1,4 +1,4 @@
-// The vehicle that is where its setpoints say.
+// A vehicle that follows its setpoints exactly.
 #pragma once
 
 #include "core/world/scenario.h"
@@ -7,9 +7,9 @@
 
 namespace tern {
 
-/// Follows the commanded motion exactly, and knows its state exactly. Its truth ends at its newest setpoint, and during
-/// a silence 0.5 s ago, so that setpoints that come late after all are followed. A setpoint that jumps makes
-/// it jump, which the referee counts.
+/// Follows the commanded motion exactly, and knows its state exactly. Its truth ends at the newest setpoint, but not
+/// more than 0.5 s ago: so late setpoints are followed. A setpoint that jumps makes the vehicle jump, which the referee
+/// counts.
 class PerfectVehicle final : public Vehicle {
  public:
   PerfectVehicle(const UavSpec& uav, UTime now) : limits_(uav.limits), command_(uav.start, now, uav.limits) {}
@@ -20,7 +20,7 @@ class PerfectVehicle final : public Vehicle {
   void advance(UTime now) override;
   [[nodiscard]] const MotionHistory& truth() const override { return command_.settled(); }
   [[nodiscard]] UavState true_state() const override { return state_at(truth().end()); }
-  /// At its newest setpoint while it does not know what comes after it.
+  /// The state at the newest setpoint, while no committed trajectory continues it.
   [[nodiscard]] UavState estimate(UTime now) override {
     return state_at(command_.is_committed() ? now : truth().end());
   }

@@ -7,11 +7,11 @@
 namespace tern {
 namespace {
 
-/// Signs of each rotor's place and sense.
+/// Signs of each rotor's position and sense of rotation.
 constexpr Rotors kForward{1.0, -1.0, -1.0, 1.0}, kLeft{1.0, 1.0, -1.0, -1.0}, kSense{1.0, -1.0, 1.0, -1.0};
 
-/// Of the way to hovering, by which thrust is raised for the sake of torque at most: ArduPilot's ATC_THR_MIX_MAX. PX4
-/// raises it not at all (MC_AIRMODE 0). Without a bound whoever turns fast at little thrust is lifted.
+/// Largest raise of thrust for the sake of torque, as a share of the difference to the hover thrust: ArduPilot's
+/// ATC_THR_MIX_MAX. PX4 raises none (MC_AIRMODE 0). Without a bound, a fast turn at little thrust lifts the vehicle.
 constexpr double kLift = 0.5;
 
 struct Derivative {
@@ -88,7 +88,7 @@ double share_within(const Rotors& base, const Rotors& part, double low, double h
   return std::clamp(share, 0.0, 1.0);
 }
 
-/// The thrust, raised towards what leaves room for a torque, but no farther than kLift allows.
+/// The thrust, raised to make room for a torque, within the bound of kLift.
 double lifted(const QuadrotorSpec& spec, double thrust, double enough) {
   const double hover = spec.mass_kg * kGravity;
   return std::max(thrust, std::min(enough, thrust + kLift * (hover - thrust)));

@@ -11,17 +11,17 @@ namespace tern {
 
 using Rotors = std::array<double, 4>;
 
-/// Two classes whose figures come from what was built and measured (quadrotor_spec).
+/// Two classes, with data of built and measured vehicles (quadrotor_spec).
 enum class QuadrotorClass { Camera, Racer };
 
-/// The body's parameters. Rotors: front left, back left, back right, front right, at arm·(±1, ±1) in B; the first and
-/// third turn one way, the others the other way.
+/// The section `quadrotor.body`. Rotors in B, at arm·(±1, ±1): front left, back left, back right, front right. Rotors
+/// one and three turn one way, two and four the other way.
 struct QuadrotorSpec {
   double mass_kg = 1.5;
   Vec3 inertia = Vec3(0.029, 0.029, 0.055);  ///< kg m², about B's axes
   double arm_m = 0.17;                       ///< a rotor's distance from B's x axis and from its y axis
   double thrust_to_weight = 2.0;             ///< of all four rotors together, > 1
-  double least_thrust = 0.04;                ///< of a rotor, as a share of its largest: motors do not stop in flight
+  double least_thrust = 0.04;                ///< of a rotor, share of its largest: motors do not stop in flight
   double motor_lag_s = 0.025;                ///< thrust follows its command as a first-order lag
   double torque_per_thrust_m = 0.06;         ///< a rotor's reaction about its axis, per newton of thrust
   double drag_per_s = 0.37;                  ///< linear drag per mass across the rotor discs
@@ -46,12 +46,17 @@ struct QuadrotorSpec {
   [[nodiscard]] double max_thrust() const { return thrust_to_weight * mass_kg * kGravity / 4.0; }  ///< of a rotor, N
 };
 
-/// Camera: 0.5 m from rotor to rotor, thrust/weight 2: 3DR's Iris as PX4's Gazebo models it, with the slower of its two
-/// motor lags. From there (PX4-SITL_gazebo-classic, models/iris) come mass, inertia, rotors' places and reaction. Its
-/// rotor drag, 1.75e-4 N s²/m at hover speed, gives drag_per_s. Racer: 0.25 m, thrust/weight 4: the 5-inch quadrotor of
-/// Bauersfeld et al. (NeuroBEM, RSS 2021: mass, motor lag, 33 N of thrust, here held to 4; inertia by its data set's
-/// README), rotors' places and reaction as in the models of the same frame in uzh-rpg's Agilicious. Its linear drag,
-/// and both quadratic ones (plates of 0.03 m² and of 0.012 m²), are typical values, not measured ones.
+/// Returns the data of a class.
+///
+/// Camera: 0.5 m from rotor to rotor, thrust/weight 2. It is 3DR's Iris of PX4's Gazebo models
+/// (PX4-SITL_gazebo-classic, models/iris): mass, inertia, rotor positions and reaction torque, with the slower of its
+/// two motor lags. drag_per_s follows from its rotor drag, 1.75e-4 N s²/m at hover speed.
+///
+/// Racer: 0.25 m, thrust/weight 4. It is the 5-inch quadrotor of Bauersfeld et al. (NeuroBEM, RSS 2021): mass, motor
+/// lag, and inertia from the README of its data set. Its 33 N of thrust are limited to thrust/weight 4. Rotor positions
+/// and reaction torque are those of the same frame in uzh-rpg's Agilicious. The linear drag is a typical value.
+///
+/// The quadratic drag of both (plates of 0.03 m² and 0.012 m²) is a typical value.
 QuadrotorSpec quadrotor_spec(QuadrotorClass kind);
 
 /// The state. B is forward, left, up.
@@ -64,29 +69,29 @@ struct QuadrotorState {
   bool on_ground = false;
 };
 
-/// Hovering at p in still air: at rest, level, each rotor a quarter of the weight.
+/// The state of hovering at p in still air: at rest, level, each rotor with a quarter of the weight.
 QuadrotorState hovering(const QuadrotorSpec& spec, const Vec3& p, double yaw);
-/// Standing at p, rotors at their least thrust.
+/// The state of standing at p, with the rotors at their least thrust.
 QuadrotorState standing(const QuadrotorSpec& spec, const Vec3& p, double yaw);
 
 /// dv/dt in W, m/s²: gravity, thrust along B's z, drag against the air that moves with `wind` (W, m/s).
 Vec3 acceleration(const QuadrotorSpec& spec, const QuadrotorState& state, const Vec3& wind);
 
-/// What the rotors do together: thrust along B's z, N, and torque about B's axes, N m.
+/// Sum of the rotors' effects: thrust along B's z, N, and torque about B's axes, N m.
 struct Wrench {
   double thrust = 0.0;
   Vec3 torque = Vec3::Zero();
 };
 Wrench wrench_of(const QuadrotorSpec& spec, const Rotors& thrust);
 
-/// The rotors' thrusts for a wrench, each within its limits. What cannot be had is given up in the order of autopilots:
-/// torque about B's z first, then thrust, then all torque by one factor. Where thrust is too little for the torque, it
-/// is raised, but at most half the way to hovering: so much that it does not climb.
+/// Returns the rotors' thrusts for a wrench, each within its limits. An unavailable wrench is reduced in the order of
+/// autopilots: torque about B's z first, then thrust, then all torque by one factor. If the thrust is too small for the
+/// torque, it is raised by at most half the difference to the hover thrust. So the vehicle does not climb.
 Rotors allocate(const QuadrotorSpec& spec, const Wrench& wanted);
 
-/// One step of classical Runge–Kutta over dt (s, at most a fifth of the motor's lag), `command` (N per rotor) and
-/// `wind` held. The ground is the plane z = ground_z: whoever comes to it from above stands there, level, and leaves it
-/// when thrust exceeds weight. −infinity: there is none.
+/// Makes one classical Runge–Kutta step over dt (s, at most a fifth of the motor's lag), with constant `command` (N per
+/// rotor) and `wind`. The ground is the plane z = ground_z (−infinity: none). A body that reaches it from above stands
+/// there, level, until thrust exceeds weight.
 QuadrotorState step(const QuadrotorSpec& spec, const QuadrotorState& state, const Rotors& command, const Vec3& wind,
                     double ground_z, double dt);
 

@@ -6,10 +6,10 @@
 namespace tern {
 namespace {
 
-/// Seeds of wind and estimator share nothing.
+/// Offsets that make the seeds of wind and estimator independent.
 constexpr std::uint64_t kWindSeed = 0x9e3779b97f4a7c15ULL, kEstimatorSeed = 0xc2b2ae3d27d4eb4fULL;
 
-/// The drag changes little with the tilt: each step leaves a tenth of the error.
+/// Iterations of the trim. The drag changes little with the tilt: each iteration leaves a tenth of the error.
 constexpr int kTrimSteps = 10;
 
 double yaw_of(const Eigen::Quaterniond& q) {

@@ -14,17 +14,17 @@
 
 namespace tern {
 
-/// Body and controller step at 1 kHz.
+/// Step of body and controller.
 inline constexpr Duration kVehicleStep{1'000};
 
-/// The section `simulator.quadrotor`. The class chooses the defaults of what follows it.
+/// The section `simulator.quadrotor`. The class sets the defaults of body and controller.
 struct QuadrotorConfig {
   QuadrotorClass kind = QuadrotorClass::Camera;
   QuadrotorSpec body = quadrotor_spec(kind);
   FlightControllerSpec controller = controller_for(kind, body);
 
-  /// The default gains, with the body's own drag and tilting lag fed forward; a racer tilts and turns beyond what is
-  /// planned for one (70°, 900°/s).
+  /// The default gains, with feed-forward for the body's drag and its lag of tilting. A racer's limits of tilt and rate
+  /// exceed those that are planned for one (70°, 900°/s).
   static FlightControllerSpec controller_for(QuadrotorClass kind, const QuadrotorSpec& body);
   template <typename V>
   void visit(V& v) {
@@ -37,7 +37,7 @@ struct QuadrotorConfig {
   }
 };
 
-/// The truth of one step, for whoever judges or shows it.
+/// The true state of one step.
 struct VehicleTruth {
   UTime at;
   MotionSample motion;  ///< W; j is zero
@@ -46,34 +46,35 @@ struct VehicleTruth {
   bool on_ground = false;
 };
 
-/// Begins in hover at `start`, as after hovering in the mean wind for long, or standing there if that is the ground.
-/// Time moves by advance() in whole steps since `now`. Between two calls the newest command holds: its motion is
-/// carried on by its acceleration and jerk, at most for kHeldFor, then at rest where that ended. Without any command it
-/// keeps its start. Deterministic from the seed and the commands. A step costs about a microsecond.
+/// Begins hovering at `start`, as after a long hover in the mean wind, or standing there if that is the ground.
+///
+/// Time advances in whole steps. The newest command holds until the next one: it is extrapolated with its acceleration
+/// and jerk for at most kHeldFor, then the place is held. Without a command the model holds its start. Deterministic
+/// from the seed and the commands. A step costs about a microsecond.
 class QuadrotorModel {
  public:
-  /// A command is carried on no longer than this: then it holds that place.
+  /// A command is extrapolated for at most this time.
   static constexpr Duration kHeldFor{100'000};
 
   QuadrotorModel(const QuadrotorConfig& config, const WindSpec& wind, const EstimatorSpec& estimator,
                  std::uint64_t seed, const Vec3& start, double ground_z, UTime now);
 
-  /// The newest setpoint; `at` is its time.
+  /// Sets the newest setpoint; `at` is its time.
   void command(const UavState& setpoint) { command_ = setpoint; }
-  /// Rotors at their least thrust until armed again; on the ground it stays there.
+  /// Disarmed, the rotors have their least thrust: on the ground the vehicle stays there.
   void set_armed(bool armed) { armed_ = armed; }
-  /// All whole steps up to `now`.
+  /// Makes all whole steps up to `now`.
   void advance(UTime now);
 
   [[nodiscard]] UTime time() const { return time_; }
   [[nodiscard]] VehicleTruth truth() const;
-  /// What the controller takes for the truth, now: the estimator's errors, no latency. yaw from q.
+  /// The state that the controller uses: with the estimator's errors, without latency; yaw from q.
   [[nodiscard]] UavState estimate() const;
-  /// The newest estimate that has been said by now: of latency_s ago. @return nullopt before the first
+  /// The newest estimate with the latency applied. @return nullopt before the first one
   [[nodiscard]] std::optional<UavState> delayed_estimate();
-  /// Other gains from now on.
+  /// Changes the gains.
   void tune(const FlightControllerSpec& gains) { controller_.tune(gains); }
-  /// The estimator resets itself by so many metres.
+  /// Resets the estimator with a shift of so many metres.
   void jump_estimate(double metres) { estimator_.jump(metres); }
   [[nodiscard]] int resets() const { return estimator_.jumps(); }
   [[nodiscard]] const QuadrotorState& state() const { return state_; }
@@ -94,7 +95,7 @@ class QuadrotorModel {
   UTime time_;
   bool armed_ = true;
   std::optional<UavState> command_;
-  UavState start_;  // at rest there
+  UavState start_;  ///< at rest
   std::deque<UavState> delayed_;
 };
 

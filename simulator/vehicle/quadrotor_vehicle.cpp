@@ -6,7 +6,7 @@
 namespace tern {
 namespace {
 
-/// Of a piece of the truth: cubics through the model's states are then within a micrometre of it.
+/// Length of a piece of the truth: cubics through the model's states then deviate by less than a micrometre.
 constexpr Duration kPiece{5'000};
 constexpr Duration kRemembered{4'000'000};
 
@@ -31,7 +31,8 @@ void QuadrotorVehicle::advance(UTime now) {
       UavState command;
       command.at = t;
       command.motion = command_.sample(t);
-      // Its controller takes the acceleration ahead by the jerk: by the mean one it is the very acceleration then.
+      // The controller extrapolates the acceleration by the jerk. With the mean jerk it gets the exact later
+      // acceleration.
       if (lead_ > Duration{}) {
         command.motion.j = (command_.acceleration_ahead(t, lead_) - command.motion.a) / lead_.seconds();
       }

@@ -1,4 +1,4 @@
-// The quadrotor's model as the simulator's vehicle.
+// The quadrotor model as a Vehicle.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace tern {
 
-/// What flies, in which air, and what it believes.
+/// The vehicle, the wind and the estimator.
 struct QuadrotorFlight {
   QuadrotorConfig quadrotor;
   WindSpec wind;
   EstimatorSpec estimator;
 };
 
-/// Follows the commanded motion (executor/commanded_motion.h) as well as its controller can. Its limits are its
-/// physics'. The ground is the flight box's floor.
+/// Follows the commanded motion (executor/commanded_motion.h) as well as its controller can. Its only limits are
+/// physical. The ground is the floor of the flight box.
 class QuadrotorVehicle final : public Vehicle {
  public:
   QuadrotorVehicle(const UavSpec& uav, const QuadrotorFlight& flight, std::uint64_t seed, UTime now);
@@ -39,7 +39,7 @@ class QuadrotorVehicle final : public Vehicle {
   QuadrotorModel model_;
   CommandedMotion command_;
   MotionHistory truth_;
-  MotionSample newest_;  // at truth_.end()
+  MotionSample newest_;  ///< at truth_.end()
   UavState published_;
 };
 

@@ -1,4 +1,4 @@
-// How setpoints become a motion: the vehicle that the simulator flies.
+// The simulated vehicle's interface: setpoints in, motion out.
 #pragma once
 
 #include "core/splines/motion_history.h"
@@ -8,39 +8,39 @@
 
 namespace tern {
 
-/// A simulated vehicle: body, controller and state estimator. Pure: times are arguments and never go back; whatever is
-/// random comes from a seed. Before its first setpoint it stays where the scenario starts it, at rest.
+/// A simulated vehicle: body, controller and state estimator. Pure: times are arguments and never go back, and noise
+/// comes from a seed. Before its first setpoint it rests at the scenario's start.
 ///
-/// The node calls receive() for each message as it comes, and at 100 Hz advance(now), then the others. Times are the
-/// vehicle's clock.
+/// The node calls receive() for each message, and at 100 Hz advance(now), then the queries. Times are the vehicle's
+/// clock.
 class Vehicle {
  public:
   virtual ~Vehicle() = default;
 
-  /// A SETPOINT came. Its `at` may be some ms before the time of the next advance() or, with another host's clock,
-  /// ahead of it. Messages may be lost, and late. executor/commanded_motion.h makes a command at any time of this.
+  /// Takes a SETPOINT. Its `at` may be some ms before the next advance(), or ahead of it with another host's clock.
+  /// Messages may be lost or late; executor/commanded_motion.h turns them into a command at any time.
   virtual void receive(const UavState& setpoint) = 0;
-  /// A HORIZON_REQUEST came with the trajectory that the executor has committed to: what to fly when setpoints cease.
+  /// Takes HORIZON_REQUEST.committed: the trajectory to fly when setpoints cease.
   virtual void receive(const TimedSpline& committed) = 0;
-  /// A PLAN came: what the executor will probably commit to next.
+  /// Takes a PLAN: the trajectory that the executor will probably commit to next.
   virtual void receive(const Plan& plan) = 0;
 
-  /// The body moves on. What it truly did is then known until truth().end(). That may lag behind `now` by a few
-  /// setpoints' time, but never stands still; nothing is judged beyond it, nor beyond `now`.
+  /// Advances the body. Afterwards its true motion is known until truth().end(), which may lag `now` by a few setpoints
+  /// but always progresses. The motion is judged up to truth().end() and `now`.
   virtual void advance(UTime now) = 0;
 
-  /// The body's true motion: consecutive cubic pieces in W, from the first advance() on and for at least 3 s back. The
-  /// referee judges these pieces in continuous time, so they have to be the motion, not samples of it. A model that is
-  /// integrated has a Hermite piece (core/splines) for each of its steps.
+  /// The body's true motion in W: consecutive cubic pieces, from the first advance() on, at least the last 3 s. The
+  /// referee judges these pieces in continuous time, so they must be the motion itself. An integrated model has one
+  /// Hermite piece (core/splines) per step.
   [[nodiscard]] virtual const MotionHistory& truth() const = 0;
   /// The true state at truth().end(), with the heading: VEHICLE_TRUTH.
   [[nodiscard]] virtual UavState true_state() const = 0;
-  /// What its estimator says of the state at `now` (or earlier, by its latency: `at` says when): UAV_STATE.
+  /// The estimated state at `now`, or earlier by the latency (see `at`): UAV_STATE.
   [[nodiscard]] virtual UavState estimate(UTime now) = 0;
-  /// How it is: VEHICLE_STATUS. Until world time begins the node says in its place that it is not following.
+  /// VEHICLE_STATUS. Before world zero the node replaces `following` by false.
   [[nodiscard]] virtual VehicleStatus status(UTime now) const = 0;
-  /// The true motion counts as a violation beyond these. A vehicle whose limits are those of its physics, or that only
-  /// follows what keeps limits, has none: infinite ones.
+  /// Limits beyond which the true motion counts as a violation. They are infinite for a vehicle whose limits are
+  /// physical, or that only follows motions within limits.
   [[nodiscard]] virtual Limits judged_limits() const = 0;
 };
 

@@ -1,4 +1,4 @@
-// Moving air: a mean, Dryden's gusts, and one discrete gust.
+// The wind: a mean, Dryden's gusts, and one discrete gust.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct WindSpec {
   }
 };
 
-/// Standard deviations (m/s) and lengths (m) of Dryden's turbulence along the wind, across it, and vertically.
+/// Standard deviations (m/s) and lengths (m) of Dryden's turbulence: along the wind, across it, vertical.
 struct Turbulence {
   Vec3 sigma, length;
 };
@@ -39,16 +39,16 @@ struct Turbulence {
 /// L_u = L_v = h / (0.177 + 0.000823 h)^1.2, h in feet.
 Turbulence turbulence_of(const WindSpec& spec);
 
-/// Dryden's filters driven by white noise, for a vehicle that meets the air at `airspeed`: along the wind of first
-/// order, across and vertical of second. The discrete gust is 1 − cosine (MIL-F-8785C). Deterministic from the seed.
+/// Dryden's filters driven by white noise, for a vehicle with a given airspeed: first order along the wind, second
+/// order across and vertical. The discrete gust has a 1 − cosine shape (MIL-F-8785C). Deterministic from the seed.
 class Wind {
  public:
   Wind(const WindSpec& spec, std::uint64_t seed);
-  /// Moves on by dt (s, far shorter than length / airspeed). @param airspeed  m/s, ≥ 0; below 1 it counts as 1
+  /// Advances by dt (s, far shorter than length / airspeed). @param airspeed  m/s, ≥ 0; below 1 it counts as 1
   void advance(double airspeed, double dt);
-  /// W, m/s.
+  /// The wind's velocity in W, m/s.
   [[nodiscard]] Vec3 velocity() const;
-  /// Of it what no gust changes.
+  /// The mean wind in W, m/s.
   [[nodiscard]] Vec3 mean() const;
 
  private:
@@ -56,7 +56,7 @@ class Wind {
   Turbulence turbulence_;
   Rng rng_;
   double time_s_ = 0.0;
-  double along_ = 0.0;  // the first-order state, m/s
+  double along_ = 0.0;  ///< state of the first-order filter, m/s
   Eigen::Array2d slow_ = Eigen::Array2d::Zero(),
                  gust_ = Eigen::Array2d::Zero();  // of the second-order ones: across, up
 };

@@ -63,7 +63,7 @@ class Coarsening {
     return places;
   }
 
-  /// The segments as pieces; before world time 0 nobody moves, so a way that does not repeat begins there.
+  /// The segments as pieces. Before world time 0 the obstacle rests, so a path that does not repeat begins there.
   [[nodiscard]] static Track way_of(const WaypointMotion& m) {
     Track way;
     for (std::size_t i = 0; i + 1 < m.points.size(); ++i) {

@@ -1,4 +1,4 @@
-// How motions are declared whose own pieces are too many for a message: coarser, with their error in α.
+// Coarser declarations, with their error in α, for motions whose own pieces are too many for a message.
 #pragma once
 
 #include <cstddef>
@@ -13,29 +13,34 @@
 namespace tern {
 
 /// One of
-///   Duration: an oscillation, as Hermite pieces of this length;
-///   Track: waypoints, resampled; one round if they repeat. Its times are world time, UTime{0} being world time 0;
-///   Box: what moves too fast to be followed: the box of all places where its centre ever is, W.
+/// - Duration: an oscillation, as Hermite pieces of this length;
+/// - Track: resampled waypoints, one round if they repeat; UTime{0} is world time 0;
+/// - Box: for a motion that is too fast to follow, the box of all places of its centre, W.
 using CoarseMotion = std::variant<Duration, Track, Box>;
 
-/// By the obstacle's id; who is not in it is declared by its own pieces.
+/// By the obstacle's id. Other obstacles are declared by their own pieces.
 using CoarseMotions = std::map<std::int64_t, CoarseMotion>;
 
-/// The motions of the world that need more than `pieces` pieces for a span of `window`, on average over their way, made
-/// coarser to fit. Oscillations: pieces of the least multiple of 10 ms with window/h + 1 ≤ pieces. Waypoints: resampled
-/// (core/world/resampling.h) once for the whole way, to pieces · max(1, its length/window). So successive sets agree,
-/// and long rests leave their pieces to turns. Where the error would exceed the box of all places, or a repeating way
-/// is shorter than its pieces, it is that box.
+/// Returns coarser motions for the obstacles that need more than `pieces` pieces per `window`, on average over their
+/// path.
 ///
-/// Pure. O(n log n) of the waypoints. @param pieces ≥ 1.
+/// | motion       | coarser form                                                                                     |
+/// |--------------|--------------------------------------------------------------------------------------------------|
+/// | oscillation  | pieces of length h, the least multiple of 10 ms with window/h + 1 ≤ pieces                       |
+/// | waypoints    | resampled once (core/world/resampling.h), to pieces · max(1, its length/window)                  |
+/// | error too large, or a round shorter than a piece | the box of all places                                        |
+///
+/// Waypoints are resampled once for the whole path, so successive sets agree, and long rests leave their pieces to
+/// turns. Pure. O(n log n) for n waypoints. @param pieces  ≥ 1
 CoarseMotions coarse_motions(const World& world, Duration window, std::size_t pieces);
 
-/// How many obstacles can be in one declaration at most.
+/// The largest number of obstacles in one declaration.
 struct PresentCount {
   std::size_t moving = 0, resting = 0;
 };
 
-/// Counts those that vanish while they are present and for `after` more. O(n log n).
+/// Counts the obstacles of a declaration. One that vanishes counts while it is present and for `after` more. O(n log
+/// n).
 PresentCount max_present(const World& world, Duration after);
 
 }  // namespace tern

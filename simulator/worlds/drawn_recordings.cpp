@@ -20,10 +20,10 @@ constexpr int kMaxDraws = 10'000;
 constexpr int kMaxRedraws = 1000;
 constexpr double kStartSample = 0.01;    // s
 constexpr double kMeetingSample = 0.05;  // s
-// Of a copy's motion before world time 0, s: what the sensor sees of it, and points on both sides of that.
+// A copy's motion before world time 0, s: the part that the sensor sees, with points on both sides.
 constexpr double kBefore = kLookAroundTime.seconds() + 0.5;
 
-/// Where someone is at file time t_s. @return nullopt if not there
+/// Position of a track at file time t_s, or nullopt if it is absent
 std::optional<Vec3> place_at(const RecordedTrack& track, double t_s) {
   const auto& points = track.points;
   if (t_s < points.front().first || t_s > points.back().first) return std::nullopt;
@@ -49,8 +49,8 @@ bool meets(const RecordedTrack& track, double t_s, const UavSpec& uav) {
 
 using Points = std::vector<std::pair<double, Vec3>>;
 
-/// The piece of a track whose time 0 is the first position at or after `from_s`: who looks around before that sees it
-/// come.
+/// The piece of a track whose time 0 is the first position at or after `from_s`. A sensor that looks around before that
+/// sees it approach.
 Points cut(const RecordedTrack& track, double from_s, double duration_s) {
   Points piece;
   const auto first = std::ranges::find_if(track.points, [&](const auto& p) { return p.first >= from_s; });

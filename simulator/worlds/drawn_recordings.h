@@ -1,4 +1,4 @@
-// What the seed draws from a recording: the moment at which a flight begins, or movers that fly pieces of its tracks.
+// Random choices from a recording: the moment at which a flight begins, and movers that fly pieces of its tracks.
 #pragma once
 
 #include <vector>
@@ -10,28 +10,30 @@
 
 namespace tern {
 
-/// Someone is met who comes this near on the floor, m, to a vehicle that flies straight from start to goal. It flies at
-/// even speed and arrives after the bound.
+/// A track is met if it comes this near to the vehicle on the floor, m. For this test the vehicle flies straight from
+/// start to goal at constant speed, and arrives after the rest-to-rest bound.
 inline constexpr double kMeetingDistance = 1.0;
 
-/// A whole frame of the recording at which a flight begins, drawn anew until somebody is met. Who leaves no room for a
-/// beginning (crowds_start) meets nobody. @return the time of the file, s; an Error after 10,000 draws.
+/// Draws the frame of the recording at which a flight begins, again until a track is met. Tracks that crowd the start
+/// (crowds_start) are not met. @return the time of the file, s; an Error after 10,000 draws.
 Result<double> draw_start(Rng& rng, const std::vector<RecordedTrack>& tracks, const RecordedTracksSpec& spec,
                           const UavSpec& uav);
 
-/// Whether a track comes within kStartClearance of `start`, on the floor, in the first kStartQuiet after file time t_s.
+/// Whether a track comes within kStartClearance of `start` on the floor, in the first kStartQuiet after file time t_s.
 bool crowds_start(const RecordedTrack& track, double t_s, const Vec3& start);
 
 struct ScatteredCopies {
   std::vector<ObstacleSpec> obstacles;
-  int redrawn = 0;  ///< that came within kStartClearance of the start in the first kStartQuiet
+  int redrawn = 0;  ///< draws that came within kStartClearance of the start in the first kStartQuiet
 };
 
-/// spec.copies movers, "<file's stem>~<k>", each on a piece of a track that lasts `duration_s` (shorter where the track
-/// is: then it rests at its end). Drawn in this order: track, where the piece begins, a turn about z, mirrored in x or
-/// not, the place of the piece's bounding box. Its centre is uniform per axis where the box is inside spec.within, in
-/// the middle where it is too long.
-/// @return an Error when a start refuses 1000 draws in a row.
+/// Makes spec.copies movers, named "<file's stem>~<k>". Each flies a piece of a track that lasts `duration_s`, or less
+/// if the track is shorter: then it rests at its end.
+///
+/// Drawn in this order: the track, the beginning of the piece, a turn about z, a mirroring in x or none, the place of
+/// the bounding box. The box's centre is uniform on each axis on which the box fits into spec.within. On the other axes
+/// it is in the middle.
+/// @return an Error if the start refuses 1000 draws in a row.
 Result<ScatteredCopies> scatter_copies(Rng& rng, const std::vector<RecordedTrack>& tracks,
                                        const RecordedTracksSpec& spec, const Vec3& start, double duration_s);
 

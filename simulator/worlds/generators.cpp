@@ -19,7 +19,7 @@ constexpr int kPeriodSamples = 256;
 
 enum class Role { Mover, Pillar, BeamAlongY, BeamAlongX };
 
-/// Whole-number arithmetic: 0.65 N in doubles may fall short of a whole number.
+/// Integer arithmetic: 0.65 N in doubles may fall short of an integer.
 Role role_of(int index, int count) {
   const int movers = count * 65 / 100;
   const int pillars = (count - movers) * 35 / 100;

@@ -11,20 +11,21 @@
 
 namespace tern {
 
-/// No obstacle of a generator comes this near to the start, m …
+/// Least distance of a generated obstacle from the start, m …
 inline constexpr double kStartClearance = 1.0;
-/// … within this first time, s.
+/// … during this time from world time 0, s.
 inline constexpr double kStartQuiet = 1.0;
-/// No static obstacle stands this near to start or goal, and no mover stays this near to the goal all its period, m.
+/// Least distance of a static obstacle from start and goal, m. A mover must be farther than this from the goal at some
+/// time of its period.
 inline constexpr double kEndClearance = 0.5;
 
 struct GeneratedObstacles {
   std::vector<ObstacleSpec> obstacles;  ///< movers first, then pillars, then the rest
-  int redrawn = 0;                      ///< how many draws the rule of start and goal refused
+  int redrawn = 0;                      ///< draws that the rules about start and goal refused
 };
 
-/// Draws `count` obstacles with Rng(seed), one after the other, each in the order x, y, z, scales, s, φ. What is fixed
-/// is not drawn. There are ⌊0.65 N⌋ movers; ⌊0.35 rest⌋ of the rest are pillars. A wave's φ is drawn like a trefoil's.
+/// Draws `count` obstacles with Rng(seed), one after the other, each in the order x, y, z, scales, s, φ. Fixed values
+/// are not drawn. ⌊0.65 N⌋ of them move; ⌊0.35 rest⌋ of the rest are pillars. A wave's φ is drawn like a trefoil's.
 ///
 ///  - paper_corridor, paper_attract, paper_repel, corridor_demo: x∈[2,72], y∈[−2,2], z∈[0,4]. Movers: cubes of 0.8 m
 ///    on trefoils k = 1, s = 1.1, φ∈[−2π,2π]. The rest is static, 0.4×0.4×8 m at z = 2 (z is not drawn).
@@ -36,11 +37,13 @@ struct GeneratedObstacles {
 ///  - step_aside: what core/world/step_aside.h draws for (seed, start). Count and goal do not matter; nothing is
 ///    refused.
 ///
-/// A draw is refused, and drawn again from where the stream stands, in three cases. The obstacle's box comes within
-/// kStartClearance of the start in the first kStartQuiet (sampled every 10 ms). It is static and within kEndClearance
-/// of start or goal. It moves and is within kEndClearance of the goal at all of 256 instants of its period.
-/// @return an Error for an unknown generator, a count outside 0 … 100000, or a rule that refuses 1000 draws in a row.
-/// @param slowness  of all trefoils, instead of what was drawn
+/// A draw is refused, and repeated from the present state of the stream, if
+///  - the obstacle's box comes within kStartClearance of the start in the first kStartQuiet (sampled every 10 ms), or
+///  - it is static and within kEndClearance of start or goal, or
+///  - it moves and is within kEndClearance of the goal at all of 256 instants of its period.
+///
+/// @param slowness  of all trefoils, in place of the drawn one
+/// @return an Error for an unknown generator, a count outside 0 … 100000, or 1000 refused draws in a row.
 Result<GeneratedObstacles> generate(const std::string& generator, int count, std::uint64_t seed, const Vec3& start,
                                     const Vec3& goal, std::optional<double> slowness = {});
 

@@ -14,7 +14,7 @@ constexpr double kLimit = WorldObstacle::kMaxCoordinate;
 
 double period(const WaypointMotion& m) { return m.points.back().first - m.points.front().first; }
 
-/// t brought into [first time, first time + period).
+/// Reduces t to [first time, first time + period).
 double wrapped(const WaypointMotion& m, double t) {
   const double first = m.points.front().first;
   const double rest = std::fmod(t - first, period(m));
@@ -94,7 +94,7 @@ bool within(const Vec3& v, double limit) { return v.allFinite() && v.cwiseAbs().
 
 std::string text(const Vec3& v) { return fmt::format("({}, {}, {})", v.x(), v.y(), v.z()); }
 
-/// Rounds a motion's times. @return what is wrong with it; "" if nothing
+/// Rounds a motion's times. @return its fault, or ""
 std::string settle(StaticMotion&) { return {}; }
 
 std::string settle_oscillation(double slowness, double phase) {

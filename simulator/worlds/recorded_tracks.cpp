@@ -56,7 +56,7 @@ std::optional<double> to_number(std::string_view word) {
   return value;
 }
 
-/// Fills `numbers`, or says what is wrong with the line.
+/// Fills `numbers`. @return the fault of the line, or ""
 std::string read_row(std::string_view line, int columns, std::vector<double>& numbers) {
   numbers.clear();
   for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
@@ -70,7 +70,7 @@ std::string read_row(std::string_view line, int columns, std::vector<double>& nu
                      numbers.size() > static_cast<std::size_t>(columns) ? " or more" : "", columns);
 }
 
-/// Adds a row to the tracks, or says why not.
+/// Adds a row to the tracks. @return its fault, or ""
 std::string add_row(const std::vector<double>& row, const RecordedTracksSpec& spec,
                     std::map<std::int64_t, RecordedTrack>& tracks) {
   const auto number = [&](int column) { return row[idx(column)]; };
@@ -98,7 +98,7 @@ std::string add_row(const std::vector<double>& row, const RecordedTracksSpec& sp
   return {};
 }
 
-/// Instants at which someone is near the start, ascending.
+/// Times at which a track is near the start, ascending.
 std::vector<double> crowded_instants(const std::vector<RecordedTrack>& tracks, const Vec3& start) {
   std::vector<double> instants;
   const auto look = [&](double t, const Vec3& p) {

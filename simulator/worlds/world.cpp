@@ -22,7 +22,7 @@ Result<void> add(World& world, std::vector<ObstacleSpec> specs) {
   return {};
 }
 
-/// The obstacles of one recording; notes in the world how they were chosen.
+/// The obstacles of one recording. Records in `world` how they were chosen.
 Result<std::vector<ObstacleSpec>> recorded_specs(World& world, const Scenario& scenario,
                                                  const RecordedTracksSpec& recorded, Rng& rng,
                                                  const std::string& data_dir) {

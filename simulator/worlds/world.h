@@ -1,5 +1,4 @@
-// The world of a flight: every true obstacle, a pure function of the scenario (and of the recorded files that it
-// names).
+// The world of a flight: all true obstacles, a pure function of the scenario and its recorded files.
 #pragma once
 
 #include <string>
@@ -15,27 +14,26 @@ namespace tern {
 struct World {
   std::vector<WorldObstacle> obstacles;  ///< the generator's, then the listed, then the recorded; obstacles[k].id() = k
   int redrawn = 0;                       ///< draws of generator and copies that start or goal refused
-  int left_out = 0;                      ///< recorded people who leave no room for a drawn beginning
+  int left_out = 0;                      ///< recorded people that crowd a drawn start
   std::vector<double> recorded_start_s;  ///< per recorded file without copies: its time at world time 0, s
 };
 
-/// The world of scenario.world with scenario.seed; start and goal of scenario.uav enter the redraw rule (generators.h)
-/// and what is drawn of recordings (drawn_recordings.h). Where the beginning is drawn, who crowds the start is left
-/// out.
-/// @param data_dir where recorded files are sought besides the scenario's
-/// folder.
-/// @return an Error for the person who wrote the scenario.
+/// Makes the world of scenario.world with scenario.seed. Start and goal of scenario.uav affect the redraws
+/// (generators.h) and the choices from recordings (drawn_recordings.h). If the beginning is drawn, tracks that crowd
+/// the start are left out.
+/// @param data_dir  second folder for recorded files, after that of the scenario
+/// @return an Error for the author of the scenario.
 Result<World> make_world(const Scenario& scenario, const std::string& data_dir);
 
-/// The scenario with every obstacle of its world listed: generator none, nothing recorded. From it make_world gives the
-/// same obstacles to the last bit, with the same ids.
+/// Returns the scenario with all obstacles of its world in the list, without generator and recordings. make_world makes
+/// the same obstacles of it, with the same bits and ids.
 Scenario list_obstacles(const Scenario& scenario, const World& world);
 
-/// The obstacles present at t_s (world time), by id ascending: what OBSTACLE_TRUTH says. At t_s < 0 they are on their
-/// way to where they are at 0. Whose motion begins between then and 0 is not there yet.
+/// Returns the obstacles present at world time t_s, by id ascending: the content of OBSTACLE_TRUTH. At t_s < 0 they
+/// move towards their places at 0. An obstacle whose motion begins between t_s and 0 is absent.
 std::vector<TrueObstacle> true_obstacles(const World& world, double t_s);
 
-/// The boxes of all obstacles that never move, W, by id ascending.
+/// Returns the boxes of all static obstacles, W, by id ascending.
 std::vector<Box> static_boxes(const World& world);
 
 }  // namespace tern
