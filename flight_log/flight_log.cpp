@@ -14,16 +14,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Channels beyond this number count as one: damage that reads as names must not fill memory.
+/// Further channels are counted as one, so that damage which looks like names cannot fill the memory.
 constexpr std::size_t kMaxChannels = 1'000;
 constexpr char kOtherChannels[] = "(others)";
-/// Messages of a channel among which a repetition is found: it comes within milliseconds.
+/// The number of a channel's messages among which repetitions are found; repetitions follow within milliseconds.
 constexpr std::size_t kRemembered = 4096;
 
 /// The newest messages of a channel, by digest.
 class Recent {
  public:
-  /// Whether these bytes were there before; from now on they are.
+  /// Remembers these bytes; returns true if it knew them already.
   bool again(std::span<const std::uint8_t> bytes) {
     const std::uint64_t name = digest({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (!known_.insert(name).second) return true;

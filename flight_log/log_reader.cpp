@@ -11,7 +11,7 @@ namespace tern {
 namespace {
 
 constexpr std::size_t kReadBytes = 1U << 18U;
-/// A damaged number must not overflow the sum.
+/// The largest gap that is counted, so that a damaged number cannot overflow the sum.
 constexpr std::int64_t kMaxMissing = 1'000'000'000;
 
 std::uint64_t read_big_endian(const std::uint8_t* bytes, int count) {
@@ -30,7 +30,7 @@ Result<LogReader> LogReader::open(const std::string& path) {
   return LogReader(std::move(file));
 }
 
-/// Reads ahead until `wanted` bytes follow the cursor, or the file ends. @return how many do.
+/// Reads ahead until `wanted` bytes follow the cursor or the file ends. @return the number of bytes available
 std::size_t LogReader::available(std::size_t wanted) {
   if (window_.size() - cursor_ >= wanted) return window_.size() - cursor_;
   if (cursor_ > kReadBytes) {
@@ -47,7 +47,7 @@ std::size_t LogReader::available(std::size_t wanted) {
   return window_.size() - cursor_;
 }
 
-/// The head of an event `offset` bytes behind the cursor, if what is there can be one.
+/// Returns the head of an event `offset` bytes after the cursor; nullopt if the bytes there cannot be one.
 std::optional<LogReader::Head> LogReader::head_at(std::size_t offset) {
   if (available(offset + kLogHeadBytes) < offset + kLogHeadBytes) return std::nullopt;
   const std::uint8_t* at = window_.data() + cursor_ + offset;
@@ -68,7 +68,7 @@ std::optional<LogReader::Head> LogReader::head_at(std::size_t offset) {
   return head;
 }
 
-/// Whether another event seems to begin within the event at the cursor.
+/// True if another event seems to begin within the event at the cursor.
 bool LogReader::starts_within(const Head& head) {
   const std::size_t end = std::min(head.size(), available(head.size()));
   for (std::size_t offset = kLogHeadBytes; offset + 4 <= end; ++offset) {
@@ -85,7 +85,7 @@ bool LogReader::is_whole(const Head& head) {
   return followed || !starts_within(head);
 }
 
-/// @return how many bytes from the cursor the next whole event begins, or the file ends.
+/// Returns the distance in bytes from the cursor to the next complete event or to the end of the file.
 std::size_t LogReader::find_next() {
   std::size_t offset = 1;
   while (available(offset + kLogHeadBytes) >= offset + kLogHeadBytes) {
@@ -93,7 +93,7 @@ std::size_t LogReader::find_next() {
     const auto from = window_.begin() + static_cast<std::ptrdiff_t>(cursor_ + offset + 1);
     const auto found = std::find(from, window_.end(), static_cast<std::uint8_t>(kLogSyncWord >> 24U));
     offset = static_cast<std::size_t>(found - window_.begin()) - cursor_;
-    if (offset > kReadBytes) return offset;  // enough for one step: the caller asks again from there
+    if (offset > kReadBytes) return offset;  // one step is enough: the caller continues from there
   }
   return available(0);
 }

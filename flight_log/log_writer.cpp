@@ -73,7 +73,7 @@ void LogWriter::append(std::string_view channel, std::int64_t received_us, std::
 Result<void> LogWriter::flush() {
   if (buffered_ == 0) return {};
   Result<void> result;
-  // A part that cannot be followed by another one is written on: a log that is too long is better than none.
+  // If the next part cannot be opened, writing continues in this one: a log that is too long is better than none.
   if (rotate_bytes_ > 0 && part_bytes_ >= rotate_bytes_) result = open_next_part();
   const std::size_t done = write_all(fd_.get(), buffer_);
   if (done == buffer_.size()) {

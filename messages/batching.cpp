@@ -12,13 +12,13 @@
 namespace tern {
 namespace {
 
-/// The flat items that an entry brings besides itself.
+/// The elements of flat arrays that belong to one entry.
 struct Load {
   std::size_t items = 0;
-  bool has_shares = false;  ///< each brings its shares of α, too
+  bool has_shares = false;  ///< each item has shares of α
 };
 
-/// What a batch of T holds: its list, what an entry brings, and when the set was so.
+/// The properties of a set of type T: its list, the load of an entry, and the set's time.
 template <class T>
 struct Kind;
 
@@ -56,7 +56,7 @@ std::size_t encoded_bytes(std::size_t entries, const Load& each) {
   return encode(set).size();
 }
 
-/// How full a batch is. Sizes are measured on encoded examples, so that they follow the .lcm files.
+/// The fill level of a batch. Sizes are measured on encoded examples, so they follow the .lcm files.
 template <class T>
 class Room {
  public:
@@ -123,7 +123,7 @@ std::vector<T> split(const T& whole) {
   return batches;
 }
 
-/// Whether tracks of so many pieces all fit into a set, in this order.
+/// True if tracks with these loads fit into a set, in this order.
 bool all_fit(const std::vector<Load>& tracks) {
   Room<TrackSet> room;
   int batches = 1;
@@ -135,7 +135,7 @@ bool all_fit(const std::vector<Load>& tracks) {
   return true;
 }
 
-/// The largest share in [0, kMaxPiecesPerBatch] whose loads (of share) all fit; 0 if no other does.
+/// Returns the largest share in [0, kMaxPiecesPerBatch] for which loads_of(share) fit; 0 if none does.
 template <class LoadsOf>
 std::size_t largest_share(const LoadsOf& loads_of) {
   std::size_t fits = 0;
@@ -154,7 +154,7 @@ std::vector<Load> loads_of(const TrackSet& set) {
   return loads;
 }
 
-/// Of the tracks' pieces, what each may keep for a share: the nearer half may have twice as many, everyone has one.
+/// Returns the loads limited to a share of pieces: twice the share in the first half, and at least one piece for each.
 std::vector<Load> shared_out(std::vector<Load> loads, std::size_t share) {
   const auto most = static_cast<std::size_t>(kMaxPiecesPerBatch);
   for (std::size_t k = 0; k < loads.size(); ++k) {
@@ -164,13 +164,13 @@ std::vector<Load> shared_out(std::vector<Load> loads, std::size_t share) {
   return loads;
 }
 
-/// Whether the numbers that resampling may have made larger are still within a message's ranges.
+/// True if the numbers that resampling can enlarge are within a message's ranges.
 bool is_legal(const Track& track) {
   return std::ranges::all_of(track.alpha, [](const Vec3& alpha) { return alpha.maxCoeff() <= kMaxCoordinate; }) &&
          std::ranges::all_of(track.motion.pieces, [](const CubicPiece& piece) { return piece.duration <= kMaxSpan; });
 }
 
-/// The set with its tracks resampled so that all of them fit, as far as that is possible.
+/// Returns the set with its tracks resampled so that as many as possible fit.
 TrackSet made_to_fit(const TrackSet& whole) {
   const std::vector<Load> own = loads_of(whole);
   const std::size_t share = largest_share([&](std::size_t s) { return shared_out(own, s); });

@@ -5,7 +5,7 @@ namespace {
 
 static_assert(tern_msgs::batch_t::MAX_BATCHES == kMaxBatches);
 
-/// Bytes of the UTF-8 sequence that starts with `lead`; 0 when none does.
+/// Returns the length of the UTF-8 sequence that starts with `lead`; 0 if none does.
 std::size_t sequence_length(unsigned char lead) {
   if (lead < 0x80) return 1;
   if (lead >= 0xC2 && lead < 0xE0) return 2;

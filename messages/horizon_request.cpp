@@ -8,7 +8,7 @@ namespace {
 
 bool agree(const Vec3& a, const Vec3& b) { return (a - b).cwiseAbs().maxCoeff() <= kJoinTolerance; }
 
-/// Jerk is not compared: at a knot it has two values.
+/// Compares position, velocity and acceleration. Jerk is left out, because it has two values at a knot.
 bool starts_on(const TimedSpline& committed, UTime t_s, const MotionSample& start) {
   const MotionSample there = committed.sample(t_s);
   return agree(there.p, start.p) && agree(there.v, start.v) && agree(there.a, start.a);
@@ -66,7 +66,7 @@ struct wire::Form<HorizonRequest> {
     } else {
       for (const double x : {m.thrust_min, m.thrust_max, m.tilt_max_deg, m.body_rate_max_deg_s}) {
         read.number(x, 0.0, 0.0);
-        read.consistent(!std::signbit(x));  // one form of nothing
+        read.consistent(!std::signbit(x));  // −0 is refused: no dynamics has one form
       }
     }
     read.consistent(!request.flight_box.isEmpty());

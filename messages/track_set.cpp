@@ -4,7 +4,8 @@
 namespace tern {
 namespace {
 
-/// @throws std::invalid_argument where the numbers of a track's pieces, α and shares do not go together
+/// @throws std::invalid_argument unless a track has as many α as pieces, and as many shares exactly if it is
+///   estimated
 void require_complete(const Track& track) {
   const std::size_t pieces = track.motion.pieces.size();
   const std::string name = "track " + std::to_string(track.id);

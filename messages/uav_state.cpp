@@ -14,7 +14,7 @@ struct wire::Form<UavState> {
     io.header(m.header, state.header);
     io.time(m.at_us, state.at);
     io.motion(m.motion, state.motion);
-    // −π too: atan2(−0, −1) gives it, and it is the same heading.
+    // −π is accepted: atan2(−0, −1) returns it, and it is the same yaw as π.
     io.number(m.yaw, state.yaw, -std::numbers::pi, std::numbers::pi);
   }
 };

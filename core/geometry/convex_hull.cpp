@@ -19,8 +19,7 @@ using Kernel = HullKernel;
 using Point = HullPoint;
 using Triangle = std::array<std::size_t, 3>;
 
-// CGAL's traits with our planes. (The default of the overload that writes vectors is worse than slow: its planes are
-// inexact, and it crashes on flat sets.)
+// CGAL's traits with OrientedPlane. (The default traits of this overload have inexact planes and crash on flat sets.)
 struct Traits : CGAL::Convex_hull_traits_3<Kernel, CGAL::Default, CGAL::Tag_true> {
   // NOLINTBEGIN(readability-identifier-naming): the concept's names
   using Plane_3 = OrientedPlane;
@@ -48,7 +47,7 @@ void check(const Points& points) {
   }
 }
 
-// Sorted by (x, y, z): order and multiplicity of the input no longer matter.
+// Sorted by (x, y, z) without duplicates, so that the result does not depend on the order of the input.
 std::vector<Point> sorted_distinct(const Points& points) {
   std::vector<Point> distinct;
   distinct.reserve(static_cast<std::size_t>(points.cols()));
@@ -58,7 +57,7 @@ std::vector<Point> sorted_distinct(const Points& points) {
   return distinct;
 }
 
-// Axes (i, j) onto which the plane of a triangle projects one to one.
+// Returns two axes (i, j) onto which the plane of a triangle projects one to one.
 std::array<int, 2> projection_axes(const Point& p, const Point& q, const Point& r) {
   constexpr std::array<std::array<int, 2>, 3> kChoices{{{0, 1}, {1, 2}, {0, 2}}};
   for (const auto& [i, j] : kChoices) {
@@ -69,7 +68,7 @@ std::array<int, 2> projection_axes(const Point& p, const Point& q, const Point& 
   throw std::logic_error("hull_vertices: a triangle that is not flat in space is flat in every projection");
 }
 
-// Andrew's monotone chain, strict turns only, so that points inside an edge are left out.
+// Andrew's monotone chain with strict turns only: points within an edge are left out.
 std::vector<Point> flat_hull(std::vector<Point> points, const std::array<int, 2>& axes) {
   const auto flat = [&axes](const Point& p) { return Kernel::Point_2(p[axes[0]], p[axes[1]]); };
   std::ranges::sort(points, [&](const Point& p, const Point& q) { return flat(p) < flat(q); });
@@ -91,8 +90,8 @@ struct HalfEdge {
   std::size_t from, to, opposite;
 };
 
-// The edges of a triangulated surface, each once: its lesser vertex in `from`, the other in `to`, and the two vertices
-// opposite to it.
+// Calls visit(edge) once for each edge of a triangulated surface: its smaller vertex `from`, the other one `to`, and the
+// two vertices opposite to it.
 template <class Visit>
 void for_each_edge(const std::vector<Triangle>& faces, std::size_t vertices, const Visit& visit) {
   std::vector<std::size_t> begin(vertices + 1, 0);
@@ -120,8 +119,8 @@ void for_each_edge(const std::vector<Triangle>& faces, std::size_t vertices, con
   }
 }
 
-// CGAL's surface is triangulated and may hold vertices inside its flat faces and straight edges. A corner is where at
-// least three edges meet across which the surface bends.
+// CGAL's surface is triangulated, and vertices may lie inside flat faces and straight edges. At a corner the surface
+// bends across at least three edges.
 std::vector<Point> corners(const std::vector<Point>& vertices, const std::vector<Triangle>& faces) {
   std::vector<int> bends(vertices.size(), 0);
   for_each_edge(faces, vertices.size(), [&](const HalfEdge& edge, std::size_t other) {
@@ -137,7 +136,7 @@ std::vector<Point> corners(const std::vector<Point>& vertices, const std::vector
   return result;
 }
 
-// CGAL starts from the first three points that span a triangle. Three far apart leave it fewer points outside.
+// CGAL starts from the first three points that span a triangle. If they are far apart, fewer points lie outside of it.
 void spread_first_three(std::vector<Point>& points) {
   const auto squared = [](const Kernel::Vector_3& v) { return v.squared_length(); };
   std::swap(points[1], points.back());

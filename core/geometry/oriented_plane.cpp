@@ -22,7 +22,7 @@ std::int64_t exponent_of(double x) {
   return static_cast<std::int64_t>((std::bit_cast<std::uint64_t>(x) >> kMantissaBits) & 0x7ffU);
 }
 
-// The coordinates in units of the last bit of the smallest; nothing if they differ too much in size.
+// Returns the coordinates in units of the last bit of the smallest one; nullopt if they differ too much in size.
 std::optional<std::array<std::int64_t, 12>> integers(const Coordinates& coordinates) {
   std::int64_t least = kInfiniteExponent;
   std::int64_t greatest = 0;

@@ -13,11 +13,11 @@
 namespace tern {
 namespace {
 
-// Twice the rounding error of n·p + d in units of |p|₁ + |d|, so that the claims hold in exact arithmetic and in the
-// reader's.
+// Twice the rounding error of n·p + d in units of |p|₁ + |d|. The claims then hold in exact arithmetic and as any
+// reader computes them.
 constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
 
-// The plane across v that touches A from below, if every point of A and B confirms the gap that is demanded.
+// Returns the plane across v that touches A from below, if every point of A and B confirms the required gap.
 std::optional<Separation> verified(const Vec3& v, const Points& a, const Points& b, double clearance) {
   const Vec3 n = v / v.norm();
   double lowest_a = std::numeric_limits<double>::infinity();

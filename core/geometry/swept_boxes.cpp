@@ -36,7 +36,7 @@ class Difference {
     return vertex;
   }
 
-  /// What n says of the boxes ⊕ (−vertices) and of the points, and the greatest |p|₁ of any of their points.
+  /// The extrema of n·p over the boxes ⊕ (−vertices) and over the points, and the largest |p|₁ of both.
   struct Slab {
     double lowest_a, highest_b, reach;
   };

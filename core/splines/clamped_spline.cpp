@@ -113,7 +113,7 @@ const Eigen::Vector4d& SplineBasis::jerk(int j) const { return tables_->at(j).je
 
 const SplineBasis& spline_basis(int intervals) {
   require_intervals(intervals);
-  // Never freed: splines in other statics may outlive any static that owned these.
+  // The bases are never freed, because splines in static variables may outlive every other static variable.
   static std::array<std::atomic<const SplineBasis*>, kMaxIntervals + 1> made{};
   std::atomic<const SplineBasis*>& slot = made[idx(intervals)];
   if (const SplineBasis* basis = slot.load(std::memory_order_acquire)) return *basis;
@@ -141,7 +141,7 @@ MotionSample ClampedSpline::sample(double t_s) const {
   }
   const int last = intervals() - 1;
   int j = std::min(static_cast<int>(t_s / interval_s_), last);
-  // t/Δt may round to just below a knot that t = k·Δt names.
+  // For t = k·Δt, t/Δt may round to a number just below the knot k.
   if (j < last && (j + 1) * interval_s_ <= t_s) ++j;
   const double u = std::clamp((t_s - j * interval_s_) / interval_s_, 0.0, 1.0);
   s = sample_cubic(power(j), u);

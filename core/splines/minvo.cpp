@@ -51,7 +51,7 @@ const Eigen::Matrix3d& minvo_inverse_2() {
 }
 
 Points4 minvo_points(const PowerCubic& coefficients) {
-  // The constant's row of A⁻¹ is all ones: adding the start last keeps its size out of the products.
+  // The row of A⁻¹ for the constant is all ones. Adding the start last keeps large coordinates out of the products.
   const Points4 from_start = coefficients.leftCols<3>() * minvo_inverse_3().topRows<3>();
   return from_start.colwise() + coefficients.col(3);
 }

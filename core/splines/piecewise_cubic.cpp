@@ -10,11 +10,12 @@
 namespace tern {
 namespace {
 
-// Largest length error of an interval that still counts as whole microseconds, µs.
+// An interval is a whole number of microseconds if it differs from one by at most this, µs.
 constexpr double kWholeMicrosecondTolerance = 1e-3;
 
-// a t² + b t + c = 0. Cancellation-free: the larger root first, the other from the product. NaN where there is no root;
-// comparisons with an interval then fail. Double roots that rounding loses are inflections, not extrema.
+// Returns the roots of a t² + b t + c = 0 without cancellation: the larger one first, the other from the product. A
+// root that does not exist is NaN, and every comparison with it fails. Rounding may lose double roots; they are
+// inflections, not extrema.
 std::array<double, 2> quadratic_roots(double a, double b, double c) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const double discriminant = b * b - 4.0 * a * c;
@@ -33,7 +34,7 @@ double coordinate_of(const PowerCubic& c, double t, int axis) {
 
 Vec3 velocity(const PowerCubic& c, double t) { return (3.0 * c.col(0) * t + 2.0 * c.col(1)) * t + c.col(2); }
 
-// c with its parameter shifted: s ↦ c(t0 + s).
+// Returns the coefficients of s ↦ c(t0 + s).
 PowerCubic shifted(const PowerCubic& c, double t0) {
   PowerCubic r;
   r.col(0) = c.col(0);
@@ -43,7 +44,7 @@ PowerCubic shifted(const PowerCubic& c, double t0) {
   return r;
 }
 
-// c with its parameter scaled: s ↦ c(s·k).
+// Returns the coefficients of s ↦ c(s·k).
 PowerCubic scaled(const PowerCubic& c, double k) {
   PowerCubic r = c;
   r.col(0) *= k * k * k;

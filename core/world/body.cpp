@@ -5,7 +5,7 @@
 namespace tern {
 namespace {
 
-/// Whether the vertices are the corners of their bounding box, and nothing else.
+/// True if the vertices are exactly the corners of their bounding box.
 bool is_box(const Points& vertices, const Box& bounds) {
   const Eigen::Matrix<double, 3, 8> corners = box_corners(bounds);
   const auto among = [](const Vec3& p, const auto& points) {

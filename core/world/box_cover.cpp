@@ -9,14 +9,14 @@ namespace {
 
 using Cell = Eigen::Vector3i;
 
-/// Voxels still to be covered.
+/// The voxels that no box covers yet.
 class Remaining {
  public:
   Remaining(const VoxelGrid& grid, std::vector<bool> open) : grid_(grid), open_(std::move(open)) {}
 
   [[nodiscard]] bool has(std::size_t i) const { return open_[i]; }
 
-  /// Are all voxels of the box low … high (inclusive) still open?
+  /// True if no box covers any voxel of low … high (inclusive).
   [[nodiscard]] bool full(const Cell& low, const Cell& high) const {
     for (int z = low.z(); z <= high.z(); ++z) {
       for (int y = low.y(); y <= high.y(); ++y) {
@@ -37,7 +37,7 @@ class Remaining {
     }
   }
 
-  /// The far corner of the box that grows from `low` upwards, one axis after the other.
+  /// Returns the upper corner of the box that grows from `low`, one axis after the other.
   [[nodiscard]] Cell grow(const Cell& low, const std::array<int, 3>& axes) const {
     Cell high = low;
     for (const int axis : axes) {

@@ -25,7 +25,7 @@ BreachReport shape_breach(const TimedSpline& trajectory) {
   return {};
 }
 
-/// The first axis on which value > limit, or is no number.
+/// Returns the first axis on which value > limit or value is NaN.
 BreachReport beyond(Breach breach, const char* format, const Vec3& value, const Vec3& limit) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(value[axis] <= limit[axis])) return {breach, format, value[axis], limit[axis], axis};

@@ -33,10 +33,10 @@ std::array<double, 4> legendre(double u) {
   return {1.0, 2.0 * u - 1.0, (6.0 * u - 6.0) * u + 1.0, ((20.0 * u - 30.0) * u + 12.0) * u - 1.0};
 }
 
-/// A run of the track's pieces [first, last] and its cubic.
+/// The pieces [first, last] of the track and the cubic that replaces them.
 struct Run {
   CubicPiece fit;
-  Vec3 error = Vec3::Zero();  // bound of |fit − original| per axis
+  Vec3 error = Vec3::Zero();  // upper bound of |fit − original| per axis
   std::size_t first = 0, last = 0;
   std::size_t previous = kNone, next = kNone;
   std::uint32_t version = 0;
@@ -47,11 +47,11 @@ bool fits_a_message(const PowerCubic& c) {
          c.col(2).cwiseAbs().maxCoeff() <= kMaxSpeed && c.col(3).cwiseAbs().maxCoeff() <= kMaxCoordinate;
 }
 
-/// The cubic of least squares over both pieces, one after the other.
+/// Returns the least-squares cubic over two consecutive pieces.
 CubicPiece least_squares(const CubicPiece& a, const CubicPiece& b) {
   const Duration whole = a.duration + b.duration;
   const double h = whole.seconds();
-  // About its first position, so that what rests far from the origin loses no digits.
+  // Relative to the first position, so that a track far from the origin keeps its digits.
   const Vec3 origin = a.coefficients.col(3);
   Eigen::Matrix<double, 3, 4> moments = Eigen::Matrix<double, 3, 4>::Zero();
   double before = 0.0;
@@ -79,7 +79,7 @@ CubicPiece least_squares(const CubicPiece& a, const CubicPiece& b) {
   return piece;
 }
 
-/// Largest |q(begin + τ) − p(τ)| per axis for τ ∈ [0, h].
+/// Returns the largest |q(begin + τ) − p(τ)| per axis for τ ∈ [0, h].
 Vec3 deviation(const PowerCubic& q, const PowerCubic& p, double begin_s, double h_s) {
   const MotionSample at = sample_cubic(q, begin_s);
   PowerCubic difference;
@@ -91,7 +91,7 @@ Vec3 deviation(const PowerCubic& q, const PowerCubic& p, double begin_s, double 
   return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs());
 }
 
-/// Σ |c_k| t^k per axis: no term of an evaluation up to t is larger.
+/// Returns Σ |c_k| t^k per axis, a bound of every term of an evaluation up to t.
 Vec3 magnitude(const PowerCubic& c, double t_s) {
   const PowerCubic a = c.cwiseAbs();
   return ((a.col(0) * t_s + a.col(1)) * t_s + a.col(2)) * t_s + a.col(3);
@@ -175,7 +175,7 @@ class Merger {
     return alpha_at(run, 0);
   }
 
-  /// What the run's α holds at each level, as shares of its α at the first.
+  /// Returns the run's α at each level, as shares of its α at the first level.
   [[nodiscard]] AlphaShares shares_of(const Run& run, const Vec3& alpha) const {
     if (run.first == run.last) return track_.shares[run.first];
     AlphaShares shares{};

@@ -6,7 +6,7 @@ namespace tern {
 namespace {
 
 constexpr std::uint64_t kAllSeen = ~std::uint64_t{0};
-/// A false sequence number must not overflow the sum: no honest gap is as long.
+/// The largest gap that is counted, far above every real one, so that false sequence numbers cannot overflow the sum.
 constexpr std::int64_t kMaxLost = 1'000'000'000;
 
 }  // namespace

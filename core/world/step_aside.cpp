@@ -33,7 +33,8 @@ Vec3 draw_direction(Rng& rng) {
   return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
 
-/// When a box whose centre is at `offset` from a point at time 0 and moves at v first holds the point, s (≤ 0).
+/// Returns the first time (s, ≤ 0) at which a box contains a point. The box moves at v; at time 0 its centre is at
+/// `offset` from the point.
 double entry(const Vec3& offset, const Vec3& half, const Vec3& v) {
   double latest = -std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {

@@ -12,7 +12,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double slope_of(const Vec3& f) { return f.z() > 0.0 ? f.head<2>().norm() / f.z() : kInfinity; }
 
-/// The distance of 0 from the segment.
+/// Returns the distance of 0 from the segment.
 double least_norm(const Vec3& from, const Vec3& to) {
   const Vec3 way = to - from;
   const double squared = way.squaredNorm();

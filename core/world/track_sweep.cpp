@@ -6,10 +6,10 @@
 namespace tern {
 namespace {
 
-/// Boxes along a part of a piece: what is accelerated more than β ≤ kBetaMax allows for with these gets a larger β.
+/// The largest number of steps along a part of a piece. If β ≤ kBetaMax needs more, β is larger.
 constexpr double kMaxSteps = 256.0;
 
-/// Boxes along the part of a piece between local times a and b; half-extents grow by the sampling error β.
+/// Appends boxes along a piece between the local times a and b; the half-extents are enlarged by the sampling error β.
 void add_piece(std::vector<CentredBox>& out, const PowerCubic& cubic, double a, double b, const Vec3& half) {
   const Vec3 acceleration = max_abs_acceleration(cubic, a, b);
   const double span = b - a;

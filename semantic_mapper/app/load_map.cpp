@@ -59,7 +59,7 @@ CloudLayer load_cloud(const CloudSource& source, const Scenario& scenario, const
   if (!points) throw source.section.error("file", points.error().message);
   CloudLayer layer;
   layer.points = std::move(*points);
-  // Groups first: a class that is named itself has the last word.
+  // Groups come first, so that a class that is named itself has priority.
   for (const bool groups : {true, false}) {
     for (const auto& [name, label] : config.classes) {
       if (is_class_group(name) != groups || !is_kept(label, scenario.semantics.enabled)) continue;

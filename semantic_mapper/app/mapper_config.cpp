@@ -9,7 +9,7 @@ namespace tern {
 namespace {
 
 const std::vector<std::string> kLabelWords(kWords<VoxelLabel>.begin(), kWords<VoxelLabel>.end());
-/// Files count from far away, in whatever unit.
+/// The range of origins: surveys use distant ones, in any unit.
 const Range kFileCoordinate = Range::within(1e9);
 const Range kPosition = Range::within(1e5);
 
@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection class
   return result;
 }
 
-/// "building, tower" as its words.
+/// Returns the words of a list such as "building, tower".
 std::vector<std::string> read_class_list(ConfigSection& section, const char* key) {
   std::vector<std::string> names;
   std::string word;

@@ -14,7 +14,7 @@
 namespace tern {
 namespace {
 
-/// A chunk's length on the wire, to within a few bytes.
+/// Returns the size of a chunk on the wire, to within a few bytes.
 std::int64_t bytes_of(const MapChunk& chunk) {
   constexpr std::int64_t kFixedBytes = 120;
   constexpr std::int64_t kRunBytes = 6;

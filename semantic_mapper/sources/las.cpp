@@ -23,7 +23,7 @@ constexpr std::size_t kCount14At = 247;
 constexpr std::size_t kHeaderSize = 227;
 constexpr std::size_t kHeaderSize14 = 375;
 
-/// Bytes of a record's standard fields by format; files may append their own.
+/// The size of a record's standard fields by format, bytes. Files may append fields of their own.
 constexpr std::array<std::size_t, 11> kRecordLength{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
 struct LasHeader {

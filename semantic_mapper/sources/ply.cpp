@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Puts vertices together from their properties' values.
+/// Assembles vertices from the values of their properties.
 class Vertices {
  public:
   Vertices(const PlyHeader& header, const std::string& file, const PointFrame& frame)
@@ -57,7 +57,8 @@ double read_value(Bytes bytes, std::size_t at, PlyType type, std::endian order) 
   return 0.0;
 }
 
-/// The vertices' points. `next` reads the value at a place and moves the place behind it; nothing when there is none.
+/// Returns the points of the vertices. `next` reads the value at an offset and advances the offset; nullopt at the
+/// end.
 template <class Next>
 Result<PointCloud> read_points(const std::string& file, const PlyHeader& header, const Vertices& vertices,
                                const Next& next) {
@@ -95,7 +96,7 @@ Result<PointCloud> read_binary(Bytes bytes, const std::string& file, const PlyHe
   });
 }
 
-/// One number of white-space separated text; `at` moves behind it.
+/// Reads one number of text separated by white space, and advances `at` behind it.
 std::optional<double> next_number(std::string_view text, std::size_t& at) {
   at = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
   if (at < text.size() && text[at] == '+') ++at;
@@ -110,7 +111,7 @@ std::optional<double> next_number(std::string_view text, std::size_t& at) {
 
 Result<PointCloud> read_ascii(Bytes bytes, const std::string& file, const PlyHeader& header, const Vertices& vertices) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  // A value takes two characters at least: no more memory than the file can fill.
+  // A value takes at least two characters, so the reserved memory is bounded by the file's size.
   const std::size_t most = (bytes.size() - header.data_offset + 1) / (2 * header.properties.size());
   if (header.count > most) {
     return bad_file(file, header.data_offset,

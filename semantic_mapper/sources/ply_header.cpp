@@ -43,7 +43,7 @@ std::optional<PlyType> type_of(std::string_view word) {
   return std::nullopt;
 }
 
-/// Takes the header's lines one after the other; an empty answer means that the line was fine.
+/// Parses the header line by line. A call returns an error text, or an empty text if the line is accepted.
 class HeaderLines {
  public:
   PlyHeader header;

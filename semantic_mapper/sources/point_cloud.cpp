@@ -8,7 +8,7 @@ namespace tern {
 
 std::optional<Vec3> PointFrame::to_world(const Vec3& p_file) const {
   const Vec3 p = (p_file - origin) * metres_per_unit;
-  // NaN fails the comparison too.
+  // NaN fails this comparison, so it is refused.
   if (!(p.cwiseAbs().array() <= kMaxCoordinate).all()) return std::nullopt;
   return p;
 }

@@ -9,7 +9,7 @@ namespace {
 
 using Cell = Eigen::Vector3i;
 
-/// A point's mark on a voxel. Sorted by voxel, then class.
+/// The mark of a point on a voxel. Marks are sorted by voxel, then by class.
 struct Mark {
   std::int64_t voxel;
   std::uint8_t class_number;
@@ -47,7 +47,7 @@ std::vector<Mark> marks_of(const CloudLayer& cloud, const VoxelGrid& grid) {
 /// The marks of one voxel, counted.
 struct Tally {
   std::array<int, kVoxelLabels> of_label{};
-  std::array<int, kVoxelLabels> most{};             ///< marks of the label's leading class
+  std::array<int, kVoxelLabels> most{};             ///< marks of the class with the most marks, per label
   std::array<std::uint8_t, kVoxelLabels> leader{};  ///< that class
 };
 

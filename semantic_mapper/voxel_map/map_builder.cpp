@@ -11,9 +11,9 @@
 namespace tern {
 namespace {
 
-/// Rounding in the last places must not add a layer of voxels, in voxels.
+/// A tolerance, in voxels, so that rounding does not add a layer of voxels.
 constexpr double kSnap = 1e-6;
-/// What merely touches does not overlap, in voxels.
+/// A tolerance, in voxels: shapes that touch a voxel do not overlap it.
 constexpr double kTouch = 1e-9;
 
 Box bounds_of(const MapSources& sources) {
@@ -28,7 +28,7 @@ Box bounds_of(const MapSources& sources) {
   return box;
 }
 
-/// Voxels per axis as doubles: products of absurd extents stay finite.
+/// Voxels per axis as doubles, so that the product of very large extents does not overflow.
 struct Lattice {
   Vec3 first, size;
 };
@@ -59,7 +59,7 @@ Result<VoxelGrid> choose_grid(const MapSources& sources, const MapBuildOptions& 
   return grid;
 }
 
-/// Does the shape overlap the voxel's interior?
+/// True if the shape overlaps the interior of the voxel.
 bool overlaps(const Box& shape, const Box& voxel) {
   const double touch = kTouch * voxel.sizes().x();
   return (shape.min().array() < voxel.max().array() - touch).all() &&

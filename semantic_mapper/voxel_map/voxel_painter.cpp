@@ -9,7 +9,7 @@
 namespace tern {
 namespace {
 
-/// Precedence; the background has 0.
+/// Returns the strength of a label; the background has 0.
 std::uint8_t strength_of(VoxelLabel label) {
   switch (label) {
     case VoxelLabel::Unknown: return 1;
