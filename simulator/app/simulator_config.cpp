@@ -23,33 +23,32 @@ SensorConfig read_sensor(ConfigSection section, std::uint64_t seed) {
   SensorConfig sensor;
   sensor.seed = seed;
   sensor.rate_hz = section.number("rate_hz", sensor.rate_hz, Range::at_least(kMinRate, 100.0), "frames per second");
-  const std::string mode =
-      section.choice("mode", "truth", {"none", "truth", "noisy"},
-                     "`none`: no sensor; `truth`: everything at once, with ids; `noisy`: by the keys below, which only "
-                     "it knows");
+  const std::string mode = section.choice("mode", "truth", {"none", "truth", "noisy"},
+                                          "`none`: no sensor; `truth`: all obstacles, without noise, with ids; "
+                                          "`noisy`: by the next keys, which only `noisy` has");
   sensor.present = mode != "none";
   if (mode == "noisy") {
     const SensorConfig noisy = perception_only(seed);
-    sensor.range_m =
-        section.number("range_m", noisy.range_m, Range::at_least(0.0, 1e5),
-                       "sees boxes whose nearest point is this near, also behind others, m; 0: without limit");
+    sensor.range_m = section.number(
+        "range_m", noisy.range_m, Range::at_least(0.0, 1e5),
+        "boxes whose nearest point is within this are detected, also behind others, m; 0: without limit");
     sensor.sigma_m = Vec3::Constant(section.number("sigma_m", noisy.sigma_m.x(), Range::at_least(0.0, 100.0),
                                                    "standard deviation of the position per axis, m"));
-    sensor.latency_s = section.number("latency_s", noisy.latency_s, Range::at_least(0.0, 2.0),
-                                      "a frame arrives this much after the world was so, s");
+    sensor.latency_s =
+        section.number("latency_s", noisy.latency_s, Range::at_least(0.0, 2.0), "delay of a frame after its time, s");
     sensor.dropout =
         section.number("dropout", noisy.dropout, Range::at_least(0.0, 1.0), "probability that a detection is missing");
-    sensor.track_ids = section.flag("ids", noisy.track_ids, "the sensor says which obstacle it sees");
+    sensor.track_ids = section.flag("ids", noisy.track_ids, "detections have the obstacle's id");
   }
   section.finish();
   return sensor;
 }
 
 void read_vehicle(ConfigSection& section, SimulatorConfig& config) {
-  const std::string vehicle = section.choice(
-      "vehicle", "perfect", {"perfect", "quadrotor", "external"},
-      "`perfect`: is where its setpoints say; `quadrotor`: a body with motors, controller, wind and "
-      "estimator, by the keys below, which `perfect` does not know; `external`: an autopilot behind tern-mavlink");
+  const std::string vehicle =
+      section.choice("vehicle", "perfect", {"perfect", "quadrotor", "external"},
+                     "`perfect`: follows its setpoints exactly; `quadrotor`: a body with motors, controller, wind and "
+                     "estimator, by the next keys; `external`: an autopilot behind tern-mavlink");
   if (vehicle == "perfect") return;
   if (vehicle == "external") {
     config.external = true;
@@ -67,21 +66,21 @@ void read_vehicle(ConfigSection& section, SimulatorConfig& config) {
 
 SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed) {
   SimulatorConfig config;
-  config.declare = section.flag("declare", config.declare, "publish DECLARED_MOTIONS; false: perception only");
-  const std::string needed = section.text("wait_for", "tern-executor, tern-predictor, tern-mapper, tern-planner",
-                                          "processes that world time waits for, separated by spaces or commas; `none`");
+  config.declare =
+      section.flag("declare", config.declare, "publish DECLARED_MOTIONS; false: only the sensor shows the obstacles");
+  const std::string needed =
+      section.text("wait_for", "tern-executor, tern-predictor, tern-mapper, tern-planner",
+                   "processes that must be ready before world time starts, separated by spaces or commas; `none`");
   config.wait_for = needed == "none" ? std::vector<std::string>{} : split_words(needed);
   config.wait = Duration::from_seconds(
-      section.number("wait_s", config.wait.seconds(), Range::positive(3600.0), "for so long, s"));
-  config.max_clock_skew = Duration::from_seconds(
-      section.number("max_clock_skew_s", config.max_clock_skew.seconds(), Range::positive(10.0),
-                     "a process of `wait_for` whose clock is farther from the vehicle's is not ready, s"));
-  config.send_goal =
-      section.flag("send_goal", config.send_goal,
-                   "send the scenario's goal as id 1; false: the mission waits for a GOAL of someone else");
-  config.min_flight_s =
-      section.number("min_flight_s", config.min_flight_s, Range::at_least(0.0, 1e5),
-                     "an arrival counts only from this world time on, s: a vehicle that guards a place");
+      section.number("wait_s", config.wait.seconds(), Range::positive(3600.0), "largest waiting time for them, s"));
+  config.max_clock_skew = Duration::from_seconds(section.number(
+      "max_clock_skew_s", config.max_clock_skew.seconds(), Range::positive(10.0),
+      "a process of `wait_for` is not ready if its clock differs by more than this from the vehicle's, s"));
+  config.send_goal = section.flag("send_goal", config.send_goal,
+                                  "publish the scenario's goal with id 1; false: another process publishes the GOAL");
+  config.min_flight_s = section.number("min_flight_s", config.min_flight_s, Range::at_least(0.0, 1e5),
+                                       "earliest arrival, world time, s: for a vehicle that guards its place");
   config.sensor = read_sensor(section.section("sensor"), seed);
   read_vehicle(section, config);
   section.finish();

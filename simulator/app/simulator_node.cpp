@@ -139,13 +139,13 @@ void SimulatorNode::wait_for_processes(UTime now) {
     world_zero_ = whole_ms(now + (config_.declare ? kCountdown : kLookAroundTime));
     next_status_ = std::min(next_status_, *world_zero_);
     broadcast_.start(*world_zero_, now);
-    spdlog::info("everyone is ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
+    spdlog::info("all processes are ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
     const double from_s = config_.declare ? 0.0 : -kLookAroundTime.seconds();
     for (const std::string& who : referee_.passing_the_start(from_s)) {
-      spdlog::warn("{} passes through the vehicle while that waits: contacts count from world time 0", who);
+      spdlog::warn("{} passes through the waiting vehicle: contacts count from world time 0", who);
     }
     if (const std::string clocks = gate_.clocks(); !clocks.empty()) {
-      spdlog::info("clocks against the vehicle's: {}", clocks);
+      spdlog::info("clock differences from the vehicle: {}", clocks);
     }
   } else if (now >= give_up_at_) {
     FlightResult result = referee_.result_so_far();

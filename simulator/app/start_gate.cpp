@@ -52,15 +52,15 @@ std::string StartGate::missing(UTime now) const {
   for (const std::string& name : needed_) {
     const auto found = reports_.find(name);
     if (found == reports_.end()) {
-      append(text, name, "not heard");
+      append(text, name, "no HEARTBEAT");
     } else if (now - found->second.at > kHeartbeatAge) {
-      append(text, name, "no longer heard");
+      append(text, name, "its HEARTBEAT has ceased");
     } else if (const std::string skew = skew_of(found->second); !skew.empty()) {
       append(text, name, skew);
     } else if (found->second.state != ProcessState::Ready) {
       append(text, name, found->second.waiting_for.empty() ? "not ready" : "waits for " + found->second.waiting_for);
     } else if (!found->second.skew.reading()) {
-      append(text, name, "has not told a heartbeat back: its clock cannot be compared");
+      append(text, name, "has not echoed a HEARTBEAT: its clock cannot be compared");
     }
   }
   return text;

@@ -168,7 +168,7 @@ void WorldBroadcast::report_left_out(std::int32_t left_out, std::size_t of) {
   const bool is_new = left_out > 0 && trouble_.empty();
   trouble_.clear();
   if (left_out > 0) trouble_ = fmt::format("{} of {} motions do not fit into DECLARED_MOTIONS", left_out, of);
-  if (is_new) spdlog::warn("{}: the farthest are left out", trouble_);
+  if (is_new) spdlog::warn("{}: the farthest motions are left out", trouble_);
 }
 
 void WorldBroadcast::publish_truth(UTime now) {

@@ -22,16 +22,18 @@ struct EstimatorSpec {
   double jump_at_s = 0.0;
   template <typename V>
   void visit(V& v) {
-    v("position_sigma_m", position_sigma_m, Range{0.0, 100.0}, "standard deviation of the noise per axis, m");
-    v("velocity_sigma", velocity_sigma, Range{0.0, 100.0}, "the same of the velocity, m/s");
+    v("position_sigma_m", position_sigma_m, Range{0.0, 100.0},
+      "standard deviation of the position's noise per axis, m");
+    v("velocity_sigma", velocity_sigma, Range{0.0, 100.0}, "standard deviation of the velocity's noise per axis, m/s");
     v("noise_time_s", noise_time_s, Range{1e-3, 1e3}, "correlation time of both, s");
     v("drift_m", drift_m, Range{0.0, 100.0}, "standard deviation of the position's bias per axis, m");
     v("drift_time_s", drift_time_s, Range{1.0, 1e5}, "correlation time of the bias, s");
     v("latency_s", latency_s, Range{0.0, 1.0},
-      "UAV_STATE comes this much after its time, s; the controller's own does not");
-    v("jump_m", jump_m, Range{0.0, 100.0}, "a filter that resets shifts the position by this, level, any direction, m");
-    v("jump_every_s", jump_every_s, Range{0.0, 1e6}, "mean time between jumps, s; 0: none but the next");
-    v("jump_at_s", jump_at_s, Range{0.0, 1e6}, "one jump at this time after the vehicle's start, s; 0: none");
+      "delay of UAV_STATE after its time, s; the controller's estimate has no delay");
+    v("jump_m", jump_m, Range{0.0, 100.0},
+      "shift of the position at a reset of the estimator, level, in a random direction, m");
+    v("jump_every_s", jump_every_s, Range{0.0, 1e6}, "mean time between resets, s; 0: only the one of `jump_at_s`");
+    v("jump_at_s", jump_at_s, Range{0.0, 1e6}, "time of one reset after the vehicle's start, s; 0: none");
   }
 };
 

@@ -40,7 +40,7 @@ void ExternalVehicle::advance(UTime now) { truth_.forget_before(now - kRemembere
 VehicleStatus ExternalVehicle::status(UTime now) const {
   VehicleStatus status;
   status.at = now;
-  status.why_not = "flown elsewhere";
+  status.why_not = "another process flies the vehicle";
   return status;
 }
 

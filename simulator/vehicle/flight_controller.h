@@ -27,17 +27,17 @@ struct FlightControllerSpec {
     v("position_p", position_p, Range{0.0, 20.0}, "velocity per position error, 1/s");
     v("velocity_p", velocity_p, Range{0.0, 50.0}, "acceleration per velocity error, 1/s");
     v("velocity_i", velocity_i, Range{0.0, 50.0}, "acceleration per second of velocity error, 1/s²");
-    v("velocity_d", velocity_d, Range{0.0, 2.0}, "level acceleration against the estimated one, share of it");
+    v("velocity_d", velocity_d, Range{0.0, 2.0}, "level acceleration against the estimated acceleration, share of it");
     v("attitude_p", attitude_p, Range{0.1, 50.0}, "body rate per tilt error, 1/s");
     v("yaw_p", yaw_p, Range{0.1, 20.0}, "body rate per heading error, 1/s");
     v("rate_p", rate_p, Range{0.1, 200.0}, "angular acceleration per rate error, 1/s");
-    v("tilt_max", tilt_max, Range{0.05, 1.5}, "of the commanded attitude, rad");
-    v("rate_max", rate_max, Range{0.1, 50.0}, "commanded roll and pitch rate, rad/s");
-    v("yaw_rate_max", yaw_rate_max, Range{0.1, 50.0}, "commanded yaw rate, rad/s");
-    v("speed_max", speed_max, Range{0.1, 100.0}, "commanded speed, m/s");
-    v("drag_per_s", drag_per_s, Range{0.0, 5.0}, "commanded acceleration per commanded velocity, against drag, 1/s");
+    v("tilt_max", tilt_max, Range{0.05, 1.5}, "largest commanded tilt, rad");
+    v("rate_max", rate_max, Range{0.1, 50.0}, "largest commanded roll and pitch rate, rad/s");
+    v("yaw_rate_max", yaw_rate_max, Range{0.1, 50.0}, "largest commanded yaw rate, rad/s");
+    v("speed_max", speed_max, Range{0.1, 100.0}, "largest commanded speed, m/s");
+    v("drag_per_s", drag_per_s, Range{0.0, 5.0}, "feed-forward against drag: acceleration per commanded velocity, 1/s");
     v("lead_s", lead_s, Range{0.0, 0.5},
-      "the acceleration is commanded this much ahead, against the lag of tilting, s");
+      "the commanded acceleration is that of this much later, because tilting takes time, s");
   }
 };
 

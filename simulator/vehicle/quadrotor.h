@@ -30,13 +30,13 @@ struct QuadrotorSpec {
 
   template <typename V>
   void visit(V& v) {
-    v("mass_kg", mass_kg, Range{0.01, 100.0}, "of the whole vehicle, kg");
-    v("inertia_x", inertia.x(), Range{1e-6, 100.0}, "about the forward axis, kg m²");
-    v("inertia_y", inertia.y(), Range{1e-6, 100.0}, "about the axis to the left, kg m²");
-    v("inertia_z", inertia.z(), Range{1e-6, 100.0}, "about the upward axis, kg m²");
+    v("mass_kg", mass_kg, Range{0.01, 100.0}, "mass of the whole vehicle, kg");
+    v("inertia_x", inertia.x(), Range{1e-6, 100.0}, "moment of inertia about the forward axis, kg m²");
+    v("inertia_y", inertia.y(), Range{1e-6, 100.0}, "moment of inertia about the axis to the left, kg m²");
+    v("inertia_z", inertia.z(), Range{1e-6, 100.0}, "moment of inertia about the upward axis, kg m²");
     v("arm_m", arm_m, Range{0.01, 5.0}, "a rotor's distance from the forward axis, and from the axis to the left, m");
     v("thrust_to_weight", thrust_to_weight, Range{1.05, 20.0}, "largest thrust over weight");
-    v("least_thrust", least_thrust, Range{0.0, 0.5}, "of a rotor, share of its largest");
+    v("least_thrust", least_thrust, Range{0.0, 0.5}, "least thrust of a rotor, share of its largest");
     v("motor_lag_s", motor_lag_s, Range{0.005, 0.5}, "time constant of a rotor's thrust, s");
     v("torque_per_thrust_m", torque_per_thrust_m, Range{1e-4, 1.0}, "a rotor's reaction torque per thrust, m");
     v("drag_per_s", drag_per_s, Range{0.0, 10.0}, "linear drag per mass across the rotor discs, 1/s");

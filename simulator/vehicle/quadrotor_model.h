@@ -29,7 +29,7 @@ struct QuadrotorConfig {
   template <typename V>
   void visit(V& v) {
     v("class", kind, KnobWords<QuadrotorClass>{{"camera", QuadrotorClass::Camera}, {"racer", QuadrotorClass::Racer}},
-      "`camera`: 0.5 m, thrust/weight 2; `racer`: 0.25 m, thrust/weight 4; defaults of all other keys");
+      "`camera`: 0.5 m, thrust/weight 2; `racer`: 0.25 m, thrust/weight 4; sets the defaults of the other keys");
     body = quadrotor_spec(kind);
     v("body", body);
     controller = controller_for(kind, body);

@@ -187,7 +187,7 @@ TEST(SimulatorNode, WithoutAPlannerFailsNamingItAndExits3) {
   EXPECT_EQ(end.exit_code, kExitNotReady);
   ASSERT_FALSE(flight.results.empty());
   EXPECT_EQ(flight.results.front().outcome, FlightOutcome::Failed);
-  EXPECT_THAT(flight.results.front().detail, testing::HasSubstr("tern-planner (not heard)"));
+  EXPECT_THAT(flight.results.front().detail, testing::HasSubstr("tern-planner (no HEARTBEAT)"));
   EXPECT_TRUE(flight.requests.empty());
   EXPECT_NEAR((flight.runner.now() - kStart).seconds(), 16.2, 0.1);
 }

@@ -43,7 +43,7 @@ struct Exchange {
 
 TEST(StartGate, OpensWhenEveryoneIsReadyAndSaysWhoIsNot) {
   StartGate gate({"tern-planner", "tern-mapper"}, kOwnEpoch);
-  EXPECT_EQ(gate.missing(kNow), "tern-planner (not heard), tern-mapper (not heard)");
+  EXPECT_EQ(gate.missing(kNow), "tern-planner (no HEARTBEAT), tern-mapper (no HEARTBEAT)");
   gate.receive(heartbeat("tern-mapper", ProcessState::Ready), kNow);
   gate.receive(heartbeat("tern-planner", ProcessState::Waiting, "a map"), kNow);
   EXPECT_EQ(gate.missing(kNow), "tern-planner (waits for a map)");
@@ -59,7 +59,7 @@ TEST(StartGate, KnowsWhetherTheLogHoldsWhatIsPublished) {
   EXPECT_FALSE(gate.records(kNow));
   gate.receive(heartbeat(kRecorder, ProcessState::Waiting, "CONFIGURATION of tern-planner"), kNow);
   EXPECT_FALSE(gate.records(kNow));
-  EXPECT_EQ(gate.missing(kNow), "tern-planner (not heard), tern-logger (waits for CONFIGURATION of tern-planner)");
+  EXPECT_EQ(gate.missing(kNow), "tern-planner (no HEARTBEAT), tern-logger (waits for CONFIGURATION of tern-planner)");
   gate.receive(heartbeat(kRecorder, ProcessState::Ready), kNow);
   EXPECT_TRUE(gate.records(kNow));
   EXPECT_FALSE(gate.records(kNow + StartGate::kHeartbeatAge + kMs));
@@ -69,7 +69,7 @@ TEST(StartGate, ForgetsWhoIsNoLongerHeard) {
   StartGate gate({"tern-planner"}, kOwnEpoch);
   gate.receive(heartbeat("tern-planner", ProcessState::Ready), kNow);
   EXPECT_TRUE(gate.open(kNow + StartGate::kHeartbeatAge));
-  EXPECT_EQ(gate.missing(kNow + StartGate::kHeartbeatAge + kMs), "tern-planner (no longer heard)");
+  EXPECT_EQ(gate.missing(kNow + StartGate::kHeartbeatAge + kMs), "tern-planner (its HEARTBEAT has ceased)");
 }
 
 TEST(StartGate, IsClosedToAClockTooFarFromItsOwnAndSaysWhoseByHowMuchAndWhatToDo) {
@@ -120,7 +120,7 @@ TEST(StartGate, BelievesTheExchangeOfTheShortestRoundTrip) {
 }
 
 TEST(StartGate, IsClosedToAClockThatCannotBeCompared) {
-  const std::string text = "tern-planner (has not told a heartbeat back: its clock cannot be compared)";
+  const std::string text = "tern-planner (has not echoed a HEARTBEAT: its clock cannot be compared)";
   StartGate gate({"tern-planner"}, kOwnEpoch);
   Heartbeat message = heartbeat("tern-planner", ProcessState::Ready);
   message.echoes.pop_back();  // what it heard was another's

@@ -169,7 +169,7 @@ a_planner_that_joins_late_has_the_map() {
   printf '#!/bin/sh\nread -r _ <"%s"\nexec "%s" "$@"\n' "$work/go" "$TERN_BIN/tern-planner" >"$work/bin/tern-planner"
   chmod +x "$work/bin/tern-planner"
   TERN_BIN=$work/bin start_flight flight
-  eventually "all others wait" 15 says flight "tern-planner (not heard)"
+  eventually "all others wait" 15 says flight "tern-planner (no HEARTBEAT)"
   echo >"$work/go"
   reached flight
 }
