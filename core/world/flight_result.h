@@ -31,11 +31,11 @@ struct FlightResult {
   double path_length_m = 0.0;
   double mean_speed_mps = 0.0;  ///< straight distance from start to goal / flight time
   double top_speed_mps = 0.0;
-  double min_clearance_m = 0.0;      ///< from obstacles, in continuous time; negative if the bodies overlap
-  double min_map_clearance_m = 0.0;  ///< the same from the map's occupied voxels
-  double jerk_integral = 0.0;        ///< ∫‖jerk‖² dt, m²/s⁵
-  std::int64_t stops = 0;
-  std::int64_t limit_violations = 0;
+  double min_clearance_m = 0.0;         ///< from obstacles, in continuous time; negative if the bodies overlap
+  double min_map_clearance_m = 0.0;     ///< the same from the map's occupied voxels
+  double jerk_integral = 0.0;           ///< ∫‖jerk‖² dt, m²/s⁵
+  std::int64_t stops = 0;               ///< times the vehicle came to rest before the goal
+  std::int64_t limit_violations = 0;    ///< times a limit was broken, a jump included
   std::int64_t contacts_moving = 0;     ///< contacts while the vehicle was faster than 0.1 m/s
   std::int64_t contacts_at_rest = 0;    ///< contacts while it was slower
   std::int64_t obstacles = 0;           ///< obstacles that existed at some time of the flight

@@ -13,17 +13,19 @@
 namespace tern {
 namespace {
 
-/// `name` in the table of lcmtypes/README.md, up to its rate.
+/// The beginning of a channel's row in docs/reference/messages.md, up to its rate.
 template <class T>
 std::string row_of(const Channel<T>& channel) {
   const std::string scope = channel.scope == Scope::Shared ? "shared" : "vehicle";
-  return std::string("\n| `") + channel.name + "` | `" + kLcmType<T> + "` | " + scope + " | " + channel.rate +
+  const std::string type = kLcmType<T>;
+  return std::string("\n| `") + channel.name + "` | [`" + type + "`](#" + type + ") | " + scope + " | " + channel.rate +
          (channel.latched ? ", latched |" : " |");
 }
 
-TEST(Channels, AreTheTableOfTheMessagesDescriptions) {
-  std::ifstream file(std::string(TERN_SOURCE_FOLDER) + "/lcmtypes/README.md");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+TEST(Channels, AreTheTableOfTheReferencePage) {
+  std::ifstream file(std::string(TERN_SOURCE_FOLDER) + "/docs/reference/messages.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = page.substr(0, page.find("\n## Rules\n"));
   std::size_t rows = 0;
   for (std::size_t at = text.find("\n| `"); at != std::string::npos; at = text.find("\n| `", at + 1)) ++rows;
   EXPECT_EQ(rows, std::tuple_size_v<decltype(channels::kAll)>);
