@@ -41,7 +41,7 @@ Each process has a section of its own in the scenario file. The tables are made 
 
 A key that a process does not know, a wrong type or a value out of range ends the process with exit code 2. The message
 names file, line, key, value and range. The keys of the world, the vehicle and the regions are in
-[scenarios/README.md](../../scenarios/README.md).
+[scenarios.md](scenarios.md).
 TEXT
   local k table
   for ((k = 0; k < ${#sections[@]}; k += 2)); do

@@ -30,9 +30,9 @@ struct ScatteredCopies {
 /// Makes spec.copies movers, named "<file's stem>~<k>". Each flies a piece of a track that lasts `duration_s`, or less
 /// if the track is shorter: then it rests at its end.
 ///
-/// Drawn in this order: the track, the beginning of the piece, a turn about z, a mirroring in x or none, the place of
-/// the bounding box. The box's centre is uniform on each axis on which the box fits into spec.within. On the other axes
-/// it is in the middle.
+/// Drawn in this order: track, beginning of the piece, turn about z, mirrored in x or not, place of the bounding box.
+/// The box's centre is uniform on each axis on which the box fits into spec.within. On the other axes it is in the
+/// middle.
 /// @return an Error if the start refuses 1000 draws in a row.
 Result<ScatteredCopies> scatter_copies(Rng& rng, const std::vector<RecordedTrack>& tracks,
                                        const RecordedTracksSpec& spec, const Vec3& start, double duration_s);

@@ -91,7 +91,7 @@ a_flight_whose_clocks_are_a_little_apart_reaches_its_goal() {
   cat "$work/tern-monitor.out"
   expect "reached" has_text '"outcome": "reached"' "$work/summary.json"
   grep clocks "$work/tern-simulator.out" || fail "nothing is said of clocks"
-  expect "the skew is said" has_text 'clocks against the vehicle.s:.*tern-planner +[45]\.[0-9] ms' "$work/tern-simulator.out"
+  expect "the skew is said" has_text 'clock differences from the vehicle:.*tern-planner +[45]\.[0-9] ms' "$work/tern-simulator.out"
 }
 
 a_network_that_takes_its_time_is_not_called_clock_skew() {
