@@ -63,14 +63,14 @@ std::optional<std::string> FlightWatch::failure(UTime now) const {
   if (!failure_.empty()) return failure_;
   const UTime heard = processes_.heard(kSimulatorProcess, simulator_epoch_us()).value_or(began_);
   if (now - heard > kSimulatorSilence) {
-    return fmt::format("{} was not heard for {:.0f} s", kSimulatorProcess, (now - heard).seconds());
+    return fmt::format("{} sent no heartbeat for {:.0f} s", kSimulatorProcess, (now - heard).seconds());
   }
   if (processes_.epoch_us(kSimulatorProcess) != simulator_epoch_us() && now - heard > kSuccessorSilence) {
-    return fmt::format("{} started anew during the flight: its world is lost", kSimulatorProcess);
+    return fmt::format("{} restarted during the flight: its world is lost", kSimulatorProcess);
   }
   const Duration limit = Duration::from_seconds(flight_timeout_s(scenario_)) + kResultSlack;
   if (first_request_at_ && now - *first_request_at_ > limit) {
-    return fmt::format("no verdict {:.0f} s after the first request", limit.seconds());
+    return fmt::format("no FLIGHT_RESULT {:.0f} s after the first request", limit.seconds());
   }
   return std::nullopt;
 }

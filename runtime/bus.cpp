@@ -201,7 +201,7 @@ void Bus::subscribe_raw(std::string_view name, RawHandler handler) {
   const std::scoped_lock lock(state_->mutex);
   Line& channel = state_->channel(name);
   if (state_->keys && state_->keys->find(name, state_->keys->role_on(name)) == nullptr) {
-    throw std::invalid_argument("no key to hear " + channel.name);
+    throw std::invalid_argument("no key for messages on " + channel.name);
   }
   channel.handlers.push_back(std::move(handler));
   if (channel.subscription != nullptr) return;
@@ -257,9 +257,10 @@ std::string Bus::sender_troubles() const {
   for (const auto& [name, channel] : state_->channels) {
     const std::string separator = text.empty() ? "" : "; ";
     if (channel.senders.has_second_sender(now)) {
-      text += fmt::format("{}{}: two senders, the one heard first is listened to", separator, name);
+      text += fmt::format("{}{}: two senders, only the first is accepted", separator, name);
     } else if (const auto ahead = channel.senders.ahead(now)) {
-      text += fmt::format("{}{}: stamped {:.1f} s ahead of this clock, refused", separator, name, ahead->seconds());
+      text += fmt::format("{}{}: stamped {:.1f} s ahead of this clock, refused: synchronize the clocks", separator,
+                          name, ahead->seconds());
     }
   }
   return text;

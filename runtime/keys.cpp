@@ -62,7 +62,7 @@ Result<SecretText> read_all(int fd, const std::string& what) {
   read.text.resize(kMaxFileBytes);
   const ssize_t n = pread(fd, read.text.data(), read.text.size(), 0);
   if (n < 0) {
-    if (errno == ESPIPE) return fail(what + ": a pipe can be read once only, keys come from a file");
+    if (errno == ESPIPE) return fail(what + ": a pipe can be read once only; use a file");
     return fail(fmt::format("{}: cannot be read: {}", what, std::strerror(errno)));
   }
   read.text.resize(static_cast<std::size_t>(n));
@@ -77,7 +77,7 @@ Result<SecretText> read_private_file(const std::string& path) {
     return fail(path + ": a key is read from a regular file only");
   }
   if ((status.st_mode & kOthers) != 0) {
-    return fail(fmt::format("{}: mode {:03o}: others than its owner can use it; chmod 600 {}", path,
+    return fail(fmt::format("{}: mode {:03o}: readable by others than its owner; run chmod 600 {}", path,
                             static_cast<unsigned>(status.st_mode & 0777U), path));
   }
   return read_all(file.get(), path);
@@ -121,7 +121,7 @@ Result<KeyRing> KeyRing::parse(std::string_view text, std::string_view process) 
   const auto role = role_named(take_line());
   if (!role) return fail("line 2 names no role");
   if (const auto needed = role_of_process(process); needed && *needed != *role) {
-    return fail(fmt::format("is a ring for the {}, not for {}", to_string(*role), process));
+    return fail(fmt::format("holds the keys of the {}, not those of {}", to_string(*role), process));
   }
   KeyRing ring(*role);
   for (int line_number = 3; !text.empty(); ++line_number) {

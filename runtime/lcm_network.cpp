@@ -45,9 +45,9 @@ void report_buffer(const std::string& url) {
   if (!requested) return;
   const auto granted = granted_buffer(*requested);
   if (!granted) {
-    spdlog::warn("LCM receive buffer: {} bytes asked for, what was granted is unknown", *requested);
+    spdlog::warn("LCM receive buffer: {} bytes requested, the granted size is unknown", *requested);
   } else if (*granted < *requested) {
-    spdlog::warn("LCM receive buffer: {} bytes asked for, {} granted (more: sysctl -w net.core.rmem_max={})",
+    spdlog::warn("LCM receive buffer: {} bytes requested, {} granted (more: sysctl -w net.core.rmem_max={})",
                  *requested, *granted, *requested);
   } else {
     spdlog::info("LCM receive buffer: {} bytes granted", *granted);
@@ -71,7 +71,7 @@ Result<std::shared_ptr<lcm::LCM>> open_lcm(const std::string& url) {
     return fail(
         fmt::format("LCM cannot use {}. If this host has no multicast route, give it one: "
                     "`ip link set lo multicast on up; ip route add 224.0.0.0/4 dev lo` as root, or run inside "
-                    "`unshare -Urn` with the same two commands (docs/troubleshooting.md).",
+                    "`unshare -Urn` with the same two commands (docs/howto/troubleshooting.md).",
                     url));
   }
   report_buffer(url);

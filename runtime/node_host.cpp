@@ -91,7 +91,7 @@ std::string NodeHost::report_drift() {
     return "";
   }
   std::string text =
-      fmt::format("the system's clock was set {} by {:.1f} ms: who starts now is apart by that; start all anew",
+      fmt::format("the system's clock was set {} by {:.1f} ms since this process started: restart all processes",
                   drift < Duration{} ? "back" : "forward", magnitude(drift).seconds() * 1e3);
   if (magnitude(drift - reported_drift_) > kReportedDrift) {
     spdlog::warn("{}", text);

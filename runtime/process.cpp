@@ -174,10 +174,10 @@ int run(const Options& options, const ProcessDescription& description, const Nod
   ProcessContext context{scenario, section, bus, document};
   const std::unique_ptr<Node> node = make_node(context);
   NodeHost host(bus, *node, description.name, document.effective());
-  spdlog::info("{} runs{}{}", build_id(), keys ? ", signs and verifies messages" : "",
+  spdlog::info("{} started{}{}", build_id(), keys ? ", signs and verifies messages" : "",
                options.pace == 1.0 ? "" : fmt::format(", at a pace of {}", options.pace));
   const int code = run_on_wall_clock(**lcm, host, stop.fd());
-  spdlog::info("ends with exit code {}", code);
+  spdlog::info("exits with code {}", code);
   if (code == kExitStuck) end_at_once(code);
   return code;
 }

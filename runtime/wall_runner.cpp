@@ -27,7 +27,7 @@ bool wait(pollfd (&fds)[2], Duration sleep) {
     if (errno == EINTR) return false;
     throw std::runtime_error(fmt::format("ppoll: {}", std::strerror(errno)));
   }
-  if ((fds[0].revents & (POLLERR | POLLHUP | POLLNVAL)) != 0) throw std::runtime_error("LCM's descriptor broke");
+  if ((fds[0].revents & (POLLERR | POLLHUP | POLLNVAL)) != 0) throw std::runtime_error("LCM's file descriptor failed");
   return fds[1].revents != 0;
 }
 

@@ -73,7 +73,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchored_.find(anchor);
     const std::string where = locate_(mark);
-    if (found == anchored_.end()) throw ConfigError(where + ": an alias of what it stands in");
+    if (found == anchored_.end()) throw ConfigError(where + ": an alias inside the value that it repeats");
     charge(found->second.extent, where);
     add(found->second.value, YAML::NullAnchor);
   }
@@ -105,7 +105,7 @@ class TreeBuilder final : public YAML::EventHandler {
     }
     values_ += extent.values;
     if (values_ > kMaxYamlValues) {
-      throw ConfigError(fmt::format("{}: more than {} values, with those that aliases repeat", where, kMaxYamlValues));
+      throw ConfigError(fmt::format("{}: more than {} values, repetitions by aliases included", where, kMaxYamlValues));
     }
   }
 
@@ -238,7 +238,7 @@ std::vector<Step> parse_path(std::string_view path, const std::string& where) {
 YamlValue& descend(YamlValue& parent, const Step& step, const std::string& where) {
   if (parent.kind == YamlValue::Kind::Null) parent.kind = YamlValue::Kind::Mapping;
   if (parent.kind != YamlValue::Kind::Mapping) {
-    throw ConfigError(fmt::format("{}: {} cannot be set: above it stands {}", where, step.key, parent.describe()));
+    throw ConfigError(fmt::format("{}: {} cannot be set: its parent is {}", where, step.key, parent.describe()));
   }
   YamlValue* child = parent.find(step.key);
   if (child == nullptr) {
@@ -265,12 +265,12 @@ YamlValue* YamlValue::find(std::string_view key) { return const_cast<YamlValue*>
 
 std::string YamlValue::describe() const {
   switch (kind) {
-    case Kind::Null: return "nothing";
+    case Kind::Null: return "an empty value";
     case Kind::Scalar: return quoted ? fmt::format("\"{}\"", scalar) : scalar;
     case Kind::Sequence: return fmt::format("a list of {}", items.size());
     case Kind::Mapping: return "a mapping";
   }
-  return "nothing";
+  return "an empty value";
 }
 
 YamlValue parse_yaml(const std::string& text, const std::string& name) {
@@ -287,7 +287,7 @@ YamlValue parse_yaml(const std::string& text, const std::string& name) {
 void apply_override(YamlValue& document, const std::string& override_text) {
   const std::string where = "--set " + override_text;
   const std::size_t equals = override_text.find('=');
-  if (equals == std::string::npos) throw ConfigError(where + ": is not key.path=value");
+  if (equals == std::string::npos) throw ConfigError(where + ": must be KEY=VALUE, as in uav.limits.v_max=3");
   const std::vector<Step> steps = parse_path(std::string_view(override_text).substr(0, equals), where);
   YamlValue* target = &document;
   for (const Step& step : steps) target = &descend(*target, step, where);

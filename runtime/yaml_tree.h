@@ -30,7 +30,7 @@ struct YamlValue {
   /// The value of a key, or nullptr.
   [[nodiscard]] const YamlValue* find(std::string_view key) const;
   [[nodiscard]] YamlValue* find(std::string_view key);
-  /// Text for messages: the scalar itself, "a list", "a mapping" or "nothing".
+  /// Text for messages: the scalar itself, "a list", "a mapping" or "an empty value".
   [[nodiscard]] std::string describe() const;
 };
 

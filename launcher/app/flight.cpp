@@ -88,7 +88,8 @@ Result<fs::path> make_record(const LaunchOptions& options) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return fail(fmt::format("{} cannot be made: {}", folder.string(), error.message()));
-  if (fs::exists(folder / "command")) return fail(fmt::format("{} holds a flight already", folder.string()));
+  if (fs::exists(folder / "command"))
+    return fail(fmt::format("{} already holds a flight; choose another folder", folder.string()));
   for (const char* left : {"failure", "summary.json"}) fs::remove(folder / left);  // of a flight that could not begin
   return fs::canonical(folder);
 }
@@ -172,9 +173,9 @@ Wait await_byte(int fd, int seconds, const sigset_t& signals) {
 /// @return a signal that came meanwhile, or 0
 int await_page(const LaunchOptions& options, int looked, const sigset_t& signals) {
   if (options.view_wait_s == 0) return 0;
-  say("  the flight begins when a page looks, at the latest in {} s (--view-wait)", options.view_wait_s);
+  say("  the flight begins when a page has connected, at the latest in {} s (--view-wait)", options.view_wait_s);
   const Wait wait = await_byte(looked, options.view_wait_s, signals);
-  if (!wait.done && wait.signal == 0) say("  no page looks: the flight begins without");
+  if (!wait.done && wait.signal == 0) say("  no page has connected: the flight begins without one");
   return wait.signal;
 }
 
@@ -194,7 +195,7 @@ int supervise(LaunchOptions options, const fs::path& record, const sigset_t& sig
   ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
   const Scenario scenario = read_scenario(document);  // refused once, not by each process
   if (options.pace != 1.0 && !options.autopilot.empty() && !options.autopilot_sim) {
-    throw std::runtime_error("--pace: the clock of a real autopilot cannot be slowed");
+    throw std::runtime_error("--pace: a real autopilot's clock cannot be slowed; use --pace 1");
   }
   options.default_dynamics = !options.autopilot.empty() && !scenario.uav.limits.dynamics;
   int looked[2] = {-1, -1};
@@ -319,7 +320,7 @@ int fly(const LaunchOptions& options) {
   const pid_t player = is_played ? play_again(options, *record) : 0;
   const bool is_over = code <= kExitFailed || (options.allow_goals && code > kExitSignalled);
   if (is_over && fs::exists(*record / "flight.lcm")) code = after_flight(options, *record, code);
-  if (code > kExitSignalled) say("\nEnded by a signal; what was recorded: {}", record->string());
+  if (code > kExitSignalled) say("\nEnded by a signal; the record is in {}", record->string());
   const fs::path summary = *record / "summary.json";
   if (code == kExitFailed && !fs::exists(summary)) {
     write_failure(options, last_line(read_text(*record / "failure")), summary);

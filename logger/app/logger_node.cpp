@@ -26,7 +26,7 @@ LogWriter open_writer(std::string path, std::int64_t rotate_bytes) {
 LoggerConfig read_logger_config(ConfigSection section) {
   LoggerConfig config;
   config.rotate_bytes = section.integer("rotate_mb", 1'000, 0, 1'000'000,
-                                        "a part of the log of so many MB is followed by the next; 0: never") *
+                                        "a log file of this many MB is followed by a new part; 0: never") *
                         1'000'000;
   section.finish();
   return config;
@@ -34,7 +34,7 @@ LoggerConfig read_logger_config(ConfigSection section) {
 
 LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& path)
     : writer_(open_writer(path, config.rotate_bytes)), table_(bus.suffix()), bus_(bus), next_flush_(bus.clock().now()) {
-  spdlog::info("writes {}", writer_.part_path());
+  spdlog::info("writing {}", writer_.part_path());
   bus.listen([this](std::string_view channel, std::int64_t system_us, std::span<const std::uint8_t> data) {
     // By the flight's clock, as all times in its messages are.
     const UTime received = bus_.clock().at_system_time(system_us);

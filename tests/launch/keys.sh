@@ -187,7 +187,7 @@ a_key_that_cannot_be_used_is_refused_by_name() {
   "$TERN_BIN/tern-key" new "$work/key"
   chmod 640 "$work/key"
   [[ $(code "$scripts/fly.sh" --no-install --key "$work/key" --record "$work/r" --summary "$work/s.json") == 3 ]] || fail "exit code"
-  expect "mode and remedy" has_text "$work/key: mode 640: others than its owner can use it; chmod 600 $work/key" "$work/out"
+  expect "mode and remedy" has_text "$work/key: mode 640: readable by others than its owner; run chmod 600 $work/key" "$work/out"
   expect "a summary" has_text '"outcome": "failed"' "$work/s.json"
   [[ $(code "$TERN_BIN/tern-planner" --key-file "$work/key") == 2 ]] || fail "exit code of a process"
   expect "mode" has_text "tern-planner: $work/key: mode 640" "$work/out"
@@ -207,7 +207,7 @@ tern_key_makes_files_of_mode_600_and_never_overwrites() {
   [[ $(code "$TERN_BIN/tern-key" new "$work/key") == 2 ]] || fail "overwritten"
   [[ $(code "$TERN_BIN/tern-key" derive "$work/key" tern-nobody "$work/x") == 2 ]] || fail "a process that is none"
   [[ $(code "$TERN_BIN/tern-predictor" --key-file "$work/planner.key") == 2 ]] || fail "another's ring"
-  expect "whose it is" has_text 'is a ring for the planner, not for tern-predictor' "$work/out"
+  expect "whose it is" has_text 'holds the keys of the planner, not those of tern-predictor' "$work/out"
   ! grep -qE "^(PREDICTIONS|PLAN|predictor) $(cat "$work/key")" "$work/planner.key" || fail "the master key is in a ring"
 }
 

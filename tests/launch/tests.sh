@@ -171,7 +171,7 @@ ctrl_c_ends_everything() {
   echo "ended after $(((${EPOCHREALTIME/[.,]/} - began) / 1000)) ms"
   [[ $result == 130 ]] || fail "exit code $result"
   nobody_left || fail "left: $(pgrep -af "$work/")"
-  expect "the logger had the last word" has_text "ends with exit code 0" "$work/flight/tern-logger.log"
+  expect "the logger had the last word" has_text "exits with code 0" "$work/flight/tern-logger.log"
 }
 
 ctrl_c_ends_a_long_audit() {
@@ -283,7 +283,7 @@ every_program_starts_alone() {
   for name in simulator executor predictor mapper planner logger monitor; do
     "$scripts/$name.sh" >"$work/$name.out" 2>&1 &
     pid=$!
-    eventually "$name runs" 20 has_text "runs" "$work/$name.out"
+    eventually "$name runs" 20 has_text "started" "$work/$name.out"
     kill -TERM "$pid"
     wait "$pid" || fail "$name ends with $?"
   done

@@ -352,7 +352,8 @@ TEST_F(PredictorNodeTest, ASensorWhoseClockIsFarAheadChangesNothing) {
   ASSERT_EQ(sets_.back().tracks.size(), 1u);
   EXPECT_LE(sets_.back().made_at, runner_.now());
   EXPECT_EQ(node_->health().state, ProcessState::Ready);
-  EXPECT_EQ(bus_->sender_troubles(), "OBSTACLE_OBSERVATIONS: stamped 60.0 s ahead of this clock, refused");
+  EXPECT_EQ(bus_->sender_troubles(),
+            "OBSTACLE_OBSERVATIONS: stamped 60.0 s ahead of this clock, refused: synchronize the clocks");
   watch_pillar(2.0);
   EXPECT_EQ(bus_->sender_troubles(), "") << "it is over";
   EXPECT_EQ(node_->health().waiting_for, "");

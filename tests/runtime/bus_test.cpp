@@ -165,7 +165,7 @@ TEST_F(BusTest, WhatIsFromTheFutureReachesNoHandler) {
   EXPECT_EQ(counters.received, 1);
   EXPECT_EQ(counters.rejected[static_cast<int>(Rejection::Future)], 4);
   EXPECT_EQ(heard.size(), 1U);
-  EXPECT_EQ(bus.sender_troubles(), "GOAL: stamped 0.1 s ahead of this clock, refused");
+  EXPECT_EQ(bus.sender_troubles(), "GOAL: stamped 0.1 s ahead of this clock, refused: synchronize the clocks");
 }
 
 TEST_F(BusTest, ItsOwnNameIsHeardOnlyWhereItHasSpoken) {

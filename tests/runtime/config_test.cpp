@@ -80,7 +80,7 @@ TEST(Config, RefusesWhatIsNotANumber) {
   EXPECT_EQ(error_of("a:\n  x: \"3\"\n", read), "a.yaml:2: a.x: \"3\" is not a number");
   EXPECT_EQ(error_of("a:\n  x: [1]\n", read), "a.yaml:2: a.x: a list of 1 is not a number");
   EXPECT_EQ(error_of("a:\n  x: {}\n", read), "a.yaml:2: a.x: a mapping is not a number");
-  EXPECT_EQ(error_of("a:\n  x:\n", read), "a.yaml:2: a.x: nothing is not a number");
+  EXPECT_EQ(error_of("a:\n  x:\n", read), "a.yaml:2: a.x: an empty value is not a number");
   for (const char* text : {"nan", ".nan", "1e999", "0x10", "1 2", "1,5", "--1", "+-1", "3m"}) {
     EXPECT_EQ(error_of(std::string("a:\n  x: ") + text, read),
               std::string("a.yaml:2: a.x: ") + text + " is not a number");
@@ -211,8 +211,8 @@ TEST(Yaml, RepeatsWhatAnAliasNames) {
 TEST(Yaml, AnAliasBombIsRefusedBeforeItIsExpanded) {
   const auto nothing = [](ConfigSection&) {};
   const AllocationMeter meter;
-  EXPECT_EQ(error_of(alias_bomb(9), nothing), "a.yaml:5: more than 200000 values, with those that aliases repeat");
-  EXPECT_EQ(error_of("a: &a [*a]\n", nothing), "a.yaml:1: an alias of what it stands in");
+  EXPECT_EQ(error_of(alias_bomb(9), nothing), "a.yaml:5: more than 200000 values, repetitions by aliases included");
+  EXPECT_EQ(error_of("a: &a [*a]\n", nothing), "a.yaml:1: an alias inside the value that it repeats");
   std::string deep = "k0: &k0 [x]\n";
   for (int k = 1; k < 40; ++k) {
     deep += fmt::format("k{}: &k{} [*k{}]\n", k, k, k - 1);
@@ -227,7 +227,8 @@ TEST(Yaml, NestedAnchorsAreCountedAsOftenAsTheyAreHeld) {
   for (int k = 0; k < 20'000; ++k) yaml += "1, ";
   yaml += std::string(30, ']');
   const AllocationMeter meter;
-  EXPECT_EQ(error_of(yaml, [](ConfigSection&) {}), "a.yaml:1: more than 200000 values, with those that aliases repeat");
+  EXPECT_EQ(error_of(yaml, [](ConfigSection&) {}),
+            "a.yaml:1: more than 200000 values, repetitions by aliases included");
   EXPECT_LT(meter.peak(), std::size_t{100} << 20U);
 }
 
@@ -236,7 +237,7 @@ TEST(Yaml, RefusesWhatIsTooLargeBeforeItIsHeld) {
   const AllocationMeter meter;
   std::string yaml = "a: [0";
   for (std::size_t k = 0; k < kMaxYamlValues; ++k) yaml += k % 10 == 0 ? ",\n0" : ", 0";
-  EXPECT_EQ(error_of(yaml + "]\n", nothing), "a.yaml:20001: more than 200000 values, with those that aliases repeat");
+  EXPECT_EQ(error_of(yaml + "]\n", nothing), "a.yaml:20001: more than 200000 values, repetitions by aliases included");
   EXPECT_EQ(error_of("a: " + std::string(kMaxYamlBytes, 'x'), nothing), "a.yaml:1: has more than 4194304 bytes");
   EXPECT_EQ(error_of("a: " + std::string(2'000'000, '['), nothing), "a.yaml:1: more than 1000 open brackets");
   EXPECT_EQ(error_of("a: 1\nb: " + std::string(2'000'000, '{'), nothing), "a.yaml:2: more than 1000 open brackets");
@@ -317,16 +318,16 @@ TEST(Override, ErrorsNameTheOverride) {
   };
   EXPECT_EQ(error_of("", read, {"s.a=-1"}), "--set s.a=-1: s.a: -1 is out of range (0, 10]");
   EXPECT_EQ(error_of("", read, {"s.typo=1"}), "--set s.typo=1: s.typo: unknown key (known here: a)");
-  EXPECT_EQ(error_of("", read, {"s.a"}), "--set s.a: is not key.path=value");
+  EXPECT_EQ(error_of("", read, {"s.a"}), "--set s.a: must be KEY=VALUE, as in uav.limits.v_max=3");
   EXPECT_EQ(error_of("", read, {"=1"}), "--set =1: \"\" is not a path such as uav.limits.v_max");
   EXPECT_EQ(error_of("", read, {"s..a=1"}), "--set s..a=1: \"s..a\" is not a path such as uav.limits.v_max");
   EXPECT_EQ(error_of("", read, {"s[x]=1"}), "--set s[x]=1: \"s[x]\" is not a path such as uav.limits.v_max");
   std::string deep = "s";
   for (int k = 0; k < 40; ++k) deep += ".s";
   EXPECT_EQ(error_of("", read, {deep + "=1"}), "--set " + deep + "=1: more than 32 keys deep");
-  EXPECT_EQ(error_of("s: 3", read, {"s.a=1"}), "--set s.a=1: a cannot be set: above it stands 3");
+  EXPECT_EQ(error_of("s: 3", read, {"s.a=1"}), "--set s.a=1: a cannot be set: its parent is 3");
   EXPECT_EQ(error_of("", read, {"s[0]=1"}), "--set s[0]=1: s[0]: the list has 0 entries");
-  EXPECT_EQ(error_of("", read, {"s.a="}), "--set s.a=: s.a: nothing is not a number");
+  EXPECT_EQ(error_of("", read, {"s.a="}), "--set s.a=: s.a: an empty value is not a number");
   EXPECT_EQ(error_of("", read, {"s.a=[1"}).rfind("--set s.a=[1: not YAML: ", 0), 0U);
 }
 

@@ -88,7 +88,7 @@ TEST(KeyRing, RefusesWhatIsNoneAndSaysNothingOfItsContents) {
   }
   const auto of_another = KeyRing::parse(good, "tern-predictor");
   ASSERT_FALSE(of_another);
-  EXPECT_EQ(of_another.error().message, "is a ring for the planner, not for tern-predictor");
+  EXPECT_EQ(of_another.error().message, "holds the keys of the planner, not those of tern-predictor");
 }
 
 class KeyFiles : public testing::Test {
@@ -111,7 +111,8 @@ TEST_F(KeyFiles, AreReadIfTheyAreTheirOwnersAlone) {
   EXPECT_EQ(refusal(path), "");
   for (const mode_t mode : {0640U, 0604U, 0620U, 0610U, 0666U}) {
     chmod(path.c_str(), mode);
-    EXPECT_NE(refusal(path).find("others than its owner can use it; chmod 600 " + path), std::string::npos) << mode;
+    EXPECT_NE(refusal(path).find("readable by others than its owner; run chmod 600 " + path), std::string::npos)
+        << mode;
   }
 }
 

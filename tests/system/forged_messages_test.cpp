@@ -284,7 +284,7 @@ TEST_F(ForgedMessages, ASecondPredictorForAWhileBlindsNobody) {
   runner().start("second", [](Bus& bus) { return std::make_unique<PredictorNode>(bus, PredictorConfig()); });
   fly(1.5);
   runner().stop("second");
-  EXPECT_EQ(planner.waiting_for, "PREDICTIONS: two senders, the one heard first is listened to");
+  EXPECT_EQ(planner.waiting_for, "PREDICTIONS: two senders, only the first is accepted");
   expect_undisturbed();
 }
 

@@ -394,7 +394,7 @@ await run({
     const pillar = new URL('pillar.yaml', import.meta.url).pathname;
     const flight = startFlight('--view', '--view-wait', '60', '--record', record, '--scenario', pillar,
       '--set', 'simulator.send_goal=true');
-    await eventually('it waits for a page', () => /begins when a page looks/.test(flight.said) || flight.ended);
+    await eventually('it waits for a page', () => /begins when a page has connected/.test(flight.said) || flight.ended);
     const page = await openPage(/view +(\S+)/.exec(flight.said)[1]);
     await eventually('the log', async () => (await text(page, '#mode')) === 'log');
     expect('which was seen live before', (await status(page)).modes.join() === 'live,log');
