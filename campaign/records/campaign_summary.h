@@ -50,7 +50,7 @@ struct CampaignSummary {
 /// @pre flights.records have the same identity
 CampaignSummary summarize(const Flights& flights);
 
-/// Returns one JSON object; docs/howto/run_a_campaign.md lists its keys. Unknown values are null.
+/// Returns one JSON object; docs/reference/campaign.md lists its keys. Unknown values are null.
 /// @param command  the command line to record
 std::string to_json(const CampaignSummary& summary, const std::string& command);
 
