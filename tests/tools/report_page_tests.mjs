@@ -1,10 +1,10 @@
-// report_page_tests.mjs NAME: tern-report's page of a recorded flight in a headless Chromium.
+// report_page_tests.mjs [NAME…]: tern-report's page of a recorded flight in a headless Chromium; all tests unless some are named.
+// TERN_RECORDED_FLIGHTS: the folder of those flights (tests/flights).
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { expect, newPage, run, start, work } from '../viewer/support.mjs';
 
-const { TERN_BIN } = process.env;
-const scenario = (name) => new URL(`../../scenarios/${name}.yaml`, import.meta.url).pathname;
+const { TERN_BIN, TERN_RECORDED_FLIGHTS } = process.env;
 const CARDS = [
   'Where it flew', 'Speed, m/s', 'Acceleration, m/s²', 'Clearance, m', 'Exposure, m', 'Replan time by stage, ms', 'Plan outcomes',
   'Audit', 'Prediction coverage', 'Half-width of predictions, m', 'Tracks nearest to leaving their intervals', 'Replan time, ms', 'Answers', 'Regions', 'Log',
@@ -13,15 +13,10 @@ const CARDS = [
 const CHARTS = 8; // two views of the map, speed, acceleration, clearance, exposure, replan times, outcomes
 const LEGIBLE = 4.5; // contrast of text, WCAG 2 AA
 
-const SHORT = [scenario('corridor_demo'), '--count', '30', '--set', 'uav.goal=[24,0,1]'];
-/** Among movers of 4 to 5 m/s it sees 2 m far. */
-const SHORT_SIGHTED = [scenario('perception_only'), '--set', 'simulator.sensor.range_m=2'];
-
-async function report(world = SHORT) {
+/** The report of a recorded flight. `short_sighted`: among movers of 4 to 5 m/s it sees 2 m far. */
+async function report(flight = 'demo') {
   const file = join(work, 'report.html');
-  const flight = start(`${TERN_BIN}/tern-campaign`, ['fly-one', '--charge', 'counts', '--folder', work, '--world', ...world]);
-  expect(`a flight: ${flight.said}`, (await flight.gone) === 0);
-  const written = start(`${TERN_BIN}/tern-report`, [join(work, 'flight.lcm'), '-o', file]);
+  const written = start(`${TERN_BIN}/tern-report`, [join(TERN_RECORDED_FLIGHTS, `${flight}.lcm`), '-o', file]);
   expect(`its report: ${written.said}`, (await written.gone) === 0);
   return pathToFileURL(file).href;
 }
@@ -108,7 +103,7 @@ await run({
 
   async a_report_of_a_contact_says_what_had_been_known_of_it() {
     const page = await newPage();
-    await page.goto(await report(SHORT_SIGHTED));
+    await page.goto(await report('short_sighted'));
     const said = await page.textContent('main');
     expect('it was in motion', said.includes('1 / 0contacts while moving / at rest'));
     expect('it was seen late', /Obstacle \d+ was touched at [\d.]+ s, by the vehicle at [\d.]+ m\/s\. It had been in PREDICTIONS for 0\.\d+ s\./.test(said));

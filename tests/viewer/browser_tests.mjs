@@ -1,4 +1,4 @@
-// browser_tests.mjs NAME: one test of tern-viewer's page in a headless Chromium.
+// browser_tests.mjs [NAME…]: tests of tern-viewer's page in a headless Chromium, all unless some are named.
 import { existsSync } from 'node:fs';
 import http from 'node:http';
 import { join } from 'node:path';
@@ -333,7 +333,7 @@ await run({
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
     await end(flight, 'SIGINT');
   },
-});
+}, ['the_vehicle_flies_to_where_a_page_clicks_and_rests_there', 'an_isolated_flight_is_seen_from_outside']);
 
 /** Sends a goal past the buttons; whether it is refused for this reason. */
 async function refusal(page, reason) {

@@ -8,7 +8,9 @@ import { chromium } from '../../viewer/web/node_modules/playwright-core/index.mj
 const { TERN_BIN, TERN_PAGE, TERN_CHROMIUM } = process.env;
 const PATIENCE_MS = 180_000; // for what takes milliseconds on an idle machine, and for flights at a pace
 
-export const work = mkdtempSync(join(tmpdir(), 'tern-viewer-'));
+const all_work = mkdtempSync(join(tmpdir(), 'tern-viewer-'));
+/** A folder for files; each test of run() has its own. */
+export let work = all_work;
 const running = new Set();
 let browser = null;
 
@@ -177,22 +179,39 @@ export function scrubTo(page, share) {
   }, share);
 }
 
-/** Runs one of the tests; its name is the claim. */
-export async function run(tests) {
-  const name = process.argv[2];
-  let code = 0;
+/** Runs a test in a folder of its own; its pages and processes end with it. @return whether it passed */
+async function passes(name, test) {
+  const began = Date.now();
+  let passed = true;
+  work = mkdtempSync(join(all_work, 'test-'));
   try {
-    await (tests[name] ?? fail(`no test ${name}`))();
-    console.log(`passed: ${name}`);
+    await test();
+    console.log(`passed: ${name} (${(Date.now() - began) / 1000} s)`);
   } catch (error) {
     console.error(`FAILED: ${name}: ${error.stack}`);
     for (const { child, said } of running) console.error(`---- ${child.spawnfile}:\n${said.slice(-3000)}`);
-    code = 1;
+    passed = false;
+  }
+  await Promise.all((browser?.contexts() ?? []).map((context) => context.close()));
+  await Promise.all([...running].map((process_) => end(process_, 'SIGKILL')));
+  return passed;
+}
+
+/**
+ * Runs those of the tests that the command line names, else all but those that fly live, which must be named. A test's name is
+ * its claim. All share a browser; each has a context of its own in it.
+ */
+export async function run(tests, live = []) {
+  const named = process.argv.slice(2);
+  const names = named.length > 0 ? named : Object.keys(tests).filter((name) => !live.includes(name));
+  const failed = [];
+  for (const name of names) {
+    if (!(await passes(name, tests[name] ?? (() => fail(`no test ${name}`))))) failed.push(name);
   }
   await browser?.close();
-  await Promise.all([...running].map((process_) => end(process_, 'SIGKILL')));
-  rmSync(work, { recursive: true, force: true });
-  process.exit(code);
+  rmSync(all_work, { recursive: true, force: true });
+  console.log(`${names.length - failed.length} of ${names.length} passed${failed.map((name) => `\nFAILED: ${name}`).join('')}`);
+  process.exit(failed.length === 0 ? 0 : 1);
 }
 
 export const read = (path) => readFileSync(path, 'utf8');

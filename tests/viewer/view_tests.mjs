@@ -1,4 +1,4 @@
-// view_tests.mjs NAME: one test of how tern-viewer's page shows a flight, in a headless Chromium.
+// view_tests.mjs [NAME…]: tests of how tern-viewer's page shows a flight, in a headless Chromium; all unless some are named.
 import { chmodSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
@@ -406,4 +406,4 @@ await run({
     process.kill(flight.child.pid, 'SIGINT');
     expect(`the flight's exit code: ${flight.said}`, (await flight.gone) === 0);
   },
-});
+}, ['a_flight_that_has_ended_is_played_by_the_same_page']);
