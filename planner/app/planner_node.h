@@ -43,6 +43,8 @@ class PlannerNode final : public Node {
   [[nodiscard]] NodeHealth health() const override;
   /// Returns kExitStuck if a worker has thrown, or is stuck: it has missed two deadlines and been busy for kStuckAfter.
   [[nodiscard]] std::optional<int> finished() const override { return exit_code_; }
+  /// Whether a worker thread is planning; always false in virtual time.
+  [[nodiscard]] bool busy() const { return worker_ && worker_->busy(); }
 
  private:
   void on_request(const HorizonRequest& request);

@@ -36,10 +36,9 @@ column() {
 # What is left of a campaign's processes: each has the folder of this test in its command line.
 nobody_left() { ! pgrep -f "$work/" >/dev/null; }
 
-# eventually SECONDS COMMAND...
+# eventually COMMAND...: waits until it succeeds.
 eventually() {
-  local deadline=$((SECONDS + $1 + 1))
-  shift
+  local deadline=$((SECONDS + 180)) # for what takes moments on an idle machine
   until "$@" >/dev/null 2>&1; do
     ((SECONDS <= deadline)) || fail "not in time: $*"
     read -rt 0.02 <> <(:) || true
@@ -126,10 +125,10 @@ a_killed_campaign_goes_on_and_loses_or_repeats_nothing() {
   "$campaign" --world "$here/short_hop.yaml" --charge counts --seeds 1:24 --jobs 2 --out "$work/flights.csv" \
     >"$work/said" 2>&1 &
   local pid=$!
-  eventually 60 has_lines "$work/flights.csv" 4
+  eventually has_lines "$work/flights.csv" 4
   kill -KILL "$pid"
   wait "$pid" 2>/dev/null || true
-  eventually 10 nobody_left
+  eventually nobody_left
   cp "$work/flights.csv" "$work/before.csv"
   has_lines "$work/before.csv" 25 && fail "it was over before it was killed"
   fly "$work/flights.csv" --seeds 1:24 --jobs 2
@@ -146,7 +145,7 @@ an_interrupted_campaign_ends_cleanly_and_goes_on() {
   env --default-signal=INT "$campaign" --world "$here/short_hop.yaml" --charge counts --seeds 1:24 --jobs 2 \
     --out "$work/flights.csv" >"$work/out" 2>&1 &
   local pid=$! code=0
-  eventually 60 has_lines "$work/flights.csv" 3
+  eventually has_lines "$work/flights.csv" 3
   kill -INT "$pid"
   wait "$pid" || code=$?
   [[ $code == 130 ]] || fail "exit code $code"
@@ -161,7 +160,7 @@ whoever_ends_a_flight_s_process_interrupts_the_campaign_and_fails_no_flight() {
   "$campaign" --world "$root/scenarios/paper_corridor.yaml" --count 300 --charge counts --seeds 1:2 --jobs 1 \
     --out "$work/flights.csv" >"$work/out" 2>&1 &
   local pid=$! code=0
-  eventually 60 pkill -TERM -f "fly-one .*$work/"
+  eventually pkill -TERM -f "fly-one .*$work/"
   wait "$pid" || code=$?
   [[ $code == 130 ]] || fail "exit code $code: $(cat "$work/flights.csv")"
   said "run the same command again"

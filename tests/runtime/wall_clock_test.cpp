@@ -1,4 +1,5 @@
-// The wall clock while the system's is set. In a program of its own: clock_gettime is replaced, as if somebody set it.
+// The wall clock while the system's is set. In a program of its own: clock_gettime is replaced, as if somebody set it,
+// and so that time stands still until a test moves it.
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <time.h>
@@ -13,11 +14,18 @@
 #include "runtime/wall_runner.h"
 
 namespace {
+constexpr std::int64_t kSecondNs = 1'000'000'000;
 std::atomic<time_t> set_forward_s = 0;
-}
+std::atomic<std::int64_t> stands_at_ns = -1;  ///< what the steady clock shows while time stands still; −1: it goes on
+}  // namespace
 
 extern "C" int clock_gettime(clockid_t id, timespec* t) noexcept {
   const int status = static_cast<int>(syscall(SYS_clock_gettime, id, t));
+  if (stands_at_ns >= 0 && (id == CLOCK_MONOTONIC || id == CLOCK_REALTIME)) {
+    // The system's clock shows a day of 2026, µs since 1970.
+    const std::int64_t ns = stands_at_ns + (id == CLOCK_REALTIME ? 1'790'000'000 * kSecondNs : 0);
+    *t = {ns / kSecondNs, ns % kSecondNs};
+  }
   if (id == CLOCK_REALTIME) t->tv_sec += set_forward_s;
   return status;
 }
@@ -58,40 +66,54 @@ class WallClockTest : public testing::Test {
   Bus bus_{lcm_, clock_, 1};
 };
 
-TEST_F(WallClockTest, GoesOnWhenTheSystemsClockIsSet) {
+/// Time stands still, from before the clock is made until its end.
+class StandingTimeTest : public testing::Test {
+ protected:
+  StandingTimeTest() { stands_at_ns = kSecondNs; }
+  ~StandingTimeTest() override {
+    set_forward_s = 0;
+    stands_at_ns = -1;
+  }
+};
+
+TEST_F(StandingTimeTest, GoesOnWhenTheSystemsClockIsSet) {
+  const WallClock clock;
   for (const time_t seconds : {-3'600, 7'200}) {
-    const UTime before = clock_.now();
+    const UTime before = clock.now();
     set_forward_s += seconds;
-    EXPECT_GE(clock_.now(), before);
-    EXPECT_LT((clock_.now() - before).us, 600 * kSecond);
-    EXPECT_NEAR(clock_.drift().seconds(), static_cast<double>(set_forward_s), 0.01);
+    EXPECT_EQ(clock.now().us, before.us);
+    stands_at_ns += kSecondNs;
+    EXPECT_EQ((clock.now() - before).us, kSecond);
+    EXPECT_EQ(clock.drift().us, set_forward_s * kSecond);
   }
 }
 
-TEST_F(WallClockTest, KnowsWhenAMessageCameAlthoughTheKernelSaysItByTheSystemsClock) {
+TEST_F(StandingTimeTest, IsKnownOfAMessageAlthoughTheKernelSaysItByTheSystemsClock) {
+  const WallClock clock;
   for (const time_t seconds : {0, -3'600, 3'600}) {
     set_forward_s = seconds;
-    const UTime earliest = clock_.now();
-    const UTime received = clock_.at_system_time(system_us());
-    EXPECT_GE((received - earliest).seconds(), -0.01) << seconds;
-    EXPECT_LE((received - clock_.now()).seconds(), 0.01) << seconds;
+    const UTime received = clock.at_system_time(system_us());
+    EXPECT_EQ(received.us, clock.now().us) << seconds;
+    stands_at_ns += kSecondNs;
+    EXPECT_EQ((clock.now() - received).us, kSecond) << seconds;
   }
 }
 
-TEST_F(WallClockTest, AtAPaceAllClocksAgreeAndTakeTheirTime) {
+TEST_F(StandingTimeTest, AtAPaceAllClocksAgreeAndTakeTheirTime) {
   const WallClock slow({}, 0.25), other({}, 0.25);
   const std::int64_t begin_us = system_us();
   const UTime begin = slow.now();
-  EXPECT_NEAR((other.now() - slow.now()).seconds(), 0.0, 0.01);
-  EXPECT_NEAR((slow.at_system_time(begin_us + 4 * kSecond) - begin).seconds(), 1.0, 0.01);
+  EXPECT_EQ(other.now().us, begin.us);
+  EXPECT_EQ((slow.at_system_time(begin_us + 4 * kSecond) - begin).us, kSecond);
   EXPECT_EQ(slow.in_system_time(Duration{kSecond}).us, 4 * kSecond);
-  EXPECT_NEAR(1e-6 * static_cast<double>(WallClock::system_time_us(begin, 0.25) - begin_us), 0.0, 0.01);
+  EXPECT_EQ(WallClock::system_time_us(begin, 0.25), begin_us);
   EXPECT_EQ(WallClock::system_time_us(begin, 1.0), begin.us);
-  while (slow.now() - begin < Duration{20'000}) continue;
-  EXPECT_GE(system_us() - begin_us, 79'000);
+  stands_at_ns += kSecondNs;
+  EXPECT_EQ((slow.now() - begin).us, kSecond / 4);
+  EXPECT_EQ(system_us() - begin_us, kSecond);
   set_forward_s = 8;
-  EXPECT_NEAR(slow.drift().seconds(), 8.0, 0.01);
-  EXPECT_LT((slow.now() - begin).seconds(), 600.0) << "setting the system's clock does not set it";
+  EXPECT_EQ(slow.drift().us, 8 * kSecond);
+  EXPECT_EQ((slow.now() - begin).us, kSecond / 4) << "setting the system's clock does not set it";
 }
 
 TEST_F(WallClockTest, ANodeDoesNotStandStillWhenTheSystemsClockIsSetBack) {

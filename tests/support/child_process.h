@@ -14,7 +14,7 @@
 namespace tern {
 
 /// How long a test waits for what must come; no test asserts a time.
-inline constexpr int kPatienceMs = 20'000;
+inline constexpr int kPatienceMs = 180'000;
 
 /// A child process with its stdout and stderr.
 class Child {
