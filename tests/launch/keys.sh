@@ -3,51 +3,11 @@
 set -euo pipefail
 # shellcheck source=tests/launch/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
+# shellcheck source=tests/launch/flight_lib.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/flight_lib.sh"
 
-# Every key that is made of a master key's file, the master too: in bytes and in digits, a line of hexadecimal each.
-all_keys() {
-  python3 - "$1" <<'END'
-import hashlib, sys
-master = bytes.fromhex(open(sys.argv[1]).read())
-names = """UAV_STATE SETPOINT VEHICLE_STATUS VEHICLE_TRUTH OBSTACLE_OBSERVATIONS DECLARED_MOTIONS HORIZON_REQUEST OBSTACLE_TRUTH FLIGHT_RESULT PREDICTIONS PLAN
-PLAN_TIMING SEARCH_VIEW SEMANTIC_MAP GOAL vehicle predictor planner mapper operator observer executor""".split()
-for key in [master] + [hashlib.blake2b(b"tern key 1 " + n.encode(), key=master, digest_size=32).digest() for n in names]:
-    print(key.hex())
-    print(key.hex().encode().hex())
-    print(key.hex().upper().encode().hex())
-END
-}
-
-# is_without_keys WHAT FILE...: none of all_keys occurs in what these files hold.
-is_without_keys() {
-  python3 - "$@" <<END || fail "a key is in $1"
-import sys
-keys = [bytes.fromhex(line) for line in open("$work/all_keys")]
-assert len(keys) == 69
-for name in sys.argv[2:]:
-    try:
-        data = open(name, "rb").read()
-    except OSError:
-        continue  # a process that has ended
-    if any(key in data for key in keys):
-        sys.exit(f"{name}")
-END
-}
-
-processes() { pgrep -f "$work/" || true; }
-
-# How many of the flight's processes hold an open file of keys, by the first program's name on each command line.
-key_holders() {
-  local pid
-  for pid in $(processes); do
-    readlink "/proc/$pid"/fd/* 2>/dev/null | grep -q '^/memfd:tern-keys' || continue
-    tr '\0' '\n' <"/proc/$pid/cmdline" | grep -m1 -oE 'fly\.sh$|tern-[a-z]+$'
-  done | sort | uniq -c | tr -s ' \n' ' '
-}
-
-process_of() { pgrep -x -f "[^ ]*/$1 --config $work/.*" | head -n 1; }
-flies() { grep -qE ' [1-9]\.[0-9]+ m/s' "$work/$1.out"; }
-reached() {
+# has_ended FLIGHT: by itself, well, and left nobody.
+has_ended() {
   local result=0
   wait "$flight" || result=$?
   cat "$work/$1.out"
@@ -62,19 +22,12 @@ print(eval(sys.argv[2]))' "$work/$1/summary.json" "$2"; }
 
 a_signed_flight_reaches_its_goal_and_its_key_is_nowhere() {
   "$TERN_BIN/tern-key" new "$work/key"
-  all_keys "$work/key" >"$work/all_keys"
   scenario=$root/tests/launch/passers.yaml # in whose way no vehicle comes to rest that has no planner
   start_flight flight --key "$work/key" --report
-  eventually "flies" 30 flies flight
-  local pid args=() environments=() holders
-  for pid in $(processes); do args+=("/proc/$pid/cmdline") && environments+=("/proc/$pid/environ"); done
-  ((${#args[@]} >= 8)) || fail "only ${#args[@]} processes"
-  is_without_keys "a command line" "${args[@]}"
-  is_without_keys "an environment" "${environments[@]}"
-  holders=$(key_holders)
-  [[ $holders == ' 1 tern-launch ' ]] || fail "open keys: $holders"
+  eventually "flies" flies flight
+  expect_keys_nowhere
   kill -KILL "$(process_of tern-planner)"
-  reached flight
+  has_ended flight
   [[ $(summary flight 's["restarts"]') == 1 ]] || fail "the planner did not come back with its keys"
   # What the new planner says while the dead one may still be heard is refused as another sender's.
   ! grep -h 'refused a message: unauthenticated' "$work"/flight/tern-*.log || fail "a true tag was refused"
@@ -85,29 +38,19 @@ a_signed_flight_reaches_its_goal_and_its_key_is_nowhere() {
   expect "the audit reads plans" has_text 'held *certificates *[1-9][0-9]* plans' "$work/audit"
   "$TERN_BIN/tern-replay" "$work/flight" || fail "the replay's exit code is $?"
   "$TERN_BIN/tern-export" "$work/flight/flight.lcm" --csv "$work/csv" || fail "the export's exit code is $?"
-  PYTHONPATH=$TERN_BIN/../python python3 - "$work/flight/flight.lcm" <<'END' || fail "Python cannot read the log"
-import struct, sys, tern_msgs
-states = 0
-with open(sys.argv[1], "rb") as log:
-    while len(head := log.read(28)) == 28:
-        _, _, _, channel_bytes, data_bytes = struct.unpack(">IqqII", head)
-        channel, data = log.read(channel_bytes).decode(), log.read(data_bytes)
-        if channel == "UAV_STATE":
-            states += tern_msgs.uav_state_t.decode(data).at_us > 0 and data[-48:-44] == b"TMAC"
-assert states > 500, states
-END
+  python_reads_signed_states "$work/flight/flight.lcm"
 }
 
 who_has_not_the_key_is_not_heard_and_harms_nobody() {
   scenario=$root/tests/launch/passers.yaml
   start_flight flight --key --set simulator.min_flight_s=20
-  eventually "flies" 30 flies flight
+  eventually "flies" flies flight
   local url heard stranger result name seconds
   seconds=$(awk "BEGIN { print 0.7 / ${TERN_PACE:-1} }")
   url=$(env -i bash -c "source $work/flight/env.sh && echo \$LCM_DEFAULT_URL")
   "$TERN_BIN/tern-predictor" --config "$scenario" --lcm-url "$url" >"$work/stranger.out" 2>&1 &
   heard=$!
-  eventually "the planner says why" 30 has_text 'PREDICTIONS: refused a message: unauthenticated' "$work/flight/tern-planner.log"
+  eventually "the planner says why" has_text 'PREDICTIONS: refused a message: unauthenticated' "$work/flight/tern-planner.log"
   kill -TERM "$heard" || fail "tern-predictor ended by itself: $(cat "$work/stranger.out")"
   wait "$heard" || fail "tern-predictor ended with $?: $(cat "$work/stranger.out")"
   "$TERN_BIN/tern-key" new "$work/another.key"
@@ -120,14 +63,14 @@ who_has_not_the_key_is_not_heard_and_harms_nobody() {
       [[ $result == 124 ]] || fail "$name ended with $result: $(cat "$work/strangers.out")"
     done
   done
-  reached flight
+  has_ended flight
   [[ $(summary flight 's["restarts"], s["outcome"]') == "(0, 'reached')" ]] || fail "$(cat "$work/flight/summary.json")"
   [[ $(summary flight 's["messages"]["PREDICTIONS"]["rejected"] > 0') == True ]] || fail "nothing was refused"
 }
 
 a_signed_flight_in_a_namespace_of_its_own_flies() {
   start_flight flight --isolated --key
-  eventually "flies" 30 flies flight
+  eventually "flies" flies flight
   [[ $(key_holders) == ' 1 tern-launch ' ]] || fail "open keys: $(key_holders)"
   expect "a command runs in its network" "$scripts/enter.sh" "$work/flight" -- true
   end_flight "$flight"
@@ -141,15 +84,15 @@ a_program_in_python_signs_what_it_says() {
   "$TERN_BIN/tern-key" new "$work/key"
   "$TERN_BIN/tern-predictor" --key-file "$work/key" --config "$scenario" >"$work/predictor.out" 2>&1 &
   "$TERN_BIN/tern-logger" --key-file "$work/key" --config "$scenario" --record "$work/python.lcm" >"$work/logger.out" 2>&1 &
-  eventually "the predictor runs" 10 has_text 'signs and verifies' "$work/predictor.out"
+  eventually "the predictor runs" has_text 'signs and verifies' "$work/predictor.out"
   export PYTHONPATH=$TERN_BIN/../python
   python3 "$root/docs/examples/own_detector.py" "$work/key" >"$work/detector.out" 2>&1 &
-  eventually "observations are taken" 15 hears_observations
+  eventually "observations are taken" hears_observations
   ! has_text refused "$work/predictor.out" || fail "$(cat "$work/predictor.out")"
   python3 "$root/docs/examples/own_detector.py" >"$work/detector2.out" 2>&1 &
-  eventually "unsigned ones are not" 15 has_text 'OBSTACLE_OBSERVATIONS: refused a message: unauthenticated' "$work/predictor.out"
+  eventually "unsigned ones are not" has_text 'OBSTACLE_OBSERVATIONS: refused a message: unauthenticated' "$work/predictor.out"
   # The log holds both, until it is sifted.
-  eventually "unsigned ones stay behind" 5 leaves_some
+  eventually "unsigned ones stay behind" leaves_some
   "$TERN_BIN/tern-key" sift "$work/key" "$work/sifted.lcm" "$work/again.lcm" >"$work/again.out"
   expect "the others all verify" grep -qE '^([0-9]+) of \1 messages verify' "$work/again.out"
   expect "signed ones are there" grep -aq OBSTACLE_OBSERVATIONS "$work/sifted.lcm"

@@ -3,7 +3,8 @@
 
 Half of its share of the cores: a test is to tell about Tern, not about a machine whose host takes part of them, or that has other
 work, now or a little later. How fast Tern is, campaigns and benchmarks measure. Every core counts short equal works for half a second;
-its share is what they would have taken, each as short as the shortest, of what they took.
+its share is what they would have taken, each as short as the shortest, of what they took. A flight's processes go where there is
+room: the mean over the cores counts.
 """
 import multiprocessing
 import os
@@ -31,7 +32,7 @@ def main():
     workers = [multiprocessing.Process(target=share_of_core, args=(core, together, shares)) for core in cores]
     for worker in workers:
         worker.start()
-    share = min(shares.get() for _ in workers)
+    share = sum(shares.get() for _ in workers) / len(workers)
     for worker in workers:
         worker.join()
     print(round(max(SLOWEST, SPARE * share), 2))

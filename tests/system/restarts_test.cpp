@@ -154,5 +154,18 @@ TEST_F(Restarts, APlannerThatComesBackWithoutAMapperWaitsForAMap) {
   fly_to_the_end();
 }
 
+TEST(LateProcess, APlannerThatJoinsLateHasTheMapAndFlies) {
+  VirtualSystem system(scenario_file("paper_corridor"),
+                       {"world.generator=none", "world.count=0", kObstacles, "executor.rate_hz=10"});
+  VirtualRunner& runner = system.runner();
+  system.stop("tern-planner");
+  runner.run(runner.now() + Duration::from_seconds(5.0));
+  EXPECT_FALSE(system.simulator().world_zero()) << "the flight began without a planner";
+  system.start("tern-planner");
+  runner.run(runner.now() + Duration::from_seconds(120.0), [&] { return system.simulator().result().has_value(); });
+  ASSERT_TRUE(system.simulator().result());
+  expect_reached(*system.simulator().result());
+}
+
 }  // namespace
 }  // namespace tern::testing
