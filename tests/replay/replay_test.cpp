@@ -18,6 +18,7 @@
 #include "simulator/worlds/world.h"
 #include "tests/replay/golden_flights.h"
 #include "tests/support/fixture.h"
+#include "tests/support/recorded_flight.h"
 #include "tests/support/temp_folder.h"
 #include "tools/replay/extract.h"
 #include "tools/replay/replan.h"
@@ -26,30 +27,15 @@
 namespace tern::testing {
 namespace {
 
-/// One flight on virtual time in which predictor and planner die and come back, recorded whole, for all tests.
+/// One flight on virtual time in which predictor and planner die and come back, recorded whole (tests/flights).
 class ReplayTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TempFolder;
-    const std::string obstacles =
-        "world.obstacles=[{name: intruder, half_extents: 0.4, motion: waypoints, vanish: true, "
-        "points: [[1, 0, 6, 2], [4, 0, -12, 2]]}, {name: post, centre: [3, 0.2, 2], half_extents: [0.3, 0.3, 2]}]";
-    const auto stop = [](const char* process) { return [=](VirtualSystem& system) { system.stop(process); }; };
-    const auto start = [](const char* process) { return [=](VirtualSystem& system) { system.start(process); }; };
-    record_virtually({std::string(TERN_SCENARIO_FOLDER) + "/closing_in.yaml",
-                      {obstacles, "uav.goal=[8, 0, 2]"},
-                      5.0,
-                      {{1.5, stop("tern-predictor")},
-                       {2.0, start("tern-predictor")},
-                       {3.0, stop("tern-planner")},
-                       {3.2, start("tern-planner")}}},
-                     log());
-  }
+  static void SetUpTestSuite() { folder_ = new TempFolder; }
   static void TearDownTestSuite() {
     delete folder_;
     folder_ = nullptr;
   }
-  static std::string log() { return folder_->file("flight.lcm"); }
+  static std::string log() { return recorded_log("restarts"); }
 
   /// The log again, without the events for which `change` returns false, the others as it left them.
   static std::string rewritten(const std::function<bool(LogEvent&)>& change) {

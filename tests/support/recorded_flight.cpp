@@ -1,5 +1,6 @@
 #include "tests/support/recorded_flight.h"
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "campaign/virtual_system.h"
@@ -33,6 +34,13 @@ void copy_events(const std::vector<std::string>& from, const std::string& to, co
 }
 
 }  // namespace
+
+std::string recorded_log(const std::string& name) {
+  const std::string log = std::string(TERN_RECORDED_FLIGHTS "/") + name + ".lcm";
+  if (!std::filesystem::exists(log))
+    throw std::runtime_error(log + " is not there: ctest -R RecordedFlights records it");
+  return log;
+}
 
 void record_flight(const std::string& scenario_file, const std::vector<std::string>& overrides, const std::string& log,
                    UTime start) {

@@ -11,6 +11,11 @@
 
 namespace tern::testing {
 
+/// The log of a flight that was recorded for several tests (tests/flights/record_flights.cpp), which ctest does before
+/// them.
+/// @throws std::runtime_error when it is not there.
+std::string recorded_log(const std::string& name);
+
 /// Flies a scenario file on virtual time and records every message as tern-logger would. Ends a second after the
 /// verdict.
 /// @param start  when its time begins

@@ -25,14 +25,11 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-const std::vector<std::string> kShort = {"world.count=40", "uav.goal=[24, 0, 1]", "executor.rate_hz=10"};
-
 /// A short flight among movers, past a region, recorded once, and its logs with something missing.
 class AuditOfALog : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TempFolder;
-    testing::record_flight(TERN_SCENARIO_FOLDER "/corridor_demo.yaml", kShort, good());
     record_ = new FlightRecord(load_flight(good()).value());
   }
   static void TearDownTestSuite() {
@@ -40,7 +37,7 @@ class AuditOfALog : public ::testing::Test {
     delete folder_;
   }
 
-  static std::string good() { return folder_->file("good.lcm"); }
+  static std::string good() { return testing::recorded_log("demo"); }
   static std::string another_file() { return folder_->file("log" + std::to_string(++files_) + ".lcm"); }
   /// Seconds of the flight, as a log's time of receipt.
   static std::int64_t at_us(double seconds) { return (record_->zero() + Duration::from_seconds(seconds)).us; }

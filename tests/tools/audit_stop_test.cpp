@@ -20,16 +20,13 @@ class AuditOfStops : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TempFolder;
-    testing::record_flight(
-        TERN_SCENARIO_FOLDER "/quadrotor_corridor.yaml",
-        {"world.count=5", "uav.goal=[20, 0, 1]", "simulator.wind.burst=40", "simulator.wind.burst_at_s=3"}, good());
     record_ = new FlightRecord(load_flight(good()).value());
   }
   static void TearDownTestSuite() {
     delete record_;
     delete folder_;
   }
-  static std::string good() { return folder_->file("good.lcm"); }
+  static std::string good() { return testing::recorded_log("gust"); }
 
   static std::vector<Commitment> stops() {
     std::vector<Commitment> found;

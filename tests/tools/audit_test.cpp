@@ -27,13 +27,11 @@ using ::testing::HasSubstr;
 using ::testing::IsSubsetOf;
 using ::testing::Not;
 
-/// A short flight among movers, past a region, recorded once for the tests of this process.
+/// A short flight among movers, past a region, recorded once for all tests (tests/flights).
 class AuditedFlight : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TempFolder;
-    testing::record_flight(TERN_SCENARIO_FOLDER "/corridor_demo.yaml",
-                           {"world.count=40", "uav.goal=[24, 0, 1]", "executor.rate_hz=10"}, good());
     record_ = new FlightRecord(load_flight(good()).value());
   }
   static void TearDownTestSuite() {
@@ -41,7 +39,7 @@ class AuditedFlight : public ::testing::Test {
     delete folder_;
   }
 
-  static std::string good() { return folder_->file("good.lcm"); }
+  static std::string good() { return testing::recorded_log("demo"); }
 
   /// Changes every message of a channel for which `change` says so; what it says false of is left out.
   template <class T>

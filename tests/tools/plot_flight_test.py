@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""plot_flight_test.py BIN SCENARIO: docs/examples/plot_flight.py reads a flight, and draws what its log holds.
+"""plot_flight_test.py BIN LOG: docs/examples/plot_flight.py reads a flight, and draws what its log holds.
 
 matplotlib's place is taken by a module that notes what is drawn, so that no more is needed than for the build.
 """
@@ -51,15 +51,13 @@ def subplots(rows, columns, **options):
 '''
 
 root = pathlib.Path(__file__).resolve().parents[2]
-bin_folder, scenario = map(pathlib.Path, sys.argv[1:])
+bin_folder, log = map(pathlib.Path, sys.argv[1:])
 with tempfile.TemporaryDirectory() as name:
     work = pathlib.Path(name)
     (work / 'matplotlib').mkdir()
     (work / 'matplotlib' / '__init__.py').touch()
     (work / 'matplotlib' / 'pyplot.py').write_text(RECORDER)
-    subprocess.run([bin_folder / 'tern-campaign', 'fly-one', '--world', scenario, '--charge', 'counts', '--folder', work],
-                   check=True, stdout=subprocess.DEVNULL)
-    subprocess.run([sys.executable, root / 'docs/examples/plot_flight.py', work / 'flight.lcm', work / 'flight.png'], check=True,
+    subprocess.run([sys.executable, root / 'docs/examples/plot_flight.py', log, work / 'flight.png'], check=True,
                    env={**os.environ, 'PYTHONPATH': f'{work}:{bin_folder.parent / "python"}'})
     drawn = json.loads((work / 'flight.png').read_text())
 

@@ -37,13 +37,7 @@ std::size_t count(const std::string& text, const std::string& what) {
   return n;
 }
 
-FlightRecord short_flight() {
-  const TempFolder folder;
-  const std::string log = folder.file("flight.lcm");
-  tern::testing::record_flight(TERN_SCENARIO_FOLDER "/corridor_demo.yaml",
-                               {"world.count=40", "uav.goal=[24, 0, 1]", "executor.rate_hz=10"}, log);
-  return audit::load_flight(log).value();
-}
+FlightRecord short_flight() { return audit::load_flight(tern::testing::recorded_log("demo")).value(); }
 
 TEST(Report, IsOneFileThatAsksTheNetworkForNothing) {
   const FlightRecord record = short_flight();

@@ -41,13 +41,11 @@ class ExportedFlight : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TempFolder;
-    tern::testing::record_flight(TERN_SCENARIO_FOLDER "/corridor_demo.yaml", {"world.count=100", "uav.goal=[6, 0, 1]"},
-                                 log());
     const auto told = export_log({.log = log(), .csv_folder = "", .mcap_file = mcap(), .suffix = ""});
     ASSERT_TRUE(told) << told.error().message;
   }
   static void TearDownTestSuite() { delete folder_; }
-  static std::string log() { return folder_->file("flight.lcm"); }
+  static std::string log() { return tern::testing::recorded_log("crowded"); }
   static std::string mcap() { return folder_->file("flight.mcap"); }
 
   static inline TempFolder* folder_ = nullptr;

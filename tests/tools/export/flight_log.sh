@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# flight_log.sh TERN_CAMPAIGN TERN_EXPORT SCENARIO: a flight recorded and exported; its MCAP file read by npm's @mcap/core,
-# its tables by their heads.
+# flight_log.sh TERN_EXPORT LOG: a recorded flight exported; its MCAP file read by npm's @mcap/core, its tables by their heads.
 # Without node or npm it fails: what was not run was not tested (launch_scripts/test.sh installs them).
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -10,8 +9,7 @@ done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-"$1" fly-one --world "$3" --seed 1 --charge counts --folder "$work" >/dev/null
-"$2" "$work/flight.lcm" --csv "$work/tables" --mcap "$work/flight.mcap"
+"$1" "$2" --csv "$work/tables" --mcap "$work/flight.mcap"
 
 cp "$here"/{package.json,package-lock.json,check_mcap.mjs} "$work"
 (cd "$work" && npm ci --silent --no-audit --no-fund && node check_mcap.mjs flight.mcap) | tee "$work/topics"
