@@ -1,10 +1,16 @@
 #!/usr/bin/env bash
-# test.sh [CTEST_OPTION...]: installs what is missing, builds everything (release), and runs every test.
+# test.sh [--all | --no-flights] [CTEST_OPTION...]: installs what is missing, builds everything (release), and runs the tests. With
+# --all those of the label soak, too: more cases and more live flights, which take hours. With --no-flights no live flight.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 help_if_asked "$@"
+without=(-LE soak)
+case ${1:-} in
+  --all) without=() && shift ;;
+  --no-flights) without=(-LE 'soak|live') && shift ;;
+esac
 "$TERN_ROOT/launch_scripts/install.sh" "$TERN_ROOT"/launch_scripts/packages*.txt
 "$TERN_ROOT/launch_scripts/build.sh" all
-exec ctest --test-dir "$TERN_ROOT/build/release" -j2 --output-on-failure --no-tests=error "$@"
+exec ctest --test-dir "$TERN_ROOT/build/release" -j2 --output-on-failure --no-tests=error "${without[@]}" "$@"

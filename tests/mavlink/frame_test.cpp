@@ -9,7 +9,7 @@
 #include "core/base/random.h"
 #include "mavlink/messages.h"
 #include "runtime/mac.h"
-#include "tests/support/fuzz_count.h"
+#include "tests/support/effort.h"
 
 namespace tern::mavlink {
 namespace {
@@ -168,7 +168,7 @@ TEST(Frame, HostileBytesAreSkippedOrMeanWhatTheySay) {
   Rng rng(7);
   const auto all = recorded();
   const auto pick = [&](std::size_t n) { return static_cast<std::size_t>(rng.uniform() * static_cast<double>(n)); };
-  const int count = support::fuzz_count(20'000);
+  const int count = support::at_effort(20'000);
   Parser parser;
   for (int k = 0; k < count; ++k) {
     Bytes bytes = all[pick(all.size())].bytes;

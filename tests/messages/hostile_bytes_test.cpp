@@ -6,7 +6,7 @@
 #include "messages/wire.h"
 #include "tests/messages/allocation_meter.h"
 #include "tests/messages/messages_under_test.h"
-#include "tests/support/fuzz_count.h"
+#include "tests/support/effort.h"
 #include "tests/support/generators.h"
 #include "tests/support/random_splines.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using support::random_integer;
 
-const int kMutants = support::fuzz_count(100'000);
+const int kMutants = support::at_effort(100'000);
 /// A message of 60 kB is held twice, as generated type and as value, in vectors that may have doubled their capacity.
 constexpr std::size_t kMostAllocated = 512 * 1024;
 

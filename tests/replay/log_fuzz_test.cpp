@@ -12,7 +12,7 @@
 #include "flight_log/flight_log.h"
 #include "messages/codec.h"
 #include "tests/messages/allocation_meter.h"
-#include "tests/support/fuzz_count.h"
+#include "tests/support/effort.h"
 #include "tests/support/random_splines.h"
 
 namespace tern {
@@ -20,7 +20,7 @@ namespace {
 
 using support::random_integer;
 
-const int kMutations = support::fuzz_count(10'000);
+const int kMutations = support::at_effort(10'000);
 constexpr std::size_t kMostHeld = std::size_t{64} << 20U;  // bytes
 constexpr std::size_t kLogBytes = 20'000;                  // of the log: enough for every kind of message
 
@@ -70,7 +70,7 @@ class MemoryFile {
   int fd_;
 };
 
-TEST(LogFuzz, TenThousandMutationsNeitherCrashNorTakeMemory) {
+TEST(LogFuzz, MutationsNeitherCrashNorTakeMemory) {
   std::ifstream file(TERN_GOLDEN_LOG, std::ios::binary);
   std::string whole((std::istreambuf_iterator<char>(file)), {});
   ASSERT_GT(whole.size(), kLogBytes);

@@ -15,7 +15,7 @@
 
 #include "random_scenario.h"
 #include "tests/messages/allocation_meter.h"
-#include "tests/support/fuzz_count.h"
+#include "tests/support/effort.h"
 
 namespace tern {
 namespace {
@@ -112,7 +112,7 @@ TEST(ScenarioFile, MutatedIsReadOrRefusedWithItsNameAndTakesLittle) {
   std::sort(originals.begin(), originals.end());
   Rng rng(7);
   int was_read = 0;
-  const int count = support::fuzz_count(1'000);
+  const int count = support::at_effort(1'000);
   for (int k = 0; k < count; ++k) {
     const std::string yaml = mutated(originals[static_cast<std::size_t>(k) % originals.size()], rng);
     const AllocationMeter meter;

@@ -8,14 +8,14 @@
 #include "semantic_mapper/sources/las.h"
 #include "semantic_mapper/sources/ply.h"
 #include "tests/support/cloud_files.h"
-#include "tests/support/fuzz_count.h"
+#include "tests/support/effort.h"
 
 namespace tern {
 namespace {
 
 using support::FileBytes;
 
-const int kMutations = support::fuzz_count(10'000);
+const int kMutations = support::at_effort(10'000);
 
 PointCloud some_points(Rng& rng) {
   PointCloud points;

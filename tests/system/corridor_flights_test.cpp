@@ -1,6 +1,7 @@
 // Whole flights through generated worlds.
 #include <gtest/gtest.h>
 
+#include "tests/support/effort.h"
 #include "tests/support/watched_flight.h"
 
 namespace tern::testing {
@@ -12,7 +13,7 @@ TEST_P(PaperCorridor, IsFlownThroughUnharmedAndEveryRequestIsAnsweredOnceAndInTi
   fly_and_expect_all_well("paper_corridor", {"world.count=100", "seed=" + std::to_string(GetParam())});
 }
 
-INSTANTIATE_TEST_SUITE_P(Seed, PaperCorridor, ::testing::Range(1, 11));
+INSTANTIATE_TEST_SUITE_P(Seed, PaperCorridor, ::testing::Range(1, 1 + support::listed_at_effort(3, 10)));
 
 class OtherWorlds : public ::testing::TestWithParam<const char*> {};
 

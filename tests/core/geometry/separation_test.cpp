@@ -10,6 +10,7 @@
 #include "core/geometry/box.h"
 #include "core/geometry/distance.h"
 #include "core/geometry/separation_lp.h"
+#include "tests/support/effort.h"
 #include "tests/support/exact_separation.h"
 #include "tests/support/point_sets.h"
 
@@ -20,7 +21,7 @@ namespace {
 constexpr double kOracleRounding = 1e-12;
 // The widest slab is found up to rounding of coordinates up to 1e4 m.
 constexpr double kGapRounding = 1e-9;
-constexpr int kPairs = 100'000;
+const int kPairs = support::at_effort(100'000);
 constexpr std::uint64_t kSeed = 20'260'721;
 
 // Calls claim(pair, truth) on kPairs pairs of all kinds; stops at the first failure, naming it.

@@ -8,6 +8,7 @@
 
 #include "core/base/random.h"
 #include "core/base/types.h"
+#include "tests/support/effort.h"
 #include "tests/support/random_splines.h"
 #include "tests/support/reach_program.h"
 
@@ -15,6 +16,9 @@ namespace tern {
 namespace {
 
 using oracle::ReachProgram;
+
+const auto kComparisons = static_cast<std::uint64_t>(support::at_effort(4000));
+const auto kChains = static_cast<std::uint64_t>(support::at_effort(5000));
 
 ReachProgram random_program(Rng& rng) {
   ReachProgram p;
@@ -42,7 +46,7 @@ ReachProgram scaled(ReachProgram p, double factor) {
 TEST(AxisReach, NextVelocityIsExactlyWhatTheLinearProgrammeAllows) {
   int compared = 0;
   int impossible = 0;
-  for (std::uint64_t seed = 1; seed <= 4000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kComparisons; ++seed) {
     Rng rng(seed);
     const ReachProgram p = random_program(rng);
     const AxisReach reach = reach_of(p);
@@ -64,8 +68,8 @@ TEST(AxisReach, NextVelocityIsExactlyWhatTheLinearProgrammeAllows) {
     EXPECT_NEAR(got.low, exact->low, 1e-6) << "seed " << seed;
     EXPECT_NEAR(got.high, exact->high, 1e-6) << "seed " << seed;
   }
-  EXPECT_GT(compared, 1000);
-  EXPECT_GT(impossible, 500);
+  EXPECT_GT(compared, support::at_effort(1000));
+  EXPECT_GT(impossible, support::at_effort(500));
 }
 
 /// What a chain of choices from rest or from a random finishable state came to.
@@ -101,7 +105,7 @@ Chain walk(Rng& rng, const ReachProgram& p, const AxisReach& reach, double v, do
 
 TEST(AxisReach, FromEveryVelocityItAllowsRestIsReachedWithinTheLimits) {
   int walks = 0;
-  for (std::uint64_t seed = 1; seed <= 5000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kChains; ++seed) {
     Rng rng(seed);
     const ReachProgram p = random_program(rng);
     const AxisReach reach = reach_of(p);
@@ -114,12 +118,12 @@ TEST(AxisReach, FromEveryVelocityItAllowsRestIsReachedWithinTheLimits) {
     ASSERT_LE(chain.worst, 0.1 * 1e-6) << "seed " << seed;  // a tenth of kLimitTolerance
     ASSERT_NEAR(chain.end_v, 0.0, 1e-8) << "seed " << seed;
   }
-  EXPECT_GT(walks, 1500);
+  EXPECT_GT(walks, support::at_effort(1500));
 }
 
 TEST(AxisReach, NoChainGoesFartherThanTheDisplacementBound) {
   double closest = 1.0;
-  for (std::uint64_t seed = 1; seed <= 5000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kChains; ++seed) {
     Rng rng(seed);
     const ReachProgram p = random_program(rng);
     const AxisReach reach = reach_of(p);
@@ -139,7 +143,7 @@ TEST(AxisReach, NoChainGoesFartherThanTheDisplacementBound) {
 TEST(AxisReach, NoChainOfStepsBeforeTheRestGoesFartherThanTheDisplacementBound) {
   double closest = 1.0;
   int nearer = 0;  // than the bound that knows of no jerk limit
-  for (std::uint64_t seed = 1; seed <= 5000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kChains; ++seed) {
     Rng rng(seed);
     const ReachProgram p = random_program(rng);
     const AxisReach rest = reach_of(p);
@@ -168,7 +172,7 @@ TEST(AxisReach, NoChainOfStepsBeforeTheRestGoesFartherThanTheDisplacementBound) 
     nearer += step.displacement(2, v_1).high < 0.9 * wide.displacement(2, v_1).high ? 1 : 0;
   }
   EXPECT_LT(closest, 1e-6);
-  EXPECT_GT(nearer, 1000);
+  EXPECT_GT(nearer, support::at_effort(1000));
 }
 
 TEST(AxisReach, TheBoundShrinksToNothingAtTheEnd) {
