@@ -15,7 +15,8 @@ mkdir -p "$folder"
 # The flight's nodes log to stdout too.
 "$BUILD/bin/scaling" --config "$ROOT/scenarios/paper_corridor.yaml" "$@" | grep -v '^\[' >"$folder/scaling.csv"
 {
-  printf '# How cost grows\n\nBy `benchmarks/scaling.sh`, which also wrote [scaling.csv](scaling.csv). Commit %s, %s, %s. Thread CPU time.\n' \
+  printf '# How cost grows\n\n`benchmarks/scaling.sh` writes this page and [scaling.csv](scaling.csv). Times are thread CPU time.\n'
+  printf '[speed.md](speed.md#how-cost-grows) says what they mean.\n\n*Commit %s, %s, %s.*\n' \
     "$(commit)" "$(compiler)" "$(machine)"
   awk -F, '
     NR == 1 { next }
@@ -24,7 +25,7 @@ mkdir -p "$folder"
     !(($1, $3) in column) { column[$1, $3] = 1; columns[$1, ++width[$1]] = $3 }
     { value[$1, $2, $3] = $4 }
     END {
-      title["world"] = "Obstacles in the world (20 of them near)"
+      title["world"] = "Obstacles in the world, 20 of them near"
       title["reach"] = "Obstacles in reach"
       title["voxels"] = "Voxels"
       title["intervals"] = "Intervals J (paper_corridor 100, seed 1)"
