@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Tables in Markdown of the worlds that are flown by perception, from what results.sh --perception made in a folder.
+"""Prints tables in Markdown of the worlds flown by perception, from a folder that results.sh --perception made.
 
-  perception.py FOLDER            reached, contacts, times, beside the same flights with motion known
-  perception.py FOLDER BEFORE     in pairs against another build's flights of the same seeds
-  perception.py --short FOLDER     what was promised and what was kept of what has been seen for a second
-  perception.py --coverage FOLDER  of each class and horizon, with intervals; "!": cannot have been true
-  perception.py --contacts FOLDER  what had been known of who was touched, by the audits of the flights kept there
+  perception.py FOLDER            reached, contacts and times, with the same flights with known motion
+  perception.py FOLDER BEFORE     in pairs with another build's flights of the same seeds
+  perception.py --short FOLDER     coverage and width of tracks seen for a second
+  perception.py --coverage FOLDER  coverage of each class and horizon, with intervals; "!": 0.99 is refuted
+  perception.py --contacts FOLDER  predictions of touched obstacles before the contact, from the audits kept there
 """
 import csv
 import io
@@ -21,7 +21,7 @@ WORLDS = ["perception_only", "mader_perception_only", "sando_perception", "peopl
           "people_hermes_120", "people_eth", "people_hotel", "drones", "crowd", "crowd_eth"]
 CLASSES = ["new", "young", "grown", "old", "at rest", "unseen"]
 AHEAD = ["0.25", "0.5", "1", "2", "whole"]
-PROMISED = 0.99
+STATED = 0.99
 RESTS = 0.1  # m/s, and slower
 
 
@@ -79,7 +79,7 @@ def by_key(s):
     return {(row["what"], row["horizon"], row["promised"]): row for row in s["coverage"]}
 
 
-def kept(row):
+def covered(row):
     if row is None:
         return "–"
     low, high = row["ci95"]
@@ -87,42 +87,42 @@ def kept(row):
 
 
 def slashed(found, what, key, digits, ahead=AHEAD[:4]):
-    return " / ".join(number(found.get((what, h, PROMISED), {}), key, digits) for h in ahead)
+    return " / ".join(number(found.get((what, h, STATED), {}), key, digits) for h in ahead)
 
 
 def short(folder):
-    """What was seen for a second; what had just come into view; plans."""
+    """Tracks seen for a second, tracks seen for less, and plans."""
     rows = []
     for world in there(folder):
         found = by_key(summary(folder, world))
-        fresh = [found[key]["share"] for key in found if key[0] in CLASSES[:3] and key[1] in AHEAD[:4] and key[2] == PROMISED]
+        fresh = [found[key]["share"] for key in found if key[0] in CLASSES[:3] and key[1] in AHEAD[:4] and key[2] == STATED]
         plans = [f"{row['share']:.3f}" for key, row in sorted(found.items(), key=lambda r: -r[0][2]) if key[0] == "plans"]
         rows.append([world, slashed(found, "old", "share", 3), slashed(found, "old", "half_m", 2),
                      f"{min(fresh):.3f}" if fresh else "–", " / ".join(plans)])
-    table(["world", "seen for a second: kept to 0.25 / 0.5 / 1 / 2 s", "half-width to them, m",
-           "seen for less: kept at the least", "plans at 0.99 / 0.9 / 0.6"], rows)
+    table(["world", "seen for a second: coverage to 0.25 / 0.5 / 1 / 2 s", "half-width, m",
+           "seen for less: least coverage", "claims of plans at 0.99 / 0.9 / 0.6"], rows)
 
 
 def coverage(folder):
-    head = ["world", "what", "promises"] + [f"kept to {'the end' if h == 'whole' else h + ' s'}" for h in AHEAD]
-    head += ["half-width to 0.25 / 0.5 / 1 / 2 s, m"]
+    head = ["world", "class", "intervals"] + [f"to {'the end' if h == 'whole' else h + ' s'}" for h in AHEAD]
+    head += ["half-width at 0.25 / 0.5 / 1 / 2 s, m"]
     rows, plans = [], []
     for world in there(folder):
         found = by_key(summary(folder, world))
         for what in CLASSES:
-            cells = [found.get((what, h, PROMISED)) for h in AHEAD]
+            cells = [found.get((what, h, STATED)) for h in AHEAD]
             if not any(cells):
                 continue
-            rows.append([world, what, str(max(c["made"] for c in cells if c)), *map(kept, cells), slashed(found, what, "half_m", 2)])
+            rows.append([world, what, str(max(c["made"] for c in cells if c)), *map(covered, cells), slashed(found, what, "half_m", 2)])
         claims = [row for row in summary(folder, world)["coverage"] if row["what"] == "plans"]
-        plans.append([world] + [f"{row['made']}: {kept(row)}" for row in sorted(claims, key=lambda r: -r["promised"])])
+        plans.append([world] + [f"{row['made']}: {covered(row)}" for row in sorted(claims, key=lambda r: -r["promised"])])
     table(head, rows)
     levels = sorted({row["promised"] for world in there(folder) for row in summary(folder, world)["coverage"] if row["what"] == "plans"}, reverse=True)
     table(["claims of plans"] + [str(level) for level in levels], plans)
 
 
 def known_before(folder, world):
-    """The audits' contacts of a world, by whether the vehicle moved."""
+    """The audits' contacts of a world: of moving vehicles, and of vehicles at rest."""
     by = {True: [], False: []}
     for path in sorted(folder.glob(f"{world}.csv.failures/seed-*/audit.json")):
         contact = json.loads(path.read_text()).get("contact")
@@ -151,9 +151,9 @@ def contact_table(folder):
     rows = [contact_row(world, moved, touched)
             for world in WORLDS for moved, touched in known_before(folder, world).items() if touched]
     if not rows:
-        sys.exit(f"{folder}: no WORLD.csv.failures/seed-N/audit.json tells of a contact")
-    table(["world", "contacts", "vehicle, m/s", "had been in PREDICTIONS for, s", "α needed of promised, 0.25 / 0.5 / 1 s before, m",
-           "promises broken", "last plan of a known confidence, s before"], rows)
+        sys.exit(f"{folder}: no WORLD.csv.failures/seed-N/audit.json has a contact")
+    table(["world", "contacts", "vehicle, m/s", "had been in PREDICTIONS for, s", "α needed of published, 0.25 / 0.5 / 1 s before, m",
+           "intervals that missed", "last plan of a known confidence, s before"], rows)
 
 
 def main(words):
@@ -170,7 +170,7 @@ def main(words):
         short(folder)
     elif before:
         table(["world", "reached before / now", "contacts moving / at rest before", "now", "only before / only now", "time p50, s",
-               "half-width of who is seen for a second, to 0.5 / 1 / 2 s before, m", "now", "kept to them before", "now"],
+               "half-width of tracks seen for a second, at 0.5 / 1 / 2 s, before, m", "now", "coverage to them before", "now"],
               [pair_row(folder, before, world) for world in there(folder) if summary(before, world)])
     else:
         table(["world", "reached, 95 % interval", "contacts moving / at rest, timeouts", "flight time p50 / p95, s",
