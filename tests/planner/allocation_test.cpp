@@ -1,4 +1,4 @@
-// After warm-up the hot path allocates nothing but answers: in this executable malloc counts.
+// After warm-up, planning allocates only its results. In this executable malloc counts its calls.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -32,7 +32,7 @@ TEST(AllocationCounter, CountsVectorsAndMatrices) {
   EXPECT_EQ(allocations_of([&] { numbers[0] += static_cast<int>(points.norm()); }), 0);
 }
 
-/// A vehicle at rest, movers around it, and the way ahead searched.
+/// A vehicle at rest among movers, with a search ahead.
 struct Scene {
   std::vector<Track> tracks;
   std::vector<PlanningObstacle> obstacles;
@@ -92,7 +92,7 @@ TEST(Allocation, ConvexProblemsAndTheirSolverAllocateNothingOnceTheyHaveSeenOneA
   }
 }
 
-// What is left: the answer's and the candidates' control points, certificates and paths, and CGAL's hulls.
+// The remaining allocations: control points, certificates and paths of answer and candidates, and CGAL's hulls.
 TEST(Allocation, AWorkspaceChangesNoAnswerAndWhatPlansAllocateDoesNotGrowWithTheWork) {
   constexpr long kOfAnAnswer = 60;
   constexpr long kOfAHull = 450;

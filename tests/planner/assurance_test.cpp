@@ -16,7 +16,7 @@ constexpr UTime kStart{50'000'000};
 constexpr AlphaShares kShares{0.9F, 0.5F, 0.3F, 0.1F};
 constexpr double kSideStepS = 0.5;
 
-/// A post that is believed to stand there, α as wide.
+/// An estimated post at rest, with a constant α.
 Track believed_post(std::int64_t id, const Vec3& p, double alpha) {
   Track track = straight_mover(id, p, Vec3::Zero(), 0.3, kStart, 8.0);
   track.half_extents.z() = 5.0;
@@ -26,7 +26,7 @@ Track believed_post(std::int64_t id, const Vec3& p, double alpha) {
   return track;
 }
 
-/// New in view at p at that time: nothing but its place is known, and that it moves at 5 m/s at most.
+/// A track that is new at p: only its position is known, and that its speed is at most 5 m/s.
 Track new_thing(std::int64_t id, const Vec3& p, UTime at) {
   constexpr int kPieces = 45;
   Track track = straight_mover(id, p, Vec3::Zero(), 0.3, at, 0.1);
@@ -39,7 +39,7 @@ Track new_thing(std::int64_t id, const Vec3& p, UTime at) {
   return track;
 }
 
-/// A world whose predictions promise 0.99.
+/// A world whose predictions have confidence 0.99.
 PlanningWorld promised_world(std::vector<Track> tracks, const HorizonRequest& request) {
   PlanningWorld world = world_of(std::move(tracks), go_to(Vec3(10, 0, 1)), request);
   TrackSet set = world.predictions->set;
@@ -48,7 +48,7 @@ PlanningWorld promised_world(std::vector<Track> tracks, const HorizonRequest& re
   return world;
 }
 
-/// At rest for 0.5 s in a corridor 3 m wide, with a post in its middle 1.5 m ahead.
+/// A vehicle at rest for 0.5 s in a corridor 3 m wide, with a post in its middle 1.5 m ahead.
 class InACorridor : public ::testing::Test {
  protected:
   InACorridor() { request_.flight_box = Box(Vec3(-5, -1.5, 0), Vec3(20, 1.5, 2)); }
@@ -144,7 +144,7 @@ TEST_F(InACorridor, WhatIsPromisedIsFlownWhereThereIsRoom) {
 }
 
 TEST_F(InACorridor, ThePlanIsOfTheGreatestConfidenceThatLeavesAWay) {
-  // Beside the post there are 1.5 m less 0.3 m, α and the body's 0.2 m: none at levels 0 and 1.
+  // Beside the post 1.5 m − 0.3 m − α are left for the body of 0.2 m: not enough at levels 0 and 1.
   const Plan got = answer({believed_post(1, Vec3(1.8, 0, 1), 1.15)});
   EXPECT_EQ(got.outcome, PlanOutcome::Optimized);
   EXPECT_EQ(got.level, 2);
@@ -193,7 +193,7 @@ TEST_F(InACorridor, WhoHasRestedOnTheWayForLongTakesWhatHasNoNumber) {
 }
 
 TEST_F(InACorridor, WhoMayStayWaitsTheLongerTheLessSureItIsToGo) {
-  // Ways are left at level 2, and where it is wider at level 4 alone.
+  // A way is free at level 2; for a wider α only at level 4.
   const auto sets_out_after = [&](double alpha, double time_at_rest_s) {
     const Box corridor = request_.flight_box;
     request_ = request_at(rest_.end() + Duration::from_seconds(time_at_rest_s), rest_);

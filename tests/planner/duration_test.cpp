@@ -11,7 +11,8 @@
 namespace tern {
 namespace {
 
-/// Oracle: the least time over many cruising speeds u: v0 → u, cruise as long as the distance asks, u → 0.
+/// Oracle: the least time over many cruising speeds u: from v0 to u, cruise for the remaining distance, then brake to
+/// 0.
 double brute_force(double d, double v0, double v_max, double a) {
   double best = INFINITY;
   constexpr int kSpeeds = 200'000;

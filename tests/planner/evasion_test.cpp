@@ -1,4 +1,4 @@
-// A vehicle at rest in open space, and something that comes straight at it.
+// A vehicle at rest in open space evades an obstacle that comes straight at it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,8 +33,8 @@ struct Encounter {
   bool evaded = false;          ///< at least one answer was an evasion or a new plan
 };
 
-/// The box's centre comes from `direction` at `speed` and would meet the vehicle's 1 s after it is first seen. A loop
-/// at 10 Hz flies.
+/// The centre of the box comes from `direction` at `speed`, and would reach the vehicle's centre 1 s after it is first
+/// predicted. A loop at 10 Hz flies the plans.
 Encounter meet(const Vec3& direction, double speed, GoalMode mode) {
   const Vec3 home(0, 0, 50);
   PlannerConfig config;

@@ -63,7 +63,7 @@ TEST(HoldDemand, TakesHalfTheHorizonAtMost) {
   EXPECT_EQ(hold_demand(HorizonRequest{}, config, {}, 1e9).cap_s, 10.0);
 }
 
-// Not for what a box would ask that is as wide as the widest and as high as the highest.
+// The demand is that of the worst single mover, not of a box as wide as the widest and as high as the highest.
 TEST(HoldDemand, GivesTheTimeToLeaveTheWayOfEachMover) {
   Rng rng(1);
   for (int k = 0; k < 100; ++k) {

@@ -42,7 +42,7 @@ TEST(Foresight, HoldsWithinItsTimesForEveryTrackAndRegion) {
       } else {
         EXPECT_TRUE(grown(products.obstacles[k].box, Vec3::Constant(1e-9)).contains(until)) << "seed " << seed;
       }
-      // Where it may be without a piece that says so.
+      // A time at which it may be there although no piece places it there.
       if (foresight.predicted_until <= track.motion.end()) continue;
       const Vec3 p = track.motion.sample(track.motion.end()).p;
       const UTime grows = std::min(foresight.predicted_until, track.motion.end() + Duration{100'000'000}) - Duration{1};

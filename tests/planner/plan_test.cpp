@@ -47,7 +47,7 @@ VoxelMap random_map(Rng& rng, const Vec3& around) {
   return map;
 }
 
-/// Believed to be somewhere within a metre.
+/// An estimated track with an α of one metre.
 void make_estimated(Rng& rng, Track& track) {
   track.kind = TrackKind::Estimated;
   for (Vec3& alpha : track.alpha) {
@@ -120,7 +120,7 @@ TEST(Planner, EveryAnswerOnTheWayIsCertifiedTooAndTheFirstIsTheFallback) {
       EXPECT_EQ(fault_of(standing, d.request, d.world, d.config), "") << "seed " << seed;
       ASSERT_NO_THROW((void)encode(standing));
     }
-    // An answer never becomes worse than one that stood before.
+    // No incumbent is worse than an earlier one.
     if (last.outcome == PlanOutcome::NoPlan) {
       EXPECT_EQ(observer.answers.back().outcome, PlanOutcome::NoPlan) << "seed " << seed;
     }
@@ -157,7 +157,7 @@ TEST(Planner, WhatABudgetCutReplaysToTheSameBytes) {
   EXPECT_GT(cut, 20);
 }
 
-/// At rest at home with a goal to the east, alone.
+/// A vehicle at rest at home, with a goal to the east and no obstacles.
 class PlannerAlone : public ::testing::Test {
  protected:
   HorizonRequest request_ = request_at(kStart + Duration{1'000'000}, resting_at(Vec3(0, 0, 1), kStart));
@@ -240,7 +240,7 @@ TEST_F(PlannerAlone, AGoalBesideAWallIsNotBlocked) {
   EXPECT_EQ(answer(request_, world_of({wall_at(-0.005)}, goal_, request_)).reason, PlanReason::GoalBlocked);
 }
 
-/// A load that hangs 0.6 m below: there is room for it under the goal, and none above.
+/// A body with a load that hangs 0.6 m below it. Only below the goal is there room.
 TEST_F(PlannerAlone, WhatHangsBelowTheVehicleNeedsNoRoomAboveIt) {
   request_.body.vertices.resize(3, 2);
   request_.body.vertices << 0, 0, 0, 0, 0, -0.6;
@@ -258,7 +258,7 @@ TEST_F(PlannerAlone, AVehicleBehindWallsSaysSoToo) {
 }
 
 TEST_F(PlannerAlone, KeepsWhatIsCommittedWhenNothingBetterIsFound) {
-  // Fly the first plan, and be asked again with a search that cannot come as far.
+  // Fly the first plan, and ask again with a search that cannot reach as far.
   const PlanningWorld world = world_of({}, goal_, request_);
   const Plan first = answer(request_, world);
   HorizonRequest next = request_at(request_.t_s + Duration{100'000}, first.trajectory);
@@ -293,7 +293,7 @@ TEST_F(PlannerAlone, AskedToHoldItStaysWhereItIs) {
 }
 
 TEST_F(PlannerAlone, ACommittedTrajectoryIsCheckedHoweverFarItGoes) {
-  // Committed under another planner's sphere: the wall stands beyond this one's.
+  // The committed trajectory is from a planner with a larger sphere: the wall is outside this one's.
   TimedSpline far = resting_at(Vec3(0, 0, 1), kStart);
   far.interval = Duration{500'000};
   far.control_points.resize(3, 15);
@@ -383,7 +383,7 @@ TEST_F(PlannerAlone, FromNearlyTheTopSpeedWithOutwardAccelerationItFindsANewPlan
         const HorizonRequest request = request_at(kStart, committed);
         const PlanningWorld world = world_of({}, go_to(start.p + 10.0 * start.v), request);
         const Plan got = answer(request, world, PlannerConfig{});
-        // A new plan was found, though it need not beat the committed one.
+        // A new plan was found; it may be worse than the committed trajectory.
         EXPECT_TRUE(got.outcome == PlanOutcome::Optimized || got.outcome == PlanOutcome::SearchOnly ||
                     got.reason == PlanReason::WorsePlan)
             << "axis " << axis << ", sign " << sign << ", " << outward << " m/s^2: outcome "
@@ -420,7 +420,7 @@ TEST(PlannerInALoop, AStrongAttractionDoesNotParkTheVehicle) {
   }
 }
 
-/// Loops among movers, each with a vehicle of its own: all that is flown stays within its thrust, tilt and body rates.
+/// Loops among movers, each with another vehicle: every flown plan keeps its thrust, tilt and body rates.
 TEST(PlannerInALoop, AMultirotorFliesOnlyWhatItsPropellersCan) {
   double farthest = 0.0;
   int optimized = 0;

@@ -14,10 +14,10 @@ namespace {
 using namespace support;
 
 constexpr UTime kNow{50'000'000};
-/// clear_start() keeps the body this much farther away than it must, at most, m.
+/// clear_start() leaves at most this much more room than necessary, m.
 constexpr double kSlack = 2e-3;
 
-/// Room between the body at the origin and a box, m.
+/// Returns the distance between the body at the origin and a box, m.
 double room(const Body& body, const Box& box) { return distance(box_corners(box), body.vertices) - body.radius; }
 
 TEST(ClearStart, ScalesAlphaToTheLargestValueThatLeavesTheBodyClear) {

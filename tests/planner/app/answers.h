@@ -12,7 +12,7 @@
 
 namespace tern::support {
 
-/// Time that moves only when told to, also while a worker reads it.
+/// A clock that moves only when the test advances it; a worker may read it meanwhile.
 class SharedClock final : public Clock {
  public:
   explicit SharedClock(UTime start) : us_(start.us) {}
@@ -23,7 +23,7 @@ class SharedClock final : public Clock {
   std::atomic<std::int64_t> us_;
 };
 
-/// Hears every answer.
+/// Receives every answer.
 class Answers {
  public:
   Answers(const std::shared_ptr<lcm::LCM>& lcm, const Clock& clock) : lcm_(lcm), bus_(lcm, clock, 999) {

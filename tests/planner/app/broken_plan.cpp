@@ -1,5 +1,5 @@
-// plan() as it must never be: linked in place of the real one into a planner process whose end is tested. A request
-// with id 1 is never answered, any other one throws.
+// A broken plan(), linked into a planner process in place of the real one, to test how the process ends. For a request
+// with id 1 it never returns; for any other it throws.
 #include <future>
 #include <stdexcept>
 

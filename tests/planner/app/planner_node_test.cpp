@@ -51,14 +51,14 @@ class PlannerNodeTest : public ::testing::Test {
     answers_.hear();
     return name;
   }
-  /// As pages send it.
+  /// Sends a goal to hold, as viewer pages do.
   MessageName tell_hold(std::int64_t id) { return tell_goal(id, Vec3::Zero(), GoalMode::Hold); }
   void tell_world(std::vector<Track> tracks = {}) {
     tell_predictions(std::move(tracks));
     tell_map(support::free_map({8, 8, 8}));
     tell_goal(1, kEast);
   }
-  /// Until the map's fields and the goal's distances are ready.
+  /// Waits until the map's fields and the goal's distances are ready.
   void prepare() {
     for (const auto end = patience(); std::chrono::steady_clock::now() < end;) {
       if (node_->health().state == ProcessState::Ready) break;
@@ -75,7 +75,7 @@ class PlannerNodeTest : public ::testing::Test {
     answers_.hear();
     return request;
   }
-  /// A request as the network delivers it, under any name; its id is its sequence number.
+  /// Delivers a request under a given name; its id is its sequence number.
   void deliver(const MessageName& name, UTime deadline) {
     HorizonRequest request =
         support::request_at(deadline + Duration{5'000}, support::resting_at(kHome, kStart - Duration{1'000'000}));
@@ -85,7 +85,7 @@ class PlannerNodeTest : public ::testing::Test {
     lcm_->publish(channels::kHorizonRequest.name, bytes.data(), static_cast<unsigned>(bytes.size()));
     answers_.hear();
   }
-  /// In virtual time: what the vehicle that began at `epoch_us` is answered.
+  /// In virtual time: returns the answer to the vehicle that started at `epoch_us`.
   Plan answer_to(std::int64_t epoch_us, std::int64_t sequence) {
     deliver({epoch_us, sequence}, clock_.now() + Duration{70'000});
     at(clock_.now() + Duration{15'000});
@@ -97,7 +97,7 @@ class PlannerNodeTest : public ::testing::Test {
     node_->step(t);
     answers_.hear();
   }
-  /// Lets the worker come to its end. It may have answered and not be free yet: the next request then waits for a step.
+  /// Waits until the worker is idle. It may have answered and still be busy; the next request then waits for a step.
   void until_heard(std::size_t plans) {
     for (const auto end = patience(); answers_.plans.size() < plans && std::chrono::steady_clock::now() < end;) {
       node_->step(clock_.now());
@@ -106,7 +106,7 @@ class PlannerNodeTest : public ::testing::Test {
     }
   }
 
-  /// For what takes milliseconds, if the machine gives the worker a core.
+  /// Waits for a job that takes milliseconds if the machine gives the worker a core.
   static std::chrono::steady_clock::time_point patience() {
     return std::chrono::steady_clock::now() + std::chrono::seconds(180);
   }
@@ -177,7 +177,7 @@ PlannerConfig endless() {
   return config;
 }
 
-/// A wall of movers between home and goal, so that the search has much to look at.
+/// A wall of movers between home and goal, so that the search is long.
 std::vector<Track> crowd() {
   std::vector<Track> tracks;
   Rng rng(3);
@@ -247,7 +247,7 @@ TEST_F(PlannerNodeTest, ABusyMachineIsNoStuckWorker) {
   tell_world(crowd());
   prepare();
   tell_world(crowd());
-  // On its way for long: 6 ms are left of it, and two deadlines after it came the worker may still be at it.
+  // The request was long on its way: 6 ms are left. Two deadlines after its arrival the worker may still be busy.
   deliver({5, 1}, clock_.now() + Duration{6'000});
   at(clock_.now() + Duration{12'000});
   EXPECT_FALSE(node_->finished());
@@ -279,7 +279,7 @@ TEST_F(PlannerNodeTest, ARequestHeardTwiceIsAnsweredOnce) {
   start({false, Duration{15'000}});
   tell_world();
   node_->step(clock_.now());
-  // As a network that duplicates packets delivers it: the same bytes twice.
+  // A network may duplicate packets: the same bytes arrive twice.
   for (int k = 0; k < 2; ++k) deliver({5, 1}, kStart + Duration{70'000});
   at(kStart + Duration{15'000});
   at(kStart + Duration{75'000});
@@ -325,7 +325,7 @@ TEST_F(PlannerNodeTest, AWayThatIsBeingMadeWhenAHoldComesDoesNotUndoIt) {
   const MessageName hold = tell_hold(3);
   const VoxelMap next = support::free_map({9, 8, 8});
   tell_map(next);
-  // The map is made after the way was: one after the other.
+  // The worker prepares one product at a time: first the distance field, then the map.
   std::int64_t id = 0;
   do {
     tell_predictions();
@@ -350,7 +350,7 @@ TEST_F(PlannerNodeTest, AfterAHoldItFliesOn) {
 }
 
 TEST_F(PlannerNodeTest, APlanNamesTheNewestRepetitionOfItsGoal) {
-  // A logger that joins late has not heard the first: a log without it could not be replayed.
+  // A logger that joins late has not received the first goal; without the second its log could not be replayed.
   start({false, Duration{15'000}});
   tell_world();
   node_->step(clock_.now());
@@ -374,7 +374,7 @@ TEST_F(PlannerNodeTest, AHoldNeedsNoWay) {
   EXPECT_EQ(answer_to(5, 1).reason, PlanReason::AtGoal);
 }
 
-/// A second flight while the planner runs on: the vehicle of the first one began at 5 µs.
+/// A second flight while the planner keeps running: the first vehicle started at 5 µs.
 class SecondFlight : public PlannerNodeTest {
  protected:
   void fly_the_first(std::vector<Track> tracks = {}) {

@@ -15,7 +15,7 @@ constexpr std::int64_t kNeverAnswered = 1, kThrows = 2;
 
 class BrokenPlanner : public testing::Test, protected NetworkEnd {
  protected:
-  /// With time for it to arrive on a busy machine: a request that comes late is not planned for.
+  /// Leaves time for the request to arrive on a busy machine: a late request is not planned.
   void ask(std::int64_t id) {
     const UTime now = clock.now();
     HorizonRequest request = support::request_at(now + Duration{3'000'000}, support::resting_at(Vec3(0, 0, 1), now));

@@ -85,7 +85,7 @@ TEST(BoxIndex, PassesOverTheBoxesThatHoldTheExemptPoint) {
   EXPECT_TRUE(index.blocks(inside, {5, 0.5, 0.5}, inside));
 }
 
-/// A thin wall, and who rests in the margin by which it was grown: the way on is around it.
+/// A thin wall and a start in the margin by which it was grown: the path leads around it.
 TEST(BoxIndex, WhoIsInTheMarginOfABoxLeavesItButDoesNotGoThrough) {
   const BoxIndex index({Box(Vec3(0, 0, 0), Vec3(0.2, 10, 10))});
   const Vec3 start(0.19, 5, 5);
@@ -96,7 +96,7 @@ TEST(BoxIndex, WhoIsInTheMarginOfABoxLeavesItButDoesNotGoThrough) {
   EXPECT_FALSE(index.blocks(start, start, start));
 }
 
-/// Whatever blocks a path from a point is what lies deeper than it, and never that point itself.
+/// Only the part of a box deeper than a point blocks a path from it, never the point itself.
 TEST(BoxIndex, TheCoreBeyondAPointIsAllOfTheBoxOrExcludesThePoint) {
   Rng rng(11);
   for (int trial = 0; trial < 20'000; ++trial) {

@@ -288,7 +288,7 @@ TEST(GoalFieldWithCost, CutsACornerWhereTheDetourIsDearer) {
 }
 
 TEST(GoalFieldWithCost, CrossesWhatBlocksTheWholeWayByTheShortestWay) {
-  // A diagonal is asked for, but in the region every metre counts nine times: refraction bends the way to its normal.
+  // In the region every metre counts nine times, so refraction bends the diagonal path towards its normal.
   const Box region(Vec3(8, -50, -50), Vec3(12, 50, 50));
   GoalFieldOptions options;
   options.start = Vec3(0, -3, 1);

@@ -77,7 +77,7 @@ TEST(ConvexProblem, TheInitialPointIsStrictlyInsideEvenWhereItBreaksBounds) {
   }
 }
 
-/// What holds of every x within the problem's bounds, judged by the spline itself.
+/// Properties of every x within the problem's bounds, tested on the spline itself.
 void expect_within(const Instance& instance, const Eigen::VectorXd& x, std::uint64_t seed) {
   const TrajectoryProblem& p = instance.problem;
   const ClampedSpline spline(control_points_of(x, p), p.interval_s());
@@ -87,7 +87,7 @@ void expect_within(const Instance& instance, const Eigen::VectorXd& x, std::uint
     const MotionBounds now = motion_bounds(spline, j);
     const MotionBounds was = motion_bounds(before, j);
     for (int axis = 0; axis < 3; ++axis) {
-      // The start's own acceleration is not a variable; bounds that the initial point breaks are its own.
+      // The start's acceleration is no variable; bounds that the initial point breaks are widened to it.
       ASSERT_LE(now.a_max[axis],
                 std::max({p.plan_limits.a_max[axis], was.a_max[axis], std::abs(p.start.a[axis])}) + kRounding)
           << "seed " << seed;
@@ -116,7 +116,7 @@ TEST(ConvexProblem, WhateverSatisfiesTheRowsKeepsTheLimitsAndThePlanes) {
     const Eigen::VectorXd x0 = free_variables(instance.initial);
     Rng rng(seed);
     for (int i = 0; i < 10; ++i) {
-      // As far as the rows let it go.
+      // As far as the rows allow.
       const Eigen::VectorXd d = random_step(rng, x0.size(), 1.0);
       double low = 0.0;
       double high = 2.0;
@@ -148,7 +148,7 @@ TEST(ConvexProblem, WhateverSatisfiesItAlsoKeepsThrustAndTilt) {
       }
       return true;
     };
-    // A start that the search would not have given is widened to: its neighbours keep no more than it does.
+    // Bounds are widened to a start that the search would not return; its neighbours keep only these.
     if (!all_in_set(ClampedSpline(instance.initial, p.interval_s()))) continue;
     const ConvexProblem convex = instance.convex();
     const Eigen::VectorXd x0 = free_variables(instance.initial);

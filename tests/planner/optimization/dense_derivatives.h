@@ -13,7 +13,7 @@ struct DenseDerivatives {
   Eigen::MatrixXd lagrangian_hessian;  ///< both triangles
 };
 
-/// At x.
+/// Returns the derivatives at x.
 inline DenseDerivatives dense_derivatives(const NonlinearProblem& problem, const Eigen::VectorXd& x, double factor,
                                           const Eigen::VectorXd& multipliers) {
   const SparsePattern& j = problem.jacobian_pattern();

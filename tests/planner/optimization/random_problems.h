@@ -12,7 +12,7 @@ namespace tern::support {
 struct Instance {
   TrajectoryProblem problem;
   std::vector<PlaneConstraint> planes;
-  std::vector<Points> hulls;  ///< what each plane holds off
+  std::vector<Points> hulls;  ///< the obstacle of each plane
   Points initial;             ///< control points
 
   [[nodiscard]] ConvexProblem convex() const { return make_convex_problem(problem, planes, initial); }
@@ -23,7 +23,7 @@ struct Instance {
   }
 };
 
-/// Box obstacles beside the initial way, each separated from those intervals and parts that it lies near.
+/// Makes box obstacles beside the initial trajectory, each separated from the intervals and parts near it.
 inline void add_planes(Rng& rng, Instance& instance) {
   const ClampedSpline spline(instance.initial, instance.problem.interval_s());
   for (int i = 0; i < 6; ++i) {
@@ -42,7 +42,7 @@ inline void add_planes(Rng& rng, Instance& instance) {
   }
 }
 
-/// J from 4 to 9, a start at rest or under way, sometimes a jerk limit and a flight box, planes in half of them.
+/// Draws a problem: J from 4 to 9, a start at rest or moving, sometimes a jerk limit and a flight box, planes in half.
 inline Instance random_instance(std::uint64_t seed) {
   Rng rng(seed);
   for (;;) {

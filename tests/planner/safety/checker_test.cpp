@@ -19,7 +19,7 @@ constexpr UTime kStart{50'000'000};
 constexpr int kIntervals = 6;
 const Box kEverywhere(Vec3::Constant(-1e4), Vec3::Constant(1e4));
 
-/// A good plan that moves on every axis, and a problem that it just solves; each test breaks one thing.
+/// A valid plan that moves on every axis, and a problem that it just satisfies. Each test breaks one rule.
 class CheckPlan : public ::testing::Test {
  protected:
   CheckPlan() {
@@ -217,7 +217,7 @@ TEST_F(CheckPlan, RefusesABodyOutsideTheFlightBoxThroughEachOfItsSides) {
   }
 }
 
-/// Something small that is elsewhere but during interval j, when it stands at the curve's middle.
+/// A small obstacle that is at the curve's middle during interval j, and elsewhere at other times.
 Track visitor(std::int64_t id, const TimedSpline& plan, int j) {
   Track track = straight_mover(id, plan.spline().sample((j + 0.5) * 0.25).p, Vec3::Zero(), 0.01, kStart, 1.0);
   const CubicPiece there = track.motion.pieces[0];

@@ -137,7 +137,7 @@ TEST(IsClear, SaysWhatSeparateIntervalSays) {
     SweptObstacles asked(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
     for (int j = 0; j < spline.intervals(); ++j) {
       const bool ok = is_separated(planes, j, spline.power(j));
-      // A second time: what the first has left in memory changes nothing.
+      // A second call, with the memory of the first, gives the same result.
       for (int k = 0; k < 2; ++k) {
         ASSERT_EQ(is_separated(asked, j, spline.power(j), spline.minvo(j), counts), ok) << "seed " << seed << ", " << j;
       }

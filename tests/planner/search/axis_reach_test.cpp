@@ -72,7 +72,7 @@ TEST(AxisReach, NextVelocityIsExactlyWhatTheLinearProgrammeAllows) {
   EXPECT_GT(impossible, support::at_effort(500));
 }
 
-/// What a chain of choices from rest or from a random finishable state came to.
+/// A chain of velocities from rest or from a random finishable state.
 struct Chain {
   bool finished = true;
   double worst = 0.0;  ///< by how much a limit was broken at most, relative
@@ -80,7 +80,7 @@ struct Chain {
   double way = 0.0;  ///< Σ v_k Δt from `from` on
 };
 
-/// Walks from v_1, a_0 to v_J by ends of the intervals (mostly) or anything inside.
+/// Chooses v_2 … v_J from v_1, a_0: mostly ends of the intervals, sometimes values inside.
 Chain walk(Rng& rng, const ReachProgram& p, const AxisReach& reach, double v, double a) {
   Chain chain;
   for (int l = 1; l < p.intervals; ++l) {
@@ -139,7 +139,7 @@ TEST(AxisReach, NoChainGoesFartherThanTheDisplacementBound) {
   EXPECT_LT(closest, 1e-6);  // without a jerk limit the bound is reached
 }
 
-/// Every choice may be the one step by wider limits: the states after it have such a step again.
+/// Every step may use the wider limits: the states after it have such a step again.
 TEST(AxisReach, NoChainOfStepsBeforeTheRestGoesFartherThanTheDisplacementBound) {
   double closest = 1.0;
   int nearer = 0;  // than the bound that knows of no jerk limit

@@ -22,7 +22,7 @@ constexpr double kRadius = 4.0;
 constexpr double kHold = 1.5;
 const Box kOpen(Vec3::Constant(-1e4), Vec3::Constant(1e4));
 
-/// A search and what its leaf must satisfy.
+/// A search and the conditions that its leaf must satisfy.
 struct Scene {
   std::vector<Track> tracks;
   std::vector<PlanningObstacle> obstacles;
@@ -239,8 +239,8 @@ TEST(SemanticAStar, EndsWhenNothingOpenCanStillWinNotWhenItsBudgetEnds) {
   EXPECT_LT(result.expansions, SearchConfig{}.max_expansions / 10);
 }
 
-/// Bands counted from 0 left a sliver of one within S, which every node seemed to reach and no leaf did: at some
-/// distances all expansions went there.
+/// Bands that are counted from 0 leave a sliver of a band within S. Every node seems to reach it and no leaf does, so
+/// at some distances all expansions would go there.
 TEST(SemanticAStar, OfAMultirotorNoDistanceOfTheGoalMakesItSearchInVain) {
   MotionSample start;
   start.v = Vec3(4.7, -0.1, 0.0);
@@ -276,7 +276,7 @@ TEST(SemanticAStar, StartsAtNearlyTheTopSpeedWithOutwardAccelerationAreSolvable)
 }
 
 TEST(SemanticAStar, AnEndThatStaysClearIsPreferredToANearerOneThatDoesNot) {
-  // Something crosses the goal shortly after the vehicle would have come there.
+  // A mover crosses the goal shortly after the vehicle would arrive.
   const double interval = 0.45;
   const double crossing_s = 4 * interval + 0.3;
   const Vec3 goal(2, 0, 0);
@@ -314,7 +314,7 @@ TEST(SemanticAStar, AWalledInStartHasNoLeafBeyondTheWalls) {
 }
 
 TEST(SemanticAStar, AStepsCostBendsTheWayAroundWhatIsDear) {
-  // A dear slab lies across the straight way but for y > 0.5.
+  // An expensive slab lies across the straight line; only y > 0.5 is free of it.
   const Vec3 goal(3, 0, 0);
   Scene s = scene_from({}, 0.3, goal);
   const auto dear_metres = [](const Vec3& a, const Vec3& b) {

@@ -36,7 +36,7 @@ TEST(ThrustSet, BoxedLimitsImplyTheDynamics) {
       const Vec3 sign((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0, (corner & 4) != 0 ? 1.0 : -1.0);
       ASSERT_TRUE(set.contains(sign.cwiseProduct(box.a_max))) << "seed " << seed << ", corner " << corner;
     }
-    // From anywhere in the set, by per_axis_limits jerk, to anywhere in the set.
+    // From anywhere in the set to anywhere in it, by a jerk within per_axis_limits().
     for (int k = 0; k < 50; ++k) {
       const Vec3 from = random_vector(rng, 20.0);
       const Vec3 to = from + random_vector(rng, 1.0).cwiseProduct(box.j_max) * dt;
@@ -61,7 +61,7 @@ TEST(ThrustSet, WithoutDynamicsLimitsStayAsTheyAre) {
   EXPECT_EQ(per_axis_limits(limits).j_max, limits.j_max);
 }
 
-/// From a start that can end at rest, steps that want anything: always one that may be flown, and rest at the end.
+/// From a start that can end at rest, random wanted steps: one can always be flown, and the end is at rest.
 TEST(StepReach, WhateverIsWantedThereIsMostlyAFlyableStepUntilRest) {
   int walks = 0;
   int bold = 0;   // of these, which went where per_axis_limits limits would not
@@ -115,7 +115,7 @@ TEST(StepReach, WhateverIsWantedThereIsMostlyAFlyableStepUntilRest) {
     const TimedSpline plan{UTime{0}, problem.interval, q};
     const BreachReport report =
         breach_of(plan, plan.start, problem.start, problem.plan_limits, Box(Vec3::Constant(-1e4), Vec3::Constant(1e4)));
-    // Velocities between control points may pass v_max where the start drives them there.
+    // Velocities between control points may exceed v_max if the start drives them there.
     ASSERT_TRUE(report.ok() || report.breach == Breach::Velocity) << "seed " << seed << ": " << report.text();
     ASSERT_TRUE(support::flat_outputs(plan.spline()).within(*problem.plan_limits.dynamics, 1e-5)) << "seed " << seed;
   }

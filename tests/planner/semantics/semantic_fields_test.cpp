@@ -65,9 +65,9 @@ TEST(SemanticFields, LineIntegralsCountMetres) {
   const SemanticFields fields(two_regions());
   // Through the repulsive slab and both of its ramps: 1 m + 2 · ½ m.
   EXPECT_NEAR(fields.exposure_cost(VoxelLabel::Repulsive, Vec3(4, 2, 2), Vec3(9, 2, 2)), 2.0, 0.1);
-  // Past the attractive region: all of it outside.
+  // Past the attractive region: the whole line is outside.
   EXPECT_DOUBLE_EQ(fields.exposure_cost(VoxelLabel::Attractive, Vec3(20, 0, 0), Vec3(23, 4, 0)), 5.0);
-  // Within it: nothing, however long.
+  // Within it a line of any length costs nothing.
   EXPECT_EQ(fields.exposure_cost(VoxelLabel::Attractive, Vec3(2.5, 2, 1.5), Vec3(4.5, 2, 1.5)), 0.0);
   EXPECT_EQ(fields.exposure_cost(VoxelLabel::Repulsive, Vec3(6.5, 2, 2), Vec3(6.5, 2, 2)), 0.0) << "no metres, no cost";
 }
@@ -201,7 +201,7 @@ TEST(SemanticFields, LongLinesAreWeighedByTheirPartInReachAlone) {
   const SemanticFields fields(two_regions());
   const Vec3 a(-500, 2, 1.5);
   const Vec3 b(500, 2, 1.5);
-  // 1000 m, of which 3 m lie in what attracts and two ramps of 1 m beside it; 1 m and two ramps in what repels.
+  // 1000 m: 3 m in the attractive region and two ramps of 1 m beside it; 1 m and two ramps in the repulsive one.
   EXPECT_NEAR(fields.exposure_cost(a, b), 1000 - 3 - 1 + 2, 0.1);
 }
 
