@@ -1,4 +1,4 @@
-// What the executor adopts, judged by dense sampling: nothing illegal is flown, and nothing legal is refused.
+// Adopted plans against dense sampling: illegal trajectories are refused, legal ones are adopted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 constexpr UTime kZero{1'700'000'000'000'000};
 constexpr int kSamples = 4'000;
 
-/// A vehicle whose limits and flight box a random plan keeps about every other time.
+/// A vehicle whose limits and flight box are kept by about half of the random plans.
 UavSpec tight_vehicle(Rng& rng) {
   UavSpec uav;
   uav.start = Vec3(0.0, 0.0, 2.0);
@@ -45,7 +45,7 @@ Plan random_plan(Rng& rng, const HorizonRequest& request) {
   return plan;
 }
 
-/// By how much the sampled motion breaks the rules at worst, as a share of the limit (box: m); ≤ 0: it keeps them.
+/// Largest excess of the sampled motion over its limits, as a share of the limit (box: m); ≤ 0: all rules are kept.
 double worst_excess(const TimedSpline& trajectory, const UavSpec& uav) {
   const ClampedSpline spline = trajectory.spline();
   double worst = -1e9;
@@ -73,7 +73,7 @@ TEST(Adoption, AdoptsExactlyWhatDenseSamplingAllows) {
     Executor executor(uav, kZero);
     executor.begin(kZero);
     executor.set_mode(GoalMode::Go);
-    // Two plans, so that the second starts in motion wherever the first was adopted.
+    // Two plans, so that the second one starts in motion if the first was adopted.
     for (int k = 0; k < 2; ++k) {
       const UTime now = kZero + Duration{400'000} * k;
       const auto request = executor.next_request(now);
@@ -81,7 +81,7 @@ TEST(Adoption, AdoptsExactlyWhatDenseSamplingAllows) {
       const Plan plan = random_plan(rng, *request);
       const double excess = worst_excess(plan.trajectory, uav);
       const Adoption adoption = executor.consider(plan, now + Duration{1'000});
-      // Between samples an extremum may hide a little excess; beyond that both must agree.
+      // An extremum between samples may exceed a little; apart from that both must agree.
       if (std::abs(excess) < 1e-4) continue;
       EXPECT_EQ(adoption.verdict == Verdict::Adopted, excess < 0.0)
           << "round " << round << ": " << to_string(adoption) << " " << adoption.detail << ", sampled " << excess;

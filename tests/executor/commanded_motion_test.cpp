@@ -1,4 +1,4 @@
-// What a vehicle makes of setpoints and of what it heard to be committed: the executor's very curve.
+// A vehicle reconstructs the executor's exact curve from setpoints and committed trajectories.
 #include "executor/commanded_motion.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,8 @@ UavState setpoint(UTime at, const MotionSample& motion) {
   return state;
 }
 
-/// An executor that flies straight plans, and a vehicle's ear, which hears each setpoint unless `lost` says so.
+/// An executor that flies straight plans, and the command of a vehicle that receives each setpoint unless `lost` is
+/// true.
 class Flight {
  public:
   template <class Lost>
@@ -88,7 +89,7 @@ TEST(CommandedMotion, GoesOnAlongTheCommittedCurveToItsRestWhenTheExecutorDies) 
     const UTime died = flight.command_.settled().end();
     flight.command_.settle(died + Duration{5'000'000});
     const MotionHistory& motion = flight.command_.settled();
-    // What was adopted after the newest request is not known to the vehicle, nor flown yet.
+    // A plan adopted after the newest request is unknown to the vehicle, and its start is still ahead.
     const Vec3 end = motion.sample(motion.end()).p;
     EXPECT_EQ(motion.sample(motion.end()).v, Vec3::Zero());
     EXPECT_GT((end - flight.executor_.sample(died).p).norm(), 0.05) << "it did not stop at once";
@@ -107,7 +108,7 @@ TEST(CommandedMotion, BrakesWithinTheLimitsFromASetpointThatIsOnNoCommittedCurve
       moving.v[i] = rng.uniform(-0.5, 0.5) * limits.v_max[i];
       moving.a[i] = rng.uniform(-0.3, 0.3) * limits.a_max[i];
     }
-    const double h = 0.5 * kBeat.seconds();  // the jump counts when the next one goes on from it
+    const double h = 0.5 * kBeat.seconds();  // the jump is accepted when the next setpoint continues it
     MotionSample before = moving;
     before.v -= h * moving.a;
     before.p -= h * moving.v - 0.5 * h * h * moving.a;
@@ -125,7 +126,7 @@ TEST(CommandedMotion, BrakesWithinTheLimitsFromASetpointThatIsOnNoCommittedCurve
   }
 }
 
-// A vehicle that was held up told the executor where it was before it had heard of what it was on by then.
+// A vehicle that was held up reported its state before it received the trajectory in force at that time.
 TEST(CommandedMotion, ATrajectoryThatDoesNotJoinTheCommittedOneIsNotTaken) {
   Flight flight;
   flight.fly(Duration{600'000}, [] { return false; });
@@ -138,7 +139,7 @@ TEST(CommandedMotion, ATrajectoryThatDoesNotJoinTheCommittedOneIsNotTaken) {
   EXPECT_EQ(there.v.x(), elsewhere.v.x() - 0.5);
 }
 
-/// A flight that is to turn: a request, and the plan that answers it.
+/// A flight before a turn: a request, and the plan that answers it.
 struct Turn {
   explicit Turn(Flight& flight) {
     flight.fly(Duration{2'000'000}, [] { return false; });

@@ -11,7 +11,7 @@ namespace {
 constexpr UTime kStart{1'700'000'000'000'000};
 constexpr Duration kMs{1'000};
 
-/// A spline from a state to rest a random way on.
+/// A spline from a state to rest at a random distance.
 TimedSpline spline_from(Rng& rng, const MotionSample& start, UTime t, Duration interval = kMs * 173) {
   TimedSpline timed{t, interval, Points::Zero(3, 9)};
   timed.control_points.leftCols<3>() = start_control_points(start, interval.seconds());
@@ -22,7 +22,7 @@ TimedSpline spline_from(Rng& rng, const MotionSample& start, UTime t, Duration i
   return timed;
 }
 
-/// Three segments, each leaving the one before in flight; the last one is flown to its end.
+/// Three segments, each starting during the one before; the last one is flown to its end.
 CommittedTrajectory three_segments(Rng& rng) {
   CommittedTrajectory committed(Vec3(1.0, 2.0, 3.0), kStart);
   for (int k = 1; k <= 3; ++k) {

@@ -17,7 +17,7 @@ UavState state_at(Duration since, Duration jump, const Vec3& by) {
   return state;
 }
 
-/// What is found when the reset is told of at `told`.
+/// The shifts that are found if the reset is reported at `told`.
 std::vector<Vec3> found(Duration jump, Duration told, const Vec3& by) {
   EstimateResets resets;
   std::vector<Vec3> shifts;

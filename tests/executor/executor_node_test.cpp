@@ -1,4 +1,4 @@
-// The executor's node before a vehicle of whose estimate the test decides.
+// The executor's node with a vehicle whose estimate is set by the test.
 #include "executor/app/executor_node.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(ExecutorNode, TheHeadingBeginsWhereItIsMeasuredWhenFollowingBeginsAndIsNotT
     }
   };
   stand(0.1, false, 50);
-  stand(0.45, false, 50);  // the estimator has found its north
+  stand(0.45, false, 50);  // the estimator has corrected its heading
   ASSERT_FALSE(yaws.empty());
   stand(0.45, true, 2);
   EXPECT_NEAR(yaws.back(), 0.45, 1e-9);
@@ -76,7 +76,7 @@ TEST(ExecutorNode, PromisesAWiderTubeAfterTheEstimatorHasShiftedTheVehicleInFlig
     }
   };
   stand(Vec3::Zero(), 0, false);
-  stand(Vec3(0.0, 0.4, 0.0), 1, false);  // before it follows, W is where the estimator says
+  stand(Vec3(0.0, 0.4, 0.0), 1, false);  // before it follows, W moves with the estimate
   stand(Vec3(0.0, 0.4, 0.0), 1, true);
   ASSERT_FALSE(tubes.empty());
   EXPECT_NEAR(tubes.back().y(), tubes.back().x(), 1e-9);

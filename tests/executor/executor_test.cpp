@@ -1,4 +1,4 @@
-// The executor's promises: one request at a time, every refusal for its reason, at rest in the end whatever is lost.
+// The executor's rules: one request at a time, each refusal with its reason, at rest in the end after any loss.
 #include "executor/executor.h"
 
 #include <gtest/gtest.h>
@@ -259,7 +259,7 @@ TEST(Executor, RefusesAConfigurationOutOfRange) {
   EXPECT_THROW(Executor(vehicle(), kZero, {.rate_hz = 20.0, .lead = kDeadlineLead}), std::invalid_argument);
 }
 
-/// The largest step of p, v and a from just before t to just after, beyond what the motion itself does in 2 µs.
+/// The largest jump of p, v and a at t, without the change that the motion itself makes in 2 µs.
 double jump_at(const Executor& executor, UTime t) {
   const MotionSample before = executor.sample(t - Duration{1});
   const MotionSample after = executor.sample(t + Duration{1});

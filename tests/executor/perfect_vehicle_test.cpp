@@ -9,8 +9,8 @@ namespace {
 
 constexpr UTime kStart{1'700'000'000'000'000};
 
-// A busy machine held up the executor, then the thread that receives its setpoints: at 0.34 s none after 0.15 s is
-// there, and what they are of was committed to only then.
+// A busy machine held up the executor, then the thread that receives its setpoints. At 0.34 s no setpoint after 0.15 s
+// has arrived, and the late ones belong to a trajectory that was committed after 0.15 s.
 TEST(PerfectVehicle, FollowsSetpointsThatComeLateAfterAll) {
   const auto path = [](double t) {
     MotionSample m;

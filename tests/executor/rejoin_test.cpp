@@ -1,4 +1,4 @@
-// What the executor promises of a vehicle that is not where it was told to be, and how it goes on from there.
+// The executor's tube for a vehicle that is off its setpoints, and how the flight continues from there.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -82,7 +82,7 @@ TEST(Rejoin, OutsideTheFlightBoxItAsksForOneThatHasAWayBack) {
   EXPECT_EQ(request->flight_box.max().z(), 5.0);
 }
 
-// Speeding up hard, near the largest speed: what was planned kept the limits, and so does what brakes from it.
+// A hard acceleration near the largest speed: the plan kept the limits, and so must the braking trajectory.
 TEST(Rejoin, BrakingKeepsTheLimitsOfWhoeverKeepsThem) {
   const Limits limits = vehicle().limits;
   std::mt19937 rng(1);

@@ -49,7 +49,7 @@ TEST_P(ScenarioFile, IsReadWholeAndHasAWorld) {
 
 INSTANTIATE_TEST_SUITE_P(Repository, ScenarioFile, testing::ValuesIn(scenario_files()), ScenarioName());
 
-/// BENCHMARKS' bound of each world's flight, s.
+/// The bound of each world's flight, s.
 TEST(ScenarioFiles, HaveTheBoundsOfTheBenchmarks) {
   const std::vector<std::pair<std::string, double>> bounds = {{"paper_corridor", 12.8},
                                                               {"mader_corridor", 15.25},

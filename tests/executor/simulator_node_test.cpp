@@ -1,4 +1,4 @@
-// The simulator's node, whole, on virtual time with a stub planner: it flies, judges, waits, survives.
+// The whole simulator node on virtual time with a stub planner: it flies, judges, waits, and survives faults.
 #include "simulator/app/simulator_node.h"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ ObstacleSpec far_trefoil() {
   return obstacle;
 }
 
-/// A process whose messages are heard, but that does not get the processor for a while.
+/// A process that receives messages, but gets no processor time for a while.
 class HeldUp final : public Node {
  public:
   explicit HeldUp(std::unique_ptr<Node> node) : node_(std::move(node)) {}
@@ -60,7 +60,7 @@ class HeldUp final : public Node {
   UTime until_;
 };
 
-/// A flight of the simulator, an executor and a stub planner; what was said on the way.
+/// A flight of the simulator, an executor and a stub planner, with the published messages.
 struct Flight {
   explicit Flight(const Scenario& scenario, SimulatorConfig config = {}, ExecutorConfig executor_config = {})
       : uav_(scenario.uav), executor_config_(executor_config) {
@@ -204,7 +204,7 @@ TEST(SimulatorNode, WorldTimeStartsAtAWholeMillisecondAfterTheLastProcessIsReady
   const UTime zero = *flight.simulator->world_zero();
   EXPECT_EQ(zero.us % 1'000, 0);
   EXPECT_GE(zero, planner_start + Duration{300'000});
-  // Its second heartbeat tells the simulator's back, by which the clocks are compared.
+  // Its second heartbeat echoes the simulator's, so the clocks can be compared.
   EXPECT_LE(zero, planner_start + kHeartbeatSpacing + Duration{320'000});
   ASSERT_FALSE(flight.requests.empty());
   EXPECT_EQ(flight.requests.front().t_s, zero + Duration{75'000});
@@ -268,7 +268,7 @@ TEST(SimulatorNode, WhatIsDeclaredHoldsFromTheDeclarationOn) {
   for (const TrackSet& set : declared) {
     ASSERT_EQ(set.tracks.size(), 2U);
     for (const ObstacleTruth& truth : flight.truths) {
-      // What was said before anyone knew world zero holds until then only.
+      // A message published before world zero was known is valid until then only.
       if (truth.at < set.made_at || (truth.at > zero && set.made_at <= zero - Duration{300'000})) continue;
       for (const Track& track : set.tracks) {
         const TrueObstacle& o = truth.obstacles.at(static_cast<std::size_t>(track.id));
@@ -284,7 +284,7 @@ TEST(SimulatorNode, WhatIsDeclaredHoldsFromTheDeclarationOn) {
 
 TEST(SimulatorNode, DeclaresWhoAppearsWhenItAppears) {
   Scenario scenario = with_obstacle(empty_scenario(), far_trefoil());
-  const std::vector<double> appearances = {0.95, 1.05, 1.058};  // s; the last two nearer than sets may be
+  const std::vector<double> appearances = {0.95, 1.05, 1.058};  // s; the last two are closer together than two sets
   for (const double t : appearances) {
     ObstacleSpec person;
     person.motion = WaypointMotion{{{t, Vec3(5, 20, 1)}, {t + 3.0, Vec3(5, 25, 1)}}, false, true};
@@ -499,7 +499,7 @@ TEST(SimulatorNode, AGuardedPlaceIsReachedWhenTheMinimumFlightIsOver) {
   EXPECT_NEAR(flight.results.back().flight_time_s, 3.0, 0.011);
 }
 
-/// A quadrotor of the camera class, which is asked for what it can fly.
+/// A quadrotor of the camera class, with limits that it can fly.
 Scenario gentle_scenario() {
   Scenario scenario = empty_scenario();
   scenario.uav.limits = {Vec3(5, 5, 2), Vec3(5, 5, 3), Vec3::Constant(30.0)};
@@ -509,8 +509,8 @@ Scenario gentle_scenario() {
 struct Disturbance {
   const char* name;
   void (*apply)(QuadrotorFlight&);
-  bool leaves;          ///< its tube
-  bool arrives = true;  ///< in truth
+  bool leaves;          ///< whether it leaves its tube
+  bool arrives = true;  ///< by its true position
 };
 
 TEST(SimulatorNode, AQuadrotorReachesItsGoalWhateverPushesIt) {

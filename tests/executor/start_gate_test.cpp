@@ -17,7 +17,7 @@ constexpr Duration kMs{1'000};
 
 constexpr std::int64_t kOwnEpoch = 77;
 
-/// A heartbeat that tells back one of the listener's, which went there, was answered and came, all at kNow.
+/// A heartbeat that echoes one of the listener's; sent, answered and received at kNow.
 Heartbeat heartbeat(const std::string& process, ProcessState state, const std::string& waiting_for = "") {
   Heartbeat message;
   message.header = {{kNow.us, 1}, kNow};
@@ -28,7 +28,7 @@ Heartbeat heartbeat(const std::string& process, ProcessState state, const std::s
   return message;
 }
 
-/// The planner's heartbeat of an exchange that began at kNow, and when it comes; `ahead` is its clock's.
+/// The planner's heartbeat of an exchange that began at kNow, with its receive time; its clock is `ahead`.
 struct Exchange {
   Duration ahead, out, back;
   [[nodiscard]] UTime received() const { return kNow + out + held + back; }
@@ -123,7 +123,7 @@ TEST(StartGate, IsClosedToAClockThatCannotBeCompared) {
   const std::string text = "tern-planner (has not echoed a HEARTBEAT: its clock cannot be compared)";
   StartGate gate({"tern-planner"}, kOwnEpoch);
   Heartbeat message = heartbeat("tern-planner", ProcessState::Ready);
-  message.echoes.pop_back();  // what it heard was another's
+  message.echoes.pop_back();  // an echo of another process
   gate.receive(message, kNow);
   EXPECT_EQ(gate.missing(kNow), text);
   const Exchange impossible{{}, kMs * -1, {}};

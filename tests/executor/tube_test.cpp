@@ -63,7 +63,7 @@ TEST(Tube, CoversTheNextSecondMoreOftenThanTheQuantileAlone) {
     ++promised;
     if (largest > width) ++left;
   }
-  // The quantile alone is left by 2 %: fewer than half of that.
+  // Errors exceed the quantile in 2 % of the seconds; with the margin, in fewer than half of that.
   EXPECT_LT(left, 0.01 * promised) << left << " of " << promised;
 }
 
@@ -82,7 +82,7 @@ TEST(Tube, IsWiderAfterAnEventForAWhile) {
   EXPECT_NEAR(tube.width(Vec3::Zero(), kNow + Tube::kWidenedFor).x(), 0.2, 1e-12);
 }
 
-/// Of an error of 0.3 m in flight and 0.03 m at rest.
+/// A tube after errors of 0.3 m in flight and 0.03 m at rest.
 Tube imperfect() {
   Tube tube(0.0);
   tube.add(Vec3::Constant(0.3), false, UTime{1});

@@ -1,4 +1,4 @@
-// A copter of ArduPilot takes off by command alone; by its source (mode_guided, takeoff, AP_Arming_Copter).
+// An ArduPilot copter takes off only by command: from its source (mode_guided, takeoff, AP_Arming_Copter).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ TEST(ArduPilotManners, WithStartPilotItIsTakenUpWhenThePilotArmsInGuidedAndFollo
 }
 
 TEST(ArduPilotManners, ABridgeStartedAnewDoesNotEndTheTakeOffThatItFinds) {
-  constexpr double kTarget = 2.0;  // m: the take-off itself comes back to it from 0.15 m above
+  constexpr double kTarget = 2.0;  // m; the take-off itself overshoots by 0.15 m
   for (const double height : {-1.0, 0.4, 1.0, 1.5}) {
     FlightInMemory flight(kArms, copter());
     ASSERT_TRUE(flight.run_until(

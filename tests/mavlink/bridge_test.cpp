@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 CommandLong switch_to(float main, float sub = 0) { return {.param = {1, main, sub}, .command = kDoSetMode}; }
 
-/// To and fro in y about (x, 0, 2), 5 m/s at most, begun and left smoothly.
+/// Back and forth in y about (x, 0, 2), at most 5 m/s, with a smooth beginning and end.
 MotionSample slalom(double t) {
   constexpr double kSpeed = 4.0, kSideways = 5.0, kH = 1e-3;
   const auto place = [](double s) {
@@ -78,7 +78,7 @@ TEST(Bridge, MapsTimesThoughTheAutopilotsClockRunsSlow) {
   double worst = 0.0;
   flight.each = [&] {
     const auto state = flight.bridge.state();
-    // The estimate is at most 12 ms old: ODOMETRY comes at 100 Hz, a step and a delay later.
+    // The estimate is at most 12 ms old: ODOMETRY at 100 Hz, plus one step and the delay.
     worst = std::max(worst, (flight.now - state->at).seconds());
     ASSERT_LE(state->at, flight.now);
   };
@@ -352,7 +352,7 @@ TEST(Autopilot, TakesTheTruthThatStatesNoTimeForWhenItCameButNoneWithoutAnOrigin
   EXPECT_LT(autopilot.truth()->at, now) << "a simulation that does not know yet where it is";
 }
 
-/// As PX4's Gazebo tells it: attitude and velocity at 100 Hz, a new position with every third.
+/// As PX4's Gazebo sends it: attitude and velocity at 100 Hz, a new position in every third message.
 TEST(Autopilot, TakesNoTruthWhosePositionIsThatOfBefore) {
   UTime now{1'000'000'000};
   Autopilot autopilot;

@@ -5,7 +5,7 @@
 namespace tern::mavlink {
 namespace {
 
-/// Ten questions a second to a clock that reads `rate` seconds per second of ours.
+/// Ten requests a second to a clock that advances `rate` seconds per second of ours.
 void exchange(ClockFit& fit, UTime& now, double seconds, double rate, Duration round_trip = Duration{2'000}) {
   for (const UTime end = now + Duration::from_seconds(seconds); now < end; now = now + Duration{100'000}) {
     const UTime middle{now.us + round_trip.us / 2};
@@ -27,7 +27,7 @@ TEST(ClockFit, AnExchangeThatWaitedDoesNotEndIt) {
   ClockFit fit;
   UTime now{5'000'000};
   exchange(fit, now, 3.0, 1.0);
-  // The question lay 400 ms in the autopilot's buffer; it was answered at once.
+  // The request waited 400 ms in the autopilot's buffer and was then answered at once.
   fit.add(now, now.us + 400'000, now + Duration{401'000});
   EXPECT_TRUE(fit.ready());
   const auto ours = fit.ours(now.us);

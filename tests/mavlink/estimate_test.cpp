@@ -1,4 +1,4 @@
-// What the bridge does about an estimate that is dead, or that is not where the flight was planned.
+// The bridge with a dead estimate, and with an estimate away from the planned start.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

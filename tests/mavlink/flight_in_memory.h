@@ -1,4 +1,4 @@
-// A bridge and a simulated autopilot on virtual time, over a link that may lose, double, delay and cut.
+// A bridge and a simulated autopilot on virtual time, over a link that may lose, duplicate, delay and cut frames.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace tern::mavlink {
 
 struct LinkFaults {
   double lost = 0.0, doubled = 0.0;
-  Duration delay_from{1'000}, delay_to{1'000};  ///< later ones may overtake
+  Duration delay_from{1'000}, delay_to{1'000};  ///< a later frame may overtake
 };
 
 /// Along x from the start, 2 m/s after a second.
@@ -39,11 +39,11 @@ class FlightInMemory {
     UavSpec spec;
     spec.start = Vec3(0, 0, 2);
     spec.limits.v_max.z() = 1.5;
-    spec.limits.dynamics.emplace();  // what PX4's default parameters allow
+    spec.limits.dynamics.emplace();  // PX4's default limits
     return spec;
   }
 
-  /// A stub of the executor: where the vehicle is, at rest, while it does not follow; then `path` (since it follows).
+  /// A stub of the executor: at rest at the vehicle's place until it follows, then `path` of the time since.
   void say_setpoint() {
     const VehicleStatus status = bridge.status(now);
     if (!status.following) follows_since.reset();
@@ -90,7 +90,7 @@ class FlightInMemory {
   }
   bool following() const { return bridge.status(now).following; }
 
-  /// Of a ground station: any system may command.
+  /// Sends a command as a ground station: any system may command.
   void ground_station(CommandLong command) {
     command.target_system = 1;
     autopilot.receive(to_frame(command, {255, 190}, 0), now);
@@ -111,9 +111,9 @@ class FlightInMemory {
   bool cut = false, bridge_runs = true, speaks = true, ground_station_there = true;
   std::function<MotionSample(double)> path;
   std::function<void()> each;
-  std::function<bool(const Frame&)> hides;  ///< what the bridge is not told of what the autopilot says
-  Vec3 shifts = Vec3::Zero();               ///< the estimate that the bridge is told, ENU
-  std::function<void(const Frame&)> sent;   ///< sees what the bridge says
+  std::function<bool(const Frame&)> hides;  ///< frames of the autopilot that the bridge does not get
+  Vec3 shifts = Vec3::Zero();               ///< added to the estimate that the bridge gets, ENU, m
+  std::function<void(const Frame&)> sent;   ///< called with each frame of the bridge
   std::optional<UTime> follows_since;
   std::vector<std::string> words;
 

@@ -107,7 +107,7 @@ TEST(Frame, ComesOutOfAnyPortionsAndBetweenGarbage) {
     stream.insert(stream.end(), r.bytes.begin(), r.bytes.end());
     ++unsigned_frames;
   }
-  stream.resize(stream.size() + 600, 0);  // what garbage looks like a frame's head asks for no more than this
+  stream.resize(stream.size() + 600, 0);  // garbage that looks like a frame's head claims at most this many bytes
   for (const std::size_t portion : {std::size_t{1}, std::size_t{7}, std::size_t{1000}}) {
     Parser parser;
     std::size_t found = 0;
@@ -163,7 +163,7 @@ TEST(Frame, UnsignedIsNotHeardByWhoHasAKey) {
   EXPECT_EQ(parser.counters().unsigned_, 1);
 }
 
-/// Mutated streams: nothing crashes, and what is handed over is a frame's encoding.
+/// Mutated streams: no crash, and each returned frame encodes to bytes of the stream.
 TEST(Frame, HostileBytesAreSkippedOrMeanWhatTheySay) {
   Rng rng(7);
   const auto all = recorded();

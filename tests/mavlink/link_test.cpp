@@ -77,7 +77,7 @@ TEST(Link, SpeaksFirstFromAPortOfItsOwnAndHearsItsPeerAlone) {
   EXPECT_EQ((*link)->strangers(), 1);
 }
 
-/// A serial cable: the end of an autopilot, and a name for the other one that stays when the plug is pulled.
+/// A serial cable: the autopilot's end, and a name for the other end that stays when the plug is pulled.
 class Cable {
  public:
   Cable() : folder_(std::filesystem::temp_directory_path() / ("tern_cable_" + std::to_string(getpid()))) {
@@ -153,7 +153,7 @@ TEST(Link, ASerialPortThatIsFullLosesWholeFrames) {
   int sent = 0;
   for (int turn = 0; turn < 3; ++turn) {
     for (int k = 0; k < 3'000; ++k) (*link)->send(frame(static_cast<std::uint8_t>(sent++)));
-    for (int k = 0; k < 20; ++k) {  // room again
+    for (int k = 0; k < 20; ++k) {  // the buffer has room again
       const Bytes some = cable.heard();
       all.insert(all.end(), some.begin(), some.end());
       (*link)->send(frame(static_cast<std::uint8_t>(sent++)));

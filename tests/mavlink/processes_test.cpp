@@ -70,7 +70,7 @@ struct Relay {
   double lost = 0.0, doubled = 0.0, swapped = 0.0;
   bool cut = false;
   Rng rng{1};
-  std::optional<Odometry> vision;  ///< the newest that the bridge told
+  std::optional<Odometry> vision;  ///< the newest one that the bridge sent
 
   void pump() {
     while (const auto bytes = to_autopilot.receive()) {
@@ -90,7 +90,7 @@ struct Relay {
   void pass(const Bytes& bytes, std::deque<Bytes>& held, const Send& send) {
     if (cut || rng.uniform() < lost) return;
     if (rng.uniform() < swapped && held.size() < 4) {
-      held.push_back(bytes);  // goes after the next one
+      held.push_back(bytes);  // sent after the next one
       return;
     }
     send(bytes);
@@ -126,7 +126,7 @@ class MavlinkProcesses : public testing::Test, protected NetworkEnd {
   }
   void start_bridge(std::vector<std::string> more = {}) { bridge = make_bridge(relay.bridge_port, std::move(more)); }
 
-  /// One look at everything; the executor's part at 100 Hz: rest where the vehicle began to follow.
+  /// One step of relay and bus. The executor's part, at 100 Hz: rest where the vehicle began to follow.
   void look() {
     relay.pump();
     pollfd fd{lcm->getFileno(), POLLIN, 0};
@@ -153,7 +153,7 @@ class MavlinkProcesses : public testing::Test, protected NetworkEnd {
   void run_ms(int ms) {
     until([] { return false; }, ms);
   }
-  /// Of a ground station on a link of its own.
+  /// A command of a ground station on its own link.
   template <class M>
   void ground_station(const M& message) {
     Socket().send(to_bytes(to_frame(message, {255, 190}, 0)), relay.autopilot_port);
@@ -266,7 +266,7 @@ TEST_F(MavlinkProcesses, AKilledBridgeComesBackOrStandsBack) {
   EXPECT_EQ(bridge->wait(), -SIGKILL);
   status = {};
   start_bridge();
-  // What it finds depends on the failsafe's time: the vehicle still in OFFBOARD, or landing.
+  // By the failsafe's time, the vehicle is still in OFFBOARD or landing.
   ASSERT_TRUE(until([&] { return status.following || status.mode == "AUTO.LAND"; })) << status.why_not;
   if (status.mode == "AUTO.LAND") {
     run_ms(2000);
@@ -285,7 +285,7 @@ TEST_F(MavlinkProcesses, AKilledBridgeComesBackWithTheTruthThatItTold) {
   relay.vision.reset();
   start_bridge(sees);
   ASSERT_TRUE(until([&] { return truth && relay.vision; })) << status.why_not;
-  // The estimate is the truth here. What is said within 20 ms is of the same place, even of a vehicle that lands.
+  // The estimate is the truth here. Messages within 20 ms have the same place, even of a landing vehicle.
   for (int k = 0; k < 10; ++k) {
     run_ms(50);
     EXPECT_LT((truth->motion.p - state->motion.p).norm(), 0.1);

@@ -1,6 +1,5 @@
-// What PX4 does where it is stricter, or does more by itself, than its documents let expect; by its source
-// (commander/failsafe, UserModeIntention, mavlink_parameters, mc_pos_control). The simulated autopilot has these
-// manners, and the bridge copes with them.
+// Behaviour of PX4 that is stricter than its documents, or more active; from its source (commander/failsafe,
+// UserModeIntention, mavlink_parameters, mc_pos_control). The simulated autopilot has it, and the bridge copes with it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// A bridge that was killed and is started again while the vehicle flies: nothing that it says may step.
+// A bridge that is killed and restarted while the vehicle flies: its published positions must not jump.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,12 +13,12 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// What the bridge says of the true place, less what is true; and so much of what it tells the estimator.
+/// Published minus true position, and the same for the position sent to the estimator.
 struct Shift {
   std::vector<Vec3> truth, vision;
 };
 
-/// Flies off, kills the bridge, and starts it again 0.2 s later. @return shifts before and after
+/// Flies, kills the bridge, and restarts it 0.2 s later. @return the shifts before and after
 std::pair<Shift, Shift> shifts_over_a_restart(FlightInMemory& flight) {
   EXPECT_TRUE(flight.run_until([&] { return flight.following(); })) << flight.bridge.status(flight.now).why_not;
   flight.path = along;

@@ -1,4 +1,4 @@
-// A vehicle has one who flies it: the bridge takes it from nobody, and leaves it to whoever takes it.
+// One pilot per vehicle: the bridge takes it from no other pilot, and leaves it to one who takes it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(WhoFlies, WhileItLandsAPilotWhoSwitchesHasTheVehicle) {
   FlightInMemory flight;
   ASSERT_TRUE(flight.run_until([&] { return flight.following(); }));
   flight.bridge.land("the flight has ended");
-  flight.run(0.01);  // so that no HEARTBEAT has told of AUTO.LAND
+  flight.run(0.01);  // so that no HEARTBEAT has reported AUTO.LAND
   flight.ground_station(switch_to(3));
   flight.each = [&] { ASSERT_EQ(flight.autopilot.mode(), "POSCTL"); };
   flight.run(5.0);
@@ -85,7 +85,7 @@ struct Race {
   Duration delay;
   std::function<void(FlightInMemory&)> story;
   std::uint16_t sought = kDoSetMode;
-  CommandLong pilots = {};  ///< command: of another mode than the vehicle is in
+  CommandLong pilots = {};  ///< to a mode other than the present one
   std::string mode = {};
 
   [[nodiscard]] bool is_px4() const { return autopilot.manners == Manners::Px4; }
@@ -96,7 +96,7 @@ struct Race {
     return flight;
   }
 
-  /// When the bridge commands the mode of this story.
+  /// The time at which the bridge commands the mode.
   [[nodiscard]] UTime commanded() const {
     FlightInMemory alone = flight();
     std::vector<UTime> times;
@@ -108,7 +108,7 @@ struct Race {
     return times.back();
   }
 
-  /// The pilot switches then, and has the vehicle in the end.
+  /// The pilot switches at that time, and must have the vehicle in the end.
   void expect_the_pilot_has_it(UTime then) const {
     FlightInMemory flight = this->flight();
     bool switched = false;
@@ -123,7 +123,7 @@ struct Race {
   }
 };
 
-/// However little before, or after, its own command.
+/// The switch may be any short time before or after the bridge's command.
 void expect_nothing_is_overruled(const std::function<void(FlightInMemory&)>& story, std::uint16_t sought,
                                  Duration earliest, const std::string& ardupilots = "LOITER") {
   for (const Manners manners : {Manners::Px4, Manners::ArduPilot}) {

@@ -47,7 +47,7 @@ TEST(BodyDistance, OfABoxBodyAgreesWithTheGeneralPolytope) {
     const Vec3 off = random_vector(rng, 0.2);
     const Points corners = box_corners(box_around(off, size));
     Body box{corners, 0.0};
-    // The middle of an edge pulled in by a hair is no longer a corner: conv changes by 1e-9, the code path entirely.
+    // A corner at the middle of an edge, moved inwards by 1e-9: the hull hardly changes, the code path does.
     Body general{corners, 0.0};
     general.vertices.col(7) -= Vec3::Constant(1e-9);
     const Vec3 p = random_vector(rng, 3.0);

@@ -44,7 +44,7 @@ std::vector<ObstacleSpec> every_motion() {
           moving(WaypointMotion{{{-0.5, Vec3::Zero()}, {2.0, Vec3::Ones()}, {4.5, Vec3::UnitX()}}, false, true})};
 }
 
-/// The promise of Track, at many instants of its pieces.
+/// Checks the error bound of a track at many instants of its pieces.
 void expect_promise_kept(const World& world, const TrackSet& set) {
   for (const Track& track : set.tracks) {
     const WorldObstacle& o = world.obstacles.at(static_cast<std::size_t>(track.id));
@@ -178,7 +178,7 @@ TEST(DeclaredMotions, AreFewEnoughForTheirMessages) {
   EXPECT_LE(pieces, 6u * 460u);
 }
 
-/// As `seconds` of a recording at `rate`, from `first_s` on.
+/// Waypoints as of a recording of `seconds` at `rate`, from `first_s` on.
 WaypointMotion recorded(double rate, double first_s, double seconds, bool repeat = false) {
   WaypointMotion m;
   m.repeat = repeat;

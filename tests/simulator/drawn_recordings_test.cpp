@@ -22,14 +22,14 @@ RecordedTracksSpec ten_frames_a_second() {
   return spec;
 }
 
-/// Someone walks along x at y, 1 m/s, at x = 0 at time `there_s`; recorded each second for 20 s.
+/// A person walks along x at y, 1 m/s, at x = 0 at time `there_s`; recorded each second for 20 s.
 RecordedTrack walker(double there_s, double y) {
   RecordedTrack track;
   for (int k = 0; k <= 20; ++k) track.points.emplace_back(there_s + k - 10.0, Vec3(k - 10.0, y, 1));
   return track;
 }
 
-/// 6 m along y, across the walkers' way.
+/// 6 m along y, across the walkers' path.
 UavSpec crossing() {
   UavSpec uav;
   uav.start = Vec3(0, -3, 1);
@@ -67,7 +67,7 @@ TEST(CrowdsStart, WhoIsWithinAMetreInTheFirstSecond) {
   EXPECT_FALSE(crowds_start(walker(10.0, 0.0), 50.0, Vec3(10, 0.0, 1))) << "gone by then";
 }
 
-/// A round flight of 9 s, 2 m/s, within 6 m × 3 m × 0 m.
+/// A closed path of 9 s at 2 m/s, within 6 m × 3 m × 0 m.
 RecordedTrack racer() {
   RecordedTrack track;
   for (int k = 0; k <= 900; ++k) {

@@ -30,7 +30,7 @@ GeneratedObstacles made(const Ends& e, int count, std::uint64_t seed) {
   return generate(e.generator, count, seed, e.start, e.goal).value();
 }
 
-/// BENCHMARKS' draw, written once more.
+/// A second implementation of the draw.
 struct RawDraws {
   std::mt19937_64 engine;
   double operator()(double lo, double hi) {
@@ -142,7 +142,7 @@ TEST(Generators, LeaveTheStartQuietAndTheGoalReachable) {
       redrawn += world.redrawn;
       for (const ObstacleSpec& spec : world.obstacles) {
         const WorldObstacle o = WorldObstacle::make(0, spec).value();
-        const double drift = o.bounds().speed.norm() * 0.005;  // the rule looks every 10 ms
+        const double drift = o.bounds().speed.norm() * 0.005;  // the rule samples every 10 ms
         for (double t = 0.0; t <= 1.0; t += 0.002) {
           ASSERT_GE(o.box(t).exteriorDistance(ends.start), 1.0 - drift) << ends.generator << " " << seed;
         }
@@ -156,7 +156,7 @@ TEST(Generators, LeaveTheStartQuietAndTheGoalReachable) {
 }
 
 TEST(Generators, RedrawAPillarThatNeverLeavesTheGoal) {
-  const Vec3 goal(38, 0, 1);  // amid the pillars: 2000 of them surely hit it
+  const Vec3 goal(38, 0, 1);  // among the pillars: with 2000 of them a draw hits it
   const auto world = generate("mader_corridor", 2000, 3, kMader.start, goal).value();
   EXPECT_GT(world.redrawn, 0);
   for (const ObstacleSpec& o : world.obstacles) {
@@ -174,7 +174,7 @@ TEST(Generators, RefuseUnknownNamesCountsAndPlacesWithoutRoom) {
   EXPECT_THAT(generate("paper_corridor", 100'001, 1, far, far).error().message, HasSubstr("count 100001"));
 }
 
-/// Any change of a world is a change of every number that was ever published about it.
+/// The worlds are fixed: a change would invalidate all published results.
 TEST(Generators, GiveTheGoldenWorlds) {
   struct Golden {
     Ends ends;

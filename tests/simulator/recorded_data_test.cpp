@@ -1,4 +1,4 @@
-// On recordings that are not part of the project (docs say where they come from).
+// Tests on recordings that are not part of the project (docs say where they come from).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -133,7 +133,7 @@ TEST(Crowd, DeclaresWhoWalksExactly) {
   }
 }
 
-/// How many different flights 200 seeds are.
+/// The number of different flights among 200 seeds.
 std::size_t different_starts(const RecordedTracksSpec& spec, const UavSpec& uav) {
   const auto tracks = load(spec);
   std::set<double> starts;

@@ -76,7 +76,7 @@ TEST(RecordedTracks, OfAMissingFileAreAnError) {
   EXPECT_FALSE(load_recorded_tracks("/", five_columns()));
 }
 
-/// Someone walks along x through the origin, 1 m/s, there at 10 s; recorded each second from 0 to 20 s.
+/// A person walks along x through the origin, 1 m/s, there at 10 s; recorded each second from 0 to 20 s.
 std::vector<RecordedTrack> walker() {
   RecordedTrack track{1, {}};
   for (int k = 0; k <= 20; ++k) track.points.emplace_back(k, Vec3(k - 10.0, 0, 1));

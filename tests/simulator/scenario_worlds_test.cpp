@@ -1,4 +1,4 @@
-// The shipped scenarios as worlds, through the scenario file and back.
+// The worlds of all scenarios, written to a scenario file and read back.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -19,7 +19,7 @@ struct Loop {
         gains(QuadrotorConfig::controller_for(kind, body)),
         state(hovering(body, Vec3::Zero(), 0.0)) {}
 
-  /// Flies `command` for so long and calls `look` after each step.
+  /// Flies `command` for this time, and calls `look` after each step.
   void fly(
       const FlightCommand& command, double seconds, const std::function<void()>& look = [] {}) {
     for (int k = 0; k < static_cast<int>(std::lround(seconds / kDt)); ++k) {
@@ -120,13 +120,13 @@ TEST(FlightController, FollowsBackwardsFlightUpsideDownOfNothing) {
   EXPECT_LT(loop.state.v.norm(), 0.2);
 }
 
-/// Smoothly 1 between two times.
+/// A smooth pulse: 1 between two times.
 double between(double t, double from, double to) {
   constexpr double kRamp = 0.2;
   return std::clamp((t - from) / kRamp, 0.0, 1.0) - std::clamp((t - to) / kRamp, 0.0, 1.0);
 }
 
-/// Up and down by 4 m/s²; on its way down its jerk turns every tenth of a second, as that of plans may.
+/// Up and down at 4 m/s². On the way down the jerk changes its direction every 0.1 s, as that of plans may.
 Vec3 restless(double t) {
   constexpr double kJerk = 50.0, kHalf = 0.1, kUp = 4.0;
   Vec3 a(0, 0, kUp * (between(t, 0.0, 0.6) - between(t, 0.8, 2.0) + between(t, 2.2, 2.8)));

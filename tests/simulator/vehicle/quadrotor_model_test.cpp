@@ -20,7 +20,7 @@ QuadrotorConfig config_of(QuadrotorClass kind) {
 
 UTime at_s(double t) { return UTime{} + Duration::from_seconds(t); }
 
-/// Along x at `speed`, to and fro in y with `sideways` m/s² at its peak, both begun smoothly from rest.
+/// Along x at `speed`, back and forth in y with a peak of `sideways` m/s², both with a smooth beginning.
 struct Slalom {
   double speed, sideways;
 
@@ -28,7 +28,7 @@ struct Slalom {
     const double omega = sideways / (0.8 * speed);  // the path's lateral speed is 0.8 of the forward one
     UavState state;
     state.at = at_s(t);
-    // x = s(t), y = A u(t) sin(ω t) with u the smooth step of 4 s, by numbers: a slalom is a test's input, no formula.
+    // x = s(t), y = A u(t) sin(ω t) with u a smooth step of 4 s, differentiated numerically.
     constexpr double kH = 1e-3;
     const Vec3 a = place(t - 2 * kH, omega), b = place(t - kH, omega), c = place(t, omega), d = place(t + kH, omega),
                e = place(t + 2 * kH, omega);

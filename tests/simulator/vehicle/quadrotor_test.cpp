@@ -163,7 +163,7 @@ TEST(Allocation, GivesUpHeightBeforeTilt) {
   EXPECT_LT((had.torque - Vec3(0.3, -0.2, 0.0)).norm(), 1e-9);
 }
 
-/// Else whoever turns fast at little thrust is lifted, so wants still less of it, and turns still faster.
+/// Otherwise a fast turn at little thrust lifts the vehicle, which then needs less thrust and turns faster still.
 TEST(Allocation, RaisesThrustForTorqueAtMostHalfTheWayToHovering) {
   for (const auto kind : {QuadrotorClass::Camera, QuadrotorClass::Racer}) {
     const QuadrotorSpec spec = quadrotor_spec(kind);
