@@ -28,7 +28,7 @@ fs::path find_file(const CloudSource& source, const Scenario& scenario, const ch
     tried += (tried.empty() ? "" : ", ") + place.lexically_normal().string();
   }
   throw source.section.error(
-      "file", fmt::format("{} not found (sought: {}; set TERN_DATA to the data's folder)", source.file, tried));
+      "file", fmt::format("{} not found (searched: {}; set TERN_DATA to the folder of the data)", source.file, tried));
 }
 
 std::vector<std::uint8_t> read_bytes(const fs::path& file, const CloudSource& source) {

@@ -22,7 +22,7 @@ std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection class
   const auto read = [&](const std::string& name, const std::string& fallback) {
     if (class_numbers(name).empty())
       throw classes.error(name, "is no class or group of classes (see semantic_mapper/README.md)");
-    result.emplace_back(name, *named<VoxelLabel>(classes.choice(name, fallback, kLabelWords, "what such points mean")));
+    result.emplace_back(name, *named<VoxelLabel>(classes.choice(name, fallback, kLabelWords, "label of such points")));
   };
   if (!is_given) {
     for (const auto& [name, label] : kDefaultClasses) read(name, label);
@@ -36,7 +36,8 @@ std::vector<std::pair<std::string, VoxelLabel>> read_classes(ConfigSection class
 std::vector<std::string> read_class_list(ConfigSection& section, const char* key) {
   std::vector<std::string> names;
   std::string word;
-  for (const char c : section.text(key, "", "classes that stand on solid columns, as \"building, tower\"") + ',') {
+  for (const char c :
+       section.text(key, "", "classes whose columns are filled down to the floor, as \"building, tower\"") + ',') {
     if (c != ',' && c != ' ') {
       word += c;
       continue;
@@ -52,21 +53,22 @@ CloudSource read_source(ConfigSection section) {
   CloudSource source;
   source.section = section;
   source.file =
-      section.required_text("file", "absolute, beside the scenario, or in `TERN_DATA` (else `../shared/data`)");
+      section.required_text("file", "path: absolute, beside the scenario, or in `TERN_DATA` (else `../shared/data`)");
   if (source.file.empty()) throw section.error("file", "is empty");
   const bool is_ply = std::filesystem::path(source.file).extension() == ".ply";
-  source.format = section.choice("format", is_ply ? "ply" : "las", {"las", "ply"}, "by the name, if not given") == "ply"
+  source.format = section.choice("format", is_ply ? "ply" : "las", {"las", "ply"},
+                                 "of the file; the default follows from its name") == "ply"
                       ? CloudFormat::Ply
                       : CloudFormat::Las;
   source.frame.origin = section.vec3("origin", source.frame.origin, kFileCoordinate,
                                      "subtracted from the file's coordinates, in its units");
-  source.frame.metres_per_unit =
-      section.number("metres_per_unit", source.frame.metres_per_unit, Range::positive(1e6), "0.3048 for feet");
+  source.frame.metres_per_unit = section.number("metres_per_unit", source.frame.metres_per_unit, Range::positive(1e6),
+                                                "length of the file's unit, m: 0.3048 for feet");
   source.min_points = static_cast<int>(
       section.integer("min_points", source.min_points, 1, 1'000'000, "marks of one label that a voxel needs"));
   source.point_radius =
       section.number("point_radius_m", source.point_radius, Range::at_least(0.0, 10.0),
-                     "a point marks the voxels whose centre is this near, m: closes gaps of sparse scans");
+                     "a point also marks voxels whose centre is this near, m; closes gaps of sparse scans");
   source.fill_below = read_class_list(section, "fill_below");
   section.finish();
   return source;
@@ -74,9 +76,9 @@ CloudSource read_source(ConfigSection section) {
 
 Box read_extents(ConfigSection section) {
   const Box box(section.required_vec3("min", kPosition,
-                                      "of the map, m; without `extents` the bounds of all sources, and the flight box "
-                                      "if that takes at most 8 million voxels"),
-                section.required_vec3("max", kPosition, "of the map, m"));
+                                      "lower corner of the map, m; without `extents` the map covers all sources, and "
+                                      "the flight box if that takes at most 8 million voxels"),
+                section.required_vec3("max", kPosition, "upper corner of the map, m"));
   section.finish();
   if (!(box.min().array() < box.max().array()).all())
     throw section.error("max", "is not greater than min on every axis");
@@ -90,11 +92,11 @@ MapperConfig read_mapper_config(ConfigSection section) {
   config.resolution = section.number("resolution_m", config.resolution, Range{0.01, 100.0},
                                      "side of a voxel, m; at most 2·10⁸ voxels in all");
   if (section.has("extents")) config.extents = read_extents(section.section("extents"));
-  config.background = *named<VoxelLabel>(
-      section.choice("background", "free", {"free", "unknown"}, "label of voxels that nothing speaks of"));
+  config.background =
+      *named<VoxelLabel>(section.choice("background", "free", {"free", "unknown"}, "label of voxels without a source"));
   config.voxelize_obstacles = section.flag(
       "voxelize_obstacles", config.voxelize_obstacles,
-      "the scenario's listed static obstacles become occupied (the planner gets their exact boxes anyway)");
+      "the scenario's static obstacles become occupied voxels; the planner gets their exact boxes in any case");
   config.classes = read_classes(section.section("classes"), section.has("classes"));
   for (const ConfigSection& source : section.list("sources")) config.sources.push_back(read_source(source));
   section.finish();

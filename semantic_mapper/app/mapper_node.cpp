@@ -34,8 +34,9 @@ std::array<std::int64_t, kVoxelLabels> count_labels(const VoxelMap& map) {
 MapperNode::MapperNode(Bus& bus, const VoxelMap& map)
     : bus_(bus), chunks_(to_chunks(map)), rotation_began_(bus.clock().now()), next_(rotation_began_) {
   if (chunks_.size() > static_cast<std::size_t>(kMaxMapChunks)) {
-    throw std::invalid_argument(fmt::format("the map takes {} chunks (limit {}): it is too large or too ragged",
-                                            chunks_.size(), kMaxMapChunks));
+    throw std::invalid_argument(
+        fmt::format("the map takes {} chunks (limit {}): give smaller extents or a coarser resolution", chunks_.size(),
+                    kMaxMapChunks));
   }
 }
 
