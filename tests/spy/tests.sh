@@ -42,7 +42,7 @@ expect_end() {
 lcm_spy_shows_every_channel() {
   local rows=16 # 15 channels and the table's head
   start_spied_flight --set simulator.min_flight_s=600 # until the picture is taken
-  timeout 60 java -classpath "$work/classes" PhotographScreen "$work/spy.png" "$rows" ||
+  timeout 180 java -classpath "$work/classes" PhotographScreen "$work/spy.png" "$rows" ||
     fail "no $rows rows; lcm-spy: $(cat "$work/spy.out") flight: $(tail -n 5 "$work/flight.out")"
   kill -INT -- "-$flight"
   expect_end 130
