@@ -5,7 +5,7 @@ Every flight has a network namespace of its own (fly.sh --isolated) and a seed, 
 then counting up; world and faults follow from it, the moments only as well as the machine keeps time. Environment: TERN_BIN, where
 the programs are; TERN_PACE, how fast time runs (1 if unset; tests/support/at_machine_pace.sh); TERN_CAMPAIGN_KEEP, a folder for the records of flights that went wrong (default: flights/fault_campaign).
 
-What must hold (docs/troubleshooting.md): the exit code fits what was done; nobody is left; every kill of a process that can be
+What must hold (docs/reference/exit_codes.md): the exit code fits what was done; nobody is left; every kill of a process that can be
 started again is one restart, and the summary counts them; tern-audit finds nothing broken but a collision, and requests without an
 answer, of which the summary tells, too; tern-replay makes every answer again, if there is any, but for what a dead or stopped logger
 did not hear. One line per flight; exit code 1 if anything is wrong.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """fuzz_logs.py [N [SEED]]: N mutated logs of a flight, each read by tern-replay, tern-audit, tern-report and tern-export.
 
-Whatever a log holds, each program ends by itself, with one of its exit codes (docs/troubleshooting.md) and, where that is not 0,
+Whatever a log holds, each program ends by itself, with one of its exit codes (docs/reference/exit_codes.md) and, where that is not 0,
 with words: never by a signal, never beyond 60 s or 2 GB. Mutated are bytes, events (left out, doubled, exchanged, of another time)
 and numbers, most of all the limits in HORIZON_REQUEST. A mutation follows from its seed: SEED for the first one (default 1), then
 counting up. Environment: TERN_BIN, where the programs are; TERN_FUZZ_KEEP, a folder for logs that end badly; TERN_FUZZ_MEMORY_KB,
