@@ -194,7 +194,7 @@ Adoption Executor::judge(const Plan& plan, UTime now) {
     return {Verdict::Kept, {}};
   }
   if (plan.outcome == PlanOutcome::NoPlan) return {Verdict::NoPlan, {}};
-  if (!requests_plans()) return {Verdict::Stopped, "told to stop"};
+  if (!requests_plans()) return {Verdict::Stopped, "mode Stop, no goal, or the vehicle does not follow"};
   Adoption result = check_trajectory(plan.trajectory, request);
   if (result.verdict == Verdict::Adopted) {
     committed_.splice(plan.trajectory);

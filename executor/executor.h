@@ -75,7 +75,7 @@ class Executor {
   /// an adopted plan or by KeepCommitted. Without such a request, and after rejoin(), it is tube().
   [[nodiscard]] Vec3 tube_at(UTime t) const;
   /// Commits to a braking trajectory from the measured state, because the vehicle is outside its tube. The open request
-  /// is closed. The next request, which tells the vehicle of this trajectory, is due at once. Until the trajectory is
+  /// is closed. The next request, which reports this trajectory to the vehicle, is due at once. Until the trajectory is
   /// at rest, the limits and the flight box of requests are widened as far as it needs.
   void rejoin(const UavState& measured);
   /// Removes the plan that was adopted last if no request has contained it and it starts after `last_setpoint`, the

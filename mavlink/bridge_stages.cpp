@@ -72,9 +72,9 @@ void Bridge::step_ready(UTime now) {
 
 /// NAV_TAKEOFF has the height above home: the place of arming, unless home was set.
 void Bridge::request_take_off(UTime now) {
-  const auto said = autopilot_.home_height();
-  if (now < next_command_ || (!said && now - autopilot_.arming_changed() < kHomePatience)) return;
-  const double home = said.value_or(autopilot_.state()->motion.p.z());
+  const auto reported = autopilot_.home_height();
+  if (now < next_command_ || (!reported && now - autopilot_.arming_changed() < kHomePatience)) return;
+  const double home = reported.value_or(autopilot_.state()->motion.p.z());
   command(now, kNavTakeoff, {0, 0, 0, 0, 0, 0, static_cast<float>(uav_.start.z() - home)});
   next_command_ = now + kTakeOffPeriod;
   take_off_asked_ = true;

@@ -90,7 +90,7 @@ void ExecutorNode::fall_silent(UTime now) {
 
 void ExecutorNode::drop_unsent_plan() {
   if (!executor_->drop_unsent_plan(last_setpoint_)) return;
-  spdlog::info("dropped the newest plan: no request has told the vehicle of it");
+  spdlog::info("dropped the newest plan: no request has reported it to the vehicle");
 }
 
 bool ExecutorNode::check_after_silence(const UavState& state, const Vec3& error) {

@@ -26,7 +26,7 @@ inline constexpr double kRejoinBeyond = 0.1;
 /// |-----------|---------------------------------------------------------------|----------------|-------------------|
 /// | Waiting   | at start, also after a restart in flight                      | GOAL           | no                |
 /// | Holding   | the vehicle is stationary: its position is committed          | SETPOINT, GOAL | no                |
-/// | Following | VEHICLE_STATUS reports that the vehicle follows               | SETPOINT, GOAL | unless told to stop |
+/// | Following | VEHICLE_STATUS reports that the vehicle follows               | SETPOINT, GOAL | unless mode Stop   |
 /// | Silent    | no setpoint for kSetpointSilence, or the vehicle follows again | GOAL          | no                |
 ///
 /// The vehicle is stationary at the start of a flight. After a restart in flight it first flies the trajectory that was

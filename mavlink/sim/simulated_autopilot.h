@@ -63,7 +63,7 @@ struct SimulatedAutopilotConfig {
 ///
 /// Further rules:
 /// - Disarmed, it accepts any mode.
-/// - PX4 refuses to arm while NAV_DLL_ACT requires a ground station and none is heard.
+/// - PX4 refuses to arm while NAV_DLL_ACT requires a ground station and none sends HEARTBEAT.
 /// - With EKF2_GPS_CTRL 0 it has a position only while EKF2_EV_CTRL is 15 and ODOMETRY arrives. The values are the
 /// model's
 ///   in any case.

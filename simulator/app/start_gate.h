@@ -38,8 +38,8 @@ class StartGate {
   /// Takes a heartbeat. @param received  receive time, listener's clock
   void receive(const Heartbeat& heartbeat, UTime received);
   [[nodiscard]] bool open(UTime now) const { return missing(now).empty(); }
-  /// The processes that are not ready, with reasons: "tern-planner (waits for a map), tern-mapper (no HEARTBEAT)". Empty
-  /// when all are ready.
+  /// The processes that are not ready, with reasons: "tern-planner (waits for a map), tern-mapper (no HEARTBEAT)".
+  /// Empty when all are ready.
   [[nodiscard]] std::string missing(UTime now) const;
   /// Whether the log records from now on; true if no log is required.
   [[nodiscard]] bool records(UTime now) const;
@@ -56,7 +56,7 @@ class StartGate {
     std::int64_t epoch_us = 0;  ///< a restarted process may have another clock
     ClockSkew skew;
   };
-  [[nodiscard]] std::string skew_of(const ProcessReport& heard) const;
+  [[nodiscard]] std::string skew_of(const ProcessReport& report) const;
 
   std::vector<std::string> needed_;
   std::int64_t own_epoch_us_;

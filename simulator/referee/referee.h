@@ -28,7 +28,7 @@ namespace tern {
 /// | scenario.timeout_s, or 3 × rest_to_rest_bound_s + 10 s        | Timeout                                     |
 ///
 /// The first event decides. min_clearance_m is attained and at most kClearanceTolerance above the true minimum. After a
-/// collision it includes the rest of that step (≤ 10 ms), so that it tells the depth. Pieces are cut to steps of at
+/// collision it includes the rest of that step (≤ 10 ms), so that it shows the depth. Pieces are cut to steps of at
 /// most 10 ms; a step costs microseconds.
 class Referee {
  public:
@@ -65,7 +65,7 @@ class Referee {
   [[nodiscard]] double timeout_s() const { return timeout_s_; }
 
   [[nodiscard]] std::optional<FlightResult> verdict() const;
-  /// The measures so far. Before the verdict, outcome is Failed and detail tells that the flight has not ended. NaN:
+  /// The measures so far. Before the verdict, outcome is Failed and detail states that the flight has not ended. NaN:
   /// min_clearance_m without any obstacle, min_map_clearance_m without an occupied voxel, first_entry_s and
   /// mean_speed_mps without an entry.
   [[nodiscard]] FlightResult result_so_far() const;

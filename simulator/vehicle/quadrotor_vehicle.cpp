@@ -56,7 +56,7 @@ UavState QuadrotorVehicle::true_state() const {
 }
 
 UavState QuadrotorVehicle::estimate(UTime) {
-  if (const auto said = model_.delayed_estimate()) published_ = *said;
+  if (const auto estimate = model_.delayed_estimate()) published_ = *estimate;
   return published_;
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# node_mavlink.sh: the frames that the tests were recorded with are those that npm's node-mavlink makes.
-# Without node or npm it fails: what was not run was not tested (launch_scripts/test.sh installs them).
+# node_mavlink.sh: checks that npm's node-mavlink makes the recorded frames of the tests.
+# It fails without node or npm, so that the check cannot be skipped (launch_scripts/test.sh installs them).
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 for program in node npm; do
