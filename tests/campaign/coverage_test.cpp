@@ -12,7 +12,7 @@
 namespace tern {
 namespace {
 
-TEST(GroupedShare, OfNothingIsUnknown) {
+TEST(GroupedShare, WithoutGroupsIsUnknown) {
   EXPECT_EQ(share_interval({}).low, 0.0);
   EXPECT_EQ(share_interval({}).high, 1.0);
 }
@@ -41,7 +41,7 @@ TEST(GroupedShare, OfEqualGroupsIsAlmostAsTightAsTheBinomialInterval) {
   EXPECT_LT(share_interval(groups).high, 0.9975);
 }
 
-TEST(GroupedShare, IsWrongNoMoreOftenThanItSaysWhateverDependsOnWhatWithinAGroup) {
+TEST(GroupedShare, ErrsAsRarelyAsItStatesForAnyDependenceWithinAGroup) {
   // Groups of all sizes, each kept or missed as a whole: the worst dependence there is. The truth is 0.9.
   constexpr int kTrials = 2000;
   int above = 0, below = 0;
@@ -60,7 +60,7 @@ TEST(GroupedShare, IsWrongNoMoreOftenThanItSaysWhateverDependsOnWhatWithinAGroup
   EXPECT_LE(below, 0.05 * kTrials);
 }
 
-TEST(GroupedShare, RefutesWhatManyGroupsMissALittle) {
+TEST(GroupedShare, RefutesAShareThatManyGroupsMissALittle) {
   const std::vector<GroupShare> groups(15, GroupShare{100.0, 90.0});
   EXPECT_LT(share_upper_bound(groups, 1e-5), 0.99);
 }
@@ -108,7 +108,7 @@ TEST(Coverage, OfAllFlightsIsTheSumAndItsGroupsAreFlights) {
   }
 }
 
-TEST(Coverage, WhoseWorstClassIsBrokenIsSaidByAMark) {
+TEST(Coverage, MarksARefutedShare) {
   Coverage flight;
   flight.confidence = 0.99;
   flight.intervals[{PredictionClass::Old, 0}] = {100, {80, 100, 100, 100, 100}, 10.0};

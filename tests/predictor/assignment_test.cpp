@@ -61,7 +61,7 @@ TEST(Assignment, PrefersTheSumToTheNearest) {
   EXPECT_EQ(assign(cost, 20.0), (std::vector<int>{1, 0}));
 }
 
-TEST(Assignment, LeavesAloneWhatIsBeyondTheGate) {
+TEST(Assignment, MakesNoPairBeyondTheGate) {
   Eigen::MatrixXd cost(2, 1);
   cost << 5.0, 25.0;
   EXPECT_EQ(assign(cost, 20.0), (std::vector<int>{0, kUnassigned}));

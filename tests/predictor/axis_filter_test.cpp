@@ -13,7 +13,7 @@ namespace tern {
 namespace {
 
 struct Measurement {
-  double dt, z, r;  // dt since the one before
+  double dt, z, r;  // dt since the previous one
 };
 
 std::vector<Measurement> random_measurements(Rng& rng, int n) {
@@ -76,7 +76,7 @@ TEST(AxisFilter, AgreesWithLeastSquaresOverAllStates) {
   }
 }
 
-TEST(AxisFilter, TwoStepsMakeTheSameAsOne) {
+TEST(AxisFilter, TwoStepsEqualOne) {
   const AxisFilter start{1.0, -2.0, 0.3, 0.1, 0.7};
   AxisFilter once = start, twice = start;
   once.predict(0.75, 1.3);
@@ -109,7 +109,7 @@ TEST(Fit, ItsDistanceHasTheMeanOfChiSquare) {
   EXPECT_NEAR(sum / trials, 3.0, 0.07);  // deviation of the mean: √(6/20000) = 0.017
 }
 
-TEST(Fit, SurprisesByTheLogarithmOfTheDensity) {
+TEST(Fit, ItsCostIsTheNegativeLogarithmOfTheDensity) {
   Rng rng(1);
   const auto log_density = [](const Vec3& error, const Vec3& s) {
     double density = 1.0;
@@ -125,7 +125,7 @@ TEST(Fit, SurprisesByTheLogarithmOfTheDensity) {
   }
 }
 
-TEST(Fit, ItsGateBoxHoldsAllThatIsWithinTheGateAndLittleMore) {
+TEST(Fit, ItsGateBoxContainsTheGateAndLittleMore) {
   Rng rng(3);
   const auto any = [&](double least, double most) {
     return Vec3(rng.uniform(least, most), rng.uniform(least, most), rng.uniform(least, most));

@@ -1,4 +1,4 @@
-// What sensors get wrong: it is counted and said, nobody dies of it, and no promise is made that was not meant.
+// Wrong input from sensors is counted and reported. The predictor survives it, and its intervals still cover.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,10 +22,10 @@ using testing::Path;
 constexpr double kRate = 30.0, kNoise = 0.05;
 constexpr Duration kLatency{50'000};
 
-/// What a detector says in the frame of a time.
+/// The detections of a frame at a time.
 using Detector = std::function<std::vector<Detection>(double t)>;
 
-/// A predictor, and everything that passes the firewall of who hears it.
+/// A predictor, and all of its messages that receivers would accept.
 class BadInput : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -66,7 +66,7 @@ class BadInput : public ::testing::Test {
   [[nodiscard]] bool says(const std::string& words) const {
     return node_->health().waiting_for.find(words) != std::string::npos;
   }
-  /// Messages that nobody would have heard.
+  /// Messages that every receiver would reject.
   [[nodiscard]] std::int64_t unheard() {
     std::int64_t sum = 0;
     for (const char* channel : {channels::kPredictions.name, channels::kTrackBounds.name}) {
@@ -75,7 +75,7 @@ class BadInput : public ::testing::Test {
     return sum;
   }
 
-  /// The share of sets made in [from, to) in which one track at least holds the thing for the next `ahead` seconds.
+  /// The share of sets made in [from, to) in which at least one track covers the obstacle for the next `ahead` seconds.
   [[nodiscard]] double held(const Path& truth, double from, double to, double ahead) const {
     int all = 0, kept = 0;
     for (const TrackSet& set : sets_) {
@@ -136,13 +136,13 @@ TEST_F(BadInput, TimesThatJump) {
   const Path walker = straight(Vec3(0, 0, 1), Vec3(1, 0, 0));
   const auto see = [&](double t) { return std::vector{detection_of(walker(t), kNoise, rng_)}; };
   watch(2.0, see);
-  // Ahead, by more than clocks may differ: nobody hears it, and what comes in time is used.
+  // Ahead by more than clocks may differ: the set is rejected, and later sets in time are used.
   frame(runner_.now() + Duration{10'000'000}, see(now_s()));
   watch(1.0, see);
   EXPECT_EQ(refused(Rejection::Future), 1);
   EXPECT_EQ(late(), 0);
   EXPECT_GE(held(walker, 0.5, 3.0, 1.0), 0.99);
-  // Back, by more than sets may come out of order: counted as late, and the set says how old its world is.
+  // Back by more than the reorder window: counted as late, and made_at shows the age of the world.
   const std::size_t before = sets_.size();
   const UTime newest = sets_.back().made_at;
   for (int k = 0; k < 30; ++k) {
@@ -160,7 +160,7 @@ TEST_F(BadInput, TimesThatJump) {
 
 TEST_F(BadInput, SixHundredDetectionsAFrame) {
   const Path walker = straight(Vec3(0, 0, 1), Vec3(1, 0, 0));
-  // All but one are nothing: each frame has others, everywhere.
+  // One detection is real. All others are false, at new places in each frame.
   watch(3.0, [&](double t) {
     std::vector<Detection> detections{detection_of(walker(t), kNoise, rng_)};
     while (detections.size() < 600) {
@@ -201,7 +201,7 @@ TEST_F(BadInput, TwoSensorsThatDisagreeByHalfAMetre) {
     frame(at, {detection_of(p, kNoise, rng_)}, 1);
     frame(at + Duration{1'000}, {detection_of(p + Vec3(0.0, 0.5, 0.0), kNoise, rng_)}, 2);
   }
-  // Nobody knows which one is right: each has its word.
+  // Neither sensor is known to be right, so each one's position must be covered.
   EXPECT_GE(held(walker, 0.5, 5.0, 1.0), 0.99);
   EXPECT_GE(held([&](double t) -> Vec3 { return walker(t) + Vec3(0.0, 0.5, 0.0); }, 0.5, 5.0, 1.0), 0.99);
   EXPECT_LE(most_tracks(0.5, 5.0), 3U);

@@ -14,7 +14,7 @@
 namespace tern {
 namespace {
 
-/// Of everything that is known of a class and band, counted anew: the share of scores above q.
+/// Oracle: the share of scores above q, counted over prior, pool and own scores.
 double above(double q, std::size_t kind, std::size_t band, const std::vector<float>& own,
              const std::vector<float>& all) {
   const auto larger = [&](const std::vector<float>& scores) {
@@ -51,7 +51,7 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
     calibration.refresh();
     const PerLevel margins = calibration.margins(TrackClass::CalmOld);
     for (std::size_t level = 0; level < margins.size(); ++level) {
-      // None was broken: theta has risen with each.
+      // No interval missed: θ has risen with each.
       const double allowed = calibration.allowed(level, kBand);
       const double risen = (level == 0 ? 1.0 : Calibration::kInitialLevel) *
                            prior_level(SceneSpeed::Any, kKind, kBand, level) *
@@ -66,7 +66,7 @@ TEST(Calibration, TheMarginIsTheLeastThatPriorPoolAndOwnScoresAllow) {
   }
 }
 
-TEST(Calibration, WhatWasPromisedByAnotherPriorTeachesNothing) {
+TEST(Calibration, PredictionsMadeUnderAnotherPriorLeaveThetaAsItIs) {
   std::array<PerLevel, 2> margins;
   for (const SceneSpeed made_under : {SceneSpeed::Any, SceneSpeed::Slow}) {
     Rng rng(4);
@@ -83,7 +83,7 @@ TEST(Calibration, WhatWasPromisedByAnotherPriorTeachesNothing) {
   }
 }
 
-TEST(PromisedHalf, ContainsAnErrorByItsOwnMarginAndByNoLess) {
+TEST(IntervalHalfWidth, CoversAnErrorWithItsMarginAndWithNoLess) {
   Rng rng(2);
   for (int trial = 0; trial < 1000; ++trial) {
     const double ahead = rng.uniform(0.01, 4.5);
@@ -102,7 +102,7 @@ TEST(PromisedHalf, ContainsAnErrorByItsOwnMarginAndByNoLess) {
   }
 }
 
-TEST(Calibration, ASlowWorldsPriorIsTakenBackAsIfItHadNotRuled) {
+TEST(Calibration, LeavingTheSlowPriorRestoresTheMarginsOfTheOther) {
   const Calibration fresh(0.99);
   Calibration calibration(0.99);
   calibration.set_scene_speed(SceneSpeed::Slow);
@@ -124,8 +124,8 @@ TEST(Calibration, ASlowWorldsPriorIsTakenBackAsIfItHadNotRuled) {
   }
 }
 
-/// Promises whose errors grow from band to band, `scale` times as large as some that the prior might know.
-TEST(Calibration, BreaksWhatItMayAtEachLevelWhateverTheWorldIs) {
+/// Errors grow from band to band, and are `scale` times as large as those that the prior may know.
+TEST(Calibration, MissesTheAllowedShareAtEachLevelForAnyDistribution) {
   for (const double scale : {0.1, 8.0}) {
     Rng rng(3);
     Calibration calibration(0.99);
@@ -149,7 +149,7 @@ TEST(Calibration, BreaksWhatItMayAtEachLevelWhateverTheWorldIs) {
       EXPECT_LE(calibration.allowed(level, kBands - 1), 1.0 - kConfidenceLevels[level] + 1e-12);
       for (std::size_t band = 0; band < kBands; ++band) {
         const double share = static_cast<double>(missed[level][band]) / (kPromises - kLearning);
-        // Four deviations of so many that are broken independently.
+        // Four standard deviations of that many independent misses.
         const double allowed = calibration.allowed(level, band);
         const double deviation = std::sqrt((1.0 - allowed) / (allowed * (kPromises - kLearning)));
         EXPECT_NEAR(share / allowed, 1.0, 4.0 * deviation) << scale << ", " << level << ", " << band;

@@ -48,7 +48,7 @@ TEST(Trimmed, PassesPiecesOnBitForBit) {
   EXPECT_EQ(kept.top_speed, track.top_speed);
 }
 
-TEST(Trimmed, SaysTheSameOverTheHorizonAsWhatWasDeclared) {
+TEST(Trimmed, EqualsTheDeclaredMotionOverTheHorizon) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
     const Track track = random_track(rng, 1);
@@ -63,7 +63,7 @@ TEST(Trimmed, SaysTheSameOverTheHorizonAsWhatWasDeclared) {
   }
 }
 
-TEST(Trimmed, KeepsTheLastPieceOfWhatIsOver) {
+TEST(Trimmed, KeepsTheLastPieceOfATrackThatHasEnded) {
   Rng rng(2);
   const Track track = random_track(rng, 1);
   const Track kept = trimmed({track}, at_seconds(20.0), Duration::from_seconds(4.5)).front();
@@ -105,7 +105,7 @@ TEST(WithoutExplained, DropsDetectionsOfDeclaredTracksOnly) {
 }
 
 // A person beside a declared robot.
-TEST(WithoutExplained, KeepsWhatSticksOutOfTheDeclaredBox) {
+TEST(WithoutExplained, KeepsADetectionThatSticksOutOfTheDeclaredBox) {
   Track robot;
   robot.id = 1;
   robot.half_extents = Vec3(1.0, 1.0, 1.0);
@@ -152,7 +152,7 @@ TEST(Merged, DeclaredTracksWinAndIdsAscend) {
 }
 
 // A region that grows for seconds after its owner fell silent must not hide what is seen in it.
-TEST(WithoutExplained, DropsNothingForTracksThatAreLongOver) {
+TEST(WithoutExplained, KeepsDetectionsWhereADeclaredTrackEndedLongAgo) {
   Rng rng(6);
   Track track = random_track(rng, 7);  // until 15 s
   ObservationSet set;
@@ -169,7 +169,7 @@ TEST(WithoutExplained, DropsNothingForTracksThatAreLongOver) {
   EXPECT_TRUE(without_explained(set, {track}).detections.empty());
 }
 
-TEST(Merged, AnEstimateReplacesADeclaredTrackThatIsOver) {
+TEST(Merged, AnEstimateReplacesADeclaredTrackThatHasEnded) {
   Rng rng(7);
   const Track declared = random_track(rng, 5);
   Track estimate = random_track(rng, 5);

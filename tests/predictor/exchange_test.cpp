@@ -12,8 +12,8 @@ using testing::observations_at;
 constexpr double kRate = 30.0, kApart = 20.0;
 constexpr int kPairs = 12;
 
-/// Pairs that walk towards each other for 3 s and on for 3 s, all their detections with true ids or, from the moment at
-/// which they pass on, with each other's.
+/// Pairs that walk towards each other for 3 s and on for 3 s. Ids are true, or exchanged from the moment at which the
+/// two pass.
 double margin_of_pairs(bool exchanged) {
   Rng rng(4);
   Tracker tracker(TrackerConfig{});
@@ -38,7 +38,7 @@ double margin_of_pairs(bool exchanged) {
   return largest;
 }
 
-TEST(Exchange, OfThingsThatPassEachOtherMakesNoPromiseWider) {
+TEST(Exchange, OfTracksThatPassEachOtherWidensNoInterval) {
   const double apart = margin_of_pairs(false), exchanged = margin_of_pairs(true);
   EXPECT_LT(exchanged, apart + 0.5);
 }

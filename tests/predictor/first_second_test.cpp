@@ -1,4 +1,4 @@
-// What is met for less than a second: its promise holds from the first moment on, whatever else there is.
+// Tracks that exist for less than a second: their intervals cover from the first moment on, in any company.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,10 +18,10 @@ using testing::at_seconds;
 using testing::Path;
 
 constexpr double kRate = 30.0, kUntil = 60.0, kLatency = 0.05;
-constexpr double kLife = 1.2;  // s, then another one comes
+constexpr double kLife = 1.2;  // s, then the next one appears
 constexpr int kPlaces = 8;     // 20 m apart
 
-/// At each x one thing after the other, 20 m apart: it rests at every other x, and swings at 4 m/s at the others.
+/// At each x one obstacle after the other, 20 m apart. At every other x it rests; at the others it swings at 4 m/s.
 Path at_place(int place, double t) {
   const auto visit = static_cast<int>(t / kLife);
   const Vec3 centre(20.0 * place, 20.0 * visit, 2.0);
@@ -36,7 +36,7 @@ struct OfAges {
   std::array<int, 4> kept{}, promises{};
 };
 
-// Of what swings, over kUntil.
+// Of the swinging obstacles, over kUntil.
 void follow_places(std::uint64_t seed, double horizon_s, OfAges& sum) {
   Rng rng(seed);
   Tracker tracker(TrackerConfig{});
@@ -62,7 +62,7 @@ void follow_places(std::uint64_t seed, double horizon_s, OfAges& sum) {
   }
 }
 
-TEST(FirstSecond, KeepsThePromiseOfFastMoversAmongThingsThatRest) {
+TEST(FirstSecond, CoversFastTracksAmongStationaryOnes) {
   constexpr double kHorizon = 0.5;
   OfAges sum;
   for (std::uint64_t seed = 17; seed < 20; ++seed) follow_places(seed, kHorizon, sum);
@@ -73,7 +73,7 @@ TEST(FirstSecond, KeepsThePromiseOfFastMoversAmongThingsThatRest) {
   }
 }
 
-/// How many tracks of a set keep their α at each level for `ahead` seconds, by the movers of their ids.
+/// Counts the tracks of a set that are covered at each level for `ahead` seconds, by the obstacles of their ids.
 void count_kept(const std::vector<Track>& tracks, const std::vector<Path>& movers, double ahead,
                 std::array<int, kLevels>& kept, int& promises) {
   for (const Track& track : tracks) {
@@ -87,8 +87,8 @@ void count_kept(const std::vector<Track>& tracks, const std::vector<Path>& mover
   }
 }
 
-/// Twenty walk at 1.2 m/s; later one comes that flies at 4 m/s.
-TEST(FirstSecond, OfWhatIsNewLessIsFearedWhereNothingWasFastUntilSomethingIs) {
+/// Twenty walk at 1.2 m/s; later one appears that flies at 4 m/s.
+TEST(FirstSecond, NewTracksHaveNarrowMarginsInASlowSceneUntilAFastOneAppears) {
   Rng rng(5);
   Tracker tracker(TrackerConfig{});
   const auto feared = [&] { return tracker.scorer().calibration().margins(TrackClass::New)[0][band_of(0.5)]; };
@@ -108,8 +108,8 @@ TEST(FirstSecond, OfWhatIsNewLessIsFearedWhereNothingWasFastUntilSomethingIs) {
   EXPECT_GT(feared(), 2.0 * among_walkers);
 }
 
-// A predictor that starts anew among fast movers, which an exact sensor sees: it knows nothing of this world.
-TEST(FirstSecond, KeepsEachConfidenceFromTheFirstPromisesOfAFlightOn) {
+// A restarted predictor among fast obstacles, with an exact sensor: it has no scores of this scene.
+TEST(FirstSecond, CoversAsStatedAtEachConfidenceFromTheFirstPredictionsOn) {
   constexpr int kFlights = 40, kMovers = 25;
   for (const int frames : {2, 3, 4, 6}) {
     std::array<int, kLevels> kept{};

@@ -1,4 +1,4 @@
-// What is learnt from a flight's own tracks: the law itself, its spline, what outliers do, and a tracker that uses it.
+// The learnt model: the law that it finds, its spline, the effect of outliers, and a tracker that uses it.
 #include "predictor/models/learnt_model.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ LearntInput drawn(Rng& rng) {
   return track;
 }
 
-// Some law: what comes beyond straight on, per feature, as large as Taylor's series would have it.
+// A linear law: the offset from constant velocity, per feature, of the size of Taylor's terms.
 FeatureCoefficients law(std::size_t horizon) {
   Rng rng(40 + horizon);
   FeatureCoefficients weights;
@@ -55,8 +55,8 @@ Vec3 true_position(const LearntInput& track, std::size_t horizon) {
 struct SampleSource {
   int samples = 0;
   Vec3 noise = Vec3::Constant(0.01);  // m
-  double outliers = 0.0;              // share of lessons from something else
-  std::size_t first_group = 0;        // of those that are taught, in turn
+  double outliers = 0.0;              // share of samples with another law
+  std::size_t first_group = 0;        // samples go to the groups from here on, in turn
 };
 
 void add_samples(LearntModel& model, const SampleSource& source, Rng& rng) {
@@ -98,15 +98,15 @@ TEST(LearntModel, FindsALinearLawInNoise) {
   EXPECT_LT(rms_error(model, rng), 0.01);
 }
 
-TEST(LearntModel, OneLessonInTwentyFromSomethingElseHardlyDisturbsIt) {
+TEST(LearntModel, OneOutlierInTwentySamplesHardlyChangesIt) {
   Rng rng(2);
   LearntModel model;
   add_samples(model, {.samples = 800, .outliers = 0.05}, rng);
   EXPECT_LT(rms_error(model, rng), 0.03);
 }
 
-TEST(LearntModel, KnowsHowWrongItIs) {
-  // Each time ahead goes by 40 errors, which tell a deviation to 11 % (1σ): four models' mean to half of that.
+TEST(LearntModel, EstimatesItsOwnVariance) {
+  // 40 residuals per time ahead determine a deviation to 11 % (1σ), and the mean of four models to half of that.
   constexpr int kFittedModels = 4;
   std::array<Vec3, kLearntTimes> mean;
   mean.fill(Vec3::Zero());
@@ -118,7 +118,7 @@ TEST(LearntModel, KnowsHowWrongItIs) {
       mean[h] += model.at(kLearntAhead[h], kOldest).variance.cwiseSqrt() / kFittedModels;
     }
   }
-  // Student's t trusts what surprises less, and so finds Gaussian noise a little smaller than it is.
+  // Student's t gives outliers less weight, so it underestimates Gaussian noise a little.
   for (std::size_t h = 0; h < kLearntTimes; ++h) {
     for (int axis = 0; axis < 3; ++axis) {
       EXPECT_GT(mean[h][axis], 0.07 * (axis + 1)) << kLearntAhead[h];
@@ -127,7 +127,7 @@ TEST(LearntModel, KnowsHowWrongItIs) {
   }
 }
 
-// A lesson of one group, which all times ahead learn: what `by` says, and noise.
+// Adds a sample of one group at all times ahead: the law `by`, and noise.
 template <typename Law>
 void add_one_sample(LearntModel& model, std::size_t group, double noise, Rng& rng, const Law& by) {
   const LearntInput track = drawn(rng);
@@ -137,7 +137,7 @@ void add_one_sample(LearntModel& model, std::size_t group, double noise, Rng& rn
   }
 }
 
-TEST(LearntModel, WhatTheOldDoToTheMillimetreDoesNotOutweighWhatTheYoungDo) {
+TEST(LearntModel, ExactSamplesOfOldTracksDoNotOutweighNoisyOnesOfYoungTracks) {
   Rng rng(7);
   LearntModel model;
   const auto otherwise = [](const LearntInput& track, std::size_t h) {
@@ -149,17 +149,17 @@ TEST(LearntModel, WhatTheOldDoToTheMillimetreDoesNotOutweighWhatTheYoungDo) {
     model.refit();
   }
   for (std::size_t h = 0; h < kLearntTimes; ++h) {
-    const double apart = 0.5 * law(h).colwise().norm().maxCoeff();  // what the two do, RMS
+    const double apart = 0.5 * law(h).colwise().norm().maxCoeff();  // RMS difference of the two laws
     EXPECT_LT(model.at(kLearntAhead[h], kOldest - 1).variance.cwiseSqrt().maxCoeff(), 0.1 + 0.2 * apart)
         << kLearntAhead[h];
     EXPECT_LT(model.at(kLearntAhead[h], kOldest).variance.cwiseSqrt().maxCoeff(), 0.005) << kLearntAhead[h];
   }
 }
 
-TEST(LearntModel, ForgetsHowWrongItWasBeforeItWasTaught) {
+TEST(LearntModel, DropsResidualsFromBeforeItHadEnoughSamples) {
   Rng rng(8);
   LearntModel model;
-  // All of a crowd at once, as when a sensor is switched on: nobody learnt before the last of them was judged.
+  // A crowd appears at once, as when a sensor is switched on: all residuals come before the first fit.
   for (int n = 0; n < 60; ++n) add_one_sample(model, kOldest, 0.01, rng, true_position);
   model.refit();
   const double unfitted = model.at(kLearntAhead.back(), kOldest).variance.maxCoeff();
@@ -171,7 +171,7 @@ TEST(LearntModel, ForgetsHowWrongItWasBeforeItWasTaught) {
   EXPECT_EQ(model.horizon_s(kOldest), kLearntAhead.back());
 }
 
-TEST(LearntModel, SaysNothingOfAGroupThatNobodyWasJudgedIn) {
+TEST(LearntModel, IsUnusableForAGroupWithoutResiduals) {
   Rng rng(4);
   LearntModel model;
   add_samples(model, {.samples = 100, .first_group = kOldest}, rng);
@@ -179,7 +179,7 @@ TEST(LearntModel, SaysNothingOfAGroupThatNobodyWasJudgedIn) {
   EXPECT_EQ(model.horizon_s(0), 0.0);
 }
 
-TEST(LearntModel, BeforeItLearntItIsTheFilterThatItGoesBy) {
+TEST(LearntModel, EqualsItsFeatureFilterBeforeTheFirstSample) {
   Rng rng(5);
   BankFilter bank(Vec3(1, 2, 3), Vec3::Constant(0.01));
   for (int n = 1; n < 40; ++n) {
@@ -218,7 +218,7 @@ TEST(LearntGroup, GoesByAge) {
   EXPECT_EQ(learnt_group(100.0), kOldest);
 }
 
-// The learnt model predicted this group better than all others did.
+// Scores in which the learnt model predicted this group better than every other model.
 ModelScores scored_well(std::size_t group) {
   ModelScores scores(-kMaxScoreGap);
   PerCandidate<double> score{};
@@ -229,7 +229,7 @@ ModelScores scored_well(std::size_t group) {
   return scores;
 }
 
-TEST(LearntWeights, OneGroupsScoresMakeNoOtherBelieved) {
+TEST(LearntWeights, TheScoresOfOneGroupDoNotWeighInAnother) {
   const ModelScores pool = scored_well(kOldest), own;
   for (const double ahead : kScoredAhead) {
     EXPECT_GT(weights_at(model_weights(pool, own, kOldest, 3.0), ahead)[kLearnt], 0.9);
@@ -237,7 +237,7 @@ TEST(LearntWeights, OneGroupsScoresMakeNoOtherBelieved) {
   }
 }
 
-TEST(LearntWeights, WhoIsNotAskedIsNotJudged) {
+TEST(LearntWeights, AModelThatDoesNotTakePartGetsNoScore) {
   ModelScores scores = scored_well(kOldest);
   PerCandidate<double> score{};
   score[kLearnt] = -100.0;
@@ -248,7 +248,7 @@ TEST(LearntWeights, WhoIsNotAskedIsNotJudged) {
   EXPECT_EQ(scores.at(0, kOldest - 1)[kLearnt], -kMaxScoreGap);
 }
 
-TEST(LearntWeights, FadeBeyondWhatIsLearntAndAlwaysSumToOne) {
+TEST(LearntWeights, FadeBeyondTheLearntHorizonAndAlwaysSumToOne) {
   const ModelScores pool = scored_well(kOldest), own;
   for (const double learnt_horizon_s : {0.0, 0.25, 0.375, 1.0, 1.5, 3.0}) {
     const HorizonWeights weights = model_weights(pool, own, kOldest, learnt_horizon_s);
@@ -272,12 +272,12 @@ TEST(LearntWeights, FadeBeyondWhatIsLearntAndAlwaysSumToOne) {
   }
 }
 
-// A tracker among things that all move by a law of one kind.
+// A tracker among obstacles that all follow one law.
 
 struct Outcome {
   double mean_half = 0.0, rms = 0.0;  // at kAhead, m
   int kept = 0, promises = 0;
-  int learnt = 0;  // promises by the learnt model
+  int learnt = 0;  // predictions of the learnt class
 };
 
 constexpr double kAhead = 1.0, kRate = 30.0, kNoise = 0.03, kApart = 30.0;
@@ -315,7 +315,7 @@ Outcome follow(const std::vector<Path>& paths, bool learns, double seconds) {
   return outcome;
 }
 
-// On a tilted circle that goes up and down twice in a round, each its own size and phase.
+// A tilted circle that goes up and down twice in a round, with a random size and phase.
 std::vector<Path> going_round(int count) {
   Rng rng(8);
   std::vector<Path> paths;
@@ -330,7 +330,7 @@ std::vector<Path> going_round(int count) {
   return paths;
 }
 
-TEST(LearntTracks, WhatGoesRoundIsForetoldFarBetterAndPromisesAreKept) {
+TEST(LearntTracks, CirclingTracksArePredictedFarBetterAndCovered) {
   const std::vector<Path> paths = going_round(8);
   const Outcome given = follow(paths, false, 20.0), learnt = follow(paths, true, 20.0);
   EXPECT_EQ(given.learnt, 0);
@@ -340,7 +340,7 @@ TEST(LearntTracks, WhatGoesRoundIsForetoldFarBetterAndPromisesAreKept) {
   EXPECT_GT(testing::wilson(learnt.kept, learnt.promises).high, 0.99);
 }
 
-TEST(LearntTracks, AmongWhatFollowsNoLawTheGivenModelsGoOnAsWell) {
+TEST(LearntTracks, WithoutACommonLawTheBankPredictsAsWellAsBefore) {
   Rng rng(9);
   std::vector<Path> paths;
   for (int k = 0; k < 8; ++k) {
@@ -351,13 +351,13 @@ TEST(LearntTracks, AmongWhatFollowsNoLawTheGivenModelsGoOnAsWell) {
   EXPECT_GT(testing::wilson(learnt.kept, learnt.promises).high, 0.99);
 }
 
-TEST(LearntTracks, WhatIsUnseenIsForetoldFromItsLastDetection) {
+TEST(LearntTracks, AnUnseenTrackIsPredictedFromItsLastDetection) {
   const std::vector<Path> paths = going_round(8);
   TrackerConfig config;
   config.learns = true;
   Tracker tracker(config);
   Rng rng(10);
-  constexpr double kHidden = 18.0;  // s: from then on the first is not detected
+  constexpr double kHidden = 18.0;  // s: from here on the first one is not detected
   double worst = 0.0;
   int told = 0;
   for (int frame = 0; frame < static_cast<int>((kHidden + 1.0) * kRate); ++frame) {
@@ -376,7 +376,7 @@ TEST(LearntTracks, WhatIsUnseenIsForetoldFromItsLastDetection) {
     }
   }
   EXPECT_GT(told, 20);
-  EXPECT_LT(worst, 0.5);  // a circle of up to 2 m at 2 rad/s: straight on it would be 4 m off after a second
+  EXPECT_LT(worst, 0.5);  // a circle of up to 2 m at 2 rad/s: constant velocity would be 4 m off after a second
 }
 
 }  // namespace

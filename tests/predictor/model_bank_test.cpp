@@ -83,7 +83,7 @@ TEST(BankFilter, OrdersAreThoseOfTheModels) {
   for (std::size_t j = 0; j < kModels; ++j) EXPECT_EQ(kOrders[j], motion_models()[j].order()) << j;
 }
 
-TEST(BankFilter, ItsGateBoxHoldsAllThatIsNoSurprise) {
+TEST(BankFilter, ItsGateBoxContainsEveryDetectionWithinTheGate) {
   Rng rng(7);
   BankFilter bank(Vec3::Zero(), Vec3::Constant(0.01));
   int within = 0;

@@ -1,4 +1,4 @@
-// Which motion model predicts best is not the one that foretells the next detection best.
+// The model that predicts best a second ahead is not the one that predicts the next detection best.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ using testing::Path;
 constexpr double kRate = 16.0, kNoise = 0.01;
 constexpr double kApart = 100.0;  // m
 
-/// A head: straight on at a walker's speed, to and fro at each step, and sideways at every other one.
+/// A walker's head: straight on, with a sway along the path at each step and sideways at every other one.
 Path walker(Rng& rng, double y) {
   const double speed = rng.uniform(1.0, 1.6), steps = 2.0 * std::numbers::pi * rng.uniform(1.7, 2.0);
   const double phase = rng.uniform(0.0, 2.0 * std::numbers::pi);

@@ -1,4 +1,4 @@
-// BENCHMARKS "perception only" on whole worlds: how many tracks keep their α, and is every near obstacle inside one?
+// BENCHMARKS "perception only" on whole worlds: how many tracks are covered, and is every near obstacle in some box?
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace {
 
 constexpr double kFlight = 16.0;       // s, along the straight line from start to goal
 constexpr double kSurelySeen = 6.0;    // m: obstacles this near have been in range for a while
-constexpr double kSameObstacle = 1.0;  // m: a track is of the nearest obstacle, if that is this near
+constexpr double kSameObstacle = 1.0;  // m: a track belongs to the nearest obstacle within this distance
 
 struct Tally {
-  int kept = 0, tracks = 0;          // tracks that kept their α over all pieces
+  int kept = 0, tracks = 0;          // tracks that were covered over all pieces
   int contained = 0, obstacles = 0;  // near obstacles whose centre some track's region contained
 };
 
@@ -78,7 +78,7 @@ Tally fly(const std::string& generator, int obstacles, const TrackerConfig& conf
 
 double share(int part, int all) { return static_cast<double>(part) / all; }
 
-TEST(PerceptionOnly, KeepsThePromiseInWorldsThatMoveDifferently) {
+TEST(PerceptionOnly, CoversInWorldsThatMoveDifferently) {
   for (const auto& [generator, obstacles, least] :
        {std::tuple{"sando_forest", 200, 0.99}, std::tuple{"paper_corridor", 100, 0.97}}) {
     const Tally tally = fly(generator, obstacles, TrackerConfig{});

@@ -62,7 +62,7 @@ TEST(PredictorConfig, RefusesWhatIsWrong) {
   expect_refused("  confirm_hits: 6\n", "confirm_window");
 }
 
-// A track of more pieces than a message takes would be left out of every set.
+// A track with more pieces than a message holds would be left out of every set.
 TEST(PredictorConfig, RefusesMorePiecesThanAMessageTakes) {
   const auto with_piece = [](double piece_s) {
     return "  horizon_s: 23\n  piece_growth: 0\n  piece_s: " + std::to_string(piece_s) + "\n";

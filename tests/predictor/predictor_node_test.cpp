@@ -33,7 +33,7 @@ Track mover(std::int64_t id, const Vec3& p, const Vec3& v, UTime start, int piec
   return track;
 }
 
-// A predictor among a test that plays simulator and planner.
+// A predictor; the test plays simulator and planner.
 class PredictorNodeTest : public ::testing::Test {
  protected:
   void start(const PredictorConfig& config = {}) {
@@ -65,7 +65,7 @@ class PredictorNodeTest : public ::testing::Test {
     set.detections = std::move(detections);
     runner_.observer().publish(channels::kObstacleObservations, set);
   }
-  // Frames of a thing at rest at 30 Hz.
+  // Frames of a stationary obstacle at 30 Hz.
   void watch_pillar(double seconds) {
     for (int k = 0; k < static_cast<int>(seconds * 30); ++k) {
       observe({testing::detection_of(Vec3(3, 0, 1), 0.02, rng_)});
@@ -98,7 +98,7 @@ class PredictorNodeTest : public ::testing::Test {
   Duration largest_gap_;
 };
 
-TEST_F(PredictorNodeTest, WaitsAndSaysWhatForUntilItHasAnInput) {
+TEST_F(PredictorNodeTest, WaitsAndNamesTheReasonUntilItHasAnInput) {
   start();
   run_for(2.0);
   EXPECT_EQ(node_->health().state, ProcessState::Waiting);
@@ -116,7 +116,7 @@ TEST_F(PredictorNodeTest, AWorldWithoutObstaclesIsAnEmptySet) {
   EXPECT_EQ(sets_.back().confidence, 1.0);
 }
 
-TEST_F(PredictorNodeTest, AnEmptyObservationMakesItReadyToo) {
+TEST_F(PredictorNodeTest, AnEmptyObservationMakesItReady) {
   start();
   observe({});
   run_for(0.1);
@@ -162,7 +162,7 @@ TEST_F(PredictorNodeTest, GoesOnWithTheOldTimeWhenInputsStop) {
   EXPECT_GT(sets_.back().tracks[0].bounds(runner_.now(), runner_.now()).sizes().x(), 20.0);
 }
 
-TEST_F(PredictorNodeTest, EstimatesWhatNobodyDeclares) {
+TEST_F(PredictorNodeTest, EstimatesUndeclaredObstacles) {
   start();
   Rng rng(1);
   const UTime begin = runner_.now();
@@ -183,7 +183,7 @@ TEST_F(PredictorNodeTest, EstimatesWhatNobodyDeclares) {
   EXPECT_NEAR(set.tracks[1].motion.sample(runner_.now()).v.y(), 1.5, 0.3);
 }
 
-TEST_F(PredictorNodeTest, TellsTwiceASecondWhatRulesTheWidthOfWhatItEstimates) {
+TEST_F(PredictorNodeTest, ReportsTwiceASecondTheRuleBehindEachWidth) {
   start();
   std::vector<TrackBounds> told;
   runner_.observer().subscribe(channels::kTrackBounds, [&](const TrackBounds& of) { told.push_back(of); });
@@ -210,7 +210,7 @@ TEST_F(PredictorNodeTest, TellsTwiceASecondWhatRulesTheWidthOfWhatItEstimates) {
   EXPECT_EQ(bound.ruled_by, BoundRule::Prior) << "of a second and a half little is known";
 }
 
-TEST_F(PredictorNodeTest, KnowsNoReasonsOfAnOwnersEstimates) {
+TEST_F(PredictorNodeTest, ReportsNoBoundsForEstimatesOfAnOwner) {
   start();
   std::vector<TrackBounds> told;
   runner_.observer().subscribe(channels::kTrackBounds, [&](const TrackBounds& of) { told.push_back(of); });
@@ -226,7 +226,7 @@ TEST_F(PredictorNodeTest, KnowsNoReasonsOfAnOwnersEstimates) {
   ASSERT_EQ(sets_.back().tracks.size(), 1u);
 }
 
-TEST_F(PredictorNodeTest, EachModelListensOnlyToItsOwn) {
+TEST_F(PredictorNodeTest, EachModelUsesItsInputsOnly) {
   for (const PredictorModel model : {PredictorModel::Declared, PredictorModel::Detections}) {
     VirtualRunner runner;
     PredictorConfig config;
@@ -317,7 +317,7 @@ TEST_F(PredictorNodeTest, LeavesOutTheFarthestAndCountsThem) {
   EXPECT_LE(farthest_in, nearest_out + 2.0);
 }
 
-TEST_F(PredictorNodeTest, SaysWhatOwnersLeftOut) {
+TEST_F(PredictorNodeTest, ReportsTracksThatOwnersLeftOut) {
   start();
   TrackSet set;
   set.batch.set = 1;
@@ -407,7 +407,7 @@ TEST_F(PredictorNodeTest, NamesTheSensorThatFellSilentBesideAnother) {
   EXPECT_TRUE(says("obstacle observations of sensor 3 (silent for 1.0 s)")) << node_->health().waiting_for;
 }
 
-TEST_F(PredictorNodeTest, DoesNotMissAFalseSensorThatWasHeardOnce) {
+TEST_F(PredictorNodeTest, DoesNotMissAFalseSensorThatSentOnce) {
   start();
   observe({}, Duration{}, 3);
   watch_pillar(1.0);

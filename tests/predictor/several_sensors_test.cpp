@@ -22,7 +22,7 @@ ObservationSet frame(std::int32_t sensor, double t, std::vector<Detection> detec
 }
 
 constexpr std::int32_t kLidar = 1, kCamera = 2;
-// A lidar at 10 Hz and a camera at 30 Hz over [from, to); `see` says what a frame shows.
+// A lidar at 10 Hz and a camera at 30 Hz over [from, to); `see` returns the detections of a frame.
 void watch(Tracker& tracker, double from, double to,
            const std::function<std::vector<Detection>(std::int32_t, double)>& see) {
   for (int k = 0; from + k / 30.0 < to; ++k) {
@@ -32,7 +32,7 @@ void watch(Tracker& tracker, double from, double to,
   }
 }
 
-// Of something at rest that only one sensor sees.
+// The tracks of a stationary obstacle that only one sensor sees.
 std::function<std::vector<Detection>(std::int32_t, double)> seen_only_by(std::int32_t sensor, Rng& rng) {
   return [sensor, &rng](std::int32_t asked, double) {
     return asked == sensor ? std::vector{detection_of(Vec3::Zero(), 0.01, rng)} : std::vector<Detection>{};
@@ -41,7 +41,7 @@ std::function<std::vector<Detection>(std::int32_t, double)> seen_only_by(std::in
 
 std::vector<Detection> nothing(std::int32_t, double) { return {}; }
 
-TEST(TrackerOfTwoSensors, PublishesWhatOnlyTheSlowerOneSees) {
+TEST(TrackerOfTwoSensors, PublishesATrackThatOnlyTheSlowerOneSees) {
   Rng rng(10);
   Tracker tracker(TrackerConfig{});
   watch(tracker, 0.0, 0.25, seen_only_by(kLidar, rng));
@@ -65,7 +65,7 @@ TEST(TrackerOfTwoSensors, ForgetsAFalseAlarmOfASensorThatFellSilent) {
   EXPECT_TRUE(tracker.objects().empty());
 }
 
-TEST(TrackerOfTwoSensors, OnlyTheOneThatSawAThingFindsThatItIsGone) {
+TEST(TrackerOfTwoSensors, OnlyTheSensorThatDetectedATrackCanMissIt) {
   for (const bool lidar_lives : {true, false}) {
     Rng rng(13);
     Tracker tracker(TrackerConfig{});
@@ -88,7 +88,7 @@ TEST(TrackerOfTwoSensors, OnlyTheOneThatSawAThingFindsThatItIsGone) {
   }
 }
 
-TEST(TrackerOfTwoSensors, RangeIsThatOfTheOneThatSawIt) {
+TEST(TrackerOfTwoSensors, TheRangeIsThatOfTheSensorThatDetectedTheTrack) {
   Rng rng(14);
   Tracker tracker(TrackerConfig{});
   watch(tracker, 0.0, 2.0, seen_only_by(kLidar, rng));
@@ -97,7 +97,7 @@ TEST(TrackerOfTwoSensors, RangeIsThatOfTheOneThatSawIt) {
     gone_by.range_m = 8.0;
     gone_by.sensor_position = Vec3(10.0, 0.0, 0.0);
     tracker.update(gone_by);
-    tracker.update(frame(kCamera, 2.01 + k / 10.0, {}));  // sees without limit, and never saw it
+    tracker.update(frame(kCamera, 2.01 + k / 10.0, {}));  // unlimited range, and never detected it
   }
   EXPECT_EQ(tracker.objects().size(), 1u);
 }

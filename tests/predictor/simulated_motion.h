@@ -66,7 +66,7 @@ inline ObservationSet observations_at(double t, std::vector<Detection> detection
   return set;
 }
 
-/// True if the track keeps its α over its pieces up to `horizon` seconds after its start, asked every 10 ms.
+/// True if the interval covers up to `horizon` seconds after its start, checked every 10 ms.
 inline bool keeps_promise(const Track& track, const Path& truth, double horizon) {
   for (double t = 0.0; t <= horizon; t += 0.01) {
     const UTime now = track.motion.start + Duration::from_seconds(t);

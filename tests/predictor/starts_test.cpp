@@ -1,4 +1,4 @@
-// What stands and then goes: the promised confidence includes its start.
+// Stationary obstacles that start: the stated confidence includes the start.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace {
 
 using testing::at_seconds;
 
-/// A box that is seen from `seen_s` on, stands until `start_s`, and goes.
+/// A box that is seen from `seen_s` on, rests until `start_s`, and moves.
 struct Parked {
   Vec3 place;
   double seen_s = 0.0, start_s = 0.0, end_s = 0.0;
   double speed = 4.5;         // m/s along y
-  double acceleration = 0.0;  // m/s² until it has its speed; 0: at once
+  double acceleration = 0.0;  // m/s² up to its speed; 0: at once
   [[nodiscard]] Vec3 at(double t) const {
     const double s = std::max(0.0, t - start_s);
     const double rise = acceleration > 0.0 ? std::min(s, speed / acceleration) : 0.0;
@@ -33,8 +33,8 @@ struct Kept {
   [[nodiscard]] double share() const { return static_cast<double>(kept) / promises; }
 };
 
-/// Watches them at 30 Hz, 50 ms late, with noise, and counts the whole promises of 20 sets a second that are made of
-/// what is predicted at rest: what was seen too shortly for that is a mover.
+/// Feeds detections at 30 Hz, 50 ms late, with noise. Counts whole intervals of stationary tracks in 20 sets a second;
+/// a track that was seen too briefly is not stationary yet.
 Kept watch(const std::vector<Parked>& boxes, double until_s, const TrackerConfig& config = {}) {
   Rng rng(3);
   Tracker tracker(config);
@@ -95,7 +95,7 @@ std::vector<Parked> pillars(int boxes) {
   return all;
 }
 
-TEST(Starts, KeepThePromisedConfidence) {
+TEST(Starts, AreCoveredAsStated) {
   for (const double acceleration : {0.0, 20.0, 3.0}) {
     const Kept kept = watch(that_start(40, acceleration), 34.0);
     EXPECT_GE(kept.share(), 0.99) << acceleration << ": " << kept.kept << " of " << kept.promises;
@@ -103,7 +103,7 @@ TEST(Starts, KeepThePromisedConfidence) {
   }
 }
 
-TEST(Starts, AreNoLongerExpectedOfAWallOfThingsThatStood) {
+TEST(Starts, AreNotExpectedOfAWallThatWasSeenAtRestForLong) {
   EXPECT_GT(watch(pillars(20), 2.0).largest_alpha, 5.0) << "who knows";
   const Kept stood = watch(pillars(20), 60.0);
   EXPECT_LT(stood.largest_alpha, 0.6) << "1200 s of rest without a start";
@@ -118,8 +118,8 @@ TEST(TrustedRest, IsLaplacesRuleOfSuccession) {
   EXPECT_EQ(trusted_rest_s({0.0, 0}, 0.01), 0.0);
 }
 
-/// The rate is drawn, then things rest and start by it; the next start is asked for.
-TEST(TrustedRest, IsKeptAsOftenAsItSays) {
+/// Draws a rate, lets obstacles rest and start by it, and checks the time of the next start.
+TEST(TrustedRest, IsAsProbableAsItStates) {
   Rng rng(5);
   int early = 0, trials = 0;
   constexpr double kProbability = 0.05;

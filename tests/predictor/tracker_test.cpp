@@ -44,7 +44,7 @@ double feed(Tracker& tracker, const std::vector<Path>& paths, double from, doubl
   return t;
 }
 
-// How often one prediction per seed keeps its promise over the horizon.
+// How often one prediction per seed covers over the horizon.
 int kept(int seeds, const TrackerConfig& config, const std::function<Path(Rng&)>& make) {
   int hits = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
@@ -61,9 +61,8 @@ int kept(int seeds, const TrackerConfig& config, const std::function<Path(Rng&)>
 
 constexpr int kSeeds = 1000;
 
-// No key says how things move: one configuration for all of these. Each tracker is new, so that these are the first
-// promises of a flight.
-TEST(TrackerCoverage, KeepsThePromiseOfMotionsThatItWasNotMadeFor) {
+// One configuration for all motions. Each tracker is new, so these are the first predictions of a flight.
+TEST(TrackerCoverage, CoversMotionsThatNoModelWasMadeFor) {
   const std::map<std::string, std::function<Path(Rng&)>> motions{
       {"straight",
        [](Rng& rng) {
@@ -107,11 +106,11 @@ TEST(TrackerCoverage, KeepsThePromiseOfMotionsThatItWasNotMadeFor) {
   }
 }
 
-TEST(Tracker, PredictsWhatRestsAtRest) {
+TEST(Tracker, PredictsStationaryTracksAtRest) {
   Rng rng(1);
   Tracker tracker(TrackerConfig{});
   const Vec3 p(3.0, 1.0, 2.0);
-  // A thousand seconds of rest without a start, all together.
+  // A thousand seconds of rest in all, without a start.
   std::vector<Path> paths;
   for (int k = 0; k < 50; ++k) paths.push_back(straight(p + Vec3(10.0 * k, 0.0, 0.0), Vec3::Zero()));
   const double t = feed(tracker, paths, 0.0, 20.0, rng);
@@ -125,7 +124,7 @@ TEST(Tracker, PredictsWhatRestsAtRest) {
   EXPECT_LT((tracks[0].motion.sample(at_seconds(t + 4.0)).p - p).norm(), 0.2);
 }
 
-// Of `movers` that swing and one thing that rests, seen for so long.
+// The tracks of `movers` swinging obstacles and a stationary one, after this time.
 std::map<MotionKind, std::vector<TrackBound>> bounds_after(double seconds, int movers) {
   Rng rng(4);
   Tracker tracker(TrackerConfig{});
@@ -153,7 +152,7 @@ std::map<MotionKind, std::vector<TrackBound>> bounds_after(double seconds, int m
   return by_kind;
 }
 
-TEST(Tracker, TellsWhatRulesABound) {
+TEST(Tracker, ReportsTheRuleOfABound) {
   const auto at_once = bounds_after(1.0 / kRate, 20), soon = bounds_after(1.5, 20), late = bounds_after(30.0, 20);
   ASSERT_EQ(at_once.size(), 1u);
   EXPECT_EQ(at_once.at(MotionKind::New).size(), 21u);
@@ -172,7 +171,7 @@ TEST(Tracker, TellsWhatRulesABound) {
   for (const TrackBound& bound : learnt) EXPECT_GT(bound.evidence, 30.0);
 }
 
-TEST(Tracker, GivesRestUpWhenItEnds) {
+TEST(Tracker, GivesUpRestWhenItEnds) {
   Rng rng(2);
   Tracker tracker(TrackerConfig{});
   const Path path = [](double t) -> Vec3 { return Vec3(std::max(0.0, t - 3.0), 0.0, 1.0); };  // sets off at 1 m/s
@@ -189,7 +188,7 @@ TEST(Tracker, KeepsIdentitiesWhereTracksCross) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);
     Tracker tracker(TrackerConfig{});
-    // They pass each other at t = 2 s, at a right angle and head on, 0.3 m apart: six standard deviations.
+    // They pass each other at t = 2 s, at a right angle or head on, 0.3 m apart: six standard deviations.
     const std::vector<Path> paths{straight(Vec3(-4, 0, 1), Vec3(2, 0, 0)), straight(Vec3(0, -4, 1.3), Vec3(0, 2, 0)),
                                   straight(Vec3(4, 0.3, 1), Vec3(-2, 0, 0))};
     const double before = feed(tracker, paths, 0.0, 1.0, rng, 0.05);
@@ -230,7 +229,7 @@ TEST(Tracker, ConfirmsAfterSoManyHitsOfSoManySets) {
   EXPECT_EQ(tracker.objects().size(), 1u);
 }
 
-TEST(Tracker, PublishesWhatIsNewAtOnceWithTheReachOfItsSpeed) {
+TEST(Tracker, PublishesANewTrackAtOnceWithTheReachOfItsSpeed) {
   Rng rng(16);
   for (int k = 0; k < 200; ++k) {
     Tracker tracker(TrackerConfig{});
@@ -244,7 +243,7 @@ TEST(Tracker, PublishesWhatIsNewAtOnceWithTheReachOfItsSpeed) {
   }
 }
 
-TEST(Tracker, WhatIsNotSeenASecondTimeVanishesAfterTwoFrames) {
+TEST(Tracker, ATrackDetectedOnceIsHiddenAfterTwoMisses) {
   Rng rng(17);
   Tracker tracker(TrackerConfig{});
   const auto published_after = [&](int k) {
@@ -257,8 +256,8 @@ TEST(Tracker, WhatIsNotSeenASecondTimeVanishesAfterTwoFrames) {
   EXPECT_EQ(published_after(2), 0u);
 }
 
-// Two false alarms a second at random places, beside twenty things that are there.
-TEST(Tracker, GhostsTakeNoRoomWhereMostNewThingsAreGhosts) {
+// Two false alarms a second at random places, and twenty real obstacles.
+TEST(Tracker, FalseAlarmsHaveSmallBoxesWhereMostNewTracksAreFalse) {
   Rng rng(18);
   Tracker tracker(TrackerConfig{});
   double share = 1.0;
@@ -273,7 +272,7 @@ TEST(Tracker, GhostsTakeNoRoomWhereMostNewThingsAreGhosts) {
       if (is_ghost) share = track.share_at(track.alpha.size() / 2, kLevels - 1);
     }
   }
-  // α at the last level hardly holds what is a ghost seven times of ten.
+  // Seven new tracks in ten are false alarms, so α of the last level may be small.
   EXPECT_LT(share, 0.5);
 }
 
@@ -289,7 +288,7 @@ TEST(Tracker, ForgetsFalseAlarms) {
   EXPECT_TRUE(tracker.objects().empty());
 }
 
-TEST(Tracker, CoastsWithGrowingAlphaThenDies) {
+TEST(Tracker, CoastsWithGrowingAlphaUntilItIsDeleted) {
   Rng rng(5);
   Tracker tracker(TrackerConfig{});
   const double last = feed(tracker, {straight(Vec3::Zero(), Vec3(2, 0, 0))}, 0.0, 2.0, rng);
@@ -307,8 +306,8 @@ TEST(Tracker, CoastsWithGrowingAlphaThenDies) {
   EXPECT_TRUE(tracker.predict(at_seconds(last + k / kRate)).empty());
 }
 
-/// What was learnt of a track is not forgotten while it is out of sight.
-TEST(Tracker, WhatIsUnseenIsKnownLessAndLess) {
+/// A track keeps its scores while it is out of sight.
+TEST(Tracker, AnUnseenTrackBecomesMoreAndMoreUncertain) {
   Rng rng(7);
   Tracker tracker(TrackerConfig{});
   std::vector<Path> all;
@@ -332,8 +331,8 @@ TEST(Tracker, WhatIsUnseenIsKnownLessAndLess) {
   EXPECT_EQ(least.size(), 8u);
 }
 
-// Of pillars that are seen for `seen_s`, the tracks predicted `unseen_s` later; then the sensor, which sees 8 m far,
-// stands at `eye_x` and sees nothing.
+// The tracks of pillars that were seen for `seen_s`, predicted `unseen_s` later. By then the sensor, with a range of
+// 8 m, is at `eye_x` and detects nothing.
 std::size_t tracks_left(double seen_s, double eye_x, double unseen_s, const TrackerConfig& config) {
   Rng rng(5);
   Tracker tracker(config);
@@ -350,7 +349,7 @@ std::size_t tracks_left(double seen_s, double eye_x, double unseen_s, const Trac
   return tracker.predict(at_seconds(now)).size();
 }
 
-TEST(Tracker, RemembersWhatRestsBeyondTheSensorsRangeWhileRestIsTrusted) {
+TEST(Tracker, RemembersAStationaryTrackOutOfRangeWhileRestIsTrusted) {
   TrackerConfig config;
   EXPECT_EQ(tracks_left(60.0, 1000.0, 5.0, config), 20u) << "1200 s of rest: a start within 6 s is unlikely";
   EXPECT_EQ(tracks_left(60.0, 1000.0, 8.0, config), 0u);
@@ -358,13 +357,13 @@ TEST(Tracker, RemembersWhatRestsBeyondTheSensorsRangeWhileRestIsTrusted) {
   EXPECT_EQ(tracks_left(60.0, 1000.0, 5.0, config), 0u);
 }
 
-TEST(Tracker, PredictsWhatLeftTheRangeOnlyWhileItIsKnownWhereItIs) {
+TEST(Tracker, PublishesATrackOutOfRangeOnlyWhileItsPlaceIsKnown) {
   EXPECT_EQ(tracks_left(2.0, 1000.0, 0.2, TrackerConfig{}), 20u);
   EXPECT_EQ(tracks_left(2.0, 1000.0, 0.8, TrackerConfig{}), 0u) << "40 s of rest: who knows";
   EXPECT_EQ(tracks_left(2.0, 1.0, 0.8, TrackerConfig{}), 3u) << "what is within the range may be hidden";
 }
 
-TEST(Tracker, ForgetsWhatRestedWhereTheSensorSeesThatItIsGone) {
+TEST(Tracker, DeletesAStationaryTrackThatItsSensorMisses) {
   EXPECT_EQ(tracks_left(60.0, 1.0, 5.0, TrackerConfig{}), 17u);
 }
 
@@ -377,7 +376,7 @@ TEST(Tracker, KeepsTracksWhenTheSensorFallsSilent) {
   EXPECT_GT(late[0].alpha.front().minCoeff(), soon[0].alpha.front().maxCoeff());
 }
 
-TEST(Tracker, WhatIsLostTakesNothingFromWhatIsSeen) {
+TEST(Tracker, ALostTrackTakesNoDetectionFromASeenOne) {
   constexpr double kSeen = 1.0, kLost = 1.0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);
@@ -395,8 +394,8 @@ TEST(Tracker, WhatIsLostTakesNothingFromWhatIsSeen) {
   }
 }
 
-/// One leaves the sensor's range, and another comes into view where the first could be by now.
-TEST(Tracker, WhatComesIntoViewIsNotTheOneThatLeftIt) {
+/// One obstacle leaves the sensor's range, and another comes into view where the first could be.
+TEST(Tracker, ATrackThatComesIntoViewIsNotTheOneThatLeft) {
   int wrong = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     Rng rng(seed);
@@ -418,7 +417,7 @@ TEST(Tracker, WhatComesIntoViewIsNotTheOneThatLeftIt) {
 }
 
 /// A cube flies by a post, through it or near it, and 5 % of detections are missing.
-TEST(Tracker, APostByWhichSomethingFliesHasNotStarted) {
+TEST(Tracker, APostThatAnObstaclePassesHasNotStarted) {
   const auto seen = [](const Vec3& at, const Vec3& half, Rng& rng) {
     Detection detection = detection_of(at, 0.05, rng);
     detection.half_extents = half;
@@ -450,7 +449,7 @@ TEST(Tracker, APostByWhichSomethingFliesHasNotStarted) {
 TEST(Tracker, FollowsIdsOfTheSensor) {
   Tracker tracker(TrackerConfig{});
   Rng rng(7);
-  // Two things at one place: only ids tell them apart.
+  // Two obstacles at one place: only ids tell them apart.
   for (int k = 0; k < 60; ++k) {
     const double x = k / kRate;
     tracker.update(observations_at(
@@ -464,7 +463,7 @@ TEST(Tracker, FollowsIdsOfTheSensor) {
   EXPECT_NEAR(tracks[1].motion.sample(tracker.newest()).v.x(), 1.0, 0.2);
 }
 
-TEST(Tracker, StartsAnewWhereAnIdJumps) {
+TEST(Tracker, RestartsWhereAnIdJumps) {
   Tracker tracker(TrackerConfig{});
   Rng rng(8);
   for (int k = 0; k < 30; ++k) tracker.update(observations_at(k / kRate, {detection_of(Vec3::Zero(), 0.01, rng, 7)}));
@@ -509,7 +508,7 @@ TEST(Tracker, TakesObservationsOutOfOrderAsIfInOrder) {
   EXPECT_EQ(out_of_order.update(observations_at(1.0, {})), UpdateOutcome::TooOld);
 }
 
-TEST(Tracker, TakesASetOnce) {
+TEST(Tracker, UsesASetOnce) {
   Rng rng(15);
   Tracker once(TrackerConfig{}), twice(TrackerConfig{});
   for (int k = 0; k < 2; ++k) {
