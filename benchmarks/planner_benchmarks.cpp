@@ -109,9 +109,9 @@ void swept_boxes(benchmark::State& state) {
 }
 BENCHMARK(swept_boxes)->Unit(benchmark::kMicrosecond);
 
-/// Calls work(swept, interval, candidate) for every candidate of six intervals of each moment, sweeps not made yet.
+/// Calls work(swept, interval, neighbour) for every neighbour of six intervals of each moment, sweeps not made yet.
 template <class Work>
-void for_each_candidate(benchmark::State& state, const Work& work) {
+void for_each_neighbour(benchmark::State& state, const Work& work) {
   const auto moments = planned();
   std::size_t k = 0;
   std::int64_t candidates = 0;
@@ -122,9 +122,9 @@ void for_each_candidate(benchmark::State& state, const Work& work) {
     sweep(m, swept);
     state.ResumeTiming();
     for (int j = 0; j < 6; ++j) {
-      for (const auto& candidate : swept.candidates(j)) {
-        if (!swept.obstacle(candidate).moves()) continue;
-        work(swept, j, candidate);
+      for (const auto& neighbour : swept.neighbours(j)) {
+        if (!swept.obstacle(neighbour).moves()) continue;
+        work(swept, j, neighbour);
         ++candidates;
       }
     }
@@ -134,16 +134,16 @@ void for_each_candidate(benchmark::State& state, const Work& work) {
 
 /// One sweep of a moving obstacle over an interval, as boxes.
 void swept_samples(benchmark::State& state) {
-  for_each_candidate(state, [](SweptObstacles& swept, int j, const SweptObstacles::Candidate& candidate) {
-    benchmark::DoNotOptimize(swept.sweep(candidate, {j}).boxes.data());
+  for_each_neighbour(state, [](SweptObstacles& swept, int j, const SweptObstacles::Neighbour& neighbour) {
+    benchmark::DoNotOptimize(swept.sweep(neighbour, {j}).boxes.data());
   });
 }
 BENCHMARK(swept_samples)->Unit(benchmark::kMicrosecond);
 
 /// One hull of a moving obstacle, by CGAL.
 void swept_hull(benchmark::State& state) {
-  for_each_candidate(state, [](SweptObstacles& swept, int j, const SweptObstacles::Candidate& candidate) {
-    benchmark::DoNotOptimize(swept.hull(candidate, {j}).data());
+  for_each_neighbour(state, [](SweptObstacles& swept, int j, const SweptObstacles::Neighbour& neighbour) {
+    benchmark::DoNotOptimize(swept.hull(neighbour, {j}).data());
   });
 }
 BENCHMARK(swept_hull)->Unit(benchmark::kMicrosecond);

@@ -1,4 +1,5 @@
-// Assurance: the share of estimated tracks' error bound α that a candidate is tested against.
+// Assurance: the share of estimated tracks' error bound α that a candidate is tested against. See
+// docs/planner/choice.md.
 #pragma once
 
 #include <vector>

@@ -34,10 +34,10 @@ const std::vector<Vec3>& directions() {
 /// A stop to try.
 struct Stop {
   Vec3 point = Vec3::Zero();
-  Duration interval;     ///< Δt of the way there
-  double way_s = 0.0;    ///< J Δt
-  bool hurries = false;  ///< the quick pace, which the search may not reach
-  double clear_s = 0.0;  ///< forecast time until the way there, or the rest there, first touches an obstacle's box, s
+  Duration interval;      ///< Δt of the way there
+  double way_s = 0.0;     ///< J Δt
+  bool is_quick = false;  ///< the quick pace, which the search may not reach
+  double clear_s = 0.0;   ///< forecast time until the way there, or the rest there, first touches an obstacle's box, s
 };
 
 /// Returns the distances of stops, m; for Room only the far ones.
@@ -73,16 +73,16 @@ double forecast(const SweptObstacles& swept, const MotionSample& start, const St
     const double reached = s * s * (3.0 - 2.0 * s);
     const double carried = s * (1.0 - s) * (1.0 - s) * stop.way_s;
     const Vec3 p = start.p + reached * (stop.point - start.p) + carried * start.v;
-    for (const SweptObstacles::Candidate& candidate : swept.candidates(k)) {
-      if (candidate.box.contains(p)) return swept.time(k);
+    for (const SweptObstacles::Neighbour& neighbour : swept.neighbours(k)) {
+      if (neighbour.box.contains(p)) return swept.time(k);
     }
   }
   return swept.time(swept.intervals());
 }
 
 /// Orders by the longer forecast, then the slow pace, then the shorter way.
-bool comes_first(const Stop& a, const Stop& b) {
-  return std::make_tuple(-a.clear_s, a.hurries, a.way_s) < std::make_tuple(-b.clear_s, b.hurries, b.way_s);
+bool is_tried_before(const Stop& a, const Stop& b) {
+  return std::make_tuple(-a.clear_s, a.is_quick, a.way_s) < std::make_tuple(-b.clear_s, b.is_quick, b.way_s);
 }
 
 /// Returns the stop at a point. @return nullopt if it is outside the flight box, or its Δt is too long
@@ -104,7 +104,7 @@ std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorks
     for (std::size_t k = 0; k < ways; ++k) {
       for (const double pace : kStopPaces) {
         const auto stop = stop_at(near, box, near.request.start.p + directions()[k] * distance, pace);
-        if (!stop || (stop->hurries && !near.hold.none_estimated)) continue;
+        if (!stop || (stop->is_quick && !near.hold.none_estimated)) continue;
         longest = std::max(longest, stop->way_s);
         stops.push_back(*stop);
       }
@@ -113,7 +113,7 @@ std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorks
   const SweptObstacles& swept =
       sweep_forecast(near, std::max(longest + near.hold.cap_s, near.hold.predicted_s), memory);
   for (Stop& stop : stops) stop.clear_s = forecast(swept, near.request.start, stop);
-  std::stable_sort(stops.begin(), stops.end(), comes_first);
+  std::stable_sort(stops.begin(), stops.end(), is_tried_before);
   if (stops.size() > kMaxStops) stops.resize(kMaxStops);
   return stops;
 }
@@ -122,8 +122,8 @@ std::vector<Stop> ordered_stops(const Surroundings& near, Phase phase, PlanWorks
 double room_at_end(const SweptObstacles& swept, int intervals, const TimedSpline& trajectory) {
   const Vec3 end = trajectory.control_points.col(trajectory.control_points.cols() - 1);
   double room = std::numeric_limits<double>::infinity();
-  for (const SweptObstacles::Candidate& candidate : swept.candidates(intervals)) {
-    room = std::min(room, candidate.box.exteriorDistance(end));
+  for (const SweptObstacles::Neighbour& neighbour : swept.neighbours(intervals)) {
+    room = std::min(room, neighbour.box.exteriorDistance(end));
   }
   return room;
 }

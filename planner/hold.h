@@ -1,4 +1,5 @@
-// The terminal clear time (hold): how long an end must stay clear, and for how long that is tested.
+// The terminal clear time (hold): how long an end must stay clear, and for how long that is tested. See
+// docs/planner/choice.md.
 #pragma once
 
 #include <limits>

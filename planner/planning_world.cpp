@@ -77,7 +77,7 @@ MapProducts::MapProducts(const VoxelMap& map, const PlannerConfig& config)
   options.lambda_repulsive = config.lambda_repulsive;
   options.class_lambdas = config.class_lambdas;
   fields = SemanticFields(map, options);
-  weighs_paths = config.semantic_path && fields.weighs();
+  semantic_paths = config.semantic_path && fields.has_weight();
 }
 
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,
@@ -91,7 +91,7 @@ GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const M
   }
   GoalFieldOptions options;
   options.start = start;
-  if (map->weighs_paths) {
+  if (map->semantic_paths) {
     options.cost = {[map](const Vec3& a, const Vec3& b) { return map->fields.exposure_cost(a, b); },
                     map->fields.influence()};
   }

@@ -62,7 +62,7 @@ struct MapProducts {
   std::uint64_t version = 0;
   BoxIndex occupied;  ///< the obstacle voxels, merged into boxes
   SemanticFields fields;
-  bool weighs_paths = false;  ///< paths around static obstacles include the exposure cost
+  bool semantic_paths = false;  ///< paths around static obstacles include the exposure cost
 
   MapProducts(const VoxelMap& map, const PlannerConfig& config);
 };
@@ -82,7 +82,7 @@ struct GoalFieldKey {
 };
 
 /// Returns the field of distances to a goal around the boxes of map and static tracks. Distances include the exposure
-/// cost if map->weighs_paths. Takes about 100 ms, with regions about 300 ms. The field keeps the map alive.
+/// cost if map->semantic_paths. Takes about 100 ms, with regions about 300 ms. The field keeps the map alive.
 /// @param static_boxes  boxes of static tracks, not inflated, W
 /// @param start  enlarges the region that is searched
 GoalField make_goal_field(const GoalFieldKey& key, const std::shared_ptr<const MapProducts>& map,

@@ -1,4 +1,4 @@
-// Plans at a reduced assurance, where no plan holds at the full one.
+// Plans at a reduced assurance, where no plan holds at the full one. See docs/planner/choice.md.
 #pragma once
 
 #include "planner/course.h"

@@ -27,9 +27,9 @@ PlaneConstraint constraint_of(const CertificatePlane& c) {
 }
 
 const Points& hull_of(SweptObstacles& obstacles, const CertificatePlane& plane) {
-  for (const SweptObstacles::Candidate& candidate : obstacles.candidates(plane.interval)) {
-    if (obstacles.obstacle(candidate).id == plane.track)
-      return obstacles.hull(candidate, {plane.interval, plane.part, plane.parts});
+  for (const SweptObstacles::Neighbour& neighbour : obstacles.neighbours(plane.interval)) {
+    if (obstacles.obstacle(neighbour).id == plane.track)
+      return obstacles.hull(neighbour, {plane.interval, plane.part, plane.parts});
   }
   throw std::logic_error("hull_of: a plane of an obstacle that is not in its interval");
 }

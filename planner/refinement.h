@@ -1,4 +1,4 @@
-// Eq. 4 applied to a leaf of the search.
+// Eq. 4 applied to a leaf of the search. See docs/planner/optimization.md.
 #pragma once
 
 #include <vector>

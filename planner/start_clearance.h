@@ -1,4 +1,5 @@
-// Relaxed starts: with noisy predictions a start often lies inside an obstacle inflated by α. Then α is reduced.
+// Relaxed starts: with noisy predictions a start often lies inside an obstacle inflated by α. Then α is reduced. See
+// docs/planner/separation.md.
 #pragma once
 
 #include <vector>

@@ -26,7 +26,8 @@ const SemanticFields* semantics_in_reach(const HorizonRequest& request, const Se
                                          const PlannerConfig& config) {
   if (!config.semantics) return nullptr;
   const Box sphere = box_around(request.start.p, Vec3::Constant(config.sphere_radius_m));
-  const bool differs = config.semantic_cost == SemanticCost::MeanDistance ? fields.weighs() : fields.varies_in(sphere);
+  const bool differs =
+      config.semantic_cost == SemanticCost::MeanDistance ? fields.has_weight() : fields.varies_in(sphere);
   return differs ? &fields : nullptr;
 }
 

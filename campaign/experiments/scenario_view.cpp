@@ -52,7 +52,7 @@ Result<PlannedPath> path_between(const ScenarioView& view, const std::shared_ptr
   const GoalField field = make_goal_field(key, map, statics, uav.start);
   auto points = field.path_from(uav.start);
   if (!points) {
-    return fail(blocked_in_words(field, key, statics, uav.start, named_places(view.scenario)));
+    return fail(blocked_goal_text(field, key, statics, uav.start, named_places(view.scenario)));
   }
   return measured(std::move(*points), view.scenario.semantics.regions);
 }
@@ -209,8 +209,8 @@ ScenarioView view_scenario(const FlightInputs& inputs, std::optional<std::uint64
     return view;
   }
   view.shortest = *shortest;
-  const auto weighted_path = weighed->weighs_paths ? path_between(view, weighed) : shortest;
-  if (weighed->weighs_paths && weighted_path) view.weighted = *weighted_path;
+  const auto weighted_path = weighed->semantic_paths ? path_between(view, weighed) : shortest;
+  if (weighed->semantic_paths && weighted_path) view.weighted = *weighted_path;
   return view;
 }
 

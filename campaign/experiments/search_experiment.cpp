@@ -68,7 +68,7 @@ std::vector<SearchSegment> segments_of(const TimedSpline& trajectory, const Pred
   for (int j = 0; j < spline.intervals(); ++j) {
     SearchSegment segment;
     segment.curve_hull = spline.minvo(j);
-    segment.obstacle_hull = swept.hull(swept.candidates(j).at(0), {j});
+    segment.obstacle_hull = swept.hull(swept.neighbours(j).at(0), {j});
     if (const auto apart = separate(segment.obstacle_hull, segment.curve_hull, body.radius)) {
       segment.plane = apart->plane;
       segment.gap_m = apart->gap;

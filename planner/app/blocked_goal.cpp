@@ -61,8 +61,8 @@ std::vector<NamedPlace> named_places(const Scenario& scenario) {
   return places;
 }
 
-std::string blocked_in_words(const GoalField& field, const GoalFieldKey& key, const std::vector<Box>& static_boxes,
-                             const Vec3& start, const std::vector<NamedPlace>& places) {
+std::string blocked_goal_text(const GoalField& field, const GoalFieldKey& key, const std::vector<Box>& static_boxes,
+                              const Vec3& start, const std::vector<NamedPlace>& places) {
   if (!places_within(key.flight_box, key.body).contains(key.goal)) return "it is not within the flight box";
   const auto blocker = field.blocker(start);
   if (!blocker) return "no path within the flight box leads to it";

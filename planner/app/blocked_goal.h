@@ -21,7 +21,7 @@ std::vector<NamedPlace> named_places(const Scenario& scenario);
 /// Returns the reason why no path leads from `start` to the field's goal, with positions in W.
 /// @param field   made from key and static_boxes (make_goal_field)
 /// @param places  the obstacles and regions that are called by name
-std::string blocked_in_words(const GoalField& field, const GoalFieldKey& key, const std::vector<Box>& static_boxes,
-                             const Vec3& start, const std::vector<NamedPlace>& places);
+std::string blocked_goal_text(const GoalField& field, const GoalFieldKey& key, const std::vector<Box>& static_boxes,
+                              const Vec3& start, const std::vector<NamedPlace>& places);
 
 }  // namespace tern

@@ -16,7 +16,7 @@ namespace tern {
 namespace {
 
 /// Workers are checked this often, with or without messages.
-constexpr Duration kLookEvery{20'000};
+constexpr Duration kCheckPeriod{20'000};
 
 /// Returns a budget that ends each stage by the clock, so that the worker is done before the watchdog acts.
 Budget clock_budget(const Clock& clock, UTime arrived, UTime watch_at) {
@@ -66,19 +66,19 @@ PlannerNode::PlannerNode(Bus& bus, const UavSpec& uav, const PlannerConfig& conf
 PlannerNode::~PlannerNode() = default;
 
 UTime PlannerNode::next_wakeup() const {
-  UTime next = worker_ ? next_look_ : kNever;
+  UTime next = worker_ ? next_check_ : kNever;
   if (delayed_) next = std::min(next, delayed_->due);
   if (const auto watch = desk_.watch_time(); watch && has_watchdog()) next = std::min(next, *watch);
   return next;
 }
 
 void PlannerNode::step(UTime now) {
-  next_look_ = now + kLookEvery;
+  next_check_ = now + kCheckPeriod;
   intake_.prepare();
   if (delayed_) deliver_delayed(now);
   if (has_watchdog()) watch(now);
   if (waiting_) start_planning(now);
-  if (worker_) look_after_workers(now);
+  if (worker_) check_workers(now);
 }
 
 /// Runs the watchdog. A request that it has answered is not planned.
@@ -87,7 +87,7 @@ void PlannerNode::watch(UTime now) {
   if (waiting_ && now >= waiting_->deadline - kWatchdogLead) waiting_.reset();
 }
 
-void PlannerNode::look_after_workers(UTime now) {
+void PlannerNode::check_workers(UTime now) {
   if (exit_code_) return;
   auto failure = worker_->failure();
   if (!failure) failure = intake_.failure();

@@ -54,7 +54,7 @@ class PlannerNode final : public Node {
   void work_in_virtual_time(const HorizonRequest& request, const PlanningWorld& world, UTime arrived);
   void deliver_delayed(UTime now);
   void watch(UTime now);
-  void look_after_workers(UTime now);
+  void check_workers(UTime now);
   [[nodiscard]] bool has_watchdog() const { return execution_.threaded || execution_.charge_cpu; }
 
   Bus& bus_;
@@ -66,7 +66,7 @@ class PlannerNode final : public Node {
   std::optional<HorizonRequest> waiting_;  ///< the request that came in while the worker was busy
   UTime waiting_since_{};
   std::optional<UTime> stuck_at_;  ///< from then on the worker's job has taken too long
-  UTime next_look_{};              ///< time of the next check of the workers
+  UTime next_check_{};             ///< time of the next check of the workers
   std::optional<int> exit_code_;
   struct Delayed {
     std::vector<std::pair<UTime, Plan>> improvements;  ///< incumbents with their times

@@ -17,7 +17,7 @@ WorldIntake::WorldIntake(Bus& bus, const PlannerConfig& config, const UavSpec& u
       places_(std::move(places)),
       body_(body_box(uav.body)),
       flight_box_(uav.flight_box),
-      at_(uav.start) {
+      position_(uav.start) {
   if (in_background) worker_ = std::make_unique<Worker>();
   bus.subscribe(channels::kPredictions, [this](const TrackSet& batch) { on_predictions(batch); });
   bus.subscribe(channels::kSemanticMap, [this](const MapChunk& chunk) { on_map(chunk); });
@@ -39,25 +39,25 @@ std::string WorldIntake::missing() const {
 }
 
 void WorldIntake::set_vehicle(const HorizonRequest& request) {
-  const std::int64_t run_us = request.header.name.sender_epoch_us;
-  if (vehicle_ != MessageName{} && run_us != vehicle_.sender_epoch_us) forget_before(run_us);
+  const std::int64_t epoch_us = request.header.name.sender_epoch_us;
+  if (vehicle_ != MessageName{} && epoch_us != vehicle_.sender_epoch_us) forget_before(epoch_us);
   body_ = body_box(grown(request.body, request.tube));
   flight_box_ = request.flight_box;
-  at_ = request.start.p;
+  position_ = request.start.p;
   vehicle_ = request.header.name;
 }
 
-void WorldIntake::forget_before(std::int64_t run_us) {
+void WorldIntake::forget_before(std::int64_t epoch_us) {
   spdlog::info("requests come from another vehicle: the previous vehicle's goal and static obstacles are discarded");
   statics_ = StaticTracks();
   if (const auto predictions = snapshot().predictions) statics_.add(predictions->set);
-  const auto is_of_this_run = [&](const std::optional<Goal>& goal) {
-    return goal && (goal->header.name.sender_epoch_us == run_us || goal->header.utime.us > run_us);
+  const auto is_of_this_flight = [&](const std::optional<Goal>& goal) {
+    return goal && (goal->header.name.sender_epoch_us == epoch_us || goal->header.utime.us > epoch_us);
   };
-  if (is_of_this_run(newest_goal_)) return;
-  newest_goal_ = is_of_this_run(overruled_goal_) ? overruled_goal_ : std::nullopt;
+  if (is_of_this_flight(newest_goal_)) return;
+  newest_goal_ = is_of_this_flight(smaller_id_goal_) ? smaller_id_goal_ : std::nullopt;
   publish(++goal_number_, nullptr);
-  hold();
+  publish_goal_to_hold();
 }
 
 void WorldIntake::on_predictions(const TrackSet& batch) {
@@ -82,19 +82,19 @@ void WorldIntake::on_map(const MapChunk& chunk) {
 void WorldIntake::on_goal(const Goal& goal) {
   const UTime now = bus_.received();
   const bool is_vehicles = goal.header.name.sender_epoch_us == vehicle_.sender_epoch_us;
-  const bool untaken = is_vehicles && now - goal_heard_ > kGoalTaken;
-  if (newest_goal_ && goal.id < newest_goal_->id && !untaken) {
-    overruled_goal_ = goal;
+  const bool is_kept_by_vehicle = is_vehicles && now - goal_received_ > kGoalTaken;
+  if (newest_goal_ && goal.id < newest_goal_->id && !is_kept_by_vehicle) {
+    smaller_id_goal_ = goal;
     return;
   }
-  goal_heard_ = now;
+  goal_received_ = now;
   newest_goal_ = goal;
   ++goal_number_;
-  hold();
+  publish_goal_to_hold();
 }
 
 /// Keeps the distance field of the previous goal, in case that becomes the goal again.
-void WorldIntake::hold() {
+void WorldIntake::publish_goal_to_hold() {
   if (!newest_goal_ || newest_goal_->mode == GoalMode::Go) return;
   const auto known = snapshot().goal;
   GoalProducts products = known ? *known : GoalProducts();
@@ -132,10 +132,10 @@ void WorldIntake::prepare() {
   }
   const GoalFieldInputs names{key.map_version, statics_.epoch_us(), statics_.first_set(), key.statics, vehicle_};
   start([this, number = goal_number_, goal = *newest_goal_, key, names, map = world.map, boxes = statics_.boxes(),
-         at = at_] {
+         at = position_] {
     auto field = std::make_shared<const GoalField>(make_goal_field(key, map, boxes, at));
     if (!field->path_from(at)) {
-      spdlog::warn("goal {} is blocked: {}", goal.id, blocked_in_words(*field, key, boxes, at, places_));
+      spdlog::warn("goal {} is blocked: {}", goal.id, blocked_goal_text(*field, key, boxes, at, places_));
     }
     publish(number, std::make_shared<const GoalProducts>(GoalProducts{goal, key, std::move(field), names}));
   });

@@ -54,8 +54,8 @@ class WorldIntake {
   void on_predictions(const TrackSet& batch);
   void on_map(const MapChunk& chunk);
   void on_goal(const Goal& goal);
-  void forget_before(std::int64_t run_us);
-  void hold();
+  void forget_before(std::int64_t epoch_us);
+  void publish_goal_to_hold();
   void publish(std::int64_t number, std::shared_ptr<const GoalProducts> goal);
   void start(std::function<void()> job);
   void make_map(const VoxelMap& map);
@@ -68,12 +68,12 @@ class WorldIntake {
   StaticTracks statics_;
   std::optional<VoxelMap> pending_map_;
   std::optional<Goal> newest_goal_;
-  UTime goal_heard_;
-  std::optional<Goal> overruled_goal_;  ///< the newest goal with a smaller id: it may belong to the next flight
-  std::int64_t goal_number_ = 0;        ///< counts the values of newest_goal_
-  Box body_;                            ///< of the vehicle, about its position
+  UTime goal_received_;
+  std::optional<Goal> smaller_id_goal_;  ///< the newest goal with a smaller id: it may belong to the next flight
+  std::int64_t goal_number_ = 0;         ///< counts the values of newest_goal_
+  Box body_;                             ///< of the vehicle, about its position
   Box flight_box_;
-  Vec3 at_;
+  Vec3 position_;        ///< of the vehicle, W
   MessageName vehicle_;  ///< the request that described the vehicle last; none: as configured
 
   mutable std::mutex mutex_;  ///< guards ready_ and ready_number_

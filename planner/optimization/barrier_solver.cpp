@@ -188,7 +188,7 @@ class BarrierSolver::Iteration {
     if (!prepare()) return fail();
     for (;;) {
       evaluate();
-      harvest();
+      keep_if_best();
       if (optimal() || solution_.iterations >= max_iterations || stop()) return solution_;
       if (!advance()) return fail();
       ++solution_.iterations;
@@ -248,7 +248,7 @@ class BarrierSolver::Iteration {
   }
 
   /// Keeps y if it is the best strictly feasible point, and the dual bound if it is the highest.
-  void harvest() {
+  void keep_if_best() {
     const FreeVariables x = x0_ + Eigen::Map<const Eigen::VectorXd>(y_.data(), n_);
     const double objective = problem_->objective(x);
     tolerance_ = std::max(kGapShare * std::abs(objective), kGapAbsolute);

@@ -1,4 +1,5 @@
-// A dense primal-dual barrier method for the convex problem of `alternating`, with a certified gap.
+// A dense primal-dual barrier method for the convex problem of `alternating`, with a certified gap. See
+// docs/planner/optimization.md.
 #pragma once
 
 #include <memory>

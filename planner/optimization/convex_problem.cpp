@@ -79,7 +79,7 @@ class Builder {
         after = std::max(set.floor, kMinThrustKept * thrust.at(x0_).z());
         add_row(thrust, -Vec3::UnitZ(), -after, kAlways);
         add_tilt(thrust, set.slope);
-        add_ball(thrust, set.ceiling);
+        add_ball(thrust, set.thrust_max);
       }
       const AffinePoint jerk = curve_.jerk(j);
       add_ball(jerk, std::max(set.rate * std::min(before, after), kJerkRoom * jerk.at(x0_).norm()));

@@ -136,7 +136,7 @@ IpoptRun minimise_by_ipopt(const NonlinearProblem& problem, const Eigen::VectorX
 ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const FreeVariables& x0, int max_iterations,
                               const StopFunction& stop) {
   ConvexSolution best;
-  const auto harvest = [&](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
+  const auto keep_if_best = [&](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
     if (!(problem.worst_violation(x) <= 0.0)) return;
     const double objective = problem.objective(x);
     if (best.found && objective >= best.objective) return;
@@ -144,7 +144,7 @@ ConvexSolution solve_by_ipopt(const ConvexProblem& problem, const FreeVariables&
     best.x = x;
     best.objective = objective;
   };
-  const IpoptRun run = minimise_by_ipopt(ConvexAsNonlinear(problem), x0, max_iterations, stop, harvest);
+  const IpoptRun run = minimise_by_ipopt(ConvexAsNonlinear(problem), x0, max_iterations, stop, keep_if_best);
   best.solver_failed = run.failed;
   best.iterations = run.iterations;
   return best;

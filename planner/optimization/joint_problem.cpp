@@ -130,7 +130,7 @@ ConvexSolution solve_joint(const JointProblem& problem, int max_iterations, cons
   ConvexSolution best;
   const Eigen::VectorXd x0 = problem.start();
   best.objective = problem.objective(x0);
-  const auto harvest = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& constraints) {
+  const auto keep_if_best = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& constraints) {
     const double objective = problem.objective(x);
     if (objective >= best.objective) return;
     if ((constraints - problem.bounds()).maxCoeff() > kJointTolerance) return;
@@ -140,7 +140,7 @@ ConvexSolution solve_joint(const JointProblem& problem, int max_iterations, cons
     best.x = points;
     best.objective = objective;
   };
-  const IpoptRun run = minimise_by_ipopt(problem, x0, max_iterations, stop, harvest);
+  const IpoptRun run = minimise_by_ipopt(problem, x0, max_iterations, stop, keep_if_best);
   best.solver_failed = run.failed;
   best.iterations = run.iterations;
   return best;

@@ -1,4 +1,4 @@
-// Eq. 4 as the paper writes it: control points and planes are variables together.
+// Eq. 4 as the paper writes it: control points and planes are variables together. See docs/planner/optimization.md.
 #pragma once
 
 #include <array>

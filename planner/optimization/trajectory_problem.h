@@ -1,4 +1,5 @@
-// The data of Eq. 4, and the curve's points in its constraints as functions of the free control points.
+// The data of Eq. 4, and the curve's points in its constraints as functions of the free control points. See
+// docs/planner/optimization.md.
 #pragma once
 
 #include <algorithm>

@@ -11,15 +11,15 @@ namespace {
 
 Box box_of(const Points4& points) { return {points.rowwise().minCoeff(), points.rowwise().maxCoeff()}; }
 
-using Candidate = SweptObstacles::Candidate;
+using Neighbour = SweptObstacles::Neighbour;
 
 /// Returns whether the part of the curve is farther than the body's radius (and kTouchingTolerance) from the sweep. Up
 /// to rounding this is the answer of separate() for the hull and the points.
 /// @param points    hull points of the part, or one point at rest
 /// @param by_cache  receives whether the direction that last separated the part did so again
-bool is_separated(SweptObstacles& obstacles, const Candidate& candidate, const Eigen::Ref<const Points>& points,
+bool is_separated(SweptObstacles& obstacles, const Neighbour& neighbour, const Eigen::Ref<const Points>& points,
                   const TimePart& part, bool& by_cache) {
-  const auto [boxes, direction] = obstacles.sweep(candidate, part);
+  const auto [boxes, direction] = obstacles.sweep(neighbour, part);
   const bool known = !direction.isZero(0.0);
   if (!known) direction = boxes[0].centre - points.col(0);
   if (direction.isZero(0.0)) direction = Vec3::UnitX();
@@ -28,36 +28,36 @@ bool is_separated(SweptObstacles& obstacles, const Candidate& candidate, const E
   const IsSeparated answer = is_separated(boxes, points, obstacles.vertices_to_add(), radius, direction);
   by_cache = known && answer == IsSeparated::Yes && direction == before;
   if (answer != IsSeparated::Doubt) return answer == IsSeparated::Yes;
-  return separate(obstacles.hull(candidate, part), points, radius).has_value();
+  return separate(obstacles.hull(neighbour, part), points, radius).has_value();
 }
 
-bool is_separated(SweptObstacles& obstacles, const Candidate& candidate, const Eigen::Ref<const Points>& points,
+bool is_separated(SweptObstacles& obstacles, const Neighbour& neighbour, const Eigen::Ref<const Points>& points,
                   const TimePart& part, PairCounts& counts) {
   bool by_cache = false;
-  const bool separated = is_separated(obstacles, candidate, points, part, by_cache);
+  const bool separated = is_separated(obstacles, neighbour, points, part, by_cache);
   ++(by_cache ? counts.by_cache : counts.by_plane);
   return separated;
 }
 
 /// Returns a plane for a certificate, made by separate() from the hull. The hull is made only if a plane of the sweep
 /// exists, which differs from this one by rounding. Anyone with hull and points can compute it again, bit for bit.
-std::optional<Separation> certificate_plane(SweptObstacles& obstacles, const Candidate& candidate,
+std::optional<Separation> certificate_plane(SweptObstacles& obstacles, const Neighbour& neighbour,
                                             const Points4& points, const TimePart& part) {
   bool by_cache = false;
-  if (!is_separated(obstacles, candidate, points, part, by_cache)) return std::nullopt;
-  return separate(obstacles.hull(candidate, part), points, obstacles.body().radius);
+  if (!is_separated(obstacles, neighbour, points, part, by_cache)) return std::nullopt;
+  return separate(obstacles.hull(neighbour, part), points, obstacles.body().radius);
 }
 
 /// Returns a plane for a solver. It is not published.
-std::optional<Separation> solver_plane(SweptObstacles& obstacles, const Candidate& candidate, const Points4& points,
+std::optional<Separation> solver_plane(SweptObstacles& obstacles, const Neighbour& neighbour, const Points4& points,
                                        const TimePart& part) {
-  return separate_sweep(obstacles.sweep(candidate, part).boxes, points, obstacles.vertices_to_add(),
+  return separate_sweep(obstacles.sweep(neighbour, part).boxes, points, obstacles.vertices_to_add(),
                         obstacles.body().radius);
 }
 
 /// Separates one interval of a curve from all obstacles; splits it in time if one plane is not enough.
 struct Splitting {
-  using PlaneMaker = std::optional<Separation> (*)(SweptObstacles&, const Candidate&, const Points4&, const TimePart&);
+  using PlaneMaker = std::optional<Separation> (*)(SweptObstacles&, const Neighbour&, const Points4&, const TimePart&);
 
   SweptObstacles& obstacles;
   const PowerCubic& power;
@@ -71,30 +71,30 @@ struct Splitting {
     const TimePart whole{interval};
     const Points4 points = points_of(whole);
     const Box box = grown(box_of(points), Vec3::Constant(reach));
-    for (const Candidate& candidate : obstacles.candidates(interval)) {
-      if (!box.intersects(candidate.box)) {
+    for (const Neighbour& neighbour : obstacles.neighbours(interval)) {
+      if (!box.intersects(neighbour.box)) {
         ++counts.by_box;
-      } else if (!has_planes(candidate, points, whole)) {
-        return {false, obstacles.obstacle(candidate).id};
+      } else if (!has_planes(neighbour, points, whole)) {
+        return {false, obstacles.obstacle(neighbour).id};
       }
     }
     return {};
   }
 
  private:
-  bool has_planes(const Candidate& candidate, const Points4& points, const TimePart& part) {
+  bool has_planes(const Neighbour& neighbour, const Points4& points, const TimePart& part) {
     ++counts.by_plane;
-    if (const auto found = make_plane(obstacles, candidate, points, part)) {
-      planes.push_back({obstacles.obstacle(candidate).id, static_cast<std::int16_t>(part.interval),
+    if (const auto found = make_plane(obstacles, neighbour, points, part)) {
+      planes.push_back({obstacles.obstacle(neighbour).id, static_cast<std::int16_t>(part.interval),
                         static_cast<std::int8_t>(part.index), static_cast<std::int8_t>(part.of), found->plane});
       return true;
     }
     if (!part.has_halves()) return false;
     for (const TimePart& half : {part.half(0), part.half(1)}) {
       const Points4 of_half = points_of(half);
-      if (!grown(box_of(of_half), Vec3::Constant(reach)).intersects(obstacles.part_box(candidate, half))) {
+      if (!grown(box_of(of_half), Vec3::Constant(reach)).intersects(obstacles.part_box(neighbour, half))) {
         ++counts.by_box;
-      } else if (!has_planes(candidate, of_half, half)) {
+      } else if (!has_planes(neighbour, of_half, half)) {
         return false;
       }
     }
@@ -148,22 +148,22 @@ class SeparationTest {
   SeparationTest(SweptObstacles& obstacles, int interval, Curve& curve, PairCounts& counts)
       : obstacles_(obstacles), interval_(interval), curve_(curve), counts_(counts) {}
 
-  bool is_separated_from(const Candidate& candidate) {
+  bool is_separated_from(const Neighbour& neighbour) {
     const TimePart whole{interval_};
-    if (!curve_.part(whole).box.intersects(candidate.box)) {
+    if (!curve_.part(whole).box.intersects(neighbour.box)) {
       ++counts_.by_box;
       return true;
     }
-    return !touches(candidate) && is_part_separated(candidate, whole);
+    return !touches(neighbour) && is_part_separated(neighbour, whole);
   }
 
  private:
   /// Tests five instants: most collisions are found by them.
-  bool touches(const Candidate& candidate) {
+  bool touches(const Neighbour& neighbour) {
     if (!obstacles_.body_is_round_or_box()) return false;
     const double radius2 = obstacles_.body().radius * obstacles_.body().radius;
     for (int k = 0; k < SweptObstacles::kQuarters; ++k) {
-      const CentredBox& box = obstacles_.at_quarter(interval_, candidate, k);
+      const CentredBox& box = obstacles_.at_quarter(interval_, neighbour, k);
       const Vec3 outside = ((curve_.at_quarter(k) - box.centre).cwiseAbs() - box.half).cwiseMax(0.0);
       if (outside.squaredNorm() > radius2) continue;
       ++counts_.by_instant;
@@ -172,13 +172,13 @@ class SeparationTest {
     return false;
   }
 
-  bool is_part_separated(const Candidate& candidate, const TimePart& part) {
-    if (is_separated(obstacles_, candidate, curve_.part(part).points, part, counts_)) return true;
+  bool is_part_separated(const Neighbour& neighbour, const TimePart& part) {
+    if (is_separated(obstacles_, neighbour, curve_.part(part).points, part, counts_)) return true;
     if (!part.has_halves()) return false;
     for (const TimePart& half : {part.half(0), part.half(1)}) {
-      if (!curve_.part(half).box.intersects(obstacles_.part_box(candidate, half))) {
+      if (!curve_.part(half).box.intersects(obstacles_.part_box(neighbour, half))) {
         ++counts_.by_box;
-      } else if (!is_part_separated(candidate, half)) {
+      } else if (!is_part_separated(neighbour, half)) {
         return false;
       }
     }
@@ -210,11 +210,11 @@ bool is_separated(SweptObstacles& obstacles, int interval, const PowerCubic& pow
                   PairCounts& counts, HullForm form) {
   Curve curve(power, points, form);
   SeparationTest test(obstacles, interval, curve, counts);
-  const auto& candidates = obstacles.candidates(interval);
+  const auto& neighbours = obstacles.neighbours(interval);
   int& last = obstacles.last_blocker(interval);
-  if (last >= 0 && !test.is_separated_from(candidates[idx(last)])) return false;
-  for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
-    if (k == last || test.is_separated_from(candidates[idx(k)])) continue;
+  if (last >= 0 && !test.is_separated_from(neighbours[idx(last)])) return false;
+  for (int k = 0; k < static_cast<int>(neighbours.size()); ++k) {
+    if (k == last || test.is_separated_from(neighbours[idx(k)])) continue;
     last = k;
     return false;
   }
@@ -223,13 +223,13 @@ bool is_separated(SweptObstacles& obstacles, int interval, const PowerCubic& pow
 
 ClearTime clear_time_at(SweptObstacles& obstacles, int first, const Vec3& p, PairCounts& counts) {
   for (int k = first; k < obstacles.intervals(); ++k) {
-    for (const Candidate& candidate : obstacles.candidates(k)) {
-      if (!candidate.box.contains(p)) {
+    for (const Neighbour& neighbour : obstacles.neighbours(k)) {
+      if (!neighbour.box.contains(p)) {
         ++counts.by_box;
         continue;
       }
-      if (!is_separated(obstacles, candidate, p, {k}, counts)) {
-        return {obstacles.time(k) - obstacles.time(first), &obstacles.obstacle(candidate)};
+      if (!is_separated(obstacles, neighbour, p, {k}, counts)) {
+        return {obstacles.time(k) - obstacles.time(first), &obstacles.obstacle(neighbour)};
       }
     }
   }

@@ -1,5 +1,5 @@
 // Separation of one interval of a curve from all obstacles: by boxes, then planes, then with the interval split in
-// time.
+// time. See docs/planner/separation.md.
 #pragma once
 
 #include <cstdint>

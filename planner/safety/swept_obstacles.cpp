@@ -116,8 +116,8 @@ void SweptObstacles::assign(const std::vector<PlanningObstacle>& obstacles, cons
   const auto n = static_cast<std::size_t>(intervals());
   spans_.resize(n);
   for (std::size_t k = 0; k < n; ++k) spans_[k] = microseconds(origin, times[k], times[k + 1]);
-  if (candidates_.size() < n) candidates_.resize(n);
-  for (auto& list : candidates_) list.clear();
+  if (neighbours_.size() < n) neighbours_.resize(n);
+  for (auto& list : neighbours_) list.clear();
   last_blocker_.assign(n, -1);
   slots_.clear();
   made_.clear();
@@ -134,7 +134,7 @@ void SweptObstacles::assign(const std::vector<PlanningObstacle>& obstacles, cons
       add_static(static_cast<int>(i), region);
     }
   }
-  for (std::size_t k = 0; k < n; ++k) out_of_reach_ -= static_cast<std::int64_t>(candidates_[k].size());
+  for (std::size_t k = 0; k < n; ++k) out_of_reach_ -= static_cast<std::int64_t>(neighbours_[k].size());
 }
 
 void SweptObstacles::add_static(int index, const Box& region) {
@@ -143,7 +143,7 @@ void SweptObstacles::add_static(int index, const Box& region) {
   if (!box.intersects(region)) return;
   const int slot = static_cast<int>(slots_.size());
   slots_.push_back(-1);
-  for (int k = 0; k < intervals(); ++k) candidates_[idx(k)].push_back({box, index, slot});
+  for (int k = 0; k < intervals(); ++k) neighbours_[idx(k)].push_back({box, index, slot});
 }
 
 void SweptObstacles::add_track(int index, const Box& region) {
@@ -158,7 +158,7 @@ void SweptObstacles::add_track(int index, const Box& region) {
     if (walk.is_surely_out_of(near)) continue;
     const Box box = grown(walk.bounds(), slack);
     if (!box.intersects(region)) continue;
-    candidates_[idx(k)].push_back({box, index, static_cast<int>(slots_.size())});
+    neighbours_[idx(k)].push_back({box, index, static_cast<int>(slots_.size())});
     slots_.push_back(-1);
   }
 }
@@ -170,17 +170,17 @@ SweptObstacles::Span SweptObstacles::span(const TimePart& part) const {
   return {from + part.index * step, part.is_last() ? to : from + (part.index + 1) * step};
 }
 
-const Box& SweptObstacles::part_box(const Candidate& candidate, const TimePart& part) {
-  Box& box = part_of(candidate, part).box;
+const Box& SweptObstacles::part_box(const Neighbour& neighbour, const TimePart& part) {
+  Box& box = part_of(neighbour, part).box;
   if (box.isEmpty()) {
     const Span s = span(part);
-    box = sweep_box(obstacle(candidate), body_half_, origin_, s.from, s.to);
+    box = sweep_box(obstacle(neighbour), body_half_, origin_, s.from, s.to);
   }
   return box;
 }
 
-SweptObstacles::Slot& SweptObstacles::slot_of(const Candidate& candidate) {
-  int& at = slots_[idx(candidate.slot)];
+SweptObstacles::Slot& SweptObstacles::slot_of(const Neighbour& neighbour) {
+  int& at = slots_[idx(neighbour.slot)];
   if (at < 0) {
     at = static_cast<int>(made_.size());
     made_.emplace_back();
@@ -188,32 +188,32 @@ SweptObstacles::Slot& SweptObstacles::slot_of(const Candidate& candidate) {
   return made_[idx(at)];
 }
 
-SweptObstacles::Part& SweptObstacles::part_of(const Candidate& candidate, const TimePart& part) {
-  return slot_of(candidate).parts[obstacle(candidate).moves() ? part.slot() : 0];
+SweptObstacles::Part& SweptObstacles::part_of(const Neighbour& neighbour, const TimePart& part) {
+  return slot_of(neighbour).parts[obstacle(neighbour).moves() ? part.slot() : 0];
 }
 
-SweptObstacles::Part& SweptObstacles::swept_part_of(const Candidate& candidate, const TimePart& part) {
-  Part& made = part_of(candidate, part);
+SweptObstacles::Part& SweptObstacles::swept_part_of(const Neighbour& neighbour, const TimePart& part) {
+  Part& made = part_of(neighbour, part);
   if (made.first < 0) {
     made.first = static_cast<int>(boxes_.size());
-    make_sweep(obstacle(candidate), span(part));
+    make_sweep(obstacle(neighbour), span(part));
     made.count = static_cast<int>(boxes_.size()) - made.first;
   }
   return made;
 }
 
-SweptObstacles::Sweep SweptObstacles::sweep(const Candidate& candidate, const TimePart& part) {
-  Part& made = swept_part_of(candidate, part);
+SweptObstacles::Sweep SweptObstacles::sweep(const Neighbour& neighbour, const TimePart& part) {
+  Part& made = swept_part_of(neighbour, part);
   return {boxes_of(made), made.direction};
 }
 
-const Points& SweptObstacles::hull(const Candidate& candidate, const TimePart& part) {
-  Part& made = swept_part_of(candidate, part);
+const Points& SweptObstacles::hull(const Neighbour& neighbour, const TimePart& part) {
+  Part& made = swept_part_of(neighbour, part);
   if (made.hull < 0) {
     made.hull = static_cast<int>(hulls_used_++);
     if (hulls_.size() < hulls_used_) hulls_.emplace_back();
     const std::span<const CentredBox> boxes = boxes_of(made);
-    const bool is_box = !obstacle(candidate).moves() && body_is_box_;
+    const bool is_box = !obstacle(neighbour).moves() && body_is_box_;
     hulls_[idx(made.hull)] =
         is_box ? Points(box_corners(box_around(boxes[0].centre, boxes[0].half))) : make_hull(boxes);
     hulls_made_ += is_box ? 0 : 1;
@@ -221,10 +221,10 @@ const Points& SweptObstacles::hull(const Candidate& candidate, const TimePart& p
   return hulls_[idx(made.hull)];
 }
 
-const CentredBox& SweptObstacles::at_quarter(int interval, const Candidate& candidate, int k) {
-  Slot& slot = slot_of(candidate);
+const CentredBox& SweptObstacles::at_quarter(int interval, const Neighbour& neighbour, int k) {
+  Slot& slot = slot_of(neighbour);
   if (!slot.has_quarters) {
-    const PlanningObstacle& o = obstacle(candidate);
+    const PlanningObstacle& o = obstacle(neighbour);
     const double from = time(interval);
     const double step = (time(interval + 1) - from) / (kQuarters - 1);
     for (int i = 0; i < kQuarters; ++i) {
@@ -232,7 +232,7 @@ const CentredBox& SweptObstacles::at_quarter(int interval, const Candidate& cand
       if (o.moves()) {
         box = box_at(*o.track, o.alpha, box_half_, origin_, from + i * step);
       } else {
-        box = sweep(candidate, {interval}).boxes[0];
+        box = sweep(neighbour, {interval}).boxes[0];
       }
     }
     slot.has_quarters = true;

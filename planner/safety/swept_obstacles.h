@@ -1,5 +1,5 @@
 // The sweeps of all obstacles over one horizon, per time interval: boxes first, sweeps and hulls C_ij when needed
-// (paper §3.2).
+// (paper §3.2). See docs/planner/separation.md.
 #pragma once
 
 #include <array>
@@ -54,7 +54,7 @@ struct UTimeSpan {
 /// the convex hull of the boxes of track_sweep.h, which defines β. Most tests use those boxes; only published planes
 /// and `method: joint` need the vertices of the hull.
 ///
-/// assign() makes the boxes of all candidates. Sweeps and hulls are made at first use, each a pure function of its
+/// assign() makes the boxes of all neighbours. Sweeps and hulls are made at first use, each a pure function of its
 /// inputs. The object keeps its memory: once it has seen the largest horizon, boxes and sweeps allocate nothing. Hulls
 /// are allocated by CGAL.
 class SweptObstacles {
@@ -79,12 +79,12 @@ class SweptObstacles {
   [[nodiscard]] double time(int k) const { return times_[idx(k)]; }
 
   /// An obstacle that the body may touch in an interval.
-  struct Candidate {
+  struct Neighbour {
     Box box;       ///< the sweep grown by the whole body: the body touches it only if its centre is inside, W
     int obstacle;  ///< index into the list of assign()
     int slot;      ///< index of its sweeps and hulls
   };
-  [[nodiscard]] const std::vector<Candidate>& candidates(int interval) const { return candidates_[idx(interval)]; }
+  [[nodiscard]] const std::vector<Neighbour>& neighbours(int interval) const { return neighbours_[idx(interval)]; }
   /// The boxes whose convex hull is C_ij over a part, valid until the next call. For a body that is neither a sphere
   /// nor a box they exclude the body.
   struct Sweep {
@@ -93,21 +93,21 @@ class SweptObstacles {
     /// assign() clears it together with the boxes.
     Vec3& last_direction;
   };
-  Sweep sweep(const Candidate& candidate, const TimePart& part);
+  Sweep sweep(const Neighbour& neighbour, const TimePart& part);
   /// Returns the extreme points of C_ij over that part, valid until the next assign().
-  const Points& hull(const Candidate& candidate, const TimePart& part);
-  /// Returns Candidate::box for that part alone.
-  const Box& part_box(const Candidate& candidate, const TimePart& part);
+  const Points& hull(const Neighbour& neighbour, const TimePart& part);
+  /// Returns Neighbour::box for that part alone.
+  const Box& part_box(const Neighbour& neighbour, const TimePart& part);
   /// Returns the obstacle's box (with α, without β) at the quarter k of the interval, k = 0 … 4. If the curve's point
   /// at that time is nearer to it than the radius, no part of the interval is separated.
   /// @pre the body is a sphere or a box
   static constexpr int kQuarters = 5;
-  const CentredBox& at_quarter(int interval, const Candidate& candidate, int k);
+  const CentredBox& at_quarter(int interval, const Neighbour& neighbour, int k);
 
-  /// Returns the candidate that last blocked a curve in this interval; −1 if none has.
+  /// Returns the neighbour that last blocked a curve in this interval; −1 if none has.
   int& last_blocker(int interval) { return last_blocker_[idx(interval)]; }
 
-  [[nodiscard]] const PlanningObstacle& obstacle(const Candidate& c) const { return (*obstacles_)[idx(c.obstacle)]; }
+  [[nodiscard]] const PlanningObstacle& obstacle(const Neighbour& c) const { return (*obstacles_)[idx(c.obstacle)]; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] bool body_is_round_or_box() const { return body_is_box_; }
   /// Returns the body's vertices if the sweeps exclude the body, else none.
@@ -121,14 +121,14 @@ class SweptObstacles {
   struct Span {
     double from, to;
   };
-  /// Results for one part of one candidate.
+  /// Results for one part of one neighbour.
   struct Part {
     int first = -1, count = 0;      ///< its boxes in boxes_; −1 until made
     int hull = -1;                  ///< its hull in hulls_; −1 until made
     Vec3 direction = Vec3::Zero();  ///< Sweep::last_direction
     Box box;                        ///< part_box(); empty until made
   };
-  /// Results for one candidate, once more than its box is needed.
+  /// Results for one neighbour, once more than its box is needed.
   struct Slot {
     std::array<Part, TimePart::kSlots> parts;
     std::array<CentredBox, kQuarters> quarters;
@@ -138,9 +138,9 @@ class SweptObstacles {
   void add_track(int index, const Box& region);
   void add_static(int index, const Box& region);
   [[nodiscard]] Span span(const TimePart& part) const;
-  Slot& slot_of(const Candidate& candidate);
-  Part& part_of(const Candidate& candidate, const TimePart& part);
-  Part& swept_part_of(const Candidate& candidate, const TimePart& part);
+  Slot& slot_of(const Neighbour& neighbour);
+  Part& part_of(const Neighbour& neighbour, const TimePart& part);
+  Part& swept_part_of(const Neighbour& neighbour, const TimePart& part);
   [[nodiscard]] std::span<const CentredBox> boxes_of(const Part& made) const {
     return {&boxes_[idx(made.first)], static_cast<std::size_t>(made.count)};
   }
@@ -155,9 +155,9 @@ class SweptObstacles {
   UTime origin_;
   std::vector<double> times_;
   std::vector<UTimeSpan> spans_;  ///< one per interval
-  std::vector<std::vector<Candidate>> candidates_;
+  std::vector<std::vector<Neighbour>> neighbours_;
   std::vector<int> last_blocker_;
-  std::vector<int> slots_;  ///< by Candidate::slot: index into made_; −1 until made
+  std::vector<int> slots_;  ///< by Neighbour::slot: index into made_; −1 until made
   std::vector<Slot> made_;
   std::vector<CentredBox> boxes_;  ///< the boxes of all sweeps
   std::deque<Points> hulls_;       ///< a deque, so that references stay valid

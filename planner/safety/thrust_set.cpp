@@ -22,16 +22,16 @@ double octagon_norm(double x, double y) {
 }
 
 ThrustSet::ThrustSet(const Dynamics& dynamics)
-    : least(dynamics.thrust_min),
+    : thrust_min(dynamics.thrust_min),
       floor(kGravity - dip_of(dynamics.thrust_min)),
-      ceiling(dynamics.thrust_max),
+      thrust_max(dynamics.thrust_max),
       slope(tilt_slope(dynamics.tilt_max_deg)),
       rate(to_radians(dynamics.body_rate_max_deg_s)) {}
 
 bool ThrustSet::contains(const Vec3& a) const {
   const double up = a.z() + kGravity;
   return up >= floor && octagon_norm(a.x(), a.y()) <= slope * up &&
-         a.head<2>().squaredNorm() + up * up <= ceiling * ceiling;
+         a.head<2>().squaredNorm() + up * up <= thrust_max * thrust_max;
 }
 
 /// Compares squares of the values of thrust_bounds(), because the search calls it for every child.
@@ -42,7 +42,7 @@ bool ThrustSet::allows(const Vec3& a0, const Vec3& a1, double duration_s) const 
   const double s = squared > 0.0 ? std::clamp(-f0.dot(way) / squared, 0.0, 1.0) : 0.0;
   const double nearest2 = (f0 + s * way).squaredNorm();
   const double turned = rate * (1.0 + 0.5 * kLimitTolerance) * duration_s * nearest2;
-  return nearest2 >= least * least && f0.cross(way).squaredNorm() <= turned * turned;
+  return nearest2 >= thrust_min * thrust_min && f0.cross(way).squaredNorm() <= turned * turned;
 }
 
 Limits per_axis_limits(const Limits& limits) {
@@ -50,9 +50,9 @@ Limits per_axis_limits(const Limits& limits) {
   const ThrustSet set(*limits.dynamics);
   Limits box = limits;
   const double dip = 0.5 * (kGravity - set.floor);
-  const double z = std::min({limits.a_max.z(), dip, 0.5 * (set.ceiling - kGravity)});
+  const double z = std::min({limits.a_max.z(), dip, 0.5 * (set.thrust_max - kGravity)});
   const double by_tilt = set.slope * (kGravity - z) / std::sqrt(2.0);
-  const double by_thrust = std::sqrt(0.5 * (set.ceiling * set.ceiling - (kGravity + z) * (kGravity + z)));
+  const double by_thrust = std::sqrt(0.5 * (set.thrust_max * set.thrust_max - (kGravity + z) * (kGravity + z)));
   const double xy = std::min(by_tilt, by_thrust);
   box.a_max = limits.a_max.cwiseMin(Vec3(xy, xy, z)) * kInside;
   box.j_max = limits.j_max.cwiseMin(Vec3::Constant(kInside * set.rate * set.floor / std::sqrt(3.0)));

@@ -1,5 +1,5 @@
 // The accelerations that plans of a multirotor use: a convex set inside the limits of Dynamics, for search and
-// optimizer.
+// optimizer. See docs/planner/search.md.
 #pragma once
 
 #include "core/world/thrust.h"

@@ -257,7 +257,7 @@ class Search {
   }
 
   /// Returns whether the steps of neighbouring samples end farther apart than the radius of S.
-  [[nodiscard]] bool oversteps(const std::array<AxisReach::Interval, 3>& range) const {
+  [[nodiscard]] bool steps_are_wider_than_sphere(const std::array<AxisReach::Interval, 3>& range) const {
     const auto apart = [&](int axis, int samples) {
       const AxisReach::Interval& r = range[idx(axis)];
       return (r.high - r.low) / (samples - 1) * dt_;
@@ -272,7 +272,7 @@ class Search {
   void aim_within_sphere(const Node& root, const std::array<AxisReach::Interval, 3>& range) {
     const Vec3 to_goal = problem_.cost_to_go.point - problem_.start.p;
     if (in_sphere(problem_.cost_to_go.point)) return;
-    const bool is_fine = problem_.interval >= kShortInterval && !oversteps(range);
+    const bool is_fine = problem_.interval >= kShortInterval && !steps_are_wider_than_sphere(range);
     if (is_fine && in_sphere(root.q + aimed_velocity(root, range) * dt_)) return;
     aim_ = problem_.start.p + to_goal * (kSphereShare * problem_.sphere_radius / to_goal.norm());
   }

@@ -1,4 +1,5 @@
-// The velocity control points that may follow, such that limits hold and rest remains reachable.
+// The velocity control points that may follow, such that limits hold and rest remains reachable. See
+// docs/planner/search.md.
 #pragma once
 
 #include <array>

@@ -141,7 +141,7 @@ double SemanticFields::exposure_cost(VoxelLabel label, const Vec3& p) const {
 template <class Rate>
 double SemanticFields::integral(const Vec3& a, const Vec3& b, double outside, const Rate& rate) const {
   const double length = (b - a).norm();
-  const auto [from, to] = weighs() ? part_inside(a, b, influence_) : std::pair(1.0, 0.0);
+  const auto [from, to] = has_weight() ? part_inside(a, b, influence_) : std::pair(1.0, 0.0);
   if (!(from < to)) return outside * length;
   const double inside = (to - from) * length;
   const int n = static_cast<int>(inside / (0.5 * margin_)) + 1;

@@ -1,4 +1,5 @@
-// The semantic cost of a course: added to Eq. 2 in the search, and to the arrival in the choice.
+// The semantic cost of a course: added to Eq. 2 in the search, and to the arrival in the choice. See
+// docs/planner/search.md.
 #pragma once
 
 #include "core/base/types.h"

@@ -316,7 +316,7 @@ TEST_F(CheckPlan, GivesAPlaneForEveryPairWhoseBoxesOverlap) {
   for (int j = 0; j < kIntervals; ++j) {
     const Points4 points = plan_.spline().minvo(j);
     const Box box(points.rowwise().minCoeff(), points.rowwise().maxCoeff());
-    if (!box.intersects(swept.candidates(j)[0].box)) continue;
+    if (!box.intersects(swept.neighbours(j)[0].box)) continue;
     bool has = false;
     for (const CertificatePlane& plane : report.certificate) has = has || (plane.interval == j && plane.track == 5);
     EXPECT_TRUE(has) << "interval " << j;

@@ -81,8 +81,8 @@ TEST(SeparateInterval, PassesWhateverStaysWellClear) {
     SweptObstacles swept(s.obstacles, s.body, kOrigin, s.times, kEverywhere);
     for (int j = 0; j < spline.intervals(); ++j) {
       double least = INFINITY;
-      for (const auto& candidate : swept.candidates(j))
-        least = std::min(least, distance(swept.hull(candidate, {j, 0, 1}), spline.minvo(j)));
+      for (const auto& neighbour : swept.neighbours(j))
+        least = std::min(least, distance(swept.hull(neighbour, {j, 0, 1}), spline.minvo(j)));
       if (least <= s.body.radius + 2.0 * kTouchingTolerance) continue;
       ++clear;
       ASSERT_TRUE(is_separated(swept, j, spline.power(j))) << "seed " << seed << ", interval " << j;
@@ -110,10 +110,10 @@ TEST(SeparateInterval, EveryPlaneHoldsTheHullOnOneSideAndThePartOnTheOther) {
       ++planes_seen;
       split += part.of > 1 ? 1 : 0;
       ASSERT_NEAR(c.plane.n.norm(), 1.0, 1e-12);
-      const auto& candidates = swept.candidates(part.interval);
-      const auto of = std::find_if(candidates.begin(), candidates.end(),
-                                   [&](const auto& candidate) { return swept.obstacle(candidate).id == c.track; });
-      ASSERT_NE(of, candidates.end());
+      const auto& neighbours = swept.neighbours(part.interval);
+      const auto of = std::find_if(neighbours.begin(), neighbours.end(),
+                                   [&](const auto& neighbour) { return swept.obstacle(neighbour).id == c.track; });
+      ASSERT_NE(of, neighbours.end());
       const Points& hull = swept.hull(*of, part);
       for (Eigen::Index k = 0; k < hull.cols(); ++k) ASSERT_GE(c.plane.signed_distance(hull.col(k)), 0.0);
       const Points4 curve = spline.minvo(part.interval, part.u0(), part.u1());
@@ -159,8 +159,8 @@ TEST(SeparateInterval, SplitsTheIntervalInTimeWhereOnePlaneDoesNotDo) {
   PowerCubic along_x = PowerCubic::Zero();
   along_x.col(2) = Vec3(3, 0, 0);
   along_x.col(3) = Vec3(-1.5, 0, 0);
-  EXPECT_LT(distance(swept.hull(swept.candidates(0)[0], {0, 0, 1}), minvo_points(along_x)), 1e-9);
-  EXPECT_LT(distance(swept.hull(swept.candidates(0)[0], {0, 0, 2}), HullForm{}.points(0, along_x, 0.0, 0.5)), 1e-9);
+  EXPECT_LT(distance(swept.hull(swept.neighbours(0)[0], {0, 0, 1}), minvo_points(along_x)), 1e-9);
+  EXPECT_LT(distance(swept.hull(swept.neighbours(0)[0], {0, 0, 2}), HullForm{}.points(0, along_x, 0.0, 0.5)), 1e-9);
   EXPECT_TRUE(is_separated(swept, 0, along_x));
 }
 
@@ -202,8 +202,8 @@ TEST(ClearTimeAt, TheBodyTouchesNothingAsLongAsItSays) {
       int k = first;
       while (swept.time(k) - swept.time(first) < clear - 1e-9) ++k;
       double nearest = INFINITY;
-      for (const auto& candidate : swept.candidates(k))
-        nearest = std::min(nearest, distance(swept.hull(candidate, {k, 0, 1}), Points(p)));
+      for (const auto& neighbour : swept.neighbours(k))
+        nearest = std::min(nearest, distance(swept.hull(neighbour, {k, 0, 1}), Points(p)));
       ASSERT_LE(nearest, s.body.radius + 2.0 * kTouchingTolerance) << "seed " << seed;
     }
   }

@@ -71,12 +71,12 @@ template <class Check>
 void for_each_hull(const Case& c, Check&& check) {
   SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
   for (int k = 0; k < swept.intervals(); ++k) {
-    ASSERT_EQ(swept.candidates(k).size(), 1u);
+    ASSERT_EQ(swept.neighbours(k).size(), 1u);
     for (const int parts : {1, 2, 4}) {
       for (int part = 0; part < parts; ++part) {
         const double step = (swept.time(k + 1) - swept.time(k)) / parts;
         const double from = swept.time(k) + part * step;
-        check(swept.hull(swept.candidates(k)[0], {k, part, parts}), from, from + step);
+        check(swept.hull(swept.neighbours(k)[0], {k, part, parts}), from, from + step);
       }
     }
   }
@@ -134,8 +134,8 @@ TEST(SweptObstacles, AnAbsurdAccelerationCostsAWiderHullNotMemory) {
   const auto obstacles = obstacles_of(tracks);
   const Box everywhere(Vec3::Constant(-1e12), Vec3::Constant(1e12));
   SweptObstacles swept(obstacles, Body{}, kOrigin, std::vector<double>{0.0, 0.5, 1.0}, everywhere);
-  ASSERT_EQ(swept.candidates(1).size(), 1u);
-  const Points& hull = swept.hull(swept.candidates(1)[0], {1, 0, 1});
+  ASSERT_EQ(swept.neighbours(1).size(), 1u);
+  const Points& hull = swept.hull(swept.neighbours(1)[0], {1, 0, 1});
   EXPECT_LT(hull.cols(), 5000);
   for (int i = 0; i <= 1000; ++i) {
     const double t = 0.5 + 0.5 * i / 1000;
@@ -156,20 +156,20 @@ TEST(SweptObstacles, HullsHaveNoSuperfluousPoints) {
   }
 }
 
-TEST(SweptObstacles, CandidateAndPartBoxesHoldTheHullGrownByTheBall) {
+TEST(SweptObstacles, NeighbourAndPartBoxesHoldTheHullGrownByTheBall) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
     const Case c = random_case(rng);
     SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
     for (int k = 0; k < swept.intervals(); ++k) {
-      const SweptObstacles::Candidate& candidate = swept.candidates(k)[0];
+      const SweptObstacles::Neighbour& neighbour = swept.neighbours(k)[0];
       for (const int parts : {1, 2, 4}) {
         for (int part = 0; part < parts; ++part) {
-          const Points& hull = swept.hull(candidate, {k, part, parts});
+          const Points& hull = swept.hull(neighbour, {k, part, parts});
           const Vec3 ball = Vec3::Constant(c.body.radius - kRounding);
           const Box needed = grown(Box(hull.rowwise().minCoeff(), hull.rowwise().maxCoeff()), ball);
-          ASSERT_TRUE(swept.part_box(candidate, {k, part, parts}).contains(needed)) << "seed " << seed;
-          ASSERT_TRUE(candidate.box.contains(needed)) << "seed " << seed;
+          ASSERT_TRUE(swept.part_box(neighbour, {k, part, parts}).contains(needed)) << "seed " << seed;
+          ASSERT_TRUE(neighbour.box.contains(needed)) << "seed " << seed;
         }
       }
     }
@@ -184,7 +184,7 @@ TEST(SweptObstacles, KeepsEveryObstacleThatTheBodyCanTouchFromTheRegion) {
     const Box region = box_around(random_vector(rng, 4.0), Vec3::Constant(rng.uniform(0.0, 2.0)));
     SweptObstacles swept(c.obstacles, c.body, kOrigin, c.times, region);
     for (int k = 0; k < swept.intervals(); ++k) {
-      if (!swept.candidates(k).empty()) continue;
+      if (!swept.neighbours(k).empty()) continue;
       ++left_out;
       for (int i = 0; i <= 40; ++i) {
         const double t = swept.time(k) + (swept.time(k + 1) - swept.time(k)) * i / 40;
@@ -212,14 +212,14 @@ TEST(SweptObstacles, BoxesThatAPredictionSetBringsSpareWorkAndChangeNothing) {
     const Box region(centre - Vec3::Constant(1.5), centre + Vec3::Constant(1.5));
     SweptObstacles a(with, c.body, kOrigin, c.times, region), b(without, c.body, kOrigin, c.times, region);
     for (int k = 0; k < a.intervals(); ++k) {
-      ASSERT_EQ(a.candidates(k).size(), b.candidates(k).size()) << "seed " << seed << ", interval " << k;
-      if (a.candidates(k).empty()) {
+      ASSERT_EQ(a.neighbours(k).size(), b.neighbours(k).size()) << "seed " << seed << ", interval " << k;
+      if (a.neighbours(k).empty()) {
         ++dropped;
         continue;
       }
       ++kept;
-      ASSERT_TRUE(a.candidates(k)[0].box.isApprox(b.candidates(k)[0].box, 0.0)) << "seed " << seed;
-      ASSERT_EQ(a.hull(a.candidates(k)[0], {k, 0, 1}), b.hull(b.candidates(k)[0], {k, 0, 1})) << "seed " << seed;
+      ASSERT_TRUE(a.neighbours(k)[0].box.isApprox(b.neighbours(k)[0].box, 0.0)) << "seed " << seed;
+      ASSERT_EQ(a.hull(a.neighbours(k)[0], {k, 0, 1}), b.hull(b.neighbours(k)[0], {k, 0, 1})) << "seed " << seed;
     }
   }
   EXPECT_GT(kept, 200);
@@ -231,10 +231,10 @@ TEST(SweptObstacles, BeforeItsFirstPieceAndAfterItsLastATrackIsAGrowingBox) {
   const std::vector<Track> tracks{track};
   const auto obstacles = obstacles_of(tracks);
   SweptObstacles swept(obstacles, Body{}, kOrigin, {0.25, 0.5, 2.5, 3.0}, kEverywhere);
-  const Points& before = swept.hull(swept.candidates(0)[0], {0, 0, 1});
+  const Points& before = swept.hull(swept.neighbours(0)[0], {0, 0, 1});
   EXPECT_NEAR(support(before, Vec3(1, 0, 0)), 1.0 + 0.5 + 2.0 * 0.75, kRounding);
   EXPECT_NEAR(support(before, Vec3(0, 0, -1)), 0.5 + 2.0 * 0.75, kRounding);
-  const Points& after = swept.hull(swept.candidates(2)[0], {2, 0, 1});
+  const Points& after = swept.hull(swept.neighbours(2)[0], {2, 0, 1});
   EXPECT_NEAR(support(after, Vec3(1, 0, 0)), 3.0 + 0.5 + 2.0, kRounding);
   EXPECT_NEAR(support(after, Vec3(0, 1, 0)), 0.5 + 2.0, kRounding);
 }
@@ -247,13 +247,13 @@ TEST(SweptObstacles, BoxesOfTheMapAndStaticTracksHaveOneHullForAllTime) {
     const Body body = body_of(kind);
     SweptObstacles swept(obstacles, body, kOrigin, {0.0, 1.0, 2.0, 900.0}, kEverywhere);
     for (int k = 0; k < 3; ++k) {
-      ASSERT_EQ(swept.candidates(k).size(), 2u);
-      for (const auto& candidate : swept.candidates(k)) {
-        const Points& hull = swept.hull(candidate, {k, k, 4});
-        EXPECT_EQ(&hull, &swept.hull(swept.candidates(0)[static_cast<std::size_t>(candidate.obstacle)], {0, 0, 1}));
+      ASSERT_EQ(swept.neighbours(k).size(), 2u);
+      for (const auto& neighbour : swept.neighbours(k)) {
+        const Points& hull = swept.hull(neighbour, {k, k, 4});
+        EXPECT_EQ(&hull, &swept.hull(swept.neighbours(0)[static_cast<std::size_t>(neighbour.obstacle)], {0, 0, 1}));
         for (int axis = 0; axis < 3; ++axis) {
           const Vec3 d = Vec3::Unit(axis);
-          EXPECT_NEAR(support(hull, d), swept.obstacle(candidate).box.max()[axis] + support(-body.vertices, d),
+          EXPECT_NEAR(support(hull, d), swept.obstacle(neighbour).box.max()[axis] + support(-body.vertices, d),
                       kRounding);
         }
       }
@@ -267,9 +267,9 @@ TEST(SweptObstacles, AHullDependsOnNothingButItsOwnInputs) {
   const Case c = random_case(rng);
   SweptObstacles forward(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
   SweptObstacles backward(c.obstacles, c.body, kOrigin, c.times, kEverywhere);
-  for (int k = backward.intervals() - 1; k >= 0; --k) (void)backward.hull(backward.candidates(k)[0], {k, 1, 2});
+  for (int k = backward.intervals() - 1; k >= 0; --k) (void)backward.hull(backward.neighbours(k)[0], {k, 1, 2});
   for (int k = 0; k < forward.intervals(); ++k) {
-    EXPECT_EQ(forward.hull(forward.candidates(k)[0], {k, 1, 2}), backward.hull(backward.candidates(k)[0], {k, 1, 2}));
+    EXPECT_EQ(forward.hull(forward.neighbours(k)[0], {k, 1, 2}), backward.hull(backward.neighbours(k)[0], {k, 1, 2}));
   }
 }
 

@@ -191,7 +191,7 @@ TEST(SemanticFields, AClassOfNoWeightIsNotThere) {
   options.lambda_attractive = 0.0;
   options.lambda_repulsive = 0.0;
   const SemanticFields nothing(two_regions(), options);
-  EXPECT_FALSE(nothing.weighs());
+  EXPECT_FALSE(nothing.has_weight());
   EXPECT_TRUE(nothing.has(VoxelLabel::Repulsive));
   EXPECT_EQ(nothing.exposure_cost(Vec3(0, 2, 1.5), Vec3(9, 2, 1.5)), 0.0);
   EXPECT_FALSE(nothing.varies_in(Box(Vec3(0, 0, 0), Vec3(10, 4, 4))));
