@@ -25,8 +25,8 @@ struct HoldDemand {
   ///
   ///     clamp(until_s − end_s, 0, max(required_s, min(side_step_s, predicted_s) − end_s))
   ///
-  /// The plan thus stays clear from t_s on for at least a side step. When a later plan no longer does, an evasion that
-  /// starts then still has its time. Where predictions widen with time, a hold is harder to have after a long plan than
+  /// The plan thus stays clear from t_s on for at least a side step. If a later plan no longer does, an evasion that
+  /// starts then is still in time. Where predictions widen with time, a hold is harder to have after a long plan than
   /// after a short one. Staying would then win; until_s makes the two equal.
   [[nodiscard]] double required(double end_s) const;
   /// Returns for how long the hold of an end reached at end_s is tested, s: at least required(end_s).

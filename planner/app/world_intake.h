@@ -17,7 +17,8 @@
 
 namespace tern {
 
-/// The vehicle receives a goal when the planner does, and repeats it from then on. After this time it has taken it.
+/// The vehicle receives a goal when the planner does, and repeats its own goal from then on. A goal that it repeats
+/// this long after another one was received is the goal that it has taken.
 inline constexpr Duration kGoalTaken{500'000};
 
 /// Subscribes to PREDICTIONS, SEMANTIC_MAP and GOAL, and prepares the world of plans.

@@ -16,8 +16,8 @@ namespace tern {
 ///
 /// Dynamics couple the axes. per_axis_limits() imply them, so an end at rest that these limits reach can be flown. One
 /// step may use any acceleration in the ThrustSet, at any allowed body rate, if later steps can end at rest within
-/// per_axis_limits(). Each state after a flyable() step therefore has such a step again. The states are more than
-/// per_axis_limits() alone would reach.
+/// per_axis_limits(). Each state after a flyable() step therefore has such a step again. More states are
+/// reachable than within per_axis_limits() alone.
 class StepReach {
  public:
   /// Keeps its memory from call to call.
