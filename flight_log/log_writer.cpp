@@ -55,7 +55,7 @@ Result<void> LogWriter::open_next_part() {
     ++counters_.parts;
     return {};
   }
-  return fail(fmt::format("{}: all of its {} parts exist", path_, kMaxParts));
+  return fail(fmt::format("{}: all {} parts exist already: move some of them away", path_, kMaxParts));
 }
 
 void LogWriter::append(std::string_view channel, std::int64_t received_us, std::span<const std::uint8_t> data) {

@@ -192,7 +192,7 @@ template <class T>
 T join(std::vector<T> batches) {
   constexpr auto kEntries = Kind<T>::kEntries;
   constexpr auto kTime = Kind<T>::kTime;
-  if (batches.empty()) throw std::invalid_argument("a set of no batches");
+  if (batches.empty()) throw std::invalid_argument("join_batches: there is no batch");
   T whole = std::move(batches.front());
   whole.batch.index = 0;
   whole.batch.count = 1;

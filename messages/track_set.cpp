@@ -4,14 +4,13 @@
 namespace tern {
 namespace {
 
-/// @throws std::invalid_argument unless a track has as many α as pieces, and as many shares exactly if it is
-///   estimated
+/// @throws std::invalid_argument unless a track has one α per piece, and shares per piece exactly if it is estimated
 void require_complete(const Track& track) {
   const std::size_t pieces = track.motion.pieces.size();
   const std::string name = "track " + std::to_string(track.id);
-  if (track.alpha.size() != pieces) throw std::invalid_argument(name + ": as many alphas as pieces are needed");
+  if (track.alpha.size() != pieces) throw std::invalid_argument(name + ": a track needs one alpha per piece");
   if (track.shares.size() != (track.kind == TrackKind::Estimated ? pieces : 0)) {
-    throw std::invalid_argument(name + ": as many shares as pieces are needed of what is estimated, none of others");
+    throw std::invalid_argument(name + ": an estimated track needs shares for each piece, any other track none");
   }
 }
 

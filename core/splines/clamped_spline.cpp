@@ -46,7 +46,8 @@ Eigen::Matrix4d cox_de_boor(int intervals, int j) {
 }
 
 [[noreturn]] void throw_interval(int j, int intervals) {
-  throw std::out_of_range("interval " + std::to_string(j) + " of a spline with " + std::to_string(intervals));
+  throw std::out_of_range("interval " + std::to_string(j) + " of a spline with " + std::to_string(intervals) +
+                          " intervals");
 }
 
 void require_interval_length(double interval_s) {

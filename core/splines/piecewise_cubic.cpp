@@ -149,11 +149,13 @@ PiecewiseCubic remaining_motion(const ClampedSpline& spline, UTime spline_start,
   const Duration interval = Duration::from_seconds(spline.interval_s());
   if (std::abs(spline.interval_s() * 1e6 - static_cast<double>(interval.us)) > kWholeMicrosecondTolerance ||
       interval <= Duration{}) {
-    throw std::invalid_argument("interval of " + std::to_string(spline.interval_s() * 1e6) + " us is not whole");
+    throw std::invalid_argument("an interval of " + std::to_string(spline.interval_s() * 1e6) +
+                                " us is not a whole number of us");
   }
   const Duration passed = from - spline_start;
   if (passed < Duration{} || passed >= interval * spline.intervals()) {
-    throw std::invalid_argument("rest of a spline " + std::to_string(passed.us) + " us after its start, which lasts " +
+    throw std::invalid_argument("no motion remains " + std::to_string(passed.us) +
+                                " us after the start of a spline of " +
                                 std::to_string((interval * spline.intervals()).us) + " us");
   }
   const int first = static_cast<int>(passed.us / interval.us);

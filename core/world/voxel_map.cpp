@@ -97,9 +97,9 @@ Result<bool> MapAssembler::add(const MapChunk& chunk) {
     return fail(text);
   };
   if (!same_grid(chunk.grid, map_.grid) || chunk.class_names != map_.class_names)
-    return discard("another grid or class table");
+    return discard("its grid or class names differ from those of earlier chunks");
   if (chunk.count != static_cast<int>(have_.size()) || chunk.index >= chunk.count)
-    return discard("another number of chunks");
+    return discard("its number of chunks differs from that of earlier chunks");
   if (have_[idx(chunk.index)]) return false;
   auto at = idx(chunk.first_voxel);
   for (const VoxelRun& run : chunk.runs) {
@@ -111,7 +111,8 @@ Result<bool> MapAssembler::add(const MapChunk& chunk) {
   }
   have_[idx(chunk.index)] = true;
   if (--missing_ > 0) return false;
-  if (map_.compute_version() != chunk.version) return discard("the digest of the whole does not match");
+  if (map_.compute_version() != chunk.version)
+    return discard("the digest of the complete map differs from its version");
   finished_version_ = chunk.version;
   return true;
 }
