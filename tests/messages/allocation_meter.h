@@ -1,16 +1,17 @@
-// Counts what this executable allocates: its operator new is replaced (Eigen's matrices use malloc and are not seen).
+// Measures the allocations of this executable by replacing operator new. (Eigen's matrices use malloc and are not
+// included.)
 #pragma once
 
 #include <cstddef>
 
 namespace tern {
 
-/// From construction on. One at a time; one thread.
+/// Measures from its construction on. One instance at a time, one thread.
 class AllocationMeter {
  public:
   AllocationMeter();
   [[nodiscard]] std::size_t largest() const;  ///< the largest single allocation, bytes
-  [[nodiscard]] std::size_t peak() const;     ///< the most held at once beyond what was held at the start, bytes
+  [[nodiscard]] std::size_t peak() const;     ///< the largest total held at once, beyond that at the start, bytes
 };
 
 }  // namespace tern

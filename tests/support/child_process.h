@@ -1,4 +1,4 @@
-// A program that a test starts, hears and ends.
+// A program that a test starts, reads and ends.
 #pragma once
 
 #include <fcntl.h>
@@ -13,10 +13,10 @@
 
 namespace tern {
 
-/// How long a test waits for what must come; no test asserts a time.
+/// How long a test waits for an event that must happen. No test asserts a time.
 inline constexpr int kPatienceMs = 180'000;
 
-/// A child process with its stdout and stderr.
+/// A child process and its stdout and stderr.
 class Child {
  public:
   /// @param argv  the program first  @param ignore_sigint  as a script's background job has it
@@ -50,7 +50,7 @@ class Child {
 
   void signal(int number) const { kill(pid_, number); }
 
-  /// Whether it has ended; `output` holds what it has said until now. Waits for nothing.
+  /// Returns at once whether the process has ended. `output` holds its output so far.
   bool has_ended() {
     while (speaks(0)) {
       if (!hear()) return true;
@@ -58,7 +58,8 @@ class Child {
     return false;
   }
 
-  /// Waits for its end. @return the exit code, −signal if a signal ended it. `output` then holds all it said.
+  /// Waits for the end of the process; `output` then holds all of its output.
+  /// @return the exit code, or −signal if a signal ended it
   int wait() {
     do {
       if (!speaks(kPatienceMs)) kill(pid_, SIGKILL);
@@ -72,12 +73,12 @@ class Child {
   std::string output;
 
  private:
-  /// Whether it says something or ends within this time.
+  /// Returns whether the process prints something or ends within this time.
   [[nodiscard]] bool speaks(int patience_ms) const {
     pollfd fd{output_fd_, POLLIN, 0};
     return poll(&fd, 1, patience_ms) != 0;
   }
-  /// Takes in what it says next. @return false at its end
+  /// Reads its next output. @return false at its end
   bool hear() {
     char buffer[4096];
     const ssize_t n = read(output_fd_, buffer, sizeof(buffer));

@@ -1,4 +1,4 @@
-// Point cloud files made in memory: LAS of every version and format, PLY of every kind.
+// Point cloud files made in memory: LAS files of all versions and formats, PLY files of all encodings.
 #pragma once
 
 #include <bit>
@@ -15,19 +15,19 @@ using FileBytes = std::vector<std::uint8_t>;
 struct LasSpec {
   int minor = 2;        ///< version 1.minor
   int format = 3;       ///< point data record format
-  int extra_bytes = 0;  ///< of every record, behind the standard fields
+  int extra_bytes = 0;  ///< after the standard fields of each record
   Vec3 scale = Vec3(0.01, 0.01, 0.01);
   Vec3 offset = Vec3::Zero();
 };
 
-/// The file's coordinates are the points' positions, rounded to the scale.
+/// Returns a LAS file whose coordinates are the positions, rounded to the scale.
 FileBytes las_file(const PointCloud& points, const LasSpec& spec);
 
 enum class PlyKind { Ascii, Little, Big };
-/// x, y as double, z as float, an unused short, and the class as uchar under the name `class_property`.
+/// Returns a PLY file with x, y as double, z as float, an unused short, and the class as uchar named `class_property`.
 FileBytes ply_file(const PointCloud& points, PlyKind kind, const std::string& class_property = "label");
 
-/// Overwrites sizeof(value) bytes.
+/// Overwrites the sizeof(value) bytes at `offset`.
 template <class T>
 void put(FileBytes& bytes, std::size_t at, T value, std::endian order = std::endian::little) {
   const auto* raw = reinterpret_cast<const std::uint8_t*>(&value);

@@ -1,4 +1,4 @@
-// Oracle: a point of a clamped uniform cubic B-spline by de Boor's algorithm, straight from the knots.
+// Oracle: a point of a clamped uniform cubic B-spline, computed from the knots by de Boor's algorithm.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +8,10 @@
 
 namespace tern::oracle {
 
-/// P(t) by three rounds of affine combinations of the control points around t ∈ [0, JΔt]. Knots τ_i = clamp(i − 3, 0,
-/// J):
-///   d_i ← (1 − α) d_{i−1} + α d_i,  α = (τ − τ_i)/(τ_{i+4−r} − τ_i),  round r = 1, 2, 3.
+/// Returns P(t), t ∈ [0, JΔt], by three rounds r = 1, 2, 3 of affine combinations of control points. With the knots
+/// τ_i = clamp(i − 3, 0, J):
+///
+///     d_i ← (1 − α) d_{i−1} + α d_i,   α = (τ − τ_i)/(τ_{i+4−r} − τ_i)
 inline Vec3 de_boor(const Points& q, double interval_s, double t_s) {
   const int intervals = static_cast<int>(q.cols()) - 3;
   const auto knot = [intervals](int i) { return static_cast<double>(std::clamp(i - 3, 0, intervals)); };

@@ -1,4 +1,4 @@
-// A flight on virtual time, recorded as tern-logger would.
+// A flight on virtual time, recorded as tern-logger would record it.
 #pragma once
 
 #include <functional>
@@ -9,13 +9,13 @@
 
 namespace tern::testing {
 
-/// What is recorded, and what happens meanwhile.
+/// A flight to be recorded, and the events during it.
 struct EventfulFlight {
   std::string scenario_file;
   std::vector<std::string> overrides;
   double seconds = 3.0;  ///< from the start of all processes, virtual time
-  /// What happens when: processes are stopped and started.
-  std::vector<std::pair<double, std::function<void(VirtualSystem&)>>> events = {};  ///< (second, what), ascending
+  /// Events, such as stopping or starting a process.
+  std::vector<std::pair<double, std::function<void(VirtualSystem&)>>> events = {};  ///< (second, action), ascending
 };
 
 /// Records every message of every channel into a new log.

@@ -1,4 +1,4 @@
-// One request with its world, as a planner had it: a flight's moment as a unit test.
+// One recorded request with its world, as the planner had it, for unit tests.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace tern {
 
 struct Fixture {
   PlanProblem problem;
-  Plan answer;  ///< what the planner made of it then
+  Plan answer;  ///< the recorded answer
 };
 
-/// The first answer of a log or of what write_fixture wrote, with its problem. @return an Error that names what is
-/// missing.
+/// Returns the first answer, with its problem, of a log or of a file of write_fixture().
+/// @return an Error that names the missing input
 inline Result<Fixture> load_fixture(const std::string& path) {
   auto inputs = read_recorded_inputs(path);
   if (!inputs) return tl::make_unexpected(inputs.error());

@@ -1,4 +1,4 @@
-// Oracle: what a multirotor must do to fly a spline, by dense sampling: thrust, attitude, and how attitude turns.
+// Oracle: thrust, tilt and body rates that a multirotor needs to fly a spline, by dense sampling.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 
 namespace tern::support {
 
-/// Extrema over samples; between samples a little more.
+/// Extrema over the samples; between samples the values may be slightly larger.
 struct FlatOutputs {
   double min_thrust = 1e9, max_thrust = 0.0;  ///< thrust per mass, m/s²
   double tilt_deg = 0.0, rate_deg_s = 0.0;    ///< of the thrust's direction; the rate from sample to sample
 
-  /// Whether they keep to the dynamics but for this share of each limit.
+  /// True if the values exceed the limits of `d` by at most this share of each limit.
   [[nodiscard]] bool within(const Dynamics& d, double share) const {
     return min_thrust >= d.thrust_min * (1.0 - share) && max_thrust <= d.thrust_max * (1.0 + share) &&
            tilt_deg <= d.tilt_max_deg * (1.0 + share) && rate_deg_s <= d.body_rate_max_deg_s * (1.0 + share);
@@ -31,7 +31,7 @@ inline FlatOutputs flat_outputs(const ClampedSpline& spline, int samples_per_int
     out.min_thrust = std::min(out.min_thrust, thrust.norm());
     out.max_thrust = std::max(out.max_thrust, thrust.norm());
     out.tilt_deg = std::max(out.tilt_deg, std::acos(std::clamp(z.z(), -1.0, 1.0)) * 180.0 / M_PI);
-    // The chord of two unit vectors tells small angles apart, which their scalar product does not.
+    // The chord of two unit vectors resolves small angles; their scalar product does not.
     if (k > 0)
       out.rate_deg_s = std::max(out.rate_deg_s, 2.0 * std::asin(0.5 * (z - before).norm()) * 180.0 / M_PI / step);
     before = z;
@@ -39,7 +39,7 @@ inline FlatOutputs flat_outputs(const ClampedSpline& spline, int samples_per_int
   return out;
 }
 
-/// From a heavy vehicle with an autopilot's defaults to a racer.
+/// Returns dynamics between a heavy vehicle with an autopilot's defaults and a racer.
 inline Dynamics random_dynamics(Rng& rng) {
   return {rng.uniform(0.0, 5.0), rng.uniform(14.0, 50.0), rng.uniform(25.0, 80.0), rng.uniform(150.0, 1200.0)};
 }

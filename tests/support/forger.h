@@ -1,4 +1,4 @@
-// Someone else on the network of a virtual flight, who hears everything and sends bytes of his own making.
+// A stranger on the network of a virtual flight: it receives everything and sends forged bytes.
 #pragma once
 
 #include <lcm/lcm-cpp.hpp>
@@ -12,7 +12,7 @@ namespace tern::testing {
 
 class Forger {
  public:
-  /// Listens from now on: what it knows of a channel is what its true sender sent last.
+  /// Starts to listen. It knows the last message of the true sender of each channel.
   explicit Forger(VirtualRunner& runner) : runner_(runner) {
     learn(channels::kPredictions);
     learn(channels::kDeclaredMotions);
@@ -23,12 +23,13 @@ class Forger {
     runner.observer().subscribe(channels::kHorizonRequest, [this](const HorizonRequest& heard) { request_ = heard; });
   }
 
-  /// The true sender's epoch, its next number, now: what nobody can tell from the truth.
+  /// Returns a header with the true sender's epoch, its next number and the current time. Receivers cannot tell it
+  /// from the true one.
   [[nodiscard]] Header next(const std::string& channel) const {
     const MessageName last = last_.at(channel);
     return {{last.sender_epoch_us, last.sequence + 1}, runner_.now()};
   }
-  /// A sender of its own that began a second ago.
+  /// Returns the header of another sender that started a second ago.
   [[nodiscard]] Header foreign(std::int64_t sequence = 1) const {
     return {{runner_.now().us - 1'000'000, sequence}, runner_.now()};
   }

@@ -1,4 +1,4 @@
-// Random valid messages, for property tests of whatever takes or carries them.
+// Random valid messages for property tests.
 #pragma once
 
 #include "core/base/random.h"
@@ -16,17 +16,15 @@
 namespace tern::support {
 
 enum class Fill {
-  Mixed,    ///< counts anywhere in their range, small ones more often; numbers sometimes at the ends of their ranges
-  Largest,  ///< every count at its published maximum (a TrackSet: as many tracks as may be, a piece each)
+  Mixed,    ///< counts anywhere in their ranges, mostly small; numbers sometimes at the ends of their ranges
+  Largest,  ///< every count at its maximum (a TrackSet: the largest number of tracks, with one piece each)
 };
 
-/// A value that decode() accepts, of any of the message types: UavState, VehicleStatus, ObservationSet, TrackSet,
-/// MapChunk, Goal, HorizonRequest, Plan, PlanTiming, SearchView, TrackBounds, Heartbeat, ConfigurationReport,
-/// ObstacleTruth, FlightResult.
+/// Returns a random value that decode() accepts. T is any of the message types (messages/channels.h).
 template <class T>
 T random_message(Rng& rng, Fill fill = Fill::Mixed);
 
-/// A track of `pieces` pieces.
+/// Returns a random track with this number of pieces.
 Track random_track(Rng& rng, std::int64_t id, int pieces);
 
 }  // namespace tern::support

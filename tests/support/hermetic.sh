@@ -1,7 +1,7 @@
 #!/bin/sh
 # hermetic.sh CMD [ARG…]: runs CMD in a network namespace of its own, with multicast on lo. So LCM's default URL works,
 # and nothing else on this host hears it. Needs no root where unprivileged user namespaces are allowed. Exit code:
-# CMD's; 97 when no namespace can be had (CMD was not run), with the reason on stderr.
+# CMD's; 97 if a namespace cannot be made. CMD is then not run, and stderr has the reason.
 set -u
 if unshare -Urn true 2>/dev/null; then
   flags=-Urn

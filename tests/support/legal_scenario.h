@@ -1,4 +1,4 @@
-// Random scenarios that a user may legally write, with short flights, and what a flight of each may end with.
+// Random legal scenarios with short flights, and the reasons with which a flight of one may end.
 #pragma once
 
 #include <cstdint>
@@ -12,41 +12,41 @@ namespace tern::testing {
 
 struct LegalScenario {
   Scenario scenario;
-  std::string yaml;  ///< the whole file, process sections included
+  std::string yaml;  ///< the whole file, including the sections of the processes
 };
 
-/// Limits, body, sphere, holds from all of their ranges; at most six obstacles of any motion, near and far; up to two
-/// regions. The goal is as far as such a vehicle flies within half a minute or so; the timeout is 3 × that + 10 s. A
-/// pure function of the seed.
+/// Returns the scenario of a seed. Limits, body, sphere and holds are drawn from their whole ranges. There are at most
+/// six obstacles of any motion, near and far, and up to two regions. The goal is about half a minute away for the
+/// vehicle; the timeout is 3 × the flight time + 10 s.
 LegalScenario legal_scenario(std::uint64_t seed);
 
-/// Notes what a flight promised last.
+/// Records the newest plan of a flight and how long it holds.
 struct PromiseWatch final : FlightObserver {
-  std::optional<UTime> world_zero;  ///< the first request comes then
-  UTime asked_at;                   ///< when the newest plan was asked for
-  UTime promised_until;             ///< by what is flown, the hold after it included
+  std::optional<UTime> world_zero;  ///< when the first request was sent
+  UTime asked_at;                   ///< when the newest plan was requested
+  UTime promised_until;             ///< end of the flown trajectory, including its hold
   PlanReason last_reason = PlanReason::None;
-  Vec3 at = Vec3::Zero();  ///< where the last request began, W
+  Vec3 at = Vec3::Zero();  ///< start of the last request, W
   void on_request(const HorizonRequest& request) override;
   void on_plan(const Plan& plan) override;
 };
 
-/// Why a flight ended as it did.
+/// The reason for the end of a flight.
 enum class FlightReason {
   Reached,
-  StartInObstacle,  ///< touched at world time 0
-  WayBlocked,       ///< a grid search finds no way around what stands, and the planner said so
-  WayNarrow,        ///< the grid is too coarse to tell whether there is a way
-  HeldUp,           ///< something moves where the vehicle, or what is left of its way, is
-  HitAfterPromise,  ///< touched by a mover when the last hold had ended
-  HitByNewcomer,    ///< touched by what came into being too late for the last plan
+  StartInObstacle,  ///< contact at the world's time 0
+  WayBlocked,       ///< a grid search finds no path around static obstacles, and the planner reported it
+  WayNarrow,        ///< the grid is too coarse to decide whether there is a path
+  HeldUp,           ///< an obstacle moves at the vehicle or on the rest of its path
+  HitAfterPromise,  ///< contact with a moving obstacle after the last hold had ended
+  HitByNewcomer,    ///< contact with an obstacle that appeared too late for the last plan
 };
 inline constexpr int kFlightReasons = 7;
 const char* to_string(FlightReason reason);
 
 struct FlightJudgement {
   FlightReason reason = FlightReason::Reached;
-  std::string fault;  ///< empty: the flight ended with a reason that is true
+  std::string fault;  ///< empty: the reason is true
 };
 FlightJudgement judge(const LegalScenario& legal, const VirtualFlight& flight, const PromiseWatch& watch);
 

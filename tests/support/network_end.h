@@ -1,4 +1,4 @@
-// A test's own end of a real LCM network, which hears how the processes on it are.
+// A test's own connection to a real LCM network. It receives the heartbeats of the processes.
 #pragma once
 
 #include <poll.h>
@@ -28,7 +28,7 @@ struct NetworkEnd {
     bus->subscribe(channels::kHeartbeat, [this](const Heartbeat& h) { beats.push_back(h); });
   }
 
-  /// Handles messages until the condition holds. @return whether it did within kPatienceMs.
+  /// Handles messages until the condition holds. @return false if it does not within kPatienceMs
   bool wait_for(const std::function<bool()>& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
     while (!condition()) {
@@ -41,14 +41,14 @@ struct NetworkEnd {
     return true;
   }
 
-  /// Waits for a process that has not been heard before.
+  /// Waits for the first heartbeat of a new process.
   bool wait_until_ready() {
     const std::int64_t last_epoch_us = beats.empty() ? 0 : beats.back().header.name.sender_epoch_us;
     return wait_for([&] { return !beats.empty() && beats.back().header.name.sender_epoch_us > last_epoch_us; });
   }
 
   std::shared_ptr<lcm::LCM> lcm;
-  /// At the pace of the processes that this test starts.
+  /// The clock, at the pace of the processes that this test starts.
   WallClock clock{{}, std::getenv("TERN_PACE") != nullptr ? std::stod(std::getenv("TERN_PACE")) : 1.0};
   std::unique_ptr<Bus> bus;
   std::vector<Heartbeat> beats;

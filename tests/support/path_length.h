@@ -1,4 +1,4 @@
-// How long a way of points is.
+// The length of a path of points.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace tern {
 
-/// Length of a piecewise-linear path, m.
+/// Returns the length of a piecewise linear path, m.
 inline double path_length(const std::vector<Vec3>& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();

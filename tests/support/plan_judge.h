@@ -1,5 +1,4 @@
-// Judges what plan() answers by dense sampling and by the checker with every obstacle in it; flies plans in a closed
-// loop.
+// Judges the answers of plan() by dense sampling and by the checker with all obstacles; flies plans in a closed loop.
 #pragma once
 
 #include <functional>
@@ -12,18 +11,18 @@
 
 namespace tern::support {
 
-/// The obstacles from which an answer must be separated: all tracks and map boxes, α as the plan counts it, scaled as
-/// clear_start() has it.
+/// Returns the obstacles from which an answer must be separated: all tracks and map boxes. They have the share of α
+/// that the plan applies, reduced as clear_start() reduces it.
 std::vector<PlanningObstacle> obstacles_for(const HorizonRequest& request, const PlanningWorld& world,
                                             const Assurance& assurance = {});
 
-/// What is wrong with the answer; empty: nothing. A new trajectory must begin at t_s, pass check_plan()
-/// against all obstacles and touch nothing at any sampled instant until its hold ends. A kept one must be the committed
-/// one and touch nothing either.
+/// Returns in words what is wrong with an answer; empty if it is right. A new trajectory must start at t_s, pass
+/// check_plan() against all obstacles, and be free of contact at all sampled times until its hold ends. A kept
+/// trajectory must be the committed one and free of contact.
 std::string fault_of(const Plan& plan, const HorizonRequest& request, const PlanningWorld& world,
                      const PlannerConfig& config);
 
-/// What plan() says on the way.
+/// The observations that plan() reports while it runs.
 class RecordingObserver final : public PlanObserver {
  public:
   void enter(Stage stage) override { stages.push_back(stage); }
@@ -32,7 +31,7 @@ class RecordingObserver final : public PlanObserver {
   std::vector<Plan> answers;
 };
 
-/// A vehicle that asks once per period and flies what it is answered, perfectly.
+/// A vehicle that requests a plan once per period and flies it without tracking error.
 struct Loop {
   UTime t_s;
   TimedSpline committed;
@@ -43,8 +42,9 @@ struct Loop {
   Box flight_box{Vec3::Constant(-1e4), Vec3::Constant(1e4)};
   std::vector<PlanOutcome> outcomes = {};  ///< one per step
 
-  /// Plans once in the world that `world_at` gives for the request, adopts a new trajectory, goes on by a period.
-  /// @return the answer.
+  /// Plans once in the world that `world_at` returns for the request, adopts a new trajectory, and advances by one
+  /// period.
+  /// @return the answer
   Plan step(const std::function<PlanningWorld(const HorizonRequest&)>& world_at);
   [[nodiscard]] MotionSample now() const { return committed.sample(t_s); }
 };

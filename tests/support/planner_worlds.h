@@ -1,4 +1,4 @@
-// What planner tests are made of: movers, vehicles under way, whole worlds, and slow but obvious answers about them.
+// Parts of planner tests: moving obstacles, vehicles in flight, whole worlds, and slow but obvious oracles.
 #pragma once
 
 #include <optional>
@@ -11,51 +11,51 @@
 
 namespace tern::support {
 
-/// The smooth mover: a Lissajous curve through `where`, up to 6 m/s, as Hermite pieces from `from` on. Its α differs
-/// from piece to piece; half-extents are 0.1 … 0.6 m.
+/// Returns a smooth obstacle: a Lissajous curve through `where`, up to 6 m/s, as Hermite pieces from `from` on. Its α
+/// differs from piece to piece; its half-extents are 0.1 … 0.6 m.
 Track random_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, double seconds);
-/// The nasty mover: arbitrary cubics that jump at their joints.
+/// Returns a rough obstacle: arbitrary cubics that jump at their joints.
 Track jumping_mover(Rng& rng, std::int64_t id, const Box& where, UTime from, double seconds);
-/// A straight line through p at `from`; one piece, no α.
+/// Returns a straight line through p at `from`, with one piece and without α.
 Track straight_mover(std::int64_t id, const Vec3& p, const Vec3& v, double half, UTime from, double seconds);
-/// Never moves. One piece of 1 s, no α.
+/// Returns an obstacle at rest, with one piece of 1 s and without α.
 Track standing_box(std::int64_t id, const Box& box, UTime from);
 
-/// A sphere of 0.1 m, a box of corners, or a lopsided polytope.
+/// Returns a sphere of 0.1 m, a box, or an asymmetric polytope.
 enum class BodyKind { Sphere, BoxShape, Polytope };
 inline constexpr BodyKind kBodyKinds[] = {BodyKind::Sphere, BodyKind::BoxShape, BodyKind::Polytope};
 Body body_of(BodyKind kind);
 
-/// Obstacles as PredictionProducts makes them; the tracks must outlive them.
+/// Returns obstacles as PredictionProducts makes them; the tracks must outlive them.
 std::vector<PlanningObstacle> obstacles_of(const std::vector<Track>& tracks);
 
-/// Oracle: the box that the track promises at t, with what counts of its α. Beyond its pieces it grows by top_speed.
+/// Oracle: the box of the track at t, with a share of α. Outside its pieces it grows at top_speed.
 Box promised_box(const Track& track, UTime t, const AlphaShare& count = {});
-/// Oracle: the largest d·x over everything that the obstacle's box may cover in [from, to] seconds after origin. By the
-/// extrema of the cubics d·p(t), so exact to rounding; β is not in it.
+/// Oracle: the largest d·x over the region that the obstacle's box covers during [from, to] seconds after origin. It
+/// follows from the extrema of the cubics d·p(t), so it is exact up to rounding; β is not included.
 double support_of_sweep(const Track& track, const AlphaShare& count, UTime origin, double from, double to,
                         const Vec3& d);
-/// Oracle: the distance between the body at p and the box; 0 when they meet.
+/// Oracle: the distance between the body at p and the box; 0 if they touch or overlap.
 double gap(const Body& body, const Vec3& p, const Box& box);
-/// Oracle: the least gap between the body on its trajectory (at rest after its end) and the obstacles, at instants
+/// Oracle: the smallest gap between the obstacles and the body on its trajectory (at rest after its end), at times
 /// `step` apart.
 double least_gap(const TimedSpline& trajectory, const Body& body, const std::vector<PlanningObstacle>& obstacles,
                  UTime from, UTime to, Duration step = Duration{2'000});
 
-/// Control points from `start` to rest within the limits, drawn at their edges as often as inside. (A v_1 that the
-/// start drives beyond v_max is not held against it.)
+/// Returns control points from `start` to rest within the limits, half of them at the edges of the limits. (v_1 may
+/// exceed v_max, if the start requires it.)
 /// @return nullopt if J intervals of dt do not suffice
 std::optional<Points> random_way_to_rest(Rng& rng, const MotionSample& start, const Limits& limits, int intervals,
                                          double dt);
-/// The same from rest at p, in time.
+/// Returns such a trajectory from rest at p.
 TimedSpline random_trajectory(Rng& rng, const Vec3& p, UTime start, const Limits& limits, int intervals = 8);
-/// Rests at p from `start` on.
+/// Returns the trajectory that rests at p from `start` on.
 TimedSpline resting_at(const Vec3& p, UTime start);
 
-/// Asks for a plan from t_s on; published 75 ms before, due 5 ms before.
+/// Returns a request for a plan from t_s on, published 75 ms and due 5 ms before it.
 HorizonRequest request_at(UTime t_s, const TimedSpline& committed);
 
-/// A map of free voxels, and what a plan is made from.
+/// Returns the inputs of a plan; without `map`, all voxels are free.
 PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const HorizonRequest& request,
                        const PlannerConfig& config, const VoxelMap& map);
 PlanningWorld world_of(std::vector<Track> tracks, const Goal& goal, const HorizonRequest& request,

@@ -1,4 +1,4 @@
-// Random pairs of point sets for separation tests: the easy, the touching and the degenerate.
+// Random pairs of point sets for separation tests: generic, touching and degenerate ones.
 #pragma once
 
 #include "core/base/random.h"
@@ -11,25 +11,25 @@ struct PointSets {
   Points a, b;
 };
 
-/// What a pair is meant to exercise.
+/// The kind of a pair.
 enum class PairKind {
   Generic,       ///< two clouds in boxes of up to 3 m, anywhere within 5 m
   Lattice,       ///< on {−1, −½, 0, ½, 1}³: touching, coplanar, coincident, repeated points
-  Nested,        ///< b shrunk into a
+  Nested,        ///< b lies inside a
   Flat,          ///< each in a plane, often the same one
   Line,          ///< each on a line, often the same one
   Single,        ///< one point against one or a cloud
-  Identical,     ///< b is a, with its columns turned around
-  Sliver,        ///< flat or thin as a hair up to a few steps of the grid, turned at random
-  NearTouching,  ///< a pair of the other kinds moved until 0 to 4e-6 m apart
+  Identical,     ///< b is a with its columns in reverse order
+  Sliver,        ///< flat or very thin (a few steps of the grid), turned at random
+  NearTouching,  ///< a pair of another kind, moved to a distance of 0 to 4e-6 m
   FarAway,       ///< NearTouching, 1e4 m from the origin
 };
 inline constexpr int kPairKinds = 10;
 
-/// `points` with each coordinate rounded to a multiple of kExactGrid.
+/// Returns `points` with each coordinate rounded to a multiple of kExactGrid.
 Points on_exact_grid(const Points& points);
 
-/// A random pair of that kind; 1 to 20 points in a, 1 to 8 in b.
+/// Returns a random pair of this kind, with 1 to 20 points in a and 1 to 8 in b.
 PointSets random_pair(PairKind kind, Rng& rng);
 
 }  // namespace tern

@@ -1,4 +1,4 @@
-// What is left of α at lower levels of confidence, drawn from a seed.
+// Random shares of α at lower levels of confidence.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace tern::support {
 
-/// Uniform in [0.001, 1], sorted.
+/// Returns sorted shares, uniform in [0.001, 1].
 inline AlphaShares random_shares(Rng& rng) {
   AlphaShares shares{};
   for (float& share : shares) share = static_cast<float>(rng.uniform(1e-3, 1.0));

@@ -6,17 +6,17 @@
 
 namespace tern::support {
 
-/// Uniform in {lo, …, hi}.
+/// Returns an integer, uniform in {lo, …, hi}.
 inline int random_integer(Rng& rng, int lo, int hi) { return lo + static_cast<int>(rng.uniform() * (hi - lo + 1)); }
 
-/// Uniform in the cube of half-extent h around the origin.
+/// Returns a point, uniform in the cube of half-extent h around the origin.
 inline Vec3 random_vector(Rng& rng, double h) {
   const double x = rng.uniform(-h, h);
   const double y = rng.uniform(-h, h);
   return {x, y, rng.uniform(-h, h)};
 }
 
-/// A walk of control points with steps up to 2 m, one in ten of them zero, somewhere within 100 m of the origin.
+/// Returns a random walk of control points within 100 m of the origin. Steps are at most 2 m; one in ten is zero.
 inline Points random_control_points(Rng& rng, int intervals) {
   Points q(3, intervals + 3);
   q.col(0) = random_vector(rng, 100.0);
@@ -27,14 +27,14 @@ inline Points random_control_points(Rng& rng, int intervals) {
   return q;
 }
 
-/// J from 4 to 12, Δt from 0.05 to 1 s.
+/// Returns a spline with J from 4 to 12 and Δt from 0.05 to 1 s.
 inline ClampedSpline random_spline(Rng& rng) {
   const int intervals = random_integer(rng, 4, 12);
   Points q = random_control_points(rng, intervals);
   return {std::move(q), rng.uniform(0.05, 1.0)};
 }
 
-/// Coefficients in [-2, 2], some of them zero, so that every degree occurs.
+/// Returns coefficients in [-2, 2], some of them zero, so that every degree occurs.
 inline PowerCubic random_cubic(Rng& rng) {
   PowerCubic c;
   for (int k = 0; k < 4; ++k) {

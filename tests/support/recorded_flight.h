@@ -1,4 +1,4 @@
-// Flights on virtual time recorded as logs, and logs with one thing changed.
+// Flights on virtual time recorded as logs, and copies of logs with one change.
 #pragma once
 
 #include <functional>
@@ -11,33 +11,32 @@
 
 namespace tern::testing {
 
-/// The log of a flight that was recorded for several tests (tests/flights/record_flights.cpp), which ctest does before
-/// them.
-/// @throws std::runtime_error when it is not there.
+/// Returns the log of a flight that several tests share. ctest records it before them
+/// (tests/flights/record_flights.cpp). @throws std::runtime_error if it is missing
 std::string recorded_log(const std::string& name);
 
-/// Flies a scenario file on virtual time and records every message as tern-logger would. Ends a second after the
-/// verdict.
-/// @param start  when its time begins
-/// @throws std::runtime_error when the log cannot be written or the flight has no end.
+/// Flies a scenario file on virtual time and records every message as tern-logger would. The log ends a second after
+/// the verdict.
+/// @param start  the time at which virtual time begins
+/// @throws std::runtime_error if writing the log fails or the flight is endless
 void record_flight(const std::string& scenario_file, const std::vector<std::string>& overrides, const std::string& log,
                    UTime start = UTime{1'000'000});
 
-/// What becomes of an event: its bytes may be changed; empty: it is left out.
+/// A change of an event: it may change the bytes; empty bytes leave the event out.
 using ChangeBytes = std::function<void(std::string_view channel, std::vector<std::uint8_t>& bytes)>;
-/// Copies a log event by event.
+/// Copies a log and changes its events.
 void copy_log(const std::string& from, const std::string& to, const ChangeBytes& change);
 
-/// Copies the events that were received in [from_us, to_us): as a logger that was not there before, or died.
+/// Copies the events received in [from_us, to_us), like a logger that started late or died.
 void copy_part_of_log(const std::string& from, const std::string& to, std::int64_t from_us, std::int64_t to_us);
-/// Copies a log without the events that were received in [from_us, to_us): as a logger that was away.
+/// Copies a log without the events received in [from_us, to_us), like a logger that was away.
 void copy_log_without(const std::string& from, const std::string& to, std::int64_t from_us, std::int64_t to_us);
-/// Copies a log with every event `times` times: as a network that delivers each message so often.
+/// Copies a log with every event `times` times, like a network that repeats messages.
 void copy_log_repeated(const std::string& from, const std::string& to, int times);
-/// One log after the other.
+/// Concatenates logs.
 void join_logs(const std::vector<std::string>& from, const std::string& to);
 
-/// Copies a log with the messages of one channel changed by `change`; those for which it returns false are left out.
+/// Copies a log and changes the messages of one channel; messages for which `change` returns false are left out.
 template <class T>
 void copy_log_with(const std::string& from, const std::string& to, std::string_view channel,
                    const std::function<bool(T&)>& change) {

@@ -1,4 +1,4 @@
-// A planner for empty worlds: straight to the goal, with the least jerk that the shortest feasible duration allows.
+// A planner for empty worlds: straight to the goal, with minimal jerk for the shortest feasible duration.
 #pragma once
 
 #include "core/world/horizon.h"
@@ -11,10 +11,15 @@ struct StraightPlanOptions {
   double limit_share = 0.9;  ///< of the limits that a plan may use, (0, 1]
 };
 
-/// Answers `request` without looking at any obstacle. From the request's start to the goal, or as far towards it as
-/// reach_m, at rest there. The q_3 … q_{n-3} minimize Σ‖jerk‖²; the interval is the first of a geometric scan that
-/// keeps the limits. KeepCommitted (AtGoal) when it rests at the goal; KeepCommitted (WorsePlan) when the committed
-/// trajectory ends there already; KeepCommitted (Infeasible) when no duration keeps the limits.
+/// Answers `request` and ignores obstacles.
+///
+/// The plan leads from the request's start to the goal, or reach_m towards it, and ends at rest. q_3 … q_{n-3}
+/// minimize Σ‖jerk‖²; the interval is the first of a geometric scan that obeys the limits. The answer is
+/// KeepCommitted, if
+///
+/// * the vehicle rests at the goal (AtGoal),
+/// * the committed trajectory ends at the goal (WorsePlan), or
+/// * no duration obeys the limits (Infeasible).
 Plan straight_plan(const HorizonRequest& request, const Vec3& goal, const StraightPlanOptions& options = {});
 
 }  // namespace tern

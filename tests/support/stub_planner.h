@@ -1,4 +1,4 @@
-// A planner process for empty worlds: the straight plan, after a fixed delay. For tests of everything but planning.
+// A planner process for empty worlds: it sends the straight plan after a fixed delay.
 #pragma once
 
 #include <deque>
@@ -13,12 +13,12 @@ namespace tern {
 
 struct StubPlannerOptions {
   Duration delay{10'000};  ///< from a request to its answer, ≥ 0
-  int answers = 1;         ///< how often each request is answered (a contract broken on purpose), ≥ 0
+  int answers = 1;  ///< number of answers to each request, ≥ 0; other numbers than 1 break the contract on purpose
   StraightPlanOptions plan;
 };
 
-/// Answers each HORIZON_REQUEST by straight_plan to the newest GOAL (NoPlan, StaleWorld while there is none). Ready at
-/// once.
+/// Answers each HORIZON_REQUEST by straight_plan() to the newest GOAL. Without a GOAL the answer is NoPlan,
+/// StaleWorld. It is ready at once.
 class StubPlannerNode final : public Node {
  public:
   explicit StubPlannerNode(Bus& bus, const StubPlannerOptions& options = {});

@@ -1,4 +1,4 @@
-// A folder of its own for a test.
+// A temporary folder of a test.
 #pragma once
 
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 namespace tern {
 
-/// Made empty, gone at the end.
+/// Creates an empty folder, and removes it at the end.
 class TempFolder {
  public:
   TempFolder() {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# ten_times.sh [TIMES [CTEST_OPTION...]]: the default tests so many times in a row (10), each time beside a process for each core that
-# never rests. Says how each run ended; the runs' output is left in build/ten_times/. Exit code 1 when any test failed. Builds nothing.
+# ten_times.sh [TIMES [CTEST_OPTION...]]: runs the default tests TIMES times (10), while one busy process per core loads
+# the machine. Prints how each run ended; the output is in build/ten_times/. Exit code 1 if any test failed. Builds
+# nothing.
 set -euo pipefail
 root=$(dirname "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")")
 times=${1:-10}

@@ -1,4 +1,4 @@
-// Noise that knows the language: copies of true messages with one or two places changed.
+// Noise that resembles messages: copies of true messages with one or two changes.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace tern::testing {
 
-/// It copies messages that it heard lately, on any channel, with one or two places changed: a bit, a byte, or eight
-/// bytes at once. Its own copies, which it hears, too, it passes over. A function of seed and traffic.
+/// Sends copies of recently received messages of any channel. Each copy has one or two changes of a bit, a byte, or
+/// eight bytes. It ignores its own copies. All is a function of seed and traffic.
 class TrafficMutator {
  public:
   struct Message {
@@ -43,7 +43,7 @@ class TrafficMutator {
   }
 
  private:
-  static constexpr std::size_t kRemembered = 400;  // about a second
+  static constexpr std::size_t kRemembered = 400;  // messages of about a second
 
   static std::uint64_t digest_of(std::span<const std::uint8_t> bytes) {
     return digest({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -1,4 +1,4 @@
-// Voxel maps for tests: empty ones, random ones, painted boxes.
+// Voxel maps for tests: free ones, random ones, boxes.
 #pragma once
 
 #include "core/base/random.h"
@@ -6,7 +6,7 @@
 
 namespace tern::support {
 
-/// All free.
+/// Returns a map of free voxels.
 inline VoxelMap free_map(const Eigen::Vector3i& size, double resolution = 0.25, const Vec3& origin = Vec3::Zero()) {
   VoxelMap map;
   map.grid = {origin, resolution, size};
@@ -17,7 +17,7 @@ inline VoxelMap free_map(const Eigen::Vector3i& size, double resolution = 0.25, 
   return map;
 }
 
-/// Labels the voxels low … high (inclusive; must lie in the grid).
+/// Labels the voxels low … high (inclusive). @pre they lie in the grid
 inline void paint(VoxelMap& map, const Eigen::Vector3i& low, const Eigen::Vector3i& high, VoxelLabel label) {
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
@@ -27,7 +27,7 @@ inline void paint(VoxelMap& map, const Eigen::Vector3i& low, const Eigen::Vector
   map.version = map.compute_version();
 }
 
-/// Each voxel has the label with this probability.
+/// Gives each voxel the label with this probability.
 inline void sprinkle(VoxelMap& map, Rng& rng, double probability, VoxelLabel label) {
   for (VoxelLabel& l : map.labels) {
     if (rng.uniform() < probability) l = label;

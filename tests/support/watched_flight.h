@@ -1,5 +1,4 @@
-// A whole flight on virtual time that notes what its tests ask about: every request, every answer, when, and what
-// became of it.
+// A whole flight on virtual time that records every request and answer, with their times, and the result.
 #pragma once
 
 #include <map>
@@ -10,7 +9,7 @@
 
 namespace tern::testing {
 
-/// What went over the bus between executor and planner.
+/// The messages between executor and planner.
 struct Exchange final : FlightObserver {
   std::map<std::int64_t, HorizonRequest> requests;  ///< by id
   std::vector<Plan> plans;                          ///< in order
@@ -19,17 +18,17 @@ struct Exchange final : FlightObserver {
   void on_plan(const Plan& plan) override { plans.push_back(plan); }
 };
 
-/// The path of a scenario of the project, "paper_corridor".
+/// Returns the path of a scenario of the project, such as "paper_corridor".
 std::string scenario_file(const std::string& name);
 
-/// Fails the running test unless the flight ended at its goal, unharmed and within every limit.
+/// Fails the running test unless the flight reached its goal without contact and within all limits.
 void expect_reached(const FlightResult& result);
 
-/// Fails the running test unless each request was answered once, by its deadline and acceptably (the last may be open).
-/// The executor's counts and what went over the bus must both say so.
+/// Fails the running test unless each request got one acceptable answer by its deadline; the last one may be open. The
+/// executor's counts and the messages must both show it.
 void expect_answered_once_and_in_time(const ExecutorCounters& counters, const Exchange& exchange);
 
-/// Flies, and expects both.
+/// Flies, and expects both of the above.
 VirtualFlight fly_and_expect_all_well(const std::string& scenario, const std::vector<std::string>& overrides = {});
 
 }  // namespace tern::testing

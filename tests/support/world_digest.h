@@ -1,4 +1,4 @@
-// Whether two worlds are the same, and whether a seed still makes the world that it made.
+// A digest of a world: tests compare two worlds, and the world of a seed with its recorded digest.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tern {
 
-/// Collects numbers into one digest, as their bytes.
+/// Computes one digest of the bytes of numbers.
 struct Digester {
   std::uint64_t value = kDigestSeed;
 
@@ -36,7 +36,7 @@ struct Digester {
   }
 };
 
-/// Digest over names, shapes and motions of all obstacles, in order: equal worlds have equal digests.
+/// Returns the digest of names, shapes and motions of all obstacles, in order. Equal worlds have equal digests.
 inline std::uint64_t world_digest(const World& world) {
   Digester digester;
   for (const WorldObstacle& o : world.obstacles) digester(o.spec());
