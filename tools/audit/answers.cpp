@@ -17,7 +17,7 @@ double stale_after_of(const std::string& setting) {
   return setting.empty() ? kDefaultStaleAfter : std::strtod(setting.c_str(), nullptr);
 }
 
-/// True when the answers around `when` come from two planners: one died, another came.
+/// Returns true if the answers around `when` come from two planners, because one ended and another started.
 bool planner_changed(const FlightRecord& record, UTime when) {
   const Plan* before = nullptr;
   for (const Plan& plan : record.plans) {
@@ -50,7 +50,7 @@ class AnswerCheck {
     if (plan.outcome != PlanOutcome::NoPlan) fresh(plan, request);
   }
 
-  /// A planner answers once. Two of them answer both: the executor takes what comes first.
+  /// A planner answers once. Two planners may both answer; the executor takes the first answer.
   void again(const Plan& plan, std::int64_t first_planner) {
     if (plan.header.name.sender_epoch_us == first_planner) return fail(plan, "answered more than once");
     ++second_answers_;
@@ -73,7 +73,7 @@ class AnswerCheck {
       fail(plan, fmt::format("planned on predictions {:.3f} s old, limit {:.3f} s", age_s, stale_after_));
   }
 
-  /// Who has to lead a vehicle on from where it is asks anew at once.
+  /// An executor that rejoins replaces its request at once.
   [[nodiscard]] bool was_replaced(const HorizonRequest& request) const {
     return std::any_of(record_.requests.begin(), record_.requests.end(), [&](const HorizonRequest& r) {
       const bool same_sender = r.header.name.sender_epoch_us == request.header.name.sender_epoch_us;
@@ -118,7 +118,7 @@ class AnswerCheck {
   const FlightRecord& record_;
   Check& check_;
   double stale_after_;
-  std::map<MessageName, std::int64_t> answers_;  ///< who answered first, by request
+  std::map<MessageName, std::int64_t> answers_;  ///< first planner that answered, by request
   std::int64_t second_answers_ = 0;
   double least_spare_s_ = 1e9, oldest_s_ = 0.0;
 };

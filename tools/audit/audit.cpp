@@ -15,11 +15,11 @@
 namespace tern::audit {
 namespace {
 
-/// The channels that an audit needs; of the others that it reads it says what was lost.
+/// The channels that an audit needs. Losses are listed for all channels that it reads.
 constexpr std::tuple kNeeded{channels::kUavState,    channels::kSetpoint,    channels::kHorizonRequest,
                              channels::kPlan,        channels::kPredictions, channels::kObstacleTruth,
                              channels::kSemanticMap, channels::kGoal,        channels::kConfiguration};
-/// Findings of one check that the text lists.
+/// Findings per check in the text.
 constexpr std::size_t kFindingsInText = 10;
 
 std::vector<std::string> what_is_missing(const FlightRecord& record) {
@@ -41,7 +41,7 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
     if (!there) missing.push_back(fmt::format("no {}", needed.name));
   };
   for_each_channel(look_for, kNeeded);
-  // Of what is repeated the log's first message says as much as those before it.
+  // The first message of a latched channel repeats the ones before it.
   const auto is_latched = [](const std::string& name) {
     bool latched = false;
     visit_channel(name, [&latched](const auto& channel) { latched = channel.latched; });
@@ -62,7 +62,7 @@ std::vector<std::string> what_is_missing(const FlightRecord& record) {
   return missing;
 }
 
-/// What plans name besides request, predictions and map, which the checks look for themselves.
+/// Lists missing goals and configurations that plans name. The checks look for requests, predictions and maps.
 std::vector<std::string> named_and_missing(const FlightRecord& record) {
   std::map<std::string, std::int64_t> plans;
   for (const Plan& plan : record.plans) {
@@ -83,7 +83,7 @@ std::vector<std::string> named_and_missing(const FlightRecord& record) {
   return missing;
 }
 
-/// What the verdict alone does not say of a collision.
+/// Returns how the referee's collision agrees with the log, for the last line.
 std::string words(Collision collision) {
   switch (collision) {
     case Collision::None: return "";
@@ -94,7 +94,8 @@ std::string words(Collision collision) {
   return "";
 }
 
-/// The obstacle that a flight ended at, if it was one. The map, or a log without a state near enough, tells of none.
+/// Returns the obstacle that the vehicle collided with. Empty after a collision with the map, or without a state near
+/// enough.
 std::optional<Contact> contact_of(const FlightRecord& record, const Audit& audit) {
   if (record.results.empty() || record.results.back().outcome != FlightOutcome::Collision) return std::nullopt;
   const auto touched =

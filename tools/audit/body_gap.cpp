@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kResolution = 1e-6;  // m
 constexpr int kMaxSteps = 200;
-/// An atom of less than this is dropped.
+/// An atom of a smaller weight is dropped.
 constexpr double kNoWeight = 1e-14;
 
 bool is_sphere(const Body& body) { return body.vertices.cols() == 1; }
@@ -25,7 +25,7 @@ struct Atom {
   double weight;
 };
 
-/// The extreme point of (p + vertices) − box(h) against direction x.
+/// Returns the extreme point of (p + vertices) − box(h) against direction x.
 Vec3 extreme_against(const Points& vertices, const Vec3& p, const Vec3& h, const Vec3& x) {
   Eigen::Index least = 0;
   (x.transpose() * vertices).minCoeff(&least);
@@ -33,7 +33,8 @@ Vec3 extreme_against(const Points& vertices, const Vec3& p, const Vec3& h, const
   return p + vertices.col(least) - corner;
 }
 
-/// Weights, summing to 1, of the point of least norm in the atoms' affine hull: [0 1ᵀ; 1 AᵀA] [μ; w] = [1; 0].
+/// Returns the weights, summing to 1, of the point of least norm in the atoms' affine hull. They solve
+///     [0 1ᵀ; 1 AᵀA] [μ; w] = [1; 0].
 Eigen::VectorXd affine_weights(const std::vector<Atom>& atoms) {
   const auto n = static_cast<Eigen::Index>(atoms.size());
   Eigen::MatrixXd system = Eigen::MatrixXd::Ones(n + 1, n + 1);
@@ -46,7 +47,7 @@ Eigen::VectorXd affine_weights(const std::vector<Atom>& atoms) {
   return system.fullPivLu().solve(Eigen::VectorXd::Unit(n + 1, 0)).tail(n);
 }
 
-/// Brings the weights to the point of least norm in the atoms' convex hull, and drops the atoms that it does not need.
+/// Moves the weights to the point of least norm in the atoms' convex hull, and drops unneeded atoms.
 void correct(std::vector<Atom>& atoms) {
   while (atoms.size() > 1) {
     const Eigen::VectorXd wanted = affine_weights(atoms);

@@ -1,4 +1,5 @@
-// Each certificate plane of each plan, against sweeps built anew; what has no plane must be separated by its boxes.
+// Checks each certificate plane of each plan against recomputed sweeps. Pairs without a plane must be separated by its
+// boxes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,12 +15,12 @@
 namespace tern::audit {
 namespace {
 
-/// A plane may be crossed by this, m: the planner's own rounding at coordinates of some 100 m, and what
-/// core/geometry calls touching.
+/// A plane may be crossed by this, m: the planner's rounding at coordinates of some 100 m, and the touching tolerance
+/// of core/geometry.
 constexpr double kPlaneTolerance = 1e-6;
 /// Extrema are enclosed to this, m.
 constexpr double kExtremum = 1e-8;
-/// What lcmtypes/certificate_plane_t.lcm promises of a body without a radius, m.
+/// Room that lcmtypes/certificate_plane_t.lcm promises for a body without a radius, m.
 constexpr double kPublishedMargin = 1e-9;
 constexpr int kMaxParts = 4;
 
@@ -76,7 +77,7 @@ class CaseCheck {
     check_.fail({case_.request.t_s, std::move(what), case_.request.id, obstacle});
   }
 
-  /// The vehicle's side of a plane.
+  /// Checks the vehicle's side of a plane.
   void on_its_side(const CertificatePlane& c) {
     ++check_.checked;
     const Part part{c.interval, c.part, c.parts};
@@ -93,7 +94,7 @@ class CaseCheck {
     }
   }
 
-  /// How far a predicted box, grown by the mirrored body, stands out of its side of a plane during a part.
+  /// Returns how far a predicted box, grown by the mirrored body, crosses its plane during a part.
   [[nodiscard]] double crossing(const PredictedBox& obstacle, const Plane& plane, const Part& part) const {
     const Span s = span(part);
     double least = INFINITY;
@@ -104,12 +105,12 @@ class CaseCheck {
     return -(least + plane.d - reach(plane.n));
   }
 
-  /// How far the body's vertices and the tube reach along n.
+  /// Returns how far the body's vertices and the tube reach along n.
   [[nodiscard]] double reach(const Vec3& n) const {
     return (n.transpose() * body_.vertices).maxCoeff() + n.cwiseAbs().dot(tube_);
   }
 
-  /// Where the vehicle's centre may be during a part, grown by body and tube.
+  /// Returns the region of the vehicle's centre during a part, grown by body and tube.
   [[nodiscard]] Box vehicle_box(const Part& part) {
     const auto known = vehicle_boxes_.find(part);
     if (known != vehicle_boxes_.end()) return known->second;
@@ -123,7 +124,7 @@ class CaseCheck {
            ((b.min() - a.max()).array() >= -kPlaneTolerance).any();
   }
 
-  /// A pair of obstacle and part: by its plane, by boxes, or in halves.
+  /// Checks a pair of obstacle and part: by its plane, by boxes, or by halving the part.
   void separated(const PredictedBox& obstacle, const Part& part) {
     const std::int64_t id = obstacle.track().id;
     for (const CertificatePlane* c : planes_of(part)) {
@@ -148,7 +149,7 @@ class CaseCheck {
     return found == planes_.end() ? kNone : found->second;
   }
 
-  /// The map's obstacle voxels about a part's box, one by one.
+  /// Checks the map's occupied voxels near a part's box, one by one.
   void voxels(const Part& whole) {
     const VoxelGrid& grid = case_.map->grid;
     const Box box = vehicle_box(whole);
@@ -196,8 +197,8 @@ class CaseCheck {
   std::int64_t voxels_checked_ = 0;
 };
 
-/// Whether the body at the end point stays out of a moving box: by halving, each stretch judged by its middle and how
-/// far the centre strays from there. @return the overlap found, m; 0: none
+/// Returns how far the body at the end point overlaps a moving box, m; 0 for no overlap. Time is bisected. Each stretch
+/// is bounded by its middle and by how far the centre strays from there.
 double overlap(const Body& body, const Vec3& point, const PredictedBox::Stretch& s, double a, double b, int depth) {
   constexpr int kDeepest = 30;
   const Vec3 centre = s.curve.p(0.5 * (a + b));
@@ -227,7 +228,7 @@ void check_hold(const PlanCase& plan, Check& check) {
   }
 }
 
-/// Calls visit(case) for each plan that claims anything; notes those whose inputs are not in the log.
+/// Calls visit(case) for each plan with a certificate, and counts those whose inputs are not in the log.
 template <class Visit>
 void for_each_case(const FlightRecord& record, Check& check, const Visit& visit) {
   for (const Plan& plan : record.plans) {

@@ -13,45 +13,45 @@
 namespace tern::audit {
 namespace {
 
-/// The least is found to this, m: what a search passes over is not lower by more.
+/// Precision of the least distance, m: skipped parts are not lower by more.
 constexpr double kResolution = 1e-4;
-/// … and to this where it may be a touch: below kNearTouch, m.
+/// The precision below kNearTouch, where it may be a contact, m.
 constexpr double kTouchResolution = 1e-6;
 constexpr double kNearTouch = 1e-3;
-/// A collision's verdict comes at the first touch; what follows shows how deep it was.
+/// The referee's verdict comes at the first contact; this much time after it shows the depth.
 constexpr Duration kAfterCollision{100'000};
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Of a search whose least so far is `low`.
+/// Returns the precision for a search whose least so far is `low`.
 double resolution(double low) { return low < kNearTouch ? kTouchResolution : kResolution; }
 
-/// What a search that found `low` at last may have passed over; what it passed over before it came under kNearTouch is
-/// not lower than kNearTouch − kResolution.
+/// Returns the largest amount by which skipped parts may be lower than the final `low`. A part skipped before the
+/// search came under kNearTouch is at least kNearTouch − kResolution.
 double passed_over(double low) { return low < 0.5 * kNearTouch ? kTouchResolution : kResolution; }
 
-/// The least distance lies between them; the truth's distance from the recorded curves included.
+/// Bounds of the least distance. They include the error of the recorded curves.
 struct Closest {
   double low = kFar, high = kFar;
   UTime at;
-  std::int64_t obstacle = kNoObstacle;  ///< nobody: none nearer than where the search began
+  std::int64_t obstacle = kNoObstacle;  ///< kNoObstacle: nothing nearer than the initial bound
 
-  /// Takes what is lower.
+  /// Keeps the candidate if it is lower.
   void lower(double than, UTime when, std::int64_t whom) {
     if (than < low) low = than, at = when, obstacle = whom;
   }
 };
 
-/// One stretch of time of the vehicle against one obstacle.
+/// One time span of the vehicle and one obstacle.
 struct Encounter {
   const Body& body;
   Vec3 half;
   Curve relative;  ///< vehicle − obstacle
-  Vec3 error;      ///< the truth is within relative ± error, m
+  Vec3 error;      ///< the true difference is within relative ± error, m
   std::int64_t obstacle = kNoObstacle;
-  UTime sure_from, sure_to;  ///< the flight surely lasted from and to here
+  UTime sure_from, sure_to;  ///< the flight surely contains this span
 };
 
-/// The distance to a box whose centre is known to ± error only.
+/// Bounds the distance to a box whose centre is known to ± error.
 Gap gap_within(const Encounter& e, const Vec3& p) {
   const double low = body_gap(e.body, p, e.half + e.error).low;
   const Vec3 core = e.half - e.error;
@@ -59,10 +59,10 @@ Gap gap_within(const Encounter& e, const Vec3& p) {
   return {low, body_gap(e.body, p, e.half).high + e.error.norm()};
 }
 
-/// Lowers `best` where [a, b] holds less, by halving. The curve strays from its middle by no more than its Bernstein
-/// points do, and the distance changes by no more than the curve.
+/// Lowers `best` by the least distance in [a, b], by bisection. Within a stretch the curve strays from its middle at
+/// most as far as its Bernstein points do. The distance is 1-Lipschitz, so it changes by at most that.
 void search(const Encounter& e, double a, double b, Closest& best, int depth = 0) {
-  constexpr int kDeepest = 40;  // a nanosecond of a quarter of an hour: only numbers beyond reason come here
+  constexpr int kDeepest = 40;  ///< a nanosecond of 15 minutes; deeper only for absurd numbers
   const double middle = 0.5 * (a + b);
   const Vec3 p = e.relative.p(middle);
   const Gap gap = gap_within(e, p);
@@ -85,7 +85,7 @@ Curve difference(const Curve& a, const Curve& b, UTime from, UTime to) {
   return relative;
 }
 
-/// All that a flight and one obstacle have in common in time, but for what of the vehicle is a hole.
+/// Returns the encounters of vehicle and obstacle: all common time, without the vehicle's holes.
 template <class Visit>
 void meet(const SampledMotion& vehicle, const SampledMotion& obstacle, const Window& window, const Visit& visit) {
   std::size_t k = 0;
@@ -100,10 +100,10 @@ void meet(const SampledMotion& vehicle, const SampledMotion& obstacle, const Win
   }
 }
 
-/// What one obstacle came to: proven, and where it is known at its samples only, by interpolation between them too.
+/// The result for one obstacle: proven, or interpolated between its samples if nothing bounds its motion.
 struct Approach {
   Closest proven, interpolated;
-  bool between_samples = true;  ///< proven there, too
+  bool between_samples = true;  ///< proven between samples as well
 };
 
 struct Watch {
@@ -115,7 +115,7 @@ struct Watch {
 
   Approach watch(std::int64_t id, const ObstacleHistory& history, const SampledMotion& motion, double nearest) {
     Approach approach;
-    // What stays farther than the nearest of all so far needs no exact minimum.
+    // An obstacle farther than the nearest one so far needs no exact minimum.
     approach.proven.low = approach.interpolated.low = std::max(nearest, kResolution);
     const Vec3 half = largest_half_extents(history);
     std::size_t point = 0;
@@ -133,7 +133,7 @@ struct Watch {
     return approach;
   }
 
-  /// The obstacle where it was recorded to be, against the vehicle.
+  /// Compares the vehicle with the obstacle at its recorded samples.
   void at_samples(std::int64_t id, const ObstacleHistory& history, Closest& best) const {
     if (!history.moves) return;
     std::size_t k = 0;
@@ -161,7 +161,7 @@ void count_holes(const SampledMotion& motion, const std::string& what, Check& ch
   check.unchecked[fmt::format("{}: {:.2f} s in holes", what, motion.holes.seconds())] += motion.hole_count;
 }
 
-/// The samples of OBSTACLE_TRUTH between which the flight lies.
+/// Returns the samples of OBSTACLE_TRUTH that enclose the flight.
 struct Enclosing {
   UTime before{INT64_MIN}, after{INT64_MAX};
 };
@@ -177,7 +177,7 @@ Enclosing enclosing(const FlightRecord& record, const Window& window) {
   return e;
 }
 
-/// Whether it may have been there: up to a sample's time before its first sample and after its last.
+/// Returns true if the obstacle may have existed in that time: it may appear one sample earlier, and vanish one later.
 bool may_be_met(const ObstacleHistory& history, const Enclosing& e) {
   return history.samples.front().at <= e.after && history.samples.back().at >= e.before;
 }
@@ -186,7 +186,7 @@ bool is_met(const ObstacleHistory& history, const Window& window) {
   return history.samples.front().at <= window.sure_to() && history.samples.back().at >= window.sure_from();
 }
 
-/// Movers that came or went in flight: before its first sample and after its last an obstacle may have been there.
+/// Counts moving obstacles that appeared or vanished in flight, at a time known to one sample.
 std::int64_t count_passers(const FlightRecord& record, const Window& window, const Enclosing& e) {
   UTime first{INT64_MAX}, last{INT64_MIN};
   for (const auto& [id, history] : record.truth) {
@@ -202,7 +202,7 @@ std::int64_t count_passers(const FlightRecord& record, const Window& window, con
   return count;
 }
 
-/// What obstacles are called: "obstacle 3", "box 0 of the map" (−1 − k names the k-th, as in a certificate).
+/// Names an obstacle: "obstacle 3", or "box 0 of the map" (−1 − k is the k-th box, as in a certificate).
 struct Names {
   const char* all;
   bool of_map;
@@ -211,16 +211,16 @@ struct Names {
   }
 };
 
-/// What all obstacles came to.
+/// Collects the results of all obstacles.
 class Verdicts {
  public:
   Verdicts(const FlightRecord& record, Check& check, Names names = {"obstacles", false})
       : record_(record), check_(check), names_(names) {}
 
-  /// So many were there for sure; the others, as many as are checked, perhaps.
+  /// Sets how many obstacles surely existed; the other checked ones possibly did.
   void count(std::int64_t surely) { surely_ = surely; }
 
-  /// How near it came so far, for all that is known, m.
+  /// Returns the nearest distance so far that is not excluded, m.
   [[nodiscard]] double nearest() const { return std::min(proven_.low, interpolated_.low); }
 
   void take(const Approach& a) {
@@ -290,10 +290,10 @@ class Verdicts {
 struct Wall {
   std::int64_t id;
   Box box;
-  double at_least;  ///< how far the body stays away from it at least, by boxes of what was flown, m
+  double at_least;  ///< lower bound of its distance to the body, from boxes of the flown motion, m
 };
 
-/// Nearest first.
+/// Sorts the boxes, nearest first.
 std::vector<Wall> walls_of(const VoxelMap& map, const Watch& watch) {
   std::vector<Box> flown;
   for (const MotionSpan& span : watch.vehicle.spans) {
@@ -307,7 +307,8 @@ std::vector<Wall> walls_of(const VoxelMap& map, const Watch& watch) {
     Wall wall{-1 - static_cast<std::int64_t>(walls.size()), box, kFar};
     for (const Box& b : flown) {
       const double apart = b.exteriorDistance(box);
-      wall.at_least = std::min(wall.at_least, apart > 0.0 ? apart - reach : -kFar);  // inside, as deep as the box is
+      wall.at_least =
+          std::min(wall.at_least, apart > 0.0 ? apart - reach : -kFar);  ///< inside the box: as deep as the box is
     }
     walls.push_back(wall);
   }
@@ -345,7 +346,7 @@ Check check_map(const FlightRecord& record, Audit& audit) {
     const SampledMotion at_rest{{{stationary_curve(centre, watch.window.from, watch.window.to)}}, {}, 0};
     verdicts.take(watch.watch(wall.id, history, at_rest, verdicts.nearest()));
   }
-  check.checked = static_cast<std::int64_t>(walls.size());  // the others are farther by their boxes
+  check.checked = static_cast<std::int64_t>(walls.size());  ///< all other boxes are farther
   audit.least_of_map = verdicts.finish(watch.vehicle.hole_count == 0);
   return check;
 }

@@ -6,15 +6,15 @@
 namespace tern::audit {
 namespace {
 
-/// Intervals of a stop, and in how many of them its acceleration may come and go.
+/// Intervals of a braking trajectory, and those in which its acceleration may set in and end.
 constexpr std::size_t kStopIntervals = 16;
 constexpr int kRamps[] = {1, 2, 4, 8};
 constexpr double kSameAcceleration = 1e-3;  ///< m/s²
-/// A stop begins at most this much after the state that it begins at: so old a state may be.
+/// Most age of the state that a braking trajectory starts from.
 constexpr Duration kMaxAhead{1'000'000};
 
-/// Whether the acceleration fades within a ramp, and another one, constant per axis but for such a ramp at either end,
-/// takes its place.
+/// Returns true if the acceleration fades within a ramp, and another one takes its place that is constant per axis
+/// except for such ramps.
 bool brakes(const std::vector<Curve>& curves) {
   if (curves.size() != kStopIntervals) return false;
   const Vec3 first = curves.front().a(0.0), middle = curves[kStopIntervals / 2].a(0.0);

@@ -32,10 +32,10 @@ void see_sets(const FlightRecord& record, Contact& contact) {
   Pairing pairing(record);
   std::optional<UTime> first, last;
   struct NewestSet {
-    const Track* track = nullptr;  // none: it had no track in that set
+    const Track* track = nullptr;  ///< null: it had no track in that set
     UTime made_at;
   };
-  std::array<NewestSet, kBeforeContact.size()> newest;  // made so long before the contact
+  std::array<NewestSet, kBeforeContact.size()> newest;  ///< made at least that long before the contact
   for (const auto& [name, set] : record.predictions) {
     if (set.made_at > contact.at) continue;
     const auto& pairs = pairing.pair(set);

@@ -14,14 +14,15 @@ Bernstein bernstein_of(const Cubic& cubic, double a, double b) {
   return {local.c[0], local.c[0] + c1 / 3.0, local.c[0] + (2.0 * c1 + c2) / 3.0, local.c[0] + c1 + c2 + c3};
 }
 
-/// De Casteljau at one half.
+/// Bisects by de Casteljau's algorithm.
 std::array<Bernstein, 2> halves(const Bernstein& b) {
   const double m01 = 0.5 * (b[0] + b[1]), m12 = 0.5 * (b[1] + b[2]), m23 = 0.5 * (b[2] + b[3]);
   const double l = 0.5 * (m01 + m12), r = 0.5 * (m12 + m23), middle = 0.5 * (l + r);
   return {Bernstein{b[0], m01, l, middle}, Bernstein{middle, r, m23, b[3]}};
 }
 
-/// An upper bound of the values, at most `tolerance` above `attained`, which grows to the largest value seen.
+/// Returns an upper bound of the values. It is at most `tolerance` above `attained`, which is raised to the largest
+/// value seen.
 double upper_bound(const Bernstein& b, double& attained, double tolerance, int depth) {
   constexpr int kDeepest = 40;
   attained = std::max({attained, b[0], b[3]});
@@ -32,10 +33,10 @@ double upper_bound(const Bernstein& b, double& attained, double tolerance, int d
   return std::max(first, upper_bound(right, attained, tolerance, depth + 1));
 }
 
-/// Knot i of a clamped uniform cubic spline of `intervals` intervals, in units of its interval.
+/// Returns knot i of a clamped uniform cubic spline of `intervals` intervals, in units of its interval.
 double knot(int i, int intervals) { return static_cast<double>(std::clamp(i - 3, 0, intervals)); }
 
-/// A spline or one of its derivatives: knots are those of the cubic from index `first` on.
+/// A spline or one of its derivatives. Its knots are those of the cubic, from index `first` on.
 struct Spline {
   Points q;
   int degree = 3, first = 0, intervals = 0;
@@ -47,7 +48,7 @@ struct Spline {
       d.q.col(i) = degree * (q.col(i + 1) - q.col(i)) / (tau(i + degree + 1) - tau(i + 1));
     return d;
   }
-  /// The value at u within the knot span [j, j + 1], by corner cutting.
+  /// Returns the value at u in the knot span [j, j + 1], by corner cutting.
   [[nodiscard]] Vec3 at(int j, double u) const {
     Points d = q.middleCols(j, degree + 1);
     for (int level = 1; level <= degree; ++level) {

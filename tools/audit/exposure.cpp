@@ -11,7 +11,7 @@
 namespace tern::audit {
 namespace {
 
-/// The referee looks at a region's border in steps of at most this, s: a visit that is shorter it may miss.
+/// Longest step of the referee at a region's border, s; it may miss a shorter visit.
 constexpr double kRefereeStep = 0.01;
 
 double to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -21,7 +21,7 @@ double to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eige
   return (p - a - share * ab).norm();
 }
 
-/// Signed distance to a polygon's area: negative where the sum of the angles to its corners winds around p.
+/// Returns the signed distance to a polygon's area: negative if the angles to its corners wind around p.
 double to_polygon(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& corners) {
   double winding = 0.0;
   double nearest = std::numeric_limits<double>::infinity();
@@ -34,14 +34,14 @@ double to_polygon(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& 
   return std::abs(winding) > 1.0 ? -nearest : nearest;
 }
 
-/// "12.30" or, where the log does not tell so well, "12.10 to 12.50".
+/// Returns "12.30", or "12.10 to 12.50" if the bounds are wider.
 std::string text(const Between& x) {
   constexpr double kShown = 0.02;
   if (x.high - x.low < kShown) return fmt::format("{:.2f}", x.best);
   return fmt::format("{:.2f} to {:.2f}", x.low, x.high);
 }
 
-/// The referee's numbers of one region against the auditor's bounds.
+/// Compares the referee's values of one region with the auditor's bounds.
 void compare(const FlightRecord& record, const Measures& measures, const RegionMeasure& r, const Exposure& said,
              Check& check) {
   const auto agree = [&](const char* what, double value, const Between& found, double off) {

@@ -11,7 +11,7 @@
 namespace tern::audit {
 namespace {
 
-/// Messages may come out of order or twice.
+/// Sorts messages and drops repeated ones.
 template <class T, class TimeOf>
 void put_in_order(std::vector<T>& items, const TimeOf& time_of) {
   std::ranges::stable_sort(items, [&](const T& a, const T& b) { return time_of(a) < time_of(b); });
@@ -19,7 +19,7 @@ void put_in_order(std::vector<T>& items, const TimeOf& time_of) {
   items.erase(std::unique(items.begin(), items.end(), same), items.end());
 }
 
-/// What one sender of vehicle, world or setpoints said: a simulator's start, or an executor's.
+/// The messages of one sender of vehicle, world or setpoints: one run of a simulator or an executor.
 struct Told {
   std::vector<UavState> estimates, true_states, setpoints;
   std::vector<VehicleStatus> statuses;
@@ -29,7 +29,7 @@ struct Told {
   std::int64_t truth_left_out = 0;
 };
 
-/// The newest word holds from when it was given.
+/// A declaration applies from when it was given until the next one.
 void declare(const Track& track, UTime made_at, std::vector<DeclaredPiece>& pieces) {
   while (!pieces.empty() && pieces.back().curve.from >= made_at) pieces.pop_back();
   if (!pieces.empty()) pieces.back().curve.to = std::min(pieces.back().curve.to, made_at);
@@ -140,8 +140,8 @@ class Reading {
     record_.configurations.push_back(report);
   }
 
-  /// One kind of what was told, of the flight's own world. Where that one says nothing of the kind (vehicle, executor
-  /// and sensors are processes of their own), of everybody who belongs to no other flight.
+  /// Returns one kind of message of the flight's own world. Vehicle, executor and sensors may be processes of their
+  /// own. Then it returns the messages of all senders outside of other flights.
   template <class T, class Merge>
   T of_flight(std::int64_t world, T Told::*kind, const Merge& merge) {
     T all;
@@ -154,7 +154,7 @@ class Reading {
     return all;
   }
 
-  /// The sender of the world that the flight is in: the executor itself if it hosts one, else the first world there is.
+  /// Returns the sender of the flight's world: the executor itself if it hosts one, otherwise the first world.
   [[nodiscard]] std::int64_t own_world() const {
     const auto has_truth = [](const auto& known) { return !known.second.truth.empty(); };
     if (!record_.requests.empty()) {
@@ -195,7 +195,7 @@ class Reading {
     forget_others();
   }
 
-  /// Other worlds, and the executors that flew in them: those that began after this one had ended.
+  /// Finds other worlds, and the executors that flew in them: those that started after this one ended.
   void name_others(std::int64_t world) {
     const auto own = told_.find(world);
     if (own == told_.end() || own->second.truth.empty()) return;
@@ -212,10 +212,10 @@ class Reading {
     }
   }
 
-  /// Requests of other executors and their answers.
+  /// Removes requests of other executors and their answers.
   void forget_others() {
     if (others_.empty()) return;
-    // A timing names its request by the id alone, which both flights may have; but a planner sends one with each plan.
+    // A timing names its request by id only, which both flights may have; but a planner sends one timing per plan.
     std::set<MessageName> foreign;
     for (const Plan& p : record_.plans) {
       if (others_.contains(p.inputs.request.sender_epoch_us)) foreign.insert(p.header.name);
@@ -229,7 +229,7 @@ class Reading {
   FlightRecord& record_;
   FlightLog log_;
   std::map<std::int64_t, Told> told_;  ///< by sender epoch
-  std::set<std::int64_t> others_;      ///< senders that have a flight of their own
+  std::set<std::int64_t> others_;      ///< senders with a flight of their own
   RecordedSets declarations_, predictions_;
   MapAssembler assembler_;
 };

@@ -11,23 +11,23 @@ namespace tern::audit {
 namespace {
 
 constexpr double kNear = 1.0;    // m
-constexpr double kStep = 0.001;  // s: the bounds of a step are wider by its square
-/// Of one span: where a log says nothing for long, its bounds are wide anyhow.
+constexpr double kStep = 0.001;  ///< s; the width of the bounds is quadratic in it
+/// Most steps of one span. After a long gap the bounds are wide in any case.
 constexpr double kMaxSteps = 10'000.0;
 
-/// A step of the flight, short enough that its motion is nearly straight.
+/// A time step of the flight, so short that the motion is nearly straight.
 struct Step {
-  double from_s = 0.0, to_s = 0.0;      ///< of the window
+  double from_s = 0.0, to_s = 0.0;      ///< in the window
   Vec3 middle;                          ///< W
-  double chord_m = 0.0, net_m = 0.0;    ///< the true path is as long as the one at least, the other at most
-  double slowest = 0.0, fastest = 0.0;  ///< the true |v| lies between them, m/s
-  double best_speed = 0.0;              ///< of the curve, at the middle
-  double stray_m = 0.0;                 ///< the truth is no farther than this from the middle
-  bool surely = true;                   ///< the whole step belongs to the flight
+  double chord_m = 0.0, net_m = 0.0;    ///< lower and upper bound of the true path's length
+  double slowest = 0.0, fastest = 0.0;  ///< bounds of the true |v|, m/s
+  double best_speed = 0.0;              ///< of the curve, in the middle
+  double stray_m = 0.0;                 ///< greatest distance of the truth from the middle
+  bool surely = true;                   ///< the flight surely contains the whole step
   [[nodiscard]] double seconds() const { return to_s - from_s; }
 };
 
-/// Bounds of |v| over [a, b]: v is quadratic, and lies in the hull of three points.
+/// Bounds |v| over [a, b]: v is quadratic, so it lies in the hull of three points.
 void bound_speed(const MotionSpan& span, double a, double b, Step& step) {
   const Vec3 v0 = span.curve.v(a);
   const Vec3 v1 = span.curve.v(b);
@@ -49,7 +49,7 @@ Step step_of(const MotionSpan& span, double a, double b) {
   step.middle = span.curve.p(0.5 * (a + b));
   for (int k = 0; k < 3; ++k) step.net_m += (points.col(k + 1) - points.col(k)).norm();
   step.net_m += span.wander_m * (b - a) / span.curve.length_s();
-  // A curve that need not be the truth does not say how long a part of the true path is at least.
+  // The curve may differ from the truth, so its length is no lower bound of the true path's.
   if (span.wander_m == 0.0) step.chord_m = (points.col(3) - points.col(0)).norm();
   step.stray_m = (points.colwise() - step.middle).colwise().norm().maxCoeff() + span.error.norm();
   bound_speed(span, a, b, step);
@@ -87,7 +87,7 @@ class Measuring {
     if (steps_.empty()) {
       measures_.unseen_s = (window_.to - window_.from).seconds();
     } else {
-      // Before the first request the vehicle rests.
+      // Before the first request the vehicle is stationary.
       const Duration late = begins_at_rest() ? Duration{} : record_.states.front().at - window_.from;
       const Duration early = window_.to - record_.states.back().at;
       measures_.unseen_s = (std::max(late, Duration{}) + std::max(early, Duration{})).seconds();
@@ -119,7 +119,7 @@ class Measuring {
     steps_.push_back(step);
   }
 
-  /// A step at a signed distance from a border.
+  /// Adds a step at a signed distance from a border.
   void add(const Step& step, double distance, Between& seconds, Between& metres, Border& border) {
     if (distance <= 0.0) {
       seconds.best += step.seconds();
@@ -138,7 +138,7 @@ class Measuring {
     border.open = open;
   }
 
-  /// What was not seen may have been flown as fast as the vehicle may, anywhere.
+  /// Adds time without a state: the vehicle may have flown anywhere, at its top speed.
   void widen() {
     if (measures_.unseen_s == 0.0) return;
     const double speed = record_.requests.empty() ? std::numeric_limits<double>::infinity()
@@ -152,7 +152,7 @@ class Measuring {
     }
   }
 
-  /// Of every stretch of kRefereeLook within the flight the slowest instant; of these the fastest.
+  /// Returns the greatest speed that is surely held for kRefereeLook.
   [[nodiscard]] double surely_looked_at() const {
     double most = 0.0;
     for (std::size_t i = 0; i < steps_.size(); ++i) {

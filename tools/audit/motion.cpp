@@ -13,10 +13,10 @@ namespace tern::audit {
 namespace {
 
 constexpr char kAxes[] = {'x', 'y', 'z'};
-/// Extrema are enclosed to this share of the limit: well under kLimitTolerance.
+/// Extrema are enclosed to this share of the limit, well below kLimitTolerance.
 constexpr double kExtremumShare = 1e-8;
 constexpr double kDegrees = 180.0 / M_PI;
-/// Rounding of a derivative computed in two ways, m, m/s, m/s²; a join is accepted up to kJoinTolerance itself.
+/// Rounding of a derivative that is computed in two ways, m, m/s, m/s²; joins are accepted up to kJoinTolerance.
 constexpr double kJoinRounding = 1e-8;
 
 struct Quantity {
@@ -26,7 +26,7 @@ struct Quantity {
   const Vec3& limit;
 };
 
-/// The largest magnitude of a derivative of one axis on a curve.
+/// Returns the largest magnitude of a derivative of one axis on a curve.
 double largest(const Curve& curve, int axis, int order, double tolerance) {
   Cubic cubic = curve.axis[idx(axis)];
   for (int k = 0; k < order; ++k) cubic = cubic.derivative();
@@ -57,7 +57,7 @@ class LimitCheck {
     inside(plan.trajectory.start, request, box, request.tube);
   }
 
-  /// A vehicle that may be off its setpoints has no limits but its physics'.
+  /// Only a vehicle without tube is checked: a real one is limited by its physics.
   void state(const UavState& state, const HorizonRequest& request) {
     inside(state.at, request, Box(state.motion.p, state.motion.p), Vec3::Zero());
     if (!request.tube.isZero(0.0)) return;
@@ -82,8 +82,8 @@ class LimitCheck {
         {at, fmt::format("{} {} {:.6g} {} beyond {:.6g}", q.name, kAxes[axis], value, q.unit, q.limit[axis]), request});
   }
 
-  /// Thrust, tilt and body rates of a multirotor: |f|² is a parabola in time, j constant. Where |f| is least the body
-  /// turns fastest.
+  /// Checks thrust, tilt and body rates of a multirotor. |f|² is a parabola in time, and j is constant. The body turns
+  /// fastest where |f| is least.
   void dynamics(UTime at, std::int64_t request, const Dynamics& d, const std::vector<Curve>& curves) {
     const Vec3 up(0.0, 0.0, kGravity);
     for (const Curve& c : curves) {
@@ -109,7 +109,7 @@ class LimitCheck {
     check_.fail({at, fmt::format("{} is {:.7g} {}", what, share, of), request});
   }
 
-  /// @param off  what the position may be off these, m
+  /// @param off  greatest distance of the true position from these, m
   void inside(UTime at, const HorizonRequest& request, const Box& positions, const Vec3& off) {
     const Box body = grown(swept_box(request.body, positions), off);
     const Box& room = request.flight_box;
@@ -148,7 +148,7 @@ void ends_at_rest(const Plan& plan, const std::vector<Curve>& curves, Check& che
               plan.request_id});
 }
 
-/// Whether an answer consented to it: its certificate is then checked as every other.
+/// Returns true if an answer kept the trajectory. Its certificate is then checked like any other.
 bool is_kept(const FlightRecord& record, const Commitment& commitment) {
   return std::any_of(record.plans.begin(), record.plans.end(), [&](const Plan& plan) {
     return plan.outcome == PlanOutcome::KeepCommitted && same(plan.trajectory, commitment.spline);

@@ -14,7 +14,7 @@ struct Near {
   std::int64_t track, obstacle;
 };
 
-/// The sample that is nearest to t in time. @return null if none is within kUnknownFor.
+/// Returns the sample nearest to t in time; null if none is within kUnknownFor.
 const ObstacleHistory::Sample* sample_at(const ObstacleHistory& history, UTime t) {
   const auto& s = history.samples;
   const auto after = std::lower_bound(s.begin(), s.end(), t, [](const auto& a, UTime at) { return a.at < at; });

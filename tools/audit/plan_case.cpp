@@ -12,7 +12,7 @@ constexpr double kStartRoom = 1e-3;        // m
 constexpr int kHalvings = 40;
 constexpr double kTouching = 1e-6;  // m
 
-/// What is left of the trajectory from t_s on: a first part of an interval, then whole ones.
+/// Returns the trajectory from t_s on: the rest of an interval, then whole intervals.
 std::vector<Curve> remaining(const Plan& plan, UTime t_s) {
   std::vector<Curve> rest;
   for (const Curve& c : curves_of(plan.trajectory)) {
@@ -39,7 +39,7 @@ std::vector<PredictedBox::Stretch> PredictedBox::stretches(UTime origin, double 
     const double start = (curves_[k].from - origin).seconds();
     const double a = std::max(from - start, 0.0);
     const double b = std::min(to - start, curves_[k].length_s());
-    // Where two pieces meet the later one rules.
+    // Where two pieces meet, the later one applies.
     const bool is_now = a == b && from == to && (b < curves_[k].length_s() || k + 1 == curves_.size());
     if (a < b || is_now) all.push_back({curves_[k], a, b, half(k)});
   }

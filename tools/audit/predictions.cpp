@@ -13,12 +13,12 @@
 namespace tern::audit {
 namespace {
 
-/// What is static promises for ever; so far it is looked at.
+/// A static track is predicted without end; it is judged for this long.
 constexpr Duration kForEver{4'500'000};
 constexpr std::array kClassAges{std::pair{0.1, PredictionClass::New}, std::pair{0.3, PredictionClass::Young},
                                 std::pair{1.0, PredictionClass::Grown}};
 
-/// What became of one promise.
+/// One judged prediction.
 struct JudgedPrediction {
   UTime from, until;
   bool certain = false, complete = false;
@@ -106,7 +106,7 @@ class PredictionsCheck {
   [[nodiscard]] std::int64_t covered() const { return covered_; }
 
  private:
-  /// How long each track has been in the sets, before the flight, too, s.
+  /// Returns how long each track has been in the sets, the time before the flight included, s.
   std::vector<double> ages(const TrackSet& set) {
     std::vector<double> ages_s;
     for (const Track& track : set.tracks) {
@@ -193,8 +193,8 @@ class PredictionsCheck {
     }
   }
 
-  /// A claim that the flight's end cuts off is judged up to there: it can only be found kept too often, never too
-  /// rarely, so that no true claim is called broken.
+  /// Judges a claim. If the end of the flight cuts it off, it is judged up to there. It may then count as covered
+  /// wrongly, but never as missed.
   void claim(const Plan& plan, const HorizonRequest& request, const Track& track, std::int64_t obstacle) {
     const auto level = idx(plan.level);
     const UTime ends = std::max(plan.trajectory.end(), request.t_s) + plan.hold;
@@ -204,11 +204,11 @@ class PredictionsCheck {
     const UTime seen = follow(track, record_.truth.at(obstacle), request.t_s, until, [&](const RequiredAlpha& n) {
       covered = covered && (n.alpha - alpha_at(track, n.piece, level)).maxCoeff() <= kOutTolerance;
     });
-    if (covered && seen < until) return;  // nobody knows
+    if (covered && seen < until) return;  ///< unknown
     by_obstacle_[obstacle].claims[level] += ClaimCount{1, covered ? 1 : 0};
   }
 
-  /// A declared promise admits no exception. Each track is named once.
+  /// Reports a declared motion that was left: it admits no exception. Each track is reported once.
   void report_missed(std::int64_t track, std::int64_t obstacle, const JudgedPrediction& prediction) {
     if (!named_.insert(track).second) {
       ++check_.broken;
@@ -219,8 +219,8 @@ class PredictionsCheck {
                  obstacle});
   }
 
-  /// Estimates may fail as often as their confidence says. Of each class and level the horizon is named that was missed
-  /// by most.
+  /// Reports shares that are too low. Estimates may miss as often as their confidence allows. Per class and level, the
+  /// horizon with the lowest bound is reported.
   void judge_shares() {
     std::map<std::pair<std::string, double>, const CoverageShare*> worst;
     for (const CoverageShare& share : audit_.shares) {

@@ -11,18 +11,18 @@
 namespace tern::audit {
 namespace {
 
-/// The referee's least clearance is attained, and at most so much above the true least, m (simulator/referee).
+/// The referee's least clearance is attained, and at most this much above the true least, m (simulator/referee).
 constexpr double kClearanceOff = 1e-3;
 /// Rounding of two computations at coordinates of up to 1e5 m, m.
 constexpr double kRounding = 1e-6;
-/// The referee adds the path up by three-point Gauss sums over steps of 0.01 s. Where the speed is smooth over a step
-/// they are exact to this share of it …
+/// Error of the referee's path length, which it sums by three-point Gauss quadrature over steps of 0.01 s. If the speed
+/// is smooth over a step, it is this share of the path …
 constexpr double kPathShare = 1e-4;
-/// … and where it falls to zero and rises again within a step, at a m/s², to 0.035 a h² (the error of that sum for
-/// |t| on [−h/2, h/2]).
+/// … If the speed falls to zero and rises again within a step, at a m/s², it is 0.035 a h². That is the error of the
+/// quadrature for |t| on [−h/2, h/2].
 constexpr double kKink = 0.035;
 constexpr double kRefereeStep = 0.01;  // s
-/// Of the speed: rounding.
+/// Rounding of the speed, as a share.
 constexpr double kSpeedShare = 1e-6;
 constexpr double kShown = 5e-3;
 
@@ -60,7 +60,7 @@ class ResultCheck {
  private:
   void fail(std::string what) { check_.fail({result_.header.utime, std::move(what)}); }
 
-  /// m; every stop, the flight's begin and end are two kinks each.
+  /// Returns the tolerance of the path length, m. Each stop, the start and the end are two kinks.
   [[nodiscard]] double path_off() const {
     const auto kinks = static_cast<double>(2 * (result_.stops + 2));
     return kRounding + kPathShare * measures_.path_m.best +
@@ -88,7 +88,7 @@ class ResultCheck {
 
   void clearance(const char* what, const LeastClearance& least, double said) {
     if (!least.known || !std::isfinite(said)) return;
-    if (result_.outcome == FlightOutcome::Collision) return;  // until the end of the referee's step only
+    if (result_.outcome == FlightOutcome::Collision) return;  ///< the referee measures to the end of its step only
     ++check_.checked;
     const bool too_low = least.proven && said < least.low - kRounding;
     if (!least.proven) ++check_.unchecked[fmt::format("whether FLIGHT_RESULT's least {} is too low", what)];

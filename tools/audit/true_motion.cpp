@@ -10,14 +10,14 @@
 namespace tern::audit {
 namespace {
 
-/// A vehicle slower than this may be where it was before: seen twice, it need not have stayed, m/s.
+/// A slower vehicle may return to the same place: two equal states do not show that it stayed, m/s.
 constexpr double kMoving = 1e-3;
-/// A sample keeps to what was declared if it is not beyond α by more than rounding, m.
+/// A sample is within a declaration if it is not beyond α by more than rounding, m.
 constexpr double kRounding = 1e-6;
-/// FLIGHT_RESULT is repeated for so long; a later one of them tells that much less of when the first was.
+/// FLIGHT_RESULT is repeated for this long. A repeated one bounds the time of the first only to this.
 constexpr Duration kResultRepeated{1'200'000};
 
-/// What the vehicle flew as far as its requests tell.
+/// The flown trajectories, as far as requests tell.
 class Committed {
  public:
   explicit Committed(const FlightRecord& record) {
@@ -27,25 +27,26 @@ class Committed {
     for (const UavState& s : record.states) see(s);
   }
 
-  /// How far a state is from it, m; nothing if it is not on it, or nothing is known of that time.
+  /// Returns the distance of a state from the committed trajectory, m; nothing if the state is off it, or it is
+  /// unknown.
   [[nodiscard]] std::optional<double> off(const UavState& state) const {
     const auto k = index_at(state.at);
     if (!k || state.at > list_[*k].known_until || !is_on(state, *k)) return std::nullopt;
     return (state.motion.p - motion_at(list_[*k].curves, state.at).p).cwiseAbs().maxCoeff();
   }
-  /// Until when it is known without a gap, from t on. @pre it is known at t
+  /// Returns the time up to which the commitment is known without a gap, from t on. @pre it is known at t
   [[nodiscard]] UTime known_until(UTime t) const {
     std::size_t k = index_at(t).value();
     while (k + 1 < list_.size() && list_[k].known_until >= list_[k + 1].spline.start) ++k;
     return list_[k].known_until;
   }
-  /// Since when it is known without a gap, up to t. @pre it is known at t
+  /// Returns the time from which the commitment is known without a gap, up to t. @pre it is known at t
   [[nodiscard]] UTime known_since(UTime t) const {
     std::size_t k = index_at(t).value();
     while (k > 0 && list_[k - 1].known_until >= list_[k].spline.start) --k;
     return list_[k].spline.start;
   }
-  /// Its curves over [from, to]. @pre it is known throughout
+  /// Appends its curves over [from, to]. @pre it is known throughout
   void append(UTime from, UTime to, double error, std::vector<MotionSpan>& spans) const {
     while (from < to) {
       const std::size_t k = index_at(from).value();
@@ -76,7 +77,7 @@ class Committed {
     return join_gap(state.motion, motion_at(list_[k].curves, state.at)) <= kJoinTolerance;
   }
 
-  /// No trajectory comes back into force: where a vehicle in motion is on one, that one was in force until then.
+  /// A trajectory never comes back into force. If a moving vehicle is on one, that one was in force until then.
   void see(const UavState& state) {
     const auto k = index_at(state.at);
     if (!k || state.at <= list_[*k].known_until || !is_on(state, *k)) return;
@@ -87,7 +88,7 @@ class Committed {
   std::vector<Commitment> list_;
 };
 
-/// The greatest acceleration that the vehicle had, per axis, m/s².
+/// Returns the greatest acceleration of the vehicle, per axis, m/s².
 Vec3 greatest_acceleration(const FlightRecord& record) {
   Vec3 a = record.requests.empty() ? Vec3::Constant(std::numeric_limits<double>::infinity())
                                    : record.requests.front().limits.a_max;
@@ -95,7 +96,7 @@ Vec3 greatest_acceleration(const FlightRecord& record) {
   return a;
 }
 
-/// flown.h has the bounds.
+/// true_motion.h has the bounds.
 MotionSpan bridge(UTime from, const MotionSample& a, UTime to, const MotionSample& b, const Vec3& greatest) {
   MotionSpan span{hermite(from, a.p, a.v, to, b.p, b.v)};
   const double h = span.curve.length_s();
@@ -114,8 +115,8 @@ bool keeps_to(const DeclaredPiece& piece, const TrueSample& s) {
   return ((off.cwiseAbs() - piece.alpha).array() <= kRounding).all();
 }
 
-/// What was declared over [a, b], if that is all of it and both samples keep to it. `first`: no earlier piece is
-/// needed.
+/// Returns the declaration over [a, b], if it covers that time and both samples are within it. `first`: no earlier
+/// piece is needed.
 std::optional<std::vector<MotionSpan>> declared_between(const TrueSample& a, const TrueSample& b,
                                                         const std::vector<DeclaredPiece>& pieces, std::size_t& first) {
   if (b.at - a.at > kDeclaredHole) return std::nullopt;

@@ -11,26 +11,27 @@
 namespace tern::audit {
 namespace {
 
-/// Setpoints come at 100 Hz. Farther apart the one before says nothing of now.
+/// Setpoints come at 100 Hz. After a longer gap the last one does not apply.
 constexpr Duration kSetpointHole{25'000};
-/// VEHICLE_STATUS comes at 10 Hz: farther apart the vehicle's process was held up, and flew what it knew.
+/// VEHICLE_STATUS comes at 10 Hz. In a longer gap the vehicle's process was delayed and flew the setpoints it had.
 constexpr Duration kStatusHole{250'000};
-/// A setpoint may be off the committed trajectory by kJoinTolerance, and so may the vehicle.
+/// A setpoint and the vehicle may both be off the committed trajectory by kJoinTolerance.
 constexpr double kFollowed = 2.0 * kJoinTolerance;
-/// Where the next setpoint is missing, jerk may have changed since the last one, m: by 100 m/s³ within the hole.
+/// If the next setpoint is missing, jerk may have changed by 100 m/s³ since the last one; effect on the position, m.
 constexpr double kUntold = 1e-3;
 constexpr char kAxes[] = {'x', 'y', 'z'};
 
-/// The commanded position at `t`: the cubic that the setpoint begins.
+/// Returns the commanded position at `t`: the cubic that the setpoint starts.
 Vec3 commanded(const UavState& setpoint, UTime t) {
   const double s = (t - setpoint.at).seconds();
   const MotionSample& m = setpoint.motion;
   return m.p + s * (m.v + s * (0.5 * m.a + s / 6.0 * m.j));
 }
 
-/// Those that were answered by a plan, or by consent to the committed trajectory, by t_s: what they promise holds then.
+/// Returns the requests that were answered by a plan or by KeepCommitted, sorted by t_s: their tubes apply from then
+/// on.
 std::vector<HorizonRequest> promises(const FlightRecord& record) {
-  std::map<MessageName, PlanOutcome> answers;  // the first one counts
+  std::map<MessageName, PlanOutcome> answers;  ///< the first answer counts
   for (const Plan& plan : record.plans) answers.emplace(plan.inputs.request, plan.outcome);
   std::vector<HorizonRequest> all;
   for (const HorizonRequest& request : record.requests) {
@@ -41,13 +42,13 @@ std::vector<HorizonRequest> promises(const FlightRecord& record) {
   return all;
 }
 
-/// The one in force at `t`. @return nullptr before the first one
+/// Returns the request in force at `t`; nullptr before the first one.
 const HorizonRequest* in_force(const std::vector<HorizonRequest>& requests, UTime t) {
   const auto later = std::ranges::upper_bound(requests, t, {}, &HorizonRequest::t_s);
   return later == requests.begin() ? nullptr : &*std::prev(later);
 }
 
-/// Whether the vehicle said that it followed, before and after `t`. A log without VEHICLE_STATUS: it did.
+/// Returns true if the vehicle was following before and after `t`. Without VEHICLE_STATUS in the log it was.
 bool followed(const std::vector<VehicleStatus>& statuses, UTime t) {
   if (statuses.empty()) return true;
   const auto after = std::ranges::upper_bound(statuses, t, {}, &VehicleStatus::at);
@@ -102,7 +103,7 @@ Check check_tube(const FlightRecord& record, Audit& audit) {
   }
   if (check.checked == 0) return check;
   const double rmse = std::sqrt(worst.squares / static_cast<double>(check.checked));
-  const bool inside = worst.margin_m >= -kFollowed;  // as far as following is exact
+  const bool inside = worst.margin_m >= -kFollowed;  ///< up to the tolerance of following
   check.summary = fmt::format("at most {:.3g} m off its setpoints (RMSE {:.3g} m), {:.3g} m {} the tube of {:.3g} m{}",
                               worst.error_m, rmse, inside ? std::max(worst.margin_m, 0.0) : -worst.margin_m,
                               inside ? "inside" : "beyond", worst.tube.maxCoeff(),

@@ -19,7 +19,7 @@
 namespace tern::exporting {
 namespace {
 
-/// What the log did not give.
+/// Lists messages that could not be exported.
 std::string shortfalls(const LogContents& contents) {
   std::string text;
   for (const auto& [name, channel] : contents.channels) {
@@ -37,7 +37,7 @@ std::string shortfalls(const LogContents& contents) {
   return text;
 }
 
-/// MCAP knows no time before the epoch.
+/// MCAP has no time before the epoch.
 std::int64_t mcap_time(std::int64_t received_us) { return std::max<std::int64_t>(received_us, 0); }
 
 void add(McapWriter& mcap, const Drawing& drawing, std::int64_t received_us) {
@@ -49,7 +49,7 @@ void add(McapWriter& mcap, const LoggedMessage& message) {
   if (const auto drawing = drawing_of(message)) add(mcap, *drawing, message.received_us);
 }
 
-/// Draws each map once, when its last chunk has come. A chunk that contradicts the others is left out.
+/// Draws each map once, when its last chunk arrives. A chunk that contradicts the others is ignored.
 void add_maps(FlightLog& log, McapWriter& mcap) {
   log.on(channels::kSemanticMap,
          [&mcap, maps = std::make_shared<MapAssembler>()](const MapChunk& chunk, std::int64_t received_us) {
@@ -57,7 +57,7 @@ void add_maps(FlightLog& log, McapWriter& mcap) {
          });
 }
 
-/// Draws what each plan stands on, from the request and the predictions that it names; of those the newest are kept.
+/// Draws hulls and planes of each plan, from the request and the predictions that it names. Only the newest are stored.
 class Proofs {
  public:
   explicit Proofs(McapWriter& mcap) : mcap_(mcap) {}

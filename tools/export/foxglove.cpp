@@ -16,7 +16,7 @@
 namespace tern::exporting {
 namespace {
 
-constexpr int kSamplesPerInterval = 8;  // a cubic interval looks round
+constexpr int kSamplesPerInterval = 8;  ///< enough for a smooth curve
 constexpr std::int64_t kNoPlan = 4;     // plan_t.NO_PLAN
 constexpr char kFrame[] = "W";
 constexpr char kScene[] = "foxglove.SceneUpdate";
@@ -33,14 +33,14 @@ Json pose(const Json& position, double yaw) {
 
 Json color(double r, double g, double b, double a) { return {{"r", r}, {"g", g}, {"b", b}, {"a", a}}; }
 
-/// To 0.1 mm: what is drawn takes a third of the room.
+/// Rounds to 0.1 mm, which reduces the file to a third.
 Json vector_of(const Vec3& p) {
   constexpr double kPerMetre = 1e4;
   const Vec3 q = (p * kPerMetre).array().round() / kPerMetre;
   return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}};
 }
 
-/// An entity of nothing yet.
+/// Returns an empty entity.
 Json entity_of(std::int64_t received_us, const std::string& id) {
   Json entity{{"timestamp", time_of(received_us)},
               {"frame_id", kFrame},
@@ -54,14 +54,14 @@ Json entity_of(std::int64_t received_us, const std::string& id) {
   return entity;
 }
 
-/// A scene of one entity, which has these shapes alone.
+/// Returns a scene of one entity with these shapes.
 Json scene(std::int64_t received_us, const std::string& id, const char* list, const Json& shapes) {
   Json entity = entity_of(received_us, id);
   entity[list] = shapes;
   return {{"deletions", Json::array()}, {"entities", Json::array({entity})}};
 }
 
-/// Triangles of one colour.
+/// Returns triangles of one colour.
 struct Triangles {
   Json points = Json::array(), indices = Json::array();
 
@@ -82,7 +82,7 @@ struct Triangles {
   }
 };
 
-/// A square in the plane, nearest to `from`.
+/// Returns a square in the plane, nearest to `from`.
 Points patch_of(const Plane& plane, const Vec3& from) {
   const Vec3 centre = from - plane.signed_distance(from) * plane.n;
   const Vec3 u = plane.n.unitOrthogonal(), v = plane.n.cross(u);
@@ -134,7 +134,7 @@ Json color_of(VoxelLabel label) {
 
 using LabelAndClass = std::pair<VoxelLabel, std::uint8_t>;
 
-/// All voxels of one label and class: their boxes, and above them the name of the class.
+/// Returns all voxels of one label and class: their boxes, and above them the name of the class.
 Json region(const VoxelMap& map, const LabelAndClass& of, const std::vector<Box>& boxes, std::int64_t received_us) {
   const std::string label = to_string(of.first);
   const std::string& name = map.class_names.at(of.second);

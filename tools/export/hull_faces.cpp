@@ -8,7 +8,7 @@
 namespace tern::exporting {
 namespace {
 
-/// The vertices in the plane through three of them, if all others are on one side of it; else none.
+/// Returns the vertices in the plane through three of them, if all others are on one side; otherwise none.
 std::vector<int> face_through(const Points& vertices, int a, int b, int c, double tolerance, Vec3& outward) {
   const Vec3 origin = vertices.col(a);
   outward = (vertices.col(b) - origin).cross(vertices.col(c) - origin);
@@ -27,7 +27,7 @@ std::vector<int> face_through(const Points& vertices, int a, int b, int c, doubl
   return above != below ? face : std::vector<int>();
 }
 
-/// Counter-clockwise around the outward normal.
+/// Sorts counter-clockwise around the outward normal.
 void sort_around(const Points& vertices, const Vec3& outward, std::vector<int>& face) {
   Vec3 centre = Vec3::Zero();
   for (const int k : face) centre += vertices.col(k) / static_cast<double>(face.size());

@@ -22,7 +22,7 @@ using SetName = std::pair<std::int64_t, std::int64_t>;  // sender epoch, set
 
 SetName set_named_by(const Plan& plan) { return {plan.inputs.predictions.sender_epoch_us, plan.inputs.prediction_set}; }
 
-/// Keeps the entries of a map whose keys are named.
+/// Removes the entries of a map that are not named.
 template <class Map, class Keys>
 void keep(Map& map, const Keys& keys) {
   std::erase_if(map, [&](const auto& entry) { return !keys.contains(entry.first); });
@@ -47,7 +47,7 @@ void keep_what_is_named(RecordedInputs& inputs) {
   keep(inputs.platforms, planners);
 }
 
-/// Which sets are needed: those named, and those that told a planner of static tracks that it named.
+/// Returns the needed sets: those that plans name, and those from which a planner took the static tracks that it named.
 class NeededSets {
  public:
   explicit NeededSets(const std::vector<RecordedPlan>& plans) {
@@ -71,7 +71,7 @@ class NeededSets {
   std::map<SetName, StaticTracks> memories_;
 };
 
-/// Writes messages under their own names; times are the answers'.
+/// Writes messages under their own names, at the times of the answers.
 class ExtractWriter {
  public:
   using Sink = std::function<void(const LogEvent&)>;
@@ -108,7 +108,7 @@ class ExtractWriter {
     sink_({0, now_us_, channel.name, encode(message)});
   }
 
-  /// One for each planner process, because a process's platform decides what is promised.
+  /// One per planner process, since the promise depends on the process's platform.
   void write_configurations() {
     std::map<std::int64_t, std::uint64_t> hashes;
     for (const RecordedPlan& recorded : extract_.inputs.plans) {
@@ -142,7 +142,7 @@ class ExtractWriter {
   std::map<SetName, std::vector<const RecordedPlan*>> answers_;
 };
 
-/// What a reader of the fixture wants to know without decoding it.
+/// Returns the comment of a fixture: its contents in words.
 std::string in_words(const Plan& plan, const Extract& extract) {
   std::string text = fmt::format("# request {}: {}", plan.request_id, to_string(plan.outcome));
   if (plan.reason != PlanReason::None) text += fmt::format(" ({})", to_string(plan.reason));

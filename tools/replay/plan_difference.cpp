@@ -16,8 +16,8 @@ std::string text(const BudgetCut& cut) {
   return fmt::format("{} {}, {}, after {}", to_string(cut.phase), cut.attempt, to_string(cut.stage), cut.count);
 }
 
-/// The largest distance between the trajectories at one time. It is taken at control points of the same knots (a bound
-/// by the convex hull), else at times close enough together.
+/// Returns the largest distance between the trajectories at equal times. With equal knots it is taken at control
+/// points, a bound by the convex hull; otherwise at closely spaced times.
 double distance_between(const TimedSpline& a, const TimedSpline& b) {
   const bool same_knots =
       a.start == b.start && a.interval == b.interval && a.control_points.cols() == b.control_points.cols();
@@ -30,7 +30,7 @@ double distance_between(const TimedSpline& a, const TimedSpline& b) {
   return largest;
 }
 
-/// Collects what differs.
+/// Collects the differences.
 class Comparison {
  public:
   Comparison(const Plan& recorded, const Plan& again, const PlanTiming* recorded_work, const PlanStatistics* work)

@@ -8,10 +8,10 @@
 namespace tern {
 namespace {
 
-/// Maps that never become complete are given up, the oldest first, when so many others are begun.
+/// Number of incomplete maps that are kept; the oldest is dropped first.
 constexpr std::size_t kMaxUnfinished = 32;
 
-/// A map of its own per version: a planner that restarted may use an older one than those that follow.
+/// Collects a map per version, since a restarted planner may use an older one than later planners do.
 class Maps {
  public:
   explicit Maps(std::map<std::uint64_t, VoxelMap>& complete) : complete_(complete) {}

@@ -7,7 +7,7 @@
 namespace tern {
 namespace {
 
-/// Keeps the k-th answer that stands.
+/// Keeps the k-th improvement.
 class KthAnswer final : public PlanObserver {
  public:
   explicit KthAnswer(std::int64_t k) : k_(k) {}

@@ -18,7 +18,7 @@
 namespace tern {
 namespace {
 
-/// Replays each answer as soon as its prediction set is there.
+/// Replays each answer when its prediction set is complete.
 class Replayer {
  public:
   Replayer(const RecordedInputs& inputs, const ReplayOptions& options)
@@ -28,7 +28,7 @@ class Replayer {
       const PlanInputs& names = inputs.plans[k].plan.inputs;
       waiting_[{names.predictions.sender_epoch_us, names.prediction_set}].push_back(k);
     }
-    replay_those_of({0, 0});  // stale worlds: no predictions at all
+    replay_those_of({0, 0});  ///< answers STALE_WORLD name no predictions
   }
 
   void add(TrackSet set) {
@@ -53,8 +53,9 @@ class Replayer {
     waiting_.erase(found);
   }
 
-  /// A planner that fails on what a log names answered otherwise then: that is a difference, and the rest is replayed.
-  /// @throws ConfigError for other settings that the planner refuses
+  /// Plans an answer again. If the planner throws on recorded inputs, that counts as a difference, and the replay goes
+  /// on.
+  /// @throws ConfigError for what-if settings that the planner refuses
   ReplayedPlan replay_or_say_why(std::size_t index) {
     try {
       return replay(index);
@@ -94,7 +95,7 @@ class Replayer {
   std::vector<ReplayedPlan> done_;
 };
 
-/// @return an Error when the log has answers and none is asked for.
+/// @return an Error if the log has answers and none is selected
 Result<void> check_choice(const RecordedInputs& inputs, const ReplayOptions& options) {
   const auto chosen = [&](const RecordedPlan& recorded) { return is_chosen(recorded, inputs.log, options); };
   if (inputs.plans.empty() || std::ranges::any_of(inputs.plans, chosen)) return {};
@@ -146,7 +147,7 @@ bool Replay::is_extract() const { return inputs.log.channels.contains(kExtractMa
 
 std::int64_t Replay::answers_before() const {
   if (is_extract()) return 0;
-  std::map<std::int64_t, std::int64_t> first;  // by planner
+  std::map<std::int64_t, std::int64_t> first;  ///< by planner
   for (const RecordedPlan& p : inputs.plans) {
     const MessageName& name = p.plan.header.name;
     const auto [known, is_new] = first.try_emplace(name.sender_epoch_us, name.sequence);

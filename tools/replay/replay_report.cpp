@@ -21,9 +21,9 @@ constexpr const char* kRefusals[kRejections] = {
     "of a wrong length",          "of another version",      "with a count out of range",  "with a number out of range",
     "with an unknown enumerator", "with times out of order", "that contradict themselves", "from the future",
     "of another sender",          "that came twice",         "without a valid tag"};
-/// What LCM sends to itself at the start.
+/// LCM's own message at its start.
 constexpr char kLcmSelfTest[] = "LCM_SELF_TEST";
-/// So many lines about the first answer that differs, and about what is missing.
+/// Most lines about the first difference, and about missing inputs.
 constexpr std::size_t kMaxLines = 12;
 
 double seconds_into(const Replay& replay, const RecordedPlan& recorded) {
@@ -90,7 +90,7 @@ std::string missing_text(const Replay& replay) {
   return text;
 }
 
-/// The first answer that breaks its promise; else the first that is not identical.
+/// Returns the first answer that differs by more than is promised, otherwise the first that is not identical.
 const ReplayedPlan* first_difference(const Replay& replay) {
   const ReplayedPlan* first = nullptr;
   for (const ReplayedPlan& p : replay.plans) {

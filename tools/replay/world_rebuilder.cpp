@@ -14,24 +14,24 @@
 namespace tern {
 namespace {
 
-/// Fields of goals kept: a plan names the newest one or the one before.
+/// Number of cached cost-to-go fields: a plan names the newest one or the one before.
 constexpr std::size_t kFieldsKept = 4;
 
 std::string text(const MessageName& name) {
   return fmt::format("{} of sender {}", name.sequence, name.sender_epoch_us);
 }
 
-/// What plan() takes from settings; the rest of a scenario reaches it in messages.
+/// The settings that plan() reads; the rest of a scenario reaches it in messages.
 constexpr std::string_view kPlannedWith[] = {
     "planner",           "semantics.enabled", "semantics.lambda_attractive", "semantics.lambda_repulsive",
     "semantics.lambdas", "semantics.cost"};
 
-/// Whether a key is this one, or below it.
+/// Returns true if a key is this one, or below it.
 bool is_within(std::string_view key, std::string_view above) {
   return key.starts_with(above) && (key.size() == above.size() || key[above.size()] == '.');
 }
 
-/// The text that a process that reports too long a configuration ends it with (reported_yaml).
+/// The mark at the end of a configuration that was too long to report (reported_yaml).
 bool is_cut(const std::string& yaml) { return yaml.find("\n# cut here: ") != std::string::npos; }
 
 }  // namespace
@@ -121,7 +121,7 @@ Result<std::shared_ptr<const GoalProducts>> WorldRebuilder::goal_of(const PlanIn
   const GoalFieldInputs& from = names.goal_field;
   const auto goal = inputs_.goals.find(names.goal);
   if (goal == inputs_.goals.end()) return fail("goal " + text(names.goal));
-  // The planner names the way to the goal before, which who holds or stops does not look at, or none.
+  // A plan may name no cost-to-go, or that of an earlier goal: hold and stop do not read it.
   if (goal->second.mode != GoalMode::Go) {
     return std::make_shared<const GoalProducts>(GoalProducts{goal->second, {}, nullptr, from});
   }

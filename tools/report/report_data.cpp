@@ -22,12 +22,12 @@ using audit::Audit;
 using audit::FlightRecord;
 using nlohmann::json;
 
-/// Millimetres and milliseconds are enough for the eye.
+/// Rounds to millimetres and milliseconds.
 double rounded(double x) { return std::round(x * 1e3) / 1e3; }
 
 json row(const Vec3& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
 
-/// Columns of equal length, filled together.
+/// Columns of equal length that are filled together.
 struct Columns {
   std::vector<std::pair<const char*, json>> all;
 
@@ -48,7 +48,7 @@ struct Columns {
   }
 };
 
-/// Seconds and metres spent in each region so far.
+/// Seconds and metres inside each region so far.
 class ExposureSoFar {
  public:
   explicit ExposureSoFar(const FlightRecord& record) : regions_(record.regions), metres_(regions_.size(), 0.0) {}
@@ -158,7 +158,7 @@ json regions_of(const FlightRecord& record) {
   return regions;
 }
 
-/// One answer: what was asked when, what it cost.
+/// One answer: time of its request, and cost.
 struct Answer {
   double t = 0.0, deadline_ms = 0.0;
   const Plan* plan = nullptr;
@@ -203,7 +203,7 @@ json answers_to_json(const std::vector<Answer>& answers) {
   return result;
 }
 
-/// p50, p95, p99 and the largest.
+/// Returns p50, p95, p99 and the maximum.
 json to_json(const Percentiles& p) { return {rounded(p.p50), rounded(p.p95), rounded(p.p99), rounded(p.max)}; }
 
 json costs_of(const FlightRecord& record) {
@@ -235,7 +235,7 @@ json log_of(const FlightRecord& record) {
   return {{"channels", channels}, {"processes", processes}};
 }
 
-/// What a flight was flown with, as CONFIGURATION says it, and the words for it.
+/// Returns the settings of a flight from CONFIGURATION, with their names.
 constexpr std::array<std::pair<const char*, const char*>, 8> kSettings = {{{"seed", "seed"},
                                                                            {"world.count", "count"},
                                                                            {"semantics.enabled", "semantics"},
@@ -257,7 +257,7 @@ json flight_of(const FlightRecord& record) {
   if (!record.goals.empty()) flight["goal"] = row(record.goals.back().position);
   if (!record.results.empty()) {
     const FlightResult& r = record.results.back();
-    // Whole: what is rounded twice would not be what the summary says.
+    // Unrounded: rounding twice would differ from the summary.
     const auto number = [](double x) { return std::isfinite(x) ? json(x) : json(); };
     flight["result"] = {{"outcome", to_string(r.outcome)},        {"detail", r.detail},
                         {"time_s", number(r.flight_time_s)},      {"path_m", number(r.path_length_m)},

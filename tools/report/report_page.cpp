@@ -7,7 +7,7 @@
 namespace tern::report {
 namespace {
 
-/// JSON inside a script element: no text in it may end that element or begin a comment.
+/// Escapes JSON for a script element: no text in it may end the element or begin a comment.
 std::string escaped(const nlohmann::json& data) {
   const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   std::string safe;
@@ -25,7 +25,7 @@ std::string escaped(const nlohmann::json& data) {
 }  // namespace
 
 std::string report_page(const audit::FlightRecord& record, const audit::Audit& audit, const FlightLaunch& launch) {
-  // Nothing may be fetched: the page is all there is.
+  // The policy forbids every request.
   return std::string("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n" +
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "

@@ -10,7 +10,7 @@
 namespace tern::audit {
 namespace {
 
-/// Of a file in the flight's folder; empty: there is none.
+/// Returns the contents of a file in the flight's folder; empty if there is none.
 std::string first_line(const std::string& log, const char* file) {
   namespace fs = std::filesystem;
   std::ifstream in((fs::is_directory(log) ? fs::path(log) : fs::path(log).parent_path()) / file);
@@ -34,7 +34,7 @@ Result<FlightRecord> load_flight(const std::string& path) {
       record->class_labels.insert(semantics.classes.begin(), semantics.classes.end());
       break;
     } catch (const ConfigError&) {
-      // Not a scenario, or one of another version: the next process's may be.
+      // It is no scenario, or one of another version; the next process's may be readable.
     }
   }
   return record;
