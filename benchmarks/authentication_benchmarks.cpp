@@ -1,4 +1,4 @@
-// What signing and verifying cost: single messages, and all that a flight says in a second.
+// Cost of signing and verifying: single messages, and all messages of a second of flight.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -47,8 +47,8 @@ void verify_message(benchmark::State& state) {
 }
 BENCHMARK(verify_message)->Arg(200)->Arg(10'000)->Arg(60'000)->Unit(benchmark::kMicrosecond);
 
-/// What a process that hears all verifies per second of a flight among 100 obstacles: 374 messages, 2.9 MB, 1.9 MB of
-/// it PREDICTIONS. The time in ms, divided by ten, is the percentage of a core.
+/// Verifies all messages per second of a flight among 100 obstacles: 374 messages, 2.9 MB, of which PREDICTIONS are
+/// 1.9 MB. The time in ms, divided by ten, is the percentage of a core.
 void verify_a_second_of_a_flight(benchmark::State& state) {
   std::vector<Bytes> second;
   for (int k = 0; k < 374; ++k) {

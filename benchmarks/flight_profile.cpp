@@ -1,5 +1,5 @@
-// What plans cost on the requests of whole flights: percentiles of the whole and of the first answer, each stage's
-// share, the dearest requests. Thread CPU time.
+// Cost of plans on the requests of whole flights. Prints percentiles of the whole plan and of the first answer, the
+// share of each stage, and the most expensive requests. Thread CPU time.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -59,7 +59,7 @@ struct Cost : Spent {
   PlanAnswer answer;
 };
 
-/// The least of `repeats` measurements: what the machine's other work adds is not the planner's.
+/// Returns the least of `repeats` measurements, to exclude the effect of other load.
 Cost cost_of(const Moment& m, const PlannerConfig& config, int repeats, PlanWorkspace& workspace) {
   Cost least;
   for (int k = 0; k < repeats; ++k) {

@@ -1,5 +1,5 @@
-// separate() as in flight (a hull of some 20 vertices against the 4 MINVO points of an interval), hull_vertices() of
-// swept boxes.
+// Cost of separate() as in flight: a hull of some 20 vertices against the 4 MINVO points of an interval. Cost of
+// hull_vertices() of swept boxes.
 #include "benchmarks/in_turn.h"
 #include "core/base/random.h"
 #include "core/geometry/box.h"
@@ -17,7 +17,7 @@ Vec3 random_vector(Rng& rng, double size) {
   return {rng.uniform(-size, size), rng.uniform(-size, size), rng.uniform(-size, size)};
 }
 
-// A box of 0.8 m that flies a parabola for 0.5 s, sampled; all corners.
+// All corners of a sampled box of 0.8 m that flies a parabola for 0.5 s.
 Points swept_box(Rng& rng, int samples) {
   const Vec3 velocity = random_vector(rng, 3.0);
   const Vec3 acceleration = random_vector(rng, 4.0);
@@ -34,7 +34,7 @@ struct Pair {
   Points hull, interval;
 };
 
-// Hulls of swept boxes, and four points within half a metre of each other at `gap` from them.
+// Hulls of swept boxes, and for each four points within half a metre of each other, at distance `gap`.
 std::vector<Pair> pairs_at(double gap) {
   Rng rng(7);
   std::vector<Pair> pairs;

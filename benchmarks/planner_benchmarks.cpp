@@ -1,5 +1,5 @@
-// The planner's stages and the whole of it, on the requests of one flight through paper_corridor 100 (seed 1), recorded
-// here.
+// Cost of the planner and of its stages, on the requests of one flight through paper_corridor 100 (seed 1), recorded at
+// the start.
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@
 namespace tern {
 namespace {
 
-/// A request, its world, and what is answered.
+/// A request, its world, and the answer.
 struct Answered : Moment {
   Plan answer;
 };
@@ -37,7 +37,7 @@ const std::vector<Answered>& flight() {
   return moments;
 }
 
-/// plan() over the flight's requests; p50, p99, max in ms of the thread's CPU time, and how long the flight was.
+/// plan() over the flight's requests: p50, p99 and maximum in ms of thread CPU time, and the length of the flight.
 void plan_of_a_flight(benchmark::State& state) {
   std::vector<double> ms;
   PlanWorkspace workspace;
@@ -61,7 +61,7 @@ void sweep(const Answered& m, SweptObstacles& swept) {
                box_around(m.request.start.p, Vec3::Constant(4.0)));
 }
 
-/// Moments of the flight whose answer is a new trajectory.
+/// Requests of the flight whose answer is a new trajectory.
 std::vector<const Answered*> planned() {
   std::vector<const Answered*> out;
   for (const Answered& m : flight()) {
@@ -73,7 +73,7 @@ std::vector<const Answered*> planned() {
 /// The same with their obstacles.
 struct Swept {
   const Answered* moment = nullptr;
-  mutable SweptObstacles obstacles;  ///< sweeps are made when they are asked for, and kept
+  mutable SweptObstacles obstacles;  ///< sweeps are made on demand and cached
 };
 std::vector<Swept> swept_moments() {
   std::vector<Swept> all;
@@ -84,12 +84,12 @@ std::vector<Swept> swept_moments() {
   return all;
 }
 
-/// How many a second, told as the time that each takes.
+/// Reports a rate as the time per item.
 benchmark::Counter time_of_each(std::int64_t count) {
   return {static_cast<double>(count), benchmark::Counter::kIsRate | benchmark::Counter::kInvert};
 }
 
-/// Which tracks can matter.
+/// Selecting the tracks that can matter.
 void index_query(benchmark::State& state) {
   std::vector<std::int32_t> found;
   in_turn(state, planned(), [&](const Answered* m) {
@@ -109,7 +109,7 @@ void swept_boxes(benchmark::State& state) {
 }
 BENCHMARK(swept_boxes)->Unit(benchmark::kMicrosecond);
 
-/// Calls work(swept, interval, neighbour) for every neighbour of six intervals of each moment, sweeps not made yet.
+/// Calls work(swept, interval, neighbour) for every neighbour of six intervals of each request, with an empty cache.
 template <class Work>
 void for_each_neighbour(benchmark::State& state, const Work& work) {
   const auto moments = planned();
@@ -148,7 +148,7 @@ void swept_hull(benchmark::State& state) {
 }
 BENCHMARK(swept_hull)->Unit(benchmark::kMicrosecond);
 
-/// Is an interval of the answer clear? Yes or no, per pair of obstacle and interval, boxes and caches included.
+/// Testing whether an interval of the answer is clear, per pair of obstacle and interval, boxes and caches included.
 void separation_in_flight(benchmark::State& state) {
   PairCounts pairs;
   in_turn(state, swept_moments(), [&](const Swept& swept) {
@@ -163,7 +163,7 @@ void separation_in_flight(benchmark::State& state) {
 }
 BENCHMARK(separation_in_flight)->Unit(benchmark::kMicrosecond);
 
-/// The planes that the optimizer starts from: all within a metre, made from sweeps.
+/// The planes that the optimizer starts from: those of all sweeps within a metre.
 void gather_planes(benchmark::State& state) {
   std::vector<CertificatePlane> planes;
   PairCounts pairs;
@@ -175,7 +175,7 @@ void gather_planes(benchmark::State& state) {
 }
 BENCHMARK(gather_planes)->Unit(benchmark::kMicrosecond);
 
-/// What the answer solves.
+/// The convex problem of the answer.
 HorizonProblem problem_of(const Answered& m) {
   Limits reduced = m.request.limits;
   reduced.v_max *= recording().config.velocity_share;
@@ -190,7 +190,7 @@ HorizonProblem problem_of(const Answered& m) {
           HullBasis::Minvo};
 }
 
-/// The checker with its hulls made, and what it costs per pair (boxes included).
+/// Checking with finished hulls, and the cost per pair (boxes included).
 void check_a_plan(benchmark::State& state) {
   std::int64_t pairs = 0;
   in_turn(state, swept_moments(), [&](const Swept& swept) {

@@ -1,4 +1,4 @@
-// What a set of detections costs, of n things that swing, seen at 30 Hz without ids.
+// Cost of a set of detections of n swinging objects, seen at 30 Hz without ids.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace {
 constexpr double kRate = 30.0, kNoise = 0.05, kDropout = 0.05;
 constexpr int kWarm = 90, kSets = 300;
 
-/// Each has 4 m × 4 m of its own.
+/// Each object has an area of 4 m × 4 m.
 std::vector<ObservationSet> sets_of(std::int64_t things) {
   Rng rng(1);
   std::vector<Vec3> phases;
@@ -41,7 +41,7 @@ std::vector<ObservationSet> sets_of(std::int64_t things) {
   return sets;
 }
 
-// learns: with the model that is learnt in the flight.
+// learns: with the model that is learnt in flight.
 Tracker warm(const std::vector<ObservationSet>& sets, bool learns) {
   TrackerConfig config;
   config.learns = learns;
@@ -50,7 +50,7 @@ Tracker warm(const std::vector<ObservationSet>& sets, bool learns) {
   return tracker;
 }
 
-/// A set is associated, filtered, and what was promised before is scored.
+/// Assigns and filters a set, and scores earlier predictions.
 void tracker_update(benchmark::State& state) {
   const std::vector<ObservationSet> sets = sets_of(state.range(0));
   const Tracker begun = warm(sets, state.range(1) != 0);
@@ -71,7 +71,7 @@ BENCHMARK(tracker_update)
     ->ArgsProduct({{20, 100}, {0, 1}})
     ->Unit(benchmark::kMillisecond);
 
-/// All tracks, over 4.5 s, with α at five confidences.
+/// Predicts all tracks over 4.5 s, with α at five confidences.
 void tracker_predict(benchmark::State& state) {
   const Tracker tracker = warm(sets_of(state.range(0)), state.range(1) != 0);
   for (auto _ : state) benchmark::DoNotOptimize(tracker.predict(tracker.newest()).data());

@@ -11,7 +11,7 @@
 namespace tern {
 namespace {
 
-/// What the answer's search posed to the optimizer.
+/// Captures the optimization problem that the search of an answer posed.
 std::optional<RecordedProblem> problem_of(const HorizonRequest& request, const PlanningWorld& world, const Plan& answer,
                                           const PlannerConfig& config) {
   if (answer.outcome != PlanOutcome::Optimized && answer.outcome != PlanOutcome::SearchOnly) return std::nullopt;

@@ -1,7 +1,7 @@
-// How long a message and its answer take between two processes over UDP multicast, without and with keys.
+// Measures a message and its answer between two processes over UDP multicast, without and with keys.
 //
-// Run it in a network of its own: tests/support/hermetic.sh build/release/bin/round_trip. Rounds of both kinds take
-// turns; percentiles are those of each round, the medians of all rounds are printed.
+// Run it in a network namespace: tests/support/hermetic.sh build/release/bin/round_trip. Rounds without and with keys
+// alternate. Percentiles are per round; the medians over the rounds are printed.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/resource.h>

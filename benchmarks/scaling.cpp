@@ -1,5 +1,5 @@
-// How cost grows: with obstacles in the world, with obstacles in reach, with voxels, with the number of intervals J.
-// Writes CSV: table, size, quantity, value. Thread CPU time; memory is a child process's own peak.
+// Growth of cost with obstacles in the world, obstacles in reach, voxels, and the number of intervals J.
+// Writes CSV: table, size, quantity, value. Times are thread CPU time; memory is the peak of a child process.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -38,7 +38,7 @@ double median_ms(int runs, const std::function<void()>& work) {
   return ms[static_cast<std::size_t>(runs / 2)];
 }
 
-/// A mover that swings about its place, in pieces as DECLARED_MOTIONS has them.
+/// An obstacle that swings about its place, in pieces as DECLARED_MOTIONS has them.
 Track swinging(std::int64_t id, const Vec3& centre, double half, double amplitude, Rng& rng) {
   Track track;
   track.id = id;
@@ -57,12 +57,12 @@ Track swinging(std::int64_t id, const Vec3& centre, double half, double amplitud
   return track;
 }
 
-/// … and what the planner is set to.
+/// … and the planner's settings.
 struct Setting : Moment {
   PlannerConfig config;
 };
 
-/// From rest at the origin 30 m ahead, nothing but these tracks.
+/// A request from rest at the origin to a goal 30 m ahead, with these tracks only.
 Setting setting(std::vector<Track> tracks) {
   Setting s;
   s.request.header.utime = kNow;
@@ -97,7 +97,7 @@ double plan_ms(const Setting& s, int runs) {
   });
 }
 
-/// 20 movers near, the others at one per 25 m² over a square beyond 40 m: of all of them only the near ones matter.
+/// 20 moving obstacles near, the others at one per 25 m² on a square beyond 40 m. Only the near ones matter.
 std::vector<Track> world_of(std::int64_t obstacles) {
   Rng rng(1);
   std::vector<Track> tracks;
@@ -133,7 +133,7 @@ void obstacles_in_the_world(std::int64_t most) {
   }
 }
 
-/// Small movers all within the sphere and a metre around it.
+/// Small moving obstacles, all within a metre of the sphere.
 void obstacles_in_reach() {
   for (const int n : {10, 20, 50, 100, 200, 300}) {
     Rng rng(2);
@@ -153,9 +153,9 @@ void obstacles_in_reach() {
   }
 }
 
-/// Runs in a process of its own: its peak memory is that of this case.
+/// Runs a case in a child process, so the peak memory is its own.
 void in_a_child(const std::function<void()>& work) {
-  std::fflush(stdout);  // what waits there would be printed by the child, too
+  std::fflush(stdout);  ///< the child would print unflushed text as well
   const pid_t child = fork();
   if (child == 0) {
     work();
@@ -166,7 +166,7 @@ void in_a_child(const std::function<void()>& work) {
   waitpid(child, &status, 0);
 }
 
-/// A town of blocks, a tenth of it attractive or repulsive facades, at 0.25 m.
+/// A town of blocks at 0.25 m; a tenth of its voxels are attractive or repulsive facades.
 VoxelMap town(std::int64_t voxels) {
   VoxelMap map;
   const int height = 40;
@@ -237,7 +237,7 @@ int main(int argc, char** argv) {
   app.add_option("--most-obstacles", most_obstacles, "Up to this many obstacles in the world");
   CLI11_PARSE(app, argc, argv);
   fmt::print("table,size,quantity,value\n");
-  tern::voxels(most_voxels);  // first: a child's peak begins at what this process has used
+  tern::voxels(most_voxels);  ///< first, since a child's peak starts at this process's memory
   tern::obstacles_in_the_world(most_obstacles);
   tern::obstacles_in_reach();
   tern::intervals(scenario);

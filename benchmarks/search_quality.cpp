@@ -1,4 +1,4 @@
-// How good the search's leaves are: the searches of recorded flights, with their defaults and again with five seconds
+// Quality of the search's leaves: the searches of recorded flights, with their defaults, and again with five seconds
 // and no other limit.
 #include <fmt/format.h>
 
@@ -16,9 +16,9 @@ namespace tern {
 namespace {
 
 constexpr double kLongSearchMs = 5000.0;
-/// What counts as the best: this share of the progress that the long search makes.
+/// A leaf is good if it makes this share of the progress of the long search.
 constexpr double kShare = 0.95;
-/// Progress that nobody would notice, m.
+/// Negligible progress, m.
 constexpr double kNegligible = 0.05;
 
 struct Judged {
@@ -33,7 +33,7 @@ struct Judged {
   }
 };
 
-/// Searches again, for long, where plan() has searched. Evasions (other weights, other limits) are left out.
+/// Repeats each search of plan() with a long limit. Evasions have other weights and limits; they are skipped.
 class Judge final : public PlanObserver {
  public:
   explicit Judge(const PlannerConfig& config) : config_(config.search) {}
@@ -45,7 +45,7 @@ class Judge final : public PlanObserver {
   void searched(const SearchProblem& problem, SweptObstacles& obstacles, const SearchResult& found) override {
     Judged j;
     j.default_ms = thread_cpu_ms() - began_;
-    if (!judged.empty() && judged.back().found) return;  // the first duration that gives a leaf, and those before it
+    if (!judged.empty() && judged.back().found) return;  ///< durations up to the first that gives a leaf
     SearchConfig unlimited = config_;
     unlimited.max_expansions = std::numeric_limits<int>::max();
     unlimited.hold_expansions = std::numeric_limits<int>::max() / 2;
@@ -71,7 +71,7 @@ class Judge final : public PlanObserver {
   double began_ = 0.0;
 };
 
-/// The searches for the way ahead of every `every`-th request of a flight.
+/// Returns the searches towards the goal of every `every`-th request of a flight.
 void judge_flight(const FlightRecording& flight, std::size_t every, std::vector<Judged>& all) {
   PlannerConfig config = flight.config;
   config.optimization.method = OptimizationMethod::SearchOnly;

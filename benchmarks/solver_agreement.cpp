@@ -1,5 +1,5 @@
-// Compares the barrier method with Ipopt's optimum on problems recorded from flights. Exits with 1 if one costs more
-// than Ipopt's by a ten-thousandth.
+// Compares the barrier method with Ipopt's optimum on problems recorded from flights. Exits with 1 if a cost exceeds
+// Ipopt's by a ten-thousandth.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -15,7 +15,7 @@ namespace tern {
 namespace {
 
 constexpr double kAllowed = 1e-4;  ///< relative excess over Ipopt's cost
-constexpr double kMinCost = 1e-2;  ///< m²: costs below are compared as if they were this
+constexpr double kMinCost = 1e-2;  ///< m²: smaller costs are compared as if they were this
 constexpr int kIterations = 200;
 
 struct Comparison {

@@ -1,5 +1,5 @@
-// Eq. 4 by each method on problems recorded from flights, and the problem's making. Cost reached: mean over the
-// problems, as a share of the search's.
+// Cost of Eq. 4 by each method on problems recorded from flights, and of making the problem. The cost reached is the
+// mean over the problems, as a share of the search's.
 #include "benchmarks/in_turn.h"
 #include "benchmarks/recorded_problems.h"
 #include "planner/optimization/barrier_solver.h"

@@ -1,4 +1,4 @@
-// What the planner asks of a spline thousands of times per plan.
+// Cost of the spline operations that a plan calls thousands of times.
 #include "benchmarks/in_turn.h"
 #include "core/splines/clamped_spline.h"
 #include "tests/support/random_splines.h"

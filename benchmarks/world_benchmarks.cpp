@@ -1,4 +1,4 @@
-// What is prepared off the hot path, and messages: on corridor_demo (100 obstacles, two regions).
+// Cost of preparation outside of planning, and of messages, on corridor_demo (100 obstacles, two regions).
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace tern {
 namespace {
 
-/// What a second of corridor_demo puts on the bus.
+/// The messages of one second of corridor_demo.
 struct Traffic {
   std::vector<MapChunk> chunks;
   VoxelMap map;
@@ -66,7 +66,7 @@ void prediction_products(benchmark::State& state) {
 }
 BENCHMARK(prediction_products)->Unit(benchmark::kMicrosecond);
 
-/// All chunks of the map: decoded, checked, put together.
+/// All chunks of the map: decoding, checking, assembling.
 void map_decode(benchmark::State& state) {
   std::vector<Bytes> wire;
   for (const MapChunk& chunk : traffic().chunks) wire.push_back(encode(chunk));

@@ -28,12 +28,12 @@ std::string last_line(const fs::path& file) {
   return last;
 }
 
-/// Somebody ended it, which says nothing of the flight.
+/// Returns true if a signal from outside ended the process, which tells nothing about the flight.
 bool was_ended(const FinishedProcess& finished) {
   return finished.signal == SIGINT || finished.signal == SIGTERM || finished.signal == SIGHUP;
 }
 
-/// One call of run_campaign.
+/// One call of run_campaign().
 class Run {
  public:
   Run(const CampaignOptions& options, const CampaignIdentity& identity, const std::vector<std::string>& flight_command,
@@ -84,13 +84,13 @@ class Run {
     progress_.different = distinct_.count();
   }
 
-  /// Where a flight's files are until it is known whether they are kept.
+  /// Returns the folder of a flight's files until the flight is judged.
   [[nodiscard]] fs::path flying(std::uint64_t seed) const {
     return fs::path(options_.failures) / fmt::format(".flying-{}", seed);
   }
 
   void start(std::uint64_t seed) {
-    fs::remove_all(flying(seed));  // of a campaign that was killed
+    fs::remove_all(flying(seed));  ///< from a campaign that was killed
     fs::create_directories(flying(seed));
     std::vector<std::string> command = command_;
     command.insert(command.end(), {"--seed", std::to_string(seed), "--folder", flying(seed).string()});

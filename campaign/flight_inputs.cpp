@@ -31,7 +31,7 @@ std::vector<fs::path> scenario_folders() {
   return {"scenarios", programs / ".." / ".." / ".." / "scenarios", programs / ".." / "share" / "tern" / "scenarios"};
 }
 
-/// Reads the sections of who flies in a campaign, as the processes would.
+/// Reads the sections of a campaign's processes, as these processes would.
 MapperConfig read_sections(ConfigDocument& document, const Scenario& scenario) {
   ConfigSection root = document.root();
   (void)read_simulator_config(root.section("simulator"), scenario.seed);
@@ -41,7 +41,7 @@ MapperConfig read_sections(ConfigDocument& document, const Scenario& scenario) {
   return read_mapper_config(root.section("mapper"));
 }
 
-/// Overrides that name the mapper's files by absolute paths.
+/// Returns overrides that name the mapper's files by absolute paths.
 std::vector<std::string> absolute_sources(const MapperConfig& mapper, const std::string& scenario_file) {
   const fs::path data = data_folder(scenario_file, std::getenv("TERN_DATA"));
   std::vector<std::string> overrides;
@@ -91,7 +91,7 @@ void read_every_section(ConfigDocument& document) {
 }
 
 CampaignIdentity check_inputs(const FlightInputs& inputs, std::uint64_t seed) {
-  // Apart: the configuration that names a campaign is that of the processes that fly in it.
+  // A separate document: the configuration of a campaign is that of the processes that fly in it.
   ConfigDocument all = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(0));
   read_every_section(all);
   ConfigDocument document = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(0));
@@ -110,7 +110,7 @@ std::string spell_out(const FlightInputs& inputs, std::uint64_t seed) {
   const MapperConfig mapper = read_sections(document, scenario);
   const std::vector<std::string> absolute = absolute_sources(mapper, inputs.scenario_file);
   overrides.insert(overrides.end(), absolute.begin(), absolute.end());
-  // A document of which only the sections are read says only them.
+  // A document prints only the sections that were read.
   ConfigDocument sections = ConfigDocument::load(inputs.scenario_file, overrides);
   (void)read_sections(sections, scenario);
   return write_scenario(list_obstacles(scenario, world_of(scenario))) + sections.effective();

@@ -19,10 +19,10 @@
 namespace tern {
 namespace {
 
-/// No flight of a scenario lasts longer, virtual time.
+/// Longest flight of any scenario, virtual time.
 constexpr Duration kMaxFlight{3600LL * 1'000'000};
 
-/// The digits that a stopwatch is good for: times are kept to the microsecond.
+/// Rounds times to the microsecond, the precision of the clock.
 Percentiles rounded(Percentiles p) {
   for (double* x : {&p.p50, &p.p95, &p.p99, &p.max}) *x = std::round(*x * 1e3) / 1e3;
   return p;
@@ -47,7 +47,7 @@ void record_text(const std::string& path, const std::string& text) {
   if (!write_text(path, text)) throw CannotRecord(path + ": cannot be written");
 }
 
-/// Everything on the bus, on its way into the watch, the times and the observer.
+/// Passes every message to the watch, the times and the observer.
 void subscribe(Bus& bus, FlightWatch& watch, FlightTimes& times, FlightObserver* observer) {
   subscribe_flight(bus, watch);
   bus.subscribe(channels::kPlanTiming, [&times](const PlanTiming& m) { add(times, m); });
@@ -56,7 +56,7 @@ void subscribe(Bus& bus, FlightWatch& watch, FlightTimes& times, FlightObserver*
   bus.subscribe(channels::kPlan, [observer](const Plan& m) { observer->on_plan(m); });
 }
 
-/// Runs until the watch has its verdict.
+/// Runs until the watch has a verdict.
 Ending fly(VirtualSystem& system, FlightWatch& watch) {
   VirtualRunner& runner = system.runner();
   const UTime end = runner.now() + kMaxFlight;
@@ -90,7 +90,7 @@ FlightRecord make_record(const FlightSummary& summary, const ExecutorCounters& e
   return record;
 }
 
-/// @return "passed", "broken" or "failed".
+/// Runs the auditor. @return "passed", "broken" or "failed".
 std::string run_audit(const std::string& audit, const std::string& folder) {
   const std::string output = folder + "/audit.txt";
   std::filesystem::remove(output);
@@ -103,7 +103,7 @@ std::string run_audit(const std::string& audit, const std::string& folder) {
   return end.exit_code == 0 ? "passed" : "broken";
 }
 
-/// What the audit counted and measured. @throws std::runtime_error where it wrote what nobody can read.
+/// Reads coverage and tracking from the audit. @throws std::runtime_error if its file is unreadable
 void take_measures(const std::string& folder, FlightRecord& record) {
   std::ifstream file(folder + "/audit.json");
   if (!file) return;

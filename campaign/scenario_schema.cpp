@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Together they make every key known that depends on another.
+/// Together these settings make every key known that depends on another.
 constexpr const char* kExamples[] = {
     "timeout_s: 60\n"
     "world: {obstacles: [{centre: [5, 0, 1]}], recorded: [{file: a.txt, columns: 6, z_column: 4}]}\n"
@@ -36,10 +36,10 @@ constexpr const char* kExamples[] = {
     "uav: {routes: [{from: [0, 0, 1], to: [9, 0, 1]}]}\n",
     "world: {obstacles: [{motion: waypoints, points: [[0, 5, 0, 1]]}]}\n"};
 
-/// Tables whose keys the user names: every value is like the table's default ones.
+/// Tables whose keys the user names: every value is like the table's default values.
 constexpr std::string_view kOpenTables[] = {"semantics.classes", "semantics.lambdas", "mapper.classes"};
 
-/// "[0, 10]" or "(0, 10]"; infinite ends are open.
+/// Returns "[0, 10]" or "(0, 10]"; infinite ends are open.
 void add_range(Json& schema, std::string_view range) {
   const auto number = [](std::string_view text) -> Json {
     double x = 0.0;
@@ -89,7 +89,7 @@ bool is_open(std::string_view path) {
   return std::find(std::begin(kOpenTables), std::end(kOpenTables), path) != std::end(kOpenTables);
 }
 
-/// Puts a key where its path leads: "world.obstacles[].centre".
+/// Inserts a key at its path: "world.obstacles[].centre".
 void insert(Json& root, const Knob& knob) {
   Json* at = &root;
   std::string path;

@@ -32,7 +32,7 @@ struct Options {
   std::int64_t cpu_limit_s = CampaignOptions{}.cpu_limit_s;
 };
 
-/// Two numbers and what stands between them.
+/// Parses two numbers and the separator between them.
 template <class Number>
 bool read_pair(const std::string& text, char between, Number& first, Number& second) {
   const char* end = text.data() + text.size();
@@ -62,7 +62,7 @@ CampaignOptions campaign_of(const Options& options) {
   return campaign;
 }
 
-/// SIGINT, SIGTERM and SIGHUP as a descriptor to read from: none of them ends the program any more.
+/// Returns a descriptor to read SIGINT, SIGTERM and SIGHUP from; these signals no longer end the process.
 int catch_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -95,7 +95,7 @@ int fly(const Options& options) {
   return code;
 }
 
-/// Before a subcommand they would say nothing.
+/// Refuses options before a subcommand, where they would have no effect.
 void refuse_own_options(const CLI::App& app) {
   const std::string command = app.get_subcommands().front()->get_name();
   for (const CLI::Option* option : app.get_options()) {

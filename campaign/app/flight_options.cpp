@@ -16,7 +16,7 @@ bool can_run(const std::string& file) {
   return std::filesystem::is_regular_file(file) && access(file.c_str(), X_OK) == 0;
 }
 
-/// @param program  a path, or a name in $PATH, as execvp() takes it @return why it cannot be run, or ""
+/// Returns why a program cannot be run, or "". @param program  a path, or a name in $PATH, as execvp() takes it
 std::string why_not_run(const std::string& program) {
   bool runs = program.find('/') != std::string::npos && can_run(program);
   const char* path = std::getenv("PATH");

@@ -24,7 +24,7 @@ struct Options {
 };
 
 int fly_one(const Options& options) try {
-  spdlog::set_default_logger(spdlog::stderr_color_st("tern"));  // standard output is for the result
+  spdlog::set_default_logger(spdlog::stderr_color_st("tern"));  ///< standard output is for the result
   const FlightInputs inputs = inputs_of(options.flight);
   const CampaignIdentity identity = check_inputs(inputs, options.seed);
   std::filesystem::create_directories(options.folder);

@@ -22,7 +22,7 @@ struct Options {
   int moves = MoveSearch{}.moves;
 };
 
-/// Whether the contact of this seed's flight could have been avoided by a vehicle that knew the truth.
+/// Returns true if a vehicle that knows the truth could have avoided the contact of this seed's flight.
 bool could_be_avoided(const FlightInputs& inputs, std::uint64_t seed, const MoveSearch& search) {
   ConfigDocument document = ConfigDocument::load(inputs.scenario_file, inputs.with_seed(seed));
   const Scenario scenario = read_scenario(document);

@@ -48,7 +48,7 @@ int search(const Options& options) {
   return 0;
 }
 
-/// The flights of seeds 1 to `seeds`: a campaign of its own, in the folder.
+/// Flies seeds 1 to `seeds` as a campaign of its own in the folder.
 std::vector<SemanticFlight> fly(const SemanticCase& wanted, std::uint64_t seeds, int jobs, const std::string& folder) {
   FlightOptions flight;
   flight.world = wanted.world;

@@ -17,7 +17,7 @@ constexpr double kMinDistance = 0.05, kMaxDistance = 12.0;
 constexpr double kPeakSpeed = 1.875, kPeakJerk = 60.0;
 const double kPeakAcceleration = 10.0 / std::sqrt(3.0);
 
-/// The least duration of a move by d within the limits, s.
+/// Returns the least duration of a move by d within the limits, s.
 double least_time(const Vec3& d, const Limits& limits) {
   double least = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -52,7 +52,7 @@ Move random_move(Rng& rng, const Limits& limits, double from_s, double until_s) 
   return move;
 }
 
-/// Every obstacle's centre at each step.
+/// The centre of every obstacle at each step.
 std::vector<std::vector<Vec3>> sampled(const World& world, double until_s) {
   std::vector<std::vector<Vec3>> all;
   for (const WorldObstacle& obstacle : world.obstacles) {
@@ -70,7 +70,7 @@ int clear_moves(const RestingVehicle& vehicle, const World& world, std::uint64_t
   const auto centres = sampled(world, search.until_s);
   const Box body = body_box(vehicle.body);
   const Box room = places_within(vehicle.flight_box, body);
-  std::vector<Box> reach;  // of positions about the obstacle's
+  std::vector<Box> reach;  ///< of positions relative to the obstacle's centre
   for (const WorldObstacle& o : world.obstacles) {
     reach.push_back(grown(places_at(box_around(Vec3::Zero(), o.half_extents()), body), Vec3::Constant(search.margin)));
   }

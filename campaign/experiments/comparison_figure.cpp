@@ -12,7 +12,7 @@ namespace tern {
 namespace {
 
 constexpr double kRow = 22.0, kNames = 260.0, kPlot = 460.0, kNumbers = 250.0, kTop = 84.0;  // pixels
-/// What differs by more than this, %, ends at the frame.
+/// Larger differences, %, are cut off at the frame.
 constexpr double kMaxPercent = 200.0;
 
 std::vector<const ComparedMeasure*> drawn(const CampaignComparison& c) {
@@ -25,7 +25,7 @@ std::vector<const ComparedMeasure*> drawn(const CampaignComparison& c) {
 
 double percent(double difference, double mean) { return 100.0 * difference / std::abs(mean); }
 
-/// The largest share of all rows, for a frame about 0.
+/// Returns the largest share of all rows, for a frame about 0.
 double reach_of(const CampaignComparison& c, const std::vector<const ComparedMeasure*>& rows) {
   double reach = 1.0;
   for (const ComparedMeasure* m : rows) {
@@ -44,7 +44,7 @@ std::string axis_name(const std::vector<const ComparedMeasure*>& rows) {
                     : "B - A, % of A's mean";
 }
 
-/// Of a mean of 0 nothing is a share: the numbers say it, and the mark says the side.
+/// Draws a row whose mean in A is 0: a hollow mark on the side of B, and the values as numbers.
 void draw_of_nothing(Svg& page, const PlotFrame& frame, const PairedDifference& d, double y, bool may_infer) {
   const double edge = frame.x_range.second, side = d.difference > 0.0 ? edge : d.difference < 0.0 ? -edge : 0.0;
   page.circle({frame.at(side, 0.0).first, y}, 4.0, "fill=\"white\" stroke=\"#1357a6\" stroke-width=\"1.5\"");

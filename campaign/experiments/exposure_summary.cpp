@@ -7,7 +7,7 @@
 namespace tern {
 namespace {
 
-/// Value and interval by a function of a flight.
+/// Returns mean and interval of a function of the flights.
 template <class Get>
 MeanInterval mean_of(const std::vector<const SemanticFlight*>& flights, const Get& get) {
   std::vector<double> numbers;
@@ -66,7 +66,7 @@ ExposureSummary summarize(const std::vector<SemanticFlight>& all, const Semantic
   return s;
 }
 
-/// "1.23 ± 0.04"
+/// Returns "1.23 ± 0.04".
 std::string plus_minus(const MeanInterval& m, int digits = 2) {
   return fmt::format("{:.{}f} ± {:.{}f}", m.mean, digits, m.half, digits);
 }

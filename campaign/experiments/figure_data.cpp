@@ -56,7 +56,7 @@ Json segments_of(const SearchOutcome& outcome) {
   return segments;
 }
 
-/// When the flight passes x.
+/// Returns the time at which the flight passes x.
 double time_at(const FlightTrack& track, double x) {
   const auto nearer = [x](const TrackPoint& a, const TrackPoint& b) {
     return std::abs(a.p.x() - x) < std::abs(b.p.x() - x);
@@ -92,7 +92,7 @@ std::string search_data(const std::vector<SearchOutcome>& outcomes) {
 std::string corridor_data(const FlightTrack& without, const FlightTrack& with) {
   Json obstacles = Json::array();
   for (const WorldObstacle& o : with.world.obstacles) {
-    // Where a mover is as the vehicle passes it: two steps come close enough.
+    // Two iterations find where a moving obstacle is when the vehicle passes it.
     double t = time_at(with, o.at(0.0).p.x());
     if (o.moves()) t = time_at(with, o.at(t).p.x());
     obstacles.push_back({{"moves", o.moves()}, {"box", to_json(o.box(t))}});

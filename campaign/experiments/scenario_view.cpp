@@ -22,9 +22,9 @@
 namespace tern {
 namespace {
 
-constexpr double kStep = 0.05;  // m, of a way's samples
-constexpr double kLeft = 62.0;  // pixels, of the frame and the texts
-// Advance of a character in font sizes, with some to spare: these texts in DejaVu Sans measure 0.50, bold 0.57.
+constexpr double kStep = 0.05;  ///< m, between samples of a path
+constexpr double kLeft = 62.0;  ///< pixels, margin of the frame and the texts
+// Advance of a character in font sizes, rounded up: these texts measure 0.50 in DejaVu Sans, 0.57 in bold.
 constexpr double kAdvance = 0.55, kBoldAdvance = 0.62;
 constexpr double kTitleSize = 15.0, kLegendSize = 12.0;  // pixels
 
@@ -44,7 +44,7 @@ PlannedPath measured(std::vector<Vec3> points, const std::vector<Region>& region
   return way;
 }
 
-/// @return the way, or in words why there is none
+/// Returns the path, or the reason in words why there is none.
 Result<PlannedPath> path_between(const ScenarioView& view, const std::shared_ptr<const MapProducts>& map) {
   const UavSpec& uav = view.scenario.uav;
   const GoalFieldKey key{uav.goal, map->version, 0, body_box(uav.body), uav.flight_box};
@@ -57,7 +57,7 @@ Result<PlannedPath> path_between(const ScenarioView& view, const std::shared_ptr
   return measured(std::move(*points), view.scenario.semantics.regions);
 }
 
-/// "obstacle 3 'post'", in which the body begins; "" in none.
+/// Returns the obstacle in which the body starts, as "obstacle 3 'post'"; "" for none.
 std::string around_the_start(const ScenarioView& view) {
   const UavSpec& uav = view.scenario.uav;
   const BodyDistance distance(uav.body);
@@ -85,7 +85,7 @@ double lambda_of(const Scenario& scenario, const Region& region) {
                                                                         : semantics.lambda_attractive;
 }
 
-/// What is there at world time 0, and what is not yet.
+/// Lists obstacles at world time 0, and the number of later ones.
 std::string world_text(const World& world) {
   std::size_t resting = 0, moving = 0, later = 0;
   for (const WorldObstacle& o : world.obstacles) {
@@ -96,7 +96,7 @@ std::string world_text(const World& world) {
   return later > 0 ? fmt::format("{}; {} more appear later", text, later) : text;
 }
 
-/// "z 0 to 4 m"
+/// Returns "z 0 to 4 m".
 std::string heights(const Region& region) {
   const Box box = region.bounds();
   return fmt::format("z {:g} to {:g} m", box.min().z(), box.max().z());
@@ -124,7 +124,7 @@ const char* fill_of(const std::string& label) {
   return "fill=\"#7d838c\" fill-opacity=\"0.30\" stroke=\"#7d838c\"";
 }
 
-/// Equal scales; what the flight box leaves open is cut near what there is.
+/// Makes a frame of equal scales. Where the flight box is unbounded, it is cut near the scenario's contents.
 PlotFrame frame_of(const ScenarioView& view) {
   const UavSpec& uav = view.scenario.uav;
   Box box(uav.start);

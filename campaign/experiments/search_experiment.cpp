@@ -25,7 +25,7 @@ namespace {
 constexpr UTime kStart{1'000'000};
 constexpr Duration kPromised{5'000'000};
 constexpr double kNear = 1.0;    // m
-constexpr double kStep = 0.005;  // s, of the measures along the path
+constexpr double kStep = 0.005;  ///< s, between samples of the measures
 
 HorizonRequest request_of(const UavSpec& uav) {
   HorizonRequest request;
@@ -100,7 +100,7 @@ void measure(SearchOutcome& outcome) {
 }  // namespace
 
 const std::vector<SearchCase>& search_cases() {
-  // From rest, J = 6 and four metres: the horizon must take so long, and reach so far, that a detour ends at the goal.
+  // From rest with J = 6 and four metres, the horizon must be long and far enough for a detour to end at the goal.
   static const std::vector<std::string> kHorizon = {"planner.duration_scales=[1.5]", "planner.sphere_radius_m=5",
                                                     "planner.semantic_path=false"};
   const auto with = [](std::vector<std::string> more) {

@@ -10,7 +10,7 @@
 namespace tern {
 namespace {
 
-constexpr double kLambda = 2.0;  // the paper's, 6.2
+constexpr double kLambda = 2.0;  ///< of the paper's section 6.2
 
 const SemanticWorld& world_of(const std::string& scenario) {
   for (const SemanticWorld& world : semantic_worlds()) {

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The numbers of every measure, a row per flight; null: no value.
+/// Returns the values of every measure, a row per flight; null for unknown values.
 Json measures_of(const Flights& flights) {
   const std::vector<ColumnNote> notes = column_notes();
   Json measures = Json::array();
@@ -42,7 +42,7 @@ Json failures_of(const Flights& flights) {
   return failures;
 }
 
-/// JSON inside a script element: no text in it may end that element or begin a comment.
+/// Escapes JSON for a script element: no text in it may end the element or begin a comment.
 std::string inside_a_script(const Json& data) {
   std::string safe;
   for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {

@@ -17,7 +17,7 @@ using Numbers = std::map<std::string, double>;
 
 bool reached(const FlightRecord& r) { return r.result.outcome == FlightOutcome::Reached; }
 
-/// Metres inside and within 1 m of each region, by the name of the row.
+/// Returns the metres inside and within 1 m of each region, by the name of the row.
 Numbers exposure_of(const FlightRecord& r) {
   Numbers metres;
   for (const Exposure& e : r.result.exposure) {
@@ -66,7 +66,7 @@ std::string escaped(const std::string& text, TableForm form) {
   return out;
 }
 
-/// The first row is the head, the first column text.
+/// The first row is the header, and the first column is text.
 std::string table(const std::vector<Row>& rows, TableForm form) {
   const std::size_t columns = rows.front().size();
   if (form == TableForm::Text) {

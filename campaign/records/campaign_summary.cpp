@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Records = std::vector<const FlightRecord*>;
 
-/// Of the numbers to which the member pointers lead, one after the other.
+/// Collects the numbers that a chain of member pointers leads to.
 template <class... Members>
 Distribution over(const Records& records, Members... path) {
   std::vector<double> numbers;
@@ -122,7 +122,7 @@ void add_coverage(CampaignSummary& s, const Records& all) {
   s.coverage = coverage_shares(flights);
 }
 
-/// Six decimals: micrometres, nanoseconds of a time in milliseconds.
+/// Six decimals: micrometres, or nanoseconds of a time in milliseconds.
 Json to_json(const Distribution& d) {
   const auto rounded = [](double x) { return std::round(x * 1e6) / 1e6; };
   return {{"mean", rounded(d.mean)}, {"p50", rounded(d.p50)}, {"p95", rounded(d.p95)},
@@ -168,14 +168,14 @@ Json coverage_json(const CampaignSummary& s) {
   return shares;
 }
 
-/// The interval of the success, or why there is none.
+/// Returns the interval of the success rate, or why there is none.
 std::string in_words(const CampaignSummary& s) {
   if (s.success_ci95)
     return fmt::format(" [{:.2f}, {:.2f}]", 100.0 * s.success_ci95->low, 100.0 * s.success_ci95->high);
   return fmt::format(" (no interval: they are {} different flights)", s.different);
 }
 
-/// How many were audited, and what of those that were not.
+/// Returns how many flights were audited, and with which result.
 std::string audit_line(const CampaignSummary& s) {
   if (s.audits.empty()) return "";
   std::int64_t audited = 0;

@@ -98,7 +98,7 @@ struct Column {
   std::function<bool(const std::string&, FlightRecord&)> read_cell;
 };
 
-/// The column of the field that the member pointers lead to, one after the other.
+/// Makes the column of the field that a chain of member pointers leads to.
 template <class... Members>
 Column column(std::string name, std::string meaning, Compared compared, Members... path) {
   const auto field = [path...](auto& record) -> auto& { return (record.*....*path); };

@@ -19,7 +19,7 @@ tl::unexpected<Error> errno_error(const std::string& path, const char* what) {
   return fail(fmt::format("{}: {}: {}", path, what, std::strerror(errno)));
 }
 
-/// Calls `take` with every record behind the header. @return the bytes of whole lines.
+/// Calls `take` with every record after the header. @return the number of bytes of whole lines.
 template <class Take>
 Result<std::size_t> read_table(const std::string& path, const CsvRecord& columns, const Take& take) {
   const CsvRecords table = parse_csv(read_text(path));
@@ -77,7 +77,8 @@ Result<void> replace_file(const std::string& path, const std::string& text) {
   return {};
 }
 
-/// Holds `path`, which its holder removes at the end: what was opened may be gone when the lock is had.
+/// Locks `path`. The previous holder removes the file at its end, so the opened one may be gone when the lock is
+/// acquired.
 Result<Descriptor> lock(const std::string& path) {
   while (true) {
     Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
@@ -160,7 +161,7 @@ FlightTable::~FlightTable() {
 }
 
 Result<void> FlightTable::add(const FlightRecord& record, const FlightTimes& times) {
-  // Times first: they count only with their flight.
+  // Times first: times without a flight are ignored.
   const auto append = [](const Descriptor& table, const CsvRecord& cells) {
     const std::string line = csv_line(cells);
     return write_all(table.get(), line) == line.size() && fdatasync(table.get()) == 0;

@@ -1,4 +1,4 @@
-// Checks each certificate plane of each plan against recomputed sweeps. Pairs without a plane must be separated by its
+// Checks each certificate plane of each plan against recomputed sweeps. A pair without a plane must be separated by its
 // boxes.
 #include <fmt/format.h>
 

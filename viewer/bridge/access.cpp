@@ -13,7 +13,7 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
   });
 }
 
-/// The name before ":port"; a bracketed IPv6 address holds colons of its own.
+/// Returns the name before ":port"; a bracketed IPv6 address contains colons of its own.
 std::string_view without_port(std::string_view host) {
   const std::size_t colon = host.rfind(':');
   if (colon == std::string_view::npos || host.find(']', colon) != std::string_view::npos) return host;

@@ -10,15 +10,15 @@
 namespace tern {
 namespace {
 
-// tern-export writes all fields of a message, by lcmtypes/. This is what one reads of one thing that was picked: some
-// fields of the newest messages, with what follows from them (speeds, names of stages). Of an obstacle it is all that
-// is known.
+// The inspector's view of one picked object: some fields of its newest messages, and values computed from them, such as
+// speeds and names of stages. For an obstacle it is everything that is known. tern-export writes all fields of a
+// message.
 
 std::string to_text(const MessageName& name) {
   return name.sequence == 0 ? "none" : fmt::format("{} #{}", name.sender_epoch_us, name.sequence);
 }
 
-/// {"channel": …, "name": …, "published_us": …, then what the caller writes; end_object() is the caller's, too.
+/// Begins {"channel": …, "name": …, "published_us": …}. The caller adds fields and calls end_object().
 template <class T>
 JsonWriter& begin_message(JsonWriter& json, const Channel<T>& channel, const T& message) {
   json.begin_object().key("channel").text(channel.name).key("name").text(to_text(message.header.name));

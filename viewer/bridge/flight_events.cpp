@@ -15,7 +15,7 @@ constexpr std::size_t kMaxEvents = 4'000;
 constexpr std::size_t kMaxProcessNames = 64;
 constexpr std::size_t kPasses = 5;
 constexpr double kRise = 0.1;                         ///< m
-constexpr double kFarPass = 2.0;                      ///< m: farther is no pass
+constexpr double kFarPass = 2.0;                      ///< m; a larger clearance is no pass
 constexpr double kRestSpeed = 0.05, kFlySpeed = 0.5;  ///< m/s
 
 }  // namespace

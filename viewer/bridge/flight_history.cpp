@@ -10,7 +10,7 @@ namespace tern {
 namespace {
 
 constexpr Duration kEvery{50'000};
-constexpr Duration kRowEvery{40'000};  ///< answers, 50 ms apart more or less, are all kept
+constexpr Duration kRowEvery{40'000};  ///< answers come about every 50 ms, so all are stored
 constexpr std::size_t kMaxSamples = 432'000;
 constexpr std::size_t kMaxFields = 64;  ///< of one table
 constexpr double kDepartureSpeed = 0.05;
@@ -38,7 +38,7 @@ void collect(const std::string& name, const nlohmann::json& value, NumberFields&
   }
 }
 
-/// Of each stretch of rows the least and the greatest, in order of time.
+/// Returns the rows with the least and the greatest value of each stretch, in order of time.
 std::vector<std::size_t> extremes(const std::vector<float>& values, std::size_t width, std::size_t column,
                                   std::size_t count, std::size_t most) {
   std::vector<std::size_t> kept;

@@ -33,7 +33,8 @@ void Scene::remember_state() {
   if (memory_ == nullptr) return;
   memory_->events.receive(*state_);
   const auto obstacles = clearance(), map = map_clearance();
-  memory_->events.receive_clearance(state_->at, obstacles, map);  // the least may lie where the history is thinned out
+  memory_->events.receive_clearance(state_->at, obstacles,
+                                    map);  ///< before thinning, so the least clearance is not lost
   if (!memory_->history.keeps_row(channels::kUavState.name, state_->at)) return;
   memory_->history.add(*state_);
   remember(channels::kUavState.name, state_->at, numbers_of(detail_json(*this, {})));

@@ -8,11 +8,11 @@
 namespace tern {
 namespace {
 
-/// Points per interval with which curves are drawn.
+/// Points per interval of a drawn curve.
 constexpr int kCurveSamples = 8;
 constexpr char kNothing[] = "null";
 
-/// [x, y, z, speed, …] along the trajectory.
+/// Writes [x, y, z, speed, …] along the trajectory.
 void write_curve(JsonWriter& json, const TimedSpline& trajectory) {
   const ClampedSpline spline = trajectory.spline();
   const int samples = spline.intervals() * kCurveSamples;
@@ -24,7 +24,7 @@ void write_curve(JsonWriter& json, const TimedSpline& trajectory) {
   json.end_list();
 }
 
-/// Four points per interval, one after the other.
+/// Writes the four MINVO points of each interval.
 void write_minvo(JsonWriter& json, const TimedSpline& trajectory) {
   const ClampedSpline spline = trajectory.spline();
   json.begin_list();
@@ -51,7 +51,7 @@ void write_planes(JsonWriter& json, const Plan& plan, UTime t_s) {
   json.end_list();
 }
 
-/// A list of what `write` says of each, under its name.
+/// Writes a list under a name, with `write` for each element.
 template <class T, class Write>
 void write_column(JsonWriter& json, const char* name, const std::vector<T>& all, const Write& write) {
   json.key(name).begin_list();
@@ -126,7 +126,7 @@ std::string plan_json(const Scene& scene, bool planes) {
   json.key("radius").number(plan.sphere_radius).key("cost").number(plan.cost.total);
   json.key("certificate").integer(static_cast<std::int64_t>(plan.certificate.size()));
   if (plan.outcome != PlanOutcome::NoPlan) write_trajectory(json, plan.trajectory);
-  // A plan that is kept is placed by the request; without it, by its beginning.
+  // The planes of KeepCommitted are placed by the request's t_s; without the request, by the plan's start.
   const bool has_request = scene.request() && scene.request()->id == plan.request_id;
   if (planes && plan.outcome != PlanOutcome::NoPlan) {
     json.key("planes");
@@ -209,7 +209,7 @@ std::string goal_json(const Scene& scene) {
   const Goal& goal = *scene.goal();
   JsonWriter json;
   json.begin_object().key("id").integer(goal.id).key("mode").text(to_string(goal.mode));
-  if (goal.mode == GoalMode::Go) json.key("p").vec3(goal.position);  // the others name no place
+  if (goal.mode == GoalMode::Go) json.key("p").vec3(goal.position);  ///< other modes have no position
   return json.end_object().take();
 }
 

@@ -6,7 +6,7 @@
 namespace tern {
 namespace {
 
-/// Hulls are of what may come as near as this to the plan, m. At most so many at a time (about 10 ms of work).
+/// Hulls are drawn for tracks within this distance of the plan, m; at most kMaxHulls (about 10 ms of work).
 constexpr double kHullReach = 2.0;
 constexpr int kMaxHulls = 240;
 

@@ -53,7 +53,7 @@ Labels coarsened(const VoxelMap& map, int factor) {
   return coarse;
 }
 
-/// The faces of one layer of voxels that look one way, u along the first other axis, v along the second.
+/// The faces of one layer of voxels with one orientation; u along the first other axis, v along the second.
 struct Layer {
   int axis, direction, depth, width, height;
   std::vector<VoxelLabel> mask;  ///< Unknown: no face
@@ -86,7 +86,7 @@ Layer exposed(const Labels& labels, int direction, int depth) {
   return layer;
 }
 
-/// Takes rectangles out of the layer: as wide as the run, then as high as the run goes on.
+/// Removes rectangles from the layer: as wide as the run, then as high as the run repeats.
 void join(Layer& layer, std::vector<VoxelFace>& faces) {
   for (int v = 0; v < layer.height; ++v) {
     for (int u = 0; u < layer.width; ++u) {

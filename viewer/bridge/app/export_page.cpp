@@ -29,7 +29,7 @@ std::string base64(const std::string& bytes) {
   return std::string(Digits(bytes.begin()), Digits(bytes.end())) + std::string((3 - bytes.size() % 3) % 3, '=');
 }
 
-/// Puts `text` where the element stands that refers to a file; nothing where none does.
+/// Replaces the element that refers to a file by `text`; without such an element, the text is unchanged.
 void put_for(std::string& html, const std::string& file, const std::string& end, const std::string& text) {
   const std::size_t at = html.find("\"." + file + "\"");
   if (at == std::string::npos) return;
@@ -37,7 +37,7 @@ void put_for(std::string& html, const std::string& file, const std::string& end,
   html.replace(begin, stop - begin, text);
 }
 
-/// How often a topic is kept at most.
+/// Shortest interval between stored texts of a topic.
 Duration spacing(Topic topic) {
   switch (topic) {
     case Topic::Truth: return Duration{100'000};
@@ -48,7 +48,7 @@ Duration spacing(Topic topic) {
   }
 }
 
-/// What the page was told on one topic, and when.
+/// One text of a topic, and its time.
 struct Row {
   std::vector<UTime> at;
   std::vector<std::string> json;

@@ -23,9 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How ffmpeg reads pictures at so many per second, which follow.
+/// Options of ffmpeg to read pictures at a rate, which follows.
 const std::vector<const char*> kPictures = {"-loglevel", "error", "-y", "-f", "image2pipe", "-framerate"};
-/// How ffmpeg writes them. An animation begins again at its end.
+/// Options of ffmpeg to write the film. An animation repeats.
 const std::vector<const char*> kFilm = {"-pix_fmt", "yuv420p", "-movflags", "+faststart"};
 const std::vector<const char*> kAnimation = {"-c:v", "libwebp_anim",       "-loop", "0", "-quality",
                                              "55",   "-compression_level", "6"};
@@ -41,7 +41,7 @@ bool is_installed(const std::string& name) {
   return end.signal == 0 && end.exit_code == 0;
 }
 
-/// A folder of its own, which goes with it.
+/// A temporary folder; the destructor deletes it.
 struct Workplace {
   Workplace() {
     std::string name = (fs::temp_directory_path() / "tern-film-XXXXXX").string();
@@ -55,7 +55,7 @@ struct Workplace {
   fs::path folder;
 };
 
-/// ffmpeg, which reads pictures from a pipe.
+/// ffmpeg, reading pictures from a pipe.
 class Encoder {
  public:
   Encoder(const std::string& file, int pictures_per_s) {

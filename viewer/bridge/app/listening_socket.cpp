@@ -42,7 +42,7 @@ std::optional<Address> make_address(const std::string& host, int port) {
   return std::nullopt;
 }
 
-/// @return the socket, or −1 with errno.
+/// Opens a listening socket. @return the socket, or −1 with errno set.
 int try_listen(Address address, bool inheritable) {
   const int fd = socket(address.storage.ss_family, SOCK_STREAM | (inheritable ? 0 : SOCK_CLOEXEC), 0);
   if (fd < 0) return -1;

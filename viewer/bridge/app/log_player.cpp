@@ -13,11 +13,11 @@
 namespace tern {
 namespace {
 
-/// A damaged or foreign log may name any number; the page shows eleven.
+/// Limit of channels, since a damaged or foreign log may name any number. The page shows eleven.
 constexpr std::size_t kMaxChannels = 256;
 
-/// How many of a channel's newest messages a jump needs, so that a complete set, every process or the request of the
-/// newest answer is among them.
+/// Number of a channel's newest messages that a jump reads. They contain a complete set, every process, and the request
+/// of the newest answer.
 std::size_t messages_needed(std::string_view channel) {
   if (channel == channels::kObstacleTruth.name || channel == channels::kPredictions.name)
     return 2 * std::size_t{kMaxBatches};
@@ -26,7 +26,7 @@ std::size_t messages_needed(std::string_view channel) {
   return 1;
 }
 
-/// What charts, path and timeline of the whole flight are drawn from.
+/// The channels of charts, path and timeline.
 bool is_remembered(std::string_view channel) {
   constexpr std::tuple kRemembered{channels::kUavState,  channels::kObstacleTruth, channels::kHorizonRequest,
                                    channels::kPlan,      channels::kPlanTiming,    channels::kGoal,
@@ -35,13 +35,13 @@ bool is_remembered(std::string_view channel) {
       channel, [](const auto&) {}, kRemembered);
 }
 
-/// Adds what one file of the log holds.
+/// Adds the entries of one file of the log.
 Result<LogDamage> index_part(const std::string& path, std::int32_t part, const std::string& suffix, LogIndex& index) {
   auto reader = LogReader::open(path);
   if (!reader) return fail(reader.error().message);
   std::int64_t bytes_of_events = 0;
   while (const auto event = reader->next()) {
-    // The file is nothing but events and what the reader left out.
+    // Offsets follow from the sizes of the events and the bytes that the reader skipped.
     const auto data_bytes = static_cast<std::int64_t>(event->data.size());
     bytes_of_events += static_cast<std::int64_t>(kLogHeadBytes + event->channel.size()) + data_bytes;
     if (data_bytes > kMaxMessageBytes || !event->channel.ends_with(suffix)) continue;
@@ -189,7 +189,7 @@ const std::vector<std::uint8_t>& LogPlayer::read(const LogIndex::Entry& entry) {
   file.clear();
   file.seekg(entry.offset);
   file.read(reinterpret_cast<char*>(buffer_.data()), entry.bytes);
-  if (!file) buffer_.clear();  // the file was cut since; the decoder refuses what is empty
+  if (!file) buffer_.clear();  ///< the file was truncated meanwhile; the decoder refuses an empty message
   return buffer_;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using namespace channels;
 
-/// What the page shows.
+/// The channels that the page shows.
 constexpr std::tuple kShown{kUavState,   kObstacleTruth, kPredictions, kHorizonRequest, kPlan,      kPlanTiming,
                             kSearchView, kSemanticMap,   kGoal,        kFlightResult,   kHeartbeat, kConfiguration};
 

@@ -19,7 +19,7 @@ namespace tern {
 namespace {
 
 constexpr Duration kStepPeriod{33'000};
-/// How often a topic is told at most.
+/// Shortest interval between two texts of a topic.
 Duration period(Topic topic) {
   switch (topic) {
     case Topic::Tracks:
@@ -133,7 +133,7 @@ void ViewerNode::execute(std::int64_t, const SeekCommand& seek, UTime) {
   if (player_) jump_to_ = UTime{seek.at_us};
 }
 
-/// Who scrubs asks for more places than are shown: the last one counts.
+/// Stores the place to jump to. While the user scrubs, more places are asked for than shown; the last one is used.
 void ViewerNode::jump() {
   if (jump_to_) player_->seek(*jump_to_, scene_, intake_);
   jump_to_.reset();

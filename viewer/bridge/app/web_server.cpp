@@ -38,7 +38,7 @@ constexpr unsigned kMaxBodyBytes = 1024;
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// The n of {"seen":n}, which is by far the most of what pages say.
+/// Returns the n of {"seen":n}, by far the most frequent message of a page.
 std::optional<std::int64_t> seen_frame(std::string_view text) {
   constexpr std::string_view kHead = R"({"seen":)";
   if (!text.starts_with(kHead) || !text.ends_with('}')) return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<std::int64_t> seen_frame(std::string_view text) {
 
 class Stream;
 
-/// What connections share. All but the inbox belongs to the server's thread.
+/// The state that connections share. Everything except the inbox belongs to the server's thread.
 struct Shared {
   PageFiles files;
   Access access;
@@ -59,7 +59,7 @@ struct Shared {
   std::int64_t last_client = 0;
   int connections = 0;
 
-  mutable std::mutex mutex;  ///< guards what follows
+  mutable std::mutex mutex;  ///< guards the members below
   std::vector<ClientCommand> inbox;
   std::vector<std::int64_t> clients;
   WebCounters counters;
@@ -70,7 +70,7 @@ struct Shared {
   }
 };
 
-/// One page that looks.
+/// The stream to one page.
 class Stream : public std::enable_shared_from_this<Stream> {
  public:
   Stream(Shared& shared, beast::tcp_stream socket) : shared_(shared), socket_(std::move(socket)) {}
@@ -164,7 +164,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
   bool writing_ = false;
 };
 
-/// One connection, until it becomes a stream.
+/// One HTTP connection, until it becomes a stream.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Shared& shared, tcp::socket socket) : shared_(shared), socket_(std::move(socket)) {
