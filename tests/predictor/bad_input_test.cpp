@@ -77,18 +77,18 @@ class BadInput : public ::testing::Test {
 
   /// The share of sets made in [from, to) in which at least one track covers the obstacle for the next `ahead` seconds.
   [[nodiscard]] double held(const Path& truth, double from, double to, double ahead) const {
-    int all = 0, kept = 0;
+    int all = 0, covered = 0;
     for (const TrackSet& set : sets_) {
       const double made = (set.made_at - begin_).seconds();
       if (made < from || made >= to) continue;
       ++all;
-      kept += std::any_of(set.tracks.begin(), set.tracks.end(), [&](const Track& track) {
-        return testing::keeps_promise(
+      covered += std::any_of(set.tracks.begin(), set.tracks.end(), [&](const Track& track) {
+        return testing::covers(
             track, [&](double t) { return truth(t - (begin_ - UTime{}).seconds()); }, ahead);
       });
     }
     EXPECT_GT(all, 0);
-    return static_cast<double>(kept) / all;
+    return static_cast<double>(covered) / all;
   }
   /// The most tracks of a set made in [from, to).
   [[nodiscard]] std::size_t most_tracks(double from, double to) const {

@@ -1,4 +1,4 @@
-// Margins and levels of the conformal calibration, against slow oracles and its long-run promise.
+// Margins and levels of the conformal calibration, against slow oracles, and its miss rate in the long run.
 #include "predictor/tracking/calibration.h"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST(Calibration, PredictionsMadeUnderAnotherPriorLeaveThetaAsItIs) {
     margins[made_under == SceneSpeed::Slow ? 1 : 0] = calibration.margins(TrackClass::New);
   }
   for (std::size_t level = 1; level < kConfidenceLevels.size(); ++level) {
-    EXPECT_LT(margins[1][level][1], margins[0][level][1]) << "none was broken, so less will do";
+    EXPECT_LT(margins[1][level][1], margins[0][level][1]) << "none missed, so a smaller margin will do";
   }
 }
 
@@ -129,9 +129,9 @@ TEST(Calibration, MissesTheAllowedShareAtEachLevelForAnyDistribution) {
   for (const double scale : {0.1, 8.0}) {
     Rng rng(3);
     Calibration calibration(0.99);
-    constexpr int kPromises = 8'000, kLearning = 2'000;
+    constexpr int kPredictions = 8'000, kLearning = 2'000;
     std::array<std::array<int, kBands>, kLevels> missed{};
-    for (int promise = 0; promise < kPromises; ++promise) {
+    for (int prediction = 0; prediction < kPredictions; ++prediction) {
       const PerLevel margins = calibration.margins(TrackClass::CalmOld);
       std::array<bool, kLevels> out{};
       double q = 0.0;
@@ -139,7 +139,7 @@ TEST(Calibration, MissesTheAllowedShareAtEachLevelForAnyDistribution) {
         q = 0.5 * q + scale * kBandEnds[band] * rng.normal();
         for (std::size_t level = 0; level < out.size(); ++level) {
           out[level] = out[level] || q > margins[level][band];
-          missed[level][band] += promise >= kLearning && out[level] ? 1 : 0;
+          missed[level][band] += prediction >= kLearning && out[level] ? 1 : 0;
         }
         calibration.add(TrackClass::CalmOld, band, static_cast<float>(q), out, SceneSpeed::Any);
       }
@@ -148,10 +148,10 @@ TEST(Calibration, MissesTheAllowedShareAtEachLevelForAnyDistribution) {
     for (std::size_t level = 0; level < kConfidenceLevels.size(); ++level) {
       EXPECT_LE(calibration.allowed(level, kBands - 1), 1.0 - kConfidenceLevels[level] + 1e-12);
       for (std::size_t band = 0; band < kBands; ++band) {
-        const double share = static_cast<double>(missed[level][band]) / (kPromises - kLearning);
+        const double share = static_cast<double>(missed[level][band]) / (kPredictions - kLearning);
         // Four standard deviations of that many independent misses.
         const double allowed = calibration.allowed(level, band);
-        const double deviation = std::sqrt((1.0 - allowed) / (allowed * (kPromises - kLearning)));
+        const double deviation = std::sqrt((1.0 - allowed) / (allowed * (kPredictions - kLearning)));
         EXPECT_NEAR(share / allowed, 1.0, 4.0 * deviation) << scale << ", " << level << ", " << band;
       }
     }

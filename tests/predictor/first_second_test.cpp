@@ -33,7 +33,7 @@ Path at_place(int place, double t) {
 /// By age, in steps of kAges.
 struct OfAges {
   static constexpr double kAges = 0.2;  // s
-  std::array<int, 4> kept{}, promises{};
+  std::array<int, 4> covered{}, intervals{};
 };
 
 // Of the swinging obstacles, over kUntil.
@@ -52,11 +52,11 @@ void follow_places(std::uint64_t seed, double horizon_s, OfAges& sum) {
     for (const TrackedObject& object : tracker.objects()) {
       const auto place = static_cast<int>(std::lround(object.position.x() / 20.0));
       const auto bin = static_cast<std::size_t>((object.last_seen - object.born).seconds() / OfAges::kAges);
-      if (place % 2 == 1 || object.last_seen != tracker.newest() || bin >= sum.kept.size()) continue;
+      if (place % 2 == 1 || object.last_seen != tracker.newest() || bin >= sum.covered.size()) continue;
       for (const Track& track : tracks) {
         if (track.id != object.id) continue;
-        ++sum.promises[bin];
-        sum.kept[bin] += testing::keeps_promise(track, at_place(place, t), horizon_s) ? 1 : 0;
+        ++sum.intervals[bin];
+        sum.covered[bin] += testing::covers(track, at_place(place, t), horizon_s) ? 1 : 0;
       }
     }
   }
@@ -66,23 +66,24 @@ TEST(FirstSecond, CoversFastTracksAmongStationaryOnes) {
   constexpr double kHorizon = 0.5;
   OfAges sum;
   for (std::uint64_t seed = 17; seed < 20; ++seed) follow_places(seed, kHorizon, sum);
-  for (std::size_t bin = 0; bin < sum.kept.size(); ++bin) {
-    EXPECT_GT(sum.promises[bin], 600) << bin;
-    EXPECT_GE(sum.kept[bin], 0.985 * sum.promises[bin]) << "from " << OfAges::kAges * static_cast<double>(bin)
-                                                        << " s on: " << sum.kept[bin] << " of " << sum.promises[bin];
+  for (std::size_t bin = 0; bin < sum.covered.size(); ++bin) {
+    EXPECT_GT(sum.intervals[bin], 600) << bin;
+    EXPECT_GE(sum.covered[bin], 0.985 * sum.intervals[bin])
+        << "from " << OfAges::kAges * static_cast<double>(bin) << " s on: " << sum.covered[bin] << " of "
+        << sum.intervals[bin];
   }
 }
 
 /// Counts the tracks of a set that are covered at each level for `ahead` seconds, by the obstacles of their ids.
-void count_kept(const std::vector<Track>& tracks, const std::vector<Path>& movers, double ahead,
-                std::array<int, kLevels>& kept, int& promises) {
+void count_covered(const std::vector<Track>& tracks, const std::vector<Path>& movers, double ahead,
+                   std::array<int, kLevels>& covered, int& intervals) {
   for (const Track& track : tracks) {
-    ++promises;
+    ++intervals;
     for (int level = 0; level < kLevels; ++level) {
       Track at_level = track;
       for (std::size_t k = 0; k < track.alpha.size(); ++k) at_level.alpha[k] *= track.share_at(k, level);
       const Path& truth = movers.at(static_cast<std::size_t>(track.id));
-      kept.at(static_cast<std::size_t>(level)) += testing::keeps_promise(at_level, truth, ahead) ? 1 : 0;
+      covered.at(static_cast<std::size_t>(level)) += testing::covers(at_level, truth, ahead) ? 1 : 0;
     }
   }
 }
@@ -112,8 +113,8 @@ TEST(FirstSecond, NewTracksHaveNarrowMarginsInASlowSceneUntilAFastOneAppears) {
 TEST(FirstSecond, CoversAsStatedAtEachConfidenceFromTheFirstPredictionsOn) {
   constexpr int kFlights = 40, kMovers = 25;
   for (const int frames : {2, 3, 4, 6}) {
-    std::array<int, kLevels> kept{};
-    int promises = 0;
+    std::array<int, kLevels> covered{};
+    int intervals = 0;
     for (int flight = 0; flight < kFlights; ++flight) {
       Rng rng(static_cast<std::uint64_t>(flight));
       std::vector<Path> movers;
@@ -129,10 +130,10 @@ TEST(FirstSecond, CoversAsStatedAtEachConfidenceFromTheFirstPredictionsOn) {
         }
         tracker.update(testing::observations_at(frame / kRate, std::move(seen)));
       }
-      count_kept(tracker.predict(at_seconds(frames / kRate)), movers, 2.0, kept, promises);
+      count_covered(tracker.predict(at_seconds(frames / kRate)), movers, 2.0, covered, intervals);
     }
     for (int level = 0; level < kLevels; ++level) {
-      const double share = static_cast<double>(kept.at(static_cast<std::size_t>(level))) / promises;
+      const double share = static_cast<double>(covered.at(static_cast<std::size_t>(level))) / intervals;
       EXPECT_GE(share, confidence_at(0.99, level)) << "after " << frames << " frames";
       RecordProperty("kept_" + std::to_string(frames) + "_" + std::to_string(level), std::to_string(share));
     }

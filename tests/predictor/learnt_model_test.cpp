@@ -276,7 +276,7 @@ TEST(LearntWeights, FadeBeyondTheLearntHorizonAndAlwaysSumToOne) {
 
 struct Outcome {
   double mean_half = 0.0, rms = 0.0;  // at kAhead, m
-  int kept = 0, promises = 0;
+  int covered = 0, intervals = 0;
   int learnt = 0;  // predictions of the learnt class
 };
 
@@ -301,8 +301,8 @@ Outcome follow(const std::vector<Path>& paths, bool learns, double seconds) {
       const Vec3 start = track.motion.sample(track.motion.start).p;
       const auto which = static_cast<std::size_t>(std::lround(start.x() / kApart));
       const UTime then = track.motion.start + Duration::from_seconds(kAhead);
-      ++outcome.promises;
-      outcome.kept += testing::keeps_promise(track, paths.at(which), kAhead) ? 1 : 0;
+      ++outcome.intervals;
+      outcome.covered += testing::covers(track, paths.at(which), kAhead) ? 1 : 0;
       squares += (track.motion.sample(then).p - paths.at(which)(t + kAhead)).squaredNorm();
       half += track.alpha[track.motion.locate(then).index].mean();
     }
@@ -310,8 +310,8 @@ Outcome follow(const std::vector<Path>& paths, bool learns, double seconds) {
       outcome.learnt += tracker.assessment(object).kind == TrackClass::Learnt ? 1 : 0;
     }
   }
-  outcome.rms = std::sqrt(squares / outcome.promises);
-  outcome.mean_half = half / outcome.promises;
+  outcome.rms = std::sqrt(squares / outcome.intervals);
+  outcome.mean_half = half / outcome.intervals;
   return outcome;
 }
 
@@ -334,10 +334,10 @@ TEST(LearntTracks, CirclingTracksArePredictedFarBetterAndCovered) {
   const std::vector<Path> paths = going_round(8);
   const Outcome given = follow(paths, false, 20.0), learnt = follow(paths, true, 20.0);
   EXPECT_EQ(given.learnt, 0);
-  EXPECT_GT(learnt.learnt, learnt.promises / 2);
+  EXPECT_GT(learnt.learnt, learnt.intervals / 2);
   EXPECT_LT(learnt.rms, 0.3 * given.rms);
   EXPECT_LT(learnt.mean_half, 0.5 * given.mean_half);
-  EXPECT_GT(testing::wilson(learnt.kept, learnt.promises).high, 0.99);
+  EXPECT_GT(testing::wilson(learnt.covered, learnt.intervals).high, 0.99);
 }
 
 TEST(LearntTracks, WithoutACommonLawTheBankPredictsAsWellAsBefore) {
@@ -348,7 +348,7 @@ TEST(LearntTracks, WithoutACommonLawTheBankPredictsAsWellAsBefore) {
   }
   const Outcome given = follow(paths, false, 20.0), learnt = follow(paths, true, 20.0);
   EXPECT_LT(learnt.rms, 1.1 * given.rms);
-  EXPECT_GT(testing::wilson(learnt.kept, learnt.promises).high, 0.99);
+  EXPECT_GT(testing::wilson(learnt.covered, learnt.intervals).high, 0.99);
 }
 
 TEST(LearntTracks, AnUnseenTrackIsPredictedFromItsLastDetection) {

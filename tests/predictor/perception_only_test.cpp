@@ -20,7 +20,7 @@ constexpr double kSurelySeen = 6.0;    // m: obstacles this near have been in ra
 constexpr double kSameObstacle = 1.0;  // m: a track belongs to the nearest obstacle within this distance
 
 struct Tally {
-  int kept = 0, tracks = 0;          // tracks that were covered over all pieces
+  int covered = 0, tracks = 0;       // tracks that were covered over all pieces
   int contained = 0, obstacles = 0;  // near obstacles whose centre some track's region contained
 };
 
@@ -37,10 +37,10 @@ void count(const World& world, const std::vector<Track>& tracks, const Vec3& eye
     const WorldObstacle& obstacle = nearest(world, p, t);
     if ((obstacle.at(t).p - p).norm() > kSameObstacle) continue;
     ++tally.tracks;
-    tally.kept += testing::keeps_promise(
-                      track, [&](double s) { return obstacle.at(s).p; }, horizon)
-                      ? 1
-                      : 0;
+    tally.covered += testing::covers(
+                         track, [&](double s) { return obstacle.at(s).p; }, horizon)
+                         ? 1
+                         : 0;
   }
   for (const WorldObstacle& obstacle : world.obstacles) {
     const Vec3 p = obstacle.at(t).p;
@@ -82,9 +82,10 @@ TEST(PerceptionOnly, CoversInWorldsThatMoveDifferently) {
   for (const auto& [generator, obstacles, least] :
        {std::tuple{"sando_forest", 200, 0.99}, std::tuple{"paper_corridor", 100, 0.97}}) {
     const Tally tally = fly(generator, obstacles, TrackerConfig{});
-    RecordProperty(generator, std::to_string(share(tally.kept, tally.tracks)));
+    RecordProperty(generator, std::to_string(share(tally.covered, tally.tracks)));
     EXPECT_GT(tally.tracks, 1000);
-    EXPECT_GE(share(tally.kept, tally.tracks), least) << generator << ": " << tally.kept << " of " << tally.tracks;
+    EXPECT_GE(share(tally.covered, tally.tracks), least)
+        << generator << ": " << tally.covered << " of " << tally.tracks;
     EXPECT_GE(share(tally.contained, tally.obstacles), 0.999) << tally.contained << " of " << tally.obstacles;
   }
 }

@@ -67,7 +67,7 @@ inline ObservationSet observations_at(double t, std::vector<Detection> detection
 }
 
 /// True if the interval covers up to `horizon` seconds after its start, checked every 10 ms.
-inline bool keeps_promise(const Track& track, const Path& truth, double horizon) {
+inline bool covers(const Track& track, const Path& truth, double horizon) {
   for (double t = 0.0; t <= horizon; t += 0.01) {
     const UTime now = track.motion.start + Duration::from_seconds(t);
     const PiecewiseCubic::Located piece = track.motion.locate(now);

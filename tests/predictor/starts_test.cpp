@@ -27,18 +27,18 @@ struct Parked {
   }
 };
 
-struct Kept {
-  int kept = 0, promises = 0;
+struct CoveredCount {
+  int covered = 0, intervals = 0;
   double largest_alpha = 0.0;  // of the last set
-  [[nodiscard]] double share() const { return static_cast<double>(kept) / promises; }
+  [[nodiscard]] double share() const { return static_cast<double>(covered) / intervals; }
 };
 
 /// Feeds detections at 30 Hz, 50 ms late, with noise. Counts whole intervals of stationary tracks in 20 sets a second;
 /// a track that was seen too briefly is not stationary yet.
-Kept watch(const std::vector<Parked>& boxes, double until_s, const TrackerConfig& config = {}) {
+CoveredCount watch(const std::vector<Parked>& boxes, double until_s, const TrackerConfig& config = {}) {
   Rng rng(3);
   Tracker tracker(config);
-  Kept kept;
+  CoveredCount covered;
   int sets = 0;
   for (int frame = 0; frame < static_cast<int>(30.0 * until_s); ++frame) {
     const double t = frame / 30.0;
@@ -49,25 +49,25 @@ Kept watch(const std::vector<Parked>& boxes, double until_s, const TrackerConfig
     }
     tracker.update(testing::observations_at(t, std::move(seen)));
     for (double now = t + 0.05; sets * 0.05 <= now - 1.0 / 30.0; ++sets) {
-      kept.largest_alpha = 0.0;
+      covered.largest_alpha = 0.0;
       for (const Track& track : tracker.predict(at_seconds(now))) {
-        for (const Vec3& alpha : track.alpha) kept.largest_alpha = std::max(kept.largest_alpha, alpha.maxCoeff());
+        for (const Vec3& alpha : track.alpha) covered.largest_alpha = std::max(covered.largest_alpha, alpha.maxCoeff());
         const auto object = std::find_if(tracker.objects().begin(), tracker.objects().end(),
                                          [&](const TrackedObject& o) { return o.id == track.id; });
         if (!tracker.is_stationary(*object)) continue;
         const Vec3 p = track.motion.sample(track.motion.start).p;
         for (const Parked& box : boxes) {
           if (std::abs(p.x() - box.place.x()) > 5.0 || now >= box.end_s) continue;
-          ++kept.promises;
-          kept.kept += testing::keeps_promise(
-                           track, [&](double s) { return box.at(s); }, 4.5)
-                           ? 1
-                           : 0;
+          ++covered.intervals;
+          covered.covered += testing::covers(
+                                 track, [&](double s) { return box.at(s); }, 4.5)
+                                 ? 1
+                                 : 0;
         }
       }
     }
   }
-  return kept;
+  return covered;
 }
 
 /// One after the other, each seen at rest for 0.9 to 4 s.
@@ -97,15 +97,15 @@ std::vector<Parked> pillars(int boxes) {
 
 TEST(Starts, AreCoveredAsStated) {
   for (const double acceleration : {0.0, 20.0, 3.0}) {
-    const Kept kept = watch(that_start(40, acceleration), 34.0);
-    EXPECT_GE(kept.share(), 0.99) << acceleration << ": " << kept.kept << " of " << kept.promises;
-    RecordProperty("share", std::to_string(kept.share()));
+    const CoveredCount covered = watch(that_start(40, acceleration), 34.0);
+    EXPECT_GE(covered.share(), 0.99) << acceleration << ": " << covered.covered << " of " << covered.intervals;
+    RecordProperty("share", std::to_string(covered.share()));
   }
 }
 
 TEST(Starts, AreNotExpectedOfAWallThatWasSeenAtRestForLong) {
   EXPECT_GT(watch(pillars(20), 2.0).largest_alpha, 5.0) << "who knows";
-  const Kept stood = watch(pillars(20), 60.0);
+  const CoveredCount stood = watch(pillars(20), 60.0);
   EXPECT_LT(stood.largest_alpha, 0.6) << "1200 s of rest without a start";
   EXPECT_GE(stood.share(), 0.999);
 }

@@ -45,7 +45,7 @@ double feed(Tracker& tracker, const std::vector<Path>& paths, double from, doubl
 }
 
 // How often one prediction per seed covers over the horizon.
-int kept(int seeds, const TrackerConfig& config, const std::function<Path(Rng&)>& make) {
+int covered(int seeds, const TrackerConfig& config, const std::function<Path(Rng&)>& make) {
   int hits = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
     Rng rng(static_cast<std::uint64_t>(seed));
@@ -54,7 +54,7 @@ int kept(int seeds, const TrackerConfig& config, const std::function<Path(Rng&)>
     const double t = feed(tracker, {path}, 0.0, 1.5, rng, 0.05);
     const std::vector<Track> tracks = tracker.predict(at_seconds(t + kLatency));
     EXPECT_EQ(tracks.size(), 1u) << "seed " << seed;
-    if (!tracks.empty() && testing::keeps_promise(tracks.front(), path, config.prediction.horizon.seconds())) ++hits;
+    if (!tracks.empty() && testing::covers(tracks.front(), path, config.prediction.horizon.seconds())) ++hits;
   }
   return hits;
 }
@@ -100,7 +100,7 @@ TEST(TrackerCoverage, CoversMotionsThatNoModelWasMadeFor) {
          return testing::trefoil(Vec3::Zero(), k, rng.uniform(4, 6), rng.uniform(0, 3));
        }}};
   for (const auto& [name, make] : motions) {
-    const int hits = kept(kSeeds, TrackerConfig{}, make);
+    const int hits = covered(kSeeds, TrackerConfig{}, make);
     RecordProperty(name, hits);
     EXPECT_GE(testing::wilson(hits, kSeeds).low, 0.99) << name << ": " << hits << " of " << kSeeds;
   }
@@ -180,7 +180,7 @@ TEST(Tracker, GivesUpRestWhenItEnds) {
   const std::vector<Track> tracks = tracker.predict(at_seconds(t));
   ASSERT_EQ(tracks.size(), 1u);
   EXPECT_NEAR(tracks[0].motion.sample(at_seconds(t)).v.x(), 1.0, 0.4);
-  EXPECT_TRUE(testing::keeps_promise(tracks[0], path, 4.5));
+  EXPECT_TRUE(testing::covers(tracks[0], path, 4.5));
 }
 
 TEST(Tracker, KeepsIdentitiesWhereTracksCross) {
@@ -237,7 +237,7 @@ TEST(Tracker, PublishesANewTrackAtOnceWithTheReachOfItsSpeed) {
     tracker.update(observations_at(0.0, {detection_of(path(0.0), kNoise, rng)}));
     const std::vector<Track> tracks = tracker.predict(at_seconds(kLatency));
     ASSERT_EQ(tracks.size(), 1u);
-    EXPECT_TRUE(testing::keeps_promise(tracks[0], path, 1.0)) << path(1.0).transpose();
+    EXPECT_TRUE(testing::covers(tracks[0], path, 1.0)) << path(1.0).transpose();
     const std::size_t second = tracks[0].motion.locate(at_seconds(1.0)).index;
     EXPECT_LT(tracks[0].alpha[second].maxCoeff(), 1.0 + 5.0 * 1.3) << "no more than it can reach";
   }
@@ -502,7 +502,7 @@ TEST(Tracker, TakesObservationsOutOfOrderAsIfInOrder) {
   const std::vector<Track> a = in_order.predict(now), b = out_of_order.predict(now);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].alpha, b[i].alpha) << "calibrated by the same promises";
+    EXPECT_EQ(a[i].alpha, b[i].alpha) << "calibrated by the same predictions";
     EXPECT_EQ(a[i].shares, b[i].shares);
   }
   EXPECT_EQ(out_of_order.update(observations_at(1.0, {})), UpdateOutcome::TooOld);
