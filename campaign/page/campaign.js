@@ -1,4 +1,4 @@
-// The page of a campaign: tiles, a histogram per measure, a table of what failed.
+// The page of a campaign: tiles, a histogram per measure, a table of failed flights.
 const s = data.summary;
 const short = (x) => (x == null ? "–" : x === 0 || (Math.abs(x) >= 0.01 && Math.abs(x) < 1e5) ? String(Number(x.toPrecision(4))) : x.toExponential(2));
 const share = (x) => (100 * x).toFixed(1);

@@ -1,7 +1,7 @@
-// What happened over time.
+// Charts over time.
 const sync = uPlot.sync("flight");
 const span = [Math.min(path.t[0] ?? 0, answers.t[0] ?? 0), Math.max(path.t[path.t.length - 1] ?? 1, answers.t[answers.t.length - 1] ?? 1)];
-/** ages: x is not the flight's time */
+/** ages: x is the age of a track, not the flight's time */
 function chart(parent, { height = 210, columns, series, range, axis = {}, hooks = {}, ages = false }) {
   const holder = parent.appendChild(el("div"));
   let plot = null;
@@ -49,7 +49,7 @@ function motion() {
     });
   }
 }
-/** Where the vehicle was in its tube. One that is perfect has none. */
+/** The tracking error in its tube. A perfect vehicle has none. */
 function tracking() {
   const { tube_m: widest, tracking_error_m: largest } = check("tube").measures;
   if (!(widest > 0 || largest > 1e-3)) return;
@@ -85,7 +85,7 @@ function clearances() {
 }
 function replanning() {
   const shared = answers.share > 1 ? ` A point stands for ${answers.share} answers: the slowest of them.` : "";
-  // A deadline far above all answers would leave nothing to see of them: then it is told, not drawn.
+  // A deadline far above all answers would flatten the chart: then it is a text.
   const slowest = most(answers.total), shortest = least(answers.deadline);
   const above = slowest > 0 && slowest < 0.3 * shortest;
   const deadline = above ? `The deadline, ${fixed(shortest, 0)} ms after each request, lies above the chart: the slowest answer took ${percent(slowest / shortest, 0)} of it.` : "Dashed: the time until its deadline.";

@@ -1,4 +1,4 @@
-// How often predictions were kept: tables by class, horizon and confidence; charts by the age of a track.
+// Coverage of predictions: tables by class, horizon and confidence; charts by the age of a track.
 function keptOf(share) {
   if (!share) return "";
   const words = `${whole(share.kept)} of ${whole(share.made)}, of ${share.obstacles} obstacles: ${fixed(share.low, 3)} to ${fixed(share.high, 3)}; ${share.promised} promised`;

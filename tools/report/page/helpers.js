@@ -1,4 +1,4 @@
-// What the pages of a flight and of a campaign are made with. A report is one function of these parts, in this order:
+// Common parts of the pages of a flight and of a campaign. A report is one function of these files, in this order:
 // helpers, map, charts, coverage, report.
 const data = JSON.parse(document.getElementById("data").textContent);
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
@@ -30,7 +30,7 @@ const table = (parent, columns, rows) => {
   const body = rows.map((row) => el("tr", {}, ...row.map((cell, k) => el("td", columns[k][1] ? { class: "n" } : {}, cell))));
   parent.append(el("div", { class: "scroll" }, el("table", {}, el("thead", {}, head), el("tbody", {}, ...body))));
 };
-/** A share with its interval as a bar from 0.5 to 1, and a tick at what was promised. */
+/** A share with its interval as a bar from 0.5 to 1, and a tick at the promised confidence. */
 const coverageCell = ({ share, low, high, promised, broken }, words) => {
   const at = (x) => `${Math.min(1, Math.max(0, 2 * x - 1)) * 100}%`;
   const from = Math.max(0.5, low), width = Math.max(0.004, high - from);

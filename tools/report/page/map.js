@@ -1,4 +1,4 @@
-// Where it flew: from above and from the side.
+// The flown path from above and from the side.
 const { flight, path, obstacles, regions, answers, audit } = data;
 const { outcomes: OUTCOMES, reasons: REASONS, stages: STAGES } = data.names;
 const STAGE_COLOURS = ["c6", "c3", "c4", "c1", "c2", "c5"];
@@ -6,7 +6,7 @@ const PRINT_WIDTH = 660;
 let printing = false;
 const leastOf = (measures) => measures.least_m_at_least ?? measures.least_m_by_interpolation;
 const check = (name) => audit.checks.find((c) => c.name === name) || { measures: {} };
-const redraws = []; // what is drawn again when the window or the colours change
+const redraws = []; // redrawn when the window or the colours change
 
 // ---- colours of speed (viridis, cut where it would vanish on a light or a dark card)
 const RAMP = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
@@ -26,7 +26,7 @@ const indexAt = (times, t) => {
   while (low < high) { const middle = (low + high) >> 1; if (times[middle] <= t) low = middle + 1; else high = middle; }
   return low - 1;
 };
-/** where a thing with columns t, x, y, z is at time t; null when it is not known there */
+/** Returns the position at time t of an object with columns t, x, y, z; null if it is unknown then */
 function placeAt(thing, t) {
   const k = indexAt(thing.t, t);
   if (k < 0 || (k === thing.t.length - 1 && t > thing.t[k] + 0.3)) return null;

@@ -1,4 +1,4 @@
-// Head, tables, and the order of all.
+// Head, tables, and the order of all parts.
 // ---- head
 function head() {
   const result = flight.result;
@@ -69,7 +69,7 @@ function tables() {
     data.log.channels.map((c) => [c.name, whole(c.messages), fixed(c.bytes / 1e6, 2), whole(c.lost), whole(c.refused)]));
   const processes = card("Processes", null, row);
   table(processes, [["process", false], ["build", false]], data.log.processes.map((p) => [p.process, p.build]));
-  // The planner's: its answers may differ by it (BLAS).
+  // The planner's platform, since its answers may differ by it (BLAS).
   const planner = data.log.processes.find((p) => p.process === "tern-planner") || data.log.processes[0];
   if (planner) processes.append(el("p", { class: "note" }, planner.platform));
   const rules = [];

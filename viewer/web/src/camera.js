@@ -1,20 +1,20 @@
-// Where the scene is seen from. Chase and first person turn with the flight; top and side are orthographic; all four go
-// with the vehicle, an orbit goes with an obstacle; free stays.
+// The cameras. Chase and first person turn with the flight; top and side are orthographic. These four follow the vehicle,
+// an orbit follows an obstacle, and the free camera stays.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 const CHASE = { behind: 5, right: 1.2, above: 3.8, ahead: 2.2 }; // of the vehicle, m
 const ORBIT = { back: 5, above: 2.5 };
-const EYE_ABOVE = 0.16; // of the vehicle's middle, first person: the plan is seen from above
+const EYE_ABOVE = 0.16; // above the vehicle's centre, first person: shows the plan from above
 const FAR_AWAY = 120; // of an orthographic camera, m
-const SPAN = 16; // metres that an orthographic camera shows of the free height at zoom 1
-const TURNS = 1.8; // 1/s: how fast a camera takes up the flight's heading
+const SPAN = 16; // metres of the free height that an orthographic camera shows at zoom 1
+const TURNS = 1.8; // 1/s: rate at which a camera turns to the flight's heading
 const MOVES = 7; // 1/s
-const LEAST_SPEED = 0.4; // m/s; slower, a heading is noise
-const JUMP = 12; // m: a jump in a log, not a flight
+const LEAST_SPEED = 0.4; // m/s; below this, a heading is noise
+const JUMP = 12; // m; a larger step is a jump in a log
 const LOWEST = 0.495 * Math.PI; // a perspective camera stays above the ground
 
-/** What a camera shows around what it looks at, in window heights: the vehicle is within, 0.3 off the middle. */
+/** Margin around the target, in window heights: the vehicle is within 0.3 of the middle. */
 const SHOWN = { width: 0.72, height: 0.5 };
 
 const angleOf = (x, y) => Math.atan2(y, x);
@@ -33,14 +33,14 @@ export class Cameras {
     this.controls.target.set(2.5, 0, 1);
     this.mode = 'chase';
     this.course = 0; // of the whole flight, rad
-    this.heading = 0; // of the flight now
-    this.seen = null; // where the followed thing was
-    this.moved = () => {}; // is called when the user has changed the view
+    this.heading = 0; // of the present motion
+    this.seen = null; // last position of the followed object
+    this.moved = () => {}; // called when the user has changed the view
     this.controls.addEventListener('end', () => this.moved());
     this.place();
   }
 
-  /** The part of the window that no panel covers, CSS pixels: what the camera looks at is in its middle. */
+  /** Sets the part of the window that no panel covers, CSS pixels. The target is in its middle. */
   setFree(free, width, height) {
     const wide = free.right - free.left;
     const high = free.bottom - free.top;
@@ -56,7 +56,7 @@ export class Cameras {
 
   /** @param mode  of link.js's MODES, or 'orbit'  @param eye  of a free camera: its place and its target, six numbers */
   set(mode, eye) {
-    if (mode === 'free' && this.camera === this.flat) { // as from above, or from the side
+    if (mode === 'free' && this.camera === this.flat) { // starts from the view of top or side
       const back = this.flat.position.clone().sub(this.controls.target).setLength(SPAN);
       this.perspective.position.copy(this.controls.target).add(back);
     }
@@ -80,7 +80,7 @@ export class Cameras {
     this.seen = null;
   }
 
-  /** Six numbers: where it is and what it looks at. */
+  /** Returns the camera's position and its target, six numbers. */
   eye() {
     return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
   }
@@ -92,7 +92,7 @@ export class Cameras {
     if (offset) this.camera.position.copy(target).add(offset);
   }
 
-  /** Of the camera from what it looks at; nothing for a free one, which stays. */
+  /** Returns the camera's position relative to its target; nothing for a free camera, which stays. */
   offset() {
     const [c, s] = [Math.cos(this.heading), Math.sin(this.heading)];
     const along = (x, right, z) => new THREE.Vector3(x * c + right * s, x * s - right * c, z);
@@ -105,13 +105,13 @@ export class Cameras {
     }
   }
 
-  /** What the camera looks at when it goes with the vehicle. */
+  /** Returns the target of a camera that follows the vehicle. */
   aimed() {
     const ahead = this.mode === 'chase' ? CHASE.ahead : 0;
     return this.vehicle.clone().add(new THREE.Vector3(ahead * Math.cos(this.heading), ahead * Math.sin(this.heading), 0));
   }
 
-  /** The flight as a whole goes from there to there: side looks across it. */
+  /** Sets the course of the whole flight; the side camera looks across it. */
   head(from, to) {
     if (Math.hypot(to[0] - from[0], to[1] - from[1]) < 1 || this.coursed) return;
     this.coursed = true;
@@ -120,14 +120,14 @@ export class Cameras {
     this.set(this.mode, this.mode === 'free' ? this.eye() : undefined);
   }
 
-  /** Another flight: its course is not known yet. */
+  /** Forgets the course, for another flight. */
   clear() {
     this.coursed = this.flying = false;
     this.seen = this.vehicle = null;
   }
 
   /**
-   * The vehicle is at p and flies with velocity v; a picked obstacle, if one is orbited, at `centre`.
+   * Updates the camera. The vehicle is at p with velocity v; `centre` is that of an orbited obstacle, if any.
    * @param seconds  since the last call
    */
   follow(p, v, centre, seconds) {
@@ -145,7 +145,7 @@ export class Cameras {
     this.camera.position.add(move);
   }
 
-  /** Takes up the flight's heading, and turns a camera that chases with it. */
+  /** Follows the flight's heading, and turns a chase camera with it. */
   turn(v, seconds) {
     if (Math.hypot(v[0], v[1]) < LEAST_SPEED) return;
     this.flying = true;
@@ -162,7 +162,7 @@ export class Cameras {
     this.camera.lookAt(this.controls.target);
   }
 
-  /** Shows all of a box, from the side from which it looks now, and goes with nobody any more. */
+  /** Shows a whole box from the present direction, and follows nothing. */
   fit(box) {
     if (box.isEmpty()) return;
     const middle = box.getCenter(new THREE.Vector3());

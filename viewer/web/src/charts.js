@@ -1,5 +1,5 @@
-// Charts of numbers over the whole flight: any field of what was heard, several curves each. Drag zooms all of them, a double
-// click shows the whole flight again, a click jumps.
+// Charts over the whole flight: several curves each, of any received field. Drag zooms all charts, double-click zooms out, a
+// click jumps.
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { label } from './labels.js';
@@ -47,7 +47,7 @@ class Chart {
 
   fitWidth() {
     if (this.area.clientWidth > 50) this.plot.setSize({ width: this.area.clientWidth, height: HEIGHT });
-    this.draw(); // it may have been hidden
+    this.draw(); // needed if it was hidden
   }
 
   rebuild() {
@@ -113,7 +113,7 @@ class Chart {
     this.showNow();
   }
 
-  /** Values of the curves at t, but of what the panels show, theirs: a curve keeps not every row. */
+  /** Shows the curves' values at t. Values that the panels show are taken from them, since a curve stores not every row. */
   read(t, shown = {}) {
     this.names.forEach((name, k) => {
       const rows = this.charts.series[name];
@@ -132,7 +132,7 @@ class Chart {
   }
 }
 
-/** From 0, with room above; a field that is below 0 shows so. */
+/** The range: from 0 with room above, or below 0 if a value is. */
 function room(low, high) {
   if (low === null || high === null) return [0, 1];
   const more = 0.08 * Math.max(high - low, 1e-3);
@@ -164,7 +164,7 @@ export class Charts {
     return chart;
   }
 
-  /** Another curve, in that chart or in one of its own. */
+  /** Adds a curve, to that chart or to a new one. */
   add(name, chart) {
     if (this.fields.length > 0 && !this.fields.includes(name)) return this.handlers.unknown?.(name);
     if (chart ? chart.names.length >= MOST_CURVES : this.charts.length >= MOST_CHARTS) return;
@@ -188,7 +188,7 @@ export class Charts {
     this.handlers.wants(this.names());
   }
 
-  /** @param chart  as FlightHistory::chart_json tells it  @param span  begin and end of what is known, s */
+  /** @param chart  from FlightHistory::chart_json  @param span  begin and end of the known time, s */
   take({ series }, span) {
     for (const rows of Object.values(series)) {
       if (rows.length !== 2 || rows[0].length !== rows[1].length) throw new RangeError('not two rows of one length');
@@ -198,7 +198,7 @@ export class Charts {
     for (const chart of this.charts) chart.draw();
   }
 
-  /** What may be charted. */
+  /** Takes the names of all fields that can be charted. */
   takeFields(names) {
     this.fields = names;
     document.getElementById('fields').replaceChildren(...names.map((name) => new Option(name)));
@@ -213,8 +213,8 @@ export class Charts {
   }
 
   /**
-   * @param t  the flight's time now, s  @param told  of the newest state, s: numbers are of one moment
-   * @param shown  what the panels show, by the names of fields
+   * @param t  present time of the flight, s  @param told  time of the newest state, s: all numbers are of that time
+   * @param shown  values of the panels, by field name
    */
   setNow(t, told, shown) {
     Object.assign(this, { now: t, told, shown });

@@ -1,4 +1,4 @@
-// Buttons, keys and the link: what the user asks of the page.
+// Buttons, keys and the link of the page.
 import { MODES, readLink, writeLink } from './link.js';
 import { otherTheme, theme } from './palette.js';
 
@@ -6,7 +6,7 @@ const LINK_EVERY_MS = 1000; // browsers refuse more
 
 const byId = (id) => document.getElementById(id);
 
-/** Clicked controls do not keep the keys: space and arrows are the player's. Who comes by Tab keeps what was focused. */
+/** Clicked controls give the keys back, since space and arrows belong to the player. Controls reached by Tab keep them. */
 function giveBackKeys() {
   const isMouse = (event) => event.detail > 0 || event.type === 'change';
   for (const kind of ['click', 'change']) {
@@ -39,7 +39,7 @@ export class Controls {
     this.cameras = cameras;
     this.does = does;
     this.written = 0;
-    this.hash = location.hash; // as it was last written or followed
+    this.hash = location.hash; // as last written or followed
     this.buttons = [...document.querySelectorAll('[data-camera]')];
     for (const button of this.buttons) button.onclick = () => this.setCamera(button.dataset.camera);
     byId('fit').onclick = () => this.fit();
@@ -57,7 +57,7 @@ export class Controls {
     byId('menu').onclick = () => this.showMenu(!document.body.classList.contains('menu'));
     byId('showcharts').onclick = () => {
       document.body.classList.toggle('charts');
-      this.showMenu(false); // it is where the charts are seen
+      this.showMenu(false); // the menu covers the charts
     };
     giveBackKeys();
     const camera = Object.fromEntries(MODES.map((mode, k) => [k + 1, () => this.setCamera(mode)]));
@@ -68,7 +68,7 @@ export class Controls {
     window.addEventListener('hashchange', () => this.follow());
   }
 
-  /** On a phone. */
+  /** For a phone. */
   showMenu(on) {
     document.body.classList.toggle('menu', on);
     byId('menu').setAttribute('aria-expanded', on);
@@ -86,7 +86,7 @@ export class Controls {
     this.showCamera();
   }
 
-  /** The flight's path is known now: a link may have asked to see all of it. */
+  /** The flight's path is known, so a link may now show all of it. */
   pathIsKnown() {
     if (this.isAskedToFit) this.fit();
     this.isAskedToFit = false;
@@ -96,7 +96,7 @@ export class Controls {
     for (const button of this.buttons) button.classList.toggle('on', button.dataset.camera === this.cameras.mode);
   }
 
-  /** Goes where the address says. */
+  /** Follows the address. */
   follow() {
     this.hash = location.hash;
     const { t, cam, eye } = readLink(this.hash);
@@ -110,20 +110,20 @@ export class Controls {
     const { mode } = this.cameras;
     const isKnown = MODES.includes(mode);
     return writeLink({
-      t: this.does.now() ?? readLink(location.hash).t, // until the log is there, the moment that the address asks for
+      t: this.does.now() ?? readLink(location.hash).t, // until the log is there, the time in the address
       cam: isKnown ? mode : 'free',
       eye: mode === 'free' || !isKnown ? this.cameras.eye() : undefined,
     });
   }
 
-  /** The address holds moment and camera, so that it can be sent. @param now  ms */
+  /** Keeps time and camera in the address, so it can be shared. @param now  ms */
   writeLink(now = performance.now()) {
     if (now - this.written < LINK_EVERY_MS) return;
     this.written = now;
     this.writeAddress();
   }
 
-  /** Not over an address that the user has just given and that is still to be followed. */
+  /** Skips an address that the user has just entered and that is not yet followed. */
   writeAddress() {
     if (location.hash !== this.hash) return;
     const hash = this.address();

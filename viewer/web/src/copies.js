@@ -1,7 +1,7 @@
-// Many copies of a shape in one geometry. No instances: without a GPU each of them costs as much as a mesh.
+// Many copies of a shape in one geometry. Without a GPU an instance would cost as much as a mesh.
 import * as THREE from 'three';
 
-/** @param shape  with an index; its normals are left out, for nothing is lit anew */
+/** @param shape  has an index; its normals are left out, since the copies are not lit again */
 export function repeated(shape, count) {
   const vertices = shape.attributes.position.count;
   const { array: corners } = shape.index;

@@ -1,18 +1,18 @@
-// Nothing hides the vehicle: what stands before it, as seen from the camera, is drawn as a sieve.
+// Makes objects between camera and vehicle look like a sieve, so that nothing hides the vehicle.
 
 export const SIEVE_RADIUS = 1.5; // m about the line to the vehicle
 
-/** Both shaders: how far along the line a place is (1: at the vehicle; orthographic: metres before it), and how far aside. */
+/** For both shaders: how far along the line a place is (1: at the vehicle; orthographic: metres before it), and how far aside. */
 export const SIEVE_WAY = 'varying float along; varying vec3 aside;';
 
-/** Of a vertex shader that has `seen`, its place in the camera's frame, and the uniform `vehicle`. Both are linear there. */
+/** For a vertex shader with `seen`, the place in the camera's frame, and the uniform `vehicle`. Both are linear there. */
 export const SIEVE_PLACE = `
   vec3 target = (viewMatrix * vec4(vehicle, 1.0)).xyz;
   along = isOrthographic ? seen.z - target.z : dot(seen, target) / dot(target, target);
   aside = isOrthographic ? vec3(seen.xy - target.xy, 0.0) : seen - along * target;
   if (dot(target, target) < 1.0) along = isOrthographic ? 0.0 : 1.0; // not for who sits in it`;
 
-/** Of a fragment shader. */
+/** For a fragment shader. */
 export const SIEVE = `
   if (isOrthographic ? along > 0.1 : along < 0.97) {
     float off = length(aside) / (isOrthographic ? 1.0 : 0.35 + 0.65 * along);
@@ -23,7 +23,7 @@ export const SIEVE = `
     }
   }`;
 
-/** Makes a sieve of a material of three's. @param vehicle  where it is; kept */
+/** Turns a material of three into a sieve. @param vehicle  its position; the reference is stored */
 export function cutaway(material, vehicle) {
   const before = material.onBeforeCompile;
   material.onBeforeCompile = (shader) => {

@@ -1,4 +1,4 @@
-// What comes over the stream is looked at before it is used: nothing half-understood reaches the drawing.
+// Checks of received data before use: malformed data must not reach the drawing.
 
 /** Three finite numbers. */
 export function point(x) {

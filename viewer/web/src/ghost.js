@@ -1,4 +1,4 @@
-// A second log over the first: its path, and its vehicle at the same time after the start.
+// A second log drawn over the first: its path, and its vehicle at the same time since departure.
 import * as THREE from 'three';
 import { numbers } from './form.js';
 import { palette } from './palette.js';
@@ -22,7 +22,7 @@ export class Ghost {
     this.ball.visible = false;
   }
 
-  /** @param ghost  {name, t, curve, radius}: t in seconds of the flight that is shown, so that both start at once */
+  /** @param ghost  {name, t, curve, radius}: t in seconds of the shown flight, so that both depart together */
   take(ghost) {
     numbers(ghost.curve, 4, numbers(ghost.t, 1).length);
     this.path = ghost;

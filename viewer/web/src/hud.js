@@ -1,14 +1,14 @@
-// Numbers and words: the vehicle, the last answer, every process.
+// The panels: the vehicle, the last answer, every process.
 
-const SILENT_S = 2.5; // processes say something twice a second
-const ENDED_S = 6; // so long silent: it has ended
-/** Nobody reads what changes more often. */
+const SILENT_S = 2.5; // processes publish twice a second
+const ENDED_S = 6; // after this silence a process counts as ended
+/** Faster changes could not be read. */
 const READ_MS = 100;
 
 const byId = (id) => document.getElementById(id);
 const fixed = (x, digits = 1, unit = '') => (Number.isFinite(x) ? `${x.toFixed(digits)}${unit && ` ${unit}`}` : '–');
 
-/** Every change is laid out and painted anew, even into the same. */
+/** Skips equal texts: the browser would lay out and paint each of them again. */
 export function say(id, text) {
   const element = byId(id);
   if (element.textContent !== text) element.textContent = text;
@@ -31,31 +31,31 @@ export function showSession(session) {
   }
 }
 
-/** Another flight: nothing of the one before is told. */
+/** Clears the panels, for another flight. */
 export function forget() {
   waiting.clear();
   for (const name of Object.keys(shown)) delete shown[name];
 }
 
-/** Nobody says any more how anything is. */
+/** Shows that the bridge is lost. */
 export function showGone() {
   chip('mode', 'bridge lost', 'gone');
   for (const item of byId('health').children) item.className = 'unknown';
 }
 
-const waiting = new Map(); // what is not shown yet: the newest of each kind
-const shown = {}; // what the panels show, by the charts' names of fields
+const waiting = new Map(); // topic → newest value that is not shown yet
+const shown = {}; // values of the panels, by the charts' field names
 let shownAt = -Infinity;
 
-/** What the panels show now, by the charts' names of fields. */
+/** Returns the values of the panels, by the charts' field names. */
 export const numbers = () => shown;
 
-/** The next draw() shows everything. */
+/** Makes the next draw() show everything. */
 export function hurry() {
   shownAt = -Infinity;
 }
 
-/** Shows the newest no more often than one can read, and all of it at once. @param now  ms @return whether it did */
+/** Shows the newest values, all at once, at a readable rate. @param now  ms @return true if it drew */
 export function draw(now) {
   if (now - shownAt < READ_MS) return false;
   for (const show of waiting.values()) show();
@@ -109,14 +109,14 @@ function showPlan(plan) {
   say('hold', fixed(plan.hold_s, 2, 's'));
 }
 
-/** 1: nothing is estimated. 0, or relaxed: certified for a part of what was predicted, of which no number is known. */
+/** Confidence as text. 1: nothing is estimated. 0 or relaxed: certified for a part of the predictions, confidence unknown. */
 function confidenceOf(plan) {
   if (!plan || plan.outcome === 'no plan') return '–';
   if (plan.confidence === 0 || plan.relaxed) return 'none known';
   return `${plan.confidence}${plan.sure_for_s === undefined ? '' : ` for ${fixed(plan.sure_for_s, 1, 's')}`}`;
 }
 
-/** @param timing  null: nothing was answered yet  @param pace  seconds of flight per second of the wall, by which an answer's time is told */
+/** @param timing  null: no answer yet  @param pace  seconds of flight per second of the wall; times are converted to the flight's */
 function showTiming(timing, pace) {
   for (const field of ['total_ms', 'allowed_ms', 'expansions', 'hulls']) shown[`PLAN_TIMING.${field}`] = timing?.[field];
   const meter = byId('meter');
@@ -136,7 +136,7 @@ function showTiming(timing, pace) {
 
 export function showResult(result) {
   if (!result) return;
-  waiting.delete('plan'); // what it answered last is no news any more
+  waiting.delete('plan'); // its last answer is outdated
   chip('outcome', result.outcome, result.outcome === 'reached' ? 'live' : 'bad');
   const least = [['obstacles', result.min_clearance_m], ['map', result.min_map_clearance_m]].filter(([, x]) => Number.isFinite(x));
   const words = least.map(([what, x]) => `${fixed(x, 3)} m to ${what}`).join(', ');
@@ -144,10 +144,10 @@ export function showResult(result) {
 }
 
 export function showClock(seconds) {
-  say('clock', `${fixed(Math.round(10 * seconds) / 10)} s`); // never -0.0
+  say('clock', `${fixed(Math.round(10 * seconds) / 10)} s`); // avoids -0.0
 }
 
-/** @param pick  is called with the name of a process that was clicked */
+/** @param pick  called with the name of a clicked process */
 export function showHealth(processes, pick) {
   byId('health').replaceChildren(
     ...processes.map((process) => {

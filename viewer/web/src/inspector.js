@@ -1,4 +1,4 @@
-// The messages of what was picked, as they are.
+// Shows the messages of the picked object.
 
 const REFRESH_MS = 400;
 
@@ -43,7 +43,7 @@ export class Inspector {
     setInterval(() => this.refresh(), REFRESH_MS);
   }
 
-  /** @param words  says what was picked in a sentence, now; or nothing */
+  /** @param words  returns a sentence about the picked object, or nothing */
   open(pick, words = null) {
     this.pick = pick;
     this.words = words;
@@ -51,7 +51,7 @@ export class Inspector {
     this.refresh();
   }
 
-  /** What happened when; a click jumps there. @param events  {t, text}  @param words  of what is not listed */
+  /** Lists events; a click jumps to one. @param events  {t, text}  @param words  about events that are not listed */
   list(title, events, jump, words) {
     this.pick = this.words = null;
     this.say(title, words);

@@ -1,4 +1,4 @@
-// What can be shown, each with the colours in which it is drawn: the layers' switches are the scene's legend.
+// The layers, each with the colours in which it is drawn: their switches are the scene's legend.
 import { palette } from './palette.js';
 
 const speeds = `linear-gradient(90deg, ${palette.speeds.join(', ')})`;
@@ -18,10 +18,10 @@ export const LAYERS = [
   { name: 'ghost', on: true, says: 'the other log', colors: [palette.ghost] },
 ];
 
-/** The bridge makes these only while someone looks. */
+/** The bridge computes these only while a page shows them. */
 export const ON_DEMAND = ['hulls', 'planes', 'search'];
 
-/** Switches for all layers. @param set  is called with a name and whether it is on, at once and at every change */
+/** Makes switches for all layers. @param set  called with a name and whether it is on, at once and at every change */
 export function makeSwitches(root, set) {
   for (const { name, on, says, colors } of LAYERS) {
     const row = document.createElement('label');
@@ -40,12 +40,12 @@ export function makeSwitches(root, set) {
   }
 }
 
-/** A layer whose things this flight does not have is not in the legend. */
+/** Hides a layer from the legend if this flight has no objects of it. */
 export function offer(name, there) {
   document.querySelector(`[data-layer=${name}]`).hidden = !there;
 }
 
-/** How many of them are drawn now, beside a layer's name. @param count  null: it is off */
+/** Shows the number of drawn objects beside a layer's name. @param count  null: the layer is off */
 export function showCount(name, count) {
   const place = document.querySelector(`[data-layer=${name}] b`);
   const text = count === null ? '' : String(count);

@@ -1,9 +1,9 @@
-// What a link to a moment says: #t=6.3&cam=top, cam=fit for the whole flight, or cam=free:x,y,z,x,y,z with the camera's place
-// and what it looks at.
+// A link to a moment: #t=6.3&cam=top, cam=fit for the whole flight, or cam=free:x,y,z,x,y,z with the camera's position and
+// its target.
 
 export const MODES = ['chase', 'first', 'top', 'side', 'free'];
 
-/** @return {t, cam, eye}: seconds of the flight, a mode or fit, six numbers; what is missing or wrong is left out */
+/** @return {t, cam, eye}: seconds of the flight, a mode or fit, six numbers; missing or wrong parts are left out */
 export function readLink(hash) {
   const said = new URLSearchParams(hash.replace(/^#/, ''));
   const link = {};
@@ -17,7 +17,7 @@ export function readLink(hash) {
   return link;
 }
 
-/** @param link  as readLink returns it */
+/** @param link  as returned by readLink */
 export function writeLink({ t, cam, eye }) {
   const parts = [];
   if (t !== undefined) parts.push(`t=${Number(t.toFixed(2))}`);

@@ -1,4 +1,4 @@
-// Wires what comes (a bridge's stream, or a tape in the page) to the scene and the panels.
+// Connects the received data (a bridge's stream, or a tape in the page) with scene and panels.
 import * as THREE from 'three';
 import './style.css';
 import './panels.css';
@@ -36,9 +36,9 @@ const regions = new Regions(world, vehicle.p);
 const obstacles = new Obstacles(world, vehicle.p);
 const ghost = new Ghost(world.scene);
 const layers = {};
-const known = {}; // the newest of each topic
+const known = {}; // the newest value of each topic
 const counts = { frames: 0, drawn: 0, malformed: 0, connections: 0, dropped: 0, goals: [], modes: [] };
-let clock = { at_us: 0, arrived_ms: 0 }; // the vehicle's clock when its last state came
+let clock = { at_us: 0, arrived_ms: 0 }; // the vehicle's clock when its last state arrived
 let stream = null;
 const send = (command) => stream?.send(command);
 
@@ -54,12 +54,12 @@ const charts = new Charts({
   unknown: (name) => hud.toast(`no such field: ${name}`),
 });
 
-/** Seconds of the flight: world time, or since the first state was heard where that is not known. */
+/** Seconds of the flight: world time, or since the first state while world time is unknown. */
 const flightTime = (at_us) => (at_us - (known.player?.zero_us ?? known.chart?.zero_us ?? at_us)) * 1e-6;
-/** What of the flight is known, s: the log's begin and end, or the first state and the newest. */
+/** The known time of the flight, s: the log's begin and end, or the first and the newest state. */
 const flightSpan = (chart) => [known.player ? flightTime(known.player.begin_us) : chart.begin_s, chart.end_s];
 
-/** What each topic does; null takes back what it said. */
+/** Handlers of the topics; null clears a topic. */
 const topics = {
   session(session) {
     if (known.session && (known.session.epoch !== session.epoch || known.session.mode !== session.mode)) forget();
@@ -88,7 +88,7 @@ const topics = {
     if (known.state) trajectories.takeState(known.state, flightTime(known.state.at_us));
   },
   goal(goal) {
-    if (goal?.p) known.place = goal.p; // where to fly: that of the last goal that says it
+    if (goal?.p) known.place = goal.p; // the last goal that has a position
     trajectories.takeGoal(goal);
   },
   request(request) {
@@ -106,7 +106,7 @@ const topics = {
   },
   truth: (set) => (set ? obstacles.take(set) : obstacles.clear()),
   tracks(set) {
-    if (set && !known.truth) obstacles.take(set); // on an aircraft nobody tells the truth
+    if (set && !known.truth) obstacles.take(set); // on an aircraft the truth is unknown
   },
   plan(plan) {
     trajectories.takePlan(plan);
@@ -133,7 +133,7 @@ const topics = {
 function takeFrame(frame) {
   counts.frames += 1;
   counts.dropped = frame.dropped;
-  for (const topic of Object.keys(topics)) { // who the flight is comes before what it does
+  for (const topic of Object.keys(topics)) { // the session comes before its data
     if (!(topic in frame)) continue;
     try {
       topics[topic](frame[topic]);
@@ -154,7 +154,7 @@ function takeReply(message) {
   }
 }
 
-/** Another bridge, another flight, or its log. */
+/** Starts over: another bridge, another flight, or its log. */
 function forget() {
   for (const key of Object.keys(known)) delete known[key];
   for (const part of [obstacles, trajectories, proofs, vehicle, regions, ghost, cameras]) part.clear();
@@ -191,7 +191,7 @@ function showCut() {
   regions.cutAt(cutShare < 1 ? height : null);
 }
 
-// What the user asks -------------------------------------------------------------------------------------------------
+// Requests of the user -----------------------------------------------------------------------------------------------
 
 const controls = new Controls(cameras, {
   hasPath: () => known.path?.curve.length > 0,
@@ -232,7 +232,7 @@ const pointer = new Pointer(canvas, world, {
       { hit: regions.hit(ray), pick: { kind: 'map' } },
     ].filter(({ hit, pick }) => hit && !(pick.kind === 'map' && hit.layer === 'regions'));
     picks.sort((a, b) => a.hit.distance - b.hit.distance);
-    const first = picks[0] ?? { hit: regions.hit(ray), pick: { kind: 'map' } }; // regions are clear: what stands behind comes first
+    const first = picks[0] ?? { hit: regions.hit(ray), pick: { kind: 'map' } }; // regions are translucent: objects behind them come first
     if (!first.hit) return inspector.close();
     if (first.pick.kind === 'obstacle') first.pick.id = first.hit.id;
     pickObstacle(first.pick.id);
@@ -254,9 +254,9 @@ const pointer = new Pointer(canvas, world, {
 // Drawing ------------------------------------------------------------------------------------------------------------
 
 let last = performance.now();
-let isFilmed = false; // pictures are asked for, one by one
+let isFilmed = false; // pictures are requested one by one
 let framesDrawn = 0;
-let touched = false; // by the user, who may have switched something, or emptied the canvas by another size
+let touched = false; // by the user, who may have switched a layer, or cleared the canvas by resizing
 for (const event of ['pointerdown', 'pointerup', 'click', 'keydown', 'input', 'change', 'resize']) {
   addEventListener(event, () => (touched = true), { capture: true });
 }
@@ -294,7 +294,7 @@ function picture(now, seconds) {
   counts.drawn += 1;
 }
 
-/** The flight's picture at t, `seconds` after the last one. For tern-viewer --video. */
+/** Draws the flight at t, `seconds` after the last picture. For tern-viewer --video. */
 function film(t, seconds) {
   if (!isFilmed) document.body.classList.add('film');
   isFilmed = true;
@@ -304,7 +304,7 @@ function film(t, seconds) {
   picture(performance.now(), seconds);
 }
 
-/** One cursor for charts, timeline and clock. @param t  s of the flight */
+/** Sets the common cursor of charts, timeline and clock. @param t  s of the flight */
 function showTime(t) {
   charts.setNow(t, known.state ? flightTime(known.state.at_us) : t, hud.numbers());
   timeline.setNow(t);
@@ -314,7 +314,7 @@ function showTime(t) {
   controls.writeLink();
 }
 
-/** For the console and the tests: what the page knows and shows. */
+/** The state of the page, for the console and the tests. */
 window.tern = {
   send,
   known,

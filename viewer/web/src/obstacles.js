@@ -1,15 +1,15 @@
-// Obstacles as boxes, with a soft dark spot below each, so that one sees where it hovers. Only those in view
-// are given to the renderer: without a GPU it pays for every corner.
+// Obstacles as boxes, each with a soft dark spot below that shows where it hovers. Only obstacles in view are given to the
+// renderer: without a GPU it pays for every corner.
 import * as THREE from 'three';
 import { repeated, touch } from './copies.js';
 import { cutaway, SIEVE_RADIUS } from './cutaway.js';
 import { numbers } from './form.js';
 import { palette } from './palette.js';
 
-const MOST = 4096; // what is drawn at most
+const MOST = 4096; // most boxes that are drawn
 const SIEVE_FAR = 40; // m from the vehicle towards the camera
-const THRIFTY_SPOTS = 15; // m: spots farther away are not drawn by a renderer without a GPU
-const LONGEST_GUESS_S = 0.25; // positions are carried on by velocity no longer than this
+const THRIFTY_SPOTS = 15; // m; a renderer without a GPU skips spots farther away
+const LONGEST_GUESS_S = 0.25; // positions are extrapolated by velocity for at most this long
 
 function spotTexture() {
   const size = 64;
@@ -25,11 +25,11 @@ function spotTexture() {
 }
 
 const RIM = 0.031; // of a face's width
-const WITHIN = 0.65; // how bright a face is within its rim
+const WITHIN = 0.65; // brightness of a face inside its rim
 
 /**
- * Faces a little darker within than at their edges: boxes keep their outline without lines, and without a texture.
- * Vertices bring light and fog along; alpha is what the fog leaves.
+ * Faces that are a little darker inside than at their edges, so boxes have an outline without lines or texture.
+ * Vertices carry light and fog; alpha is the part that the fog leaves.
  */
 function rimmed(within) {
   const material = new THREE.MeshBasicMaterial({ vertexColors: true, fog: false });
@@ -43,7 +43,7 @@ function rimmed(within) {
   return material;
 }
 
-/** A box whose faces are lit as they will always be: boxes do not turn. */
+/** A box with constant lighting of its faces: boxes do not turn. */
 function litBox(world) {
   const geometry = new THREE.BoxGeometry(1, 1, 1);
   const { normal } = geometry.attributes;
@@ -54,9 +54,9 @@ function litBox(world) {
   return geometry.setAttribute('color', new THREE.Float32BufferAttribute(colors, 4));
 }
 
-/** Boxes of one material, as many as are drawn this time. */
+/** The boxes of one material. */
 class Boxes {
-  /** @param shape  one of them, of unit size; if it has colours, they are what light makes of white */
+  /** @param shape  unit box; its colours, if any, are those of white in the light */
   constructor(scene, shape, material) {
     this.shape = shape;
     this.mesh = new THREE.Mesh(repeated(shape, MOST), material);
@@ -66,7 +66,7 @@ class Boxes {
     scene.add(this.mesh);
   }
 
-  /** @param paint  of what has colours: [r, g, b] @param clear  what fog leaves of it  @param fog  [r, g, b] */
+  /** @param paint  [r, g, b] for a shape with colours @param clear  the part that fog leaves  @param fog  [r, g, b] */
   add(row, at, size, paint, clear, fog) {
     const { position, color: light } = this.shape.attributes;
     const all = this.mesh.geometry.attributes;
@@ -94,7 +94,7 @@ class Boxes {
     this.mesh.geometry.setDrawRange(0, this.count * this.shape.index.count);
   }
 
-  /** {row, distance} of the first under a ray, or null. */
+  /** Returns {row, distance} of the first box under a ray, or null. */
   hit(raycaster) {
     this.mesh.geometry.computeBoundingSphere();
     const [first] = raycaster.intersectObject(this.mesh);
@@ -103,12 +103,12 @@ class Boxes {
 }
 
 export class Obstacles {
-  /** @param vehicle  where it is; kept */
+  /** @param vehicle  its position; the reference is stored */
   constructor(world, vehicle) {
     const faces = () => rimmed(world.shade(WITHIN));
     const box = litBox(world);
     this.boxes = new Boxes(world.scene, box, faces());
-    // What may stand before the vehicle: a sieve, whose every pixel costs more.
+    // Boxes that may hide the vehicle are sieves, whose every pixel costs more.
     this.sieves = new Boxes(world.scene, box, cutaway(faces(), vehicle));
     this.spots = new Boxes(world.scene, new THREE.PlaneGeometry(1, 1), new THREE.MeshBasicMaterial({
       map: spotTexture(), transparent: true, depthWrite: false }));
@@ -134,7 +134,7 @@ export class Obstacles {
 
   /**
    * @param set  {at_us, id, moves, p, v, h}: a row per obstacle; p, v, h are flat, three numbers each
-   * @throws RangeError when the lists are not of one length
+   * @throws RangeError if the lists differ in length
    */
   take(set) {
     const n = numbers(set.id, 1).length;
@@ -148,7 +148,7 @@ export class Obstacles {
     this.pickedId = id;
   }
 
-  /** Where the obstacle's middle is now, or null if there is no such. @param now_us  the vehicle's clock */
+  /** Returns the obstacle's present centre, or null if it does not exist. @param now_us  the vehicle's clock */
   where(id, now_us) {
     const k = this.set?.id.indexOf(id) ?? -1;
     if (k < 0) return null;
@@ -157,12 +157,12 @@ export class Obstacles {
     return new THREE.Vector3(...[0, 1, 2].map((axis) => p[3 * k + axis] + v[3 * k + axis] * dt));
   }
 
-  /** Seconds from the set to now, as far as one may guess. */
+  /** Returns the seconds from the set to now, limited to LONGEST_GUESS_S. */
   guess(now_us) {
     return Math.min(Math.max((now_us - this.set.at_us) * 1e-6, 0), LONGEST_GUESS_S);
   }
 
-  /** What is in view, the nearest first: what they hide costs nothing then. @param now_us  the vehicle's clock */
+  /** Sorts the obstacles in view, nearest first, so that hidden pixels cost nothing. @param now_us  the vehicle's clock */
   draw(now_us, camera) {
     if (!this.set) return;
     const dt = this.guess(now_us);
@@ -204,12 +204,12 @@ export class Obstacles {
     }
   }
 
-  /** Whether a box may hide the vehicle, or what is near it, from this camera: it is near the line between them. */
+  /** Returns true if a box may hide the vehicle from this camera: it is near the line between them. */
   before(camera) {
     const back = camera.isOrthographicCamera
       ? camera.getWorldDirection(new THREE.Vector3()).multiplyScalar(-SIEVE_FAR)
       : camera.position.clone().sub(this.vehicle).clampLength(0, SIEVE_FAR);
-    const steps = Math.max(Math.ceil(back.length()), 1); // a metre each
+    const steps = Math.max(Math.ceil(back.length()), 1); // one metre each
     const line = Array.from({ length: steps + 1 }, (_, k) => back.clone().multiplyScalar(k / steps).add(this.vehicle));
     return (at, [hx, hy, hz]) => line.some((p) => {
       const x = Math.max(Math.abs(p.x - at.x) - hx, 0);
@@ -229,7 +229,7 @@ export class Obstacles {
     for (const { mesh } of this.all()) mesh.visible = on;
   }
 
-  /** The obstacle under a ray, {id, distance}, or nothing. */
+  /** Returns the obstacle under a ray, {id, distance}, or nothing. */
   hit(raycaster) {
     if (!this.set || !this.boxes.mesh.visible) return null;
     const hits = [this.boxes.hit(raycaster), this.sieves.hit(raycaster)].filter((hit) => hit);

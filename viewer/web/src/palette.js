@@ -1,4 +1,4 @@
-// Colours that the scene and the charts share, dark or light: ?theme=light, else as the user's system has it.
+// Colours of scene and charts, dark or light: ?theme=light, otherwise the user's system decides.
 import { Color } from 'three';
 
 const dark = {
@@ -72,9 +72,9 @@ export const theme = asked ?? (matchMedia('(prefers-color-scheme: light)').match
 export const palette = theme === 'light' ? light : dark;
 document.documentElement.dataset.theme = theme === 'light' ? 'light' : 'dark';
 
-let stops = null; // made when the renderer has said what colours are (World)
+let stops = null; // made when the renderer has defined its colour space (World)
 
-/** Writes the colour of a share of the top speed, 0 … 1, to `target`. */
+/** Writes the colour of a speed, as a share 0 … 1 of the top speed, to `target`. */
 export function speedColor(share, target) {
   stops ??= palette.speeds.map((c) => new Color(c));
   const x = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
@@ -82,7 +82,7 @@ export function speedColor(share, target) {
   return target.copy(stops[k]).lerp(stops[k + 1], x - k);
 }
 
-/** The same page in the other theme, at the same moment and camera. */
+/** Returns the address of this page in the other theme, at the same time and camera. */
 export function otherTheme() {
   const url = new URL(location.href);
   url.searchParams.set('theme', theme === 'light' ? 'dark' : 'light');

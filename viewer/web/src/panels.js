@@ -1,14 +1,14 @@
-// Where the panels leave the scene free.
+// The part of the window that the panels leave free.
 
-const LEAST_SHARE = 0.2; // of the window, per axis; with less free, the scene has what is beneath the panels, too
+const LEAST_SHARE = 0.2; // of the window, per axis; with less free, the scene also uses the area below the panels
 const PANELS = ['#head', '#flight', '#side', 'footer'];
 
-/** {left, right, top, bottom}, CSS pixels. The inspector is not counted: who opened it closes it. */
+/** {left, right, top, bottom}, CSS pixels. The inspector is ignored, since the user opens and closes it. */
 function freeArea() {
   const { innerWidth: width, innerHeight: height } = window;
   const boxes = PANELS.map((selector) => document.querySelector(selector).getBoundingClientRect()).filter((box) => box.width > 0);
   const area = { left: 0, right: width, top: 0, bottom: height };
-  for (const box of boxes) { // each panel stands at one side of the window
+  for (const box of boxes) { // each panel is at one side of the window
     if (box.width > 0.6 * width) {
       if (box.top > height / 2) area.bottom = Math.min(area.bottom, box.top);
       else area.top = Math.max(area.top, box.bottom);
@@ -20,7 +20,7 @@ function freeArea() {
   return area;
 }
 
-/** Tells the free area now, and whenever window or panels change their size. @return {look()}, to look at once */
+/** Reports the free area at once, and whenever window or panels change their size. @return {look()}, to measure at once */
 export function watchFreeArea(tell) {
   const look = () => tell(freeArea());
   const watcher = new ResizeObserver(look);

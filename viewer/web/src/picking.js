@@ -1,4 +1,4 @@
-// What the pointer does in the scene: picks, orbits, sends goals.
+// The pointer in the scene: picks, orbits, sends goals.
 import * as THREE from 'three';
 
 const DRAGGED_PX = 4;

@@ -1,17 +1,17 @@
-// The log's controls. The bridge plays; the page asks.
+// The controls of a log. The bridge plays it; the page sends commands.
 import { say } from './hud.js';
 
 const RATES = [0.1, 0.25, 0.5, 1, 2, 4, 8];
 const REACHED_S = 0.1;
 
 const byId = (id) => document.getElementById(id);
-const seconds = (s) => `${(Math.round(10 * s) / 10).toFixed(1)} s`; // never -0.0
+const seconds = (s) => `${(Math.round(10 * s) / 10).toFixed(1)} s`; // avoids -0.0
 
 export class Player {
-  /** @param send  a command to the bridge  @param refuse  says why there is nothing to play */
+  /** @param send  sends a command to the bridge  @param refuse  explains why nothing can be played */
   constructor(send, refuse) {
     this.state = null;
-    this.rest = undefined; // the moment that it is on its way to, s of the flight
+    this.rest = undefined; // the time that it is on its way to, s of the flight
     this.send = send;
     this.refuse = refuse;
     byId('play').onclick = () => this.toggle();
@@ -36,7 +36,7 @@ export class Player {
     this.ask({ play: !this.state?.playing });
   }
 
-  /** @param plans  1: to the next answer of the planner, -1: to the last */
+  /** @param plans  1: to the next answer of the planner, -1: to the previous */
   step(plans) {
     this.ask({ step: plans });
   }
@@ -46,15 +46,15 @@ export class Player {
     this.ask({ seek_us: Math.round((this.state?.zero_us ?? 0) + 1e6 * t) });
   }
 
-  /** Stops, at this moment or the log's end nearest to it. @param t  seconds of the flight */
+  /** Pauses at this time, or at the nearest end of the log. @param t  seconds of the flight */
   restAt(t) {
-    this.ask({ play: false }); // first: who plays on leaves the moment
+    this.ask({ play: false }); // first, because playing would leave that time
     this.jump(t);
     const [begin, end] = this.span();
     this.rest = Math.min(Math.max(t, begin), end);
   }
 
-  /** Seconds of the flight; on the way to a moment, that one. Undefined: nothing is played. */
+  /** Seconds of the flight; on the way to another time, that one. Undefined: nothing is played. */
   now() {
     if (!this.state) return undefined;
     const now = (this.state.at_us - this.state.zero_us) * 1e-6;
@@ -68,13 +68,13 @@ export class Player {
     return [(begin - zero) * 1e-6, (end - zero) * 1e-6];
   }
 
-  /** @param state  as LogPlayer::json tells it; null: a live flight */
+  /** @param state  from LogPlayer::json; null: a live flight */
   take(state) {
     this.state = state;
     document.body.classList.toggle('live', !state);
   }
 
-  /** Where the log is. */
+  /** Shows the position in the log. */
   draw() {
     const { state } = this;
     say('play', state.playing ? '❚❚' : '▶');
@@ -82,7 +82,7 @@ export class Player {
     this.show((state.at_us - state.zero_us) * 1e-6, this.span());
   }
 
-  /** Where the flight is. @param at  s  @param span  begin and end of what is known, s */
+  /** Shows the time of a live flight. @param at  s  @param span  begin and end of the known time, s */
   show(at, [begin, end]) {
     say('at', seconds(at));
     say('length', seconds(end));

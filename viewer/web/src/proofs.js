@@ -1,16 +1,16 @@
-// What a plan stands on: predicted hulls per interval, the certificate's separating planes, the search's nodes.
+// The objects that a plan was checked against: predicted hulls per interval, separating planes, nodes of the search.
 import * as THREE from 'three';
 import { ConvexHull } from 'three/addons/math/ConvexHull.js';
 import { numbers, point } from './form.js';
 import { palette } from './palette.js';
 
 const PATCH = 0.9; // half the side of a drawn plane, m
-const HULL = 0.09; // opacity of a few hulls; of more than MANY each gets less
+const HULL = 0.09; // opacity of a few hulls; with more than MANY it is reduced
 const MANY = 16;
 const SOON = new THREE.Color(palette.hull);
 const LATER = new THREE.Color(palette.hullLater);
 
-/** Triangles of a convex hull, appended to `out`. */
+/** Appends the triangles of a convex hull to `out`. */
 function triangulate(points, out) {
   const hull = new ConvexHull().setFromPoints(points);
   for (const face of hull.faces) {
@@ -45,7 +45,7 @@ export class Proofs {
   }
 
   clear() {
-    this.counts = { hulls: 0, planes: 0, search: 0 }; // what is shown of each
+    this.counts = { hulls: 0, planes: 0, search: 0 }; // number of drawn objects
     for (const mesh of [this.hulls, this.patches, this.frames, this.nodes]) this.fill(mesh, []);
   }
 
@@ -71,13 +71,13 @@ export class Proofs {
       while (colors.length < positions.length) colors.push(color.r, color.g, color.b);
     }
     this.counts.hulls = message?.hulls?.length ?? 0;
-    this.hulls.material.opacity = HULL * Math.min(1, Math.sqrt(MANY / Math.max(this.counts.hulls, 1))); // many lie over each other
+    this.hulls.material.opacity = HULL * Math.min(1, Math.sqrt(MANY / Math.max(this.counts.hulls, 1))); // many overlap
     this.fill(this.hulls, positions, colors);
   }
 
   /**
-   * A patch of each plane where it stands between the interval's part and the obstacle.
-   * @param plan  with planes; of the picked obstacle only, if there is one
+   * Draws a patch of each plane between the interval's part and the obstacle.
+   * @param plan  with planes; only those of the picked obstacle, if there is one
    */
   takePlanes(plan, picked) {
     const patches = [];
@@ -102,7 +102,7 @@ export class Proofs {
     frames.push(...c[0], ...c[1], ...c[1], ...c[2], ...c[2], ...c[3], ...c[3], ...c[0]);
   }
 
-  /** @param message  {nodes, edges}: how many, and six numbers per edge of the search's tree; null: none */
+  /** @param message  {nodes, edges}: number of nodes, and six numbers per edge of the search tree; null: none */
   takeSearch(message) {
     this.fill(this.nodes, numbers(message?.edges ?? [], 6));
     this.counts.search = message?.nodes ?? 0;

@@ -1,26 +1,26 @@
-// How many pixels per CSS pixel a renderer without a GPU is given: as many as it can pay for, found by measured time.
+// Adapts the number of pixels per CSS pixel, for a renderer without a GPU, to measured frame times.
 
-const FIRST_LOOK_MS = 250; // after that many, the first decision; until then shaders are compiled
-const WINDOW_MS = 400; // between two looks
-const FEWEST_FRAMES = 3; // of a look; of a look at a renderer that takes longer than SLOWEST_MS each, one is enough
+const FIRST_LOOK_MS = 250; // first decision after this time; until then shaders are compiled
+const WINDOW_MS = 400; // between two decisions
+const FEWEST_FRAMES = 3; // per decision; one is enough if frames take longer than SLOWEST_MS
 const SLOWEST_MS = 150;
 const SLOW_MS = 31; // 32 frames a second
 const WANTED_MS = 25;
 const FAST_MS = 19;
 const RISE = 1.1;
-const RISE_PAUSE_MS = 1500; // a rise that did not pay is not tried at every look
+const RISE_PAUSE_MS = 1500; // after a rise that had to be undone, no rise for this long
 const LONG_PAUSE_MS = 60_000;
-const STILL_MS = 400; // so long without a movement: it stands still
-const LOOK_MS = 500; // what stands still is drawn again after that
+const STILL_MS = 400; // after this long without movement, the picture stands still
+const LOOK_MS = 500; // a still picture is redrawn at this interval if something changed
 
-/** Pure: it is told when frames were drawn. */
+/** Pure: the caller reports drawn frames. */
 export class Quality {
-  /** @param pixels  to begin with; `fewest` … `most` */
+  /** @param pixels  the initial number, within `fewest` … `most` */
   constructor({ pixels, fewest, most }) {
     Object.assign(this, { pixels, fewest, most, begin: null, frames: 0, risePause: RISE_PAUSE_MS });
   }
 
-  /** A frame was drawn. @return the new number of pixels, or null while it stays */
+  /** Reports a drawn frame. @return the new number of pixels, or null if it stays */
   frame(now) {
     this.begin ??= now + FIRST_LOOK_MS;
     if (now < this.begin) return null;
@@ -34,7 +34,7 @@ export class Quality {
     return this.decide(mean, now);
   }
 
-  /** The next frame says nothing of how long the last one took. */
+  /** Ignores the time to the next frame, after a pause. */
   pause() {
     this.begin = null;
     this.frames = 0;
@@ -44,7 +44,7 @@ export class Quality {
     let wanted = this.pixels;
     if (mean > SLOW_MS) {
       if (this.rose && now - this.rose < 2 * WINDOW_MS) this.risePause = Math.min(2 * this.risePause, LONG_PAUSE_MS);
-      wanted *= Math.sqrt(WANTED_MS / mean); // what is paid for is pixels, the square
+      wanted *= Math.sqrt(WANTED_MS / mean); // the cost is that of pixels, the square
       this.changed = now;
     } else if (mean < FAST_MS && now - (this.changed ?? -Infinity) > this.risePause) {
       wanted *= RISE;
@@ -56,15 +56,15 @@ export class Quality {
   }
 }
 
-/** What stands still gets every pixel, and is drawn only now and then. Pure. */
+/** Gives a still picture all pixels, and redraws it only from time to time. Pure. */
 export class Stillness {
   constructor() {
     Object.assign(this, { moved: -Infinity, drawn: -Infinity, still: false });
   }
 
   /**
-   * Before a picture. @param now  ms @param moves  whether flight or camera moved since the last one
-   * @param news  whether anything else may look different @return whether it must be drawn; then `still` says how
+   * Decides before a picture. @param now  ms @param moves  flight or camera moved since the last one
+   * @param news  something else may look different @return true if it must be drawn; `still` then says how
    */
   isDue(now, moves, news) {
     if (moves) this.moved = now;

@@ -1,4 +1,4 @@
-// The semantic map: outer faces of labelled voxels; what is occupied is solid, regions are translucent volumes.
+// The semantic map: outer faces of labelled voxels. Occupied voxels are solid, regions are translucent.
 import * as THREE from 'three';
 import { SIEVE, SIEVE_PLACE, SIEVE_WAY } from './cutaway.js';
 import { numbers, point } from './form.js';
@@ -19,14 +19,14 @@ const VERTEX = `varying vec3 at; varying vec3 n; uniform vec3 vehicle; ${SIEVE_W
   ${SIEVE_PLACE}
   gl_Position = projectionMatrix * vec4(seen, 1.0); }`;
 
-/** How much of a line between voxels there is here, 0 … 1. */
+/** The intensity of a voxel's edge at this point, 0 … 1. */
 const GRID = `float grid() {
     vec3 q = (at - origin) / resolution; vec3 w = fwidth(q);
     vec3 d = abs(fract(q - 0.5) - 0.5) / max(w, vec3(1e-5)) + 8.0 * abs(n);
     return (1.0 - min(min(d.x, min(d.y, d.z)), 1.0)) * clamp(0.55 - 1.4 * max(w.x, max(w.y, w.z)), 0.0, 1.0);
   }`;
 
-/** The same for what is solid: edges that are a share of a voxel near by, and a pixel farther away. */
+/** The same for solid faces: near edges are a share of a voxel wide, far ones a pixel. */
 const EDGE = `float edge() {
     vec3 q = (at - origin) / resolution; vec3 w = fwidth(q);
     vec3 d = abs(fract(q - 0.5) - 0.5) + abs(n);
@@ -34,7 +34,7 @@ const EDGE = `float edge() {
     return max(here.x, max(here.y, here.z)) * clamp(1.1 - 2.4 * max(w.x, max(w.y, w.z)), 0.0, 1.0);
   }`;
 
-/** A region that one may fly through: translucent. */
+/** A region, which the vehicle may fly through: translucent. */
 const AIRY = `varying vec3 at; varying vec3 n; uniform vec3 color, origin; uniform float opacity, resolution;
   ${GRID}
   void main() {
@@ -43,7 +43,7 @@ const AIRY = `varying vec3 at; varying vec3 n; uniform vec3 color, origin; unifo
     #include <colorspace_fragment>
   }`;
 
-/** What is occupied: solid, with the edges of its voxels, cut off above `cut`; where it is cut one sees its inside, darker. */
+/** Occupied voxels: solid, with edges, cut off above `cut`. The cut shows their inside, darker. */
 const SOLID = `varying vec3 at; varying vec3 n; ${SIEVE_WAY}
   uniform vec3 color, origin, lit[6]; uniform float resolution, cut;
   ${EDGE}
@@ -72,7 +72,7 @@ function corners(direction, low, high) {
 }
 
 export class Regions {
-  /** @param vehicle  where it is; kept */
+  /** @param vehicle  its position; the reference is stored */
   constructor(world, vehicle) {
     this.group = new THREE.Group();
     this.shown = { walls: true, regions: true };
@@ -139,13 +139,13 @@ export class Regions {
     for (const mesh of this.group.children) if (mesh.name === layer) mesh.visible = on;
   }
 
-  /** Walls above this height are not drawn. @param z  m; null: all are */
+  /** Hides walls above this height. @param z  m; null: shows all */
   cutAt(z) {
     this.cut.value = z ?? NO_CUT;
     for (const mesh of this.group.children) if (mesh.name === 'walls') mesh.material.side = this.side();
   }
 
-  /** From within a wall one looks out, unless it is cut: then its inside is what shows the cut. */
+  /** Inside faces are drawn only if walls are cut; otherwise one can look out from within a wall. */
   side() {
     return this.cut.value < NO_CUT ? THREE.DoubleSide : THREE.FrontSide;
   }
@@ -171,7 +171,7 @@ export class Regions {
       .setIndex(index);
   }
 
-  /** The first face under a ray: {point, distance, layer}, or null. */
+  /** Returns the first face under a ray: {point, distance, layer}, or null. */
   hit(raycaster) {
     const hits = raycaster.intersectObjects(this.group.children.filter((mesh) => mesh.visible));
     const first = hits.find(({ object, point: at }) => object.name !== 'walls' || at.z <= this.cut.value);

@@ -1,14 +1,14 @@
-// The connection to tern-viewer: frames in, commands out. Comes back by itself when the bridge does.
+// The connection to tern-viewer: frames in, commands out. It reconnects by itself.
 
 const FIRST_RETRY_MS = 250;
 const LAST_RETRY_MS = 2000;
 
 /**
  * Calls handlers.frame(frame) for every frame, handlers.reply(message) for answers to this page's commands,
- * handlers.open() and handlers.close(), handlers.malformed(text, error) for what is not a frame.
+ * handlers.open() and handlers.close(), and handlers.malformed(text, error) for a malformed frame.
  *
- * A frame is {frame: n, dropped: k, ...topics}. The bridge sends at most two frames ahead of `seen`, which the page tells
- * when it has drawn: a slow page gets fewer frames, never older ones.
+ * A frame is {frame: n, dropped: k, ...topics}. The page acknowledges a drawn frame by `seen`, and the bridge sends at most
+ * two frames ahead. A slow page gets fewer frames, never older ones.
  */
 export class Stream {
   constructor(url, handlers) {
@@ -49,7 +49,7 @@ export class Stream {
     }
   }
 
-  /** What came was drawn: more may come. */
+  /** Acknowledges the drawn frame. */
   drawn() {
     if (this.unseen === 0) return;
     this.send({ seen: this.unseen });

@@ -1,10 +1,10 @@
-// A flight that is in the page itself (tern-viewer --export): played here, without a bridge. Answers to the commands that a
-// bridge's log player answers to.
+// Plays a flight that is in the page itself (tern-viewer --export), without a bridge. It answers the same commands as a
+// bridge's log player.
 import { countUpTo } from './time_rows.js';
 
 const NO_DETAIL = 'this file does not contain the messages; tern-viewer --log shows them';
 
-/** The tape that this page carries, or null. It is packed: base64 of a deflated JSON text. */
+/** Returns the tape of this page, or null. It is base64 of a deflated JSON text. */
 export async function readTape() {
   const element = document.getElementById('tape');
   if (!element) return null;
@@ -22,7 +22,7 @@ export class Tape {
     this.wall = clock();
   }
 
-  /** What does not change comes first. */
+  /** Sends the constant topics first. */
   open() {
     this.handlers.open();
     this.handlers.frame({ frame: ++this.frame, dropped: 0, ...this.tape.still, player: this.player() });
@@ -64,7 +64,7 @@ export class Tape {
     this.wall = now;
   }
 
-  /** Before each picture: what has changed since the last one. */
+  /** Before each picture: sends the topics that have changed. */
   drawn() {
     this.advance();
     const frame = {};

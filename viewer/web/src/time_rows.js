@@ -1,6 +1,6 @@
 // Rows of a flight by time: [[t…], [value…]], t ascending.
 
-/** How many of t are ≤ at. */
+/** Returns how many of t are ≤ at. */
 export function countUpTo(t, at) {
   let low = 0;
   let high = t.length;
@@ -12,20 +12,20 @@ export function countUpTo(t, at) {
   return low;
 }
 
-/** The newest value at that time, or null. */
+/** Returns the newest value at that time, or null. */
 export function valueAt([t, values], at) {
   const n = countUpTo(t, at);
   return n > 0 ? values[n - 1] : null;
 }
 
-/** The value of a curve at that time, between two of its points; null before its first one. */
+/** Returns the value of a curve at that time, interpolated; null before its first point. */
 export function curveAt([t, values], at) {
   const n = countUpTo(t, at);
   if (n === 0 || n === t.length || !Number.isFinite(values[n])) return n > 0 ? values[n - 1] : null;
   return values[n - 1] + ((at - t[n - 1]) / (t[n] - t[n - 1])) * (values[n] - values[n - 1]);
 }
 
-/** Where a flown path is at that time, [x, y, z, speed], between two of its points; null before and after it. */
+/** Returns the point of a path at that time, [x, y, z, speed], interpolated; null before and after it. */
 export function placeAt({ t, curve }, at) {
   const n = countUpTo(t, at);
   if (n === 0 || (n === t.length && at > t[n - 1] + 0.1)) return null;
@@ -37,10 +37,10 @@ export function placeAt({ t, curve }, at) {
 }
 
 const NEAR_PX = 6;
-/** The kind of event that the timeline's band shows: it gets a tick. */
+/** The kind of event that is shown as a tick in the timeline's band. */
 export const QUIET = 'outcome';
 
-/** The event within NEAR_PX of x, the nearest and rather a loud one, or null. @param place  from seconds to px */
+/** Returns the nearest event within NEAR_PX of x, with other kinds before QUIET, or null. @param place  seconds → px */
 export function eventNear(events, place, x) {
   const away = (event) => Math.abs(place(event.t) - x);
   const rank = (event) => away(event) + (event.kind === QUIET ? 2 * NEAR_PX : 0);

@@ -1,11 +1,11 @@
-// The whole flight on a line: the answers' outcomes as a band, what happened as marks above it. A click jumps; near a mark, to it.
+// The whole flight on a line: outcomes as a band, events as marks above it. A click jumps, near a mark to that mark.
 import { eventNear, QUIET } from './time_rows.js';
 import { palette } from './palette.js';
 
 const BAND_PX = 6;
-const INSET_PX = 8; // half a mark, and half the slider's thumb: a click and the band mean the same moment
+const INSET_PX = 8; // half a mark, and half the slider's thumb, so that click and band agree
 
-/** By kind of event: its mark and colour. */
+/** Kind of event → mark and colour. */
 export const MARKS = {
   goal: { mark: '▲', color: palette.goal },
   outcome: { mark: '·', color: palette.axis },
@@ -30,7 +30,7 @@ export class Timeline {
     this.hovered = null;
     this.canvas = byId('events');
     this.context = this.canvas.getContext('2d');
-    this.still = document.createElement('canvas'); // what does not go with the time
+    this.still = document.createElement('canvas'); // the parts that do not change with time
     new ResizeObserver(() => this.redraw()).observe(byId('timeline'));
     const scrub = byId('scrub');
     scrub.addEventListener('pointermove', (event) => this.point(event.offsetX));
@@ -46,7 +46,7 @@ export class Timeline {
     return INSET_PX + ((t - begin) / (end - begin)) * (this.canvas.clientWidth - 2 * INSET_PX);
   }
 
-  /** @param span  begin and end of what is known, s */
+  /** @param span  begin and end of the known time, s */
   takeChart({ outcomes }, [begin, end]) {
     this.outcomes = outcomes;
     this.span = [begin, Math.max(end, begin + 0.1)];
@@ -64,7 +64,7 @@ export class Timeline {
     this.draw();
   }
 
-  /** Another chart's cursor is there. */
+  /** Shows the cursor of a chart. */
   hover(t) {
     if (this.hovered === t) return;
     this.hovered = t;
@@ -81,7 +81,7 @@ export class Timeline {
     tip.style.left = `${Math.max(Math.min(x - tip.offsetWidth / 2, room), 0)}px`;
   }
 
-  /** All of it: another flight, more of it, or another size. */
+  /** Draws everything: another flight, more of it, or another size. */
   redraw() {
     const { canvas, still } = this;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
@@ -111,7 +111,7 @@ export class Timeline {
     }
   }
 
-  /** An answer's outcome until the next one. */
+  /** Draws an answer's outcome until the next answer. */
   drawBand(context, width, top) {
     const [t, kinds] = this.outcomes;
     context.fillStyle = palette.rule;

@@ -11,13 +11,13 @@ import { countUpTo } from './time_rows.js';
 const EDGES = [0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3];
 const FACES = [0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3];
 
-/** Of one segment, by LineMaterial: x is the side, y is along it, and beyond its ends for round caps. */
+/** One segment, for LineMaterial: x is the side, y is along it, and beyond its ends for round caps. */
 const SEGMENT = new LineSegmentsGeometry();
 const CORNERS = SEGMENT.attributes.position.count;
 
 /**
- * A line of changing length, as wide as `width` pixels. Its buffers grow, and are written again. Every corner of a segment is
- * in them, for instances cost a renderer without a GPU as much as meshes do.
+ * A line of changing length, `width` pixels wide. Its buffers grow and are reused. They contain every corner of a segment,
+ * since instances cost a renderer without a GPU as much as meshes.
  */
 export class Ribbon {
   constructor(scene, options) {
@@ -49,7 +49,7 @@ export class Ribbon {
       geometry.setAttribute(name, new THREE.BufferAttribute(all, 3).setUsage(THREE.DynamicDrawUsage));
     }
   }
-  /** One end of every segment, for each of its corners. @param rows  three numbers per point  @param skip  of them */
+  /** Writes one end of every segment to each of its corners. @param rows  three numbers per point  @param skip  of them */
   write(name, rows, skip) {
     const attribute = this.line.geometry.attributes[name];
     let to = 0;
@@ -62,7 +62,7 @@ export class Ribbon {
   }
 }
 
-/** Tetrahedra, four points each: faint faces and edges, and their corners, for at speed they are slivers. */
+/** Tetrahedra, four points each, with faint faces, edges and corners, since they are slivers at speed. */
 class Simplices {
   constructor(scene, color) {
     this.group = new THREE.Group();
@@ -128,7 +128,7 @@ function split(curve, top, target = new THREE.Color()) {
 
 export class Trajectories {
   constructor(scene) {
-    this.top = 6; // m/s, what is drawn as fastest
+    this.top = 6; // m/s, the speed of the last colour
     this.path = new Ribbon(scene, { linewidth: 4, vertexColors: true });
     this.tail = new Ribbon(scene, { linewidth: 4, vertexColors: true });
     this.committed = new Ribbon(scene, { color: palette.committed, linewidth: 2, opacity: 0.85 });
@@ -158,7 +158,7 @@ export class Trajectories {
     this.drawnPoints = -1;
   }
 
-  /** @param path  {t, curve}: the flight as far as it is known, [x, y, z, speed, …], t in its seconds */
+  /** @param path  {t, curve}: the known flight, [x, y, z, speed, …], t in its seconds */
   takePath(path) {
     numbers(path.curve, 4, numbers(path.t, 1).length);
     this.flown = path;
@@ -166,8 +166,7 @@ export class Trajectories {
   }
 
   /**
-   * The path up to the vehicle: the flown one's points, and where it has not come to yet (it is told twice a second), the
-   * states themselves.
+   * Draws the path up to the vehicle. The path is sent twice a second; its end is made of the states.
    * @param t  of the state, s
    */
   takeState(state, t) {
@@ -186,7 +185,7 @@ export class Trajectories {
     this.tail.set(positions, colors);
   }
 
-  /** What the flight has come to, and where it goes. */
+  /** Draws the path up to the present, and the goal. */
   extent(box) {
     const { curve } = this.flown;
     for (let k = 0; k < curve.length; k += 4) box.expandByPoint(new THREE.Vector3(curve[k], curve[k + 1], curve[k + 2]));
@@ -201,7 +200,7 @@ export class Trajectories {
     this.sphere.position.set(...point(request.p));
   }
 
-  /** @param plan  null: there is none yet */
+  /** @param plan  null: none yet */
   takePlan(plan) {
     this.plan.set(plan?.curve ? split(plan.curve, this.top).positions : []);
     this.minvo.set(numbers(plan?.minvo ?? [], 12));
@@ -213,7 +212,7 @@ export class Trajectories {
   }
 
   takeGoal(goal) {
-    this.goal.visible = Boolean(goal?.p); // who holds or stops flies nowhere
+    this.goal.visible = Boolean(goal?.p); // hold and stop have no position
     if (!this.goal.visible) return;
     this.goal.position.set(...point(goal.p));
     this.goal.stem.scale.y = Math.max(goal.p[2], 0.01);

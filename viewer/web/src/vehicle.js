@@ -1,4 +1,4 @@
-// The vehicle to scale: a quadrotor that leans into its acceleration, as large as the body that the planner keeps clear.
+// The vehicle to scale: a quadrotor that tilts with its acceleration, as large as the body that the planner keeps clear.
 import * as THREE from 'three';
 import { numbers, point } from './form.js';
 import { palette } from './palette.js';
@@ -67,8 +67,8 @@ export class Vehicle {
   }
 
   /**
-   * @param half  of the body's box per axis, m: the rotors reach its ends, the ball is round when it is
-   * @param tube  what the vehicle may be off its setpoints per axis, m: the planner keeps the body clear by it
+   * @param half  half-extents of the body's box, m: the rotors reach its ends; a ball is round if the body is
+   * @param tube  half-extents of the tube, m
    */
   setBody(half, tube = [0, 0, 0]) {
     const [x, y, z] = point(half).map((metres) => Math.max(metres, 0.02));
@@ -80,7 +80,7 @@ export class Vehicle {
     this.reach = Math.hypot(x, y, z);
   }
 
-  /** Seen from within, there is no vehicle. */
+  /** Hides the vehicle for a camera inside it. */
   showBody(on) {
     this.group.visible = on && this.state !== null;
   }

@@ -1,8 +1,8 @@
-// What was clicked on, in words.
+// Describes a clicked object in words.
 
 const metres = (x) => `${x.toFixed(2)} m`;
 
-/** From a point to a box, 0 within. */
+/** The distance from a point to a box, 0 inside. */
 function distanceToBox(p, centre, half) {
   return Math.hypot(...p.map((x, k) => Math.max(Math.abs(x - centre[k]) - half[k], 0)));
 }
@@ -16,7 +16,7 @@ function size(half) {
   return `${half.map((h) => (2 * h).toFixed(1)).join(' × ')} m`;
 }
 
-/** @param known  the newest of each topic */
+/** @param known  the newest value of each topic */
 export function obstacleInWords(id, known) {
   const set = known.truth ?? known.tracks;
   const k = set?.id.indexOf(id) ?? -1;

@@ -1,17 +1,17 @@
-// Renderer, light, ground, and how many pixels they get. W is ENU: x and y horizontal, z up, metres.
+// Renderer, light, ground, and the number of pixels. W is ENU: x and y horizontal, z up, metres.
 import * as THREE from 'three';
 import { Cameras } from './camera.js';
 import { palette } from './palette.js';
 import { Quality, Stillness } from './quality.js';
 
 const FOG_BEGIN = 26; // m
-const FOG_END = 80; // m: nothing is seen beyond
-const FOG_NEAR = 20; // m: a camera that is farther from what it looks at has so much thinner fog
+const FOG_END = 80; // m: everything beyond is fog
+const FOG_NEAR = 20; // m: a camera farther from its target has proportionally thinner fog
 const GAMMA = 2.2; // of displays, nearly
-const TURNED = 1e-5; // of a view's matrix between two pictures: less than a hundredth of a pixel
+const TURNED = 1e-5; // change of a view's matrix between two pictures: less than a hundredth of a pixel
 const FEWEST_PIXELS = 0.3; // of the window's, per axis
 
-/** Whether WebGL draws on the CPU: then it gets no more pixels than it can pay for. */
+/** Returns true if WebGL draws on the CPU; the number of pixels is then limited to what it can draw. */
 function isSoftware() {
   const gl = document.createElement('canvas').getContext('webgl2');
   const info = gl?.getExtension('WEBGL_debug_renderer_info');
@@ -20,7 +20,7 @@ function isSoftware() {
   return /swiftshader|llvmpipe|software/i.test(name);
 }
 
-/** A hint of a horizon. */
+/** A faint horizon. */
 function sky() {
   const canvas = Object.assign(document.createElement('canvas'), { width: 2, height: 256 });
   const context = canvas.getContext('2d');
@@ -39,7 +39,7 @@ function sky() {
 export class World {
   constructor(canvas) {
     THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
-    // ?quality=high: every pixel, whatever it costs (for pictures); low: few (for tests).
+    // ?quality=high: every pixel at any cost (for pictures); low: few (for tests).
     const asked = new URLSearchParams(location.search).get('quality');
     this.thrifty = asked === 'low' || (asked !== 'high' && isSoftware());
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.thrifty, powerPreference: 'high-performance' });
@@ -78,35 +78,35 @@ export class World {
     this.scene.add(sky, sun, rim);
   }
 
-  /** Colours are summed as they are seen, not as light is: no pixel pays for two powers of three channels. */
+  /** Colours are added in display space, which saves two powers of three channels per pixel. */
   countColoursAsSeen() {
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
   }
 
-  /** A share of light, as colours are counted. */
+  /** A share of light, in display space. */
   shade(share) {
     return this.thrifty ? share ** (1 / GAMMA) : share;
   }
 
-  /** How many times thinner the fog is than near the ground. */
+  /** Returns how many times thinner the fog is than near the ground. */
   thinness() {
     if (this.camera.isOrthographicCamera) return 1;
     return Math.max(this.camera.position.distanceTo(this.cameras.controls.target) / FOG_NEAR, 1);
   }
 
-  /** Nothing is seen farther away, m. */
+  /** Returns the distance at which the fog is opaque, m. */
   sight() {
-    return this.camera.isOrthographicCamera ? Infinity : FOG_END * this.thinness(); // the one is far from everything
+    return this.camera.isOrthographicCamera ? Infinity : FOG_END * this.thinness(); // an orthographic camera is far from everything
   }
 
-  /** How much of what is so far away is left in the fog, 0 … 1. @param distance  m */
+  /** Returns the part of an object's colour that the fog leaves, 0 … 1. @param distance  m */
   clear(distance) {
     if (this.camera.isOrthographicCamera) return 1;
     return 1 - THREE.MathUtils.smoothstep(distance / this.thinness(), FOG_BEGIN, FOG_END);
   }
 
-  /** What these lights make of a white matt face with that normal: what MeshLambertMaterial would. */
+  /** Returns the colour of a white matt face with that normal in this light, as MeshLambertMaterial would. */
   lightOn(normal) {
     const { sky, lamps } = this.lights;
     const color = new THREE.Color().lerpColors(sky.groundColor, sky.color, 0.5 + 0.5 * normal.z);
@@ -118,7 +118,7 @@ export class World {
     return color.setRGB(...color.toArray().map((light) => this.shade(light / Math.PI)));
   }
 
-  /** A plane with lines every metre and every five, which fade with distance. */
+  /** A ground with lines every metre and every five, which fade with distance. */
   shadedGround() {
     const material = new THREE.ShaderMaterial({
       uniforms: {
@@ -145,7 +145,7 @@ export class World {
     return new THREE.Mesh(new THREE.PlaneGeometry(320, 320), material);
   }
 
-  /** The same for a renderer that pays for every pixel and every line: every five metres, and every metre near by. */
+  /** The ground of a renderer without a GPU: lines every five metres, and near by every metre. */
   lineGround() {
     const grid = new THREE.GridHelper(160, 32, palette.grid, palette.faint);
     grid.add(new THREE.GridHelper(30, 30, palette.grid, palette.faint));
@@ -166,9 +166,9 @@ export class World {
   }
 
   /**
-   * Fewer pixels when frames take long, more when they do not, and all of them while everything stands still.
-   * @param now  ms @param flies  whether the flight goes on @param news  whether anything else may look different
-   * @return whether the picture must be drawn
+   * Reduces pixels when frames take long, raises them when they do not, and uses all of them for a still picture.
+   * @param now  ms @param flies  the flight goes on @param news  something else may look different
+   * @return true if the picture must be drawn
    */
   adapt(now, flies, news) {
     if (!this.thrifty) return true;
@@ -184,7 +184,7 @@ export class World {
     return due;
   }
 
-  /** Whether the camera sees otherwise than when it was asked last. */
+  /** Returns true if the camera's view has changed since the last call. */
   hasTurned() {
     this.camera.updateMatrixWorld();
     const view = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
@@ -198,7 +198,7 @@ export class World {
     const isFlat = this.camera.isOrthographicCamera;
     const thinness = this.thinness();
     this.scene.fog = isFlat ? null : Object.assign(this.fog, { near: FOG_BEGIN * thinness, far: FOG_END * thinness });
-    this.floor.position.set(Math.round(target.x / 5) * 5, Math.round(target.y / 5) * 5, -0.02); // below what stands on it
+    this.floor.position.set(Math.round(target.x / 5) * 5, Math.round(target.y / 5) * 5, -0.02); // below the objects that stand on it
     const { x, y } = isFlat ? target : this.camera.position;
     const { uniforms } = this.floor.material;
     uniforms?.eye.value.set((x + target.x) / 2, (y + target.y) / 2);
