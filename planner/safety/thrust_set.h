@@ -19,8 +19,9 @@ namespace tern {
 /// so the whole plan stays in the set. The floor is max(thrust_min, g/2): the body rate is |j_⊥|/|f|, so a vehicle in
 /// free fall cannot turn.
 struct ThrustSet {
-  double least, floor, ceiling, slope,
-      rate;  ///< thrust_min, floor, thrust_max (m/s²), tan(tilt_max), largest body rate (rad/s)
+  double thrust_min, floor, thrust_max;  ///< m/s²
+  double slope;                          ///< tan(tilt_max)
+  double rate;                           ///< largest body rate, rad/s
 
   explicit ThrustSet(const Dynamics& dynamics);
 
