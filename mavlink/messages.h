@@ -274,8 +274,8 @@ template <std::size_t N>
 std::string_view bytes_of(const Text<N>& text) {
   return {text.data(), static_cast<std::size_t>(std::find(text.begin(), text.end(), '\0') - text.begin())};
 }
-/// Replaces characters that are not printable ASCII by '?'. Removes a tab at the end: PX4 marks texts so that it also
-/// sends as events.
+/// Replaces characters that are not printable ASCII by '?'. Removes a tab at the end, by which PX4 marks texts that it
+/// sends as events as well.
 std::string printable(std::string words);
 template <std::size_t N>
 std::string string_of(const Text<N>& text) {

@@ -24,11 +24,12 @@ using CoarseMotions = std::map<std::int64_t, CoarseMotion>;
 /// Returns coarser motions for the obstacles that need more than `pieces` pieces per `window`, on average over their
 /// path.
 ///
-/// | motion       | coarser form                                                                                     |
-/// |--------------|--------------------------------------------------------------------------------------------------|
-/// | oscillation  | pieces of length h, the least multiple of 10 ms with window/h + 1 ≤ pieces                       |
-/// | waypoints    | resampled once (core/world/resampling.h), to pieces · max(1, its length/window)                  |
-/// | error too large, or a round shorter than a piece | the box of all places                                        |
+/// | motion                            | coarser form                                                                 |
+/// |-----------------------------------|------------------------------------------------------------------------------|
+/// | oscillation                       | pieces of length h, the least multiple of 10 ms with window/h + 1 ≤ pieces   |
+/// | waypoints                         | resampled (core/world/resampling.h), to pieces · max(1, its length/window)   |
+/// | error larger than the box below   | the box of all places of its centre                                          |
+/// | a round shorter than its pieces   | the same box                                                                 |
 ///
 /// Waypoints are resampled once for the whole path, so successive sets agree, and long rests leave their pieces to
 /// turns. Pure. O(n log n) for n waypoints. @param pieces  ≥ 1
@@ -39,8 +40,8 @@ struct PresentCount {
   std::size_t moving = 0, resting = 0;
 };
 
-/// Counts the obstacles of a declaration. One that vanishes counts while it is present and for `after` more. O(n log
-/// n).
+/// Counts the obstacles that a declaration may contain at one time. One that vanishes counts while it is present and
+/// for `after` more. O(n log n).
 PresentCount max_present(const World& world, Duration after);
 
 }  // namespace tern
