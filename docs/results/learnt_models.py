@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""What a model of motion would gain that is learnt from a flight's own tracks: an experiment, beside tern-predictor.
+"""Measures what a motion model fitted to a flight's own tracks can gain: an experiment apart from tern-predictor.
 
 learnt_models.py TABLES...: folders that `tern-export FLIGHT --csv TABLES` made. Needs Debian's python3-numpy.
 
-Of every mover that was within 8 m of the vehicle for SEEN seconds, noise of SIGMA added to its true places, the place after
-0.25, 0.5, 1 and 2 s is predicted, and the largest error of an axis is told, m: 0.99 quantile / median over the later flight, by
-  given   the best of eleven Gaussian processes with given time scales and speeds, as tern-predictor's bank has them: each
-          axis by itself; the best is chosen afterwards by these errors
-  axes    a linear regression on the places seen, one for all tracks and axes, learnt from the first LEARNS seconds of the flight
-  across  the same, in which each axis may look at all three
+Takes every obstacle that was within 8 m of the vehicle for SEEN frames, and adds noise of SIGMA to its true positions.
+Predicts its position 0.25, 0.5, 1 and 2 s ahead. Prints the largest error of an axis, m: the 0.99 quantile and the
+median over the later part of the flight, for three predictors:
+
+  given   the best of eleven Gaussian processes with fixed time scales and speeds, as in tern-predictor's bank. Each axis
+          is predicted by itself. The best is chosen afterwards by these errors.
+  axes    a linear regression on the observed positions, one for all tracks and axes, fitted to the first LEARNS seconds
+  across  the same, with the features of all three axes for each axis
 """
 import csv
 import sys

@@ -32,11 +32,11 @@ inline constexpr Duration kSensorSilence{1'000'000};
 ///   bus rejects sets with a time in the future.
 /// - TRACK_BOUNDS, the reason for each estimated track's width, is published with the first set of each kBoundsPeriod.
 ///
-/// | HEARTBEAT            | while                                                                          |
-/// |----------------------|--------------------------------------------------------------------------------|
+/// | HEARTBEAT            | while                                                                           |
+/// |----------------------|---------------------------------------------------------------------------------|
 /// | Waiting              | there was no input; the newest is older than kInputsStopped; an input is silent |
-/// | Ready                | otherwise                                                                      |
-/// | a trouble, any state | it happened within kTroubleReported, for example tracks that do not fit a set  |
+/// | Ready                | otherwise                                                                       |
+/// | a trouble, any state | it happened within kTroubleReported, for example tracks that do not fit a set   |
 class PredictorNode final : public Node {
  public:
   PredictorNode(Bus& bus, const PredictorConfig& config);

@@ -59,14 +59,14 @@ struct ScoredPrediction {
 /// - Calibration: the score of each band, and whether the published interval missed;
 /// - the highest speeds seen, which choose the prior (SceneSpeed) and bound the reach.
 ///
-/// | event of a track                                  | effect                                                     |
-/// |---------------------------------------------------|------------------------------------------------------------|
-/// | 1st, 2nd, 3rd, 5th, 8th detection; kYoungAge; then | a prediction is stored, with the margins that a published  |
-/// | every kScorePeriod                                | one would have                                             |
-/// | kSmoothingSpan after one of kEvaluatedAhead       | it is evaluated there                                      |
-/// | the end of a band                                 | its score goes to Calibration, its errors to ModelScores   |
-/// | no smoothed position, or the last time evaluated  | the prediction is finished                                 |
-/// | the track is gone                                 | its stored predictions are finished as they are            |
+/// | event of a moving track                                  | effect                                                |
+/// |----------------------------------------------------------|-------------------------------------------------------|
+/// | detection 1, 2, 3, 5 and 8; kYoungAge; each kScorePeriod | a prediction is stored with its margins               |
+/// | kSmoothingSpan after one of kEvaluatedAhead              | its error there is evaluated; a sample of LearntModel |
+/// | the same, at the end of a band                           | the score of the band goes to Calibration             |
+/// | the same, at one of kScoredAhead                         | the errors of all models go to ModelScores            |
+/// | no smoothed position, or the last time evaluated         | the prediction is finished                            |
+/// | the track is deleted                                     | its stored predictions are finished as they are       |
 ///
 /// A value: the same tracks in the same order give the same weights and margins.
 class PredictionScorer {

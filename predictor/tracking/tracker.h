@@ -97,15 +97,15 @@ enum class UpdateOutcome {
 /// Only the sensor that detected a track last can miss it, because sensors see different things at different rates. A
 /// set *counts* for a track if it is from that sensor or detects the track.
 ///
-/// | state     | event                                                             | effect          |
-/// |-----------|-------------------------------------------------------------------|-----------------|
-/// | tentative | confirm_hits detections in the first confirm_window counted sets  | confirmed       |
-/// | tentative | confirm_window counted sets with fewer detections                 | deleted         |
-/// | tentative | another sensor's set, kTentativeUnseen after the last detection   | deleted         |
-/// | confirmed | a miss later than `coast`, unless stationary and out of range     | deleted         |
-/// | confirmed | any set later than `remember_rest` after the last detection       | deleted         |
-/// | any       | distance2 above kJumpGate, or a detection after kMissesToRestart  | filters restart |
-/// | any       | consistent with rest for `resting_after`                          | stationary      |
+/// | state      | event                                                            | effect          |
+/// |------------|------------------------------------------------------------------|-----------------|
+/// | tentative  | confirm_hits detections in the first confirm_window counted sets | confirmed       |
+/// | tentative  | confirm_window counted sets with fewer detections                | deleted         |
+/// | tentative  | another sensor's set, kTentativeUnseen after the last detection  | deleted         |
+/// | confirmed  | a miss later than `coast`, unless stationary and out of range    | deleted         |
+/// | confirmed  | any set later than `remember_rest` after the last detection      | deleted         |
+/// | any        | distance2 above kJumpGate, or a detection after kMissesToRestart | filters restart |
+/// | any        | consistent with rest for `resting_after`                         | stationary      |
 /// | stationary | the resting hypothesis fails                                     | filters restart |
 ///
 /// A pure function of the observations. Sets that come out of order within kReorderWindow give the same tracks as in
