@@ -42,7 +42,7 @@ TEST(PairedDifference, CoversTheTruthAsOftenAsItSays) {
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<std::pair<double, double>> pairs;
     for (int k = 0; k < 60; ++k) {
-      const double a = 10.0 * rng.normal();  // the pair's own: it cancels
+      const double a = 10.0 * rng.normal();  ///< common to both flights of the pair, so it cancels
       pairs.emplace_back(a, a + 0.3 + rng.normal());
     }
     const PairedDifference d = paired_difference(pairs);

@@ -22,7 +22,7 @@ FlightRecord fly(const FlightInputs& inputs, std::uint64_t seed, const TempFolde
 
 TEST(RecordedFlight, ASpeltOutScenarioMakesTheSameFlight) {
   const TempFolder first, second;
-  // What is set for processes is in the scenario, too; the flight ends by its timeout.
+  // Settings of processes are in the scenario as well; the flight ends by its timeout.
   const FlightInputs inputs = short_hop(Charge::Counts, {"timeout_s=1.0", "predictor.horizon_s=2.5"});
   const FlightRecord flown = fly(inputs, 5, first);
   EXPECT_EQ(flown.result.outcome, FlightOutcome::Timeout);
@@ -78,7 +78,7 @@ TEST(RecordedFlight, AChargedPlanArrivesWhenItsCpuTimeIsOver) {
 
 TEST(RecordedFlight, AChargedPlannerIsCutOrWatchedAndAnswersInTimeHoweverShortTheDeadline) {
   const TempFolder folder;
-  // The deadline is 5 ms after the request, the watchdog's time 1 ms after it: less than many a plan takes.
+  // The deadline is 5 ms after the request and the watchdog 1 ms after it: less time than many plans need.
   const FlightRecord flown = fly(short_hop(Charge::Cpu, {"executor.lead_s=0.01", "timeout_s=2"}), 1, folder);
   EXPECT_GT(flown.requests, 20);
   EXPECT_EQ(flown.answered_in_time, flown.requests);

@@ -1,4 +1,4 @@
-// The JSON schema of scenarios against the scenarios that there are.
+// The JSON schema of scenarios, checked against the scenarios of the project.
 #include "campaign/scenario_schema.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Flights that nobody flew, for tests of what is done with them.
+// Made-up flight records, for tests of tables and summaries.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tern {
 
-/// A function of the seed; every third one collided.
+/// A flight that depends only on the seed; every third one collided.
 inline FlightRecord some_flight(std::uint64_t seed) {
   const double x = static_cast<double>(seed);
   FlightRecord flight;

@@ -11,13 +11,15 @@ namespace tern::testing {
 struct GoldenFlight {
   std::string name;
   EventfulFlight flight;
-  double from_s = 0.0;  ///< answers are kept from this time of the log on
-  int every = 1;        ///< every n-th of them is kept
+  double from_s = 0.0;  ///< answers are stored from this time of the log on
+  int every = 1;        ///< every n-th of them is stored
 };
 
-/// corridor: movers and pillars; crowd: people whose motion is estimated; semantic: a region that draws and one that
-/// repels. In evade an intruder comes at a vehicle that rests. In stale_world the predictor dies and comes back, and so
-/// does the planner.
+/// - corridor: moving and static obstacles
+/// - crowd: people whose motion is estimated
+/// - semantic: an attracting and a repelling region
+/// - evade: an intruder flies at a stationary vehicle
+/// - stale_world: predictor and planner end and restart
 std::vector<GoldenFlight> golden_flights();
 
 }  // namespace tern::testing

@@ -1,4 +1,4 @@
-// Ten thousand ways to damage a recorded log: none may crash its readers or make them take memory.
+// Ten thousand ways to damage a recorded log: no reader may crash or allocate without bound.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -22,13 +22,13 @@ using support::random_integer;
 
 const int kMutations = support::at_effort(10'000);
 constexpr std::size_t kMostHeld = std::size_t{64} << 20U;  // bytes
-constexpr std::size_t kLogBytes = 20'000;                  // of the log: enough for every kind of message
+constexpr std::size_t kLogBytes = 20'000;                  ///< of the log: every kind of message occurs
 
 std::size_t place_in(const std::string& log, Rng& rng) {
   return static_cast<std::size_t>(rng.uniform() * static_cast<double>(log.size()));
 }
 
-/// Where an event's head begins: the damage that hurts most is in its lengths.
+/// Returns where an event's head begins: damage to its lengths is the most harmful.
 std::size_t head_in(const std::string& log, Rng& rng) {
   const std::size_t found = log.find("\xED\xA1\xDA\x01", place_in(log, rng));
   return found == std::string::npos ? 0 : found;
@@ -46,14 +46,14 @@ void damage(std::string& log, Rng& rng) {
       std::generate_n(log.begin() + static_cast<std::ptrdiff_t>(at), length,
                       [&] { return static_cast<char>(random_integer(rng, 0, 255)); });
       break;
-    default: {  // a length, a number or a time of a head
+    default: {  ///< a length, a number or a time of a head
       const std::size_t field = head_in(log, rng) + 4 + static_cast<std::size_t>(random_integer(rng, 0, 23));
       if (field < log.size()) log[field] = static_cast<char>(rng.uniform() < 0.5 ? 0x7F : random_integer(rng, 0, 255));
     }
   }
 }
 
-/// A file that no disk has to write.
+/// A file in memory.
 class MemoryFile {
  public:
   MemoryFile() : fd_(memfd_create("log", MFD_CLOEXEC)) {}

@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Times would make every recording another one.
+/// Removes measured times, which would differ in every recording.
 void keep_counts_only(tern::RecordedPlan& recorded) {
   if (!recorded.timing) return;
   tern::PlanTiming& t = *recorded.timing;

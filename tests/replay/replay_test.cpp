@@ -71,7 +71,7 @@ TEST_F(ReplayTest, OfAFlightWithRestartsGivesTheSameBytes) {
   EXPECT_TRUE(text_has(all, "the same bytes"));
 }
 
-/// A page tells the vehicle to hold, then to fly on.
+/// A page tells the vehicle to hold, and later to fly on.
 void tell_goal(VirtualSystem& system, std::int64_t id, GoalMode mode, const Vec3& position) {
   Goal goal;
   goal.id = id;
@@ -316,7 +316,7 @@ TEST_F(ReplayTest, RefusesAFileWithoutAWholeEvent) {
   }
 }
 
-/// Problems of the log, solved anew.
+/// Solves the problems of the log again.
 class ReplanTest : public ReplayTest {
  protected:
   /// Calls `use` with the problem of each answer that had a world.
@@ -348,7 +348,7 @@ TEST_F(ReplanTest, ABudgetThatEndsAnywhereIsReplayedByItsCounts) {
   EXPECT_GT(cut, 20);
 }
 
-/// Keeps every answer that stands on the way.
+/// Stores every improvement.
 struct Answers final : PlanObserver {
   void enter(Stage) override {}
   void answer(const Plan& best_so_far) override { all.push_back(best_so_far); }

@@ -1,4 +1,4 @@
-// A vehicle at rest at its goal, and a box that flies through where it rests.
+// A vehicle at rest at its goal, and a box that flies through its place.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ class AppearsASecondBefore : public ::testing::TestWithParam<Vec3> {};
 
 TEST_P(AppearsASecondBefore, AndIsEvadedAtTheVehiclesTopSpeed) {
   constexpr double kSpeed = 6.0;  // m/s: v_max of the vehicle
-  constexpr double kSeen = 1.0;   // s of flight away, centre to centre
+  constexpr double kSeen = 1.0;   ///< s of flight to the vehicle when the box appears, centre to centre
   const Vec3 goal(0, 0, 10);
   const Vec3 from = goal - kSeen * kSpeed * GetParam();
   const Vec3 to = goal + 2.0 * kSeen * kSpeed * GetParam();

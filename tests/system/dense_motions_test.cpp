@@ -1,4 +1,4 @@
-// Flights among motions that have too many pieces for a message: they are declared coarser, and nobody is touched.
+// Flights among motions that have too many pieces for a message: they are declared coarser, without a contact.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,13 +16,13 @@
 namespace tern::testing {
 namespace {
 
-/// Only what is declared is known: what is not declared is flown into.
+/// Only declared motions are known: the vehicle flies into undeclared ones.
 std::vector<std::string> through(const std::string& world) {
   return {"world=" + world, "uav.goal=[24, 0, 1]", "uav.flight_box={min: [-2, -5, 0], max: [26, 5, 3]}",
           "simulator.min_flight_s=0", "predictor.model=declared"};
 }
 
-/// `people` who walk to and fro across the way, recorded at `frames_per_second` for 20 s.
+/// `people` walk to and fro across the path, recorded at `frames_per_second` for 20 s.
 void write_recording(const std::string& file, int people, double frames_per_second) {
   std::ofstream out(file);
   Rng rng(7);

@@ -8,7 +8,7 @@
 namespace tern::testing {
 namespace {
 
-/// Every PLAN of the first seconds of a flight with obstacles that move and rest and regions that draw and repel.
+/// Returns every PLAN of the first seconds of a flight with moving and static obstacles and two regions.
 std::vector<Bytes> plans_of(const std::string& cost) {
   VirtualSystem system(scenario_file("corridor_demo"), {"seed=3", "semantics.cost=" + cost});
   std::vector<Bytes> plans;

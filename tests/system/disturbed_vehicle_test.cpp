@@ -1,4 +1,4 @@
-// A vehicle that is not where it was told to be, among obstacles.
+// A vehicle off its committed trajectory, among obstacles.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -27,7 +27,8 @@ class DisturbedFlight {
 };
 
 TEST(DisturbedVehicle, InTheWindItIsBuiltForNeverLeavesItsTube) {
-  // In 219, 307 and 343 it did, while it heard of plans 25 ms before they began; in 699, while torque lifted it.
+  // Seeds 219, 307 and 343 left the tube when plans were received only 25 ms before they began; seed 699, when torque
+  // lifted the vehicle.
   for (const int seed : support::first_at_effort<int>(1, {219, 3, 307, 343, 699})) {
     SCOPED_TRACE(seed);
     const DisturbedFlight flight("quadrotor_corridor", {"seed=" + std::to_string(seed)});
@@ -58,7 +59,7 @@ TEST(DisturbedVehicle, WhoseControllerIsThreeTimesTooSoftArrivesInStillAir) {
   }
 }
 
-/// The flight of `count` obstacles whose estimate jumps by 0.6 m after so many seconds, for good.
+/// A flight among `count` obstacles whose estimate jumps by 0.6 m, for good, after some seconds.
 DisturbedFlight jumping(int seed, int count, int at_s) {
   return DisturbedFlight("quadrotor_corridor",
                          {"seed=" + std::to_string(seed), "world.count=" + std::to_string(count),
@@ -75,7 +76,7 @@ TEST(DisturbedVehicle, WhoseEstimateJumpsRejoinsWhereItBelievesToBe) {
 }
 
 TEST(DisturbedVehicle, WhoseEstimateJumpsAmongManyObstaclesTouchesNothing) {
-  // Each flew on into an obstacle, while its tube did not hold the place where it truly was.
+  // These seeds flew on into an obstacle when the tube did not contain the true position.
   for (const int seed : support::first_at_effort<int>(1, {4, 10, 13})) {
     SCOPED_TRACE(seed);
     const DisturbedFlight flight = jumping(seed, 100, 8);
@@ -84,7 +85,7 @@ TEST(DisturbedVehicle, WhoseEstimateJumpsAmongManyObstaclesTouchesNothing) {
 }
 
 TEST(DisturbedVehicle, WhoseEstimateJumpsFliesIntoNothingAndWaitsWhereThatLeavesNoWay) {
-  // Both are hit while they wait, by a mover within the tube of both places.
+  // Both are hit while they wait, by a moving obstacle inside the tubes of both places.
   for (const auto& [seed, count, at_s] : support::first_at_effort<std::array<int, 3>>(1, {{1, 10, 6}, {15, 100, 8}})) {
     SCOPED_TRACE(seed);
     const DisturbedFlight flight = jumping(seed, count, at_s);

@@ -1,4 +1,4 @@
-// The examples of docs fly: what a reader copies works.
+// The examples of docs/ fly as they are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,10 +23,10 @@ namespace {
 constexpr Duration kFrame{33'333};
 const Vec3 kHalfExtents = Vec3::Constant(0.4);
 
-/// Where the box of own_detector.py is.
+/// Returns the centre of own_detector.py's box.
 Vec3 true_centre(UTime at) { return {6.0, 2.0 * std::sin(static_cast<double>(at.us) * 1e-6), 1.0}; }
 
-/// What own_detector.py sends.
+/// Publishes what own_detector.py publishes.
 class OwnDetector final : public Node {
  public:
   explicit OwnDetector(Bus& bus) : bus_(bus), next_(bus.clock().now()) {}
@@ -69,7 +69,7 @@ TEST(DocsExamples, AFlightByOnesOwnDetectorReachesItsGoalClearOfWhatTrulyStoodTh
   EXPECT_GT(clearance, 0.0);
 }
 
-/// The one block of YAML in a page.
+/// Returns the only YAML block of a page.
 std::string yaml_of(const std::string& page) {
   std::ifstream file(page);
   const std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -1,4 +1,4 @@
-// What one or two forged packets, or a second process by mistake, do to a flight without keys: nothing that lasts.
+// One or two forged packets, or a second process by mistake, have no lasting effect on a flight without keys.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,14 +20,14 @@ namespace tern::testing {
 namespace {
 
 constexpr std::int64_t kFar = std::int64_t{1} << 62;
-/// Pillars and movers on the way: who plans in an empty world, or not at all, meets them.
+/// Pillars and moving obstacles on the path: a planner in an empty world, or none, collides with them.
 constexpr char kObstacles[] =
     "world.obstacles=["
     "{motion: trefoil, centre: [8, 0.5, 1], slowness: 1.1}, {centre: [14, -1, 2], half_extents: [0.2, 0.2, 4]},"
     "{motion: trefoil, centre: [28, 0, 1], slowness: 1.1}, {centre: [36, 0, 2], half_extents: [0.2, 0.2, 4]},"
     "{motion: trefoil, centre: [52, -0.5, 2], slowness: 1.1, phase: 2}]";
 
-/// A flight of all processes, the monitor too, in which a test lies from the second second on.
+/// A flight of all processes and the monitor, in which a test forges messages from the second second on.
 class ForgedMessages : public ::testing::Test {
  protected:
   ForgedMessages()
@@ -52,7 +52,7 @@ class ForgedMessages : public ::testing::Test {
   [[nodiscard]] const Executor& executor() { return *system_.executor().executor(); }
   [[nodiscard]] double speed() { return executor().sample(runner().now()).v.norm(); }
   void fly(double seconds) { runner().run(runner().now() + Duration::from_seconds(seconds)); }
-  /// To the monitor's end. @return the answers that did not plan because the world seemed stale, from here on.
+  /// Runs to the monitor's end. @return the number of answers from here on with the reason StaleWorld
   std::int64_t fly_to_the_goal() {
     const std::size_t before = plans_.size();
     const RunResult end = runner().run(runner().now() + Duration::from_seconds(60.0));
@@ -63,7 +63,7 @@ class ForgedMessages : public ::testing::Test {
     return std::count_if(plans_.begin() + static_cast<std::ptrdiff_t>(before), plans_.end(),
                          [](const Plan& plan) { return plan.reason == PlanReason::StaleWorld; });
   }
-  /// As if nothing had been: no answer missing, none without a plan.
+  /// Expects no effect: every request is answered, with a plan.
   void expect_undisturbed() {
     EXPECT_EQ(fly_to_the_goal(), 0);
     EXPECT_EQ(executor().counters().unanswered, 0);
@@ -117,7 +117,7 @@ TEST_F(ForgedMessages, HalfASetOfTheTruePredictorDelaysTheWorldByOneSet) {
 }
 
 TEST_F(ForgedMessages, AWorldOfTheTruePredictorIsBelievedUntilTheNextSet) {
-  // Nobody can tell it from the truth without keys.
+  // Without keys it cannot be told from a true message.
   fly(0.01);
   const UTime lied = runner().now();
   TrackSet lie = empty_world(kFar);
@@ -175,7 +175,7 @@ TEST_F(ForgedMessages, AStopFromTheFutureStopsNobody) {
 }
 
 TEST_F(ForgedMessages, AStopOfNowIsBelievedAndALaterGoalIsHeardAfterIt) {
-  // Anyone may send goals: only keys tell who.
+  // Anyone may send goals; only keys restrict the sender.
   forger_.send(channels::kGoal.name, goal(runner().now().us, GoalMode::Stop), forger_.foreign());
   fly(3.0);
   EXPECT_EQ(speed(), 0.0);

@@ -21,13 +21,13 @@ constexpr char kObstacles[] =
     "{centre: [14, -1, 2], half_extents: [0.2, 0.2, 4]}, {motion: trefoil, centre: [22, -0.5, 2], slowness: 1.1, "
     "phase: 2}]";
 
-/// Half of the largest number: no honest one follows it.
+/// Half of the largest number: an honest sender never follows it.
 constexpr std::int64_t kHuge = std::int64_t{1} << 62;
 
-/// The newest true message of each channel, as it was on the wire; and every one of some.
+/// The newest true message of each channel as bytes, and all messages of some channels.
 struct Overheard {
   std::map<std::string, Bytes, std::less<>> newest;
-  std::vector<std::pair<std::string, Bytes>> flown;  ///< PLAN and UAV_STATE: what the flight was
+  std::vector<std::pair<std::string, Bytes>> flown;  ///< PLAN and UAV_STATE: the flown flight
 
   template <class T>
   [[nodiscard]] T last(const char* channel) const {
@@ -40,7 +40,7 @@ struct Forged {
   Bytes bytes;
 };
 
-/// What somebody who hears everything would say, without a trailer.
+/// A message that a listener could forge, without a trailer.
 struct Attack {
   const char* name;
   std::function<std::vector<Forged>(const Overheard&, UTime now)> forge;
@@ -148,7 +148,7 @@ class KeyedFlight {
   [[nodiscard]] UTime now() { return system_.runner().now(); }
   [[nodiscard]] bool flies() { return system_.simulator().world_zero().has_value(); }
   void fly(Duration span) { system_.runner().run(now() + span); }
-  /// Until the monitor's watch has its verdict. @return that
+  /// Runs until the monitor's watch has its verdict, and returns it.
   std::optional<Ending> fly_to_the_end() {
     std::optional<Ending> ending;
     system_.runner().run(now() + Duration{120'000'000}, [&] { return (ending = watch_.ending(now())).has_value(); });
@@ -158,7 +158,7 @@ class KeyedFlight {
     system_.runner().run(now() + Duration{20'000'000}, [this] { return flies(); });
     fly(Duration{1'000'000});
   }
-  /// Delivers these in no time.
+  /// Delivers these messages at once.
   void say(const std::vector<Forged>& messages) {
     forging_ = true;
     for (const auto& [channel, bytes] : messages) {
@@ -168,7 +168,7 @@ class KeyedFlight {
     forging_ = false;
   }
   [[nodiscard]] const FlightResult& result() { return *system_.simulator().result(); }
-  /// By all processes together, as their last heartbeats say.
+  /// Returns the sum over all processes, from their last heartbeats.
   std::int64_t refused(Rejection reason) {
     std::int64_t sum = 0;
     for (const auto& [name, counters] : system_.runner().observer().counters()) {
@@ -185,7 +185,7 @@ class KeyedFlight {
   bool forging_ = false;
 };
 
-/// The same, as signed by somebody who has another key, and with the tag of a true message.
+/// The same message signed with another key, and with the tag of a true message.
 std::vector<Forged> with_tags(const std::vector<Forged>& forged, const Overheard& true_ones, UTime now) {
   const KeyRing other = KeyRing::derive(derive_key(random_key(), "other"), "tern-forger");
   std::vector<Forged> all;

@@ -1,4 +1,4 @@
-// Whatever a scenario may legally say, its flight ends with the goal reached, or with a reason that is true.
+// Every legal scenario ends with the goal reached, or with a reason that is true.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ FlightReason expect_true_end(std::int64_t seed) {
   return judgement.reason;
 }
 
-/// More: TERN_LEGAL_SCENARIOS=10000, TERN_LEGAL_FIRST=1 before this executable.
+/// For more seeds, set TERN_LEGAL_SCENARIOS=10000 and TERN_LEGAL_FIRST=1 for this executable.
 TEST(LegalScenario, EndsAtItsGoalOrWithAReasonThatIsTrue) {
   const std::int64_t count = setting("TERN_LEGAL_SCENARIOS", support::listed_at_effort(12, 60));
   const std::int64_t first = setting("TERN_LEGAL_FIRST", 1);
@@ -47,10 +47,13 @@ TEST(LegalScenario, EndsAtItsGoalOrWithAReasonThatIsTrue) {
   EXPECT_GE(reasons[static_cast<std::size_t>(FlightReason::Reached)] * 10, count * 8);
 }
 
-/// Lopsided bodies at the edge of their flight boxes, which were widened for them; limits that cross the sphere in one
-/// interval, or differ between axes by hundreds; a setting out that is put off at every request; a wall beside
-/// the vehicle; staying that is estimated to arrive earlier than any way on; an obstacle that appears within a
-/// vehicle's reach.
+/// Hard cases:
+/// - lopsided bodies at the edge of flight boxes that were widened for them
+/// - limits that cross the sphere in one interval, or differ between axes by hundreds
+/// - a departure that is postponed at every request
+/// - a wall beside the vehicle
+/// - staying that is estimated to arrive earlier than any path
+/// - an obstacle that appears within the vehicle's reach
 TEST(OnceWrongScenario, EndsAtItsGoalOrWithAReasonThatIsTrue) {
   for (const std::int64_t seed : {301, 378, 706, 763, 857, 886, 2828, 3173, 3569, 4932, 6178, 7046, 7158, 7479, 8329}) {
     EXPECT_EQ(expect_true_end(seed), FlightReason::Reached) << seed;

@@ -1,4 +1,4 @@
-// Narrow static passages and traps: from exact boxes, and from what a map with voxels of 0.25 m shows of them.
+// Narrow static passages and traps: as exact boxes, and as a map with voxels of 0.25 m shows them.
 #include <gtest/gtest.h>
 
 #include "core/geometry/box.h"
@@ -14,7 +14,7 @@ TEST_P(NarrowPassage, IsFlownThrough) { fly_and_expect_all_well(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Scenario, NarrowPassage, ::testing::Values("window", "u_trap", "slalom"),
                          [](const auto& flight) { return std::string(flight.param); });
 
-/// The referee knows obstacles only: that the walls of a map are not flown through is judged here, plan by plan.
+/// Checks, plan by plan, that the map's walls are not crossed; the referee knows only obstacles.
 void expect_clear_of(const std::vector<Box>& walls, const Exchange& exchange, double radius) {
   for (const Plan& plan : exchange.plans) {
     if (plan.outcome == PlanOutcome::NoPlan) continue;

@@ -1,4 +1,4 @@
-// Whole flights among movers that nobody declares, seen 8 m far, late, with noise and without ids.
+// Whole flights among undeclared moving obstacles, seen within 8 m, late, with noise and without ids.
 #include <gtest/gtest.h>
 
 #include "campaign/virtual_system.h"
@@ -20,7 +20,7 @@ TEST_P(SandoPerception, TheForestIsFlownThroughUnharmedByTheDefaults) {
 
 INSTANTIATE_TEST_SUITE_P(Seed, SandoPerception, ::testing::Values(2, 11));
 
-/// A second sensor that sees nothing but what is not there: beside each set of the true one, anywhere around.
+/// A second sensor that reports only false detections: with each set of the true sensor, somewhere around it.
 class FalseAlarms {
  public:
   FalseAlarms(Bus& bus, int per_set) : bus_(bus), per_set_(per_set) {

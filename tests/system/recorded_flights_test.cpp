@@ -15,7 +15,7 @@ class RecordedWorlds : public ::testing::Test {
 
 class Crowd : public RecordedWorlds, public ::testing::WithParamInterface<int> {};
 
-/// The seed draws the moment, the way and the lane.
+/// The seed draws time, direction and lane.
 TEST_P(Crowd, IsCrossedAndNobodyIsTouched) { fly_and_expect_all_well("crowd", {"seed=" + std::to_string(GetParam())}); }
 
 INSTANTIATE_TEST_SUITE_P(Flight, Crowd, ::testing::Range(1, 6));

@@ -1,4 +1,4 @@
-// Processes die and come back in mid-flight.
+// Processes end and restart during a flight.
 #include <gtest/gtest.h>
 
 #include "campaign/virtual_system.h"
@@ -10,10 +10,10 @@
 namespace tern::testing {
 namespace {
 
-/// Longer than what is left of any committed trajectory, and than any age that is still taken as fresh.
+/// Longer than the rest of any committed trajectory, and than any input stays fresh.
 constexpr double kLongEnough = 2.5;
 
-/// Movers and pillars before and after the middle of the corridor: who rests there without a planner is not run into.
+/// Obstacles before and after the middle of the corridor, so that a vehicle at rest there without planner is not hit.
 constexpr char kObstacles[] =
     "world.obstacles=["
     "{motion: trefoil, centre: [8, 0.5, 1], slowness: 1.1}, {centre: [14, -1, 2], half_extents: [0.2, 0.2, 4]},"
@@ -40,7 +40,7 @@ class Restarts : public ::testing::Test {
     ASSERT_TRUE(simulator().result().has_value());
     expect_reached(*simulator().result());
   }
-  /// Up to the middle of the corridor, at speed.
+  /// Flies to the middle of the corridor, at speed.
   void fly_midway() {
     fly(4.3);
     ASSERT_GT(executor().sample(now()).v.norm(), 1.0);
@@ -51,7 +51,7 @@ class Restarts : public ::testing::Test {
     EXPECT_LT(executor().sample(now()).v.norm(), 1e-9);
   }
   [[nodiscard]] Vec3 committed_end() { return executor().sample(executor().committed().end()).p; }
-  /// The answers to requests that were made from `from` on.
+  /// Returns the answers to requests from `from` on.
   [[nodiscard]] std::vector<Plan> answers_since(UTime from) {
     std::vector<Plan> answers;
     for (const Plan& plan : exchange_.plans) {

@@ -1,4 +1,4 @@
-// Regions draw and repel whole flights, and never keep them.
+// Regions attract and repel whole flights, and never hold them up.
 #include <gtest/gtest.h>
 
 #include "tests/support/watched_flight.h"
@@ -6,7 +6,7 @@
 namespace tern::testing {
 namespace {
 
-/// Of one region, summed over seeds.
+/// Exposure to one region, summed over seeds.
 struct Sum {
   double inside_m = 0.0, near_m = 0.0;
 };
@@ -64,7 +64,7 @@ TEST(Regions, SmokeAndPondAreAvoidedTheCanalIsCrossedTheShortWayAndTheGoalInTheR
 }
 
 TEST(Regions, ADearerClassIsLeftForTheOneAroundIt) {
-  // Without the passage beside the pond something must be crossed: the water, not the smoke in its middle.
+  // Without the passage beside the pond something must be crossed: the water, rather than the smoke in its middle.
   const FlightResult result =
       fly_and_expect_all_well("regions", {"executor.rate_hz=10", "uav.flight_box.max=[48, 3.4, 4]"}).result;
   EXPECT_LE(metres_inside(result, "smoke"), 0.2);

@@ -1,4 +1,4 @@
-// A vehicle at rest, gentle or quick, and boxes that come at it on declared ways: it steps aside wherever it can.
+// A stationary vehicle, gentle or quick, and boxes that come at it on declared paths: it evades wherever it can.
 #include "core/world/step_aside.h"
 
 #include <fmt/format.h>
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Vehicles, StepAsideOf,
                                            Vehicle{1, 1, 5}, Vehicle{0.5, 1, 10}),
                          [](const auto& vehicle) { return fmt::format("Of{}cmps", vehicle.param.v_max * 100); });
 
-/// Flies the encounter of this seed. Whoever is touched could not be missed by any of 10,000 random moves.
+/// Flies the encounter of this seed. After a contact, none of 10,000 random moves may avoid it.
 void expect_no_avoidable_contact(std::uint64_t seed) {
   const Vec3 start(0, 0, 50);
   const VirtualFlight flight = fly_virtually(scenario_file("step_aside"), {fmt::format("seed={}", seed)});

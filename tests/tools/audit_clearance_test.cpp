@@ -1,4 +1,4 @@
-// The stated clearance holds between samples, whatever moves: against a slow look at the true motions.
+// The stated clearance holds between samples for any motion, compared with dense sampling of the true motions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -25,11 +25,11 @@ using support::random_vector;
 const UTime kZero{1'700'000'000'000'000};
 constexpr double kFlight = 2.0;  // s
 
-/// What is flown, what moves, and how well it is recorded.
+/// A flown motion, moving obstacles, and the quality of the recording.
 struct Case {
   World world;
-  TimedSpline committed;  ///< by the requests
-  TimedSpline flown;      ///< the same, or not: a vehicle that strays
+  TimedSpline committed;  ///< according to the requests
+  TimedSpline flown;      ///< the same, or that of a vehicle off its committed trajectory
   Body body;
   bool declared = true;
   double share_of_states = 1.0;
@@ -81,10 +81,10 @@ double largest_acceleration(const TimedSpline& spline) {
   for (double s = -0.1; s < kFlight + 0.5; s += 1e-3) {
     a = std::max(a, spline.sample(kZero + Duration::from_seconds(s)).a.cwiseAbs().maxCoeff());
   }
-  return a * 1.001 + 1e-6;  // piecewise linear: between these times by no more than that
+  return a * 1.001 + 1e-6;  ///< piecewise linear, so this bounds the difference between these times
 }
 
-/// The log of a case, as logger and simulator would have made it.
+/// Makes the log of a case, as logger and simulator would.
 class Recording {
  public:
   Recording(const Case& c, Rng& rng, const std::string& path) : writer_(*LogWriter::open(path, 0)) {
@@ -146,7 +146,7 @@ class Recording {
   std::int64_t truths_ = 0, declarations_ = 0;
 };
 
-/// The least clearance at instants 0.1 ms apart, and by how much it may be lower between them.
+/// The least clearance at instants 0.1 ms apart, and how much lower it may be between them.
 struct Dense {
   double least = INFINITY, slack = 0.0;
 };
@@ -278,7 +278,7 @@ TEST(AuditMap, ACollisionWithItDoesNotContradictTheClearanceOfObstacles) {
   EXPECT_EQ(audit.collision, Collision::Agrees);
 }
 
-/// What the property would not notice: that nothing is ever proven.
+/// The property above would also hold if nothing were ever proven; this test excludes that.
 TEST(AuditClearance, OfWhatIsDeclaredAndFlownAsCommittedIsProvenToTheDeclaredAlpha) {
   int proven = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -298,7 +298,7 @@ TEST(AuditClearance, OfWhatIsDeclaredAndFlownAsCommittedIsProvenToTheDeclaredAlp
   EXPECT_EQ(proven, 20);
 }
 
-/// Someone who is there from `first` to `last`, s, far from the vehicle.
+/// An obstacle that exists from `first` to `last`, s, far from the vehicle.
 ObstacleSpec passer(double first, double last) {
   ObstacleSpec o;
   o.centre = Vec3(50.0, 0.0, 0.0);
@@ -311,7 +311,7 @@ ObstacleSpec passer(double first, double last) {
   return o;
 }
 
-/// `crowd`'s audit counted who came in the second after the flight: one more than summary and referee.
+/// Regression: the audit of `crowd` counted an obstacle of the second after the flight.
 TEST(AuditClearance, CountsTheObstaclesThatWereThereDuringTheFlightAndNoOthers) {
   Rng rng(7);
   Case c = random_case(rng);

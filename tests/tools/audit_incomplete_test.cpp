@@ -1,4 +1,4 @@
-// What a log lacks, repeats or mixes is said and never called broken; what it does hold is still judged.
+// Missing, repeated and mixed messages of a log are listed and never called broken; the rest is still judged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ class AuditOfALog : public ::testing::Test {
 
   static std::string good() { return testing::recorded_log("demo"); }
   static std::string another_file() { return folder_->file("log" + std::to_string(++files_) + ".lcm"); }
-  /// Seconds of the flight, as a log's time of receipt.
+  /// Seconds of the flight as a receive time of the log.
   static std::int64_t at_us(double seconds) { return (record_->zero() + Duration::from_seconds(seconds)).us; }
 
   Audit audit(const std::string& log) {
@@ -82,7 +82,7 @@ class AuditOfALog : public ::testing::Test {
 TempFolder* AuditOfALog::folder_ = nullptr;
 FlightRecord* AuditOfALog::record_ = nullptr;
 
-/// The same findings and numbers, whatever the file.
+/// Expects the same findings and numbers, whatever the file.
 void expect_same(const Audit& a, const Audit& b) {
   ASSERT_EQ(a.checks.size(), b.checks.size());
   for (std::size_t k = 0; k < a.checks.size(); ++k) {
@@ -300,7 +300,7 @@ TEST_F(AuditOfALog, OfACollisionThatItCannotTellSaysSoInTheVerdict) {
 
 TEST_F(AuditOfALog, OfACollisionThatTheLogContradictsIsBroken) {
   const std::string far = with<HorizonRequest>(good(), channels::kHorizonRequest.name, [](HorizonRequest& r) {
-    r.body.radius = 1e-6;  // so small a body passed surely clear
+    r.body.radius = 1e-6;  ///< so small a body surely passed clear
     return true;
   });
   const std::string log = with<FlightResult>(far, channels::kFlightResult.name, [](FlightResult& r) {

@@ -1,4 +1,4 @@
-// The auditor's arithmetic against core's, which it shares nothing with: each is the other's oracle.
+// The auditor's arithmetic against core's: they share no code, so each is the other's oracle.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -80,7 +80,7 @@ TEST(AuditGap, OfASphereIsItsDepthInOverlap) {
 }
 
 TEST(AuditHermite, ErrsByAnEighthOfTheJumpTimesTheSpanWhereVelocityJumpsInTheMiddle) {
-  // Straight at 1 m/s, from the middle of a second on at 2 m/s: the worst case of the bound in flown.h.
+  // Straight at 1 m/s, and from the middle of a second on at 2 m/s: the worst case of the bound in true_motion.h.
   const Curve curve =
       hermite(UTime{0}, Vec3::Zero(), Vec3::UnitX(), UTime{1'000'000}, 1.5 * Vec3::UnitX(), 2.0 * Vec3::UnitX());
   EXPECT_NEAR(curve.p(0.5).x() - 0.5, 1.0 / 8.0, 1e-15);

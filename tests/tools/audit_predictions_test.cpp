@@ -1,4 +1,4 @@
-// What was promised of obstacles is counted by class, horizon and confidence; what cannot have been true is broken.
+// Coverage of predictions is counted by class, horizon and confidence; implausible shares are broken.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using ::testing::Pair;
 constexpr double kHalf = 0.25, kAlpha = 0.1, kFlight = 12.0;
 UTime at(double s) { return UTime{1'000'000} + Duration::from_seconds(s); }
 
-/// Things that stand in a row, 5 m apart, and are predicted to go at 1 m/s along y (they do).
+/// Objects in a row, 5 m apart, which move along y at 1 m/s as predicted.
 struct World {
   FlightRecord record;
   int things = 0;
@@ -49,7 +49,7 @@ struct World {
   }
   [[nodiscard]] static Vec3 place(std::int64_t id, double s) { return {5.0 * static_cast<double>(id), s, 1.0}; }
 
-  /// A thing at `s` as predicted for the next two seconds.
+  /// The prediction of an object at `s` for the next two seconds.
   [[nodiscard]] static Track track(std::int64_t track_id, std::int64_t thing, double s) {
     Track track;
     track.id = track_id;
@@ -66,7 +66,7 @@ struct World {
     return track;
   }
 
-  /// Every 0.05 s a set in which each thing has its track.
+  /// Adds a set every 0.05 s in which each object has its track.
   void predict(std::int64_t first_id) {
     for (int k = 0; k < 20 * static_cast<int>(kFlight); ++k) {
       TrackSet set;
@@ -78,13 +78,13 @@ struct World {
     }
   }
 
-  /// From s on for so long the thing is beside its place by `off`, m.
+  /// Displaces the object by `off`, m, from s on for a time.
   void push(std::int64_t thing, double s, double length_s, double off) {
     for (auto& sample : record.truth[thing].samples) {
       if (sample.at >= at(s) && sample.at < at(s + length_s)) sample.p.x() += off;
     }
   }
-  /// Another request, from `s` on.
+  /// Adds another request, from `s` on.
   HorizonRequest ask(int sequence, double s) {
     HorizonRequest request = record.requests.front();
     request.header.name.sequence = sequence;
@@ -124,7 +124,7 @@ TEST(AuditedPredictions, ThatHoldAreKeptInEveryClassAndAtEveryLevel) {
 TEST(AuditedPredictions, AreBrokenForAllTimesUpToTheHorizonThatReachAMiss) {
   World world(1);
   world.predict(1'000);
-  // Out between 6.00 and 6.02 s: one sample. Promises made up to h before it are broken up to h, at all levels.
+  // Outside between 6.00 and 6.02 s: one sample. Predictions made up to h before it miss up to h, at all levels.
   world.push(0, 6.0, 0.02, 0.5);
   const auto [audit, check] = world.audit();
   for (const auto& [horizon, length] :
@@ -157,7 +157,7 @@ TEST(AuditedPredictions, ThatCannotHaveKeptTheirPromiseFailTheFlight) {
 TEST(AuditedPredictions, OfFewBadObstaclesAmongManyAreNotCalledBroken) {
   World world(100);
   world.predict(1'000);
-  world.push(7, 2.0, 8.0, 0.5);  // one of a hundred is missed nearly always: 0.99 of all promises hold
+  world.push(7, 2.0, 8.0, 0.5);  ///< one of a hundred is missed nearly always: 0.99 of all predictions cover
   const auto [audit, check] = world.audit();
   EXPECT_LT(share(audit, "old", "1").share(), 1.0);
   EXPECT_EQ(check.verdict(), Verdict::Held);
@@ -186,7 +186,7 @@ TEST(AuditedPredictions, OfWhatIsPredictedToStayAreAtRest) {
   EXPECT_EQ(share(audit, "at rest", "0.25").share(), 0.0) << "it goes";
 }
 
-/// A detection of each thing every 0.05 s, but of `hidden` from s on.
+/// A detection of each object every 0.05 s, except of `hidden` from s on.
 void observe(World& world, int hidden, double s) {
   for (int k = 0; k < 20 * static_cast<int>(kFlight); ++k) {
     ObservationSet set;
@@ -216,7 +216,7 @@ TEST(AuditedPredictions, OfATrackOutOfViewAreHeldAgainstTheObstacleThatItHad) {
   World world(2);
   world.predict(1'000);
   observe(world, 1, 5.0);
-  world.push(1, 6.0, kFlight, 30.0);  // nobody sees that it goes far away
+  world.push(1, 6.0, kFlight, 30.0);  ///< it goes far away, unseen
   const auto [audit, check] = world.audit();
   EXPECT_LT(share(audit, "unseen", "0.25").share(), 0.1);
   EXPECT_EQ(share(audit, "old", "0.25").share(), 1.0);
@@ -237,7 +237,7 @@ TEST(AuditedPredictions, OfASecondTrackOfAnObstacleAreNobodys) {
   EXPECT_EQ(check.unchecked.begin()->second, 1);
 }
 
-/// A plan certified at this level, of the predictions made at 5 s.
+/// A plan certified at this level, from the predictions made at 5 s.
 Plan answer_to(const HorizonRequest& request, int level) {
   Plan plan;
   plan.outcome = PlanOutcome::Optimized;
@@ -252,7 +252,7 @@ Plan answer_to(const HorizonRequest& request, int level) {
 TEST(AuditedPredictions, OfPlansAreHeldAgainstWhatTheyClaim) {
   World world(2);
   world.predict(1'000);
-  world.push(0, 0.0, kFlight + 1.0, 0.07);  // broken at 0.9, kept at 0.95
+  world.push(0, 0.0, kFlight + 1.0, 0.07);  ///< missed at 0.9, covered at 0.95
   for (const int level : {1, 2}) {
     const HorizonRequest request = world.ask(10 + level, 5.1);
     Plan plan = answer_to(request, level);
@@ -268,7 +268,7 @@ TEST(AuditedPredictions, OfPlansAreHeldAgainstWhatTheyClaim) {
 TEST(AuditedPredictions, OfPlansEndWhereTheyAreSure) {
   World world(2);
   world.predict(1'000);
-  world.push(0, 5.6, kFlight, 0.07);  // broken at 0.9 from then on
+  world.push(0, 5.6, kFlight, 0.07);  ///< missed at 0.9 from then on
   HorizonRequest request = world.record.requests.front();
   for (const Duration sure_for : {Duration{300'000}, kMaxSpan}) {
     ++request.header.name.sequence;

@@ -1,4 +1,4 @@
-// A vehicle that is blown out of its tube is led on by trajectories to rest from measured states: no plan brought them.
+// A vehicle that is blown out of its tube follows braking trajectories from measured states, which are no plans.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 using testing::copy_log_with;
 using ::testing::HasSubstr;
 
-/// Among few obstacles, by a quadrotor that a gust of 40 m/s meets.
+/// A quadrotor that meets a gust of 40 m/s among few obstacles.
 class AuditOfStops : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -37,7 +37,7 @@ class AuditOfStops : public ::testing::Test {
     }
     return found;
   }
-  /// The audit of a log whose requests carry other stops.
+  /// Audits a log whose requests carry other braking trajectories.
   static Audit audit_with(const std::function<void(TimedSpline&)>& change) {
     const std::string log = folder_->file("changed.lcm");
     copy_log_with<HorizonRequest>(good(), log, channels::kHorizonRequest.name, [&](HorizonRequest& request) {

@@ -1,4 +1,4 @@
-// A recorded flight holds; with one thing broken in its log, the audit names that thing and no other.
+// The audit of a recorded flight holds. If one thing is broken in its log, the audit finds that thing and no other.
 #include "tools/audit/audit.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ class AuditedFlight : public ::testing::Test {
 
   static std::string good() { return testing::recorded_log("demo"); }
 
-  /// Changes every message of a channel for which `change` says so; what it says false of is left out.
+  /// Copies the log with a changed channel; messages for which `change` returns false are left out.
   template <class T>
   Audit audit_with(const char* channel, const std::function<bool(T&)>& change) {
     const std::string log = folder_->file(std::string("changed") + std::to_string(++copies_) + ".lcm");
@@ -58,7 +58,7 @@ class AuditedFlight : public ::testing::Test {
     return names;
   }
 
-  /// A plan with planes that was flown on for long.
+  /// Returns a plan with planes that was flown for long.
   static const Plan& plan_with_planes() {
     for (const Plan& plan : record_->plans) {
       if (plan.outcome == PlanOutcome::Optimized && !plan.certificate.empty()) return plan;

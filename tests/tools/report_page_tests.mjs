@@ -21,7 +21,7 @@ async function report(flight = 'demo') {
   return pathToFileURL(file).href;
 }
 
-/** The report in a browser of this size and scheme; what it asked for and complained of. */
+/** The report in a browser of this size and scheme, with its requests and its console messages. */
 async function openReport(url, colorScheme, width) {
   const page = await newPage({ viewport: { width, height: 900 }, colorScheme });
   page.asked = [];
@@ -43,7 +43,7 @@ const colours = (page) =>
       return new Set(new Uint32Array(data.buffer)).size;
     }));
 
-/** The worst contrast of a text with what it stands on: {ratio, text}. */
+/** The worst contrast of a text with its background: {ratio, text}. */
 const contrast = (page) =>
   page.evaluate(() => {
     const rgba = (text) => text.match(/[\d.]+/g).map(Number);

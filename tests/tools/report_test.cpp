@@ -1,4 +1,4 @@
-// A report is one file that needs nothing else, tells what the log tells, and stays small however long the flight.
+// A report is one self-contained file; it shows the contents of the log and stays small for a flight of any length.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST(Report, OfAPacedFlightHasTheDateAtWhichItWasFlown) {
   FlightRecord record;
   constexpr std::int64_t kFlownUs = 1'795'521'600'000'000;  // 2026-11-24 12:00 UTC
   constexpr double kPace = 0.25;
-  // So do that pace's clocks show it.
+  // The clocks at that pace show it so.
   record.contents.first_us = WallClock::kPaceOriginUs + (kFlownUs - WallClock::kPaceOriginUs) / 4;
   EXPECT_EQ(data_in(report_page(record, Audit{}, {"", kPace}))["flight"]["recorded_us"], kFlownUs);
   EXPECT_EQ(data_in(report_page(record, Audit{}))["flight"]["recorded_us"], record.contents.first_us);

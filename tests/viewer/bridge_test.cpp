@@ -1,4 +1,4 @@
-// What needs no scene: board, access, commands.
+// The parts without a scene: board, access, commands.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -128,7 +128,7 @@ TEST(Subscriptions, AreOfAllPagesThatStillLook) {
 RC_GTEST_PROP(Commands, NeverThrowOnAnyBytes, (std::string text)) { (void)parse_command(text); }
 
 RC_GTEST_PROP(JsonWriter, WritesWhatAParserReads, (const std::vector<double>& numbers)) {
-  // Texts reach the bridge as valid UTF-8 only.
+  // Only valid UTF-8 reaches the bridge.
   const auto text = *rc::gen::container<std::string>(rc::gen::inRange<char>(0, 0x7f));
   JsonWriter writer;
   writer.begin_object().key("numbers").begin_list();

@@ -46,7 +46,7 @@ await run({
     expect('live', (await text(page, '#mode')) === 'live');
     await eventually('the outcome', async () => (await text(page, '#outcome')) === 'optimized');
     await eventually('its confidence', async () => (await text(page, '#confidence')) === '0.9 for 0.8 s');
-    // Who joins between a request and its answer knows what was allowed from the next one on.
+    // A page that joins between a request and its answer knows the time allowed from the next request on.
     await eventually('replan time', async () => (await text(page, '#replan')) === '12.5 of 70 ms');
     await eventually('health', async () => (await text(page, '#health')).includes('scene'));
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
@@ -99,9 +99,9 @@ await run({
     const page = await openPage(viewer.url);
     await shows(page, 'the scene', (s) => s.vehicle && s.obstacles === OBSTACLES);
     expect('nobody sends goals to a log', !(await page.isVisible('#goals')));
-    await page.waitForFunction(() => window.tern.known.player.at_us > window.tern.known.player.begin_us); // nobody asked it to play
+    await page.waitForFunction(() => window.tern.known.player.at_us > window.tern.known.player.begin_us); // it plays by itself
     await pauseAt(page, 0);
-    await page.selectOption('#rate', '0.1'); // who looks late does not find it at its end
+    await page.selectOption('#rate', '0.1'); // so that a late look does not find it at its end
     await page.click('#play');
     await shows(page, 'the vehicle flies', (s) => s.vehicle[0] > 0.2);
     await page.click('#play');
@@ -180,7 +180,7 @@ await run({
     await page.click('#stop-goal');
     await knows(page, 5);
     await page.close();
-    const other = await open(); // it has never heard of a place
+    const other = await open(); // no position was received by it
     await knows(other, 5);
     expect('at the height of the vehicle', (await click(other, 6)) === 1);
     expect(`the console is silent: ${page.complaints}`, page.complaints.length === 0);
@@ -211,7 +211,7 @@ await run({
     expect('it is drawn then, as it was asked for', existsSync(join(record, 'report.html')));
     const audit = start(`${TERN_BIN}/tern-audit`, [join(record, 'flight.lcm')]);
     await audit.gone;
-    // A browser without a GPU takes the planner's core now and then: whether answers come in time, other tests ask.
+    // A browser without a GPU sometimes takes the planner's core; other tests check that answers are in time.
     const broken = audit.said.split('\n').filter((line) => /^ +BROKEN +(?! |answers )/.test(line));
     expect(`the audit: ${audit.said}`, / held +certificates/.test(audit.said) && broken.length === 0);
   },
@@ -335,7 +335,7 @@ await run({
   },
 }, ['the_vehicle_flies_to_where_a_page_clicks_and_rests_there', 'an_isolated_flight_is_seen_from_outside']);
 
-/** Sends a goal past the buttons; whether it is refused for this reason. */
+/** Sends a goal without the buttons. @return true if it is refused for this reason */
 async function refusal(page, reason) {
   await page.evaluate(() => window.tern.send({ goal: { position: [1, 0, 1] } }));
   await page.waitForFunction(() => window.tern.counts.goals.length > 0);

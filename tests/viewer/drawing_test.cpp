@@ -1,4 +1,4 @@
-// What is made for drawing: faces of voxels, predicted hulls, a flight's past.
+// Data for drawing: faces of voxels, predicted hulls, the past of a flight.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -31,7 +31,7 @@ VoxelMap random_map(const Eigen::Vector3i& size, const std::vector<int>& labels)
 
 using UnitFace = std::tuple<int, int, int, int, int>;  // direction, label, voxel
 
-/// Oracle: every drawn voxel's every face whose neighbour is of another label.
+/// Oracle: every face of every drawn voxel whose neighbour has another label.
 std::set<UnitFace> exposed_faces(const VoxelMap& map) {
   std::set<UnitFace> faces;
   for (std::int64_t k = 0; k < map.grid.voxels(); ++k) {
@@ -120,7 +120,7 @@ TEST(PredictedHulls, HoldTheObstacleAtEveryInstant) {
     for (int k = 0; k <= 20; ++k) {
       const UTime t = plan.start + plan.interval * hull.interval + Duration{plan.interval.us * k / 20};
       const Box promised = track.bounds(t, t);
-      // A hull holds a box if it reaches as far in every direction; the axes and diagonals are looked at.
+      // A hull contains a box if it reaches as far in every direction; axes and diagonals are checked.
       for (const Vec3& d : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(1, -1, 0.5)}) {
         for (const Vec3& n : {d, Vec3(-d)}) {
           const double box = n.dot(promised.center()) + 0.5 * n.cwiseAbs().dot(promised.sizes());
@@ -138,10 +138,10 @@ TEST(PredictedHulls, AreBoundedNearestFirst) {
   const PredictedHulls made = predicted_hulls(scene.predictions(start), plan, 20.0, 5);
   ASSERT_EQ(made.hulls.size(), 5U);
   EXPECT_EQ(made.left_out, support::kKnownMovers * plan.spline().intervals() - 5);
-  EXPECT_LE(made.hulls.front().points.row(0).minCoeff(), 6.0);  // not one of those 18 m away
+  EXPECT_LE(made.hulls.front().points.row(0).minCoeff(), 6.0);  ///< no hull of those 18 m away
 }
 
-/// Where the planes of a plan are drawn.
+/// The places at which the planes of a plan are drawn.
 std::vector<Vec3> plane_places(const HorizonRequest& request, const Plan& plan) {
   Scene scene;
   scene.receive(request);
@@ -165,12 +165,12 @@ TEST(Planes, StandAtTheirPartOfTheirIntervalCountedFromTheRequestsStart) {
     ASSERT_EQ(places.size(), intervals.size());
     for (std::size_t k = 0; k < places.size(); ++k) {
       const Duration passed = Duration::from_seconds(intervals[k] * plan.trajectory.interval.seconds());
-      // As many digits as JsonWriter writes, and whole microseconds at 1 m/s.
+      // With the digits that JsonWriter writes, and whole microseconds at 1 m/s.
       EXPECT_NEAR((places[k] - plan.trajectory.sample(plan.trajectory.start + passed).p).norm(), 0.0, 2e-3) << k;
     }
   };
   expect_at({0.5, 0.75, 1.875});
-  plan.outcome = PlanOutcome::KeepCommitted;  // of which 2.4 intervals have passed at t_s
+  plan.outcome = PlanOutcome::KeepCommitted;  ///< 2.4 of its intervals are over at t_s
   request.t_s = plan.trajectory.start + Duration::from_seconds(2.4 * plan.trajectory.interval.seconds());
   expect_at({2.7, 2.85, 3.875});
 }

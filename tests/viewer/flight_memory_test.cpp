@@ -1,4 +1,4 @@
-// What is remembered of a flight: its numbers, its path, what happened.
+// The memory of a flight: its numbers, its path, its events.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -124,7 +124,7 @@ TEST(WorldTime, OfAVehicleThatIsToldToHoldFirstBeginsWhenItIsToGo) {
   time.receive(goal_at(1.0, GoalMode::Hold));
   time.receive(request_at(2.0));
   time.receive(goal_at(9.0, GoalMode::Go));
-  time.receive(request_at(8.99));  // overtaken by the goal
+  time.receive(request_at(8.99));  ///< the goal overtook it
   EXPECT_EQ(time.zero(), std::nullopt);
   time.receive(request_at(9.05));
   time.receive(goal_at(20.0, GoalMode::Go));
@@ -225,7 +225,7 @@ TEST(Scene, CallsAnAnswerLateByTheFlightsClockWhateverThePace) {
   const support::KnownScene known(kStart);
   Scene::Memory memory;
   Scene scene(&memory);
-  for (const std::int64_t id : {1, 2}) {  // 70 ms are allowed; at half the pace 80 ms of the wall are 40 ms
+  for (const std::int64_t id : {1, 2}) {  ///< 70 ms are allowed; at half the pace, 80 ms of the wall are 40 ms
     const HorizonRequest request = known.request(at(0.1 * static_cast<double>(id)), id);
     Plan plan = known.plan(request);
     plan.header.utime = request.header.utime + Duration{40'000 * id};
@@ -256,7 +256,7 @@ TEST(FlightEvents, AreTheFiveNearestPasses) {
 TEST(Topics, AGhostDepartsWhenTheFlightDoes) {
   FlightHistory shown = straight_flight(), other;
   for (int k = 0; k <= 100; ++k) {
-    const double t = 0.1 * k, x = std::max(t - 3.0, 0.0);  // departs 3 s after it was heard first
+    const double t = 0.1 * k, x = std::max(t - 3.0, 0.0);  ///< departs 3 s after the first state
     other.add(state_at(100.0 + t, Vec3(x, 5.0, 1.0), Vec3(t > 3.0 ? 1.0 : 0.0, 0.0, 0.0)));
   }
   const json ghost = json::parse(ghost_json("b", 0.2, other, shown, kStart));

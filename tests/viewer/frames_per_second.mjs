@@ -1,5 +1,5 @@
-// frames_per_second.mjs [LOG]: prints how many frames a second the page draws at 1600 × 1000 in a headless Chromium without a
-// GPU, while it plays a log: LOG, or a flight among 300 obstacles, which is flown first. It judges nothing.
+// frames_per_second.mjs [LOG]: prints the frame rate of the page at 1600 × 1000 in a headless Chromium without a GPU. The page
+// plays LOG, or a flight among 300 obstacles that is flown first. It asserts nothing.
 // Environment: TERN_BIN, TERN_PAGE, TERN_CHROMIUM, where they are not build/release/bin, build/viewer-page and chromium.
 import { execFileSync } from 'node:child_process';
 import { rmSync } from 'node:fs';
@@ -37,7 +37,7 @@ try {
     const { tern } = window;
     tern.jump(0);
     tern.send({ player: { play: true } });
-    await wait(2500); // measured times have decided by then how many pixels are drawn
+    await wait(2500); // by then the page has adapted its number of pixels
     const rates = [];
     for (let second = 0; second < seconds; ++second) {
       const [from, drawn] = [performance.now(), tern.counts.drawn];

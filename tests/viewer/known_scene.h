@@ -1,4 +1,4 @@
-// A flight of which everything is known: what the page shows of it can be told beforehand.
+// A flight with known contents, so tests can predict what the page shows.
 #pragma once
 
 #include "core/world/goal.h"
@@ -12,9 +12,9 @@
 
 namespace tern::support {
 
-/// The vehicle flies 20 s at 1 m/s from (0, 0, 1) on, along x unless another course is given. 20 pillars stand at (k,
-/// 3, 1); 10 movers oscillate slowly about (2 k, −3, 1). Around 8 m ahead of the start an attractive box lies left of
-/// the way and a repulsive one right.
+/// The vehicle flies for 20 s at 1 m/s from (0, 0, 1), along x unless another course is given. 20 pillars stand at
+/// (k, 3, 1); 10 moving obstacles oscillate slowly about (2 k, −3, 1). About 8 m ahead of the start there is an
+/// attracting box left of the path, and a repelling one right of it.
 inline constexpr int kKnownPillars = 20, kKnownMovers = 10;
 inline constexpr double kKnownSpeed = 1.0;  ///< m/s
 inline constexpr double kKnownSeconds = 20.0;
@@ -26,14 +26,14 @@ class KnownScene {
 
   [[nodiscard]] UavState state(UTime now) const;
   [[nodiscard]] ObstacleTruth truth(UTime now) const;
-  /// Movers by one piece of 3.5 s at their present velocity, α 0.2 m.
+  /// Predicts moving obstacles by one piece of 3.5 s at their present velocity, α 0.2 m.
   [[nodiscard]] TrackSet predictions(UTime now) const;
-  /// From the vehicle's place 4 m ahead.
+  /// Requests a plan from the vehicle's position to 4 m ahead.
   [[nodiscard]] HorizonRequest request(UTime now, std::int64_t id) const;
-  /// What it asks for, optimized, with one plane against pillar 0.
+  /// The optimized answer, with one plane against pillar 0.
   [[nodiscard]] Plan plan(const HorizonRequest& request) const;
   [[nodiscard]] PlanTiming timing(std::int64_t request_id) const;
-  /// Three nodes, two edges.
+  /// A search of three nodes and two edges.
   [[nodiscard]] SearchView search(std::int64_t request_id) const;
   [[nodiscard]] Goal goal() const;
   [[nodiscard]] Heartbeat heartbeat() const;

@@ -1,4 +1,4 @@
-// What the browser's tests share: processes that end with the test, a browser, and waiting for what shall become true.
+// Shared parts of the browser tests: processes that end with the test, a browser, and waiting for conditions.
 import { spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -86,14 +86,14 @@ export async function openBrowser(rendering = SWIFTSHADER) {
   return browser;
 }
 
-/** An empty page that is waited for as long as all else. */
+/** An empty page with the patience of all other waiting. */
 export async function newPage(options) {
   const page = await (await openBrowser()).newPage(options);
   page.setDefaultTimeout(PATIENCE_MS);
   return page;
 }
 
-/** A page that has begun to show something. `page.complaints` holds what its console complained of. */
+/** A page that shows something. `page.complaints` collects warnings and errors of its console. */
 export async function openPage(url, prepare = async () => {}, hash = '') {
   const page = await newPage({ viewport: { width: 800, height: 600 } });
   page.complaints = [];
@@ -135,8 +135,8 @@ export function onScreen(page, point) {
 }
 
 /**
- * Where a point of W is on the screen once the camera has come to rest: it follows smoothly, and two pictures may be drawn at nearly
- * the same time.
+ * Where a point of W is on the screen once the camera is at rest. The camera follows smoothly, so two pictures at nearly the same
+ * time may look alike before.
  */
 export async function atRest(page, point) {
   let at = await onScreen(page, point);
@@ -151,8 +151,8 @@ export async function atRest(page, point) {
 }
 
 /**
- * Waits until the log is paused at that moment, s of the flight. Its player says so, not the picture: who plays passes every moment,
- * and a picture may be of before.
+ * Waits until the log is paused at that time, s of the flight. The player's state is checked instead of the picture, which may be
+ * older.
  */
 export function pausedAt(page, t) {
   return eventually(`the log is paused at ${t} s`, () => page.evaluate((s) => {
@@ -161,7 +161,7 @@ export function pausedAt(page, t) {
   }, t));
 }
 
-/** Pauses the log at that moment, s of the flight. A log plays from its viewer's start on. */
+/** Pauses the log at that time, s of the flight. A log plays from the start of its viewer on. */
 export async function pauseAt(page, t) {
   await page.waitForFunction(() => window.tern.known.player);
   await page.evaluate((s) => {
@@ -198,8 +198,8 @@ async function passes(name, test) {
 }
 
 /**
- * Runs those of the tests that the command line names, else all but those that fly live, which must be named. A test's name is
- * its claim. All share a browser; each has a context of its own in it.
+ * Runs the tests that the command line names; otherwise all tests except live flights. A test's name is its claim. All tests share a
+ * browser; each has a context of its own.
  */
 export async function run(tests, live = []) {
   const named = process.argv.slice(2);

@@ -93,11 +93,11 @@ await run({
     await shows(page, 'the scene', (s) => s.obstacles === OBSTACLES);
     const playing = () => page.evaluate(() => window.tern.known.player.playing);
     await pauseAt(page, 0);
-    await page.evaluate(() => window.tern.send({ player: { speed: 0.1 } })); // what plays does not come to the end
+    await page.evaluate(() => window.tern.send({ player: { speed: 0.1 } })); // so that it does not reach its end
     for (const [k, spot] of ['#play', '[data-camera=top]', 'input[name=hulls]', '#timeline', '#view'].entries()) {
       if (spot === '#view') await page.mouse.click(400, 250);
       else await page.click(spot, { force: true });
-      const here = 5 + k; // elsewhere than before: a picture of the last round does not pass for one of this
+      const here = 5 + k; // another place each round, so that an old picture does not pass
       await pauseAt(page, here);
       await page.keyboard.press('ArrowRight');
       await pausedAt(page, here + 0.1); // the next plan
@@ -129,7 +129,7 @@ await run({
     await eventually('whoever scrubs elsewhere at once', () => page.evaluate(() => location.hash === '#t=9&cam=top'));
     await page.evaluate(() => (location.hash = '#t=99&cam=top'));
     await eventually("the log's end", () => page.evaluate(() => location.hash === '#t=20&cam=top'));
-    await page.evaluate(() => { // a link is made before the page has heard of the new address
+    await page.evaluate(() => { // a link is made before the page gets the new address
       location.hash = '#t=4&cam=top';
       document.getElementById('link').click();
     });
@@ -186,7 +186,7 @@ await run({
     }
     const clear = await page.evaluate(() => {
       window.tern.setCamera('free', [20, -100, 40, 20, 0, 1]);
-      return window.tern.world.clear(107); // how far it is from what it looks at
+      return window.tern.world.clear(107); // distance of the camera from its target
     });
     expect(`what a far camera looks at is not in the fog: ${clear}`, clear > 0.9);
     await page.click('#fit');
@@ -332,7 +332,7 @@ await run({
 
   async a_film_has_the_pictures_that_were_asked_for() {
     const film = join(work, 'film.mp4');
-    // In ffmpeg's place: what it was told, and what it was given.
+    // A program in place of ffmpeg: it stores its arguments and its input.
     const encoder = join(work, 'encoder');
     writeFileSync(encoder, `#!/bin/sh\necho "$@" >"${film}.told"\nfor last; do :; done\ncat /dev/fd/$(echo "$@" | sed 's/.*pipe:\\([0-9]*\\).*/\\1/') >"$last"\n`);
     chmodSync(encoder, 0o755);

@@ -34,7 +34,7 @@ class LogPlayerTest : public testing::Test {
   static std::string log() { return folder_->file("flight.lcm"); }
   static UTime at(double seconds) { return kKnownLogStart + Duration::from_seconds(seconds); }
 
-  /// Everything that is shown, but for the ages of processes.
+  /// Returns everything that is shown, except the ages of processes.
   static std::string shown(const Scene& scene) {
     return state_json(scene) + truth_json(scene) + tracks_json(scene) + request_json(scene) + plan_json(scene, true) +
            timing_json(scene) + map_json(scene) + goal_json(scene) + hulls_json(scene, 5.0, 100);
@@ -60,7 +60,7 @@ TEST_F(LogPlayerTest, AJumpShowsWhatPlayingThereShows) {
   }
 }
 
-/// As in a flight: the next horizon is asked for before the answer to the last one has come.
+/// As in a flight, the next request is published before the answer to the last one.
 TEST(LogPlayer, AJumpKnowsWhatAnAnswerWasGivenWhoseRequestIsNotTheNewest) {
   const TempFolder folder;
   const support::KnownScene known(kKnownLogStart);
@@ -219,7 +219,7 @@ TEST_F(PageGoalTest, IsRepeatedUntilANewerOneIsHeard) {
   EXPECT_TRUE(is_sent_at(0.0));
   EXPECT_FALSE(is_sent_at(0.9));
   EXPECT_TRUE(is_sent_at(1.0));
-  hear_vehicle(5);  // the first that is heard
+  hear_vehicle(5);  ///< the first vehicle that is received
   scene_.receive(goal(2));
   EXPECT_TRUE(is_sent_at(2.0));
   scene_.receive(goal(3));

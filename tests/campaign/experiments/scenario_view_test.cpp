@@ -69,7 +69,7 @@ TEST(ScenarioView, ShowsWhoIsThereAndHowHighRegionsAre) {
   EXPECT_THAT(to_text(view), HasSubstr("2 obstacles: 1 rest, 1 move; 1 more appear later"));
   EXPECT_THAT(to_text(view), HasSubstr("roses (garden, repulsive, λ 2), z 0 to 2.5 m:"));
   EXPECT_THAT(draw_scenario(view), HasSubstr(">roses, z 0 to 2.5 m<"));
-  EXPECT_THAT(draw_scenario(view), Not(HasSubstr(">80<")));  // the axis does not reach who is not there
+  EXPECT_THAT(draw_scenario(view), Not(HasSubstr(">80<")));  ///< the axis does not reach obstacles that appear later
 }
 
 /// A wall across the flight box, of two parts.
@@ -84,8 +84,9 @@ std::string blocked_by(const std::string& wall) {
 }
 
 TEST(ScenarioView, CallsWhatBlocksTheGoalByItsName) {
-  EXPECT_THAT(blocked_by("world: {obstacles: [{name: gate, centre: [5, 0, 1.5], half_extents: [0.2, 3, 1.5]}]}\n"),
-              HasSubstr("obstacle 'gate' from (4.80, -3.00, 0.00) to (5.20, 3.00, 3.00) is the first to block the way"));
+  EXPECT_THAT(
+      blocked_by("world: {obstacles: [{name: gate, centre: [5, 0, 1.5], half_extents: [0.2, 3, 1.5]}]}\n"),
+      HasSubstr("obstacle 'gate' from (4.80, -3.00, 0.00) to (5.20, 3.00, 3.00) is the first to block the way"));
   EXPECT_THAT(blocked_by("world: {obstacles: [{centre: [5, 0, 1.5], half_extents: [0.2, 3, 1.5]}]}\n"),
               HasSubstr("an obstacle from"));
   const std::string regions =

@@ -1,4 +1,4 @@
-// The paper's 6.1: the search goes to what attracts, away from what repels, and clear of the obstacle in every segment.
+// The paper's 6.1: the search prefers attracting regions, avoids repelling ones, and is clear in every segment.
 #include "campaign/experiments/search_experiment.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// check_mcap.mjs FILE: reads an MCAP file by @mcap/core and holds it to what tern-export promises; prints its topics.
+// check_mcap.mjs FILE: reads an MCAP file with @mcap/core, compares it with the format of tern-export, and prints its topics.
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import { decompress } from "fzstd";
 import assert from "node:assert/strict";
@@ -43,7 +43,7 @@ assert.deepEqual([...statistics.channelMessageCounts].sort(), [...counts].sort()
 assert.equal(statistics.messageEndTime, last);
 assert(drawn > 0, "nothing for Foxglove to draw");
 
-// The same by its index, as Foxglove reads it.
+// Reads it again by its index, as Foxglove does.
 const file = await open(process.argv[2]);
 const readable = {
   size: async () => BigInt((await file.stat()).size),

@@ -1,4 +1,4 @@
-// What tern-export writes of a flight, and the maps in it.
+// The files that tern-export writes of a flight, and the maps in them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -203,7 +203,7 @@ RC_GTEST_PROP(MapRegions, CoverTheLabelledVoxelsOnceAndNothingElse, ()) {
   for (std::size_t k = 0; k < n; ++k) RC_ASSERT(covered[k] == (map.labels[k] >= VoxelLabel::Occupied ? 1 : 0));
 }
 
-/// A wall of 1 × 9 voxels along y that has a corner of 4 along x: two boxes, whichever is begun with.
+/// A wall of 1 × 9 voxels along y with a corner of 4 along x: two boxes, whichever is started with.
 TEST(MapRegions, AreThePlannersBoxes) {
   VoxelMap map;
   map.grid.size = {5, 9, 1};

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# flight_log.sh TERN_EXPORT LOG: a recorded flight exported; its MCAP file read by npm's @mcap/core, its tables by their heads.
-# Without node or npm it fails: what was not run was not tested (launch_scripts/test.sh installs them).
+# flight_log.sh TERN_EXPORT LOG: exports a recorded flight, and reads the MCAP file with npm's @mcap/core and the heads of
+# the tables. Without node or npm it fails (launch_scripts/test.sh installs them).
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 for program in node npm; do

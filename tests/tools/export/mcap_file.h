@@ -1,4 +1,4 @@
-// Takes an MCAP file apart, byte by byte, by the letter of https://mcap.dev/spec.
+// Parses an MCAP file byte by byte, strictly by https://mcap.dev/spec.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ struct McapMessage {
 struct McapFile {
   std::map<std::string, nlohmann::json> schemas;  ///< by name
   std::vector<McapMessage> messages;              ///< in the file's order
-  std::map<std::string, std::uint64_t> counted;   ///< what its Statistics say, by topic
+  std::map<std::string, std::uint64_t> counted;   ///< from its Statistics, by topic
   int chunks = 0;
-  std::uint64_t first_ns = 0, last_ns = 0;  ///< what its Statistics say
+  std::uint64_t first_ns = 0, last_ns = 0;  ///< from its Statistics
 };
 
-/// Reads all of a file.
-/// @throws std::runtime_error that says what is contradicted: the magic, a length, a checksum, an offset of the index,
-/// the summary against the data.
+/// Reads a whole file.
+/// @throws std::runtime_error that names a contradiction: the magic, a length, a checksum, an offset of the index, or
+/// the summary against the data
 McapFile parse_mcap(std::string bytes);
 McapFile read_mcap(const std::string& path);
 
