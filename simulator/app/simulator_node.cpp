@@ -141,8 +141,8 @@ void SimulatorNode::wait_for_processes(UTime now) {
     broadcast_.start(*world_zero_, now);
     spdlog::info("all processes are ready: world time starts in {} ms", (*world_zero_ - now).us / 1'000);
     const double from_s = config_.declare ? 0.0 : -kLookAroundTime.seconds();
-    for (const std::string& who : referee_.passing_the_start(from_s)) {
-      spdlog::warn("{} passes through the waiting vehicle: contacts count from world time 0", who);
+    for (const std::string& name : referee_.passing_the_start(from_s)) {
+      spdlog::warn("{} passes through the waiting vehicle: contacts count from world time 0", name);
     }
     if (const std::string clocks = gate_.clocks(); !clocks.empty()) {
       spdlog::info("clock differences from the vehicle: {}", clocks);

@@ -8,8 +8,8 @@
 namespace tern {
 
 /// Follows the commanded motion exactly, and knows its state exactly. Its truth ends at the newest setpoint. In a
-/// silence it lags by 0.5 s, so that setpoints up to 0.5 s late are followed. A setpoint that jumps makes the vehicle
-/// jump, which the referee counts.
+/// silence it lags by 0.5 s, so that a setpoint which is less than 0.5 s late is followed. A setpoint that jumps makes
+/// the vehicle jump, which the referee counts.
 class PerfectVehicle final : public Vehicle {
  public:
   PerfectVehicle(const UavSpec& uav, UTime now) : limits_(uav.limits), command_(uav.start, now, uav.limits) {}
