@@ -7,12 +7,12 @@
 namespace tern {
 namespace {
 
-/// Small stakes are best against a share that is hardly exceeded, large ones where all groups exceed it.
+// Small stakes win most if the share is hardly exceeded, large ones if all groups exceed it.
 constexpr std::array kStakes{1.0 / 512, 1.0 / 256, 1.0 / 128, 1.0 / 64, 1.0 / 32,    1.0 / 16,    1.0 / 8,
                              1.0 / 4,   1.0 / 2,   3.0 / 4,   7.0 / 8,  15.0 / 16.0, 31.0 / 32.0, 1.0};
 constexpr int kHalvings = 25;
 
-/// Logarithm of the mean wealth of those who bet that the share is larger than s. It falls with s.
+// Logarithm of the mean wealth over all stakes, for bets that the share is larger than s. It falls with s.
 double log_wealth(const std::vector<GroupShare>& groups, double largest, double s) {
   std::array<double, kStakes.size()> logs{};
   for (const GroupShare& group : groups) {

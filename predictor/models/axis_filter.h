@@ -39,8 +39,8 @@ struct AxisFilter {
 struct Fit {
   Vec3 s = Vec3::Zero();   ///< S, m²
   double distance2 = 0.0;  ///< Σ (z − x)²/S: χ² with three degrees of freedom if the model is right.
-  /// Returns −2 ln of the detection's density, up to a constant; ≥ 0. Unlike distance2 it does not favour the estimate
-  /// with the largest variance.
+  /// Returns −2 ln of the detection's density, up to a constant: twice the negative log likelihood, ≥ 0. Unlike
+  /// distance2 it does not favour the estimate with the largest variance.
   [[nodiscard]] double neg_log_likelihood() const { return distance2 + std::log((s / kMinVariance).prod()); }
 };
 
