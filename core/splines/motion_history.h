@@ -7,7 +7,8 @@
 
 namespace tern {
 
-/// A motion up to the time end(). Before the oldest piece that is kept, it is at rest at that piece's start.
+/// A motion up to the time end(). Before its oldest piece it is at rest: at the start of that piece, or at the initial
+/// position if there is no piece.
 class MotionHistory {
  public:
   /// Starts with the motion that is at rest at p (W, m) until `end`.

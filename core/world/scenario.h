@@ -16,25 +16,25 @@ namespace tern {
 
 /// An obstacle at rest at its centre c. In the motions below, t is the world's time in seconds.
 struct StaticMotion {};
-/// c + (k_x (sin(w+φ) + 2 sin(2w+φ)), k_y (cos(w+φ) − 2 cos(2w+φ)), −k_z sin(3w+φ)), w = t/s.
+/// A trefoil knot: c + (k_x (sin(w+φ) + 2 sin(2w+φ)), k_y (cos(w+φ) − 2 cos(2w+φ)), −k_z sin(3w+φ)), w = t/s.
 struct TrefoilMotion {
   Vec3 scale = Vec3::Ones();  ///< k, m
   double slowness = 1.0;      ///< s, > 0
   double phase = 0.0;         ///< φ, rad
 };
-/// c + amplitude · sin(t/s + φ).
+/// A wave: c + amplitude · sin(t/s + φ).
 struct WaveMotion {
   Vec3 amplitude = Vec3::Zero();  ///< m
   double slowness = 1.0;          ///< s, > 0
   double phase = 0.0;             ///< φ, rad
 };
-/// At rest at c until from_s; then c + velocity · (t − from_s).
+/// The obstacle rests at c until from_s; then it is at c + velocity · (t − from_s).
 struct LinearMotion {
   Vec3 velocity = Vec3::Zero();  ///< m/s
   double from_s = 0.0;           ///< world's time, s
 };
-/// Straight lines between timed points; c is not used. Before the first and after the last time the obstacle rests at
-/// the end point, or it repeats its motion, or it does not exist.
+/// The obstacle moves on straight lines between timed points; c is not used. Before the first and after the last time
+/// the obstacle rests at the end point, or it repeats its motion, or it does not exist.
 struct WaypointMotion {
   std::vector<std::pair<double, Vec3>> points;  ///< (world's time s, position m), ≥ 1, times strictly ascending
   bool repeat = false;  ///< the motion repeats at all times; its last point equals the first one
@@ -66,7 +66,7 @@ struct RecordedTracksSpec {
   double centre_z = 1.0;                      ///< z of every centre if it is not recorded, m.
   /// The file's time 0 is moved to the first frame ≥ start_s after which nobody comes within 1 m of the start for 1 s.
   bool wait_for_clear_start = true;
-  /// See WaypointMotion: such a track begins there because the recording does, and would jump in beside the vehicle.
+  /// As in WaypointMotion. The recording of such a track begins there, so the person would appear out of nothing.
   double leave_out_within_m = 3.0;
   int copies = 0;  ///< > 0: this many obstacles on pieces of the tracks, drawn by the seed, instead of the tracks
   Box within;      ///< the region of the copies, W; with copies only

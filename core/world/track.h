@@ -25,11 +25,11 @@ enum class TrackKind : std::uint8_t {
 inline constexpr std::array<double, 5> kConfidenceLevels = {0.99, 0.95, 0.9, 0.8, 0.6};
 inline constexpr int kLevels = static_cast<int>(kConfidenceLevels.size());
 
-/// Returns the confidence of a level, 0 … kLevels − 1, in a set of confidence `promised`. If `promised` is 1, it is 1
-/// at all levels.
-inline double confidence_at(double promised, int level) {
-  const bool is_promise = level == 0 || promised >= 1.0;
-  return is_promise ? promised : std::min(promised, kConfidenceLevels[idx(level)]);
+/// Returns the confidence of a level, 0 … kLevels − 1, in a set with confidence `set_confidence`. If that is 1, it is
+/// 1 at all levels.
+inline double confidence_at(double set_confidence, int level) {
+  const bool is_of_set = level == 0 || set_confidence >= 1.0;
+  return is_of_set ? set_confidence : std::min(set_confidence, kConfidenceLevels[idx(level)]);
 }
 
 /// The shares of one piece: α at level k ≥ 1 is shares[k − 1] times α, on all axes. Each lies in (0, 1]; they do not

@@ -120,7 +120,7 @@ TEST(LogWriter, NamesThePathThatCannotBeWritten) {
   EXPECT_NE(writer.error().message.find("/nowhere/a.lcm"), std::string::npos);
 }
 
-/// A disk that is full after `bytes`, for this process, until destroyed.
+/// Simulates for this process a disk that is full after `bytes`, until it is destroyed.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {

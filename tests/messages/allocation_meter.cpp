@@ -9,13 +9,13 @@
 
 namespace {
 
-// Atomic only because a runtime's own threads may allocate; the meter itself is for one thread.
+// It is atomic because a runtime's own threads may allocate; the meter itself is for one thread.
 std::atomic<std::ptrdiff_t> held{0}, peak_held{0}, held_at_start{0};
 std::atomic<std::size_t> largest_single{0};
 
 }  // namespace
 
-// The nothrow forms too: under ASan the standard ones do not go through those that are replaced here.
+// The nothrow forms are replaced as well: under ASan the standard ones do not call those that are replaced here.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   void* block = std::malloc(size == 0 ? 1 : size);
   if (block == nullptr) return nullptr;

@@ -52,7 +52,7 @@ void expect_legal_batches(const std::vector<T>& batches) {
   }
 }
 
-/// People who walk, at 120 frames/s, straight between frames.
+/// Returns walking people at 120 frames/s, with straight motion between frames.
 TrackSet walkers(int people, int pieces) {
   TrackSet set;
   set.header = {{12, 3}, {45}};
@@ -79,7 +79,7 @@ TrackSet walkers(int people, int pieces) {
   return set;
 }
 
-/// Whether the coarse track's box holds the track's box, at the ends, in the middle, and beyond both ends.
+/// True if the coarse track's box contains the track's box: at the ends, in the middle, and outside both ends.
 void expect_contains(const Track& coarse, const Track& track) {
   const Duration whole = track.motion.end() - track.motion.start;
   for (int i = -2; i <= 22; ++i) {
@@ -88,7 +88,7 @@ void expect_contains(const Track& coarse, const Track& track) {
   }
 }
 
-/// The whole set as it is after it was sent and joined: by id.
+/// Returns the whole set as it is after sending and joining: sorted by id.
 TrackSet sorted(TrackSet set) {
   std::sort(set.tracks.begin(), set.tracks.end(), [](const Track& a, const Track& b) { return a.id < b.id; });
   return set;

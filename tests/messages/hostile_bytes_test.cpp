@@ -44,7 +44,7 @@ void extend(Rng& rng, Bytes& bytes) {
   for (int i = 0; i < more; ++i) bytes.push_back(random_byte(rng));
 }
 
-/// A count, or whatever stands there when the type has none, becomes a hostile one.
+/// Replaces a count (or the bytes at its place, if the type has none) by a hostile one.
 void set_count(Rng& rng, Bytes& bytes, std::size_t counts) {
   static constexpr std::int32_t kHostile[] = {0x40000001,
                                               -1,
@@ -61,7 +61,7 @@ void set_count(Rng& rng, Bytes& bytes, std::size_t counts) {
   write_integer<std::int32_t>(bytes, offset, kHostile[random_index(rng, std::size(kHostile))]);
 }
 
-/// One count a little up or down, and as many bytes as that asks for: the form is right, the content has slipped.
+/// Changes one count slightly and gives the message the matching length: the form is right, the content is shifted.
 void slip(Rng& rng, Bytes& bytes, std::size_t counts) {
   if (counts == 0) return flip_bits(rng, bytes);
   const std::size_t offset = wire::kFingerprintBytes + wire::kCountBytes * random_index(rng, counts);
@@ -73,7 +73,7 @@ void slip(Rng& rng, Bytes& bytes, std::size_t counts) {
   bytes.resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(size, 0)), random_byte(rng));
 }
 
-/// Eight bytes anywhere become a number that hurts.
+/// Replaces eight bytes by a harmful number.
 void set_number(Rng& rng, Bytes& bytes) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kNumbers[] = {
@@ -90,7 +90,7 @@ void set_number(Rng& rng, Bytes& bytes) {
   }
 }
 
-/// The head of one message and the tail of another.
+/// Joins the head of one message and the tail of another.
 void splice(Rng& rng, Bytes& bytes, const Bytes& other) {
   const std::size_t cut = random_index(rng, std::min(bytes.size(), other.size()));
   bytes.resize(cut);
@@ -113,7 +113,7 @@ template <class T>
 class HostileBytes : public testing::Test {};
 TYPED_TEST_SUITE(HostileBytes, AllMessages);
 
-/// What is accepted is the encoding of its value: nothing is clamped, repaired or ignored.
+/// Bytes that decode() accepts are the encoding of the value: no number is clamped, repaired or ignored.
 TYPED_TEST(HostileBytes, AreRefusedOrMeanWhatTheySayAndAllocateLittle) {
   Rng rng(4);
   std::vector<Bytes> originals;

@@ -45,7 +45,7 @@ std::string verdict(const Bytes& bytes) {
   return decoded ? "accepted" : kNames[static_cast<int>(decoded.error())];
 }
 
-/// What becomes of a valid value after `spoil` had it.
+/// Returns the reason for the refusal of a valid value that `spoil` has changed.
 template <class T>
 std::string after(const std::function<void(T&)>& spoil) {
   T value = rich_message<T>();
@@ -53,7 +53,7 @@ std::string after(const std::function<void(T&)>& spoil) {
   return verdict<T>(encode(value));
 }
 
-/// The same on the generated type M, for what our own values cannot say.
+/// The same for the generated type M, for errors that our own values cannot express.
 template <class T, class M>
 std::string after_on_wire(const std::function<void(M&)>& spoil) {
   Bytes bytes = encode(rich_message<T>());
@@ -65,8 +65,8 @@ std::string after_on_wire(const std::function<void(M&)>& spoil) {
   return verdict<T>(bytes);
 }
 
-/// What becomes of the message when the byte that carries a bool is 2: found as the byte that differs between its two
-/// values.
+/// Returns the reason for the refusal of a message whose byte of a bool is 2. That byte is the one that differs
+/// between true and false.
 template <class T>
 std::string after_flag_of_two(const std::function<void(T&, bool)>& set) {
   T value = rich_message<T>();

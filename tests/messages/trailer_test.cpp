@@ -1,4 +1,4 @@
-// What a sender with a key appends: decoders pass over exactly one, and over nothing else.
+// The trailer of a sender with a key: decoders accept exactly one, and no other bytes after a message.
 #include "messages/trailer.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Files that somebody damaged, by chance or on purpose: a value comes back, whatever the bytes.
+// Damaged files: the readers return a value or an error for any bytes.
 #include <gtest/gtest.h>
 
 #include <string_view>
@@ -26,7 +26,7 @@ PointCloud some_points(Rng& rng) {
   return points;
 }
 
-/// Flips, overwrites, cuts out, doubles or cuts off some bytes; mostly in the header, where it hurts.
+/// Flips, overwrites, removes, repeats or cuts off some bytes, mostly in the header.
 FileBytes mutated(FileBytes bytes, Rng& rng) {
   for (int n = 1 + static_cast<int>(rng.uniform(0, 4)); n > 0 && !bytes.empty(); --n) {
     const double reach =

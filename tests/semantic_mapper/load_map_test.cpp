@@ -26,7 +26,7 @@ semantics:
     - {name: c, class: wall, prism: {corners: [[7, 0], [8, 0], [8, 1]], z_min: 0, z_max: 1}}
 )";
 
-/// A folder with files, gone at the end.
+/// A temporary folder with files.
 class LoadMapTest : public ::testing::Test {
  protected:
   LoadMapTest() : folder_(std::filesystem::temp_directory_path() / ("tern_load_map_test_" + std::to_string(getpid()))) {

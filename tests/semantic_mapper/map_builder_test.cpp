@@ -66,7 +66,7 @@ TEST(MapBuilder, OccupiedShapesLoseNothingAndOthersFollowVoxelCentres) {
       const Box voxel = walls.grid.box(walls.grid.cell(i));
       const auto v = static_cast<std::size_t>(i);
       EXPECT_EQ(water.labels[v] == VoxelLabel::Repulsive, soft.contains(voxel.center()));
-      // Every part of the solid lies in an occupied voxel; none is farther than a voxel's diagonal.
+      // Every part of the solid lies in an occupied voxel, and occupied voxels are within a voxel's diagonal of it.
       for (int k = 0; k < 27; ++k) {
         const Vec3 u = Vec3(k % 3, k / 3 % 3, k / 9) * 0.4995 + Vec3::Constant(0.0005);
         if (solid.contains(voxel.min() + u * 0.25)) {

@@ -12,7 +12,7 @@
 namespace tern {
 namespace {
 
-/// A mapper, and a test that listens.
+/// A mapper, and a test that receives its messages.
 class MapperNodeTest : public ::testing::Test {
  protected:
   struct Arrival {

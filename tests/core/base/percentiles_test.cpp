@@ -24,7 +24,7 @@ TEST(Percentiles, OfOneToAHundredAreThemselves) {
   EXPECT_EQ(p.max, 100.0);
 }
 
-/// The least sample that at least `percent` % of all do not exceed, by counting.
+/// Oracle: the smallest sample that at least `percent` % of all samples do not exceed, by counting.
 double by_counting(const std::vector<double>& samples, double percent) {
   double best = INFINITY;
   for (const double x : samples) {

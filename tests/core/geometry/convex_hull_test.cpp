@@ -29,7 +29,8 @@ Points without_column(const Points& points, Eigen::Index k) {
   return rest;
 }
 
-// conv(hull) holds every input; every vertex is an input that the others do not hold. Exact.
+// Expects that conv(hull) contains every input, and that each vertex is an input outside the hull of the others.
+// Exact.
 void expect_is_hull(const Points& hull, const Points& points) {
   for (const auto& p : points.colwise()) ASSERT_FALSE(exact_separation(hull, p).disjoint);
   for (Eigen::Index k = 0; k < hull.cols(); ++k) {
@@ -48,7 +49,7 @@ Points shuffled(const Points& points, Rng& rng) {
   return result;
 }
 
-// All corners of a box that moves on a parabola, as obstacles are swept.
+// Returns the corners of a box that moves on a parabola, like those of a sweep.
 Points swept_box(Rng& rng, int samples, double away, bool turning) {
   const auto random_vector = [&rng](double size) {
     return Vec3(rng.uniform(-size, size), rng.uniform(-size, size), rng.uniform(-size, size));

@@ -19,7 +19,7 @@ namespace {
 
 // The oracle's distance is rounded once.
 constexpr double kOracleRounding = 1e-12;
-// The widest slab is found up to rounding of coordinates up to 1e4 m.
+// The slab is the widest one up to the rounding of coordinates of 1e4 m.
 constexpr double kGapRounding = 1e-9;
 const int kPairs = support::at_effort(100'000);
 constexpr std::uint64_t kSeed = 20'260'721;
@@ -86,7 +86,7 @@ TEST(Separation, KeepsAClearanceExactly) {
   });
 }
 
-// Sizes of a city, full doubles: the oracle needs 2048 bits for these.
+// Distances in a city, with all bits of a double: the oracle needs 2048 bits.
 TEST(Separation, AgreesWithExactArithmeticOffTheGridAndOnLargeSets) {
   Rng rng(2);
   for (int k = 0; k < 3000; ++k) {

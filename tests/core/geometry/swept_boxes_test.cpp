@@ -21,7 +21,8 @@ Vec3 random_vector(Rng& rng, double size) {
   return {rng.uniform(-size, size), rng.uniform(-size, size), rng.uniform(-size, size)};
 }
 
-// Boxes whose centres are the points of a pair: flat, repeated, touching and far away ones too. Some have no size.
+// Returns boxes whose centres are the points of a pair (also flat, repeated, touching and distant ones). Some boxes
+// have no size.
 std::vector<CentredBox> boxes_at(const Points& centres, Rng& rng) {
   std::vector<CentredBox> boxes;
   for (Eigen::Index k = 0; k < centres.cols(); ++k) {

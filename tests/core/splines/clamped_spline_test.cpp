@@ -30,7 +30,7 @@ RC_GTEST_PROP(ClampedSpline, DerivativesAgreeWithFiniteDifferences, (std::uint64
   const double dt = spline.interval_s();
   const double h = 1e-3 * dt;
   for (int i = 0; i < 50; ++i) {
-    // Inside one interval: there the curve is one cubic, and central differences err by j·h²/6 at most.
+    // Within one interval the curve is one cubic, and central differences have an error of at most j·h²/6.
     const double t = (support::random_integer(rng, 0, spline.intervals() - 1) + rng.uniform(0.01, 0.99)) * dt;
     const MotionSample low = spline.sample(t - h);
     const MotionSample mid = spline.sample(t);

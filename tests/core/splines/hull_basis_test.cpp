@@ -16,7 +16,8 @@ constexpr double kRounding = 1e-12;
 
 Eigen::Vector4d powers(double u) { return {u * u * u, u * u, u, 1.0}; }
 
-/// Shares of the four hull points in the curve's point at u: the hull holds it when none is negative.
+/// Returns the weights of the four hull points in the curve's point at u. The hull contains it if no weight is
+/// negative.
 void expect_convex(const Eigen::Vector4d& shares) {
   EXPECT_GE(shares.minCoeff(), -kRounding);
   EXPECT_NEAR(shares.sum(), 1.0, kRounding);

@@ -37,8 +37,8 @@ Eigen::Matrix4d reference_first() {
 
 double largest(const Eigen::Matrix4d& m) { return m.cwiseAbs().maxCoeff(); }
 
-// The MINVO hull's support in a direction is at least the curve's, for any direction; with face normals this is
-// containment.
+// Expects that the support of the MINVO hull is at least that of the curve in every direction. With the normals of the
+// faces this means containment.
 void expect_on_one_side(const Eigen::Ref<const Points>& hull, const Vec3& x, const Vec3& direction, int j) {
   const double slack = 1e-12 * (1.0 + hull.cwiseAbs().maxCoeff());
   ASSERT_LE(direction.dot(x), (direction.transpose() * hull).maxCoeff() + slack) << "interval " << j;

@@ -11,7 +11,7 @@ using support::free_map;
 using support::paint;
 using support::sprinkle;
 
-/// How many boxes hold each voxel's centre.
+/// Returns how many boxes contain each voxel's centre.
 std::vector<int> count_covers(const VoxelMap& map, const std::vector<Box>& boxes) {
   std::vector<int> count(map.labels.size(), 0);
   for (std::size_t i = 0; i < count.size(); ++i) {

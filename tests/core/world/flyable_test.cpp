@@ -18,7 +18,7 @@ using support::FlatOutputs;
 using support::random_integer;
 using support::random_vector;
 
-/// Ends at rest; accelerations of some m/s², some of them more than gravity.
+/// Returns a spline that ends at rest, with accelerations of some m/s², sometimes above gravity.
 TimedSpline random_plan(Rng& rng) {
   TimedSpline plan;
   plan.interval = Duration{random_integer(rng, 100'000, 400'000)};
@@ -92,7 +92,7 @@ TEST(Flyable, KeepsDynamicsExactlyAsDenseSamplingDoes) {
     const Dynamics dynamics = support::random_dynamics(rng);
     const BreachReport report = judged(plan, dynamics);
     const FlatOutputs sampled = flat_outputs(plan.spline());
-    // Between samples an extremum may hide a little; beyond that both must agree.
+    // An extremum between samples may exceed them slightly; apart from that, both must agree.
     if (report.ok()) {
       ASSERT_TRUE(sampled.within(dynamics, 1e-5)) << "seed " << seed;
     } else {

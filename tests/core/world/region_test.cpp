@@ -12,7 +12,7 @@ namespace {
 
 const Region kBox{"box", "water", Box(Vec3(1, 2, 3), Vec3(4, 6, 5))};
 const Region kBall{"ball", "water", BallRegion{Vec3(1, 2, 3), 2.0}};
-/// An L: concave.
+/// A concave prism with the shape of an L.
 const Region kPrism{"prism", "water", PrismRegion{{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}, 1.0, 2.0}};
 
 TEST(Region, ContainsItsInsideAndFaces) {

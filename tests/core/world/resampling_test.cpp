@@ -18,7 +18,7 @@ namespace {
 using support::random_integer;
 using support::random_vector;
 
-/// Wild, and such as owners declare: jumps, corners, rests, pieces of 1 µs beside pieces of seconds, α of every size.
+/// Returns a random track with jumps, corners and rests. Pieces last from 1 µs to seconds, and α has any size.
 Track random_track(Rng& rng, int pieces) {
   Track track;
   track.half_extents = Vec3(0.3, 0.2, 1.0);
@@ -44,7 +44,7 @@ Track random_track(Rng& rng, int pieces) {
   return track;
 }
 
-/// The slow oracle: every piece of the old track at many instants, against every new piece that holds the instant.
+/// The slow oracle: compares every old piece at many instants with every new piece at that instant.
 void expect_contains(const Track& now, const Track& before) {
   ASSERT_EQ(now.motion.start, before.motion.start);
   ASSERT_EQ(now.motion.end(), before.motion.end());
@@ -56,7 +56,7 @@ void expect_contains(const Track& now, const Track& before) {
     for (int i = 0; i <= 20; ++i) {
       const Duration tau{piece.duration.us * i / 20};
       const Vec3 p = sample_cubic(piece.coefficients, tau.seconds()).p;
-      // At a joint of the new track the piece on the side of the old piece answers.
+      // At a joint of the new track, the piece on the side of the old piece is used.
       PiecewiseCubic::Located at = now.motion.locate(start + tau);
       if (i == 20 && at.index > 0 && at.start == start + tau) {
         --at.index;
@@ -73,7 +73,7 @@ void expect_contains(const Track& now, const Track& before) {
   }
 }
 
-/// A joint per length of a motion, straight between, as recordings are.
+/// Returns straight pieces of one length along a motion, as recordings have them.
 Track recording(double frames_per_second, double seconds, const MotionFunction& motion) {
   Track track;
   const auto frames = static_cast<int>(seconds * frames_per_second);
@@ -164,7 +164,7 @@ TEST(ResampledTrack, OfAStraightLineOfManyPointsIsOneLine) {
   EXPECT_LE(largest_alpha(coarse), 1e-9);
 }
 
-/// The least largest error of any cut of the pieces into `most` runs, each with its own best cubic: by trying all.
+/// Returns the smallest possible largest error of `most` runs, each with its best cubic, by trying all cuts.
 double best_of_all(const Track& track, std::size_t first, std::size_t most) {
   const std::size_t n = track.motion.pieces.size();
   if (first == n) return 0.0;

@@ -14,8 +14,8 @@ Limits limits_of(const Vec3& v, const Vec3& a, double j = std::numeric_limits<do
   return {v, a, Vec3::Constant(j)};
 }
 
-/// One axis by simulation: the largest distance that a jerk-limited rest-to-rest motion of duration T covers. Its shape
-/// is known: a symmetric ramp up in half the time, integrated in small steps.
+/// One axis by simulation: the largest distance that a jerk-limited rest-to-rest motion of duration T covers. Its
+/// shape is known: a symmetric acceleration in half the time, integrated in small steps.
 double distance_in(double time, double v_max, double a_max, double j_max) {
   const int steps = 20'000;
   const double dt = 0.5 * time / steps;
@@ -71,7 +71,7 @@ TEST(RestToRestBound, IsTheTimeInWhichTheDistanceIsCovered) {
     const double distance = std::exp(rng.uniform(-4, 4));
     const double time =
         rest_to_rest_bound_s(Vec3::Zero(), Vec3(distance, 0, 0), limits_of(Vec3::Constant(v), Vec3::Constant(a), j));
-    // The oracle's steps are time / 40,000 long: its speed is off by up to a step's worth of acceleration.
+    // The oracle's steps are time / 40,000 long, so its speed is wrong by up to the acceleration of one step.
     EXPECT_NEAR(distance_in(time, v, a, j), distance, 1e-3 * distance + a * time * time / 40'000)
         << "v " << v << " a " << a << " j " << j;
   }

@@ -12,7 +12,7 @@ namespace {
 
 using Verdict = SequenceWindow::Verdict;
 
-/// Heard up to `newest` without a loss.
+/// Returns a window that received all numbers up to `newest`.
 SequenceWindow heard_up_to(std::int64_t newest) {
   SequenceWindow window;
   for (std::int64_t k = newest - 19; k <= newest; ++k) EXPECT_EQ(window.add(k), Verdict::New);
@@ -20,7 +20,7 @@ SequenceWindow heard_up_to(std::int64_t newest) {
 }
 
 RC_GTEST_PROP(SequenceWindow, CountsWhatDidNotComeAndHandsOverTheRestOnceWhateverTheNetworkDoes, ()) {
-  // Each message is lost, comes, or comes twice; late by at most six places.
+  // Each message is lost, arrives once or arrives twice; it is late by at most six places.
   std::vector<std::pair<int, std::int64_t>> arrivals;
   const int count = *rc::gen::inRange(20, 300);
   std::int64_t lost = 0;
