@@ -64,17 +64,17 @@ bool way_exists(const Scenario& scenario, const std::vector<Box>& boxes, double 
   return false;
 }
 
-/// Room for the hulls of small steps between what moves and the vehicle, m.
+/// Room that the hulls of small steps need between a moving obstacle and the vehicle, m.
 constexpr double kNear = 1.0;
 
-/// Whether a mover comes near where the vehicle ended, or to the straight way that is left, within the last seconds or
-/// the next few.
+/// Returns true if a moving obstacle comes near the vehicle's last position, or near the rest of its straight path. The
+/// last seconds before the end and the next few are examined.
 bool mover_holds_up(const Scenario& scenario, const World& world, const Vec3& at, double end_s) {
   const Vec3 half = scenario.uav.body.half_extents();
   const Vec3 rest = scenario.uav.goal - at;
   for (const WorldObstacle& o : world.obstacles) {
     if (!o.moves()) continue;
-    // What predictions say of it beyond their end grows at its top speed.
+    // Beyond its last piece, a predicted box grows at the top speed.
     const double reach = kNear + half.norm() + 4.0 * o.bounds().speed.maxCoeff();
     for (double t = std::max(0.0, end_s - 30.0); t <= end_s + 5.0; t += 0.1) {
       const Vec3 c = o.at(t).p;

@@ -78,11 +78,11 @@ Knobs random_knobs(Rng& rng) {
   return knobs;
 }
 
-/// What surrounds the flight.
+/// The obstacles around the flight.
 enum class Around { Nothing, Statics, FarMovers, Movers };
 
-/// How fast the vehicle surely gets on by hops from rest to rest. Each is within the sphere and what is foreseen, no
-/// oftener than it may ask.
+/// Returns a speed that the vehicle surely reaches by hops from rest to rest. Each hop is within the sphere and within
+/// the predicted time, at the rate of requests.
 double hopping_speed(const Limits& limits, const Knobs& knobs, const Vec3& direction, Around around) {
   const double foreseen_s = around == Around::Movers ? 1.2 : 60.0;
   double hop = 0.8 * knobs.sphere_radius_m;

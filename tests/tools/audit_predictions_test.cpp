@@ -336,10 +336,10 @@ TEST(AContact, IsLookedBackFrom) {
   const Contact contact = contact_at(world.record, at(6.0), 0);
   EXPECT_NEAR(contact.in_predictions_s.value(), 1.0, 1e-9);
   ASSERT_TRUE(contact.predicted[0] && contact.predicted[1] && contact.predicted[2]);
-  for (const auto& said : contact.predicted) {
-    EXPECT_NEAR(said->needed_m, 0.5, 1e-6);
-    EXPECT_EQ(said->alpha_m, kAlpha);
-    EXPECT_FALSE(said->covered);
+  for (const auto& prediction : contact.predicted) {
+    EXPECT_NEAR(prediction->needed_m, 0.5, 1e-6);
+    EXPECT_EQ(prediction->alpha_m, kAlpha);
+    EXPECT_FALSE(prediction->covered);
   }
   EXPECT_EQ(contact.confidence.value(), 0.9) << "the last plan claims none";
   EXPECT_NEAR(contact.confident_s.value(), 0.8, 1e-9);

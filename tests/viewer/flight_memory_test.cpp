@@ -62,13 +62,13 @@ RC_GTEST_PROP(FlightHistory, ThinsASeriesWithoutLosingAnExtreme, ()) {
   for (std::size_t k = 0; k < values.size(); ++k)
     history.add_row("T", at(0.1 * static_cast<double>(k)), {{"T.x", values[k]}});
   const json chart = json::parse(history.chart_json(kStart, at(100.0), {"T.x", "T.none"}, 10));
-  const json& told = chart["series"]["T.x"];
+  const json& series = chart["series"]["T.x"];
   RC_ASSERT(!chart["series"].contains("T.none"));
-  RC_ASSERT(told[0].size() == told[1].size() && told[0].size() <= 20U);
-  RC_ASSERT(std::is_sorted(told[0].begin(), told[0].end()));
+  RC_ASSERT(series[0].size() == series[1].size() && series[0].size() <= 20U);
+  RC_ASSERT(std::is_sorted(series[0].begin(), series[0].end()));
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  RC_ASSERT(*std::min_element(told[1].begin(), told[1].end()) == *least);
-  RC_ASSERT(*std::max_element(told[1].begin(), told[1].end()) == *greatest);
+  RC_ASSERT(*std::min_element(series[1].begin(), series[1].end()) == *least);
+  RC_ASSERT(*std::max_element(series[1].begin(), series[1].end()) == *greatest);
 }
 
 TEST(FlightHistory, KeepsARowPerFiftyMillisecondsAndWhatIsNoNumberAsNone) {
@@ -160,7 +160,7 @@ TEST(Scene, RemembersClearancesToObstaclesAndToTheMapApart) {
   EXPECT_NEAR(chart["series"]["clearance.map_m"][1][0].get<double>(), std::hypot(7.0, 1.5), 1e-4);
 }
 
-std::vector<std::string> told(const FlightEvents& events, const std::string& kind) {
+std::vector<std::string> events_of(const FlightEvents& events, const std::string& kind) {
   std::vector<std::string> texts;
   for (const FlightEvent& event : events.events()) {
     if (event.kind == kind) texts.push_back(event.text);
@@ -181,8 +181,9 @@ TEST(FlightEvents, AreTheChangesOfTheOutcome) {
     plan.reason = reason;
     events.receive(plan);
   }
-  EXPECT_EQ(told(events, "outcome"), (Texts{"first answer: optimized", "optimized → keep committed (worse plan)"}));
-  EXPECT_EQ(told(events, "evasion"), Texts{"keep committed → evade"});
+  EXPECT_EQ(events_of(events, "outcome"),
+            (Texts{"first answer: optimized", "optimized → keep committed (worse plan)"}));
+  EXPECT_EQ(events_of(events, "evasion"), Texts{"keep committed → evade"});
 }
 
 TEST(FlightEvents, AreGoalsStopsLateAnswersRestartsAndTheResultOnce) {
@@ -195,30 +196,30 @@ TEST(FlightEvents, AreGoalsStopsLateAnswersRestartsAndTheResultOnce) {
   goal.id = 2;
   goal.mode = GoalMode::Hold;
   events.receive(goal);
-  EXPECT_EQ(told(events, "goal"), (Texts{"goal 1: 1.0, 2.0, 3.0", "goal 2: hold"}));
+  EXPECT_EQ(events_of(events, "goal"), (Texts{"goal 1: 1.0, 2.0, 3.0", "goal 2: hold"}));
   for (const double speed : {0.0, 3.0, 0.2, 0.0, 0.0, 0.2, 0.0}) {
     events.receive(state_at(0.0, Vec3(1.0, 0.0, 0.0), Vec3(speed, 0.0, 0.0)));
   }
-  EXPECT_EQ(told(events, "stop"), Texts{"at rest at 1.0, 0.0, 0.0"});
+  EXPECT_EQ(events_of(events, "stop"), Texts{"at rest at 1.0, 0.0, 0.0"});
   PlanTiming timing;
   timing.request_id = 5;
   events.receive(timing, 80.0, 0.0);
   events.receive(timing, 80.0, 90.0);
   events.receive(timing, 80.0, 70.0);
-  EXPECT_EQ(told(events, "late"), Texts{"answer 5: 80.0 of 70 ms"});
+  EXPECT_EQ(events_of(events, "late"), Texts{"answer 5: 80.0 of 70 ms"});
   Heartbeat heartbeat;
   heartbeat.process = "tern-planner";
   for (const std::int64_t epoch : {1, 1, 2, 2}) {
     heartbeat.header.name.sender_epoch_us = epoch;
     events.receive(heartbeat);
   }
-  EXPECT_EQ(told(events, "restart"), Texts{"tern-planner restarted"});
+  EXPECT_EQ(events_of(events, "restart"), Texts{"tern-planner restarted"});
   FlightResult result;
   result.outcome = FlightOutcome::Collision;
   result.detail = "mover 3";
   events.receive(result);
   events.receive(result);
-  EXPECT_EQ(told(events, "result"), Texts{"collision: mover 3"});
+  EXPECT_EQ(events_of(events, "result"), Texts{"collision: mover 3"});
 }
 
 TEST(Scene, CallsAnAnswerLateByTheFlightsClockWhateverThePace) {
@@ -237,7 +238,7 @@ TEST(Scene, CallsAnAnswerLateByTheFlightsClockWhateverThePace) {
     scene.receive(timing);
     EXPECT_EQ(json::parse(timing_json(scene))["late"], id == 2);
   }
-  EXPECT_EQ(told(memory.events, "late"), Texts{"answer 2: 80.0 of 70 ms"});
+  EXPECT_EQ(events_of(memory.events, "late"), Texts{"answer 2: 80.0 of 70 ms"});
 }
 
 TEST(FlightEvents, AreTheFiveNearestPasses) {
@@ -247,10 +248,10 @@ TEST(FlightEvents, AreTheFiveNearestPasses) {
     // Passes at t = 1, 3, 5 …, each nearer than the last by 0.04 m; at 1 m between them.
     events.receive_clearance(at(t), 0.55 - 0.02 * t + 0.45 * std::cos(M_PI * t), std::nullopt);
   }
-  const Texts passes = told(events, "clearance");
+  const Texts passes = events_of(events, "clearance");
   EXPECT_EQ(passes.size(), 5U);
   EXPECT_NE(passes.back().find("-0.280 m to an obstacle, the least"), std::string::npos) << passes.back();
-  EXPECT_EQ(told(FlightEvents(), "clearance"), Texts{});
+  EXPECT_EQ(events_of(FlightEvents(), "clearance"), Texts{});
 }
 
 TEST(Topics, AGhostDepartsWhenTheFlightDoes) {

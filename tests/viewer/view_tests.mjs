@@ -305,12 +305,12 @@ await run({
     await eventually('one cursor', () => page.evaluate(() => Math.abs(window.tern.timeline.now - 10) < 0.3));
     await eventually('numbers are of the state that the panels show', () => page.evaluate(() => {
       const { charts, known: { state, player } } = window.tern;
-      return Math.abs(charts.told - (state.at_us - player.zero_us) * 1e-6) < 1e-9;
+      return Math.abs(charts.stateTime - (state.at_us - player.zero_us) * 1e-6) < 1e-9;
     }));
     await page.evaluate(() => { // a curve that keeps but two of its rows
       const { charts } = window.tern;
       charts.series['clearance.obstacles_m'] = [[0, 20], [5, 25]];
-      charts.setNow(charts.now, charts.told, charts.shown);
+      charts.setNow(charts.now, charts.stateTime, charts.shown);
     });
     await eventually('panels and charts tell one number', () => page.evaluate(() => {
       const told = document.querySelector('[data-field="clearance.obstacles_m"] b').textContent;

@@ -42,7 +42,7 @@ std::string text(const Between& x) {
 }
 
 /// Compares the referee's values of one region with the auditor's bounds.
-void compare(const FlightRecord& record, const Measures& measures, const RegionMeasure& r, const Exposure& said,
+void compare(const FlightRecord& record, const Measures& measures, const RegionMeasure& r, const Exposure& reported,
              Check& check) {
   const auto agree = [&](const char* what, double value, const Between& found, double off) {
     ++check.checked;
@@ -53,10 +53,10 @@ void compare(const FlightRecord& record, const Measures& measures, const RegionM
   const double off_s = kRefereeStep * (1 + r.border.crossings);
   const double near_off_s = kRefereeStep * (1 + r.near_border.crossings);
   const double speed = measures.top_speed.high;
-  agree("seconds inside:", said.seconds, r.seconds, off_s);
-  agree("metres inside:", said.metres, r.metres, off_s * speed);
-  agree("seconds within 1 m:", said.near_seconds, r.near_seconds, near_off_s);
-  agree("metres within 1 m:", said.near_metres, r.near_metres, near_off_s * speed);
+  agree("seconds inside:", reported.seconds, r.seconds, off_s);
+  agree("metres inside:", reported.metres, r.metres, off_s * speed);
+  agree("seconds within 1 m:", reported.near_seconds, r.near_seconds, near_off_s);
+  agree("metres within 1 m:", reported.near_metres, r.near_metres, near_off_s * speed);
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ Check check_exposure(const FlightRecord& record) {
       check.unchecked["regions without a FLIGHT_RESULT to compare with"] += 1;
       continue;
     }
-    for (const Exposure& said : record.results.back().exposure) {
-      if (said.region == r.region) compare(record, measures, r, said, check);
+    for (const Exposure& reported : record.results.back().exposure) {
+      if (reported.region == r.region) compare(record, measures, r, reported, check);
     }
   }
   return check;

@@ -20,7 +20,7 @@ void put_in_order(std::vector<T>& items, const TimeOf& time_of) {
 }
 
 /// The messages of one sender of vehicle, world or setpoints: one run of a simulator or an executor.
-struct Told {
+struct SenderMessages {
   std::vector<UavState> estimates, true_states, setpoints;
   std::vector<VehicleStatus> statuses;
   std::map<std::int64_t, ObstacleHistory> truth;
@@ -47,12 +47,14 @@ class Reading {
     keep(channels::kObstacleObservations, record.observations);
     keep(channels::kPlan, record.plans);
     keep(channels::kPlanTiming, record.timings);
-    tell(channels::kUavState, [](Told& told, const UavState& s) { told.estimates.push_back(s); });
-    tell(channels::kVehicleTruth, [](Told& told, const UavState& s) { told.true_states.push_back(s); });
-    tell(channels::kSetpoint, [](Told& told, const UavState& s) { told.setpoints.push_back(s); });
-    tell(channels::kVehicleStatus, [](Told& told, const VehicleStatus& s) { told.statuses.push_back(s); });
-    tell(channels::kObstacleTruth, take_truth);
-    tell(channels::kFlightResult, take_result);
+    collect(channels::kUavState, [](SenderMessages& messages, const UavState& s) { messages.estimates.push_back(s); });
+    collect(channels::kVehicleTruth,
+            [](SenderMessages& messages, const UavState& s) { messages.true_states.push_back(s); });
+    collect(channels::kSetpoint, [](SenderMessages& messages, const UavState& s) { messages.setpoints.push_back(s); });
+    collect(channels::kVehicleStatus,
+            [](SenderMessages& messages, const VehicleStatus& s) { messages.statuses.push_back(s); });
+    collect(channels::kObstacleTruth, take_truth);
+    collect(channels::kFlightResult, take_result);
     log_.on(channels::kDeclaredMotions, [this](const TrackSet& batch, std::int64_t) { declared(batch); });
     log_.on(channels::kPredictions, [this](const TrackSet& batch, std::int64_t) { predicted(batch); });
     log_.on(channels::kSemanticMap, [this](const MapChunk& chunk, std::int64_t) { take(chunk); });
@@ -88,28 +90,28 @@ class Reading {
   }
 
   template <class T>
-  void tell(const Channel<T>& channel, void (*put)(Told&, const std::type_identity_t<T>&)) {
-    log_.on(channel, [this, put](const T& m, std::int64_t) { put(told_[m.header.name.sender_epoch_us], m); });
+  void collect(const Channel<T>& channel, void (*put)(SenderMessages&, const std::type_identity_t<T>&)) {
+    log_.on(channel, [this, put](const T& m, std::int64_t) { put(by_sender_[m.header.name.sender_epoch_us], m); });
   }
 
-  static void take_truth(Told& told, const ObstacleTruth& truth) {
-    told.truth_left_out = std::max<std::int64_t>(told.truth_left_out, truth.left_out);
+  static void take_truth(SenderMessages& messages, const ObstacleTruth& truth) {
+    messages.truth_left_out = std::max<std::int64_t>(messages.truth_left_out, truth.left_out);
     for (const TrueObstacle& o : truth.obstacles) {
-      ObstacleHistory& history = told.truth[o.id];
+      ObstacleHistory& history = messages.truth[o.id];
       history.moves = history.moves || o.moves;
       history.samples.push_back({truth.at, o.position, o.velocity, o.half_extents});
     }
   }
 
-  static void take_result(Told& told, const FlightResult& result) {
-    const bool repeated = !told.results.empty() && told.results.back().flight_time_s == result.flight_time_s;
-    if (!repeated) told.results.push_back(result);
+  static void take_result(SenderMessages& messages, const FlightResult& result) {
+    const bool repeated = !messages.results.empty() && messages.results.back().flight_time_s == result.flight_time_s;
+    if (!repeated) messages.results.push_back(result);
   }
 
   void declared(const TrackSet& batch) {
     const auto set = declarations_.add(batch);
     if (!set) return;
-    auto& by_id = told_[set->header.name.sender_epoch_us].declared;
+    auto& by_id = by_sender_[set->header.name.sender_epoch_us].declared;
     for (const Track& track : set->tracks) {
       if (track.kind != TrackKind::Static) declare(track, set->made_at, by_id[track.id]);
     }
@@ -143,13 +145,13 @@ class Reading {
   /// Returns one kind of message of the flight's own world. Vehicle, executor and sensors may be processes of their
   /// own. Then it returns the messages of all senders outside of other flights.
   template <class T, class Merge>
-  T of_flight(std::int64_t world, T Told::*kind, const Merge& merge) {
+  T of_flight(std::int64_t world, T SenderMessages::*kind, const Merge& merge) {
     T all;
-    for (auto& [sender, told] : told_) {
-      if (sender == world && !(told.*kind).empty()) return std::move(told.*kind);
+    for (auto& [sender, messages] : by_sender_) {
+      if (sender == world && !(messages.*kind).empty()) return std::move(messages.*kind);
     }
-    for (auto& [sender, told] : told_) {
-      if (!others_.contains(sender)) merge(all, told.*kind);
+    for (auto& [sender, messages] : by_sender_) {
+      if (!others_.contains(sender)) merge(all, messages.*kind);
     }
     return all;
   }
@@ -158,56 +160,56 @@ class Reading {
   [[nodiscard]] std::int64_t own_world() const {
     const auto has_truth = [](const auto& known) { return !known.second.truth.empty(); };
     if (!record_.requests.empty()) {
-      const auto own = told_.find(record_.requests.front().header.name.sender_epoch_us);
-      if (own != told_.end() && has_truth(*own)) return own->first;
+      const auto own = by_sender_.find(record_.requests.front().header.name.sender_epoch_us);
+      if (own != by_sender_.end() && has_truth(*own)) return own->first;
     }
-    const auto first = std::ranges::find_if(told_, has_truth);
-    if (first != told_.end()) return first->first;
-    return told_.empty() ? 0 : told_.begin()->first;
+    const auto first = std::ranges::find_if(by_sender_, has_truth);
+    if (first != by_sender_.end()) return first->first;
+    return by_sender_.empty() ? 0 : by_sender_.begin()->first;
   }
 
   void choose_flight() {
     const std::int64_t epoch = own_world();
     name_others(epoch);
     const auto append = [](auto& all, auto& more) { all.insert(all.end(), more.begin(), more.end()); };
-    record_.states = of_flight(epoch, &Told::true_states, append);
-    record_.estimates = of_flight(epoch, &Told::estimates, append);
+    record_.states = of_flight(epoch, &SenderMessages::true_states, append);
+    record_.estimates = of_flight(epoch, &SenderMessages::estimates, append);
     if (record_.states.empty()) record_.states = record_.estimates;
-    record_.setpoints = of_flight(epoch, &Told::setpoints, append);
-    record_.statuses = of_flight(epoch, &Told::statuses, append);
-    record_.results = of_flight(epoch, &Told::results, append);
-    record_.truth = of_flight(epoch, &Told::truth, [&](auto& all, auto& more) {
+    record_.setpoints = of_flight(epoch, &SenderMessages::setpoints, append);
+    record_.statuses = of_flight(epoch, &SenderMessages::statuses, append);
+    record_.results = of_flight(epoch, &SenderMessages::results, append);
+    record_.truth = of_flight(epoch, &SenderMessages::truth, [&](auto& all, auto& more) {
       for (auto& [id, history] : more) {
         all[id].moves = all[id].moves || history.moves;
         append(all[id].samples, history.samples);
       }
     });
-    record_.declared = of_flight(epoch, &Told::declared, [&](auto& all, auto& more) {
+    record_.declared = of_flight(epoch, &SenderMessages::declared, [&](auto& all, auto& more) {
       for (auto& [id, pieces] : more) append(all[id], pieces);
     });
     for (auto& [id, pieces] : record_.declared) {
       std::ranges::stable_sort(
           pieces, [](const DeclaredPiece& a, const DeclaredPiece& b) { return a.curve.from < b.curve.from; });
     }
-    for (const auto& [sender, told] : told_) {
-      if (!others_.contains(sender)) record_.truth_left_out = std::max(record_.truth_left_out, told.truth_left_out);
+    for (const auto& [sender, messages] : by_sender_) {
+      if (!others_.contains(sender)) record_.truth_left_out = std::max(record_.truth_left_out, messages.truth_left_out);
     }
     forget_others();
   }
 
   /// Finds other worlds, and the executors that flew in them: those that started after this one ended.
   void name_others(std::int64_t world) {
-    const auto own = told_.find(world);
-    if (own == told_.end() || own->second.truth.empty()) return;
+    const auto own = by_sender_.find(world);
+    if (own == by_sender_.end() || own->second.truth.empty()) return;
     std::map<std::int64_t, std::int64_t> requests;
     for (const HorizonRequest& r : record_.requests) ++requests[r.header.name.sender_epoch_us];
     UTime last;
     for (const auto& [id, history] : own->second.truth) last = std::max(last, history.samples.back().at);
-    for (const auto& [sender, told] : told_) {
-      if (sender == world || (told.truth.empty() && (sender <= last.us || !requests.contains(sender)))) continue;
+    for (const auto& [sender, messages] : by_sender_) {
+      if (sender == world || (messages.truth.empty() && (sender <= last.us || !requests.contains(sender)))) continue;
       others_.insert(sender);
       record_.other_flights.push_back(fmt::format("another flight: sender {} {}, {} requests: not audited", sender,
-                                                  told.truth.empty() ? "came after it" : "has a world of its own",
+                                                  messages.truth.empty() ? "came after it" : "has a world of its own",
                                                   requests[sender]));
     }
   }
@@ -228,8 +230,8 @@ class Reading {
 
   FlightRecord& record_;
   FlightLog log_;
-  std::map<std::int64_t, Told> told_;  ///< by sender epoch
-  std::set<std::int64_t> others_;      ///< senders with a flight of their own
+  std::map<std::int64_t, SenderMessages> by_sender_;  ///< by sender epoch
+  std::set<std::int64_t> others_;                     ///< senders with a flight of their own
   RecordedSets declarations_, predictions_;
   MapAssembler assembler_;
 };

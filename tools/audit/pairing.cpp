@@ -42,12 +42,12 @@ bool Pairing::is_in_view(const Track& track, UTime made_at) const {
 }
 
 const std::map<std::int64_t, PairedObstacle>& Pairing::pair(const TrackSet& set) {
-  now_.clear();
+  pairs_.clear();
   std::set<std::int64_t> taken;
   const auto give = [&](std::int64_t track, std::int64_t obstacle, bool in_view) {
-    if (now_.contains(track) || !taken.insert(obstacle).second) return;
-    now_.emplace(track, PairedObstacle{obstacle, in_view});
-    had_[track] = obstacle;
+    if (pairs_.contains(track) || !taken.insert(obstacle).second) return;
+    pairs_.emplace(track, PairedObstacle{obstacle, in_view});
+    last_obstacle_[track] = obstacle;
   };
   std::vector<Near> pairs;
   std::vector<const Track*> out_of_view;
@@ -74,9 +74,10 @@ const std::map<std::int64_t, PairedObstacle>& Pairing::pair(const TrackSet& set)
   });
   for (const Near& near : pairs) give(near.track, near.obstacle, true);
   for (const Track* track : out_of_view) {
-    if (const auto had = had_.find(track->id); had != had_.end()) give(track->id, had->second, false);
+    if (const auto had = last_obstacle_.find(track->id); had != last_obstacle_.end())
+      give(track->id, had->second, false);
   }
-  return now_;
+  return pairs_;
 }
 
 }  // namespace tern::audit

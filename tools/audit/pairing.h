@@ -54,8 +54,8 @@ class Pairing {
   [[nodiscard]] bool is_in_view(const Track& track, UTime made_at) const;
 
   const FlightRecord& record_;
-  std::map<std::int64_t, PairedObstacle> now_;
-  std::map<std::int64_t, std::int64_t> had_;  ///< track → the obstacle it was last paired with
+  std::map<std::int64_t, PairedObstacle> pairs_;
+  std::map<std::int64_t, std::int64_t> last_obstacle_;  ///< track → the obstacle it was last paired with
 };
 
 /// The α that one truth sample requires of a track's piece.

@@ -86,14 +86,14 @@ class ResultCheck {
     if (audit_.collision == Collision::CannotTell) ++check_.unchecked["the collision that FLIGHT_RESULT reports"];
   }
 
-  void clearance(const char* what, const LeastClearance& least, double said) {
-    if (!least.known || !std::isfinite(said)) return;
+  void clearance(const char* what, const LeastClearance& least, double reported) {
+    if (!least.known || !std::isfinite(reported)) return;
     if (result_.outcome == FlightOutcome::Collision) return;  ///< the referee measures to the end of its step only
     ++check_.checked;
-    const bool too_low = least.proven && said < least.low - kRounding;
+    const bool too_low = least.proven && reported < least.low - kRounding;
     if (!least.proven) ++check_.unchecked[fmt::format("whether FLIGHT_RESULT's least {} is too low", what)];
-    if (too_low || said > least.high + kClearanceOff) {
-      fail(fmt::format("FLIGHT_RESULT says least {} {:.4f} m, recomputed {:.4f} to {:.4f} m", what, said, least.low,
+    if (too_low || reported > least.high + kClearanceOff) {
+      fail(fmt::format("FLIGHT_RESULT says least {} {:.4f} m, recomputed {:.4f} to {:.4f} m", what, reported, least.low,
                        least.high));
     }
   }
@@ -107,10 +107,10 @@ class ResultCheck {
                      obstacle_count.most));
   }
 
-  void agree(const char* what, double said, const Between& found, double off) {
+  void agree(const char* what, double reported, const Between& found, double off) {
     ++check_.checked;
-    if (said >= found.low - off && said <= found.high + off) return;
-    fail(fmt::format("FLIGHT_RESULT says {} {:.6g}, recomputed {}", what, said, text(found)));
+    if (reported >= found.low - off && reported <= found.high + off) return;
+    fail(fmt::format("FLIGHT_RESULT says {} {:.6g}, recomputed {}", what, reported, text(found)));
   }
 
   void bounds(const std::string& name, const Between& x) {

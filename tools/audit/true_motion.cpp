@@ -205,8 +205,8 @@ Window judged_window(const FlightRecord& record) {
   UTime latest = result.header.utime;
   if (record.requests.front().id == 1) latest = std::min(latest, record.zero() + time);
   const bool is_first = result.header.name.sequence <= 1;
-  const UTime told = is_first ? result.header.utime : result.header.utime - kResultRepeated;
-  const auto after = std::ranges::upper_bound(record.states, told, {}, &UavState::at);
+  const UTime reported_at = is_first ? result.header.utime : result.header.utime - kResultRepeated;
+  const auto after = std::ranges::upper_bound(record.states, reported_at, {}, &UavState::at);
   const auto before = after - record.states.begin();
   const UTime earliest = before >= 2 ? record.states[idx(before) - 2].at : latest - time;
   const Duration unsure = std::max(Duration{}, latest - std::min(earliest, latest));

@@ -153,13 +153,13 @@ Result<std::string> inline_page(const PageFiles& files, const std::string& packe
       put_for(html, path, ">", "<style>" + text + "</style>");
     }
   }
-  std::string said = licences->second.bytes;
-  boost::replace_all(said, "</script", "<\\/script");
+  std::string licence_text = licences->second.bytes;
+  boost::replace_all(licence_text, "</script", "<\\/script");
   const std::size_t head = html.find("<head>") + 6;
   html.insert(head, kPolicy);
-  const std::string kept = fmt::format("<script type=\"text/plain\" id=\"licences\">{}</script>", said) +
-                           fmt::format("<script type=\"text/plain\" id=\"tape\">{}</script>", packed);
-  html.insert(html.rfind("</body>"), kept);
+  const std::string elements = fmt::format("<script type=\"text/plain\" id=\"licences\">{}</script>", licence_text) +
+                               fmt::format("<script type=\"text/plain\" id=\"tape\">{}</script>", packed);
+  html.insert(html.rfind("</body>"), elements);
   return html;
 }
 

@@ -142,7 +142,7 @@ function room(low, high) {
 export class Charts {
   /** @param handlers  {jump(t), wants(names), hover(t)}; t in seconds of the flight */
   constructor(handlers) {
-    Object.assign(this, { handlers, series: {}, span: [0, 1], now: 0, told: 0, shown: {}, zoomed: null, charts: [], fields: [] });
+    Object.assign(this, { handlers, series: {}, span: [0, 1], now: 0, stateTime: 0, shown: {}, zoomed: null, charts: [], fields: [] });
     this.root = document.getElementById('charts');
     for (const names of DEFAULT) this.append(names);
   }
@@ -213,20 +213,20 @@ export class Charts {
   }
 
   /**
-   * @param t  present time of the flight, s  @param told  time of the newest state, s: all numbers are of that time
+   * @param t  present time of the flight, s  @param stateTime  time of the newest state, s: all numbers are of that time
    * @param shown  values of the panels, by field name
    */
-  setNow(t, told, shown) {
-    Object.assign(this, { now: t, told, shown });
+  setNow(t, stateTime, shown) {
+    Object.assign(this, { now: t, stateTime, shown });
     for (const chart of this.charts) {
       chart.showNow();
-      if (!this.hovers) chart.read(told, shown);
+      if (!this.hovers) chart.read(stateTime, shown);
     }
   }
 
   hover(t) {
     this.hovers = t !== null;
-    for (const chart of this.charts) this.hovers ? chart.read(t) : chart.read(this.told, this.shown);
+    for (const chart of this.charts) this.hovers ? chart.read(t) : chart.read(this.stateTime, this.shown);
     this.handlers.hover(t);
   }
 

@@ -5,11 +5,11 @@ export const MODES = ['chase', 'first', 'top', 'side', 'free'];
 
 /** @return {t, cam, eye}: seconds of the flight, a mode or fit, six numbers; missing or wrong parts are left out */
 export function readLink(hash) {
-  const said = new URLSearchParams(hash.replace(/^#/, ''));
+  const parameters = new URLSearchParams(hash.replace(/^#/, ''));
   const link = {};
-  const t = Number(said.get('t'));
-  if (said.has('t') && Number.isFinite(t)) link.t = t;
-  const [mode, place] = (said.get('cam') ?? '').split(':');
+  const t = Number(parameters.get('t'));
+  if (parameters.has('t') && Number.isFinite(t)) link.t = t;
+  const [mode, place] = (parameters.get('cam') ?? '').split(':');
   if (!MODES.includes(mode) && mode !== 'fit') return link;
   link.cam = mode;
   const eye = (place ?? '').split(',').map(Number);

@@ -80,7 +80,7 @@ const topics = {
     timeline.takeChart(chart, flightSpan(chart));
   },
   fields: (names) => names && charts.takeFields(names),
-  events: (told) => timeline.takeEvents(told?.events ?? []),
+  events: (message) => timeline.takeEvents(message?.events ?? []),
   path(path) {
     if (!path) return;
     trajectories.takePath(path);
@@ -123,10 +123,10 @@ const topics = {
     showCut();
   },
   health: (processes) => hud.showHealth(processes, (name) => inspector.open({ kind: 'process', name })),
-  ghost(told) {
-    if (told) ghost.take(told);
+  ghost(message) {
+    if (message) ghost.take(message);
     else ghost.clear();
-    offer('ghost', told);
+    offer('ghost', message);
   },
 };
 

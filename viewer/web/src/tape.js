@@ -75,9 +75,9 @@ export class Tape {
       frame[topic] = k < 0 ? null : values[k];
     }
     const player = this.player();
-    const told = JSON.stringify(player);
-    if (told === this.told && Object.keys(frame).length === 0) return;
-    this.told = told;
+    const sent = JSON.stringify(player);
+    if (sent === this.sent && Object.keys(frame).length === 0) return;
+    this.sent = sent;
     this.handlers.frame({ frame: ++this.frame, dropped: 0, ...frame, player });
   }
 }
