@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
-# answers_in_time.sh: flies the demo live at full speed, alone and beside a process for each core that never rests, and says how many
-# requests were answered in time. Exit code 1 when an answer is late in the first flight, or more than one in a thousand in the
-# second. Where the machine's host takes cores away, that is said: the numbers then are not Tern's.
+# answers_in_time.sh: measures how many requests are answered in time. It flies the demo live at full speed, alone and
+# then with one busy process per core. Exit code 1 if an answer of the first flight is late, or more than one in a
+# thousand of the second. If the host takes cores away from this machine, the output says so; the numbers are invalid
+# then.
 set -euo pipefail
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 work=$(mktemp -d)
 busy=()
 trap '((${#busy[@]} == 0)) || kill "${busy[@]}" 2>/dev/null; rm -rf "$work"' EXIT
 
-# core_ticks: of this machine's cores since its start: how many ticks its host kept for others, and how many there were.
+# core_ticks: prints the ticks that the host took from this machine's cores, and all ticks, since the start.
 core_ticks() { awk '$1 == "cpu" { print $9, $2 + $3 + $4 + $5 + $6 + $7 + $8 + $9 }' /proc/stat; }
 
-# fly NAME SHARE: flies, prints a line; whether at least this share of the requests was answered in time.
+# fly NAME SHARE: flies and prints a line. Fails if a smaller share of the requests was answered in time.
 fly() {
   local before after
   before=$(core_ticks)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A detector of one's own: publishes a box that flies to and fro as OBSTACLE_OBSERVATIONS, 30 Hz, until Ctrl-C.
+"""A detector in Python: publishes a box that flies to and fro as OBSTACLE_OBSERVATIONS, at 30 Hz, until Ctrl-C.
 
-Needs only the messages' Python types, which launch_scripts/build.sh python_types makes. The flight's env.sh names the network
-(LCM_DEFAULT_URL) and its pace (TERN_PACE):
+It needs only the Python types of the messages; launch_scripts/build.sh python_types makes them. The flight's env.sh sets the
+network (LCM_DEFAULT_URL) and its pace (TERN_PACE):
 PYTHONPATH=build/release/python python3 docs/examples/own_detector.py [KEY_FILE]
-Of a flight with keys it must be given the key (fly.sh --key FILE).
+In a flight with keys (fly.sh --key FILE), pass the same key file.
 """
 import hashlib
 import math
@@ -19,7 +19,7 @@ import tern_msgs as msgs
 
 VEHICLE = 1  # the role of sensors
 PACE = float(os.environ.get("TERN_PACE", 1))
-PACE_ORIGIN_US = 1_767_225_600_000_000  # since when the flight's clock shows PACE seconds for each of the system's
+PACE_ORIGIN_US = 1_767_225_600_000_000  # from then on the flight's clock counts PACE seconds per system second
 
 
 def now_us():
@@ -70,11 +70,11 @@ key = bytes.fromhex(open(sys.argv[1]).read()) if len(sys.argv) > 1 else None
 bus = Bus(os.environ.get("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667?ttl=0"), key)
 while True:
     frame = msgs.observation_set_t()
-    frame.at_us = now_us()  # when the world was so, not when it is said
+    frame.at_us = now_us()  # the time of the measurement, not of the message
     frame.sensor_id, frame.range, frame.sensor_position = 1, 0.0, vec3(0, 0, 1)
     box = msgs.detection_t()
     box.position = vec3(6, 2 * math.sin(frame.at_us * 1e-6), 1)  # centre, in W
     box.half_extents, box.variance, box.track_id = vec3(0.4, 0.4, 0.4), vec3(1e-4, 1e-4, 1e-4), -1
-    frame.detections, frame.detection_count = [box], 1  # none seen: publish the empty list, not nothing
+    frame.detections, frame.detection_count = [box], 1  # without a detection, publish the empty list
     bus.publish("OBSTACLE_OBSERVATIONS", frame)
     time.sleep(1 / 30 / PACE)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reads a recorded flight and plots it: plot_flight.py FLIGHT.lcm PICTURE.png
 
-Needs python3-matplotlib, and the messages' Python types that the build makes:
+It needs python3-matplotlib and the Python types of the messages (launch_scripts/build.sh python_types):
 PYTHONPATH=build/release/python python3 docs/examples/plot_flight.py flights/.../flight.lcm flight.png
 """
 import math
@@ -17,7 +17,7 @@ def events(path):
     with open(path, "rb") as log:
         while len(head := log.read(28)) == 28:
             sync, _, _, channel_bytes, data_bytes = struct.unpack(">IqqII", head)
-            assert sync == 0xEDA1DA01, "not an LCM log, or a damaged one: tern-replay reads on after damage"
+            assert sync == 0xEDA1DA01, "not an LCM log, or a damaged one (tern-replay reads around damage)"
             yield log.read(channel_bytes).decode(), log.read(data_bytes)
 
 

@@ -56,7 +56,7 @@ struct PlanCase {
 std::vector<Vec3> counted_alpha(const Track& track, const Plan& plan, UTime t_s);
 
 /// Returns the share of α that a relaxed start counts. It is the largest share in [0, 1] that leaves 1 mm between the
-/// body at p and the track at t; 0 if there is no room even without α. Precise to 1e-6, rounded down.
+/// body at p and the track at t. It is 0 if there is no room even without α. Precise to 1e-6, rounded down.
 double relaxed_share(const Track& track, const std::vector<Vec3>& alpha, const Body& body, const Vec3& p, UTime t);
 
 /// Looks up a plan's inputs. @return nullopt if the log lacks one of them; `why` says which
