@@ -53,7 +53,7 @@ std::vector<SemanticCase> sweep_cases();
 inline constexpr double kSweepLambdas[] = {0.5, 1.0, 2.0, 4.0, 8.0};
 
 /// Returns the overrides of a case. These worlds have no walls, so the corridor's floor and ceiling, z ∈ [0, 4], are
-/// added. Regions are as high, so they can only be passed at their sides.
+/// added. Regions reach from floor to ceiling, so they can only be passed at their sides.
 std::vector<std::string> overrides_of(const SemanticCase& wanted);
 
 /// With a header line.

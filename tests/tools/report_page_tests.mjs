@@ -6,7 +6,7 @@ import { expect, newPage, run, start, work } from '../viewer/support.mjs';
 
 const { TERN_BIN, TERN_RECORDED_FLIGHTS } = process.env;
 const CARDS = [
-  'Where it flew', 'Speed, m/s', 'Acceleration, m/s²', 'Clearance, m', 'Exposure, m', 'Replan time by stage, ms', 'Plan outcomes',
+  'Flown path', 'Speed, m/s', 'Acceleration, m/s²', 'Clearance, m', 'Exposure, m', 'Replan time by stage, ms', 'Plan outcomes',
   'Audit', 'Prediction coverage', 'Half-width of predictions, m', 'Tracks nearest to leaving their intervals', 'Replan time, ms', 'Answers', 'Regions', 'Log',
   'Processes',
 ];

@@ -219,7 +219,7 @@ class MapView {
 const views = [];
 let showTime = () => {};
 function map() {
-  const box = card("Where it flew", "From above and from the side, metres. Boxes are the moving obstacles at the time of the slider (at first: of the least clearance), thin lines their tracks.");
+  const box = card("Flown path", "From above and from the side, metres. Boxes are the moving obstacles at the time of the slider (at first: of the least clearance), thin lines their tracks.");
   views.push(new MapView(box, "x – y, from above", 1), new MapView(box, "x – z, from the side", 2));
   const ramp = el("span", { class: "ramp" });
   const swatch = (variable, text) => el("span", {}, el("i", { style: `background: var(--${variable})` }), text);

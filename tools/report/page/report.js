@@ -86,7 +86,7 @@ if (path.t.length) {
   tracking();
   clearances();
 } else {
-  card("Where it flew", "The log has no UAV_STATE.");
+  card("Flown path", "The log has no UAV_STATE.");
 }
 replanning();
 auditTable();
