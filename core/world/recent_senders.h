@@ -22,9 +22,9 @@ class RecentSenders {
   Known& touch(
       const Name& name, Forget&& forget = [](const Known&) {}) {
     Entry& entry = senders_[name];
-    entry.heard = ++count_;
+    entry.last = ++count_;
     if (senders_.size() > kMaxSenders) {
-      const auto longest_ago = [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; };
+      const auto longest_ago = [](const auto& a, const auto& b) { return a.second.last < b.second.last; };
       const auto forgotten = std::min_element(senders_.begin(), senders_.end(), longest_ago);
       forget(forgotten->second.known);
       senders_.erase(forgotten);
@@ -41,7 +41,7 @@ class RecentSenders {
  private:
   struct Entry {
     Known known;
-    std::int64_t heard = 0;  ///< count_ at the sender's last message
+    std::int64_t last = 0;  ///< count_ at the sender's last message
   };
   std::map<Name, Entry> senders_;
   std::int64_t count_ = 0;

@@ -12,9 +12,9 @@ constexpr std::int64_t kMaxLost = 1'000'000'000;
 }  // namespace
 
 SequenceWindow::Verdict SequenceWindow::add(std::int64_t sequence) {
-  least_ = least_ == 0 ? sequence : std::min(least_, sequence);
+  smallest_ = smallest_ == 0 ? sequence : std::min(smallest_, sequence);
   const Verdict verdict = judge(sequence);
-  if (verdict == Verdict::New) ++heard_;
+  if (verdict == Verdict::New) ++received_;
   return verdict;
 }
 

@@ -44,10 +44,10 @@ class SequenceWindow {
   [[nodiscard]] std::int64_t newest() const { return now_.newest; }  ///< 0: none yet
   /// Returns the number of lost messages. Messages left out by the newest number are not included, as they may still
   /// arrive. It is 0 before kEstablished messages, because the sender may be noise.
-  [[nodiscard]] std::int64_t lost() const { return heard_ < kEstablished ? 0 : now_.lost - now_.unsure; }
+  [[nodiscard]] std::int64_t lost() const { return received_ < kEstablished ? 0 : now_.lost - now_.unsure; }
   /// Returns how many numbers lie below the smallest one that arrived; senders count from 1. It is 0 before
   /// kEstablished messages.
-  [[nodiscard]] std::int64_t before_first() const { return heard_ < kEstablished ? 0 : least_ - 1; }
+  [[nodiscard]] std::int64_t before_first() const { return received_ < kEstablished ? 0 : smallest_ - 1; }
 
  private:
   struct Numbering {
@@ -64,8 +64,8 @@ class SequenceWindow {
   void continue_at(std::int64_t candidate, std::int64_t sequence);
 
   Numbering now_;
-  std::int64_t heard_ = 0;                 ///< new messages
-  std::int64_t least_ = 0;                 ///< the smallest number that arrived; 0: none yet
+  std::int64_t received_ = 0;              ///< new messages
+  std::int64_t smallest_ = 0;              ///< the smallest number that arrived; 0: none yet
   std::optional<std::int64_t> candidate_;  ///< newest number of a possible new numbering
   std::optional<Numbering> former_;        ///< the replaced numbering, until the new one is established
   std::int64_t continued_ = 0;             ///< messages of the numbering since it replaced the former one

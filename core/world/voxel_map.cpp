@@ -79,9 +79,9 @@ std::vector<MapChunk> to_chunks(const VoxelMap& map) {
 Result<bool> MapAssembler::add(const MapChunk& chunk) {
   const std::int64_t epoch_us = chunk.header.name.sender_epoch_us;
   const bool is_another = epoch_us_ != 0 && epoch_us != epoch_us_;
-  if (is_another && chunk.header.utime - heard_ <= kMapSilence) return false;
+  if (is_another && chunk.header.utime - last_sent_ <= kMapSilence) return false;
   if (is_another) map_ = {};
-  heard_ = is_another ? chunk.header.utime : std::max(heard_, chunk.header.utime);
+  last_sent_ = is_another ? chunk.header.utime : std::max(last_sent_, chunk.header.utime);
   epoch_us_ = epoch_us;
   if (chunk.version == finished_version_) return false;
   if (chunk.version != map_.version) {

@@ -102,7 +102,7 @@ class MapAssembler {
  private:
   VoxelMap map_;
   std::int64_t epoch_us_ = 0;  ///< epoch of the sender whose chunks are used
-  UTime heard_;                ///< when it sent its newest chunk, by its clock
+  UTime last_sent_;            ///< when it sent its newest chunk, by its clock
   std::uint64_t finished_version_ = 0;
   std::vector<bool> have_;
   int missing_ = 0;
