@@ -122,7 +122,7 @@ def channels():
 
 
 FIELD = re.compile(r"^  (const )?(\w+) (\w+)(?:\[(\w+)\])?(?: = ([-\w.]+))?;\s*(?://\s*(.*))?$")
-SUFFIXES = {"us": "µs", "ms": "ms", "kb": "kB"}
+SUFFIXES = {"us": "µs", "ms": "ms", "kb": "kB", "seconds": "s", "metres": "m"}
 
 
 GREEK = {"alpha": "α", "lambda": "λ", "tau": "τ", "pi": "π"}
