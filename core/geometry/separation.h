@@ -1,4 +1,4 @@
-// Fast separation of two convex hulls by the plane with the largest margin.
+// Fast separation of two convex hulls by the plane with the largest margin. Its use: docs/planner/separation.md.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-// The form of a trajectory (paper §2): a clamped uniform cubic B-spline with J intervals of one length Δt.
+// The form of a trajectory (paper §2): a clamped uniform cubic B-spline with J intervals of one length Δt. Symbols and
+// matrices: docs/reference/notation.md.
 #pragma once
 
 #include <memory>

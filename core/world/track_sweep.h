@@ -1,5 +1,5 @@
 // The sweep of a predicted obstacle over a time span: boxes along its motion, whose convex hull contains it (paper
-// §3.2).
+// §3.2, docs/planner/separation.md).
 #pragma once
 
 #include <vector>
