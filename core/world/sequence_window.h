@@ -14,7 +14,7 @@ namespace tern {
 /// | 1 … kShortGap ahead                        | New      | it is the newest; the numbers between are lost     |
 /// | kShortGap + 1 … kMaxGap ahead              | New      | it is the candidate of a new numbering             |
 /// | more than kMaxGap ahead                    | Jump     | it is the candidate of a new numbering             |
-/// | 1 … kShortGap ahead of the candidate       | New      | the new numbering is used; numbers before are lost |
+/// | 1 … kShortGap ahead of the candidate       | New      | the new numbering is used; the gap to it is lost   |
 /// | fewer than kRemembered behind, not seen    | New      | it is no longer lost                               |
 /// | the candidate again, seen, farther behind  | Repeated | none                                               |
 ///
