@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# animation.sh [LOG]: makes docs/images/flight.webp, the README's animation: of LOG, or of a flight of the demo that is flown for it.
-# Needs Chromium and ffmpeg. Without a GPU a picture takes a good part of a second.
+# animation.sh [LOG]: makes the README's animation, docs/images/flight.webp, from LOG or from a new flight of the demo.
+# Needs Chromium and ffmpeg. Without a GPU a picture takes up to a second.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

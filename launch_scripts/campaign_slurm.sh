@@ -13,11 +13,12 @@ usage() {
   cat <<'END'
 campaign_slurm.sh DIR SHARDS OPTION...: flies a campaign on a Slurm cluster.
 
-Run it in the project's folder, which every node must see, as DIR. It submits an array of SHARDS jobs, each of which flies its
-share of the seeds into DIR/shards/, and a job that merges them when all have ended well, into DIR/flights.csv and
+Run it in the project's folder; every node must see that folder and DIR. It submits an array of SHARDS jobs, each of which
+flies its share of the seeds into DIR/shards/. When all have succeeded, a last job merges them into DIR/flights.csv and
 DIR/summary.json. OPTION... are tern-campaign's: --world, --count, --seeds, --set, --charge, --audit.
-Cores per job: CPUS=K in the environment (default 4). Partition, account, time limit and so on: Slurm's own variables,
-SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT. After a failure or a time limit the same command goes on where it stopped.
+
+Cores per job: CPUS=K in the environment (default 4). Partition, account and time limit: Slurm's own variables
+SBATCH_PARTITION, SBATCH_ACCOUNT and SBATCH_TIMELIMIT. After a failure the same command continues where it stopped.
 END
 }
 

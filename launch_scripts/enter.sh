@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# enter.sh [RECORD_DIR] [-- COMMAND...]: a shell (or COMMAND) in the network namespace of an isolated flight that still
-# runs. By default it is the newest one in flights/. LCM_DEFAULT_URL is set there.
+# enter.sh [RECORD_DIR] [-- COMMAND...]: opens a shell, or runs COMMAND, in the network namespace of a running isolated flight.
+# The default is the newest one in flights/. LCM_DEFAULT_URL is set there.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# fly.sh: one command flies; fly.sh --help. What it starts, and how that ends: launcher/README.md.
+# fly.sh: one command flies; fly.sh --help. The processes that it starts, and their end: launcher/README.md.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

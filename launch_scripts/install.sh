@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# install.sh [LIST...]: installs the Debian packages of the lists (by default packages.txt) that are missing, as root or with
-# sudo. Does nothing when none is. A line "PACKAGE unless COMMAND" asks for nothing where the command is there already.
+# install.sh [LIST...]: installs the missing Debian packages of the lists (default packages.txt), as root or with sudo.
+# A line "PACKAGE unless COMMAND" needs the package only if COMMAND is missing.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# record_golden.sh: flies the golden flights of tests/replay anew, on virtual time, and says how they differ from those that are
-# there. Then look, and commit them if that was meant. Environment: TERN_BIN, where the programs are.
+# record_golden.sh: flies the golden flights of tests/replay anew, on virtual time, and reports how they differ from the stored
+# ones. Commit them if the difference was intended. Environment: TERN_BIN, the folder of the programs.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# The flight campaigns of docs/results.md. What has been flown is not flown again, so it may be stopped and started at will.
-#   launch_scripts/results.sh [--perception | --sensors] [--share S] [--first K] [--out DIR] [NAME...]
-# S: a share of the seeds, 1 = all 6000 flights (1000 of each of three hard worlds and of the quadrotor's corridor, 200 of
-# each other one; the quadrotor's are audited); K: the first seed, 1 if not said; NAME: only these campaigns;
-# --perception: instead the worlds without declared motions, 200 flights each, and their oracles; --sensors: instead
-# perception_only with other ranges, noise, latencies and speeds of what moves, one at a time, 200 flights each.
+# results.sh [OPTION...] [NAME...]: flies the campaigns of docs/results.md, or those named. It can be stopped and started again:
+# flights that exist are skipped.
+#     --share S     share of the seeds; 1, the default, is all 6000 flights. That is 1000 of each of three hard worlds and of the
+#                   quadrotor's corridor, and 200 of each other one. The quadrotor's flights are audited.
+#     --first K     first seed (default 1)
+#     --out DIR     folder for the results
+#     --perception  instead the worlds without declared motions, 200 flights each, and the same with all motions declared
+#     --sensors     instead perception_only with other ranges, noise, latencies and obstacle speeds, one at a time
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

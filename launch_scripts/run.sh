@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the program tern-NAME alone, by the name NAME.sh under which it is called; the options are the program's own (--help).
+# Runs the program tern-NAME alone; NAME.sh is the name under which the script is called. Options are the program's (--help).
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

@@ -6,13 +6,13 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 usage() {
   cat <<'END'
-spy.sh [OPTION...] [RECORD_DIR]: builds a jar of Tern's messages when they have changed, and starts lcm-spy with it.
+spy.sh [OPTION...] [RECORD_DIR]: builds a jar of Tern's message types if they have changed, and starts lcm-spy with it.
 
-  RECORD_DIR    the folder of a running flight: its network is taken, isolated or not
-                (default: LCM_DEFAULT_URL, else LCM's own default, which is that of processes started by hand)
-  --types       only build the jar and print where it is: Java programs decode every message with it
-  --no-install  do not look for missing packages (packages_spy.txt)
-  --help        this
+  RECORD_DIR    folder of a running flight, whose network is used, isolated or not
+                (default: LCM_DEFAULT_URL, else LCM's own default, as for processes started by hand)
+  --types       only builds the jar and prints its path; Java programs decode every message with it
+  --no-install  does not look for missing packages (packages_spy.txt)
+  --help        prints this text
 END
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# test.sh [--all | --no-flights] [CTEST_OPTION...]: installs what is missing, builds everything (release), and runs the tests. With
-# --all those of the label soak, too: more cases and more live flights, which take hours. With --no-flights no live flight.
+# test.sh [--all | --no-flights] [CTEST_OPTION...]: installs missing packages, builds everything (release), and runs the tests.
+#     --all         also the tests with the label soak: more cases and more live flights, which take hours
+#     --no-flights  without the live flights
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# view.sh [OPTION...]: builds tern-viewer's page when needed, runs tern-viewer, and opens the page where there is a
-# display. The options are tern-viewer's own (--help lists them), as --log flights/.../flight.lcm to play a recorded
-# flight.
+# view.sh [OPTION...]: builds tern-viewer's page if needed, runs tern-viewer, and opens the page where there is a display.
+# The options are tern-viewer's own (--help lists them). To play a recorded flight: --log flights/FOLDER/flight.lcm.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# view_page.sh: builds tern-viewer's page (Vite, three.js, uPlot) when its sources are newer than it. Needs Node 18 or newer with
-# npm; asks npm's registry only when the lock file has changed.
+# view_page.sh: builds tern-viewer's page (Vite, three.js, uPlot) if its sources are newer. Needs Node 18 or newer with npm.
+# Asks npm's registry only if the lock file has changed.
 set -euo pipefail
 # shellcheck source=launch_scripts/lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"

@@ -56,13 +56,10 @@ inline constexpr char kLogger[] = "tern-logger", kMonitor[] = "tern-monitor", kV
 std::vector<SupervisedProcess> flight_processes(const LaunchOptions& options, const std::string& record,
                                                 const std::map<std::string, int>& key_fds);
 
-/// Returns the commands that check a section of the scenario whose process does not fly: a misspelt key is an error of
-/// the file in any case. A section that the scenario does not have needs no check, and its program need not be built.
-/// Each command ends with 0, or prints what it refuses on standard error.
+/// Returns commands that check the scenario's sections of processes that do not fly. So a misspelt key is found in
+/// every flight. An absent section gets no command, and its program may be unbuilt. A command ends with 0, or prints
+/// its refusal on standard error.
 /// @param sections  the scenario's keys, overrides included
-std::vector<std::vector<std::string>> checks_of_unused_sections(const LaunchOptions& options,
-                                                                const std::vector<SupervisedProcess>& processes,
-                                                                const std::vector<std::string>& sections);
 std::vector<std::vector<std::string>> checks_of_unused_sections(const LaunchOptions& options,
                                                                 const std::vector<SupervisedProcess>& processes,
                                                                 const std::vector<std::string>& sections);
