@@ -8,7 +8,7 @@
 namespace tern {
 namespace {
 
-/// What a flight with an autopilot asks of the scenario; the user's own values come after it and win.
+/// Overrides for a flight with an autopilot, then those of the user, which take precedence.
 std::vector<std::string> overrides_of(const LaunchOptions& options) {
   std::vector<std::string> values;
   if (!options.autopilot.empty()) {

@@ -22,7 +22,7 @@ void FlightWatch::receive(const Heartbeat& heartbeat, UTime now) {
   }
 }
 
-/// Of the simulator that the flight began with; before that, of the one that counts; 0: none.
+/// Epoch of the flight's simulator; before the first request, of the active one; 0: none.
 std::int64_t FlightWatch::simulator_epoch_us() const {
   return world_epoch_us_ != 0 ? world_epoch_us_ : processes_.epoch_us(kSimulatorProcess);
 }

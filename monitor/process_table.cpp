@@ -7,7 +7,7 @@
 namespace tern {
 namespace {
 
-/// Starts of one process that are remembered; a forged heartbeat must not fill the memory.
+/// Most starts of one process that are remembered: forged heartbeats must not fill the memory.
 constexpr std::size_t kMaxStarts = 10'000;
 constexpr std::size_t kMaxProcesses = 256;
 
@@ -40,7 +40,7 @@ void ProcessTable::forget_noise(UTime now) {
   std::erase_if(processes_, [](const auto& process) { return process.second.starts.empty(); });
 }
 
-/// Starts that were heard lately, and since the youngest of them began.
+/// Number of starts whose heartbeats arrived recently, since the youngest of them began.
 int ProcessTable::living(const Process& process, UTime now) {
   std::vector<const Start*> recent;
   for (const auto& [epoch_us, start] : process.starts) {
@@ -72,7 +72,8 @@ std::int64_t ProcessTable::epoch_us(const std::string& process) const {
   return found == processes_.end() ? 0 : found->second.counts;
 }
 
-/// In the order of their beginnings, each that began after the one before it was heard last came in its place.
+/// Counts starts in the order of their beginnings: one that begins after the last heartbeat of the one before is a
+/// restart.
 std::int64_t ProcessTable::restarts_of(const Process& process) {
   std::vector<const Start*> starts;
   for (const auto& [epoch_us, start] : process.starts) starts.push_back(&start);

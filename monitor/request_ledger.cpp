@@ -12,7 +12,7 @@ std::size_t level_of(const Plan& plan) { return plan.confidence <= 0.0 ? kConfid
 void RequestLedger::add(const HorizonRequest& request) {
   if (!requests_filter_.is_first(request.header.name)) return;
   deadlines_[request.id] = request.deadline;
-  answered_.erase(request.id);  // the ids of an executor that started anew count from 1 again
+  answered_.erase(request.id);  // the ids of a restarted executor begin at 1 again
 }
 
 void RequestLedger::add(const Plan& plan) {

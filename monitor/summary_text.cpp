@@ -13,7 +13,7 @@
 namespace tern {
 namespace {
 
-/// Channels listed at most: those that lost or refused something come first in a report of trouble.
+/// Most channels listed: those with lost or refused messages.
 constexpr int kTroubledChannels = 6;
 constexpr std::size_t kListedReasons = 4;
 
@@ -27,7 +27,7 @@ std::string row(std::string_view name, const Percentiles& p) {
   return fmt::format("  {:<14}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}\n", name, p.p50, p.p95, p.p99, p.max);
 }
 
-/// What was there, by the referee; nothing when there was none.
+/// The obstacles that the referee counted; "" without a result.
 std::string obstacles_met(const FlightSummary& s) {
   if (!s.result) return "";
   std::string text = fmt::format(", {} obstacles", s.result->obstacles);
@@ -38,7 +38,7 @@ std::string obstacles_met(const FlightSummary& s) {
   return text;
 }
 
-/// One number where the axes agree.
+/// One number if all axes have the same value.
 std::string per_axis(const Vec3& v) {
   if (v.x() == v.y() && v.x() == v.z()) return std::isinf(v.x()) ? "none" : fmt::format("{:g}", v.x());
   return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z());
@@ -68,7 +68,7 @@ std::string flight_lines(const FlightResult& r) {
   return text;
 }
 
-/// The plans' commonest reasons; "" when there was none.
+/// The most frequent reasons of plans; "" if there were none.
 std::string reason_line(const FlightSummary& s) {
   std::vector<std::pair<std::int64_t, PlanReason>> reasons;
   for (int k = 1; k < kPlanReasons; ++k) {

@@ -28,7 +28,7 @@ void check_name(std::string_view name) {
       fmt::format("channel name \"{}\": only letters, digits, '_' and '-', at most {} of them", name, kMaxChannelName));
 }
 
-/// Says yes at most once per kLogInterval and counts the times between.
+/// Admits a log line at most once per kLogInterval and counts the events between.
 class LogLimiter {
  public:
   /// @return how many events this line stands for, or nullopt if it is too soon.
@@ -53,8 +53,8 @@ struct Bus::Line {
   SenderWatch senders;
   std::deque<RawHandler> handlers;
   lcm::Subscription* subscription = nullptr;
-  bool counted = false;   ///< the message being delivered has been accepted or rejected by an earlier handler …
-  bool admitted = false;  ///< … and which
+  bool counted = false;   ///< an earlier handler has accepted or rejected the message being delivered …
+  bool admitted = false;  ///< … true: accepted
   ReplayGuard guard;      ///< with keys
   LogLimiter reject_log, send_log;
   std::deque<Encoder> unsent;
@@ -66,13 +66,13 @@ struct Bus::State {
   std::shared_ptr<lcm::LCM> lcm;
   std::string suffix;
   std::optional<KeyRing> keys;
-  std::optional<Role> speaker;  ///< with keys: who sent the message being delivered
+  std::optional<Role> speaker;  ///< with keys: role of the sender of the message being delivered
   std::int64_t epoch_us = 0;
   mutable std::mutex mutex;  ///< guards `channels` (the map) and counters; held while a message is numbered and sent
   std::map<std::string, Line, std::less<>> channels;
   std::int64_t unsent = 0;
   std::int64_t deliveries = 0;
-  std::int64_t received_us = 0;  ///< the system's clock when the message being delivered came in
+  std::int64_t received_us = 0;  ///< system time at which the message being delivered arrived
   std::exception_ptr error;
   Listener listener;
   lcm::Subscription* listening = nullptr;
@@ -142,7 +142,7 @@ Bus::~Bus() {
 }
 
 bool Bus::is_channel_name(std::string_view name) {
-  // LCM takes a subscription's channel as a regular expression: only characters that mean themselves are allowed.
+  // LCM reads a subscription's channel as a regular expression: only literal characters are allowed.
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
   return std::all_of(name.begin(), name.end(), plain) && name.size() <= static_cast<std::size_t>(kMaxChannelName);
 }
@@ -228,7 +228,7 @@ void Bus::reject(const std::string& name, Rejection reason) {
 /// @pre the mutex is held
 void Bus::count_refused(Line& channel, Rejection reason) {
   ++channel.counters.rejected[static_cast<int>(reason)];
-  if (reason == Rejection::Repeated) return;  // what a network may do
+  if (reason == Rejection::Repeated) return;  // a network may duplicate messages
   if (const auto times = channel.reject_log.admit(clock_.now())) {
     spdlog::warn("{}: refused a message: {} ({} refused since the last report)", channel.wire_name, to_string(reason),
                  *times);

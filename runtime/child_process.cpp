@@ -18,11 +18,11 @@ constexpr int kNotFound = 127, kNotExecutable = 126;
 
 void say(const char* text) { (void)!write(STDERR_FILENO, text, std::strlen(text)); }
 
-/// Between fork and exec, in the child: no memory is taken.
+/// Runs in the child between fork and exec, so it must not allocate.
 [[noreturn]] void become(const ChildProcess& child, char* const* arguments, pid_t parent) {
   if (child.own_group) setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(kNotFound);  // it died before the kernel knew
+  if (getppid() != parent) _exit(kNotFound);  // the parent died before prctl took effect
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -61,7 +61,7 @@ pid_t start_child(const ChildProcess& child) {
   const pid_t pid = fork();
   if (pid == 0) become(child, arguments.data(), parent);
   if (pid < 0) throw std::runtime_error(fmt::format("fork: {}", std::strerror(errno)));
-  if (child.own_group) setpgid(pid, pid);  // here and in the child: whoever comes first
+  if (child.own_group) setpgid(pid, pid);  // in parent and child, whichever is first
   return pid;
 }
 

@@ -12,8 +12,8 @@
 namespace tern {
 namespace {
 
-/// A thread may lose its core between two readings: of so many tries, or the first that took no longer than this, the
-/// shortest counts.
+/// Two clocks are read in turn, and the thread may lose its core between. So the shortest of kTries is used, or the
+/// first that took at most kShortNs.
 constexpr int kTries = 20;
 constexpr std::int64_t kShortNs = 200;
 

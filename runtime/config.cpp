@@ -26,7 +26,7 @@ std::string to_yaml(const std::vector<double>& values) {
 
 std::string to_yaml(const Vec3& v) { return to_yaml(std::vector<double>{v.x(), v.y(), v.z()}); }
 
-/// An unbounded Range means "any finite number"; infinity must be asked for, by a finite low and an infinite high.
+/// An unbounded Range means "any finite number"; infinity is allowed only with a finite low and an infinite high.
 bool allows_infinity(const Range& range) { return std::isinf(range.high) && !std::isinf(range.low); }
 
 std::string describe(const Range& range) {
@@ -61,7 +61,7 @@ struct ConfigSection::Impl {
   const YamlValue* value = nullptr;           ///< null: the section is absent
   std::shared_ptr<const YamlValue> document;  ///< keeps `value` alive
   std::string path;                           ///< "uav.limits"; "" at the top
-  std::string where;                          ///< for messages about what is missing
+  std::string where;                          ///< place for messages about missing keys
   std::set<std::string, std::less<>> known;
   ConfigRecordPtr record = std::make_shared<ConfigRecord>();
   std::map<std::string, std::shared_ptr<Impl>, std::less<>> sections;

@@ -1,4 +1,5 @@
-// tern-key: makes files of keys, and parts what a log holds by one. A key is on no command line and in no environment.
+// tern-key: makes files of keys, and copies the verified messages of a log. Keys are never passed as arguments or
+// variables.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,14 +26,14 @@ namespace {
 
 std::string reason() { return std::strerror(errno); }
 
-/// @return whether all of the text went into the descriptor. Its memory is overwritten.
+/// @return whether the whole text was written. Its memory is overwritten.
 bool write_all(int fd, std::string text) {
   const bool ok = write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   wipe({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
   return ok;
 }
 
-/// A new file that only its owner can read; what exists is never overwritten.
+/// Writes a new file that only its owner can read. Existing files are refused.
 void write_file(const std::string& path, std::string text) {
   const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (fd < 0) throw ConfigError(path + ": cannot be made: " + reason());
@@ -44,7 +45,7 @@ void derive(const std::string& master_path, const std::string& process, const st
   write_file(path, KeyRing::derive(value_or_throw(read_master_key(master_path)), process).to_text());
 }
 
-/// Whether a message of a log is one that a holder of the flight's keys would have taken.
+/// Decides which messages of a log a holder of the flight's keys would have accepted.
 class Sieve {
  public:
   Sieve(const Key& master, std::string suffix)
@@ -63,8 +64,8 @@ class Sieve {
   std::map<std::string, ReplayGuard> guards_;
 };
 
-/// Copies what the key verifies into a log of its own. What a log of a flight with keys holds besides changed nothing
-/// in flight, but tools that read logs have no keys.
+/// Copies the messages that the key verifies into a new log. The others had no effect in flight, but tools that read
+/// logs have no keys.
 void sift(const std::string& master_path, const std::string& log, const std::string& out, const std::string& suffix) {
   Sieve sieve(value_or_throw(read_master_key(master_path)), suffix);
   const std::vector<std::string> parts = log_parts(log);

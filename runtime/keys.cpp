@@ -26,7 +26,7 @@ std::span<std::uint8_t> writable(std::string& text) {
   return {reinterpret_cast<std::uint8_t*>(text.data()), text.size()};
 }
 
-/// A text that is wiped when it ends.
+/// A text whose memory is wiped by the destructor.
 struct SecretText {
   std::string text;
   SecretText() = default;

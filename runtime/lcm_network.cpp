@@ -26,8 +26,8 @@ std::optional<int> requested_buffer(std::string_view url) {
   return bytes;
 }
 
-/// What the kernel grants a socket that asks for so much: LCM does not let us at its own. It doubles what it grants
-/// (and says so), for its own bookkeeping; half of it is for messages.
+/// The receive buffer that the kernel grants for a request, measured on a socket of ours because LCM's is not
+/// accessible. The kernel reports twice the granted size; the other half is for its own bookkeeping.
 std::optional<int> granted_buffer(int requested) {
   const int probe = socket(AF_INET, SOCK_DGRAM, 0);
   if (probe < 0) return std::nullopt;
@@ -66,7 +66,7 @@ std::string choose_lcm_url(const std::string& option, const char* environment) {
 
 Result<std::shared_ptr<lcm::LCM>> open_lcm(const std::string& url) {
   auto lcm = std::make_shared<lcm::LCM>(url);
-  // getFileno() sets up reception and tests it once: a host that can send but not receive is found here.
+  // getFileno() sets up reception and tests it once, which finds hosts that can send but not receive.
   if (!lcm->good() || lcm->getFileno() < 0) {
     return fail(
         fmt::format("LCM cannot use {}. If this host has no multicast route, give it one: "

@@ -17,10 +17,10 @@ namespace {
 constexpr std::string_view kRecorder = "tern-logger";
 constexpr Duration kHeartbeatPeriod{500'000};
 constexpr Duration kConfigurationPeriod{5'000'000};
-/// Room for the last line of a text that is cut.
+/// Space for the last line of a shortened text.
 constexpr std::size_t kCutLineBytes = 120;
 
-/// If it still fits.
+/// Appends `trouble` if it fits.
 void append(std::string& waiting_for, const std::string& trouble) {
   const std::string separator = waiting_for.empty() ? "" : "; ";
   if (trouble.empty() || waiting_for.size() + separator.size() + trouble.size() > kMaxWaitingText) return;
@@ -83,7 +83,7 @@ void NodeHost::step(UTime now) {
   bus_.send_due(now);
 }
 
-/// @return what is wrong with the clock, in words; into the log, too, when that is new.
+/// @return the drift of the system's clock in words, or ""; a new drift is also logged.
 std::string NodeHost::report_drift() {
   const Duration drift = bus_.clock().drift();
   if (magnitude(drift) <= kReportedDrift) {

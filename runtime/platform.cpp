@@ -40,7 +40,7 @@ std::string machine() {
   return uname(&name) == 0 ? name.machine : "unknown machine";
 }
 
-/// The file that gives ddot: an alternative of Debian's, resolved.
+/// The file that provides ddot, with Debian's alternatives resolved.
 std::string blas() {
   Dl_info info{};
   void* const ddot = dlsym(RTLD_DEFAULT, "ddot_");

@@ -5,7 +5,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The sign of the turn a → b → c: 1 left, −1 right, 0 straight or back.
+/// Sign of the turn a → b → c: 1 left, −1 right, 0 straight or back.
 int turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const Vector2d ab = b - a;
   const Vector2d ac = c - a;

@@ -105,7 +105,7 @@ void declare(CLI::App& app, Options& options, const ProcessDescription& descript
   if (description.add_options) description.add_options(app);
 }
 
-/// Parses; @return the exit code if the process ends now (help, version, a mistake).
+/// Parses. @return the exit code if the process ends now (help, version, an error).
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
@@ -123,20 +123,20 @@ void start_log(const ProcessDescription& description, const std::string& level) 
   spdlog::set_level(spdlog::level::from_str(level));
 }
 
-/// Destructors would wait for the thread that is stuck, with SIGTERM blocked: nothing is destroyed.
+/// Ends without destructors, which would wait for the stuck thread while SIGTERM is blocked.
 [[noreturn]] void end_at_once(int code) {
   spdlog::default_logger()->flush();
   std::_Exit(code);
 }
 
-/// @throws ConfigError when keys were asked for and cannot be had.
+/// @throws ConfigError if keys were requested and cannot be read.
 std::optional<KeyRing> read_keys(const Options& options, const std::string& process) {
   if (!options.key_file && !options.key_fd) return std::nullopt;
   return value_or_throw(options.key_file ? read_key_file(*options.key_file, process)
                                          : read_key_fd(*options.key_fd, process));
 }
 
-/// The tables of keys that READMEs show.
+/// Prints the tables of docs/reference/keys.md.
 void print_knobs(const ProcessDescription& description) {
   ConfigDocument document = ConfigDocument::parse(description.example, "");
   description.read_section(document.root().section(description.section));

@@ -21,18 +21,18 @@ namespace tern {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// No scene is larger, m: a micrometre is still exact to 1e-10 there.
+/// Largest coordinate of a scene, m: doubles there resolve 1e-10 m.
 const Range kPosition = Range::within(1e5);
 const Range kHalfExtent = Range::positive(1e4);
 const Range kSeconds = Range::within(1e6);
 const Range kPhase = Range::within(1e4);
 
-/// Names travel in messages, which carry so many bytes of them.
+/// Longest name, bytes: messages carry no longer ones.
 constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kMaxClassBytes = 32;
 constexpr int kMaxColumns = 100;
 constexpr int kMaxCopies = 1'000;
-/// Whether an outline crosses itself is asked of every two of its edges.
+/// Most corners of an outline: the test for crossings takes every pair of edges.
 constexpr std::size_t kMaxCorners = 1'000;
 static_assert(kMaxExposures * kMaxNameBytes <= kMaxRegionText && kMaxMapClasses * kMaxClassBytes <= kMaxMapClassText);
 
@@ -42,7 +42,7 @@ void check_name(const ConfigSection& section, std::string_view key, const std::s
   if (std::ranges::any_of(name, control)) throw section.error(key, "has a control character");
 }
 
-/// A name that no other entry of the same list has.
+/// Reads a name that must be unique in its list.
 std::string unique_name(const ConfigSection& section, std::string name, std::set<std::string>& taken) {
   check_name(section, "name", name, kMaxNameBytes);
   if (!name.empty() && !taken.insert(name).second)
@@ -58,7 +58,7 @@ Box read_box(ConfigSection section) {
   return box;
 }
 
-/// The last keys of an obstacle.
+/// Reads the last keys of an obstacle.
 WaypointMotion read_waypoints(ConfigSection& section) {
   WaypointMotion motion;
   motion.repeat = section.flag("repeat", motion.repeat);
@@ -89,7 +89,7 @@ WaypointMotion read_waypoints(ConfigSection& section) {
   return motion;
 }
 
-/// Each motion reads its own keys only, so that finish() refuses those of the others.
+/// Reads the keys of one motion only, so that finish() refuses those of other motions.
 void read_motion(ConfigSection& section, ObstacleSpec& obstacle) {
   const std::string motion = section.choice("motion", "static", {"static", "trefoil", "wave", "linear", "waypoints"});
   if (motion == "waypoints") {
@@ -123,7 +123,7 @@ ObstacleSpec read_obstacle(ConfigSection section, std::set<std::string>& names) 
   return obstacle;
 }
 
-/// Which parts of the recording are flown through: as people walked, or copies that the seed scatters.
+/// Reads which parts of the recording are used: as recorded, or copies that the seed scatters.
 void read_use(ConfigSection& section, RecordedTracksSpec& spec) {
   spec.copies = static_cast<int>(section.integer("copies", spec.copies, 0, kMaxCopies));
   if (spec.copies > 0) {
@@ -212,7 +212,7 @@ Body read_body(ConfigSection section, Body body) {
 }
 
 using Route = std::pair<Vec3, Vec3>;
-/// From start to goal. Of several routes the seed draws one, and which end of it is the start.
+/// Reads start and goal. If there are several routes, the seed draws one, and which of its ends is the start.
 Route read_route(ConfigSection& section, const UavSpec& uav, std::uint64_t seed, std::vector<Route>& routes) {
   for (ConfigSection entry : section.list("routes")) {
     routes.emplace_back(entry.required_vec3("from", kPosition), entry.required_vec3("to", kPosition));
@@ -230,7 +230,7 @@ Route read_route(ConfigSection& section, const UavSpec& uav, std::uint64_t seed,
   return route;
 }
 
-/// @param uav  what holds where the section is silent
+/// @param uav  defaults of the section
 UavSpec read_uav(ConfigSection section, UavSpec uav, std::uint64_t seed) {
   std::vector<Route> routes;
   std::tie(uav.start, uav.goal) = read_route(section, uav, seed, routes);
@@ -260,7 +260,7 @@ UavSpec read_uav(ConfigSection section, UavSpec uav, std::uint64_t seed) {
   return uav;
 }
 
-/// step_aside draws the vehicle too.
+/// The generator step_aside also draws the vehicle.
 UavSpec default_uav(const Scenario& scenario) {
   UavSpec uav;
   if (scenario.world.generator != "step_aside") return uav;
@@ -313,7 +313,7 @@ Region read_region(ConfigSection section, std::set<std::string>& names) {
   return region;
 }
 
-/// Class → label; without the key, the default table (whose labels are then noted as the effective ones).
+/// Reads class → label; without the key, the default table, which then is part of the effective configuration.
 decltype(SemanticsSpec::classes) read_classes(ConfigSection classes, bool is_given) {
   const std::vector<std::string> labels(kWords<VoxelLabel>.begin(), kWords<VoxelLabel>.end());
   decltype(SemanticsSpec::classes) result;
@@ -333,7 +333,7 @@ decltype(SemanticsSpec::classes) read_classes(ConfigSection classes, bool is_giv
   return result;
 }
 
-/// Class → λ of its own.
+/// Reads class → λ.
 decltype(SemanticsSpec::lambdas) read_lambdas(ConfigSection lambdas) {
   decltype(SemanticsSpec::lambdas) result;
   const std::vector<std::string> given = lambdas.keys();

@@ -16,7 +16,7 @@ std::string to_yaml(const Box& box) {
   return fmt::format("{{min: {}, max: {}}}", to_yaml(box.min()), to_yaml(box.max()));
 }
 
-/// The keys of a motion, each on a line of its own; static has none but its centre.
+/// The keys of a motion, one per line; a static one has only its centre.
 std::string motion_yaml(const ObstacleSpec& obstacle) {
   const auto line = [](const char* key, const std::string& value) { return fmt::format("      {}: {}\n", key, value); };
   const auto visitor = [&](const auto& motion) -> std::string {

@@ -5,7 +5,7 @@
 namespace tern {
 namespace {
 
-/// What comes once or twice is noise, and not said.
+/// Events that occur once or twice are noise and are not reported.
 constexpr std::int64_t kSeveral = 3;
 
 }  // namespace

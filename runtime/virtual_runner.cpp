@@ -11,9 +11,9 @@
 namespace tern {
 namespace {
 
-/// Rounds of messages and steps without time passing: a chain of nodes that answer each other takes a handful.
+/// Most rounds of messages and steps at one instant. A chain of nodes that answer each other takes a handful.
 constexpr int kMaxRounds = 1'000;
-/// Messages of one round, so that handlers which answer each other come to an end too.
+/// Most messages of one round, so that handlers which answer each other are stopped.
 constexpr int kMaxMessagesPerRound = 10'000;
 
 }  // namespace
@@ -68,7 +68,7 @@ void VirtualRunner::settle() {
     for (const auto& process : processes_) process->bus->rethrow();
     if (observer_ && observer_->next_due() <= now()) {
       observer_->send_due(now());
-      busy = true;  // else the batch would wait for the next instant
+      busy = true;  // otherwise the batch would wait for the next instant
     }
     for (const auto& process : processes_) {
       if (!process->host->is_due(now())) continue;

@@ -14,9 +14,9 @@
 namespace tern {
 namespace {
 
-/// A flood of messages must not keep the node from its deadlines.
+/// Most messages between two steps, so that a flood does not keep the node from its deadlines.
 constexpr int kMaxMessagesPerStep = 1'000;
-/// No longer sleep: a node that waits for messages only says kNever.
+/// Longest sleep. A node that only reacts to messages has no wakeup (kNever).
 constexpr Duration kMaxSleep{1'000'000};
 
 /// Blocks until a descriptor is readable or the time has come. @return whether fds[1], the stop, is readable.
@@ -45,7 +45,7 @@ int run_on_wall_clock(lcm::LCM& lcm, NodeHost& host, int stop_fd) {
     const UTime wakeup = host.next_wakeup();
     const Duration sleep = std::min(wakeup - clock.now(), kMaxSleep);
     if (wait(fds, clock.in_system_time(sleep))) {
-      drain(lcm, kListenCapacity);  // a recorder keeps what has come in already
+      drain(lcm, kListenCapacity);  // so that a recorder keeps messages that have arrived
       host.bus().rethrow();
       return 0;
     }

@@ -23,12 +23,12 @@ namespace {
 /// Names the place of a YAML mark (which counts from 0).
 using Locate = std::function<std::string(const YAML::Mark&)>;
 
-/// A file may hold texts with brackets that nobody closes; none holds so many.
+/// Most open brackets. Texts in a file may hold unclosed ones, but never this many.
 constexpr std::size_t kMaxOpenBrackets = 1'000;
 
 struct Extent {
-  std::size_t values = 1;  ///< the value and all in it
-  std::size_t levels = 0;  ///< of nesting within it
+  std::size_t values = 1;  ///< number of values, itself included
+  std::size_t levels = 0;  ///< depth of nesting within it
 };
 
 Extent extent_of(const YamlValue& value) {
@@ -43,14 +43,13 @@ Extent extent_of(const YamlValue& value) {
   return extent;
 }
 
-/// A value that has an anchor, for the aliases that repeat it.
+/// A value with an anchor, for its aliases.
 struct Anchored {
   YamlValue value;
   Extent extent;
 };
 
-/// Builds the value while the parser reads: a document is refused where it breaks a limit, before any more of it is
-/// held.
+/// Builds the value while the parser reads, so a document that breaks a limit is refused before more of it is stored.
 class TreeBuilder final : public YAML::EventHandler {
  public:
   explicit TreeBuilder(const Locate& locate) : locate_(locate) {}
@@ -89,16 +88,16 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  /// A list or mapping whose end has not been read.
+  /// A list or mapping that is still being read.
   struct Open {
     YamlValue value;
     YAML::anchor_t anchor;
-    std::unordered_map<std::string, std::string> keys;  ///< of a mapping: where each stands
-    std::optional<std::string> key;                     ///< whose value comes next
+    std::unordered_map<std::string, std::string> keys;  ///< of a mapping: the place of each key
+    std::optional<std::string> key;                     ///< key of the next value
     std::string key_where;
   };
 
-  /// Before a value is held: that it may be.
+  /// Checks the limits before a value is stored.
   void charge(const Extent& extent, const std::string& where) {
     if (open_.size() + extent.levels > kMaxYamlDepth) {
       throw ConfigError(fmt::format("{}: nested deeper than {} levels", where, kMaxYamlDepth));
@@ -136,8 +135,7 @@ class TreeBuilder final : public YAML::EventHandler {
     } else if (!parent.key) {
       add_key(parent, value);
     } else {
-      // A mapping below its key begins a line later, a value left out may lie anywhere: the key's line is what one
-      // looks for.
+      // Messages name the key's line: a mapping begins a line after its key, and an omitted value has no line.
       value.where = std::move(parent.key_where);
       parent.value.entries.push_back({std::move(*parent.key), std::move(value)});
       parent.key.reset();
@@ -168,8 +166,8 @@ class TreeBuilder final : public YAML::EventHandler {
   std::size_t values_ = 0;
 };
 
-/// The parser remembers every open bracket before it tells of the first: so this comes before it. Brackets in texts and
-/// comments count, too, which is why far more may be open than levels are allowed.
+/// Counts open brackets before parsing, because the parser stores all of them before it reports the first. Brackets in
+/// texts and comments count as well, so more may be open than levels are allowed.
 void check_brackets(const std::string& text, const Locate& locate) {
   std::size_t open = 0;
   YAML::Mark mark;
@@ -200,7 +198,7 @@ YamlValue parse_with(const std::string& text, const Locate& locate) {
   }
 }
 
-/// A step of an override's path: a key and perhaps an index, "obstacles[2]".
+/// A step of an override's path: a key, and an index if there is one: "obstacles[2]".
 struct Step {
   std::string key;
   std::optional<std::size_t> index;
@@ -234,7 +232,7 @@ std::vector<Step> parse_path(std::string_view path, const std::string& where) {
   return steps;
 }
 
-/// The value that a step leads to, made (empty) if it is missing.
+/// Returns the value to which a step leads; a missing one is created empty.
 YamlValue& descend(YamlValue& parent, const Step& step, const std::string& where) {
   if (parent.kind == YamlValue::Kind::Null) parent.kind = YamlValue::Kind::Mapping;
   if (parent.kind != YamlValue::Kind::Mapping) {

@@ -47,7 +47,7 @@ std::string last_line(const std::string& text) {
   return lines.substr(lines.rfind('\n') + 1);
 }
 
-/// The number that the overrides give a key, if they do.
+/// The number that an override gives a key, if there is one.
 std::optional<std::int64_t> overridden(const LaunchOptions& options, const std::string& key) {
   std::optional<std::int64_t> number;
   for (const std::string& value : options.overrides) {
@@ -77,7 +77,7 @@ std::uint64_t seed_of(const LaunchOptions& options) try {
   return 1;
 }
 
-/// @return the flight's folder, made
+/// Creates the flight's folder. @return its path
 Result<fs::path> make_record(const LaunchOptions& options) {
   fs::path folder = options.record;
   if (folder.empty()) {
@@ -94,17 +94,17 @@ Result<fs::path> make_record(const LaunchOptions& options) {
   return fs::canonical(folder);
 }
 
-/// Says why the flight has failed, once, and tells the monitor.
+/// Reports once why the flight has failed, on stderr and to the monitor.
 int give_up(const fs::path& record, const std::string& why) {
   const fs::path file = record / "failure", fresh = record / "failure.new";
   if (fs::exists(file)) return kExitFailed;
   fmt::print(stderr, "tern-launch: {}\n", why);
   std::ofstream(fresh) << why << '\n';
-  fs::rename(fresh, file);  // whole as soon as it is there
+  fs::rename(fresh, file);  // so that the file is complete as soon as it exists
   return kExitFailed;
 }
 
-/// @return by process, an open file of its keys; empty if the flight is unsigned
+/// @return by process, an open file with its keys; empty if messages are unsigned
 std::map<std::string, int> make_keys(const LaunchOptions& options) {
   std::map<std::string, int> fds;
   if (!options.key) return fds;
@@ -137,7 +137,7 @@ void announce(const LaunchOptions& options, const fs::path& record, const std::v
   if (options.key) say("  key      messages are signed");
 }
 
-/// What an event means for the flight. @return the exit code, or nullopt if the monitor has yet to judge
+/// Evaluates an event. @return the flight's exit code, or nullopt if the flight continues
 std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event) {
   if (event.process.empty()) return event.code;
   const bool is_monitor = event.process == kMonitor, has_summary = fs::exists(record / "summary.json");
@@ -148,15 +148,15 @@ std::optional<int> verdict(const fs::path& record, const SupervisorEvent& event)
   return is_monitor ? std::optional(code_after_flight(event.code, has_summary)) : std::nullopt;
 }
 
-/// A logger that has not begun after that fails or is slow; the flight says which.
+/// Longest wait for the logger, s. After it the flight begins anyway.
 constexpr int kLoggerStartS = 5;
 
 struct Wait {
   bool done = false;
-  int signal = 0;  ///< that came meanwhile, or 0
+  int signal = 0;  ///< signal that arrived meanwhile, or 0
 };
 
-/// Waits until somebody writes a byte there, for so many seconds at most.
+/// Waits until a byte can be read, for at most this many seconds.
 Wait await_byte(int fd, int seconds, const sigset_t& signals) {
   constexpr int kLookMs = 100;
   for (int ms = 0; ms < 1000 * seconds; ms += kLookMs) {
@@ -169,8 +169,8 @@ Wait await_byte(int fd, int seconds, const sigset_t& signals) {
   return {};
 }
 
-/// Waits until tern-viewer says that a page looks, as long as the options allow.
-/// @return a signal that came meanwhile, or 0
+/// Waits until tern-viewer reports that a page has connected, for at most options.view_wait_s.
+/// @return a signal that arrived meanwhile, or 0
 int await_page(const LaunchOptions& options, int looked, const sigset_t& signals) {
   if (options.view_wait_s == 0) return 0;
   say("  the flight begins when a page has connected, at the latest in {} s (--view-wait)", options.view_wait_s);
@@ -179,7 +179,7 @@ int await_page(const LaunchOptions& options, int looked, const sigset_t& signals
   return wait.signal;
 }
 
-/// @throws std::runtime_error with what one of them refuses
+/// Runs checks_of_unused_sections. @throws std::runtime_error with the refusal of one
 void run_checks(const std::vector<std::vector<std::string>>& checks, const fs::path& record) {
   const fs::path log = record / "check.log";
   for (const std::vector<std::string>& command : checks) {
@@ -193,7 +193,8 @@ void run_checks(const std::vector<std::vector<std::string>>& checks, const fs::p
 
 int supervise(LaunchOptions options, const fs::path& record, const sigset_t& signals) try {
   ConfigDocument document = ConfigDocument::load(options.scenario, options.overrides);
-  const Scenario scenario = read_scenario(document);  // refused once, not by each process
+  const Scenario scenario =
+      read_scenario(document);  // so that a bad scenario is refused once instead of by each process
   if (options.pace != 1.0 && !options.autopilot.empty() && !options.autopilot_sim) {
     throw std::runtime_error("--pace: a real autopilot's clock cannot be slowed; use --pace 1");
   }
@@ -243,7 +244,7 @@ int watch_over(const LaunchOptions& options, const fs::path& record) {
     const int number = sigwaitinfo(&signals, nullptr);
     if (number > 0 && number != SIGCHLD) kill(child, number);
   }
-  kill(-child, SIGKILL);  // the group's number is taken as long as the child has not been waited for
+  kill(-child, SIGKILL);  // the group's id is reserved until the child has been waited for
   const ProcessEnd end = await_child(child);
   return end.signal == 0 ? end.exit_code : give_up(record, fmt::format("tern-launch ended with {}", to_text(end)));
 }
@@ -253,7 +254,7 @@ struct Awaited {
   int signal = 0;  ///< the signal by which the user ended it, or 0
 };
 
-/// Waits for a child. What would end tern-launch ends the child.
+/// Waits for a child. A signal to tern-launch ends the child.
 Awaited await_or_end(pid_t child) {
   const sigset_t signals = block_signals();
   while (true) {
@@ -265,10 +266,10 @@ Awaited await_or_end(pid_t child) {
   }
 }
 
-/// What was asked for after the flight, from its log. @return the exit code after it
+/// Runs audit and report, if requested. @return the flight's exit code after them
 int after_flight(const LaunchOptions& options, const fs::path& record, int code) {
   int ended_by = 0;
-  const bool has_failed = code == kExitFailed;  // then that is what the user has to read
+  const bool has_failed = code == kExitFailed;  // then its reason is more important than the audit
   const auto run = [&](std::vector<std::string> command, int out) {
     command.front() = options.programs + "/" + command.front();
     const auto [end, signal] =
@@ -289,7 +290,7 @@ int after_flight(const LaunchOptions& options, const fs::path& record, int code)
   return code;
 }
 
-/// The page plays the flight that it showed, on the same socket. @return the process
+/// Starts a viewer that plays the flight's log on the same socket. @return its process
 pid_t play_again(const LaunchOptions& options, const fs::path& record) {
   const int log = open_log(record / "tern-viewer.log");
   return start_child(
@@ -300,7 +301,7 @@ pid_t play_again(const LaunchOptions& options, const fs::path& record) {
        .own_group = true});
 }
 
-/// Until the user ends it, or it ends itself.
+/// Waits until the user ends the viewer, or it ends itself.
 void keep_playing(pid_t player, const std::string& url) {
   say("\nThe page plays the flight again, until Ctrl-C: {}", url);
   (void)await_or_end(player);
@@ -308,7 +309,7 @@ void keep_playing(pid_t player, const std::string& url) {
 
 }  // namespace
 
-// A flight that never began leaves no folder that was not asked for.
+// A flight that never began leaves a folder only if --record names it.
 int fly(const LaunchOptions& options) {
   const auto record = make_record(options);
   if (!record) {

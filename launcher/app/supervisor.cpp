@@ -12,9 +12,9 @@
 namespace tern {
 namespace {
 
-/// Who has nothing to finish, and the logger, which on a busy machine still has to write what it has heard.
+/// Time to end after SIGTERM: for most processes, and for the logger, which may still have to write messages.
 constexpr Duration kPatience{1'000'000}, kLastPatience{5'000'000};
-/// Of tern-mavlink, and a little more.
+/// Time for tern-mavlink to land, with a small margin.
 constexpr Duration kLandingPatience{32'000'000};
 constexpr Duration kLongPause{3'600'000'000};
 constexpr std::uint64_t kMemoryLimitKb = 4'000'000;
@@ -25,7 +25,7 @@ std::optional<std::uint64_t> memory_limit_bytes() {
   return kb == 0 ? std::nullopt : std::optional(kb * 1024);
 }
 
-/// Whether the command is tern-mavlink, by itself or by its script.
+/// Whether the command is tern-mavlink or its script.
 bool lands_a_vehicle(const std::vector<std::string>& command) {
   return std::ranges::any_of(command, [](const std::string& word) {
     const std::string name = std::filesystem::path(word).filename();
@@ -33,14 +33,14 @@ bool lands_a_vehicle(const std::vector<std::string>& command) {
   });
 }
 
-/// TERN_PACE, which the command goes by, too.
+/// The pace in TERN_PACE, which the command also uses.
 double pace_of_environment() {
   const char* const text = std::getenv("TERN_PACE");
   const double pace = text == nullptr ? 1.0 : std::strtod(text, nullptr);
   return pace > 0.0 && pace <= 1.0 ? pace : 1.0;
 }
 
-/// @return the next of these signals, or 0 if none comes in that time.
+/// @return the next of these signals, or 0 if none arrives in that time.
 int next_signal(const sigset_t& signals, Duration wait) {
   const std::int64_t us = std::max<std::int64_t>(wait.us, 0);
   const timespec time{us / 1'000'000, us % 1'000'000 * 1000};

@@ -13,7 +13,7 @@
 namespace tern {
 namespace {
 
-/// Who was not heard for longer is gone: four heartbeats in a row are lost.
+/// A process that is silent for longer has ended: four heartbeats in a row are missing.
 constexpr Duration kHeardLately{2'500'000};
 
 LogWriter open_writer(std::string path, std::int64_t rotate_bytes) {
@@ -36,7 +36,7 @@ LoggerNode::LoggerNode(Bus& bus, const LoggerConfig& config, const std::string& 
     : writer_(open_writer(path, config.rotate_bytes)), table_(bus.suffix()), bus_(bus), next_flush_(bus.clock().now()) {
   spdlog::info("writing {}", writer_.part_path());
   bus.listen([this](std::string_view channel, std::int64_t system_us, std::span<const std::uint8_t> data) {
-    // By the flight's clock, as all times in its messages are.
+    // By the flight's clock, like all times in its messages.
     const UTime received = bus_.clock().at_system_time(system_us);
     table_.add(channel, received, data);
     if (data.size() > kLogMaxDataBytes) {

@@ -32,7 +32,7 @@ MonitorNode::MonitorNode(Bus& bus, const Scenario& scenario, MonitorOptions opti
   subscribe();
 }
 
-/// A flight is long: what cannot be written is said before it.
+/// Checks before the flight that the summary can be written after it.
 void MonitorNode::check_summary_file() const {
   const std::string& path = options_.summary_file;
   if (path.empty()) return;
@@ -56,7 +56,7 @@ void MonitorNode::subscribe() {
     const Result<bool> complete = map_.add(chunk);
     if (complete && *complete) watch_.receive_map(cover_with_boxes(map_.take(), false));
   });
-  // Nothing to learn from these but whether they arrive.
+  // These are only counted.
   bus_.subscribe(channels::kSetpoint, [](const UavState&) {});
   bus_.subscribe(channels::kVehicleTruth, [](const UavState&) {});
   bus_.subscribe(channels::kVehicleStatus, [](const VehicleStatus&) {});
