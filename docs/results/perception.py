@@ -174,10 +174,10 @@ def main(words):
               [pair_row(folder, before, world) for world in there(folder) if summary(before, world)])
     else:
         table(["world", "reached, 95 % interval", "contacts moving / at rest, timeouts", "flight time p50 / p95, s",
-               "motion known: reached, time p50 / p95, s", "p50 / that with motion known", "replan CPU time p50 / p99, ms"],
+               "known motion: reached, time p50 / p95, s", "p50 / that with known motion", "replan CPU time p50 / p99, ms"],
               [world_row(folder, world) for world in there(folder)])
     if there(folder):
-        print("Made by " + ", ".join(sorted({summary(folder, world)["version"] for world in there(folder)})) + ".")
+        print("*Made by " + ", ".join(sorted({summary(folder, world)["version"] for world in there(folder)})) + ".*")
 
 
 if __name__ == "__main__":

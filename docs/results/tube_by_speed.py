@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""How far a vehicle was off its setpoints, and its tube, by the speed that was commanded: a table in Markdown.
+"""Prints a table in Markdown: tracking error and tube of a vehicle by commanded speed.
 
-tube_by_speed.py TABLES...  where TABLES are folders that tern-export --csv has written, one of each flight.
+tube_by_speed.py TABLES...: folders that `tern-export FLIGHT --csv TABLES` made, one for each flight.
 """
 import bisect
 import csv
@@ -10,7 +10,7 @@ import pathlib
 import sys
 
 BINS = (0.5, 2.0, 4.0, 5.5, math.inf)  # m/s
-HOLE_US = 25000  # farther from its setpoint a state says nothing
+HOLE_US = 25000  # a state without a setpoint within this time is skipped
 
 
 def rows(folder, channel):
