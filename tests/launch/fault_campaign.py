@@ -137,7 +137,7 @@ class Flight:
     def check_exit_code(self):
         fatal = [d for d in self.done if d[1] == "SUPERVISOR" or (d[0] in FINAL and d[1] == "KILL" and (d[3] or d[0] == "tern-monitor"))]
         late = [d for d in fatal if self.ended - d[4] <= LAST_WORDS_S]
-        # Killed as the flight begins: it is started again if nothing was flown yet, and that is a matter of milliseconds.
+        # Killed at the flight's beginning. Whether it is restarted depends on milliseconds: only before the first request.
         at_begin = any(d[0] == "tern-simulator" and d[1] == "KILL" for d in self.done)
         if self.code not in (0, 1, 2, 3):
             self.wrong.append(f"exit code {self.code}")
@@ -161,7 +161,7 @@ class Flight:
         by_signal = sum(cause == "signal KILL" for _, cause in causes)
         if by_signal != len(kills):
             self.wrong.append(f"{len(kills)} kills, {by_signal} restarts by the launcher")
-        # Stopped, or without a core for half a second, the planner ends itself, and says why.
+        # A planner that is stopped, or has no core for half a second, ends itself and logs the reason.
         by_itself = sum(name == "tern-planner" and cause == "exit code 70" for name, cause in causes)
         if self.text("tern-planner.log").count("has missed two deadlines") < by_itself:
             self.wrong.append("tern-planner ended with exit code 70")
@@ -183,7 +183,7 @@ class Flight:
         self.audit = {0: "held", 1: "broken"}.get(audit.returncode, f"exit code {audit.returncode}")
         if audit.returncode not in (0, 1):
             self.wrong.append(f"audit: exit code {audit.returncode}: {audit.stderr.strip()}")
-        # What the summary says, too, is a true finding: the collision; requests that a stopped planner did not answer.
+        # Findings that the summary also reports are true: the collision; requests that a stopped planner did not answer.
         watched = self.summary.get("log") is not None
         unanswered = not watched or self.summary.get("answered_in_time", 0) < self.summary.get("requests", 0)
         for line in re.findall(r"^ +BROKEN +(.*)", audit.stdout, re.MULTILINE):

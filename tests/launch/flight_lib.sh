@@ -1,4 +1,4 @@
-# What the tests of whole flights share, beside lib.sh. Sourced, never run.
+# Functions that the tests of whole flights share, in addition to lib.sh. Sourced, never run.
 # shellcheck shell=bash disable=SC2154  # of lib.sh: work, flight
 
 # field FLIGHT KEY...: a value of the flight's summary.
@@ -12,10 +12,10 @@ for key in sys.argv[2:]:
 print("null" if value is None else value)' "$work/$name/summary.json" "$@"
 }
 
-# holds WHAT EXPRESSION: of numbers, by awk.
+# holds NAME EXPRESSION: awk finds the expression of numbers true.
 holds() { awk "BEGIN { exit !($2) }" || fail "$1: not $2"; }
 
-# replays FLIGHT [LEAST]: every answer in its log, planned again, gives the same bytes; at least so many (30).
+# replays FLIGHT [MINIMUM]: at least so many answers (default 30), and each gives the same bytes when planned again.
 replays() {
   local result=0
   "$TERN_BIN/tern-replay" "$work/$1" --json "$work/$1.replay" || result=$?
@@ -26,7 +26,7 @@ assert replay["answers"] == replay["identical"] and replay["answers"] >= int(sys
     fail "not every answer is the same"
 }
 
-# reached FLIGHT: it ended by itself, well, and left nobody.
+# reached FLIGHT: it reached its goal and left no process behind.
 reached() {
   local result=0
   wait "$flight" || result=$?
@@ -42,7 +42,7 @@ reached() {
 process_of() { pgrep -x -f "[^ ]*/$1 --config $work/.*" | head -n 1; }
 processes() { pgrep -f "$work/" || true; }
 
-# says FLIGHT TEXT: the monitor's newest line has it.
+# says FLIGHT TEXT: the monitor's newest line contains the text.
 says() { tail -n 1 "$work/$1.out" | grep -q -- "$2"; }
 flies() { grep -qE ' [1-9]\.[0-9]+ m/s' "$work/$1.out"; }
 runs() { [[ -n $(process_of "$1") ]]; }

@@ -7,7 +7,7 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 # shellcheck source=tests/launch/flight_lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/flight_lib.sh"
 
-# nobody_died FLIGHT: no process did, but for a planner that got no core for half a second, and ended itself, and said why.
+# nobody_died FLIGHT: no process died, except a planner that had no core for half a second, ended itself and logged it.
 nobody_died() {
   local by_itself
   by_itself=$(grep -c "has missed two deadlines" "$work/$1/tern-planner.log" || true)
@@ -25,7 +25,7 @@ keep_down() {
 }
 bring_back() { kill -CONT "$supervisor"; }
 
-# Most of what a live flight can show, in one: keys, strangers, restarts, orphans, counters, audit, replay, report, export.
+# Many claims in one live flight: keys, forged messages, restarts, orphans, counters, audit, replay, report, export.
 a_signed_flight_whose_processes_die_reaches_its_goal_and_is_told_whole() {
   local stranger process size result=0
   "$TERN_BIN/tern-key" new "$work/key"
@@ -33,7 +33,7 @@ a_signed_flight_whose_processes_die_reaches_its_goal_and_is_told_whole() {
   start_flight flight --key "$work/key" --report
   eventually "flies" flies flight
   expect_keys_nowhere
-  # Who lacks the key is not heard.
+  # Unsigned messages are refused.
   (
     # shellcheck source=/dev/null  # written by the flight
     source "$work/flight/env.sh"
@@ -211,7 +211,8 @@ every_answer_replays_whoever_died_and_however_busy_the_cores_were() {
   holds "restarts" "$(field flight restarts) == 4"
 }
 
-# All processes start at once: what replay needs is in the log all the same. Twenty flights in soak runs (TERN_EFFORT).
+# All processes start at the same time, and the log still holds everything that a replay needs. Twenty flights in soak runs
+# (TERN_EFFORT).
 short_flights_beside_busy_cores_replay_whole() {
   local busy k result count=$((${TERN_EFFORT:-1} < 10 ? 2 : 20))
   scenario=$root/scenarios/window.yaml
@@ -285,10 +286,10 @@ after_a_stream_of_packets_that_crash_lcm_the_processes_fly() {
   nobody_left || fail "left: $(pgrep -af "$work/")"
 }
 
-# An autopilot's flight is short: its take-off and landing are what takes time.
+# An autopilot's flight is short, because take-off and landing take most of the time.
 autopilots=(--autopilot sim --count 10 --goal "12,-1,1")
 
-# landed FLIGHT: the bridge has seen the autopilot disarm on the ground, and the autopilot was asked for nothing since.
+# landed FLIGHT: the bridge saw the autopilot disarm on the ground and sent it no command afterwards.
 landed() {
   expect "it is disarmed on the ground" has_text "info: landed: " "$work/$1/tern-mavlink.log"
   nobody_left || fail "left: $(pgrep -af "$work/")"

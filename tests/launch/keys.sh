@@ -6,7 +6,7 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 # shellcheck source=tests/launch/flight_lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/flight_lib.sh"
 
-# has_ended FLIGHT: by itself, well, and left nobody.
+# has_ended FLIGHT: it ended by itself with success and left no process behind.
 has_ended() {
   local result=0
   wait "$flight" || result=$?
@@ -29,7 +29,7 @@ a_signed_flight_reaches_its_goal_and_its_key_is_nowhere() {
   kill -KILL "$(process_of tern-planner)"
   has_ended flight
   [[ $(summary flight 's["restarts"]') == 1 ]] || fail "the planner did not come back with its keys"
-  # What the new planner says while the dead one may still be heard is refused as another sender's.
+  # Messages of the new planner are refused while the dead one is still the accepted sender.
   ! grep -h 'refused a message: unauthenticated' "$work"/flight/tern-*.log || fail "a true tag was refused"
   expect "the logger reads what it records" has_text 'PLAN .* refused    0' "$work/flight/tern-logger.log"
   is_without_keys "the record" "$work/flight"/* "$work/flight.out"

@@ -1,4 +1,4 @@
-# What the tests of the launch scripts share. Sourced, never run. Environment: TERN_BIN, where the programs are.
+# Functions that the tests of the launch scripts share. Sourced, never run. Environment: TERN_BIN, the folder of programs.
 # shellcheck shell=bash
 
 root=$(dirname "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")")
@@ -7,7 +7,7 @@ work=$(mktemp -d)
 flights=() # pids of flights that this test started
 cleanup() {
   local pid
-  # A failed test may leave a supervisor stopped, which hears of nothing else, or cores busy.
+  # A failed test may leave a supervisor stopped, which then receives no other signal, or cores busy.
   for pid in "${flights[@]}" $(jobs -p) $(pgrep -f "$work/" || true); do kill -KILL "$pid" 2>/dev/null || true; done
   rm -rf "$work"
 }
@@ -18,7 +18,7 @@ fail() {
   exit 1
 }
 
-# expect WHAT COMMAND...: the command succeeds.
+# expect CLAIM COMMAND...: the command succeeds.
 expect() {
   local what=$1
   shift
@@ -27,7 +27,7 @@ expect() {
 
 readonly PATIENCE_S=180 # for what takes moments on an idle machine: only a test that fails waits so long
 
-# eventually WHAT COMMAND...: waits until the command succeeds.
+# eventually CLAIM COMMAND...: waits until the command succeeds.
 eventually() {
   local what=$1 deadline=$((SECONDS + PATIENCE_S))
   shift
@@ -47,7 +47,7 @@ code() {
   echo "$code"
 }
 
-# What start_flight flies: a copy in this test's folder, so that every process has the folder's name in its command line.
+# The scenario that start_flight flies: a copy in this test's folder, which every process then has in its command line.
 scenario=$root/scenarios/corridor_demo.yaml
 
 nobody_left() { ! pgrep -f "$work/" >/dev/null; }

@@ -1,4 +1,5 @@
-// launch_noise_process SEED PER_SECOND SECONDS: mutated copies of what it hears on LCM_DEFAULT_URL, then its number.
+// launch_noise_process SEED PER_SECOND SECONDS: sends mutated copies of the messages on LCM_DEFAULT_URL, prints their
+// number.
 #include <fmt/format.h>
 
 #include <chrono>

@@ -6,7 +6,7 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 # shellcheck source=tests/launch/flight_lib.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/flight_lib.sh"
 
-# A program that lives as long as it is told to: dies at once, and counts its starts.
+# make_mortal CODE: a program that counts its starts and dies immediately with the exit code CODE.
 make_mortal() {
   cat >"$work/mortal" <<END
 #!/bin/sh
@@ -320,7 +320,7 @@ install_refuses_a_list_that_cannot_be_read() {
   [[ ! -e $work/done ]] || fail "something was done: $(cat "$work/done")"
 }
 
-# make_tree STEPS COMMAND: a tree with these scripts, whose build takes so many steps, each of them COMMAND; sets `tree`.
+# make_tree STEPS COMMAND: makes a tree with these scripts whose build has STEPS steps, each of them COMMAND; sets `tree`.
 make_tree() {
   tree=$work/tree
   mkdir "$tree"

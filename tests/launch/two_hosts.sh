@@ -34,7 +34,7 @@ lay_cable() {
   } || refused
 }
 
-# lay_slow_cable MS: the same with a cable that takes so many milliseconds each way, of a flight at its pace.
+# lay_slow_cable MS: the same with a delay of MS milliseconds each way, at the flight's pace.
 lay_slow_cable() {
   local host delay_ms
   delay_ms=$(awk "BEGIN { print $1 / ${TERN_PACE:-1} }")
@@ -77,7 +77,7 @@ start_system() {
   flight=$pid
 }
 
-# ends WHO PID CODE: the process ends by itself, with this exit code.
+# ends NAME PID CODE: the process ends by itself with this exit code.
 ends() {
   local result=0
   wait "$2" || result=$?
@@ -105,8 +105,8 @@ a_network_that_takes_its_time_is_not_called_clock_skew() {
   expect "the delay is said" has_text 'tern-planner [+-][0-9.]* ms (round trip [0-9]*[2-9][0-9]\.[0-9] ms)' "$work/tern-simulator.out"
 }
 
-# refuses OFFSET_US SKEW DIRECTION: the flight does not begin, and everyone says why. The first word may be of an exchange that was
-# long on its way; SKEW is what the verdict measured.
+# refuses OFFSET_US SKEW DIRECTION: the flight does not begin, and all report why. The first report may be of a slow exchange;
+# SKEW is the value in the flight's result.
 refuses() {
   local end="ms $3 the vehicle's, more than 10 ms and half a round trip of [0-9.]* ms: synchronize the hosts' clocks)"
   wait_s=5

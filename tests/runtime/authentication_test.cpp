@@ -1,4 +1,4 @@
-// Signed messages: what holds, what does not, what came before.
+// Signed messages: valid tags, invalid tags, repeated messages.
 #include "runtime/authentication.h"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ TEST_F(SignedMessage, OfAnotherRoleOrFlightDoesNotHold) {
   const KeyRing predictor = KeyRing::derive(counting_key(), "tern-predictor");
   Bytes of_predictor = text("a message");
   EXPECT_THROW(sign(of_predictor, predictor, "PLAN", "PLAN", {{1'000'000, 1}, now}), std::invalid_argument);
-  // With what keys it has: the tag of PREDICTIONS, put on PLAN.
+  // A predictor has no key for PLAN: it signs with its key for PREDICTIONS.
   sign(of_predictor, predictor, "PREDICTIONS", "PLAN", {{1'000'000, 1}, now});
   EXPECT_FALSE(check(of_predictor));
   of_predictor[of_predictor.size() - kTrailerBytes + 5] = static_cast<std::uint8_t>(Role::Planner);
@@ -164,7 +164,7 @@ class KeyedBus : public testing::Test {
     simulator.rethrow();
     return simulator.counters()[channel].rejected[static_cast<int>(reason)];
   }
-  /// Keeps what is said on GOAL, to say it again.
+  /// Records the bytes on GOAL, to send them again.
   void overhear(std::vector<Bytes>& all) {
     simulator.listen([&all](std::string_view name, std::int64_t, std::span<const std::uint8_t> bytes) {
       if (name == channels::kGoal.name) all.emplace_back(bytes.begin(), bytes.end());

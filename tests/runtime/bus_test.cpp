@@ -35,7 +35,7 @@ concept MayPublish = requires(Bus& end, const Channel<T>& channel, Message messa
   end.publish(channel, message);
 };
 
-// What does not belong on a channel does not compile.
+// A message of another type than the channel's does not compile.
 static_assert(MaySubscribe<Plan, void (*)(const Plan&)> && !MaySubscribe<Plan, void (*)(const Goal&)>);
 static_assert(MayPublish<Plan, Plan> && !MayPublish<Plan, Goal>);
 

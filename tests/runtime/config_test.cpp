@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What reading throws, or "" if it does not.
+/// The error of reading, or "" if there is none.
 std::string error_of(const std::function<void()>& action) {
   try {
     action();
@@ -248,7 +248,7 @@ TEST(Yaml, AFileWithoutEndIsRefusedByItsSize) {
   EXPECT_EQ(error_of([] { ConfigDocument::load("/dev/zero", {}); }), "/dev/zero:1: has more than 4194304 bytes");
 }
 
-/// Every comparison of two keys would make 1.8e9 of them: nobody waits for that, and the test's time would end.
+/// Comparing every pair of keys would take 1.8e9 comparisons, and the test would exceed its time.
 TEST(Yaml, SixtyThousandUnknownKeysAreReadOnce) {
   std::string yaml;
   for (int k = 0; k < 60'000; ++k) yaml += fmt::format("unknown_{}: 1\n", k);

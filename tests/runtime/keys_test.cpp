@@ -1,4 +1,4 @@
-// Keys: where they come from, and who is given which.
+// Keys: how they are derived and read, and which process holds which.
 #include "runtime/keys.h"
 
 #include <fcntl.h>

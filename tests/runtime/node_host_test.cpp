@@ -60,7 +60,7 @@ TEST(NodeHost, TellsBackWhatItHeardAndAnswersANewProcessAtOnce) {
   beats.clear();
   start("second");
   runner.run(kStart + Duration{700'000} + kHeartbeatSpacing);
-  // The second beats as it starts, and tells the first one's back as soon as it has heard it.
+  // The second one publishes a heartbeat at its start, and echoes the first one's as soon as it arrives.
   ASSERT_EQ(beats.size(), 3U);
   EXPECT_EQ(beats[1].process, "first");
   EXPECT_EQ(beats[2].process, "second");
@@ -88,7 +88,7 @@ TEST(ClockEchoes, KeepsTheNewestOfEachForAWhileAndNoMoreThanAMessageHolds) {
   EXPECT_EQ(echoes.front().sender_epoch_us, 1'100 - kMaxClockEchoes);
 }
 
-/// Random clocks, ways and drifts of a window: what is said is never off by more than half the round trip that is said.
+/// Random clocks, delays and drifts: the reading is never off by more than half its round trip.
 RC_GTEST_PROP(ClockSkew, IsOffByHalfTheRoundTripAtMost, (std::uint64_t seed)) {
   Rng rng(seed);
   const std::int64_t ahead = static_cast<std::int64_t>(rng.uniform(-1e6, 1e6));

@@ -1,4 +1,4 @@
-// Scenario files: what is written is read back; every rule refuses with file, line and key.
+// Scenario files: written scenarios are read back; every rule refuses with file, line and key.
 #include "runtime/scenario_file.h"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ std::string error_of(const std::string& yaml) {
 /// The error of one obstacle, given as the lines under its dash (the first is line 3).
 std::string obstacle_error(const std::string& lines) { return error_of("world:\n  obstacles:\n    - " + lines); }
 
-/// The error of one region, likewise.
+/// The error of one region.
 std::string region_error(const std::string& lines) { return error_of("semantics:\n  regions:\n    - " + lines); }
 
 RC_GTEST_PROP(ScenarioFile, ReadsBackWhatItWrites, (std::uint64_t seed)) {
@@ -81,7 +81,7 @@ TEST(ScenarioFile, TheReadmesExampleIsRead) {
   EXPECT_EQ(scenario.semantics.regions.size(), 2U);
 }
 
-/// Flips, overwrites, cuts out, doubles or cuts off some bytes, or puts in what YAML gives a meaning.
+/// Flips, overwrites, removes, doubles or cuts off some bytes, or inserts characters with a meaning in YAML.
 std::string mutated(std::string text, Rng& rng) {
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(rng.uniform() * static_cast<double>(n)); };
   constexpr const char* kPieces[] = {"&a ", "*a", "[",      "]",     "{",  "}",    ": ",    "- ", "\n",   "? ",

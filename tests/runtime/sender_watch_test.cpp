@@ -1,4 +1,4 @@
-// One sender is heard at a time, and a second one is said.
+// One sender is accepted at a time, and a second one is reported.
 #include "runtime/sender_watch.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ class SenderWatchTest : public testing::Test {
  protected:
   /// The next message of a sender. @return whether it is handed on.
   bool speak(std::int64_t epoch_us) { return !watch.judge({epoch_us, ++sent[epoch_us]}, now, now, 0); }
-  /// Both send for a while. @return whether the first and the second were heard, every time.
+  /// Both senders publish for a while. @return whether all messages of the first, and of the second, were accepted.
   std::pair<bool, bool> speak_beside(std::int64_t one, std::int64_t other, double seconds) {
     std::pair<bool, bool> heard{true, true};
     for (const UTime end = now + Duration::from_seconds(seconds); now < end; now = now + kPeriod) {

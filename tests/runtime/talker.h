@@ -1,4 +1,4 @@
-// A node for tests: says a goal at a fixed period, hears goals, and may finish.
+// A node for tests: publishes a goal at a fixed period, receives goals, and may finish.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace tern {
 
-/// Publishes a Goal with id 1, 2, … every `period` (first at the start), writes what it hears and does into a shared
+/// Publishes a Goal with id 1, 2, … every `period` (first at the start), records its messages and steps in a shared
 /// journal.
 class Talker final : public Node {
  public:
   struct Options {
     std::string name;
-    Duration period{0};             ///< 0: only listens
-    std::int64_t finish_after = 0;  ///< goals said before it finishes with exit code 7; 0: never
+    Duration period{0};             ///< 0: only receives
+    std::int64_t finish_after = 0;  ///< goals published before it finishes with exit code 7; 0: never
   };
 
   Talker(Bus& bus, Options options, std::vector<std::string>* journal)

@@ -1,4 +1,4 @@
-// Many nodes in virtual time: order, determinism, nothing lost.
+// Many nodes in virtual time: order, determinism, no losses.
 #include "runtime/virtual_runner.h"
 
 #include <gtest/gtest.h>
