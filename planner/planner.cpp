@@ -113,18 +113,18 @@ PlanAnswer plan(const HorizonRequest& asked, const PlanningWorld& world, const P
   const auto course_at = [&](double radius) { return course_along(*path, world.goal->field->cost(), radius, near); };
   Course course = flies_to_goal ? course_at(kLocalGoalShare * config.sphere_radius_m) : course_in_place(near);
   if (flies_to_goal) incumbent.set_course(course);
-  const bool may_reduce = flies_to_goal && !has_arrived && !near.hold.none_estimated;
-  if (near.start.relaxed && !may_reduce) incumbent.replace_best(find_evasion(near, course, Phase::Room, tools));
-  const bool leaves_interval = incumbent.best().has_value();
+  const bool is_among_estimates = flies_to_goal && !has_arrived && !near.hold.none_estimated;
+  if (near.start.relaxed && !is_among_estimates) incumbent.replace_best(find_evasion(near, course, Phase::Room, tools));
+  const bool has_found_room = incumbent.best().has_value();
   PlanReason reason = path ? PlanReason::None : PlanReason::GoalBlocked;
-  if (path && !has_arrived && !leaves_interval && !(may_reduce && near.start.relaxed))
+  if (path && !has_arrived && !has_found_room && !(is_among_estimates && near.start.relaxed))
     reason = try_durations(near, course, Phase::Durations, config.search, incumbent, tools);
-  if (may_reduce) {
+  if (is_among_estimates) {
     if (near.start.relaxed) incumbent.replace_committed(std::nullopt, course);
     if (!is_settled(near, course, incumbent)) reason = plan_with_reduced_assurance(course, near, incumbent, tools);
     return {incumbent.choose(incumbent.best() ? PlanReason::None : reason), log.statistics};
   }
-  if (flies_to_goal && !has_arrived && !leaves_interval && is_at_rest(request))
+  if (flies_to_goal && !has_arrived && !has_found_room && is_at_rest(request))
     reason = try_smaller_steps(near, course_at, course, reason, incumbent, tools);
   if (needs_evasion(incumbent, fallback)) evade(near, course, incumbent, tools);
   return {incumbent.choose(reason), log.statistics};
