@@ -25,8 +25,9 @@ inline constexpr UTime kForever{std::numeric_limits<std::int64_t>::max()};
 
 /// How long the movers within a region are known.
 struct Foresight {
-  UTime predicted_until = kForever;  ///< from then on a mover may be there that no piece of its track places there
-  UTime followed_until = kForever;   ///< until then the boxes of the tracks found there hold every mover
+  UTime predicted_until =
+      kForever;  ///< from then on a mover may be in the region without a piece that predicts it there
+  UTime followed_until = kForever;  ///< until then every mover in the region is in the box of a track found there
 };
 
 /// A complete prediction set with boxes around each track's motion, and an index over them. The cost of a plan thus
@@ -42,8 +43,8 @@ struct PredictionProducts {
   PredictionProducts& operator=(const PredictionProducts&) = delete;
 
   /// Returns how long the movers within a region are known. A mover can be in the box of its pieces, which grows at its
-  /// top speed after its last piece. A track that `index` does not find there enters the region at
-  /// followed_until or later. O(tracks).
+  /// top speed after its last piece. A track that `index` does not find there enters the region at followed_until or
+  /// later. O(tracks).
   [[nodiscard]] Foresight foresight(const Box& region) const;
 
  private:
