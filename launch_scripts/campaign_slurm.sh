@@ -3,7 +3,7 @@
 #SBATCH --job-name=tern-campaign
 #SBATCH --output=tern-campaign-%A_%a.out
 set -euo pipefail
-# Slurm runs a copy from its spool: the project is where the job was submitted from.
+# Slurm runs a copy of this script, so the project's folder is the one from which the job was submitted.
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 [[ -e $here/lib.sh ]] || here=${SLURM_SUBMIT_DIR:?}/launch_scripts
 # shellcheck source=launch_scripts/lib.sh

@@ -16,12 +16,12 @@ record=''
 if [[ $# -gt 0 && $1 != -- ]]; then
   record=$1
   shift
-  running "$record" || die "$record: no isolated flight runs there"
+  running "$record" || die "$record: no isolated flight is running there"
 else
   for folder in "$TERN_FLIGHTS"/*/; do
     if running "$folder"; then record=$folder; fi
   done
-  [[ -n $record ]] || die "no isolated flight runs"
+  [[ -n $record ]] || die "no isolated flight is running"
   running "$record"
 fi
 [[ ${1:-} != -- ]] || shift

@@ -8,9 +8,9 @@ typed=$(printf '%q ' "$0" "$@")
 typed=${typed% }
 scenario=corridor_demo install=$([[ -n $TERN_INSTALLED ]] || echo yes) view='' check='' goals=() url='' isolated='' autopilot=''
 flight=("$TERN_BIN/tern-launch" fly --programs="$TERN_BIN") # and its options
-programs=(flight)                                           # what is built for it; CMake's target of what every flight needs
+programs=(flight)                                           # CMake targets to build; `flight` is needed by every flight
 
-# There will be no flight, for this reason: the summary that was asked for says so, too.
+# on_death REASON: writes the requested summary of a flight that cannot begin.
 on_death() { [[ ! -x ${flight[0]} ]] || "${flight[@]}" --failed="$1" --config="$scenario" || true; }
 
 # parse OPTION...: sets scenario, install, view, url and isolated, and adds to programs; the rest becomes options of `flight`.
@@ -45,7 +45,7 @@ parse() {
         shift
         ;;
       -*) die "unknown option $option (--help)" ;;
-      *) die "what is $option? To fly a scenario: --scenario $option (--help)" ;;
+      *) die "unexpected argument $option; to fly a scenario use --scenario $option (--help)" ;;
     esac
     [[ -n $value ]] || die "$option: its value is empty (--help)"
     case $option in
@@ -55,31 +55,31 @@ parse() {
       --autopilot) autopilot=$value ;;
       --set | --pace | --record | --summary) flight+=("$option=$value") ;;
       --view-wait)
-        [[ $value =~ ^[0-9]+$ ]] || die "--view-wait $value: not whole seconds"
+        [[ $value =~ ^[0-9]+$ ]] || die "--view-wait $value: must be whole seconds"
         flight+=("--view-wait=$value")
         ;;
       --seed) flight+=("--set=seed=$value") ;;
       --count) flight+=("--set=world.count=$value") ;;
       --goal)
-        [[ $value =~ ^[^,]+,[^,]+,[^,]+$ ]] || die "--goal $value: not X,Y,Z"
+        [[ $value =~ ^[^,]+,[^,]+,[^,]+$ ]] || die "--goal $value: must be X,Y,Z"
         flight+=("--set=uav.goal=[$value]")
         ;;
       --semantics)
-        [[ $value == on || $value == off ]] || die "--semantics $value: neither on nor off"
+        [[ $value == on || $value == off ]] || die "--semantics $value: must be on or off"
         flight+=("--set=semantics.enabled=$([[ $value == on ]] && echo true || echo false)")
         ;;
       --key) flight+=("--key-file=$value") ;;
       *) die "unknown option $option (--help)" ;;
     esac
   done
-  [[ ${#goals[@]} == 0 || -n $view ]] || die "--allow-goals: there is no page that could send them; give --view, too"
+  [[ ${#goals[@]} == 0 || -n $view ]] || die "--allow-goals needs a page that sends goals; add --view"
   flight=("${flight[@]:0:3}" "${goals[@]}" "${flight[@]:3}") # before the user's own values, which win
 }
 
-# gives SECTION: whether scenario or settings may hold this section. Then its process reads it, even if it does not fly.
+# gives SECTION: whether scenario or settings may hold this section. Then its process checks it, even if it does not fly.
 gives() { grep -q "$1" "$scenario_file" || [[ ${flight[*]} == *" --set=$1"* ]]; }
 
-# Adds to programs what parse did not.
+# Adds the remaining programs.
 choose_programs() {
   if [[ -n $check ]]; then
     programs=(tern-campaign)
@@ -90,7 +90,7 @@ choose_programs() {
   [[ $autopilot != sim ]] && ! gives autopilot_sim || programs+=(tern-autopilot-sim)
 }
 
-# Becomes a look at the scenario. What only a flight has is refused.
+# Becomes tern-campaign check. Options that only a flight has are refused.
 check_scenario() {
   local setting options=() drawing
   drawing=$(basename "$scenario_file" .yaml).svg
@@ -113,7 +113,7 @@ choose_programs
 build_programs "${programs[@]}" || die "the programs could not be built"
 [[ -z $check ]] || check_scenario
 [[ -z $view || -n $TERN_INSTALLED ]] || "$TERN_ROOT/launch_scripts/view_page.sh" || die "the page could not be built"
-[[ -x ${flight[0]} ]] || die "${flight[0]} is not there"
+[[ -x ${flight[0]} ]] || die "${flight[0]} does not exist; build it with launch_scripts/build.sh, or correct TERN_BIN"
 choose_network
 [[ -z $flags || $autopilot != udp* ]] ||
   say "This flight has a network of its own: start the autopilot in it (enter.sh), or give the host a multicast route and fly without --isolated."

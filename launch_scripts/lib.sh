@@ -3,7 +3,7 @@
 
 TERN_ROOT=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 readonly TERN_ROOT
-# What `cmake --install` has put into share/tern has no sources: programs and page are beside it, nothing is built or fetched.
+# An installation (share/tern of `cmake --install`) has no sources: programs and page exist, and neither is built.
 if [[ -e $TERN_ROOT/CMakeLists.txt ]]; then
   # shellcheck disable=SC2034  # for the scripts that source this
   TERN_INSTALLED='' TERN_MADE=$TERN_ROOT/build TERN_FLIGHTS=$TERN_ROOT/flights
@@ -13,7 +13,7 @@ else
 fi
 # shellcheck disable=SC2034  # the same
 readonly TERN_INSTALLED TERN_MADE TERN_FLIGHTS
-# Where the programs are. Set in the environment: they are taken from there, and nothing is built.
+# The folder of the programs. If the environment gives it, nothing is built.
 TERN_BIN_GIVEN=${TERN_BIN:+yes}
 TERN_BIN=${TERN_BIN:-$TERN_ROOT/build/release/bin}
 readonly TERN_BIN TERN_BIN_GIVEN
@@ -21,7 +21,7 @@ readonly TERN_BIN TERN_BIN_GIVEN
 readonly TERN_PAGE=${TERN_PAGE:-$TERN_ROOT/build/viewer-page}
 
 readonly MANY_STEPS=20 # but for links, of a build that shows its progress
-readonly FEW_STEPS=10  # after which it says how long the rest takes
+readonly FEW_STEPS=10  # after which the remaining time is shown
 readonly FIRST_PORT=7667
 readonly LAST_PORT=7766
 readonly LCM_GROUP=239.255.76.67
@@ -29,14 +29,14 @@ readonly MULTICAST_ON_LO="ip link set lo up && ip route add 224.0.0.0/4 dev lo"
 
 say() { printf '%s\n' "$*"; }
 
-# die TEXT: ends the script with exit code 3: the system itself failed. Calls on_death TEXT before, where a script has one.
+# die TEXT: ends the script with exit code 3 (the system failed). First calls on_death TEXT, if the script defines it.
 die() {
   printf '%s: %s\n' "$(basename "$0")" "$*" >&2
   if declare -F on_death >/dev/null; then on_death "$*"; fi
   exit 3
 }
 
-# help_if_asked OPTION...: prints the comment at the head of the script and ends it, if the first option is --help.
+# help_if_asked OPTION...: if the first option is --help, prints the comment at the head of the script and ends it.
 help_if_asked() {
   [[ ${1:-} == --help || ${1:-} == -h ]] || return 0
   sed -n '2,/^[^#]/s/^# //p' "$0"
@@ -51,21 +51,21 @@ lock_build() {
   flock --nonblock "$lock" || { say 'Another build is running, waiting …' >&2 && flock "$lock"; }
 }
 
-# configure_build: goes to the tree and configures the release preset; says something only if that fails.
+# configure_build: enters the tree and configures the release preset; prints only errors.
 configure_build() {
   local said
   cd "$TERN_ROOT" || return 1
   said=$(cmake --preset release 2>&1) || { printf '%s\n' "$said" >&2 && return 1; }
 }
 
-# time_left DONE ALL SECONDS: prints how long a build takes from here that has taken so long for DONE of its ALL steps.
+# time_left DONE ALL SECONDS: prints the remaining time of a build that took SECONDS for DONE of its ALL steps.
 time_left() {
   local left=$(($3 * ($2 - $1) / $1))
   ((left < 60)) && printf 'less than 1 min left' || printf '%d min left' $(((left + 30) / 60))
 }
 
-# show_progress: prints ninja's lines from standard input, and in each step's line how long the rest takes if the steps to come
-# take as long as those that are done. A terminal shows the newest step alone, and what the compiler says.
+# show_progress: prints ninja's lines from standard input. Each step's line has the remaining time, estimated from the steps that
+# are done. A terminal shows the newest step only, and the compiler's messages.
 show_progress() {
   local line text began=$SECONDS clear='' width=80
   [[ ! -t 1 ]] || { clear=$'\r\033[K' && width=$(tput cols 2>/dev/null || echo 80); }
@@ -82,9 +82,9 @@ show_progress() {
   printf '%s' "$clear"
 }
 
-# build_programs [TARGET...]: builds them (by default every program) unless the environment says where programs are. When much
-# is left to do, it shows each step and how long the rest takes, measured on those that are done. Else it shows one line, gone
-# when it is done, and what fails. A subshell, with which the lock ends.
+# build_programs [TARGET...]: builds the targets (default: every program) unless the environment gives TERN_BIN. If much is left
+# to do, it shows each step and the remaining time. Otherwise it shows one line, which disappears at the end, and errors. A
+# subshell, with which the lock ends.
 build_programs() (
   [[ -z $TERN_BIN_GIVEN ]] || exit 0
   lock_build
@@ -93,7 +93,7 @@ build_programs() (
   configure_build || exit 1
   left=$("${build[@]}" -- -n 2>/dev/null)
   steps=$(wc -l <<<"$left")
-  # ninja -n takes every program for one to link anew: it cannot know that the version, which is always looked at, has stayed.
+  # ninja -n counts every program as one to link again: it cannot know that the version, which is always checked, is unchanged.
   long=$(grep -cv 'Linking ' <<<"$left" || true)
   ((long > MANY_STEPS)) || said=$("${build[@]}" 2>&1) || failed=yes
   [[ ! -t 2 ]] || printf '\r\033[K' >&2
@@ -104,12 +104,12 @@ build_programs() (
   "${build[@]}" 2>&1 | show_progress
 )
 
-# exec_process NAME ARG...: becomes the program, which is built first, alone, if it is not there.
+# exec_process NAME ARG...: becomes the program; if it is missing, it is built first.
 exec_process() {
   local name=$1
   shift
   [[ -x $TERN_BIN/$name ]] || build_programs "$name" >&2
-  [[ -x $TERN_BIN/$name ]] || die "$TERN_BIN/$name is not there"
+  [[ -x $TERN_BIN/$name ]] || die "$TERN_BIN/$name does not exist; build it with launch_scripts/build.sh, or correct TERN_BIN"
   exec "$TERN_BIN/$name" "$@"
 }
 
@@ -127,7 +127,7 @@ find_scenario() {
   die "no scenario $wanted; there are: ${names//.yaml/}"
 }
 
-# What a plain user or root may make a network namespace with: prints unshare's flags, or nothing.
+# namespace_flags: prints the flags of unshare with which this user can make a network namespace, or nothing.
 namespace_flags() {
   local flags
   for flags in -Urn -n; do
@@ -140,23 +140,23 @@ namespace_flags() {
 
 has_multicast_route() { ip -4 route get "$LCM_GROUP" >/dev/null 2>&1; }
 
-# lock_port: sets `port` to the first one that no other flight holds, and holds it by a lock on an open descriptor. This
-# shell's children inherit it, so the port is free again when the last of them has ended.
+# lock_port: sets `port` to the first one that no other flight holds, and locks it by an open descriptor. This shell's children
+# inherit the descriptor, so the port is free when the last of them has ended.
 lock_port() {
   local file
   for ((port = FIRST_PORT; port <= LAST_PORT; port++)); do
     file=/tmp/tern-lcm-port-$port.lock
-    # Opened for reading only, and never created through an existing name: the file may be another user's.
+    # Opened for reading only, and created only if the name is free: the file may belong to another user.
     [[ -e $file ]] || (set -o noclobber && umask 022 && : >"$file") 2>/dev/null || true
     { exec {port_lock}<"$file"; } 2>/dev/null || continue
     flock --nonblock "$port_lock" && return
     exec {port_lock}<&-
   done
-  die "all ports from $FIRST_PORT to $LAST_PORT are taken by flights"
+  die "all ports from $FIRST_PORT to $LAST_PORT are used by flights; end one of them"
 }
 
-# choose_network: sets `url` unless it is given, `port`, and `flags`: those of unshare, if the flight gets a network
-# namespace of its own, as it does if `isolated` is.
+# choose_network: sets `port`, and `url` unless it is given. Sets `flags` to unshare's if the flight gets a network namespace of
+# its own, which `isolated` or a missing multicast route demands.
 choose_network() {
   flags='' port=$FIRST_PORT
   if [[ -z $isolated$url ]] && ! has_multicast_route; then
@@ -172,7 +172,7 @@ choose_network() {
   : "${url:=udpm://$LCM_GROUP:$port?ttl=0}"
 }
 
-# open_page URL: in the user's browser, where there is a display. The browser is no child of this script.
+# open_page URL: opens it in the user's browser if there is a display. The browser is not a child of this script.
 open_page() {
   [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] && command -v xdg-open >/dev/null || return 0
   (setsid xdg-open "$1" </dev/null >/dev/null 2>&1 &)

@@ -19,7 +19,7 @@ END
 readonly LCM_JAR=/usr/share/java/lcm.jar
 readonly TYPES_JAR=${TERN_TYPES_JAR:-$TERN_MADE/tern_types.jar}
 
-# Builds the jar unless it is newer than every message's description. In a subshell, which takes lock and folder with it.
+# Builds the jar unless it is newer than every message definition. A subshell, with which lock and folder are released.
 build_types() (
   local lock
   exec {lock}<"$TERN_ROOT/lcmtypes"
@@ -35,10 +35,10 @@ build_types() (
   mv "$folder/types.jar" "$TYPES_JAR"
 )
 
-# take_network RECORD_DIR: that flight's; an isolated one is entered, which ends this process.
+# take_network RECORD_DIR: uses the network of that flight. For an isolated one this process becomes one inside it.
 take_network() {
   local record=$1
-  [[ -r $record/env.sh ]] || die "$record holds no flight"
+  [[ -r $record/env.sh ]] || die "$record is not the folder of a flight"
   if [[ -r $record/namespace && -z ${TERN_SPY_INSIDE:-} ]]; then
     TERN_SPY_INSIDE=yes exec "$TERN_ROOT/launch_scripts/enter.sh" "$record" -- "$0" --no-install "$record"
   fi
@@ -70,7 +70,7 @@ fi
 command -v lcm-spy >/dev/null || die "no lcm-spy; launch_scripts/install.sh launch_scripts/packages_spy.txt installs it"
 [[ -n ${DISPLAY:-} ]] || die "lcm-spy needs a display, and DISPLAY is not set (over SSH: ssh -X)"
 
-# Java does not know an option any more that lcm-spy's script gives it, and would not start. lcm-spy looks for types in CLASSPATH.
+# lcm-spy's script passes an option that newer Java lacks and would fail on. lcm-spy finds message types by CLASSPATH.
 export JAVA_TOOL_OPTIONS="-XX:+IgnoreUnrecognizedVMOptions ${JAVA_TOOL_OPTIONS:-}"
 export CLASSPATH=$TYPES_JAR${CLASSPATH:+:$CLASSPATH}
 exec lcm-spy

@@ -7,7 +7,7 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/lib.sh"
 
 case " $* " in *" --help "* | *" --version "*) exec_process tern-viewer "$@" ;; esac
 [[ -n $TERN_INSTALLED ]] || "$TERN_ROOT/launch_scripts/view_page.sh"
-# What becomes a file is not looked at.
+# With --export or --video no page is opened.
 case " $* " in *" --export"[\ =]* | *" --video"[\ =]*) exec_process tern-viewer --page "$TERN_PAGE" "$@" ;; esac
 url_pipe=$(mktemp -u)
 mkfifo "$url_pipe"
