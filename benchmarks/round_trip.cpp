@@ -34,7 +34,7 @@ struct End {
     if (master) keys = KeyRing::derive(*master, "round-trip");
     bus = std::make_unique<Bus>(lcm, clock, clock.now().us, "", std::move(keys));
   }
-  bool hear() {
+  bool receive() {
     pollfd fd{lcm->getFileno(), POLLIN, 0};
     if (poll(&fd, 1, kPatienceMs) <= 0) return false;
     drain(*lcm, 1'000);
@@ -48,7 +48,7 @@ struct End {
 [[noreturn]] void answer(const std::optional<Key>& master) {
   End end(master);
   end.bus->subscribe(kPing, [&](const ConfigurationReport& m) { end.bus->publish(kPong, m); });
-  while (true) end.hear();
+  while (true) end.receive();
 }
 
 struct Round {
@@ -78,7 +78,7 @@ Round play(const std::optional<Key>& master, std::size_t bytes) {
     const UTime start = end.clock.now();
     end.bus->publish(kPing, message);
     while (answered == before) {
-      if (!end.hear()) return std::nullopt;
+      if (!end.receive()) return std::nullopt;
     }
     return static_cast<double>((end.clock.now() - start).us);
   };

@@ -189,7 +189,7 @@ TEST(Report, HasThePercentilesOfTheMonitorsSummary) {
   const nlohmann::json costs = report_data(record, Audit{})["costs"];
   Scenario scenario;
   FlightWatch watch(scenario, UTime{});
-  for (const PlanTiming& t : record.timings) watch.hear(t);
+  for (const PlanTiming& t : record.timings) watch.receive(t);
   const ReplanTimes times = watch.summary({}).replan_ms;
   const std::pair<const char*, Percentiles> rows[] = {{"whole answer", times.total},
                                                       {"broad phase", times.hulls},
