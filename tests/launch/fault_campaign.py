@@ -147,7 +147,7 @@ class Flight:
             self.wrong.append("exit code 3: " + (self.text("failure").strip() or self.summary.get("detail", "no summary")))
 
     def check_nobody_left(self):
-        deadline = time.monotonic() + 3.0
+        deadline = time.monotonic() + 180.0
         while processes_of(self.folder) and time.monotonic() < deadline:
             time.sleep(0.05)
         for pid, arguments in processes_of(self.folder).items():
