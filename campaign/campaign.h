@@ -11,7 +11,7 @@
 
 namespace tern {
 
-/// The index-th of `count` shards, from 1: every count-th seed.
+/// One of the `count` parts of a campaign's seeds: every count-th seed, from the index-th on (1 ≤ index ≤ count).
 struct Shard {
   int index = 1, count = 1;
 };
@@ -31,10 +31,10 @@ struct CampaignOptions {
 /// The progress of a campaign.
 struct CampaignProgress {
   std::int64_t total = 0;      ///< seeds of this call
-  std::int64_t done = 0;       ///< of these, in the table
-  std::int64_t successes = 0;  ///< of the done flights
-  std::int64_t different = 0;  ///< of the done flights, flights that differ from each other (DistinctFlights)
-  std::int64_t flown = 0;      ///< in this call
+  std::int64_t done = 0;       ///< seeds of this call whose flights are in the table
+  std::int64_t successes = 0;  ///< successful flights among the done ones
+  std::int64_t different = 0;  ///< distinct flights among the done ones; equal flights count once (DistinctFlights)
+  std::int64_t flown = 0;      ///< flights flown by this call
 };
 
 enum class CampaignEnd { Complete, Interrupted };
@@ -45,12 +45,13 @@ std::vector<std::uint64_t> seeds_of(const CampaignOptions& options);
 /// Flies every seed that is missing in options.out, and adds each flight as it ends. When all are there, the lines are
 /// sorted by seed.
 ///
-/// | event                                         | effect                                                       |
-/// |-----------------------------------------------|--------------------------------------------------------------|
-/// | a flight is not a success                     | keeps its folder failures/seed-N, with log and summary       |
-/// | a flight's process crashes                    | the flight has failed                                        |
-/// | `stop_fd` becomes readable                    | interrupted: running flights are left for the next call       |
-/// | a signal ends a process: SIGINT, TERM or HUP  | the same                                                     |
+/// | event                                              | effect                                                   |
+/// |----------------------------------------------------|----------------------------------------------------------|
+/// | a flight is not a success                          | keeps its folder failures/seed-N, with log and summary   |
+/// | a flight's process crashes or exits with an error  | the flight is recorded as failed                         |
+/// | a file of a flight cannot be written               | kills running flights and returns an Error               |
+/// | `stop_fd` becomes readable                         | kills running flights, which the next call flies again   |
+/// | SIGINT, SIGTERM or SIGHUP ends a flight's process  | as for `stop_fd`                                         |
 ///
 /// @param flight_command  program and first arguments of a process that flies, prints encode_flight() and ends with
 /// exit code 0; "--seed N --folder DIR" is appended

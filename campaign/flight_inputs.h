@@ -1,4 +1,4 @@
-// The inputs of a flight: the scenario by name, the overrides of its campaign, and a complete scenario file.
+// The inputs of a campaign's flights: a scenario and overrides of its values.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ struct FlightInputs {
   [[nodiscard]] std::vector<std::string> with_seed(std::uint64_t seed) const;
 };
 
-/// Returns the path of a scenario. `wanted` is a file, or a name in one of these folders:
+/// Returns the path of a scenario. `wanted` is a file, or a name that is looked up in these folders, in this order:
 ///
 /// 1. ./scenarios
-/// 2. scenarios of the source tree: for the program build/PRESET/bin/PROGRAM, three folders up
-/// 3. share/tern/scenarios beside an installed program
+/// 2. BIN/../../../scenarios, where BIN is the folder of the running program: the source tree of build/PRESET/bin
+/// 3. BIN/../share/tern/scenarios: the scenarios of an installed program
 /// @return an Error that lists the available names
 Result<std::string> find_scenario(const std::string& wanted);
 

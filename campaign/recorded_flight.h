@@ -9,19 +9,20 @@
 
 namespace tern {
 
-/// Thrown if a file of the flight cannot be written. It is not counted as a failure of the flight.
+/// Thrown if a file of the flight cannot be written. The campaign then ends with an error, and its next call flies
+/// the seed again.
 class CannotRecord : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// The exit code for that, of a flight's process and of the campaign.
+/// The exit code of a flight's process and of the campaign if a file cannot be written.
 inline constexpr int kExitCannotWrite = 3;
 
-/// A program that reads each flight's log: "tern-audit LOG --json FILE". FILE gives coverage (key coverage_sums) and
-/// tracking (measures of check "tube"). Without FILE, both are unknown.
+/// A program that reads each flight's log. It is run as "PROGRAM LOG --json FILE", as tern-audit is. The flight's
+/// record takes coverage (key coverage_sums) and tracking (measures of check "tube") from FILE. Exit code 0 means
+/// passed, 1 broken; any other end means failed.
 struct Auditor {
   std::string program;  ///< empty: none
-  /// True: exit code 0 means passed, 1 broken. Any other exit code means failed, in either case.
-  bool judges = true;
+  bool judges = true;   ///< true: the verdict is recorded; false: only the verdict "failed" is
 };
 
 /// Observes a flight. Called with every request and every plan.

@@ -76,9 +76,8 @@ const char* to_string(Stage stage);
 /// in flight a request for the autopilot's HEARTBEAT at 5 Hz.
 ///
 /// **A pilot's switch has priority.**
-/// 1. A mode is commanded only within 50 ms after HEARTBEAT has reported the current one. A request for HEARTBEAT goes
-/// in
-///    front of the command.
+/// 1. A mode is commanded only within 50 ms after HEARTBEAT has reported the current one. A request for HEARTBEAT
+///    precedes the command, to learn the mode that the command ends.
 /// 2. A mode that is neither the one before nor the commanded one is a pilot's choice: the bridge stands back.
 /// 3. If the bridge's command takes effect after that, the bridge commands the pilot's mode.
 ///

@@ -70,7 +70,7 @@ void sift(const std::string& master_path, const std::string& log, const std::str
   Sieve sieve(value_or_throw(read_master_key(master_path)), suffix);
   const std::vector<std::string> parts = log_parts(log);
   for (const std::string& part : parts) value_or_throw(LogReader::open(part));
-  if (std::filesystem::exists(out)) throw ConfigError(out + ": is there already");
+  if (std::filesystem::exists(out)) throw ConfigError(out + ": exists already; choose another name");
   LogWriter writer = value_or_throw(LogWriter::open(out, 0));
   std::int64_t taken = 0, all = 0;
   std::map<std::string, std::int64_t> refused;

@@ -159,7 +159,7 @@ RecordedTracksSpec read_recorded(ConfigSection section) {
   spec.centre_z = section.number("centre_z", spec.centre_z, kPosition);
   read_use(section, spec);
   section.finish();
-  if (spec.file.empty()) throw section.error("file", "is empty");
+  if (spec.file.empty()) throw section.error("file", "must name a file");
   for (std::set<int> used; const auto& [key, c] : columns) {
     if (c >= spec.columns) throw section.error(key, fmt::format("{} is out of range [0, {}]", c, spec.columns - 1));
     if (c < 0 || used.insert(c).second) continue;
@@ -295,7 +295,7 @@ BallRegion read_ball(ConfigSection section) {
 Region read_region(ConfigSection section, std::set<std::string>& names) {
   Region region;
   region.name = unique_name(section, section.required_text("name"), names);
-  if (region.name.empty()) throw section.error("name", "is empty");
+  if (region.name.empty()) throw section.error("name", "must not be empty");
   region.class_name = section.required_text("class");
   const int shapes = (section.has("box") ? 1 : 0) + (section.has("ball") ? 1 : 0) + (section.has("prism") ? 1 : 0);
   if (shapes != 1) {

@@ -1,4 +1,4 @@
-// Benefit and cost of semantics: flights with semantics against flights of the same seeds without.
+// Benefit and cost of semantics: compares flights with semantics to flights of the same seeds without semantics.
 #pragma once
 
 #include <string>
@@ -14,9 +14,10 @@ struct ExposureSummary {
   std::string world, method;
   double lambda = 0.0;
   int flights = 0, reached = 0;
+  /// Path inside the region (inside_) and inside or within 1 m of it (near_), and the whole flight; metres and seconds.
   MeanInterval inside_m, inside_s, near_m, near_s, path_length_m, flight_time_s;
   /// Differences to the flight of the same seed without semantics, if both reached the goal. Gained: additional metres
-  /// inside an attracting region, or fewer metres inside a repelling one. Near: within 1 m, inside included.
+  /// inside an attracting region, or fewer metres inside a repelling one. Longer, later: additional path and time.
   MeanInterval gained_m, gained_near_m, longer_m, later_s;
 };
 

@@ -10,7 +10,7 @@
 
 namespace tern {
 
-/// One measure.
+/// A measure of flights (for example flight_time_s), and its difference between the campaigns.
 struct ComparedMeasure {
   std::string name, meaning;
   PairedDifference difference;
@@ -24,14 +24,16 @@ struct CampaignComparison {
   std::int64_t successes_a = 0, successes_b = 0;  ///< among the pairs
   std::vector<std::uint64_t> a_alone, b_alone;    ///< seeds at which only one succeeded
   double p_value = 1.0;                           ///< of McNemar's test, a_alone against b_alone
-  std::int64_t different_a = 0, different_b = 0;  ///< flights of the pairs that differ from each other
-  std::vector<ComparedMeasure> measures;          ///< over the pairs that have a value (Compared), at least one
-  bool same_flights = false;  ///< same configuration and version, and no pair differs in any measure
-  /// Returns true if the pairs are independent of each other. Otherwise intervals and p-values are invalid.
+  std::int64_t different_a = 0, different_b = 0;  ///< distinct flights of A, of B, among the pairs (different_flights)
+  std::vector<ComparedMeasure> measures;  ///< each over the pairs in which both flights have a value; ≥ 1 pair
+  bool same_flights = false;              ///< same configuration and version, and no pair differs in any measure
+
+  /// Returns true if the pairs are independent, so that intervals and p-values are valid. The flights of each campaign
+  /// are then all distinct, and A and B differ.
   [[nodiscard]] bool may_infer() const { return !same_flights && different_a == pairs && different_b == pairs; }
 };
 
-/// Returns how many of the flights differ from each other (DistinctFlights). O(n log n).
+/// Returns the number of distinct flights; equal flights count once (DistinctFlights). O(n log n).
 std::int64_t different_flights(const std::map<std::uint64_t, FlightRecord>& records);
 
 /// Compares every measure of the columns (column_notes) and the metres inside each region.
@@ -43,8 +45,8 @@ std::string in_words(const char* which, const CampaignIdentity& id);
 
 enum class TableForm { Text, Markdown, Latex };
 
-/// Lists the measures that differ; the others are only named. Intervals need may_infer() and enough pairs. If they are
-/// left out, the text says why.
+/// Lists the measures that differ, and names the others. Intervals are given if may_infer() and there are enough pairs;
+/// otherwise the text says why they are left out.
 std::string to_text(const CampaignComparison& comparison, TableForm form);
 
 }  // namespace tern

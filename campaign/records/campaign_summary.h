@@ -23,7 +23,7 @@ struct CampaignSummary {
   CampaignIdentity identity;
   std::int64_t flights = 0, reached = 0, collisions = 0, timeouts = 0, failed = 0;  ///< by outcome
   std::int64_t successes = 0;  ///< reached, within all limits, not broken by the audit (is_success)
-  std::int64_t different = 0;  ///< flights that differ from each other (different_flights)
+  std::int64_t different = 0;  ///< distinct flights; equal flights count once (different_flights)
   /// Wilson interval of successes; nullopt if some flights are equal, since equal flights add no information.
   std::optional<Interval> success_ci95;
   // Over the flights that reached the goal:

@@ -1,4 +1,4 @@
-// Counts flights that differ from each other. Flights that the seed does not change are one flight, flown often.
+// Counts distinct flights. If the seed changes nothing in a scenario, all its flights are equal and count as one.
 #pragma once
 
 #include <cstdint>

@@ -139,7 +139,7 @@ struct Descent {
   bool is_farther = false;  // the distance is proven to exceed `proof`
 };
 
-// The `proof` of a descent that no proven distance ends.
+// As `proof`, it makes descend() compute the distance itself: no lower bound of the distance ends the descent.
 inline constexpr double kNoProof = std::numeric_limits<double>::infinity();
 
 // Runs the descent from one support point of A − B; support(v) returns the point of A − B that is lowest along v. The

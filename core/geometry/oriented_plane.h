@@ -43,7 +43,8 @@ class OrientedPlane {
     return side_in_doubt(s);
   }
 
-  /// True if s is lower than t along the normal. Exact if both are within rounding of the plane, else up to rounding.
+  /// True if s is lower than t along the normal. If the heights of both points over the plane are within rounding error
+  /// of zero, the comparison is exact. Otherwise the heights are compared as doubles.
   [[nodiscard]] bool is_lower(const HullPoint& s, const HullPoint& t) const {
     const Height a = height_of(s);
     const Height b = height_of(t);

@@ -23,7 +23,7 @@ struct LoggerConfig {
   std::int64_t rotate_bytes = 0;
 };
 
-/// Reads the section and finishes it. @throws ConfigError.
+/// Reads the section and refuses unknown keys. @throws ConfigError.
 LoggerConfig read_logger_config(ConfigSection section);
 
 /// Writes every message as it came, with the kernel's time of receipt, and flushes every kFlushPeriod.

@@ -64,9 +64,8 @@ struct SimulatedAutopilotConfig {
 /// Further rules:
 /// - Disarmed, it accepts any mode.
 /// - PX4 refuses to arm while NAV_DLL_ACT requires a ground station and none sends HEARTBEAT.
-/// - With EKF2_GPS_CTRL 0 it has a position only while EKF2_EV_CTRL is 15 and ODOMETRY arrives. The values are the
-/// model's
-///   in any case.
+/// - With EKF2_GPS_CTRL 0 it has a position only while EKF2_EV_CTRL is 15 and ODOMETRY arrives. It reports the model's
+///   position and velocity in any case.
 /// - Any system may command it, with the right target. Requests for unknown parameters get no answer.
 /// - The velocity loop has the D term MPC_XY_VEL_D_ACC, which opposes the whole acceleration.
 /// - ArduPilot's home is where it was armed, shifted up by SIM_HOME_UP.

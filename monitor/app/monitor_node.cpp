@@ -80,7 +80,7 @@ void MonitorNode::look_for_failure() {
   if (!file) return;
   std::string text{std::istreambuf_iterator<char>(file), {}};
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  watch_.fail(text.empty() ? "the launcher ended the flight without a reason" : text);
+  watch_.fail(text.empty() ? "the launcher ended the flight and gave no reason" : text);
 }
 
 void MonitorNode::finish(const Ending& ending) {

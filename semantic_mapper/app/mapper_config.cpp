@@ -54,7 +54,7 @@ CloudSource read_source(ConfigSection section) {
   source.section = section;
   source.file =
       section.required_text("file", "path: absolute, beside the scenario, or in `TERN_DATA` (else `../shared/data`)");
-  if (source.file.empty()) throw section.error("file", "is empty");
+  if (source.file.empty()) throw section.error("file", "must name a file");
   const bool is_ply = std::filesystem::path(source.file).extension() == ".ply";
   source.format = section.choice("format", is_ply ? "ply" : "las", {"las", "ply"},
                                  "of the file; the default follows from its name") == "ply"

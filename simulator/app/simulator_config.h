@@ -26,7 +26,7 @@ struct SimulatorConfig {
   bool external = false;                     ///< other processes fly the vehicle and publish its state
 };
 
-/// Reads and finishes the section. `seed` seeds the sensor's noise. @throws ConfigError.
+/// Reads the section and refuses unknown keys. `seed` seeds the sensor's noise. @throws ConfigError.
 SimulatorConfig read_simulator_config(ConfigSection section, std::uint64_t seed);
 
 }  // namespace tern

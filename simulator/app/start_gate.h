@@ -12,9 +12,11 @@
 
 namespace tern {
 
-/// Largest difference of a clock from the vehicle's, which t_s and deadlines refer to. With the executor's default
-/// lead, the optimizer ends at least 14 ms before the deadline. So an answer by a clock that is 10 ms behind is still
-/// in time. A clock that is 10 ms ahead takes 10 ms from the planner's 66 ms.
+/// Largest allowed difference between a process's clock and the vehicle's, which t_s and deadlines refer to.
+///
+/// With the executor's default lead, the planner has 66 ms and its optimizer ends at least 14 ms before the deadline.
+/// If the planner's clock is 10 ms behind, its answers come 10 ms later, which is still in time. If its clock is 10 ms
+/// ahead, it stops 10 ms earlier than it must.
 inline constexpr Duration kMaxClockSkew{10'000};
 
 /// A recorded flight waits for this process as well.
@@ -25,7 +27,8 @@ inline constexpr const char* kRecorder = "tern-logger";
 /// - its clock was compared with the listener's, and
 /// - the difference is at most max_skew plus half the round trip, which is the measurement's error.
 ///
-/// So a network delay, symmetric or not, is never taken for skew. A skew below half the round trip stays undetected.
+/// So a network delay, symmetric or not, is never taken for skew. An excess over max_skew of less than half the round
+/// trip stays undetected.
 class StartGate {
  public:
   /// Four consecutive heartbeats (2 Hz) may be lost before a process counts as gone.
@@ -41,9 +44,10 @@ class StartGate {
   /// The processes that are not ready, with reasons: "tern-planner (waits for a map), tern-mapper (no HEARTBEAT)".
   /// Empty when all are ready.
   [[nodiscard]] std::string missing(UTime now) const;
-  /// Whether the log records from now on; true if no log is required.
+  /// True if tern-logger is ready to record, or if it is not required.
   [[nodiscard]] bool records(UTime now) const;
-  /// The processes whose clock is certainly beyond max_skew, with the difference and a remedy, in the same form.
+  /// The required processes whose clock certainly differs by more than max_skew, in the form of missing(). The reason
+  /// states the difference and a remedy.
   [[nodiscard]] std::string skewed() const;
   /// The compared clocks of required processes against the listener's: "tern-planner +0.3 ms (round trip 0.2 ms)".
   [[nodiscard]] std::string clocks() const;

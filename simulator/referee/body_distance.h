@@ -12,9 +12,18 @@ namespace tern {
 /// separated, otherwise minus the shortest shift that separates them.
 ///
 /// As a function of the body's position it is the signed distance to the Minkowski sum of box and −body. So it is
-/// convex and 1-Lipschitz; the bounds of clearance.h use both. Spheres and boxes have closed forms (some ns). Other
-/// polytopes use core/geometry's distance. In overlap they try every possible face normal of the Minkowski sum: of the
-/// box, of the body, and of one edge of each. These are O(m³) for m vertices, computed once.
+/// convex and 1-Lipschitz; the bounds of clearance.h use both.
+///
+/// | body                            | method                                                                     |
+/// |---------------------------------|----------------------------------------------------------------------------|
+/// | ball or box, also rounded       | closed form, some ns                                                       |
+/// | other polytope, separated       | core/geometry/distance.h                                                   |
+/// | other polytope, overlapping     | the smallest shift along any normal that a face of the sum can have        |
+///
+/// The constructor computes these normals, O(m³) for m vertices. Each is normal to one of these:
+/// - a face of the box,
+/// - a plane through three vertices,
+/// - an edge of the box and a line through two vertices.
 class BodyDistance {
  public:
   /// @throws std::invalid_argument for an empty list of vertices, a negative radius, or a number that is not finite.

@@ -1,4 +1,4 @@
-// The first time at which a function with a known Lipschitz constant is negative, without missing one in between.
+// Finds the first time at which a function is negative. A known Lipschitz constant bounds the function between samples.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,9 @@ namespace tern {
 
 /// Returns the first t in [t0, t1] with f(t) < 0, to `resolution`, for f with |f(a) − f(b)| ≤ lipschitz·|a − b|.
 ///
-/// An interval is halved unless the bound excludes a zero. The returned t has f(t) < 0. A missed excursion is not
-/// deeper than lipschitz·resolution. The cost is logarithmic for a crossing, and up to (t1 − t0)/resolution for an f
-/// that stays near zero.
+/// An interval is halved until the bound proves that f is positive on it, or its half is at most `resolution`. The
+/// returned t has f(t) < 0. An earlier excursion below zero may be missed if it is no deeper than lipschitz·resolution.
+/// The cost is logarithmic for a crossing, and up to (t1 − t0)/resolution for an f that stays near zero.
 /// @pre t0 ≤ t1, lipschitz ≥ 0, resolution > 0.
 template <class F>
 std::optional<double> first_time_below_zero(const F& f, double lipschitz, double t0, double t1, double resolution) {

@@ -6,8 +6,9 @@
 
 namespace tern {
 
-/// Its true motion is the received one: cubics through VEHICLE_TRUTH, or through UAV_STATE until a VEHICLE_TRUTH
-/// arrives. Until the first state it rests at scenario.uav.start. It ignores setpoints and publishes no state.
+/// Follows the states that the other processes publish, and joins each two of them by a cubic. The states are those of
+/// UAV_STATE until a VEHICLE_TRUTH arrives, then those of VEHICLE_TRUTH. Until the first state the vehicle is at rest
+/// at scenario.uav.start. It ignores setpoints and publishes no state.
 class ExternalVehicle final : public Vehicle {
  public:
   ExternalVehicle(const UavSpec& uav, UTime now);

@@ -312,7 +312,7 @@ TEST_F(ReplayTest, RefusesAFileWithoutAWholeEvent) {
     std::ofstream(path, std::ios::trunc) << bytes;
     const auto none = replay_log(path, {});
     ASSERT_FALSE(none) << bytes.size() << " bytes";
-    EXPECT_EQ(none.error().message, path + ": has no complete event");
+    EXPECT_EQ(none.error().message, path + ": holds no complete message");
   }
 }
 

@@ -16,8 +16,7 @@ namespace tern::exporting {
 /// - CHANNEL.csv has a row per message. Columns: `message` (row number, from 0), `received_us`, then the fields. Nested
 ///   fields are joined by dots, elements of a fixed array by their index: "motion.position.x [m]", "stage_ms.3".
 /// - CHANNEL.LIST.csv has a row per element of a list. Columns: `message` (the row number of its message), `index`,
-/// then
-///   the element's fields.
+///   then the element's fields.
 ///
 /// The header row names the unit unless the field's name does. Numbers read back to the same double, "nan" and "inf"
 /// included.

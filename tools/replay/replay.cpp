@@ -170,7 +170,7 @@ Result<Replay> replay_log(const std::string& path, const ReplayOptions& options)
   options.other.check();
   auto inputs = read_recorded_inputs(path, options.suffix);
   if (!inputs) return tl::make_unexpected(inputs.error());
-  if (inputs->log.events == 0) return fail(path + ": has no complete event");
+  if (inputs->log.events == 0) return fail(path + ": holds no complete message");
   if (auto chosen = check_choice(*inputs, options); !chosen) return tl::make_unexpected(chosen.error());
   Replayer replayer(*inputs, options);
   auto predictions = read_prediction_sets(path, options.suffix, [&](TrackSet set) { replayer.add(std::move(set)); });

@@ -54,7 +54,7 @@ struct Replay {
 
 /// Reads the log twice, predictions in the second pass, and plans each selected answer again. Memory is bounded by
 /// answers, requests and maps; the time is that of planning.
-/// @return an Error if the log cannot be opened, is without a complete event, or is without a selected answer
+/// @return an Error if the log is unreadable or without a complete message, or if a selected answer is missing
 /// @throws ConfigError if a what-if setting is malformed or can have no effect
 Result<Replay> replay_log(const std::string& path, const ReplayOptions& options);
 

@@ -103,8 +103,9 @@ void FlightEvents::Passes::write(const char* what, std::vector<FlightEvent>& eve
   std::sort(all.begin(), all.end(), [](const Pass& a, const Pass& b) { return a.metres < b.metres; });
   if (all.size() > kPasses) all.resize(kPasses);
   for (std::size_t k = 0; k < all.size(); ++k) {
-    events.push_back({all[k].at, "clearance",
-                      fmt::format("{:.3f} m to {}{}", all[k].metres, what, k == 0 ? ", the least so far" : "")});
+    events.push_back(
+        {all[k].at, "clearance",
+         fmt::format("{:.3f} m to {}{}", all[k].metres, what, k == 0 ? ", the least of the flight so far" : "")});
   }
 }
 

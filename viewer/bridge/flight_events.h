@@ -15,7 +15,7 @@
 
 namespace tern {
 
-/// One event.
+/// A mark on the timeline.
 struct FlightEvent {
   UTime at;
   const char* kind;  ///< "goal", "outcome", "evasion", "clearance", "stop", "late", "restart" or "result"

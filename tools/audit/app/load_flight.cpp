@@ -24,7 +24,7 @@ std::string first_line(const std::string& log, const char* file) {
 Result<FlightRecord> load_flight(const std::string& path) {
   auto record = read_flight(path);
   if (!record) return record;
-  if (record->contents.events == 0) return fail(path + ": has no complete event");
+  if (record->contents.events == 0) return fail(path + ": holds no complete message");
   for (const ConfigurationReport& report : record->configurations) {
     if (report.yaml.empty()) continue;
     try {

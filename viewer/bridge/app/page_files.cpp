@@ -38,7 +38,7 @@ Result<PageFiles> load_page(const std::string& folder) {
     PageFile page{type_of(it->path()), {std::istreambuf_iterator<char>(file), {}}};
     if (!file) return fail(it->path().string() + ": cannot be read");
     bytes += page.bytes.size();
-    if (bytes > kMaxBytes) return fail(folder + ": is not a built page: more than 50 MB");
+    if (bytes > kMaxBytes) return fail(folder + ": holds more than 50 MB, so it is not a built page");
     files.emplace("/" + fs::relative(it->path(), folder).generic_string(), std::move(page));
   }
   if (!files.contains("/index.html")) files["/index.html"] = {"text/html; charset=utf-8", kNotBuilt};
