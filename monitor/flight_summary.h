@@ -49,10 +49,10 @@ struct FlightSummary {
   ReplanTimes replan_ms;
   std::map<std::string, MessageCount> messages;  ///< by channel
   std::int64_t restarts = 0;
-  std::map<std::string, int> beside;  ///< processes of which several ran at a time, and the largest number
-  std::string log;                    ///< path of the recording; empty: none
-  std::string command;                ///< command line of the user; empty: not known
-  std::string version;                ///< build id
+  std::map<std::string, int> concurrent;  ///< processes of which several ran at a time, and the largest number
+  std::string log;                        ///< path of the recording; empty: none
+  std::string command;                    ///< command line of the user; empty: not known
+  std::string version;                    ///< build id
 };
 
 /// One JSON object, two spaces of indent. Values that are missing (NaN, a measure without a referee) are null. Its

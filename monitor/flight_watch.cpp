@@ -61,7 +61,7 @@ void FlightWatch::fail(std::string detail) {
 
 std::optional<std::string> FlightWatch::failure(UTime now) const {
   if (!failure_.empty()) return failure_;
-  const UTime heard = processes_.heard(kSimulatorProcess, simulator_epoch_us()).value_or(began_);
+  const UTime heard = processes_.last_heartbeat(kSimulatorProcess, simulator_epoch_us()).value_or(began_);
   if (now - heard > kSimulatorSilence) {
     return fmt::format("{} sent no heartbeat for {:.0f} s", kSimulatorProcess, (now - heard).seconds());
   }
@@ -106,7 +106,7 @@ double FlightWatch::nearest_wall() const {
 LiveView FlightWatch::live() const {
   LiveView view;
   view.waiting = processes_.waiting();
-  view.beside = processes_.concurrent_now(beat_);
+  view.concurrent = processes_.concurrent_now(beat_);
   view.flying = first_request_ && state_;
   if (!view.flying) return view;
   const Vec3& p = state_->motion.p;
@@ -154,7 +154,7 @@ FlightSummary FlightWatch::summary(const Ending& ending) const {
                        stage(Stage::Search),       stage(Stage::Optimization),        stage(Stage::Check)};
   summary.messages = processes_.messages();
   summary.restarts = processes_.restarts();
-  summary.beside = processes_.beside();
+  summary.concurrent = processes_.concurrent();
   return summary;
 }
 

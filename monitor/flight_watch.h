@@ -36,7 +36,7 @@ inline constexpr Duration kResultSlack{60'000'000};
 struct LiveView {
   bool flying = false;     ///< a request was sent; if false, only `waiting` and `beside` are valid
   std::string waiting;     ///< processes that are not ready, and why
-  std::string beside;      ///< "2 tern-predictor": processes of which several run; may be empty
+  std::string concurrent;  ///< "2 tern-predictor": processes of which several run; may be empty
   double elapsed_s = 0.0;  ///< since the first request, vehicle's clock
   double progress = 0.0;   ///< share of the straight distance from start to goal, 0 … 1
   double speed_mps = 0.0;

@@ -14,9 +14,9 @@ std::string number(double x, int digits) { return std::isnan(x) ? "-" : fmt::for
 }  // namespace
 
 std::string live_line(const LiveView& view, std::size_t columns) {
-  const std::string beside = view.beside.empty() ? "" : "  at once: " + view.beside;
+  const std::string concurrent = view.concurrent.empty() ? "" : "  at once: " + view.concurrent;
   if (!view.flying) {
-    return "waiting for " + (view.waiting.empty() ? std::string("the simulator") : view.waiting) + beside;
+    return "waiting for " + (view.waiting.empty() ? std::string("the simulator") : view.waiting) + concurrent;
   }
   std::string head = fmt::format("{:6.1f} s  {:3.0f} %  {:5.2f} m/s  nearest {} m", view.elapsed_s,
                                  view.progress * 100.0, view.speed_mps, number(view.nearest_m, 2));
@@ -28,7 +28,7 @@ std::string live_line(const LiveView& view, std::size_t columns) {
   if (view.reason != PlanReason::None) trouble += fmt::format("  ({})", to_string(view.reason));
   if (view.left_out > 0) trouble += fmt::format("  {} tracks left out", view.left_out);
   if (!view.waiting.empty()) trouble += "  waiting for " + view.waiting;
-  trouble += beside;
+  trouble += concurrent;
   for (const std::string& middle : {fmt::format("{} (p50/p99){}", replan, in_time), replan + in_time, in_time}) {
     if (head.size() + middle.size() + trouble.size() <= columns) return fmt::format("{}{}{}", head, middle, trouble);
   }

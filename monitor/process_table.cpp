@@ -21,20 +21,21 @@ void ProcessTable::add(const Heartbeat& heartbeat, UTime now) {
   if (!process.starts.contains(epoch_us) && process.starts.size() >= kMaxStarts) return;
   const auto [found, is_new] = process.starts.try_emplace(epoch_us);
   Start& start = found->second;
-  if (is_new) start.first_heard = now;
+  if (is_new) start.first_heartbeat = now;
   start.newest = heartbeat;
-  start.heard = now;
+  start.last_heartbeat = now;
   ++start.beats;
-  const auto counting = process.starts.find(process.counts);
-  const bool silent = counting != process.starts.end() && now - counting->second.heard > kHeartbeatTimeout;
-  if (counting == process.starts.end() || (silent && start.beats > 1)) process.counts = epoch_us;
-  if (const int n = living(process, now); n > 1) beside_[heartbeat.process] = std::max(beside_[heartbeat.process], n);
+  const auto active = process.starts.find(process.active_epoch_us);
+  const bool silent = active != process.starts.end() && now - active->second.last_heartbeat > kHeartbeatTimeout;
+  if (active == process.starts.end() || (silent && start.beats > 1)) process.active_epoch_us = epoch_us;
+  if (const int n = living(process, now); n > 1)
+    concurrent_[heartbeat.process] = std::max(concurrent_[heartbeat.process], n);
 }
 
 void ProcessTable::forget_noise(UTime now) {
   for (auto& [name, process] : processes_) {
     std::erase_if(process.starts, [now](const auto& start) {
-      return start.second.beats == 1 && now - start.second.heard > kHeartbeatTimeout;
+      return start.second.beats == 1 && now - start.second.last_heartbeat > kHeartbeatTimeout;
     });
   }
   std::erase_if(processes_, [](const auto& process) { return process.second.starts.empty(); });
@@ -44,11 +45,12 @@ void ProcessTable::forget_noise(UTime now) {
 int ProcessTable::living(const Process& process, UTime now) {
   std::vector<const Start*> recent;
   for (const auto& [epoch_us, start] : process.starts) {
-    if (start.beats > 1 && now - start.heard <= kHeartbeatTimeout) recent.push_back(&start);
+    if (start.beats > 1 && now - start.last_heartbeat <= kHeartbeatTimeout) recent.push_back(&start);
   }
   UTime youngest = now - kHeartbeatTimeout;
-  for (const Start* start : recent) youngest = std::max(youngest, start->first_heard);
-  return static_cast<int>(std::ranges::count_if(recent, [&](const Start* start) { return start->heard >= youngest; }));
+  for (const Start* start : recent) youngest = std::max(youngest, start->first_heartbeat);
+  return static_cast<int>(
+      std::ranges::count_if(recent, [&](const Start* start) { return start->last_heartbeat >= youngest; }));
 }
 
 std::string ProcessTable::concurrent_now(UTime now) const {
@@ -60,16 +62,16 @@ std::string ProcessTable::concurrent_now(UTime now) const {
   return text;
 }
 
-std::optional<UTime> ProcessTable::heard(const std::string& process, std::int64_t epoch_us) const {
+std::optional<UTime> ProcessTable::last_heartbeat(const std::string& process, std::int64_t epoch_us) const {
   const auto found = processes_.find(process);
   if (found == processes_.end()) return std::nullopt;
   const auto start = found->second.starts.find(epoch_us);
-  return start == found->second.starts.end() ? std::nullopt : std::optional(start->second.heard);
+  return start == found->second.starts.end() ? std::nullopt : std::optional(start->second.last_heartbeat);
 }
 
 std::int64_t ProcessTable::epoch_us(const std::string& process) const {
   const auto found = processes_.find(process);
-  return found == processes_.end() ? 0 : found->second.counts;
+  return found == processes_.end() ? 0 : found->second.active_epoch_us;
 }
 
 /// Counts starts in the order of their beginnings: one that begins after the last heartbeat of the one before is a
@@ -77,11 +79,12 @@ std::int64_t ProcessTable::epoch_us(const std::string& process) const {
 std::int64_t ProcessTable::restarts_of(const Process& process) {
   std::vector<const Start*> starts;
   for (const auto& [epoch_us, start] : process.starts) starts.push_back(&start);
-  std::ranges::stable_sort(starts, [](const Start* a, const Start* b) { return a->first_heard < b->first_heard; });
+  std::ranges::stable_sort(starts,
+                           [](const Start* a, const Start* b) { return a->first_heartbeat < b->first_heartbeat; });
   std::int64_t restarts = 0;
   const Start* last = starts.front();
   for (const Start* start : starts) {
-    if (start->first_heard <= last->heard) continue;
+    if (start->first_heartbeat <= last->last_heartbeat) continue;
     last = start;
     ++restarts;
   }
@@ -112,9 +115,9 @@ std::map<std::string, MessageCount> ProcessTable::messages() const {
 std::string ProcessTable::waiting() const {
   std::string text;
   for (const auto& [name, process] : processes_) {
-    const auto counting = process.starts.find(process.counts);
-    if (counting == process.starts.end()) continue;
-    const Heartbeat& newest = counting->second.newest;
+    const auto active = process.starts.find(process.active_epoch_us);
+    if (active == process.starts.end()) continue;
+    const Heartbeat& newest = active->second.newest;
     if (newest.state == ProcessState::Ready || newest.state == ProcessState::Finished) continue;
     text += (text.empty() ? "" : "; ") + name + ": " + (newest.waiting_for.empty() ? "starting" : newest.waiting_for);
   }

@@ -33,12 +33,12 @@ class ProcessTable {
   /// there was none.
   [[nodiscard]] std::int64_t epoch_us(const std::string& process) const;
   /// @return when the last heartbeat of that start arrived, or nullopt if there was none.
-  [[nodiscard]] std::optional<UTime> heard(const std::string& process, std::int64_t epoch_us) const;
+  [[nodiscard]] std::optional<UTime> last_heartbeat(const std::string& process, std::int64_t epoch_us) const;
   /// Number of starts beyond the first, summed over all processes. Starts that end before their second heartbeat are
   /// not seen. A start that overlaps an earlier one is not a restart.
   [[nodiscard]] std::int64_t restarts() const;
   /// Processes of which several ran at a time, with the largest number.
-  [[nodiscard]] const std::map<std::string, int>& beside() const { return beside_; }
+  [[nodiscard]] const std::map<std::string, int>& concurrent() const { return concurrent_; }
   /// "2 tern-predictor, 3 tern-mapper": processes of which several run at `now`; may be empty.
   [[nodiscard]] std::string concurrent_now(UTime now) const;
   /// Received, rejected and lost messages, summed over every start of every process. A message that two processes
@@ -51,19 +51,19 @@ class ProcessTable {
  private:
   struct Start {
     Heartbeat newest;
-    UTime first_heard, heard;
+    UTime first_heartbeat, last_heartbeat;
     std::int64_t beats = 0;
   };
   struct Process {
     std::map<std::int64_t, Start> starts;  ///< by sender epoch; never empty
-    std::int64_t counts = 0;               ///< epoch of the active start
+    std::int64_t active_epoch_us = 0;      ///< epoch of the active start
   };
   void forget_noise(UTime now);
   [[nodiscard]] static int living(const Process& process, UTime now);
   [[nodiscard]] static std::int64_t restarts_of(const Process& process);
 
   std::map<std::string, Process> processes_;
-  std::map<std::string, int> beside_;
+  std::map<std::string, int> concurrent_;
 };
 
 }  // namespace tern

@@ -137,7 +137,7 @@ std::string to_text(const FlightSummary& s) {
           row("optimization", s.replan_ms.optimization) + row("check", s.replan_ms.check);
   text += message_lines(s);
   text += fmt::format("  restarts      {}\n", s.restarts);
-  for (const auto& [process, number] : s.beside) text += fmt::format("  at once       {} {}\n", number, process);
+  for (const auto& [process, number] : s.concurrent) text += fmt::format("  at once       {} {}\n", number, process);
   if (!s.log.empty()) text += fmt::format("  log           {}\n", s.log);
   return text + fmt::format("  version       {}\n", s.version);
 }

@@ -46,7 +46,7 @@ class LogLimiter {
 
 }  // namespace
 
-struct Bus::Line {
+struct Bus::ChannelState {
   State* state = nullptr;
   std::string name, wire_name;
   ChannelCounters counters;
@@ -66,24 +66,24 @@ struct Bus::State {
   std::shared_ptr<lcm::LCM> lcm;
   std::string suffix;
   std::optional<KeyRing> keys;
-  std::optional<Role> speaker;  ///< with keys: role of the sender of the message being delivered
+  std::optional<Role> sender_role;  ///< with keys: role of the sender of the message being delivered
   std::int64_t epoch_us = 0;
   mutable std::mutex mutex;  ///< guards `channels` (the map) and counters; held while a message is numbered and sent
-  std::map<std::string, Line, std::less<>> channels;
+  std::map<std::string, ChannelState, std::less<>> channels;
   std::int64_t unsent = 0;
   std::int64_t deliveries = 0;
   std::int64_t received_us = 0;  ///< system time at which the message being delivered arrived
   std::exception_ptr error;
   Listener listener;
-  lcm::Subscription* listening = nullptr;
+  lcm::Subscription* all_channels = nullptr;
 
   /// @pre the mutex is held
-  Line& channel(std::string_view name) {
+  ChannelState& channel(std::string_view name) {
     const auto found = channels.find(name);
     if (found != channels.end()) return found->second;
     const std::string wire_name = std::string(name) + suffix;
     check_name(wire_name);
-    Line& made = channels[std::string(name)];
+    ChannelState& made = channels[std::string(name)];
     made.state = this;
     made.name = name;
     made.wire_name = wire_name;
@@ -91,7 +91,7 @@ struct Bus::State {
     return made;
   }
 
-  static void on_message(const lcm::ReceiveBuffer* buffer, const std::string&, Line* channel) {
+  static void on_message(const lcm::ReceiveBuffer* buffer, const std::string&, ChannelState* channel) {
     State& state = *channel->state;
     if (state.error) return;
     state.received_us = buffer->recv_utime;
@@ -99,11 +99,11 @@ struct Bus::State {
     std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
     try {
       if (state.keys) {
-        const auto authentic =
+        const auto verified =
             verify(bytes, *state.keys, channel->guard, channel->name, channel->wire_name, state.bus->received());
-        if (!authentic) return state.bus->reject(channel->name, authentic.error());
-        bytes = authentic->message;
-        state.speaker = authentic->role;
+        if (!verified) return state.bus->reject(channel->name, verified.error());
+        bytes = verified->message;
+        state.sender_role = verified->role;
       }
       ++state.deliveries;
       for (const RawHandler& handler : channel->handlers) handler(bytes);
@@ -138,7 +138,7 @@ Bus::~Bus() {
   for (auto& [name, channel] : state_->channels) {
     if (channel.subscription != nullptr) state_->lcm->unsubscribe(channel.subscription);
   }
-  if (state_->listening != nullptr) state_->lcm->unsubscribe(state_->listening);
+  if (state_->all_channels != nullptr) state_->lcm->unsubscribe(state_->all_channels);
 }
 
 bool Bus::is_channel_name(std::string_view name) {
@@ -149,7 +149,7 @@ bool Bus::is_channel_name(std::string_view name) {
 
 MessageName Bus::send(std::string_view name, const Encoder& encoder) {
   const std::scoped_lock lock(state_->mutex);
-  Line& channel = state_->channel(name);
+  ChannelState& channel = state_->channel(name);
   const UTime now = clock_.now();
   const Header header{{epoch_us_, channel.counters.sent + 1}, now};
   Bytes bytes = encoder(header);
@@ -165,7 +165,7 @@ MessageName Bus::send(std::string_view name, const Encoder& encoder) {
 }
 
 void Bus::send_paced(std::string_view name, std::vector<Encoder> batches) {
-  Line* channel = nullptr;
+  ChannelState* channel = nullptr;
   {
     const std::scoped_lock lock(state_->mutex);
     channel = &state_->channel(name);
@@ -199,7 +199,7 @@ void Bus::send_due(UTime now) {
 
 void Bus::subscribe_raw(std::string_view name, RawHandler handler) {
   const std::scoped_lock lock(state_->mutex);
-  Line& channel = state_->channel(name);
+  ChannelState& channel = state_->channel(name);
   if (state_->keys && state_->keys->find(name, state_->keys->role_on(name)) == nullptr) {
     throw std::invalid_argument("no key for messages on " + channel.name);
   }
@@ -212,21 +212,21 @@ void Bus::subscribe_raw(std::string_view name, RawHandler handler) {
 
 void Bus::listen(Listener listener) {
   state_->listener = std::move(listener);
-  if (state_->listening != nullptr) return;
-  state_->listening = state_->lcm->subscribeFunction(".*", &State::on_any, state_.get());
-  if (state_->listening == nullptr) throw std::runtime_error("LCM cannot subscribe to all channels");
-  state_->listening->setQueueCapacity(kListenCapacity);
+  if (state_->all_channels != nullptr) return;
+  state_->all_channels = state_->lcm->subscribeFunction(".*", &State::on_any, state_.get());
+  if (state_->all_channels == nullptr) throw std::runtime_error("LCM cannot subscribe to all channels");
+  state_->all_channels->setQueueCapacity(kListenCapacity);
 }
 
 void Bus::reject(const std::string& name, Rejection reason) {
   const std::scoped_lock lock(state_->mutex);
-  Line& channel = state_->channel(name);
+  ChannelState& channel = state_->channel(name);
   channel.admitted = false;
   if (!std::exchange(channel.counted, true)) count_refused(channel, reason);
 }
 
 /// @pre the mutex is held
-void Bus::count_refused(Line& channel, Rejection reason) {
+void Bus::count_refused(ChannelState& channel, Rejection reason) {
   ++channel.counters.rejected[static_cast<int>(reason)];
   if (reason == Rejection::Repeated) return;  // a network may duplicate messages
   if (const auto times = channel.reject_log.admit(clock_.now())) {
@@ -237,7 +237,7 @@ void Bus::count_refused(Line& channel, Rejection reason) {
 
 bool Bus::admits(const std::string& name, const MessageName& message, UTime claimed) {
   const std::scoped_lock lock(state_->mutex);
-  Line& channel = state_->channel(name);
+  ChannelState& channel = state_->channel(name);
   if (std::exchange(channel.counted, true)) return channel.admitted;
   const auto refusal = channel.senders.judge(message, claimed, received(), channel.counters.sent);
   channel.counters.lost = channel.senders.lost();
@@ -268,7 +268,7 @@ std::string Bus::sender_troubles() const {
 
 bool Bus::may_report_as(std::string_view process) const {
   const auto role = role_of_process(process);
-  return !state_->keys || !role || role == state_->speaker;
+  return !state_->keys || !role || role == state_->sender_role;
 }
 
 std::map<std::string, ChannelCounters> Bus::counters() const {

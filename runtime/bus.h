@@ -151,7 +151,7 @@ class Bus {
  private:
   using Encoder = std::function<Bytes(const Header&)>;
   using RawHandler = std::function<void(std::span<const std::uint8_t>)>;
-  struct Line;
+  struct ChannelState;
   struct State;
   MessageName send(std::string_view channel, const Encoder& encoder);
   void send_paced(std::string_view channel, std::vector<Encoder> batches);
@@ -159,7 +159,7 @@ class Bus {
   void reject(const std::string& channel, Rejection reason);
   bool admits(const std::string& channel, const MessageName& name, UTime claimed);
   void count_late_on(std::string_view channel);
-  void count_refused(Line& line, Rejection reason);
+  void count_refused(ChannelState& channel, Rejection reason);
   /// Whether the sender of the message being delivered may use this process name.
   [[nodiscard]] bool may_report_as(std::string_view process) const;
 

@@ -117,7 +117,7 @@ TEST(FlightWatch, ASecondSimulatorBesideTheFirstEndsNothing) {
     watch.receive(simulator(2), now);
     EXPECT_FALSE(watch.ending(now));
   }
-  EXPECT_EQ(watch.live().beside, "3 tern-simulator");
+  EXPECT_EQ(watch.live().concurrent, "3 tern-simulator");
   EXPECT_EQ(watch.summary({}).restarts, 0);
 }
 

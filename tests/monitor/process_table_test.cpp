@@ -23,7 +23,7 @@ TEST(ProcessTable, CountsStartsBeyondTheFirst) {
   for (const std::int64_t epoch : {1, 1, 2, 2, 5, 5}) table.add(beat("a", epoch), now = now + kBeat);
   table.add(beat("b", 3), now);
   EXPECT_EQ(table.restarts(), 2);
-  EXPECT_TRUE(table.beside().empty());
+  EXPECT_TRUE(table.concurrent().empty());
   EXPECT_EQ(table.concurrent_now(now), "");
 }
 
@@ -38,7 +38,7 @@ TEST(ProcessTable, ASecondProcessBesideTheFirstIsSaidAndIsNoRestart) {
   }
   EXPECT_EQ(table.restarts(), 0);
   EXPECT_EQ(table.epoch_us("a"), 1);
-  EXPECT_EQ(table.beside(), (std::map<std::string, int>{{"a", 2}}));
+  EXPECT_EQ(table.concurrent(), (std::map<std::string, int>{{"a", 2}}));
   EXPECT_EQ(table.concurrent_now(now), "");
 }
 
@@ -51,7 +51,7 @@ TEST(ProcessTable, AnotherStartCountsOnceTheFirstIsSilentAndItWasHeardTwice) {
   EXPECT_EQ(table.epoch_us("a"), 7);
   table.add(beat("a", 9), now = now + kHeartbeatTimeout);
   EXPECT_EQ(table.epoch_us("a"), 9);
-  EXPECT_EQ(table.heard("a", 7), UTime{} + kBeat);
+  EXPECT_EQ(table.last_heartbeat("a", 7), UTime{} + kBeat);
 }
 
 TEST(ProcessTable, WhatWasHeardOnceIsNoiseAndIsForgotten) {
@@ -90,12 +90,12 @@ TEST(ProcessTable, AddsRejectionsOfEveryReason) {
 
 TEST(ProcessTable, RemembersWhenAProcessWasHeard) {
   ProcessTable table;
-  EXPECT_FALSE(table.heard("a", 1));
+  EXPECT_FALSE(table.last_heartbeat("a", 1));
   EXPECT_EQ(table.epoch_us("a"), 0);
   table.add(beat("a", 1), UTime{10});
   table.add(beat("b", 1), UTime{20});
-  EXPECT_EQ(table.heard("a", 1), UTime{10});
-  EXPECT_FALSE(table.heard("a", 2));
+  EXPECT_EQ(table.last_heartbeat("a", 1), UTime{10});
+  EXPECT_FALSE(table.last_heartbeat("a", 2));
 }
 
 TEST(ProcessTable, SaysWhoWaitsForWhat) {
