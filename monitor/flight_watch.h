@@ -62,10 +62,10 @@ struct Ending {
 /// - The simulator sends no heartbeat for kSimulatorSilence, from the watch's beginning on.
 /// - Another simulator has started after the first request, and the flight's own is silent for kSuccessorSilence: its
 ///   world is lost.
-/// - There is no verdict kResultSlack after the scenario's timeout.
+/// - There is no FLIGHT_RESULT kResultSlack after the scenario's timeout.
 ///
-/// Only the simulator with which the flight began can give the verdict or lose the world. Its next heartbeat may
-/// contradict a verdict, if it flies on: that verdict is dropped.
+/// Only a FLIGHT_RESULT of the simulator with which the flight began is accepted. It is dropped if that simulator's
+/// next heartbeat shows that it still flies.
 class FlightWatch {
  public:
   /// @param now  the watcher's clock, as in all functions here; the vehicle's clock is named where it is meant

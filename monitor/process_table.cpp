@@ -28,8 +28,9 @@ void ProcessTable::add(const Heartbeat& heartbeat, UTime now) {
   const auto active = process.starts.find(process.active_epoch_us);
   const bool silent = active != process.starts.end() && now - active->second.last_heartbeat > kHeartbeatTimeout;
   if (active == process.starts.end() || (silent && start.beats > 1)) process.active_epoch_us = epoch_us;
-  if (const int n = living(process, now); n > 1)
+  if (const int n = living(process, now); n > 1) {
     concurrent_[heartbeat.process] = std::max(concurrent_[heartbeat.process], n);
+  }
 }
 
 void ProcessTable::forget_noise(UTime now) {

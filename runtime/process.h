@@ -58,7 +58,7 @@ using NodeFactory = std::function<std::unique_ptr<Node>(ProcessContext&)>;
 std::int64_t unique_epoch(std::int64_t now_us, std::int64_t process_id);
 
 /// Runs a process from its command line to its end:
-///  1. Parses the common options (README.md of launch_scripts lists them).
+///  1. Parses the common options (docs/reference/programs.md).
 ///  2. Loads the scenario (all defaults without --config) and makes the node. The epoch is unique_epoch() of the wall
 ///     clock's time at the start, without the offset.
 ///  3. Publishes CONFIGURATION (at start, then every 5 s) and HEARTBEAT (2 Hz). Logs to stderr.
